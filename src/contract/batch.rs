@@ -1,0 +1,244 @@
+//! The elements of batches: rays, hits, samples. Plain `repr(C)` data, the same in Rust and in C.
+
+use glam::{DVec2, DVec3};
+
+/// A ray segment: the points `origin + t · direction` for t in (t_min, t_max).
+/// 64 bytes: one cache line.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where `t = 0`, in world space.
+    pub origin: DVec3,
+    /// Open lower end of the segment, in units of `|direction|`.
+    pub t_min: f64,
+    /// World space; of any length but zero, unit where a camera made it.
+    pub direction: DVec3,
+    /// Open upper end of the segment; may be infinite.
+    pub t_max: f64,
+}
+
+impl Ray {
+    /// The whole half-line from `origin`.
+    pub const fn new(origin: DVec3, direction: DVec3) -> Self {
+        Self { origin, t_min: 0.0, direction, t_max: f64::INFINITY }
+    }
+
+    /// The point at parameter `t`.
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.origin + t * self.direction
+    }
+}
+
+/// The nearest intersection, or a miss.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Ray parameter in units of `|direction|`.
+    pub t: f64,
+    /// Number of the shape in the scene: meshes first, then spheres.
+    pub shape: u32,
+    /// Number of the triangle in its mesh, 0 for a sphere, [`Hit::NONE`] for a miss.
+    pub primitive: u32,
+    /// Unit; on the side the winding order says (outward for a sphere, inward if the scene says so);
+    /// not flipped towards the ray.
+    pub geometric_normal: DVec3,
+    /// Unit; interpolated from vertex normals where there are any.
+    pub shading_normal: DVec3,
+    /// Triangle: barycentric weights of vertices 1 and 2. Sphere: whatever the core likes.
+    pub uv: DVec2,
+}
+
+impl Hit {
+    /// What `primitive` is when nothing was hit; no other field is read then.
+    pub const NONE: u32 = u32::MAX;
+
+    /// A ray that hit nothing.
+    pub const MISS: Hit = Hit {
+        t: f64::INFINITY,
+        shape: Self::NONE,
+        primitive: Self::NONE,
+        geometric_normal: DVec3::ZERO,
+        shading_normal: DVec3::ZERO,
+        uv: DVec2::ZERO,
+    };
+
+    /// Whether anything was hit.
+    pub const fn is_hit(&self) -> bool {
+        self.primitive != Self::NONE
+    }
+}
+
+/// Where a ray segment meets a box.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoxHit {
+    /// Where the line enters the box, in units of `|direction|`; read only where `hit` is 1.
+    pub t_enter: f64,
+    /// Where it leaves.
+    pub t_exit: f64,
+    /// 1: the closed box meets the segment [t_min, t_max]; 0: it does not.
+    pub hit: u32,
+    /// Always 0.
+    pub reserved: u32,
+}
+
+/// A single shape, tested without any scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Primitive {
+    /// Three vertices and the shading normals at them (unit).
+    Triangle {
+        /// World space, counter-clockwise seen from the front.
+        positions: [DVec3; 3],
+        /// Unit shading normals at the vertices.
+        normals: [DVec3; 3],
+    },
+    /// A sphere whose normals point outward.
+    Sphere {
+        /// World space.
+        centre: DVec3,
+        /// Scene units, positive.
+        radius: f64,
+    },
+}
+
+/// Work done by one batch, summed over its rays.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TraversalStats {
+    /// Rays in the batch.
+    pub rays: u64,
+    /// Bounding boxes tested (each child of a wide node counts as one).
+    pub box_tests: u64,
+    /// Triangles and spheres tested.
+    pub primitive_tests: u64,
+}
+
+impl std::ops::AddAssign for TraversalStats {
+    fn add_assign(&mut self, other: Self) {
+        self.rays += other.rays;
+        self.box_tests += other.box_tests;
+        self.primitive_tests += other.primitive_tests;
+    }
+}
+
+/// The samplers of directions that a course asks for, apart from any BSDF.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampler {
+    /// Uniform over the hemisphere around +z: density 1/2π.
+    UniformHemisphere,
+    /// Proportional to the cosine with +z: density cos θ/π.
+    CosineHemisphere,
+}
+
+/// A direction of the hemisphere around +z.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DirectionSample {
+    /// Unit.
+    pub direction: DVec3,
+    /// Density per steradian at `direction`.
+    pub pdf: f64,
+}
+
+/// A pair of directions to evaluate a BSDF for.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BsdfQuery {
+    /// Towards the viewer, local frame, unit.
+    pub wo: DVec3,
+    /// Towards the light, local frame, unit.
+    pub wi: DVec3,
+}
+
+/// What a BSDF answers for a pair of directions.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BsdfValue {
+    /// Per steradian, RGB, without the cosine.
+    pub f: [f64; 3],
+    /// Density per steradian around `wi`, given `wo`.
+    pub pdf: f64,
+}
+
+/// A sampled incident direction.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BsdfSample {
+    /// Towards the light, local frame, unit.
+    pub wi: DVec3,
+    /// Per steradian, RGB, without the cosine. For a delta lobe: such that `f · |cos θi| / pdf` is the
+    /// weight of the path.
+    pub f: [f64; 3],
+    /// Density per steradian; for a delta lobe the probability of having chosen it.
+    pub pdf: f64,
+    /// 1: the only direction of a delta lobe (mirror, glass).
+    pub is_delta: u32,
+    /// 0: sampling failed, count the sample as zero.
+    pub is_valid: u32,
+}
+
+/// A sampled direction towards a light.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightSample {
+    /// Towards the light, world space, unit.
+    pub wi: DVec3,
+    /// To the point on the light; infinite for skies and directional lights.
+    pub distance: f64,
+    /// Arriving along `wi` if nothing is in between. Of a delta light: such that
+    /// `radiance · f · cos` is the reflected radiance (irradiance at normal incidence).
+    pub radiance: [f64; 3],
+    /// Density per steradian; 1 for a delta light.
+    pub pdf: f64,
+    /// 1: a point or directional light.
+    pub is_delta: u32,
+    /// 0: sampling failed, count the sample as zero.
+    pub is_valid: u32,
+}
+
+/// Random numbers for one batch, all in [0, 1). `points[i]` and `lobes[i]` belong to element i; a core without
+/// [`super::Capabilities::CALLERS_RANDOMNESS`] ignores them and seeds itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Randomness<'a> {
+    /// Two numbers an element: the direction or the point on the light.
+    pub points: &'a [DVec2],
+    /// One number an element: which lobe, or which triangle of a mesh light.
+    pub lobes: &'a [f64],
+    /// For cores that draw their own.
+    pub seed: u64,
+}
+
+/// What the adaptive stopping rule made of one stream.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AdaptiveMean {
+    /// Mean of the samples used.
+    pub mean: f64,
+    /// Samples used.
+    pub used: u32,
+    /// Always 0.
+    pub reserved: u32,
+}
+
+/// A picture: row-major from the top left, linear RGB radiance.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Film {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// `width · height` values.
+    pub pixels: Vec<[f32; 3]>,
+    /// Camera samples spent on each pixel, `width · height` values.
+    pub sample_counts: Vec<u32>,
+}
+
+const _: () = {
+    assert!(size_of::<Ray>() == 64);
+    assert!(size_of::<Hit>() == 80);
+    assert!(size_of::<BoxHit>() == 24);
+    assert!(size_of::<BsdfSample>() == 64);
+    assert!(size_of::<LightSample>() == 72);
+    assert!(size_of::<TraversalStats>() == 24);
+    assert!(size_of::<AdaptiveMean>() == 16);
+};

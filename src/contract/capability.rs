@@ -1,0 +1,169 @@
+//! What a core can be asked, and what it may freely choose.
+
+use bitflags::bitflags;
+use serde::{Deserialize, Serialize};
+
+bitflags! {
+    /// What a core can be asked to do. A check declares what it needs; a missing capability skips the trial
+    /// (and a suite may turn that skip into a failure).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub struct Capabilities: u64 {
+        /// [`super::Core::generate_rays`]
+        const GENERATE_RAYS = 1 << 0;
+        /// [`super::Core::intersect_primitive`]
+        const INTERSECT_PRIMITIVE = 1 << 1;
+        /// [`super::Core::build_scene`]
+        const BUILD_SCENE = 1 << 2;
+        /// [`super::BuiltScene::intersect`]
+        const INTERSECT = 1 << 3;
+        /// [`super::BuiltScene::occluded`]
+        const OCCLUDED = 1 << 4;
+        /// [`super::Acceleration::BruteForce`] is honoured.
+        const BRUTE_FORCE = 1 << 5;
+        /// Traversal counts are real.
+        const TRAVERSAL_STATS = 1 << 6;
+        /// [`super::Core::eval_bsdf`]
+        const EVAL_BSDF = 1 << 7;
+        /// [`super::Core::sample_bsdf`]
+        const SAMPLE_BSDF = 1 << 8;
+        /// [`super::BuiltScene::sample_light`]
+        const SAMPLE_LIGHT = 1 << 9;
+        /// [`super::BuiltScene::radiance`]
+        const RADIANCE = 1 << 10;
+        /// [`super::BuiltScene::render`]
+        const RENDER = 1 << 11;
+        /// Adaptive sampling in `render`, with true sample counts.
+        const ADAPTIVE_SAMPLING = 1 << 12;
+        /// [`super::Core::intersect_box`]
+        const INTERSECT_BOX = 1 << 13;
+        /// [`super::Core::sample_direction`] and [`super::Core::direction_pdf`]
+        const SAMPLE_DIRECTION = 1 << 14;
+        /// [`super::Core::adaptive_mean`]
+        const ADAPTIVE_MEAN = 1 << 15;
+        /// The split rules of [`super::Split`] can be chosen.
+        const SPLIT_RULES = 1 << 16;
+        /// [`super::DirectSampling::Hemisphere`] is honoured.
+        const HEMISPHERE_SAMPLING = 1 << 17;
+        /// Bounce ranges that do not start at 0 (isolated bounces).
+        const ISOLATED_BOUNCES = 1 << 18;
+        /// Russian roulette with a given probability.
+        const ROULETTE = 1 << 19;
+        /// Sampling calls use the caller's random numbers, so they can be replayed.
+        const CALLERS_RANDOMNESS = 1 << 32;
+        /// The same settings and seed give the same bits.
+        const DETERMINISTIC = 1 << 33;
+    }
+}
+
+impl Capabilities {
+    /// The names of the single capabilities in `self`, as users write them: `generate-rays`.
+    pub fn names(self) -> Vec<String> {
+        self.iter_names().map(|(name, _)| name.to_lowercase().replace('_', "-")).collect()
+    }
+}
+
+/// Who the core is. Shown on every report page.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoreInfo {
+    /// `builtin`, `textbook`, or what the core calls itself.
+    pub name: String,
+    /// Its own version.
+    pub version: String,
+    /// What it can be asked.
+    pub capabilities: Capabilities,
+    /// The arithmetic it computes in.
+    pub precision: Precision,
+    /// What it has freely chosen.
+    pub conventions: Conventions,
+}
+
+/// The arithmetic a core computes in; tolerances of deterministic checks scale by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Precision {
+    /// f32
+    Single,
+    /// f64
+    Double,
+}
+
+impl Precision {
+    /// The distance from 1 to the next number.
+    pub const fn epsilon(self) -> f64 {
+        match self {
+            Self::Single => f32::EPSILON as f64,
+            Self::Double => f64::EPSILON,
+        }
+    }
+}
+
+/// What is legitimately free, declared so that no core is blamed for a choice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Conventions {
+    /// How a point light weakens with distance.
+    pub point_light_falloff: Falloff,
+    /// Which side of an emitting surface glows when it is seen.
+    pub emission: EmissionSides,
+    /// The masking term of the microfacet model.
+    pub smith_term: SmithTerm,
+    /// Reflectance of glass.
+    pub glass_fresnel: GlassFresnel,
+    /// Whether radiance is scaled by the index squared when it crosses an interface.
+    pub glass_radiance: GlassRadiance,
+}
+
+/// How a point light weakens with distance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Falloff {
+    /// Intensity over distance squared: physics.
+    #[default]
+    InverseSquare,
+    /// The same radiance at every distance, as in the course's base code.
+    None,
+}
+
+/// Which side of an emitting surface glows when it is seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EmissionSides {
+    /// The side of the geometric normal.
+    #[default]
+    Front,
+    /// Both sides.
+    Both,
+}
+
+/// The masking term of the microfacet model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SmithTerm {
+    /// G1(wo) · G1(wi), as Mitsuba has it.
+    #[default]
+    Separable,
+    /// 1 / (1 + Λ(wo) + Λ(wi)).
+    HeightCorrelated,
+}
+
+/// Reflectance of glass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GlassFresnel {
+    /// The unpolarised Fresnel equations.
+    #[default]
+    Exact,
+    /// Schlick's approximation, as the course teaches it.
+    Schlick,
+}
+
+/// Whether radiance is scaled by the index squared when it crosses an interface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GlassRadiance {
+    /// Radiance over index squared is conserved: physics.
+    #[default]
+    Scaled,
+    /// Radiance itself is carried over.
+    Unscaled,
+}

@@ -1,0 +1,37 @@
+//! Why a core could not answer. Each variant is the core's own doing and says so.
+
+use super::Capabilities;
+use std::time::Duration;
+
+/// What every request to a core gives.
+pub type Result<T> = std::result::Result<T, CoreError>;
+
+/// Why a core could not answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CoreError {
+    /// The method's capability was not declared, or this one request is beyond the core.
+    #[error("the core does not support {}", .0.names().join(", "))]
+    Unsupported(Capabilities),
+    /// The core reported a problem in its own words.
+    #[error("the core refused: {0}")]
+    Refused(String),
+    /// The core answered, but not in the form the contract asks.
+    #[error("the core broke the contract: {0}")]
+    BrokeContract(String),
+    /// The core stopped working while it was answering.
+    #[error("the core crashed ({how}) during {during}")]
+    Crashed {
+        /// A signal, an exit code, a panic's message.
+        how: String,
+        /// The request it was answering.
+        during: String,
+    },
+    /// No answer came in time.
+    #[error("no answer within {limit:?} during {during}")]
+    TimedOut {
+        /// The time it had.
+        limit: Duration,
+        /// The request it was answering.
+        during: String,
+    },
+}

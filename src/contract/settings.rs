@@ -1,0 +1,131 @@
+//! How a core is asked to build, integrate and render.
+
+use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+
+/// What stands between a ray and the primitives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acceleration {
+    /// A loop over every primitive: the oracle of every BVH check and the baseline of every speed-up.
+    BruteForce,
+    /// A bounding volume hierarchy.
+    Bvh {
+        /// How a node is divided. [`Split::CoresChoice`] unless the core declares `SPLIT_RULES`.
+        split: Split,
+        /// At most this many primitives in a leaf, as far as they can be told apart.
+        max_leaf_size: u32,
+    },
+}
+
+impl Acceleration {
+    /// The core's own best structure.
+    pub const DEFAULT: Self = Self::Bvh { split: Split::CoresChoice, max_leaf_size: 4 };
+}
+
+/// How a node of the hierarchy is divided.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Split {
+    /// Whatever the core thinks best.
+    #[default]
+    CoresChoice,
+    /// Equal counts along the longest axis.
+    Median,
+    /// At the mean of the centroids along the longest axis.
+    MeanOfCentroids,
+    /// At the middle of the box of centroids along its longest axis.
+    Midpoint,
+    /// The surface area heuristic.
+    SurfaceArea,
+}
+
+/// What the build made. Zero for what is not known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BuildStats {
+    /// Inner nodes and leaves.
+    pub nodes: u64,
+    /// Leaves.
+    pub leaves: u64,
+    /// Nodes on the longest way from the root to a leaf.
+    pub max_depth: u64,
+    /// Memory of the structure.
+    pub bytes: u64,
+}
+
+/// How a path is traced.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IntegratorSettings {
+    /// Shadow rays to each area light or sky at each vertex; a delta light always gets one.
+    /// With hemisphere sampling this many directions *per light* are drawn.
+    pub samples_per_light: u32,
+    /// Which bounces to add up: `0..=0` what the camera sees glowing, `1..=1` light scattered once,
+    /// `0..=m` everything up to m scatterings.
+    pub bounces: RangeInclusive<u32>,
+    /// How light is gathered at each vertex.
+    pub direct: DirectSampling,
+    /// When paths end before the last bounce asked for.
+    pub roulette: Option<Roulette>,
+    /// The only source of randomness. Different seeds give independent estimates.
+    pub seed: u64,
+    /// Threads the core may use; 0 means as many as it likes. The answer must not depend on it.
+    pub threads: u32,
+}
+
+impl Default for IntegratorSettings {
+    fn default() -> Self {
+        Self {
+            samples_per_light: 1,
+            bounces: 0..=1,
+            direct: DirectSampling::Lights,
+            roulette: None,
+            seed: 0,
+            threads: 0,
+        }
+    }
+}
+
+/// How light is gathered at each vertex that is not a mirror or glass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DirectSampling {
+    /// Uniform directions over the hemisphere, adding what glows where they arrive. Lights that no direction
+    /// can meet (point, directional) are sampled as in [`Self::Lights`].
+    Hemisphere,
+    /// Points on the lights. A core may combine them with BSDF samples on glossy surfaces.
+    #[default]
+    Lights,
+}
+
+/// Russian roulette.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roulette {
+    /// Probability of stopping at each bounce it is played at, in [0, 1).
+    pub stop: f64,
+    /// The first bounces are traced without it: 1 is "always at least one indirect bounce".
+    pub guaranteed: u32,
+}
+
+/// How a picture is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Camera rays per pixel, or the cap if adaptive.
+    pub samples_per_pixel: u32,
+    /// How each is traced.
+    pub integrator: IntegratorSettings,
+    /// Stop early where the noise allows.
+    pub adaptive: Option<AdaptiveSettings>,
+}
+
+/// The course's adaptive rule: after every batch, with mean μ and sample standard deviation σ (n − 1) of the n
+/// luminances so far, stop if 1.96 σ/√n ≤ max_tolerance · μ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AdaptiveSettings {
+    /// Samples between two looks.
+    pub samples_per_batch: u32,
+    /// Half width of the 95 % interval, relative to the mean.
+    pub max_tolerance: f64,
+}

@@ -1,0 +1,1 @@
+//! Every answer is checked before a check sees it.

@@ -1,0 +1,2 @@
+//! The `furnace` command.
+fn main(){}

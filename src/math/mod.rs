@@ -1,0 +1,3 @@
+//! Mathematics that knows nothing of renderers.
+
+pub mod rng;

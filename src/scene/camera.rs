@@ -1,0 +1,48 @@
+//! The pinhole camera.
+
+use glam::{DMat3, DVec3};
+
+/// A pinhole camera. A film point (x, y) of [0, 1]² looks along
+/// `camera_to_world · ((2x − 1) tan(h/2), (2y − 1) tan(v/2), −1)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// The pinhole, world space.
+    pub position: DVec3,
+    /// Columns: right, up, backward. A rotation.
+    pub camera_to_world: DMat3,
+    /// Whole angle from the left to the right edge, radians.
+    pub horizontal_fov: f64,
+    /// Whole angle from the bottom to the top edge, radians.
+    pub vertical_fov: f64,
+    /// Rays start at this distance (their `t_min`).
+    pub near: f64,
+    /// Rays end at this distance (their `t_max`).
+    pub far: f64,
+    /// Pixels in a row and rows, where a case does not say otherwise.
+    pub film: [u32; 2],
+}
+
+impl Camera {
+    /// A camera at `position` that looks at `target` with `up` upwards in the picture; the vertical field of
+    /// view follows from square pixels.
+    pub fn look_at(
+        position: DVec3,
+        target: DVec3,
+        up: DVec3,
+        horizontal_fov: f64,
+        film: [u32; 2],
+    ) -> Self {
+        let backward = (position - target).normalize();
+        let right = up.cross(backward).normalize();
+        let aspect = f64::from(film[1]) / f64::from(film[0]);
+        Self {
+            position,
+            camera_to_world: DMat3::from_cols(right, backward.cross(right), backward),
+            horizontal_fov,
+            vertical_fov: 2.0 * ((horizontal_fov / 2.0).tan() * aspect).atan(),
+            near: 1e-3,
+            far: 1e6,
+            film,
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! How surfaces scatter and glow.
+
+use super::Rgb;
+use glam::DVec3;
+
+/// The material of a shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// As the scene file calls it.
+    pub name: String,
+    /// How it scatters.
+    pub surface: Surface,
+    /// How it glows, if it does.
+    pub emission: Option<Emission>,
+}
+
+/// How a surface scatters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface {
+    /// f = reflectance/π. Black is a reflectance of zero.
+    Diffuse {
+        /// Share of light that is scattered, in [0, 1].
+        reflectance: Rgb,
+    },
+    /// Reflects about the normal.
+    Mirror {
+        /// Share of light that is reflected, the same at every angle.
+        reflectance: Rgb,
+    },
+    /// A smooth interface: outside (the side of the normal) is vacuum, inside has `index`.
+    Glass {
+        /// Index of refraction inside.
+        index: f64,
+        /// Multiplies the Fresnel reflectance.
+        reflectance: Rgb,
+        /// Multiplies the Fresnel transmittance.
+        transmittance: Rgb,
+    },
+    /// Single scattering from GGX microfacets that reflect `reflectance` at every angle.
+    Conductor {
+        /// Reflectance of a single facet.
+        reflectance: Rgb,
+        /// The width parameter α of the distribution, in (0, 1].
+        roughness: f64,
+    },
+}
+
+/// How a surface glows, from its front side only (the side of the geometric normal).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Emission {
+    /// In every direction of the front side.
+    pub radiance: Rgb,
+    /// On a sphere: only this part of it glows.
+    pub cap: Option<Cap>,
+}
+
+/// The part of a sphere within `half_angle` of `axis`, seen from its centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cap {
+    /// Unit.
+    pub axis: DVec3,
+    /// Radians, in (0, π).
+    pub half_angle: f64,
+}
+
+impl Emission {
+    /// Radiance at a point of a sphere in direction `from_centre` (unit) from its centre.
+    pub fn at_sphere_point(&self, from_centre: DVec3) -> Rgb {
+        match self.cap {
+            Some(cap) if from_centre.dot(cap.axis) < cap.half_angle.cos() => [0.0; 3],
+            _ => self.radiance,
+        }
+    }
+}

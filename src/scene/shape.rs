@@ -1,0 +1,82 @@
+//! Meshes, spheres and boxes.
+
+use glam::DVec3;
+
+/// A triangle mesh in world space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// As the scene file calls it, for messages.
+    pub name: String,
+    /// Vertices.
+    pub positions: Vec<DVec3>,
+    /// Unit shading normals, one a vertex, or none at all for a mesh with flat faces.
+    pub normals: Vec<DVec3>,
+    /// Three vertices a triangle, counter-clockwise seen from the front.
+    pub indices: Vec<[u32; 3]>,
+    /// Number of the material.
+    pub material: u32,
+}
+
+impl Mesh {
+    /// The corners of triangle `number`.
+    pub fn corners(&self, number: usize) -> [DVec3; 3] {
+        self.indices[number].map(|index| self.positions[index as usize])
+    }
+
+    /// The shading normals at the corners of triangle `number`: its own normal three times if the mesh is flat.
+    pub fn corner_normals(&self, number: usize) -> [DVec3; 3] {
+        if self.normals.is_empty() {
+            let [a, b, c] = self.corners(number);
+            [(b - a).cross(c - a).normalize_or_zero(); 3]
+        } else {
+            self.indices[number].map(|index| self.normals[index as usize])
+        }
+    }
+
+    /// Area of triangle `number`.
+    pub fn area(&self, number: usize) -> f64 {
+        let [a, b, c] = self.corners(number);
+        (b - a).cross(c - a).length() / 2.0
+    }
+}
+
+/// A sphere in world space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sphere {
+    /// As the scene file calls it, for messages.
+    pub name: String,
+    /// World space.
+    pub centre: DVec3,
+    /// Scene units, positive.
+    pub radius: f64,
+    /// Normals (and so the front side) point to the centre: a room, not a ball.
+    pub inward: bool,
+    /// Number of the material.
+    pub material: u32,
+}
+
+/// An axis-aligned box, closed: flat and point boxes are boxes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// Smallest coordinates.
+    pub min: DVec3,
+    /// Largest coordinates.
+    pub max: DVec3,
+}
+
+impl Aabb {
+    /// The smallest box around some points; `None` if there are none.
+    pub fn around(points: impl IntoIterator<Item = DVec3>) -> Option<Self> {
+        points.into_iter().fold(None, |bounds, point| {
+            Some(match bounds {
+                None => Self { min: point, max: point },
+                Some(Self { min, max }) => Self { min: min.min(point), max: max.max(point) },
+            })
+        })
+    }
+
+    /// Length of the diagonal.
+    pub fn diagonal(&self) -> f64 {
+        (self.max - self.min).length()
+    }
+}

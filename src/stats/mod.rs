@@ -1,0 +1,1 @@
+//! How a statistical verdict is reached. Every statistical check decides here, and only here.

@@ -1,8 +1,8 @@
 //! `furnace`: a test bench for path tracers.
 
-pub mod math;
-pub mod image;
-pub mod stats;
-pub mod scene;
 pub mod contract;
 pub mod cores;
+pub mod image;
+pub mod math;
+pub mod scene;
+pub mod stats;

@@ -1,2 +1,2 @@
 //! The `furnace` command.
-fn main(){}
+fn main() {}

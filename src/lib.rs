@@ -6,3 +6,4 @@ pub mod image;
 pub mod math;
 pub mod scene;
 pub mod stats;
+pub mod text;

@@ -1,0 +1,254 @@
+//! Values with their unit inside: `"45 deg"`, `"1 %"`, `"400 k paths"`, and colours.
+
+use super::suggestion::listed;
+use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+use std::str::FromStr;
+
+/// An angle, in radians. Written `"45 deg"` or `"0.8 rad"`.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Angle(pub f64);
+
+/// A share of one. Written `"1 %"`.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Percent(pub f64);
+
+/// How many. Written `4096`, `"400 k"` or `"2 M paths"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Count(pub u64);
+
+/// Linear RGB. Written as one number for grey, or as three.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Colour(pub [f64; 3]);
+
+/// What may be counted: a noun after a [`Count`] is read aloud and means nothing.
+const COUNTABLE: [&str; 8] =
+    ["directions", "pairs", "paths", "pixels", "points", "rays", "samples", "triangles"];
+
+/// A number and the words after it.
+fn number_and_words(text: &str) -> Option<(f64, Vec<&str>)> {
+    let is_number = |c: char| c.is_ascii_digit() || "+-._eE".contains(c);
+    let end = text.find(|c| !is_number(c)).unwrap_or(text.len());
+    let number: f64 = text[..end].replace('_', "").parse().ok()?;
+    number.is_finite().then(|| (number, text[end..].split_whitespace().collect()))
+}
+
+impl FromStr for Angle {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match number_and_words(text) {
+            Some((number, words)) if words == ["deg"] => Ok(Self(number.to_radians())),
+            Some((number, words)) if words == ["rad"] => Ok(Self(number)),
+            _ => Err(format!("`{text}` is not {}", Self::EXPECTED)),
+        }
+    }
+}
+
+impl FromStr for Percent {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match number_and_words(text) {
+            Some((number, words)) if words == ["%"] => Ok(Self(number / 100.0)),
+            _ => Err(format!("`{text}` is not {}", Self::EXPECTED)),
+        }
+    }
+}
+
+impl FromStr for Count {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("`{text}` is not {}", Self::EXPECTED);
+        let (number, words) = number_and_words(text).ok_or_else(wrong)?;
+        let (factor, noun) = match words.as_slice() {
+            ["k", noun @ ..] => (1e3, noun),
+            ["M", noun @ ..] => (1e6, noun),
+            noun => (1.0, noun),
+        };
+        match noun {
+            [] => {}
+            [noun] if COUNTABLE.contains(noun) => {}
+            [noun, ..] => return Err(format!("`{noun}` is not one of {}", listed(COUNTABLE))),
+        }
+        whole_number(number * factor).map(Self).ok_or_else(wrong)
+    }
+}
+
+/// `value` as a whole number; beyond 2⁵³ neighbours cannot be told apart.
+fn whole_number(value: f64) -> Option<u64> {
+    let countable = (0.0..=9_007_199_254_740_992.0).contains(&value) && value.fract() == 0.0;
+    #[expect(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "checked above")]
+    countable.then_some(value as u64)
+}
+
+/// A value that is written as a string with its unit.
+trait Written: FromStr<Err = String> {
+    /// What should have been written, after "expected" or "is not".
+    const EXPECTED: &'static str;
+
+    /// The value of a bare number, where that is unmistakable.
+    fn from_number(_number: f64) -> Option<Self> {
+        None
+    }
+}
+
+impl Written for Angle {
+    const EXPECTED: &'static str = "an angle with its unit, such as \"45 deg\" or \"0.8 rad\"";
+}
+
+impl Written for Percent {
+    const EXPECTED: &'static str = "a percentage, such as \"1 %\"";
+}
+
+impl Written for Count {
+    const EXPECTED: &'static str = "a whole number, such as 4096, \"400 k\" or \"2 M\"";
+
+    fn from_number(number: f64) -> Option<Self> {
+        whole_number(number).map(Self)
+    }
+}
+
+struct WrittenVisitor<T>(PhantomData<T>);
+
+impl<T: Written> WrittenVisitor<T> {
+    fn number<E: de::Error>(&self, number: f64, found: de::Unexpected<'_>) -> Result<T, E> {
+        T::from_number(number).ok_or_else(|| E::invalid_type(found, &T::EXPECTED))
+    }
+}
+
+impl<T: Written> Visitor<'_> for WrittenVisitor<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(T::EXPECTED)
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<T, E> {
+        text.parse().map_err(E::custom)
+    }
+
+    fn visit_i64<E: de::Error>(self, number: i64) -> Result<T, E> {
+        self.number(number as f64, de::Unexpected::Signed(number))
+    }
+
+    fn visit_f64<E: de::Error>(self, number: f64) -> Result<T, E> {
+        self.number(number, de::Unexpected::Float(number))
+    }
+}
+
+macro_rules! deserialize_as_written {
+    ($($kind:ty),*) => {$(
+        impl<'de> Deserialize<'de> for $kind {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                deserializer.deserialize_any(WrittenVisitor(PhantomData))
+            }
+        }
+    )*};
+}
+deserialize_as_written!(Angle, Percent, Count);
+
+impl<'de> Deserialize<'de> for Colour {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ColourVisitor)
+    }
+}
+
+struct ColourVisitor;
+
+impl<'de> Visitor<'de> for ColourVisitor {
+    type Value = Colour;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a colour: one number for grey, or [red, green, blue]")
+    }
+
+    fn visit_i64<E: de::Error>(self, grey: i64) -> Result<Colour, E> {
+        self.visit_f64(grey as f64)
+    }
+
+    fn visit_f64<E: de::Error>(self, grey: f64) -> Result<Colour, E> {
+        Ok(Colour([grey; 3]))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut channels: A) -> Result<Colour, A::Error> {
+        let mut colour = [0.0; 3];
+        for (position, channel) in colour.iter_mut().enumerate() {
+            *channel = channels
+                .next_element()?
+                .ok_or_else(|| de::Error::invalid_length(position, &self))?;
+        }
+        match channels.next_element::<f64>()? {
+            None => Ok(Colour(colour)),
+            Some(_) => Err(de::Error::invalid_length(4, &self)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, serde::Deserialize)]
+    struct Holder<T> {
+        x: T,
+    }
+
+    fn read<'de, T: Deserialize<'de>>(value: &'de str) -> Result<T, String> {
+        let table = toml::de::DeTable::parse(value).map_err(|error| error.message().to_owned())?;
+        Holder::deserialize(toml::Deserializer::from(table))
+            .map(|holder: Holder<T>| holder.x)
+            .map_err(|error| error.message().to_owned())
+    }
+
+    #[test]
+    fn angles_carry_their_unit() {
+        assert_eq!(read("x = '180 deg'"), Ok(Angle(std::f64::consts::PI)));
+        assert_eq!(read("x = '-0.5 rad'"), Ok(Angle(-0.5)));
+        assert_eq!(read("x = '40deg'"), Ok(Angle(40f64.to_radians())));
+    }
+
+    #[test]
+    fn an_angle_without_a_unit_is_refused_with_an_example() {
+        for wrong in
+            ["x = 45", "x = 45.0", "x = '45'", "x = '45 degrees'", "x = 'deg'", "x = 'inf deg'"]
+        {
+            let message = read::<Angle>(wrong).unwrap_err();
+            assert!(message.contains("45 deg"), "{wrong}: {message}");
+        }
+    }
+
+    #[test]
+    fn percentages_are_shares_of_one() {
+        assert_eq!(read("x = '1 %'"), Ok(Percent(0.01)));
+        assert_eq!(read("x = '0.5%'"), Ok(Percent(0.005)));
+        assert!(read::<Percent>("x = 0.01").unwrap_err().contains("1 %"));
+    }
+
+    #[test]
+    fn counts_have_thousands_and_millions_and_may_name_what_they_count() {
+        assert_eq!(read("x = 4096"), Ok(Count(4096)));
+        assert_eq!(read("x = '400 k'"), Ok(Count(400_000)));
+        assert_eq!(read("x = '2.5 M paths'"), Ok(Count(2_500_000)));
+        assert_eq!(read("x = '64 samples'"), Ok(Count(64)));
+    }
+
+    #[test]
+    fn a_count_is_whole_positive_and_counts_something_known() {
+        assert!(read::<Count>("x = -1").is_err());
+        assert!(read::<Count>("x = 1.5").is_err());
+        assert!(read::<Count>("x = '0.0001 k'").is_err());
+        assert!(read::<Count>("x = '4 thousand'").unwrap_err().contains("`thousand`"));
+    }
+
+    #[test]
+    fn colours_are_one_number_or_three() {
+        assert_eq!(read("x = 1"), Ok(Colour([1.0; 3])));
+        assert_eq!(read("x = [0.1, 0, 3]"), Ok(Colour([0.1, 0.0, 3.0])));
+        for wrong in ["x = [1, 2]", "x = [1, 2, 3, 4]", "x = 'red'"] {
+            assert!(read::<Colour>(wrong).unwrap_err().contains("red, green, blue"), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! How small an error has to be seen, and what it may cost. The one place that says what a budget means.
+
+use serde::{Deserialize, Serialize};
+
+/// What a claim is worth: the error it promises to catch, and the samples it may spend on that.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Effort {
+    /// The relative error that must be seen: a claim passes only if this would have been caught with
+    /// probability 0.999.
+    pub detects: f64,
+    /// The most samples of the first stage, over all its runs.
+    pub most_samples: u64,
+    /// Independent runs of the core in each stage: the units of replication, at least 32.
+    pub runs: u32,
+    /// The samples of a run come in multiples of this (the pixels of a film, say).
+    pub grain: u64,
+}
+
+impl Effort {
+    /// Fewer runs leave the standard error itself uncertain by more than 13 %.
+    pub const FEWEST_RUNS: u32 = 32;
+
+    /// The effort that sees an error of `detects`, relative to the scale of the claim.
+    pub fn new(detects: f64) -> Self {
+        Self { detects, most_samples: 4_000_000, runs: 64, grain: 1 }
+    }
+
+    /// The same with another cap on the first stage's samples.
+    pub fn with_most_samples(self, most_samples: u64) -> Self {
+        Self { most_samples, ..self }
+    }
+
+    /// The same with another number of runs a stage; never fewer than [`Effort::FEWEST_RUNS`].
+    pub fn with_runs(self, runs: u32) -> Self {
+        Self { runs: runs.max(Self::FEWEST_RUNS), ..self }
+    }
+
+    /// The same with samples in multiples of `grain`.
+    pub fn in_steps_of(self, grain: u64) -> Self {
+        Self { grain: grain.max(1), ..self }
+    }
+}
+
+/// How thorough a run of the suite is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Budget {
+    /// While you work: errors of 5 % where the default sees 2 %.
+    Quick,
+    /// What a case promises.
+    #[default]
+    Default,
+    /// For a release: errors of 0.5 % where the default sees 2 %.
+    Strict,
+}
+
+impl Budget {
+    /// By how much the smallest error that must be seen is multiplied.
+    pub const fn coarseness(self) -> f64 {
+        match self {
+            Budget::Quick => 2.5,
+            Budget::Default => 1.0,
+            Budget::Strict => 0.25,
+        }
+    }
+
+    /// By how much a number of samples is multiplied: an error half as large takes four times as many.
+    pub const fn samples_factor(self) -> f64 {
+        1.0 / (self.coarseness() * self.coarseness())
+    }
+
+    /// What `effort` becomes under this budget.
+    pub fn scale(self, effort: Effort) -> Effort {
+        Effort {
+            detects: effort.detects * self.coarseness(),
+            most_samples: self.samples(effort.most_samples),
+            ..effort
+        }
+    }
+
+    /// What a number of samples meant for the default budget becomes under this one.
+    pub fn samples(self, default: u64) -> u64 {
+        (default as f64 * self.samples_factor()).ceil() as u64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_three_budgets_see_five_two_and_half_a_per_cent() {
+        let sees = |budget: Budget| budget.scale(Effort::new(0.02)).detects;
+        assert!((sees(Budget::Quick) - 0.05).abs() < 1e-15);
+        assert!((sees(Budget::Default) - 0.02).abs() < 1e-15);
+        assert!((sees(Budget::Strict) - 0.005).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_quarter_of_the_error_costs_sixteen_times_the_samples() {
+        assert_eq!(Budget::Strict.samples(1000), 16_000);
+        assert_eq!(Budget::Quick.samples(1000), 160);
+    }
+
+    #[test]
+    fn nobody_can_ask_for_too_few_runs() {
+        assert_eq!(Effort::new(0.02).with_runs(4).runs, Effort::FEWEST_RUNS);
+    }
+}

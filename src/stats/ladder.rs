@@ -1,0 +1,378 @@
+//! The three-stage ladder: the only way a mean can fail.
+//!
+//! A first stage tests every claim on both sides at 2·[`STAGE_LEVEL`]. Claims it suspects are tested again on
+//! fresh runs with 4 times and then 16 times the samples, on the side the first stage chose. Only a claim that is
+//! rejected three times fails. A single test at the same overall level would rest on tails of 10⁻⁹, where the
+//! central limit theorem is wrong by factors of thousands for the skewed sums that renderers make; a product of
+//! three moderate tails stays right, and a correct core pays for the first stage only.
+//!
+//! A stage rejects with two keys. `t` divides by the spread of the stage's own runs, and on right-skewed data
+//! errs towards "too low"; `u` divides by a spread from elsewhere (theory, or the other stages) and errs towards
+//! "too high". Both must turn.
+//!
+//! The unit of replication is one seeded run of the core, never a sample inside it, so that stratified and
+//! quasi-random samplers need no special case.
+//!
+//! Not here: what the samples are, and how many leaves the suite has (`ledger`).
+
+use super::trail::Trail;
+use super::{Claim, Effort, MeanReport, Moments};
+use crate::math::rng::Seed;
+use serde::{Deserialize, Serialize};
+
+/// Level of one stage on one side.
+pub const STAGE_LEVEL: f64 = 5e-4;
+
+/// Probability that a correct core fails one claim: two sides, three stages, and twice that because the
+/// ladder may repeat one stage whose variance came out wrong.
+pub const LEAF_FALSE_ALARM: f64 = 2.0 * 2.0 * STAGE_LEVEL * STAGE_LEVEL * STAGE_LEVEL;
+
+/// Effect sizes, in standard errors, that the first stage is planned for: 3.45 to reject (Student, 63 degrees
+/// of freedom), 3.09 so that it does with probability 0.999, and the rest for bugs that also add variance.
+pub(super) const PLANNED_SIGMAS: f64 = 7.0;
+/// The deviation comes from a pilot that knows it to 9 %, and is judged by a stage that knows it to 9 %.
+pub(super) const PLAN_MARGIN: f64 = 1.2;
+/// Probability of missing an error as large as the printed resolution.
+pub(super) const MISS_LEVEL: f64 = 1e-3;
+/// Runs whose variance is below this share of the expected one have not seen the tail.
+pub(super) const VARIANCE_GUARD: f64 = 0.25;
+/// A mean that rests on fewer samples is not normal enough for any key.
+pub(super) const FEWEST_EFFECTIVE: f64 = 200.0;
+/// Samples of the pilot, before it is found to be too small.
+const PILOT_SAMPLES: u64 = 4096;
+/// Samples of the largest pilot.
+const LARGEST_PILOT: u64 = 65_536;
+/// Events that a pilot must have seen to size the first stage by it.
+pub(super) const PILOT_EFFECTIVE: f64 = 50.0;
+/// Fewest samples of the second and third stage. A pilot and a first stage that are both constant may have
+/// missed an event that happens once in 10⁴ samples; this many miss it with probability 1e-3 and 4e-12.
+const FEWEST_CONFIRMING: [u64; 2] = [65_536, 262_144];
+
+/// A step of the ladder. Each has its own random numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stage {
+    /// Measures the noise, decides nothing.
+    Pilot,
+    /// Suspects.
+    First,
+    /// Confirms on 4 times the samples.
+    Second,
+    /// Confirms on 16 times the samples.
+    Third,
+}
+
+impl std::fmt::Display for Stage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Stage::Pilot => "pilot",
+            Stage::First => "stage 1",
+            Stage::Second => "stage 2",
+            Stage::Third => "stage 3",
+        })
+    }
+}
+
+/// A request for one run of the core.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Draw {
+    /// The stage it belongs to.
+    pub stage: Stage,
+    /// How often the stage has been drawn before: pilots grow, and one stage may be repeated.
+    pub attempt: u32,
+    /// Number of the run in its stage.
+    pub run: u32,
+    /// Samples that its mean is over.
+    pub samples: u64,
+}
+
+impl Draw {
+    /// The seed of this run below the seed of its check.
+    pub fn seed(&self, check: Seed) -> Seed {
+        check.child(self.stage).child(self.attempt).child(self.run)
+    }
+}
+
+/// Judges all claims on the same runs. `draw` runs the core once, with its own seed, and answers for each claim
+/// the mean over that run.
+///
+/// # Panics
+///
+/// If `draw` answers another number of means than there are claims.
+pub fn judge_means<E>(
+    claims: &[Claim],
+    effort: &Effort,
+    draw: &mut dyn FnMut(Draw) -> Result<Vec<f64>, E>,
+) -> Result<Vec<MeanReport>, E> {
+    let mut ladder = Ladder {
+        effort: *effort,
+        trails: claims.iter().map(|claim| Trail::new(*claim)).collect(),
+        draw,
+        drawn: 0,
+        repeated: false,
+    };
+    ladder.pilot()?;
+    let first = ladder.planned_samples();
+    ladder.stage(Stage::First, first)?;
+    ladder.stage(Stage::Second, (4 * first).max(ladder.fewest_confirming(0)))?;
+    ladder.stage(Stage::Third, (16 * first).max(ladder.fewest_confirming(1)))?;
+    Ok(ladder.trails.iter().map(|trail| trail.report(effort, ladder.drawn)).collect())
+}
+
+/// The state of [`judge_means`].
+struct Ladder<'a, E> {
+    effort: Effort,
+    trails: Vec<Trail>,
+    draw: &'a mut dyn FnMut(Draw) -> Result<Vec<f64>, E>,
+    drawn: u64,
+    repeated: bool,
+}
+
+impl<E> Ladder<'_, E> {
+    /// Grows the pilot until every claim has seen enough events to know its own deviation.
+    fn pilot(&mut self) -> Result<(), E> {
+        let largest = self.whole_runs((self.effort.most_samples / 4).min(LARGEST_PILOT));
+        let mut samples = self.whole_runs(PILOT_SAMPLES).min(largest);
+        for attempt in 0.. {
+            let moments = self.sample(Stage::Pilot, attempt, samples)?;
+            let informed = self.trails.iter().zip(&moments).all(|(t, m)| t.learns_from(m, samples));
+            if informed || samples >= largest {
+                for (trail, moments) in self.trails.iter_mut().zip(&moments) {
+                    trail.take_noise(moments, samples);
+                }
+                break;
+            }
+            samples = self.whole_runs(4 * samples).min(largest);
+        }
+        Ok(())
+    }
+
+    /// Samples of the first stage: what the hungriest claim needs, up to the cap.
+    fn planned_samples(&self) -> u64 {
+        let needed = self.trails.iter().map(|t| t.needed_samples(self.effort.detects));
+        let most = self.effort.most_samples as f64;
+        self.whole_runs(needed.fold(FEWEST_EFFECTIVE, f64::max).min(most).ceil() as u64)
+    }
+
+    fn fewest_confirming(&self, stage: usize) -> u64 {
+        let cap = self.effort.most_samples.saturating_mul([4, 16][stage]);
+        self.whole_runs(FEWEST_CONFIRMING[stage].min(cap))
+    }
+
+    /// Draws and scores a stage, unless nobody is suspected any more.
+    fn stage(&mut self, stage: Stage, samples: u64) -> Result<(), E> {
+        if !self.trails.iter().any(|trail| trail.takes_part_in(stage)) {
+            return Ok(());
+        }
+        let moments = self.sample(stage, 0, samples)?;
+        let Some(larger) = self.repeat_with(stage, &moments, samples) else {
+            self.score(stage, &moments, samples);
+            return Ok(());
+        };
+        self.repeated = true;
+        self.take_noise(&moments, samples);
+        let moments = self.sample(stage, 1, larger)?;
+        self.score(stage, &moments, larger);
+        Ok(())
+    }
+
+    /// The size at which a stage is drawn again because its variance is not what the stages before it said.
+    /// Once a ladder; the level in [`LEAF_FALSE_ALARM`] has been paid for it.
+    fn repeat_with(&self, stage: Stage, moments: &[Moments], samples: u64) -> Option<u64> {
+        let most = self.effort.most_samples.saturating_mul(match stage {
+            Stage::Third => 64,
+            Stage::Second => 16,
+            _ => 1,
+        });
+        let wanted = self.trails.iter().zip(moments).filter(|(t, _)| t.takes_part_in(stage));
+        let wanted = wanted.filter_map(|(t, m)| t.wants_repeat(stage, m, samples, &self.effort));
+        let larger = self.whole_runs(wanted.max()?.min(most));
+        (!self.repeated && larger > samples).then_some(larger)
+    }
+
+    fn score(&mut self, stage: Stage, moments: &[Moments], samples: u64) {
+        for (trail, moments) in self.trails.iter_mut().zip(moments) {
+            if trail.takes_part_in(stage) {
+                trail.score(stage, moments, samples);
+            }
+        }
+        self.take_noise(moments, samples);
+    }
+
+    fn take_noise(&mut self, moments: &[Moments], samples: u64) {
+        for (trail, moments) in self.trails.iter_mut().zip(moments) {
+            trail.take_noise(moments, samples);
+        }
+    }
+
+    /// One attempt at a stage: the moments of each claim's mean over the runs.
+    fn sample(&mut self, stage: Stage, attempt: u32, samples: u64) -> Result<Vec<Moments>, E> {
+        let mut moments = vec![Moments::default(); self.trails.len()];
+        let per_run = samples / u64::from(self.effort.runs);
+        for run in 0..self.effort.runs {
+            let means = (self.draw)(Draw { stage, attempt, run, samples: per_run })?;
+            assert_eq!(means.len(), moments.len(), "a run answers one mean for each claim");
+            for (moments, mean) in moments.iter_mut().zip(means) {
+                moments.push(mean);
+            }
+        }
+        self.drawn += samples;
+        Ok(moments)
+    }
+
+    /// `samples`, rounded up to whole grains in each run.
+    fn whole_runs(&self, samples: u64) -> u64 {
+        let runs = u64::from(self.effort.runs);
+        let per_run = samples.div_ceil(runs).max(1);
+        per_run.next_multiple_of(self.effort.grain) * runs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rng::{Stream, uniform};
+    use crate::stats::{Band, Verdict};
+    use std::convert::Infallible;
+
+    /// A core whose samples are `sample(stream)`, judged on one claim.
+    fn judge(
+        claim: Claim,
+        effort: &Effort,
+        seed: Seed,
+        sample: impl Fn(&mut Stream) -> f64,
+    ) -> MeanReport {
+        let mut draw = |draw: Draw| {
+            let mut stream = draw.seed(seed).stream();
+            let sum: f64 = (0..draw.samples).map(|_| sample(&mut stream)).sum();
+            Ok::<_, Infallible>(vec![sum / draw.samples as f64])
+        };
+        let Ok(mut reports) = judge_means(&[claim], effort, &mut draw);
+        reports.remove(0)
+    }
+
+    fn exponential(mean: f64) -> impl Fn(&mut Stream) -> f64 {
+        move |stream| -mean * (1.0 - uniform(stream)).ln()
+    }
+
+    const SEED: Seed = Seed(2026);
+
+    #[test]
+    fn a_right_core_passes_and_the_pass_says_what_it_would_have_seen() {
+        let report =
+            judge(Claim::value(1.0, Band::RADIANCE), &Effort::new(0.02), SEED, exponential(1.0));
+        assert_eq!(report.verdict, Verdict::Pass);
+        assert!(report.resolution <= 0.02, "{report:?}");
+        assert!(report.resolution > 0.01, "more samples than were needed: {report:?}");
+        assert!(report.interval[0] < 1.0 && 1.0 < report.interval[1]);
+    }
+
+    #[test]
+    fn an_error_of_the_promised_size_fails_on_either_side() {
+        for wrong in [0.98, 1.02] {
+            let report = judge(
+                Claim::value(1.0, Band::RADIANCE),
+                &Effort::new(0.02),
+                SEED,
+                exponential(wrong),
+            );
+            assert_eq!(report.verdict, Verdict::Fail, "{wrong}");
+            assert_eq!(report.stages.len(), 3);
+            assert!(report.stages.iter().all(|stage| stage.rejects));
+        }
+    }
+
+    #[test]
+    fn noise_that_could_hide_the_error_is_inconclusive_and_says_what_is_missing() {
+        let effort = Effort::new(0.02).with_most_samples(10_000);
+        let report = judge(Claim::value(1.0, Band::RADIANCE), &effort, SEED, exponential(1.0));
+        assert_eq!(report.verdict, Verdict::Inconclusive);
+        let missing = report.samples_missing.unwrap();
+        // (8.4/0.019)² = 195 000 samples are planned for a relative deviation of 1.
+        assert!((150_000..250_000).contains(&missing), "{missing}");
+    }
+
+    #[test]
+    fn a_constant_needs_hardly_any_samples() {
+        let report =
+            judge(Claim::value(0.5, Band::DOUBLE_MATH), &Effort::new(0.02), SEED, |_| 0.5 + 1e-9);
+        assert_eq!(report.verdict, Verdict::Pass);
+        assert!(report.samples < 10_000, "{report:?}");
+        let wrong = judge(Claim::value(0.5, Band::RADIANCE), &Effort::new(0.02), SEED, |_| 0.51);
+        assert_eq!(wrong.verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn a_black_core_fails() {
+        let report = judge(Claim::value(0.2, Band::RADIANCE), &Effort::new(0.02), SEED, |_| 0.0);
+        assert_eq!(report.verdict, Verdict::Fail);
+        assert_eq!(report.ratio, Some([0.0, 0.0]));
+    }
+
+    #[test]
+    fn one_nan_fails() {
+        let nan_once = |stream: &mut Stream| {
+            if uniform(stream) < 1e-3 { f64::NAN } else { 1.0 }
+        };
+        let report = judge(Claim::value(1.0, Band::RADIANCE), &Effort::new(0.02), SEED, nan_once);
+        assert_eq!(report.verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn a_light_hit_once_in_ten_thousand_samples_is_not_taken_for_darkness() {
+        let rare = |stream: &mut Stream| if uniform(stream) < 1e-4 { 1e4 } else { 0.0 };
+        for seed in 0..40 {
+            let effort = Effort::new(0.5).with_most_samples(20_000);
+            let report = judge(Claim::value(1.0, Band::RADIANCE), &effort, Seed(seed), rare);
+            assert_ne!(report.verdict, Verdict::Fail, "{report:?}");
+        }
+    }
+
+    #[test]
+    fn stratified_runs_pass_although_their_spread_is_far_below_the_theory_of_independent_samples() {
+        let claim = Claim::value(0.5, Band::RADIANCE).with_null_deviation(12f64.sqrt().recip());
+        let mut draw = |draw: Draw| {
+            let mut stream = draw.seed(SEED).stream();
+            let n = draw.samples as f64;
+            let strata = (0..draw.samples).map(|i| (i as f64 + uniform(&mut stream)) / n);
+            Ok::<_, Infallible>(vec![strata.sum::<f64>() / n])
+        };
+        let Ok(reports) = judge_means(&[claim], &Effort::new(0.02), &mut draw);
+        assert_eq!(reports[0].verdict, Verdict::Pass);
+    }
+
+    #[test]
+    fn claims_on_the_same_runs_are_judged_apart() {
+        let claims = [0.37, 0.53, 0.71].map(|albedo| Claim::value(albedo, Band::RADIANCE));
+        let mut draw = |draw: Draw| {
+            let mut stream = draw.seed(SEED).stream();
+            let mean = (0..draw.samples).map(|_| 2.0 * uniform(&mut stream)).sum::<f64>()
+                / draw.samples as f64;
+            Ok::<_, Infallible>(vec![0.37 * mean, 0.56 * mean, 0.71 * mean])
+        };
+        let Ok(reports) = judge_means(&claims, &Effort::new(0.02), &mut draw);
+        let verdicts = reports.iter().map(|report| report.verdict).collect::<Vec<_>>();
+        assert_eq!(verdicts, [Verdict::Pass, Verdict::Fail, Verdict::Pass]);
+    }
+
+    #[test]
+    fn the_error_of_a_core_is_passed_on() {
+        let mut draw = |_: Draw| Err::<Vec<f64>, _>("out of memory");
+        let answer = judge_means(&[Claim::value(1.0, Band::NONE)], &Effort::new(0.02), &mut draw);
+        assert_eq!(answer.unwrap_err(), "out of memory");
+    }
+
+    #[test]
+    fn every_run_has_its_own_seed() {
+        let at = |stage, attempt, run| Draw { stage, attempt, run, samples: 1 }.seed(SEED);
+        let mut seeds = Vec::new();
+        for stage in [Stage::Pilot, Stage::First, Stage::Second, Stage::Third] {
+            for attempt in 0..2 {
+                seeds.extend((0..64).map(|run| at(stage, attempt, run).0));
+            }
+        }
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), 512);
+    }
+}

@@ -1,0 +1,73 @@
+//! What the ladder found out about one claim.
+
+use super::{Stage, Verdict};
+use serde::{Deserialize, Serialize};
+
+/// One stage of the ladder, seen by one claim.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StageScore {
+    /// Which stage.
+    pub stage: Stage,
+    /// Samples over all its runs.
+    pub samples: u64,
+    /// Mean over its runs.
+    pub mean: f64,
+    /// Standard error of that mean, from the spread of this stage's own runs.
+    pub standard_error: f64,
+    /// How far outside the band the mean is, in standard errors of this stage (the first key).
+    pub t: f64,
+    /// The same in standard errors known from theory or from the other stages (the second key).
+    pub u: f64,
+    /// Whether both keys turned, on the side the first stage chose.
+    pub rejects: bool,
+}
+
+impl StageScore {
+    /// The weaker of the two keys: what the stage's decision rests on.
+    pub fn z(&self) -> f64 {
+        if self.t.abs() < self.u.abs() { self.t } else { self.u }
+    }
+}
+
+/// The judgement of one claim. `mean`, `standard_error` and the intervals are those of the last stage drawn:
+/// the earlier ones chose whether it would be, the last one is fresh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeanReport {
+    /// Pass, fail or inconclusive.
+    pub verdict: Verdict,
+    /// The true mean, as claimed.
+    pub expected: f64,
+    /// What relative errors are relative to.
+    pub scale: f64,
+    /// Half width of the null hypothesis, in the unit of the mean.
+    pub band: f64,
+    /// Measured.
+    pub mean: f64,
+    /// Of `mean`, from the spread of independent runs.
+    pub standard_error: f64,
+    /// Holds the mean of the core with 99.9 % confidence.
+    pub interval: [f64; 2],
+    /// `interval` divided by what was expected; none for the mean of a difference.
+    pub ratio: Option<[f64; 2]>,
+    /// Every stage drawn; a clean claim has one.
+    pub stages: Vec<StageScore>,
+    /// The smallest relative error that would have been caught with probability 0.999.
+    pub resolution: f64,
+    /// The relative error that had to be.
+    pub detects: f64,
+    /// Samples drawn in all, pilot and repeated stages included.
+    pub samples: u64,
+    /// Samples of the first stage that carry the mean: n μ² / (σ² + μ²), hits for a light that is rarely hit.
+    pub effective_samples: f64,
+    /// What the first stage lacks, if inconclusive and more samples would help.
+    pub samples_missing: Option<u64>,
+    /// Probability that a correct core fails this claim, as entered in the ledger.
+    pub false_alarm: f64,
+}
+
+impl MeanReport {
+    /// Measured over expected; none for the mean of a difference.
+    pub fn mean_ratio(&self) -> Option<f64> {
+        (self.expected != 0.0).then(|| self.mean / self.expected)
+    }
+}

@@ -1,0 +1,100 @@
+//! Mean and variance of a stream, after Welford (1962), merged after Chan, Golub and LeVeque (1979).
+
+/// The number, the mean and the spread of what was pushed. One NaN makes the mean and the variance NaN.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moments {
+    count: u64,
+    mean: f64,
+    squares: f64,
+}
+
+impl Moments {
+    /// Takes in one value.
+    pub fn push(&mut self, value: f64) {
+        self.count += 1;
+        let before = value - self.mean;
+        self.mean += before / self.count as f64;
+        self.squares += before * (value - self.mean);
+    }
+
+    /// The moments of both streams together.
+    pub fn merge(self, other: Self) -> Self {
+        if self.count == 0 || other.count == 0 {
+            return if self.count == 0 { other } else { self };
+        }
+        let (a, b) = (self.count as f64, other.count as f64);
+        let shift = other.mean - self.mean;
+        Self {
+            count: self.count + other.count,
+            mean: self.mean + shift * b / (a + b),
+            squares: self.squares + other.squares + shift * shift * a * b / (a + b),
+        }
+    }
+
+    /// How many values.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Their mean; NaN of none.
+    pub fn mean(&self) -> f64 {
+        if self.count == 0 { f64::NAN } else { self.mean }
+    }
+
+    /// Their unbiased variance (n − 1); NaN of fewer than two.
+    pub fn variance(&self) -> f64 {
+        if self.count < 2 { f64::NAN } else { self.squares / (self.count - 1) as f64 }
+    }
+
+    /// Standard error of the mean.
+    pub fn standard_error(&self) -> f64 {
+        (self.variance() / self.count as f64).sqrt()
+    }
+}
+
+impl Extend<f64> for Moments {
+    fn extend<T: IntoIterator<Item = f64>>(&mut self, values: T) {
+        values.into_iter().for_each(|value| self.push(value));
+    }
+}
+
+impl FromIterator<f64> for Moments {
+    fn from_iter<T: IntoIterator<Item = f64>>(values: T) -> Self {
+        let mut moments = Self::default();
+        moments.extend(values);
+        moments
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn agree_with_the_definition_on_numbers_that_cancel() {
+        let values = [1e9 + 4.0, 1e9 + 7.0, 1e9 + 13.0, 1e9 + 16.0];
+        let moments: Moments = values.into_iter().collect();
+        assert_eq!(moments.mean(), 1e9 + 10.0);
+        assert_eq!(moments.variance(), 30.0);
+        assert_eq!(moments.standard_error(), 7.5f64.sqrt());
+    }
+
+    #[test]
+    fn two_halves_merged_are_the_whole() {
+        let values: Vec<f64> = (0..100).map(|i| (f64::from(i) * 0.37).sin()).collect();
+        let whole: Moments = values.iter().copied().collect();
+        let left: Moments = values[..31].iter().copied().collect();
+        let right: Moments = values[31..].iter().copied().collect();
+        let merged = left.merge(right);
+        assert_eq!(merged.count(), 100);
+        assert!((merged.mean() - whole.mean()).abs() < 1e-15);
+        assert!((merged.variance() - whole.variance()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_constant_has_no_variance_and_a_nan_is_not_lost() {
+        assert_eq!(Moments::from_iter([0.3; 50]).variance(), 0.0);
+        assert!(Moments::from_iter([1.0, f64::NAN, 1.0]).mean().is_nan());
+        assert!(Moments::default().mean().is_nan());
+    }
+}

@@ -1,0 +1,254 @@
+//! What the ladder remembers of one claim while it climbs.
+
+use super::ladder::{
+    FEWEST_EFFECTIVE, LEAF_FALSE_ALARM, MISS_LEVEL, PILOT_EFFECTIVE, PLAN_MARGIN, PLANNED_SIGMAS,
+    STAGE_LEVEL, VARIANCE_GUARD,
+};
+use super::{
+    Claim, Effort, MeanReport, Moments, Stage, StageScore, Verdict, normal_upper, student_upper,
+};
+use std::sync::LazyLock;
+
+static NORMAL_CRITICAL: LazyLock<f64> = LazyLock::new(|| normal_upper(STAGE_LEVEL));
+static MISS_QUANTILE: LazyLock<f64> = LazyLock::new(|| normal_upper(MISS_LEVEL));
+
+/// Where a claim stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Standing {
+    Open,
+    /// Rejected by every stage so far; the sign is that of the departure.
+    Suspected(f64),
+    Cleared,
+    Rejected,
+    /// Some run answered NaN or infinity.
+    NotFinite,
+}
+
+/// The variance of one sample, pooled over stages.
+#[derive(Clone, Copy, Debug, Default)]
+struct Noise {
+    freedom: f64,
+    weighted_variance: f64,
+}
+
+impl Noise {
+    fn take(&mut self, moments: &Moments, samples: u64) {
+        let freedom = (moments.count() - 1) as f64;
+        self.weighted_variance += freedom * sample_variance(moments, samples);
+        self.freedom += freedom;
+    }
+
+    fn variance(&self) -> f64 {
+        self.weighted_variance / self.freedom
+    }
+}
+
+/// The variance of one sample, from the spread of means over runs of `samples` in all.
+fn sample_variance(moments: &Moments, samples: u64) -> f64 {
+    moments.variance() * samples as f64 / moments.count() as f64
+}
+
+/// A claim and its history.
+pub(super) struct Trail {
+    claim: Claim,
+    noise: Noise,
+    scores: Vec<StageScore>,
+    standing: Standing,
+}
+
+impl Trail {
+    pub(super) fn new(claim: Claim) -> Self {
+        Self { claim, noise: Noise::default(), scores: Vec::new(), standing: Standing::Open }
+    }
+
+    pub(super) fn takes_part_in(&self, stage: Stage) -> bool {
+        match stage {
+            Stage::Pilot | Stage::First => self.standing == Standing::Open,
+            Stage::Second | Stage::Third => matches!(self.standing, Standing::Suspected(_)),
+        }
+    }
+
+    /// Whether a pilot has seen enough to size the first stage. A constant that disagrees with the claim may be
+    /// a rare event that has not happened yet.
+    pub(super) fn learns_from(&self, pilot: &Moments, samples: u64) -> bool {
+        let variance = sample_variance(pilot, samples);
+        if !variance.is_finite() {
+            return true;
+        }
+        if variance == 0.0 {
+            return self.claim.departure(pilot.mean()) == 0.0;
+        }
+        self.effective(variance, samples) >= PILOT_EFFECTIVE
+    }
+
+    /// Learns the noise of one more stage, for the second key of the stages that follow.
+    pub(super) fn take_noise(&mut self, moments: &Moments, samples: u64) {
+        if moments.variance().is_finite() {
+            self.noise.take(moments, samples);
+        } else {
+            self.standing = Standing::NotFinite;
+        }
+    }
+
+    /// Samples of a first stage that would see an error of `detects`.
+    pub(super) fn needed_samples(&self, detects: f64) -> f64 {
+        if self.standing == Standing::NotFinite {
+            return 0.0;
+        }
+        let variance = self.variance();
+        let room = detects * self.claim.scale - self.claim.band_width();
+        let for_noise = if room > 0.0 {
+            (PLANNED_SIGMAS * PLAN_MARGIN / room).powi(2) * variance
+        } else {
+            f64::INFINITY
+        };
+        let for_normality =
+            FEWEST_EFFECTIVE * PLAN_MARGIN.powi(2) * (1.0 + variance / self.claim.scale.powi(2));
+        for_noise.max(for_normality)
+    }
+
+    /// The size a stage should have had, if its spread is not what was expected: too small to have seen the tail,
+    /// or too large to see the error promised.
+    pub(super) fn wants_repeat(
+        &self,
+        stage: Stage,
+        moments: &Moments,
+        samples: u64,
+        effort: &Effort,
+    ) -> Option<u64> {
+        let seen = sample_variance(moments, samples);
+        if seen < VARIANCE_GUARD * self.null_variance() {
+            return Some(4 * samples);
+        }
+        let score = self.scored(stage, moments, samples);
+        let mut wiser = Self { scores: vec![score], ..Self::new(self.claim) };
+        wiser.noise = self.noise;
+        wiser.noise.take(moments, samples);
+        let blind = stage == Stage::First && !score.rejects && wiser.resolution() > effort.detects;
+        // Past 2⁵³ the cast saturates, and the cap is far below.
+        blind.then(|| wiser.needed_samples(effort.detects) as u64)
+    }
+
+    /// Takes the decision of a stage.
+    pub(super) fn score(&mut self, stage: Stage, moments: &Moments, samples: u64) {
+        let score = self.scored(stage, moments, samples);
+        self.scores.push(score);
+        self.standing = if !score.mean.is_finite() {
+            Standing::NotFinite
+        } else if !score.rejects {
+            Standing::Cleared
+        } else if stage == Stage::Third {
+            Standing::Rejected
+        } else {
+            Standing::Suspected(score.t.signum())
+        };
+    }
+
+    fn scored(&self, stage: Stage, moments: &Moments, samples: u64) -> StageScore {
+        let departure = self.claim.departure(moments.mean());
+        let standard_error = moments.standard_error();
+        let t = in_units(departure, standard_error);
+        let u = in_units(departure, (self.null_variance() / samples as f64).sqrt());
+        let same_side = match self.standing {
+            Standing::Suspected(sign) => t * sign > 0.0,
+            _ => true,
+        };
+        let first_key = t.abs() > student_upper(STAGE_LEVEL, (moments.count() - 1) as f64);
+        let second_key = u.abs() > self.second_critical();
+        let rejects = first_key && second_key && same_side;
+        StageScore { stage, samples, mean: moments.mean(), standard_error, t, u, rejects }
+    }
+
+    fn second_critical(&self) -> f64 {
+        match self.claim.null_deviation {
+            Some(_) => *NORMAL_CRITICAL,
+            None => student_upper(STAGE_LEVEL, self.noise.freedom),
+        }
+    }
+
+    /// The variance of one sample known from elsewhere: from theory, or from the stages before.
+    fn null_variance(&self) -> f64 {
+        self.claim
+            .null_deviation
+            .map_or_else(|| self.noise.variance(), |deviation| deviation.powi(2))
+    }
+
+    /// The larger of what was measured and what theory says.
+    fn variance(&self) -> f64 {
+        self.noise.variance().max(self.null_variance())
+    }
+
+    fn effective(&self, variance: f64, samples: u64) -> f64 {
+        samples as f64 / (1.0 + variance / self.claim.scale.powi(2))
+    }
+
+    /// The smallest relative error that the first stage, which every error has to get past, would have
+    /// rejected with probability 1 − [`MISS_LEVEL`].
+    fn resolution(&self) -> f64 {
+        let Some(first) = self.scores.iter().find(|score| score.stage == Stage::First) else {
+            return f64::INFINITY;
+        };
+        let elsewhere = (self.variance() / first.samples as f64).sqrt();
+        let error = first.standard_error.max(elsewhere);
+        let sigmas = self.second_critical().max(*NORMAL_CRITICAL) + *MISS_QUANTILE;
+        (self.claim.band_width() + sigmas * error) / self.claim.scale
+    }
+
+    /// What came out.
+    pub(super) fn report(&self, effort: &Effort, drawn: u64) -> MeanReport {
+        let last = self.scores.last();
+        let first_samples = self.scores.first().map_or(0, |score| score.samples);
+        let mean = last.map_or(f64::NAN, |score| score.mean);
+        let standard_error = last.map_or(f64::NAN, |score| score.standard_error);
+        let half_width = student_upper(STAGE_LEVEL, f64::from(effort.runs - 1)) * standard_error;
+        let interval = [mean - half_width, mean + half_width];
+        let resolution = self.resolution();
+        let effective_samples = self.effective(self.variance(), first_samples);
+        let verdict = match self.standing {
+            Standing::Rejected | Standing::NotFinite => Verdict::Fail,
+            _ if resolution <= effort.detects && effective_samples >= FEWEST_EFFECTIVE => {
+                Verdict::Pass
+            }
+            _ => Verdict::Inconclusive,
+        };
+        MeanReport {
+            verdict,
+            expected: self.claim.expected,
+            scale: self.claim.scale,
+            band: self.claim.band_width(),
+            mean,
+            standard_error,
+            interval,
+            ratio: self.ratio(interval),
+            stages: self.scores.clone(),
+            resolution,
+            detects: effort.detects,
+            samples: drawn,
+            effective_samples,
+            samples_missing: self.missing(verdict, effort, first_samples),
+            false_alarm: LEAF_FALSE_ALARM,
+        }
+    }
+
+    fn ratio(&self, interval: [f64; 2]) -> Option<[f64; 2]> {
+        let expected = self.claim.expected;
+        let mut ratio = interval.map(|end| end / expected);
+        if expected < 0.0 {
+            ratio.reverse();
+        }
+        (expected != 0.0).then_some(ratio)
+    }
+
+    fn missing(&self, verdict: Verdict, effort: &Effort, first_samples: u64) -> Option<u64> {
+        let needed = self.needed_samples(effort.detects);
+        let worth_asking = verdict == Verdict::Inconclusive && needed.is_finite();
+        worth_asking.then(|| (needed as u64).saturating_sub(first_samples).max(1))
+    }
+}
+
+/// A departure in standard errors. Nothing is never significant, however small the error; anything is, where
+/// there is no error at all. Capped, because infinity does not survive JSON.
+fn in_units(departure: f64, standard_error: f64) -> f64 {
+    const LARGEST: f64 = 1e9;
+    if departure == 0.0 { 0.0 } else { (departure / standard_error).clamp(-LARGEST, LARGEST) }
+}

@@ -1,0 +1,65 @@
+//! The three things a check can say. A noisy agreement is not a pass.
+
+use serde::{Deserialize, Serialize};
+
+/// What a check says of the claim it judged. Ordered from good to bad, so that `max` is the worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// Not rejected, and an error of the promised size would have been seen.
+    Pass,
+    /// Not rejected, but the promised error could have hidden in the noise. Never counts as passed.
+    Inconclusive,
+    /// Rejected.
+    Fail,
+}
+
+impl Verdict {
+    /// The worst of several; nothing judged is [`Verdict::Inconclusive`], since absence of evidence is not success.
+    pub fn worst_of(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
+        verdicts.into_iter().max().unwrap_or(Verdict::Inconclusive)
+    }
+
+    /// Pass if the condition holds, else fail: for comparisons without noise. Write the condition so that
+    /// NaN makes it false.
+    pub fn pass_if(holds: bool) -> Verdict {
+        if holds { Verdict::Pass } else { Verdict::Fail }
+    }
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Verdict::Pass => "pass",
+            Verdict::Inconclusive => "inconclusive",
+            Verdict::Fail => "fail",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_failure_outweighs_everything_and_nothing_is_not_a_pass() {
+        use Verdict::{Fail, Inconclusive, Pass};
+        assert_eq!(Verdict::worst_of([Pass, Fail, Inconclusive]), Fail);
+        assert_eq!(Verdict::worst_of([Pass, Inconclusive, Pass]), Inconclusive);
+        assert_eq!(Verdict::worst_of([]), Inconclusive);
+    }
+
+    #[test]
+    fn a_comparison_with_nan_fails() {
+        let error = f64::NAN;
+        assert_eq!(Verdict::pass_if(error <= 1.0), Verdict::Fail);
+    }
+
+    #[test]
+    fn the_words_on_disk_are_the_words_on_screen() {
+        for verdict in [Verdict::Pass, Verdict::Inconclusive, Verdict::Fail] {
+            let on_disk = serde_json::to_string(&verdict).unwrap();
+            assert_eq!(on_disk, format!("\"{verdict}\""));
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! What a core can be asked, and what it may freely choose.
 
+use crate::math::Precision;
 use bitflags::bitflags;
 use serde::{Deserialize, Serialize};
 
@@ -75,26 +76,6 @@ pub struct CoreInfo {
     pub precision: Precision,
     /// What it has freely chosen.
     pub conventions: Conventions,
-}
-
-/// The arithmetic a core computes in; tolerances of deterministic checks scale by it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Precision {
-    /// f32
-    Single,
-    /// f64
-    Double,
-}
-
-impl Precision {
-    /// The distance from 1 to the next number.
-    pub const fn epsilon(self) -> f64 {
-        match self {
-            Self::Single => f32::EPSILON as f64,
-            Self::Double => f64::EPSILON,
-        }
-    }
 }
 
 /// What is legitimately free, declared so that no core is blamed for a choice.

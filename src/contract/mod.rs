@@ -29,13 +29,15 @@ pub use batch::{
 };
 pub use capability::{
     Capabilities, Conventions, CoreInfo, EmissionSides, Falloff, GlassFresnel, GlassRadiance,
-    Precision, SmithTerm,
+    SmithTerm,
 };
 pub use error::{CoreError, Result};
 pub use settings::{
     Acceleration, AdaptiveSettings, BuildStats, DirectSampling, IntegratorSettings, RenderSettings,
     Roulette, Split,
 };
+
+pub use crate::math::Precision;
 
 use crate::scene::{Aabb, Camera, Material, SceneDescription};
 use glam::{DVec2, DVec3};

@@ -1,3 +1,6 @@
 //! Mathematics that knows nothing of renderers.
 
+mod precision;
 pub mod rng;
+
+pub use precision::Precision;

@@ -1,13 +1,19 @@
 //! How a verdict is reached. Every check decides here, and only here: no check types its own threshold.
 //!
 //! - [`judge_means`]: the three-stage ladder, the only way a mean can fail.
+//! - [`judge_counts`]: whether samples follow a density, by χ² on [`SphereCells`].
+//! - [`judge_exact`]: comparisons without noise, with their [`Tolerance`]s.
 //! - [`Claim`]: what is true if the core is right, with the band that rounding may use up.
 //! - [`Effort`] and [`Budget`]: how small an error has to be seen, and how many samples that may cost.
 //!
 //! Not here: how samples are drawn (`checks`), or what a failure means (`diagnosis`).
 
 mod budget;
+mod chi_square;
 mod claim;
+mod count_report;
+mod exact;
+mod histogram;
 mod ladder;
 mod mean_report;
 mod moments;
@@ -16,9 +22,18 @@ mod trail;
 mod verdict;
 
 pub use budget::{Budget, Effort};
+pub use chi_square::{
+    COUNTS_FALSE_ALARM, CountSource, FEWEST_EXPECTED, judge_count_source, judge_counts,
+};
 pub use claim::{Band, Claim, Sides};
+pub use count_report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};
+pub use exact::{Compared, ExactReport, Tolerance, Worst, judge_exact};
+pub use histogram::{CellProbabilities, Counts, SphereCells};
 pub use ladder::{Draw, LEAF_FALSE_ALARM, STAGE_LEVEL, Stage, judge_means};
 pub use mean_report::{MeanReport, StageScore};
 pub use moments::Moments;
-pub use quantile::{chi_square_upper, normal_upper, student_upper};
+pub use quantile::{
+    chi_square_tail, chi_square_upper, detectable_noncentrality, noncentral_chi_square_tail,
+    normal_upper, student_upper,
+};
 pub use verdict::Verdict;

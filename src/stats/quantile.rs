@@ -1,6 +1,7 @@
 //! Upper quantiles: what a statistic exceeds with a small probability if nothing is wrong.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
+use statrs::function::gamma::ln_gamma;
 
 /// What a standard normal variable exceeds with probability `level`.
 pub fn normal_upper(level: f64) -> f64 {
@@ -17,6 +18,51 @@ pub fn student_upper(level: f64, freedom: f64) -> f64 {
 /// What χ² with `freedom` degrees of freedom exceeds with probability `level`. Infinite without any freedom.
 pub fn chi_square_upper(level: f64, freedom: f64) -> f64 {
     ChiSquared::new(freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(1.0 - level))
+}
+
+/// The probability that χ² with `freedom` degrees of freedom exceeds `value`; NaN for NaN.
+pub fn chi_square_tail(value: f64, freedom: f64) -> f64 {
+    ChiSquared::new(freedom).map_or(f64::NAN, |law| law.sf(value))
+}
+
+/// The probability that noncentral χ² exceeds `value`: a Poisson mixture of central ones
+/// (Johnson, Kotz and Balakrishnan, Continuous Univariate Distributions 2, section 29.3).
+pub fn noncentral_chi_square_tail(value: f64, freedom: f64, noncentrality: f64) -> f64 {
+    let rate = 0.5 * noncentrality;
+    let spread = 12.0 * rate.sqrt() + 12.0;
+    let from = (rate - spread).max(0.0).floor() as u64;
+    let to = (rate + spread).ceil() as u64;
+    let log_weight = |k: u64| {
+        let k = k as f64;
+        if rate == 0.0 {
+            if k == 0.0 { 0.0 } else { f64::NEG_INFINITY }
+        } else {
+            k * rate.ln() - rate - ln_gamma(k + 1.0)
+        }
+    };
+    (from..=to)
+        .map(|k| log_weight(k).exp() * chi_square_tail(value, freedom + 2.0 * k as f64))
+        .sum()
+}
+
+/// The noncentrality that a χ² test at `level` misses with probability `miss`.
+/// Infinite without any freedom.
+pub fn detectable_noncentrality(freedom: f64, level: f64, miss: f64) -> f64 {
+    if !(freedom > 0.0) {
+        return f64::INFINITY;
+    }
+    let critical = chi_square_upper(level, freedom);
+    let seen = |noncentrality| noncentral_chi_square_tail(critical, freedom, noncentrality);
+    let mut high = 1.0;
+    while seen(high) < 1.0 - miss {
+        high *= 2.0;
+    }
+    let mut low = 0.0;
+    while high - low > 1e-6 * high {
+        let middle = 0.5 * (low + high);
+        if seen(middle) < 1.0 - miss { low = middle } else { high = middle }
+    }
+    high
 }
 
 #[cfg(test)]
@@ -37,5 +83,19 @@ mod tests {
         assert_close(student_upper(2e-5, 31.0), 4.782_731_763_809);
         assert_close(chi_square_upper(5e-4, 199.0), 271.258_004_171);
         assert_close(chi_square_upper(1e-9, 10.0), 62.945_457_420_6);
+    }
+
+    // scipy: brentq(lambda l: ncx2.sf(chi2.isf(5e-4, d), d, l) - 0.999, 1, 5000).
+    #[test]
+    fn noncentralities_agree_with_another_library() {
+        for (freedom, expected) in [
+            (1.0, 43.177_892_63),
+            (20.0, 76.707_088_56),
+            (199.0, 165.350_317),
+            (800.0, 294.140_698_5),
+        ] {
+            assert_close(detectable_noncentrality(freedom, 5e-4, 1e-3), expected);
+        }
+        assert_eq!(detectable_noncentrality(0.0, 5e-4, 1e-3), f64::INFINITY);
     }
 }

@@ -1,0 +1,65 @@
+//! The local frame of a surface, and spherical coordinates in it.
+
+use glam::DVec3;
+
+/// An orthonormal, right-handed frame whose third axis is the normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// First tangent, world space.
+    pub tangent: DVec3,
+    /// Second tangent, world space.
+    pub bitangent: DVec3,
+    /// Third axis, world space.
+    pub normal: DVec3,
+}
+
+impl Frame {
+    /// Some frame around a unit normal. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017.
+    pub fn around(normal: DVec3) -> Self {
+        let sign = 1f64.copysign(normal.z);
+        let a = -1.0 / (sign + normal.z);
+        let b = normal.x * normal.y * a;
+        Self {
+            tangent: DVec3::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
+            bitangent: DVec3::new(b, sign + normal.y * normal.y * a, -normal.y),
+            normal,
+        }
+    }
+
+    /// A world direction in this frame.
+    pub fn to_local(&self, world: DVec3) -> DVec3 {
+        DVec3::new(world.dot(self.tangent), world.dot(self.bitangent), world.dot(self.normal))
+    }
+
+    /// A direction of this frame in the world.
+    pub fn to_world(&self, local: DVec3) -> DVec3 {
+        local.x * self.tangent + local.y * self.bitangent + local.z * self.normal
+    }
+}
+
+/// The unit direction at polar angle `theta` from +z and azimuth `phi` from +x, radians.
+pub fn direction(theta: f64, phi: f64) -> DVec3 {
+    DVec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_frame_is_orthonormal_and_right_handed() {
+        for normal in [DVec3::Z, -DVec3::Z, direction(3.141_592, 0.4), direction(1.2, -2.0)] {
+            let frame = Frame::around(normal);
+            assert!(frame.tangent.cross(frame.bitangent).distance(normal) < 1e-12, "{normal}");
+            assert!((frame.tangent.length() - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn there_and_back_is_the_same_direction() {
+        let frame = Frame::around(direction(2.1, 0.3));
+        let world = direction(0.7, 4.0);
+        assert!(frame.to_world(frame.to_local(world)).distance(world) < 1e-14);
+        assert!(frame.to_local(frame.normal).distance(DVec3::Z) < 1e-14);
+    }
+}

@@ -1,1 +1,232 @@
-//! The plain core.
+//! The plain core: a path tracer in f64, written the way a course teaches it, one function per task.
+//!
+//! It is the second witness for the fast core, the model to read before writing an adapter, and the ground on
+//! which students' mistakes are planted. So it prefers the formula of the lecture to the faster one, and each
+//! place where a student goes wrong is a function or a line of its own. Nothing here is shared with other cores.
+//!
+//! Read it in the order of the course:
+//!
+//! | part | task | file |
+//! |---|---|---|
+//! | 1 | camera rays; triangle, sphere; samples of a pixel | `camera`, `intersect`, `render` |
+//! | 2 | box; building and walking the hierarchy | `intersect`, `bvh` |
+//! | 3 | diffuse surfaces, hemisphere and light sampling | `bsdf`, `sampling`, `light`, `direct` |
+//! | 4 | paths of many bounces, roulette | `integrator` |
+//! | 5 | adaptive sampling | `adaptive` |
+//!
+//! Beyond the course: `glass` and `ggx` scatter as their names say, `world` is the scene as rays see it, and
+//! `random` gives every path its own stream, so that answers do not depend on threads.
+
+mod adaptive;
+mod bsdf;
+mod bvh;
+mod camera;
+mod direct;
+mod frame;
+mod ggx;
+mod glass;
+mod integrator;
+mod intersect;
+mod light;
+mod random;
+mod render;
+mod sampling;
+mod split;
+mod world;
+
+#[cfg(test)]
+mod closed_forms;
+#[cfg(test)]
+mod testing;
+
+use crate::contract::{
+    Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
+    BuildStats, BuiltScene, Capabilities, Conventions, Core, CoreError, CoreInfo, DirectionSample,
+    Film, Hit, IntegratorSettings, LightSample, Precision, Primitive, Randomness, Ray,
+    RenderSettings, Result, Sampler, TraversalStats,
+};
+use crate::scene::{Aabb, Camera, Material, SceneDescription};
+use glam::{DVec2, DVec3};
+use integrator::Integrator;
+use random::Random;
+use world::World;
+
+/// The plain core.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Textbook;
+
+impl Textbook {
+    /// The core, ready to be asked.
+    pub const fn new() -> Self {
+        Self
+    }
+}
+
+impl Core for Textbook {
+    fn info(&self) -> CoreInfo {
+        CoreInfo {
+            name: "textbook".to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            capabilities: Capabilities::all(),
+            precision: Precision::Double,
+            conventions: Conventions::default(),
+        }
+    }
+
+    fn generate_rays(&mut self, camera: &Camera, film: &[DVec2], rays: &mut [Ray]) -> Result<()> {
+        answer(film, rays, |point| camera::generate_ray(camera, *point));
+        Ok(())
+    }
+
+    fn intersect_primitive(
+        &mut self,
+        primitive: &Primitive,
+        rays: &[Ray],
+        hits: &mut [Hit],
+    ) -> Result<()> {
+        answer(rays, hits, |ray| world::hit_alone(primitive, ray).unwrap_or(Hit::MISS));
+        Ok(())
+    }
+
+    fn intersect_box(&mut self, bounds: &Aabb, rays: &[Ray], hits: &mut [BoxHit]) -> Result<()> {
+        answer(rays, hits, |ray| box_hit(intersect::intersect_box(bounds, ray)));
+        Ok(())
+    }
+
+    fn sample_direction(
+        &mut self,
+        sampler: Sampler,
+        random: Randomness<'_>,
+        samples: &mut [DirectionSample],
+    ) -> Result<()> {
+        answer(random.points, samples, |point| sampling::sample(sampler, *point));
+        Ok(())
+    }
+
+    fn direction_pdf(
+        &mut self,
+        sampler: Sampler,
+        directions: &[DVec3],
+        pdf: &mut [f64],
+    ) -> Result<()> {
+        answer(directions, pdf, |direction| sampling::pdf(sampler, *direction));
+        Ok(())
+    }
+
+    fn eval_bsdf(
+        &mut self,
+        material: &Material,
+        queries: &[BsdfQuery],
+        values: &mut [BsdfValue],
+    ) -> Result<()> {
+        answer(queries, values, |query| bsdf::evaluate(&material.surface, query.wo, query.wi));
+        Ok(())
+    }
+
+    fn sample_bsdf(
+        &mut self,
+        material: &Material,
+        wo: &[DVec3],
+        random: Randomness<'_>,
+        samples: &mut [BsdfSample],
+    ) -> Result<()> {
+        for (index, (wo, sample)) in wo.iter().zip(samples).enumerate() {
+            let (point, lobe) = (random.points[index], random.lobes[index]);
+            *sample = bsdf::sample(&material.surface, *wo, point, lobe).unwrap_or(bsdf::FAILED);
+        }
+        Ok(())
+    }
+
+    fn adaptive_mean(
+        &mut self,
+        settings: AdaptiveSettings,
+        streams: &[&[f64]],
+        means: &mut [AdaptiveMean],
+    ) -> Result<()> {
+        answer(streams, means, |stream| adaptive::mean_of_stream(settings, stream));
+        Ok(())
+    }
+
+    fn build_scene(
+        &mut self,
+        scene: &SceneDescription,
+        acceleration: Acceleration,
+    ) -> Result<Box<dyn BuiltScene + '_>> {
+        Ok(Box::new(BuiltWorld { world: World::new(scene, acceleration) }))
+    }
+}
+
+/// A scene the core has taken in.
+struct BuiltWorld {
+    world: World,
+}
+
+impl BuiltScene for BuiltWorld {
+    fn stats(&self) -> BuildStats {
+        self.world.build_stats()
+    }
+
+    fn intersect(&mut self, rays: &[Ray], hits: &mut [Hit]) -> Result<TraversalStats> {
+        let mut stats = TraversalStats::default();
+        answer(rays, hits, |ray| self.world.closest_hit(ray, &mut stats).unwrap_or(Hit::MISS));
+        Ok(stats)
+    }
+
+    fn occluded(&mut self, rays: &[Ray], occluded: &mut [bool]) -> Result<TraversalStats> {
+        let mut stats = TraversalStats::default();
+        answer(rays, occluded, |ray| self.world.any_hit(ray, &mut stats));
+        Ok(stats)
+    }
+
+    fn sample_light(
+        &mut self,
+        light: u32,
+        from: &[DVec3],
+        random: Randomness<'_>,
+        samples: &mut [LightSample],
+    ) -> Result<()> {
+        let lights = self.world.lights();
+        let light = lights.get(light as usize).ok_or_else(|| {
+            CoreError::Refused(format!("there is no light {light}, the scene has {}", lights.len()))
+        })?;
+        for (index, (from, sample)) in from.iter().zip(samples).enumerate() {
+            let (point, lobe) = (random.points[index], random.lobes[index]);
+            *sample = light.sample(*from, point, lobe).unwrap_or(light::FAILED);
+        }
+        Ok(())
+    }
+
+    fn radiance(
+        &mut self,
+        rays: &[Ray],
+        settings: &IntegratorSettings,
+        radiance: &mut [[f64; 3]],
+    ) -> Result<()> {
+        let integrator = Integrator::new(&self.world, settings);
+        render::fill(settings.threads, radiance, |index| {
+            let mut random = Random::for_ray(settings.seed, index);
+            integrator.radiance(&rays[index], &mut random).to_array()
+        })
+    }
+
+    fn render(
+        &mut self,
+        camera: &Camera,
+        settings: &RenderSettings,
+        film: &mut Film,
+    ) -> Result<()> {
+        render::render(&self.world, camera, settings, film)
+    }
+}
+
+/// Fills `answers[i]` from `questions[i]`.
+fn answer<Q, A>(questions: &[Q], answers: &mut [A], mut one: impl FnMut(&Q) -> A) {
+    for (question, slot) in questions.iter().zip(answers) {
+        *slot = one(question);
+    }
+}
+
+fn box_hit(span: Option<(f64, f64)>) -> BoxHit {
+    let (t_enter, t_exit) = span.unwrap_or_default();
+    BoxHit { t_enter, t_exit, hit: u32::from(span.is_some()), reserved: 0 }
+}

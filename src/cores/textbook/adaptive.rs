@@ -1,0 +1,135 @@
+//! Part 5: how many samples a pixel needs.
+
+use crate::contract::{AdaptiveMean, AdaptiveSettings};
+
+/// Half width of the 95 % interval of a normal variable, in standard deviations.
+const Z_95: f64 = 1.96;
+
+/// The sums a pixel keeps: s₁ and s₂ of the course.
+///
+/// The textbook formula for the variance loses digits where σ is far below μ; a rule that compares σ with a few
+/// percent of μ cannot notice.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tally {
+    count: u32,
+    sum: f64,
+    sum_of_squares: f64,
+}
+
+impl Tally {
+    /// Adds one sample's luminance.
+    pub fn add(&mut self, luminance: f64) {
+        self.count += 1;
+        self.sum += luminance;
+        self.sum_of_squares += luminance * luminance;
+    }
+
+    /// Samples so far.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Mean of the samples so far.
+    pub fn mean(&self) -> f64 {
+        self.sum / f64::from(self.count)
+    }
+
+    /// Sample variance: over n − 1, not a number for a single sample.
+    fn variance(&self) -> f64 {
+        let n = f64::from(self.count);
+        let squared_deviations = (self.sum_of_squares - self.sum * self.sum / n).max(0.0);
+        squared_deviations / (n - 1.0)
+    }
+
+    /// Half width of the 95 % interval of the mean.
+    fn half_width(&self) -> f64 {
+        Z_95 * (self.variance() / f64::from(self.count)).sqrt()
+    }
+
+    /// Whether the mean is known well enough. A black pixel is; a pixel that is not a number never is.
+    fn has_converged(&self, max_tolerance: f64) -> bool {
+        self.half_width() <= max_tolerance * self.mean()
+    }
+}
+
+/// Draws luminances from `next` until the rule says stop, at most `cap` of them.
+pub fn sample_until_converged(
+    settings: AdaptiveSettings,
+    cap: u32,
+    mut next: impl FnMut(u32) -> f64,
+) -> Tally {
+    let mut tally = Tally::default();
+    while tally.count() < cap {
+        tally.add(next(tally.count()));
+        if ends_batch(tally.count(), settings) && tally.has_converged(settings.max_tolerance) {
+            break;
+        }
+    }
+    tally
+}
+
+/// Draws all `cap` luminances: what adaptive sampling is compared with.
+pub fn sample_all(cap: u32, next: impl FnMut(u32) -> f64) -> Tally {
+    let mut tally = Tally::default();
+    (0..cap).map(next).for_each(|luminance| tally.add(luminance));
+    tally
+}
+
+/// Whether the rule is looked at after `count` samples.
+fn ends_batch(count: u32, settings: AdaptiveSettings) -> bool {
+    count.is_multiple_of(settings.samples_per_batch.max(1))
+}
+
+/// What the rule makes of a given stream, which is as long as the cap.
+pub fn mean_of_stream(settings: AdaptiveSettings, stream: &[f64]) -> AdaptiveMean {
+    let cap = u32::try_from(stream.len()).unwrap_or(u32::MAX);
+    let tally = sample_until_converged(settings, cap, |index| stream[index as usize]);
+    AdaptiveMean { mean: tally.mean(), used: tally.count(), reserved: 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(period: &[f64], samples_per_batch: u32, max_tolerance: f64) -> AdaptiveMean {
+        let stream: Vec<f64> = period.iter().copied().cycle().take(2048).collect();
+        mean_of_stream(AdaptiveSettings { samples_per_batch, max_tolerance }, &stream)
+    }
+
+    /// Variants of the rule stop elsewhere: population variance at 8, σ/n at 4, no 1.96 at 2, variance for σ at 6,
+    /// absolute tolerance at 14, a look after every sample at 9.
+    #[test]
+    fn a_stream_that_tells_all_formulas_apart_stops_at_10() {
+        let answer = run(&[1.0, 3.0, 0.5, 1.0, 1.0], 2, 0.5);
+        assert_eq!((answer.used, answer.mean), (10, 1.3));
+    }
+
+    #[test]
+    fn alternating_samples_stop_at_416() {
+        let answer = run(&[0.5, 1.5], 32, 0.05);
+        assert_eq!((answer.used, answer.mean), (416, 1.0));
+    }
+
+    #[test]
+    fn a_constant_and_a_black_pixel_stop_after_one_batch() {
+        assert_eq!(run(&[0.7], 32, 0.05).used, 32);
+        assert_eq!(run(&[0.0], 32, 0.05).used, 32);
+    }
+
+    #[test]
+    fn a_pixel_that_is_not_a_number_runs_to_the_cap() {
+        assert_eq!(run(&[f64::NAN], 32, 0.05).used, 2048);
+    }
+
+    #[test]
+    fn the_last_batch_is_cut_off_at_the_cap() {
+        let settings = AdaptiveSettings { samples_per_batch: 4, max_tolerance: 0.0 };
+        assert_eq!(mean_of_stream(settings, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]).used, 6);
+    }
+
+    #[test]
+    fn a_single_sample_is_no_interval() {
+        let settings = AdaptiveSettings { samples_per_batch: 1, max_tolerance: 0.05 };
+        assert_eq!(mean_of_stream(settings, &[1.0; 8]).used, 2);
+    }
+}

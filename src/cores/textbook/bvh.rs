@@ -1,0 +1,279 @@
+//! Part 2: a bounding volume hierarchy, and the loop over everything that it must agree with.
+//!
+//! Primitives lie in the order of the leaves. Without nodes every query is the loop: that is brute force.
+
+use super::intersect::{Ball, Crossing, Triangle, intersect_box};
+use super::split::{self, Item};
+use crate::contract::{Acceleration, BuildStats, Ray, Split, TraversalStats};
+use crate::scene::Aabb;
+use glam::DVec3;
+use std::ops::Range;
+
+/// The form of a primitive.
+#[derive(Clone, Copy, Debug)]
+pub enum Form {
+    /// A triangle of a mesh.
+    Triangle(Triangle),
+    /// A sphere.
+    Ball(Ball),
+}
+
+impl Form {
+    fn intersect(&self, ray: &Ray) -> Option<Crossing> {
+        match self {
+            Self::Triangle(triangle) => triangle.intersect(ray),
+            Self::Ball(ball) => ball.intersect(ray),
+        }
+    }
+
+    fn bounds(&self) -> Aabb {
+        match self {
+            Self::Triangle(triangle) => triangle.bounds(),
+            Self::Ball(ball) => ball.bounds(),
+        }
+    }
+
+    /// Its largest coordinates, in absolute value.
+    pub fn reach(&self) -> DVec3 {
+        let Aabb { min, max } = self.bounds();
+        min.abs().max(max.abs())
+    }
+}
+
+/// A triangle or a sphere of the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Primitive {
+    /// What is tested.
+    pub form: Form,
+    /// Number of its shape in the scene.
+    pub shape: u32,
+    /// Number of the triangle in its mesh, 0 for a sphere.
+    pub number: u32,
+}
+
+/// All primitives of a scene, with or without a hierarchy over them.
+#[derive(Debug)]
+pub struct Bvh {
+    /// The root first, each left child right after its parent. None at all for brute force.
+    nodes: Vec<Node>,
+    /// In the order of the leaves.
+    primitives: Vec<Primitive>,
+}
+
+#[derive(Debug)]
+struct Node {
+    bounds: Aabb,
+    content: Content,
+}
+
+#[derive(Debug)]
+enum Content {
+    /// The primitives in this range.
+    Leaf(Range<usize>),
+    /// The numbers of the children.
+    Inner([usize; 2]),
+}
+
+/// Boxes are larger than what they hold by this much of their largest coordinate, so that rounding in the box test
+/// can never lose what the primitive's own test would have found.
+const MARGIN: f64 = 1e-12;
+
+impl Bvh {
+    /// Takes the primitives in.
+    pub fn new(primitives: Vec<Primitive>, acceleration: Acceleration) -> Self {
+        let Acceleration::Bvh { split, max_leaf_size } = acceleration else {
+            return Self { nodes: Vec::new(), primitives };
+        };
+        let mut items: Vec<Item> = primitives.iter().enumerate().map(item).collect();
+        let mut builder = Builder {
+            split,
+            max_leaf_size: max_leaf_size.max(1) as usize,
+            max_rule_depth: max_rule_depth(items.len()),
+            nodes: Vec::new(),
+        };
+        if !items.is_empty() {
+            builder.build(&mut items, 0, 0);
+        }
+        let in_leaf_order = items.iter().map(|item| primitives[item.primitive as usize]);
+        Self { nodes: builder.nodes, primitives: in_leaf_order.collect() }
+    }
+
+    /// The primitive with number `index` in the order of the leaves.
+    pub fn primitive(&self, index: usize) -> &Primitive {
+        &self.primitives[index]
+    }
+
+    /// The nearest crossing of `ray`, and the index of its primitive.
+    pub fn closest(&self, ray: &Ray, stats: &mut TraversalStats) -> Option<(usize, Crossing)> {
+        stats.rays += 1;
+        let mut search = Search { segment: *ray, found: None, stats };
+        match self.nodes.first() {
+            None => self.closest_among(0..self.primitives.len(), &mut search),
+            Some(root) => {
+                if search.enters(&root.bounds).is_some() {
+                    self.closest_below(root, &mut search);
+                }
+            }
+        }
+        search.found
+    }
+
+    /// Visits the nearer child first, and the other only if it begins before what was found by then.
+    fn closest_below(&self, node: &Node, search: &mut Search<'_>) {
+        match &node.content {
+            Content::Leaf(range) => self.closest_among(range.clone(), search),
+            Content::Inner(children) => {
+                for (enter, child) in self.near_to_far(*children, search).into_iter().flatten() {
+                    if enter <= search.segment.t_max {
+                        self.closest_below(child, search);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The children whose boxes the segment meets, with where it enters them.
+    fn near_to_far(
+        &self,
+        children: [usize; 2],
+        search: &mut Search<'_>,
+    ) -> [Option<(f64, &Node)>; 2] {
+        let [left, right] = children.map(|child| {
+            let node = &self.nodes[child];
+            search.enters(&node.bounds).map(|enter| (enter, node))
+        });
+        match (left, right) {
+            (Some((left_enter, _)), Some((right_enter, _))) if right_enter < left_enter => {
+                [right, left]
+            }
+            _ => [left, right],
+        }
+    }
+
+    /// Tests every primitive of a range; each one found shortens the segment for those after it.
+    fn closest_among(&self, range: Range<usize>, search: &mut Search<'_>) {
+        for (index, primitive) in range.clone().zip(&self.primitives[range]) {
+            search.stats.primitive_tests += 1;
+            if let Some(crossing) = primitive.form.intersect(&search.segment) {
+                search.segment.t_max = crossing.t;
+                search.found = Some((index, crossing));
+            }
+        }
+    }
+
+    /// Whether anything lies on the segment; stops at the first that does.
+    pub fn any(&self, ray: &Ray, stats: &mut TraversalStats) -> bool {
+        stats.rays += 1;
+        match self.nodes.first() {
+            None => self.any_among(0..self.primitives.len(), ray, stats),
+            Some(root) => self.any_below(root, ray, stats),
+        }
+    }
+
+    fn any_below(&self, node: &Node, ray: &Ray, stats: &mut TraversalStats) -> bool {
+        stats.box_tests += 1;
+        if intersect_box(&node.bounds, ray).is_none() {
+            return false;
+        }
+        match &node.content {
+            Content::Leaf(range) => self.any_among(range.clone(), ray, stats),
+            Content::Inner([left, right]) => {
+                self.any_below(&self.nodes[*left], ray, stats)
+                    || self.any_below(&self.nodes[*right], ray, stats)
+            }
+        }
+    }
+
+    fn any_among(&self, range: Range<usize>, ray: &Ray, stats: &mut TraversalStats) -> bool {
+        self.primitives[range].iter().any(|primitive| {
+            stats.primitive_tests += 1;
+            primitive.form.intersect(ray).is_some()
+        })
+    }
+
+    /// What the build made.
+    pub fn build_stats(&self) -> BuildStats {
+        let is_leaf = |node: &&Node| matches!(node.content, Content::Leaf(_));
+        BuildStats {
+            nodes: self.nodes.len() as u64,
+            leaves: self.nodes.iter().filter(is_leaf).count() as u64,
+            max_depth: self.nodes.first().map_or(0, |root| self.depth_below(root)),
+            bytes: size_of_val(self.nodes.as_slice()) as u64,
+        }
+    }
+
+    fn depth_below(&self, node: &Node) -> u64 {
+        match &node.content {
+            Content::Leaf(_) => 1,
+            Content::Inner(children) => {
+                let deepest = children.map(|child| self.depth_below(&self.nodes[child]));
+                1 + deepest[0].max(deepest[1])
+            }
+        }
+    }
+}
+
+/// One closest-hit query under way.
+struct Search<'a> {
+    /// The ray, up to the nearest crossing so far.
+    segment: Ray,
+    found: Option<(usize, Crossing)>,
+    stats: &'a mut TraversalStats,
+}
+
+impl Search<'_> {
+    /// Where the segment enters the box, if it does.
+    fn enters(&mut self, bounds: &Aabb) -> Option<f64> {
+        self.stats.box_tests += 1;
+        intersect_box(bounds, &self.segment).map(|(enter, _)| enter)
+    }
+}
+
+fn item((index, primitive): (usize, &Primitive)) -> Item {
+    let Aabb { min, max } = primitive.form.bounds();
+    let margin = MARGIN * primitive.form.reach().max_element();
+    let bounds = Aabb { min: min - margin, max: max + margin };
+    Item { primitive: index as u32, bounds, centroid: (min + max) / 2.0 }
+}
+
+/// Below this depth nodes are halved whatever the rule: points at 1, 1/2, 1/4, … would otherwise be split off one by
+/// one. Halving adds at most log₂ n levels more.
+fn max_rule_depth(primitives: usize) -> usize {
+    32 + primitives.max(1).ilog2() as usize
+}
+
+struct Builder {
+    split: Split,
+    max_leaf_size: usize,
+    max_rule_depth: usize,
+    nodes: Vec<Node>,
+}
+
+impl Builder {
+    /// Builds the node over `items`, the first of which stands at `first` in the order of leaves. Answers its number.
+    fn build(&mut self, items: &mut [Item], first: usize, depth: usize) -> usize {
+        let bounds = split::union(items.iter().map(|item| item.bounds));
+        let number = self.nodes.len();
+        self.nodes.push(Node { bounds, content: Content::Leaf(first..first + items.len()) });
+        if items.len() > self.max_leaf_size {
+            let left_count = self.divide(items, depth);
+            let (left, right) = items.split_at_mut(left_count);
+            let left = self.build(left, first, depth + 1);
+            let right = self.build(right, first + left_count, depth + 1);
+            self.nodes[number].content = Content::Inner([left, right]);
+        }
+        number
+    }
+
+    /// How many items go left: at least one, and not all.
+    fn divide(&self, items: &mut [Item], depth: usize) -> usize {
+        if depth >= self.max_rule_depth {
+            return split::halve(items);
+        }
+        match split::partition(self.split, items) {
+            0 => split::halve(items),
+            all if all == items.len() => split::halve(items),
+            left_count => left_count,
+        }
+    }
+}

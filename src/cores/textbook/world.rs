@@ -1,0 +1,283 @@
+//! The scene as rays see it: primitives to hit, materials at the hits, lights.
+
+use super::bvh::{Bvh, Form, Primitive};
+use super::frame::Frame;
+use super::intersect::{Ball, Crossing, Triangle};
+use super::light::Lamp;
+use crate::contract::{self, Acceleration, BuildStats, Hit, Ray, TraversalStats};
+use crate::scene::{self, Emission, Light, Rgb, SceneDescription, Surface};
+use glam::{DVec2, DVec3};
+
+/// A scene the core has taken in.
+#[derive(Debug)]
+pub struct World {
+    bvh: Bvh,
+    shapes: Vec<Shape>,
+    lights: Vec<Lamp>,
+}
+
+/// What all primitives of a shape share.
+#[derive(Debug)]
+struct Shape {
+    surface: Surface,
+    emission: Option<Emission>,
+    /// Normals of spheres point to the centre.
+    inward: bool,
+    /// Shading normals at the vertices of a mesh, or none.
+    normals: Vec<DVec3>,
+    /// The vertices of each triangle, where there are normals.
+    indices: Vec<[u32; 3]>,
+    /// The light that this shape is.
+    light: Option<usize>,
+}
+
+impl World {
+    /// Takes the scene in.
+    pub fn new(scene: &SceneDescription, acceleration: Acceleration) -> Self {
+        Self {
+            bvh: Bvh::new(primitives(scene), acceleration),
+            shapes: (0..scene.shape_count() as u32).map(|n| Shape::new(scene, n)).collect(),
+            lights: scene.lights.iter().map(|light| Lamp::new(light, scene)).collect(),
+        }
+    }
+
+    /// The lights, by number.
+    pub fn lights(&self) -> &[Lamp] {
+        &self.lights
+    }
+
+    /// What the build made.
+    pub fn build_stats(&self) -> BuildStats {
+        self.bvh.build_stats()
+    }
+
+    /// The nearest hit.
+    pub fn closest_hit(&self, ray: &Ray, stats: &mut TraversalStats) -> Option<Hit> {
+        let (index, crossing) = self.bvh.closest(ray, stats)?;
+        Some(self.hit(self.bvh.primitive(index), ray, crossing))
+    }
+
+    /// Whether anything lies on the segment.
+    pub fn any_hit(&self, ray: &Ray, stats: &mut TraversalStats) -> bool {
+        self.bvh.any(ray, stats)
+    }
+
+    /// What a ray sees.
+    pub fn look(&self, ray: &Ray) -> View<'_> {
+        let direction = ray.direction.normalize();
+        match self.bvh.closest(ray, &mut TraversalStats::default()) {
+            None => View::Sky(direction),
+            Some((index, crossing)) => {
+                let primitive = self.bvh.primitive(index);
+                let hit = self.hit(primitive, ray, crossing);
+                View::Surface(self.vertex(primitive, ray, hit, -direction))
+            }
+        }
+    }
+
+    /// Radiance of all skies from `direction`.
+    pub fn sky_radiance(&self, direction: DVec3) -> DVec3 {
+        self.lights.iter().map(|light| DVec3::from(light.sky_radiance(direction))).sum()
+    }
+
+    fn hit(&self, primitive: &Primitive, ray: &Ray, crossing: Crossing) -> Hit {
+        let shape = &self.shapes[primitive.shape as usize];
+        let normal = match &primitive.form {
+            Form::Triangle(triangle) => triangle.normal(),
+            Form::Ball(ball) if shape.inward => -ball.outward_normal(ray.at(crossing.t)),
+            Form::Ball(ball) => ball.outward_normal(ray.at(crossing.t)),
+        };
+        Hit {
+            t: crossing.t,
+            shape: primitive.shape,
+            primitive: primitive.number,
+            geometric_normal: normal,
+            shading_normal: shape.shading_normal(primitive.number, crossing.uv).unwrap_or(normal),
+            uv: crossing.uv,
+        }
+    }
+
+    fn vertex(&self, primitive: &Primitive, ray: &Ray, hit: Hit, to_viewer: DVec3) -> Vertex<'_> {
+        let shape = &self.shapes[primitive.shape as usize];
+        let frame = Frame::around(frame_normal(&shape.surface, &hit, to_viewer));
+        Vertex {
+            point: ray.at(hit.t),
+            normal: hit.geometric_normal,
+            wo: frame.to_local(to_viewer),
+            frame,
+            surface: &shape.surface,
+            emitted: shape.emitted(primitive, ray.at(hit.t), hit.geometric_normal, to_viewer),
+            light: shape.light.map(|light| &self.lights[light]),
+            clearance: clearance(primitive, ray, hit.t),
+        }
+    }
+}
+
+/// What a ray sees at its end.
+#[derive(Debug)]
+pub enum View<'a> {
+    /// The nearest surface.
+    Surface(Vertex<'a>),
+    /// Nothing: the sky in this direction (unit).
+    Sky(DVec3),
+}
+
+/// A point of a path on a surface.
+#[derive(Debug)]
+pub struct Vertex<'a> {
+    /// World space.
+    pub point: DVec3,
+    /// Geometric, unit, on the side that glows.
+    pub normal: DVec3,
+    /// The shading frame.
+    pub frame: Frame,
+    /// Back along the path, local, unit.
+    pub wo: DVec3,
+    /// How it scatters.
+    pub surface: &'a Surface,
+    /// Radiance it emits back along the path.
+    pub emitted: DVec3,
+    /// The light that the surface is.
+    pub light: Option<&'a Lamp>,
+    /// Rays that leave the point start this far away.
+    clearance: f64,
+}
+
+/// Share of the largest length involved by which rays keep clear of the surface they leave: far above the rounding
+/// of f64, far below anything that is seen.
+const CLEARANCE: f64 = 1e-10;
+
+impl Vertex<'_> {
+    /// The ray from here in the local direction `wi`.
+    pub fn ray(&self, wi: DVec3) -> Ray {
+        let direction = self.frame.to_world(wi);
+        Ray { t_min: self.clearance, ..Ray::new(self.point, direction) }
+    }
+
+    /// The ray to a point of a light `distance` away along the world direction `wi`. It stops short of the light,
+    /// which would shadow itself.
+    pub fn shadow_ray(&self, wi: DVec3, distance: f64) -> Ray {
+        let stop_short = self.clearance.max(CLEARANCE * distance);
+        let t_max = if distance.is_finite() { distance - stop_short } else { distance };
+        Ray { origin: self.point, t_min: self.clearance, direction: wi, t_max }
+    }
+}
+
+/// How far rays must keep clear of the point at `t`: its error grows with where the ray began, how far it came, and
+/// the coordinates of what it hit.
+fn clearance(primitive: &Primitive, ray: &Ray, t: f64) -> f64 {
+    let travelled = t * ray.direction;
+    let longest = ray.origin.abs().max(travelled.abs()).max(primitive.form.reach());
+    CLEARANCE * longest.max_element()
+}
+
+/// The shading normal; but glass has an inside, and where the shading normal disagrees with the geometric one about
+/// the side the ray is on, the latter is right.
+fn frame_normal(surface: &Surface, hit: &Hit, to_viewer: DVec3) -> DVec3 {
+    let agree = hit.shading_normal.dot(to_viewer) * hit.geometric_normal.dot(to_viewer) > 0.0;
+    if matches!(surface, Surface::Glass { .. }) && !agree {
+        hit.geometric_normal
+    } else {
+        hit.shading_normal
+    }
+}
+
+impl Shape {
+    fn new(scene: &SceneDescription, number: u32) -> Self {
+        let (inward, normals, indices) = match scene.shape(number) {
+            scene::Shape::Sphere(sphere) => (sphere.inward, Vec::new(), Vec::new()),
+            scene::Shape::Mesh(mesh) if mesh.normals.is_empty() => Default::default(),
+            scene::Shape::Mesh(mesh) => (false, mesh.normals.clone(), mesh.indices.clone()),
+        };
+        let material = scene.material_of(number);
+        let is_this = |light: &Light| *light == Light::Area { shape: number };
+        Self {
+            surface: material.surface,
+            emission: material.emission,
+            inward,
+            normals,
+            indices,
+            light: scene.lights.iter().position(is_this),
+        }
+    }
+
+    /// The normals of the vertices, weighted like their positions; `None` for flat faces and spheres.
+    fn shading_normal(&self, triangle: u32, uv: DVec2) -> Option<DVec3> {
+        let corners = self.indices.get(triangle as usize)?;
+        interpolate_normal(corners.map(|corner| self.normals[corner as usize]), uv)
+    }
+
+    /// Radiance that leaves `point` towards the viewer: from the front alone.
+    fn emitted(
+        &self,
+        primitive: &Primitive,
+        point: DVec3,
+        normal: DVec3,
+        to_viewer: DVec3,
+    ) -> DVec3 {
+        match &self.emission {
+            Some(emission) if is_front(normal, to_viewer) => {
+                emitted_at(emission, &primitive.form, point).into()
+            }
+            _ => DVec3::ZERO,
+        }
+    }
+}
+
+fn is_front(normal: DVec3, to_viewer: DVec3) -> bool {
+    normal.dot(to_viewer) > 0.0
+}
+
+fn emitted_at(emission: &Emission, form: &Form, point: DVec3) -> Rgb {
+    match form {
+        Form::Ball(ball) => emission.at_sphere_point(ball.outward_normal(point)),
+        Form::Triangle(_) => emission.radiance,
+    }
+}
+
+/// Barycentric interpolation: `uv` are the weights of vertices 1 and 2.
+fn interpolate_normal([n0, n1, n2]: [DVec3; 3], uv: DVec2) -> Option<DVec3> {
+    ((1.0 - uv.x - uv.y) * n0 + uv.x * n1 + uv.y * n2).try_normalize()
+}
+
+/// The hit of `ray` with a single primitive that belongs to no scene.
+pub fn hit_alone(primitive: &contract::Primitive, ray: &Ray) -> Option<Hit> {
+    let (crossing, normal, shading_normal) = match *primitive {
+        contract::Primitive::Triangle { positions, normals } => {
+            let triangle = Triangle::new(positions)?;
+            let crossing = triangle.intersect(ray)?;
+            (crossing, triangle.normal(), interpolate_normal(normals, crossing.uv))
+        }
+        contract::Primitive::Sphere { centre, radius } => {
+            let ball = Ball { centre, radius };
+            let crossing = ball.intersect(ray)?;
+            (crossing, ball.outward_normal(ray.at(crossing.t)), None)
+        }
+    };
+    Some(Hit {
+        t: crossing.t,
+        shape: 0,
+        primitive: 0,
+        geometric_normal: normal,
+        shading_normal: shading_normal.unwrap_or(normal),
+        uv: crossing.uv,
+    })
+}
+
+/// Everything that can be hit; triangles without area cannot.
+fn primitives(scene: &SceneDescription) -> Vec<Primitive> {
+    let mut primitives = Vec::with_capacity(scene.primitive_count());
+    for (shape, mesh) in (0..).zip(&scene.meshes) {
+        for number in 0..mesh.indices.len() {
+            if let Some(triangle) = Triangle::new(mesh.corners(number)) {
+                let form = Form::Triangle(triangle);
+                primitives.push(Primitive { form, shape, number: number as u32 });
+            }
+        }
+    }
+    for (shape, sphere) in (scene.meshes.len() as u32..).zip(&scene.spheres) {
+        let form = Form::Ball(Ball { centre: sphere.centre, radius: sphere.radius });
+        primitives.push(Primitive { form, shape, number: 0 });
+    }
+    primitives
+}

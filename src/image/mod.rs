@@ -1,4 +1,17 @@
-//! Pictures: linear RGB f32, row 0 on top.
+//! Pictures: linear RGB f32, row 0 on top. Reading, writing, showing and measuring them.
+//!
+//! Not here: whether two pictures agree. That is decided in `stats`; the [`metric`]s here inform and never grade.
+
+mod error;
+pub mod exr;
+pub mod heatmap;
+pub mod metric;
+pub mod png;
+mod relmse;
+mod rmse;
+pub mod tonemap;
+
+pub use error::ImageError;
 
 /// A picture of linear RGB radiance, row-major from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,4 +29,25 @@ impl Image {
     pub fn new(width: usize, height: usize, colour: [f32; 3]) -> Self {
         Self { width, height, pixels: vec![colour; width * height] }
     }
+
+    /// A picture whose pixel in column `x` of row `y` is `colour(x, y)`.
+    pub fn from_fn(
+        width: usize,
+        height: usize,
+        mut colour: impl FnMut(usize, usize) -> [f32; 3],
+    ) -> Self {
+        let positions = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        Self { width, height, pixels: positions.map(|(x, y)| colour(x, y)).collect() }
+    }
+
+    /// Whether both have the same width and height.
+    pub fn same_size(&self, other: &Image) -> bool {
+        (self.width, self.height) == (other.width, other.height)
+    }
+}
+
+/// Luminance of linear RGB with the primaries of Rec. 709.
+pub fn luminance(colour: [f32; 3]) -> f64 {
+    let [red, green, blue] = colour.map(f64::from);
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
 }

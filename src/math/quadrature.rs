@@ -32,7 +32,7 @@ const KRONROD_WEIGHTS: [f64; 8] = [
 const GAUSS_WEIGHTS: [f64; 4] = [
     0.129_484_966_168_869_7,
     0.279_705_391_489_276_64,
-    0.381_830_050_505_118_95,
+    0.381_830_050_505_118_9,
     0.417_959_183_673_469_4,
 ];
 /// Nodes of the full rule.
@@ -140,6 +140,9 @@ impl Rectangle {
     }
 }
 
+/// Writes its values at many points of the plane.
+pub type BatchIntegrand<'a, E> = dyn FnMut(&[DVec2], &mut [f64]) -> Result<(), E> + 'a;
+
 /// How hard [`integrate_rectangles`] tries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Diligence {
@@ -176,7 +179,7 @@ struct Estimate {
 pub fn integrate_rectangles<E>(
     rectangles: &[Rectangle],
     diligence: Diligence,
-    f: &mut dyn FnMut(&[DVec2], &mut [f64]) -> Result<(), E>,
+    f: &mut BatchIntegrand<'_, E>,
 ) -> Result<Vec<Integral>, E> {
     let mut sums = vec![Integral::default(); rectangles.len()];
     let mut open: Vec<Part> = rectangles
@@ -212,10 +215,7 @@ fn halved(part: &Part, along_x: bool) -> impl Iterator<Item = Part> {
     part.area.halves(along_x).into_iter().map(move |area| Part { owner, tolerance, area, halvings })
 }
 
-fn evaluate<E>(
-    parts: &[Part],
-    f: &mut dyn FnMut(&[DVec2], &mut [f64]) -> Result<(), E>,
-) -> Result<Vec<Estimate>, E> {
+fn evaluate<E>(parts: &[Part], f: &mut BatchIntegrand<'_, E>) -> Result<Vec<Estimate>, E> {
     let mut points = Vec::with_capacity(parts.len() * POINTS * POINTS);
     for part in parts {
         let centre = 0.5 * (part.area.low + part.area.high);

@@ -12,6 +12,9 @@ use std::f64::consts::TAU;
 /// A direction whose cosine is below zero by no more than single precision explains is on the horizon.
 const HORIZON: f64 = 1e-6;
 
+/// Writes its values, per steradian, for many unit directions.
+pub type BatchDensity<'a, E> = dyn FnMut(&[DVec3], &mut [f64]) -> Result<(), E> + 'a;
+
 /// A division of the sphere into cells: ring by ring from −z to +z, sector by sector within.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SphereCells {
@@ -106,7 +109,7 @@ impl SphereCells {
     pub fn probabilities<E>(
         &self,
         diligence: Diligence,
-        pdf: &mut dyn FnMut(&[DVec3], &mut [f64]) -> Result<(), E>,
+        pdf: &mut BatchDensity<'_, E>,
     ) -> Result<CellProbabilities, E> {
         let (owners, areas): (Vec<_>, Vec<_>) =
             (0..self.len()).flat_map(|cell| self.pieces(cell)).unzip();

@@ -28,7 +28,7 @@ pub use chi_square::{
 pub use claim::{Band, Claim, Sides};
 pub use count_report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};
 pub use exact::{Compared, ExactReport, Tolerance, Worst, judge_exact};
-pub use histogram::{CellProbabilities, Counts, SphereCells};
+pub use histogram::{BatchDensity, CellProbabilities, Counts, SphereCells};
 pub use ladder::{Draw, LEAF_FALSE_ALARM, STAGE_LEVEL, Stage, judge_means};
 pub use mean_report::{MeanReport, StageScore};
 pub use moments::Moments;

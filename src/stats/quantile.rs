@@ -48,7 +48,7 @@ pub fn noncentral_chi_square_tail(value: f64, freedom: f64, noncentrality: f64) 
 /// The noncentrality that a χ² test at `level` misses with probability `miss`.
 /// Infinite without any freedom.
 pub fn detectable_noncentrality(freedom: f64, level: f64, miss: f64) -> f64 {
-    if !(freedom > 0.0) {
+    if freedom.is_nan() || freedom <= 0.0 {
         return f64::INFINITY;
     }
     let critical = chi_square_upper(level, freedom);

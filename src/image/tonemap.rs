@@ -1,0 +1,79 @@
+//! From radiance to what a screen shows: exposure, then the sRGB curve. NaN is magenta, so that it is seen.
+
+use super::{Image, luminance, png::Picture};
+
+/// The colour of a pixel that is not a number.
+pub const NOT_A_NUMBER: [u8; 3] = [255, 0, 255];
+
+/// The share of pixels that the exposure of [`exposure_of`] keeps below white.
+const WHITE_PERCENTILE: f64 = 0.95;
+/// The linear value those pixels stay below.
+const WHITE: f64 = 0.8;
+
+/// Linear light in [0, 1] to an sRGB code (IEC 61966-2-1).
+pub fn srgb_code(linear: f32) -> u8 {
+    let clipped = linear.clamp(0.0, 1.0);
+    let encoded = if clipped <= 0.003_130_8 {
+        12.92 * clipped
+    } else {
+        1.055 * clipped.powf(1.0 / 2.4) - 0.055
+    };
+    // In [0, 255.5): the cast rounds to nearest and cannot overflow.
+    (255.0 * encoded + 0.5) as u8
+}
+
+/// The picture times 2^`stops`, clipped to white.
+pub fn tonemap(image: &Image, stops: f32) -> Picture {
+    let gain = stops.exp2();
+    let shown = |pixel: &[f32; 3]| {
+        if pixel.iter().any(|value| value.is_nan()) {
+            NOT_A_NUMBER
+        } else {
+            pixel.map(|value| srgb_code(gain * value))
+        }
+    };
+    let pixels = image.pixels.iter().map(shown).collect();
+    Picture { width: image.width, height: image.height, pixels }
+}
+
+/// Stops with which nearly all of a picture is bright and not clipped. Use that of the reference for both.
+pub fn exposure_of(image: &Image) -> f32 {
+    let mut values: Vec<f64> = image.pixels.iter().map(|pixel| luminance(*pixel)).collect();
+    values.retain(|value| value.is_finite() && *value > 0.0);
+    values.sort_by(f64::total_cmp);
+    let rank = (WHITE_PERCENTILE * values.len() as f64) as usize;
+    values.get(rank.min(values.len().saturating_sub(1))).map_or(0.0, |v| (WHITE / v).log2() as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // The codes that every sRGB table gives for these.
+    #[test]
+    fn the_curve_is_srgb() {
+        assert_eq!([0.0, 0.0021, 0.2158605, 0.5, 1.0].map(srgb_code), [0, 7, 128, 188, 255]);
+        assert_eq!([-1.0, 7.0, f32::INFINITY].map(srgb_code), [0, 255, 255]);
+    }
+
+    #[test]
+    fn one_stop_doubles() {
+        let image = Image::new(2, 1, [0.25; 3]);
+        assert_eq!(tonemap(&image, 1.0), tonemap(&Image::new(2, 1, [0.5; 3]), 0.0));
+    }
+
+    #[test]
+    fn nan_is_seen() {
+        let image = Image::new(1, 1, [0.5, f32::NAN, 0.5]);
+        assert_eq!(tonemap(&image, 0.0).pixels, [NOT_A_NUMBER]);
+    }
+
+    #[test]
+    fn the_exposure_brings_a_dim_picture_up_and_survives_a_black_one() {
+        let dim = Image::new(8, 8, [0.001; 3]);
+        let shown = 0.001 * exposure_of(&dim).exp2();
+        assert!((shown - 0.8).abs() < 1e-3);
+        assert_eq!(exposure_of(&Image::new(8, 8, [0.0; 3])), 0.0);
+        assert_eq!(exposure_of(&Image::new(8, 8, [f32::NAN; 3])), 0.0);
+    }
+}

@@ -8,6 +8,7 @@
 mod camera;
 mod light;
 mod material;
+pub mod procedural;
 mod shape;
 
 pub use camera::Camera;

@@ -33,8 +33,8 @@ impl Source {
         Diagnostic { source: self.clone(), span, message: message.into(), hint: None }
     }
 
-    /// The text as TOML of a given shape. Unknown keys and variants come back with the word that was
-    /// probably meant.
+    /// The text as TOML of a given shape. Unknown keys and variants come back with the word that
+    /// was probably meant.
     pub fn parse_toml<T: DeserializeOwned>(&self) -> Result<T, Diagnostic> {
         toml::from_str(&self.text).map_err(|error| self.toml_diagnostic(&error))
     }
@@ -85,8 +85,8 @@ impl Diagnostic {
         self.source.text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count() + 1
     }
 
-    /// The span, moved inside the text and cut at the end of its first line: a caret under ten lines of an
-    /// array says less than one under its first.
+    /// The span, moved inside the text and cut at the end of its first line: a caret under ten
+    /// lines of an array says less than one under its first.
     fn visible_span(&self) -> Range<usize> {
         let text = &self.source.text;
         let start = char_boundary(text, self.span.start);

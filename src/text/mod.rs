@@ -1,5 +1,5 @@
-//! What people write, and what they are told about it: messages that point into a file, and the values with
-//! units that scene files and case files share.
+//! What people write, and what they are told about it: messages that point into a file, and the
+//! values with units that scene files and case files share.
 //!
 //! Not here: what any key of a file means. Scenes and cases keep their own vocabulary.
 

@@ -6,12 +6,20 @@
 //! - Diffuse, mirror and conductor surfaces scatter on both sides; emission leaves the front side only.
 
 mod camera;
+mod error;
+mod file;
+pub mod hash;
+mod library;
 mod light;
 mod material;
+pub mod mesh;
 pub mod procedural;
 mod shape;
 
 pub use camera::Camera;
+pub use error::SceneError;
+pub use file::Overrides;
+pub use library::{Library, load_file};
 pub use light::Light;
 pub use material::{Cap, Emission, Material, Surface};
 pub use shape::{Aabb, Mesh, Sphere};

@@ -1,0 +1,53 @@
+//! `[camera]`
+
+use super::Context;
+use super::value::{Between, Direction, Positive, Vector};
+use crate::scene::Camera;
+use crate::text::{Angle, Diagnostic};
+use glam::DVec3;
+use serde::Deserialize;
+use std::f64::consts::PI;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(super) struct Entry {
+    position: Vector,
+    look_at: Spanned<Vector>,
+    /// Upwards in the picture; y unless said otherwise.
+    up: Option<Direction>,
+    horizontal_fov: Spanned<Angle>,
+    /// Square pixels unless said otherwise.
+    vertical_fov: Option<Spanned<Angle>>,
+    film: [Between<1, 65536>; 2],
+    near: Option<Positive>,
+    far: Option<Positive>,
+}
+
+impl Entry {
+    pub fn resolve(self, context: &Context<'_>) -> Result<Camera, Diagnostic> {
+        let up = self.up.map_or(DVec3::Y, |up| up.0);
+        let target = self.look_at.get_ref().0;
+        if (target - self.position.0).cross(up).try_normalize().is_none() {
+            let problem = "the camera looks at its own position, or straight along `up`";
+            return Err(context.wrong(self.look_at.span(), problem));
+        }
+        let horizontal_fov = field_of_view(&self.horizontal_fov, context)?;
+        let film = self.film.map(|pixels| pixels.0);
+        let mut camera = Camera::look_at(self.position.0, target, up, horizontal_fov, film);
+        if let Some(vertical_fov) = &self.vertical_fov {
+            camera.vertical_fov = field_of_view(vertical_fov, context)?;
+        }
+        camera.near = self.near.map_or(camera.near, |near| near.0);
+        camera.far = self.far.map_or(camera.far, |far| far.0);
+        Ok(camera)
+    }
+}
+
+fn field_of_view(angle: &Spanned<Angle>, context: &Context<'_>) -> Result<f64, Diagnostic> {
+    let Angle(radians) = *angle.get_ref();
+    let is_valid = radians > 0.0 && radians < PI;
+    is_valid
+        .then_some(radians)
+        .ok_or_else(|| context.wrong(angle.span(), "a field of view lies between 0 and 180 deg"))
+}

@@ -1,0 +1,92 @@
+//! `[[light]]`: the lights that are not shapes.
+
+use super::value::{Direction, Power, Vector};
+use super::{Context, exactly_one};
+use crate::scene::Light;
+use crate::text::Diagnostic;
+use serde::Deserialize;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(super) struct Entry {
+    point: Option<Point>,
+    directional: Option<Directional>,
+    constant_sky: Option<ConstantSky>,
+    gradient_sky: Option<GradientSky>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Point {
+    position: Vector,
+    intensity: Power,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Directional {
+    direction: Direction,
+    irradiance: Power,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct ConstantSky {
+    radiance: Power,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct GradientSky {
+    up: Direction,
+    horizon: Power,
+    zenith: Power,
+}
+
+pub(super) fn resolve_all(
+    entries: Vec<Spanned<Entry>>,
+    context: &Context<'_>,
+) -> Result<Vec<Light>, Diagnostic> {
+    let mut lights: Vec<Light> = Vec::new();
+    for entry in entries {
+        let span = entry.span();
+        let light = entry.into_inner().light();
+        let light = light.map_err(|problem| context.wrong(span.clone(), problem))?;
+        if is_sky(&light) && lights.iter().any(is_sky) {
+            return Err(context.wrong(span, "a scene has one sky at most, and this is the second"));
+        }
+        lights.push(light);
+    }
+    Ok(lights)
+}
+
+fn is_sky(light: &Light) -> bool {
+    matches!(light, Light::ConstantSky { .. } | Light::GradientSky { .. })
+}
+
+impl Entry {
+    fn light(self) -> Result<Light, String> {
+        let point = |Point { position, intensity }| Light::Point {
+            position: position.0,
+            intensity: intensity.0,
+        };
+        let directional = |Directional { direction, irradiance }| Light::Directional {
+            direction: direction.0,
+            irradiance: irradiance.0,
+        };
+        let constant = |ConstantSky { radiance }| Light::ConstantSky { radiance: radiance.0 };
+        let gradient = |GradientSky { up, horizon, zenith }| Light::GradientSky {
+            up: up.0,
+            horizon: horizon.0,
+            zenith: zenith.0,
+        };
+        let kinds = [
+            ("point", self.point.map(point)),
+            ("directional", self.directional.map(directional)),
+            ("constant-sky", self.constant_sky.map(constant)),
+            ("gradient-sky", self.gradient_sky.map(gradient)),
+        ];
+        exactly_one("a light", kinds)
+    }
+}

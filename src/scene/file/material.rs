@@ -1,0 +1,145 @@
+//! `[material.<name>]`
+
+use super::value::{Direction, Positive, Power, Reflectance, Roughness};
+use super::{Context, exactly_one};
+use crate::scene::{Cap, Emission, Material, Surface};
+use crate::text::{Angle, Diagnostic, did_you_mean, listed};
+use serde::Deserialize;
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::ops::Range;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(super) struct Entry {
+    diffuse: Option<Reflectance>,
+    mirror: Option<Reflectance>,
+    glass: Option<Glass>,
+    conductor: Option<Conductor>,
+    emission: Option<Power>,
+    cap: Option<Spanned<CapEntry>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Glass {
+    index: Positive,
+    reflectance: Option<Reflectance>,
+    transmittance: Option<Reflectance>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Conductor {
+    reflectance: Reflectance,
+    roughness: Roughness,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct CapEntry {
+    axis: Direction,
+    half_angle: Angle,
+}
+
+/// The materials of a file, numbered by the alphabet, and which of them were asked for.
+pub(super) struct Materials(Vec<Named>);
+
+struct Named {
+    material: Material,
+    /// Where the file defines it.
+    span: Range<usize>,
+    is_used: Cell<bool>,
+}
+
+pub(super) fn resolve_all(
+    entries: BTreeMap<String, Spanned<Entry>>,
+    context: &Context<'_>,
+) -> Result<Materials, Diagnostic> {
+    let resolve = |(name, entry): (String, Spanned<Entry>)| {
+        let span = entry.span();
+        let surface = entry.get_ref().surface();
+        let surface = surface.map_err(|problem| context.wrong(span.clone(), problem))?;
+        let emission = entry.into_inner().emission(context)?;
+        let material = Material { name, surface, emission };
+        Ok(Named { material, span, is_used: Cell::new(false) })
+    };
+    entries.into_iter().map(resolve).collect::<Result<_, _>>().map(Materials)
+}
+
+impl Materials {
+    /// Number and content of the material that a shape names.
+    pub fn find(
+        &self,
+        name: &Spanned<String>,
+        context: &Context<'_>,
+    ) -> Result<(u32, &Material), Diagnostic> {
+        let wanted = name.get_ref();
+        let number = self.0.iter().position(|named| named.material.name == *wanted);
+        let number = number.ok_or_else(|| {
+            let names = || self.0.iter().map(|named| named.material.name.as_str());
+            let problem = format!("there is no material `{wanted}`, only {}", listed(names()));
+            context.wrong(name.span(), problem).with_hint_if_any(did_you_mean(wanted, names()))
+        })?;
+        self.0[number].is_used.set(true);
+        Ok((number as u32, &self.0[number].material))
+    }
+
+    /// The materials themselves. One that no shape asked for is a mistake.
+    pub fn into_scene(self, context: &Context<'_>) -> Result<Vec<Material>, Diagnostic> {
+        let keep = |named: Named| match named.is_used.get() {
+            true => Ok(named.material),
+            false => {
+                let problem = format!("no shape is made of `{}`", named.material.name);
+                Err(context.wrong(named.span, problem))
+            }
+        };
+        self.0.into_iter().map(keep).collect()
+    }
+}
+
+impl Entry {
+    fn surface(&self) -> Result<Surface, String> {
+        let white = Reflectance([1.0; 3]);
+        let diffuse = |share: &Reflectance| Surface::Diffuse { reflectance: share.0 };
+        let mirror = |share: &Reflectance| Surface::Mirror { reflectance: share.0 };
+        let glass = |glass: &Glass| Surface::Glass {
+            index: glass.index.0,
+            reflectance: glass.reflectance.unwrap_or(white).0,
+            transmittance: glass.transmittance.unwrap_or(white).0,
+        };
+        let conductor = |conductor: &Conductor| Surface::Conductor {
+            reflectance: conductor.reflectance.0,
+            roughness: conductor.roughness.0,
+        };
+        let kinds = [
+            ("diffuse", self.diffuse.as_ref().map(diffuse)),
+            ("mirror", self.mirror.as_ref().map(mirror)),
+            ("glass", self.glass.as_ref().map(glass)),
+            ("conductor", self.conductor.as_ref().map(conductor)),
+        ];
+        exactly_one("a material", kinds)
+    }
+
+    /// How it glows. An emission of zero is none: parameters can put a light out.
+    fn emission(self, context: &Context<'_>) -> Result<Option<Emission>, Diagnostic> {
+        let radiance = self.emission.map(|power| power.0);
+        if let (None, Some(cap)) = (radiance, &self.cap) {
+            return Err(context.wrong(cap.span(), "a `cap` says which part glows: add `emission`"));
+        }
+        let cap = self.cap.map(|cap| resolve_cap(&cap, context)).transpose()?;
+        let lit = radiance.filter(|radiance| *radiance != [0.0; 3]);
+        Ok(lit.map(|radiance| Emission { radiance, cap }))
+    }
+}
+
+fn resolve_cap(cap: &Spanned<CapEntry>, context: &Context<'_>) -> Result<Cap, Diagnostic> {
+    let CapEntry { axis, half_angle: Angle(half_angle) } = cap.get_ref();
+    if *half_angle > 0.0 && *half_angle < PI {
+        Ok(Cap { axis: axis.0, half_angle: *half_angle })
+    } else {
+        Err(context.wrong(cap.span(), "the half angle of a cap lies between 0 and 180 deg"))
+    }
+}

@@ -1,0 +1,143 @@
+//! `scenes/<name>.toml` → [`SceneDescription`].
+//!
+//! One file a part of the vocabulary: `camera`, `material`, `shape`, `light`. `value` has the
+//! numbers that are checked as they are read, `parameter` puts values in for `"$name"`.
+//!
+//! ```toml
+//! title  = "A sphere that glows inside"
+//! source = "Closed form"
+//!
+//! [parameters]
+//! albedo = 0.5                 # a case may say otherwise
+//!
+//! [camera]
+//! position       = [0, 0, 0]
+//! look-at        = [0, 0, -1]
+//! horizontal-fov = "60 deg"
+//! film           = [128, 96]
+//!
+//! [material.wall]
+//! diffuse  = "$albedo"
+//! emission = 1
+//!
+//! [[shape]]
+//! name     = "room"
+//! material = "wall"
+//! sphere   = { centre = [0, 0, 0], radius = 1, inward = true }
+//! ```
+
+mod camera;
+mod geometry;
+mod light;
+mod material;
+mod parameter;
+mod shape;
+mod value;
+
+use super::{SceneDescription, SceneError};
+use crate::text::{Diagnostic, Source, listed};
+use parameter::Parameters;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+use toml::Spanned;
+use toml::de::DeTable;
+
+/// Values that a case gives to parameters of a scene, by name.
+pub type Overrides = toml::Table;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct SceneFile {
+    /// For people.
+    #[serde(rename = "title")]
+    _title: String,
+    /// Where the scene, or the number it is known by, comes from.
+    #[serde(rename = "source")]
+    _source: String,
+    camera: Option<camera::Entry>,
+    #[serde(default)]
+    material: BTreeMap<String, Spanned<material::Entry>>,
+    #[serde(default)]
+    shape: Vec<Spanned<shape::Entry>>,
+    #[serde(default)]
+    light: Vec<Spanned<light::Entry>>,
+}
+
+/// What every part of the vocabulary needs in order to resolve itself or to complain.
+struct Context<'a> {
+    source: &'a Source,
+    /// Mesh files are named relative to this folder.
+    folder: &'a Path,
+}
+
+impl Context<'_> {
+    fn wrong(&self, span: Range<usize>, message: impl Into<String>) -> Diagnostic {
+        self.source.diagnostic(span, message)
+    }
+}
+
+/// The scene that `source` describes. `name` is what it will be called.
+pub(super) fn parse(
+    name: &str,
+    source: &Source,
+    folder: &Path,
+    overrides: &Overrides,
+) -> Result<SceneDescription, SceneError> {
+    let (file, parameters) = read(name, source, overrides)?;
+    let context = Context { source, folder };
+    resolve(name, file, &context).map_err(|diagnostic| parameters.explain(diagnostic).into())
+}
+
+fn read(
+    name: &str,
+    source: &Source,
+    overrides: &Overrides,
+) -> Result<(SceneFile, Parameters), SceneError> {
+    let complain = |error: toml::de::Error| source.toml_diagnostic(&error);
+    let parameters = Parameters::read(name, source, overrides)?;
+    let mut document = DeTable::parse(&source.text).map_err(complain)?;
+    parameters.substitute(source, document.get_mut())?;
+    let file = SceneFile::deserialize(toml::Deserializer::from(document))
+        .map_err(|error| parameters.explain(complain(error)))?;
+    Ok((file, parameters))
+}
+
+fn resolve(
+    name: &str,
+    file: SceneFile,
+    context: &Context<'_>,
+) -> Result<SceneDescription, Diagnostic> {
+    let mut scene = SceneDescription { name: name.to_owned(), ..SceneDescription::default() };
+    scene.camera = file.camera.map(|camera| camera.resolve(context)).transpose()?;
+    let materials = material::resolve_all(file.material, context)?;
+    shape::resolve_all(file.shape, &materials, context, &mut scene)?;
+    scene.materials = materials.into_scene(context)?;
+    scene.lights = light::resolve_all(file.light, context)?;
+    Ok(scene.with_area_lights())
+}
+
+/// The one entry that is there: the file says `diffuse = …` or `mirror = …`, never both and never
+/// neither.
+fn exactly_one<T>(
+    what: &str,
+    entries: impl IntoIterator<Item = (&'static str, Option<T>)>,
+) -> Result<T, String> {
+    let (mut words, mut given) = (Vec::new(), Vec::new());
+    for (word, entry) in entries {
+        words.push(word);
+        given.extend(entry.map(|entry| (word, entry)));
+    }
+    if given.len() > 1 {
+        let both = given.iter().map(|(word, _)| format!("`{word}`")).collect::<Vec<_>>();
+        return Err(format!("{what} is one thing only, but this says {}", both.join(" and ")));
+    }
+    match given.pop() {
+        Some((_, entry)) => Ok(entry),
+        None => Err(format!("{what} needs one of {}", listed(words))),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,205 @@
+//! `[[shape]]`: what it is, where it stands, and what it is made of.
+
+use super::geometry::{
+    Ball, Block, BumpySphere, Geometry, Icosphere, Pathological, Quad, Soup, Sphereflake, Teapot,
+    Triangles, from_file,
+};
+use super::material::Materials;
+use super::value::{Direction, Positive, Vector};
+use super::{Context, exactly_one};
+use crate::scene::mesh::{Format, Shading};
+use crate::scene::{Material, Mesh, SceneDescription, Sphere};
+use crate::text::{Angle, Diagnostic};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use serde::Deserialize;
+use std::collections::HashSet;
+use std::ops::Range;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(super) struct Entry {
+    name: Spanned<String>,
+    material: Spanned<String>,
+    transform: Option<Spanned<Transform>>,
+    shading: Option<Spanned<Shading>>,
+
+    quad: Option<Spanned<Quad>>,
+    r#box: Option<Spanned<Block>>,
+    triangles: Option<Spanned<Triangles>>,
+    obj: Option<Spanned<String>>,
+    ply: Option<Spanned<String>>,
+    stl: Option<Spanned<String>>,
+    sphere: Option<Ball>,
+    icosphere: Option<Icosphere>,
+    bumpy_sphere: Option<BumpySphere>,
+    sphereflake: Option<Sphereflake>,
+    teapot: Option<Teapot>,
+    soup: Option<Soup>,
+    pathological: Option<Pathological>,
+}
+
+/// Applied in this order: scale, rotate, translate.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Transform {
+    scale: Option<Positive>,
+    rotate: Option<Rotation>,
+    #[serde(default)]
+    translate: Vector,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Rotation {
+    axis: Direction,
+    angle: Angle,
+}
+
+/// Appends the shapes of the file to `scene`.
+pub(super) fn resolve_all(
+    entries: Vec<Spanned<Entry>>,
+    materials: &Materials,
+    context: &Context<'_>,
+    scene: &mut SceneDescription,
+) -> Result<(), Diagnostic> {
+    let mut names = HashSet::new();
+    for entry in entries {
+        let span = entry.span();
+        let entry = entry.into_inner();
+        if !names.insert(entry.name.get_ref().clone()) {
+            let problem = format!("there is another shape `{}`", entry.name.get_ref());
+            return Err(context.wrong(entry.name.span(), problem));
+        }
+        entry.resolve(span, materials, context, scene)?;
+    }
+    Ok(())
+}
+
+impl Entry {
+    fn resolve(
+        mut self,
+        span: Range<usize>,
+        materials: &Materials,
+        context: &Context<'_>,
+        scene: &mut SceneDescription,
+    ) -> Result<(), Diagnostic> {
+        let (number, material) = materials.find(&self.material, context)?;
+        let geometry = self.take_geometry(span, context)?;
+        let transform = self.transform.map(Spanned::into_inner).unwrap_or_default();
+        match geometry {
+            Geometry::Mesh(mut mesh) => {
+                transform.place_mesh(&mut mesh);
+                if let Some(shading) = &self.shading {
+                    shading.get_ref().apply(&mut mesh);
+                }
+                check_light(&mesh, material)
+                    .map_err(|problem| context.wrong(self.material.span(), problem))?;
+                (mesh.name, mesh.material) = (self.name.into_inner(), number);
+                scene.meshes.push(mesh);
+            }
+            Geometry::Spheres(mut spheres) => {
+                if let Some(shading) = &self.shading {
+                    return Err(context.wrong(shading.span(), "`shading` is for triangles"));
+                }
+                name_spheres(&mut spheres, self.name.get_ref());
+                for mut sphere in spheres {
+                    transform.place_sphere(&mut sphere);
+                    sphere.material = number;
+                    scene.spheres.push(sphere);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The one key that makes triangles or spheres.
+    fn take_geometry(
+        &mut self,
+        span: Range<usize>,
+        context: &Context<'_>,
+    ) -> Result<Geometry, Diagnostic> {
+        let file = |name: Option<Spanned<String>>, format| {
+            name.map(|name| from_file(name, format, context))
+        };
+        let kinds = [
+            ("quad", checked(self.quad.take(), Quad::make, context)),
+            ("box", checked(self.r#box.take(), Block::make, context)),
+            ("triangles", checked(self.triangles.take(), Triangles::make, context)),
+            ("obj", file(self.obj.take(), Format::Obj)),
+            ("ply", file(self.ply.take(), Format::Ply)),
+            ("stl", file(self.stl.take(), Format::Stl)),
+            ("sphere", self.sphere.take().map(|ball| Ok(ball.make()))),
+            ("icosphere", self.icosphere.take().map(|sphere| Ok(sphere.make()))),
+            ("bumpy-sphere", self.bumpy_sphere.take().map(|sphere| Ok(sphere.make()))),
+            ("sphereflake", self.sphereflake.take().map(|flake| Ok(flake.make()))),
+            ("teapot", self.teapot.take().map(|teapot| Ok(teapot.make()))),
+            ("soup", self.soup.take().map(|soup| Ok(soup.make()))),
+            ("pathological", self.pathological.take().map(|mesh| Ok(mesh.make()))),
+        ];
+        exactly_one("a shape", kinds).map_err(|problem| context.wrong(span, problem))?
+    }
+}
+
+/// A geometry that can be wrong in ways its numbers alone do not show.
+fn checked<T>(
+    entry: Option<Spanned<T>>,
+    make: fn(T) -> Result<Geometry, String>,
+    context: &Context<'_>,
+) -> Option<Result<Geometry, Diagnostic>> {
+    entry.map(|entry| {
+        let span = entry.span();
+        make(entry.into_inner()).map_err(|problem| context.wrong(span, problem))
+    })
+}
+
+/// Whether a mesh can glow as its material says.
+fn check_light(mesh: &Mesh, material: &Material) -> Result<(), String> {
+    let Some(emission) = material.emission else { return Ok(()) };
+    if emission.cap.is_some() {
+        return Err(format!("`{}` glows on a `cap`, and only spheres have one", material.name));
+    }
+    let area: f64 = (0..mesh.indices.len()).map(|triangle| mesh.area(triangle)).sum();
+    if area > 0.0 { Ok(()) } else { Err("a shape without area cannot glow".to_owned()) }
+}
+
+/// One sphere takes the shape's name, several take it with their number.
+fn name_spheres(spheres: &mut [Sphere], name: &str) {
+    if let [only] = spheres {
+        only.name = name.to_owned();
+    } else {
+        for (number, sphere) in spheres.iter_mut().enumerate() {
+            sphere.name = format!("{name}/{number}");
+        }
+    }
+}
+
+impl Transform {
+    fn affine(&self) -> DAffine3 {
+        let rotation = self.rotation();
+        let scaled = DMat3::from_quat(rotation) * self.scale();
+        DAffine3 { matrix3: scaled, translation: self.translate.0 }
+    }
+
+    fn rotation(&self) -> DQuat {
+        self.rotate.as_ref().map_or(DQuat::IDENTITY, |rotation| {
+            DQuat::from_axis_angle(rotation.axis.0, rotation.angle.0)
+        })
+    }
+
+    fn scale(&self) -> f64 {
+        self.scale.map_or(1.0, |scale| scale.0)
+    }
+
+    fn place_mesh(&self, mesh: &mut Mesh) {
+        let (affine, rotation) = (self.affine(), self.rotation());
+        let place = |point: &mut DVec3| *point = affine.transform_point3(*point);
+        mesh.positions.iter_mut().for_each(place);
+        mesh.normals.iter_mut().for_each(|normal| *normal = rotation * *normal);
+    }
+
+    fn place_sphere(&self, sphere: &mut Sphere) {
+        sphere.centre = self.affine().transform_point3(sphere.centre);
+        sphere.radius *= self.scale();
+    }
+}

@@ -1,0 +1,332 @@
+//! Meshes from files, through libraries, and checked: what comes out of here can be handed to any
+//! core.
+//!
+//! Not here: where a mesh stands in the scene, and what it is made of.
+
+use super::Mesh;
+use glam::DVec3;
+use ply_rs_bw::parser::Parser;
+use ply_rs_bw::ply::{DefaultElement, Property};
+use serde::Deserialize;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// Why a mesh is not one. A lowercase fragment that fits after the name of the file.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshError {
+    /// The file is not there, or may not be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(#[from] std::io::Error),
+    /// The library does not understand the file.
+    #[error("is not a valid {format} file: {problem}")]
+    Malformed {
+        /// OBJ, PLY or STL.
+        format: &'static str,
+        /// In the library's words.
+        problem: String,
+    },
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {triangle} refers to vertex {index}, but there are only {vertices} vertices")]
+    NoSuchVertex {
+        /// Counted from 0.
+        triangle: usize,
+        /// What it says.
+        index: u32,
+        /// How many there are.
+        vertices: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("vertex {0} has a coordinate that is not a finite number")]
+    NotFinite(usize),
+    /// A normal is NaN, infinite, or has no direction.
+    #[error("the normal of vertex {0} has no direction")]
+    NoDirection(usize),
+    /// Some vertices have normals and some have none.
+    #[error("there are {normals} normals for {vertices} vertices")]
+    NormalCount {
+        /// How many normals.
+        normals: usize,
+        /// How many vertices.
+        vertices: usize,
+    },
+    /// No triangles at all.
+    #[error("has no triangles")]
+    Empty,
+}
+
+/// The file formats that can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront.
+    Obj,
+    /// Stanford.
+    Ply,
+    /// Stereolithography.
+    Stl,
+}
+
+/// Which normals a mesh shades with, where a scene file says so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shading {
+    /// Those of the triangles.
+    Flat,
+    /// Those of the vertices: the mean over the triangles around each.
+    Smooth,
+}
+
+impl Shading {
+    /// Drops or computes the vertex normals of `mesh`.
+    pub fn apply(self, mesh: &mut Mesh) {
+        mesh.normals = match self {
+            Self::Flat => Vec::new(),
+            Self::Smooth => smooth_normals(mesh),
+        };
+    }
+}
+
+/// The mesh in a file: all its parts as one, polygons cut into fans, vertex normals if the file has
+/// them.
+pub fn load(path: &Path, format: Format) -> Result<Mesh, MeshError> {
+    let mut mesh = match format {
+        Format::Obj => load_obj(path),
+        Format::Ply => load_ply(path),
+        Format::Stl => load_stl(path),
+    }?;
+    check(&mesh)?;
+    mesh.normals.iter_mut().for_each(|normal| *normal = normal.normalize());
+    Ok(mesh)
+}
+
+/// That every index names a vertex, every number is finite, and every normal has a direction.
+pub fn check(mesh: &Mesh) -> Result<(), MeshError> {
+    let vertices = mesh.positions.len();
+    for (triangle, corners) in mesh.indices.iter().enumerate() {
+        if let Some(&index) = corners.iter().find(|index| **index as usize >= vertices) {
+            return Err(MeshError::NoSuchVertex { triangle, index, vertices });
+        }
+    }
+    if let Some(vertex) = mesh.positions.iter().position(|position| !position.is_finite()) {
+        return Err(MeshError::NotFinite(vertex));
+    }
+    if !mesh.normals.is_empty() && mesh.normals.len() != vertices {
+        return Err(MeshError::NormalCount { normals: mesh.normals.len(), vertices });
+    }
+    if let Some(vertex) = mesh.normals.iter().position(|normal| normal.try_normalize().is_none()) {
+        return Err(MeshError::NoDirection(vertex));
+    }
+    if mesh.indices.is_empty() { Err(MeshError::Empty) } else { Ok(()) }
+}
+
+/// One unit normal a vertex: the mean over the triangles around it, each weighted by its angle
+/// there, so that the normal does not depend on how a polygon was cut (Thürmer and Wüthrich 1998).
+pub fn smooth_normals(mesh: &Mesh) -> Vec<DVec3> {
+    let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
+    for (triangle, indices) in mesh.indices.iter().enumerate() {
+        let corners = mesh.corners(triangle);
+        let [a, b, c] = corners;
+        let face_normal = (b - a).cross(c - a).normalize_or_zero();
+        for (corner, &index) in indices.iter().enumerate() {
+            let here = corners[corner];
+            let angle =
+                (corners[(corner + 1) % 3] - here).angle_between(corners[(corner + 2) % 3] - here);
+            if angle.is_finite() {
+                normals[index as usize] += angle * face_normal;
+            }
+        }
+    }
+    // A vertex without triangles, or between two that face each other, is never shaded by its own
+    // normal.
+    normals.into_iter().map(|normal| normal.normalize_or(DVec3::Y)).collect()
+}
+
+fn load_obj(path: &Path) -> Result<Mesh, MeshError> {
+    let options = tobj::LoadOptions { triangulate: true, single_index: true, ..Default::default() };
+    let without_materials = |_: &Path| Ok(Default::default());
+    let mut reader = BufReader::new(File::open(path)?);
+    let (models, _) = tobj::load_obj_buf(&mut reader, &options, without_materials)
+        .map_err(|problem| malformed("OBJ", &problem))?;
+    let mut mesh = Mesh::default();
+    for model in models {
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend(points(&model.mesh.positions));
+        mesh.normals.extend(points(&model.mesh.normals));
+        let (triangles, _) = model.mesh.indices.as_chunks::<3>();
+        mesh.indices.extend(triangles.iter().map(|corners| corners.map(|i| first + i)));
+    }
+    Ok(mesh)
+}
+
+fn points(coordinates: &[f32]) -> impl Iterator<Item = DVec3> {
+    let (points, _) = coordinates.as_chunks::<3>();
+    points.iter().map(|point| DVec3::from_array(point.map(f64::from)))
+}
+
+fn load_stl(path: &Path) -> Result<Mesh, MeshError> {
+    let mut reader = BufReader::new(File::open(path)?);
+    let stl = stl_io::read_stl(&mut reader).map_err(|problem| malformed("STL", &problem))?;
+    let index = |vertex: usize| {
+        u32::try_from(vertex).map_err(|_| malformed("STL", &"more vertices than 2³²"))
+    };
+    let triangle = |face: &stl_io::IndexedTriangle| {
+        let [a, b, c] = face.vertices;
+        Ok([index(a)?, index(b)?, index(c)?])
+    };
+    Ok(Mesh {
+        positions: stl.vertices.iter().map(|v| DVec3::from_array(v.0.map(f64::from))).collect(),
+        indices: stl.faces.iter().map(triangle).collect::<Result<_, MeshError>>()?,
+        ..Mesh::default()
+    })
+}
+
+fn load_ply(path: &Path) -> Result<Mesh, MeshError> {
+    let ply = Parser::<DefaultElement>::new()
+        .read_ply(&mut File::open(path)?)
+        .map_err(|problem| malformed("PLY", &problem))?;
+    let elements = |name: &'static str| {
+        ply.payload.get(name).ok_or_else(|| malformed("PLY", &format!("it has no `{name}`")))
+    };
+    let vertices = elements("vertex")?;
+    let has_normals = vertices.first().is_some_and(|vertex| vertex.contains_key("nx"));
+    let mut mesh = Mesh::default();
+    for vertex in vertices {
+        mesh.positions.push(ply_vector(vertex, ["x", "y", "z"])?);
+        if has_normals {
+            mesh.normals.push(ply_vector(vertex, ["nx", "ny", "nz"])?);
+        }
+    }
+    for face in elements("face")? {
+        let corners = ply_corners(face)?;
+        let fan = corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]);
+        mesh.indices.extend(fan);
+    }
+    Ok(mesh)
+}
+
+fn ply_vector(element: &DefaultElement, names: [&str; 3]) -> Result<DVec3, MeshError> {
+    let number = |name: &str| match element.get(name) {
+        Some(Property::Double(number)) => Some(*number),
+        Some(property) => property.to_f32_lossy().map(f64::from),
+        None => None,
+    };
+    let missing = |name| malformed("PLY", &format!("a vertex has no number `{name}`"));
+    let mut vector = DVec3::ZERO;
+    for (axis, name) in names.into_iter().enumerate() {
+        vector[axis] = number(name).ok_or_else(|| missing(name))?;
+    }
+    Ok(vector)
+}
+
+fn ply_corners(face: &DefaultElement) -> Result<Vec<u32>, MeshError> {
+    let list = face.get("vertex_indices").or_else(|| face.get("vertex_index"));
+    list.and_then(Property::to_u32_list)
+        .ok_or_else(|| malformed("PLY", &"a face has no valid list `vertex_indices`"))
+}
+
+fn malformed(format: &'static str, problem: &impl std::fmt::Display) -> MeshError {
+    MeshError::Malformed { format, problem: problem.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::procedural::{block, icosphere};
+
+    fn written(text: &str) -> tempfile::NamedTempFile {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        file
+    }
+
+    fn loaded(text: &str, format: Format) -> Result<Mesh, String> {
+        load(written(text).path(), format).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn an_obj_keeps_its_polygons_its_parts_and_its_normals() {
+        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 2\no a\nf 1//1 2//1 3//1 4//1\n\
+                    o b\nf 1//1 2//1 3//1\n";
+        let mesh = loaded(text, Format::Obj).unwrap();
+        assert_eq!(mesh.indices.len(), 3);
+        assert_eq!(mesh.normals.len(), mesh.positions.len());
+        assert!(mesh.normals.iter().all(|normal| *normal == DVec3::Z), "made unit length");
+    }
+
+    #[test]
+    fn a_ply_keeps_its_doubles() {
+        let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n\
+                    property double z\nelement face 1\nproperty list uchar int vertex_indices\n\
+                    end_header\n0.1 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+        let mesh = loaded(text, Format::Ply).unwrap();
+        assert_eq!(mesh.positions[0].x, 0.1);
+        assert_eq!(mesh.indices, [[0, 1, 2], [0, 2, 3]]);
+        assert!(mesh.normals.is_empty());
+    }
+
+    #[test]
+    fn an_stl_shares_its_vertices() {
+        let facet = |a: &str, b: &str, c: &str| {
+            format!(
+                "facet normal 0 0 1\nouter loop\nvertex {a}\nvertex {b}\nvertex {c}\nendloop\n\
+                 endfacet\n"
+            )
+        };
+        let text = format!(
+            "solid s\n{}{}endsolid s\n",
+            facet("0 0 0", "1 0 0", "1 1 0"),
+            facet("0 0 0", "1 1 0", "0 1 0")
+        );
+        let mesh = loaded(&text, Format::Stl).unwrap();
+        assert_eq!((mesh.positions.len(), mesh.indices.len()), (4, 2));
+    }
+
+    #[test]
+    fn an_index_beyond_the_last_vertex_is_named() {
+        let text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+                    property float z\nelement face 1\nproperty list uchar int vertex_indices\n\
+                    end_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 7\n";
+        let message = loaded(text, Format::Ply).unwrap_err();
+        assert_eq!(message, "triangle 0 refers to vertex 7, but there are only 3 vertices");
+        let message = loaded("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", Format::Obj).unwrap_err();
+        assert!(message.contains("not a valid OBJ file"), "{message}");
+    }
+
+    #[test]
+    fn a_coordinate_that_is_not_a_number_is_refused() {
+        let message = loaded("v 0 0 nan\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", Format::Obj).unwrap_err();
+        assert!(message.contains("vertex 0"), "{message}");
+    }
+
+    #[test]
+    fn a_normal_without_direction_is_refused() {
+        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 0\nf 1//1 2//1 3//1\n";
+        let message = loaded(text, Format::Obj).unwrap_err();
+        assert!(message.contains("no direction"), "{message}");
+    }
+
+    #[test]
+    fn an_empty_a_broken_and_a_missing_file_are_three_errors() {
+        assert_eq!(loaded("", Format::Obj).unwrap_err(), "has no triangles");
+        assert!(loaded("ply\nrubbish\n", Format::Ply).unwrap_err().contains("PLY"));
+        assert!(loaded("solid?", Format::Stl).unwrap_err().contains("STL"));
+        let missing = load(Path::new("no/such.obj"), Format::Obj).unwrap_err();
+        assert!(matches!(missing, MeshError::Unreadable(_)));
+    }
+
+    #[test]
+    fn smooth_normals_of_a_sphere_point_along_its_radii() {
+        let sphere = icosphere(3);
+        for (normal, position) in smooth_normals(&sphere).iter().zip(&sphere.positions) {
+            assert!(normal.dot(*position) > 0.999);
+        }
+    }
+
+    #[test]
+    fn smooth_normals_do_not_depend_on_how_a_square_was_cut() {
+        let cube = block(-DVec3::ONE, DVec3::ONE, false);
+        for (normal, corner) in smooth_normals(&cube).iter().zip(&cube.positions) {
+            assert!(normal.abs_diff_eq(corner.normalize(), 1e-15), "{normal} at {corner}");
+        }
+    }
+}

@@ -89,3 +89,57 @@ pub fn load_file(path: &Path, overrides: &Overrides) -> Result<SceneDescription,
     let folder = path.parent().unwrap_or(Path::new(""));
     file::parse(&name, &source, folder, overrides)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn library() -> Library {
+        Library::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"))
+    }
+
+    fn every_scene() -> Vec<Arc<SceneDescription>> {
+        let library = library();
+        let load = |name: String| library.load(&name, &Overrides::new());
+        let scenes = library.names().unwrap().into_iter().map(load);
+        scenes.map(|scene| scene.unwrap_or_else(|error| panic!("{error}"))).collect()
+    }
+
+    #[test]
+    fn every_scene_of_the_suite_loads_and_has_a_camera() {
+        let scenes = every_scene();
+        assert!(scenes.len() > 30);
+        assert!(scenes.iter().all(|scene| scene.camera.is_some()));
+    }
+
+    #[test]
+    fn scenes_stay_where_single_precision_is_good() {
+        // Renderers offset rays by a share of the coordinates: beyond 10 it starts to show.
+        for scene in every_scene() {
+            if let Some(bounds) = scene.bounds() {
+                let furthest = bounds.min.abs().max(bounds.max.abs()).max_element();
+                assert!(furthest <= 10.0, "{} reaches {furthest}", scene.name);
+            }
+        }
+    }
+
+    #[test]
+    fn a_scene_is_read_once_for_each_set_of_overrides() {
+        let library = library();
+        let with = |text: &str| library.load("sphere-furnace", &toml::from_str(text).unwrap());
+        let plain = with("").unwrap();
+        assert!(Arc::ptr_eq(&plain, &with("").unwrap()));
+        let dark = with("albedo = 0").unwrap();
+        assert!(!Arc::ptr_eq(&plain, &dark));
+        assert_ne!(plain.materials, dark.materials);
+    }
+
+    #[test]
+    fn a_scene_that_is_not_there_is_answered_with_the_one_that_was_meant() {
+        let message = library().load("sphere-furnice", &Overrides::new()).unwrap_err().to_string();
+        assert!(message.starts_with("there is no scene `sphere-furnice` in `"), "{message}");
+        assert!(message.ends_with("hint: did you mean `sphere-furnace`?"), "{message}");
+        let message = library().load("zzz", &Overrides::new()).unwrap_err().to_string();
+        assert!(message.contains("hint: there are `area-light-plane`, "), "{message}");
+    }
+}

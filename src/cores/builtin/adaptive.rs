@@ -1,0 +1,94 @@
+//! When a pixel has enough samples: the course's rule, in double precision.
+
+use crate::contract::{AdaptiveMean, AdaptiveSettings};
+
+/// Half the width of a 95 % interval in standard errors.
+const HALF_WIDTH: f64 = 1.96;
+
+/// Running mean and variance of the luminances of one pixel (Welford 1962), which unlike sums of squares
+/// gives exactly zero for a constant.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Luminances {
+    count: u32,
+    mean: f64,
+    squares: f64,
+}
+
+impl Luminances {
+    /// Takes one more sample in.
+    pub fn add(&mut self, luminance: f64) {
+        self.count += 1;
+        let deviation = luminance - self.mean;
+        self.mean += deviation / f64::from(self.count);
+        self.squares += deviation * (luminance - self.mean);
+    }
+
+    /// Whether a batch is complete and 1.96 σ/√n ≤ tolerance · μ, with σ over n − 1.
+    pub fn suffice(&self, settings: AdaptiveSettings) -> bool {
+        let at_end_of_batch = self.count.is_multiple_of(settings.samples_per_batch.max(1));
+        at_end_of_batch && self.half_interval() <= settings.max_tolerance * self.mean
+    }
+
+    /// 1.96 standard errors of the mean; unknown (NaN) before the second sample.
+    fn half_interval(&self) -> f64 {
+        let count = f64::from(self.count);
+        let variance = self.squares / (count - 1.0);
+        HALF_WIDTH * (variance / count).sqrt()
+    }
+}
+
+/// Luminance of linear RGB, by the weights of Rec. 709.
+pub fn luminance([red, green, blue]: [f64; 3]) -> f64 {
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
+}
+
+/// What the rule makes of one stream of luminances that ends at the sample cap.
+pub fn mean_of_stream(settings: AdaptiveSettings, stream: &[f64]) -> AdaptiveMean {
+    let mut luminances = Luminances::default();
+    let mut sum = 0.0;
+    for &sample in stream {
+        luminances.add(sample);
+        sum += sample;
+        if luminances.suffice(settings) {
+            break;
+        }
+    }
+    let used = luminances.count;
+    AdaptiveMean { mean: sum / f64::from(used.max(1)), used, reserved: 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn used(pattern: &[f64], max_tolerance: f64, samples_per_batch: u32) -> AdaptiveMean {
+        let stream: Vec<f64> = pattern.iter().copied().cycle().take(2048).collect();
+        mean_of_stream(AdaptiveSettings { samples_per_batch, max_tolerance }, &stream)
+    }
+
+    // By hand: σ² over n − 1 of the first n values of the pattern, n a multiple of the batch.
+    #[test]
+    fn known_streams_stop_where_the_rule_says() {
+        assert_eq!(used(&[1.0, 3.0, 0.5, 1.0, 1.0], 0.5, 2).used, 10);
+        assert_eq!(used(&[0.5, 1.5], 0.05, 32).used, 416);
+        assert_eq!(used(&[0.7], 0.05, 32).used, 32);
+        assert_eq!(used(&[0.0], 0.05, 32).used, 32);
+    }
+
+    #[test]
+    fn the_mean_is_that_of_the_samples_used() {
+        let answer = used(&[1.0, 3.0, 0.5, 1.0, 1.0], 0.5, 2);
+        assert_eq!(answer.mean, 1.3);
+    }
+
+    #[test]
+    fn a_stream_that_never_settles_is_used_up() {
+        let answer = used(&[0.0, 10.0], 1e-9, 32);
+        assert_eq!((answer.used, answer.mean), (2048, 5.0));
+    }
+
+    #[test]
+    fn not_a_number_never_suffices() {
+        assert_eq!(used(&[f64::NAN], 0.05, 32).used, 2048);
+    }
+}

@@ -1,0 +1,132 @@
+//! Light that is scattered once between a light and the viewer of a vertex.
+
+use super::integrator::Integrator;
+use super::light::Light;
+use super::scatter::rgb;
+use super::scatter::warp;
+use super::vertex::Vertex;
+use crate::contract::{DirectSampling, LightSample};
+use glam::{DVec3, Vec3};
+
+impl Integrator<'_> {
+    /// An estimate of the radiance that the vertex scatters towards its viewer from all lights, without what
+    /// the directions of a glossy surface find for themselves.
+    pub(super) fn direct_light(&mut self, vertex: &Vertex<'_>) -> Vec3 {
+        let by_hemisphere = self.settings.direct == DirectSampling::Hemisphere;
+        let world = self.eye.world;
+        let mut radiance = Vec3::ZERO;
+        for light in &world.lights {
+            if light.is_delta() || !by_hemisphere {
+                radiance += self.gather_light(vertex, light);
+            }
+        }
+        if by_hemisphere { radiance + self.gather_directions(vertex) } else { radiance }
+    }
+
+    /// The mean over the samples that the light gets: one, if no direction meets it by chance.
+    fn gather_light(&mut self, vertex: &Vertex<'_>, light: &Light) -> Vec3 {
+        let samples = if light.is_delta() { 1 } else { self.settings.samples_per_light };
+        let sum: Vec3 = (0..samples).map(|_| self.gather_light_sample(vertex, light)).sum();
+        sum / samples.max(1) as f32
+    }
+
+    fn gather_light_sample(&mut self, vertex: &Vertex<'_>, light: &Light) -> Vec3 {
+        let (point, lobe) = (self.stream.point(), self.stream.unit());
+        let aim = light.aim_from_surface(vertex.position, vertex.normal, point, lobe);
+        let unoccluded = self.weigh(vertex, light, &aim.sample);
+        if unoccluded == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let shadow_ray = match aim.target {
+            Some(target) => vertex.reach(aim.sample.wi, target),
+            None => vertex.leave(aim.sample.wi),
+        };
+        if self.eye.is_blocked(&shadow_ray) { Vec3::ZERO } else { unoccluded }
+    }
+
+    /// Scattered radiance of a light sample if nothing is in between.
+    fn weigh(&self, vertex: &Vertex<'_>, light: &Light, sample: &LightSample) -> Vec3 {
+        if sample.is_valid == 0 || sample.radiance == [0.0; 3] {
+            return Vec3::ZERO;
+        }
+        let local = vertex.to_local(sample.wi);
+        if !vertex.is_consistent(sample.wi, local) {
+            return Vec3::ZERO;
+        }
+        let (f, pdf) = vertex.bsdf.evaluate(vertex.wo, local);
+        // In double precision, because nearby points on a sphere see each other at grazing angles.
+        let cosine = sample.wi.dot(vertex.normal).max(0.0);
+        let share = if vertex.bsdf.is_glossy() && !light.is_delta() && self.combines() {
+            power_heuristic(self.light_density(sample.pdf), f64::from(pdf))
+        } else {
+            1.0
+        };
+        let irradiance = sample.radiance.map(|channel| channel * (share * cosine / sample.pdf));
+        f * rgb(irradiance)
+    }
+
+    /// Uniform directions over the hemisphere, and what glows where they arrive.
+    fn gather_directions(&mut self, vertex: &Vertex<'_>) -> Vec3 {
+        let reachable = self.eye.world.lights.iter().filter(|light| !light.is_delta()).count();
+        let samples = (self.settings.samples_per_light * reachable as u32).max(1);
+        let sum: Vec3 = (0..samples).map(|_| self.gather_direction(vertex)).sum();
+        sum / samples as f32
+    }
+
+    fn gather_direction(&mut self, vertex: &Vertex<'_>) -> Vec3 {
+        let local = warp::uniform_hemisphere(warp::narrow_point(self.stream.point()));
+        let wi = vertex.to_world(local);
+        if !vertex.is_consistent(wi, local) {
+            return Vec3::ZERO;
+        }
+        let (f, _) = vertex.bsdf.evaluate(vertex.wo, local);
+        if f == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let seen = match self.eye.nearest(&vertex.leave(wi)) {
+            Some(surface) => self.eye.world.emitted(&surface, -wi),
+            None => self.eye.world.sky(wi),
+        };
+        f * seen * (local.z / warp::UNIFORM_DENSITY)
+    }
+
+    /// Whether light samples and directions of glossy surfaces are combined.
+    pub(super) fn combines(&self) -> bool {
+        self.settings.direct == DirectSampling::Lights
+    }
+
+    /// Density of all samples that a light gets together.
+    pub(super) fn light_density(&self, pdf: f64) -> f64 {
+        pdf * f64::from(self.settings.samples_per_light)
+    }
+}
+
+/// The share of a sample drawn with density `own` where another technique draws with density `other` (Veach and
+/// Guibas 1995, β = 2). Both may be infinite or zero, not both.
+pub fn power_heuristic(own: f64, other: f64) -> f64 {
+    let ratio = other / own;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+/// Where a direction of a glossy surface came from, for the share that its find gets.
+#[derive(Clone, Copy)]
+pub struct GlossyDirection {
+    /// The vertex that it left.
+    pub from: DVec3,
+    /// The normal there.
+    pub normal: DVec3,
+    /// The density of the direction.
+    pub pdf: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_of_both_techniques_add_up_to_one() {
+        for (own, other) in [(1.0, 1.0), (3.0, 0.2), (1e30, 1e-30), (2.0, 0.0)] {
+            assert_eq!(power_heuristic(own, other) + power_heuristic(other, own), 1.0);
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Paths: one estimate of the radiance along a ray.
+//!
+//! Bounce k is light that was scattered k times. At a diffuse or rough vertex the next bounce is gathered by
+//! sampling lights (`direct.rs`), and the path goes on in a direction sampled from the BSDF; what glows where
+//! that arrives has been gathered already and is not added again. A mirror or glass cannot be gathered for, so
+//! what glows behind it is added when the path gets there. Directions of a rough conductor are combined with
+//! the light samples by the power heuristic, because either alone is noisy.
+
+use super::direct::{GlossyDirection, power_heuristic};
+use super::random::Stream;
+use super::scatter::warp;
+use super::trace::Surface;
+use super::vertex::Vertex;
+use super::world::{Eye, World};
+use crate::contract::{IntegratorSettings, Ray};
+use glam::{DVec3, Vec3};
+
+/// Traces paths, one after the other.
+pub struct Integrator<'a> {
+    pub(super) eye: Eye<'a>,
+    pub(super) settings: &'a IntegratorSettings,
+    pub(super) stream: Stream,
+}
+
+/// What counts of the light that a ray of the path meets.
+enum Sight {
+    /// All of it: the camera's ray, and rays from mirrors and glass.
+    All,
+    /// Nothing: the vertex has sampled the lights.
+    Nothing,
+    /// The share that the light samples have left to it.
+    Share(GlossyDirection),
+}
+
+/// A path on its way.
+struct Path {
+    ray: Ray,
+    /// What radiance at the end of `ray` is worth at the camera.
+    throughput: Vec3,
+    sight: Sight,
+}
+
+impl<'a> Integrator<'a> {
+    /// Paths in `world`, none traced yet.
+    pub fn new(world: &'a World, settings: &'a IntegratorSettings) -> Self {
+        Self { eye: Eye::new(world), settings, stream: Stream::new(settings.seed, 0, 0) }
+    }
+
+    /// One estimate of the radiance along `ray`, by the numbers of `stream`.
+    pub fn radiance(&mut self, ray: &Ray, stream: Stream) -> Vec3 {
+        self.stream = stream;
+        let (first, last) = (*self.settings.bounces.start(), *self.settings.bounces.end());
+        let mut path = Path { ray: *ray, throughput: Vec3::ONE, sight: Sight::All };
+        let mut radiance = Vec3::ZERO;
+        for bounce in 0..=last {
+            let wo = -path.ray.direction.normalize();
+            let surface = self.eye.nearest(&path.ray);
+            if bounce >= first {
+                radiance += path.throughput * self.glow(surface.as_ref(), wo, &path.sight);
+            }
+            let Some(surface) = surface.filter(|_| bounce < last) else { break };
+            let world = self.eye.world;
+            let vertex = Vertex::new(&surface, world.bsdf(&surface), wo);
+            if bounce + 1 >= first && !vertex.bsdf.is_delta() {
+                radiance += path.throughput * self.direct_light(&vertex);
+            }
+            let Some(next) = self.go_on(path.throughput, &vertex, bounce + 1) else { break };
+            path = next;
+        }
+        radiance
+    }
+
+    /// What counts of the light that is emitted towards `wo` by a surface, or by the sky if there is none.
+    fn glow(&self, surface: Option<&Surface>, wo: DVec3, sight: &Sight) -> Vec3 {
+        let world = self.eye.world;
+        match (sight, surface) {
+            (Sight::Nothing, _) => Vec3::ZERO,
+            (Sight::All, Some(surface)) => world.emitted(surface, wo),
+            (Sight::All, None) => world.sky(-wo),
+            (Sight::Share(direction), Some(surface)) => {
+                let share = world.light_of(surface).map_or(1.0, |light| {
+                    let pdf = light.density(direction.from, direction.normal, -wo, Some(surface));
+                    power_heuristic(direction.pdf, self.light_density(pdf))
+                });
+                world.emitted(surface, wo) * share as f32
+            }
+            (Sight::Share(direction), None) => {
+                let pdf = direction.normal.dot(-wo).max(0.0) * std::f64::consts::FRAC_1_PI;
+                world.sky(-wo) * power_heuristic(direction.pdf, self.light_density(pdf)) as f32
+            }
+        }
+    }
+
+    /// The path beyond a vertex where the light of `bounce` is scattered, if it is wanted and survives.
+    fn go_on(&mut self, throughput: Vec3, vertex: &Vertex<'_>, bounce: u32) -> Option<Path> {
+        let (first, last) = (*self.settings.bounces.start(), *self.settings.bounces.end());
+        let carries_further = bounce < last || vertex.bsdf.is_delta();
+        let shares = vertex.bsdf.is_glossy() && self.combines() && bounce >= first;
+        if !(carries_further || shares) {
+            return None;
+        }
+        let survival = if carries_further { self.play_roulette(bounce)? } else { 1.0 };
+        let (point, lobe) = (self.stream.point(), self.stream.unit());
+        let scattering =
+            vertex.bsdf.sample(vertex.wo, warp::narrow_point(point), warp::narrow(lobe))?;
+        let wi = vertex.to_world(scattering.wi);
+        let throughput = throughput * scattering.weight / survival;
+        if !vertex.is_consistent(wi, scattering.wi) || throughput == Vec3::ZERO {
+            return None;
+        }
+        let sight = if vertex.bsdf.is_delta() {
+            Sight::All
+        } else if shares {
+            let (from, normal) = (vertex.position, vertex.normal);
+            Sight::Share(GlossyDirection { from, normal, pdf: f64::from(scattering.pdf) })
+        } else {
+            Sight::Nothing
+        };
+        Some(Path { ray: vertex.leave(wi), throughput, sight })
+    }
+
+    /// The probability with which the path got over the `continuation`-th vertex, if it did.
+    fn play_roulette(&mut self, continuation: u32) -> Option<f32> {
+        match self.settings.roulette {
+            Some(roulette) if continuation > roulette.guaranteed => {
+                let survives = self.stream.unit() >= roulette.stop;
+                survives.then_some((1.0 - roulette.stop) as f32)
+            }
+            _ => Some(1.0),
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Pictures and lists of estimates, on as many threads as allowed. Every pixel and every ray has its own random
+//! numbers and its own sum, so the answer does not depend on the threads.
+
+use super::adaptive::{Luminances, luminance};
+use super::camera::Pinhole;
+use super::integrator::Integrator;
+use super::random::Stream;
+use super::world::World;
+use crate::contract::{CoreError, Film, IntegratorSettings, Ray, RenderSettings, Result};
+use crate::scene::Camera;
+use rayon::prelude::*;
+
+/// Rays or pixels that one thread takes at a time.
+const PORTION: usize = 64;
+
+/// One estimate for each ray.
+pub fn radiance(
+    world: &World,
+    rays: &[Ray],
+    settings: &IntegratorSettings,
+    radiance: &mut [[f64; 3]],
+) -> Result<()> {
+    let estimate = |integrator: &mut Integrator<'_>, index: usize, answer: &mut [f64; 3]| {
+        let stream = Stream::new(settings.seed, index as u64, 0);
+        *answer = integrator.radiance(&rays[index], stream).as_dvec3().to_array();
+    };
+    let count = rays.len().min(radiance.len());
+    for_each(world, settings, &mut radiance[..count], estimate)
+}
+
+/// A picture.
+pub fn render(
+    world: &World,
+    camera: &Camera,
+    settings: &RenderSettings,
+    film: &mut Film,
+) -> Result<()> {
+    let pinhole = Pinhole::new(camera);
+    let mut pixels = vec![([0.0; 3], 0); (settings.width * settings.height) as usize];
+    let develop = |integrator: &mut Integrator<'_>, index: usize, pixel: &mut ([f32; 3], u32)| {
+        *pixel = develop_pixel(integrator, &pinhole, settings, index as u32);
+    };
+    for_each(world, &settings.integrator, &mut pixels, develop)?;
+    (film.width, film.height) = (settings.width, settings.height);
+    (film.pixels, film.sample_counts) = pixels.into_iter().unzip();
+    Ok(())
+}
+
+/// Mean radiance of a pixel, and the samples that it took.
+fn develop_pixel(
+    integrator: &mut Integrator<'_>,
+    pinhole: &Pinhole,
+    settings: &RenderSettings,
+    index: u32,
+) -> ([f32; 3], u32) {
+    let size = [settings.width, settings.height];
+    let place = [index % settings.width, index / settings.width];
+    let (mut sum, mut luminances, mut used) = ([0.0; 3], Luminances::default(), 0);
+    while used < settings.samples_per_pixel {
+        let mut stream =
+            Stream::new(settings.integrator.seed, u64::from(index), 1 + u64::from(used));
+        let ray = pinhole.ray_through_pixel(place, size, stream.point());
+        let sample = integrator.radiance(&ray, stream).as_dvec3().to_array();
+        // Sums in double precision: the mean of equal samples is that sample, whatever their number.
+        sum = std::array::from_fn(|channel| sum[channel] + sample[channel]);
+        used += 1;
+        luminances.add(luminance(sample));
+        if settings.adaptive.is_some_and(|adaptive| luminances.suffice(adaptive)) {
+            break;
+        }
+    }
+    (sum.map(|channel| (channel / f64::from(used.max(1))) as f32), used)
+}
+
+/// Does `work` for each element, with its index, on the threads that `settings` allow.
+fn for_each<T: Send>(
+    world: &World,
+    settings: &IntegratorSettings,
+    elements: &mut [T],
+    work: impl Fn(&mut Integrator<'_>, usize, &mut T) + Sync,
+) -> Result<()> {
+    let portion = |integrator: &mut Integrator<'_>, number: usize, elements: &mut [T]| {
+        for (offset, element) in elements.iter_mut().enumerate() {
+            work(integrator, number * PORTION + offset, element);
+        }
+    };
+    let new_integrator = || Integrator::new(world, settings);
+    let in_parallel = |elements: &mut [T]| {
+        let portions = elements.par_chunks_mut(PORTION).enumerate();
+        portions.for_each_init(new_integrator, |integrator, (number, elements)| {
+            portion(integrator, number, elements);
+        });
+    };
+    match settings.threads {
+        0 => in_parallel(elements),
+        1 => {
+            let mut integrator = new_integrator();
+            for (number, elements) in elements.chunks_mut(PORTION).enumerate() {
+                portion(&mut integrator, number, elements);
+            }
+        }
+        threads => {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build();
+            let pool = pool.map_err(|error| CoreError::Refused(format!("no threads: {error}")))?;
+            pool.install(|| in_parallel(elements));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,171 @@
+//! How surfaces scatter, in the local frame whose +z is the shading normal on the front side.
+//!
+//! Diffuse, mirror and conductor are the same seen from behind. Weights of samples, `f · |cos| / pdf`, are worked
+//! out with their cosines cancelled, so that a white furnace loses nothing to rounding.
+
+use super::conductor::Conductor;
+use super::glass::Glass;
+use super::warp;
+use crate::scene::{Rgb, Surface};
+use glam::{Vec2, Vec3, vec3};
+use std::f32::consts::FRAC_1_PI;
+
+/// A surface's scattering with its constants in single precision.
+#[derive(Clone, Debug)]
+pub enum Bsdf {
+    /// f = reflectance/π.
+    Diffuse {
+        /// Share of light that is scattered.
+        reflectance: Vec3,
+    },
+    /// Reflection about the normal.
+    Mirror {
+        /// Share of light that is reflected.
+        reflectance: Vec3,
+    },
+    /// A smooth interface.
+    Glass(Glass),
+    /// GGX microfacets.
+    Conductor(Conductor),
+}
+
+/// A sampled direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scattering {
+    /// Towards the light, local frame, unit.
+    pub wi: Vec3,
+    /// `f · |cos θi| / pdf`, RGB.
+    pub weight: Vec3,
+    /// Density per steradian; for a delta lobe the probability of having chosen it.
+    pub pdf: f32,
+}
+
+/// Linear RGB in single precision.
+pub fn rgb(colour: Rgb) -> Vec3 {
+    Vec3::from_array(colour.map(|channel| channel as f32))
+}
+
+impl Bsdf {
+    /// Takes the constants over.
+    pub fn new(surface: &Surface) -> Self {
+        match *surface {
+            Surface::Diffuse { reflectance } => Self::Diffuse { reflectance: rgb(reflectance) },
+            Surface::Mirror { reflectance } => Self::Mirror { reflectance: rgb(reflectance) },
+            Surface::Glass { index, reflectance, transmittance } => {
+                Self::Glass(Glass::new(index, rgb(reflectance), rgb(transmittance)))
+            }
+            Surface::Conductor { reflectance, roughness } => {
+                Self::Conductor(Conductor::new(rgb(reflectance), roughness as f32))
+            }
+        }
+    }
+
+    /// Whether all light goes into single directions, which no light sample can meet.
+    pub const fn is_delta(&self) -> bool {
+        matches!(self, Self::Mirror { .. } | Self::Glass(_))
+    }
+
+    /// Whether directions sampled here are worth combining with light samples.
+    pub const fn is_glossy(&self) -> bool {
+        matches!(self, Self::Conductor(_))
+    }
+
+    /// `f` (RGB, without the cosine) and the density of [`Self::sample`]. Delta lobes answer zero.
+    pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
+        let is_same_side = (wo.z > 0.0 && wi.z > 0.0) || (wo.z < 0.0 && wi.z < 0.0);
+        match self {
+            Self::Diffuse { reflectance } if is_same_side => {
+                (*reflectance * FRAC_1_PI, warp::cosine_density(wi.z.abs()))
+            }
+            Self::Conductor(conductor) if is_same_side => {
+                conductor.evaluate(upward(wo, wo), upward(wi, wo))
+            }
+            _ => (Vec3::ZERO, 0.0),
+        }
+    }
+
+    /// A direction for `wo`, by two random numbers, and by a third that chooses between lobes; `None` if the
+    /// sample is to count as zero.
+    pub fn sample(&self, wo: Vec3, point: Vec2, lobe: f32) -> Option<Scattering> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        let scattering = match self {
+            Self::Diffuse { reflectance } => {
+                let wi = warp::cosine_hemisphere(point);
+                Scattering { wi, weight: *reflectance, pdf: warp::cosine_density(wi.z) }
+            }
+            Self::Mirror { reflectance } => {
+                let wi = vec3(-wo.x, -wo.y, wo.z.abs());
+                Scattering { wi, weight: *reflectance, pdf: 1.0 }
+            }
+            Self::Conductor(conductor) => conductor.sample(upward(wo, wo), point)?,
+            Self::Glass(glass) => return glass.sample(wo, lobe),
+        };
+        Some(Scattering { wi: upward(scattering.wi, wo), ..scattering })
+    }
+}
+
+/// `w` turned over if `wo` is behind the surface: there, and back again.
+fn upward(w: Vec3, wo: Vec3) -> Vec3 {
+    if wo.z < 0.0 { vec3(w.x, w.y, -w.z) } else { w }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GREY: Rgb = [0.37, 0.53, 0.71];
+
+    fn direction(degrees: f32) -> Vec3 {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        vec3(sine * 0.6, sine * 0.8, cosine)
+    }
+
+    #[test]
+    fn a_diffuse_surface_reflects_its_reflectance_from_both_sides() {
+        let bsdf = Bsdf::new(&Surface::Diffuse { reflectance: GREY });
+        for wo in [direction(30.0), -direction(30.0)] {
+            let sample = bsdf.sample(wo, Vec2::new(0.3, 0.8), 0.0).expect("a direction");
+            assert_eq!(sample.weight, rgb(GREY));
+            assert!(sample.wi.z * wo.z > 0.0, "on the side of {wo}");
+            let (f, pdf) = bsdf.evaluate(wo, sample.wi);
+            assert!(((f * sample.wi.z.abs() / pdf) - rgb(GREY)).length() < 1e-6);
+            assert_eq!(pdf, sample.pdf);
+        }
+    }
+
+    #[test]
+    fn a_reflecting_surface_transmits_nothing() {
+        for surface in [
+            Surface::Diffuse { reflectance: GREY },
+            Surface::Conductor { reflectance: GREY, roughness: 0.3 },
+        ] {
+            let value = Bsdf::new(&surface).evaluate(direction(20.0), -direction(50.0));
+            assert_eq!(value, (Vec3::ZERO, 0.0), "{surface:?}");
+        }
+    }
+
+    #[test]
+    fn a_mirror_reflects_about_the_normal() {
+        let bsdf = Bsdf::new(&Surface::Mirror { reflectance: [0.83; 3] });
+        let sample = bsdf.sample(vec3(0.6, 0.0, 0.8), Vec2::ZERO, 0.0).expect("a direction");
+        assert_eq!((sample.wi, sample.weight), (vec3(-0.6, 0.0, 0.8), Vec3::splat(0.83)));
+        assert_eq!(bsdf.evaluate(vec3(0.6, 0.0, 0.8), sample.wi), (Vec3::ZERO, 0.0));
+    }
+
+    #[test]
+    fn reflection_is_reciprocal() {
+        for surface in [
+            Surface::Diffuse { reflectance: GREY },
+            Surface::Conductor { reflectance: GREY, roughness: 0.2 },
+        ] {
+            let bsdf = Bsdf::new(&surface);
+            for (one, other) in [(10.0, 70.0), (5.0, 85.0), (40.0, 41.0)] {
+                let (a, b) = (direction(one), direction(-other));
+                let (forth, back) = (bsdf.evaluate(a, b).0, bsdf.evaluate(b, a).0);
+                assert!(((forth - back) / forth).length() < 2e-6, "{surface:?} {one} {other}");
+            }
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! A smooth interface between vacuum (the side of the normal) and glass, with the exact Fresnel equations.
+//! Radiance over index squared is conserved, so radiance itself changes when it crosses.
+
+use super::bsdf::Scattering;
+use glam::{Vec3, vec3};
+
+/// A smooth interface.
+#[derive(Clone, Debug)]
+pub struct Glass {
+    index: f32,
+    reflectance: Vec3,
+    transmittance: Vec3,
+}
+
+impl Glass {
+    /// `index` of refraction inside; the colours multiply what Fresnel's equations say.
+    pub const fn new(index: f64, reflectance: Vec3, transmittance: Vec3) -> Self {
+        Self { index: index as f32, reflectance, transmittance }
+    }
+
+    /// Reflects with the probability of the Fresnel reflectance, `lobe` below it, and refracts otherwise.
+    pub fn sample(&self, wo: Vec3, lobe: f32) -> Option<Scattering> {
+        // Index on the far side of the interface over that on the side of `wo`.
+        let index = if wo.z > 0.0 { self.index } else { 1.0 / self.index };
+        let sine_square = (wo.x * wo.x + wo.y * wo.y) / (index * index);
+        let cosine_beyond = (1.0 - sine_square).max(0.0).sqrt();
+        let reflected = if sine_square < 1.0 {
+            fresnel_reflectance(wo.z.abs(), cosine_beyond, index)
+        } else {
+            1.0
+        };
+        if lobe < reflected {
+            let wi = vec3(-wo.x, -wo.y, wo.z);
+            return Some(Scattering { wi, weight: self.reflectance, pdf: reflected });
+        }
+        let wi = vec3(-wo.x / index, -wo.y / index, -cosine_beyond.copysign(wo.z)).normalize();
+        // Radiance arrives from the far side and leaves on this one: L/n² is what is carried over.
+        let weight = self.transmittance / (index * index);
+        (cosine_beyond > 0.0).then_some(Scattering { wi, weight, pdf: 1.0 - reflected })
+    }
+}
+
+/// Unpolarised reflectance for cosines on this side and beyond, and the index beyond over that on this side.
+fn fresnel_reflectance(cosine: f32, cosine_beyond: f32, index: f32) -> f32 {
+    let perpendicular = (cosine - index * cosine_beyond) / (cosine + index * cosine_beyond);
+    let parallel = (index * cosine - cosine_beyond) / (index * cosine + cosine_beyond);
+    0.5 * (perpendicular * perpendicular + parallel * parallel)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn glass() -> Glass {
+        Glass::new(1.5, Vec3::ONE, Vec3::ONE)
+    }
+
+    fn towards(degrees: f32) -> Vec3 {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        vec3(sine, 0.0, cosine)
+    }
+
+    #[test]
+    fn four_percent_are_reflected_at_normal_incidence_and_nine_at_sixty_degrees() {
+        for (degrees, share) in [(0.0, 0.04), (60.0, 0.0891867)] {
+            let sample = glass().sample(towards(degrees), 0.0).expect("a reflection");
+            assert!((sample.pdf - share).abs() < 1e-6, "{degrees}: {}", sample.pdf);
+        }
+    }
+
+    #[test]
+    fn refraction_follows_snell_and_comes_back() {
+        let inside = glass().sample(towards(60.0), 0.99).expect("a refraction");
+        assert!((1.5 * inside.wi.x + 60_f32.to_radians().sin()).abs() < 1e-6 && inside.wi.z < 0.0);
+        let outside = glass().sample(inside.wi, 0.99).expect("a refraction");
+        assert!((outside.wi - towards(60.0)).length() < 1e-6);
+        assert!((outside.pdf - inside.pdf).abs() < 1e-6, "Fresnel is the same both ways");
+        assert!((inside.weight * outside.weight - Vec3::ONE).length() < 1e-6);
+        assert!((inside.weight.x - 1.0 / 2.25).abs() < 1e-6);
+    }
+
+    #[test]
+    fn light_inside_is_reflected_totally_beyond_the_critical_angle() {
+        let critical = (1_f32 / 1.5).asin().to_degrees();
+        assert!(glass().sample(-towards(critical - 0.1), 0.99).expect("a refraction").wi.z > 0.0);
+        let beyond = glass().sample(-towards(critical + 0.1), 0.99).expect("a reflection");
+        assert!(beyond.wi.z < 0.0 && beyond.pdf == 1.0);
+    }
+}

@@ -1,0 +1,8 @@
+//! How surfaces scatter: directions in a local frame, their densities and their weights, in single precision.
+
+mod bsdf;
+mod conductor;
+mod glass;
+pub mod warp;
+
+pub use bsdf::{Bsdf, rgb};

@@ -1,0 +1,25 @@
+//! From a ray to the surface that it meets: geometry, the tree over it, and the walk through the tree.
+//!
+//! A [`Segment`] is a ray made ready, a [`Tracer`] walks it through a [`Tree`], and [`Geometry`] tells what is
+//! found there. Nothing here knows of materials or light.
+
+mod bounds;
+mod build;
+mod collapse;
+mod geometry;
+mod segment;
+mod simd;
+mod sphere;
+mod surface_area;
+mod traverse;
+mod tree;
+
+#[cfg(test)]
+mod equivalence;
+
+pub use build::Plan;
+pub use collapse::{brute_force, hierarchy};
+pub use geometry::{Geometry, Surface, clearance_of};
+pub use segment::Segment;
+pub use traverse::Tracer;
+pub use tree::Tree;

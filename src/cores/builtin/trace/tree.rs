@@ -1,0 +1,250 @@
+//! The hierarchy that rays walk: nodes of eight children, leaves of triangles four at a time, and spheres.
+//! Brute force is a tree of one leaf of each kind, so both ask exactly the same primitive tests.
+
+use super::bounds::Bounds;
+use crate::contract::BuildStats;
+use glam::{DVec3, Vec3};
+
+/// Children of a node.
+pub const WIDTH: usize = 8;
+/// Triangles in a block.
+pub const LANES: usize = 4;
+
+/// Everything a ray walks through.
+#[derive(Clone, Debug, Default)]
+pub struct Tree {
+    /// Where rays start: nothing, one node, or a leaf of each kind.
+    pub roots: Vec<Child>,
+    /// Inner nodes, parents before children.
+    pub nodes: Vec<WideNode>,
+    /// Triangles; the blocks of a leaf follow each other.
+    pub blocks: Vec<TriangleBlock>,
+    /// Spheres; those of a leaf follow each other.
+    pub balls: Vec<Ball>,
+    /// Leaves and the longest way to one.
+    pub leaves: u64,
+    /// Nodes on the longest way from the root to a leaf.
+    pub depth: u64,
+}
+
+impl Tree {
+    /// What the build made.
+    pub fn stats(&self) -> BuildStats {
+        let bytes = size_of_val(self.nodes.as_slice())
+            + size_of_val(self.blocks.as_slice())
+            + size_of_val(self.balls.as_slice());
+        BuildStats {
+            nodes: self.nodes.len() as u64 + self.leaves,
+            leaves: self.leaves,
+            max_depth: self.depth,
+            bytes: bytes as u64,
+        }
+    }
+}
+
+/// What hangs on a node: an inner node, the first block of a leaf, or the first ball of a leaf.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(transparent)]
+pub struct Child(pub u32);
+
+/// A [`Child`], taken apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// Number of a node.
+    Node(usize),
+    /// Number of a leaf's first block.
+    Triangles(usize),
+    /// Number of a leaf's first ball.
+    Balls(usize),
+}
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+    const BALLS: u32 = 1 << 30;
+    const INDEX: u32 = Self::BALLS - 1;
+
+    /// No child. Its box is empty, so no ray comes here.
+    pub const NONE: Self = Self(u32::MAX);
+
+    /// An inner node.
+    pub fn node(index: usize) -> Self {
+        Self(Self::checked(index))
+    }
+
+    /// The leaf that starts at block `index`.
+    pub fn triangles(index: usize) -> Self {
+        Self(Self::checked(index) | Self::LEAF)
+    }
+
+    /// The leaf that starts at ball `index`.
+    pub fn balls(index: usize) -> Self {
+        Self(Self::checked(index) | Self::LEAF | Self::BALLS)
+    }
+
+    /// What is referred to.
+    #[inline(always)]
+    pub fn target(self) -> Target {
+        let index = (self.0 & Self::INDEX) as usize;
+        if self.0 & Self::LEAF == 0 {
+            Target::Node(index)
+        } else if self.0 & Self::BALLS == 0 {
+            Target::Triangles(index)
+        } else {
+            Target::Balls(index)
+        }
+    }
+
+    fn checked(index: usize) -> u32 {
+        assert!(index < Self::INDEX as usize, "a scene has fewer than 2³⁰ primitives");
+        index as u32
+    }
+}
+
+/// Eight boxes and what is in them. Boxes of missing children are empty.
+#[derive(Clone, Debug)]
+#[repr(C, align(32))]
+pub struct WideNode {
+    /// Row `2 · axis` holds the lower planes of the eight boxes, row `2 · axis + 1` the upper ones.
+    pub planes: [[f32; WIDTH]; 6],
+    /// One for each box.
+    pub children: [Child; WIDTH],
+}
+
+impl WideNode {
+    /// No children yet.
+    pub const EMPTY: Self = Self {
+        planes: [
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+        ],
+        children: [Child::NONE; WIDTH],
+    };
+
+    /// Hangs `child` with its box into `slot`.
+    pub fn set(&mut self, slot: usize, bounds: Bounds, child: Child) {
+        for axis in 0..3 {
+            self.planes[2 * axis][slot] = bounds.min[axis];
+            self.planes[2 * axis + 1][slot] = bounds.max[axis];
+        }
+        self.children[slot] = child;
+    }
+
+    /// How many children there are.
+    #[inline(always)]
+    pub fn child_count(&self) -> u64 {
+        self.children.iter().map(|&child| u64::from(child != Child::NONE)).sum()
+    }
+}
+
+/// The most significant bit of a block's or ball's number says that the leaf goes on with the next one.
+const MORE: u32 = 1 << 31;
+
+fn flag(more: bool) -> u32 {
+    if more { MORE } else { 0 }
+}
+
+/// Up to four triangles. Corners of missing ones are NaN, which nothing hits.
+#[derive(Clone, Debug)]
+#[repr(C, align(16))]
+pub struct TriangleBlock {
+    /// For each axis, the coordinates of each corner of the four triangles.
+    pub corners: [[[f32; LANES]; 3]; 3],
+    numbers: [u32; LANES],
+}
+
+impl TriangleBlock {
+    /// In the place of a number: no triangle here.
+    const NONE: u32 = MORE - 1;
+
+    /// Packs at most four triangles with their primitive numbers.
+    pub fn new(triangles: impl Iterator<Item = (u32, [Vec3; 3])>, more: bool) -> Self {
+        let mut block = Self { corners: [[[f32::NAN; LANES]; 3]; 3], numbers: [Self::NONE; LANES] };
+        for (lane, (number, corners)) in triangles.enumerate() {
+            block.numbers[lane] = number;
+            for (axis, rows) in block.corners.iter_mut().enumerate() {
+                for (row, corner) in rows.iter_mut().zip(corners) {
+                    row[lane] = corner[axis];
+                }
+            }
+        }
+        block.numbers[0] |= flag(more);
+        block
+    }
+
+    /// The primitive number of a lane.
+    #[inline(always)]
+    pub fn number(&self, lane: usize) -> u32 {
+        self.numbers[lane] & !MORE
+    }
+
+    /// Whether the leaf goes on with the next block.
+    #[inline(always)]
+    pub fn is_followed(&self) -> bool {
+        self.numbers[0] & MORE != 0
+    }
+
+    /// How many triangles there are.
+    #[inline(always)]
+    pub fn triangle_count(&self) -> u64 {
+        self.numbers.iter().map(|&number| u64::from(number & !MORE != Self::NONE)).sum()
+    }
+}
+
+/// A sphere, in double precision: its quadratic cancels too much in single.
+#[derive(Clone, Debug)]
+pub struct Ball {
+    /// World space.
+    pub centre: DVec3,
+    /// Scene units.
+    pub radius: f64,
+    number: u32,
+}
+
+impl Ball {
+    /// A sphere with its primitive number.
+    pub fn new(number: u32, centre: DVec3, radius: f64, more: bool) -> Self {
+        Self { centre, radius, number: number | flag(more) }
+    }
+
+    /// The primitive number.
+    #[inline(always)]
+    pub fn number(&self) -> u32 {
+        self.number & !MORE
+    }
+
+    /// Whether the leaf goes on with the next ball.
+    #[inline(always)]
+    pub fn is_followed(&self) -> bool {
+        self.number & MORE != 0
+    }
+}
+
+const _: () = {
+    assert!(size_of::<WideNode>() == 224);
+    assert!(size_of::<TriangleBlock>() == 160);
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_child_remembers_what_it_refers_to() {
+        assert_eq!(Child::node(7).target(), Target::Node(7));
+        assert_eq!(Child::triangles(8).target(), Target::Triangles(8));
+        assert_eq!(Child::balls(0).target(), Target::Balls(0));
+    }
+
+    #[test]
+    fn a_block_keeps_numbers_and_the_flag_apart() {
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let block = TriangleBlock::new([(5, corners), (0, corners)].into_iter(), true);
+        assert_eq!((block.number(0), block.number(1)), (5, 0));
+        assert_eq!((block.triangle_count(), block.is_followed()), (2, true));
+        assert!(block.corners[0][0][2].is_nan());
+    }
+}

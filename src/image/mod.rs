@@ -14,7 +14,7 @@ pub mod tonemap;
 pub use error::ImageError;
 
 /// A picture of linear RGB radiance, row-major from the top left.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Image {
     /// Pixels in a row.
     pub width: usize,

@@ -48,7 +48,7 @@ mod tests {
 
     #[test]
     fn every_frame_is_orthonormal_and_right_handed() {
-        for normal in [DVec3::Z, -DVec3::Z, direction(3.1415, 0.4), direction(1.2, -2.0)] {
+        for normal in [DVec3::Z, -DVec3::Z, direction(3.0, 0.4), direction(1.2, -2.0)] {
             let frame = Frame::around(normal);
             assert!(frame.tangent.cross(frame.bitangent).distance(normal) < 1e-12, "{normal}");
             assert!((frame.tangent.length() - 1.0).abs() < 1e-12);

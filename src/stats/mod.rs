@@ -2,6 +2,7 @@
 //!
 //! - [`judge_means`]: the three-stage ladder, the only way a mean can fail.
 //! - [`judge_counts`]: whether samples follow a density, by χ² on [`SphereCells`].
+//! - [`judge_image`]: whether a picture is its reference, by screening and confirming cells of five sizes.
 //! - [`judge_exact`]: comparisons without noise, with their [`Tolerance`]s.
 //! - [`Claim`]: what is true if the core is right, with the band that rounding may use up.
 //! - [`Effort`] and [`Budget`]: how small an error has to be seen, and how many samples that may cost.
@@ -9,19 +10,26 @@
 //! Not here: how samples are drawn (`checks`), or what a failure means (`diagnosis`).
 
 mod budget;
+mod cells;
 mod chi_square;
 mod claim;
 mod count_report;
+mod dead_pixels;
 mod exact;
 mod histogram;
+mod image_report;
 mod ladder;
 mod mean_report;
 mod moments;
 mod quantile;
+mod screen;
+mod screening;
+mod spread;
 mod trail;
 mod verdict;
 
 pub use budget::{Budget, Effort};
+pub use cells::{Component, Extent, Scale};
 pub use chi_square::{
     COUNTS_FALSE_ALARM, CountSource, FEWEST_EXPECTED, judge_count_source, judge_counts,
 };
@@ -29,11 +37,18 @@ pub use claim::{Band, Claim, Sides};
 pub use count_report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};
 pub use exact::{Compared, ExactReport, Tolerance, Worst, judge_exact};
 pub use histogram::{BatchDensity, CellProbabilities, Counts, SphereCells};
+pub use image_report::{
+    CellScore, Confirmation, GlobalRatio, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
+    TileMap,
+};
 pub use ladder::{Draw, LEAF_FALSE_ALARM, STAGE_LEVEL, Stage, judge_means};
 pub use mean_report::{MeanReport, StageScore};
 pub use moments::Moments;
 pub use quantile::{
     chi_square_tail, chi_square_upper, detectable_noncentrality, noncentral_chi_square_tail,
     normal_upper, student_upper,
+};
+pub use screen::{
+    IMAGE_FALSE_ALARM, ImageDraw, ImageEffort, Reference, judge_image, judge_image_pair,
 };
 pub use verdict::Verdict;

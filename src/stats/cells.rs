@@ -1,0 +1,268 @@
+//! Pictures cut into cells of several sizes, so that errors of any extent stand out at one of them.
+//!
+//! A cell's value is a weighted mean over its pixels. The weights come from the reference alone and fall with
+//! brightness: a lamp in view, a hundred times brighter than what it lights, would otherwise decide alone, and
+//! its noisy edge with it.
+
+use crate::image::{Image, luminance};
+use serde::{Deserialize, Serialize};
+
+/// Red, green, blue and luminance.
+pub const COMPONENTS: usize = 4;
+
+/// What of a pixel is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Component {
+    /// First channel.
+    Red,
+    /// Second channel.
+    Green,
+    /// Third channel.
+    Blue,
+    /// Rec. 709.
+    Luminance,
+}
+
+impl Component {
+    /// In the order in which cells keep them.
+    pub const ALL: [Component; COMPONENTS] =
+        [Component::Red, Component::Green, Component::Blue, Component::Luminance];
+}
+
+/// The size of cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scale {
+    /// One pixel.
+    Pixel,
+    /// 8 by 8 pixels.
+    Tile8,
+    /// 32 by 32 pixels.
+    Tile32,
+    /// 8 whole rows.
+    Rows,
+    /// Everything.
+    Whole,
+}
+
+impl Scale {
+    /// From the finest to the coarsest.
+    pub const ALL: [Scale; 5] =
+        [Scale::Pixel, Scale::Tile8, Scale::Tile32, Scale::Rows, Scale::Whole];
+
+    /// Width and height of a cell that is not cut off by the border.
+    fn cell_size(self, width: usize, height: usize) -> (usize, usize) {
+        match self {
+            Scale::Pixel => (1, 1),
+            Scale::Tile8 => (8, 8),
+            Scale::Tile32 => (32, 32),
+            Scale::Rows => (width, 8),
+            Scale::Whole => (width, height),
+        }
+    }
+}
+
+impl std::fmt::Display for Scale {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Scale::Pixel => "one pixel",
+            Scale::Tile8 => "8 × 8 pixels",
+            Scale::Tile32 => "32 × 32 pixels",
+            Scale::Rows => "8 rows",
+            Scale::Whole => "the whole picture",
+        })
+    }
+}
+
+/// A picture cut into cells of one scale.
+#[derive(Clone, Debug)]
+pub(super) struct Grid {
+    pub(super) scale: Scale,
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    cell: (usize, usize),
+    picture: (usize, usize),
+}
+
+/// The pixels of a cell: column and row of the top left one, width and height.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Extent {
+    /// First column.
+    pub x: usize,
+    /// First row, from the top.
+    pub y: usize,
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+}
+
+impl Grid {
+    pub(super) fn new(scale: Scale, width: usize, height: usize) -> Self {
+        let cell = scale.cell_size(width, height);
+        let columns = width.div_ceil(cell.0);
+        let rows = height.div_ceil(cell.1);
+        Self { scale, columns, rows, cell, picture: (width, height) }
+    }
+
+    /// Cells, each with all components.
+    pub(super) fn len(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    pub(super) fn cell_of(&self, x: usize, y: usize) -> usize {
+        (y / self.cell.1) * self.columns + x / self.cell.0
+    }
+
+    pub(super) fn extent(&self, cell: usize) -> Extent {
+        let (x, y) = (cell % self.columns * self.cell.0, cell / self.columns * self.cell.1);
+        let width = self.cell.0.min(self.picture.0 - x);
+        let height = self.cell.1.min(self.picture.1 - y);
+        Extent { x, y, width, height }
+    }
+
+    /// The weighted mean of `value` over each cell, all components: cell by cell.
+    fn means(&self, weights: &[f64], value: impl Fn(usize) -> [f64; COMPONENTS]) -> Vec<f64> {
+        let mut sums = vec![[0.0; COMPONENTS]; self.len()];
+        let mut total = vec![0.0; self.len()];
+        for (pixel, weight) in weights.iter().enumerate() {
+            let cell = self.cell_of(pixel % self.picture.0, pixel / self.picture.0);
+            total[cell] += weight;
+            for (sum, value) in sums[cell].iter_mut().zip(value(pixel)) {
+                *sum += weight * value;
+            }
+        }
+        sums.into_iter().zip(total).flat_map(|(sums, total)| sums.map(|sum| sum / total)).collect()
+    }
+
+    /// The standard error of each cell's mean, from those of its pixels, which are independent of each other.
+    fn standard_errors(&self, weights: &[f64], errors: &Image) -> Vec<f64> {
+        let squares = |pixel: usize| error_components(errors.pixels[pixel]).map(|e| e * e);
+        let weighted: Vec<f64> = weights.iter().map(|weight| weight * weight).collect();
+        let (means, count) = (self.means(&weighted, squares), self.weight_ratio(weights));
+        means.iter().enumerate().map(|(i, m)| (m * count[i / COMPONENTS]).sqrt()).collect()
+    }
+
+    /// Σ w² / (Σ w)² of each cell.
+    fn weight_ratio(&self, weights: &[f64]) -> Vec<f64> {
+        let mut sums = vec![(0.0, 0.0); self.len()];
+        for (pixel, weight) in weights.iter().enumerate() {
+            let cell = self.cell_of(pixel % self.picture.0, pixel / self.picture.0);
+            sums[cell].0 += weight;
+            sums[cell].1 += weight * weight;
+        }
+        sums.into_iter().map(|(sum, squares): (f64, f64)| squares / (sum * sum)).collect()
+    }
+}
+
+fn components(pixel: [f32; 3]) -> [f64; COMPONENTS] {
+    let [red, green, blue] = pixel.map(f64::from);
+    [red, green, blue, luminance(pixel)]
+}
+
+/// Standard errors of the components. How the noise of the channels hangs together is not known, so that of the
+/// luminance is at most this.
+fn error_components(errors: [f32; 3]) -> [f64; COMPONENTS] {
+    components(errors)
+}
+
+/// The cells of all scales over pictures of one size.
+#[derive(Clone, Debug)]
+pub(super) struct Cells {
+    pub(super) grids: Vec<Grid>,
+    weights: Vec<f64>,
+}
+
+impl Cells {
+    /// Cells weighted after the brightness of `guide`.
+    pub(super) fn new(guide: &Image) -> Self {
+        let grids = Scale::ALL.map(|scale| Grid::new(scale, guide.width, guide.height));
+        let levels: Vec<f64> = guide.pixels.iter().map(|pixel| luminance(*pixel)).collect();
+        let typical = median(&levels).max(f64::MIN_POSITIVE);
+        let weights = levels.into_iter().map(|level| typical / (level.max(0.0) + typical));
+        Self { grids: grids.to_vec(), weights: weights.collect() }
+    }
+
+    /// The values of all cells of one picture, scale by scale, cell by cell, component by component.
+    pub(super) fn values(&self, image: &Image) -> Vec<f64> {
+        let value = |pixel: usize| components(image.pixels[pixel]);
+        self.grids.iter().flat_map(|grid| grid.means(&self.weights, value)).collect()
+    }
+
+    /// The standard errors of all cells, from those of the pixels.
+    pub(super) fn standard_errors(&self, errors: &Image) -> Vec<f64> {
+        self.grids.iter().flat_map(|grid| grid.standard_errors(&self.weights, errors)).collect()
+    }
+
+    /// Where the values of each scale lie among all.
+    pub(super) fn ranges(&self) -> Vec<std::ops::Range<usize>> {
+        let mut start = 0;
+        let lengths = self.grids.iter().map(|grid| grid.len() * COMPONENTS);
+        lengths
+            .map(|length| {
+                start += length;
+                start - length..start
+            })
+            .collect()
+    }
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|value| *value > 0.0).collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_pixel_is_in_the_extent_of_its_cell() {
+        for scale in Scale::ALL {
+            let grid = Grid::new(scale, 37, 21);
+            for (x, y) in [(0, 0), (36, 20), (17, 9), (31, 8), (32, 7)] {
+                let extent = grid.extent(grid.cell_of(x, y));
+                assert!((extent.x..extent.x + extent.width).contains(&x), "{scale}");
+                assert!((extent.y..extent.y + extent.height).contains(&y), "{scale}");
+            }
+            let pixels: usize =
+                (0..grid.len()).map(|c| grid.extent(c).width * grid.extent(c).height).sum();
+            assert_eq!(pixels, 37 * 21, "{scale}");
+        }
+    }
+
+    #[test]
+    fn a_constant_picture_has_constant_cells() {
+        let image = Image::new(20, 12, [0.25, 0.5, 1.0]);
+        let cells = Cells::new(&image);
+        for value in cells.values(&image).chunks(COMPONENTS) {
+            for (found, expected) in value.iter().zip([0.25, 0.5, 1.0, luminance([0.25, 0.5, 1.0])])
+            {
+                assert!((found - expected).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_lamp_in_view_does_not_decide_alone() {
+        let mut image = Image::new(32, 32, [0.1; 3]);
+        image.pixels[5] = [1000.0; 3];
+        let cells = Cells::new(&image);
+        let whole = cells.ranges()[4].start;
+        let plain = (1023.0 * 0.1 + 1000.0) / 1024.0;
+        let weighted = cells.values(&image)[whole];
+        assert!(weighted < 0.31 && plain > 1.0, "{weighted}");
+    }
+
+    #[test]
+    fn errors_of_independent_pixels_average_out() {
+        let flat = Image::new(16, 16, [1.0; 3]);
+        let errors = Cells::new(&flat).standard_errors(&Image::new(16, 16, [0.16; 3]));
+        let ranges = Cells::new(&flat).ranges();
+        assert!((errors[ranges[0].start] - 0.16).abs() < 1e-6);
+        assert!((errors[ranges[1].start] - 0.02).abs() < 1e-6);
+        assert!((errors[ranges[4].start] - 0.01).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,396 @@
+//! The steps of screen-and-confirm: screening, freezing, confirming, reporting.
+
+use super::cells::{COMPONENTS, Cells, Component, Scale};
+use super::dead_pixels::LitRuns;
+use super::image_report::{
+    CellScore, Confirmation, GlobalRatio, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
+    TileMap,
+};
+use super::screen::{
+    CONFIRM_LEVEL, IMAGE_FALSE_ALARM, ImageDraw, ImageEffort, REFERENCE_LEVEL, SCREEN_LEVEL,
+};
+use super::spread::Spread;
+use super::{Band, Moments, Stage, Verdict, normal_upper, student_upper};
+use crate::image::Image;
+
+/// Cells of a scale that are confirmed together.
+const MOST_FROZEN: usize = 64;
+/// Cells of a scale that are reported.
+const MOST_REPORTED: usize = 16;
+/// Darker than this, relative to the typical brightness, the band does not shrink further: what an offset of
+/// shadow rays leaks into the dark is judged by what it adds to the picture.
+const DARK: f64 = 0.01;
+/// Probability of missing an error as large as the printed resolution.
+const MISS_LEVEL: f64 = 1e-3;
+/// Level of one side of the printed intervals.
+const INTERVAL_LEVEL: f64 = 5e-4;
+
+/// What every cell should be, and how far from that a correct core may be.
+pub(super) struct Target {
+    cells: Cells,
+    expected: Vec<f64>,
+    /// What relative errors are relative to.
+    scale: Vec<f64>,
+    errors: Vec<f64>,
+    bands: Vec<f64>,
+}
+
+impl Target {
+    pub(super) fn new(cells: Cells, expected: Vec<f64>, scale: Vec<f64>, errors: &[f64]) -> Self {
+        let mut bands = Vec::with_capacity(expected.len());
+        let whole = cells.ranges()[Scale::ALL.len() - 1].start;
+        for range in cells.ranges() {
+            let sigmas = normal_upper(REFERENCE_LEVEL / range.len() as f64);
+            bands.extend(range.map(|i| {
+                let level = scale[i].abs().max(DARK * scale[whole + i % COMPONENTS].abs());
+                Band::RADIANCE.relative() * level + sigmas * errors[i]
+            }));
+        }
+        Self { cells, expected, scale, errors: errors.to_vec(), bands }
+    }
+
+    /// How far outside its band a cell's value is, with its sign.
+    fn departure(&self, index: usize, value: f64) -> f64 {
+        let difference = value - self.expected[index];
+        (difference.abs() - self.bands[index]).max(0.0) * difference.signum()
+    }
+
+    /// The luminance of the whole picture.
+    fn whole_luminance(&self) -> usize {
+        self.expected.len() - 1
+    }
+}
+
+/// Cells that are confirmed together: one number a run.
+struct Frozen {
+    /// Cell, sign and weight.
+    terms: Vec<(usize, f64, f64)>,
+}
+
+impl Frozen {
+    /// The weighted sum of how far the frozen cells are outside their bands, towards their signs.
+    fn scalar(&self, target: &Target, values: &[f64]) -> f64 {
+        let outside = |&(index, sign, weight): &(usize, f64, f64)| {
+            weight * (sign * (values[index] - target.expected[index]) - target.bands[index])
+        };
+        self.terms.iter().map(outside).sum()
+    }
+}
+
+/// The runs of one stage.
+struct Sampled {
+    spread: Spread,
+    /// Of each scale, the numbers of its frozen cells.
+    scalars: Vec<Moments>,
+}
+
+/// Renders the picture of a run, or the two that are compared.
+pub(super) type DrawImages<'a, E> = dyn FnMut(ImageDraw) -> Result<Vec<Image>, E> + 'a;
+
+/// What ends a stage early.
+enum Interrupted<E> {
+    Core(E),
+    Impossible(ImpossiblePixels, Image),
+}
+
+/// The state of [`super::judge_image`].
+pub(super) struct Screening<'a, E> {
+    target: Target,
+    effort: &'a ImageEffort,
+    draw: &'a mut DrawImages<'a, E>,
+    lit: LitRuns,
+    all: Spread,
+    runs: u32,
+    size: (usize, usize),
+}
+
+impl<'a, E> Screening<'a, E> {
+    pub(super) fn new(
+        target: Target,
+        guide: &Image,
+        effort: &'a ImageEffort,
+        draw: &'a mut DrawImages<'a, E>,
+    ) -> Self {
+        let size = (guide.width, guide.height);
+        let lit = LitRuns::new(guide);
+        Self { target, effort, draw, lit, all: Spread::default(), runs: 0, size }
+    }
+
+    pub(super) fn judge(mut self) -> Result<ImageReport, E> {
+        match self.screen_and_confirm() {
+            Ok(report) => Ok(report),
+            Err(Interrupted::Core(error)) => Err(error),
+            Err(Interrupted::Impossible(pixels, image)) => Ok(self.broken(pixels, image)),
+        }
+    }
+
+    fn screen_and_confirm(&mut self) -> Result<ImageReport, Interrupted<E>> {
+        let screened = self.sample(Stage::First, self.effort.screen_runs, &[])?;
+        let mut scales: Vec<ScaleReport> =
+            (0..Scale::ALL.len()).map(|i| self.screen(i, &screened.spread)).collect();
+        let suspected = |report: &ScaleReport| {
+            report.worst.first().is_some_and(|cell| cell.t.abs() > report.critical)
+        };
+        if !scales.iter().any(suspected) && self.lit.suspects().is_empty() {
+            return Ok(self.report(scales, &screened.spread, &screened.spread));
+        }
+        let frozen: Vec<Frozen> =
+            (0..Scale::ALL.len()).map(|i| self.freeze(i, &screened.spread)).collect();
+        let second = self.sample(Stage::Second, self.effort.confirm_runs, &frozen)?;
+        let third = self.sample(Stage::Third, self.effort.confirm_runs, &frozen)?;
+        for (i, report) in scales.iter_mut().enumerate() {
+            if !frozen[i].terms.is_empty() {
+                let confirmations = confirm(&second.scalars[i], &third.scalars[i]);
+                report.rejects = confirmations.iter().all(|confirmation| confirmation.rejects);
+                report.confirmations = Some(confirmations);
+            }
+        }
+        Ok(self.report(scales, &screened.spread, &third.spread))
+    }
+
+    /// Draws the runs of a stage.
+    fn sample(
+        &mut self,
+        stage: Stage,
+        runs: u32,
+        frozen: &[Frozen],
+    ) -> Result<Sampled, Interrupted<E>> {
+        let mut sampled =
+            Sampled { spread: Spread::default(), scalars: vec![Moments::default(); frozen.len()] };
+        for run in 0..runs {
+            let images = (self.draw)(ImageDraw { stage, run }).map_err(Interrupted::Core)?;
+            let values = self.values(images, stage, run)?;
+            for (moments, frozen) in sampled.scalars.iter_mut().zip(frozen) {
+                moments.push(frozen.scalar(&self.target, &values));
+            }
+            sampled.spread.push(&values);
+            self.all.push(&values[..COMPONENTS * self.size.0 * self.size.1]);
+            self.runs += 1;
+        }
+        Ok(sampled)
+    }
+
+    /// The cells of one picture, or of the difference of two.
+    fn values(
+        &mut self,
+        images: Vec<Image>,
+        stage: Stage,
+        run: u32,
+    ) -> Result<Vec<f64>, Interrupted<E>> {
+        for image in &images {
+            assert_eq!((image.width, image.height), self.size, "all pictures of one size");
+            if let Some(pixels) = impossible(image, stage, run) {
+                return Err(Interrupted::Impossible(pixels, image.clone()));
+            }
+        }
+        let mut values = self.target.cells.values(&images[0]);
+        match images.get(1) {
+            None => self.lit.take(&images[0]),
+            Some(other) => {
+                let subtracted = self.target.cells.values(other);
+                values.iter_mut().zip(subtracted).for_each(|(value, other)| *value -= other);
+            }
+        }
+        Ok(values)
+    }
+
+    /// The banded t of every cell of a scale, the worst first.
+    fn screen(&self, scale: usize, spread: &Spread) -> ScaleReport {
+        let range = self.target.cells.ranges()[scale].clone();
+        let looks = 2.0 * (Scale::ALL.len() * range.len()) as f64;
+        let worst = self.extremes(scale, spread).into_iter().take(MOST_REPORTED);
+        ScaleReport {
+            scale: Scale::ALL[scale],
+            cells: range.len(),
+            worst: worst.map(|(index, t)| self.cell_score(scale, index, spread, t)).collect(),
+            critical: student_upper(SCREEN_LEVEL / looks, spread.freedom()),
+            confirmations: None,
+            rejects: false,
+        }
+    }
+
+    /// The cells of a scale outside their bands with their t, the most extreme first.
+    fn extremes(&self, scale: usize, spread: &Spread) -> Vec<(usize, f64)> {
+        let range = self.target.cells.ranges()[scale].clone();
+        let t = |index: usize| {
+            let departure = self.target.departure(index, spread.mean(index));
+            (departure != 0.0).then(|| (index, departure / spread.standard_error(index)))
+        };
+        let mut outside: Vec<(usize, f64)> = range.filter_map(t).collect();
+        outside.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        outside.truncate(MOST_FROZEN);
+        outside
+    }
+
+    /// A matched filter for what the screen saw: each cell weighs by its departure over its variance, so that
+    /// one cell far out is not lost among 64 that are a little out by chance.
+    fn freeze(&self, scale: usize, spread: &Spread) -> Frozen {
+        let term = |(index, t): (usize, f64)| {
+            // The band keeps a cell that happened not to vary from weighing more than all others.
+            let variance = spread.standard_error(index).powi(2) + self.target.bands[index].powi(2);
+            let departure = self.target.departure(index, spread.mean(index));
+            (index, t.signum(), departure.abs() / variance)
+        };
+        Frozen { terms: self.extremes(scale, spread).into_iter().map(term).collect() }
+    }
+
+    fn cell_score(&self, scale: usize, index: usize, spread: &Spread, t: f64) -> CellScore {
+        let start = self.target.cells.ranges()[scale].start;
+        let grid = &self.target.cells.grids[scale];
+        CellScore {
+            scale: grid.scale,
+            component: Component::ALL[(index - start) % COMPONENTS],
+            extent: grid.extent((index - start) / COMPONENTS),
+            mean: spread.mean(index),
+            expected: self.target.expected[index],
+            band: self.target.bands[index],
+            // Infinity, where nothing varied, does not survive JSON.
+            t: t.clamp(-1e9, 1e9),
+        }
+    }
+
+    fn report(&self, scales: Vec<ScaleReport>, screened: &Spread, last: &Spread) -> ImageReport {
+        let dead_pixels = self.lit.dead();
+        let resolution = self.resolution(screened);
+        let rejected = !dead_pixels.is_empty() || scales.iter().any(|scale| scale.rejects);
+        let verdict = if rejected {
+            Verdict::Fail
+        } else if resolution <= self.effort.detects {
+            Verdict::Pass
+        } else {
+            Verdict::Inconclusive
+        };
+        let inconclusive = verdict == Verdict::Inconclusive;
+        ImageReport {
+            verdict,
+            impossible: None,
+            dead_pixels,
+            worst_scale: worst_scale(&scales),
+            scales,
+            ratios: self.ratios(last),
+            resolution,
+            detects: self.effort.detects,
+            samples_factor: if inconclusive { self.samples_factor(resolution) } else { None },
+            runs: self.runs,
+            tiles: self.tile_map(last),
+            false_alarm: IMAGE_FALSE_ALARM,
+            mean: self.pixels(|index| self.all.mean(index)),
+            standard_error: self.pixels(|index| self.all.standard_error(index)),
+        }
+    }
+
+    /// A report on a picture that none can be.
+    fn broken(&self, pixels: ImpossiblePixels, image: Image) -> ImageReport {
+        ImageReport {
+            verdict: Verdict::Fail,
+            impossible: Some(pixels),
+            dead_pixels: Vec::new(),
+            scales: Vec::new(),
+            worst_scale: None,
+            ratios: Vec::new(),
+            resolution: self.effort.detects,
+            detects: self.effort.detects,
+            samples_factor: None,
+            runs: self.runs + 1,
+            tiles: TileMap::default(),
+            false_alarm: IMAGE_FALSE_ALARM,
+            standard_error: Image::new(image.width, image.height, [0.0; 3]),
+            mean: image,
+        }
+    }
+
+    /// What the screen would have suspected with probability 1 − [`MISS_LEVEL`]; the confirmations, on twice the
+    /// runs, would not have missed it. Normal approximation to the noncentral t.
+    fn resolution(&self, screened: &Spread) -> f64 {
+        let whole = self.target.whole_luminance();
+        let looks = 2.0 * (Scale::ALL.len() * COMPONENTS) as f64;
+        let critical = student_upper(SCREEN_LEVEL / looks, screened.freedom());
+        let spread_of_t = (1.0 + 0.5 * critical * critical / screened.freedom()).sqrt();
+        let sigmas = critical + normal_upper(MISS_LEVEL) * spread_of_t;
+        let error = sigmas * screened.standard_error(whole);
+        (self.target.bands[whole] + error) / self.target.scale[whole]
+    }
+
+    /// By how much the samples have to grow for the resolution to reach what was promised.
+    fn samples_factor(&self, resolution: f64) -> Option<f64> {
+        let whole = self.target.whole_luminance();
+        let band = self.target.bands[whole] / self.target.scale[whole];
+        let factor = ((resolution - band) / (self.effort.detects - band)).powi(2);
+        (self.effort.detects > band && factor.is_finite()).then_some(factor)
+    }
+
+    fn ratios(&self, spread: &Spread) -> Vec<GlobalRatio> {
+        let start = self.target.whole_luminance() + 1 - COMPONENTS;
+        let ratio = |(i, component)| {
+            let index: usize = start + i;
+            let scale = self.target.scale[index];
+            // Of a pair, the difference on top of equality.
+            let offset = if self.target.expected[index] == 0.0 { 1.0 } else { 0.0 };
+            let ratio = offset + spread.mean(index) / scale;
+            let error = spread.standard_error(index).hypot(self.target.errors[index]);
+            let half = student_upper(INTERVAL_LEVEL, spread.freedom()) * error / scale;
+            GlobalRatio { component, ratio, interval: [ratio - half, ratio + half] }
+        };
+        Component::ALL.into_iter().enumerate().map(ratio).collect()
+    }
+
+    fn tile_map(&self, spread: &Spread) -> TileMap {
+        let grid = &self.target.cells.grids[1];
+        let start = self.target.cells.ranges()[1].start + COMPONENTS - 1;
+        let z = |tile: usize| {
+            let index = start + tile * COMPONENTS;
+            let difference = spread.mean(index) - self.target.expected[index];
+            let error = spread.standard_error(index).hypot(self.target.errors[index]);
+            if difference == 0.0 { 0.0 } else { (difference / error).clamp(-1e9, 1e9) }
+        };
+        TileMap { columns: grid.columns, z: (0..grid.len()).map(z).collect() }
+    }
+
+    fn pixels(&self, value: impl Fn(usize) -> f64) -> Image {
+        let (width, height) = self.size;
+        Image::from_fn(width, height, |x, y| {
+            let first = COMPONENTS * (y * width + x);
+            // Back to the precision the pictures came in.
+            std::array::from_fn(|i| value(first + i) as f32)
+        })
+    }
+}
+
+/// Both confirmations of one scale, each with the larger of the two spreads: the double key.
+fn confirm(second: &Moments, third: &Moments) -> [Confirmation; 2] {
+    let error = second.standard_error().max(third.standard_error());
+    let freedom = (second.count() - 1) as f64;
+    [second, third].map(|moments| {
+        let t = if moments.mean() == 0.0 { 0.0 } else { moments.mean() / error };
+        let rejects = t > student_upper(CONFIRM_LEVEL, freedom);
+        Confirmation { t: t.clamp(-1e9, 1e9), rejects }
+    })
+}
+
+/// The first impossible pixel of a picture.
+fn impossible(image: &Image, stage: Stage, run: u32) -> Option<ImpossiblePixels> {
+    let wrong = |pixel: &[f32; 3]| pixel.iter().find_map(|value| impossible_value(*value));
+    let mut found = image.pixels.iter().enumerate().filter_map(|(i, p)| Some((i, wrong(p)?)));
+    let (first, kind) = found.next()?;
+    let (x, y) = (first % image.width, first / image.width);
+    Some(ImpossiblePixels { kind, x, y, pixels: 1 + found.count(), stage, run })
+}
+
+fn impossible_value(value: f32) -> Option<Impossible> {
+    match value {
+        v if v.is_nan() => Some(Impossible::NotANumber),
+        v if v.is_infinite() => Some(Impossible::Infinite),
+        v if v < 0.0 => Some(Impossible::Negative),
+        _ => None,
+    }
+}
+
+/// The scale whose weaker confirmation is the strongest, among those that reject.
+fn worst_scale(scales: &[ScaleReport]) -> Option<Scale> {
+    let strength = |report: &&ScaleReport| {
+        report.confirmations.map_or(0.0, |[second, third]| second.t.min(third.t))
+    };
+    let rejecting = scales.iter().filter(|report| report.rejects);
+    let worst = rejecting.max_by(|a, b| strength(a).total_cmp(&strength(b)));
+    worst.map(|report| report.scale)
+}

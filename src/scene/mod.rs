@@ -13,6 +13,7 @@ mod library;
 mod light;
 mod material;
 pub mod mesh;
+pub mod mitsuba;
 pub mod procedural;
 mod shape;
 

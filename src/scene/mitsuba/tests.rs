@@ -1,0 +1,150 @@
+//! The text that Mitsuba reads. That it answers alike is shown by the references.
+
+use super::*;
+use crate::scene::procedural::parallelogram;
+use crate::scene::{Library, Light, Material, Mesh, Overrides, Surface};
+use glam::DVec3;
+
+fn exported(name: &str) -> Result<MitsubaScene, MitsubaError> {
+    let library = Library::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"));
+    export(&library.load(name, &Overrides::new()).unwrap(), 5)
+}
+
+#[test]
+fn a_whole_scene_is_written_as_mitsuba_reads_it() {
+    let grey = Surface::Diffuse { reflectance: [0.37; 3] };
+    let scene = SceneDescription {
+        camera: Some(Camera::look_at(3.0 * DVec3::Z, DVec3::ZERO, DVec3::Y, 1.0, [128, 96])),
+        materials: vec![Material { name: "grey".to_owned(), surface: grey, emission: None }],
+        meshes: vec![Mesh {
+            name: "wall".to_owned(),
+            ..parallelogram(DVec3::ZERO, [4.0 * DVec3::X, 2.0 * DVec3::Y])
+        }],
+        lights: vec![Light::Point { position: DVec3::ONE, intensity: [1.5, 2.0, 3.0] }],
+        ..SceneDescription::default()
+    };
+    let scene = export(&scene, 5).unwrap();
+    let expected = r#"<scene version="3.9.1">
+    <integrator type="path">
+        <integer name="max_depth" value="6"/>
+        <integer name="rr_depth" value="1000000"/>
+        <integer name="block_size" value="32"/>
+    </integrator>
+    <sensor type="perspective">
+        <string name="fov_axis" value="x"/>
+        <float name="fov" value="57.29577951308232"/>
+        <float name="near_clip" value="0.001"/>
+        <float name="far_clip" value="1000000"/>
+        <transform name="to_world">
+            <lookat origin="0, 0, 3" target="0, 0, 2" up="0, 1, 0"/>
+        </transform>
+        <film type="hdrfilm">
+            <integer name="width" value="128"/>
+            <integer name="height" value="96"/>
+            <string name="pixel_format" value="rgb"/>
+            <string name="component_format" value="float32"/>
+            <rfilter type="box"/>
+        </film>
+        <sampler type="multijitter"/>
+    </sensor>
+    <shape type="rectangle" id="wall">
+        <transform name="to_world">
+            <matrix value="2 0 0 2 0 1 0 1 0 0 1 0 0 0 0 1"/>
+        </transform>
+        <bsdf type="twosided">
+            <bsdf type="diffuse">
+                <rgb name="reflectance" value="0.37 0.37 0.37"/>
+            </bsdf>
+        </bsdf>
+    </shape>
+    <emitter type="point">
+        <point name="position" x="1" y="1" z="1"/>
+        <rgb name="intensity" value="1.5 2 3"/>
+    </emitter>
+</scene>
+"#;
+    assert_eq!(scene.xml, expected);
+    assert!(scene.attachments.is_empty());
+}
+
+#[test]
+fn glass_is_in_vacuum_and_not_two_sided() {
+    let xml = exported("glass-ball-in-sky").unwrap().xml;
+    assert!(xml.contains(r#"<float name="int_ior" value="1.5"/>"#), "{xml}");
+    assert!(xml.contains(r#"<float name="ext_ior" value="1"/>"#), "{xml}");
+    assert!(!xml.contains("twosided"), "{xml}");
+    assert!(xml.contains(r#"<emitter type="constant">"#), "{xml}");
+}
+
+#[test]
+fn metals_are_single_scattering_and_two_sided() {
+    let xml = exported("veach-plates").unwrap().xml;
+    assert!(xml.contains(r#"<bsdf type="roughconductor">"#));
+    assert!(xml.contains(r#"<string name="distribution" value="ggx"/>"#));
+    assert!(xml.contains(r#"<float name="alpha" value="0.15"/>"#));
+    assert_eq!(xml.matches("twosided").count(), 8, "every shape but none of glass");
+}
+
+#[test]
+fn a_room_looks_inwards() {
+    let xml = exported("sphere-furnace").unwrap().xml;
+    assert!(xml.contains(r#"<boolean name="flip_normals" value="true"/>"#), "{xml}");
+    assert!(xml.contains(r#"<emitter type="area">"#), "{xml}");
+}
+
+#[test]
+fn flat_meshes_stay_flat_and_smooth_ones_smooth() {
+    let flat = exported("soup").unwrap();
+    assert!(flat.xml.contains(r#"<boolean name="face_normals" value="true"/>"#));
+    assert_eq!(flat.attachments[0].0, "mesh-0.ply");
+    assert!(!ply_header(&flat).contains("float nx"));
+    let smooth = exported("teapot").unwrap();
+    assert!(smooth.xml.contains(r#"<boolean name="face_normals" value="false"/>"#));
+    assert!(ply_header(&smooth).contains("float nx"));
+}
+
+fn ply_header(scene: &MitsubaScene) -> String {
+    match &scene.attachments[0].1 {
+        Attachment::Mesh(bytes) => String::from_utf8_lossy(&bytes[..250]).into_owned(),
+        Attachment::Picture(_) => panic!("not a mesh"),
+    }
+}
+
+#[test]
+fn meshes_come_back_from_their_files() {
+    let library = Library::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"));
+    let scene = library.load("teapot", &Overrides::new()).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    export(&scene, 1).unwrap().write_to(folder.path()).unwrap();
+    let path = folder.path().join("mesh-0.ply");
+    let back = crate::scene::mesh::load(&path, crate::scene::mesh::Format::Ply).unwrap();
+    let mesh = &scene.meshes[0];
+    assert_eq!(back.indices, mesh.indices);
+    for (written, read) in mesh.positions.iter().zip(&back.positions) {
+        assert!(written.abs_diff_eq(*read, 1e-6));
+    }
+}
+
+#[test]
+fn a_gradient_sky_is_a_picture_with_its_zenith_on_top() {
+    let scene = exported("gradient-sky").unwrap();
+    let (name, Attachment::Picture(picture)) = &scene.attachments[0] else { panic!("no picture") };
+    assert_eq!(name, "sky.exr");
+    let row = |row: usize| picture.pixels[picture.width * row][0];
+    assert!((row(0) - 1.3).abs() < 1e-6, "zenith");
+    assert!((row(512) - 0.4).abs() < 1e-6 && row(1024) == 0.4, "horizon and below");
+    let middle = 0.4 + 0.9 * std::f32::consts::FRAC_1_SQRT_2;
+    assert!((row(256) - middle).abs() < 1e-6, "half way down");
+}
+
+#[test]
+fn what_mitsuba_cannot_do_is_said() {
+    let message = exported("cap-cavity").unwrap_err().to_string();
+    assert!(message.contains("its closed form is its reference"), "{message}");
+    assert_eq!(
+        exported("sphere-in-view").unwrap_err(),
+        MitsubaError::PixelsNotSquare("sphere-in-view".to_owned())
+    );
+    let nowhere = SceneDescription::default();
+    assert!(matches!(export(&nowhere, 1), Err(MitsubaError::NoCamera(_))));
+}

@@ -1,0 +1,108 @@
+//! Just enough XML: elements with attributes, indented.
+
+use crate::scene::Rgb;
+use glam::{DAffine3, DVec3};
+
+/// A document in the making.
+#[derive(Default)]
+pub(super) struct Xml {
+    text: String,
+    open: Vec<&'static str>,
+}
+
+impl Xml {
+    /// Begins an element that others go into.
+    pub fn open(&mut self, element: &'static str, attributes: &[(&str, &str)]) {
+        self.line(element, attributes, ">");
+        self.open.push(element);
+    }
+
+    /// Ends the element begun last.
+    pub fn close(&mut self) {
+        if let Some(element) = self.open.pop() {
+            self.indent();
+            self.text.push_str(&format!("</{element}>\n"));
+        }
+    }
+
+    /// An element that nothing goes into.
+    pub fn leaf(&mut self, element: &str, attributes: &[(&str, &str)]) {
+        self.line(element, attributes, "/>");
+    }
+
+    pub fn integer(&mut self, name: &str, value: u32) {
+        self.leaf("integer", &[("name", name), ("value", &value.to_string())]);
+    }
+
+    pub fn float(&mut self, name: &str, value: f64) {
+        self.leaf("float", &[("name", name), ("value", &value.to_string())]);
+    }
+
+    pub fn string(&mut self, name: &str, value: &str) {
+        self.leaf("string", &[("name", name), ("value", value)]);
+    }
+
+    pub fn boolean(&mut self, name: &str, value: bool) {
+        self.leaf("boolean", &[("name", name), ("value", &value.to_string())]);
+    }
+
+    pub fn rgb(&mut self, name: &str, value: Rgb) {
+        self.leaf("rgb", &[("name", name), ("value", &numbers(value, " "))]);
+    }
+
+    pub fn point(&mut self, name: &str, value: DVec3) {
+        self.vector("point", name, value);
+    }
+
+    pub fn direction(&mut self, name: &str, value: DVec3) {
+        self.vector("vector", name, value);
+    }
+
+    pub fn look_at(&mut self, origin: DVec3, target: DVec3, up: DVec3) {
+        let [origin, target, up] = [origin, target, up].map(|v| numbers(v.to_array(), ", "));
+        self.leaf("lookat", &[("origin", &origin), ("target", &target), ("up", &up)]);
+    }
+
+    /// The transform `to_world`, row by row.
+    pub fn transform(&mut self, transform: DAffine3) {
+        let rows = [0, 1, 2].map(|row| {
+            let [x, y, z] = transform.matrix3.row(row).to_array();
+            numbers([x, y, z, transform.translation[row]], " ")
+        });
+        let value = format!("{} {} {} 0 0 0 1", rows[0], rows[1], rows[2]);
+        self.open("transform", &[("name", "to_world")]);
+        self.leaf("matrix", &[("value", &value)]);
+        self.close();
+    }
+
+    pub fn finish(self) -> String {
+        self.text
+    }
+
+    fn vector(&mut self, element: &str, name: &str, value: DVec3) {
+        let [x, y, z] = value.to_array().map(|coordinate| coordinate.to_string());
+        self.leaf(element, &[("name", name), ("x", &x), ("y", &y), ("z", &z)]);
+    }
+
+    fn line(&mut self, element: &str, attributes: &[(&str, &str)], end: &str) {
+        self.indent();
+        self.text.push_str(&format!("<{element}"));
+        for (name, value) in attributes {
+            self.text.push_str(&format!(" {name}=\"{}\"", escaped(value)));
+        }
+        self.text.push_str(&format!("{end}\n"));
+    }
+
+    fn indent(&mut self) {
+        self.text.push_str(&"    ".repeat(self.open.len()));
+    }
+}
+
+/// Numbers with as many digits as it takes to read them back unchanged.
+fn numbers<const N: usize>(values: [f64; N], separator: &str) -> String {
+    values.map(|value| value.to_string()).join(separator)
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}

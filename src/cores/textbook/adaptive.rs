@@ -7,8 +7,8 @@ const Z_95: f64 = 1.96;
 
 /// The sums a pixel keeps: s₁ and s₂ of the course.
 ///
-/// The textbook formula for the variance loses digits where σ is far below μ; a rule that compares σ with a few
-/// percent of μ cannot notice.
+/// The textbook formula for the variance loses digits where σ is far below μ; a rule that compares
+/// σ with a few percent of μ cannot notice.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
     count: u32,
@@ -46,7 +46,8 @@ impl Tally {
         Z_95 * (self.variance() / f64::from(self.count)).sqrt()
     }
 
-    /// Whether the mean is known well enough. A black pixel is; a pixel that is not a number never is.
+    /// Whether the mean is known well enough. A black pixel is; a pixel that is not a number never
+    /// is.
     fn has_converged(&self, max_tolerance: f64) -> bool {
         self.half_width() <= max_tolerance * self.mean()
     }
@@ -96,8 +97,8 @@ mod tests {
         mean_of_stream(AdaptiveSettings { samples_per_batch, max_tolerance }, &stream)
     }
 
-    /// Variants of the rule stop elsewhere: population variance at 8, σ/n at 4, no 1.96 at 2, variance for σ at 6,
-    /// absolute tolerance at 14, a look after every sample at 9.
+    /// Variants of the rule stop elsewhere: population variance at 8, σ/n at 4, no 1.96 at 2,
+    /// variance for σ at 6, absolute tolerance at 14, a look after every sample at 9.
     #[test]
     fn a_stream_that_tells_all_formulas_apart_stops_at_10() {
         let answer = run(&[1.0, 3.0, 0.5, 1.0, 1.0], 2, 0.5);

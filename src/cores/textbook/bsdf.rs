@@ -1,7 +1,8 @@
 //! Parts 3 and 4: how surfaces scatter. Directions are local and both point away from the surface.
 //!
-//! Diffuse, mirror and conductor surfaces are two-sided: seen from below, both directions are turned over first.
-//! Glass is not: which side is outside matters there. Not here: the formulas of `glass` and of `ggx`.
+//! Diffuse, mirror and conductor surfaces are two-sided: seen from below, both directions are
+//! turned over first. Glass is not: which side is outside matters there. Not here: the formulas of
+//! `glass` and of `ggx`.
 
 use super::{ggx, glass, sampling};
 use crate::contract::{BsdfSample, BsdfValue};
@@ -16,13 +17,14 @@ pub const NOTHING: BsdfValue = BsdfValue { f: [0.0; 3], pdf: 0.0 };
 pub const FAILED: BsdfSample =
     BsdfSample { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
 
-/// Whether the surface scatters each direction into finitely many: nothing else can be evaluated, and no light be
-/// sampled, there.
+/// Whether the surface scatters each direction into finitely many: nothing else can be evaluated,
+/// and no light be sampled, there.
 pub fn is_delta(surface: &Surface) -> bool {
     matches!(surface, Surface::Mirror { .. } | Surface::Glass { .. })
 }
 
-/// `f` and the density of [`sample`]. Zero for mirror and glass, and for directions on different sides.
+/// `f` and the density of [`sample`]. Zero for mirror and glass, and for directions on different
+/// sides.
 pub fn evaluate(surface: &Surface, wo: DVec3, wi: DVec3) -> BsdfValue {
     if wo.z < 0.0 {
         evaluate_from_above(surface, -wo, -wi)
@@ -46,7 +48,8 @@ fn evaluate_from_above(surface: &Surface, wo: DVec3, wi: DVec3) -> BsdfValue {
     }
 }
 
-/// One incident direction for `wo`; `point` chooses the direction, `lobe` between reflection and refraction.
+/// One incident direction for `wo`; `point` chooses the direction, `lobe` between reflection and
+/// refraction.
 pub fn sample(surface: &Surface, wo: DVec3, point: DVec2, lobe: f64) -> Option<BsdfSample> {
     if let Surface::Glass { index, reflectance, transmittance } = *surface {
         return glass::sample(index, reflectance, transmittance, wo, lobe);
@@ -79,12 +82,115 @@ pub fn reflect(w: DVec3) -> DVec3 {
     DVec3::new(-w.x, -w.y, w.z)
 }
 
-/// The only direction of a delta lobe, chosen with `probability`, that carries `weight` of the radiance along it.
+/// The only direction of a delta lobe, chosen with `probability`, that carries `weight` of the
+/// radiance along it.
 ///
-/// f is such that f·|cos θ| is the weight: the cosine of the rendering equation has no part in a mirror. Along the
-/// surface there is no such f.
+/// f is such that f·|cos θ| is the weight: the cosine of the rendering equation has no part in a
+/// mirror. Along the surface there is no such f.
 pub fn delta(wi: DVec3, weight: Rgb, probability: f64) -> Option<BsdfSample> {
     let f = weight.map(|weight| weight / wi.z.abs());
     let is_sound = probability > 0.0 && f.iter().all(|f| f.is_finite());
     is_sound.then_some(BsdfSample { wi, f, pdf: probability, is_delta: 1, is_valid: 1 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cores::textbook::random::Random;
+    use crate::cores::textbook::testing::grey;
+
+    const ROUGHNESSES: [f64; 4] = [1e-4, 0.1, 0.3, 1.0];
+
+    fn smooth_and_rough() -> Vec<Surface> {
+        let metal =
+            ROUGHNESSES.map(|roughness| Surface::Conductor { reflectance: grey(0.9), roughness });
+        [Surface::Diffuse { reflectance: grey(0.6) }].into_iter().chain(metal).collect()
+    }
+
+    fn direction(random: &mut Random) -> DVec3 {
+        sampling::uniform_sphere(random.point())
+    }
+
+    #[test]
+    fn samples_say_what_evaluation_says() {
+        let mut random = Random::for_ray(1, 0);
+        for surface in smooth_and_rough() {
+            for _ in 0..2000 {
+                let wo = direction(&mut random);
+                let Some(sample) = sample(&surface, wo, random.point(), random.number()) else {
+                    continue;
+                };
+                let value = evaluate(&surface, wo, sample.wi);
+                assert_eq!((sample.f, sample.pdf), (value.f, value.pdf), "{surface:?} {wo}");
+                assert!(wo.z * sample.wi.z > 0.0 && sample.is_delta == 0, "{sample:?}");
+                assert!((sample.wi.length() - 1.0).abs() < 1e-12, "{sample:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn light_may_be_turned_round() {
+        let mut random = Random::for_ray(2, 0);
+        for surface in smooth_and_rough() {
+            for _ in 0..2000 {
+                let (a, b) = (direction(&mut random), direction(&mut random));
+                let (there, back) = (evaluate(&surface, a, b).f[0], evaluate(&surface, b, a).f[0]);
+                assert!((there - back).abs() <= 1e-12 * there, "{surface:?}: {there} {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn surfaces_look_the_same_from_both_sides_and_hide_each_side_from_the_other() {
+        let mut random = Random::for_ray(3, 0);
+        for surface in smooth_and_rough() {
+            for _ in 0..1000 {
+                let (wo, wi) = (direction(&mut random), direction(&mut random));
+                assert_eq!(evaluate(&surface, wo, wi), evaluate(&surface, -wo, -wi));
+                if wo.z * wi.z < 0.0 {
+                    assert_eq!(evaluate(&surface, wo, wi), NOTHING);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn grazing_and_perpendicular_directions_give_finite_numbers() {
+        let grazing = |z: f64| DVec3::new((1.0 - z * z).sqrt(), 0.0, z);
+        let views = [1.0, 1e-3, 1e-20, 1e-300, 0.0].map(grazing);
+        let points = [0.0, 0.5, 1.0 - f64::EPSILON / 2.0];
+        for surface in smooth_and_rough() {
+            for wo in views {
+                for (x, y) in points.iter().flat_map(|x| points.map(|y| (*x, y))) {
+                    let Some(sample) = sample(&surface, wo, DVec2::new(x, y), 0.5) else {
+                        continue;
+                    };
+                    let weight = sample.f[0] * sample.wi.z / sample.pdf;
+                    assert!((0.0..=1.0).contains(&weight), "{surface:?} {wo} {sample:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_mirror_reflects_its_share_and_nothing_else() {
+        let mirror = Surface::Mirror { reflectance: grey(0.83) };
+        for z in [0.8, -0.8] {
+            let wo = DVec3::new(0.6, 0.0, z);
+            let sample = sample(&mirror, wo, DVec2::splat(0.5), 0.5).expect("it reflects");
+            assert_eq!((sample.wi, sample.is_delta), (DVec3::new(-0.6, 0.0, z), 1));
+            let weight = sample.f[0] * sample.wi.z.abs() / sample.pdf;
+            assert!((weight - 0.83).abs() < 1e-15, "{weight}");
+            assert_eq!(evaluate(&mirror, wo, sample.wi), NOTHING);
+        }
+    }
+
+    #[test]
+    fn a_diffuse_surface_reflects_its_reflectance() {
+        // Cosine samples make every weight the albedo.
+        let surface = Surface::Diffuse { reflectance: [0.2, 0.5, 0.8] };
+        let sample = sample(&surface, DVec3::Z, DVec2::new(0.3, 0.7), 0.0).expect("it reflects");
+        let weight = DVec3::from(sample.f) * sample.wi.z / sample.pdf;
+        assert!(weight.abs_diff_eq(DVec3::new(0.2, 0.5, 0.8), 1e-15), "{weight}");
+    }
 }

@@ -1,6 +1,7 @@
 //! Part 2: a bounding volume hierarchy, and the loop over everything that it must agree with.
 //!
-//! Primitives lie in the order of the leaves. Without nodes every query is the loop: that is brute force.
+//! Primitives lie in the order of the leaves. Without nodes every query is the loop: that is brute
+//! force.
 
 use super::intersect::{Ball, Crossing, Triangle, intersect_box};
 use super::split::{self, Item};
@@ -74,8 +75,8 @@ enum Content {
     Inner([usize; 2]),
 }
 
-/// Boxes are larger than what they hold by this much of their largest coordinate, so that rounding in the box test
-/// can never lose what the primitive's own test would have found.
+/// Boxes are larger than what they hold by this much of their largest coordinate, so that rounding
+/// in the box test can never lose what the primitive's own test would have found.
 const MARGIN: f64 = 1e-12;
 
 impl Bvh {
@@ -118,7 +119,8 @@ impl Bvh {
         search.found
     }
 
-    /// Visits the nearer child first, and the other only if it begins before what was found by then.
+    /// Visits the nearer child first, and the other only if it begins before what was found by
+    /// then.
     fn closest_below(&self, node: &Node, search: &mut Search<'_>) {
         match &node.content {
             Content::Leaf(range) => self.closest_among(range.clone(), search),
@@ -236,8 +238,8 @@ fn item((index, primitive): (usize, &Primitive)) -> Item {
     Item { primitive: index as u32, bounds, centroid: (min + max) / 2.0 }
 }
 
-/// Below this depth nodes are halved whatever the rule: points at 1, 1/2, 1/4, … would otherwise be split off one by
-/// one. Halving adds at most log₂ n levels more.
+/// Below this depth nodes are halved whatever the rule: points at 1, 1/2, 1/4, … would otherwise be
+/// split off one by one. Halving adds at most log₂ n levels more.
 fn max_rule_depth(primitives: usize) -> usize {
     32 + primitives.max(1).ilog2() as usize
 }
@@ -250,7 +252,8 @@ struct Builder {
 }
 
 impl Builder {
-    /// Builds the node over `items`, the first of which stands at `first` in the order of leaves. Answers its number.
+    /// Builds the node over `items`, the first of which stands at `first` in the order of leaves.
+    /// Answers its number.
     fn build(&mut self, items: &mut [Item], first: usize, depth: usize) -> usize {
         let bounds = split::union(items.iter().map(|item| item.bounds));
         let number = self.nodes.len();
@@ -274,6 +277,152 @@ impl Builder {
             0 => split::halve(items),
             all if all == items.len() => split::halve(items),
             left_count => left_count,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cores::textbook::random::Random;
+
+    const RULES: [Split; 4] =
+        [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea];
+
+    fn bvh(primitives: &[Primitive], split: Split, max_leaf_size: u32) -> Bvh {
+        Bvh::new(primitives.to_vec(), Acceleration::Bvh { split, max_leaf_size })
+    }
+
+    fn vector(random: &mut Random) -> DVec3 {
+        let x = random.point().extend(random.number());
+        2.0 * x - 1.0
+    }
+
+    fn numbered(forms: impl Iterator<Item = Form>) -> Vec<Primitive> {
+        (0..).zip(forms).map(|(number, form)| Primitive { form, shape: 0, number }).collect()
+    }
+
+    fn triangle(corners: [DVec3; 3]) -> Form {
+        Form::Triangle(Triangle::new(corners).expect("it has area"))
+    }
+
+    fn soup(count: usize) -> Vec<Primitive> {
+        let mut random = Random::for_ray(7, 0);
+        let size = 2.0 / (count as f64).cbrt();
+        let forms = (0..count).map(|index| {
+            let centre = vector(&mut random);
+            let corners = [(); 3].map(|()| centre + size / 2.0 * vector(&mut random));
+            if index % 10 == 0 {
+                Form::Ball(Ball { centre, radius: size / 4.0 })
+            } else {
+                triangle(corners)
+            }
+        });
+        numbered(forms)
+    }
+
+    /// Many triangles around one point: no rule can tell their centroids apart.
+    fn one_place(count: usize) -> Vec<Primitive> {
+        let mut random = Random::for_ray(8, 0);
+        let forms = (0..count).map(|_| {
+            let (across, along) = (vector(&mut random), vector(&mut random));
+            triangle([across, along, -across - along])
+        });
+        let same_box = numbered(forms.take(count / 2));
+        let coincident = triangle([DVec3::X, DVec3::Y, DVec3::Z]);
+        let rest = numbered(std::iter::repeat_n(coincident, count - count / 2));
+        same_box.into_iter().chain(rest).collect()
+    }
+
+    /// Sizes and places from 1 down to 1e-6.
+    fn geometric(count: usize) -> Vec<Primitive> {
+        let ratio = 1e-6_f64.powf(1.0 / count as f64);
+        let ball = |index| {
+            let scale = ratio.powi(index);
+            Form::Ball(Ball { centre: DVec3::X * scale, radius: scale / 3.0 })
+        };
+        numbered((0..count as i32).map(ball))
+    }
+
+    fn rays(count: usize) -> Vec<Ray> {
+        let mut random = Random::for_ray(9, 0);
+        let ray = |index: usize| {
+            let origin = 1.5 * vector(&mut random);
+            let mut direction = vector(&mut random);
+            if index.is_multiple_of(5) {
+                direction = DVec3::new(0.0, -0.0, direction.z);
+            }
+            let t_max = if index.is_multiple_of(3) { f64::INFINITY } else { 4.0 * random.number() };
+            Ray { t_max, ..Ray::new(origin, direction) }
+        };
+        (0..count).map(ray).collect()
+    }
+
+    #[test]
+    fn every_rule_finds_what_brute_force_finds() {
+        let scenes = [Vec::new(), soup(1), soup(2), soup(700), one_place(60), geometric(200)];
+        let rays = rays(1500);
+        let mut stats = TraversalStats::default();
+        for primitives in scenes {
+            let brute = Bvh::new(primitives.clone(), Acceleration::BruteForce);
+            for split in RULES {
+                for max_leaf_size in [1, 4] {
+                    let bvh = bvh(&primitives, split, max_leaf_size);
+                    for ray in &rays {
+                        let t = |found: Option<(usize, Crossing)>| found.map(|(_, found)| found.t);
+                        let expected = t(brute.closest(ray, &mut stats));
+                        assert_eq!(t(bvh.closest(ray, &mut stats)), expected, "{split:?} {ray:?}");
+                        assert_eq!(bvh.any(ray, &mut stats), expected.is_some(), "{split:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn brute_force_counts_every_primitive_and_no_box() {
+        let brute = Bvh::new(soup(100), Acceleration::BruteForce);
+        let mut stats = TraversalStats::default();
+        let rays = rays(10);
+        rays.iter().for_each(|ray| _ = brute.closest(ray, &mut stats));
+        assert_eq!(stats, TraversalStats { rays: 10, box_tests: 0, primitive_tests: 1000 });
+        assert_eq!(brute.build_stats(), BuildStats::default());
+    }
+
+    /// A traversal that visits the far child first tests 1.7 times as many, one that never shortens
+    /// the ray 2.6 times.
+    #[test]
+    fn few_primitives_are_tested_and_growth_is_slow() {
+        let rays: Vec<Ray> =
+            rays(2000).into_iter().map(|ray| Ray::new(ray.origin, ray.direction)).collect();
+        let tests_per_ray = |count| {
+            let bvh = bvh(&soup(count), Split::Median, 4);
+            let mut stats = TraversalStats::default();
+            rays.iter().for_each(|ray| _ = bvh.closest(ray, &mut stats));
+            stats.primitive_tests as f64 / stats.rays as f64
+        };
+        let (few, many) = (tests_per_ray(512), tests_per_ray(32_768));
+        let slope = (many / few).ln() / 64.0_f64.ln();
+        assert!(slope < 0.25, "{few} tests per ray, then {many}: slope {slope}");
+        assert!(many < 60.0, "{many} tests per ray");
+    }
+
+    #[test]
+    fn builds_end_with_leaves_as_small_as_asked_and_depth_within_bounds() {
+        for primitives in [one_place(10_000), geometric(10_000), soup(10_000)] {
+            for split in RULES {
+                let bvh = bvh(&primitives, split, 3);
+                let stats = bvh.build_stats();
+                assert!(stats.max_depth <= 2 * 14 + 32, "{split:?}: {stats:?}");
+                assert_eq!(stats.nodes, 2 * stats.leaves - 1, "{split:?}: {stats:?}");
+                let leaves = bvh.nodes.iter().filter_map(|node| match &node.content {
+                    Content::Leaf(range) => Some(range.clone()),
+                    Content::Inner(_) => None,
+                });
+                let sizes: Vec<usize> = leaves.map(|range| range.len()).collect();
+                assert!(sizes.iter().all(|size| (1..=3).contains(size)), "{split:?}");
+                assert_eq!(sizes.iter().sum::<usize>(), primitives.len(), "{split:?}");
+            }
         }
     }
 }

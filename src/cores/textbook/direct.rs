@@ -1,7 +1,8 @@
 //! Part 3: light that is scattered once, at a point that is given.
 //!
-//! Two estimators of one integral: uniform directions over the hemisphere, and points on the lights. Not here: paths
-//! (`integrator`). Mirror and glass gather nothing here: what they show is met by following the path.
+//! Two estimators of one integral: uniform directions over the hemisphere, and points on the
+//! lights. Not here: paths (`integrator`). Mirror and glass gather nothing here: what they show is
+//! met by following the path.
 
 use super::bsdf;
 use super::light::Lamp;
@@ -34,8 +35,8 @@ pub fn one_bounce(
     }
 }
 
-/// Whether light sampling alone would miss the narrow lobe of the surface. There it is combined with directions that
-/// the surface itself samples.
+/// Whether light sampling alone would miss the narrow lobe of the surface. There it is combined
+/// with directions that the surface itself samples.
 fn is_glossy(surface: &Surface) -> bool {
     matches!(surface, Surface::Conductor { .. })
 }
@@ -150,8 +151,8 @@ impl Scatter<'_> {
     }
 }
 
-/// Weight of a sample drawn with density `own` where another technique with as many samples has density `other`
-/// (Veach 1997, section 9.2.4).
+/// Weight of a sample drawn with density `own` where another technique with as many samples has
+/// density `other` (Veach 1997, section 9.2.4).
 fn power_heuristic(own: f64, other: f64) -> f64 {
     own * own / (own * own + other * other)
 }

@@ -11,8 +11,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame whose +z is `normal` (unit, world space). Which way x and y point does not matter: no BSDF here
-    /// depends on it.
+    /// A frame whose +z is `normal` (unit, world space). Which way x and y point does not matter:
+    /// no BSDF here depends on it.
     pub fn around(normal: DVec3) -> Self {
         let (tangent, bitangent) = normal.any_orthonormal_pair();
         Self { tangent, bitangent, normal }

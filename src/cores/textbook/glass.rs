@@ -27,8 +27,8 @@ fn index_ratio(index: f64, wo: DVec3) -> f64 {
     if wo.z > 0.0 { index } else { 1.0 / index }
 }
 
-/// Radiance over index squared is what crosses an interface unchanged: light that comes to the side of `wo` out of
-/// the denser medium is spread over a wider cone.
+/// Radiance over index squared is what crosses an interface unchanged: light that comes to the side
+/// of `wo` out of the denser medium is spread over a wider cone.
 fn radiance_scale(ratio: f64) -> f64 {
     1.0 / (ratio * ratio)
 }

@@ -1,9 +1,10 @@
 //! Part 4: paths of any number of bounces.
 //!
-//! Light of bounce k has been scattered exactly k times on its way to the viewer, mirror and glass included; bounce 0
-//! is what glows where the ray arrives. At vertex k of the path (k counted from 1) the light of bounce k is gathered
-//! from the lights, so what glows where the path itself goes on is not added again; except after mirror and glass,
-//! where no light can be sampled and the path alone can meet one.
+//! Light of bounce k has been scattered exactly k times on its way to the viewer, mirror and glass
+//! included; bounce 0 is what glows where the ray arrives. At vertex k of the path (k counted from
+//! 1) the light of bounce k is gathered from the lights, so what glows where the path itself goes
+//! on is not added again; except after mirror and glass, where no light can be sampled and the path
+//! alone can meet one.
 
 use super::bsdf;
 use super::direct::{one_bounce, zero_bounce};
@@ -39,8 +40,8 @@ impl<'a> Integrator<'a> {
         seen + self.at_least_one_bounce(view, random)
     }
 
-    /// The light of bounces 1 and up. A loop in place of the course's recursion: a path between two perfect mirrors
-    /// may have any length.
+    /// The light of bounces 1 and up. A loop in place of the course's recursion: a path between two
+    /// perfect mirrors may have any length.
     fn at_least_one_bounce(&self, mut view: View<'a>, random: &mut Random) -> DVec3 {
         let mut radiance = DVec3::ZERO;
         let mut throughput = DVec3::ONE;
@@ -68,7 +69,8 @@ impl<'a> Integrator<'a> {
         self.settings.bounces.contains(&bounce)
     }
 
-    /// Light of this very bounce comes over the continued path at mirror and glass, from lights elsewhere.
+    /// Light of this very bounce comes over the continued path at mirror and glass, from lights
+    /// elsewhere.
     fn needs_continuation(&self, vertex: &Vertex<'_>, bounce: u32) -> bool {
         bounce < *self.settings.bounces.end() || bsdf::is_delta(vertex.surface)
     }
@@ -92,8 +94,9 @@ impl<'a> Integrator<'a> {
         (!is_black).then_some(Continuation { ray, weight: weight / survival })
     }
 
-    /// Roulette is played at each continuation but the first `guaranteed` ones. The light of bounce k needs k − 1
-    /// continuations where no mirror is in the way: with `guaranteed` = 1, bounces 1 and 2 never depend on roulette.
+    /// Roulette is played at each continuation but the first `guaranteed` ones. The light of bounce
+    /// k needs k − 1 continuations where no mirror is in the way: with `guaranteed` = 1, bounces 1
+    /// and 2 never depend on roulette.
     fn survival_probability(&self, continuation: u32) -> f64 {
         match self.settings.roulette {
             Some(Roulette { stop, guaranteed }) if continuation >= guaranteed => 1.0 - stop,

@@ -1,7 +1,7 @@
 //! Part 3: where light comes from, and directions towards it.
 //!
-//! Every density is per steradian as seen from the point that asks. Area lights shine from their front alone.
-//! Not here: whether anything stands in between (`direct`).
+//! Every density is per steradian as seen from the point that asks. Area lights shine from their
+//! front alone. Not here: whether anything stands in between (`direct`).
 
 use super::frame::Frame;
 use super::intersect::{Ball, Triangle};
@@ -106,8 +106,8 @@ impl Lamp {
         }
     }
 
-    /// The density with which [`Self::sample`] draws the direction from `from` to `at`, a glowing point of the
-    /// light with unit `normal` on its front.
+    /// The density with which [`Self::sample`] draws the direction from `from` to `at`, a glowing
+    /// point of the light with unit `normal` on its front.
     pub fn area_pdf(&self, from: DVec3, at: DVec3, normal: DVec3) -> f64 {
         match self {
             Self::Mesh { cumulative_area, .. } => {
@@ -124,7 +124,8 @@ impl Lamp {
         }
     }
 
-    /// The density with which [`Self::sample`] draws a direction into the sky; zero for other lights.
+    /// The density with which [`Self::sample`] draws a direction into the sky; zero for other
+    /// lights.
     pub fn sky_pdf(&self) -> f64 {
         match self {
             Self::Simple(Light::ConstantSky { .. } | Light::GradientSky { .. }) => {
@@ -197,7 +198,8 @@ fn uniform_triangle(point: DVec2) -> DVec2 {
     DVec2::new(root * (1.0 - point.y), root * point.y)
 }
 
-/// The sample that leads from `from` to the point `at`, drawn uniformly from `area`. From behind there is none.
+/// The sample that leads from `from` to the point `at`, drawn uniformly from `area`. From behind
+/// there is none.
 fn towards_surface_point(
     from: DVec3,
     at: DVec3,
@@ -217,7 +219,8 @@ fn towards_surface_point(
     })
 }
 
-/// A density of 1/area on a surface, per steradian as seen from `from`: distance² / (cos θ · area); 0 from behind.
+/// A density of 1/area on a surface, per steradian as seen from `from`: distance² / (cos θ · area);
+/// 0 from behind.
 fn per_steradian(from: DVec3, at: DVec3, normal: DVec3, area: f64) -> f64 {
     let to_light = at - from;
     let distance_squared = to_light.length_squared();
@@ -231,7 +234,8 @@ fn sees_cone(ball: &Ball, inward: bool, emission: &Emission, from: DVec3) -> boo
     is_outside && !inward && emission.cap.is_none()
 }
 
-/// 1 − cos of the half angle under which the ball is seen, without subtracting nearly equal numbers.
+/// 1 − cos of the half angle under which the ball is seen, without subtracting nearly equal
+/// numbers.
 fn cone_height(ball: &Ball, from: DVec3) -> f64 {
     let sine_squared = ball.radius * ball.radius / from.distance_squared(ball.centre);
     sine_squared / (1.0 + (1.0 - sine_squared).max(0.0).sqrt())
@@ -244,7 +248,8 @@ fn cone_pdf(ball: &Ball, from: DVec3) -> f64 {
 
 fn sample_cone(ball: &Ball, emission: &Emission, from: DVec3, point: DVec2) -> Option<LightSample> {
     let to_centre = ball.centre - from;
-    // The height of a direction of the cone below its tip, 1 − cos θ; small cones keep all their digits.
+    // The height of a direction of the cone below its tip, 1 − cos θ; small cones keep all their
+    // digits.
     let height = point.x * cone_height(ball, from);
     let local = direction_below_tip(height, point.y);
     let wi = Frame::around(to_centre.try_normalize()?).to_world(local);
@@ -291,4 +296,129 @@ fn glowing_height(emission: &Emission) -> f64 {
 /// Archimedes: a zone's area is 2πR times its height.
 fn glowing_area(ball: &Ball, emission: &Emission) -> f64 {
     2.0 * PI * ball.radius * ball.radius * glowing_height(emission)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cores::textbook::random::Random;
+    use crate::cores::textbook::testing::{Stage, diffuse, grey};
+
+    /// The last light of a stage.
+    fn lamp(stage: Stage) -> Lamp {
+        let scene = stage.scene();
+        Lamp::new(scene.lights.last().expect("something glows"), &scene)
+    }
+
+    fn rectangle(x: f64, y: f64, z: f64) -> Lamp {
+        let corners = [(-x, -y), (-x, y), (x, y), (x, -y)].map(|(x, y)| DVec3::new(x, y, z));
+        lamp(Stage::empty().polygon(&corners, diffuse(0.0).glowing(1.0)))
+    }
+
+    fn samples(lamp: &Lamp, from: DVec3, count: usize) -> Vec<Option<LightSample>> {
+        let mut random = Random::for_ray(5, 0);
+        (0..count).map(|_| lamp.sample(from, random.point(), random.number())).collect()
+    }
+
+    /// Mean of 1/pdf with its standard error.
+    fn solid_angle(lamp: &Lamp, from: DVec3) -> (f64, f64) {
+        let count = 100_000;
+        let values = samples(lamp, from, count).into_iter();
+        let values = values.map(|sample| sample.map_or(0.0, |sample| 1.0 / sample.pdf));
+        let (sum, squares) = values.fold((0.0, 0.0), |(s, q), v| (s + v, q + v * v));
+        let n = count as f64;
+        (sum / n, ((squares / n - (sum / n).powi(2)).max(0.0) / n).sqrt())
+    }
+
+    fn assert_solid_angle(lamp: &Lamp, from: DVec3, expected: f64) {
+        let (mean, error) = solid_angle(lamp, from);
+        assert!(
+            (mean - expected).abs() <= 4.5 * error + 1e-9 * expected,
+            "{mean} ± {error}, {expected}"
+        );
+        assert!(error <= 0.01 * expected, "too noisy: {mean} ± {error}");
+    }
+
+    #[test]
+    fn densities_are_per_steradian() {
+        // A rectangle a × b at distance d on its axis: Ω = 4 asin(ab / √((a² + 4d²)(b² + 4d²))).
+        let (a, b, d) = (1.2_f64, 0.8_f64, 1.5_f64);
+        let product = (a * a + 4.0 * d * d) * (b * b + 4.0 * d * d);
+        let expected = 4.0 * (a * b / product.sqrt()).asin();
+        assert_solid_angle(&rectangle(a / 2.0, b / 2.0, d), DVec3::ZERO, expected);
+
+        let ball = lamp(Stage::empty().ball(DVec3::Z * 1.5, 0.4, diffuse(0.0).glowing(1.0)));
+        let cosine = (1.0 - (0.4_f64 / 1.5).powi(2)).sqrt();
+        assert_solid_angle(&ball, DVec3::ZERO, 2.0 * PI * (1.0 - cosine));
+
+        let room = lamp(Stage::empty().room(1.0, diffuse(0.0).glowing(1.0)));
+        assert_solid_angle(&room, DVec3::new(0.3, -0.2, 0.1), 4.0 * PI);
+
+        let sky = Lamp::Simple(Light::ConstantSky { radiance: grey(1.0) });
+        assert_solid_angle(&sky, DVec3::ZERO, 4.0 * PI);
+    }
+
+    #[test]
+    fn a_cap_is_as_large_as_its_share_of_the_directions_from_the_centre() {
+        let look = diffuse(0.0).glowing_cap(1.0, 40.0_f64.to_radians());
+        let cap = lamp(Stage::empty().room(2.0, look));
+        let share = (1.0 - 40.0_f64.to_radians().cos()) / 2.0;
+        assert_solid_angle(&cap, DVec3::ZERO, 4.0 * PI * share);
+    }
+
+    #[test]
+    fn samples_lead_to_the_light_and_carry_the_density_of_their_direction() {
+        let look = diffuse(0.0).glowing(1.0);
+        let far_ball = Stage::empty().ball(DVec3::new(3.0, 4.0, 5.0), 0.01, look);
+        let from = DVec3::new(0.2, 0.1, -0.3);
+        for stage in [
+            Stage::empty().room(2.0, look),
+            Stage::empty().room(2.0, diffuse(0.0).glowing_cap(1.0, 0.7)),
+            Stage::empty().ball(DVec3::new(1.0, 1.0, 1.0), 0.5, look),
+            far_ball,
+        ] {
+            let (lamp, world) = (lamp(stage.clone()), stage.world());
+            for sample in samples(&lamp, from, 1000).into_iter().flatten() {
+                let ray = crate::contract::Ray::new(from, sample.wi);
+                let hit = world.closest_hit(&ray, &mut Default::default()).expect("it is there");
+                assert!((hit.t / sample.distance - 1.0).abs() < 1e-6, "{hit:?} {sample:?}");
+                let pdf = lamp.area_pdf(from, ray.at(hit.t), hit.geometric_normal);
+                assert!((pdf / sample.pdf - 1.0).abs() < 1e-6, "{pdf} {sample:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_sampled_from_behind() {
+        let ball = Stage::empty().ball(DVec3::ZERO, 1.0, diffuse(0.0).glowing(1.0));
+        for sample in samples(&lamp(ball), DVec3::new(0.3, 0.2, 0.1), 100) {
+            assert_eq!(sample, None);
+        }
+        assert!(
+            samples(&rectangle(1.0, 1.0, 1.0), DVec3::Z * 2.0, 100).iter().all(Option::is_none)
+        );
+    }
+
+    #[test]
+    fn triangles_without_area_are_never_chosen() {
+        let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let mesh = crate::scene::Mesh {
+            positions: positions.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+            indices: vec![[0, 0, 1], [0, 1, 2], [2, 2, 2], [0, 2, 3], [3, 3, 0]],
+            ..Default::default()
+        };
+        let lamp = lamp(Stage::empty().mesh(mesh, diffuse(0.0).glowing(1.0)));
+        for lobe in [0.0, 0.49, 0.5, 1.0 - f64::EPSILON / 2.0] {
+            let sample = lamp.sample(DVec3::Z, DVec2::splat(0.5), lobe).expect("it is in front");
+            assert!(sample.pdf.is_finite() && sample.pdf > 0.0, "{sample:?}");
+            let at = DVec3::Z + sample.distance * sample.wi;
+            assert_eq!(at.x > at.y, lobe < 0.5, "{lobe}: {at}");
+        }
+    }
+
+    #[test]
+    fn a_light_in_the_point_that_asks_is_a_failed_sample() {
+        let light = Light::Point { position: DVec3::ONE, intensity: grey(1.0) };
+        assert_eq!(Lamp::Simple(light).sample(DVec3::ONE, DVec2::ZERO, 0.0), None);
+    }
 }

@@ -1,8 +1,10 @@
-//! The plain core: a path tracer in f64, written the way a course teaches it, one function per task.
+//! The plain core: a path tracer in f64, written the way a course teaches it, one function per
+//! task.
 //!
-//! It is the second witness for the fast core, the model to read before writing an adapter, and the ground on
-//! which students' mistakes are planted. So it prefers the formula of the lecture to the faster one, and each
-//! place where a student goes wrong is a function or a line of its own. Nothing here is shared with other cores.
+//! It is the second witness for the fast core, the model to read before writing an adapter, and the
+//! ground on which students' mistakes are planted. So it prefers the formula of the lecture to the
+//! faster one, and each place where a student goes wrong is a function or a line of its own.
+//! Nothing here is shared with other cores.
 //!
 //! Read it in the order of the course:
 //!
@@ -14,8 +16,8 @@
 //! | 4 | paths of many bounces, roulette | `integrator` |
 //! | 5 | adaptive sampling | `adaptive` |
 //!
-//! Beyond the course: `glass` and `ggx` scatter as their names say, `world` is the scene as rays see it, and
-//! `random` gives every path its own stream, so that answers do not depend on threads.
+//! Beyond the course: `glass` and `ggx` scatter as their names say, `world` is the scene as rays
+//! see it, and `random` gives every path its own stream, so that answers do not depend on threads.
 
 mod adaptive;
 mod bsdf;
@@ -229,4 +231,110 @@ fn answer<Q, A>(questions: &[Q], answers: &mut [A], mut one: impl FnMut(&Q) -> A
 fn box_hit(span: Option<(f64, f64)>) -> BoxHit {
     let (t_enter, t_exit) = span.unwrap_or_default();
     BoxHit { t_enter, t_exit, hit: u32::from(span.is_some()), reserved: 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::validate::Validated;
+    use crate::contract::{DirectSampling, Split};
+    use crate::scene::{Light, Surface};
+    use random::Random;
+    use testing::{Stage, clear_glass, diffuse, grey, looks};
+
+    const COUNT: usize = 500;
+
+    fn numbers() -> (Vec<DVec2>, Vec<f64>) {
+        let mut random = Random::for_ray(0, 0);
+        (0..COUNT).map(|_| (random.point(), random.number())).unzip()
+    }
+
+    /// Something of everything.
+    fn scene() -> SceneDescription {
+        let metal = looks(Surface::Conductor { reflectance: grey(0.8), roughness: 0.2 });
+        let mirror = looks(Surface::Mirror { reflectance: grey(0.9) });
+        let sky = Light::GradientSky { up: DVec3::Z, horizon: grey(0.1), zenith: grey(0.6) };
+        Stage::empty()
+            .floor()
+            .ball(DVec3::new(0.0, 0.0, 1.0), 0.5, clear_glass())
+            .ball(DVec3::new(1.5, 0.0, 1.0), 0.5, mirror)
+            .ball(DVec3::new(-1.5, 0.0, 1.0), 0.5, metal)
+            .ball(DVec3::new(0.0, 1.5, 2.0), 0.3, diffuse(0.4).glowing(3.0))
+            .room(20.0, diffuse(0.5).glowing_cap(1.0, 0.5))
+            .light(Light::Point { position: DVec3::new(1.0, 1.0, 3.0), intensity: grey(2.0) })
+            .light(Light::Directional { direction: DVec3::NEG_Z, irradiance: grey(0.5) })
+            .light(Light::ConstantSky { radiance: grey(0.2) })
+            .light(sky)
+            .scene()
+    }
+
+    #[test]
+    fn sampling_answers_have_the_form_of_the_contract() {
+        let (points, lobes) = numbers();
+        let random = || Randomness { points: &points, lobes: &lobes, seed: 0 };
+        let mut textbook = Textbook::new();
+        let mut core = Validated::new(&mut textbook);
+        let mut directions = [DirectionSample { direction: DVec3::Z, pdf: 0.0 }; COUNT];
+        for sampler in [Sampler::UniformHemisphere, Sampler::CosineHemisphere] {
+            core.sample_direction(sampler, random(), &mut directions).expect("valid");
+        }
+        let wo = directions.map(|sample| sample.direction);
+        for material in &scene().materials {
+            core.sample_bsdf(material, &wo, random(), &mut [bsdf::FAILED; COUNT]).expect("valid");
+        }
+        let scene = scene();
+        let mut built = core.build_scene(&scene, Acceleration::DEFAULT).expect("valid");
+        for light in 0..scene.lights.len() as u32 {
+            let samples = &mut [light::FAILED; COUNT];
+            built.sample_light(light, &wo, random(), samples).expect("valid");
+        }
+        let beyond = scene.lights.len() as u32;
+        let refused = built.sample_light(beyond, &wo, random(), &mut [light::FAILED; COUNT]);
+        assert!(refused.unwrap_err().to_string().contains("there is no light 6"));
+    }
+
+    #[test]
+    fn radiance_has_the_form_of_the_contract_and_does_not_depend_on_threads() {
+        let scene = scene();
+        let camera = Camera::look_at(DVec3::new(0.0, -5.0, 2.0), DVec3::Z, DVec3::Z, 1.2, [16, 16]);
+        let mut textbook = Textbook::new();
+        let mut core = Validated::new(&mut textbook);
+        let mut rays = [Ray::new(DVec3::ZERO, DVec3::Z); COUNT];
+        core.generate_rays(&camera, &numbers().0, &mut rays).expect("valid");
+        let mut built = core.build_scene(&scene, Acceleration::DEFAULT).expect("valid");
+        for direct in [DirectSampling::Lights, DirectSampling::Hemisphere] {
+            let answers = [0, 1, 2].map(|threads| {
+                let settings =
+                    IntegratorSettings { bounces: 0..=6, direct, threads, ..Default::default() };
+                let mut radiance = [[0.0; 3]; COUNT];
+                built.radiance(&rays, &settings, &mut radiance).expect("valid");
+                radiance
+            });
+            assert!(answers[0] == answers[1] && answers[1] == answers[2]);
+            assert!(answers[0].iter().any(|radiance| radiance[0] > 0.0));
+        }
+    }
+
+    #[test]
+    fn hits_do_not_depend_on_the_structure() {
+        let scene = scene();
+        let mut core = Textbook::new();
+        let mut hits_with = |acceleration| {
+            let mut rays = [Ray::new(DVec3::ZERO, DVec3::Z); COUNT];
+            for (ray, point) in rays.iter_mut().zip(numbers().0) {
+                *ray = Ray::new(DVec3::new(3.0, -4.0, 3.0), point.extend(0.1) - DVec3::ONE / 2.0);
+            }
+            let mut hits = [Hit::MISS; COUNT];
+            let mut built = core.build_scene(&scene, acceleration).expect("it builds");
+            built.intersect(&rays, &mut hits).expect("it intersects");
+            let mut occluded = [false; COUNT];
+            built.occluded(&rays, &mut occluded).expect("it intersects");
+            assert_eq!(hits.map(|hit| hit.is_hit()), occluded);
+            hits
+        };
+        let brute = hits_with(Acceleration::BruteForce);
+        for split in [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea] {
+            assert_eq!(hits_with(Acceleration::Bvh { split, max_leaf_size: 1 }), brute);
+        }
+    }
 }

@@ -1,4 +1,5 @@
-//! Random numbers: every path has its own stream, named by what it is for and never by which thread draws it.
+//! Random numbers: every path has its own stream, named by what it is for and never by which thread
+//! draws it.
 
 use crate::math::rng::{Stream, uniform};
 use glam::DVec2;
@@ -36,8 +37,8 @@ impl Random {
     }
 }
 
-/// One step of SplitMix64 (Steele, Lea and Flood 2014): a bijection that leaves no trace of the order of labels, so
-/// that neighbouring seeds and neighbouring pixels are unrelated.
+/// One step of SplitMix64 (Steele, Lea and Flood 2014): a bijection that leaves no trace of the
+/// order of labels, so that neighbouring seeds and neighbouring pixels are unrelated.
 fn scramble(label: u64) -> u64 {
     let mut z = label.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

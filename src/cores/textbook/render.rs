@@ -1,7 +1,7 @@
 //! Part 1 and 5: a picture, sample by sample.
 //!
-//! Every sample of every pixel has its own random numbers, so pictures do not depend on how pixels are shared out
-//! among threads.
+//! Every sample of every pixel has its own random numbers, so pictures do not depend on how pixels
+//! are shared out among threads.
 
 use super::adaptive::{self, Tally};
 use super::camera::generate_ray;
@@ -95,4 +95,119 @@ impl Picture<'_> {
 /// Of linear sRGB (Rec. 709).
 fn luminance(radiance: DVec3) -> f64 {
     radiance.dot(DVec3::new(0.2126, 0.7152, 0.0722))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::{AdaptiveSettings, IntegratorSettings};
+    use crate::cores::textbook::testing::{Stage, diffuse};
+
+    const WIDTH: u32 = 20;
+    const HEIGHT: u32 = 14;
+
+    fn settings(samples_per_pixel: u32) -> RenderSettings {
+        let integrator = IntegratorSettings { bounces: 0..=2, seed: 4, ..Default::default() };
+        let (width, height, adaptive) = (WIDTH, HEIGHT, None);
+        RenderSettings { width, height, samples_per_pixel, integrator, adaptive }
+    }
+
+    fn camera() -> Camera {
+        let fov = 50.0_f64.to_radians();
+        Camera::look_at(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, fov, [WIDTH, HEIGHT])
+    }
+
+    fn film(world: &World, settings: &RenderSettings) -> Film {
+        let count = (WIDTH * HEIGHT) as usize;
+        let mut film = Film {
+            width: WIDTH,
+            height: HEIGHT,
+            pixels: vec![[f32::NAN; 3]; count],
+            sample_counts: vec![0; count],
+        };
+        render(world, &camera(), settings, &mut film).expect("it renders");
+        film
+    }
+
+    /// A frontal rectangle at distance 4 that glows with radiance 1.
+    fn glowing_rectangle(x: [f64; 2], y: [f64; 2]) -> Stage {
+        let corners = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])];
+        let corners = corners.map(|(x, y)| DVec3::new(x, y, -4.0));
+        Stage::empty().polygon(&corners, diffuse(0.3).glowing(1.0))
+    }
+
+    fn mean(film: &Film) -> f64 {
+        film.pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / film.pixels.len() as f64
+    }
+
+    #[test]
+    fn s18_a_rectangle_covers_its_share_of_the_picture() {
+        let world = glowing_rectangle([-0.9, 0.5], [-0.3, 0.8]).world();
+        let share: f64 = 0.158_087_53;
+        // Only pixels that an edge crosses are noisy: about one in eight, so that the binomial
+        // error of all samples is some three standard errors.
+        let error = (share * (1.0 - share) / (280.0 * 256.0)).sqrt();
+        let mean = mean(&film(&world, &settings(256)));
+        assert!((mean - share).abs() < 1.5 * error, "{mean} {share} ± {error}");
+    }
+
+    #[test]
+    fn up_is_up_and_right_is_right() {
+        let top_right = glowing_rectangle([0.5, 3.0], [0.5, 3.0]).world();
+        let film = film(&top_right, &settings(4));
+        let is_bright = |x: usize, y: usize| film.pixels[y * WIDTH as usize + x][0] == 1.0;
+        assert!(is_bright(19, 0));
+        assert!(!is_bright(0, 0) && !is_bright(19, 13) && !is_bright(0, 13));
+    }
+
+    /// A lit scene with noise in every pixel.
+    fn noisy() -> World {
+        glowing_rectangle([-0.5, 0.5], [-0.3, 0.8])
+            .room(6.0, diffuse(0.5))
+            .ball(DVec3::new(0.3, -0.4, -3.0), 0.4, diffuse(0.7))
+            .world()
+    }
+
+    #[test]
+    fn pictures_do_not_depend_on_threads_but_on_the_seed() {
+        let world = noisy();
+        let adaptive = Some(AdaptiveSettings { samples_per_batch: 8, max_tolerance: 0.2 });
+        let picture = |threads, seed| {
+            let mut settings = RenderSettings { adaptive, ..settings(64) };
+            settings.integrator.threads = threads;
+            settings.integrator.seed = seed;
+            film(&world, &settings)
+        };
+        let alone = picture(1, 4);
+        assert_eq!(alone, picture(0, 4));
+        assert_eq!(alone, picture(3, 4));
+        assert_ne!(alone, picture(1, 5));
+    }
+
+    #[test]
+    fn counts_say_what_was_spent() {
+        let fixed = film(&noisy(), &settings(5));
+        assert!(fixed.sample_counts.iter().all(|count| *count == 5));
+        let adaptive = Some(AdaptiveSettings { samples_per_batch: 8, max_tolerance: 0.1 });
+        let counts = film(&noisy(), &RenderSettings { adaptive, ..settings(100) }).sample_counts;
+        assert!(counts.iter().all(|count| *count == 100 || count.is_multiple_of(8)));
+        assert!(counts.contains(&100) && counts.iter().any(|count| *count < 100), "{counts:?}");
+    }
+
+    #[test]
+    fn an_early_stop_divides_by_the_samples_that_were_taken() {
+        let adaptive = Some(AdaptiveSettings { samples_per_batch: 8, max_tolerance: 0.05 });
+        let world = Stage::empty().room(1.0, diffuse(0.37).glowing(0.7)).world();
+        let film = film(&world, &RenderSettings { adaptive, ..settings(100) });
+        assert!(film.sample_counts.iter().all(|count| *count == 8));
+        let expected = 0.7 * (1.0 + 0.37 + 0.37 * 0.37);
+        assert!((mean(&film) - expected).abs() < 1e-6, "{}", mean(&film));
+    }
+
+    #[test]
+    fn no_samples_are_refused() {
+        let (world, mut film) = (noisy(), Film::default());
+        let refused = render(&world, &camera(), &settings(0), &mut film);
+        assert!(matches!(refused, Err(CoreError::Refused(_))), "{refused:?}");
+    }
 }

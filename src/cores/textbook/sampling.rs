@@ -1,6 +1,7 @@
 //! Part 3: directions of the hemisphere around +z, with their densities.
 //!
-//! Both are smooth maps of the unit square, so that a harness can check |∂ω/∂u| · pdf = 1 at every point.
+//! Both are smooth maps of the unit square, so that a harness can check |∂ω/∂u| · pdf = 1 at every
+//! point.
 
 use crate::contract::{DirectionSample, Sampler};
 use glam::{DVec2, DVec3};

@@ -1,7 +1,8 @@
 //! Part 2: how a node of the hierarchy is divided in two.
 //!
-//! Every rule reorders the items of a node and answers how many of them go left. A rule may fail to separate
-//! anything (all centroids in one place): then it answers 0 or all of them, and the builder halves the node instead.
+//! Every rule reorders the items of a node and answers how many of them go left. A rule may fail to
+//! separate anything (all centroids in one place): then it answers 0 or all of them, and the
+//! builder halves the node instead.
 
 use crate::contract::Split;
 use crate::scene::Aabb;
@@ -81,8 +82,8 @@ fn partition_by(items: &mut [Item], goes_left: impl Fn(&Item) -> bool) -> usize 
     left
 }
 
-/// The division whose children cost a random ray least: sum of count times surface area (MacDonald and Booth 1990),
-/// with planes between equal bins of each axis (Wald 2007).
+/// The division whose children cost a random ray least: sum of count times surface area (MacDonald
+/// and Booth 1990), with planes between equal bins of each axis (Wald 2007).
 fn partition_by_surface_area(items: &mut [Item]) -> usize {
     let bounds = centroid_bounds(items);
     let planes = (0..3).flat_map(|axis| axis_planes(items, &bounds, axis));

@@ -149,8 +149,8 @@ impl Estimate {
         Self { mean, standard_error: (variance / paths as f64).sqrt(), variance }
     }
 
-    /// The mean is `expected` within 4.5 standard errors (one false alarm in 150,000), and those are at most
-    /// `resolution` of it: an error of ten times that could not hide.
+    /// The mean is `expected` within 4.5 standard errors (one false alarm in 150,000), and those
+    /// are at most `resolution` of it: an error of ten times that could not hide.
     pub fn assert_is(self, expected: f64, resolution: f64) {
         let rounding = 1e-9 * expected;
         let error = (self.mean - expected).abs();

@@ -143,8 +143,8 @@ pub struct Vertex<'a> {
     clearance: f64,
 }
 
-/// Share of the largest length involved by which rays keep clear of the surface they leave: far above the rounding
-/// of f64, far below anything that is seen.
+/// Share of the largest length involved by which rays keep clear of the surface they leave: far
+/// above the rounding of f64, far below anything that is seen.
 const CLEARANCE: f64 = 1e-10;
 
 impl Vertex<'_> {
@@ -154,8 +154,8 @@ impl Vertex<'_> {
         Ray { t_min: self.clearance, ..Ray::new(self.point, direction) }
     }
 
-    /// The ray to a point of a light `distance` away along the world direction `wi`. It stops short of the light,
-    /// which would shadow itself.
+    /// The ray to a point of a light `distance` away along the world direction `wi`. It stops short
+    /// of the light, which would shadow itself.
     pub fn shadow_ray(&self, wi: DVec3, distance: f64) -> Ray {
         let stop_short = self.clearance.max(CLEARANCE * distance);
         let t_max = if distance.is_finite() { distance - stop_short } else { distance };
@@ -163,16 +163,16 @@ impl Vertex<'_> {
     }
 }
 
-/// How far rays must keep clear of the point at `t`: its error grows with where the ray began, how far it came, and
-/// the coordinates of what it hit.
+/// How far rays must keep clear of the point at `t`: its error grows with where the ray began, how
+/// far it came, and the coordinates of what it hit.
 fn clearance(primitive: &Primitive, ray: &Ray, t: f64) -> f64 {
     let travelled = t * ray.direction;
     let longest = ray.origin.abs().max(travelled.abs()).max(primitive.form.reach());
     CLEARANCE * longest.max_element()
 }
 
-/// The shading normal; but glass has an inside, and where the shading normal disagrees with the geometric one about
-/// the side the ray is on, the latter is right.
+/// The shading normal; but glass has an inside, and where the shading normal disagrees with the
+/// geometric one about the side the ray is on, the latter is right.
 fn frame_normal(surface: &Surface, hit: &Hit, to_viewer: DVec3) -> DVec3 {
     let agree = hit.shading_normal.dot(to_viewer) * hit.geometric_normal.dot(to_viewer) > 0.0;
     if matches!(surface, Surface::Glass { .. }) && !agree {
@@ -201,7 +201,8 @@ impl Shape {
         }
     }
 
-    /// The normals of the vertices, weighted like their positions; `None` for flat faces and spheres.
+    /// The normals of the vertices, weighted like their positions; `None` for flat faces and
+    /// spheres.
     fn shading_normal(&self, triangle: u32, uv: DVec2) -> Option<DVec3> {
         let corners = self.indices.get(triangle as usize)?;
         interpolate_normal(corners.map(|corner| self.normals[corner as usize]), uv)
@@ -280,4 +281,119 @@ fn primitives(scene: &SceneDescription) -> Vec<Primitive> {
         primitives.push(Primitive { form, shape, number: 0 });
     }
     primitives
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cores::textbook::testing::{Stage, clear_glass, diffuse};
+    use crate::scene::Mesh;
+
+    fn hit(world: &World, from: DVec3, direction: DVec3) -> Hit {
+        let ray = Ray::new(from, direction);
+        world.closest_hit(&ray, &mut TraversalStats::default()).expect("aimed at it")
+    }
+
+    /// The unit triangle in z = 0 after one without area, with a normal of its own at each corner.
+    fn smooth_triangle() -> Mesh {
+        let normal = |x: f64, y: f64| DVec3::new(x, y, 1.0).normalize();
+        Mesh {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            normals: vec![normal(0.0, 0.0), normal(0.5, 0.0), normal(0.0, 0.9)],
+            indices: vec![[0, 0, 1], [0, 1, 2]],
+            ..Mesh::default()
+        }
+    }
+
+    #[test]
+    fn shading_normals_are_weighted_like_positions_and_unit() {
+        let mesh = smooth_triangle();
+        let world = Stage::empty().mesh(mesh.clone(), diffuse(0.5)).world();
+        let hit = hit(&world, DVec3::new(0.2, 0.3, 1.0), DVec3::NEG_Z);
+        let expected = 0.5 * mesh.normals[0] + 0.2 * mesh.normals[1] + 0.3 * mesh.normals[2];
+        assert!(hit.shading_normal.abs_diff_eq(expected.normalize(), 1e-15), "{hit:?}");
+        assert_eq!(hit.geometric_normal, DVec3::Z);
+        let alone = contract::Primitive::Triangle {
+            positions: [DVec3::ZERO, DVec3::X, DVec3::Y],
+            normals: [mesh.normals[0], mesh.normals[1], mesh.normals[2]],
+        };
+        let ray = Ray::new(DVec3::new(0.2, 0.3, 1.0), DVec3::NEG_Z);
+        let alone = hit_alone(&alone, &ray).expect("aimed at it");
+        assert_eq!(alone.shading_normal, hit.shading_normal);
+    }
+
+    #[test]
+    fn hits_keep_the_numbers_of_the_scene() {
+        let mut above_the_floor = smooth_triangle();
+        above_the_floor.positions.iter_mut().for_each(|position| *position += DVec3::Z);
+        let world = Stage::empty()
+            .ball(DVec3::X * 5.0, 1.0, diffuse(0.5))
+            .mesh(above_the_floor, diffuse(0.5))
+            .floor()
+            .ball(DVec3::X * -5.0, 1.0, diffuse(0.5))
+            .world();
+        let number = |x: f64, y: f64| {
+            let hit = hit(&world, DVec3::new(x, y, 3.0), DVec3::NEG_Z);
+            (hit.shape, hit.primitive)
+        };
+        // The triangle without area keeps its number; the floor's second triangle is beyond its
+        // diagonal.
+        assert_eq!(number(0.2, 0.2), (0, 1));
+        assert_eq!((number(0.0, -4.0), number(0.0, 4.0)), ((1, 0), (1, 1)));
+        assert_eq!((number(5.0, 0.0), number(-5.0, 0.0)), ((2, 0), (3, 0)));
+    }
+
+    #[test]
+    fn a_room_has_its_normals_inside_wherever_it_is_seen_from() {
+        let world = Stage::empty().room(1.0, diffuse(0.5)).world();
+        assert_eq!(hit(&world, DVec3::ZERO, DVec3::X).geometric_normal, DVec3::NEG_X);
+        assert_eq!(hit(&world, DVec3::X * 3.0, DVec3::NEG_X).geometric_normal, DVec3::NEG_X);
+    }
+
+    #[test]
+    fn emission_leaves_the_front_alone() {
+        let world = Stage::empty().room(1.0, diffuse(0.5).glowing(2.0)).world();
+        let emitted = |from: DVec3| match world.look(&Ray::new(from, DVec3::NEG_X)) {
+            View::Surface(vertex) => vertex.emitted.x,
+            View::Sky(_) => f64::NAN,
+        };
+        assert_eq!((emitted(DVec3::ZERO), emitted(DVec3::X * 3.0)), (2.0, 0.0));
+    }
+
+    /// Far from the origin, and on a large triangle, where rounding is worst.
+    #[test]
+    fn rays_that_leave_a_surface_neither_meet_it_again_nor_skip_what_is_near() {
+        let offset = DVec3::new(300.0, -200.0, 100.0);
+        let corners = [(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)];
+        let floor = corners.map(|(x, y)| offset + DVec3::new(x, y + 0.3 * x, x - 0.7 * y));
+        let ball = offset + DVec3::new(0.0, 0.0, 2.0);
+        let world =
+            Stage::empty().polygon(&floor, diffuse(0.5)).ball(ball, 1.0, diffuse(0.5)).world();
+        let mut random = crate::cores::textbook::random::Random::for_ray(1, 0);
+        for _ in 0..10_000 {
+            let target = offset + 3.0 * (random.point() - 0.5).extend(0.0);
+            let origin = target + DVec3::new(0.5, 0.2, 5.0);
+            let View::Surface(vertex) = world.look(&Ray::new(origin, target - origin)) else {
+                continue;
+            };
+            let wi = super::super::sampling::uniform_hemisphere(random.point());
+            let ray = vertex.ray(if vertex.wo.z < 0.0 { -wi } else { wi });
+            let again = world.closest_hit(&ray, &mut TraversalStats::default());
+            assert!(again.is_none_or(|hit| hit.t > 1e-6), "{ray:?} {again:?}");
+        }
+    }
+
+    #[test]
+    fn glass_goes_by_the_geometric_side() {
+        let mut mesh = smooth_triangle();
+        mesh.normals = vec![DVec3::new(0.8, 0.0, 0.6); 3];
+        let world = Stage::empty().mesh(mesh, clear_glass()).world();
+        // From the front of the triangle, but from behind its shading normal.
+        let from = DVec3::new(-3.0, 0.2, 0.5);
+        let View::Surface(vertex) = world.look(&Ray::new(from, DVec3::new(0.2, 0.2, 0.0) - from))
+        else {
+            panic!("aimed at it");
+        };
+        assert!(vertex.wo.z > 0.0, "{vertex:?}");
+    }
 }

@@ -73,7 +73,8 @@ fn s05_a_rectangle_overhead_has_the_mean_and_the_variances_of_theory() {
     lights.assert_is(reflected(0.117_882_642_3), 0.001);
     let hemisphere = by_hemisphere(stage, 200_000);
     hemisphere.assert_is(reflected(0.117_882_642_3), 0.01);
-    // S30, by quadrature; a sample variance of so many light tailed samples is good to a few percent.
+    // S30, by quadrature; a sample variance of so many light tailed samples is good to a few
+    // percent.
     assert!((lights.variance / 4.186_71e-4 - 1.0).abs() < 0.05, "{lights:?}");
     assert!((hemisphere.variance / 0.732_366 - 1.0).abs() < 0.05, "{hemisphere:?}");
 }
@@ -162,7 +163,8 @@ fn several_samples_and_several_lights_add_up_as_one_expects() {
         .assert_is(2.0 * reflected(0.117_882_642_3), 0.001);
 }
 
-/// A plate of rough metal that mirrors a small bright lamp: both samplings and their combination agree.
+/// A plate of rough metal that mirrors a small bright lamp: both samplings and their combination
+/// agree.
 #[test]
 fn glossy_surfaces_reflect_the_same_by_lights_and_by_hemisphere() {
     for roughness in [0.1, 0.3] {

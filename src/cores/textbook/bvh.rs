@@ -1,11 +1,13 @@
-//! Part 2: a bounding volume hierarchy, and the loop over everything that it must agree with.
+//! Part 2: walking a bounding volume hierarchy, and the loop over everything that must agree with
+//! it.
 //!
 //! Primitives lie in the order of the leaves. Without nodes every query is the loop: that is brute
 //! force.
 
-use super::intersect::{Ball, Crossing, Triangle, intersect_box};
-use super::split::{self, Item};
-use crate::contract::{Acceleration, BuildStats, Ray, Split, TraversalStats};
+use super::build::{Content, Node, build};
+use super::intersect::{Ball, Crossing, Triangle};
+use super::slab::intersect_box;
+use crate::contract::{Acceleration, BuildStats, Ray, TraversalStats};
 use crate::scene::Aabb;
 use glam::DVec3;
 use std::ops::Range;
@@ -61,42 +63,15 @@ pub struct Bvh {
     primitives: Vec<Primitive>,
 }
 
-#[derive(Debug)]
-struct Node {
-    bounds: Aabb,
-    content: Content,
-}
-
-#[derive(Debug)]
-enum Content {
-    /// The primitives in this range.
-    Leaf(Range<usize>),
-    /// The numbers of the children.
-    Inner([usize; 2]),
-}
-
-/// Boxes are larger than what they hold by this much of their largest coordinate, so that rounding
-/// in the box test can never lose what the primitive's own test would have found.
-const MARGIN: f64 = 1e-12;
-
 impl Bvh {
     /// Takes the primitives in.
     pub fn new(primitives: Vec<Primitive>, acceleration: Acceleration) -> Self {
         let Acceleration::Bvh { split, max_leaf_size } = acceleration else {
             return Self { nodes: Vec::new(), primitives };
         };
-        let mut items: Vec<Item> = primitives.iter().enumerate().map(item).collect();
-        let mut builder = Builder {
-            split,
-            max_leaf_size: max_leaf_size.max(1) as usize,
-            max_rule_depth: max_rule_depth(items.len()),
-            nodes: Vec::new(),
-        };
-        if !items.is_empty() {
-            builder.build(&mut items, 0, 0);
-        }
-        let in_leaf_order = items.iter().map(|item| primitives[item.primitive as usize]);
-        Self { nodes: builder.nodes, primitives: in_leaf_order.collect() }
+        let boxes = primitives.iter().map(|primitive| primitive.form.bounds());
+        let (nodes, order) = build(boxes, split, max_leaf_size);
+        Self { nodes, primitives: order.into_iter().map(|index| primitives[index]).collect() }
     }
 
     /// The primitive with number `index` in the order of the leaves.
@@ -231,59 +206,10 @@ impl Search<'_> {
     }
 }
 
-fn item((index, primitive): (usize, &Primitive)) -> Item {
-    let Aabb { min, max } = primitive.form.bounds();
-    let margin = MARGIN * primitive.form.reach().max_element();
-    let bounds = Aabb { min: min - margin, max: max + margin };
-    Item { primitive: index as u32, bounds, centroid: (min + max) / 2.0 }
-}
-
-/// Below this depth nodes are halved whatever the rule: points at 1, 1/2, 1/4, … would otherwise be
-/// split off one by one. Halving adds at most log₂ n levels more.
-fn max_rule_depth(primitives: usize) -> usize {
-    32 + primitives.max(1).ilog2() as usize
-}
-
-struct Builder {
-    split: Split,
-    max_leaf_size: usize,
-    max_rule_depth: usize,
-    nodes: Vec<Node>,
-}
-
-impl Builder {
-    /// Builds the node over `items`, the first of which stands at `first` in the order of leaves.
-    /// Answers its number.
-    fn build(&mut self, items: &mut [Item], first: usize, depth: usize) -> usize {
-        let bounds = split::union(items.iter().map(|item| item.bounds));
-        let number = self.nodes.len();
-        self.nodes.push(Node { bounds, content: Content::Leaf(first..first + items.len()) });
-        if items.len() > self.max_leaf_size {
-            let left_count = self.divide(items, depth);
-            let (left, right) = items.split_at_mut(left_count);
-            let left = self.build(left, first, depth + 1);
-            let right = self.build(right, first + left_count, depth + 1);
-            self.nodes[number].content = Content::Inner([left, right]);
-        }
-        number
-    }
-
-    /// How many items go left: at least one, and not all.
-    fn divide(&self, items: &mut [Item], depth: usize) -> usize {
-        if depth >= self.max_rule_depth {
-            return split::halve(items);
-        }
-        match split::partition(self.split, items) {
-            0 => split::halve(items),
-            all if all == items.len() => split::halve(items),
-            left_count => left_count,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::Split;
     use crate::cores::textbook::random::Random;
 
     const RULES: [Split; 4] =

@@ -1,15 +1,16 @@
 //! Part 4: paths of any number of bounces.
 //!
 //! Light of bounce k has been scattered exactly k times on its way to the viewer, mirror and glass
-//! included; bounce 0 is what glows where the ray arrives. At vertex k of the path (k counted from
-//! 1) the light of bounce k is gathered from the lights, so what glows where the path itself goes
-//! on is not added again; except after mirror and glass, where no light can be sampled and the path
-//! alone can meet one.
+//! included; bounce 0 is what glows where the ray arrives. At the k-th vertex of the path, the first
+//! being number 1, the light of bounce k is gathered from the lights; so what glows where the path
+//! itself goes on is not added again. Mirror and glass are the exception: no light can be sampled
+//! there, and the path alone can meet one.
 
 use super::bsdf;
 use super::direct::{one_bounce, zero_bounce};
 use super::random::Random;
-use super::world::{Vertex, View, World};
+use super::vertex::{Vertex, View};
+use super::world::World;
 use crate::contract::{IntegratorSettings, Ray, Roulette};
 use glam::DVec3;
 

@@ -1,15 +1,14 @@
 //! Part 3: where light comes from, and directions towards it.
 //!
 //! Every density is per steradian as seen from the point that asks. Area lights shine from their
-//! front alone. Not here: whether anything stands in between (`direct`).
+//! front alone. Not here: whether anything stands in between (`direct`), and how shapes that glow
+//! are sampled (`area_light`).
 
-use super::frame::Frame;
-use super::intersect::{Ball, Triangle};
+use super::area_light::{BallLight, MeshLight};
 use super::sampling;
 use crate::contract::LightSample;
-use crate::scene::{Emission, Light, Rgb, SceneDescription, Shape, Sphere};
+use crate::scene::{Light, Rgb, SceneDescription, Shape};
 use glam::{DVec2, DVec3};
-use std::f64::consts::{FRAC_1_PI, PI};
 
 /// A sample that failed.
 pub const FAILED: LightSample = LightSample {
@@ -27,23 +26,9 @@ pub enum Lamp {
     /// Point, directional or sky: nothing to prepare.
     Simple(Light),
     /// A mesh that glows.
-    Mesh {
-        /// Those of its triangles that have area.
-        triangles: Vec<Triangle>,
-        /// Area of each triangle and all before it.
-        cumulative_area: Vec<f64>,
-        /// From the front.
-        radiance: Rgb,
-    },
+    Mesh(MeshLight),
     /// A sphere that glows.
-    Sphere {
-        /// Its place and size.
-        ball: Ball,
-        /// Whether it shines towards its centre.
-        inward: bool,
-        /// Where and how.
-        emission: Emission,
-    },
+    Ball(BallLight),
     /// A shape that was declared a light but does not glow.
     Dark,
 }
@@ -54,25 +39,9 @@ impl Lamp {
         let Light::Area { shape } = *light else { return Self::Simple(*light) };
         let Some(emission) = scene.material_of(shape).emission else { return Self::Dark };
         match scene.shape(shape) {
-            Shape::Mesh(mesh) => {
-                let corners = (0..mesh.indices.len()).map(|triangle| mesh.corners(triangle));
-                Self::mesh(corners.filter_map(Triangle::new).collect(), emission.radiance)
-            }
-            Shape::Sphere(&Sphere { centre, radius, inward, .. }) => {
-                Self::Sphere { ball: Ball { centre, radius }, inward, emission }
-            }
+            Shape::Mesh(mesh) => Self::Mesh(MeshLight::new(mesh, emission.radiance)),
+            Shape::Sphere(sphere) => Self::Ball(BallLight::new(sphere, emission)),
         }
-    }
-
-    fn mesh(triangles: Vec<Triangle>, radiance: Rgb) -> Self {
-        let cumulative_area = triangles
-            .iter()
-            .scan(0.0, |total, triangle| {
-                *total += triangle.area();
-                Some(*total)
-            })
-            .collect();
-        Self::Mesh { triangles, cumulative_area, radiance }
     }
 
     /// Whether no ray can meet the light by chance.
@@ -92,16 +61,8 @@ impl Lamp {
     pub fn sample(&self, from: DVec3, point: DVec2, lobe: f64) -> Option<LightSample> {
         match self {
             Self::Simple(light) => sample_simple(light, from, point),
-            Self::Mesh { triangles, cumulative_area, radiance } => {
-                sample_mesh(triangles, cumulative_area, *radiance, from, point, lobe)
-            }
-            Self::Sphere { ball, inward, emission } => {
-                if sees_cone(ball, *inward, emission, from) {
-                    sample_cone(ball, emission, from, point)
-                } else {
-                    sample_glowing_part(ball, *inward, emission, from, point)
-                }
-            }
+            Self::Mesh(mesh) => mesh.sample(from, point, lobe),
+            Self::Ball(ball) => ball.sample(from, point),
             Self::Dark => None,
         }
     }
@@ -110,16 +71,8 @@ impl Lamp {
     /// point of the light with unit `normal` on its front.
     pub fn area_pdf(&self, from: DVec3, at: DVec3, normal: DVec3) -> f64 {
         match self {
-            Self::Mesh { cumulative_area, .. } => {
-                per_steradian(from, at, normal, total_area(cumulative_area))
-            }
-            Self::Sphere { ball, inward, emission } => {
-                if sees_cone(ball, *inward, emission, from) {
-                    cone_pdf(ball, from)
-                } else {
-                    per_steradian(from, at, normal, glowing_area(ball, emission))
-                }
-            }
+            Self::Mesh(mesh) => mesh.pdf(from, at, normal),
+            Self::Ball(ball) => ball.pdf(from, at, normal),
             Self::Simple(_) | Self::Dark => 0.0,
         }
     }
@@ -158,6 +111,15 @@ fn delta(wi: DVec3, distance: f64, radiance: Rgb) -> LightSample {
     LightSample { wi, distance, radiance, pdf: 1.0, is_delta: 1, is_valid: 1 }
 }
 
+/// The sample that leads from `from` to the point `at`, drawn with density `pdf`. From behind,
+/// where the density is 0, there is none.
+pub fn towards(from: DVec3, at: DVec3, radiance: Rgb, pdf: f64) -> Option<LightSample> {
+    let wi = (at - from).try_normalize()?;
+    let distance = from.distance(at);
+    let sample = LightSample { wi, distance, radiance, pdf, is_delta: 0, is_valid: 1 };
+    (pdf > 0.0).then_some(sample)
+}
+
 /// Uniform over all directions: the point that asks has no normal to prefer some.
 fn sample_sky(light: &Light, point: DVec2) -> LightSample {
     let wi = sampling::uniform_sphere(point);
@@ -171,138 +133,13 @@ fn sample_sky(light: &Light, point: DVec2) -> LightSample {
     }
 }
 
-/// Uniform over the area of the mesh: a triangle in proportion to its area, then a point of it.
-fn sample_mesh(
-    triangles: &[Triangle],
-    cumulative_area: &[f64],
-    radiance: Rgb,
-    from: DVec3,
-    point: DVec2,
-    lobe: f64,
-) -> Option<LightSample> {
-    let area = total_area(cumulative_area);
-    let chosen = cumulative_area.partition_point(|up_to_here| *up_to_here <= lobe * area);
-    // lobe · area may round up to the whole area.
-    let triangle = triangles.get(chosen).or(triangles.last())?;
-    let at = triangle.point(uniform_triangle(point));
-    towards_surface_point(from, at, triangle.normal(), area, radiance)
-}
-
-fn total_area(cumulative_area: &[f64]) -> f64 {
-    cumulative_area.last().copied().unwrap_or(0.0)
-}
-
-/// Weights of vertices 1 and 2 of a uniform point of a triangle (Turk 1990).
-fn uniform_triangle(point: DVec2) -> DVec2 {
-    let root = point.x.sqrt();
-    DVec2::new(root * (1.0 - point.y), root * point.y)
-}
-
-/// The sample that leads from `from` to the point `at`, drawn uniformly from `area`. From behind
-/// there is none.
-fn towards_surface_point(
-    from: DVec3,
-    at: DVec3,
-    normal: DVec3,
-    area: f64,
-    radiance: Rgb,
-) -> Option<LightSample> {
-    let pdf = per_steradian(from, at, normal, area);
-    let wi = (at - from).try_normalize()?;
-    (pdf > 0.0).then_some(LightSample {
-        wi,
-        distance: (at - from).length(),
-        radiance,
-        pdf,
-        is_delta: 0,
-        is_valid: 1,
-    })
-}
-
-/// A density of 1/area on a surface, per steradian as seen from `from`: distance² / (cos θ · area);
-/// 0 from behind.
-fn per_steradian(from: DVec3, at: DVec3, normal: DVec3, area: f64) -> f64 {
-    let to_light = at - from;
-    let distance_squared = to_light.length_squared();
-    let cosine = -to_light.dot(normal) / distance_squared.sqrt();
-    if cosine > 0.0 { distance_squared / (cosine * area) } else { 0.0 }
-}
-
-/// Whether all that `from` sees of the sphere glows, and fills a cone.
-fn sees_cone(ball: &Ball, inward: bool, emission: &Emission, from: DVec3) -> bool {
-    let is_outside = from.distance_squared(ball.centre) > ball.radius * ball.radius;
-    is_outside && !inward && emission.cap.is_none()
-}
-
-/// 1 − cos of the half angle under which the ball is seen, without subtracting nearly equal
-/// numbers.
-fn cone_height(ball: &Ball, from: DVec3) -> f64 {
-    let sine_squared = ball.radius * ball.radius / from.distance_squared(ball.centre);
-    sine_squared / (1.0 + (1.0 - sine_squared).max(0.0).sqrt())
-}
-
-/// Uniform over the cone of directions that meet the ball.
-fn cone_pdf(ball: &Ball, from: DVec3) -> f64 {
-    FRAC_1_PI / (2.0 * cone_height(ball, from))
-}
-
-fn sample_cone(ball: &Ball, emission: &Emission, from: DVec3, point: DVec2) -> Option<LightSample> {
-    let to_centre = ball.centre - from;
-    // The height of a direction of the cone below its tip, 1 − cos θ; small cones keep all their
-    // digits.
-    let height = point.x * cone_height(ball, from);
-    let local = direction_below_tip(height, point.y);
-    let wi = Frame::around(to_centre.try_normalize()?).to_world(local);
-    let offset_squared = to_centre.length_squared() * height * (2.0 - height);
-    let half_chord = (ball.radius * ball.radius - offset_squared).max(0.0).sqrt();
-    Some(LightSample {
-        wi,
-        distance: to_centre.length() * (1.0 - height) - half_chord,
-        radiance: emission.radiance,
-        pdf: cone_pdf(ball, from),
-        is_delta: 0,
-        is_valid: 1,
-    })
-}
-
-/// The unit vector `height` below +z, at `turn` of a full turn.
-fn direction_below_tip(height: f64, turn: f64) -> DVec3 {
-    let sine = (height * (2.0 - height)).max(0.0).sqrt();
-    let (sin_phi, cos_phi) = (2.0 * PI * turn).sin_cos();
-    DVec3::new(sine * cos_phi, sine * sin_phi, 1.0 - height)
-}
-
-/// Uniform over the part of the sphere that glows: for rooms, for caps, and from inside.
-fn sample_glowing_part(
-    ball: &Ball,
-    inward: bool,
-    emission: &Emission,
-    from: DVec3,
-    point: DVec2,
-) -> Option<LightSample> {
-    let local = direction_below_tip(point.x * glowing_height(emission), point.y);
-    let axis = emission.cap.map_or(DVec3::Z, |cap| cap.axis);
-    let outward = Frame::around(axis).to_world(local);
-    let normal = if inward { -outward } else { outward };
-    let at = ball.centre + ball.radius * outward;
-    towards_surface_point(from, at, normal, glowing_area(ball, emission), emission.radiance)
-}
-
-/// Height of the glowing part of a unit sphere, from the tip of its axis down.
-fn glowing_height(emission: &Emission) -> f64 {
-    emission.cap.map_or(2.0, |cap| 1.0 - cap.half_angle.cos())
-}
-
-/// Archimedes: a zone's area is 2πR times its height.
-fn glowing_area(ball: &Ball, emission: &Emission) -> f64 {
-    2.0 * PI * ball.radius * ball.radius * glowing_height(emission)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::Ray;
     use crate::cores::textbook::random::Random;
     use crate::cores::textbook::testing::{Stage, diffuse, grey};
+    use std::f64::consts::PI;
 
     /// The last light of a stage.
     fn lamp(stage: Stage) -> Lamp {
@@ -379,7 +216,7 @@ mod tests {
         ] {
             let (lamp, world) = (lamp(stage.clone()), stage.world());
             for sample in samples(&lamp, from, 1000).into_iter().flatten() {
-                let ray = crate::contract::Ray::new(from, sample.wi);
+                let ray = Ray::new(from, sample.wi);
                 let hit = world.closest_hit(&ray, &mut Default::default()).expect("it is there");
                 assert!((hit.t / sample.distance - 1.0).abs() < 1e-6, "{hit:?} {sample:?}");
                 let pdf = lamp.area_pdf(from, ray.at(hit.t), hit.geometric_normal);

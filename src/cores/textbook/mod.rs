@@ -11,16 +11,19 @@
 //! | part | task | file |
 //! |---|---|---|
 //! | 1 | camera rays; triangle, sphere; samples of a pixel | `camera`, `intersect`, `render` |
-//! | 2 | box; building and walking the hierarchy | `intersect`, `bvh` |
-//! | 3 | diffuse surfaces, hemisphere and light sampling | `bsdf`, `sampling`, `light`, `direct` |
+//! | 2 | box; dividing, building, walking the hierarchy | `slab`, `split`, `build`, `bvh` |
+//! | 3 | surfaces, hemisphere and light sampling | `bsdf`, `sampling`, `light`, `area_light`, `direct` |
 //! | 4 | paths of many bounces, roulette | `integrator` |
 //! | 5 | adaptive sampling | `adaptive` |
 //!
-//! Beyond the course: `glass` and `ggx` scatter as their names say, `world` is the scene as rays
-//! see it, and `random` gives every path its own stream, so that answers do not depend on threads.
+//! Beyond the course: `glass` and `ggx` scatter as their names say; `world` is the scene as rays
+//! see it, and `vertex` a point of a path in it; `random` gives every path its own stream, so that
+//! answers do not depend on threads.
 
 mod adaptive;
+mod area_light;
 mod bsdf;
+mod build;
 mod bvh;
 mod camera;
 mod direct;
@@ -33,7 +36,9 @@ mod light;
 mod random;
 mod render;
 mod sampling;
+mod slab;
 mod split;
+mod vertex;
 mod world;
 
 #[cfg(test)]
@@ -91,7 +96,7 @@ impl Core for Textbook {
     }
 
     fn intersect_box(&mut self, bounds: &Aabb, rays: &[Ray], hits: &mut [BoxHit]) -> Result<()> {
-        answer(rays, hits, |ray| box_hit(intersect::intersect_box(bounds, ray)));
+        answer(rays, hits, |ray| box_hit(slab::intersect_box(bounds, ray)));
         Ok(())
     }
 

@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 #[derive(Clone, Copy, Debug)]
 pub struct Item {
     /// Its number in the scene.
-    pub primitive: u32,
+    pub primitive: usize,
     /// A box that holds it.
     pub bounds: Aabb,
     /// The middle of that box.
@@ -146,10 +146,10 @@ mod tests {
         [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea];
 
     fn items_at(places: &[f64]) -> Vec<Item> {
-        let item = |(index, x): (usize, &f64)| {
+        let item = |(primitive, x): (usize, &f64)| {
             let centroid = DVec3::new(1.0, *x, 2.0);
             let bounds = Aabb { min: centroid - 0.1, max: centroid + 0.1 };
-            Item { primitive: index as u32, bounds, centroid }
+            Item { primitive, bounds, centroid }
         };
         places.iter().enumerate().map(item).collect()
     }

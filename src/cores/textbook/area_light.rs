@@ -1,0 +1,178 @@
+//! Part 3: shapes that glow, as lights.
+//!
+//! A mesh, and a sphere that is not seen whole, are sampled uniformly over their area; a ball seen
+//! from outside uniformly over the cone that it fills.
+
+use super::frame::Frame;
+use super::intersect::{Ball, Triangle};
+use super::light::towards;
+use crate::contract::LightSample;
+use crate::scene::{Emission, Mesh, Rgb, Sphere};
+use glam::{DVec2, DVec3};
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// A mesh that glows.
+#[derive(Clone, Debug)]
+pub struct MeshLight {
+    /// Those of its triangles that have area.
+    triangles: Vec<Triangle>,
+    /// Area of each triangle and all before it.
+    cumulative_area: Vec<f64>,
+    /// From the front.
+    radiance: Rgb,
+}
+
+impl MeshLight {
+    /// Prepares a mesh that glows with `radiance`.
+    pub fn new(mesh: &Mesh, radiance: Rgb) -> Self {
+        let corners = (0..mesh.indices.len()).map(|triangle| mesh.corners(triangle));
+        let triangles: Vec<Triangle> = corners.filter_map(Triangle::new).collect();
+        let mut total = 0.0;
+        let cumulative_area = triangles
+            .iter()
+            .map(|triangle| {
+                total += triangle.area();
+                total
+            })
+            .collect();
+        Self { triangles, cumulative_area, radiance }
+    }
+
+    fn area(&self) -> f64 {
+        self.cumulative_area.last().copied().unwrap_or(0.0)
+    }
+
+    /// Uniform over the area of the mesh: a triangle in proportion to its area, then a point of it.
+    pub fn sample(&self, from: DVec3, point: DVec2, lobe: f64) -> Option<LightSample> {
+        let triangle = self.choose_triangle(lobe)?;
+        let at = triangle.point(uniform_triangle(point));
+        let pdf = self.pdf(from, at, triangle.normal());
+        towards(from, at, self.radiance, pdf)
+    }
+
+    fn choose_triangle(&self, lobe: f64) -> Option<&Triangle> {
+        let target = lobe * self.area();
+        let chosen = self.cumulative_area.partition_point(|up_to_here| *up_to_here <= target);
+        // The target may be rounded up to the whole area.
+        self.triangles.get(chosen).or(self.triangles.last())
+    }
+
+    /// The density of the direction from `from` to the point `at` with this normal.
+    pub fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3) -> f64 {
+        per_steradian(from, at, normal) / self.area()
+    }
+}
+
+/// Weights of vertices 1 and 2 of a uniform point of a triangle (Turk 1990).
+fn uniform_triangle(point: DVec2) -> DVec2 {
+    let root = point.x.sqrt();
+    DVec2::new(root * (1.0 - point.y), root * point.y)
+}
+
+/// Area per steradian as seen from `from`: distance² / cos θ at the light; 0 from behind.
+fn per_steradian(from: DVec3, at: DVec3, normal: DVec3) -> f64 {
+    let to_light = at - from;
+    let distance_squared = to_light.length_squared();
+    let cosine = -to_light.dot(normal) / distance_squared.sqrt();
+    if cosine > 0.0 { distance_squared / cosine } else { 0.0 }
+}
+
+/// A sphere that glows.
+#[derive(Clone, Debug)]
+pub struct BallLight {
+    ball: Ball,
+    /// Whether it shines towards its centre.
+    inward: bool,
+    emission: Emission,
+}
+
+impl BallLight {
+    /// Prepares a sphere.
+    pub fn new(sphere: &Sphere, emission: Emission) -> Self {
+        let Sphere { centre, radius, inward, .. } = *sphere;
+        Self { ball: Ball { centre, radius }, inward, emission }
+    }
+
+    /// A direction from `from` towards a glowing point.
+    pub fn sample(&self, from: DVec3, point: DVec2) -> Option<LightSample> {
+        if self.fills_cone(from) {
+            self.sample_cone(from, point)
+        } else {
+            self.sample_glowing_part(from, point)
+        }
+    }
+
+    /// The density of the direction from `from` to the glowing point `at` with this normal.
+    pub fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3) -> f64 {
+        if self.fills_cone(from) {
+            self.cone_pdf(from)
+        } else {
+            per_steradian(from, at, normal) / self.glowing_area()
+        }
+    }
+
+    /// Whether all that `from` sees of the sphere glows.
+    fn fills_cone(&self, from: DVec3) -> bool {
+        let radius_squared = self.ball.radius * self.ball.radius;
+        let is_outside = from.distance_squared(self.ball.centre) > radius_squared;
+        is_outside && !self.inward && self.emission.cap.is_none()
+    }
+
+    /// 1 − cos of the half angle under which the ball is seen, without subtracting nearly equal
+    /// numbers.
+    fn cone_height(&self, from: DVec3) -> f64 {
+        let radius_squared = self.ball.radius * self.ball.radius;
+        let sine_squared = radius_squared / from.distance_squared(self.ball.centre);
+        sine_squared / (1.0 + (1.0 - sine_squared).max(0.0).sqrt())
+    }
+
+    /// Uniform over the cone of directions that meet the ball.
+    fn cone_pdf(&self, from: DVec3) -> f64 {
+        FRAC_1_PI / (2.0 * self.cone_height(from))
+    }
+
+    fn sample_cone(&self, from: DVec3, point: DVec2) -> Option<LightSample> {
+        let to_centre = self.ball.centre - from;
+        let height = point.x * self.cone_height(from);
+        let axis = Frame::around(to_centre.try_normalize()?);
+        let wi = axis.to_world(direction_below_tip(height, point.y));
+        let at = from + self.near_distance(to_centre, height) * wi;
+        towards(from, at, self.emission.radiance, self.cone_pdf(from))
+    }
+
+    /// To the near side of the ball, in a direction whose cosine with `to_centre` is 1 − height.
+    fn near_distance(&self, to_centre: DVec3, height: f64) -> f64 {
+        let sine_squared = height * (2.0 - height);
+        let line_to_centre_squared = to_centre.length_squared() * sine_squared;
+        let half_chord_squared = self.ball.radius * self.ball.radius - line_to_centre_squared;
+        to_centre.length() * (1.0 - height) - half_chord_squared.max(0.0).sqrt()
+    }
+
+    /// Uniform over the part of the sphere that glows: for rooms, for caps, and from inside.
+    fn sample_glowing_part(&self, from: DVec3, point: DVec2) -> Option<LightSample> {
+        let axis = self.emission.cap.map_or(DVec3::Z, |cap| cap.axis);
+        let local = direction_below_tip(point.x * self.glowing_height(), point.y);
+        let outward = Frame::around(axis).to_world(local);
+        let normal = if self.inward { -outward } else { outward };
+        let at = self.ball.centre + self.ball.radius * outward;
+        towards(from, at, self.emission.radiance, self.pdf(from, at, normal))
+    }
+
+    /// Height of the glowing part of a unit sphere, from the tip of its axis down.
+    fn glowing_height(&self) -> f64 {
+        self.emission.cap.map_or(2.0, |cap| 1.0 - cap.half_angle.cos())
+    }
+
+    /// Archimedes: a zone's area is 2πR times its height.
+    fn glowing_area(&self) -> f64 {
+        2.0 * PI * self.ball.radius * self.ball.radius * self.glowing_height()
+    }
+}
+
+/// The unit vector `height` below +z, at `turn` of a full turn. Near the tip it keeps all its
+/// digits.
+fn direction_below_tip(height: f64, turn: f64) -> DVec3 {
+    let sine = (height * (2.0 - height)).max(0.0).sqrt();
+    let (sin_phi, cos_phi) = (2.0 * PI * turn).sin_cos();
+    DVec3::new(sine * cos_phi, sine * sin_phi, 1.0 - height)
+}

@@ -1,0 +1,128 @@
+//! Points of a path, and the rays that leave them.
+
+use super::bvh::Form;
+use super::frame::Frame;
+use super::light::Lamp;
+use crate::contract::{Hit, Ray};
+use crate::scene::Surface;
+use glam::DVec3;
+
+/// What a ray sees at its end.
+#[derive(Debug)]
+pub enum View<'a> {
+    /// The nearest surface.
+    Surface(Vertex<'a>),
+    /// Nothing: the sky in this direction (unit).
+    Sky(DVec3),
+}
+
+/// A point of a path on a surface.
+#[derive(Debug)]
+pub struct Vertex<'a> {
+    /// World space.
+    pub point: DVec3,
+    /// Geometric, unit, on the side that glows.
+    pub normal: DVec3,
+    /// The shading frame.
+    pub frame: Frame,
+    /// Back along the path, local, unit.
+    pub wo: DVec3,
+    /// How it scatters.
+    pub surface: &'a Surface,
+    /// Radiance it emits back along the path.
+    pub emitted: DVec3,
+    /// The light that the surface is.
+    pub light: Option<&'a Lamp>,
+    /// Rays that leave the point start this far away.
+    pub clearance: f64,
+}
+
+/// Share of the largest length involved by which rays keep clear of the surface they leave: far
+/// above the rounding of f64, far below anything that is seen.
+const CLEARANCE: f64 = 1e-10;
+
+impl Vertex<'_> {
+    /// The ray from here in the local direction `wi`.
+    pub fn ray(&self, wi: DVec3) -> Ray {
+        let direction = self.frame.to_world(wi);
+        Ray { t_min: self.clearance, ..Ray::new(self.point, direction) }
+    }
+
+    /// The ray to a point of a light `distance` away along the world direction `wi`. It stops short
+    /// of the light, which would shadow itself.
+    pub fn shadow_ray(&self, wi: DVec3, distance: f64) -> Ray {
+        let stop_short = self.clearance.max(CLEARANCE * distance);
+        let t_max = if distance.is_finite() { distance - stop_short } else { distance };
+        Ray { origin: self.point, t_min: self.clearance, direction: wi, t_max }
+    }
+}
+
+/// How far rays must keep clear of the point at `t`: its error grows with where the ray began, how
+/// far it came, and the coordinates of what it hit.
+pub fn clearance(form: &Form, ray: &Ray, t: f64) -> f64 {
+    let travelled = t * ray.direction;
+    let longest = ray.origin.abs().max(travelled.abs()).max(form.reach());
+    CLEARANCE * longest.max_element()
+}
+
+/// The shading normal; but glass has an inside, and where the shading normal disagrees with the
+/// geometric one about the side the ray is on, the latter is right.
+pub fn frame_normal(surface: &Surface, hit: &Hit, to_viewer: DVec3) -> DVec3 {
+    let agree = hit.shading_normal.dot(to_viewer) * hit.geometric_normal.dot(to_viewer) > 0.0;
+    if matches!(surface, Surface::Glass { .. }) && !agree {
+        hit.geometric_normal
+    } else {
+        hit.shading_normal
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::TraversalStats;
+    use crate::cores::textbook::random::Random;
+    use crate::cores::textbook::sampling;
+    use crate::cores::textbook::testing::{Stage, clear_glass, diffuse};
+    use crate::scene::Mesh;
+
+    /// Far from the origin, and on a large triangle, where rounding is worst.
+    #[test]
+    fn rays_that_leave_a_surface_neither_meet_it_again_nor_skip_what_is_near() {
+        let offset = DVec3::new(300.0, -200.0, 100.0);
+        let corners = [(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)];
+        let floor = corners.map(|(x, y)| offset + DVec3::new(x, y + 0.3 * x, x - 0.7 * y));
+        let ball = offset + DVec3::new(0.0, 0.0, 2.0);
+        let world =
+            Stage::empty().polygon(&floor, diffuse(0.5)).ball(ball, 1.0, diffuse(0.5)).world();
+        let mut random = Random::for_ray(1, 0);
+        for _ in 0..10_000 {
+            let target = offset + 3.0 * (random.point() - 0.5).extend(0.0);
+            let origin = target + DVec3::new(0.5, 0.2, 5.0);
+            let View::Surface(vertex) = world.look(&Ray::new(origin, target - origin)) else {
+                continue;
+            };
+            let wi = sampling::uniform_hemisphere(random.point());
+            let ray = vertex.ray(if vertex.wo.z < 0.0 { -wi } else { wi });
+            let again = world.closest_hit(&ray, &mut TraversalStats::default());
+            assert!(again.is_none_or(|hit| hit.t > 1e-6), "{ray:?} {again:?}");
+        }
+    }
+
+    #[test]
+    fn glass_goes_by_the_geometric_side() {
+        let mesh = Mesh {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            normals: vec![DVec3::new(0.8, 0.0, 0.6); 3],
+            indices: vec![[0, 1, 2]],
+            ..Mesh::default()
+        };
+        let world = Stage::empty().mesh(mesh, clear_glass()).world();
+        // From the front of the triangle, but from behind its shading normal.
+        let from = DVec3::new(-3.0, 0.2, 0.5);
+        let View::Surface(vertex) = world.look(&Ray::new(from, DVec3::new(0.2, 0.2, 0.0) - from))
+        else {
+            panic!("aimed at it");
+        };
+        assert!(vertex.wo.z > 0.0, "{vertex:?}");
+    }
+}

@@ -84,6 +84,27 @@ impl Budget {
     }
 }
 
+impl std::fmt::Display for Budget {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Budget::Quick => "quick",
+            Budget::Default => "default",
+            Budget::Strict => "strict",
+        })
+    }
+}
+
+impl std::str::FromStr for Budget {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<Self, String> {
+        [Budget::Quick, Budget::Default, Budget::Strict]
+            .into_iter()
+            .find(|budget| budget.to_string() == word)
+            .ok_or_else(|| format!("`{word}` is no budget; write `quick`, `default` or `strict`"))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

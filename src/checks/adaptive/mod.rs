@@ -1,0 +1,5 @@
+//! Adaptive sampling.
+
+mod sample_counts;
+
+pub use sample_counts::SampleCounts;

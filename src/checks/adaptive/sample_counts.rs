@@ -1,0 +1,155 @@
+//! Adaptive pictures: sample counts in range, and means divided by the samples that were used.
+
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Picture, PictureRole};
+use crate::contract::{
+    Acceleration, AdaptiveSettings, BuiltScene, Capabilities, Film, IntegratorSettings,
+    RenderSettings,
+};
+use crate::image::Image;
+use crate::scene::Camera;
+use crate::text::{Colour, Percent};
+use serde::Deserialize;
+
+/// Relative error of a pixel whose samples are all alike: rounding of a sum of some thousand terms.
+const EXACT_PIXEL: f64 = 1e-5;
+
+/// Renders a scene adaptively and looks at the counts.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SampleCounts {
+    size: [u32; 2],
+    bounces: [u32; 2],
+    /// The most samples a pixel may take.
+    cap: u32,
+    /// Samples between two looks.
+    batch: u32,
+    /// Half width of the interval that is good enough.
+    tolerance: Percent,
+    /// The scene has no noise: every pixel stops at the first look, and has this radiance.
+    radiance: Option<Colour>,
+}
+
+impl Check for SampleCounts {
+    const NAME: &'static str = "sample-counts";
+    const SUMMARY: &'static str = "adaptive pictures: counts in range, means over what was used";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::RENDER | Capabilities::ADAPTIVE_SAMPLING
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        if self.batch < 2 || self.cap < self.batch {
+            return Err("`batch` must be at least 2, and `cap` at least `batch`".to_owned());
+        }
+        Ok(())
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let camera = scene
+            .camera
+            .ok_or_else(|| CheckError::Broken(format!("scene `{}` has no camera", scene.name)))?;
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let film = self.render(built.as_mut(), &camera, context.seed.0)?;
+        let mut measures = vec![self.out_of_range(&film)];
+        if let Some(Colour(radiance)) = self.radiance {
+            measures.push(self.beyond_first_look(&film));
+            measures.extend(pixels_equal(&film, radiance));
+        } else {
+            measures.push(distinct_counts(&film));
+        }
+        drop(built);
+        context.pictures.push(rate_picture(&film, self.cap));
+        let failed = measures.iter().find(|measure| !passes(measure));
+        let statement = match failed {
+            None => format!("counts lie in {} to {}, in steps of a batch", self.batch, self.cap),
+            Some(measure) => {
+                format!("{}: {} instead of {}", measure.name, measure.measured, measure.expected)
+            }
+        };
+        Ok(Finding::of(statement, "would have caught one wrong count in the picture", measures))
+    }
+}
+
+impl SampleCounts {
+    fn render(
+        &self,
+        scene: &mut dyn BuiltScene,
+        camera: &Camera,
+        seed: u64,
+    ) -> Result<Film, CheckError> {
+        let settings = RenderSettings {
+            width: self.size[0],
+            height: self.size[1],
+            samples_per_pixel: self.cap,
+            integrator: IntegratorSettings {
+                bounces: self.bounces[0]..=self.bounces[1],
+                seed,
+                ..Default::default()
+            },
+            adaptive: Some(AdaptiveSettings {
+                samples_per_batch: self.batch,
+                max_tolerance: self.tolerance.0,
+            }),
+        };
+        let mut film = Film::default();
+        scene.render(camera, &settings, &mut film)?;
+        Ok(film)
+    }
+
+    /// A count is a whole number of batches, or the cap.
+    fn out_of_range(&self, film: &Film) -> Measure {
+        let is_wrong = |count: &&u32| {
+            let whole = count.is_multiple_of(self.batch) || **count == self.cap;
+            !(whole && (self.batch..=self.cap).contains(*count))
+        };
+        let wrong = film.sample_counts.iter().filter(is_wrong).count();
+        Measure::exact("counts that no look can give", wrong as f64, 0.0, 0.0).in_unit("pixels")
+    }
+
+    fn beyond_first_look(&self, film: &Film) -> Measure {
+        let later = film.sample_counts.iter().filter(|count| **count != self.batch).count();
+        Measure::exact("pixels without noise that took more than one batch", later as f64, 0.0, 0.0)
+            .in_unit("pixels")
+    }
+}
+
+fn passes(measure: &Measure) -> bool {
+    measure.verdict == crate::stats::Verdict::Pass
+}
+
+/// The darkest and the brightest pixel of a picture that is all one colour. Divided by the cap instead of the
+/// samples used, they would be `batch / cap` of it.
+fn pixels_equal(film: &Film, radiance: [f64; 3]) -> Vec<Measure> {
+    let channel = |c: usize| film.pixels.iter().map(move |pixel| f64::from(pixel[c]));
+    let exact = |name: &str, value: f64, c: usize| {
+        let name = format!("{name} pixel, {}", ["red", "green", "blue"][c]);
+        Measure::exact(name, value, radiance[c], EXACT_PIXEL * radiance[c])
+    };
+    (0..3)
+        .flat_map(|c| {
+            [
+                exact("darkest", channel(c).fold(f64::INFINITY, f64::min), c),
+                exact("brightest", channel(c).fold(0.0, f64::max), c),
+            ]
+        })
+        .collect()
+}
+
+/// A noisy scene whose pixels all take the same count is not sampled adaptively.
+fn distinct_counts(film: &Film) -> Measure {
+    let mut counts = film.sample_counts.clone();
+    counts.sort_unstable();
+    counts.dedup();
+    let all_alike = f64::from(u8::from(counts.len() < 2));
+    Measure::exact("a noisy picture with one count everywhere", all_alike, 0.0, 0.0)
+}
+
+fn rate_picture(film: &Film, cap: u32) -> Picture {
+    let rates = film.sample_counts.iter().map(|count| [*count as f32 / cap as f32; 3]).collect();
+    Picture {
+        role: PictureRole::SampleRate,
+        caption: format!("samples taken, as a share of {cap}"),
+        image: Image { width: film.width as usize, height: film.height as usize, pixels: rates },
+    }
+}

@@ -1,0 +1,82 @@
+//! What a check is handed: the core, the scene, the seed, the budget.
+
+use crate::contract::{Core, CoreError, CoreInfo};
+use crate::image::Image;
+use crate::math::rng::Seed;
+use crate::scene::{Library, SceneDescription};
+use crate::stats::Budget;
+use std::path::Path;
+use std::sync::Arc;
+
+/// What a check is handed.
+pub struct Context<'a> {
+    /// The core under test; its answers already have the contract's form.
+    pub core: &'a mut dyn Core,
+    /// Who the core is, what it can do and which conventions it declares.
+    pub info: CoreInfo,
+    /// The scene that the case names, if it names one.
+    pub scene: Option<Arc<SceneDescription>>,
+    /// All scenes, for checks that name their own.
+    pub scenes: &'a Library,
+    /// The folder of references.
+    pub references: &'a Path,
+    /// Seed of the trial: the same for every core, so that a core gets the same verdict on every machine.
+    pub seed: Seed,
+    /// How much may be spent, and so how small an error is looked for.
+    pub budget: Budget,
+    /// Pictures for the report.
+    pub pictures: Vec<Picture>,
+}
+
+impl Context<'_> {
+    /// The scene that the case names.
+    ///
+    /// # Errors
+    /// [`CheckError::Broken`] if it names none.
+    pub fn scene(&self) -> Result<Arc<SceneDescription>, CheckError> {
+        self.scene.clone().ok_or_else(|| {
+            CheckError::Broken("the case names no scene; add `scene = \"…\"`".to_owned())
+        })
+    }
+
+    /// Keeps a picture for the report.
+    pub fn show(&mut self, role: PictureRole, caption: impl Into<String>, image: Image) {
+        self.pictures.push(Picture { role, caption: caption.into(), image });
+    }
+}
+
+/// A picture that a check wants people to see.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// What it shows.
+    pub role: PictureRole,
+    /// A few words below it.
+    pub caption: String,
+    /// Linear RGB radiance.
+    pub image: Image,
+}
+
+/// What a picture shows, so that the report knows how to draw it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PictureRole {
+    /// What the core rendered.
+    Render,
+    /// What it should have rendered.
+    Reference,
+    /// Signed, in units where ±1 is the end of the scale.
+    SignedError,
+    /// Samples spent on each pixel, as a share of the cap.
+    SampleRate,
+}
+
+/// Why a check came to no finding.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CheckError {
+    /// The core did not answer.
+    #[error(transparent)]
+    Core(#[from] CoreError),
+    /// The case or the harness is at fault: a missing reference, a scene that cannot be read.
+    #[error("{0}")]
+    Broken(String),
+}

@@ -1,0 +1,171 @@
+//! What a check has to say: a verdict, a sentence, and the numbers behind it.
+
+use crate::stats::Verdict;
+use serde::{Deserialize, Serialize};
+
+/// The result of one check on one core.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Finding {
+    /// The worst verdict of the measures.
+    pub verdict: Verdict,
+    /// One sentence in plain words, with the size of what was found.
+    pub statement: String,
+    /// The numbers, one a row of the case, channel or stage.
+    pub measures: Vec<Measure>,
+    /// The smallest error this trial would have caught, in words. Empty only where nothing was measured.
+    pub resolution: String,
+    /// What the trial spent of the suite's error budget: the probability that a correct core fails it.
+    #[serde(with = "number")]
+    pub false_alarm: f64,
+}
+
+/// One number that was measured.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measure {
+    /// What was measured: `bounce 2, red`.
+    pub name: String,
+    /// Unit of the numbers; empty for a ratio or a count.
+    pub unit: String,
+    /// What the core gave.
+    #[serde(with = "number")]
+    pub measured: f64,
+    /// What it should be.
+    #[serde(with = "number")]
+    pub expected: f64,
+    /// How far from `expected` is still right, in the same unit, without noise.
+    #[serde(with = "number")]
+    pub allowed: f64,
+    /// 99.9 % interval of what was measured; none for deterministic measures.
+    pub interval: Option<[f64; 2]>,
+    /// The smallest relative error that would have been caught.
+    pub resolution: Option<f64>,
+    /// The verdict on this number alone.
+    pub verdict: Verdict,
+}
+
+impl Measure {
+    /// A deterministic measure: passes if it is within `allowed` of `expected`; NaN fails.
+    pub fn exact(name: impl Into<String>, measured: f64, expected: f64, allowed: f64) -> Self {
+        let passes = (measured - expected).abs() <= allowed;
+        Self {
+            name: name.into(),
+            unit: String::new(),
+            measured,
+            expected,
+            allowed,
+            interval: None,
+            resolution: (expected != 0.0).then(|| allowed / expected.abs()),
+            verdict: if passes { Verdict::Pass } else { Verdict::Fail },
+        }
+    }
+
+    /// The same with a unit.
+    pub fn in_unit(mut self, unit: &str) -> Self {
+        unit.clone_into(&mut self.unit);
+        self
+    }
+}
+
+impl Finding {
+    /// A finding of some measures: its verdict is the worst of theirs; none at all is inconclusive.
+    pub fn of(
+        statement: impl Into<String>,
+        resolution: impl Into<String>,
+        measures: Vec<Measure>,
+    ) -> Self {
+        let verdict = Verdict::worst_of(measures.iter().map(|measure| measure.verdict));
+        Self {
+            verdict,
+            statement: statement.into(),
+            measures,
+            resolution: resolution.into(),
+            false_alarm: 0.0,
+        }
+    }
+
+    /// A failure with nothing to measure: the core's answer itself is wrong.
+    pub fn failure(statement: impl Into<String>) -> Self {
+        Self {
+            verdict: Verdict::Fail,
+            statement: statement.into(),
+            measures: Vec::new(),
+            resolution: String::new(),
+            false_alarm: 0.0,
+        }
+    }
+
+    /// Adds what a statistical check has spent of the error budget.
+    pub fn spending(mut self, false_alarm: f64) -> Self {
+        self.false_alarm += false_alarm;
+        self
+    }
+
+    /// The measures that did not pass.
+    pub fn failed_measures(&self) -> impl Iterator<Item = &Measure> {
+        self.measures.iter().filter(|measure| measure.verdict == Verdict::Fail)
+    }
+}
+
+/// Numbers in JSON, where NaN and the infinities have no literal: they are written as words.
+pub mod number {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Written {
+        Number(f64),
+        Word(String),
+    }
+
+    /// Writes a number, or the word for one that JSON cannot write.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        if value.is_finite() {
+            serializer.serialize_f64(*value)
+        } else {
+            serializer.serialize_str(&value.to_string())
+        }
+    }
+
+    /// Reads what [`serialize`] has written.
+    ///
+    /// # Errors
+    /// If it is neither a number nor `NaN`, `inf` or `-inf`.
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        match Written::deserialize(deserializer)? {
+            Written::Number(value) => Ok(value),
+            Written::Word(word) if ["NaN", "inf", "-inf"].contains(&word.as_str()) => {
+                word.parse().map_err(D::Error::custom)
+            }
+            Written::Word(word) => {
+                Err(D::Error::custom(format!("`{word}` is not a number, NaN, inf or -inf")))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_nan_measure_fails() {
+        assert_eq!(Measure::exact("t", f64::NAN, 1.0, 1e9).verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn a_finding_of_nothing_is_not_a_pass() {
+        assert_eq!(Finding::of("", "", Vec::new()).verdict, Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn a_finding_survives_json_even_with_nan() {
+        let finding = Finding::of("s", "r", vec![Measure::exact("t", f64::INFINITY, 1.0, 0.5)]);
+        let text = serde_json::to_string(&finding).unwrap();
+        assert_eq!(serde_json::from_str::<Finding>(&text).unwrap(), finding);
+    }
+}

@@ -1,0 +1,118 @@
+//! How answers are judged: one check a file, its name the `check = "…"` of cases, its struct their `[expect]`.
+//!
+//! A check sees a `&mut dyn Core` and never a particular core; it draws its random numbers from the trial's
+//! seed; it leaves every verdict to [`crate::stats`]. To add one: write the file, add a line to [`CHECKS`].
+
+pub mod adaptive;
+mod context;
+mod finding;
+pub mod robustness;
+pub mod transport;
+
+pub use context::{CheckError, Context, Picture, PictureRole};
+pub use finding::{Finding, Measure, number};
+
+use crate::contract::Capabilities;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+/// A way to judge a core. The struct that implements it is the `[expect]` of its cases.
+pub trait Check: DeserializeOwned + Send + Sync + 'static {
+    /// The word in `check = "…"`.
+    const NAME: &'static str;
+    /// One line for `furnace list checks`.
+    const SUMMARY: &'static str;
+
+    /// What the core must be able to do; a core without it skips the trial.
+    fn needs(&self) -> Capabilities;
+
+    /// What is wrong with the settings themselves, before any core is asked.
+    ///
+    /// # Errors
+    /// A sentence for the author of the case.
+    fn validate(&self) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// Asks the core and judges.
+    ///
+    /// # Errors
+    /// If the core did not answer, or the case or harness is at fault.
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError>;
+}
+
+/// A check with its settings read, ready to run.
+pub trait Prepared: Send + Sync {
+    /// What the core must be able to do.
+    fn needs(&self) -> Capabilities;
+
+    /// Asks the core and judges.
+    ///
+    /// # Errors
+    /// If the core did not answer, or the case or harness is at fault.
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError>;
+}
+
+impl<C: Check> Prepared for C {
+    fn needs(&self) -> Capabilities {
+        Check::needs(self)
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        Check::run(self, context)
+    }
+}
+
+/// Why a case's text did not become a check.
+#[derive(Debug)]
+pub enum PrepareError {
+    /// The `[expect]` table is not what the check wants; carries the place in the text.
+    Toml(toml::de::Error),
+    /// The values make no sense together.
+    Invalid(String),
+}
+
+/// A line of [`CHECKS`].
+pub struct CheckKind {
+    /// The word in `check = "…"`.
+    pub name: &'static str,
+    /// One line for `furnace list checks`.
+    pub summary: &'static str,
+    /// Reads the `[expect]` table out of the whole text of a case, so that errors know their line.
+    pub prepare: fn(&str) -> Result<Box<dyn Prepared>, PrepareError>,
+}
+
+impl CheckKind {
+    /// The line for check `C`.
+    pub const fn of<C: Check>() -> Self {
+        Self { name: C::NAME, summary: C::SUMMARY, prepare: prepare::<C> }
+    }
+}
+
+/// The part of a case file that belongs to the check.
+#[derive(Deserialize)]
+struct Expectation<C> {
+    expect: C,
+}
+
+fn prepare<C: Check>(text: &str) -> Result<Box<dyn Prepared>, PrepareError> {
+    let Expectation { expect } =
+        toml::from_str::<Expectation<C>>(text).map_err(PrepareError::Toml)?;
+    expect.validate().map_err(PrepareError::Invalid)?;
+    Ok(Box::new(expect))
+}
+
+/// Every check there is, in the order of the parts of a path tracer.
+pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<transport::MeanRadiance>(),
+    CheckKind::of::<transport::EstimatorsAgree>(),
+    CheckKind::of::<transport::RadianceIsLinear>(),
+    CheckKind::of::<transport::BouncesAddUp>(),
+    CheckKind::of::<adaptive::SampleCounts>(),
+    CheckKind::of::<robustness::RadianceIsFinite>(),
+];
+
+/// The check called `name`.
+pub fn find(name: &str) -> Option<&'static CheckKind> {
+    CHECKS.iter().find(|kind| kind.name == name)
+}

@@ -1,0 +1,100 @@
+//! No NaN, no infinity, no negative radiance, in scenes that invite them.
+//!
+//! The validation in front of every core refuses such pixels by itself; this check renders what provokes them:
+//! grazing light, roughness near zero, rays along planes, a camera inside glass.
+
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{
+    Acceleration, Capabilities, CoreError, DirectSampling, Film, IntegratorSettings, RenderSettings,
+};
+use crate::scene::SceneDescription;
+use serde::Deserialize;
+
+/// Renders each scene with light sampling and, where the core has it, hemisphere sampling.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct RadianceIsFinite {
+    scenes: Vec<String>,
+    size: [u32; 2],
+    samples_per_pixel: u32,
+    bounces: [u32; 2],
+}
+
+impl Check for RadianceIsFinite {
+    const NAME: &'static str = "radiance-is-finite";
+    const SUMMARY: &'static str = "no NaN, infinite or negative pixel in scenes that invite them";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::RENDER
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        if self.scenes.is_empty() { Err("there are no scenes".to_owned()) } else { Ok(()) }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let mut measures = Vec::new();
+        let mut complaints = Vec::new();
+        for name in &self.scenes {
+            let scene = context
+                .scenes
+                .load(name, &toml::Table::new())
+                .map_err(|error| CheckError::Broken(error.to_string()))?;
+            for direct in [DirectSampling::Lights, DirectSampling::Hemisphere] {
+                if !can(context, direct) {
+                    continue;
+                }
+                let complaint = self.complaint(context, &scene, direct)?;
+                let wrong = f64::from(u8::from(complaint.is_some()));
+                measures.push(Measure::exact(format!("{name}, {direct:?}"), wrong, 0.0, 0.0));
+                complaints.extend(complaint.map(|complaint| format!("{name}: {complaint}")));
+            }
+        }
+        let statement = match complaints.first() {
+            None => format!("every pixel of {} pictures is finite", measures.len()),
+            Some(first) => first.clone(),
+        };
+        Ok(Finding::of(statement, "would have caught one such pixel", measures))
+    }
+}
+
+fn can(context: &Context<'_>, direct: DirectSampling) -> bool {
+    direct == DirectSampling::Lights
+        || context.info.capabilities.contains(Capabilities::HEMISPHERE_SAMPLING)
+}
+
+impl RadianceIsFinite {
+    /// What the validation says of a picture, if anything.
+    fn complaint(
+        &self,
+        context: &mut Context<'_>,
+        scene: &SceneDescription,
+        direct: DirectSampling,
+    ) -> Result<Option<String>, CheckError> {
+        let camera = scene
+            .camera
+            .ok_or_else(|| CheckError::Broken(format!("scene `{}` has no camera", scene.name)))?;
+        let seed = context.seed.child(&scene.name).child(format!("{direct:?}")).0;
+        let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
+        match built.render(&camera, &self.settings(direct, seed), &mut Film::default()) {
+            Ok(()) => Ok(None),
+            Err(CoreError::BrokeContract(complaint)) => Ok(Some(complaint)),
+            Err(other) => Err(other.into()),
+        }
+    }
+
+    fn settings(&self, direct: DirectSampling, seed: u64) -> RenderSettings {
+        RenderSettings {
+            width: self.size[0],
+            height: self.size[1],
+            samples_per_pixel: self.samples_per_pixel,
+            integrator: IntegratorSettings {
+                bounces: self.bounces[0]..=self.bounces[1],
+                direct,
+                seed,
+                ..Default::default()
+            },
+            adaptive: None,
+        }
+    }
+}

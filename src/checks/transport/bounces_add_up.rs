@@ -1,0 +1,81 @@
+//! What is accumulated over some bounces is the sum of those bounces, isolated.
+
+use super::estimate::{
+    CHANNELS, RayEntry, effort, estimate, measure, needs, percent, resolution_sentence, settings,
+};
+use crate::checks::{Check, CheckError, Context, Finding};
+use crate::contract::{Acceleration, Capabilities, DirectSampling};
+use crate::stats::{Band, Claim, Verdict, judge_means};
+use crate::text::{Count, Percent};
+use serde::Deserialize;
+
+/// Samples of the estimate that relative errors are relative to.
+const SCALE_SAMPLES: u64 = 65_536;
+
+/// Radiance over bounces `0..=last` is the sum of the bounces `0`, `1`, … `last` alone.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct BouncesAddUp {
+    ray: RayEntry,
+    /// The last bounce.
+    last: u32,
+    #[serde(default)]
+    direct: DirectSampling,
+    /// The smallest difference that must be seen.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+impl Check for BouncesAddUp {
+    const NAME: &'static str = "bounces-add-up";
+    const SUMMARY: &'static str = "isolated bounces sum to the accumulated radiance";
+
+    fn needs(&self) -> Capabilities {
+        needs(&settings([self.last, self.last], self.direct))
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        self.ray.validate()
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let (seed, ray) = (context.seed, self.ray.ray());
+        let effort = effort(self.detects, self.at_most, context.budget);
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let accumulated = settings([0, self.last], self.direct);
+        let isolated: Vec<_> =
+            (0..=self.last).map(|bounce| settings([bounce, bounce], self.direct)).collect();
+        let scale =
+            estimate(built.as_mut(), ray, &accumulated, seed.child("scale"), SCALE_SAMPLES)?.mean;
+        let claims = scale.map(|scale| Claim::difference(scale, Band::RADIANCE));
+        let reports = judge_means(&claims, &effort, &mut |draw| {
+            let seed = draw.seed(seed);
+            let all = seed.child("all");
+            let mut difference =
+                estimate(built.as_mut(), ray, &accumulated, all, draw.samples)?.mean;
+            for (bounce, settings) in isolated.iter().enumerate() {
+                let alone =
+                    estimate(built.as_mut(), ray, settings, seed.child(bounce), draw.samples)?;
+                (0..3).for_each(|c| difference[c] -= alone.mean[c]);
+            }
+            Ok::<_, CheckError>(difference.to_vec())
+        })?;
+        let measures: Vec<_> = (0..3)
+            .map(|c| measure(format!("accumulated minus sum, {}", CHANNELS[c]), &reports[c]))
+            .collect();
+        let worst = (0..3).map(|c| measures[c].measured / scale[c]).fold(0.0, f64::max);
+        let statement = if reports.iter().any(|report| report.verdict == Verdict::Fail) {
+            format!(
+                "accumulated radiance differs from the sum of its bounces by {}",
+                percent(worst)
+            )
+        } else {
+            format!("bounces 0 to {} add up", self.last)
+        };
+        let spent = reports.iter().map(|report| report.false_alarm).sum();
+        let resolution = resolution_sentence(&measures);
+        Ok(Finding::of(statement, resolution, measures).spending(spent))
+    }
+}

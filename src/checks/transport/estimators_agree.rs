@@ -1,0 +1,161 @@
+//! Two ways to estimate the same radiance have the same mean, whatever that is: no reference is needed.
+
+use super::estimate::{
+    CHANNELS, RayEntry, effort, estimate, measure, needs, percent, resolution_sentence, settings,
+};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{
+    Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray,
+};
+use crate::math::rng::Seed;
+use crate::stats::{Band, Claim, Verdict, judge_means};
+use crate::text::{Count, Percent};
+use serde::Deserialize;
+
+/// Samples of the estimate that relative errors are relative to.
+const SCALE_SAMPLES: u64 = 65_536;
+
+/// Along each ray, every estimator has the mean of the first.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct EstimatorsAgree {
+    /// The rays to compare along.
+    ray: Vec<RayEntry>,
+    bounces: [u32; 2],
+    /// At least two; the first is what the others are compared with.
+    estimator: Vec<Estimator>,
+    /// The smallest difference that must be seen.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+/// A way to gather light.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Estimator {
+    direct: DirectSampling,
+    samples_per_light: u32,
+}
+
+impl Estimator {
+    fn settings(self, bounces: [u32; 2]) -> IntegratorSettings {
+        IntegratorSettings {
+            samples_per_light: self.samples_per_light,
+            ..settings(bounces, self.direct)
+        }
+    }
+
+    fn name(self) -> String {
+        let direct = match self.direct {
+            DirectSampling::Hemisphere => "hemisphere",
+            DirectSampling::Lights => "lights",
+        };
+        format!("{direct} x {}", self.samples_per_light)
+    }
+}
+
+impl Check for EstimatorsAgree {
+    const NAME: &'static str = "estimators-agree";
+    const SUMMARY: &'static str = "hemisphere and light sampling, few and many samples: one mean";
+
+    fn needs(&self) -> Capabilities {
+        self.estimator
+            .iter()
+            .fold(Capabilities::empty(), |all, e| all | needs(&e.settings(self.bounces)))
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        if self.estimator.len() < 2 {
+            return Err("two estimators at least are needed to agree".to_owned());
+        }
+        self.ray.iter().try_for_each(|ray| ray.validate())
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let (seed, budget) = (context.seed, context.budget);
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let mut measures = Vec::new();
+        let mut false_alarm = 0.0;
+        for (number, ray) in self.ray.iter().enumerate() {
+            for other in &self.estimator[1..] {
+                let seed = seed.child(number).child(other.name());
+                let comparison = Comparison { check: self, ray: ray.ray(), other: *other, seed };
+                let effort = effort(self.detects, self.at_most, budget);
+                let (found, spent) = comparison.judge(built.as_mut(), &effort)?;
+                measures.extend(found.into_iter().map(|measure| Measure {
+                    name: format!("ray {}, {}", number + 1, measure.name),
+                    ..measure
+                }));
+                false_alarm += spent;
+            }
+        }
+        let resolution = resolution_sentence(&measures);
+        Ok(Finding::of(statement(&measures), resolution, measures).spending(false_alarm))
+    }
+}
+
+/// One estimator against the first, along one ray.
+struct Comparison<'a> {
+    check: &'a EstimatorsAgree,
+    ray: Ray,
+    other: Estimator,
+    seed: Seed,
+}
+
+impl Comparison<'_> {
+    fn judge(
+        &self,
+        scene: &mut dyn BuiltScene,
+        effort: &crate::stats::Effort,
+    ) -> Result<(Vec<Measure>, f64), CheckError> {
+        let first = self.check.estimator[0];
+        let (ours, theirs) =
+            (self.other.settings(self.check.bounces), first.settings(self.check.bounces));
+        let scale =
+            estimate(scene, self.ray, &theirs, self.seed.child("scale"), SCALE_SAMPLES)?.mean;
+        let claims = scale.map(|scale| Claim::difference(scale, Band::RADIANCE));
+        let reports = judge_means(&claims, effort, &mut |draw| {
+            let seed = draw.seed(self.seed);
+            let a = estimate(scene, self.ray, &ours, seed.child("a"), draw.samples)?.mean;
+            let b = estimate(scene, self.ray, &theirs, seed.child("b"), draw.samples)?.mean;
+            Ok::<_, CheckError>((0..3).map(|c| a[c] - b[c]).collect())
+        })?;
+        let spent = reports.iter().map(|report| report.false_alarm).sum();
+        let name = format!("{} minus {}", self.other.name(), first.name());
+        let measures = reports.iter().enumerate();
+        let labelled = |c: usize| format!("{name}, {}", CHANNELS[c]);
+        Ok((
+            measures.map(|(c, report)| relative(measure(labelled(c), report), scale[c])).collect(),
+            spent,
+        ))
+    }
+}
+
+/// A measured difference as a share of what was subtracted.
+fn relative(measure: Measure, scale: f64) -> Measure {
+    Measure {
+        measured: measure.measured / scale,
+        allowed: measure.allowed / scale,
+        interval: measure.interval.map(|interval| interval.map(|end| end / scale)),
+        unit: "of the mean".to_owned(),
+        ..measure
+    }
+}
+
+fn statement(measures: &[Measure]) -> String {
+    let worst = measures
+        .iter()
+        .filter(|measure| measure.verdict == Verdict::Fail)
+        .max_by(|a, b| a.measured.abs().total_cmp(&b.measured.abs()));
+    match worst {
+        None => format!("{} differences of means, none of them real", measures.len()),
+        Some(worst) => format!(
+            "the estimators do not agree: {} is {}{} of the mean",
+            worst.name,
+            if worst.measured < 0.0 { "-" } else { "" },
+            percent(worst.measured),
+        ),
+    }
+}

@@ -1,9 +1,13 @@
 //! `furnace`: a test bench for path tracers.
 
+pub mod case;
+pub mod checks;
 pub mod contract;
 pub mod cores;
 pub mod image;
 pub mod math;
+pub mod project;
+pub mod run;
 pub mod scene;
 pub mod stats;
 pub mod text;

@@ -1,0 +1,61 @@
+//! A case is a claim about path tracers that can be false: one TOML file, its folder the part of a path tracer it
+//! is about, its name the claim.
+
+mod catalog;
+mod file;
+mod filter;
+mod part;
+
+pub use catalog::{CatalogError, load_all, load_one};
+pub use filter::Filter;
+pub use part::{PARTS, Part};
+
+use crate::checks::{CheckKind, Prepared};
+use std::fmt;
+use std::path::PathBuf;
+
+/// A claim, ready to be tried on a core.
+pub struct Case {
+    /// Folder and claim: `intersection/rays-meet-a-triangle`.
+    pub id: String,
+    /// The claim in words.
+    pub title: String,
+    /// What a student should remember.
+    pub teaches: String,
+    /// Why the expected numbers are true.
+    pub source: String,
+    /// Words to select by, without `@`.
+    pub tags: Vec<String>,
+    /// The scene it is tried in, if it names one.
+    pub scene: Option<SceneChoice>,
+    /// Which check judges.
+    pub check: &'static CheckKind,
+    /// The check with this case's settings.
+    pub prepared: Box<dyn Prepared>,
+    /// The file.
+    pub path: PathBuf,
+    /// SHA-256 of the file's text, hex.
+    pub hash: String,
+}
+
+/// A scene and the parameters that a case changes in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneChoice {
+    /// File name without `.toml`.
+    pub name: String,
+    /// Values instead of those in the scene's `[parameters]`.
+    pub parameters: toml::Table,
+}
+
+impl Case {
+    /// The part of a path tracer it is about.
+    pub fn part(&self) -> Option<&'static Part> {
+        Part::of_case(&self.id)
+    }
+}
+
+impl fmt::Debug for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Case({})", self.id)
+    }
+}

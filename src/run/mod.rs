@@ -1,0 +1,123 @@
+//! From a request to a folder of results: the one path that the command line, the tests and CI share.
+//!
+//! Only here cores and checks meet. Not here: what is printed, and what a failure means for an exit code.
+
+pub mod event;
+pub mod executor;
+pub mod outcome;
+pub mod plan;
+pub mod record;
+
+pub use event::Event;
+pub use executor::{Attempt, Bench, Ended, attempt, run_trial};
+pub use outcome::{Outcome, Status};
+pub use plan::{Plan, Request, Trial};
+pub use record::{RecordError, RunRecord, TrialRecord};
+
+use record::{CoreRecord, Machine, RunTiming};
+use std::path::{Path, PathBuf};
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
+
+/// Why a run did not come to its end, or did not begin.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// A file of the run could not be written or read.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// The filters select no case.
+    #[error("nothing is selected by {}\nhint: `cargo furnace list` shows the cases", .0.join(" "))]
+    NothingSelected(Vec<String>),
+}
+
+/// Runs `plan` into a new folder below `runs`, and answers that folder.
+///
+/// # Errors
+/// If nothing is selected, or a file cannot be written.
+pub fn run(
+    plan: &Plan,
+    runs: &Path,
+    events: &mut dyn FnMut(Event<'_>),
+) -> Result<PathBuf, RunError> {
+    if plan.trials.is_empty() {
+        return Err(RunError::NothingSelected(plan.request.filters.clone()));
+    }
+    let started = SystemTime::now();
+    let folder = new_folder(runs, started)?;
+    let record = describe(plan, started);
+    record::write_json(&folder.join("run.json"), &record)?;
+    carry_out(plan, record, &folder, events)?;
+    Ok(folder)
+}
+
+/// Goes on with a run that was cut off: what has a sidecar of the same case is kept.
+///
+/// # Errors
+/// If the folder is not a run, or a file cannot be written.
+pub fn resume(
+    plan: &Plan,
+    folder: &Path,
+    events: &mut dyn FnMut(Event<'_>),
+) -> Result<(), RunError> {
+    let record: RunRecord = record::read_json(&folder.join("run.json"))?;
+    carry_out(plan, record, folder, events)
+}
+
+fn carry_out(
+    plan: &Plan,
+    mut record: RunRecord,
+    folder: &Path,
+    events: &mut dyn FnMut(Event<'_>),
+) -> Result<(), RunError> {
+    let clock = Instant::now();
+    let todo: Vec<_> =
+        (0..plan.trials.len()).filter(|number| !is_done(&plan.trials[*number], folder)).collect();
+    let already_done = plan.trials.len() - todo.len();
+    events(Event::Planned { run: &record, folder, already_done });
+    executor::run_trials(plan, &todo, folder, events)?;
+    let before = record.timing.seconds.unwrap_or(0.0);
+    record.timing.seconds = Some(before + clock.elapsed().as_secs_f64());
+    record::write_json(&folder.join("run.json"), &record)?;
+    Ok(())
+}
+
+/// Whether the folder holds the result of this very trial.
+fn is_done(trial: &Trial, folder: &Path) -> bool {
+    let path = record::sidecar_path(folder, trial.core.as_str(), &trial.case.id);
+    record::read_json::<TrialRecord>(&path).is_ok_and(|done| done.case_hash == trial.case.hash)
+}
+
+fn describe(plan: &Plan, started: SystemTime) -> RunRecord {
+    let core = |spec: &crate::cores::CoreSpec| CoreRecord::new(spec.as_str(), &spec.make().info());
+    RunRecord {
+        version: record::VERSION,
+        furnace: env!("CARGO_PKG_VERSION").to_owned(),
+        cores: plan.request.cores.iter().map(core).collect(),
+        filters: plan.request.filters.clone(),
+        budget: plan.request.budget,
+        seed: plan.request.seed.0,
+        trials: plan.trials.len(),
+        machine: Machine::this(),
+        timing: RunTiming {
+            started: started.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
+            seconds: None,
+        },
+    }
+}
+
+/// A folder named by the time, which nobody else has.
+fn new_folder(runs: &Path, started: SystemTime) -> Result<PathBuf, RecordError> {
+    let failed = |path: &Path, error| RecordError::Io { path: path.to_owned(), error };
+    std::fs::create_dir_all(runs).map_err(|error| failed(runs, error))?;
+    let stamp = humantime::format_rfc3339_seconds(started).to_string();
+    let stamp = stamp.trim_end_matches('Z').replace(':', "-").replace('T', "_");
+    for number in 1.. {
+        let name = if number == 1 { stamp.clone() } else { format!("{stamp}_{number}") };
+        let folder = runs.join(name);
+        match std::fs::create_dir(&folder) {
+            Ok(()) => return Ok(folder),
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(failed(&folder, error)),
+        }
+    }
+    unreachable!("some number is free")
+}

@@ -1,0 +1,186 @@
+//! How a trial ended. Absence of evidence is never success: each way of not being judged has its own name.
+
+use crate::checks::{CheckError, Finding};
+use crate::contract::CoreError;
+use crate::stats::Verdict;
+use serde::{Deserialize, Serialize};
+
+/// How a trial ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Outcome {
+    /// The check came to a finding.
+    Judged {
+        /// What it found.
+        finding: Finding,
+    },
+    /// The core lacks what the check needs.
+    Skipped {
+        /// The capabilities it lacks.
+        missing: Vec<String>,
+    },
+    /// What the case rests on failed, so that its own result would say nothing.
+    Blocked {
+        /// The case that failed.
+        by: String,
+    },
+    /// The core stopped working.
+    Crashed {
+        /// A signal, an exit code, a panic's message.
+        how: String,
+        /// The request it was answering.
+        during: String,
+    },
+    /// The core did not answer in time.
+    TimedOut {
+        /// The time it had, seconds.
+        limit: f64,
+        /// The request it was answering.
+        during: String,
+    },
+    /// The case's or the harness's own fault: nothing is known about the core.
+    Broken {
+        /// What is wrong, and what to do.
+        why: String,
+    },
+}
+
+/// The few words by which reports, counts and exit codes know an outcome.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Status {
+    /// Judged: pass.
+    Pass,
+    /// Judged: fail.
+    Fail,
+    /// Judged: the budget did not suffice.
+    Inconclusive,
+    /// The core lacks a capability.
+    Skipped,
+    /// What it rests on failed.
+    Blocked,
+    /// The core stopped working.
+    Crashed,
+    /// The core did not answer in time.
+    TimedOut,
+    /// The case's or the harness's own fault.
+    Broken,
+}
+
+impl Status {
+    /// Every status, the good one first.
+    pub const ALL: [Status; 8] = [
+        Status::Pass,
+        Status::Fail,
+        Status::Inconclusive,
+        Status::Skipped,
+        Status::Blocked,
+        Status::Crashed,
+        Status::TimedOut,
+        Status::Broken,
+    ];
+
+    /// As people read it.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Inconclusive => "inconclusive",
+            Self::Skipped => "skipped",
+            Self::Blocked => "blocked",
+            Self::Crashed => "crashed",
+            Self::TimedOut => "timed out",
+            Self::Broken => "broken",
+        }
+    }
+
+    /// Whether it counts against the core.
+    pub const fn is_failure(self) -> bool {
+        matches!(self, Self::Fail | Self::Crashed | Self::TimedOut)
+    }
+}
+
+impl Outcome {
+    /// The outcome of a check that ran, or did not come to its end.
+    pub fn of(result: Result<Finding, CheckError>) -> Self {
+        match result {
+            Ok(finding) => Self::Judged { finding },
+            Err(CheckError::Broken(why)) => Self::Broken { why },
+            Err(CheckError::Core(error)) => Self::of_core_error(error),
+        }
+    }
+
+    /// A core that answers wrongly in form, or refuses, has been judged: it fails.
+    fn of_core_error(error: CoreError) -> Self {
+        match error {
+            CoreError::Unsupported(missing) => Self::Skipped { missing: missing.names() },
+            CoreError::Crashed { how, during } => Self::Crashed { how, during },
+            CoreError::TimedOut { limit, during } => {
+                Self::TimedOut { limit: limit.as_secs_f64(), during }
+            }
+            CoreError::Refused(_) | CoreError::BrokeContract(_) => {
+                Self::Judged { finding: Finding::failure(error.to_string()) }
+            }
+        }
+    }
+
+    /// The one word for it.
+    pub fn status(&self) -> Status {
+        match self {
+            Self::Judged { finding } => match finding.verdict {
+                Verdict::Pass => Status::Pass,
+                Verdict::Fail => Status::Fail,
+                Verdict::Inconclusive => Status::Inconclusive,
+            },
+            Self::Skipped { .. } => Status::Skipped,
+            Self::Blocked { .. } => Status::Blocked,
+            Self::Crashed { .. } => Status::Crashed,
+            Self::TimedOut { .. } => Status::TimedOut,
+            Self::Broken { .. } => Status::Broken,
+        }
+    }
+
+    /// One sentence for lists and messages.
+    pub fn statement(&self) -> String {
+        match self {
+            Self::Judged { finding } => finding.statement.clone(),
+            Self::Skipped { missing } => format!("the core has no {}", missing.join(", ")),
+            Self::Blocked { by } => format!("{by} failed, and this rests on it"),
+            Self::Crashed { how, during } => format!("the core crashed ({how}) during {during}"),
+            Self::TimedOut { limit, during } => format!("no answer in {limit} s during {during}"),
+            Self::Broken { why } => why.clone(),
+        }
+    }
+
+    /// The finding, if the check came to one.
+    pub fn finding(&self) -> Option<&Finding> {
+        match self {
+            Self::Judged { finding } => Some(finding),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::Capabilities;
+
+    #[test]
+    fn a_broken_contract_is_a_failure_of_the_core() {
+        let error = CoreError::BrokeContract("pixel (3, 4) is NaN".into());
+        assert_eq!(Outcome::of(Err(error.into())).status(), Status::Fail);
+    }
+
+    #[test]
+    fn a_missing_reference_is_broken_not_failed() {
+        let outcome = Outcome::of(Err(CheckError::Broken("no reference".into())));
+        assert_eq!(outcome.status(), Status::Broken);
+        assert!(!outcome.status().is_failure());
+    }
+
+    #[test]
+    fn an_unsupported_request_is_skipped() {
+        let error = CoreError::Unsupported(Capabilities::RENDER);
+        assert_eq!(Outcome::of(Err(error.into())).status(), Status::Skipped);
+    }
+}

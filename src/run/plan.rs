@@ -1,0 +1,78 @@
+//! What is to be run: cases × cores, in the order in which one part rests on another.
+
+use crate::case::{Case, Filter};
+use crate::cores::CoreSpec;
+use crate::math::rng::Seed;
+use crate::project::Project;
+use crate::stats::Budget;
+use std::sync::Arc;
+
+/// What the user asked for.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The cores to ask.
+    pub cores: Vec<CoreSpec>,
+    /// Which cases, as typed.
+    pub filters: Vec<String>,
+    /// How much may be spent.
+    pub budget: Budget,
+    /// The seed of everything random.
+    pub seed: Seed,
+    /// Trials at the same time; 0 means one a hardware thread.
+    pub jobs: usize,
+}
+
+/// Trials, and everything they need.
+pub struct Plan {
+    /// Where cases, scenes and references are.
+    pub project: Project,
+    /// What was asked for.
+    pub request: Request,
+    /// In the order in which they are run.
+    pub trials: Vec<Trial>,
+}
+
+/// One case on one core.
+#[derive(Clone)]
+pub struct Trial {
+    /// The case.
+    pub case: Arc<Case>,
+    /// The core.
+    pub core: CoreSpec,
+}
+
+impl Plan {
+    /// Selects among `cases` and lines them up.
+    pub fn new(project: Project, request: Request, cases: &[Arc<Case>]) -> Self {
+        let filter = Filter::new(&request.filters);
+        let selected: Vec<_> = cases.iter().filter(|case| filter.selects(case)).collect();
+        let trials = request
+            .cores
+            .iter()
+            .flat_map(|core| {
+                selected.iter().map(|case| Trial { case: Arc::clone(case), core: core.clone() })
+            })
+            .collect();
+        Self { project, request, trials }
+    }
+}
+
+impl Plan {
+    /// What every trial shares.
+    pub fn bench(&self) -> super::Bench {
+        super::Bench {
+            scenes: Arc::new(crate::scene::Library::new(self.project.scenes())),
+            references: self.project.references(),
+            budget: self.request.budget,
+            seed: self.request.seed,
+        }
+    }
+
+    /// Trials at the same time.
+    pub fn jobs(&self) -> usize {
+        match self.request.jobs {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            jobs => jobs,
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! The on-disk contract of a run: `run.json` and one JSON sidecar a trial, both versioned.
+//!
+//! ```text
+//! reports/runs/<run>/run.json                       who, what, when
+//!                   /<core>/<folder>/<claim>.json   one trial
+//!                   /<core>/<folder>/<claim>.0.exr  its pictures
+//! ```
+//!
+//! A file is written beside its place and renamed, so that a reader sees all of it or nothing. A reader that meets a
+//! version or a word it does not know stops with an error. The same run twice gives the same sidecars but for
+//! `timing`.
+
+use super::outcome::Outcome;
+use crate::checks::PictureRole;
+use crate::contract::{Conventions, CoreInfo, Precision};
+use crate::stats::Budget;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The version of both files. It changes when something existing does.
+pub const VERSION: u32 = 1;
+
+/// `run.json`: who was asked what, when, on which machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunRecord {
+    /// [`VERSION`]
+    pub version: u32,
+    /// Version of furnace that ran.
+    pub furnace: String,
+    /// The cores, in the order they were asked.
+    pub cores: Vec<CoreRecord>,
+    /// What was selected, as the user typed it.
+    pub filters: Vec<String>,
+    /// How much was spent, and so how small an error was looked for.
+    pub budget: Budget,
+    /// The seed of the whole run.
+    pub seed: u64,
+    /// How many trials were planned.
+    pub trials: usize,
+    /// The machine.
+    pub machine: Machine,
+    /// When, and how long.
+    pub timing: RunTiming,
+}
+
+/// When a run was, and how long it took.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunTiming {
+    /// Seconds since 1970, UTC.
+    pub started: u64,
+    /// Wall time of the run so far, seconds; a resumed run adds up. None while it has not ended.
+    pub seconds: Option<f64>,
+}
+
+/// A core, as the report shows it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CoreRecord {
+    /// What the user typed after `--core`; also the folder's name.
+    pub spec: String,
+    /// What it calls itself.
+    pub name: String,
+    /// Its own version.
+    pub version: String,
+    /// The arithmetic it computes in.
+    pub precision: Precision,
+    /// What it can be asked.
+    pub capabilities: Vec<String>,
+    /// What it has freely chosen.
+    pub conventions: Conventions,
+}
+
+impl CoreRecord {
+    /// The record of a core that answers `info`.
+    pub fn new(spec: &str, info: &CoreInfo) -> Self {
+        Self {
+            spec: spec.to_owned(),
+            name: info.name.clone(),
+            version: info.version.clone(),
+            precision: info.precision,
+            capabilities: info.capabilities.names(),
+            conventions: info.conventions,
+        }
+    }
+}
+
+/// The machine a run was made on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Machine {
+    /// `linux`, `macos`, `windows`
+    pub system: String,
+    /// `x86_64`, `aarch64`
+    pub architecture: String,
+    /// Hardware threads.
+    pub threads: usize,
+}
+
+impl Machine {
+    /// This one.
+    pub fn this() -> Self {
+        Self {
+            system: std::env::consts::OS.to_owned(),
+            architecture: std::env::consts::ARCH.to_owned(),
+            threads: std::thread::available_parallelism().map_or(1, usize::from),
+        }
+    }
+}
+
+/// The sidecar of one trial: one case on one core.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrialRecord {
+    /// [`VERSION`]
+    pub version: u32,
+    /// Folder and claim: `intersection/rays-meet-a-triangle`.
+    pub case: String,
+    /// The core's specification, as in [`CoreRecord::spec`].
+    pub core: String,
+    /// The claim in words.
+    pub title: String,
+    /// What a student should remember.
+    pub teaches: String,
+    /// Why the expected number is true.
+    pub source: String,
+    /// The check that judged.
+    pub check: String,
+    /// SHA-256 of the case file's text, hex.
+    pub case_hash: String,
+    /// The scene it names, if it names one.
+    pub scene: Option<SceneStamp>,
+    /// How much was spent.
+    pub budget: Budget,
+    /// Seed of this trial.
+    pub seed: u64,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Files beside this one.
+    pub pictures: Vec<PictureFile>,
+    /// The command that repeats this trial alone.
+    pub rerun: String,
+    /// The only part that differs between equal runs.
+    pub timing: TrialTiming,
+}
+
+/// Which scene was rendered.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneStamp {
+    /// File name without `.toml`.
+    pub name: String,
+    /// Content hash of the resolved scene, hex.
+    pub hash: String,
+}
+
+/// How long a trial took.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrialTiming {
+    /// Wall time, seconds.
+    pub seconds: f64,
+}
+
+/// A picture of a trial.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PictureFile {
+    /// What it shows.
+    pub role: PictureRole,
+    /// A few words below it.
+    pub caption: String,
+    /// File name, in the folder of the sidecar. EXR, linear RGB.
+    pub file: String,
+}
+
+/// Why a file of a run could not be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// The file system said no.
+    #[error("{path}: {error}")]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        error: std::io::Error,
+    },
+    /// The file is not what it should be.
+    #[error("{path} is not a file of this version of furnace: {error}")]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What the parser said.
+        error: String,
+    },
+}
+
+/// The file name that no core, case or user can reach out of the folder with.
+pub fn folder_of_core(spec: &str) -> String {
+    spec.chars()
+        .map(|c| if c.is_ascii_alphanumeric() || "-_.".contains(c) { c } else { '_' })
+        .collect()
+}
+
+/// Where the sidecar of a trial stands in the folder of its run.
+pub fn sidecar_path(run: &Path, core: &str, case: &str) -> PathBuf {
+    run.join(folder_of_core(core)).join(format!("{case}.json"))
+}
+
+/// Writes `value` as JSON beside `path` and renames it into place.
+///
+/// # Errors
+/// If the file system says no.
+pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), RecordError> {
+    let failed = |error: std::io::Error| RecordError::Io { path: path.to_owned(), error };
+    let folder = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
+    serde_json::to_writer_pretty(&mut file, value).map_err(|error| failed(error.into()))?;
+    file.write_all(b"\n").map_err(failed)?;
+    file.as_file().sync_all().map_err(failed)?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
+/// Reads a JSON file of this version.
+///
+/// # Errors
+/// If it cannot be read, or is of another version, or has words that are not known.
+pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, RecordError> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| RecordError::Io { path: path.to_owned(), error })?;
+    serde_json::from_str(&text)
+        .map_err(|error| RecordError::Malformed { path: path.to_owned(), error: error.to_string() })
+}

@@ -15,6 +15,7 @@ mod material;
 pub mod mesh;
 pub mod mitsuba;
 pub mod procedural;
+pub mod reference;
 mod shape;
 
 pub use camera::Camera;

@@ -1,0 +1,157 @@
+//! What is true of a scene: a picture by Mitsuba, how well it is known, and where it comes from.
+//!
+//! `references/<name>/reference.exr` holds the mean in R, G, B and the standard error of that mean
+//! in se.R, se.G, se.B; `provenance.toml` beside it says how it came about. A reference is pinned
+//! to the content hash of its scene.
+//!
+//! Only reading is here, on a layer that checks may name. What makes references is
+//! `crate::reference`, out of their reach: no test run writes into `references/`.
+
+mod provenance;
+
+pub use provenance::Provenance;
+
+use super::SceneDescription;
+use super::hash::content_hash;
+use crate::image::{Image, exr};
+use crate::text::Source;
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+
+/// Channels of the standard error are called `se.R`, `se.G` and `se.B`.
+pub const ERROR_PREFIX: &str = "se.";
+
+/// A picture, its noise and its provenance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// The folder's name.
+    pub name: String,
+    /// Mean radiance.
+    pub mean: Image,
+    /// Standard error of that mean.
+    pub standard_error: Image,
+    /// How it came about.
+    pub provenance: Provenance,
+}
+
+/// Why there is no reference to compare with. Says which command makes one.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("reference `{name}` {problem}\nhint: `{}`", self.command())]
+pub struct ReferenceError {
+    /// The reference.
+    pub name: String,
+    /// What is the matter with it.
+    pub problem: ReferenceProblem,
+}
+
+/// What can be the matter with a reference.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ReferenceProblem {
+    /// Never made.
+    #[error("does not exist: there is no `{}`", .0.display())]
+    Missing(PathBuf),
+    /// Cut off, or not what it should be.
+    #[error("is damaged: {0}")]
+    Damaged(String),
+    /// Of another size than the camera's film.
+    #[error("is {found:?} pixels in size, but the scene's film is {film:?}")]
+    WrongSize {
+        /// Columns and rows of the picture.
+        found: [usize; 2],
+        /// Columns and rows of the film.
+        film: [usize; 2],
+    },
+    /// Of a scene that has changed since.
+    #[error("is of another scene: `{scene}` has changed since it was made")]
+    OtherScene {
+        /// The scene.
+        scene: String,
+    },
+}
+
+impl ReferenceError {
+    /// The command that makes the reference, or makes it anew.
+    pub fn command(&self) -> String {
+        let replace = match self.problem {
+            ReferenceProblem::Missing(_) => "",
+            _ => " --replace",
+        };
+        format!("furnace reference make {}{replace}", self.name)
+    }
+}
+
+/// Where the picture of reference `name` is, below the folder of references.
+pub fn picture_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(name).join("reference.exr")
+}
+
+/// Where the provenance of reference `name` is, below the folder of references.
+pub fn provenance_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(name).join("provenance.toml")
+}
+
+/// The SHA-256 of a file's content, in hexadecimal: how provenance knows its picture.
+pub fn fingerprint(content: &[u8]) -> String {
+    Sha256::digest(content).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Reference `name` from the folder of references, if it is whole and of this very `scene`.
+pub fn load(
+    folder: &Path,
+    name: &str,
+    scene: &SceneDescription,
+) -> Result<Reference, ReferenceError> {
+    let wrong = |problem| ReferenceError { name: name.to_owned(), problem };
+    let provenance = read_provenance(folder, name).map_err(wrong)?;
+    if provenance.scene_hash != content_hash(scene) {
+        let scene = scene.name.clone();
+        return Err(wrong(ReferenceProblem::OtherScene { scene }));
+    }
+    let film = scene.camera.as_ref().map_or([0, 0], |camera| camera.film.map(|n| n as usize));
+    let (mean, standard_error) = read_picture(folder, name, &provenance, film).map_err(wrong)?;
+    Ok(Reference { name: name.to_owned(), mean, standard_error, provenance })
+}
+
+/// The provenance of reference `name`, whatever its scene has become.
+pub fn read_provenance(folder: &Path, name: &str) -> Result<Provenance, ReferenceProblem> {
+    let path = provenance_path(folder, name);
+    if !path.is_file() {
+        return Err(ReferenceProblem::Missing(path));
+    }
+    let damaged = |problem: &dyn std::fmt::Display| ReferenceProblem::Damaged(problem.to_string());
+    let source = Source::read(&path).map_err(|problem| damaged(&problem))?;
+    source.parse_toml().map_err(|problem| damaged(&problem))
+}
+
+fn read_picture(
+    folder: &Path,
+    name: &str,
+    provenance: &Provenance,
+    film: [usize; 2],
+) -> Result<(Image, Image), ReferenceProblem> {
+    let path = picture_path(folder, name);
+    if !path.is_file() {
+        return Err(ReferenceProblem::Missing(path));
+    }
+    let damaged = |problem: &dyn std::fmt::Display| ReferenceProblem::Damaged(problem.to_string());
+    let file = exr::read(&path).map_err(|problem| damaged(&problem))?;
+    let found = [file.width, file.height];
+    if found != film {
+        return Err(ReferenceProblem::WrongSize { found, film });
+    }
+    let content = std::fs::read(&path).map_err(|problem| damaged(&problem))?;
+    if fingerprint(&content) != provenance.picture_hash {
+        return Err(damaged(&"the picture is not the one its provenance speaks of"));
+    }
+    let mean = file.image().map_err(|problem| damaged(&problem))?;
+    let standard_error = file.colours(ERROR_PREFIX).map_err(|problem| damaged(&problem))?;
+    let values = mean.pixels.iter().chain(&standard_error.pixels).flatten();
+    if values.copied().all(|value| value >= 0.0 && value.is_finite()) {
+        Ok((mean, standard_error))
+    } else {
+        Err(damaged(&"it has values that are negative or no numbers"))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,50 @@
+//! Where a reference comes from: enough to make it again, and to know when it has to be.
+
+use serde::{Deserialize, Serialize};
+
+/// What `provenance.toml` says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Provenance {
+    /// The scene's name.
+    pub scene: String,
+    /// Its [content hash](crate::scene::hash::content_hash) when the reference was made.
+    pub scene_hash: String,
+    /// First and last bounce that are added up: 0 is what the camera sees glowing.
+    pub bounces: [u32; 2],
+    /// Columns and rows.
+    pub film: [u32; 2],
+    /// Who rendered it.
+    pub renderer: String,
+    /// Which version.
+    pub version: String,
+    /// Which of its back ends.
+    pub variant: String,
+    /// Which sampler.
+    pub sampler: String,
+    /// Independent passes. The standard error is taken between them.
+    pub passes: u32,
+    /// Samples a pixel in each.
+    pub samples_per_pass: u32,
+    /// First and last seed; every pass has one of its own.
+    pub seeds: [u32; 2],
+    /// Standard error over mean, the middle one of all pixels and channels that are not black.
+    pub median_relative_error: f64,
+    /// The same, exceeded by one value in a hundred.
+    pub high_relative_error: f64,
+    /// SHA-256 of `reference.exr`.
+    pub picture_hash: String,
+    /// What was typed.
+    pub command: String,
+    /// Day it was made, UTC.
+    pub date: String,
+    /// Processor seconds it took.
+    pub cpu_seconds: f64,
+}
+
+impl Provenance {
+    /// Samples a pixel in all.
+    pub fn samples_per_pixel(&self) -> u64 {
+        u64::from(self.passes) * u64::from(self.samples_per_pass)
+    }
+}

@@ -1,8 +1,10 @@
 //! Mathematics that knows nothing of renderers.
 
+pub mod closed_form;
 pub mod frame;
 mod precision;
 pub mod quadrature;
+pub mod ratios;
 pub mod rng;
 
 pub use precision::Precision;

@@ -1,0 +1,63 @@
+//! Mean configuration factors between two rectangles: what share of the light leaving one arrives at the other.
+//!
+//! Source: J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", C-11 and C-14.
+
+use std::f64::consts::PI;
+
+/// Between identical parallel rectangles whose sides are `x` and `y` times their distance (C-11).
+pub fn parallel_rectangles(x: f64, y: f64) -> f64 {
+    let (root_x, root_y) = (f64::hypot(1.0, x), f64::hypot(1.0, y));
+    let diagonal = (1.0 + x * x + y * y).sqrt();
+    let sum = (root_x * root_y / diagonal).ln()
+        + x * root_y * (x / root_y).atan()
+        + y * root_x * (y / root_x).atan()
+        - x * x.atan()
+        - y * y.atan();
+    2.0 / (PI * x * y) * sum
+}
+
+/// From a rectangle to one at right angles to it along a common edge (C-14). `width` is how far the source goes away
+/// from the edge and `height` how far the target does, both over the length of the edge.
+pub fn perpendicular_rectangles(width: f64, height: f64) -> f64 {
+    let (w2, h2) = (width * width, height * height);
+    let both = 1.0 + w2 + h2;
+    let slant = (h2 + w2).sqrt();
+    let logarithm = ((1.0 + w2) * (1.0 + h2) / both).ln()
+        + w2 * (w2 * both / ((1.0 + w2) * (w2 + h2))).ln()
+        + h2 * (h2 * both / ((1.0 + h2) * (h2 + w2))).ln();
+    let angles = width * width.recip().atan() + height * height.recip().atan()
+        - slant * slant.recip().atan();
+    (angles + 0.25 * logarithm) / (PI * width)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::configuration_factor::{rectangle_parallel, rectangle_perpendicular};
+    use super::super::witness::{assert_close, over_unit_square};
+    use super::*;
+
+    #[test]
+    fn they_are_means_of_configuration_factors() {
+        let parallel =
+            over_unit_square(|p| rectangle_parallel([-p.x, 1.0 - p.x], [-p.y, 1.0 - p.y], 1.0));
+        assert_close(parallel_rectangles(1.0, 1.0), parallel, 1e-8);
+        let perpendicular = over_unit_square(|p| {
+            // Both sides of the foot of the patch, at distance p.y from the edge.
+            let side = |width| rectangle_perpendicular(width, 1.0, p.y);
+            side(p.x) + side(1.0 - p.x)
+        });
+        assert_close(perpendicular_rectangles(1.0, 1.0), perpendicular, 1e-6);
+    }
+
+    #[test]
+    fn the_values_are_those_of_the_table() {
+        assert_close(parallel_rectangles(1.0, 1.0), 0.199_824_895_7, 1e-9);
+        assert_close(perpendicular_rectangles(1.0, 1.0), 0.200_043_776_1, 1e-9);
+    }
+
+    #[test]
+    fn a_face_of_a_cube_sees_the_five_others_and_nothing_else() {
+        let seen = 4.0 * perpendicular_rectangles(1.0, 1.0) + parallel_rectangles(1.0, 1.0);
+        assert_close(seen, 1.0, 1e-12);
+    }
+}

@@ -19,12 +19,16 @@ mod exact;
 mod histogram;
 mod image_report;
 mod ladder;
+mod ledger;
 mod mean_report;
 mod moments;
+mod proportion;
 mod quantile;
 mod screen;
 mod screening;
+mod slope;
 mod spread;
+pub mod timing;
 mod trail;
 mod verdict;
 
@@ -42,8 +46,13 @@ pub use image_report::{
     TileMap,
 };
 pub use ladder::{Draw, LEAF_FALSE_ALARM, STAGE_LEVEL, Stage, judge_means};
+pub use ledger::{Ledger, LedgerEntry, SUITE_FALSE_ALARM};
 pub use mean_report::{MeanReport, StageScore};
 pub use moments::Moments;
+pub use proportion::{
+    SHARE_FALSE_ALARM, ShareReport, ShareStage, binomial_at_least, binomial_at_most, judge_share,
+    share_interval,
+};
 pub use quantile::{
     chi_square_tail, chi_square_upper, detectable_noncentrality, noncentral_chi_square_tail,
     normal_upper, student_upper,
@@ -51,4 +60,5 @@ pub use quantile::{
 pub use screen::{
     IMAGE_FALSE_ALARM, ImageDraw, ImageEffort, Reference, judge_image, judge_image_pair,
 };
+pub use slope::{ErrorLevel, ErrorPoint, SLOPE_FALSE_ALARM, Sampling, SlopeReport, judge_slope};
 pub use verdict::Verdict;

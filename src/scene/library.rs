@@ -1,13 +1,13 @@
 //! The scenes of a folder, each read once.
 
 use super::file::{self, Overrides};
-use super::{SceneDescription, SceneError};
+use super::{SceneDescription, SceneError, collada};
 use crate::text::{Source, did_you_mean, listed};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A folder of `<name>.toml` files. Shared between threads; a scene is read once for each set of
+/// A folder of `<name>.toml` and `<name>.dae` files. Shared between threads; a scene is read once for each set of
 /// overrides.
 #[derive(Debug)]
 pub struct Library {
@@ -26,7 +26,8 @@ impl Library {
         &self.folder
     }
 
-    /// The scene `name` with its parameters as they stand in its file, but for `overrides`.
+    /// The scene `name` with its parameters as they stand in its file, but for `overrides`. A name that ends
+    /// in `.toml` or `.dae` is a path of its own.
     pub fn load(
         &self,
         name: &str,
@@ -51,7 +52,7 @@ impl Library {
         let mut names = Vec::new();
         for entry in std::fs::read_dir(&self.folder).map_err(unreadable)? {
             let path = entry.map_err(unreadable)?.path();
-            if path.extension().is_some_and(|extension| extension == "toml") {
+            if is_scene_file(&path) {
                 names.extend(path.file_stem().map(|stem| stem.to_string_lossy().into_owned()));
             }
         }
@@ -60,11 +61,14 @@ impl Library {
     }
 
     fn read(&self, name: &str, overrides: &Overrides) -> Result<SceneDescription, SceneError> {
-        let path = self.folder.join(format!("{name}.toml"));
-        if !path.is_file() {
-            return Err(self.no_such_scene(name));
+        if is_scene_file(Path::new(name)) {
+            return load_file(Path::new(name), overrides);
         }
-        load_file(&path, overrides)
+        let file = |extension| self.folder.join(format!("{name}.{extension}"));
+        match EXTENSIONS.map(file).iter().find(|path| path.is_file()) {
+            Some(path) => load_file(path, overrides),
+            None => Err(self.no_such_scene(name)),
+        }
     }
 
     fn no_such_scene(&self, name: &str) -> SceneError {
@@ -79,8 +83,19 @@ impl Library {
     }
 }
 
-/// The scene in a file, called by the file's name without `.toml`.
+/// The kinds of scene files. Of two with the same name the first one counts.
+const EXTENSIONS: [&str; 2] = ["toml", "dae"];
+
+fn is_scene_file(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| EXTENSIONS.iter().any(|known| extension == *known))
+}
+
+/// The scene in a file, called by the file's name without its extension. A `.dae` file has one parameter,
+/// `film`.
 pub fn load_file(path: &Path, overrides: &Overrides) -> Result<SceneDescription, SceneError> {
+    if path.extension().is_some_and(|extension| extension == "dae") {
+        return Ok(collada::load(path, film(path, overrides)?)?.scene);
+    }
     let source = Source::read(path).map_err(|problem| SceneError::Unreadable {
         path: path.display().to_string(),
         problem: problem.to_string(),
@@ -88,6 +103,21 @@ pub fn load_file(path: &Path, overrides: &Overrides) -> Result<SceneDescription,
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let folder = path.parent().unwrap_or(Path::new(""));
     file::parse(&name, &source, folder, overrides)
+}
+
+/// The size of the picture of a `.dae` file: its only parameter.
+fn film(path: &Path, overrides: &Overrides) -> Result<[u32; 2], SceneError> {
+    let mut film = collada::FILM;
+    for (parameter, value) in overrides {
+        film = value.clone().try_into().ok().filter(|_| parameter == "film").ok_or_else(|| {
+            SceneError::NoSuchParameter {
+                scene: path.display().to_string(),
+                parameter: format!("{parameter} = {value}"),
+                known: "`film`, such as [480, 360]".to_owned(),
+            }
+        })?;
+    }
+    Ok(film)
 }
 
 #[cfg(test)]
@@ -141,5 +171,18 @@ mod tests {
         assert!(message.ends_with("hint: did you mean `sphere-furnace`?"), "{message}");
         let message = library().load("zzz", &Overrides::new()).unwrap_err().to_string();
         assert!(message.contains("hint: there are `area-light-plane`, "), "{message}");
+    }
+
+    #[test]
+    fn a_course_scene_is_a_scene_like_others_and_its_picture_can_be_cropped() {
+        let room = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fixtures/collada/room.dae");
+        let film = |overrides: &str| {
+            let scene = library().load(room, &toml::from_str(overrides).unwrap());
+            scene.map(|scene| scene.camera.unwrap().film).map_err(|error| error.to_string())
+        };
+        assert_eq!(film(""), Ok(collada::FILM));
+        assert_eq!(film("film = [48, 36]"), Ok([48, 36]));
+        let message = film("albedo = 0.5").unwrap_err();
+        assert!(message.contains("has no parameter `albedo = 0.5`, only `film`"), "{message}");
     }
 }

@@ -6,6 +6,7 @@
 //! - Diffuse, mirror and conductor surfaces scatter on both sides; emission leaves the front side only.
 
 mod camera;
+pub mod collada;
 mod error;
 mod file;
 pub mod hash;

@@ -1,0 +1,103 @@
+//! From lamps that are declared and surfaces that glow to lights that are both.
+
+use super::Reading;
+use super::light::{Kind, Lamp};
+use super::node::File;
+use crate::scene::{Aabb, Emission, Light, Material, Mesh, SceneDescription, Surface};
+use glam::DVec3;
+
+/// A lamp this near to a glowing mesh, in diagonals of the mesh, lies in it.
+const WITHIN: f64 = 0.01;
+
+/// Makes a scene of a file.
+pub(super) fn light(name: &str, file: File, film: [u32; 2]) -> Reading {
+    let mut scene = SceneDescription {
+        name: name.to_owned(),
+        camera: None,
+        materials: file.materials,
+        meshes: file.meshes,
+        spheres: file.spheres,
+        lights: Vec::new(),
+    };
+    // The course puts the box around the objects of the file, before there are lamps.
+    scene.camera = scene.bounds().map(|bounds| file.lens.place(&bounds, film));
+    let mut differences = file.differences;
+    for lamp in file.lamps {
+        differences.extend(add(&mut scene, lamp));
+    }
+    Reading { scene: scene.with_area_lights(), differences }
+}
+
+/// Adds a lamp, and says what is different about it.
+fn add(scene: &mut SceneDescription, lamp: Lamp) -> Option<String> {
+    let Lamp { name, colour, kind } = lamp;
+    let at = match kind {
+        Kind::Area { centre, .. } => Some(centre),
+        Kind::Point { position } => Some(position),
+        Kind::Directional { .. } | Kind::Ambient | Kind::Spot => None,
+    };
+    if let Some(mesh) = at.and_then(|position| glowing_mesh_at(scene, position)) {
+        let mesh = &mesh.name;
+        return Some(format!(
+            "lamp `{name}` lies in `{mesh}`: what shines is `{mesh}`, as it is seen"
+        ));
+    }
+    match kind {
+        Kind::Area { centre, direction, sides } => {
+            let material = scene.materials.len() as u32;
+            scene.materials.push(glowing(&name, colour));
+            scene.meshes.push(rectangle(&name, centre, direction, sides, material));
+            Some(format!("lamp `{name}` has no surface in the course; here it is seen"))
+        }
+        Kind::Point { position } => {
+            scene.lights.push(Light::Point { position, intensity: colour });
+            None
+        }
+        Kind::Directional { direction } => {
+            scene.lights.push(Light::Directional { direction, irradiance: colour });
+            None
+        }
+        Kind::Ambient => {
+            Some(format!("lamp `{name}` is half of a sky, and shines without being seen: left out"))
+        }
+        Kind::Spot => {
+            Some(format!("lamp `{name}` is a spot, which is dark in the course: left out"))
+        }
+    }
+}
+
+fn glowing_mesh_at(scene: &SceneDescription, position: DVec3) -> Option<&Mesh> {
+    let glows = |mesh: &&Mesh| scene.materials[mesh.material as usize].emission.is_some();
+    scene.meshes.iter().filter(glows).find(|mesh| {
+        Aabb::around(mesh.positions.iter().copied()).is_some_and(|bounds| {
+            let nearest = position.clamp(bounds.min, bounds.max);
+            nearest.distance(position) <= WITHIN * bounds.diagonal()
+        })
+    })
+}
+
+fn glowing(name: &str, radiance: [f64; 3]) -> Material {
+    let surface = Surface::Diffuse { reflectance: [0.0; 3] };
+    Material { name: name.to_owned(), surface, emission: Some(Emission { radiance, cap: None }) }
+}
+
+/// A rectangle of two triangles whose front is the side of `direction`.
+fn rectangle(
+    name: &str,
+    centre: DVec3,
+    direction: DVec3,
+    sides: [DVec3; 2],
+    material: u32,
+) -> Mesh {
+    let [mut x, mut y] = sides.map(|side| side / 2.0);
+    if x.cross(y).dot(direction) < 0.0 {
+        (x, y) = (y, x);
+    }
+    Mesh {
+        name: name.to_owned(),
+        positions: vec![centre - x - y, centre + x - y, centre + x + y, centre - x + y],
+        normals: Vec::new(),
+        indices: vec![[0, 1, 2], [0, 2, 3]],
+        material,
+    }
+}

@@ -9,9 +9,13 @@ pub type Result<T> = std::result::Result<T, CoreError>;
 /// Why a core could not answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CoreError {
-    /// The method's capability was not declared, or this one request is beyond the core.
+    /// The method's capability was not declared.
     #[error("the core does not support {}", .0.names().join(", "))]
     Unsupported(Capabilities),
+    /// This one request is beyond the core, in words: a material it does not know, a bounce range it cannot
+    /// isolate. It is skipped, as with a missing capability.
+    #[error("beyond the core: {0}")]
+    Beyond(String),
     /// The core reported a problem in its own words.
     #[error("the core refused: {0}")]
     Refused(String),

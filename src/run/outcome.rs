@@ -16,7 +16,7 @@ pub enum Outcome {
     },
     /// The core lacks what the check needs.
     Skipped {
-        /// The capabilities it lacks.
+        /// The capabilities it lacks, or else what is beyond it.
         missing: Vec<String>,
     },
     /// What the case rests on failed, so that its own result would say nothing.
@@ -113,6 +113,7 @@ impl Outcome {
     fn of_core_error(error: CoreError) -> Self {
         match error {
             CoreError::Unsupported(missing) => Self::Skipped { missing: missing.names() },
+            CoreError::Beyond(what) => Self::Skipped { missing: vec![what] },
             CoreError::Crashed { how, during } => Self::Crashed { how, during },
             CoreError::TimedOut { limit, during } => {
                 Self::TimedOut { limit: limit.as_secs_f64(), during }
@@ -182,5 +183,8 @@ mod tests {
     fn an_unsupported_request_is_skipped() {
         let error = CoreError::Unsupported(Capabilities::RENDER);
         assert_eq!(Outcome::of(Err(error.into())).status(), Status::Skipped);
+        let error = CoreError::Beyond("a sky".to_owned());
+        let skipped = Outcome::Skipped { missing: vec!["a sky".to_owned()] };
+        assert_eq!(Outcome::of(Err(error.into())), skipped);
     }
 }

@@ -93,6 +93,9 @@ impl Draw {
     }
 }
 
+/// Runs the core once and answers the mean of every claim over that run.
+pub type DrawMeans<'a, E> = dyn FnMut(Draw) -> Result<Vec<f64>, E> + 'a;
+
 /// Judges all claims on the same runs. `draw` runs the core once, with its own seed, and answers for each claim
 /// the mean over that run.
 ///
@@ -102,11 +105,21 @@ impl Draw {
 pub fn judge_means<E>(
     claims: &[Claim],
     effort: &Effort,
-    draw: &mut dyn FnMut(Draw) -> Result<Vec<f64>, E>,
+    draw: &mut DrawMeans<'_, E>,
+) -> Result<Vec<MeanReport>, E> {
+    judge_means_at(STAGE_LEVEL, claims, effort, draw)
+}
+
+/// The same with another level of each stage, so that calibration can be simulated.
+pub(super) fn judge_means_at<E>(
+    level: f64,
+    claims: &[Claim],
+    effort: &Effort,
+    draw: &mut DrawMeans<'_, E>,
 ) -> Result<Vec<MeanReport>, E> {
     let mut ladder = Ladder {
         effort: *effort,
-        trails: claims.iter().map(|claim| Trail::new(*claim)).collect(),
+        trails: claims.iter().map(|claim| Trail::new(*claim, level)).collect(),
         draw,
         drawn: 0,
         repeated: false,
@@ -123,7 +136,7 @@ pub fn judge_means<E>(
 struct Ladder<'a, E> {
     effort: Effort,
     trails: Vec<Trail>,
-    draw: &'a mut dyn FnMut(Draw) -> Result<Vec<f64>, E>,
+    draw: &'a mut DrawMeans<'a, E>,
     drawn: u64,
     repeated: bool,
 }
@@ -138,7 +151,7 @@ impl<E> Ladder<'_, E> {
             let informed = self.trails.iter().zip(&moments).all(|(t, m)| t.learns_from(m, samples));
             if informed || samples >= largest {
                 for (trail, moments) in self.trails.iter_mut().zip(&moments) {
-                    trail.take_noise(moments, samples);
+                    trail.take_pilot(moments, samples);
                 }
                 break;
             }

@@ -10,6 +10,8 @@
 //! Not here: how samples are drawn (`checks`), or what a failure means (`diagnosis`).
 
 mod budget;
+#[cfg(test)]
+mod calibration;
 mod cells;
 mod chi_square;
 mod claim;
@@ -45,7 +47,7 @@ pub use image_report::{
     CellScore, Confirmation, GlobalRatio, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
     TileMap,
 };
-pub use ladder::{Draw, LEAF_FALSE_ALARM, STAGE_LEVEL, Stage, judge_means};
+pub use ladder::{Draw, DrawMeans, LEAF_FALSE_ALARM, STAGE_LEVEL, Stage, judge_means};
 pub use ledger::{Ledger, LedgerEntry, SUITE_FALSE_ALARM};
 pub use mean_report::{MeanReport, StageScore};
 pub use moments::Moments;

@@ -2,15 +2,19 @@
 
 use super::ladder::{
     FEWEST_EFFECTIVE, LEAF_FALSE_ALARM, MISS_LEVEL, PILOT_EFFECTIVE, PLAN_MARGIN, PLANNED_SIGMAS,
-    STAGE_LEVEL, VARIANCE_GUARD,
+    VARIANCE_GUARD,
 };
 use super::{
     Claim, Effort, MeanReport, Moments, Stage, StageScore, Verdict, normal_upper, student_upper,
 };
-use std::sync::LazyLock;
 
-static NORMAL_CRITICAL: LazyLock<f64> = LazyLock::new(|| normal_upper(STAGE_LEVEL));
-static MISS_QUANTILE: LazyLock<f64> = LazyLock::new(|| normal_upper(MISS_LEVEL));
+/// Standard errors outside the band that make a pilot suspicious.
+const PILOT_SIGMAS: f64 = 3.0;
+/// Fewest samples of a first stage after a suspicious pilot. What looks like a wrong constant may be a rare event that
+/// has not happened; 4 and 16 times as many samples confirm.
+const FEWEST_TO_SUSPECT: f64 = 16_384.0;
+/// Level of one side of the printed intervals.
+const INTERVAL_LEVEL: f64 = 5e-4;
 
 /// Where a claim stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,14 +55,25 @@ fn sample_variance(moments: &Moments, samples: u64) -> f64 {
 /// A claim and its history.
 pub(super) struct Trail {
     claim: Claim,
+    /// Of one stage, on one side.
+    level: f64,
+    /// Whether the pilot was outside the band by more than its noise.
+    is_expected_to_depart: bool,
     noise: Noise,
     scores: Vec<StageScore>,
     standing: Standing,
 }
 
 impl Trail {
-    pub(super) fn new(claim: Claim) -> Self {
-        Self { claim, noise: Noise::default(), scores: Vec::new(), standing: Standing::Open }
+    pub(super) fn new(claim: Claim, level: f64) -> Self {
+        Self {
+            claim,
+            level,
+            is_expected_to_depart: false,
+            noise: Noise::default(),
+            scores: Vec::new(),
+            standing: Standing::Open,
+        }
     }
 
     pub(super) fn takes_part_in(&self, stage: Stage) -> bool {
@@ -79,6 +94,13 @@ impl Trail {
             return self.claim.departure(pilot.mean()) == 0.0;
         }
         self.effective(variance, samples) >= PILOT_EFFECTIVE
+    }
+
+    /// Learns from the last pilot.
+    pub(super) fn take_pilot(&mut self, pilot: &Moments, samples: u64) {
+        let departure = self.claim.departure(pilot.mean()).abs();
+        self.is_expected_to_depart = departure > PILOT_SIGMAS * pilot.standard_error();
+        self.take_noise(pilot, samples);
     }
 
     /// Learns the noise of one more stage, for the second key of the stages that follow.
@@ -104,7 +126,8 @@ impl Trail {
         };
         let for_normality =
             FEWEST_EFFECTIVE * PLAN_MARGIN.powi(2) * (1.0 + variance / self.claim.scale.powi(2));
-        for_noise.max(for_normality)
+        let to_be_sure = if self.is_expected_to_depart { FEWEST_TO_SUSPECT } else { 0.0 };
+        for_noise.max(for_normality).max(to_be_sure)
     }
 
     /// The size a stage should have had, if its spread is not what was expected: too small to have seen the tail,
@@ -121,7 +144,7 @@ impl Trail {
             return Some(4 * samples);
         }
         let score = self.scored(stage, moments, samples);
-        let mut wiser = Self { scores: vec![score], ..Self::new(self.claim) };
+        let mut wiser = Self { scores: vec![score], ..Self::new(self.claim, self.level) };
         wiser.noise = self.noise;
         wiser.noise.take(moments, samples);
         let blind = stage == Stage::First && !score.rejects && wiser.resolution() > effort.detects;
@@ -153,7 +176,7 @@ impl Trail {
             Standing::Suspected(sign) => t * sign > 0.0,
             _ => true,
         };
-        let first_key = t.abs() > student_upper(STAGE_LEVEL, (moments.count() - 1) as f64);
+        let first_key = t.abs() > student_upper(self.level, (moments.count() - 1) as f64);
         let second_key = u.abs() > self.second_critical();
         let rejects = first_key && second_key && same_side;
         StageScore { stage, samples, mean: moments.mean(), standard_error, t, u, rejects }
@@ -161,8 +184,8 @@ impl Trail {
 
     fn second_critical(&self) -> f64 {
         match self.claim.null_deviation {
-            Some(_) => *NORMAL_CRITICAL,
-            None => student_upper(STAGE_LEVEL, self.noise.freedom),
+            Some(_) => normal_upper(self.level),
+            None => student_upper(self.level, self.noise.freedom),
         }
     }
 
@@ -190,7 +213,7 @@ impl Trail {
         };
         let elsewhere = (self.variance() / first.samples as f64).sqrt();
         let error = first.standard_error.max(elsewhere);
-        let sigmas = self.second_critical().max(*NORMAL_CRITICAL) + *MISS_QUANTILE;
+        let sigmas = self.second_critical() + normal_upper(MISS_LEVEL);
         (self.claim.band_width() + sigmas * error) / self.claim.scale
     }
 
@@ -200,7 +223,7 @@ impl Trail {
         let first_samples = self.scores.first().map_or(0, |score| score.samples);
         let mean = last.map_or(f64::NAN, |score| score.mean);
         let standard_error = last.map_or(f64::NAN, |score| score.standard_error);
-        let half_width = student_upper(STAGE_LEVEL, f64::from(effort.runs - 1)) * standard_error;
+        let half_width = student_upper(INTERVAL_LEVEL, f64::from(effort.runs - 1)) * standard_error;
         let interval = [mean - half_width, mean + half_width];
         let resolution = self.resolution();
         let effective_samples = self.effective(self.variance(), first_samples);

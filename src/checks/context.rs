@@ -3,7 +3,7 @@
 use crate::contract::{Core, CoreError, CoreInfo};
 use crate::image::Image;
 use crate::math::rng::Seed;
-use crate::scene::{Library, SceneDescription};
+use crate::scene::{Camera, Library, SceneDescription};
 use crate::stats::Budget;
 use std::path::Path;
 use std::sync::Arc;
@@ -43,6 +43,16 @@ impl Context<'_> {
     pub fn show(&mut self, role: PictureRole, caption: impl Into<String>, image: Image) {
         self.pictures.push(Picture { role, caption: caption.into(), image });
     }
+}
+
+/// The camera of a scene.
+///
+/// # Errors
+/// [`CheckError::Broken`] if it has none.
+pub fn camera_of(scene: &SceneDescription) -> Result<Camera, CheckError> {
+    scene
+        .camera
+        .ok_or_else(|| CheckError::Broken(format!("scene `{}` has no `[camera]`", scene.name)))
 }
 
 /// A picture that a check wants people to see.

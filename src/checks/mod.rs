@@ -5,11 +5,13 @@
 
 pub mod adaptive;
 mod context;
+//CV pub mod convergence;
 mod finding;
+pub mod picture;
 pub mod robustness;
 pub mod transport;
 
-pub use context::{CheckError, Context, Picture, PictureRole};
+pub use context::{CheckError, Context, Picture, PictureRole, camera_of};
 pub use finding::{Finding, Measure, number};
 
 use crate::contract::Capabilities;
@@ -110,6 +112,8 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<transport::BouncesAddUp>(),
     CheckKind::of::<adaptive::SampleCounts>(),
     CheckKind::of::<robustness::RadianceIsFinite>(),
+    //CV CheckKind::of::<convergence::ErrorFallsAsRootN>(),
+    CheckKind::of::<picture::MatchesReference>(),
 ];
 
 /// The check called `name`.

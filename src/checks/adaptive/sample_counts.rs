@@ -1,6 +1,6 @@
 //! Adaptive pictures: sample counts in range, and means divided by the samples that were used.
 
-use crate::checks::{Check, CheckError, Context, Finding, Measure, Picture, PictureRole};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Picture, PictureRole, camera_of};
 use crate::contract::{
     Acceleration, AdaptiveSettings, BuiltScene, Capabilities, Film, IntegratorSettings,
     RenderSettings,
@@ -46,9 +46,7 @@ impl Check for SampleCounts {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let camera = scene
-            .camera
-            .ok_or_else(|| CheckError::Broken(format!("scene `{}` has no camera", scene.name)))?;
+        let camera = camera_of(&scene)?;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let film = self.render(built.as_mut(), &camera, context.seed.0)?;
         let mut measures = vec![self.out_of_range(&film)];

@@ -3,7 +3,7 @@
 //! The validation in front of every core refuses such pixels by itself; this check renders what provokes them:
 //! grazing light, roughness near zero, rays along planes, a camera inside glass.
 
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
 use crate::contract::{
     Acceleration, Capabilities, CoreError, DirectSampling, Film, IntegratorSettings, RenderSettings,
 };
@@ -71,9 +71,7 @@ impl RadianceIsFinite {
         scene: &SceneDescription,
         direct: DirectSampling,
     ) -> Result<Option<String>, CheckError> {
-        let camera = scene
-            .camera
-            .ok_or_else(|| CheckError::Broken(format!("scene `{}` has no camera", scene.name)))?;
+        let camera = camera_of(scene)?;
         let seed = context.seed.child(&scene.name).child(format!("{direct:?}")).0;
         let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
         match built.render(&camera, &self.settings(direct, seed), &mut Film::default()) {

@@ -1,0 +1,241 @@
+//! A render against a Mitsuba reference, with the noise of both in the account.
+
+use crate::checks::{Check, CheckError, Context, Finding, Measure, PictureRole, camera_of};
+use crate::contract::{
+    Acceleration, BuiltScene, Capabilities, DirectSampling, Film, IntegratorSettings,
+    RenderSettings,
+};
+use crate::image::Image;
+use crate::math::rng::Seed;
+use crate::scene::{Camera, reference};
+use crate::stats::{
+    Component, GlobalRatio, ImageEffort, ImageReport, Impossible, Reference, Scale, ScaleReport,
+    Verdict, judge_image,
+};
+use crate::text::Percent;
+use serde::Deserialize;
+
+/// Standard errors at the ends of the scale of the error picture.
+const ERROR_SCALE: f32 = 6.0;
+
+/// Independent renders agree with a reference, at every scale from a pixel to the whole picture.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct MatchesReference {
+    /// The folder below `references/`.
+    reference: String,
+    bounces: [u32; 2],
+    #[serde(default)]
+    direct: DirectSampling,
+    /// Of each run, at the default budget.
+    samples_per_pixel: u32,
+    /// The error of the whole picture that must be seen.
+    detects: Percent,
+}
+
+impl Check for MatchesReference {
+    const NAME: &'static str = "matches-reference";
+    const SUMMARY: &'static str = "independent renders against a Mitsuba reference, at every scale";
+
+    fn needs(&self) -> Capabilities {
+        let mut needs = Capabilities::BUILD_SCENE | Capabilities::RENDER;
+        if self.direct == DirectSampling::Hemisphere {
+            needs |= Capabilities::HEMISPHERE_SAMPLING;
+        }
+        if self.bounces[0] > 0 {
+            needs |= Capabilities::ISOLATED_BOUNCES;
+        }
+        needs
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let camera = camera_of(&scene)?;
+        let reference = reference::load(context.references, &self.reference, &scene)
+            .map_err(|error| CheckError::Broken(error.to_string()))?;
+        if reference.provenance.bounces != self.bounces {
+            return Err(CheckError::Broken(format!(
+                "reference `{}` holds bounces {:?}, the case asks for {:?}",
+                self.reference, reference.provenance.bounces, self.bounces
+            )));
+        }
+        let samples = context.budget.samples(u64::from(self.samples_per_pixel));
+        let shot = Shot { check: self, camera, samples: samples.try_into().unwrap_or(u32::MAX) };
+        let effort = ImageEffort::new(self.detects.0 * context.budget.coarseness());
+        let seed = context.seed;
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let question =
+            Reference { mean: &reference.mean, standard_error: &reference.standard_error };
+        let report = judge_image(question, &effort, &mut |draw| {
+            shot.render(built.as_mut(), draw.seed(seed))
+        })?;
+        drop(built);
+        let caption = format!("mean of {} runs of {samples} samples per pixel", report.runs);
+        let error = error_picture(&report, &reference.mean, &reference.standard_error);
+        context.show(PictureRole::Reference, "Mitsuba", reference.mean);
+        context.show(PictureRole::Render, caption, report.mean.clone());
+        let caption = format!("difference, {ERROR_SCALE} standard errors at the ends of the scale");
+        context.show(PictureRole::SignedError, caption, error);
+        Ok(finding(&report))
+    }
+}
+
+/// How each run is rendered.
+struct Shot<'a> {
+    check: &'a MatchesReference,
+    camera: Camera,
+    samples: u32,
+}
+
+impl Shot<'_> {
+    fn render(&self, scene: &mut dyn BuiltScene, seed: Seed) -> Result<Image, CheckError> {
+        let [width, height] = self.camera.film;
+        let settings = RenderSettings {
+            width,
+            height,
+            samples_per_pixel: self.samples,
+            integrator: IntegratorSettings {
+                bounces: self.check.bounces[0]..=self.check.bounces[1],
+                direct: self.check.direct,
+                seed: seed.0,
+                ..Default::default()
+            },
+            adaptive: None,
+        };
+        let mut film = Film::default();
+        scene.render(&self.camera, &settings, &mut film)?;
+        Ok(Image { width: width as usize, height: height as usize, pixels: film.pixels })
+    }
+}
+
+/// Difference over its standard error, core and reference together; ±1 is the end of the scale.
+fn error_picture(report: &ImageReport, mean: &Image, standard_error: &Image) -> Image {
+    Image::from_fn(mean.width, mean.height, |x, y| {
+        let pixel = y * mean.width + x;
+        std::array::from_fn(|c| {
+            let difference = report.mean.pixels[pixel][c] - mean.pixels[pixel][c];
+            let noise = report.standard_error.pixels[pixel][c].hypot(standard_error.pixels[pixel][c]);
+            if noise > 0.0 { difference / noise / ERROR_SCALE } else { 0.0 }
+        })
+    })
+}
+
+fn finding(report: &ImageReport) -> Finding {
+    let mut measures: Vec<_> = report.ratios.iter().map(|ratio| ratio_measure(ratio, report)).collect();
+    measures.extend(report.scales.iter().map(scale_measure));
+    let mut finding = Finding::of(
+        statement(report),
+        format!(
+            "would have caught an error of {:.2} % of the whole picture",
+            100.0 * report.resolution
+        ),
+        measures,
+    )
+    .spending(report.false_alarm);
+    finding.verdict = report.verdict;
+    finding
+}
+
+/// How bright the whole picture is: what people ask first.
+fn ratio_measure(ratio: &GlobalRatio, report: &ImageReport) -> Measure {
+    Measure {
+        name: format!("brightness of the whole picture, {}", component_name(ratio.component)),
+        unit: "of the reference".to_owned(),
+        measured: ratio.ratio,
+        expected: 1.0,
+        allowed: 0.0,
+        interval: Some(ratio.interval),
+        resolution: (ratio.component == Component::Luminance).then_some(report.resolution),
+        verdict: report.verdict,
+    }
+}
+
+/// The most suspicious cell of a scale. The scale fails only if fresh runs confirm it.
+fn scale_measure(scale: &ScaleReport) -> Measure {
+    let worst = scale.worst.first();
+    let rejects = match worst {
+        Some(cell) if scale.rejects => {
+            format!(" at ({}, {})", cell.extent.x, cell.extent.y)
+        }
+        _ => String::new(),
+    };
+    Measure {
+        name: format!("worst {}{rejects}", scale_name(scale.scale)),
+        unit: "standard errors".to_owned(),
+        measured: worst.map_or(0.0, |cell| cell.t),
+        expected: 0.0,
+        allowed: scale.critical,
+        interval: None,
+        resolution: None,
+        verdict: if scale.rejects { Verdict::Fail } else { Verdict::Pass },
+    }
+}
+
+fn statement(report: &ImageReport) -> String {
+    if let Some(impossible) = report.impossible {
+        let kind = match impossible.kind {
+            Impossible::NotANumber => "NaN",
+            Impossible::Infinite => "infinite",
+            Impossible::Negative => "negative",
+        };
+        return format!(
+            "{} pixels are {kind}, the first at ({}, {}) from the top left",
+            impossible.pixels, impossible.x, impossible.y
+        );
+    }
+    if let Some([x, y]) = report.dead_pixels.first() {
+        return format!(
+            "{} pixels stay black in every run, the first at ({x}, {y}) from the top left",
+            report.dead_pixels.len()
+        );
+    }
+    match report.worst_scale {
+        Some(scale) => format!("{}; {}", brightness(report), confirmed(report, scale)),
+        None => format!("agrees with the reference; {}", brightness(report)),
+    }
+}
+
+/// "the picture has 0.991 of the light it should have".
+fn brightness(report: &ImageReport) -> String {
+    let whole = report.ratios.iter().find(|ratio| ratio.component == Component::Luminance);
+    match whole {
+        None => "the picture is black".to_owned(),
+        Some(whole) => format!("the picture has {:.4} of the light it should have", whole.ratio),
+    }
+}
+
+/// Where fresh runs have confirmed the difference.
+fn confirmed(report: &ImageReport, scale: Scale) -> String {
+    let cell = report.scales.iter().find(|s| s.scale == scale).and_then(|s| s.worst.first());
+    match cell {
+        None => format!("confirmed at the scale of a {}", scale_name(scale)),
+        Some(cell) => format!(
+            "confirmed at the scale of a {}: {} is {:.4} instead of {:.4} around pixel ({}, {})",
+            scale_name(scale),
+            component_name(cell.component),
+            cell.mean,
+            cell.expected,
+            cell.extent.x,
+            cell.extent.y,
+        ),
+    }
+}
+
+const fn scale_name(scale: Scale) -> &'static str {
+    match scale {
+        Scale::Pixel => "pixel",
+        Scale::Tile8 => "tile of 8 x 8",
+        Scale::Tile32 => "tile of 32 x 32",
+        Scale::Rows => "band of 8 rows",
+        Scale::Whole => "whole picture",
+    }
+}
+
+const fn component_name(component: Component) -> &'static str {
+    match component {
+        Component::Red => "red",
+        Component::Green => "green",
+        Component::Blue => "blue",
+        Component::Luminance => "luminance",
+    }
+}

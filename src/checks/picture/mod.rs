@@ -1,0 +1,5 @@
+//! Whole pictures.
+
+mod matches_reference;
+
+pub use matches_reference::MatchesReference;

@@ -1,0 +1,95 @@
+//! A reference that is not what it should be is *broken*, never a pass and never the core's fault, and the message
+//! says which command makes it.
+
+use furnace::case::load_one;
+use furnace::image::{Image, exr};
+use furnace::project::Project;
+use furnace::run::{Outcome, Plan, Request, attempt};
+use furnace::scene::reference::{fingerprint, picture_path, provenance_path};
+use std::fs;
+use std::path::Path;
+
+const NAME: &str = "point-light-plane";
+const CASE: &str = "images/point-light-plane-matches-mitsuba";
+
+/// The outcome of the case with the committed reference, changed by `spoil` in a folder of its own.
+fn outcome_after(spoil: impl Fn(&Path)) -> Outcome {
+    let project = Project::at(env!("CARGO_MANIFEST_DIR"));
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join(NAME)).unwrap();
+    for path in [picture_path, provenance_path] {
+        fs::copy(path(&project.references(), NAME), path(folder.path(), NAME)).unwrap();
+    }
+    spoil(folder.path());
+    let request = Request {
+        cores: vec!["builtin".parse().unwrap()],
+        filters: Vec::new(),
+        budget: furnace::stats::Budget::Default,
+        seed: furnace::math::rng::Seed::SUITE,
+        jobs: 1,
+    };
+    let mut bench = Plan::new(project.clone(), request.clone(), &[]).bench();
+    bench.references = folder.path().to_owned();
+    let case = load_one(&project.cases(), CASE).unwrap();
+    attempt(&bench, &case, request.cores[0].make().as_mut()).outcome
+}
+
+fn assert_broken(outcome: &Outcome, words: &str) {
+    let Outcome::Broken { why } = outcome else { panic!("not broken but {outcome:?}") };
+    assert!(why.contains(words), "`{words}` is not in: {why}");
+    assert!(why.contains("furnace reference make point-light-plane"), "no command in: {why}");
+}
+
+#[test]
+fn the_unspoilt_copy_is_not_broken() {
+    assert!(outcome_after(|_| ()).finding().is_some());
+}
+
+#[test]
+fn a_missing_reference_is_broken() {
+    let outcome = outcome_after(|folder| fs::remove_dir_all(folder.join(NAME)).unwrap());
+    assert_broken(&outcome, "does not exist");
+}
+
+#[test]
+fn a_truncated_reference_is_broken() {
+    let outcome = outcome_after(|folder| {
+        let path = picture_path(folder, NAME);
+        let bytes = fs::read(&path).unwrap();
+        fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+    });
+    assert_broken(&outcome, "is damaged");
+}
+
+#[test]
+fn a_reference_of_another_size_is_broken() {
+    let outcome = outcome_after(|folder| {
+        let small = exr::Exr::from_image(&Image::new(16, 16, [0.5; 3])).with_colours(
+            "se.",
+            &Image::new(16, 16, [0.01; 3]),
+            exr::Storage::Single,
+        );
+        let path = picture_path(folder, NAME);
+        let before = fingerprint(&fs::read(&path).unwrap());
+        exr::write(&path, &small).unwrap();
+        let after = fingerprint(&fs::read(&path).unwrap());
+        let provenance = provenance_path(folder, NAME);
+        let text = fs::read_to_string(&provenance).unwrap();
+        assert!(text.contains(&before), "the provenance does not know its picture");
+        fs::write(&provenance, text.replace(&before, &after)).unwrap();
+    });
+    assert_broken(&outcome, "16");
+}
+
+#[test]
+fn a_reference_of_another_scene_is_broken() {
+    let outcome = outcome_after(|folder| {
+        let path = provenance_path(folder, NAME);
+        let text = fs::read_to_string(&path).unwrap();
+        let spoilt = text.lines().map(|line| {
+            if line.starts_with("scene-hash") { "scene-hash = \"00\"" } else { line }
+        });
+        fs::write(&path, spoilt.collect::<Vec<_>>().join("\n")).unwrap();
+    });
+    assert_broken(&outcome, "of another scene");
+}

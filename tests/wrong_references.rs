@@ -86,9 +86,9 @@ fn a_reference_of_another_scene_is_broken() {
     let outcome = outcome_after(|folder| {
         let path = provenance_path(folder, NAME);
         let text = fs::read_to_string(&path).unwrap();
-        let spoilt = text.lines().map(|line| {
-            if line.starts_with("scene-hash") { "scene-hash = \"00\"" } else { line }
-        });
+        let spoilt = text
+            .lines()
+            .map(|line| if line.starts_with("scene-hash") { "scene-hash = \"00\"" } else { line });
         fs::write(&path, spoilt.collect::<Vec<_>>().join("\n")).unwrap();
     });
     assert_broken(&outcome, "of another scene");

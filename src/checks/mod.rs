@@ -5,7 +5,7 @@
 
 pub mod adaptive;
 mod context;
-//CV pub mod convergence;
+pub mod convergence;
 mod finding;
 pub mod picture;
 pub mod robustness;
@@ -112,7 +112,7 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<transport::BouncesAddUp>(),
     CheckKind::of::<adaptive::SampleCounts>(),
     CheckKind::of::<robustness::RadianceIsFinite>(),
-    //CV CheckKind::of::<convergence::ErrorFallsAsRootN>(),
+    CheckKind::of::<convergence::ErrorFallsAsRootN>(),
     CheckKind::of::<picture::MatchesReference>(),
 ];
 

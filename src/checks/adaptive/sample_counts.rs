@@ -1,6 +1,8 @@
 //! Adaptive pictures: sample counts in range, and means divided by the samples that were used.
 
-use crate::checks::{Check, CheckError, Context, Finding, Measure, Picture, PictureRole, camera_of};
+use crate::checks::{
+    Check, CheckError, Context, Finding, Measure, Picture, PictureRole, camera_of,
+};
 use crate::contract::{
     Acceleration, AdaptiveSettings, BuiltScene, Capabilities, Film, IntegratorSettings,
     RenderSettings,

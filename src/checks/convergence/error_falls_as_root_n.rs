@@ -2,7 +2,8 @@
 
 use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
 use crate::contract::{
-    Acceleration, BuiltScene, Capabilities, Film, IntegratorSettings, RenderSettings,
+    Acceleration, BuiltScene, Capabilities, DirectSampling, Film, IntegratorSettings,
+    RenderSettings,
 };
 use crate::image::luminance;
 use crate::math::rng::Seed;
@@ -17,6 +18,8 @@ use serde::Deserialize;
 pub struct ErrorFallsAsRootN {
     size: [u32; 2],
     bounces: [u32; 2],
+    #[serde(default)]
+    direct: DirectSampling,
     /// Samples per pixel, growing; each at least twice the one before.
     samples: Vec<u32>,
     /// Pictures at each count.
@@ -32,7 +35,11 @@ impl Check for ErrorFallsAsRootN {
     const SUMMARY: &'static str = "error against sample count has slope -1/2 and no plateau";
 
     fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER
+        let needs = Capabilities::BUILD_SCENE | Capabilities::RENDER;
+        match self.direct {
+            DirectSampling::Lights => needs,
+            DirectSampling::Hemisphere => needs | Capabilities::HEMISPHERE_SAMPLING,
+        }
     }
 
     fn validate(&self) -> Result<(), String> {
@@ -40,7 +47,9 @@ impl Check for ErrorFallsAsRootN {
             return Err("`samples` needs three counts or more, each twice the last".to_owned());
         }
         if self.runs < 8 {
-            return Err("`runs` must be at least 8, or the noise of the error is unknown".to_owned());
+            return Err(
+                "`runs` must be at least 8, or the noise of the error is unknown".to_owned()
+            );
         }
         Ok(())
     }
@@ -90,6 +99,7 @@ impl ErrorFallsAsRootN {
             samples_per_pixel: samples,
             integrator: IntegratorSettings {
                 bounces: self.bounces[0]..=self.bounces[1],
+                direct: self.direct,
                 seed: seed.0,
                 ..Default::default()
             },

@@ -114,14 +114,16 @@ fn error_picture(report: &ImageReport, mean: &Image, standard_error: &Image) -> 
         let pixel = y * mean.width + x;
         std::array::from_fn(|c| {
             let difference = report.mean.pixels[pixel][c] - mean.pixels[pixel][c];
-            let noise = report.standard_error.pixels[pixel][c].hypot(standard_error.pixels[pixel][c]);
+            let noise =
+                report.standard_error.pixels[pixel][c].hypot(standard_error.pixels[pixel][c]);
             if noise > 0.0 { difference / noise / ERROR_SCALE } else { 0.0 }
         })
     })
 }
 
 fn finding(report: &ImageReport) -> Finding {
-    let mut measures: Vec<_> = report.ratios.iter().map(|ratio| ratio_measure(ratio, report)).collect();
+    let mut measures: Vec<_> =
+        report.ratios.iter().map(|ratio| ratio_measure(ratio, report)).collect();
     measures.extend(report.scales.iter().map(scale_measure));
     let mut finding = Finding::of(
         statement(report),

@@ -9,6 +9,7 @@ pub mod metric;
 pub mod png;
 mod relmse;
 mod rmse;
+mod shrink;
 pub mod tonemap;
 
 pub use error::ImageError;

@@ -1,7 +1,8 @@
 //! PNG, 8 bits a channel: for reports. Never for comparison: rounding and clipping cannot be undone.
 
 use super::ImageError;
-use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
 use std::path::Path;
 
 /// A picture as a screen shows it: sRGB, row-major from the top left.
@@ -24,7 +25,9 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
         })
     };
     let mut bytes = Vec::new();
-    PngEncoder::new(&mut bytes).write_image(
+    // Filters predict a pixel from its neighbours. Noise and false colour defeat that: both are smaller without.
+    let (compression, filter) = (CompressionType::Default, FilterType::NoFilter);
+    PngEncoder::new_with_quality(&mut bytes, compression, filter).write_image(
         picture.pixels.as_flattened(),
         side(picture.width)?,
         side(picture.height)?,

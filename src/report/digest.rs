@@ -1,0 +1,261 @@
+//! What every report says first of a run: how many of what, part by part, what failed, what was
+//! spent, and how large an error could still hide.
+
+use super::number::count;
+use super::tree::RunTree;
+use crate::case::{PARTS, Part};
+use crate::run::record::CoreRecord;
+use crate::run::{Status, TrialRecord};
+use std::collections::BTreeMap;
+
+/// How many trials ended in which way.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tally(BTreeMap<Status, usize>);
+
+impl Tally {
+    /// Counts.
+    pub fn of<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Self {
+        let mut counts = BTreeMap::new();
+        for trial in trials {
+            *counts.entry(trial.outcome.status()).or_default() += 1;
+        }
+        Self(counts)
+    }
+
+    /// How many ended so.
+    pub fn count(&self, status: Status) -> usize {
+        self.0.get(&status).copied().unwrap_or(0)
+    }
+
+    /// How many there are.
+    pub fn total(&self) -> usize {
+        self.0.values().sum()
+    }
+
+    /// How many count against a core.
+    pub fn failures(&self) -> usize {
+        self.0.iter().filter(|(status, _)| status.is_failure()).map(|(_, count)| count).sum()
+    }
+
+    /// What occurs, the good first.
+    pub fn iter(&self) -> impl Iterator<Item = (Status, usize)> {
+        self.0.iter().map(|(status, count)| (*status, *count))
+    }
+
+    /// `117 pass, 1 fail, 2 skipped`
+    pub fn words(&self) -> String {
+        let words: Vec<_> =
+            self.iter().map(|(status, count)| format!("{count} {}", status.word())).collect();
+        if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+    }
+
+    /// The result of a run in a few words, for titles.
+    pub fn headline(&self) -> String {
+        let (total, failures, passes) = (self.total(), self.failures(), self.count(Status::Pass));
+        if total == 0 {
+            "no trial has a result".to_owned()
+        } else if failures > 0 {
+            let verb = if failures == 1 { "fails" } else { "fail" };
+            format!("{failures} of {} {verb}", count(total, "trial"))
+        } else if passes == total {
+            if total == 1 {
+                "1 trial passes".to_owned()
+            } else {
+                format!("all {total} trials pass")
+            }
+        } else {
+            format!("{passes} of {total} trials pass, none fails")
+        }
+    }
+}
+
+/// Some trials of one part of a path tracer.
+#[derive(Clone, Debug)]
+pub struct PartGroup<'a> {
+    /// As the course numbers it; none for folders that belong to no part.
+    pub number: Option<u32>,
+    /// As reports call it.
+    pub title: &'static str,
+    /// The trials.
+    pub trials: Vec<&'a TrialRecord>,
+}
+
+impl PartGroup<'_> {
+    /// Seconds spent on its trials.
+    pub fn seconds(&self) -> f64 {
+        self.trials.iter().map(|trial| trial.timing.seconds).sum()
+    }
+}
+
+/// Sorts trials into parts, in the order in which one rests on another. A folder that belongs to no
+/// part is not dropped: it comes last.
+pub fn by_part<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Vec<PartGroup<'a>> {
+    let group = |part: &Part| PartGroup {
+        number: Some(part.number),
+        title: part.title,
+        trials: Vec::new(),
+    };
+    let mut groups: Vec<_> = PARTS.iter().map(group).collect();
+    groups.push(PartGroup { number: None, title: "other cases", trials: Vec::new() });
+    for trial in trials {
+        let number = Part::of_case(&trial.case).map(|part| part.number);
+        if let Some(group) = groups.iter_mut().find(|group| group.number == number) {
+            group.trials.push(trial);
+        }
+    }
+    groups.retain(|group| !group.trials.is_empty());
+    groups
+}
+
+/// Trials with that status, the earliest part first, so that a cause stands before its
+/// consequences.
+pub fn in_order_of_parts(tree: &RunTree, status: Status) -> Vec<&TrialRecord> {
+    let mut trials: Vec<_> =
+        tree.trials.iter().filter(|trial| trial.outcome.status() == status).collect();
+    // Stable: of one case the cores keep their order.
+    trials.sort_by_key(|trial| (Part::position(&trial.case), &trial.case));
+    trials
+}
+
+/// What counts against a core, in the order in which to look at it.
+pub fn failures(tree: &RunTree) -> Vec<&TrialRecord> {
+    let mut trials: Vec<_> = Status::ALL
+        .into_iter()
+        .filter(|status| status.is_failure())
+        .flat_map(|status| in_order_of_parts(tree, status))
+        .collect();
+    trials.sort_by_key(|trial| (Part::position(&trial.case), &trial.case));
+    trials
+}
+
+/// The probability that a correct core fails any of these trials: what they spent of the error
+/// budget, added up.
+pub fn false_alarm<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> f64 {
+    trials.into_iter().filter_map(|trial| trial.outcome.finding()).map(|f| f.false_alarm).sum()
+}
+
+/// [`false_alarm`] of the core that has spent most: every core is judged for itself.
+pub fn worst_false_alarm(tree: &RunTree) -> f64 {
+    let of_core = |core: &CoreRecord| false_alarm(tree.trials_of(&core.spec));
+    tree.run.cores.iter().map(of_core).max_by(f64::total_cmp).unwrap_or(0.0)
+}
+
+/// A trial that passed, and the largest relative error that it would have let through.
+#[derive(Clone, Copy, Debug)]
+pub struct Weakness<'a> {
+    /// The trial.
+    pub trial: &'a TrialRecord,
+    /// The largest resolution of its measures.
+    pub resolution: f64,
+}
+
+/// The passes, the one that proves least first. Passes whose measures state no resolution are left
+/// out.
+pub fn weakest_first<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Vec<Weakness<'a>> {
+    let passes = trials.into_iter().filter(|trial| trial.outcome.status() == Status::Pass);
+    let mut sorted: Vec<_> = passes
+        .filter_map(|trial| resolution(trial).map(|resolution| Weakness { trial, resolution }))
+        .collect();
+    sorted.sort_by(|a, b| b.resolution.total_cmp(&a.resolution));
+    sorted
+}
+
+/// The largest relative error that any measure of the trial would have let through; NaN is beyond
+/// every bound.
+fn resolution(trial: &TrialRecord) -> Option<f64> {
+    let measures = trial.outcome.finding()?.measures.iter();
+    let resolutions = measures.filter_map(|measure| measure.resolution);
+    resolutions.map(|r| if r.is_nan() { f64::INFINITY } else { r }).reduce(f64::max)
+}
+
+/// The smallest error that a trial would have caught, as its check words it; where there is none,
+/// why.
+pub fn resolution_in_words(trial: &TrialRecord) -> String {
+    match trial.outcome.finding() {
+        Some(finding) if !finding.resolution.is_empty() => finding.resolution.clone(),
+        Some(_) => "nothing was measured".to_owned(),
+        None => format!("nothing ({})", trial.outcome.status().word()),
+    }
+}
+
+/// The trials, those that took longest first.
+pub fn slowest_first<'a>(
+    trials: impl IntoIterator<Item = &'a TrialRecord>,
+) -> Vec<&'a TrialRecord> {
+    let mut sorted: Vec<_> = trials.into_iter().collect();
+    sorted.sort_by(|a, b| b.timing.seconds.total_cmp(&a.timing.seconds));
+    sorted
+}
+
+/// One case and what every core made of it.
+#[derive(Clone, Debug)]
+pub struct CaseGroup<'a> {
+    /// One trial a core that has one, in the order the cores were asked. Never empty.
+    pub trials: Vec<&'a TrialRecord>,
+}
+
+impl<'a> CaseGroup<'a> {
+    /// The trial that stands for what all of them share: claim, source, check.
+    pub fn first(&self) -> &'a TrialRecord {
+        self.trials[0]
+    }
+}
+
+/// Every case once, in the order of parts.
+pub fn by_case(tree: &RunTree) -> Vec<CaseGroup<'_>> {
+    let mut cases: BTreeMap<_, Vec<_>> = BTreeMap::new();
+    for trial in &tree.trials {
+        cases.entry((Part::position(&trial.case), &trial.case)).or_default().push(trial);
+    }
+    cases.into_values().map(|trials| CaseGroup { trials }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::example::{Example, trial};
+    use crate::run::Outcome;
+
+    #[test]
+    fn headlines_never_call_absence_a_pass() {
+        let pass = trial("builtin", "bvh/a");
+        let mut skipped = trial("builtin", "bvh/b");
+        skipped.outcome = Outcome::Skipped { missing: vec!["render".to_owned()] };
+        assert_eq!(Tally::of([]).headline(), "no trial has a result");
+        assert_eq!(Tally::of([&pass]).headline(), "1 trial passes");
+        assert_eq!(Tally::of([&pass, &skipped]).headline(), "1 of 2 trials pass, none fails");
+    }
+
+    #[test]
+    fn a_folder_of_no_part_is_not_dropped() {
+        let trials = [trial("builtin", "elsewhere/claim"), trial("builtin", "bvh/claim")];
+        let groups = by_part(&trials);
+        let numbers: Vec<_> = groups.iter().map(|group| group.number).collect();
+        assert_eq!(numbers, [Some(2), None]);
+    }
+
+    #[test]
+    fn the_earliest_part_fails_first() {
+        let tree = Example::mixed().tree();
+        let positions: Vec<_> =
+            failures(&tree).iter().map(|trial| Part::position(&trial.case)).collect();
+        assert!(positions.len() > 2 && positions.is_sorted(), "{positions:?}");
+    }
+
+    #[test]
+    fn the_ledger_adds_up() {
+        let tree = Example::mixed().tree();
+        let builtin = false_alarm(tree.trials_of("builtin"));
+        let textbook = false_alarm(tree.trials_of("textbook"));
+        assert!(builtin > 0.0);
+        assert!((false_alarm(&tree.trials) - builtin - textbook).abs() < 1e-18);
+    }
+
+    #[test]
+    fn every_case_appears_once_with_all_its_cores() {
+        let tree = Example::mixed().tree();
+        let cases = by_case(&tree);
+        assert_eq!(cases.iter().map(|case| case.trials.len()).sum::<usize>(), tree.trials.len());
+        assert!(cases.iter().all(|case| case.trials.iter().all(|t| t.case == case.first().case)));
+    }
+}

@@ -1,0 +1,346 @@
+//! Made-up runs for the tests of the reports: no core is asked, every number is invented.
+
+use super::tree::RunTree;
+use crate::checks::{Finding, Measure, PictureRole};
+use crate::contract::{Conventions, Precision};
+use crate::image::{Image, exr};
+use crate::math::rng::{Seed, uniform};
+use crate::run::record::{
+    CoreRecord, Machine, PictureFile, RunTiming, SceneStamp, TrialTiming, VERSION, sidecar_path,
+    write_json,
+};
+use crate::run::{Outcome, RunRecord, TrialRecord};
+use crate::stats::{Budget, Verdict};
+use std::path::Path;
+
+/// A case that fails on `builtin` in [`Example::mixed`].
+pub const FAILING: &str = "integrator/roulette-leaves-every-mean-as-it-is";
+/// What a core could say to deceive a reader.
+pub const HOSTILE: &str = "<script>alert('pass')</script> & \x1b[2J";
+
+/// Folder, claim, title, whether it draws random numbers.
+const CASES: [(&str, &str, bool); 12] = [
+    ("camera/rays-go-through-their-film-points", "Rays go through their film points", false),
+    ("intersection/rays-in-the-plane-miss", "Rays in the plane of a triangle miss it", false),
+    ("intersection/the-nearer-root-wins", "Of two roots of a sphere the nearer wins", false),
+    ("bvh/same-hits-as-brute-force", "The hierarchy finds what brute force finds", false),
+    ("bvh/a-flat-box-is-hit", "A box without thickness is hit", false),
+    ("bsdf/cosine-samples-follow-their-density", "Samples follow their density", true),
+    ("lights/a-rectangle-lights-a-plane", "A rectangle lights a plane as the formula says", true),
+    ("lights/delta-lights-are-sampled-once", "A point light costs one shadow ray", false),
+    (
+        "integrator/furnace-bounce-by-bounce",
+        "Each bounce of a furnace is albedo times the last",
+        true,
+    ),
+    (FAILING, "Roulette leaves every mean as it is", true),
+    ("sampling/adaptive-counts-are-true", "Adaptive sampling says how many samples it took", true),
+    ("images/cornell-spheres", "The Cornell box agrees with Mitsuba", true),
+];
+
+/// A run that is not yet on disk.
+pub struct Example {
+    /// `run.json`
+    pub run: RunRecord,
+    /// The sidecars.
+    pub trials: Vec<TrialRecord>,
+    /// Width and height of pictures, pixels.
+    pub picture_size: (usize, usize),
+}
+
+impl Example {
+    /// Twelve cases on two cores; everything passes.
+    pub fn green() -> Self {
+        Self::of_cases(CASES.iter().map(|(case, ..)| (*case).to_owned()))
+    }
+
+    /// As many cases and pictures as the default suite has.
+    pub fn of_default_size() -> Self {
+        let numbered = |round: usize| {
+            let copies = if round == 0 { &CASES[..] } else { &CASES[..11] };
+            copies.iter().map(move |(case, ..)| {
+                format!("{case}{}", ["", "-again", "-tilted", "-in-glass", "-scaled"][round])
+            })
+        };
+        let pictures =
+            ["cornell-glass", "point-light", "area-light", "veach-plates", "closed-furnace"];
+        let pictures = pictures.map(|name| format!("images/{name}"));
+        Self::of_cases((0..5).flat_map(numbered).chain(pictures))
+    }
+
+    /// [`Example::green`] with every other way to end.
+    pub fn mixed() -> Self {
+        let mut example = Self::green();
+        example.set("builtin", FAILING, wrong_roulette());
+        example.set("builtin", "images/cornell-spheres", wrong_picture());
+        example.set(
+            "textbook",
+            "bvh/a-flat-box-is-hit",
+            Outcome::Crashed {
+                how: "signal 11 (segmentation fault)".to_owned(),
+                during: "intersect".to_owned(),
+            },
+        );
+        example.set(
+            "textbook",
+            "bvh/same-hits-as-brute-force",
+            Outcome::TimedOut { limit: 30.0, during: "intersect".to_owned() },
+        );
+        example.set(
+            "textbook",
+            FAILING,
+            Outcome::Blocked { by: "integrator/furnace-bounce-by-bounce".to_owned() },
+        );
+        example.set("textbook", "integrator/furnace-bounce-by-bounce", undecided());
+        example.set(
+            "textbook",
+            "sampling/adaptive-counts-are-true",
+            Outcome::Skipped { missing: vec!["adaptive-sampling".to_owned()] },
+        );
+        example.set(
+            "textbook",
+            "images/cornell-spheres",
+            Outcome::Broken {
+                why: "references/cornell-spheres/mean.exr is missing\n\
+                  hint: furnace reference make cornell-spheres"
+                    .to_owned(),
+            },
+        );
+        example.set(
+            "textbook",
+            "intersection/the-nearer-root-wins",
+            Outcome::Judged {
+                finding: Finding::of(
+                    HOSTILE,
+                    HOSTILE,
+                    vec![Measure::exact("t", f64::NAN, 1.0, 1e-6)],
+                ),
+            },
+        );
+        example
+    }
+
+    fn of_cases(cases: impl Iterator<Item = String>) -> Self {
+        let mut cases: Vec<_> = cases.collect();
+        cases.sort();
+        let cores = [core("builtin", Precision::Single), core("textbook", Precision::Double)];
+        let trials: Vec<_> = cores
+            .iter()
+            .flat_map(|core| cases.iter().map(|case| trial(&core.spec, case)))
+            .collect();
+        let run = RunRecord {
+            version: VERSION,
+            furnace: "0.1.0".to_owned(),
+            cores: cores.to_vec(),
+            filters: Vec::new(),
+            budget: Budget::Default,
+            seed: 1,
+            trials: trials.len(),
+            machine: Machine {
+                system: "linux".to_owned(),
+                architecture: "x86_64".to_owned(),
+                threads: 2,
+            },
+            timing: RunTiming { started: 1_795_230_840, seconds: Some(71.3) },
+        };
+        Self { run, trials, picture_size: (24, 16) }
+    }
+
+    /// Gives the trial of `case` on `core` another end.
+    pub fn set(&mut self, core: &str, case: &str, outcome: Outcome) {
+        let trial = self.trials.iter_mut().find(|t| t.core == core && t.case == case).unwrap();
+        trial.outcome = outcome;
+    }
+
+    /// Writes `run.json`, the sidecars and the pictures.
+    pub fn write(&self, folder: &Path) {
+        self.write_records(folder);
+        for trial in &self.trials {
+            let sidecar = sidecar_path(folder, &trial.core, &trial.case);
+            for picture in &trial.pictures {
+                let image = draw(trial, picture.role, self.picture_size);
+                exr::write_image(&sidecar.with_file_name(&picture.file), &image).unwrap();
+            }
+        }
+    }
+
+    /// Writes `run.json` and the sidecars; the pictures stay missing.
+    pub fn write_records(&self, folder: &Path) {
+        write_json(&folder.join("run.json"), &self.run).unwrap();
+        for trial in &self.trials {
+            write_json(&sidecar_path(folder, &trial.core, &trial.case), trial).unwrap();
+        }
+    }
+
+    /// As it would read back; its folder does not exist.
+    pub fn tree(self) -> RunTree {
+        RunTree { run: self.run, trials: self.trials, folder: "no-such-folder".into() }
+    }
+}
+
+fn core(spec: &str, precision: Precision) -> CoreRecord {
+    CoreRecord {
+        spec: spec.to_owned(),
+        name: spec.to_owned(),
+        version: "0.1.0".to_owned(),
+        precision,
+        capabilities: ["generate-rays", "render"].map(str::to_owned).to_vec(),
+        conventions: Conventions::default(),
+    }
+}
+
+/// A trial that passes.
+pub fn trial(core: &str, case: &str) -> TrialRecord {
+    let seed = Seed::SUITE.child(core).child(case);
+    let known = CASES.iter().find(|(name, ..)| case.starts_with(name));
+    let (title, is_random) = known.map_or(("A picture agrees", true), |case| (case.1, case.2));
+    let name = case.rsplit('/').next().unwrap_or(case);
+    TrialRecord {
+        version: VERSION,
+        case: case.to_owned(),
+        core: core.to_owned(),
+        title: title.to_owned(),
+        teaches: "A survivor of roulette carries the weight of those that were stopped.".to_owned(),
+        source: "By hand: L = Le (1 - rho^(m+1)) / (1 - rho); Le = 0.7, rho = 0.37.".to_owned(),
+        check: "mean-radiance".to_owned(),
+        case_hash: format!("{:064x}", seed.child("case").0),
+        scene: is_random
+            .then(|| SceneStamp { name: name.to_owned(), hash: format!("{:064x}", seed.0) }),
+        budget: Budget::Default,
+        seed: seed.0,
+        outcome: Outcome::Judged { finding: if is_random { agreeing(seed) } else { exact(seed) } },
+        pictures: if case.starts_with("images/") { pictures(name) } else { Vec::new() },
+        rerun: format!("cargo furnace run {case} --core {core}"),
+        timing: TrialTiming { seconds: uniform(&mut seed.child("time").stream()).powi(3) * 8.0 },
+    }
+}
+
+fn exact(seed: Seed) -> Finding {
+    let error = uniform(&mut seed.stream()) * 1e-6;
+    let measures = vec![
+        Measure::exact("largest distance to the film point", error, 0.0, 2e-6).in_unit("film"),
+        Measure::exact("rays that hit", 4096.0, 4096.0, 0.0),
+    ];
+    Finding::of(
+        "4096 rays go where they should",
+        "a ray 2e-6 of the film's width off would have been seen",
+        measures,
+    )
+}
+
+/// A noisy measure that lies about as far from its expectation as noise brings it.
+fn noisy(name: &str, expected: f64, factor: f64, seed: Seed) -> Measure {
+    let error = (uniform(&mut seed.child(name).stream()) - 0.5) * 0.004;
+    let measured = expected * (factor + error);
+    let half = 0.003 * expected;
+    Measure {
+        interval: Some([measured - half, measured + half]),
+        resolution: Some(0.012 + error.abs()),
+        verdict: if (factor - 1.0).abs() < 0.01 { Verdict::Pass } else { Verdict::Fail },
+        ..Measure::exact(name, measured, expected, 0.001 * expected)
+    }
+}
+
+fn bounces(seed: Seed, factor: f64) -> Vec<Measure> {
+    let colours = [("red", 0.37), ("green", 0.53), ("blue", 0.71)];
+    let channel = |bounce: i32| {
+        colours.map(|(colour, albedo)| {
+            let name = format!("bounce {bounce}, {colour}");
+            noisy(&name, 0.7 * f64::powi(albedo, bounce), factor.powi((bounce - 1).max(0)), seed)
+        })
+    };
+    (0..4).flat_map(channel).collect()
+}
+
+fn agreeing(seed: Seed) -> Finding {
+    let resolution = "an error of 1.4 % or more in any bounce would have been caught with \
+                      probability 0.999";
+    Finding::of("every bounce agrees within 0.2 %", resolution, bounces(seed, 1.0)).spending(3e-9)
+}
+
+fn wrong_roulette() -> Outcome {
+    let finding = Finding::of(
+        "bounce 2 gives 70 % of what it should and bounce 3 gives 49 %: every bounce after the \
+         first loses the same share in all three channels",
+        "an error of 1.4 % or more in any bounce would have been caught",
+        bounces(Seed::SUITE, 0.7),
+    );
+    Outcome::Judged { finding: finding.spending(3e-9) }
+}
+
+fn wrong_picture() -> Outcome {
+    let whole = noisy("whole picture, luminance", 0.42, 0.905, Seed::SUITE);
+    let tiles = Measure::exact("tiles that disagree", 887.0, 0.0, 0.0);
+    let finding = Finding::of(
+        "the picture is 9.5 % too dark, most of all on the ceiling; 887 of 900 tiles disagree",
+        "a whole picture 0.4 % off, or one 8 x 8 tile 11 % off, would have been caught",
+        vec![whole, tiles],
+    );
+    Outcome::Judged { finding: finding.spending(4e-10) }
+}
+
+fn undecided() -> Outcome {
+    let mut measure = noisy("bounce 3, red", 0.0354, 1.0, Seed::SUITE);
+    measure.verdict = Verdict::Inconclusive;
+    let finding = Finding::of(
+        "nothing disagrees, but the noise could hide an error of 6 % where 2 % was to be seen",
+        "an error of 6 % or more would have been caught; 2 % takes 9 times the samples",
+        vec![measure],
+    );
+    Outcome::Judged { finding: finding.spending(3e-9) }
+}
+
+fn pictures(name: &str) -> Vec<PictureFile> {
+    let picture = |(number, role, caption): (usize, _, &str)| PictureFile {
+        role,
+        caption: caption.to_owned(),
+        file: format!("{name}.{number}.exr"),
+    };
+    [
+        (0, PictureRole::Reference, "Mitsuba 3.9.1, 131072 samples a pixel"),
+        (1, PictureRole::Render, "mean of 8 runs of 32 samples a pixel"),
+        (2, PictureRole::SignedError, "relative error; the ends of the scale are 25 % off"),
+        (3, PictureRole::SampleRate, "samples, as a share of 2048"),
+    ]
+    .map(picture)
+    .to_vec()
+}
+
+/// A box with a red and a green wall and a lamp, noisy where it was rendered, dark where it is to
+/// fail.
+fn draw(trial: &TrialRecord, role: PictureRole, (width, height): (usize, usize)) -> Image {
+    let mut image = Image::new(width, height, [0.0; 3]);
+    let is_wrong = trial.outcome == wrong_picture();
+    let mut noise = Seed(7).child(&trial.core).child(&trial.case).stream();
+    for (number, pixel) in image.pixels.iter_mut().enumerate() {
+        let x = (number % width) as f64 / width as f64;
+        let y = (number / width) as f64 / height as f64;
+        let bias = if is_wrong { 0.6 + 0.4 * y } else { 1.0 };
+        let mut value = |channel: usize| {
+            let random = uniform(&mut noise) + uniform(&mut noise) - 1.0;
+            match role {
+                PictureRole::Reference => walls(x, y, channel),
+                PictureRole::Render => walls(x, y, channel) * bias * (1.0 + 0.15 * random),
+                PictureRole::SignedError => (bias - 1.0) * 2.0 + 0.3 * random,
+                PictureRole::SampleRate => (x * 9.0).sin().abs() * y + 0.05 * random.abs(),
+            }
+        };
+        *pixel = std::array::from_fn(|channel| value(channel) as f32);
+    }
+    if role == PictureRole::Render && is_wrong {
+        image.pixels[width + 1] = [f32::NAN; 3];
+    }
+    image
+}
+
+fn walls(x: f64, y: f64, channel: usize) -> f64 {
+    let wall = match () {
+        () if x < 0.18 => [0.57, 0.04, 0.04],
+        () if x > 0.82 => [0.05, 0.33, 0.08],
+        () => [0.73, 0.72, 0.68],
+    };
+    let lamp = (x - 0.5).abs() < 0.12 && (0.04..0.1).contains(&y);
+    let sphere = (x - 0.38).powi(2) + (y - 0.7).powi(2);
+    let shade = if sphere < 0.02 { 0.25 + 8.0 * (0.02 - sphere) } else { 0.9 - 0.5 * y };
+    if lamp { 12.0 } else { wall[channel] * shade * (0.5 + x * (1.0 - x)) }
+}

@@ -1,0 +1,139 @@
+//! The page for the browser: one file that works from disk, without a network, and says the same
+//! without scripts.
+//!
+//! The first screen answers what is wrong and what to do next; everything below is evidence. A
+//! section is a [`Page`] in a file of its own and a line in [`PAGES`]. Text from cores and cases is
+//! escaped by the templates; only our own style sheet and script are not.
+
+mod case;
+mod develop;
+mod image;
+mod interval;
+mod ledger;
+mod overview;
+mod parts;
+mod provenance;
+mod start;
+mod trials;
+
+use super::ReportError;
+use super::digest::Tally;
+use super::tree::RunTree;
+use crate::run::Status;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::path::{Path, PathBuf};
+
+/// A section of the page.
+pub trait Page: Sync {
+    /// The anchor of the section.
+    fn id(&self) -> &'static str;
+    /// Its heading.
+    fn title(&self) -> &'static str;
+    /// One line for `furnace list pages`.
+    fn summary(&self) -> &'static str;
+    /// What stands below the heading; none where the run has nothing to show there.
+    fn body(&self, view: &View<'_>) -> Option<Markup>;
+}
+
+/// Every section, in the order of the page.
+pub static PAGES: &[&dyn Page] = &[
+    &overview::Overview,
+    &start::Start,
+    &trials::Trials,
+    &case::Cases,
+    &ledger::Ledger,
+    &provenance::Provenance,
+];
+
+/// What a section is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// The run.
+    pub tree: &'a RunTree,
+    /// The folder of the page, which links are relative to.
+    pub folder: &'a Path,
+}
+
+const STYLE: &str = include_str!("assets/report.css");
+const SCRIPT: &str = include_str!("assets/report.js");
+/// Before anything is drawn: what needs scripts is shown, and the reader's choice of colours holds.
+const EARLY_SCRIPT: &str = "{const root=document.documentElement;root.classList.add('js');\
+    try{const t=localStorage.getItem('furnace-theme');if(t)root.dataset.theme=t}catch{}}";
+
+/// Writes `index.html` into `folder`: beside its place, then renamed, so that a reader sees all of
+/// it or nothing.
+///
+/// # Errors
+/// If the file system says no.
+pub fn write(tree: &RunTree, folder: &Path) -> Result<PathBuf, ReportError> {
+    let path = folder.join("index.html");
+    let beside = folder.join(format!(".index.html.{}", std::process::id()));
+    let failed = |error| ReportError::Io { path: path.clone(), error };
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    std::fs::write(&beside, render(tree, folder)).map_err(failed)?;
+    std::fs::rename(&beside, &path).map_err(failed)?;
+    Ok(path)
+}
+
+/// The text of the page that is to stand in `folder`.
+pub fn render(tree: &RunTree, folder: &Path) -> String {
+    let view = View { tree, folder };
+    let tally = Tally::of(&tree.trials);
+    let cores: Vec<_> = tree.run.cores.iter().map(|core| core.spec.as_str()).collect();
+    let title = format!("{} · {} · furnace", headline(tree, &tally), cores.join(" and "));
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width,initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (title) }
+                link rel="icon" href=(icon(&tally));
+                style { (PreEscaped(STYLE)) }
+                script { (PreEscaped(EARLY_SCRIPT)) }
+            }
+            body {
+                a.skip href="#trials" { "Skip to the results" }
+                (overview::header(&view, &headline(tree, &tally)))
+                main { @for page in PAGES { (section(*page, &view)) } }
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    };
+    // Control characters are no text in HTML; they come from cores that print to terminals.
+    page.into_string().replace(|c: char| c.is_control() && !matches!(c, '\n' | '\t'), "\u{fffd}")
+}
+
+fn section(page: &dyn Page, view: &View<'_>) -> Markup {
+    let heading = format!("{}-heading", page.id());
+    html! {
+        @if let Some(body) = page.body(view) {
+            section id=(page.id()) aria-labelledby=(heading) {
+                h2 id=(heading) { (page.title()) }
+                (body)
+            }
+        }
+    }
+}
+
+/// The result in a few words; a run that was cut off says so first.
+fn headline(tree: &RunTree, tally: &Tally) -> String {
+    if tree.is_finished() { tally.headline() } else { format!("unfinished: {}", tally.headline()) }
+}
+
+/// A tab's icon: shape and colour of the result.
+fn icon(tally: &Tally) -> String {
+    let shape = match () {
+        () if tally.failures() > 0 => "%3Ccircle cx='8' cy='8' r='7' fill='%23b3261e'/%3E",
+        () if tally.count(Status::Pass) == tally.total() => {
+            "%3Crect x='2' y='2' width='12' height='12' rx='2' fill='%231a7f4b'/%3E"
+        }
+        () => "%3Cpath d='M8 0l8 8-8 8-8-8z' fill='%238a5a00'/%3E",
+    };
+    let svg = "%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 16 16'%3E";
+    format!("data:image/svg+xml,{svg}{shape}%3C/svg%3E")
+}
+
+#[cfg(test)]
+mod tests;

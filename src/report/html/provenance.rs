@@ -1,0 +1,100 @@
+//! Everything needed to repeat the run: cores, conventions, seeds, versions, machine.
+
+use super::overview::date;
+use super::{Page, View};
+use crate::contract::{Conventions, Precision};
+use crate::report::number::duration;
+use crate::run::RunRecord;
+use crate::run::record::CoreRecord;
+use maud::{Markup, html};
+
+/// The run itself.
+pub struct Provenance;
+
+impl Page for Provenance {
+    fn id(&self) -> &'static str {
+        "run"
+    }
+
+    fn title(&self) -> &'static str {
+        "This run"
+    }
+
+    fn summary(&self) -> &'static str {
+        "cores with their conventions and capabilities, seed, budget, versions, machine"
+    }
+
+    fn body(&self, view: &View<'_>) -> Option<Markup> {
+        let run = &view.tree.run;
+        Some(html! {
+            div.card {
+                dl.about {
+                    dt { "furnace" } dd { (run.furnace) }
+                    dt { "selected" } dd {
+                        @if run.filters.is_empty() { "every case" }
+                        @else { code { (run.filters.join(" ")) } }
+                    }
+                    dt { "budget" } dd { (run.budget) }
+                    dt { "seed" } dd { (run.seed) }
+                    dt { "started" } dd { (date(run.timing.started)) }
+                    dt { "took" } dd { (took(run)) }
+                    dt { "machine" } dd {
+                        (run.machine.system) ", " (run.machine.architecture) ", "
+                        (run.machine.threads) " hardware threads"
+                    }
+                    @for core in &run.cores { (about(core)) }
+                }
+            }
+        })
+    }
+}
+
+fn took(run: &RunRecord) -> String {
+    run.timing.seconds.map_or_else(|| "it did not end".to_owned(), duration)
+}
+
+fn about(core: &CoreRecord) -> Markup {
+    let arithmetic = match core.precision {
+        Precision::Single => "single precision",
+        Precision::Double => "double precision",
+    };
+    html! {
+        dt { "core " b { (core.spec) } }
+        dd {
+            p { (core.name) " " (core.version) ", " (arithmetic) }
+            p {
+                @for (name, choice) in conventions(core.conventions) {
+                    span.choice { (name) ": " (choice) }
+                }
+            }
+            details {
+                summary { (core.capabilities.len()) " capabilities" }
+                p { (core.capabilities.join(", ")) }
+            }
+        }
+    }
+}
+
+/// Name and choice of every convention, by the words that files use, so that a new one needs no
+/// line here.
+fn conventions(conventions: Conventions) -> Vec<(String, String)> {
+    let Ok(serde_json::Value::Object(fields)) = serde_json::to_value(conventions) else {
+        return Vec::new();
+    };
+    let words = |value: &serde_json::Value| match value.as_str() {
+        Some(word) => word.replace('-', " "),
+        None => value.to_string(),
+    };
+    fields.iter().map(|(name, value)| (name.replace('-', " "), words(value))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_convention_is_shown_by_its_words() {
+        let shown = conventions(Conventions::default());
+        assert!(shown.contains(&("smith term".to_owned(), "separable".to_owned())), "{shown:?}");
+    }
+}

@@ -1,0 +1,154 @@
+//! The card that says what to look at first; when nothing failed, what is left to look at.
+
+use super::case::{measures, resolution};
+use super::parts::{badge, cell, command, link};
+use super::{Page, View};
+use crate::case::Part;
+use crate::report::digest::{Tally, failures, slowest_first, weakest_first};
+use crate::report::measure::worst_first;
+use crate::report::number::{duration, percent};
+use crate::run::{Status, TrialRecord};
+use maud::{Markup, html};
+
+/// Measures in the card; the case has them all.
+const MEASURES: usize = 4;
+/// Further failures that the card names.
+const FURTHER: usize = 6;
+/// Rows of the small tables of a green run.
+const ROWS: usize = 5;
+
+/// What to look at first.
+pub struct Start;
+
+impl Page for Start {
+    fn id(&self) -> &'static str {
+        "start"
+    }
+
+    fn title(&self) -> &'static str {
+        "Start here"
+    }
+
+    fn summary(&self) -> &'static str {
+        "the earliest failure with evidence and command; of a green run what is slow and weak"
+    }
+
+    fn body(&self, view: &View<'_>) -> Option<Markup> {
+        let tally = Tally::of(&view.tree.trials);
+        match failures(view.tree).split_first() {
+            Some((first, others)) => Some(failed(first, others)),
+            None if tally.total() == 0 => None,
+            None => Some(not_failed(view, &tally)),
+        }
+    }
+}
+
+fn failed(first: &TrialRecord, others: &[&TrialRecord]) -> Markup {
+    html! {
+        div.card.first {
+            p.kicker {
+                b { "Start here. " } (badge(first.outcome.status())) " "
+                a href=(link(first)) { (first.case) } " on " b { (first.core) }
+                @if let Some(part) = Part::of_case(&first.case) {
+                    " · part " (part.number) ", " (part.title)
+                }
+            }
+            h3.said { (first.outcome.statement()) }
+            p { b { "Claim. " } (first.title) ". " b { "Remember. " } (first.teaches) }
+            @if let Some(finding) = first.outcome.finding() {
+                (measures(worst_first(&finding.measures).into_iter().take(MEASURES)))
+                (resolution(finding))
+            }
+            (command(&first.rerun))
+            (further(others))
+        }
+    }
+}
+
+fn further(others: &[&TrialRecord]) -> Markup {
+    html! {
+        @if !others.is_empty() {
+            p.kicker { "Then, in the order in which one part rests on another" }
+            ul.further {
+                @for trial in others.iter().take(FURTHER) {
+                    li {
+                        (badge(trial.outcome.status())) " "
+                        a href=(link(trial)) { (trial.case) } " on " (trial.core)
+                        ": " span.said { (trial.outcome.statement()) }
+                    }
+                }
+                @if others.len() > FURTHER {
+                    li { a href="#trials" { "and " (others.len() - FURTHER) " more" } }
+                }
+            }
+        }
+    }
+}
+
+fn not_failed(view: &View<'_>, tally: &Tally) -> Markup {
+    let passes = tally.count(Status::Pass);
+    let all_good = passes == tally.total() && view.tree.is_finished();
+    html! {
+        div class={ "card " (if all_good { "good" } else { "open" }) } {
+            h3 {
+                @if all_good { "All good: every trial passes." }
+                @else { "Nothing fails, but not everything is known." }
+            }
+            @if !all_good { (unknown(view)) }
+            div.two {
+                (weakest(view))
+                (slowest(view))
+            }
+        }
+    }
+}
+
+/// The trials that say nothing about their core.
+fn unknown(view: &View<'_>) -> Markup {
+    let silent = |trial: &&TrialRecord| trial.outcome.status() != Status::Pass;
+    html! {
+        ul.further {
+            @for trial in view.tree.trials.iter().filter(silent).take(2 * FURTHER) {
+                li {
+                    (badge(trial.outcome.status())) " "
+                    a href=(link(trial)) { (trial.case) } " on " (trial.core)
+                    ": " span.said { (trial.outcome.statement()) }
+                }
+            }
+        }
+    }
+}
+
+/// The passes that prove least.
+fn weakest(view: &View<'_>) -> Markup {
+    html! {
+        div {
+            h4 { "Weakest passes: the smallest error each would have caught" }
+            table.small {
+                @for weakest in weakest_first(&view.tree.trials).iter().take(ROWS) {
+                    tr { (named(weakest.trial)) td.number { (percent(weakest.resolution)) } }
+                }
+            }
+        }
+    }
+}
+
+fn slowest(view: &View<'_>) -> Markup {
+    html! {
+        div {
+            h4 { "Slowest trials" }
+            table.small {
+                @for trial in slowest_first(&view.tree.trials).iter().take(ROWS) {
+                    tr { (named(trial)) td.number { (duration(trial.timing.seconds)) } }
+                }
+            }
+        }
+    }
+}
+
+fn named(trial: &TrialRecord) -> Markup {
+    html! {
+        td.mark { (cell(trial)) }
+        td { a href=(link(trial)) { (trial.case) } span.faint { " on " (trial.core) } }
+    }
+}

@@ -1,0 +1,33 @@
+//! Readers of a run's folder: the summary for the terminal and the page for the browser.
+//!
+//! Both are functions of the files alone: they load no core, run no check, judge nothing and know
+//! no threshold, so that a report can be made again from an old run, elsewhere. To add a page
+//! section, write a file in `html/` and a line in [`html::PAGES`].
+
+pub mod digest;
+#[cfg(test)]
+pub(crate) mod example;
+pub mod html;
+pub mod measure;
+pub mod number;
+pub mod text;
+pub mod tree;
+
+pub use html::write;
+pub use text::{Style, summary};
+pub use tree::{RunTree, TreeError};
+
+use std::path::PathBuf;
+
+/// Why a report could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The file system said no.
+    #[error("the report cannot be written to {path}: {error}")]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        error: std::io::Error,
+    },
+}

@@ -1,0 +1,168 @@
+//! What did not pass, one block each: first what counts against a core, then what is not known.
+
+use super::style::{Paint, Style, clean, cut, paint_of, wrap};
+use crate::case::Part;
+use crate::checks::{Finding, Measure};
+use crate::report::digest::{failures, in_order_of_parts};
+use crate::report::measure::{MeasureWords, worst_first};
+use crate::report::tree::RunTree;
+use crate::run::{Outcome, Status, TrialRecord};
+use crate::stats::Verdict;
+use std::collections::BTreeMap;
+
+/// Failures that are told in full. A core that fails everything is not helped by pages of numbers.
+const FULL_BLOCKS: usize = 5;
+/// Measures shown of a failure, the worst first.
+const MEASURES: usize = 4;
+/// Where the text of a block begins.
+const INDENT: usize = 8;
+
+/// Every block.
+pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
+    let failures = failures(tree);
+    let (full, brief) = failures.split_at(failures.len().min(FULL_BLOCKS));
+    let mut lines: Vec<_> = full.iter().flat_map(|trial| full_block(trial, style)).collect();
+    lines.extend(brief.iter().flat_map(|trial| brief_block(trial, style)));
+    for status in [Status::Broken, Status::Inconclusive] {
+        let trials = in_order_of_parts(tree, status);
+        lines.extend(trials.into_iter().flat_map(|trial| undecided_block(trial, style)));
+    }
+    lines.extend(grouped(tree, Status::Blocked, style));
+    lines.extend(grouped(tree, Status::Skipped, style));
+    lines
+}
+
+/// Verdict and size, the numbers, the place, the next command.
+fn full_block(trial: &TrialRecord, style: Style) -> Vec<String> {
+    let mut lines = brief_block(trial, style);
+    if let Some(finding) = trial.outcome.finding() {
+        lines.extend(measures(finding, style));
+    }
+    lines.extend(labelled("claim", &claim(trial)));
+    lines.extend(labelled("recall", &trial.teaches));
+    lines.push(next(trial));
+    lines
+}
+
+/// Verdict and size: `grep FAIL -A1` finds both.
+fn brief_block(trial: &TrialRecord, style: Style) -> Vec<String> {
+    let status = trial.outcome.status();
+    let word = status.word().to_uppercase();
+    let head = format!("{} on {}", clean(&trial.case), clean(&trial.core));
+    let mut lines =
+        vec![String::new(), format!("  {}  {head}", style.paint(paint_of(status), &word))];
+    lines.extend(indented(&trial.outcome.statement()));
+    lines
+}
+
+/// Nothing counts against the core: what is missing, and how to learn more.
+fn undecided_block(trial: &TrialRecord, style: Style) -> Vec<String> {
+    let mut lines = brief_block(trial, style);
+    if let Some(Finding { resolution, .. }) = trial.outcome.finding()
+        && !resolution.is_empty()
+    {
+        lines.extend(indented(resolution));
+    }
+    lines.push(next(trial));
+    lines
+}
+
+/// The claim, and the part of a path tracer that it is about.
+fn claim(trial: &TrialRecord) -> String {
+    match Part::of_case(&trial.case) {
+        Some(part) => format!("{} ({})", trial.title, part.title),
+        None => trial.title.clone(),
+    }
+}
+
+fn next(trial: &TrialRecord) -> String {
+    format!("{:INDENT$}try     {}", "", clean(&trial.rerun))
+}
+
+fn indented(text: &str) -> Vec<String> {
+    wrap(text, INDENT).into_iter().map(|line| format!("{:INDENT$}{line}", "")).collect()
+}
+
+/// A label and a text that goes on below itself.
+fn labelled(label: &str, text: &str) -> Vec<String> {
+    let label_of = |number| if number == 0 { label } else { "" };
+    let lines = wrap(text, INDENT + 8).into_iter().enumerate();
+    lines.map(|(number, line)| format!("{:INDENT$}{:<8}{line}", "", label_of(number))).collect()
+}
+
+/// The worst measures as a table, and how many there are besides.
+fn measures(finding: &Finding, style: Style) -> Vec<String> {
+    if finding.measures.is_empty() {
+        return Vec::new();
+    }
+    let sorted = worst_first(&finding.measures);
+    let shown = &sorted[..sorted.len().min(MEASURES)];
+    let mut lines = vec![String::new()];
+    lines.extend(table(shown, style));
+    let rest = &sorted[shown.len()..];
+    if !rest.is_empty() {
+        let wrong = rest.iter().filter(|measure| measure.verdict == Verdict::Fail).count();
+        lines.push(format!("{:INDENT$}  and {} more, {wrong} of them wrong", "", rest.len()));
+    }
+    lines.push(String::new());
+    lines
+}
+
+fn table(measures: &[&Measure], style: Style) -> Vec<String> {
+    let head = ["", "measured", "expected", "allowed", "off by"].map(str::to_owned);
+    let rows: Vec<_> = measures.iter().map(|measure| row(measure)).collect();
+    let width = |column: usize| {
+        let cells = rows.iter().chain([&head]).map(|row| row[column].chars().count());
+        cells.max().unwrap_or(0)
+    };
+    let widths = std::array::from_fn::<_, 5, _>(width);
+    let head = style.paint(Paint::Faint, &aligned("  ", &head, &widths));
+    let lines = measures.iter().zip(&rows).map(|(measure, row)| {
+        let wrong = measure.verdict == Verdict::Fail;
+        aligned(if wrong { "x " } else { "  " }, row, &widths)
+    });
+    std::iter::once(head).chain(lines).collect()
+}
+
+fn row(measure: &Measure) -> [String; 5] {
+    let words = MeasureWords::of(measure);
+    [cut(&words.name, 30), words.measured, words.expected, words.allowed, words.off_by]
+}
+
+/// Names to the left, numbers to the right.
+fn aligned(mark: &str, row: &[String; 5], widths: &[usize; 5]) -> String {
+    let [name, numbers @ ..] = row;
+    let mut line = format!("{:INDENT$}{mark}{name:<width$}", "", width = widths[0]);
+    for (number, width) in numbers.iter().zip(&widths[1..]) {
+        line += &format!("   {number:>width$}");
+    }
+    line.trim_end().to_owned()
+}
+
+/// Trials without a result for one and the same reason, in one paragraph.
+fn grouped(tree: &RunTree, status: Status, style: Style) -> Vec<String> {
+    let mut reasons: BTreeMap<(&str, String), Vec<&str>> = BTreeMap::new();
+    for trial in in_order_of_parts(tree, status) {
+        reasons.entry((&trial.core, reason(&trial.outcome))).or_default().push(&trial.case);
+    }
+    let word = style.paint(paint_of(status), &status.word().to_uppercase());
+    let paragraph = |((core, reason), cases): ((&str, String), Vec<&str>)| {
+        let what = format!("{} on {}: {reason}", cases.len(), clean(core));
+        let mut what = wrap(&what, status.word().len() + 4).into_iter();
+        let head = format!("  {word}  {}", what.next().unwrap_or_default());
+        let rest = what.map(|line| format!("{:INDENT$}{line}", ""));
+        [String::new(), head]
+            .into_iter()
+            .chain(rest)
+            .chain(indented(&cases.join(", ")))
+            .collect::<Vec<_>>()
+    };
+    reasons.into_iter().flat_map(paragraph).collect()
+}
+
+fn reason(outcome: &Outcome) -> String {
+    match outcome {
+        Outcome::Blocked { by } => format!("{by} failed, and these rest on it"),
+        _ => outcome.statement(),
+    }
+}

@@ -1,0 +1,179 @@
+//! The summary that a run ends with on the terminal: verdict, size, place, next command, in that
+//! order.
+//!
+//! A pure function of the run's folder: no clock, no core, no look at the terminal beyond the
+//! [`Style`] it is given.
+
+mod blocks;
+mod style;
+
+pub use style::{COLUMNS, Paint, Style, clean, mark, paint_of};
+
+use super::digest::{
+    PartGroup, Tally, by_case, by_part, resolution_in_words, weakest_first, worst_false_alarm,
+};
+use super::number::{count, duration, percent, probability};
+use super::tree::RunTree;
+use crate::contract::Precision;
+use crate::run::record::CoreRecord;
+use crate::run::{Status, TrialRecord};
+use std::collections::BTreeSet;
+use style::wrap;
+
+/// The longest bar of cells in one line; longer ones go on below.
+const LONGEST_BAR: usize = 30;
+
+/// What a run has shown, for people at a terminal. Where to read on is the caller's to say: only it
+/// knows whether a page was written.
+pub fn summary(tree: &RunTree, style: Style) -> String {
+    let mut lines = vec![String::new(), header(tree, style)];
+    for core in &tree.run.cores {
+        lines.push(String::new());
+        lines.extend(core_lines(tree, core, style));
+    }
+    lines.extend(legend(tree, style));
+    lines.extend(blocks::all(tree, style));
+    if style.verbose {
+        lines.extend(resolutions(tree, style));
+    }
+    lines.push(String::new());
+    lines.extend(totals(tree, style));
+    lines.join("\n") + "\n"
+}
+
+/// What was asked of whom.
+fn header(tree: &RunTree, style: Style) -> String {
+    let run = &tree.run;
+    let cores: Vec<_> = run.cores.iter().map(|core| clean(&core.spec)).collect();
+    let facts = [
+        style.paint(Paint::Strong, &cores.join(" and ")),
+        count(by_case(tree).len(), "case"),
+        format!("seed {}", run.seed),
+        format!("budget {}", run.budget),
+        count(run.machine.threads, "thread"),
+    ];
+    format!("  {}", facts.join("   "))
+}
+
+fn core_lines(tree: &RunTree, core: &CoreRecord, style: Style) -> Vec<String> {
+    let trials: Vec<_> = tree.trials_of(&core.spec).collect();
+    let name = style.paint(Paint::Strong, &clean(&core.name));
+    let arithmetic = match core.precision {
+        Precision::Single => "f32",
+        Precision::Double => "f64",
+    };
+    let title = format!("  {name} {} ({arithmetic})", clean(&core.version));
+    let groups = by_part(trials);
+    let bar = groups.iter().map(|group| group.trials.len()).max().unwrap_or(0).min(LONGEST_BAR);
+    let mut lines = vec![title];
+    lines.extend(groups.iter().flat_map(|group| part_lines(group, bar, style)));
+    lines
+}
+
+/// One part: its name, one cell a trial, how many pass, how long it took.
+fn part_lines(group: &PartGroup<'_>, bar: usize, style: Style) -> Vec<String> {
+    let number = group.number.map_or_else(|| " ".to_owned(), |number| number.to_string());
+    let passes = Tally::of(group.trials.iter().copied()).count(Status::Pass);
+    let counts = format!("{passes} of {} pass", group.trials.len());
+    let mut rows = group.trials.chunks(LONGEST_BAR).map(|row| cells(row, bar, style));
+    let first = rows.next().unwrap_or_default();
+    let head = format!(
+        "    {number} {:<25} {first}  {counts:>16} {:>9}",
+        group.title,
+        duration(group.seconds())
+    );
+    std::iter::once(head)
+        .chain(rows.map(|row| format!("{:>32}{row}", "")))
+        .map(|line| line.trim_end().to_owned())
+        .collect()
+}
+
+/// A row of marks, filled up with spaces to `width`. Equal marks share one colour code.
+fn cells(trials: &[&TrialRecord], width: usize, style: Style) -> String {
+    let statuses: Vec<_> = trials.iter().map(|trial| trial.outcome.status()).collect();
+    let mut row = String::new();
+    for same in statuses.chunk_by(|a, b| a == b) {
+        let marks: String = same.iter().map(|status| mark(*status)).collect();
+        row += &style.paint(paint_of(same[0]), &marks);
+    }
+    row + &" ".repeat(width.saturating_sub(trials.len()))
+}
+
+/// What the marks mean, if there are others than passes.
+fn legend(tree: &RunTree, style: Style) -> Vec<String> {
+    let occurring = Tally::of(&tree.trials);
+    let words: Vec<_> = occurring
+        .iter()
+        .filter(|(status, _)| *status != Status::Pass)
+        .map(|(status, _)| format!("{} {}", mark(status), status.word()))
+        .collect();
+    if words.is_empty() {
+        return Vec::new();
+    }
+    vec![String::new(), style.paint(Paint::Faint, &format!("    {}", words.join("   ")))]
+}
+
+/// What every trial would have caught, case by case.
+fn resolutions(tree: &RunTree, style: Style) -> Vec<String> {
+    let heading = style.paint(Paint::Strong, "what each case would have caught");
+    let mut lines = vec![String::new(), format!("  {heading}")];
+    for case in by_case(tree) {
+        lines.push(format!("    {}", clean(&case.first().case)));
+        let sentences: BTreeSet<_> =
+            case.trials.iter().map(|trial| resolution_in_words(trial)).collect();
+        for sentence in sentences {
+            let said_by = case.trials.iter().filter(|trial| resolution_in_words(trial) == sentence);
+            let cores: Vec<_> = said_by.map(|trial| clean(&trial.core)).collect();
+            let text = format!("{}: {sentence}", cores.join(", "));
+            lines.extend(wrap(&text, 6).into_iter().map(|line| format!("      {line}")));
+        }
+    }
+    lines
+}
+
+fn totals(tree: &RunTree, style: Style) -> Vec<String> {
+    let tally = Tally::of(&tree.trials);
+    let paint = match () {
+        () if tally.failures() > 0 => Paint::Bad,
+        () if tally.count(Status::Pass) == tally.total() && tree.is_finished() => Paint::Good,
+        () => Paint::Unknown,
+    };
+    let took = tree.run.timing.seconds.map(|seconds| format!(" in {}", duration(seconds)));
+    let trials = count(tally.total(), "trial");
+    let text = format!("{trials}{}: {}", took.unwrap_or_default(), tally.words());
+    let painted = |line: String| format!("  {}", style.paint(paint, &line));
+    let mut lines: Vec<_> = wrap(&text, 2).into_iter().map(painted).collect();
+    lines.extend(unfinished(tree, style));
+    lines.push(chance(tree));
+    lines.extend(weakest(tree));
+    lines
+}
+
+/// That a run was cut off, and how to go on.
+fn unfinished(tree: &RunTree, style: Style) -> Vec<String> {
+    if tree.is_finished() {
+        return Vec::new();
+    }
+    let (present, planned) = (tree.trials.len(), tree.run.trials);
+    let what = format!("  UNFINISHED: {present} of {planned} planned trials have a result");
+    let next = format!("  go on   cargo furnace run --resume {}", tree.folder.display());
+    vec![style.paint(Paint::Unknown, &what), next]
+}
+
+/// The ledger's sum.
+fn chance(tree: &RunTree) -> String {
+    let chance = probability(worst_false_alarm(tree));
+    format!("  chance that a correct core fails any of them: at most {chance}")
+}
+
+/// The pass that proves least.
+fn weakest(tree: &RunTree) -> Vec<String> {
+    let Some(weakest) = weakest_first(&tree.trials).into_iter().next() else { return Vec::new() };
+    let (case, core) = (clean(&weakest.trial.case), clean(&weakest.trial.core));
+    let caught = percent(weakest.resolution);
+    let text = format!("weakest pass: {case} on {core} would have caught an error of {caught}");
+    wrap(&text, 2).into_iter().map(|line| format!("  {line}")).collect()
+}
+
+#[cfg(test)]
+mod tests;

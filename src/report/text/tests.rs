@@ -1,0 +1,189 @@
+//! The summary as people see it.
+
+use super::*;
+use crate::report::example::{Example, FAILING, trial};
+use crate::run::Outcome;
+
+fn plain(example: Example) -> String {
+    summary(&example.tree(), Style::PLAIN)
+}
+
+/// The text without its colours.
+fn uncoloured(text: &str) -> String {
+    let mut pieces = text.split('\x1b');
+    let first = pieces.next().unwrap_or_default().to_owned();
+    first + &pieces.map(|piece| piece.split_once('m').unwrap().1).collect::<String>()
+}
+
+#[test]
+fn a_green_run_fits_on_a_screen() {
+    let expected = "
+  builtin and textbook   12 cases   seed 1   budget default   2 threads
+
+  builtin 0.1.0 (f32)
+    1 rays and intersections    ###       3 of 3 pass     0.4 s
+    2 bounding volumes          ##        2 of 2 pass     4.0 s
+    3 direct light              ###       3 of 3 pass     4.2 s
+    4 global illumination       ##        2 of 2 pass     9.8 s
+    5 adaptive sampling         #         1 of 1 pass     6.7 s
+    6 pictures against Mitsuba  #         1 of 1 pass     3.6 s
+
+  textbook 0.1.0 (f64)
+    1 rays and intersections    ###       3 of 3 pass     2.8 s
+    2 bounding volumes          ##        2 of 2 pass     0.1 s
+    3 direct light              ###       3 of 3 pass     6.9 s
+    4 global illumination       ##        2 of 2 pass    10.3 s
+    5 adaptive sampling         #         1 of 1 pass      0 ms
+    6 pictures against Mitsuba  #         1 of 1 pass     3.4 s
+
+  24 trials in 71.3 s: 24 pass
+  chance that a correct core fails any of them: at most 1.8e-8
+  weakest pass: images/cornell-spheres on builtin would have caught an error of 1.4 %
+";
+    assert_eq!(plain(Example::green()), expected);
+}
+
+#[test]
+fn a_failure_says_verdict_size_numbers_place_and_next_command() {
+    let text = plain(Example::mixed());
+    let expected = "
+  FAIL  integrator/roulette-leaves-every-mean-as-it-is on builtin
+        bounce 2 gives 70 % of what it should and bounce 3 gives 49 %: every bounce
+        after the first loses the same share in all three channels
+
+                            measured   expected    allowed   off by
+        x bounce 3, green    0.05086    0.10421   ±0.00010    -51 %
+        x bounce 3, red     0.017324   0.035457    ±3.5e-5    -51 %
+        x bounce 3, blue     0.12298    0.25054   ±0.00025    -51 %
+        x bounce 2, red     0.066899   0.095830    ±9.6e-5    -30 %
+          and 8 more, 2 of them wrong
+
+        claim   Roulette leaves every mean as it is (global illumination)
+        recall  A survivor of roulette carries the weight of those that were stopped.
+        try     cargo furnace run integrator/roulette-leaves-every-mean-as-it-is --core builtin
+";
+    assert!(text.contains(expected), "{text}");
+}
+
+#[test]
+fn every_way_to_end_is_named_with_its_trial() {
+    let text = plain(Example::mixed());
+    let legend = "    x fail   ? inconclusive   - skipped   ~ blocked   ! crashed   @ timed out   \
+                  * broken\n";
+    assert!(text.contains(legend), "{text}");
+    for head in [
+        "  FAIL  images/cornell-spheres on builtin\n",
+        "  CRASHED  bvh/a-flat-box-is-hit on textbook\n",
+        "  TIMED OUT  bvh/same-hits-as-brute-force on textbook\n",
+        "  INCONCLUSIVE  integrator/furnace-bounce-by-bounce on textbook\n",
+        "  BROKEN  images/cornell-spheres on textbook\n        references/cornell-spheres/mean.exr \
+         is missing\n",
+        "  BLOCKED  1 on textbook: integrator/furnace-bounce-by-bounce failed, and these rest on\n\
+         \x20       it\n",
+        "  SKIPPED  1 on textbook: the core has no adaptive-sampling\n\
+         \x20       sampling/adaptive-counts-are-true\n",
+        "24 trials in 71.3 s: 15 pass, 3 fail, 1 inconclusive, 1 skipped, 1 blocked, 1 crashed,\n",
+    ] {
+        assert!(text.contains(head), "{head} is not in {text}");
+    }
+}
+
+#[test]
+fn what_was_found_stands_below_the_word_fail() {
+    let text = plain(Example::mixed());
+    let lines: Vec<_> = text.lines().collect();
+    let heads = (0..lines.len()).filter(|number| lines[*number].starts_with("  FAIL"));
+    let below: Vec<_> = heads.map(|number| lines[number + 1]).collect();
+    assert_eq!(below.len(), 3);
+    assert!(below.iter().all(|line| line.starts_with("        ")), "{below:?}");
+}
+
+#[test]
+fn nan_is_shown_as_nan() {
+    let text = plain(Example::mixed());
+    assert!(text.contains("x t        NaN   1.0000000   ±1.0e-6      NaN"), "{text}");
+}
+
+#[test]
+fn a_core_can_neither_steer_the_terminal_nor_forge_a_line() {
+    let mut example = Example::green();
+    let statement = "fine\r\x1b[1A  24 trials: 24 pass".to_owned();
+    example.set("builtin", FAILING, Outcome::Crashed { how: statement, during: "render".into() });
+    let text = plain(example);
+    assert!(!text.contains(['\x1b', '\r']), "{text}");
+    assert!(!text.contains("\n  24 trials: 24 pass"), "{text}");
+}
+
+#[test]
+fn colours_add_nothing_but_colour() {
+    let coloured = summary(&Example::mixed().tree(), Style { colour: true, verbose: false });
+    assert!(coloured.contains("\x1b[1;31mFAIL\x1b[0m"));
+    assert_eq!(uncoloured(&coloured), plain(Example::mixed()));
+}
+
+#[test]
+fn lines_fit_a_terminal_but_for_commands() {
+    let verbose = Style { colour: false, verbose: true };
+    let mut example = Example::mixed();
+    example.run.trials += 1;
+    let text = summary(&example.tree(), verbose);
+    let is_command = |line: &str| line.contains("cargo furnace run");
+    let long = text.lines().filter(|line| line.chars().count() > COLUMNS && !is_command(line));
+    assert_eq!(long.collect::<Vec<_>>(), Vec::<&str>::new());
+}
+
+#[test]
+fn an_unfinished_run_says_so_and_how_to_go_on() {
+    let mut example = Example::green();
+    example.trials.truncate(7);
+    example.run.timing.seconds = None;
+    let text = plain(example);
+    assert!(text.contains("\n  UNFINISHED: 7 of 24 planned trials have a result\n"), "{text}");
+    assert!(text.contains("cargo furnace run --resume no-such-folder"), "{text}");
+}
+
+#[test]
+fn a_run_without_a_single_result_is_no_success() {
+    let mut example = Example::green();
+    example.trials.clear();
+    let text = plain(example);
+    assert!(text.contains("0 trials in 71.3 s: none\n  UNFINISHED: 0 of 24"), "{text}");
+}
+
+#[test]
+fn asked_for_more_it_lists_what_every_case_would_have_caught() {
+    let tree = Example::mixed().tree();
+    let text = summary(&tree, Style { colour: false, verbose: true });
+    let (_, list) = text.split_once("what each case would have caught\n").unwrap();
+    for case in by_case(&tree) {
+        assert!(list.contains(&format!("    {}\n      ", case.first().case)), "{list}");
+    }
+    assert!(list.contains("      textbook: nothing (crashed)\n"), "{list}");
+}
+
+#[test]
+fn a_core_that_fails_everything_is_told_at_length_only_of_the_first() {
+    let mut example = Example::green();
+    let cases: Vec<_> = example.trials.iter().map(|trial| trial.case.clone()).collect();
+    for case in &cases[..12] {
+        example.set(
+            "builtin",
+            case,
+            Outcome::Crashed { how: "abort".into(), during: "render".into() },
+        );
+    }
+    let text = plain(example);
+    assert_eq!(text.matches("CRASHED").count(), 12);
+    assert_eq!(text.matches("        try ").count(), 5);
+}
+
+#[test]
+fn a_long_part_goes_on_below_itself() {
+    let mut example = Example::green();
+    example.trials = (0..40).map(|number| trial("builtin", &format!("bvh/{number:02}"))).collect();
+    let text = plain(example);
+    let bar = "#".repeat(30);
+    let expected = format!("2 bounding volumes          {bar}     40 of 40 pass");
+    assert!(text.contains(&expected), "{text}");
+    assert!(text.contains(&format!("\n{:32}##########\n", "")), "{text}");
+}

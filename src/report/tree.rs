@@ -1,0 +1,264 @@
+//! Loads the folder of a run: `run.json` and the sidecars below it. The only way a report learns
+//! anything.
+//!
+//! A version or a word that is not known, a sidecar in the wrong place, a picture outside the
+//! folder: each stops the reading with an error that names the file, for a report of
+//! half-understood results would be believed. Not here: pictures, which are read when they are
+//! drawn, and whose absence is shown in their place.
+
+use crate::case::Part;
+use crate::run::record::{self, PictureFile, read_json, sidecar_path};
+use crate::run::{RecordError, RunRecord, TrialRecord};
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+use walkdir::WalkDir;
+
+/// A run, read.
+#[derive(Clone, Debug)]
+pub struct RunTree {
+    /// `run.json`
+    pub run: RunRecord,
+    /// Every sidecar there is: cores in the order they were asked; of each, cases in the order of
+    /// parts.
+    pub trials: Vec<TrialRecord>,
+    /// Where all this stands.
+    pub folder: PathBuf,
+}
+
+/// Why a folder could not be read as a run.
+#[derive(Debug, thiserror::Error)]
+pub enum TreeError {
+    /// There is no `run.json`.
+    #[error("{0} is not the folder of a run: it has no run.json")]
+    NotARun(PathBuf),
+    /// A file cannot be read, or has words that are not known.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A file of another version.
+    #[error(
+        "{path} is version {found}, and this furnace reads version {known}\n\
+         hint: read it with the furnace that wrote it, or run again"
+    )]
+    UnknownVersion {
+        /// The file.
+        path: PathBuf,
+        /// What it says.
+        found: u32,
+        /// What would have been right.
+        known: u32,
+    },
+    /// A file does not belong where it stands.
+    #[error("{path} does not belong to this run: {why}\nhint: move it out of the folder")]
+    Stray {
+        /// The file.
+        path: PathBuf,
+        /// What does not fit.
+        why: String,
+    },
+    /// The file system said no.
+    #[error("{0}")]
+    Walk(#[from] walkdir::Error),
+}
+
+/// The one field that every version has.
+#[derive(Deserialize)]
+struct Versioned {
+    version: u32,
+}
+
+impl RunTree {
+    /// Reads the run in `folder`.
+    ///
+    /// # Errors
+    /// If it is not a run, or something in it is not known.
+    pub fn load(folder: &Path) -> Result<Self, TreeError> {
+        let path = folder.join("run.json");
+        if !path.is_file() {
+            return Err(TreeError::NotARun(folder.to_owned()));
+        }
+        check_version(&path)?;
+        let run: RunRecord = read_json(&path)?;
+        let mut trials = sidecars(folder)?
+            .iter()
+            .map(|path| load_trial(&run, folder, path))
+            .collect::<Result<Vec<_>, _>>()?;
+        trials.sort_by_cached_key(|trial| place(&run, trial));
+        Ok(Self { run, trials, folder: folder.to_owned() })
+    }
+
+    /// The trials of the core that was asked as `spec`.
+    pub fn trials_of<'a>(&'a self, spec: &'a str) -> impl Iterator<Item = &'a TrialRecord> {
+        self.trials.iter().filter(move |trial| trial.core == spec)
+    }
+
+    /// How many planned trials have no result.
+    pub fn missing(&self) -> usize {
+        self.run.trials.saturating_sub(self.trials.len())
+    }
+
+    /// Whether the run came to its end with a result for every trial.
+    pub fn is_finished(&self) -> bool {
+        self.missing() == 0 && self.run.timing.seconds.is_some()
+    }
+
+    /// Where a picture of a trial stands.
+    pub fn picture_path(&self, trial: &TrialRecord, picture: &PictureFile) -> PathBuf {
+        sidecar_path(&self.folder, &trial.core, &trial.case).with_file_name(&picture.file)
+    }
+}
+
+/// Every JSON file below the folders of the cores.
+fn sidecars(folder: &Path) -> Result<Vec<PathBuf>, TreeError> {
+    let mut found = Vec::new();
+    for entry in WalkDir::new(folder).min_depth(2).sort_by_file_name() {
+        let entry = entry?;
+        let is_json = entry.path().extension().is_some_and(|extension| extension == "json");
+        if entry.file_type().is_file() && is_json {
+            found.push(entry.into_path());
+        }
+    }
+    Ok(found)
+}
+
+fn load_trial(run: &RunRecord, folder: &Path, path: &Path) -> Result<TrialRecord, TreeError> {
+    check_version(path)?;
+    let trial: TrialRecord = read_json(path)?;
+    match misplaced(run, folder, path, &trial) {
+        Some(why) => Err(TreeError::Stray { path: path.to_owned(), why }),
+        None => Ok(trial),
+    }
+}
+
+/// Looks at the version alone, so that a file of another one is called that and not malformed.
+fn check_version(path: &Path) -> Result<(), TreeError> {
+    let Versioned { version: found } = read_json(path)?;
+    if found == record::VERSION {
+        return Ok(());
+    }
+    Err(TreeError::UnknownVersion { path: path.to_owned(), found, known: record::VERSION })
+}
+
+fn misplaced(run: &RunRecord, folder: &Path, path: &Path, trial: &TrialRecord) -> Option<String> {
+    if !run.cores.iter().any(|core| core.spec == trial.core) {
+        return Some(format!("run.json names no core `{}`", trial.core));
+    }
+    if sidecar_path(folder, &trial.core, &trial.case) != path {
+        return Some(format!("it is about `{}` on `{}`", trial.case, trial.core));
+    }
+    let outside = trial.pictures.iter().find(|picture| !is_file_name(&picture.file))?;
+    Some(format!("its picture `{}` is not a file beside it", outside.file))
+}
+
+/// Whether `name` stays in the folder that it is joined to.
+fn is_file_name(name: &str) -> bool {
+    Path::new(name).file_name().is_some_and(|last| last == name)
+}
+
+/// By core, then by part and folder, then by name.
+fn place(run: &RunRecord, trial: &TrialRecord) -> (usize, usize, String) {
+    let core = run.cores.iter().position(|core| core.spec == trial.core);
+    (core.unwrap_or(usize::MAX), Part::position(&trial.case), trial.case.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::example::{self, Example};
+    use crate::run::record::write_json;
+
+    /// The message with which the folder is refused.
+    fn refusal(folder: &Path) -> String {
+        RunTree::load(folder).unwrap_err().to_string()
+    }
+
+    /// Rewrites the text of a file.
+    fn edit(path: &Path, from: &str, to: &str) {
+        let text = std::fs::read_to_string(path).unwrap();
+        assert!(text.contains(from), "{from} is not in {text}");
+        std::fs::write(path, text.replace(from, to)).unwrap();
+    }
+
+    #[test]
+    fn a_run_reads_back_in_the_order_of_cores_and_parts() {
+        let folder = tempfile::tempdir().unwrap();
+        Example::mixed().write(folder.path());
+        let tree = RunTree::load(folder.path()).unwrap();
+        assert_eq!(tree.trials.len(), tree.run.trials);
+        assert!(tree.is_finished());
+        let places: Vec<_> = tree.trials.iter().map(|trial| place(&tree.run, trial)).collect();
+        assert!(places.is_sorted());
+    }
+
+    #[test]
+    fn a_killed_run_says_how_much_is_missing() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut example = Example::mixed();
+        example.run.timing.seconds = None;
+        example.trials.truncate(3);
+        example.write(folder.path());
+        let tree = RunTree::load(folder.path()).unwrap();
+        assert_eq!(tree.missing(), tree.run.trials - 3);
+        assert!(!tree.is_finished());
+    }
+
+    #[test]
+    fn a_folder_without_a_run_is_called_that() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(refusal(folder.path()).contains("has no run.json"));
+    }
+
+    #[test]
+    fn another_version_is_refused_by_name_whatever_else_it_holds() {
+        let folder = tempfile::tempdir().unwrap();
+        let example = Example::mixed();
+        example.write(folder.path());
+        let path = sidecar_path(folder.path(), "builtin", example::FAILING);
+        edit(&path, "\"version\": 1", "\"version\": 2, \"novelty\": 3");
+        let message = refusal(folder.path());
+        assert!(message.contains(&path.display().to_string()), "{message}");
+        assert!(message.contains("version 2"), "{message}");
+    }
+
+    #[test]
+    fn an_unknown_word_is_refused_and_the_file_named() {
+        let folder = tempfile::tempdir().unwrap();
+        Example::mixed().write(folder.path());
+        let path = sidecar_path(folder.path(), "builtin", example::FAILING);
+        edit(&path, "\"kind\": \"judged\"", "\"kind\": \"waved-through\"");
+        let message = refusal(folder.path());
+        assert!(message.contains(&path.display().to_string()), "{message}");
+        assert!(message.contains("waved-through"), "{message}");
+    }
+
+    #[test]
+    fn a_sidecar_in_the_wrong_place_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        Example::mixed().write(folder.path());
+        let path = sidecar_path(folder.path(), "builtin", example::FAILING);
+        std::fs::copy(&path, path.with_file_name("other.json")).unwrap();
+        assert!(refusal(folder.path()).contains("other.json does not belong"));
+    }
+
+    #[test]
+    fn a_core_that_was_not_asked_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut example = Example::mixed();
+        example.write(folder.path());
+        example.run.cores.truncate(1);
+        write_json(&folder.path().join("run.json"), &example.run).unwrap();
+        assert!(refusal(folder.path()).contains("names no core `textbook`"));
+    }
+
+    #[test]
+    fn a_picture_cannot_reach_out_of_the_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut example = Example::mixed();
+        for trial in &mut example.trials {
+            for picture in &mut trial.pictures {
+                picture.file = "../../../elsewhere.exr".to_owned();
+            }
+        }
+        example.write_records(folder.path());
+        assert!(refusal(folder.path()).contains("is not a file beside it"));
+    }
+}

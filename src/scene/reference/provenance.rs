@@ -1,5 +1,6 @@
 //! Where a reference comes from: enough to make it again, and to know when it has to be.
 
+use crate::scene::Overrides;
 use serde::{Deserialize, Serialize};
 
 /// What `provenance.toml` says.
@@ -38,8 +39,11 @@ pub struct Provenance {
     pub command: String,
     /// Day it was made, UTC.
     pub date: String,
-    /// Processor seconds it took.
+    /// Processor seconds it took, less those of attempts that were cut off.
     pub cpu_seconds: f64,
+    /// Values that were given to parameters of the scene.
+    #[serde(default, skip_serializing_if = "Overrides::is_empty")]
+    pub parameters: Overrides,
 }
 
 impl Provenance {

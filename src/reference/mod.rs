@@ -1,0 +1,69 @@
+//! Makes references with Mitsuba, lists them, and asks Mitsuba again whether they still hold.
+//!
+//! What to make is written in `references/recipes.toml`: the scene, the last bounce, how many passes of how many
+//! samples. [`References::make`] renders those passes in a process of Mitsuba's own, each with its own seed and
+//! into its own file, so that a run which is killed goes on where it was; then it takes mean and variance over the
+//! passes in double precision. Why passes: Mitsuba adds up in single precision, which drifts beyond 2⁸ samples,
+//! and its own second moments are of another colour space.
+//!
+//! Not here: reading a reference in order to compare with it (`scene::reference`), and printing: whoever asks
+//! hears of [`Progress`].
+
+mod average;
+mod date;
+mod environment;
+mod error;
+mod list;
+mod make;
+mod mitsuba;
+mod recipe;
+mod verify;
+
+pub use crate::scene::reference::{Provenance, Reference, ReferenceError};
+pub use error::MakeError;
+pub use list::{Listed, State};
+pub use make::MakeOptions;
+pub use recipe::Recipe;
+pub use verify::{Verification, VerifyOptions};
+
+use crate::scene::Library;
+use std::path::PathBuf;
+
+/// The folder of references and the scenes they are pictures of.
+#[derive(Debug)]
+pub struct References {
+    folder: PathBuf,
+    scenes: Library,
+}
+
+/// What is being done, for whoever shows it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// A Python environment with Mitsuba is being installed.
+    CreatingEnvironment {
+        /// Where.
+        folder: PathBuf,
+    },
+    /// A back end of Mitsuba is being tried.
+    TryingVariant {
+        /// Its name, and the LLVM library if it needs one.
+        variant: String,
+    },
+    /// Passes are done.
+    Rendering {
+        /// So many.
+        done: u32,
+        /// Of so many.
+        of: u32,
+    },
+}
+
+/// Hears of progress.
+pub type Listener<'a> = &'a mut dyn FnMut(Progress);
+
+impl References {
+    /// The references in `folder`, of the scenes in `scenes`.
+    pub fn new(folder: impl Into<PathBuf>, scenes: Library) -> Self {
+        Self { folder: folder.into(), scenes }
+    }
+}

@@ -2,11 +2,14 @@
 
 pub mod case;
 pub mod checks;
+pub mod cli;
 pub mod contract;
 pub mod cores;
 pub mod image;
 pub mod math;
 pub mod project;
+pub mod reference;
+pub mod report;
 pub mod run;
 pub mod scene;
 pub mod stats;

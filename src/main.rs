@@ -1,2 +1,5 @@
-//! The `furnace` command.
-fn main() {}
+//! The `furnace` command. Everything it does is in the library's `cli`.
+
+fn main() -> std::process::ExitCode {
+    furnace::cli::main().into()
+}

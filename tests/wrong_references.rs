@@ -1,6 +1,8 @@
 //! A reference that is not what it should be is *broken*, never a pass and never the core's fault, and the message
 //! says which command makes it.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
 use furnace::case::load_one;
 use furnace::image::{Image, exr};
 use furnace::project::Project;

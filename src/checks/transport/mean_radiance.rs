@@ -88,7 +88,12 @@ impl Check for MeanRadiance {
             false_alarm += spent;
         }
         let statement = statement(&measures);
-        let resolution = resolution_sentence(&measures);
+        let resolution = match resolution_sentence(&measures) {
+            dark if dark.is_empty() => {
+                format!("would have caught one lit sample among {DARK_SAMPLES}")
+            }
+            lit => lit,
+        };
         Ok(Finding::of(statement, resolution, measures).spending(false_alarm))
     }
 }

@@ -1,0 +1,105 @@
+//! The command line: one verb a file, and what each word means.
+
+mod exit_code;
+mod lint;
+mod list;
+mod progress;
+mod reference;
+mod report;
+mod run;
+
+pub use exit_code::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// What every verb answers: how the process ends, or why it cannot.
+type Answer = Result<ExitCode, Failure>;
+
+/// Why a verb stopped.
+#[derive(Debug)]
+pub struct Failure {
+    code: ExitCode,
+    message: String,
+}
+
+impl Failure {
+    /// The request or a case is wrong.
+    fn request(error: impl std::fmt::Display) -> Self {
+        Self { code: ExitCode::BadRequest, message: error.to_string() }
+    }
+
+    /// The harness could not do its work: a full disk, a missing tool.
+    fn broken(error: impl std::fmt::Display) -> Self {
+        Self { code: ExitCode::Broken, message: error.to_string() }
+    }
+}
+
+/// A test bench for path tracers: what is wrong, by how much, where, and why.
+#[derive(Debug, Parser)]
+#[command(name = "furnace", version, args_conflicts_with_subcommands = true)]
+struct Arguments {
+    #[command(subcommand)]
+    verb: Option<Verb>,
+    #[command(flatten)]
+    run: run::RunArguments,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// Try cases on cores and write a report (what happens without a verb).
+    Run(run::RunArguments),
+    /// Show cases, checks or cores.
+    List(list::ListArguments),
+    /// Read every case and scene and say what is wrong with them.
+    Lint,
+    /// Write the pages of a run again.
+    Report(report::ReportArguments),
+    /// Make, verify or list Mitsuba references.
+    Reference(reference::ReferenceArguments),
+}
+
+/// Where the project is, if not here or above.
+#[derive(Clone, Debug, Args)]
+struct ProjectArguments {
+    /// The folder that has `cases` and `scenes` [default: here or above, or FURNACE_HOME].
+    #[arg(long, value_name = "DIR", global = true)]
+    project: Option<PathBuf>,
+}
+
+impl ProjectArguments {
+    fn find(&self) -> Result<crate::project::Project, Failure> {
+        match &self.project {
+            Some(root) => Ok(crate::project::Project::at(root)),
+            None => crate::project::Project::find().map_err(Failure::request),
+        }
+    }
+}
+
+/// Does what the arguments of the process say.
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return usage(&error),
+    };
+    let answer = match arguments.verb {
+        None => run::run(&arguments.run),
+        Some(Verb::Run(arguments)) => run::run(&arguments),
+        Some(Verb::List(arguments)) => list::list(&arguments),
+        Some(Verb::Lint) => lint::lint(),
+        Some(Verb::Report(arguments)) => report::report(&arguments),
+        Some(Verb::Reference(arguments)) => reference::reference(&arguments),
+    };
+    answer.unwrap_or_else(|failure| {
+        eprintln!("{}", failure.message);
+        failure.code
+    })
+}
+
+/// Help goes to stdout and is no error; anything else is a wrong request.
+fn usage(error: &clap::Error) -> ExitCode {
+    let code = if error.use_stderr() { ExitCode::BadRequest } else { ExitCode::Good };
+    // There is nobody left to tell if this cannot be printed.
+    let _ = error.print();
+    code
+}

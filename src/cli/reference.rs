@@ -1,0 +1,162 @@
+//! `furnace reference`: makes, verifies and lists Mitsuba references.
+
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::reference::{MakeOptions, Progress, References, State, VerifyOptions};
+use crate::scene::Library;
+use crate::stats::Verdict;
+use clap::{Args, Subcommand};
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// What `furnace reference` understands.
+#[derive(Clone, Debug, Args)]
+pub struct ReferenceArguments {
+    #[command(subcommand)]
+    verb: Verb,
+    #[command(flatten)]
+    project: ProjectArguments,
+}
+
+#[derive(Clone, Debug, Subcommand)]
+enum Verb {
+    /// Render a reference as its recipe in references/recipes.toml says; goes on where it was cut off.
+    Make {
+        /// The reference.
+        name: String,
+        /// Make it anew although there is one.
+        #[arg(long)]
+        replace: bool,
+        /// Passes, instead of the recipe's.
+        #[arg(long, value_name = "N")]
+        passes: Option<u32>,
+        /// Samples a pixel in each pass, at most 256, instead of the recipe's.
+        #[arg(long, value_name = "N")]
+        samples_per_pass: Option<u32>,
+        #[command(flatten)]
+        mitsuba: MitsubaArguments,
+    },
+    /// Render a few passes with new seeds and test that they agree with a reference.
+    Verify {
+        /// The reference.
+        name: String,
+        #[command(flatten)]
+        mitsuba: MitsubaArguments,
+    },
+    /// Show every reference, how well it is known, and whether it still belongs to its scene.
+    List,
+}
+
+#[derive(Clone, Debug, Args)]
+struct MitsubaArguments {
+    /// Install Mitsuba into references/.venv if it is not there.
+    #[arg(long = "create-venv")]
+    create_environment: bool,
+    /// Mitsuba's back end [default: llvm_ad_rgb where an LLVM works, scalar_rgb elsewhere].
+    #[arg(long, value_name = "NAME")]
+    variant: Option<String>,
+}
+
+/// Does what was asked.
+pub fn reference(arguments: &ReferenceArguments) -> Answer {
+    let project = arguments.project.find()?;
+    let references = References::new(project.references(), Library::new(project.scenes()));
+    match &arguments.verb {
+        Verb::Make { name, replace, passes, samples_per_pass, mitsuba } => {
+            let options = MakeOptions {
+                replace: *replace,
+                create_environment: mitsuba.create_environment,
+                passes: *passes,
+                samples_per_pass: *samples_per_pass,
+                variant: mitsuba.variant.clone(),
+            };
+            make(&references, name, &options)
+        }
+        Verb::Verify { name, mitsuba } => {
+            let options = VerifyOptions {
+                create_environment: mitsuba.create_environment,
+                variant: mitsuba.variant.clone(),
+            };
+            verify(&references, name, &options)
+        }
+        Verb::List => list(&references),
+    }
+}
+
+fn make(references: &References, name: &str, options: &MakeOptions) -> Answer {
+    let display = Display::new();
+    let made = references.make(name, options, &mut |progress| display.show(progress));
+    let made = made.map_err(Failure::broken)?;
+    println!(
+        "made {name}: median relative standard error {:.2} %; look at references/{name}, then commit it",
+        100.0 * made.provenance.median_relative_error
+    );
+    Ok(ExitCode::Good)
+}
+
+fn verify(references: &References, name: &str, options: &VerifyOptions) -> Answer {
+    let display = Display::new();
+    let verified = references.verify(name, options, &mut |progress| display.show(progress));
+    let report = verified.map_err(Failure::broken)?.report;
+    println!(
+        "{name}: {} after {} runs; would have caught an error of {:.2} % of the whole picture",
+        report.verdict,
+        report.runs,
+        100.0 * report.resolution
+    );
+    Ok(match report.verdict {
+        Verdict::Pass => ExitCode::Good,
+        Verdict::Fail => ExitCode::Failed,
+        Verdict::Inconclusive => ExitCode::Broken,
+    })
+}
+
+fn list(references: &References) -> Answer {
+    let listed = references.list().map_err(Failure::broken)?;
+    let mut all_good = true;
+    for entry in &listed {
+        let state = match &entry.state {
+            State::Good(reference) => format!(
+                "{:>6} samples a pixel, median relative standard error {:.2} %",
+                reference.provenance.samples_per_pixel(),
+                100.0 * reference.provenance.median_relative_error
+            ),
+            State::Bad(error) => {
+                all_good = false;
+                error.to_string()
+            }
+            State::NoScene(error) => {
+                all_good = false;
+                error.to_string()
+            }
+        };
+        println!("{:26}  {state}", entry.name);
+    }
+    Ok(if all_good { ExitCode::Good } else { ExitCode::Broken })
+}
+
+/// Progress on standard error: a bar while passes are rendered, a line for all else.
+struct Display {
+    bar: ProgressBar,
+}
+
+impl Display {
+    fn new() -> Self {
+        let style = ProgressStyle::with_template("  {pos}/{len} passes  {wide_bar}  {eta} left");
+        let bar = ProgressBar::new(0);
+        Self { bar: style.map_or(ProgressBar::hidden(), |style| bar.with_style(style)) }
+    }
+
+    fn show(&self, progress: Progress) {
+        match progress {
+            Progress::CreatingEnvironment { folder } => {
+                self.bar.println(format!("  installing Mitsuba into {}", folder.display()));
+            }
+            Progress::TryingVariant { variant } => {
+                self.bar.println(format!("  trying {variant}"));
+            }
+            Progress::Rendering { done, of } => {
+                self.bar.set_length(u64::from(of));
+                self.bar.set_position(u64::from(done));
+            }
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! `furnace report`: writes the pages of a run again, from its folder alone.
+
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::report::text::Style;
+use crate::report::{self, RunTree};
+use clap::Args;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+/// What `furnace report` understands.
+#[derive(Clone, Debug, Args)]
+pub struct ReportArguments {
+    /// The folder of a run [default: the newest].
+    run: Option<PathBuf>,
+    /// Every trial with the smallest error it would have caught.
+    #[arg(short, long)]
+    verbose: bool,
+    #[command(flatten)]
+    project: ProjectArguments,
+}
+
+/// Prints the summary and writes the page.
+pub fn report(arguments: &ReportArguments) -> Answer {
+    let folder = match &arguments.run {
+        Some(folder) => folder.clone(),
+        None => newest(&arguments.project.find()?.runs())?,
+    };
+    let tree = RunTree::load(&folder).map_err(Failure::request)?;
+    let page = report::html::write(&tree, &folder).map_err(Failure::broken)?;
+    print!("{}", report::text::summary(&tree, style(arguments.verbose)));
+    println!("  report  {}", address(&page));
+    Ok(ExitCode::Good)
+}
+
+/// The last folder by name: names are times.
+fn newest(runs: &Path) -> Result<PathBuf, Failure> {
+    let none = || Failure::request(format!("there is no run in {}", runs.display()));
+    let entries = std::fs::read_dir(runs).map_err(|_| none())?;
+    let folders = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    folders.filter(|path| path.join("run.json").is_file()).max().ok_or_else(none)
+}
+
+/// How the summary is dressed on this terminal.
+pub fn style(verbose: bool) -> Style {
+    let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    Style { colour, verbose }
+}
+
+/// What a browser opens.
+pub fn address(page: &Path) -> String {
+    let page = page.canonicalize().unwrap_or_else(|_| page.to_owned());
+    format!("file://{}", page.display())
+}

@@ -1,0 +1,113 @@
+//! `furnace run`: the default verb.
+
+use super::progress::Progress;
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::case::{self, CatalogError};
+use crate::cores::{CORES, CoreSpec};
+use crate::math::rng::Seed;
+use crate::report;
+use crate::run::{self, Plan, Request, RunError, RunRecord, record};
+use crate::stats::Budget;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// What `furnace run` understands.
+#[derive(Clone, Debug, Args)]
+pub struct RunArguments {
+    /// Cases to try: parts of their names, `@tag`, a part's number 1 to 6, `!` before any of these for not.
+    filters: Vec<String>,
+    /// The renderer to try; may be repeated [default: every core of our own].
+    #[arg(long = "core", value_name = "CORE")]
+    cores: Vec<CoreSpec>,
+    /// How small an error to look for: quick (5 %), default (2 %) or strict (0.5 %).
+    #[arg(long, default_value_t)]
+    budget: Budget,
+    /// Draw other random numbers, for audits. Verdicts are published for the default seed.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Trials at the same time [default: one a hardware thread].
+    #[arg(short, long, default_value_t = 0, hide_default_value = true)]
+    jobs: usize,
+    /// Go on with a run that was cut off; what it was asked is read from its folder.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "cores", "budget", "seed"])]
+    resume: Option<PathBuf>,
+    /// What is inconclusive, skipped or blocked ends with exit code 3.
+    #[arg(long)]
+    strict: bool,
+    /// Where runs go [default: reports/runs].
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
+    /// Only the summary.
+    #[arg(short, long)]
+    quiet: bool,
+    /// Every trial with the smallest error it would have caught.
+    #[arg(short, long)]
+    verbose: bool,
+    #[command(flatten)]
+    project: ProjectArguments,
+}
+
+/// Tries the cases, prints the summary, writes the report.
+pub fn run(arguments: &RunArguments) -> Answer {
+    let project = arguments.project.find()?;
+    let cases = case::load_all(&project.cases()).map_err(|error| match error {
+        CatalogError::Io { .. } => Failure::broken(error),
+        CatalogError::Malformed(_) => Failure::request(error),
+    })?;
+    let runs = arguments.report.clone().unwrap_or_else(|| project.runs());
+    let request = match &arguments.resume {
+        Some(folder) => request_of(folder, arguments.jobs)?,
+        None => arguments.request(),
+    };
+    let plan = Plan::new(project, request, &cases);
+    let mut progress = Progress::new(arguments.quiet);
+    let mut listen = |event: run::Event<'_>| progress.hear(event);
+    let folder = match &arguments.resume {
+        Some(folder) => run::resume(&plan, folder, &mut listen).map(|()| folder.clone()),
+        None => run::run(&plan, &runs, &mut listen),
+    };
+    match folder {
+        Ok(folder) => finish(arguments, &folder),
+        Err(error @ RunError::NothingSelected(_)) => {
+            Err(Failure { code: ExitCode::NothingSelected, message: error.to_string() })
+        }
+        Err(error) => Err(Failure::broken(error)),
+    }
+}
+
+impl RunArguments {
+    fn request(&self) -> Request {
+        let all = || CORES.iter().filter_map(|kind| kind.name.parse().ok()).collect();
+        Request {
+            cores: if self.cores.is_empty() { all() } else { self.cores.clone() },
+            filters: self.filters.clone(),
+            budget: self.budget,
+            seed: self.seed.map_or(Seed::SUITE, Seed),
+            jobs: self.jobs,
+        }
+    }
+}
+
+/// What a run was asked, from its own folder.
+fn request_of(folder: &Path, jobs: usize) -> Result<Request, Failure> {
+    let record: RunRecord =
+        record::read_json(&folder.join("run.json")).map_err(Failure::request)?;
+    let cores = record.cores.iter().map(|core| core.spec.parse());
+    Ok(Request {
+        cores: cores.collect::<Result<_, _>>().map_err(Failure::request)?,
+        filters: record.filters,
+        budget: record.budget,
+        seed: Seed(record.seed),
+        jobs,
+    })
+}
+
+/// Summary and report, both of them readers of the folder.
+fn finish(arguments: &RunArguments, folder: &Path) -> Answer {
+    let tree = report::RunTree::load(folder).map_err(Failure::broken)?;
+    let page = report::html::write(&tree, folder).map_err(Failure::broken)?;
+    print!("{}", report::text::summary(&tree, super::report::style(arguments.verbose)));
+    println!("  report  {}", super::report::address(&page));
+    let statuses = tree.trials.iter().map(|trial| trial.outcome.status());
+    Ok(ExitCode::of(statuses, arguments.strict))
+}

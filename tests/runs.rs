@@ -1,0 +1,105 @@
+//! A run is data that does not depend on when, how often, or in how many goes it was made.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use furnace::run::{TrialRecord, record};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+use walkdir::WalkDir;
+
+/// A few cases of each kind: deterministic, statistical, with pictures.
+const FILTERS: &[&str] = &["intersection/", "lights/a-point-light", "sampling/"];
+
+fn furnace(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_furnace"));
+    command.args(arguments).current_dir(env!("CARGO_MANIFEST_DIR"));
+    command.stdout(Stdio::null()).stderr(Stdio::null()).stdin(Stdio::null());
+    command
+}
+
+fn run_arguments<'a>(runs: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let fixed = ["run", "--budget", "quick", "--report", runs];
+    fixed.iter().chain(FILTERS).chain(more).copied().collect()
+}
+
+/// The one run below `runs`.
+fn only_run(runs: &Path) -> Option<PathBuf> {
+    let mut folders = std::fs::read_dir(runs).ok()?.map(|entry| entry.unwrap().path());
+    let folder = folders.next();
+    assert!(folders.next().is_none(), "more than one run");
+    folder
+}
+
+fn sidecar_paths(folder: &Path) -> Vec<PathBuf> {
+    let files = WalkDir::new(folder).into_iter().map(|entry| entry.unwrap().into_path());
+    files
+        .filter(|path| path.extension().is_some_and(|e| e == "json") && !path.ends_with("run.json"))
+        .collect()
+}
+
+/// Every sidecar without its times, and every picture's bytes.
+fn results(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut results = BTreeMap::new();
+    for path in sidecar_paths(folder) {
+        let mut trial: TrialRecord = record::read_json(&path).unwrap();
+        trial.timing.seconds = 0.0;
+        for picture in &trial.pictures {
+            let bytes = std::fs::read(path.with_file_name(&picture.file)).unwrap();
+            results.insert(format!("{}/{}/{}", trial.core, trial.case, picture.file), bytes);
+        }
+        let name = format!("{}/{}", trial.core, trial.case);
+        results.insert(name, serde_json::to_vec(&trial).unwrap());
+    }
+    results
+}
+
+#[test]
+fn the_same_run_twice_in_one_go_or_killed_half_way_gives_the_same_sidecars() {
+    let whole = tempfile::tempdir().unwrap();
+    let runs = whole.path().to_string_lossy().into_owned();
+    let status = furnace(&run_arguments(&runs, &["-j", "2"])).status().unwrap();
+    assert!(status.success(), "the whole run ended with {status}");
+    let expected = results(&only_run(whole.path()).unwrap());
+    assert!(expected.len() >= 8, "{} sidecars", expected.len());
+
+    let killed = tempfile::tempdir().unwrap();
+    let runs = killed.path().to_string_lossy().into_owned();
+    let mut child = furnace(&run_arguments(&runs, &["-j", "1"])).spawn().unwrap();
+    wait_for_sidecars(killed.path(), 3);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let folder = only_run(killed.path()).unwrap();
+    let kept = sidecar_paths(&folder).len();
+    assert!(kept < expected.len(), "it was killed too late to show anything");
+
+    let resume = ["run", "--resume", &folder.to_string_lossy()].map(ToOwned::to_owned);
+    let status = furnace(&resume.iter().map(String::as_str).collect::<Vec<_>>()).status().unwrap();
+    assert!(status.success(), "the resumed run ended with {status}");
+    let resumed = results(&folder);
+    assert_eq!(resumed.keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>());
+    for (name, bytes) in &expected {
+        assert!(resumed[name] == *bytes, "{name} differs after the run was resumed");
+    }
+}
+
+fn wait_for_sidecars(runs: &Path, count: usize) {
+    let limit = Instant::now() + Duration::from_secs(60);
+    while only_run(runs).map_or(0, |folder| sidecar_paths(&folder).len()) < count {
+        assert!(Instant::now() < limit, "no sidecars after a minute");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+#[test]
+fn nothing_selected_has_its_own_exit_code() {
+    let status = furnace(&["run", "no-case-is-called-this"]).status().unwrap();
+    assert_eq!(status.code(), Some(4));
+}
+
+#[test]
+fn an_unknown_core_is_a_wrong_request() {
+    let status = furnace(&["run", "--core", "embree"]).status().unwrap();
+    assert_eq!(status.code(), Some(2));
+}

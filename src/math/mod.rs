@@ -6,5 +6,6 @@ mod precision;
 pub mod quadrature;
 pub mod ratios;
 pub mod rng;
+pub mod sphere;
 
 pub use precision::Precision;

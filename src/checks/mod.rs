@@ -4,11 +4,15 @@
 //! seed; it leaves every verdict to [`crate::stats`]. To add one: write the file, add a line to [`CHECKS`].
 
 pub mod adaptive;
+pub mod camera;
 mod context;
 pub mod convergence;
 mod finding;
 pub mod picture;
+mod phrase;
 pub mod robustness;
+#[cfg(test)]
+mod testing;
 pub mod transport;
 
 pub use context::{CheckError, Context, Picture, PictureRole, camera_of};
@@ -106,6 +110,7 @@ fn prepare<C: Check>(text: &str) -> Result<Box<dyn Prepared>, PrepareError> {
 
 /// Every check there is, in the order of the parts of a path tracer.
 pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<camera::RaysThroughFilm>(),
     CheckKind::of::<transport::MeanRadiance>(),
     CheckKind::of::<transport::EstimatorsAgree>(),
     CheckKind::of::<transport::RadianceIsLinear>(),

@@ -1,0 +1,266 @@
+//! Camera rays against the projection formula.
+//!
+//! Not here: directions whose length is not 1, which the contract refuses before a check sees them.
+
+use super::projection::{Formula, MISTAKES, Mistake, projection};
+use crate::checks::phrase::{degrees, some_are, worst_measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Capabilities, Ray};
+use crate::math::rng::{Seed, uniform};
+use crate::math::sphere::angle_between;
+use crate::scene::Camera;
+use crate::stats::{Compared, ExactReport, Tolerance, judge_exact};
+use crate::text::Angle;
+use glam::{DVec2, DVec3};
+use serde::Deserialize;
+
+/// Film points in general position, beside the four corners and the centre.
+const GENERIC_POINTS: usize = 48;
+
+/// Rays leave the camera through the film points they are asked for.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct RaysThroughFilm {
+    /// Cameras in general position: no angle, axis or coordinate that hides a mistake.
+    camera: Vec<CameraRow>,
+}
+
+/// A camera as a case writes it.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct CameraRow {
+    position: DVec3,
+    target: DVec3,
+    up: DVec3,
+    horizontal_fov: Angle,
+    vertical_fov: Angle,
+    near: f64,
+    far: f64,
+}
+
+impl CameraRow {
+    fn camera(&self) -> Camera {
+        let film = [480, 360];
+        Camera {
+            vertical_fov: self.vertical_fov.0,
+            near: self.near,
+            far: self.far,
+            ..Camera::look_at(self.position, self.target, self.up, self.horizontal_fov.0, film)
+        }
+    }
+}
+
+impl Check for RaysThroughFilm {
+    const NAME: &'static str = "rays-through-film";
+    const SUMMARY: &'static str = "camera rays against the projection formula";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::GENERATE_RAYS
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        if self.camera.is_empty() { Err("there is no camera".to_owned()) } else { Ok(()) }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let film = film_points(context.seed);
+        let mut shots = Vec::new();
+        for row in &self.camera {
+            let camera = row.camera();
+            let mut rays = vec![Ray::new(DVec3::ZERO, DVec3::ZERO); film.len()];
+            context.core.generate_rays(&camera, &film, &mut rays)?;
+            shots.push(Shot { camera, rays });
+        }
+        let allowed = Tolerance::DIRECTION.of(context.info.precision);
+        Ok(judge(&shots, &film, allowed))
+    }
+}
+
+/// The corners, the centre, and points in general position.
+fn film_points(seed: Seed) -> Vec<DVec2> {
+    let mut stream = seed.child("film").stream();
+    let fixed = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.5, 0.5]];
+    let generic = (0..GENERIC_POINTS).map(|_| [uniform(&mut stream), uniform(&mut stream)]);
+    fixed.into_iter().chain(generic).map(DVec2::from).collect()
+}
+
+/// A camera and the rays a core made for it.
+struct Shot {
+    camera: Camera,
+    rays: Vec<Ray>,
+}
+
+impl Shot {
+    fn direction_errors<'a>(
+        &'a self,
+        film: &'a [DVec2],
+        formula: Formula,
+    ) -> impl Iterator<Item = f64> + 'a {
+        let expected = film.iter().map(move |point| formula(&self.camera, *point).normalize());
+        self.rays.iter().zip(expected).map(|(ray, d)| ray.direction.distance(d))
+    }
+
+    /// Directions, origins, and the ends of the segments. Single precision rounds positions relative to their size.
+    fn reports(&self, film: &[DVec2], allowed: f64) -> [(&'static str, ExactReport); 4] {
+        let Camera { position, near, far, .. } = self.camera;
+        let directions = self.direction_errors(film, projection);
+        let compare = |error| Compared::within(error, 0.0, allowed);
+        let size = position.length().max(1.0);
+        let origins = self.rays.iter().map(|ray| ray.origin.distance(position) / size);
+        let end = |found, expected| Compared::relative(found, expected, allowed);
+        [
+            ("direction", judge_exact(directions.map(compare))),
+            ("origin", judge_exact(origins.map(compare))),
+            ("t_min", judge_exact(self.rays.iter().map(|ray| end(ray.t_min, near)))),
+            ("t_max", judge_exact(self.rays.iter().map(|ray| end(ray.t_max, far)))),
+        ]
+    }
+}
+
+fn judge(shots: &[Shot], film: &[DVec2], allowed: f64) -> Finding {
+    let mut measures = Vec::new();
+    let mut complaints = Vec::new();
+    for (number, shot) in shots.iter().enumerate() {
+        for (what, report) in shot.reports(film, allowed) {
+            measures.push(worst_measure(format!("camera {}, {what}", number + 1), &report));
+            if report.disagree > 0 && what != "direction" {
+                complaints.push(complaint(number, what, &measures[measures.len() - 1]));
+            }
+        }
+    }
+    complaints.dedup();
+    complaints.splice(0..0, direction_complaint(shots, film, allowed));
+    let all = shots.len() * film.len();
+    let statement = match complaints.is_empty() {
+        true => format!("{all} rays of {} cameras leave through their film points", shots.len()),
+        false => complaints.join("; "),
+    };
+    let resolution = format!("would have caught a ray {} off", degrees(allowed));
+    Finding::of(statement, resolution, measures)
+}
+
+fn complaint(camera: usize, what: &str, worst: &Measure) -> String {
+    let camera = camera + 1;
+    match what {
+        "origin" => format!("the rays of camera {camera} do not start at its position"),
+        end => format!(
+            "{end} of the rays of camera {camera} is {}, not the camera's {}",
+            worst.measured, worst.expected
+        ),
+    }
+}
+
+/// How many directions are wrong, by how much, and the mistake that explains every one of them.
+fn direction_complaint(shots: &[Shot], film: &[DVec2], allowed: f64) -> Option<String> {
+    let errors = |formula| shots.iter().flat_map(move |shot| shot.direction_errors(film, formula));
+    let all = shots.len() * film.len();
+    let wrong = all - errors(projection).filter(|error| *error <= allowed).count();
+    if wrong == 0 {
+        return None;
+    }
+    let by = degrees(largest_angle(shots, film));
+    // A mistake may magnify rounding, but not a hundredfold; different mistakes are degrees apart.
+    let explains = |mistake: &&Mistake| errors(mistake.formula).all(|e| e <= 100.0 * allowed);
+    let cause = match MISTAKES.iter().find(explains) {
+        Some(mistake) => mistake.words,
+        None => "no single mistake that is known explains all of them",
+    };
+    Some(format!("{} wrong by up to {by}: {cause}", some_are(wrong, all, "rays")))
+}
+
+fn largest_angle(shots: &[Shot], film: &[DVec2]) -> f64 {
+    let angles = shots.iter().flat_map(|shot| {
+        let expected = film.iter().map(|point| projection(&shot.camera, *point));
+        shot.rays.iter().zip(expected).map(|(ray, d)| angle_between(ray.direction, d))
+    });
+    angles.fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, judge, try_judge};
+    use crate::contract::{Core, CoreInfo, Precision, Result};
+
+    /// A core that makes its rays by a formula and then does something to them.
+    struct Lens {
+        formula: Formula,
+        spoil: fn(&mut Ray),
+    }
+
+    impl Core for Lens {
+        fn info(&self) -> CoreInfo {
+            info(Precision::Double)
+        }
+
+        fn generate_rays(
+            &mut self,
+            camera: &Camera,
+            film: &[DVec2],
+            rays: &mut [Ray],
+        ) -> Result<()> {
+            for (ray, point) in rays.iter_mut().zip(film) {
+                let direction = (self.formula)(camera, *point).normalize();
+                let (t_min, t_max) = (camera.near, camera.far);
+                *ray = Ray { origin: camera.position, t_min, direction, t_max };
+                (self.spoil)(ray);
+            }
+            Ok(())
+        }
+    }
+
+    fn shipped() -> RaysThroughFilm {
+        check_of(include_str!("../../../cases/camera/rays-leave-through-their-film-points.toml"))
+    }
+
+    fn found(formula: Formula) -> Finding {
+        judge(&shipped(), &mut Lens { formula, spoil: |_| () })
+    }
+
+    #[test]
+    fn the_projection_formula_passes() {
+        assert_passes(&found(projection));
+    }
+
+    #[test]
+    fn every_mistake_fails_under_its_own_name() {
+        for mistake in MISTAKES {
+            let finding = found(mistake.formula);
+            let statement = failure(&finding);
+            assert!(statement.contains(mistake.words), "{}: {statement}", mistake.words);
+        }
+    }
+
+    #[test]
+    fn a_flipped_film_says_how_many_by_how_much_and_why() {
+        let finding = found(|camera, film| projection(camera, DVec2::new(film.x, 1.0 - film.y)));
+        let statement = failure(&finding);
+        // The film's horizontal centre line is the same either way: the centre of each camera is right.
+        assert!(statement.starts_with("156 of 159 rays are wrong by up to "), "{statement}");
+        assert!(statement.ends_with("°: the film's y axis points down"), "{statement}");
+    }
+
+    #[test]
+    fn a_mistake_nobody_knows_is_not_given_a_name() {
+        let finding = found(|camera, film| projection(camera, film * film));
+        assert!(
+            failure(&finding).ends_with("no single mistake that is known explains all of them")
+        );
+    }
+
+    #[test]
+    fn clip_distances_and_origins_are_looked_at() {
+        let mut lens = Lens { formula: projection, spoil: |ray| ray.t_min = 0.0 };
+        let finding = judge(&shipped(), &mut lens);
+        assert!(failure(&finding).contains("t_min of the rays of camera 1 is 0, not the camera's"));
+        let mut lens = Lens { formula: projection, spoil: |ray| ray.origin += 1e-6 };
+        assert!(failure(&judge(&shipped(), &mut lens)).contains("do not start at its position"));
+    }
+
+    #[test]
+    fn directions_that_are_not_unit_break_the_contract() {
+        let mut lens = Lens { formula: projection, spoil: |ray| ray.direction *= 1.01 };
+        let error = try_judge(&shipped(), &mut lens, None).unwrap_err().to_string();
+        assert!(error.contains("direction has length 1.01"), "{error}");
+    }
+}

@@ -1,0 +1,120 @@
+//! What statements and measures of different checks have in common: how a share, an angle or a figure is
+//! written, and how a report of [`crate::stats`] becomes a row of a finding.
+
+use super::Measure;
+use crate::stats::{ExactReport, MeanReport, Verdict};
+
+/// `12 of 53 rays are`, `1 of 53 rays is`: the beginning of most failing statements.
+pub fn some_are(some: usize, all: usize, noun: &str) -> String {
+    format!("{some} of {all} {noun} {}", if some == 1 { "is" } else { "are" })
+}
+
+/// `7.1°`
+pub fn degrees(radians: f64) -> String {
+    format!("{}°", figure(radians.to_degrees()))
+}
+
+/// `0.42 %`
+pub fn percent(share: f64) -> String {
+    format!("{} %", figure(share * 100.0))
+}
+
+/// A number with three significant digits, as people write it.
+pub fn figure(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    if !(1e-4..1e6).contains(&size) {
+        return format!("{value:.2e}").replace(".00e", "e");
+    }
+    let decimals = (2 - size.log10().floor() as i32).clamp(0, 6);
+    let written = format!("{value:.*}", usize::try_from(decimals).unwrap_or(0));
+    if written.contains('.') {
+        written.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        written
+    }
+}
+
+/// The worst element of a comparison as a measure. Of many, the name says which it was, counted from 1.
+pub fn worst_measure(name: impl Into<String>, report: &ExactReport) -> Measure {
+    let name = name.into();
+    let Some(worst) = report.worst else {
+        return Measure { verdict: report.verdict, ..Measure::exact(name, f64::NAN, 0.0, 0.0) };
+    };
+    let compared = worst.compared;
+    let name = match report.compared {
+        1 => name,
+        all => format!("{name}, worst of {all} (number {})", worst.index + 1),
+    };
+    Measure {
+        verdict: report.verdict,
+        ..Measure::exact(name, compared.found, compared.expected, compared.allowed)
+    }
+}
+
+/// A measure without noise that only has to stay below a limit. NaN fails.
+pub fn at_most(name: impl Into<String>, measured: f64, limit: f64) -> Measure {
+    let name = format!("{} (at most)", name.into());
+    Measure {
+        verdict: Verdict::pass_if(measured <= limit),
+        resolution: None,
+        ..Measure::exact(name, measured, limit, 0.0)
+    }
+}
+
+/// A mean that went up the ladder as a measure.
+pub fn mean_measure(name: impl Into<String>, report: &MeanReport) -> Measure {
+    Measure {
+        name: name.into(),
+        unit: String::new(),
+        measured: report.mean,
+        expected: report.expected,
+        allowed: report.band,
+        interval: Some(report.interval),
+        resolution: Some(report.resolution),
+        verdict: report.verdict,
+    }
+}
+
+/// `would have caught an error of 0.42 %`: by the weakest of some measures. Empty if none has a resolution.
+pub fn would_have_caught(measures: &[Measure]) -> String {
+    let weakest = measures.iter().filter_map(|measure| measure.resolution).reduce(f64::max);
+    weakest.map_or_else(String::new, |r| format!("would have caught an error of {}", percent(r)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stats::{Compared, judge_exact};
+
+    #[test]
+    fn figures_have_three_digits_and_no_idle_zeros() {
+        let written = |value: f64| figure(value);
+        assert_eq!(written(7.0999), "7.1");
+        assert_eq!(written(0.042), "0.042");
+        assert_eq!(written(1234.4), "1234");
+        assert_eq!(written(100.0), "100");
+        assert_eq!(written(2e-9), "2e-9");
+        assert_eq!(written(-1.5), "-1.5");
+        assert_eq!(written(0.0), "0");
+        assert_eq!(written(f64::INFINITY), "inf");
+    }
+
+    #[test]
+    fn one_is_and_two_are() {
+        assert_eq!(some_are(1, 9, "rays"), "1 of 9 rays is");
+        assert_eq!(some_are(2, 9, "rays"), "2 of 9 rays are");
+    }
+
+    #[test]
+    fn the_worst_element_is_shown_with_the_verdict_on_all() {
+        let report =
+            judge_exact([Compared::within(1.0, 1.0, 0.1), Compared::within(3.0, 1.0, 0.1)]);
+        let measure = worst_measure("t", &report);
+        assert_eq!(measure.name, "t, worst of 2 (number 2)");
+        assert_eq!((measure.measured, measure.verdict), (3.0, Verdict::Fail));
+        assert_eq!(worst_measure("t", &judge_exact([])).verdict, Verdict::Inconclusive);
+    }
+}

@@ -1,0 +1,87 @@
+//! Puts a check to a fake core, the way the executor does: its settings from TOML, its core behind validation.
+
+use super::{Check, CheckError, Context, Finding};
+use crate::contract::validate::Validated;
+use crate::contract::{Capabilities, Conventions, Core, CoreInfo, Precision};
+use crate::math::rng::Seed;
+use crate::scene::{Library, SceneDescription};
+use crate::stats::{Budget, Verdict};
+use serde::Deserialize;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The check of a case with this text: a whole file of `cases/`, or its `[expect]` alone.
+///
+/// # Panics
+/// If the text is not what the check wants.
+pub fn check_of<C: Check>(text: &str) -> C {
+    #[derive(Deserialize)]
+    struct Case<C> {
+        expect: C,
+    }
+    let Case { expect }: Case<C> = toml::from_str(text).unwrap();
+    expect.validate().unwrap();
+    expect
+}
+
+/// Who a fake core is: it can do everything it is asked.
+pub fn info(precision: Precision) -> CoreInfo {
+    CoreInfo {
+        name: "fake".into(),
+        version: "0".into(),
+        capabilities: Capabilities::all(),
+        precision,
+        conventions: Conventions::default(),
+    }
+}
+
+/// What the check says of the core, or why it says nothing.
+///
+/// # Errors
+/// Those of the check.
+pub fn try_judge<C: Check>(
+    check: &C,
+    core: &mut dyn Core,
+    scene: Option<SceneDescription>,
+) -> Result<Finding, CheckError> {
+    let info = core.info();
+    let mut core = Validated::new(core);
+    let scenes = Library::new("scenes");
+    let mut context = Context {
+        core: &mut core,
+        info,
+        scene: scene.map(Arc::new),
+        scenes: &scenes,
+        references: Path::new("references"),
+        seed: Seed::SUITE.child(C::NAME),
+        budget: Budget::Default,
+        pictures: Vec::new(),
+    };
+    check.run(&mut context)
+}
+
+/// What the check says of the core.
+///
+/// # Panics
+/// If it says nothing.
+pub fn judge<C: Check>(check: &C, core: &mut dyn Core) -> Finding {
+    try_judge(check, core, None).unwrap()
+}
+
+/// The statement of a finding that has to be a failure.
+///
+/// # Panics
+/// If it is none.
+pub fn failure(finding: &Finding) -> &str {
+    assert_eq!(finding.verdict, Verdict::Fail, "{finding:#?}");
+    &finding.statement
+}
+
+/// Asserts that a finding passes and says what it would have caught.
+///
+/// # Panics
+/// If it does not.
+pub fn assert_passes(finding: &Finding) {
+    assert_eq!(finding.verdict, Verdict::Pass, "{finding:#?}");
+    assert!(!finding.resolution.is_empty(), "a pass says what it would have caught");
+}

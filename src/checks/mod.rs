@@ -11,6 +11,7 @@ mod finding;
 pub mod picture;
 mod phrase;
 pub mod robustness;
+pub mod shape;
 #[cfg(test)]
 mod testing;
 pub mod transport;
@@ -111,6 +112,9 @@ fn prepare<C: Check>(text: &str) -> Result<Box<dyn Prepared>, PrepareError> {
 /// Every check there is, in the order of the parts of a path tracer.
 pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<camera::RaysThroughFilm>(),
+    CheckKind::of::<shape::HitsPrimitive>(),
+    CheckKind::of::<shape::AgreesWithExactArithmetic>(),
+    CheckKind::of::<shape::OverlapsBox>(),
     CheckKind::of::<transport::MeanRadiance>(),
     CheckKind::of::<transport::EstimatorsAgree>(),
     CheckKind::of::<transport::RadianceIsLinear>(),

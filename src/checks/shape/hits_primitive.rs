@@ -1,0 +1,343 @@
+//! Rows of rays against one triangle or one sphere, each with what has to come out of it.
+
+use super::imitation::{Answer, explanations, intersection};
+use crate::checks::phrase::{figure, percent, some_are};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Capabilities, Hit, Precision, Primitive, Ray};
+use crate::stats::{Tolerance, Verdict};
+use glam::DVec3;
+use serde::Deserialize;
+
+/// How far the numbers of a row may be from its own geometry: they are typed with this many digits.
+const TYPED: f64 = 1e-6;
+/// Wrong rays that a statement spells out.
+const SPELT_OUT: usize = 3;
+
+/// Rays meet a primitive where their rows say, and nowhere else.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct HitsPrimitive {
+    triangle: Option<TriangleEntry>,
+    sphere: Option<SphereEntry>,
+    ray: Vec<RayRow>,
+}
+
+/// Vertices counter-clockwise, and the shading normals at them; none for a flat triangle.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TriangleEntry {
+    vertices: [DVec3; 3],
+    normals: Option<[DVec3; 3]>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SphereEntry {
+    centre: DVec3,
+    radius: f64,
+}
+
+/// A ray segment and what has to come out of it. What a row does not say is known from the geometry.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct RayRow {
+    from: DVec3,
+    toward: DVec3,
+    #[serde(default)]
+    after: f64,
+    #[serde(default = "infinity")]
+    up_to: f64,
+    hits: bool,
+    t: Option<f64>,
+    normal: Option<DVec3>,
+    shading_normal: Option<DVec3>,
+    barycentric: Option<[f64; 3]>,
+    #[serde(default)]
+    because: String,
+    /// Shown, but not graded: correct implementations differ.
+    #[serde(default)]
+    robustness: bool,
+}
+
+const fn infinity() -> f64 {
+    f64::INFINITY
+}
+
+impl RayRow {
+    fn ray(&self) -> Ray {
+        Ray { origin: self.from, t_min: self.after, direction: self.toward, t_max: self.up_to }
+    }
+
+    /// Whether the row says what the geometry says.
+    fn is_true_of(&self, answer: Option<&Answer>) -> bool {
+        let Some(answer) = answer else { return !self.hits };
+        let near = |typed: Option<DVec3>, known: DVec3| {
+            typed.is_none_or(|typed| typed.distance(known) <= TYPED)
+        };
+        let weights = self.barycentric.is_none_or(|typed| {
+            answer.weights.is_some_and(|known| DVec3::from(typed).distance(known.into()) <= TYPED)
+        });
+        self.hits
+            && self.t.is_some_and(|t| (t - answer.t).abs() <= TYPED * answer.t.abs())
+            && near(self.normal, answer.geometric_normal)
+            && near(self.shading_normal, answer.shading_normal)
+            && weights
+    }
+
+    /// `ray 3 (from inside)`
+    fn label(&self, number: usize) -> String {
+        match self.because.as_str() {
+            "" => format!("ray {}", number + 1),
+            because => format!("ray {} ({because})", number + 1),
+        }
+    }
+}
+
+impl HitsPrimitive {
+    fn primitive(&self) -> Option<Primitive> {
+        match (self.triangle, self.sphere) {
+            (Some(TriangleEntry { vertices: positions, normals }), None) => {
+                let [a, b, c] = positions;
+                let flat = (b - a).cross(c - a).normalize_or_zero();
+                let normals =
+                    normals.map_or([flat; 3], |typed| typed.map(DVec3::normalize_or_zero));
+                Some(Primitive::Triangle { positions, normals })
+            }
+            (None, Some(SphereEntry { centre, radius })) => {
+                Some(Primitive::Sphere { centre, radius })
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Check for HitsPrimitive {
+    const NAME: &'static str = "hits-primitive";
+    const SUMMARY: &'static str = "rows of rays against one triangle or sphere";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::INTERSECT_PRIMITIVE
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        let primitive = self.primitive().ok_or("give either a `triangle` or a `sphere`")?;
+        if self.ray.iter().all(|row| row.robustness) {
+            return Err("no ray is graded".to_owned());
+        }
+        for (number, row) in self.ray.iter().enumerate().filter(|(_, row)| !row.robustness) {
+            let answer = intersection(&primitive, &row.ray());
+            if !row.is_true_of(answer.as_ref()) {
+                let row = row.label(number);
+                return Err(format!("{row} is not what the geometry gives: {answer:?}"));
+            }
+        }
+        Ok(())
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let primitive =
+            self.primitive().ok_or_else(|| CheckError::Broken("no primitive".into()))?;
+        let rays: Vec<_> = self.ray.iter().map(RayRow::ray).collect();
+        let mut hits = vec![Hit::MISS; rays.len()];
+        context.core.intersect_primitive(&primitive, &rays, &mut hits)?;
+        Ok(judge(&self.ray, &primitive, &hits, context.info.precision))
+    }
+}
+
+fn judge(rows: &[RayRow], primitive: &Primitive, hits: &[Hit], precision: Precision) -> Finding {
+    let mut measures = Vec::new();
+    let mut complaints = Vec::new();
+    for (number, (row, hit)) in rows.iter().zip(hits).enumerate() {
+        let answer = intersection(primitive, &row.ray());
+        let mut of_row = row_measures(row, number, answer.as_ref(), hit, precision);
+        if row.robustness {
+            of_row.iter_mut().for_each(|measure| measure.verdict = Verdict::Pass);
+        } else if let Some(worst) = of_row.iter().find(|m| m.verdict == Verdict::Fail) {
+            complaints.push(complaint(row, number, answer.as_ref(), hit, worst));
+        }
+        measures.extend(of_row);
+    }
+    let graded = || rows.iter().zip(hits).filter(|(row, _)| !row.robustness);
+    let statement = if complaints.is_empty() {
+        format!("{} rays come out as they should", graded().count())
+    } else {
+        let rays: Vec<_> = graded().map(|(row, _)| row.ray()).collect();
+        let hits: Vec<_> = graded().map(|(_, hit)| *hit).collect();
+        let allowed = 100.0 * Tolerance::INTERSECTION.of(precision);
+        failing_statement(&complaints, rays.len(), &explanations(primitive, &rays, &hits, allowed))
+    };
+    let resolution = format!(
+        "would have caught a t that is off by {}",
+        percent(Tolerance::INTERSECTION.of(precision))
+    );
+    Finding::of(statement, resolution, measures)
+}
+
+fn failing_statement(complaints: &[String], all: usize, causes: &[&str]) -> String {
+    let wrong = some_are(complaints.len(), all, "rays");
+    let mut details = complaints[..complaints.len().min(SPELT_OUT)].join("; ");
+    if complaints.len() > SPELT_OUT {
+        details += "; and so on";
+    }
+    match causes {
+        [] => format!("{wrong} wrong: {details}"),
+        causes => format!("{wrong} wrong: {}. {details}", causes.join(", or ")),
+    }
+}
+
+/// Whether it hits; and if it does and should, where, with which normals and weights.
+fn row_measures(
+    row: &RayRow,
+    number: usize,
+    answer: Option<&Answer>,
+    hit: &Hit,
+    precision: Precision,
+) -> Vec<Measure> {
+    let label = row.label(number);
+    let flag = |hits| f64::from(u8::from(hits));
+    let hits = Measure::exact(format!("{label}: hits"), flag(hit.is_hit()), flag(row.hits), 0.0);
+    let (true, Some(answer)) = (hit.is_hit() && row.hits, answer) else { return vec![hits] };
+    let intersection = Tolerance::INTERSECTION.of(precision);
+    let direction = Tolerance::DIRECTION.of(precision);
+    let error = |what: &str, error: f64, allowed: f64| {
+        Measure::exact(format!("{label}: error of the {what}"), error, 0.0, allowed)
+    };
+    let geometric = hit.geometric_normal.distance(answer.geometric_normal);
+    let shading = hit.shading_normal.distance(answer.shading_normal);
+    let mut measures = vec![
+        hits,
+        Measure::exact(format!("{label}: t"), hit.t, answer.t, intersection * answer.t.abs()),
+        error("geometric normal", geometric, direction),
+        error("shading normal", shading, direction),
+    ];
+    if let Some([_, v, w]) = answer.weights {
+        let off = (hit.uv.x - v).abs().max((hit.uv.y - w).abs());
+        measures.push(error("barycentric weights", off, intersection));
+    }
+    measures
+}
+
+fn complaint(
+    row: &RayRow,
+    number: usize,
+    answer: Option<&Answer>,
+    hit: &Hit,
+    worst: &Measure,
+) -> String {
+    let label = row.label(number);
+    match (hit.is_hit(), answer) {
+        (true, None) => format!("{label} hits at t = {}; it should miss", figure(hit.t)),
+        (false, Some(answer)) => {
+            format!("{label} misses; it should hit at t = {}", figure(answer.t))
+        }
+        _ if worst.expected == 0.0 => format!("{} is {}", worst.name, figure(worst.measured)),
+        _ => {
+            let (found, right) = (figure(worst.measured), figure(worst.expected));
+            format!("{} is {found} instead of {right}", worst.name)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::imitation::{Formula, as_hit, mistake};
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
+    use crate::contract::{Core, CoreInfo, Result};
+
+    struct Intersects(Formula);
+
+    impl Core for Intersects {
+        fn info(&self) -> CoreInfo {
+            info(Precision::Double)
+        }
+
+        fn intersect_primitive(
+            &mut self,
+            p: &Primitive,
+            rays: &[Ray],
+            hits: &mut [Hit],
+        ) -> Result<()> {
+            for (ray, hit) in rays.iter().zip(hits) {
+                *hit = as_hit((self.0)(p, ray));
+            }
+            Ok(())
+        }
+    }
+
+    const CASES: [&str; 4] = [
+        include_str!("../../../cases/intersection/rays-meet-a-triangle-where-they-should.toml"),
+        include_str!("../../../cases/intersection/only-the-segment-of-a-ray-counts.toml"),
+        include_str!("../../../cases/intersection/normals-are-interpolated-between-vertices.toml"),
+        include_str!(
+            "../../../cases/intersection/rays-meet-a-sphere-at-the-nearer-root-ahead.toml"
+        ),
+    ];
+
+    fn found(case: usize, formula: Formula) -> Finding {
+        judge(&check_of::<HitsPrimitive>(CASES[case]), &mut Intersects(formula))
+    }
+
+    #[test]
+    fn the_right_formula_passes_every_case() {
+        (0..CASES.len()).for_each(|case| assert_passes(&found(case, intersection)));
+    }
+
+    #[test]
+    fn mistakes_are_named_by_the_case_that_is_about_them() {
+        let named = [
+            (0, "v + w ≤ 1"),
+            (0, "hits from behind are culled"),
+            (0, "normals are flipped towards the ray"),
+            (1, "t_max"),
+            (1, "t_min"),
+            (1, "neither end"),
+            (1, "what lies behind the origin"),
+            (1, "t counts scene units"),
+            (2, "the weights of v1 and v2 are swapped"),
+            (2, "normals of v1 and v2 are swapped in the interpolation"),
+            (2, "moved on by one vertex: v0"),
+            (2, "weights moved back by one"),
+            (2, "the geometric normal stands where the interpolated"),
+            (2, "the interpolated normal stands where the geometric"),
+            (3, "only the nearer root"),
+            (3, "the farther root"),
+            (3, "leaves out a = d·d"),
+            (3, "where 2a belongs"),
+            (3, "normals point to the wrong side"),
+            (3, "t_min"),
+        ];
+        for (case, words) in named {
+            let finding = found(case, mistake(words));
+            let statement = failure(&finding);
+            assert!(statement.contains(words), "{words}: {statement}");
+        }
+    }
+
+    #[test]
+    fn a_ray_from_inside_that_misses_is_told_where_it_should_hit() {
+        let finding = found(3, mistake("only the nearer root"));
+        assert!(failure(&finding).contains("misses; it should hit at t = "), "{finding:?}");
+    }
+
+    #[test]
+    fn rows_for_robustness_are_shown_and_not_graded() {
+        let row = "hits = true\nt = 1.0\nrobustness = true";
+        let text = format!(
+            "[expect]\nsphere = {{ centre = [0, 0, 0], radius = 1 }}\n\
+             [[expect.ray]]\nfrom = [3, 0, 0]\ntoward = [1, 0, 0]\nhits = false\n\
+             [[expect.ray]]\nfrom = [0, 3, 0]\ntoward = [1, 0, 0]\n{row}\n"
+        );
+        let finding = judge(&check_of::<HitsPrimitive>(&text), &mut Intersects(intersection));
+        assert_passes(&finding);
+        assert_eq!(finding.measures[1].measured, 0.0);
+    }
+
+    #[test]
+    fn a_row_that_contradicts_its_own_geometry_is_the_cases_fault() {
+        let text = "sphere = { centre = [0, 0, 0], radius = 1 }\n\
+                    [[ray]]\nfrom = [3, 0, 0]\ntoward = [-1, 0, 0]\nhits = true\nt = 2.5\n";
+        let error = toml::from_str::<HitsPrimitive>(text).unwrap().validate().unwrap_err();
+        assert!(error.starts_with("ray 1 is not what the geometry gives"), "{error}");
+    }
+}

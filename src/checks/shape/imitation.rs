@@ -1,0 +1,359 @@
+//! Ray-primitive intersection, right and wrong: what a core answers if it has made one of the usual mistakes.
+//!
+//! A mistake is named only if it predicts every answer of a core, the right ones among them.
+
+use crate::contract::{Hit, Primitive, Ray};
+use glam::DVec3;
+
+/// What there is to say of a hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// Ray parameter in units of `|direction|`.
+    pub t: f64,
+    /// Unit, on the side of the winding; outward for a sphere.
+    pub geometric_normal: DVec3,
+    /// Unit, interpolated.
+    pub shading_normal: DVec3,
+    /// Weights of the three vertices; `None` for a sphere.
+    pub weights: Option<[f64; 3]>,
+}
+
+impl Answer {
+    /// Whether a core gave this answer, to within `allowed` (relative for t).
+    pub fn is_like(&self, hit: &Hit, allowed: f64) -> bool {
+        let weights = self.weights.is_none_or(|[_, v, w]| {
+            (hit.uv.x - v).abs() <= allowed && (hit.uv.y - w).abs() <= allowed
+        });
+        weights
+            && (hit.t - self.t).abs() <= allowed * self.t.abs()
+            && hit.geometric_normal.distance(self.geometric_normal) <= allowed
+            && hit.shading_normal.distance(self.shading_normal) <= allowed
+    }
+}
+
+/// An implementation of ray-primitive intersection.
+pub type Formula = fn(&Primitive, &Ray) -> Option<Answer>;
+
+/// The right one: the first meeting point inside the primitive and inside the open segment.
+pub fn intersection(primitive: &Primitive, ray: &Ray) -> Option<Answer> {
+    meetings(primitive, ray)
+        .into_iter()
+        .find(|m| m.is_inside() && is_on(ray, m.t))
+        .map(Meeting::answer)
+}
+
+fn is_on(ray: &Ray, t: f64) -> bool {
+    ray.t_min < t && t < ray.t_max
+}
+
+/// A point in which the whole line of a ray meets the sphere or the plane of the triangle.
+#[derive(Clone, Copy)]
+struct Meeting {
+    t: f64,
+    /// Barycentric weights, negative outside; (1, 0, 0) on a sphere.
+    weights: [f64; 3],
+    geometric: DVec3,
+    vertex_normals: [DVec3; 3],
+    on_triangle: bool,
+}
+
+impl Meeting {
+    fn is_inside(&self) -> bool {
+        self.weights.iter().all(|weight| *weight >= 0.0)
+    }
+
+    fn interpolated(&self, weights: [f64; 3]) -> DVec3 {
+        let sum: DVec3 = (0..3).map(|vertex| weights[vertex] * self.vertex_normals[vertex]).sum();
+        sum.normalize_or_zero()
+    }
+
+    fn answer(self) -> Answer {
+        Answer {
+            t: self.t,
+            geometric_normal: self.geometric,
+            shading_normal: self.interpolated(self.weights),
+            weights: self.on_triangle.then_some(self.weights),
+        }
+    }
+}
+
+/// In order of t: none, one (triangle) or two (sphere).
+fn meetings(primitive: &Primitive, ray: &Ray) -> Vec<Meeting> {
+    match primitive {
+        Primitive::Triangle { positions, normals } => {
+            plane_meeting(positions, normals, ray).into_iter().collect()
+        }
+        Primitive::Sphere { centre, radius } => sphere_meetings(*centre, *radius, ray),
+    }
+}
+
+/// Cramer's rule for o + t d = p0 + v e1 + w e2, after Möller and Trumbore (1997).
+fn plane_meeting(positions: &[DVec3; 3], normals: &[DVec3; 3], ray: &Ray) -> Option<Meeting> {
+    let (e1, e2) = (positions[1] - positions[0], positions[2] - positions[0]);
+    let from_first = ray.origin - positions[0];
+    let determinant = e1.dot(ray.direction.cross(e2));
+    if determinant == 0.0 {
+        return None;
+    }
+    let v = from_first.dot(ray.direction.cross(e2)) / determinant;
+    let w = ray.direction.dot(from_first.cross(e1)) / determinant;
+    Some(Meeting {
+        t: e2.dot(from_first.cross(e1)) / determinant,
+        weights: [1.0 - v - w, v, w],
+        geometric: e1.cross(e2).normalize(),
+        vertex_normals: *normals,
+        on_triangle: true,
+    })
+}
+
+fn sphere_meetings(centre: DVec3, radius: f64, ray: &Ray) -> Vec<Meeting> {
+    let from_centre = ray.origin - centre;
+    let a = ray.direction.length_squared();
+    let half_b = from_centre.dot(ray.direction);
+    let discriminant = half_b * half_b - a * (from_centre.length_squared() - radius * radius);
+    if discriminant < 0.0 {
+        return Vec::new();
+    }
+    let meeting = |sign: f64| {
+        let t = (-half_b + sign * discriminant.sqrt()) / a;
+        let normal = (ray.at(t) - centre) / radius;
+        Meeting {
+            t,
+            weights: [1.0, 0.0, 0.0],
+            geometric: normal,
+            vertex_normals: [normal; 3],
+            on_triangle: false,
+        }
+    };
+    vec![meeting(-1.0), meeting(1.0)]
+}
+
+/// An implementation that people write instead.
+pub struct Mistake {
+    /// What was done, after a colon.
+    pub words: &'static str,
+    /// What it answers.
+    pub formula: Formula,
+}
+
+/// The mistakes that predict every one of these answers: `hits[i]` to `rays[i]`.
+pub fn explanations(
+    primitive: &Primitive,
+    rays: &[Ray],
+    hits: &[Hit],
+    allowed: f64,
+) -> Vec<&'static str> {
+    let predicts = |mistake: &&Mistake| {
+        rays.iter().zip(hits).all(|(ray, hit)| match (mistake.formula)(primitive, ray) {
+            Some(answer) => hit.is_hit() && answer.is_like(hit, allowed),
+            None => !hit.is_hit(),
+        })
+    };
+    MISTAKES.iter().filter(predicts).map(|mistake| mistake.words).collect()
+}
+
+/// Accepts a meeting by another rule.
+fn first(primitive: &Primitive, ray: &Ray, accept: impl Fn(&Meeting) -> bool) -> Option<Answer> {
+    meetings(primitive, ray).into_iter().find(accept).map(Meeting::answer)
+}
+
+/// The right hit, with something else said about it.
+fn described(
+    primitive: &Primitive,
+    ray: &Ray,
+    describe: impl Fn(Meeting) -> Answer,
+) -> Option<Answer> {
+    meetings(primitive, ray).into_iter().find(|m| m.is_inside() && is_on(ray, m.t)).map(describe)
+}
+
+/// The right hit, with its shading normal interpolated by other weights.
+fn shaded(primitive: &Primitive, ray: &Ray, order: [usize; 3]) -> Option<Answer> {
+    described(primitive, ray, |meeting| {
+        let weights = order.map(|vertex| meeting.weights[vertex]);
+        let shading_normal = meeting.interpolated(weights);
+        Answer { shading_normal, weights: Some(weights), ..meeting.answer() }
+    })
+}
+
+/// The same where only the normal is interpolated wrongly, and the weights handed over are right.
+fn shaded_alone(primitive: &Primitive, ray: &Ray, order: [usize; 3]) -> Option<Answer> {
+    described(primitive, ray, |meeting| Answer {
+        shading_normal: meeting.interpolated(order.map(|vertex| meeting.weights[vertex])),
+        ..meeting.answer()
+    })
+}
+
+const MISTAKES: &[Mistake] = &[
+    Mistake {
+        words: "the end of the segment (t_max) is not looked at",
+        formula: |p, ray| first(p, ray, |m| m.is_inside() && ray.t_min < m.t),
+    },
+    Mistake {
+        words: "the start of the segment (t_min) is not looked at",
+        formula: |p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max && m.t > 0.0),
+    },
+    Mistake {
+        words: "neither end of the segment is looked at: whatever the line meets is hit",
+        formula: |p, ray| first(p, ray, Meeting::is_inside),
+    },
+    Mistake {
+        words: "what lies behind the origin is hit",
+        formula: |p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max),
+    },
+    Mistake {
+        words: "only the nearer root is tried, so that a ray from inside misses",
+        formula: |p, ray| {
+            let nearest = meetings(p, ray).into_iter().next();
+            nearest.filter(|m| m.is_inside() && is_on(ray, m.t)).map(Meeting::answer)
+        },
+    },
+    Mistake {
+        words: "the farther root is taken where the nearer one is right",
+        formula: |p, ray| {
+            let farthest = meetings(p, ray).into_iter().next_back();
+            farthest.filter(|m| m.is_inside() && is_on(ray, m.t)).map(Meeting::answer)
+        },
+    },
+    Mistake {
+        words: "the quadratic leaves out a = d·d, which is 1 for unit directions only",
+        formula: |p, ray| {
+            let Primitive::Sphere { centre, radius } = p else { return None };
+            let from_centre = ray.origin - *centre;
+            let half_b = from_centre.dot(ray.direction);
+            let c = from_centre.length_squared() - radius * radius;
+            let root = (half_b * half_b - c).sqrt();
+            let t = [-half_b - root, -half_b + root].into_iter().find(|t| is_on(ray, *t))?;
+            let normal = (ray.at(t) - *centre).normalize_or_zero();
+            Some(Answer { t, geometric_normal: normal, shading_normal: normal, weights: None })
+        },
+    },
+    Mistake {
+        words: "the quadratic divides by a where 2a belongs",
+        formula: |p, ray| {
+            let normal_at = |t: f64| match p {
+                Primitive::Sphere { centre, .. } => (ray.at(t) - *centre).normalize_or_zero(),
+                Primitive::Triangle { .. } => DVec3::ZERO,
+            };
+            let doubled = meetings(p, ray).into_iter().map(|m| 2.0 * m.t);
+            let t = doubled.into_iter().find(|t| is_on(ray, *t))?;
+            let normal = normal_at(t);
+            Some(Answer { t, geometric_normal: normal, shading_normal: normal, weights: None })
+        },
+    },
+    Mistake {
+        words: "t counts scene units, not lengths of the direction",
+        formula: |p, ray| {
+            let unit = ray.direction.length();
+            described(p, ray, |m| Answer { t: m.t * unit, ..m.answer() })
+        },
+    },
+    Mistake {
+        words: "the condition v + w ≤ 1 is missing: the triangle has become a parallelogram",
+        formula: |p, ray| {
+            first(p, ray, |m| m.weights[1] >= 0.0 && m.weights[2] >= 0.0 && is_on(ray, m.t))
+        },
+    },
+    Mistake {
+        words: "the whole plane of the triangle is hit",
+        formula: |p, ray| first(p, ray, |m| is_on(ray, m.t)),
+    },
+    Mistake {
+        words: "hits from behind are culled",
+        formula: |p, ray| {
+            let faces = |m: &Meeting| m.geometric.dot(ray.direction) < 0.0;
+            first(p, ray, |m| m.is_inside() && is_on(ray, m.t) && faces(m))
+        },
+    },
+    Mistake {
+        words: "the weights of v1 and v2 are swapped",
+        formula: |p, ray| shaded(p, ray, [0, 2, 1]),
+    },
+    Mistake {
+        words: "the normals of v1 and v2 are swapped in the interpolation",
+        formula: |p, ray| shaded_alone(p, ray, [0, 2, 1]),
+    },
+    Mistake {
+        words: "the weights are moved on by one vertex: v0 has the weight of v1",
+        formula: |p, ray| shaded(p, ray, [1, 2, 0]),
+    },
+    Mistake {
+        words: "the normals are interpolated with weights moved on by one vertex",
+        formula: |p, ray| shaded_alone(p, ray, [1, 2, 0]),
+    },
+    Mistake {
+        words: "the weights are moved back by one vertex: v0 has the weight of v2",
+        formula: |p, ray| shaded(p, ray, [2, 0, 1]),
+    },
+    Mistake {
+        words: "the normals are interpolated with weights moved back by one vertex",
+        formula: |p, ray| shaded_alone(p, ray, [2, 0, 1]),
+    },
+    Mistake {
+        words: "the geometric normal stands where the interpolated one belongs",
+        formula: |p, ray| {
+            described(p, ray, |m| Answer { shading_normal: m.geometric, ..m.answer() })
+        },
+    },
+    Mistake {
+        words: "the interpolated normal stands where the geometric one belongs",
+        formula: |p, ray| {
+            described(p, ray, |m| Answer {
+                geometric_normal: m.interpolated(m.weights),
+                ..m.answer()
+            })
+        },
+    },
+    Mistake {
+        words: "normals are flipped towards the ray; the side they are on must not depend on it",
+        formula: |p, ray| {
+            described(p, ray, |m| {
+                let side = -m.geometric.dot(ray.direction).signum();
+                let answer = m.answer();
+                Answer {
+                    geometric_normal: side * answer.geometric_normal,
+                    shading_normal: side * answer.shading_normal,
+                    ..answer
+                }
+            })
+        },
+    },
+    Mistake {
+        words: "normals point to the wrong side",
+        formula: |p, ray| {
+            described(p, ray, |m| {
+                let answer = m.answer();
+                Answer {
+                    geometric_normal: -answer.geometric_normal,
+                    shading_normal: -answer.shading_normal,
+                    ..answer
+                }
+            })
+        },
+    },
+];
+
+/// The answer as a core would give it.
+#[cfg(test)]
+pub fn as_hit(answer: Option<Answer>) -> Hit {
+    answer.map_or(Hit::MISS, |answer| {
+        let [_, v, w] = answer.weights.unwrap_or_default();
+        Hit {
+            t: answer.t,
+            shape: 0,
+            primitive: 0,
+            geometric_normal: answer.geometric_normal,
+            shading_normal: answer.shading_normal,
+            uv: glam::DVec2::new(v, w),
+        }
+    })
+}
+
+/// The formula of the mistake with these words.
+///
+/// # Panics
+/// If there is none.
+#[cfg(test)]
+pub fn mistake(words: &str) -> Formula {
+    let known = MISTAKES.iter().find(|mistake| mistake.words.contains(words));
+    known.unwrap_or_else(|| panic!("no mistake `{words}`")).formula
+}

@@ -1,0 +1,11 @@
+//! Rays against single primitives and boxes.
+
+mod agrees_with_exact_arithmetic;
+mod exact_triangle;
+mod hits_primitive;
+mod imitation;
+mod overlaps_box;
+
+pub use agrees_with_exact_arithmetic::AgreesWithExactArithmetic;
+pub use hits_primitive::HitsPrimitive;
+pub use overlaps_box::OverlapsBox;

@@ -1,0 +1,399 @@
+//! Rows of rays against boxes, the slab test, with exact rational arithmetic as the judge of the rows themselves.
+//!
+//! A ray that runs exactly along a face of the box divides 0 by 0 in the textbook's slab test, and correct
+//! programs differ there: such rows are marked `robustness`, shown, and not graded. A false hit only costs time;
+//! a false miss loses what is in the box.
+
+use crate::checks::phrase::{figure, some_are};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{BoxHit, Capabilities, Ray};
+use crate::scene::Aabb;
+use crate::stats::{Tolerance, Verdict};
+use glam::DVec3;
+use num_rational::BigRational;
+use num_traits::{ToPrimitive, Zero};
+use serde::Deserialize;
+
+/// Rays meet boxes where their rows say.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct OverlapsBox {
+    /// For the rows that have no box of their own.
+    r#box: BoxEntry,
+    ray: Vec<RayRow>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BoxEntry {
+    min: DVec3,
+    max: DVec3,
+}
+
+/// A ray segment, and whether it meets the closed box.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct RayRow {
+    r#box: Option<BoxEntry>,
+    from: DVec3,
+    toward: DVec3,
+    #[serde(default)]
+    after: f64,
+    #[serde(default = "infinity")]
+    up_to: f64,
+    hits: bool,
+    #[serde(default)]
+    because: String,
+    /// Shown, but not graded: correct implementations differ.
+    #[serde(default)]
+    robustness: bool,
+}
+
+const fn infinity() -> f64 {
+    f64::INFINITY
+}
+
+impl RayRow {
+    fn ray(&self) -> Ray {
+        Ray { origin: self.from, t_min: self.after, direction: self.toward, t_max: self.up_to }
+    }
+
+    fn label(&self, number: usize) -> String {
+        match self.because.as_str() {
+            "" => format!("ray {}", number + 1),
+            because => format!("ray {} ({because})", number + 1),
+        }
+    }
+}
+
+impl OverlapsBox {
+    fn bounds(&self, row: &RayRow) -> Aabb {
+        let BoxEntry { min, max } = row.r#box.unwrap_or(self.r#box);
+        Aabb { min, max }
+    }
+}
+
+impl Check for OverlapsBox {
+    const NAME: &'static str = "overlaps-box";
+    const SUMMARY: &'static str = "rows of rays against boxes, with exact arithmetic as the judge";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::INTERSECT_BOX
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        for (number, row) in self.ray.iter().enumerate() {
+            let truth = Overlap::exact(&self.bounds(row), &row.ray());
+            let truth = truth.ok_or_else(|| format!("ray {} is not finite", number + 1))?;
+            if truth.hits != row.hits {
+                let row = row.label(number);
+                return Err(format!("{row}: exact arithmetic says that hits = {}", truth.hits));
+            }
+        }
+        Ok(())
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let mut answers = Vec::new();
+        for row in &self.ray {
+            let mut hit = [BoxHit { t_enter: 0.0, t_exit: 0.0, hit: 0, reserved: 0 }];
+            context.core.intersect_box(&self.bounds(row), &[row.ray()], &mut hit)?;
+            answers.push(hit[0]);
+        }
+        Ok(self.judge(&answers, Tolerance::INTERSECTION.of(context.info.precision)))
+    }
+}
+
+impl OverlapsBox {
+    fn judge(&self, answers: &[BoxHit], allowed: f64) -> Finding {
+        let mut measures = Vec::new();
+        let mut complaints = Vec::new();
+        for (number, (row, answer)) in self.ray.iter().zip(answers).enumerate() {
+            let mut of_row = self.row_measures(row, number, answer, allowed);
+            if row.robustness {
+                of_row.iter_mut().for_each(|measure| measure.verdict = Verdict::Pass);
+            } else if let Some(worst) = of_row.iter().find(|m| m.verdict == Verdict::Fail) {
+                complaints.push(complaint(row, number, answer, worst));
+            }
+            measures.extend(of_row);
+        }
+        let graded = self.ray.iter().filter(|row| !row.robustness).count();
+        let statement = if complaints.is_empty() {
+            self.passing_statement(graded, answers)
+        } else {
+            let wrong = some_are(complaints.len(), graded, "rays");
+            let cause = self.cause(answers).map_or_else(String::new, |cause| format!(": {cause}"));
+            format!("{wrong} wrong{cause}; {}", complaints.join("; "))
+        };
+        Finding::of(statement, "would have caught one wrong ray", measures)
+    }
+
+    fn row_measures(
+        &self,
+        row: &RayRow,
+        number: usize,
+        answer: &BoxHit,
+        allowed: f64,
+    ) -> Vec<Measure> {
+        let label = row.label(number);
+        let flag = |hits| f64::from(u8::from(hits));
+        let hits = answer.hit == 1;
+        let mut measures =
+            vec![Measure::exact(format!("{label}: hits"), flag(hits), flag(row.hits), 0.0)];
+        if let (true, Some(truth)) = (hits, Overlap::exact(&self.bounds(row), &row.ray()))
+            && truth.hits
+        {
+            let end = |what, found, right: f64| {
+                Measure::exact(format!("{label}: {what}"), found, right, allowed * right.abs())
+            };
+            measures.push(end("t_enter", answer.t_enter, truth.enters));
+            measures.push(end("t_exit", answer.t_exit, truth.exits));
+        }
+        measures
+    }
+
+    fn passing_statement(&self, graded: usize, answers: &[BoxHit]) -> String {
+        let rows = || self.ray.iter().zip(answers).filter(|(row, _)| row.robustness);
+        let robust = rows().filter(|(row, answer)| (answer.hit == 1) == row.hits).count();
+        match rows().count() {
+            0 => format!("{graded} rays meet boxes as they should"),
+            all => format!(
+                "{graded} rays meet boxes as they should; of {all} along a face, not graded, {robust} do"
+            ),
+        }
+    }
+
+    /// The wrong implementation that gives every graded answer of the core.
+    fn cause(&self, answers: &[BoxHit]) -> Option<&'static str> {
+        let graded = || self.ray.iter().zip(answers).filter(|(row, _)| !row.robustness);
+        let predicts = |mistake: &&Mistake| {
+            graded().all(|(row, answer)| {
+                let slabs = Slabs::new(&self.bounds(row), &row.ray());
+                (mistake.hits)(&slabs, &row.ray()) == (answer.hit == 1)
+            })
+        };
+        MISTAKES.iter().find(predicts).map(|mistake| mistake.words)
+    }
+}
+
+fn complaint(row: &RayRow, number: usize, answer: &BoxHit, worst: &Measure) -> String {
+    let label = row.label(number);
+    match (answer.hit == 1, row.hits) {
+        (true, false) => format!("{label} hits, and should miss"),
+        (false, true) => format!("{label} misses, and should hit"),
+        _ => {
+            let (found, right) = (figure(worst.measured), figure(worst.expected));
+            format!("{} is {found} instead of {right}", worst.name)
+        }
+    }
+}
+
+/// The truth about a ray and a box.
+#[derive(Clone, Copy, Debug)]
+struct Overlap {
+    hits: bool,
+    /// Where the line enters the box and leaves it, rounded once.
+    enters: f64,
+    exits: f64,
+}
+
+impl Overlap {
+    /// In rationals: t ∈ [(lo − o)/d, (hi − o)/d] on each axis, or the axis decides alone if d = 0. `None` if a number
+    /// that has to be finite is not.
+    fn exact(bounds: &Aabb, ray: &Ray) -> Option<Self> {
+        let mut line: Option<(BigRational, BigRational)> = None;
+        for axis in 0..3 {
+            let [low, high, origin, direction] =
+                [bounds.min[axis], bounds.max[axis], ray.origin[axis], ray.direction[axis]]
+                    .map(BigRational::from_float);
+            let (from, to, direction) =
+                (low? - origin.as_ref()?, high? - origin.as_ref()?, direction?);
+            if direction.is_zero() {
+                if from > BigRational::zero() || to < BigRational::zero() {
+                    return Some(Self { hits: false, enters: f64::NAN, exits: f64::NAN });
+                }
+                continue;
+            }
+            let (a, b) = (from / &direction, to / &direction);
+            let (near, far) = if a <= b { (a, b) } else { (b, a) };
+            line = Some(match line {
+                None => (near, far),
+                Some((enters, exits)) => (enters.max(near), exits.min(far)),
+            });
+        }
+        let (enters, exits) = line?;
+        let starts_in_time = BigRational::from_float(ray.t_max).is_none_or(|end| enters <= end);
+        let ends_late_enough =
+            BigRational::from_float(ray.t_min).is_none_or(|start| exits >= start);
+        let hits = enters <= exits && starts_in_time && ends_late_enough;
+        Some(Self { hits, enters: enters.to_f64()?, exits: exits.to_f64()? })
+    }
+}
+
+/// The parameters at which a line crosses the planes of a box, as the textbook divides them.
+struct Slabs {
+    lower: DVec3,
+    upper: DVec3,
+}
+
+impl Slabs {
+    fn new(bounds: &Aabb, ray: &Ray) -> Self {
+        Self {
+            lower: (bounds.min - ray.origin) / ray.direction,
+            upper: (bounds.max - ray.origin) / ray.direction,
+        }
+    }
+
+    fn enters(&self) -> f64 {
+        self.lower.min(self.upper).max_element()
+    }
+
+    fn exits(&self) -> f64 {
+        self.lower.max(self.upper).min_element()
+    }
+
+    /// The right test, where no 0/0 occurs.
+    fn hits(&self, ray: &Ray) -> bool {
+        self.enters() <= self.exits() && self.exits() >= ray.t_min && self.enters() <= ray.t_max
+    }
+}
+
+/// An implementation that people write instead.
+struct Mistake {
+    words: &'static str,
+    hits: fn(&Slabs, &Ray) -> bool,
+}
+
+const MISTAKES: &[Mistake] = &[
+    Mistake {
+        words: "the two planes of an axis are not swapped where the direction is negative",
+        hits: |slabs, ray| {
+            let (enters, exits) = (slabs.lower.max_element(), slabs.upper.min_element());
+            enters <= exits && exits >= ray.t_min && enters <= ray.t_max
+        },
+    },
+    Mistake {
+        words: "t_min and t_max are not looked at",
+        hits: |slabs, _| slabs.enters() <= slabs.exits(),
+    },
+    Mistake {
+        words: "t_min is not looked at",
+        hits: |slabs, ray| slabs.enters() <= slabs.exits() && slabs.enters() <= ray.t_max,
+    },
+    Mistake {
+        words: "t_max is not looked at",
+        hits: |slabs, ray| slabs.enters() <= slabs.exits() && slabs.exits() >= ray.t_min,
+    },
+    Mistake {
+        words: "the entry has to lie behind t_min, so that rays from inside miss",
+        hits: |slabs, ray| slabs.hits(ray) && slabs.enters() >= ray.t_min,
+    },
+    Mistake {
+        words: "the exit has to lie before t_max, so that segments which end inside miss",
+        hits: |slabs, ray| slabs.hits(ray) && slabs.exits() <= ray.t_max,
+    },
+    Mistake {
+        words: "entry < exit is asked for, so that flat boxes are never hit",
+        hits: |slabs, ray| slabs.hits(ray) && slabs.enters() < slabs.exits(),
+    },
+    Mistake {
+        words: "the z axis is not looked at",
+        hits: |slabs, ray| without_axis(slabs, 2).hits(ray),
+    },
+    Mistake {
+        words: "the y axis is not looked at",
+        hits: |slabs, ray| without_axis(slabs, 1).hits(ray),
+    },
+    Mistake {
+        words: "the x axis is not looked at",
+        hits: |slabs, ray| without_axis(slabs, 0).hits(ray),
+    },
+];
+
+/// An axis in which the box has no end.
+fn without_axis(slabs: &Slabs, axis: usize) -> Slabs {
+    let (mut lower, mut upper) = (slabs.lower, slabs.upper);
+    (lower[axis], upper[axis]) = (f64::NEG_INFINITY, f64::INFINITY);
+    Slabs { lower, upper }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
+    use crate::contract::{Core, CoreInfo, Precision, Result};
+
+    struct Boxes(fn(&Slabs, &Ray) -> bool);
+
+    impl Core for Boxes {
+        fn info(&self) -> CoreInfo {
+            info(Precision::Double)
+        }
+
+        fn intersect_box(
+            &mut self,
+            bounds: &Aabb,
+            rays: &[Ray],
+            hits: &mut [BoxHit],
+        ) -> Result<()> {
+            for (ray, hit) in rays.iter().zip(hits) {
+                let slabs = Slabs::new(bounds, ray);
+                let (t_enter, t_exit) = (slabs.enters(), slabs.exits());
+                *hit = BoxHit { t_enter, t_exit, hit: (self.0)(&slabs, ray).into(), reserved: 0 };
+            }
+            Ok(())
+        }
+    }
+
+    const CASES: [&str; 3] = [
+        include_str!("../../../cases/bvh/a-segment-meets-a-box-or-does-not.toml"),
+        include_str!("../../../cases/bvh/flat-boxes-are-boxes.toml"),
+        include_str!("../../../cases/bvh/rays-along-a-face-are-in-the-box.toml"),
+    ];
+
+    fn found(case: usize, hits: fn(&Slabs, &Ray) -> bool) -> Finding {
+        judge(&check_of::<OverlapsBox>(CASES[case]), &mut Boxes(hits))
+    }
+
+    #[test]
+    fn the_right_test_passes_every_case() {
+        (0..CASES.len()).for_each(|case| assert_passes(&found(case, Slabs::hits)));
+    }
+
+    #[test]
+    fn every_mistake_is_caught_and_named_by_one_of_the_cases() {
+        for mistake in MISTAKES {
+            let named = (0..CASES.len()).any(|case| {
+                let finding = found(case, mistake.hits);
+                finding.verdict == Verdict::Fail && finding.statement.contains(mistake.words)
+            });
+            assert!(named, "{}", mistake.words);
+        }
+    }
+
+    #[test]
+    fn the_wrong_ray_is_named_with_its_reason() {
+        let finding = found(0, |slabs, ray| slabs.hits(ray) && slabs.enters() >= ray.t_min);
+        let statement = failure(&finding);
+        assert!(statement.contains("(from inside) misses, and should hit"), "{statement}");
+    }
+
+    #[test]
+    fn a_row_that_is_not_true_is_the_cases_fault() {
+        let text = "box = { min = [0, 0, 0], max = [1, 1, 1] }\n\
+                    [[ray]]\nfrom = [-1, 0.5, 0.5]\ntoward = [1, 0, 0]\nhits = false\n";
+        let error = toml::from_str::<OverlapsBox>(text).unwrap().validate().unwrap_err();
+        assert_eq!(error, "ray 1: exact arithmetic says that hits = true");
+    }
+
+    #[test]
+    fn exact_arithmetic_sees_what_doubles_cannot() {
+        // The ray leaves x at t = 2 and enters y at 2 + 2ε, or at 2.
+        let bounds = Aabb { min: DVec3::ZERO, max: DVec3::new(1.0, 1.0, 1.0) };
+        let just_over = 1.0 + f64::EPSILON;
+        let ray = Ray::new(DVec3::new(-1.0, -just_over, 0.5), DVec3::new(1.0, 0.5, 0.0));
+        assert!(!Overlap::exact(&bounds, &ray).unwrap().hits);
+        let ray = Ray::new(DVec3::new(-1.0, -1.0, 0.5), DVec3::new(1.0, 0.5, 0.0));
+        assert!(Overlap::exact(&bounds, &ray).unwrap().hits);
+    }
+}

@@ -38,6 +38,7 @@ pub struct Measure {
     #[serde(with = "number")]
     pub allowed: f64,
     /// 99.9 % interval of what was measured; none for deterministic measures.
+    #[serde(with = "number::interval")]
     pub interval: Option<[f64; 2]>,
     /// The smallest relative error that would have been caught.
     pub resolution: Option<f64>,
@@ -146,6 +147,36 @@ pub mod number {
             }
         }
     }
+
+    /// The same for both ends of an interval, where there is one.
+    pub mod interval {
+        use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+        #[derive(Serialize, Deserialize)]
+        struct End(#[serde(with = "super")] f64);
+
+        /// Writes an interval.
+        ///
+        /// # Errors
+        /// Those of the serializer.
+        pub fn serialize<S: Serializer>(
+            value: &Option<[f64; 2]>,
+            serializer: S,
+        ) -> Result<S::Ok, S::Error> {
+            value.map(|ends| ends.map(End)).serialize(serializer)
+        }
+
+        /// Reads what [`serialize`] has written.
+        ///
+        /// # Errors
+        /// If it is not a pair of numbers.
+        pub fn deserialize<'de, D: Deserializer<'de>>(
+            deserializer: D,
+        ) -> Result<Option<[f64; 2]>, D::Error> {
+            let ends = Option::<[End; 2]>::deserialize(deserializer)?;
+            Ok(ends.map(|ends| ends.map(|End(value)| value)))
+        }
+    }
 }
 
 #[cfg(test)]
@@ -160,6 +191,15 @@ mod tests {
     #[test]
     fn a_finding_of_nothing_is_not_a_pass() {
         assert_eq!(Finding::of("", "", Vec::new()).verdict, Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn an_interval_survives_json_even_without_end() {
+        let interval = Some([f64::NEG_INFINITY, f64::NAN]);
+        let measure = Measure { interval, ..Measure::exact("t", 1.0, 1.0, 0.5) };
+        let text = serde_json::to_string(&measure).unwrap();
+        let read = serde_json::from_str::<Measure>(&text).unwrap().interval.unwrap();
+        assert!(read[0] == f64::NEG_INFINITY && read[1].is_nan(), "{text}");
     }
 
     #[test]

@@ -137,7 +137,7 @@ fn viewer(view: &View<'_>, frames: &[Frame<'_>], side: usize) -> Markup {
             figcaption.faint {
                 "Radiance at " (format!("{:+.1}", look.stops)) " EV, sRGB"
                 (made_smaller(first, side)) ". "
-                span.scripted { "Click a picture to see it alone, again to flip to the one before." }
+                span.scripted { "Click a picture to see it alone, again to flip back." }
             }
         }
     }

@@ -21,7 +21,7 @@ impl Page for Ledger {
     }
 
     fn summary(&self) -> &'static str {
-        "what every trial has spent of the error budget, and the smallest error it would have caught"
+        "what every trial has spent of the error budget, and what it would have caught"
     }
 
     fn body(&self, view: &View<'_>) -> Option<Markup> {
@@ -44,7 +44,7 @@ fn sums(view: &View<'_>) -> Markup {
                 "below add up to a bound for the whole run, whatever the trials have in common; "
                 "checks without noise spend nothing."
             }
-            table.small {
+            table.small.sums {
                 thead { tr {
                     th scope="col" { "core" }
                     th.number scope="col" { "trials that spend" }

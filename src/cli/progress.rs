@@ -81,6 +81,7 @@ impl Progress {
             Display::Lines(out) => print(out, &opening(run, folder, already_done)),
             Display::Live(live) => live.plan(run.trials, already_done),
         }
+        self.close_at_the_end();
     }
 
     fn ended(&mut self, trial: &TrialRecord) {
@@ -94,6 +95,15 @@ impl Progress {
                 print(out, &format!("{place}  {}", line(trial, self.longest_core, Style::PLAIN)));
             }
             Display::Live(live) => live.end(trial, words(&self.tally), self.longest_core),
+        }
+        self.close_at_the_end();
+    }
+
+    /// Takes the bars away before anything else is printed: whatever stands below them would be
+    /// erased.
+    fn close_at_the_end(&mut self) {
+        if self.ended >= self.planned && matches!(self.display, Display::Live(_)) {
+            self.display = Display::Quiet;
         }
     }
 }
@@ -138,7 +148,7 @@ impl Live {
 }
 
 impl Drop for Live {
-    /// The summary follows: the bars have done their work.
+    /// Also when a run stops half-way.
     fn drop(&mut self) {
         for bar in self.running.values() {
             bar.finish_and_clear();
@@ -258,11 +268,23 @@ mod tests {
     fn the_live_display_forgets_what_has_ended() {
         let live = Live::new(ProgressDrawTarget::hidden(), true);
         let mut progress = Progress::on(Display::Live(live));
-        tell(&mut progress, &Example::mixed(), 4);
+        let mut example = Example::mixed();
+        example.run.trials += 1;
+        tell(&mut progress, &example, 4);
         let Display::Live(live) = &progress.display else { panic!("not live") };
-        assert_eq!((live.whole.position(), live.whole.length()), (24, Some(24)));
+        assert_eq!((live.whole.position(), live.whole.length()), (24, Some(25)));
         assert!(live.running.is_empty());
         assert!(live.whole.message().contains("3 fail"), "{}", live.whole.message());
+    }
+
+    #[test]
+    fn the_live_display_is_gone_when_the_last_trial_has_ended() {
+        for already_done in [0, 24] {
+            let live = Live::new(ProgressDrawTarget::hidden(), true);
+            let mut progress = Progress::on(Display::Live(live));
+            tell(&mut progress, &Example::green(), already_done);
+            assert!(matches!(progress.display, Display::Quiet));
+        }
     }
 
     #[test]

@@ -117,9 +117,17 @@ fn section(page: &dyn Page, view: &View<'_>) -> Markup {
     }
 }
 
-/// The result in a few words; a run that was cut off says so first.
+/// The result in a few words; a run that was cut off says so first, and claims nothing of the rest.
 fn headline(tree: &RunTree, tally: &Tally) -> String {
-    if tree.is_finished() { tally.headline() } else { format!("unfinished: {}", tally.headline()) }
+    if tree.is_finished() {
+        return tally.headline();
+    }
+    let fail = match tally.failures() {
+        0 => "none fails".to_owned(),
+        1 => "1 fails".to_owned(),
+        failures => format!("{failures} fail"),
+    };
+    format!("unfinished at {} of {} trials: {fail} so far", tally.total(), tree.run.trials)
 }
 
 /// A tab's icon: shape and colour of the result.

@@ -94,12 +94,16 @@ const WEAKEST_PASS: &str = "the smallest error that every pass would have caught
 
 fn score(view: &View<'_>) -> Markup {
     let tally = Tally::of(&view.tree.trials);
+    let planned = tally.total() + view.tree.missing();
     html! {
         div.card.score {
-            p.large { b { (tally.count(Status::Pass)) } " of " (tally.total()) " pass" }
+            p.large { b { (tally.count(Status::Pass)) } " of " (planned) " pass" }
             ul {
                 @for (status, number) in tally.iter() {
                     li { (badge(status)) span.number { (number) } }
+                }
+                @if view.tree.missing() > 0 {
+                    li { "no result" span.number { (view.tree.missing()) } }
                 }
                 li.fact {
                     a href="#ledger" title=(FALSE_ALARM) { "false alarm" }
@@ -151,8 +155,12 @@ fn cells(group: &PartGroup<'_>, core: &str) -> Markup {
         group.trials.iter().copied().filter(|trial| trial.core == core).collect();
     let passes = Tally::of(trials.iter().copied()).count(Status::Pass);
     html! {
-        span.cells { @for trial in &trials { (cell(trial)) } }
-        span.fraction { (passes) "/" (trials.len()) }
+        div.strip {
+            span.cells { @for trial in &trials { (cell(trial)) } }
+            span.fraction {
+                @if trials.is_empty() { "no result" } @else { (passes) "/" (trials.len()) }
+            }
+        }
     }
 }
 

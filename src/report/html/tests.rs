@@ -23,7 +23,7 @@ fn the_title_carries_the_result() {
     assert!(title(Example::green()).starts_with("all 24 trials pass · builtin"));
     let mut cut_off = Example::green();
     cut_off.trials.truncate(5);
-    assert!(title(cut_off).starts_with("unfinished: all 5 trials pass"));
+    assert!(title(cut_off).starts_with("unfinished at 5 of 24 trials: none fails so far"));
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn a_run_without_results_has_a_page_too() {
     let mut example = Example::green();
     example.trials.clear();
     let page = page(example);
-    assert!(page.contains("<title>unfinished: no trial has a result"));
+    assert!(page.contains("<title>unfinished at 0 of 24 trials"));
     assert!(!page.contains("All good"));
 }
 

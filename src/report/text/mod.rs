@@ -66,6 +66,9 @@ fn core_lines(tree: &RunTree, core: &CoreRecord, style: Style) -> Vec<String> {
     let groups = by_part(trials);
     let bar = groups.iter().map(|group| group.trials.len()).max().unwrap_or(0).min(LONGEST_BAR);
     let mut lines = vec![title];
+    if groups.is_empty() {
+        lines.push("    no trial has a result".to_owned());
+    }
     lines.extend(groups.iter().flat_map(|group| part_lines(group, bar, style)));
     lines
 }

@@ -138,6 +138,7 @@ fn an_unfinished_run_says_so_and_how_to_go_on() {
     example.trials.truncate(7);
     example.run.timing.seconds = None;
     let text = plain(example);
+    assert!(text.contains("  textbook 0.1.0 (f64)\n    no trial has a result\n"), "{text}");
     assert!(text.contains("\n  UNFINISHED: 7 of 24 planned trials have a result\n"), "{text}");
     assert!(text.contains("cargo furnace run --resume no-such-folder"), "{text}");
 }

@@ -35,6 +35,8 @@ enum Sight {
 /// A path on its way.
 struct Path {
     ray: Ray,
+    /// Back along the ray, unit.
+    wo: DVec3,
     /// What radiance at the end of `ray` is worth at the camera.
     throughput: Vec3,
     sight: Sight,
@@ -50,17 +52,17 @@ impl<'a> Integrator<'a> {
     pub fn radiance(&mut self, ray: &Ray, stream: Stream) -> Vec3 {
         self.stream = stream;
         let (first, last) = (*self.settings.bounces.start(), *self.settings.bounces.end());
-        let mut path = Path { ray: *ray, throughput: Vec3::ONE, sight: Sight::All };
+        let wo = -ray.direction.normalize();
+        let mut path = Path { ray: *ray, wo, throughput: Vec3::ONE, sight: Sight::All };
         let mut radiance = Vec3::ZERO;
         for bounce in 0..=last {
-            let wo = -path.ray.direction.normalize();
             let surface = self.eye.nearest(&path.ray);
             if bounce >= first {
-                radiance += path.throughput * self.glow(surface.as_ref(), wo, &path.sight);
+                radiance += path.throughput * self.glow(surface.as_ref(), &path);
             }
-            let Some(surface) = surface.filter(|_| bounce < last) else { break };
+            let (Some(surface), true) = (&surface, bounce < last) else { break };
             let world = self.eye.world;
-            let vertex = Vertex::new(&surface, world.bsdf(&surface), wo);
+            let vertex = Vertex::new(surface, world.bsdf(surface), path.wo);
             if bounce + 1 >= first && !vertex.bsdf.is_delta() {
                 radiance += path.throughput * self.direct_light(&vertex);
             }
@@ -70,10 +72,10 @@ impl<'a> Integrator<'a> {
         radiance
     }
 
-    /// What counts of the light that is emitted towards `wo` by a surface, or by the sky if there is none.
-    fn glow(&self, surface: Option<&Surface>, wo: DVec3, sight: &Sight) -> Vec3 {
-        let world = self.eye.world;
-        match (sight, surface) {
+    /// What counts of the light that the end of the path emits: a surface, or the sky if there is none.
+    fn glow(&self, surface: Option<&Surface>, path: &Path) -> Vec3 {
+        let (world, wo) = (self.eye.world, path.wo);
+        match (&path.sight, surface) {
             (Sight::Nothing, _) => Vec3::ZERO,
             (Sight::All, Some(surface)) => world.emitted(surface, wo),
             (Sight::All, None) => world.sky(-wo),
@@ -116,7 +118,7 @@ impl<'a> Integrator<'a> {
         } else {
             Sight::Nothing
         };
-        Some(Path { ray: vertex.leave(wi), throughput, sight })
+        Some(Path { ray: vertex.leave(wi), wo: -wi, throughput, sight })
     }
 
     /// The probability with which the path got over the `continuation`-th vertex, if it did.

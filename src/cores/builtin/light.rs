@@ -174,12 +174,19 @@ fn aim_at_area(
     Aim { sample: if is_valid == 1 { sample } else { INVALID }, target }
 }
 
+#[derive(Clone, Debug)]
+struct LightTriangle {
+    corners: [DVec3; 3],
+    /// Unit, on the front side; zero for a triangle without area.
+    normal: DVec3,
+    /// Of the mesh up to the end of this triangle.
+    area_up_to: f64,
+}
+
 /// A mesh whose front sides glow alike. Its points are equally likely.
 #[derive(Clone, Debug)]
 pub struct MeshLight {
-    corners: Vec<[DVec3; 3]>,
-    /// Area up to the end of each triangle.
-    area_up_to: Vec<f64>,
+    triangles: Vec<LightTriangle>,
     area: f64,
     radiance: Rgb,
     clearance: f64,
@@ -187,32 +194,31 @@ pub struct MeshLight {
 
 impl MeshLight {
     fn new(mesh: &Mesh, radiance: Rgb) -> Self {
-        let corners: Vec<_> = (0..mesh.indices.len()).map(|number| mesh.corners(number)).collect();
         let mut area = 0.0;
-        let area_up_to: Vec<f64> = (0..mesh.indices.len())
-            .map(|number| {
-                let triangle = mesh.area(number);
-                area += if triangle.is_finite() { triangle } else { 0.0 };
-                area
-            })
-            .collect();
-        let clearance = clearance_of(corners.iter().flatten().copied());
-        Self { corners, area_up_to, area, radiance, clearance }
+        let triangle = |number| {
+            let corners @ [a, b, c] = mesh.corners(number);
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            area += Some(mesh.area(number)).filter(|area| area.is_finite()).unwrap_or(0.0);
+            LightTriangle { corners, normal, area_up_to: area }
+        };
+        let triangles: Vec<_> = (0..mesh.indices.len()).map(triangle).collect();
+        let clearance = clearance_of(triangles.iter().flat_map(|triangle| triangle.corners));
+        Self { triangles, area, radiance, clearance }
     }
 
     /// `lobe` picks the triangle, in proportion to its area.
     fn aim(&self, from: DVec3, point: DVec2, lobe: f64) -> Aim {
-        let chosen = self.area_up_to.partition_point(|&area| area <= lobe * self.area);
+        let is_before = |triangle: &LightTriangle| triangle.area_up_to <= lobe * self.area;
         // The product may round up to the whole area.
-        let chosen = chosen.min(self.corners.len().saturating_sub(1));
-        let Some(&[a, b, c]) = self.corners.get(chosen).filter(|_| self.area > 0.0) else {
+        let last = self.triangles.len().saturating_sub(1);
+        let chosen = self.triangles.partition_point(is_before).min(last);
+        let Some(triangle) = self.triangles.get(chosen).filter(|_| self.area > 0.0) else {
             return Aim { sample: INVALID, target: None };
         };
         // Uniform in a triangle (Turk 1990).
-        let root = point.x.sqrt();
+        let ([a, b, c], root) = (triangle.corners, point.x.sqrt());
         let there = a * (1.0 - root) + (b * (1.0 - point.y) + c * point.y) * root;
-        let normal = (b - a).cross(c - a).normalize_or_zero();
-        aim_at_area(from, there, normal, self.area, self.radiance, self.clearance)
+        aim_at_area(from, there, triangle.normal, self.area, self.radiance, self.clearance)
     }
 }
 

@@ -37,11 +37,11 @@ impl BuiltinScene {
     fn walk(
         &self,
         rays: &[Ray],
-        mut one: impl FnMut(&mut Tracer<'_>, usize, Option<&Segment>),
+        mut one: impl FnMut(&mut Tracer<'_>, usize, &Segment),
     ) -> TraversalStats {
         let mut tracer = Tracer::new(&self.world.tree);
         for (index, ray) in rays.iter().enumerate() {
-            one(&mut tracer, index, Segment::new(ray).as_ref());
+            one(&mut tracer, index, &Segment::new(ray));
         }
         TraversalStats { rays: rays.len() as u64, ..tracer.stats }
     }
@@ -55,10 +55,8 @@ impl BuiltScene for BuiltinScene {
     fn intersect(&mut self, rays: &[Ray], hits: &mut [Hit]) -> Result<TraversalStats> {
         let rays = &rays[..rays.len().min(hits.len())];
         Ok(self.walk(rays, |tracer, index, segment| {
-            hits[index] = segment.map_or(Hit::MISS, |segment| {
-                let candidate = tracer.nearest(segment);
-                let surface = candidate.map(|found| self.world.geometry.surface(segment, found));
-                surface.map_or(Hit::MISS, |surface| hit(segment, &surface))
+            hits[index] = tracer.nearest(segment).map_or(Hit::MISS, |found| {
+                hit(segment, &self.world.geometry.surface(segment, found))
             });
         }))
     }
@@ -66,7 +64,7 @@ impl BuiltScene for BuiltinScene {
     fn occluded(&mut self, rays: &[Ray], occluded: &mut [bool]) -> Result<TraversalStats> {
         let rays = &rays[..rays.len().min(occluded.len())];
         Ok(self.walk(rays, |tracer, index, segment| {
-            occluded[index] = segment.is_some_and(|segment| tracer.is_blocked(segment));
+            occluded[index] = tracer.is_blocked(segment);
         }))
     }
 

@@ -94,13 +94,13 @@ impl<'a> Eye<'a> {
 
     /// The nearest surface along `ray`.
     pub fn nearest(&mut self, ray: &Ray) -> Option<Surface> {
-        let segment = Segment::new(ray)?;
+        let segment = Segment::new(ray);
         let candidate = self.tracer.nearest(&segment)?;
         Some(self.world.geometry.surface(&segment, candidate))
     }
 
     /// Whether anything lies on `ray`.
     pub fn is_blocked(&mut self, ray: &Ray) -> bool {
-        Segment::new(ray).is_some_and(|segment| self.tracer.is_blocked(&segment))
+        self.tracer.is_blocked(&Segment::new(ray))
     }
 }

@@ -62,8 +62,8 @@ pub fn cosine_density(cosine: f32) -> f32 {
 /// The same on every machine, which the standard library's are not, and two to three times as fast. The
 /// argument is brought to ±π/4 exactly; the Taylor remainders there are below 2⁻²⁹ (sine) and 2⁻³³ (cosine).
 pub fn sin_cos_of_turns(turns: f32) -> (f32, f32) {
-    let quarter = (4.0 * turns).round();
-    let angle = (4.0 * turns - quarter) * FRAC_PI_2;
+    let quarter = (4.0 * turns + 0.5) as u8;
+    let angle = (4.0 * turns - f32::from(quarter)) * FRAC_PI_2;
     let square = angle * angle;
     let sine = angle
         * (1.0
@@ -73,7 +73,7 @@ pub fn sin_cos_of_turns(turns: f32) -> (f32, f32) {
             * (1.0
                 - square / 12.0
                     * (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0))));
-    match quarter as u8 {
+    match quarter {
         1 => (cosine, -sine),
         2 => (-sine, -cosine),
         3 => (-cosine, sine),

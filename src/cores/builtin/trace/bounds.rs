@@ -1,34 +1,34 @@
 //! Axis-aligned boxes in single precision, made so that they never lose what they enclose.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3A};
 
 /// How much larger than its contents a box is, relative to the largest coordinate in it: two units in the
 /// last place. Covers the rounding of double precision corners, and keeps flat boxes from being flat.
 const MARGIN: f32 = f32::EPSILON * 2.0;
 
-/// A closed box. The empty box has `min = +∞` and `max = −∞`.
+/// A closed box, two vector registers wide. The empty box has `min = +∞` and `max = −∞`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Smallest coordinates.
-    pub min: Vec3,
+    pub min: Vec3A,
     /// Largest coordinates.
-    pub max: Vec3,
+    pub max: Vec3A,
 }
 
 impl Bounds {
     /// The box around nothing.
-    pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+    pub const EMPTY: Self = Self { min: Vec3A::INFINITY, max: Vec3A::NEG_INFINITY };
 
     /// The box around points that are exact in single precision or within rounding of it, with a margin.
     pub fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
         let tight =
-            points.into_iter().fold(Self::EMPTY, |bounds, point| bounds.with(point.as_vec3()));
+            points.into_iter().fold(Self::EMPTY, |bounds, point| bounds.with(point.as_vec3a()));
         let margin = MARGIN * tight.min.abs().max(tight.max.abs()).max_element();
         Self { min: tight.min - margin, max: tight.max + margin }
     }
 
     /// The smallest box around `self` and `point`.
-    pub fn with(self, point: Vec3) -> Self {
+    pub fn with(self, point: Vec3A) -> Self {
         Self { min: self.min.min(point), max: self.max.max(point) }
     }
 
@@ -38,18 +38,18 @@ impl Bounds {
     }
 
     /// From corner to corner; negative infinite for the empty box.
-    pub fn extent(self) -> Vec3 {
+    pub fn extent(self) -> Vec3A {
         self.max - self.min
     }
 
     /// Half the surface area, which is all that the surface area heuristic needs; 0 for the empty box.
     pub fn half_area(self) -> f32 {
-        let size = self.extent().max(Vec3::ZERO);
+        let size = self.extent().max(Vec3A::ZERO);
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 
     /// The point in the middle.
-    pub fn centre(self) -> Vec3 {
+    pub fn centre(self) -> Vec3A {
         0.5 * (self.min + self.max)
     }
 

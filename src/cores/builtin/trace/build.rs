@@ -6,7 +6,7 @@
 use super::bounds::Bounds;
 use super::surface_area;
 use crate::contract::Split;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Below this depth every rule gives way to the median, which needs at most 32 more levels.
 const RULED_DEPTH: usize = 64;
@@ -27,7 +27,7 @@ pub struct Item {
 impl Item {
     /// Where the item counts as being.
     #[inline]
-    pub fn centroid(&self) -> Vec3 {
+    pub fn centroid(&self) -> Vec3A {
         self.bounds.centre()
     }
 }

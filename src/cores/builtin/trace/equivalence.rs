@@ -60,7 +60,7 @@ fn rays(count: u32, stream: &mut Stream) -> Vec<Ray> {
 
 fn found(tracer: &mut Tracer<'_>, rays: &[Ray]) -> Vec<Option<(u32, u32)>> {
     let nearest = |ray: &Ray| {
-        let segment = Segment::new(ray).expect("a direction");
+        let segment = Segment::new(ray);
         let nearest = tracer.nearest(&segment);
         assert_eq!(tracer.is_blocked(&segment), nearest.is_some(), "any hit of {ray:?}");
         nearest.map(|candidate| (candidate.t.to_bits(), candidate.number))
@@ -168,7 +168,7 @@ fn no_ray_escapes_between_triangles() {
             1 => vertex(row, column).lerp(vertex(row + 1, column), along_edge),
             _ => origin + point(&mut stream),
         };
-        let segment = Segment::new(&Ray::new(origin, target - origin)).expect("a direction");
+        let segment = Segment::new(&Ray::new(origin, target - origin));
         assert!(tracer.nearest(&segment).is_some(), "ray {index} escaped");
     }
 }

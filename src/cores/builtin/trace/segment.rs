@@ -42,14 +42,12 @@ pub struct Segment {
 /// The ray for boxes: a plane at `p` is met at `p · inverse − offset`.
 #[derive(Clone, Debug)]
 pub struct Slabs {
-    /// Reciprocal of the direction.
+    /// Reciprocal of the direction; its sign says which of two planes the ray meets first.
     pub inverse: [f32; 3],
     /// Of the planes where the ray enters, a little too large.
     pub enter_offset: [f32; 3],
     /// Of the planes where it leaves, a little too small.
     pub exit_offset: [f32; 3],
-    /// For each axis, which of the two planes the ray meets first: 0 the lower, 1 the upper.
-    pub first: [usize; 3],
 }
 
 /// The ray for triangles: the shear that turns it into the z axis (Woop, Benthin and Wald 2013, "Watertight
@@ -59,7 +57,7 @@ pub struct Shear {
     /// Rounded origin, in the order of `axes`.
     pub origin: [f32; 3],
     /// World axes in the order x, y, z of the sheared space; z is where the direction is largest.
-    pub axes: [usize; 3],
+    pub axes: [u8; 3],
     /// Shear along x and y, and scale of z.
     pub factors: [f32; 3],
 }
@@ -69,24 +67,29 @@ impl Segment {
     /// and of the triangle test itself.
     pub const MARGIN: f32 = f32::EPSILON * 8.0;
 
-    /// Prepares `ray`. `None` for a direction that is zero or not finite, which hits nothing.
-    pub fn new(ray: &Ray) -> Option<Self> {
-        let scale = power_of_two_for(ray.direction.abs().max_element())?;
+    /// Prepares `ray`. A direction that is zero or not finite makes an empty segment, which hits nothing.
+    #[inline]
+    pub fn new(ray: &Ray) -> Self {
+        let (scale, inverse_scale) = power_of_two_for(ray.direction.abs().max_element());
         let direction = ray.direction * scale;
         let (origin32, direction32) = (ray.origin.as_vec3(), direction.as_vec3());
-        Some(Self {
+        let slabs = Slabs::new(origin32, direction32);
+        let shear = Shear::new(origin32, direction32, slabs.inverse);
+        Self {
             origin: ray.origin,
             direction,
             scale,
             limits: [ray.t_min, ray.t_max],
-            t_after: largest_not_above(ray.t_min / scale),
-            t_last: largest_below(ray.t_max / scale),
-            slabs: Slabs::new(origin32, direction32),
-            shear: Shear::new(origin32, direction32),
-        })
+            // An unusable direction has scale 0 and both ends NaN.
+            t_after: largest_not_above(ray.t_min * inverse_scale),
+            t_last: largest_below(ray.t_max * inverse_scale),
+            slabs,
+            shear,
+        }
     }
 
     /// `t` in units of the direction that was given, strictly inside the ends that were given.
+    #[inline]
     pub fn unscale(&self, t: f64) -> f64 {
         let [t_min, t_max] = self.limits;
         let given = t * self.scale;
@@ -108,50 +111,64 @@ impl Segment {
 }
 
 impl Slabs {
+    #[inline]
     fn new(origin: Vec3, direction: Vec3) -> Self {
         let away_from_zero =
-            |component: f32| component.abs().max(SMALLEST_COMPONENT).copysign(component);
-        let inverse = direction.to_array().map(|component| away_from_zero(component).recip());
-        let offset: [f32; 3] = std::array::from_fn(|axis| origin[axis] * inverse[axis]);
+            direction.abs().max(Vec3::splat(SMALLEST_COMPONENT)).copysign(direction);
+        let inverse = away_from_zero.recip();
+        let offset = origin * inverse;
+        let margin = offset.abs() * OFFSET_MARGIN;
         Self {
-            inverse,
-            enter_offset: offset.map(|offset| offset + offset.abs() * OFFSET_MARGIN),
-            exit_offset: offset.map(|offset| offset - offset.abs() * OFFSET_MARGIN),
-            first: inverse.map(|component| usize::from(component < 0.0)),
+            inverse: inverse.to_array(),
+            enter_offset: (offset + margin).to_array(),
+            exit_offset: (offset - margin).to_array(),
         }
+    }
+
+    /// The rows of a node's planes that the ray enters and leaves by along `axis`.
+    #[inline(always)]
+    pub fn rows(&self, axis: usize) -> [usize; 2] {
+        let is_backward = usize::from(self.inverse[axis] < 0.0);
+        [2 * axis + is_backward, 2 * axis + 1 - is_backward]
     }
 }
 
 impl Shear {
-    fn new(origin: Vec3, direction: Vec3) -> Self {
-        let z = direction.abs().max_position();
-        let axes = [(z + 1) % 3, (z + 2) % 3, z];
-        let [x, y, z] = axes;
+    #[inline]
+    fn new(origin: Vec3, direction: Vec3, inverse: [f32; 3]) -> Self {
+        let z = direction.abs().max_position() % 3;
+        let [x, y, z] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][z];
         Self {
-            origin: axes.map(|axis| origin[axis]),
-            axes,
-            factors: [direction[x] / direction[z], direction[y] / direction[z], 1.0 / direction[z]],
+            origin: [origin[x], origin[y], origin[z]],
+            axes: [x as u8, y as u8, z as u8],
+            factors: [direction[x] * inverse[z], direction[y] * inverse[z], inverse[z]],
         }
     }
 }
 
-/// The power of two that brings `largest` into [1, 2); `None` if it is zero, infinite or NaN.
-fn power_of_two_for(largest: f64) -> Option<f64> {
+/// The power of two that brings `largest` into [1, 2), and its reciprocal; 0 and NaN if `largest` is zero,
+/// infinite, NaN, or so large that the power would be denormal.
+#[inline]
+fn power_of_two_for(largest: f64) -> (f64, f64) {
     const EXPONENT: u64 = 0x7ff << 52;
     const TWICE_BIAS: u64 = (2 * 1023) << 52;
-    let is_usable = (f64::MIN_POSITIVE..=f64::MAX / 4.0).contains(&largest);
+    if !(f64::MIN_POSITIVE..=f64::MAX / 4.0).contains(&largest) {
+        return (0.0, f64::NAN);
+    }
     let exponent = largest.to_bits() & EXPONENT;
     // The biased exponents of x and 1/x, powers of two, add up to twice the bias.
-    is_usable.then(|| f64::from_bits(TWICE_BIAS - exponent))
+    (f64::from_bits(TWICE_BIAS - exponent), f64::from_bits(exponent))
 }
 
 /// The largest f32 not above `t`: an f32 is greater than it if and only if it is greater than `t`.
+#[inline]
 fn largest_not_above(t: f64) -> f32 {
     let rounded = t as f32;
     if f64::from(rounded) > t { rounded.next_down() } else { rounded }
 }
 
 /// The largest f32 below `t`: an f32 is not greater than it if and only if it is below `t`.
+#[inline]
 fn largest_below(t: f64) -> f32 {
     let rounded = t as f32;
     if f64::from(rounded) < t { rounded } else { rounded.next_down() }
@@ -166,7 +183,7 @@ mod tests {
     fn directions_of_any_length_are_scaled_exactly() {
         for length in [1e-300, 1e-3, 1.0, 7.0, 1e300] {
             let direction = dvec3(0.3, -0.9, 0.1) * length;
-            let segment = Segment::new(&Ray::new(DVec3::ZERO, direction)).expect("a direction");
+            let segment = Segment::new(&Ray::new(DVec3::ZERO, direction));
             let largest = segment.direction.abs().max_element();
             assert!((1.0..2.0).contains(&largest), "{length}: {largest}");
             assert_eq!(segment.direction / segment.scale, direction);
@@ -174,16 +191,16 @@ mod tests {
     }
 
     #[test]
-    fn a_direction_that_is_none_is_refused() {
+    fn a_direction_that_is_none_makes_an_empty_segment() {
         for direction in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY] {
-            assert!(Segment::new(&Ray::new(DVec3::ZERO, direction)).is_none(), "{direction}");
+            assert!(Segment::new(&Ray::new(DVec3::ZERO, direction)).t_last.is_nan(), "{direction}");
         }
     }
 
     #[test]
     fn both_ends_of_the_segment_are_open() {
         let ray = Ray { t_min: 1.0, t_max: 2.0, ..Ray::new(DVec3::ZERO, DVec3::X) };
-        let segment = Segment::new(&ray).expect("a direction");
+        let segment = Segment::new(&ray);
         assert_eq!(segment.t_after, 1.0);
         assert_eq!(segment.t_last, 2.0_f32.next_down());
         assert!(segment.unscale(1.0) > 1.0 && segment.unscale(2.0) < 2.0);

@@ -98,12 +98,10 @@ mod x86 {
         let mut enter = _mm256_set1_ps(t_after);
         let mut exit = _mm256_set1_ps(t_beyond);
         for axis in 0..3 {
-            let first = slabs.first[axis] & 1;
             let inverse = _mm256_set1_ps(slabs.inverse[axis]);
             let enter_offset = _mm256_set1_ps(slabs.enter_offset[axis]);
             let exit_offset = _mm256_set1_ps(slabs.exit_offset[axis]);
-            let first_planes = load8(&node.planes[2 * axis + first]);
-            let last_planes = load8(&node.planes[2 * axis + 1 - first]);
+            let [first_planes, last_planes] = slabs.rows(axis).map(|row| load8(&node.planes[row]));
             enter = _mm256_max_ps(_mm256_fmsub_ps(first_planes, inverse, enter_offset), enter);
             exit = _mm256_min_ps(_mm256_fmsub_ps(last_planes, inverse, exit_offset), exit);
         }
@@ -124,7 +122,7 @@ mod x86 {
     ) -> (u32, [f32; LANES]) {
         let origin = shear.origin.map(|coordinate| _mm_set1_ps(coordinate));
         let factors = shear.factors.map(|factor| _mm_set1_ps(factor));
-        let [x_rows, y_rows, z_rows] = shear.axes.map(|axis| &block.corners[axis]);
+        let [x_rows, y_rows, z_rows] = shear.axes.map(|axis| &block.corners[usize::from(axis)]);
         let (mut x, mut y, mut z) =
             ([_mm_setzero_ps(); 3], [_mm_setzero_ps(); 3], [_mm_setzero_ps(); 3]);
         for corner in 0..3 {

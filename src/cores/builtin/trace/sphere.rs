@@ -68,7 +68,7 @@ mod tests {
         let ball = Ball::new(0, DVec3::ZERO, 1.0, false);
         let first = |t_min, t_max| {
             let ray = Ray { t_min, t_max, ..Ray::new(dvec3(0.0, 0.0, -3.0), DVec3::Z) };
-            let segment = Segment::new(&ray).expect("a direction");
+            let segment = Segment::new(&ray);
             first_root_inside(&ball, &segment, segment.t_last)
         };
         assert_eq!(first(0.0, 9.0), Some(2.0));

@@ -31,20 +31,18 @@ impl Cut {
 
 /// Whether a leaf of `items` is expected to cost no more than dividing them.
 pub fn prefers_leaf(items: &[Item], summary: &Summary) -> bool {
-    let leaf_cost = blocks(items.len()) * summary.bounds.half_area();
-    match best_cut(items, summary) {
-        Some(cut) if items.len() > LANES => {
-            leaf_cost <= STEP_COST * summary.bounds.half_area() + cut.cost
-        }
-        _ => true,
-    }
+    let area = summary.bounds.half_area();
+    // One block is tested at once: dividing it cannot gain anything.
+    items.len() <= LANES
+        || best_cut(items, summary)
+            .is_none_or(|cut| blocks(items.len()) * area <= STEP_COST * area + cut.cost)
 }
 
 /// The cheapest cut of the candidates that leave something on both sides.
 pub fn best_cut(items: &[Item], summary: &Summary) -> Option<Cut> {
     let binning = Binning::new(items.len(), summary.centroids);
     let bins = binning.fill(items);
-    let cuts = (0..3).flat_map(|axis| cuts_along(axis, binning, &bins[axis]));
+    let cuts = (0..3).filter_map(|axis| best_along(axis, binning, &bins[axis]));
     cuts.min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
 
@@ -104,25 +102,25 @@ impl Binning {
     }
 }
 
-/// The cuts along one axis that leave something on both sides.
-fn cuts_along(
-    axis: usize,
-    binning: Binning,
-    bins: &[Bin; MOST_BINS],
-) -> impl Iterator<Item = Cut> + use<> {
+/// The cheapest cut along one axis.
+fn best_along(axis: usize, binning: Binning, bins: &[Bin; MOST_BINS]) -> Option<Cut> {
     let mut right = [Bin::EMPTY; MOST_BINS];
     let mut all = Bin::EMPTY;
-    for bin in (0..binning.count).rev() {
+    for bin in (1..binning.count).rev() {
         all = all.union(bins[bin]);
         right[bin] = all;
     }
-    let bins = *bins;
     let mut left = Bin::EMPTY;
-    (1..binning.count).filter_map(move |bin| {
+    let mut best: Option<Cut> = None;
+    for bin in 1..binning.count {
         left = left.union(bins[bin - 1]);
         let cost = left.cost() + right[bin].cost();
-        (left.count > 0 && right[bin].count > 0).then_some(Cut { binning, axis, bin, cost })
-    })
+        let is_proper = left.count > 0 && right[bin].count > 0;
+        if is_proper && best.is_none_or(|best| cost < best.cost) {
+            best = Some(Cut { binning, axis, bin, cost });
+        }
+    }
+    best
 }
 
 /// Blocks that `count` triangles fill.

@@ -69,7 +69,6 @@ impl<'a> Tracer<'a> {
 
     /// The nearest primitive on the segment.
     pub fn nearest(&mut self, segment: &Segment) -> Option<Candidate> {
-        self.stats.rays += 1;
         let (tree, stack, stats) = (self.tree, &mut self.stack, &mut self.stats);
         if self.has_simd {
             simd::walk::<false>(tree, segment, stack, stats)
@@ -80,7 +79,6 @@ impl<'a> Tracer<'a> {
 
     /// Whether there is any primitive on the segment.
     pub fn is_blocked(&mut self, segment: &Segment) -> bool {
-        self.stats.rays += 1;
         let (tree, stack, stats) = (self.tree, &mut self.stack, &mut self.stats);
         if self.has_simd {
             simd::walk::<true>(tree, segment, stack, stats).is_some()
@@ -135,6 +133,7 @@ pub fn walk<K: Kernel, const ANY: bool>(
     let stack = &mut *stack.0;
     let mut top = push_roots(tree, segment, stack);
     let mut best = Candidate { t: segment.t_last, number: Candidate::NO_NUMBER };
+    let mut counts = TraversalStats { rays: 1, ..TraversalStats::default() };
     while top > 0 {
         top -= 1;
         let mut child = stack[top].child();
@@ -144,15 +143,16 @@ pub fn walk<K: Kernel, const ANY: bool>(
         }
         while let Target::Node(index) = child.target() {
             let node = &tree.nodes[index];
-            stats.box_tests += node.child_count();
+            counts.box_tests += u64::from(node.child_count);
             let (mask, entries) = K::boxes(node, &segment.slabs, segment.t_after, beyond);
             child = push_all_but_nearest(node, mask, &entries, stack, &mut top);
         }
-        visit_leaf::<K>(tree, segment, child, &mut best, stats);
+        visit_leaf::<K>(tree, segment, child, &mut best, &mut counts.primitive_tests);
         if ANY && best.number != Candidate::NO_NUMBER {
             break;
         }
     }
+    *stats += counts;
     (best.number != Candidate::NO_NUMBER).then_some(best)
 }
 
@@ -213,14 +213,14 @@ fn visit_leaf<K: Kernel>(
     segment: &Segment,
     leaf: Child,
     best: &mut Candidate,
-    stats: &mut TraversalStats,
+    tests: &mut u64,
 ) {
     if leaf == Child::NONE {
         return;
     }
     match leaf.target() {
-        Target::Triangles(first) => visit_blocks::<K>(&tree.blocks[first..], segment, best, stats),
-        Target::Balls(first) => visit_balls(&tree.balls[first..], segment, best, stats),
+        Target::Triangles(first) => visit_blocks::<K>(&tree.blocks[first..], segment, best, tests),
+        Target::Balls(first) => visit_balls(&tree.balls[first..], segment, best, tests),
         Target::Node(_) => {}
     }
 }
@@ -230,10 +230,10 @@ fn visit_blocks<K: Kernel>(
     blocks: &[TriangleBlock],
     segment: &Segment,
     best: &mut Candidate,
-    stats: &mut TraversalStats,
+    tests: &mut u64,
 ) {
     for block in blocks {
-        stats.primitive_tests += block.triangle_count();
+        *tests += block.triangle_count();
         let (mut mask, ts) = K::triangles(block, &segment.shear, segment.t_after, best.t);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize % LANES;
@@ -246,14 +246,9 @@ fn visit_blocks<K: Kernel>(
     }
 }
 
-fn visit_balls(
-    balls: &[Ball],
-    segment: &Segment,
-    best: &mut Candidate,
-    stats: &mut TraversalStats,
-) {
+fn visit_balls(balls: &[Ball], segment: &Segment, best: &mut Candidate, tests: &mut u64) {
     for ball in balls {
-        stats.primitive_tests += 1;
+        *tests += 1;
         if let Some(t) = sphere::first_root_inside(ball, segment, best.t) {
             best.improve(t, ball.number());
         }
@@ -271,8 +266,7 @@ impl Kernel for Portable {
     fn boxes(node: &WideNode, slabs: &Slabs, t_after: f32, t_beyond: f32) -> (u32, [f32; WIDTH]) {
         let (mut enter, mut exit) = ([t_after; WIDTH], [t_beyond; WIDTH]);
         for axis in 0..3 {
-            let first = &node.planes[2 * axis + slabs.first[axis]];
-            let last = &node.planes[2 * axis + 1 - slabs.first[axis]];
+            let [first, last] = slabs.rows(axis).map(|row| &node.planes[row]);
             for lane in 0..WIDTH {
                 let near = first[lane] * slabs.inverse[axis] - slabs.enter_offset[axis];
                 let far = last[lane] * slabs.inverse[axis] - slabs.exit_offset[axis];
@@ -295,7 +289,7 @@ impl Kernel for Portable {
         t_after: f32,
         t_last: f32,
     ) -> (u32, [f32; LANES]) {
-        let [x_axis, y_axis, z_axis] = shear.axes;
+        let [x_axis, y_axis, z_axis] = shear.axes.map(usize::from);
         let mut ts = [0.0; LANES];
         let mut hits = [false; LANES];
         for lane in 0..LANES {

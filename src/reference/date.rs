@@ -9,8 +9,8 @@ pub(super) fn today() -> String {
     format!("{year:04}-{month:02}-{day:02}")
 }
 
-/// Year, month and day of a day counted from 1970-01-01; H. Hinnant, "chrono-compatible low-level date
-/// algorithms". The year begins in March there, so that the leap day is its last.
+/// Year, month and day of a day counted from 1970-01-01; H. Hinnant, "chrono-compatible low-level
+/// date algorithms". The year begins in March there, so that the leap day is its last.
 fn civil(day: u64) -> [u64; 3] {
     let day = day + 719_468;
     let (era, day_of_era) = (day / 146_097, day % 146_097);

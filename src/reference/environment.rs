@@ -1,12 +1,13 @@
-//! Python with Mitsuba in it: found, or installed where the user says so; and the back end that works here.
+//! Python with Mitsuba in it: found, or installed where the user says so; and the back end that
+//! works here.
 
 use super::mitsuba::{Job, Mitsuba, Variant};
 use super::{Listener, MakeError, Progress};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// The oldest LLVM that Mitsuba 3.9.1 generates code with. 14 is refused; 15 and 16 abort the process, for they
-/// have no instruction for the minimum of two numbers (llvm-project issue 53353).
+/// The oldest LLVM that Mitsuba 3.9.1 generates code with. 14 is refused; 15 and 16 abort the
+/// process, for they have no instruction for the minimum of two numbers (llvm-project issue 53353).
 const OLDEST_LLVM: u32 = 17;
 
 /// Where LLVM libraries are kept, by distribution.

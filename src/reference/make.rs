@@ -40,7 +40,8 @@ pub(super) struct Plan {
 }
 
 impl References {
-    /// Makes reference `name` as its recipe says, and writes it. Goes on where an earlier attempt was cut off.
+    /// Makes reference `name` as its recipe says, and writes it. Goes on where an earlier attempt
+    /// was cut off.
     pub fn make(
         &self,
         name: &str,
@@ -66,7 +67,8 @@ impl References {
         Ok(load(&self.folder, name, &plan.scene)?)
     }
 
-    /// Writes a scene for Mitsuba into a working folder of its own, or finds it there from an earlier attempt.
+    /// Writes a scene for Mitsuba into a working folder of its own, or finds it there from an
+    /// earlier attempt.
     pub(super) fn plan(
         &self,
         name: &str,
@@ -103,11 +105,16 @@ impl References {
         let beside = picture.with_extension("exr.tmp");
         let folder = self.folder.join(&plan.name);
         std::fs::create_dir_all(&folder).map_err(|problem| MakeError::file(&folder, &problem))?;
+        // One attribute only: the encoder writes several in any order, and the bytes would not be
+        // the same twice.
+        let about = format!(
+            "scene {} {}, see provenance.toml",
+            plan.recipe.scene,
+            content_hash(&plan.scene)
+        );
         let file = Exr::from_image(&average.mean())
             .with_colours(ERROR_PREFIX, &average.standard_error(), Storage::Half)
-            .with_attribute("furnace scene", plan.recipe.scene.clone())
-            .with_attribute("furnace scene hash", content_hash(&plan.scene))
-            .with_attribute("furnace provenance", "provenance.toml");
+            .with_attribute("furnace", about);
         exr::write(&beside, &file)?;
         let content =
             std::fs::read(&beside).map_err(|problem| MakeError::file(&beside, &problem))?;
@@ -209,4 +216,107 @@ pub(super) fn remove(folder: &Path) -> Result<(), MakeError> {
 /// Three significant digits.
 fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Library;
+    use tempfile::TempDir;
+
+    const RECIPE: &str = "bounces = 1\npasses = 16\nsamples-per-pass = 4\n";
+
+    /// A folder with a scene and a recipe for each film, and no Mitsuba.
+    fn workshop(film: &str) -> (TempDir, References) {
+        let folder = tempfile::tempdir().unwrap();
+        let scenes = folder.path().join("scenes");
+        std::fs::create_dir(&scenes).unwrap();
+        let scene = format!(
+            "title = \"t\"\nsource = \"s\"\n[camera]\nposition = [0, 0, 1]\nlook-at = [0, 0, 0]\n\
+             horizontal-fov = \"40 deg\"\nfilm = {film}\n"
+        );
+        std::fs::write(scenes.join("void.toml"), scene).unwrap();
+        std::fs::write(folder.path().join("recipes.toml"), format!("[void]\n{RECIPE}")).unwrap();
+        std::fs::write(folder.path().join("requirements.txt"), "mitsuba==3.9.1\n").unwrap();
+        let references = References::new(folder.path(), Library::new(scenes));
+        (folder, references)
+    }
+
+    fn refusal(references: &References, options: &MakeOptions) -> String {
+        references.make("void", options, &mut |_| ()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn what_exists_is_not_replaced_unasked() {
+        let (folder, references) = workshop("[64, 32]");
+        std::fs::create_dir(folder.path().join("void")).unwrap();
+        std::fs::write(provenance_path(folder.path(), "void"), "precious").unwrap();
+        let message = refusal(&references, &MakeOptions::default());
+        assert!(message.contains("exists already\nhint: `--replace`"), "{message}");
+        let kept = std::fs::read_to_string(provenance_path(folder.path(), "void")).unwrap();
+        assert_eq!(kept, "precious");
+    }
+
+    #[test]
+    fn films_that_make_seeds_overlap_are_refused() {
+        let (_folder, references) = workshop("[100, 76]");
+        let message = refusal(&references, &MakeOptions::default());
+        assert!(message.contains("multiples of 32"), "{message}");
+    }
+
+    #[test]
+    fn options_are_held_to_what_recipes_are_held_to() {
+        let (_folder, references) = workshop("[64, 32]");
+        let few = MakeOptions { passes: Some(2), ..MakeOptions::default() };
+        assert!(refusal(&references, &few).contains("at least 16 passes"));
+        let long = MakeOptions { samples_per_pass: Some(1000), ..MakeOptions::default() };
+        assert!(refusal(&references, &long).contains("1 to 256 samples"));
+    }
+
+    #[test]
+    fn without_mitsuba_the_scene_is_ready_and_the_way_to_get_it_is_named() {
+        let (folder, references) = workshop("[64, 32]");
+        let message = refusal(&references, &MakeOptions::default());
+        assert!(message.contains("`--create-venv` installs mitsuba==3.9.1"), "{message}");
+        let work = std::fs::read_dir(folder.path().join(".work")).unwrap().next().unwrap().unwrap();
+        assert!(work.path().join("scene.xml").is_file());
+    }
+
+    #[test]
+    fn passes_become_a_reference_that_loads() {
+        let (folder, references) = workshop("[64, 32]");
+        let recipe = recipe::read(folder.path(), "void").unwrap();
+        let plan = references.plan("void", recipe, "make").unwrap();
+        for seed in 0..16u32 {
+            let value = if seed.is_multiple_of(2) { 0.5f32 } else { 1.5 };
+            let bytes = vec![value.to_le_bytes(); 64 * 32 * 3].concat();
+            std::fs::write(plan.job.folder.join(format!("pass-{seed}.f32")), bytes).unwrap();
+        }
+        let seeds: Vec<u32> = (0..16).collect();
+        let average = plan.average(&seeds).unwrap();
+        let variant = super::super::mitsuba::Variant { name: "none".to_owned(), llvm: None };
+        let mitsuba = Mitsuba { python: "python".into(), variant };
+        let options = MakeOptions { passes: Some(16), ..MakeOptions::default() };
+        let provenance = plan.provenance(&mitsuba, Spent::default(), &average, &options);
+        references.write(&plan, &average, provenance).unwrap();
+        let reference = load(folder.path(), "void", &plan.scene).unwrap();
+        assert_eq!(reference.mean.pixels[0], [1.0; 3]);
+        // Squared deviations of a quarter, over 15, over 16 passes.
+        let expected = (16.0f32 * 0.25 / 15.0 / 16.0).sqrt();
+        assert!((reference.standard_error.pixels[0][0] - expected).abs() < expected / 64.0);
+        assert_eq!(reference.provenance.command, "furnace reference make void --passes 16");
+    }
+
+    #[test]
+    fn a_pass_with_light_that_cannot_be_is_named() {
+        let (folder, references) = workshop("[64, 32]");
+        let recipe = recipe::read(folder.path(), "void").unwrap();
+        let plan = references.plan("void", recipe, "make").unwrap();
+        let bytes = vec![f32::NAN.to_le_bytes(); 64 * 32 * 3].concat();
+        std::fs::write(plan.job.folder.join("pass-7.f32"), bytes).unwrap();
+        let message = plan.average(&[7]).err().unwrap().to_string();
+        assert!(message.contains("pass 7 of `void`"), "{message}");
+        let message = plan.average(&[8]).err().unwrap().to_string();
+        assert!(message.contains("pass 8 is missing"), "{message}");
+    }
 }

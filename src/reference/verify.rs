@@ -26,13 +26,13 @@ pub struct Verification {
 /// The relative error of the whole picture that must be seen.
 const DETECTS: f64 = 0.01;
 
-/// Far from the seeds that references are made of, and below 2²⁰, from where on Mitsuba's scalar back end repeats
-/// itself on films of 128 × 96 pixels.
+/// Far from the seeds that references are made of, and below 2²⁰, from where on Mitsuba's scalar
+/// back end repeats itself on films of 128 × 96 pixels.
 const FIRST_SEED: u32 = 500_000;
 
 impl References {
-    /// Renders passes with seeds the reference has not seen, and judges them as a core's picture is judged:
-    /// screened, and confirmed if suspected.
+    /// Renders passes with seeds the reference has not seen, and judges them as a core's picture is
+    /// judged: screened, and confirmed if suspected.
     pub fn verify(
         &self,
         name: &str,
@@ -64,7 +64,8 @@ impl References {
     }
 }
 
-/// The seeds of all runs of a stage: rendered together, for starting Mitsuba takes longer than a pass.
+/// The seeds of all runs of a stage: rendered together, for starting Mitsuba takes longer than a
+/// pass.
 fn seeds_of(stage: Stage, effort: &ImageEffort) -> Vec<u32> {
     let (block, runs) = match stage {
         Stage::Second => (1, effort.confirm_runs),

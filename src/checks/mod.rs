@@ -4,14 +4,16 @@
 //! seed; it leaves every verdict to [`crate::stats`]. To add one: write the file, add a line to [`CHECKS`].
 
 pub mod adaptive;
+pub mod bsdf;
 pub mod camera;
 mod context;
 pub mod convergence;
 mod finding;
-pub mod picture;
 mod phrase;
+pub mod picture;
 pub mod robustness;
 pub mod shape;
+mod surface;
 #[cfg(test)]
 mod testing;
 pub mod transport;
@@ -115,11 +117,17 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<shape::HitsPrimitive>(),
     CheckKind::of::<shape::AgreesWithExactArithmetic>(),
     CheckKind::of::<shape::OverlapsBox>(),
+    CheckKind::of::<bsdf::AgreesWithItself>(),
+    CheckKind::of::<bsdf::Reciprocal>(),
+    CheckKind::of::<bsdf::ConservesEnergy>(),
     CheckKind::of::<transport::MeanRadiance>(),
     CheckKind::of::<transport::EstimatorsAgree>(),
     CheckKind::of::<transport::RadianceIsLinear>(),
     CheckKind::of::<transport::BouncesAddUp>(),
+    CheckKind::of::<adaptive::StopsWhereItShould>(),
     CheckKind::of::<adaptive::SampleCounts>(),
+    CheckKind::of::<robustness::SameSeedSamePicture>(),
+    CheckKind::of::<robustness::SeedsMatter>(),
     CheckKind::of::<robustness::RadianceIsFinite>(),
     CheckKind::of::<convergence::ErrorFallsAsRootN>(),
     CheckKind::of::<picture::MatchesReference>(),

@@ -15,6 +15,7 @@ mod calibration;
 mod cells;
 mod chi_square;
 mod claim;
+mod correlation;
 mod count_report;
 mod dead_pixels;
 mod exact;
@@ -40,6 +41,7 @@ pub use chi_square::{
     COUNTS_FALSE_ALARM, CountSource, FEWEST_EXPECTED, judge_count_source, judge_counts,
 };
 pub use claim::{Band, Claim, Sides};
+pub use correlation::{CORRELATION_FALSE_ALARM, CorrelationReport, judge_uncorrelated};
 pub use count_report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};
 pub use exact::{Compared, ExactReport, Tolerance, Worst, judge_exact};
 pub use histogram::{BatchDensity, CellProbabilities, Counts, SphereCells};

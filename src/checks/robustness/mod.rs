@@ -1,5 +1,10 @@
 //! What must hold whatever is rendered: finite radiance, seeds that matter, answers that repeat.
 
 mod radiance_is_finite;
+mod rendering;
+mod same_seed_same_picture;
+mod seeds_matter;
 
 pub use radiance_is_finite::RadianceIsFinite;
+pub use same_seed_same_picture::SameSeedSamePicture;
+pub use seeds_matter::SeedsMatter;

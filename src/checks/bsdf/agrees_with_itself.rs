@@ -1,0 +1,228 @@
+//! What a BSDF samples is what it evaluates: the same value, the same density, nothing below the horizon.
+
+use crate::checks::phrase::{some_are, worst_measure};
+use crate::checks::surface::SurfaceEntry;
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{BsdfQuery, BsdfSample, BsdfValue, Capabilities, Randomness};
+use crate::math::frame::direction;
+use crate::math::rng::{Seed, Stream, uniform};
+use crate::math::sphere::{at_height, on_hemisphere};
+use crate::stats::{Compared, Tolerance, judge_exact};
+use glam::{DVec2, DVec3};
+use serde::Deserialize;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// Views with many samples each.
+const VIEWS: usize = 64;
+const SAMPLES_PER_VIEW: usize = 512;
+/// Angles from the horizon at which mistakes divide by nearly nothing, radians.
+const GRAZING: [f64; 4] = [1e-2, 1e-4, 1e-8, 1e-12];
+
+/// Sampled directions are evaluated again.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct AgreesWithItself {
+    surface: Vec<SurfaceEntry>,
+}
+
+impl Check for AgreesWithItself {
+    const NAME: &'static str = "bsdf-agrees-with-itself";
+    const SUMMARY: &'static str = "sampled values and densities are those that are evaluated";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::EVAL_BSDF | Capabilities::SAMPLE_BSDF
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        if self.surface.is_empty() { Err("there are no surfaces".to_owned()) } else { Ok(()) }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let mut measures = Vec::new();
+        let mut complaints = Vec::new();
+        for surface in &self.surface {
+            let drawn = Drawn::new(context, *surface)?;
+            let (more, complaint) = drawn.judge(context)?;
+            measures.extend(more);
+            complaints.extend(complaint);
+        }
+        let statement = match complaints.is_empty() {
+            true => format!("{} surfaces agree with themselves", self.surface.len()),
+            false => complaints.join("; "),
+        };
+        Ok(Finding::of(statement, "would have caught one sample in a hundred thousand", measures))
+    }
+}
+
+/// Samples of one surface, with the views they were drawn for.
+struct Drawn {
+    surface: SurfaceEntry,
+    views: Vec<DVec3>,
+    samples: Vec<BsdfSample>,
+}
+
+/// Directions of the upper hemisphere, among them straight on and grazing ones.
+fn views(stream: &mut Stream) -> Vec<DVec3> {
+    let special = GRAZING.iter().map(|up| direction(FRAC_PI_2 - up, 1.0)).chain([DVec3::Z]);
+    let mut views: Vec<_> = special.collect();
+    views.resize_with(VIEWS, || on_hemisphere(stream));
+    views
+}
+
+impl Drawn {
+    fn new(context: &mut Context<'_>, surface: SurfaceEntry) -> Result<Self, CheckError> {
+        let seed = context.seed.child(surface);
+        let mut stream = seed.stream();
+        let each = |view: DVec3| std::iter::repeat_n(view, SAMPLES_PER_VIEW);
+        let views: Vec<_> = views(&mut stream).into_iter().flat_map(each).collect();
+        let (points, lobes) = numbers(seed, views.len());
+        let random = Randomness { points: &points, lobes: &lobes, seed: seed.0 };
+        let nothing = BsdfSample { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
+        let mut samples = vec![nothing; views.len()];
+        context.core.sample_bsdf(&surface.material(), &views, random, &mut samples)?;
+        Ok(Self { surface, views, samples })
+    }
+
+    fn judge(
+        &self,
+        context: &mut Context<'_>,
+    ) -> Result<(Vec<Measure>, Option<String>), CheckError> {
+        if self.surface.is_delta() {
+            return self.judge_delta(context);
+        }
+        let allowed = Tolerance::SAME_VALUE.of(context.info.precision);
+        let valid: Vec<_> = self.valid().collect();
+        let values = self.evaluated(context, valid.iter().map(|(view, s)| (*view, s.wi)))?;
+        let pairs = || valid.iter().zip(&values);
+        let pdf = judge_exact(pairs().map(|((_, s), v)| Compared::relative(s.pdf, v.pdf, allowed)));
+        let f = judge_exact(pairs().flat_map(|((_, s), v)| {
+            (0..3).map(move |c| Compared::relative(s.f[c], v.f[c], allowed))
+        }));
+        let below = self.lit_below_horizon(context)?;
+        let name = self.surface.to_string();
+        let measures = vec![
+            worst_measure(format!("{name}: density of a sample"), &pdf),
+            worst_measure(format!("{name}: value of a sample"), &f),
+            Measure::exact(
+                format!("{name}: directions below the horizon with a value"),
+                below,
+                0.0,
+                0.0,
+            ),
+        ];
+        let complaint = if pdf.disagree > 0 {
+            Some(format!(
+                "{} drawn with another density than evaluated",
+                some_are(pdf.disagree, pdf.compared, "samples")
+            ))
+        } else if f.disagree > 0 {
+            Some(format!(
+                "{} drawn with another value than evaluated",
+                some_are(f.disagree, f.compared, "channels")
+            ))
+        } else {
+            (below > 0.0)
+                .then(|| format!("{below} directions below the horizon have a value or a density"))
+        };
+        Ok((measures, complaint.map(|complaint| format!("{name}: {complaint}"))))
+    }
+
+    /// A mirror or glass says so, and is nothing to whoever evaluates it.
+    fn judge_delta(
+        &self,
+        context: &mut Context<'_>,
+    ) -> Result<(Vec<Measure>, Option<String>), CheckError> {
+        let unmarked = self.valid().filter(|(_, sample)| sample.is_delta == 0).count();
+        let mut stream = context.seed.child("elsewhere").stream();
+        let elsewhere: Vec<_> =
+            self.views.iter().map(|view| (*view, on_hemisphere(&mut stream))).collect();
+        let values = self.evaluated(context, elsewhere.into_iter())?;
+        let lit = values.iter().filter(|value| has_value(value)).count();
+        let name = self.surface.to_string();
+        let measures = vec![
+            Measure::exact(
+                format!("{name}: samples not marked as delta"),
+                unmarked as f64,
+                0.0,
+                0.0,
+            ),
+            Measure::exact(format!("{name}: other directions with a value"), lit as f64, 0.0, 0.0),
+        ];
+        let complaint = (unmarked + lit > 0)
+            .then(|| format!("{name} is certain of its direction: mark it, and evaluate to zero"));
+        Ok((measures, complaint))
+    }
+
+    fn valid(&self) -> impl Iterator<Item = (DVec3, BsdfSample)> {
+        let pairs = self.views.iter().copied().zip(self.samples.iter().copied());
+        pairs.filter(|(_, sample)| sample.is_valid == 1)
+    }
+
+    fn evaluated(
+        &self,
+        context: &mut Context<'_>,
+        pairs: impl Iterator<Item = (DVec3, DVec3)>,
+    ) -> Result<Vec<BsdfValue>, CheckError> {
+        let queries: Vec<_> = pairs.map(|(wo, wi)| BsdfQuery { wo, wi }).collect();
+        let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
+        context.core.eval_bsdf(&self.surface.material(), &queries, &mut values)?;
+        Ok(values)
+    }
+
+    /// A surface that reflects only has no value below the horizon.
+    fn lit_below_horizon(&self, context: &mut Context<'_>) -> Result<f64, CheckError> {
+        let mut stream = context.seed.child("below").stream();
+        let mut down = || at_height(-1.0 + 0.99 * uniform(&mut stream), TAU * uniform(&mut stream));
+        let pairs: Vec<_> = self.views.iter().map(|view| (*view, down())).collect();
+        let values = self.evaluated(context, pairs.into_iter())?;
+        Ok(values.iter().filter(|value| has_value(value)).count() as f64)
+    }
+}
+
+fn has_value(value: &BsdfValue) -> bool {
+    value.pdf != 0.0 || value.f != [0.0; 3]
+}
+
+fn numbers(seed: Seed, count: usize) -> (Vec<DVec2>, Vec<f64>) {
+    let mut stream = seed.child("numbers").stream();
+    let mut next = || uniform(&mut stream);
+    let points = (0..count).map(|_| DVec2::new(next(), next())).collect();
+    let lobes = (0..count).map(|_| next()).collect();
+    (points, lobes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::Fake;
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+
+    const CASE: &str = "[expect]\nsurface = [{ diffuse = 0.5 }]";
+
+    fn found(fake: Fake) -> Finding {
+        judge(&check_of::<AgreesWithItself>(CASE), &mut { fake })
+    }
+
+    #[test]
+    fn a_lambertian_surface_agrees() {
+        assert_passes(&found(Fake::default()));
+    }
+
+    #[test]
+    fn another_density_in_samples_is_seen() {
+        let fake = Fake { sampled_pdf: 0.999, ..Fake::default() };
+        assert!(failure(&found(fake)).contains("another density"));
+    }
+
+    #[test]
+    fn another_value_in_samples_is_seen() {
+        let fake = Fake { sampled_value: 2.0, ..Fake::default() };
+        assert!(failure(&found(fake)).contains("another value"));
+    }
+
+    #[test]
+    fn light_from_below_is_seen() {
+        let fake = Fake { shines_through: true, ..Fake::default() };
+        assert!(failure(&found(fake)).contains("below the horizon"));
+    }
+}

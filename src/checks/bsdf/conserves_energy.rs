@@ -1,0 +1,140 @@
+//! The albedo of a surface: never above one, and what its parameters say it is.
+
+use crate::checks::phrase::{figure, would_have_caught};
+use crate::checks::surface::{SurfaceEntry, seen_from};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{BsdfQuery, BsdfValue, Capabilities, SmithTerm};
+use crate::math::closed_form::microfacet::{self, Masking};
+use crate::math::quadrature::Diligence;
+use crate::math::ratios::names_of;
+use crate::scene::Surface;
+use crate::stats::{SphereCells, Tolerance, Verdict};
+use crate::text::Angle;
+use serde::Deserialize;
+
+/// Rings in each hemisphere and sectors of the quadrature.
+const CELLS: (usize, usize) = (4, 8);
+
+/// Integrates f · cos over the sphere, from several views.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ConservesEnergy {
+    surface: Vec<SurfaceEntry>,
+    seen_from: Vec<Angle>,
+}
+
+impl Check for ConservesEnergy {
+    const NAME: &'static str = "bsdf-conserves-energy";
+    const SUMMARY: &'static str = "quadrature of f cos is the albedo, and never above one";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::EVAL_BSDF
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        match self.surface.iter().find(|surface| surface.is_delta()) {
+            Some(delta) => Err(format!("{delta} is zero wherever it is evaluated")),
+            None if self.surface.is_empty() || self.seen_from.is_empty() => {
+                Err("give at least one `surface` and one angle in `seen-from`".to_owned())
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let mut measures = Vec::new();
+        for surface in &self.surface {
+            for Angle(angle) in &self.seen_from {
+                measures.push(albedo_measure(context, *surface, *angle)?);
+            }
+        }
+        let worst = measures.iter().find(|measure| measure.verdict != Verdict::Pass);
+        let statement = worst.map_or_else(
+            || format!("{} albedos are what they should be", measures.len()),
+            complaint,
+        );
+        let resolution = would_have_caught(&measures);
+        Ok(Finding::of(statement, resolution, measures))
+    }
+}
+
+fn complaint(measure: &Measure) -> String {
+    let ratio = measure.measured / measure.expected;
+    let slack = 1e-3 * ratio.abs();
+    let named = names_of([ratio - slack, ratio + slack], &[]);
+    let name = named.first().map_or_else(String::new, |ratio| format!(" ({})", ratio.name));
+    format!("{} is {}{name} of what it should be", measure.name, figure(ratio))
+}
+
+/// The albedo of the green channel, by quadrature of the core's own values.
+fn albedo_measure(
+    context: &mut Context<'_>,
+    surface: SurfaceEntry,
+    angle: f64,
+) -> Result<Measure, CheckError> {
+    let relative = Tolerance::FORMULA.of(context.info.precision);
+    let expected = expected_albedo(surface, angle, context.info.conventions.smith_term);
+    let allowed = relative * expected;
+    let (material, wo) = (surface.material(), seen_from(angle));
+    let cells = SphereCells::sphere(CELLS.0, CELLS.1);
+    let diligence =
+        Diligence { tolerance: 0.1 * allowed / cells.len() as f64, ..Diligence::default() };
+    let core = &mut *context.core;
+    let integral = cells.probabilities(diligence, &mut |directions, values| {
+        let queries: Vec<_> = directions.iter().map(|wi| BsdfQuery { wo, wi: *wi }).collect();
+        let mut answers = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
+        core.eval_bsdf(&material, &queries, &mut answers)?;
+        for ((value, answer), wi) in values.iter_mut().zip(&answers).zip(directions) {
+            *value = answer.f[1] * wi.z.abs();
+        }
+        Ok::<_, CheckError>(())
+    })?;
+    let error: f64 = integral.errors.iter().sum();
+    let name = format!("albedo of {surface} at {}°", figure(angle.to_degrees()));
+    Ok(Measure::exact(name, integral.mass, expected, allowed + error))
+}
+
+/// By the formula, independent of any core. Single scattering from GGX loses light, more of it with the
+/// separable Smith term.
+fn expected_albedo(surface: SurfaceEntry, angle: f64, smith: SmithTerm) -> f64 {
+    let masking = match smith {
+        SmithTerm::Separable => Masking::Separable,
+        SmithTerm::HeightCorrelated => Masking::HeightCorrelated,
+    };
+    match surface.material().surface {
+        Surface::Diffuse { reflectance } => reflectance[1],
+        Surface::Conductor { reflectance, roughness } => {
+            reflectance[1] * microfacet::albedo(angle.cos(), roughness, masking)
+        }
+        Surface::Mirror { .. } | Surface::Glass { .. } => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::Fake;
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+
+    const CASE: &str =
+        "[expect]\nsurface = [{ diffuse = 0.5 }]\nseen-from = [\"20 deg\", \"70 deg\"]";
+
+    fn found(gain: f64) -> Finding {
+        judge(&check_of::<ConservesEnergy>(CASE), &mut Fake { gain, ..Fake::default() })
+    }
+
+    #[test]
+    fn the_albedo_of_a_lambertian_surface_is_its_reflectance() {
+        assert_passes(&found(1.0));
+    }
+
+    #[test]
+    fn a_missing_pi_is_named() {
+        assert!(failure(&found(std::f64::consts::PI)).contains("(π)"));
+    }
+
+    #[test]
+    fn a_part_in_ten_thousand_is_seen() {
+        failure(&found(1.0001));
+    }
+}

@@ -1,0 +1,84 @@
+//! A Lambertian core that can be wrong in the ways these checks are for.
+
+use crate::checks::testing::info;
+use crate::contract::{
+    BsdfQuery, BsdfSample, BsdfValue, Core, CoreInfo, Precision, Randomness, Result,
+};
+use crate::math::sphere::at_height;
+use crate::scene::{Material, Surface};
+use glam::DVec3;
+use std::f64::consts::{FRAC_1_PI, TAU};
+
+/// Right by default.
+#[derive(Clone, Copy)]
+pub struct Fake {
+    /// Multiplies the density of samples.
+    pub sampled_pdf: f64,
+    /// Multiplies the value of samples.
+    pub sampled_value: f64,
+    /// Multiplies the value by `1 + tilt · wo.z`, which is not reciprocal.
+    pub tilt: f64,
+    /// Multiplies the value.
+    pub gain: f64,
+    /// Has a value below the horizon.
+    pub shines_through: bool,
+}
+
+impl Default for Fake {
+    fn default() -> Self {
+        Self { sampled_pdf: 1.0, sampled_value: 1.0, tilt: 0.0, gain: 1.0, shines_through: false }
+    }
+}
+
+impl Fake {
+    fn value(&self, material: &Material, wo: DVec3, wi: DVec3) -> BsdfValue {
+        let Surface::Diffuse { reflectance } = material.surface else {
+            return BsdfValue { f: [0.0; 3], pdf: 0.0 };
+        };
+        if wi.z <= 0.0 && !self.shines_through {
+            return BsdfValue { f: [0.0; 3], pdf: 0.0 };
+        }
+        let factor = self.gain * (1.0 + self.tilt * wo.z) * FRAC_1_PI;
+        BsdfValue { f: reflectance.map(|r| r * factor), pdf: wi.z.abs() * FRAC_1_PI }
+    }
+}
+
+impl Core for Fake {
+    fn info(&self) -> CoreInfo {
+        info(Precision::Double)
+    }
+
+    fn eval_bsdf(
+        &mut self,
+        material: &Material,
+        queries: &[BsdfQuery],
+        values: &mut [BsdfValue],
+    ) -> Result<()> {
+        for (query, value) in queries.iter().zip(values) {
+            *value = self.value(material, query.wo, query.wi);
+        }
+        Ok(())
+    }
+
+    fn sample_bsdf(
+        &mut self,
+        material: &Material,
+        wo: &[DVec3],
+        random: Randomness<'_>,
+        samples: &mut [BsdfSample],
+    ) -> Result<()> {
+        for (i, sample) in samples.iter_mut().enumerate() {
+            let point = random.points[i];
+            let wi = at_height((1.0 - point.x).sqrt(), TAU * point.y);
+            let BsdfValue { f, pdf } = self.value(material, wo[i], wi);
+            *sample = BsdfSample {
+                wi,
+                f: f.map(|value| value * self.sampled_value),
+                pdf: pdf * self.sampled_pdf,
+                is_delta: 0,
+                is_valid: 1,
+            };
+        }
+        Ok(())
+    }
+}

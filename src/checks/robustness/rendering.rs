@@ -1,0 +1,48 @@
+//! A small picture of a scene, as the checks of seeds render it.
+
+use crate::checks::{CheckError, camera_of};
+use crate::contract::{BuiltScene, Film, IntegratorSettings, RenderSettings};
+use crate::scene::{Camera, SceneDescription};
+
+/// Everything about a picture but its seed.
+pub struct Rendering {
+    camera: Camera,
+    settings: RenderSettings,
+}
+
+impl Rendering {
+    /// A picture of `scene` from its camera.
+    pub fn of(
+        scene: &SceneDescription,
+        size: [u32; 2],
+        bounces: [u32; 2],
+        samples_per_pixel: u32,
+    ) -> Result<Self, CheckError> {
+        let settings = RenderSettings {
+            width: size[0],
+            height: size[1],
+            samples_per_pixel,
+            integrator: IntegratorSettings {
+                bounces: bounces[0]..=bounces[1],
+                ..Default::default()
+            },
+            adaptive: None,
+        };
+        Ok(Self { camera: camera_of(scene)?, settings })
+    }
+
+    /// The picture of a seed; `threads` as in [`IntegratorSettings::threads`].
+    pub fn film(
+        &self,
+        scene: &mut dyn BuiltScene,
+        seed: u64,
+        threads: u32,
+    ) -> Result<Film, CheckError> {
+        let mut settings = self.settings.clone();
+        settings.integrator.seed = seed;
+        settings.integrator.threads = threads;
+        let mut film = Film::default();
+        scene.render(&self.camera, &settings, &mut film)?;
+        Ok(film)
+    }
+}

@@ -1,0 +1,59 @@
+//! The same seed gives the same bits, whatever the number of threads.
+
+use super::rendering::Rendering;
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Acceleration, Capabilities, Film};
+use serde::Deserialize;
+
+/// Renders a picture again, and again on one thread.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SameSeedSamePicture {
+    size: [u32; 2],
+    bounces: [u32; 2],
+    samples_per_pixel: u32,
+}
+
+impl Check for SameSeedSamePicture {
+    const NAME: &'static str = "same-seed-same-picture";
+    const SUMMARY: &'static str = "the same seed gives the same bits, on one thread or many";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::RENDER | Capabilities::DETERMINISTIC
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let seed = context.seed.0;
+        let rendering = Rendering::of(&scene, self.size, self.bounces, self.samples_per_pixel)?;
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let first = rendering.film(built.as_mut(), seed, 0)?;
+        let again = rendering.film(built.as_mut(), seed, 0)?;
+        let alone = rendering.film(built.as_mut(), seed, 1)?;
+        drop(built);
+        let mut rebuilt = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let anew = rendering.film(rebuilt.as_mut(), seed, 0)?;
+        let pixels = first.pixels.len();
+        let measures: Vec<_> =
+            [("rendered again", again), ("on one thread", alone), ("built anew", anew)]
+                .into_iter()
+                .map(|(name, other)| differing(name, &first, &other))
+                .collect();
+        let worst = measures.iter().find(|measure| measure.measured > 0.0);
+        let statement = match worst {
+            None => "the same seed gives the same bits".to_owned(),
+            Some(measure) => {
+                format!("{}: {} of {pixels} pixels differ", measure.name, measure.measured)
+            }
+        };
+        Ok(Finding::of(statement, "would have caught one bit in one pixel", measures))
+    }
+}
+
+/// How many pixels have not the same bits.
+fn differing(name: &str, first: &Film, other: &Film) -> Measure {
+    let bits = |pixel: &[f32; 3]| pixel.map(f32::to_bits);
+    let pairs = first.pixels.iter().zip(&other.pixels);
+    let count = pairs.filter(|(a, b)| bits(a) != bits(b)).count();
+    Measure::exact(name, count as f64, 0.0, 0.0).in_unit("pixels")
+}

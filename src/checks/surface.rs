@@ -1,0 +1,91 @@
+//! Surfaces as cases write them, with the words of scene files: `{ diffuse = 0.8 }`, `{ mirror = 0.83 }`,
+//! `{ glass = { index = 1.5 } }`, `{ conductor = { reflectance = 1, roughness = 0.3 } }`.
+
+use crate::scene::{Material, Surface};
+use crate::text::Colour;
+use glam::DVec3;
+use serde::Deserialize;
+use std::fmt;
+
+/// A surface that does not glow.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub enum SurfaceEntry {
+    /// Reflectance.
+    Diffuse(Colour),
+    /// Reflectance.
+    Mirror(Colour),
+    /// A smooth interface.
+    Glass(GlassEntry),
+    /// GGX microfacets.
+    Conductor(ConductorEntry),
+}
+
+/// `{ index = 1.5, reflectance = 0.8, transmittance = 0.9 }`
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GlassEntry {
+    /// Inside; outside is vacuum.
+    pub index: f64,
+    /// Multiplies what is reflected.
+    #[serde(default = "white")]
+    pub reflectance: Colour,
+    /// Multiplies what is let through.
+    #[serde(default = "white")]
+    pub transmittance: Colour,
+}
+
+/// `{ reflectance = 1, roughness = 0.3 }`
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ConductorEntry {
+    /// Of a single facet.
+    pub reflectance: Colour,
+    /// The width parameter α.
+    pub roughness: f64,
+}
+
+const fn white() -> Colour {
+    Colour([1.0; 3])
+}
+
+impl SurfaceEntry {
+    /// As a core is asked for it.
+    pub fn material(self) -> Material {
+        let surface = match self {
+            Self::Diffuse(Colour(reflectance)) => Surface::Diffuse { reflectance },
+            Self::Mirror(Colour(reflectance)) => Surface::Mirror { reflectance },
+            Self::Glass(GlassEntry { index, reflectance, transmittance }) => {
+                Surface::Glass { index, reflectance: reflectance.0, transmittance: transmittance.0 }
+            }
+            Self::Conductor(ConductorEntry { reflectance, roughness }) => {
+                Surface::Conductor { reflectance: reflectance.0, roughness }
+            }
+        };
+        Material { name: self.to_string(), surface, emission: None }
+    }
+
+    /// Whether a core evaluates it as zero everywhere.
+    pub const fn is_delta(self) -> bool {
+        matches!(self, Self::Mirror(_) | Self::Glass(_))
+    }
+}
+
+impl fmt::Display for SurfaceEntry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Diffuse(_) => f.write_str("a diffuse surface"),
+            Self::Mirror(_) => f.write_str("a mirror"),
+            Self::Glass(glass) => write!(f, "glass of index {}", glass.index),
+            Self::Conductor(conductor) => {
+                write!(f, "a conductor of roughness {}", conductor.roughness)
+            }
+        }
+    }
+}
+
+/// The direction at this angle from the normal, turned to an azimuth that is no multiple of anything.
+pub fn seen_from(angle: f64) -> DVec3 {
+    const AZIMUTH: f64 = 0.7;
+    crate::math::frame::direction(angle, AZIMUTH)
+}

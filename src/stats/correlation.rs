@@ -1,0 +1,65 @@
+//! Whether two series have nothing to do with each other.
+
+use super::Verdict;
+
+/// Standard errors that chance is given.
+const SIGMAS: f64 = 7.0;
+/// Probability that unrelated series are called related: two sides of 7 standard errors of a normal, with room.
+pub const CORRELATION_FALSE_ALARM: f64 = 1e-10;
+
+/// What came of comparing two series.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CorrelationReport {
+    /// Fail if they are related.
+    pub verdict: Verdict,
+    /// Pearson's coefficient, in [-1, 1].
+    pub coefficient: f64,
+    /// The largest that chance explains.
+    pub limit: f64,
+}
+
+/// Judges pairs of numbers: Pearson's coefficient of n unrelated pairs has standard error 1/√n.
+/// Series without any variance are inconclusive.
+pub fn judge_uncorrelated(pairs: &[[f64; 2]]) -> CorrelationReport {
+    let n = pairs.len() as f64;
+    let mean = |side: usize| pairs.iter().map(|pair| pair[side]).sum::<f64>() / n;
+    let means = [mean(0), mean(1)];
+    let product = |a: usize, b: usize| {
+        pairs.iter().map(|pair| (pair[a] - means[a]) * (pair[b] - means[b])).sum::<f64>()
+    };
+    let spread = (product(0, 0) * product(1, 1)).sqrt();
+    let coefficient = product(0, 1) / spread;
+    let limit = SIGMAS / n.sqrt();
+    let verdict = match spread > 0.0 {
+        false => Verdict::Inconclusive,
+        true => Verdict::pass_if(coefficient.abs() <= limit),
+    };
+    CorrelationReport { verdict, coefficient, limit }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rng::{Seed, uniform};
+
+    fn pairs(shared: f64) -> Vec<[f64; 2]> {
+        let mut stream = Seed(5).stream();
+        let mut pair = || {
+            let (a, b) = (uniform(&mut stream), uniform(&mut stream));
+            [a, shared * a + (1.0 - shared) * b]
+        };
+        (0..4000).map(|_| pair()).collect()
+    }
+
+    #[test]
+    fn unrelated_series_pass_and_related_ones_fail() {
+        assert_eq!(judge_uncorrelated(&pairs(0.0)).verdict, Verdict::Pass);
+        assert_eq!(judge_uncorrelated(&pairs(0.2)).verdict, Verdict::Fail);
+        assert_eq!(judge_uncorrelated(&pairs(1.0)).verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn constant_series_say_nothing() {
+        assert_eq!(judge_uncorrelated(&[[1.0, 2.0]; 9]).verdict, Verdict::Inconclusive);
+    }
+}

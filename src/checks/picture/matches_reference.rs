@@ -152,19 +152,25 @@ fn ratio_measure(ratio: &GlobalRatio, report: &ImageReport) -> Measure {
     }
 }
 
-/// The most suspicious cell of a scale. The scale fails only if fresh runs confirm it.
+/// The most suspicious cell of a scale, or what fresh runs made of the suspicion: only they can fail it.
 fn scale_measure(scale: &ScaleReport) -> Measure {
     let worst = scale.worst.first();
-    let rejects = match worst {
-        Some(cell) if scale.rejects => {
-            format!(" at ({}, {})", cell.extent.x, cell.extent.y)
+    let screened = worst.map_or(0.0, |cell| cell.t);
+    let (name, measured) = match scale.confirmations {
+        None => (String::new(), screened),
+        Some([first, second]) => {
+            let weaker = if first.t.abs() < second.t.abs() { first.t } else { second.t };
+            (", confirmed on fresh runs".to_owned(), weaker)
         }
+    };
+    let place = match worst {
+        Some(cell) if scale.rejects => format!(" at ({}, {})", cell.extent.x, cell.extent.y),
         _ => String::new(),
     };
     Measure {
-        name: format!("worst {}{rejects}", scale_name(scale.scale)),
+        name: format!("worst {}{place}{name}", scale_name(scale.scale)),
         unit: "standard errors".to_owned(),
-        measured: worst.map_or(0.0, |cell| cell.t),
+        measured,
         expected: 0.0,
         allowed: scale.critical,
         interval: None,
@@ -193,7 +199,14 @@ fn statement(report: &ImageReport) -> String {
     }
     match report.worst_scale {
         Some(scale) => format!("{}; {}", brightness(report), confirmed(report, scale)),
-        None => format!("agrees with the reference; {}", brightness(report)),
+        None if report.verdict == Verdict::Pass => {
+            format!("agrees with the reference; {}", brightness(report))
+        }
+        None => format!(
+            "not yet known to agree: an error of {:.2} % could hide, {:.2} % has to be seen",
+            100.0 * report.resolution,
+            100.0 * report.detects
+        ),
     }
 }
 

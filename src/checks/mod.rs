@@ -5,6 +5,7 @@
 
 pub mod adaptive;
 pub mod bsdf;
+pub mod bvh;
 pub mod camera;
 mod context;
 pub mod convergence;
@@ -120,6 +121,9 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<bsdf::AgreesWithItself>(),
     CheckKind::of::<bsdf::Reciprocal>(),
     CheckKind::of::<bsdf::ConservesEnergy>(),
+    CheckKind::of::<bvh::SameHitsAsBruteForce>(),
+    CheckKind::of::<bvh::BuildsComeToAnEnd>(),
+    CheckKind::of::<bvh::VisitsFewNodes>(),
     CheckKind::of::<transport::MeanRadiance>(),
     CheckKind::of::<transport::EstimatorsAgree>(),
     CheckKind::of::<transport::RadianceIsLinear>(),

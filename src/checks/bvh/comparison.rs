@@ -1,0 +1,189 @@
+//! A hierarchy's answers against those of the loop over every primitive, ray by ray.
+//!
+//! The same routine of the core meets the same primitive either way, so t has to be the same to the bit, whatever the
+//! precision. Two primitives at the same t are a tie; otherwise the primitive has to be the same too.
+
+use crate::checks::CheckError;
+use crate::contract::{BuiltScene, Hit, Ray};
+
+/// What is asked with and without a hierarchy.
+#[derive(Clone, Debug, Default)]
+pub struct Questions {
+    /// Closest hits.
+    pub rays: Vec<Ray>,
+    /// Closest hits and any hit.
+    pub segments: Vec<Ray>,
+}
+
+/// What a hierarchy answers.
+#[derive(Clone, Debug)]
+pub struct Answers {
+    rays: Vec<Hit>,
+    segments: Vec<Hit>,
+    occluded: Vec<bool>,
+}
+
+/// What the loop answers; whether a segment is occluded follows.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    /// Of [`Questions::rays`].
+    pub rays: Vec<Hit>,
+    /// Of [`Questions::segments`].
+    pub segments: Vec<Hit>,
+}
+
+/// The closest hits of some rays.
+///
+/// # Errors
+/// If the core does not answer.
+pub fn closest_hits(scene: &mut dyn BuiltScene, rays: &[Ray]) -> Result<Vec<Hit>, CheckError> {
+    let mut hits = vec![Hit::MISS; rays.len()];
+    scene.intersect(rays, &mut hits)?;
+    Ok(hits)
+}
+
+impl Questions {
+    /// Asks them.
+    ///
+    /// # Errors
+    /// If the core does not answer.
+    pub fn ask(&self, scene: &mut dyn BuiltScene) -> Result<Answers, CheckError> {
+        let rays = closest_hits(scene, &self.rays)?;
+        let segments = closest_hits(scene, &self.segments)?;
+        let mut occluded = vec![false; self.segments.len()];
+        scene.occluded(&self.segments, &mut occluded)?;
+        Ok(Answers { rays, segments, occluded })
+    }
+
+    /// How many single answers that makes.
+    pub fn answers(&self) -> usize {
+        self.rays.len() + 2 * self.segments.len()
+    }
+}
+
+/// How the answers with a hierarchy differ from those without.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Differences {
+    /// Brute force hits, the hierarchy misses.
+    pub lost: usize,
+    /// The hierarchy hits, but something nearer is there.
+    pub farther: usize,
+    /// The hierarchy hits where brute force misses, or before what is nearest.
+    pub invented: usize,
+    /// Outside the segment that was asked for.
+    pub outside: usize,
+    /// At the right t, but another primitive, which is not there.
+    pub misnamed: usize,
+    /// Any-hit says free, where something is hit.
+    pub unoccluded: usize,
+    /// Any-hit says occluded, where nothing is hit.
+    pub occluded: usize,
+}
+
+impl Differences {
+    /// All of them.
+    pub fn total(&self) -> usize {
+        self.kinds().iter().map(|(count, _)| count).sum()
+    }
+
+    /// The most frequent first, in words.
+    pub fn words(&self) -> String {
+        let mut kinds = self.kinds().to_vec();
+        kinds.retain(|(count, _)| *count > 0);
+        kinds.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
+        let words: Vec<_> = kinds.iter().map(|(count, what)| format!("{count} {what}")).collect();
+        words.join(", ")
+    }
+
+    fn kinds(&self) -> [(usize, &'static str); 7] {
+        [
+            (self.lost, "hits lost"),
+            (self.farther, "hits beyond the nearest one"),
+            (self.invented, "hits where there is nothing"),
+            (self.outside, "hits outside the segment"),
+            (self.misnamed, "hits with the wrong primitive"),
+            (self.unoccluded, "shadow rays that pass through something"),
+            (self.occluded, "shadow rays stopped by nothing"),
+        ]
+    }
+
+    /// Takes in how one closest hit differs. `is_tie` tells whether the primitive named is at that t too.
+    fn take_hit(&mut self, ray: &Ray, found: &Hit, right: &Hit, is_tie: bool) {
+        if !found.is_hit() {
+            self.lost += usize::from(right.is_hit());
+        } else if !(ray.t_min < found.t && found.t < ray.t_max) {
+            self.outside += 1;
+        } else if right.is_hit() && found.t > right.t {
+            self.farther += 1;
+        } else if found.t.to_bits() != right.t.to_bits() {
+            self.invented += 1;
+        } else if (found.shape, found.primitive) != (right.shape, right.primitive) && !is_tie {
+            self.misnamed += 1;
+        }
+    }
+
+    fn take_occlusion(&mut self, found: bool, right: bool) {
+        self.unoccluded += usize::from(right && !found);
+        self.occluded += usize::from(found && !right);
+    }
+}
+
+/// Compares answers; `is_there` tells whether a ray meets the primitive of a hit at the hit's t.
+pub fn compare(
+    questions: &Questions,
+    found: &Answers,
+    right: &Truth,
+    is_there: &dyn Fn(&Ray, &Hit) -> bool,
+) -> Differences {
+    let mut differences = Differences::default();
+    let rays = questions.rays.iter().zip(found.rays.iter().zip(&right.rays));
+    let segments = questions.segments.iter().zip(found.segments.iter().zip(&right.segments));
+    for (ray, (found, right)) in rays.chain(segments) {
+        differences.take_hit(ray, found, right, is_there(ray, found));
+    }
+    for (found, right) in found.occluded.iter().zip(&right.segments) {
+        differences.take_occlusion(*found, right.is_hit());
+    }
+    differences
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    fn hit(t: f64, primitive: u32) -> Hit {
+        Hit { t, shape: 0, primitive, ..Hit::MISS }
+    }
+
+    fn differs(found: Hit, right: Hit) -> Differences {
+        let ray = Ray { t_max: 10.0, ..Ray::new(DVec3::ZERO, DVec3::X) };
+        let mut differences = Differences::default();
+        differences.take_hit(&ray, &found, &right, false);
+        differences
+    }
+
+    #[test]
+    fn every_way_to_differ_has_its_own_name() {
+        assert_eq!(differs(hit(2.0, 1), hit(2.0, 1)).total(), 0);
+        assert_eq!(differs(Hit::MISS, Hit::MISS).total(), 0);
+        assert_eq!(differs(Hit::MISS, hit(2.0, 1)).lost, 1);
+        assert_eq!(differs(hit(3.0, 2), hit(2.0, 1)).farther, 1);
+        assert_eq!(differs(hit(1.0, 2), hit(2.0, 1)).invented, 1);
+        assert_eq!(differs(hit(1.0, 2), Hit::MISS).invented, 1);
+        assert_eq!(differs(hit(11.0, 2), Hit::MISS).outside, 1);
+        assert_eq!(differs(hit(2.0, 2), hit(2.0, 1)).misnamed, 1);
+    }
+
+    #[test]
+    fn the_last_bit_of_t_counts() {
+        let next = f64::from_bits(2f64.to_bits() + 1);
+        assert_eq!(differs(hit(next, 1), hit(2.0, 1)).total(), 1);
+    }
+
+    #[test]
+    fn words_begin_with_the_most_frequent() {
+        let differences = Differences { lost: 2, unoccluded: 5, ..Differences::default() };
+        assert_eq!(differences.words(), "5 shadow rays that pass through something, 2 hits lost");
+    }
+}

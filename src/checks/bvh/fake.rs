@@ -1,0 +1,153 @@
+//! A core over the reference hierarchy that can be made to slip, for the tests of the checks in this folder.
+
+use super::reference::{ReferenceBvh, Walk, Walked, meets};
+use crate::checks::testing::info;
+use crate::contract::{
+    Acceleration, BuildStats, BuiltScene, Core, CoreInfo, Hit, Precision, Ray, Result,
+    TraversalStats,
+};
+use crate::scene::{Aabb, Mesh, SceneDescription};
+use glam::{DVec2, DVec3};
+
+/// What a fake core gets wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slip {
+    /// Nothing.
+    None,
+    /// Closest hits end at the first triangle that is hit.
+    KeepsTheFirstHit,
+    /// Boxes miss a twentieth of what they should hold.
+    ShrinksBoxes,
+    /// Shadow rays do not end at their light.
+    ShadowsWithoutEnd,
+    /// Closest hits may lie beyond t_max.
+    ForgetsTheEnd,
+    /// Hits carry the number of the triangle in the order of the leaves.
+    NamesTheLeafOrder,
+    /// The hierarchy is a list.
+    IsAList,
+    /// A hierarchy that is never asked: every triangle is tested.
+    TestsEverything,
+    /// The ray does not end at what was found.
+    NeverShortens,
+    /// Shadow rays look for the nearest hit among everything.
+    SearchesShadows,
+}
+
+/// See the module.
+pub struct FakeCore(pub Slip);
+
+struct FakeScene {
+    slip: Slip,
+    brute: bool,
+    bvh: ReferenceBvh,
+    mesh: Mesh,
+}
+
+impl Core for FakeCore {
+    fn info(&self) -> CoreInfo {
+        info(Precision::Double)
+    }
+
+    fn build_scene(
+        &mut self,
+        scene: &SceneDescription,
+        acceleration: Acceleration,
+    ) -> Result<Box<dyn BuiltScene + '_>> {
+        let mesh = scene.meshes.first().cloned().unwrap_or_default();
+        let mut bvh = ReferenceBvh::new(&mesh);
+        if self.0 == Slip::ShrinksBoxes {
+            bvh.change_boxes(|bounds| {
+                let margin = 0.025 * (bounds.max - bounds.min);
+                Aabb { min: bounds.min + margin, max: bounds.max - margin }
+            });
+        }
+        let brute = acceleration == Acceleration::BruteForce;
+        Ok(Box::new(FakeScene { slip: if brute { Slip::None } else { self.0 }, brute, bvh, mesh }))
+    }
+}
+
+impl FakeScene {
+    fn walk(&self, ray: &Ray, walk: Walk) -> Walked {
+        if !self.brute && self.slip != Slip::TestsEverything {
+            return self.bvh.walk(ray, walk);
+        }
+        let mut found = Walked::default();
+        for number in 0..self.mesh.indices.len() {
+            found.tests += 1;
+            let end = found.nearest.map_or(ray.t_max, |(t, _)| t);
+            let t = meets(ray, &self.mesh.corners(number));
+            if let Some(t) = t.filter(|t| ray.t_min < *t && *t < end) {
+                found.nearest = Some((t, number as u32));
+            }
+        }
+        found
+    }
+
+    fn closest(&self, ray: &Ray) -> Walked {
+        match self.slip {
+            Slip::KeepsTheFirstHit => self.walk(ray, Walk::AnyHit),
+            Slip::NeverShortens => self.walk(ray, Walk::Unshortened),
+            Slip::ForgetsTheEnd => self.walk(&Ray { t_max: f64::INFINITY, ..*ray }, Walk::Ordered),
+            _ => self.walk(ray, Walk::Ordered),
+        }
+    }
+
+    fn any(&self, ray: &Ray) -> Walked {
+        match self.slip {
+            Slip::ShadowsWithoutEnd => {
+                self.walk(&Ray { t_max: f64::INFINITY, ..*ray }, Walk::AnyHit)
+            }
+            Slip::SearchesShadows => self.walk(ray, Walk::Unshortened),
+            _ => self.walk(ray, Walk::AnyHit),
+        }
+    }
+
+    fn hit(&self, found: Walked) -> Hit {
+        let Some((t, triangle)) = found.nearest else { return Hit::MISS };
+        let [a, b, c] = self.mesh.corners(triangle as usize);
+        let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
+        let primitive = match self.slip {
+            Slip::NamesTheLeafOrder => self.bvh.place_of(triangle),
+            _ => triangle,
+        };
+        Hit {
+            t,
+            shape: 0,
+            primitive,
+            geometric_normal: normal,
+            shading_normal: normal,
+            uv: DVec2::ZERO,
+        }
+    }
+}
+
+impl BuiltScene for FakeScene {
+    fn stats(&self) -> BuildStats {
+        let max_depth = match self.slip {
+            Slip::IsAList => self.mesh.indices.len() as u64,
+            _ => self.bvh.depth(),
+        };
+        BuildStats { max_depth, ..BuildStats::default() }
+    }
+
+    fn intersect(&mut self, rays: &[Ray], hits: &mut [Hit]) -> Result<TraversalStats> {
+        let mut stats = TraversalStats { rays: rays.len() as u64, ..TraversalStats::default() };
+        for (ray, hit) in rays.iter().zip(hits) {
+            let found = self.closest(ray);
+            stats.primitive_tests += found.tests;
+            *hit = self.hit(found);
+        }
+        Ok(stats)
+    }
+
+    fn occluded(&mut self, rays: &[Ray], occluded: &mut [bool]) -> Result<TraversalStats> {
+        let mut stats = TraversalStats { rays: rays.len() as u64, ..TraversalStats::default() };
+        for (ray, occluded) in rays.iter().zip(occluded) {
+            let found = self.any(ray);
+            stats.primitive_tests += found.tests;
+            *occluded = found.nearest.is_some();
+        }
+        Ok(stats)
+    }
+}

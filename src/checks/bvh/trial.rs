@@ -1,0 +1,136 @@
+//! One scene, with and without a hierarchy: what both checks of hits share.
+
+use super::comparison::{Differences, Questions, Truth, closest_hits, compare};
+use super::question::{Build, generic_rays, rays_at_vertices, segments};
+use crate::checks::{CheckError, Context};
+use crate::contract::{Acceleration, BuildStats, BuiltScene, Capabilities, Hit, Ray};
+use crate::math::rng::Seed;
+use crate::scene::{Aabb, SceneDescription, Shape};
+use glam::DVec3;
+
+/// How far from its primitive a hit may lie, relative to the coordinates: a hundred roundings of single precision.
+const ON_PRIMITIVE: f64 = 1e-5;
+
+/// What a comparison with brute force asks of a core.
+pub const NEEDS: Capabilities = Capabilities::BUILD_SCENE
+    .union(Capabilities::INTERSECT)
+    .union(Capabilities::OCCLUDED)
+    .union(Capabilities::BRUTE_FORCE);
+
+/// A scene, what is asked of it, and what brute force says.
+pub struct Trial<'a> {
+    scene: &'a SceneDescription,
+    graded: (Questions, Truth),
+    /// Rays at vertices: whether they are hit is a matter of rounding, also in a box.
+    shown: (Questions, Truth),
+}
+
+/// What came of one way to build.
+pub struct Tried {
+    /// The way.
+    pub build: Build,
+    /// What the core says it has built.
+    pub stats: BuildStats,
+    /// For rays in general position.
+    pub differences: Differences,
+    /// For rays at vertices.
+    pub at_vertices: Differences,
+}
+
+impl<'a> Trial<'a> {
+    /// Asks brute force: `count` rays in general position, as many segments, and a quarter of that at vertices.
+    ///
+    /// # Errors
+    /// If the core does not answer.
+    pub fn prepare(
+        context: &mut Context<'_>,
+        scene: &'a SceneDescription,
+        count: usize,
+        seed: Seed,
+    ) -> Result<Self, CheckError> {
+        // An empty scene is asked about the unit cube.
+        let bounds = scene.bounds().unwrap_or(Aabb { min: DVec3::ZERO, max: DVec3::ONE });
+        let stream = |purpose: &str| seed.child(purpose).stream();
+        let generic = generic_rays(bounds, count, &mut stream("generic"));
+        let at_vertices = rays_at_vertices(scene, bounds, count / 4, &mut stream("vertices"));
+        let mut brute = context.core.build_scene(scene, Acceleration::BruteForce)?;
+        let mut ask = |rays, purpose| {
+            Self::ask_brute_force(brute.as_mut(), rays, bounds, seed.child(purpose))
+        };
+        Ok(Self {
+            scene,
+            graded: ask(generic, "segments")?,
+            shown: ask(at_vertices, "segments at vertices")?,
+        })
+    }
+
+    fn ask_brute_force(
+        brute: &mut dyn BuiltScene,
+        rays: Vec<Ray>,
+        bounds: Aabb,
+        seed: Seed,
+    ) -> Result<(Questions, Truth), CheckError> {
+        let hits = closest_hits(brute, &rays)?;
+        let segments = segments(&rays, &hits, bounds, &mut seed.stream());
+        let truth = Truth { segments: closest_hits(brute, &segments)?, rays: hits };
+        Ok((Questions { rays, segments }, truth))
+    }
+
+    /// Asks the core with one hierarchy.
+    ///
+    /// # Errors
+    /// If the core does not answer.
+    pub fn put_to(&self, context: &mut Context<'_>, build: Build) -> Result<Tried, CheckError> {
+        let mut built = context.core.build_scene(self.scene, build.acceleration())?;
+        let stats = built.stats();
+        let is_there = |ray: &Ray, hit: &Hit| lies_on_its_primitive(self.scene, ray, hit);
+        let mut differences = |(questions, right): &(Questions, Truth)| {
+            let found = questions.ask(built.as_mut())?;
+            Ok::<_, CheckError>(compare(questions, &found, right, &is_there))
+        };
+        let (graded, at_vertices) = (differences(&self.graded)?, differences(&self.shown)?);
+        Ok(Tried { build, stats, differences: graded, at_vertices })
+    }
+
+    /// Graded answers of each hierarchy.
+    pub fn answers(&self) -> usize {
+        self.graded.0.answers()
+    }
+}
+
+/// Whether the point of a hit lies on the primitive that the hit names.
+fn lies_on_its_primitive(scene: &SceneDescription, ray: &Ray, hit: &Hit) -> bool {
+    if !hit.is_hit() {
+        return false;
+    }
+    let point = ray.at(hit.t);
+    let allowed = ON_PRIMITIVE * (point.length() + ray.origin.length() + 1.0);
+    match scene.shape(hit.shape) {
+        Shape::Mesh(mesh) => {
+            distance_to_triangle(point, mesh.corners(hit.primitive as usize)) <= allowed
+        }
+        Shape::Sphere(sphere) => (point.distance(sphere.centre) - sphere.radius).abs() <= allowed,
+    }
+}
+
+/// The larger of the distance to the plane and the distances beyond each edge.
+fn distance_to_triangle(point: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let beyond =
+        |from: DVec3, to: DVec3| (point - from).dot((to - from).cross(normal).normalize_or_zero());
+    let edges = beyond(a, b).max(beyond(b, c)).max(beyond(c, a));
+    (point - a).dot(normal).abs().max(edges)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_is_on_a_triangle_only_inside_its_edges() {
+        let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        assert!(distance_to_triangle(DVec3::new(0.2, 0.2, 0.0), triangle) <= 0.0);
+        assert!(distance_to_triangle(DVec3::new(0.8, 0.8, 0.0), triangle) > 0.4);
+        assert!(distance_to_triangle(DVec3::new(0.2, 0.2, 0.3), triangle) > 0.29);
+    }
+}

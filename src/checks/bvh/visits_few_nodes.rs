@@ -1,0 +1,258 @@
+//! How many triangles are tested a ray, as meshes grow: counts, which no clock and no machine can change.
+
+use super::question::scene_of;
+use super::reference::{ReferenceBvh, Walk};
+use crate::checks::phrase::{at_most, figure};
+use crate::checks::{Check, CheckError, Context, Finding};
+use crate::contract::{Acceleration, Capabilities, Hit, Ray};
+use crate::math::rng::{Seed, uniform};
+use crate::math::sphere::on_sphere;
+use crate::scene::procedural::{bumpy_sphere, soup};
+use crate::scene::{Aabb, Mesh};
+use crate::stats::Verdict;
+use crate::text::Count;
+use glam::DVec3;
+use serde::Deserialize;
+
+/// Tests a ray may not grow faster than this power of the number of triangles: the loop has 1, hierarchies about 0.2.
+const STEEPEST: f64 = 0.5;
+/// A core may test this many times the triangles that a plain median hierarchy tests.
+const SLACK: f64 = 4.0;
+/// Shadow rays may test this many times the triangles that closest hits test: they can stop earlier.
+const ANY_HIT_SLACK: f64 = 1.2;
+/// Counts this close, relative, are those of the same walk.
+const SAME_WALK: f64 = 0.1;
+
+/// The number of tests grows slowly with the mesh.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct VisitsFewNodes {
+    mesh: Meshes,
+    rays: Count,
+}
+
+/// A mesh of any size.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Meshes {
+    /// 512 to 32 768 triangles anywhere.
+    Soup,
+    /// 320 to 20 480 triangles on a closed surface.
+    BumpySphere,
+}
+
+impl Meshes {
+    fn all(self) -> [Mesh; 4] {
+        match self {
+            Self::Soup => [512, 2048, 8192, 32_768].map(|triangles| soup(triangles, Seed(1))),
+            Self::BumpySphere => [2, 3, 4, 5].map(bumpy_sphere),
+        }
+    }
+}
+
+impl Check for VisitsFewNodes {
+    const NAME: &'static str = "visits-few-nodes";
+    const SUMMARY: &'static str = "tests per ray against the size of the mesh";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE
+            | Capabilities::INTERSECT
+            | Capabilities::OCCLUDED
+            | Capabilities::TRAVERSAL_STATS
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let count = usize::try_from(self.rays.0).unwrap_or(usize::MAX);
+        let mut sizes = Vec::new();
+        for mesh in self.mesh.all() {
+            let rays = rays_at(&mesh, count, context.seed);
+            sizes.push(measure_size(context, mesh, &rays)?);
+        }
+        Ok(judge(&sizes))
+    }
+}
+
+/// From a sphere around the mesh at the inner four fifths of its box.
+fn rays_at(mesh: &Mesh, count: usize, seed: Seed) -> Vec<Ray> {
+    let stream = &mut seed.child("rays").stream();
+    let bounds = Aabb::around(mesh.positions.iter().copied());
+    let Aabb { min, max } = bounds.unwrap_or(Aabb { min: DVec3::ZERO, max: DVec3::ONE });
+    let (middle, half) = (0.5 * (min + max), 0.5 * (max - min));
+    let mut ray = || {
+        let origin = middle + 3.0 * half.max_element() * on_sphere(stream);
+        let within = DVec3::from_array(std::array::from_fn(|_| 1.6 * uniform(stream) - 0.8));
+        Ray::new(origin, (middle + within * half - origin).normalize())
+    };
+    (0..count).map(|_| ray()).collect()
+}
+
+/// Triangles tested a ray, in one mesh.
+#[derive(Clone, Copy, Debug)]
+struct Size {
+    triangles: f64,
+    closest: f64,
+    any: f64,
+    /// Fewer tests than hits cannot be.
+    hits: f64,
+    /// The plain hierarchy's, for each way to walk.
+    ordered: f64,
+    unordered: f64,
+    unshortened: f64,
+}
+
+fn measure_size(context: &mut Context<'_>, mesh: Mesh, rays: &[Ray]) -> Result<Size, CheckError> {
+    let reference = ReferenceBvh::new(&mesh);
+    let triangles = mesh.indices.len() as f64;
+    let scene = scene_of(mesh);
+    let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+    let (mut hits, mut occluded) = (vec![Hit::MISS; rays.len()], vec![false; rays.len()]);
+    let closest = built.intersect(rays, &mut hits)?;
+    let any = built.occluded(rays, &mut occluded)?;
+    let per_ray = |tests: u64| tests as f64 / rays.len() as f64;
+    Ok(Size {
+        triangles,
+        closest: per_ray(closest.primitive_tests),
+        any: per_ray(any.primitive_tests),
+        hits: per_ray(hits.iter().filter(|hit| hit.is_hit()).count() as u64),
+        ordered: reference.tests_per_ray(rays, Walk::Ordered),
+        unordered: reference.tests_per_ray(rays, Walk::Unordered),
+        unshortened: reference.tests_per_ray(rays, Walk::Unshortened),
+    })
+}
+
+/// The slope of the least-squares line through (ln n, ln y).
+fn growth(sizes: &[Size], tests: impl Fn(&Size) -> f64) -> f64 {
+    let points = || sizes.iter().map(|size| (size.triangles.ln(), tests(size).ln()));
+    let count = sizes.len() as f64;
+    let mean_x = points().map(|(x, _)| x).sum::<f64>() / count;
+    let mean_y = points().map(|(_, y)| y).sum::<f64>() / count;
+    let covariance: f64 = points().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+    covariance / points().map(|(x, _)| (x - mean_x).powi(2)).sum::<f64>()
+}
+
+fn judge(sizes: &[Size]) -> Finding {
+    let is_real = |size: &&Size| size.closest >= size.hits;
+    if let Some(size) = sizes.iter().find(|size| !is_real(size)) {
+        let (tests, hits) = (figure(size.closest), figure(size.hits));
+        return Finding::failure(format!(
+            "the core counts {tests} primitive tests a ray and {hits} hits: its counts are not real"
+        ));
+    }
+    let slope = growth(sizes, |size| size.closest);
+    let mut measures = vec![at_most("growth of tests: exponent of n", slope, STEEPEST)];
+    for size in sizes {
+        let n = size.triangles;
+        let name = format!("tests a ray, {n} triangles");
+        measures.push(at_most(name, size.closest, SLACK * size.ordered).in_unit("triangles"));
+        let name = format!("tests of any hit over closest hit, {n} triangles");
+        measures.push(at_most(name, size.any / size.closest, ANY_HIT_SLACK));
+    }
+    let statement = statement(sizes, slope, measures.iter().any(|m| m.verdict == Verdict::Fail));
+    let resolution =
+        "would have caught growth as n^0.5, four times the tests, or shadow rays that search on";
+    Finding::of(statement, resolution, measures)
+}
+
+fn statement(sizes: &[Size], slope: f64, failed: bool) -> String {
+    let Some(largest) = sizes.last() else { return "no mesh was tried".to_owned() };
+    let [tests, plain] = [largest.closest, largest.ordered].map(figure);
+    let counted = format!(
+        "{tests} of {} triangles are tested a ray, growing as n^{}; a plain median hierarchy tests {plain}",
+        largest.triangles,
+        figure(slope)
+    );
+    let walk = walk_of(sizes).map_or_else(String::new, |walk| format!("; {walk}"));
+    if !failed {
+        return format!("{counted}{walk}");
+    }
+    let shadows_stop = largest.any / largest.closest <= ANY_HIT_SLACK;
+    let cause = if slope >= 0.9 {
+        "; every triangle is tested: the hierarchy is not used".to_owned()
+    } else if !shadows_stop {
+        "; shadow rays go on after something is hit".to_owned()
+    } else {
+        walk
+    };
+    format!("{counted}{cause}")
+}
+
+/// Which walk has the same counts at every size, if it is not the best.
+fn walk_of(sizes: &[Size]) -> Option<&'static str> {
+    let is_like = |counts: fn(&Size) -> f64| {
+        sizes.iter().all(|size| (size.closest / counts(size) - 1.0).abs() <= SAME_WALK)
+    };
+    if is_like(|size| size.ordered) {
+        None
+    } else if is_like(|size| size.unshortened) {
+        Some("as many as where boxes are visited after a nearer hit is known")
+    } else if is_like(|size| size.unordered) {
+        Some("as many as where the farther child is as often visited first")
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::{FakeCore, Slip};
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+
+    fn found(slip: Slip, mesh: &str) -> Finding {
+        let text = format!("[expect]\nmesh = \"{mesh}\"\nrays = 300");
+        judge(&check_of::<VisitsFewNodes>(&text), &mut FakeCore(slip))
+    }
+
+    #[test]
+    fn a_plain_hierarchy_passes_on_both_meshes() {
+        assert_passes(&found(Slip::None, "soup"));
+        assert_passes(&found(Slip::None, "bumpy-sphere"));
+    }
+
+    #[test]
+    fn the_counts_are_those_of_the_independent_program() {
+        // bvh_counts.log: a soup of 32 768 takes 48.5 tests a ray, on another soup and other rays.
+        let finding = found(Slip::None, "soup");
+        let tests = finding.measures.iter().find(|m| m.name.contains("a ray, 32768")).unwrap();
+        assert!((tests.measured / 48.5 - 1.0).abs() < 0.15, "{}", tests.measured);
+    }
+
+    #[test]
+    fn testing_everything_fails_and_is_named() {
+        let finding = found(Slip::TestsEverything, "bumpy-sphere");
+        let statement = failure(&finding);
+        assert!(statement.ends_with("the hierarchy is not used"), "{statement}");
+    }
+
+    #[test]
+    fn boxes_visited_for_nothing_are_named_though_they_pass() {
+        let finding = found(Slip::NeverShortens, "soup");
+        assert_passes(&finding);
+        assert!(
+            finding.statement.ends_with("after a nearer hit is known"),
+            "{}",
+            finding.statement
+        );
+    }
+
+    #[test]
+    fn shadow_rays_that_search_on_fail() {
+        let finding = found(Slip::SearchesShadows, "soup");
+        let statement = failure(&finding);
+        assert!(statement.ends_with("shadow rays go on after something is hit"), "{statement}");
+    }
+
+    #[test]
+    fn counts_that_are_not_real_fail() {
+        let size = Size {
+            triangles: 512.0,
+            closest: 0.0,
+            any: 0.0,
+            hits: 0.5,
+            ordered: 20.0,
+            unordered: 25.0,
+            unshortened: 30.0,
+        };
+        assert!(failure(&super::judge(&[size])).contains("its counts are not real"));
+    }
+}

@@ -1,5 +1,6 @@
 //! What a core is held to: a true mean, and how far from it rounding may take a correct core.
 
+use crate::math::Precision;
 use serde::{Deserialize, Serialize};
 
 /// The half width of a null hypothesis, relative to the scale of its claim.
@@ -21,6 +22,14 @@ impl Band {
     pub const SINGLE_MATH: Band = Band(2e-4);
     /// The variance of an estimator: two legitimate ways to write one differ by a few per cent.
     pub const VARIANCE: Band = Band(0.2);
+
+    /// One evaluation in this precision.
+    pub const fn math(precision: Precision) -> Band {
+        match precision {
+            Precision::Double => Self::DOUBLE_MATH,
+            Precision::Single => Self::SINGLE_MATH,
+        }
+    }
 
     /// The half width relative to the scale of the claim.
     pub const fn relative(self) -> f64 {

@@ -13,6 +13,7 @@ mod finding;
 mod phrase;
 pub mod picture;
 pub mod robustness;
+pub mod sampling;
 pub mod shape;
 mod surface;
 #[cfg(test)]
@@ -124,6 +125,9 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<bvh::SameHitsAsBruteForce>(),
     CheckKind::of::<bvh::BuildsComeToAnEnd>(),
     CheckKind::of::<bvh::VisitsFewNodes>(),
+    CheckKind::of::<sampling::PdfIntegratesToOne>(),
+    CheckKind::of::<sampling::SampleJacobian>(),
+    CheckKind::of::<sampling::SamplesFollowPdf>(),
     CheckKind::of::<transport::MeanRadiance>(),
     CheckKind::of::<transport::EstimatorsAgree>(),
     CheckKind::of::<transport::RadianceIsLinear>(),

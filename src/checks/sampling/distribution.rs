@@ -1,0 +1,203 @@
+//! Anything that draws directions with a density: the samplers of a course, and BSDFs seen from a direction.
+
+use crate::checks::surface::{SurfaceEntry, seen_from};
+use crate::contract::{
+    BsdfQuery, BsdfSample, BsdfValue, Capabilities, Core, DirectionSample, Randomness, Result,
+    Sampler,
+};
+use crate::math::rng::{Seed, uniform};
+use crate::scene::Material;
+use crate::text::Angle;
+use glam::{DVec2, DVec3};
+use serde::Deserialize;
+
+/// Samples asked for in one call.
+const BATCH: u64 = 1 << 16;
+
+/// Either `{ sampler = "cosine-hemisphere" }` or `{ surface = { … }, seen-from = ["5 deg", "85 deg"] }`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct DistributionEntry {
+    sampler: Option<SamplerEntry>,
+    surface: Option<SurfaceEntry>,
+    #[serde(default)]
+    seen_from: Vec<Angle>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum SamplerEntry {
+    UniformHemisphere,
+    CosineHemisphere,
+}
+
+impl SamplerEntry {
+    const fn sampler(self) -> Sampler {
+        match self {
+            Self::UniformHemisphere => Sampler::UniformHemisphere,
+            Self::CosineHemisphere => Sampler::CosineHemisphere,
+        }
+    }
+}
+
+impl DistributionEntry {
+    /// What is wrong with it.
+    ///
+    /// # Errors
+    /// A sentence for the author of the case.
+    pub fn validate(&self) -> std::result::Result<(), String> {
+        match (self.sampler, self.surface) {
+            (Some(_), None) => Ok(()),
+            (None, Some(surface)) if surface.is_delta() => {
+                Err(format!("{surface} has no density: its directions are certain"))
+            }
+            (None, Some(_)) if self.seen_from.is_empty() => {
+                Err("`seen-from` is missing: from where is the surface seen?".to_owned())
+            }
+            (None, Some(_)) => Ok(()),
+            _ => Err("give either a `sampler` or a `surface`".to_owned()),
+        }
+    }
+
+    /// One for a sampler, one for each direction a surface is seen from.
+    pub fn distributions(&self) -> Vec<Distribution> {
+        let sampler = self.sampler.map(|sampler| Distribution::Sampler(sampler.sampler()));
+        let views = self.surface.iter().flat_map(|surface| {
+            let material = surface.material();
+            self.seen_from.iter().map(move |angle| Distribution::Bsdf {
+                material: material.clone(),
+                wo: seen_from(angle.0),
+                angle: *angle,
+            })
+        });
+        sampler.into_iter().chain(views).collect()
+    }
+
+    /// What a core has to be able to do.
+    pub fn needs(&self) -> Capabilities {
+        match self.sampler {
+            Some(_) => Capabilities::SAMPLE_DIRECTION,
+            None => Capabilities::SAMPLE_BSDF | Capabilities::EVAL_BSDF,
+        }
+    }
+}
+
+/// Something that draws directions.
+#[derive(Clone, Debug)]
+pub enum Distribution {
+    /// Around +z.
+    Sampler(Sampler),
+    /// Seen from `wo`.
+    Bsdf {
+        /// What is sampled.
+        material: Material,
+        /// Towards the viewer, local frame.
+        wo: DVec3,
+        /// Of `wo` from the normal.
+        angle: Angle,
+    },
+}
+
+/// A sample, and the density that came with it.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn {
+    /// `None`: sampling failed.
+    pub direction: Option<DVec3>,
+    /// Per steradian, as returned with the sample.
+    pub pdf: f64,
+}
+
+impl Distribution {
+    /// `the cosine hemisphere`, `a conductor of roughness 0.3 seen from 45°`
+    pub fn name(&self) -> String {
+        match self {
+            Self::Sampler(Sampler::UniformHemisphere) => "the uniform hemisphere".to_owned(),
+            Self::Sampler(Sampler::CosineHemisphere) => "the cosine hemisphere".to_owned(),
+            Self::Bsdf { material, angle, .. } => {
+                format!("{} seen from {:.0}°", material.name, angle.0.to_degrees())
+            }
+        }
+    }
+
+    /// Whether a sample may fail: samplers of the whole hemisphere may not.
+    pub const fn may_fail(&self) -> bool {
+        matches!(self, Self::Bsdf { .. })
+    }
+
+    /// The density at each direction, as evaluated.
+    ///
+    /// # Errors
+    /// If the core does not answer.
+    pub fn pdf(&self, core: &mut dyn Core, directions: &[DVec3], pdf: &mut [f64]) -> Result<()> {
+        match self {
+            Self::Sampler(sampler) => core.direction_pdf(*sampler, directions, pdf),
+            Self::Bsdf { material, wo, .. } => {
+                let query = |wi: &DVec3| BsdfQuery { wo: *wo, wi: *wi };
+                let queries: Vec<_> = directions.iter().map(query).collect();
+                let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
+                core.eval_bsdf(material, &queries, &mut values)?;
+                pdf.iter_mut().zip(&values).for_each(|(pdf, value)| *pdf = value.pdf);
+                Ok(())
+            }
+        }
+    }
+
+    /// One sample for each element of `random`.
+    ///
+    /// # Errors
+    /// If the core does not answer.
+    pub fn sample(&self, core: &mut dyn Core, random: Randomness<'_>) -> Result<Vec<Drawn>> {
+        match self {
+            Self::Sampler(sampler) => {
+                let blank = DirectionSample { direction: DVec3::ZERO, pdf: 0.0 };
+                let mut samples = vec![blank; random.points.len()];
+                core.sample_direction(*sampler, random, &mut samples)?;
+                let drawn =
+                    |s: &DirectionSample| Drawn { direction: Some(s.direction), pdf: s.pdf };
+                Ok(samples.iter().map(drawn).collect())
+            }
+            Self::Bsdf { material, wo, .. } => {
+                let views = vec![*wo; random.points.len()];
+                let mut samples = vec![NO_SAMPLE; views.len()];
+                core.sample_bsdf(material, &views, random, &mut samples)?;
+                let drawn = |sample: &BsdfSample| Drawn {
+                    direction: (sample.is_valid == 1).then_some(sample.wi),
+                    pdf: sample.pdf,
+                };
+                Ok(samples.iter().map(drawn).collect())
+            }
+        }
+    }
+
+    /// Draws `count` samples in batches and hands each batch to `take`.
+    ///
+    /// # Errors
+    /// If the core does not answer.
+    pub fn draw(
+        &self,
+        core: &mut dyn Core,
+        seed: Seed,
+        count: u64,
+        mut take: impl FnMut(&[Drawn]),
+    ) -> Result<()> {
+        for batch in 0..count.div_ceil(BATCH) {
+            let seed = seed.child(batch);
+            let size = usize::try_from(BATCH.min(count - batch * BATCH)).unwrap_or(usize::MAX);
+            let (points, lobes) = random_numbers(seed, size);
+            let random = Randomness { points: &points, lobes: &lobes, seed: seed.0 };
+            take(&self.sample(core, random)?);
+        }
+        Ok(())
+    }
+}
+
+/// The numbers that a core with the caller's randomness uses.
+pub fn random_numbers(seed: Seed, count: usize) -> (Vec<DVec2>, Vec<f64>) {
+    let stream = &mut seed.stream();
+    let points = (0..count).map(|_| DVec2::new(uniform(stream), uniform(stream))).collect();
+    (points, (0..count).map(|_| uniform(stream)).collect())
+}
+
+/// What a core overwrites.
+pub const NO_SAMPLE: BsdfSample =
+    BsdfSample { wi: DVec3::ZERO, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };

@@ -1,0 +1,214 @@
+//! A sampler's map and its density fit together at every point: |∂ω/∂u × ∂ω/∂v| · pdf = 1.
+//!
+//! No statistics: wherever the map from the unit square is smooth, how much it stretches area is the reciprocal of
+//! the density (an idea seen in the tests of lajolla). Needs a core that samples with the caller's numbers.
+
+use super::distribution::{Distribution, DistributionEntry, Drawn, random_numbers};
+use crate::checks::phrase::figure;
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Capabilities, Precision, Randomness};
+use crate::math::ratios::names_of;
+use crate::stats::{Tolerance, Verdict};
+use glam::DVec2;
+use serde::Deserialize;
+
+/// Points of the unit square.
+const POINTS: usize = 2000;
+/// Fewer points with a derivative than this prove nothing: most of the map fails, or has a kink.
+const FEWEST_POINTS: usize = POINTS / 10;
+/// Points lie on a grid of this step, so that single precision holds them and their neighbours.
+const GRID: f64 = 1.0 / 1_048_576.0;
+/// A product that varies less than this is a constant factor, relative.
+const CONSTANT: f64 = 0.02;
+
+/// Density times Jacobian is 1.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SampleJacobian {
+    distribution: DistributionEntry,
+}
+
+impl Check for SampleJacobian {
+    const NAME: &'static str = "sample-jacobian";
+    const SUMMARY: &'static str =
+        "density times the area that the sampler's map makes of the unit square";
+
+    fn needs(&self) -> Capabilities {
+        self.distribution.needs() | Capabilities::CALLERS_RANDOMNESS
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        self.distribution.validate()
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let mut products = Vec::new();
+        for distribution in self.distribution.distributions() {
+            products.push(Products::of(context, &distribution)?);
+        }
+        let measures: Vec<_> = products.iter().flat_map(Products::measures).collect();
+        let complaints: Vec<_> = products.iter().filter_map(Products::complaint).collect();
+        let statement = match complaints.is_empty() {
+            true => format!("density times Jacobian is 1 at {} points", POINTS * products.len()),
+            false => complaints.join("; "),
+        };
+        let allowed = Tolerance::JACOBIAN_MEDIAN.of(context.info.precision);
+        let resolution = format!("would have caught a factor of 1 ± {}", figure(allowed));
+        Ok(Finding::of(statement, resolution, measures))
+    }
+}
+
+/// Half the distance of central differences: the cube root of a rounding balances truncation against rounding.
+const fn step(precision: Precision) -> f64 {
+    match precision {
+        Precision::Double => GRID * 8.0,
+        Precision::Single => GRID * 4096.0,
+    }
+}
+
+/// Density times Jacobian at many points.
+struct Products {
+    name: String,
+    /// (product, cos θ), sorted by product; points whose neighbours fail are left out.
+    values: Vec<(f64, f64)>,
+    precision: Precision,
+}
+
+impl Products {
+    fn of(context: &mut Context<'_>, distribution: &Distribution) -> Result<Self, CheckError> {
+        let precision = context.info.precision;
+        let h = step(precision);
+        let seed = context.seed.child(distribution.name());
+        let (points, _) = random_numbers(seed, POINTS);
+        let on_grid = |u: f64| h + ((1.0 - 2.0 * h) * u / GRID).floor() * GRID;
+        let points: Vec<_> =
+            points.iter().map(|p| DVec2::new(on_grid(p.x), on_grid(p.y))).collect();
+        let lobes = vec![0.5; points.len()];
+        let mut at = |offset: DVec2| {
+            let points: Vec<_> = points.iter().map(|point| *point + offset).collect();
+            let random = Randomness { points: &points, lobes: &lobes, seed: seed.0 };
+            distribution.sample(context.core, random)
+        };
+        let centre = at(DVec2::ZERO)?;
+        let [right, left] = [at(DVec2::new(h, 0.0))?, at(DVec2::new(-h, 0.0))?];
+        let [above, below] = [at(DVec2::new(0.0, h))?, at(DVec2::new(0.0, -h))?];
+        let product = |i: usize| {
+            let along = |to: &[Drawn], from: &[Drawn]| {
+                Some((to[i].direction? - from[i].direction?) / (2.0 * h))
+            };
+            let jacobian = along(&right, &left)?.cross(along(&above, &below)?).length();
+            Some((centre[i].pdf * jacobian, centre[i].direction?.z))
+        };
+        let mut values: Vec<_> = (0..points.len()).filter_map(product).collect();
+        values.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(Self { name: distribution.name(), values, precision })
+    }
+
+    /// The error that this share of the points does not exceed.
+    fn error_of_share(&self, share: f64) -> f64 {
+        let mut errors: Vec<_> = self.values.iter().map(|(value, _)| (value - 1.0).abs()).collect();
+        errors.sort_by(f64::total_cmp);
+        let last = errors.len().saturating_sub(1);
+        errors.get(((share * errors.len() as f64) as usize).min(last)).copied().unwrap_or(f64::NAN)
+    }
+
+    fn measures(&self) -> Vec<Measure> {
+        let of = |what: &str, share, tolerance: Tolerance| {
+            let name = format!("{}: error of {what} of the points", self.name);
+            Measure::exact(name, self.error_of_share(share), 0.0, tolerance.of(self.precision))
+        };
+        let mut measures = vec![
+            of("half", 0.5, Tolerance::JACOBIAN_MEDIAN),
+            of("99 %", 0.99, Tolerance::JACOBIAN_TAIL),
+        ];
+        if self.values.len() < FEWEST_POINTS {
+            measures.iter_mut().for_each(|measure| measure.verdict = Verdict::Inconclusive);
+        }
+        measures
+    }
+
+    fn complaint(&self) -> Option<String> {
+        let failed = self.measures().iter().any(|measure| measure.verdict == Verdict::Fail);
+        failed.then(|| format!("{}: density times Jacobian is {}", self.name, self.factor()))
+    }
+
+    /// The product as a constant, as a constant times a power of the cosine, or by its range.
+    fn factor(&self) -> String {
+        let powers = [(0, ""), (1, " cos θ"), (-1, " / cos θ"), (2, " cos² θ"), (-2, " / cos² θ")];
+        for (power, words) in powers {
+            if let Some(constant) = self.constant_times_cosine(power) {
+                return format!("{}{words} instead of 1", named(constant));
+            }
+        }
+        let [low, high] = [0.05, 0.95].map(|share| {
+            self.values.get((share * self.values.len() as f64) as usize).map_or(f64::NAN, |v| v.0)
+        });
+        format!("between {} and {} instead of 1", figure(low), figure(high))
+    }
+
+    /// c, if nearly all products are c cosᵖ θ.
+    fn constant_times_cosine(&self, power: i32) -> Option<f64> {
+        let mut constants: Vec<_> =
+            self.values.iter().map(|(value, cosine)| value / cosine.abs().powi(power)).collect();
+        constants.sort_by(f64::total_cmp);
+        let at = |share: f64| constants.get((share * constants.len() as f64) as usize).copied();
+        let (low, middle, high) = (at(0.05)?, at(0.5)?, at(0.95)?);
+        (high - low <= CONSTANT * middle.abs()).then_some(middle)
+    }
+}
+
+/// `2π`, or the figure.
+fn named(value: f64) -> String {
+    let names = names_of([0.99 * value, 1.01 * value], &[]);
+    names.first().map_or_else(|| figure(value), |ratio| ratio.name.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::{FakeSampler, cosine, cosine_density, uniform, uniform_density};
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::math::sphere::at_height;
+    use glam::DVec3;
+    use std::f64::consts::TAU;
+
+    fn found(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Finding {
+        let check: SampleJacobian =
+            check_of("[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }");
+        judge(&check, &mut FakeSampler { map, density })
+    }
+
+    fn statement(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> String {
+        failure(&found(map, density)).to_owned()
+    }
+
+    #[test]
+    fn maps_that_fit_their_densities_pass() {
+        assert_passes(&found(cosine, cosine_density));
+        assert_passes(&found(uniform, uniform_density));
+    }
+
+    #[test]
+    fn a_missing_one_over_pi_is_a_constant_factor() {
+        assert!(statement(cosine, |d| d.z).ends_with("is π instead of 1"));
+    }
+
+    #[test]
+    fn the_wrong_density_for_the_map_is_a_cosine() {
+        assert!(statement(cosine, uniform_density).ends_with("is 1/2 / cos θ instead of 1"));
+        assert!(statement(uniform, cosine_density).ends_with("is 2 cos θ instead of 1"));
+    }
+
+    #[test]
+    fn half_of_the_azimuths_is_a_factor_of_one_half() {
+        let half = |p: DVec2| Some(at_height((1.0 - p.x).sqrt(), 0.5 * TAU * p.y));
+        assert!(statement(half, cosine_density).ends_with("is 1/2 instead of 1"));
+    }
+
+    #[test]
+    fn a_map_that_mostly_fails_proves_nothing() {
+        let finding = found(|_| None, cosine_density);
+        // The contract has no failing sampler, so that the fake answers +z everywhere: area 0.
+        assert_eq!(finding.verdict, Verdict::Fail);
+    }
+}

@@ -1,0 +1,321 @@
+//! Samples fall where the density says, by χ² on cells of the sphere; failed samples are a cell of their own.
+
+use super::distribution::{Distribution, DistributionEntry, Drawn};
+use crate::checks::phrase::{figure, percent, would_have_caught};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Capabilities, Core};
+use crate::math::quadrature::Diligence;
+use crate::math::rng::{Seed, uniform};
+use crate::stats::{
+    CellProbabilities, CountDoubt, CountReport, CountSource, Counts, Effort, SphereCells, Stage,
+    Verdict, chi_square_upper, judge_count_source,
+};
+use crate::text::{Count, Percent};
+use serde::Deserialize;
+use std::f64::consts::{FRAC_2_PI, TAU};
+
+/// Rings and sectors of the upper hemisphere; all below is one ring more.
+const CELLS: (usize, usize) = (10, 20);
+/// Error of the integral over a cell that costs a test of millions of samples nothing.
+const QUADRATURE: Diligence = Diligence { tolerance: 1e-7, most_evaluations: 4_000_000 };
+/// A law is named if the rings fit it at this level.
+const NAMED_LEVEL: f64 = 1e-4;
+
+/// Counts of samples against the integral of the density over cells.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SamplesFollowPdf {
+    distribution: DistributionEntry,
+    /// The smallest error of the density, root mean square, that must be seen.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+impl Check for SamplesFollowPdf {
+    const NAME: &'static str = "samples-follow-pdf";
+    const SUMMARY: &'static str = "chi-square of samples against their density";
+
+    fn needs(&self) -> Capabilities {
+        self.distribution.needs()
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        self.distribution.validate()
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
+        let effort = context.budget.scale(effort);
+        let mut judged = Vec::new();
+        for distribution in self.distribution.distributions() {
+            let seed = context.seed.child(distribution.name());
+            let core = &mut *context.core;
+            let mut source = Source { core, distribution: &distribution, seed, cells: None };
+            let report = judge_count_source(&effort, &mut source)?;
+            let cells = source.cells.unwrap_or_else(|| cells(0.0));
+            judged.push(Judged { name: distribution.name(), report, cells });
+        }
+        Ok(finding(&judged))
+    }
+}
+
+fn cells(turn: f64) -> SphereCells {
+    SphereCells::hemisphere(CELLS.0, CELLS.1).turned_by(turn)
+}
+
+/// A distribution of a core, in cells that are turned anew for each stage.
+struct Source<'a> {
+    core: &'a mut dyn Core,
+    distribution: &'a Distribution,
+    seed: Seed,
+    cells: Option<SphereCells>,
+}
+
+impl CountSource for Source<'_> {
+    type Error = CheckError;
+
+    fn expected(&mut self, stage: Stage) -> Result<CellProbabilities, CheckError> {
+        let turn = TAU * uniform(&mut self.seed.child(stage).child("turn").stream());
+        let cells = self.cells.insert(cells(turn));
+        let probabilities = cells.probabilities(QUADRATURE, &mut |directions, values| {
+            self.distribution.pdf(self.core, directions, values)
+        })?;
+        Ok(probabilities)
+    }
+
+    fn draw(&mut self, stage: Stage, samples: u64) -> Result<Counts, CheckError> {
+        let cells = self.cells.clone().unwrap_or_else(|| cells(0.0));
+        let mut counts = cells.count([]);
+        self.distribution.draw(
+            self.core,
+            self.seed.child(stage),
+            samples,
+            |drawn: &[Drawn]| {
+                let batch = cells.count(drawn.iter().map(|drawn| drawn.direction));
+                counts.absorbed += batch.absorbed;
+                counts.cells.iter_mut().zip(batch.cells).for_each(|(all, more)| *all += more);
+            },
+        )?;
+        Ok(counts)
+    }
+}
+
+/// What came of one distribution.
+struct Judged {
+    name: String,
+    report: CountReport,
+    cells: SphereCells,
+}
+
+fn finding(judged: &[Judged]) -> Finding {
+    let measures: Vec<_> = judged.iter().map(Judged::measure).collect();
+    let complaints: Vec<_> = judged.iter().filter_map(Judged::complaint).collect();
+    let statement = match complaints.is_empty() {
+        true => {
+            let samples: u64 = judged.iter().map(|judged| judged.report.samples).sum();
+            format!("{samples} samples fall where their densities say")
+        }
+        false => complaints.join("; "),
+    };
+    let spent = judged.iter().map(|judged| judged.report.false_alarm).sum();
+    let resolution = would_have_caught(&measures) + " of a density, root mean square";
+    Finding::of(statement, resolution, measures).spending(spent)
+}
+
+impl Judged {
+    /// X² per degree of freedom of the last stage.
+    fn measure(&self) -> Measure {
+        let stage = self.report.stages.last();
+        let per_freedom = |value: f64| stage.map_or(f64::NAN, |s| value / s.freedom.max(1.0));
+        let found = per_freedom(stage.map_or(f64::NAN, |stage| stage.statistic));
+        let critical = per_freedom(stage.map_or(f64::NAN, |stage| stage.critical));
+        let name = format!("χ² per degree of freedom, {}", self.name);
+        Measure {
+            verdict: self.report.verdict,
+            resolution: Some(self.report.resolution),
+            ..Measure::exact(name, found, 1.0, critical - 1.0)
+        }
+    }
+
+    fn complaint(&self) -> Option<String> {
+        match (self.report.verdict, self.report.doubt) {
+            (Verdict::Pass, _) => None,
+            (Verdict::Fail, _) => Some(format!("{}: {}", self.name, self.failure())),
+            (_, Some(CountDoubt::QuadratureNotConverged)) => {
+                Some(format!("{}: the integral of its density is not known well enough", self.name))
+            }
+            _ => {
+                let missing = self.report.samples_missing.unwrap_or(0);
+                Some(format!("{}: {missing} more samples are needed", self.name))
+            }
+        }
+    }
+
+    fn failure(&self) -> String {
+        let report = &self.report;
+        if let Some(cell) = report.improper_cell {
+            return format!("the density is no number around {}", self.place(cell));
+        }
+        if let Some(forbidden) = report.forbidden {
+            let (samples, place) = (forbidden.samples, self.place(forbidden.cell));
+            return format!("{samples} samples around {place}, where the density is 0");
+        }
+        if self.residual_of_failures() > self.worst_residual().1 {
+            let (failed, expected) = (report.absorbed_observed, figure(report.absorbed_expected));
+            return format!("{failed} samples of {} fail instead of {expected}", self.drawn());
+        }
+        let words = format!("samples do not follow the density, {} off", percent(self.error()));
+        match self.law() {
+            Some(law) => format!("{words}; they are {law}"),
+            None => format!("{words}; {}", self.worst_cell()),
+        }
+    }
+
+    /// Samples of the last stage.
+    fn drawn(&self) -> u64 {
+        self.report.stages.last().map_or(0, |stage| stage.samples)
+    }
+
+    /// How far the number of failed samples is from what is expected, in standard deviations.
+    fn residual_of_failures(&self) -> f64 {
+        let expected = self.report.absorbed_expected;
+        (self.report.absorbed_observed as f64 - expected).abs() / expected.max(1.0).sqrt()
+    }
+
+    /// The cell that is furthest from what is expected, and how far, in standard deviations.
+    fn worst_residual(&self) -> (usize, f64) {
+        let sizes = self.report.residuals.iter().map(|residual| residual.abs()).enumerate();
+        sizes.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
+    }
+
+    /// The root mean square error of the density that the statistic of the last stage stands for.
+    fn error(&self) -> f64 {
+        let Some(stage) = self.report.stages.last() else { return f64::NAN };
+        ((stage.statistic - stage.freedom).max(0.0) / stage.samples as f64).sqrt()
+    }
+
+    /// `θ = 42°, φ = 10°`: the middle of a cell.
+    fn place(&self, cell: usize) -> String {
+        let ([low, high], [from, to]) = self.cells.bounds(cell);
+        if low < 0.0 {
+            return "the horizon and below".to_owned();
+        }
+        let theta = (0.5 * (low + high)).acos().to_degrees();
+        let phi = (0.5 * (from + to)).to_degrees().rem_euclid(360.0);
+        format!("θ = {theta:.0}°, φ = {phi:.0}°")
+    }
+
+    fn worst_cell(&self) -> String {
+        let (cell, _) = self.worst_residual();
+        let (observed, expected) = (self.report.observed[cell], figure(self.report.expected[cell]));
+        format!("{observed} samples around {} instead of {expected}", self.place(cell))
+    }
+
+    /// The well-known law that the samples follow instead, if there is one.
+    fn law(&self) -> Option<&'static str> {
+        let sectors = self.cells.sector_count();
+        let rings: Vec<u64> =
+            self.report.observed.chunks(sectors).map(|ring| ring.iter().sum()).collect();
+        let empty = |sector: usize| {
+            self.report.observed.iter().skip(sector).step_by(sectors).all(|count| *count == 0)
+        };
+        if (0..sectors).any(empty) {
+            return Some("nowhere in a part of the azimuths");
+        }
+        // The first ring is all below the horizon.
+        LAWS.iter().find(|law| follows(law.below, &rings[1..])).map(|law| law.words)
+    }
+}
+
+/// A law of heights: the share of samples below z.
+struct Law {
+    words: &'static str,
+    below: fn(f64) -> f64,
+}
+
+const LAWS: &[Law] = &[
+    Law { words: "uniform over the hemisphere", below: |z| z },
+    Law { words: "distributed as cos θ", below: |z| z * z },
+    Law { words: "distributed as cos² θ", below: |z| z * z * z },
+    Law {
+        words: "uniform in the angle θ, too dense at the pole",
+        below: |z| 1.0 - FRAC_2_PI * z.acos(),
+    },
+];
+
+/// Whether counts in rings of equal height fit a law.
+fn follows(below: fn(f64) -> f64, rings: &[u64]) -> bool {
+    let total = rings.iter().sum::<u64>() as f64;
+    let count = rings.len() as f64;
+    let edge = |ring: usize| below(ring as f64 / count);
+    let term = |(ring, observed): (usize, &u64)| {
+        let expected = total * (edge(ring + 1) - edge(ring));
+        (*observed as f64 - expected).powi(2) / expected
+    };
+    let statistic: f64 = rings.iter().enumerate().map(term).sum();
+    statistic <= chi_square_upper(NAMED_LEVEL, count - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::{FakeSampler, cosine, cosine_density, uniform};
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::math::sphere::at_height;
+    use glam::{DVec2, DVec3};
+
+    const SAMPLER: &str = "[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }\n\
+                           detects = \"5 %\"\nat-most = \"1 M samples\"";
+    const SURFACE: &str = "[expect]\ndistribution = { surface = { diffuse = 0.5 }, seen-from = [\"30 deg\"] }\n\
+         detects = \"5 %\"\nat-most = \"1 M samples\"";
+
+    fn found(text: &str, map: fn(DVec2) -> Option<DVec3>) -> Finding {
+        let check: SamplesFollowPdf = check_of(text);
+        judge(&check, &mut FakeSampler { map, density: cosine_density })
+    }
+
+    fn statement(map: fn(DVec2) -> Option<DVec3>) -> String {
+        failure(&found(SAMPLER, map)).to_owned()
+    }
+
+    #[test]
+    fn samples_that_follow_their_density_pass_and_spend_of_the_budget() {
+        let finding = found(SAMPLER, cosine);
+        assert_passes(&finding);
+        assert!(finding.false_alarm > 0.0);
+        assert_passes(&found(SURFACE, cosine));
+    }
+
+    #[test]
+    fn other_laws_are_named() {
+        assert!(statement(uniform).ends_with("they are uniform over the hemisphere"));
+        let theta = |p: DVec2| Some(crate::math::frame::direction(0.25 * TAU * p.x, TAU * p.y));
+        assert!(statement(theta).contains("uniform in the angle θ"), "{}", statement(theta));
+        let half = |p: DVec2| Some(at_height((1.0 - p.x).sqrt(), 0.5 * TAU * p.y));
+        assert!(statement(half).ends_with("nowhere in a part of the azimuths"));
+    }
+
+    #[test]
+    fn one_number_used_twice_is_seen() {
+        let statement = statement(|p| Some(at_height((1.0 - p.x).sqrt(), TAU * p.x)));
+        assert!(statement.contains("samples do not follow the density"), "{statement}");
+    }
+
+    #[test]
+    fn samples_below_the_horizon_are_named() {
+        let statement = statement(|p| {
+            let up = at_height((1.0 - p.x).sqrt(), TAU * p.y);
+            Some(if p.x < 0.01 { -up } else { up })
+        });
+        assert!(statement.contains("the horizon and below, where the density is 0"), "{statement}");
+    }
+
+    #[test]
+    fn samples_that_fail_without_the_density_knowing_are_seen() {
+        let finding = found(SURFACE, |p| (p.x > 0.05).then(|| cosine(p)).flatten());
+        assert_eq!(finding.verdict, Verdict::Fail);
+        let finding = found(SURFACE, |p| (p.y * 97.0 % 1.0 > 0.2).then(|| cosine(p)).flatten());
+        assert!(failure(&finding).contains("samples of 1060320 fail instead of"), "{finding:?}");
+    }
+}

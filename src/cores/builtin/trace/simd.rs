@@ -150,7 +150,21 @@ mod x86 {
         // Where an edge function is NaN, t is NaN too, and fails here.
         let in_time =
             _mm_and_ps(_mm_cmpgt_ps(t, _mm_set1_ps(t_after)), _mm_cmple_ps(t, _mm_set1_ps(t_last)));
-        (_mm_movemask_ps(_mm_and_ps(inside, in_time)) as u32, store4(t))
+        let mut hits = _mm_and_ps(inside, in_time);
+        if _mm_movemask_ps(hits) != 0 {
+            hits = _mm_and_ps(hits, _mm_and_ps(surround_zero(x), surround_zero(y)));
+        }
+        (_mm_movemask_ps(hits) as u32, store4(t))
+    }
+
+    /// Whether 0 lies between the least and the most of three numbers.
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    fn surround_zero([a, b, c]: [__m128; 3]) -> __m128 {
+        let zero = _mm_setzero_ps();
+        let least = _mm_min_ps(_mm_min_ps(a, b), c);
+        let most = _mm_max_ps(_mm_max_ps(a, b), c);
+        _mm_and_ps(_mm_cmple_ps(least, zero), _mm_cmpge_ps(most, zero))
     }
 
     /// `a · b − c · d`, each product rounded.

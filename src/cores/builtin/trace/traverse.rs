@@ -312,11 +312,20 @@ impl Kernel for Portable {
             let is_inside =
                 (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
             // A triangle seen edge-on has determinant 0 and t = ±∞ or NaN, which fails here.
-            hits[lane] = is_inside && t > t_after && t <= t_last;
+            // Of a triangle that is tiny for its distance all edge functions may round to zero. It can only be hit
+            // by a ray, which is the origin here, inside the box of its corners.
+            let is_near = surround_zero(x) && surround_zero(y);
+            hits[lane] = is_inside && is_near && t > t_after && t <= t_last;
             ts[lane] = t;
         }
         (bits(hits), ts)
     }
+}
+
+/// Whether 0 lies between the least and the most of three numbers.
+#[inline(always)]
+fn surround_zero([a, b, c]: [f32; 3]) -> bool {
+    a.min(b).min(c) <= 0.0 && a.max(b).max(c) >= 0.0
 }
 
 /// One bit for each element that is true.

@@ -25,6 +25,8 @@ enum Wrong {
     NanPixel,
     /// One pixel of each picture is left as it came.
     UntouchedPixel,
+    /// The density of light samples falls with the distance, not with its square.
+    LightPdfByDistance,
 }
 
 /// A core that is right but for one thing.
@@ -69,7 +71,11 @@ impl BuiltScene for WrongScene<'_> {
         random: Randomness<'_>,
         samples: &mut [LightSample],
     ) -> Result<()> {
-        self.scene.sample_light(light, from, random, samples)
+        self.scene.sample_light(light, from, random, samples)?;
+        if let Wrong::LightPdfByDistance = self.wrong {
+            samples.iter_mut().for_each(|sample| sample.pdf /= sample.distance);
+        }
+        Ok(())
     }
 
     fn radiance(
@@ -100,6 +106,7 @@ impl BuiltScene for WrongScene<'_> {
             }
             Wrong::NanPixel => film.pixels[middle] = [f32::NAN; 3],
             Wrong::UntouchedPixel => film.pixels[middle] = before[middle],
+            Wrong::LightPdfByDistance => {}
         }
         Ok(())
     }
@@ -159,5 +166,13 @@ fn an_untouched_pixel_is_told_from_a_nan() {
     for (_, outcome) in outcomes(Wrong::UntouchedPixel, "builtin", &["images/point-light-plane"]) {
         assert_eq!(outcome.status(), Status::Fail);
         assert!(outcome.statement().contains("left untouched"), "{}", outcome.statement());
+    }
+}
+
+#[test]
+fn a_light_density_without_the_square_is_seen_in_the_solid_angle() {
+    for (id, outcome) in outcomes(Wrong::LightPdfByDistance, "textbook", &["lights/samples-of-"]) {
+        assert_eq!(outcome.status(), Status::Fail, "{id}");
+        assert!(outcome.statement().contains("1/pdf"), "{}", outcome.statement());
     }
 }

@@ -10,6 +10,7 @@ pub mod camera;
 mod context;
 pub mod convergence;
 mod finding;
+pub mod light;
 mod phrase;
 pub mod picture;
 pub mod robustness;
@@ -125,6 +126,7 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<bvh::SameHitsAsBruteForce>(),
     CheckKind::of::<bvh::BuildsComeToAnEnd>(),
     CheckKind::of::<bvh::VisitsFewNodes>(),
+    CheckKind::of::<light::LightSamplesReachLight>(),
     CheckKind::of::<sampling::PdfIntegratesToOne>(),
     CheckKind::of::<sampling::SampleJacobian>(),
     CheckKind::of::<sampling::SamplesFollowPdf>(),

@@ -1,0 +1,243 @@
+//! Sampled directions reach the light, at the distance they say, with a density that adds up.
+//!
+//! Two means need no BSDF and no shadow ray: the mean of 1/pdf is the solid angle of the light, that of cos/pdf is π
+//! times its form factor. A wrong Jacobian from area to solid angle shows in both.
+
+use crate::checks::phrase::{mean_measure, some_are, worst_measure, would_have_caught};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Acceleration, BuiltScene, Capabilities, Hit, LightSample, Randomness, Ray};
+use crate::math::ratios::names_of;
+use crate::math::rng::{Seed, uniform};
+use crate::scene::{Light, SceneDescription};
+use crate::stats::{
+    Band, Claim, Compared, MeanReport, Tolerance, Verdict, judge_exact, judge_means,
+};
+use crate::text::{Count, Percent};
+use glam::{DVec2, DVec3};
+use serde::Deserialize;
+use std::f64::consts::PI;
+
+/// Samples whose end is looked for.
+const TRACED: usize = 4096;
+/// Shadow rays start and the light is looked for this share of the distance away from either end.
+const SLACK: f64 = 1e-3;
+
+/// Samples an area light from some points.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct LightSamplesReachLight {
+    /// The smallest error of a mean that must be seen.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+    point: Vec<Point>,
+}
+
+/// Where the light is sampled from, and how large it looks there.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Point {
+    from: [f64; 3],
+    /// Of the surface there, unit.
+    normal: [f64; 3],
+    /// Steradians. None where only a part of the light faces the point.
+    solid_angle: Option<f64>,
+    /// Of the light as seen by the surface; 0 where the light looks away.
+    form_factor: f64,
+}
+
+impl Check for LightSamplesReachLight {
+    const NAME: &'static str = "light-samples-reach-light";
+    const SUMMARY: &'static str = "sampled directions meet the light; 1/pdf is its solid angle";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::SAMPLE_LIGHT | Capabilities::INTERSECT
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        if self.point.is_empty() { Err("there are no points".to_owned()) } else { Ok(()) }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let light = the_area_light(&scene)?;
+        let (seed, precision) = (context.seed, context.info.precision);
+        let effort = crate::stats::Effort::new(self.detects.0).with_most_samples(self.at_most.0);
+        let effort = context.budget.scale(effort);
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let (mut measures, mut complaints, mut spent) = (Vec::new(), Vec::new(), 0.0);
+        for (number, point) in self.point.iter().enumerate() {
+            let seed = seed.child(number);
+            let label = format!("point {}", number + 1);
+            let traced = Traced::new(built.as_mut(), point, light, seed)?;
+            measures.push(traced.reached(&label, Tolerance::INTERSECTION.of(precision)));
+            if point.form_factor == 0.0 {
+                measures.push(traced.dark(&label));
+                continue;
+            }
+            let claims = point.claims(Band::math(precision));
+            let plain: Vec<_> = claims.iter().map(|(_, claim)| *claim).collect();
+            let reports = judge_means(&plain, &effort, &mut |draw| {
+                let run = draw.seed(seed);
+                point.means(built.as_mut(), light.0, run, draw.samples)
+            })?;
+            for ((name, _), report) in claims.iter().zip(&reports) {
+                measures.push(mean_measure(format!("{label}: {name}"), report));
+                complaints.extend(complaint(&label, name, report));
+                spent += report.false_alarm;
+            }
+        }
+        let failed = measures.iter().find(|m| m.verdict == Verdict::Fail && m.interval.is_none());
+        complaints.extend(failed.map(|measure| measure.name.clone()));
+        let statement = match complaints.is_empty() {
+            true => "samples reach the light with the density they say".to_owned(),
+            false => complaints.join("; "),
+        };
+        let resolution = would_have_caught(&measures);
+        let resolution = match resolution.is_empty() {
+            true => format!("would have caught one wrong sample among {TRACED}"),
+            false => resolution,
+        };
+        Ok(Finding::of(statement, resolution, measures).spending(spent))
+    }
+}
+
+/// The number of the first area light, and of its shape.
+fn the_area_light(scene: &SceneDescription) -> Result<(u32, u32), CheckError> {
+    let area = |light: &Light| match light {
+        Light::Area { shape } => Some(*shape),
+        _ => None,
+    };
+    let found = (0..).zip(&scene.lights).find_map(|(number, light)| Some((number, area(light)?)));
+    found.ok_or_else(|| CheckError::Broken(format!("scene `{}` has no area light", scene.name)))
+}
+
+impl Point {
+    fn from(&self) -> DVec3 {
+        DVec3::from_array(self.from)
+    }
+
+    /// The means that are known at this point, by name.
+    fn claims(&self, band: Band) -> Vec<(&'static str, Claim)> {
+        let solid_angle =
+            self.solid_angle.map(|value| ("mean of 1/pdf", Claim::value(value, band)));
+        let factor = ("mean of cos/pdf", Claim::value(PI * self.form_factor, band));
+        solid_angle.into_iter().chain([factor]).collect()
+    }
+
+    /// Means over one run, in the order of the claims. A sample that sees no light counts as zero.
+    fn means(
+        &self,
+        scene: &mut dyn BuiltScene,
+        light: u32,
+        seed: Seed,
+        count: u64,
+    ) -> Result<Vec<f64>, CheckError> {
+        let samples =
+            self.samples(scene, light, seed, usize::try_from(count).unwrap_or(usize::MAX))?;
+        let normal = DVec3::from_array(self.normal);
+        let lit = || samples.iter().filter(|sample| is_lit(sample));
+        let inverse: f64 = lit().map(|sample| sample.pdf.recip()).sum();
+        let cosine: f64 = lit().map(|s| s.wi.dot(normal).max(0.0) / s.pdf).sum();
+        let n = count as f64;
+        Ok(self.solid_angle.map(|_| inverse / n).into_iter().chain([cosine / n]).collect())
+    }
+
+    fn samples(
+        &self,
+        scene: &mut dyn BuiltScene,
+        light: u32,
+        seed: Seed,
+        count: usize,
+    ) -> Result<Vec<LightSample>, CheckError> {
+        let mut stream = seed.stream();
+        let mut next = || uniform(&mut stream);
+        let points: Vec<_> = (0..count).map(|_| DVec2::new(next(), next())).collect();
+        let lobes: Vec<_> = (0..count).map(|_| next()).collect();
+        let random = Randomness { points: &points, lobes: &lobes, seed: seed.0 };
+        let nothing = LightSample {
+            wi: DVec3::Z,
+            distance: 0.0,
+            radiance: [0.0; 3],
+            pdf: 0.0,
+            is_delta: 0,
+            is_valid: 0,
+        };
+        let mut samples = vec![nothing; count];
+        scene.sample_light(light, &vec![self.from(); count], random, &mut samples)?;
+        Ok(samples)
+    }
+}
+
+fn is_lit(sample: &LightSample) -> bool {
+    sample.is_valid == 1 && sample.pdf > 0.0 && sample.radiance != [0.0; 3]
+}
+
+/// Some samples, and what their rays meet in the scene.
+struct Traced {
+    samples: Vec<LightSample>,
+    hits: Vec<Hit>,
+    shape: u32,
+}
+
+impl Traced {
+    fn new(
+        scene: &mut dyn BuiltScene,
+        point: &Point,
+        (light, shape): (u32, u32),
+        seed: Seed,
+    ) -> Result<Self, CheckError> {
+        let mut samples = point.samples(scene, light, seed.child("traced"), TRACED)?;
+        samples.retain(is_lit);
+        // From close before the light: what lies in between is the business of shadow rays.
+        let ray = |sample: &LightSample| {
+            let start = (1.0 - SLACK) * sample.distance;
+            Ray { t_min: start, ..Ray::new(point.from(), sample.wi) }
+        };
+        let rays: Vec<_> = samples.iter().map(ray).collect();
+        let mut hits = vec![Hit::MISS; rays.len()];
+        if !rays.is_empty() {
+            scene.intersect(&rays, &mut hits)?;
+        }
+        Ok(Self { samples, hits, shape })
+    }
+
+    /// Every lit sample ends on the light, where it says.
+    fn reached(&self, label: &str, tolerance: f64) -> Measure {
+        let compared = self.samples.iter().zip(&self.hits).map(|(sample, hit)| {
+            let found = if hit.is_hit() && hit.shape == self.shape { hit.t } else { f64::NAN };
+            Compared::relative(found, sample.distance, tolerance.max(1e-6))
+        });
+        let report = judge_exact(compared);
+        if report.compared == 0 {
+            return Measure::exact(format!("{label}: samples that see light"), 0.0, 0.0, 0.0);
+        }
+        let some = some_are(report.disagree, report.compared, "samples");
+        match report.verdict {
+            Verdict::Pass => worst_measure(format!("{label}: distance to the light"), &report),
+            _ => Measure::exact(
+                format!("{label}: {some} not on the light at that distance"),
+                report.disagree as f64,
+                0.0,
+                0.0,
+            ),
+        }
+    }
+
+    /// A light that looks away sends nothing.
+    fn dark(&self, label: &str) -> Measure {
+        let lit = self.samples.len() as f64;
+        Measure::exact(format!("{label}: lit samples of a light that looks away"), lit, 0.0, 0.0)
+    }
+}
+
+fn complaint(label: &str, name: &str, report: &MeanReport) -> Option<String> {
+    if report.verdict != Verdict::Fail {
+        return None;
+    }
+    let ratio = report.ratio?;
+    let named = names_of(ratio, &[]);
+    let word = named.first().map_or_else(String::new, |ratio| format!(" ({})", ratio.name));
+    let factor = report.mean / report.expected;
+    Some(format!("{label}: {name} is {factor:.4}{word} of what it should be"))
+}

@@ -26,9 +26,12 @@ pub struct Subject {
     pub rays: Vec<Ray>,
 }
 
+/// Makes a mesh of some size.
+type MakeMesh = fn() -> Mesh;
+
 /// All subjects, small ones first.
 pub fn all() -> impl Iterator<Item = Recipe> {
-    let recipes: [(&str, fn() -> Mesh); 7] = [
+    let recipes: [(&str, MakeMesh); 7] = [
         ("teapot-1k", || teapot(4)),
         ("bumpy-sphere-5k", || bumpy_sphere(4)),
         ("teapot-16k", || teapot(16)),

@@ -96,7 +96,7 @@ mod tests {
         let mut film = || {
             let noise: Vec<f32> = (0..48 * 36).map(|_| uniform(&mut stream) as f32).collect();
             let pixel = |i: usize| {
-                let scale = if i % 97 == 0 { 100.0 } else { 1.0 };
+                let scale = if i.is_multiple_of(97) { 100.0 } else { 1.0 };
                 [scale * ((1.0 - shared) * noise[i] + shared * noise[i.saturating_sub(1)]); 3]
             };
             let pixels = (0..noise.len()).map(pixel).collect();

@@ -260,9 +260,9 @@ mod tests {
         same_box.into_iter().chain(rest).collect()
     }
 
-    /// Sizes and places from 1 down to 1e-6.
-    fn geometric(count: usize) -> Vec<Primitive> {
-        let ratio = 1e-6_f64.powf(1.0 / count as f64);
+    /// Sizes and places from 1 down to `smallest`, each the same part of the one before.
+    fn geometric(count: usize, smallest: f64) -> Vec<Primitive> {
+        let ratio = smallest.powf(1.0 / count as f64);
         let ball = |index| {
             let scale = ratio.powi(index);
             Form::Ball(Ball { centre: DVec3::X * scale, radius: scale / 3.0 })
@@ -286,7 +286,7 @@ mod tests {
 
     #[test]
     fn every_rule_finds_what_brute_force_finds() {
-        let scenes = [Vec::new(), soup(1), soup(2), soup(700), one_place(60), geometric(200)];
+        let scenes = [Vec::new(), soup(1), soup(2), soup(700), one_place(60), geometric(200, 1e-6)];
         let rays = rays(1500);
         let mut stats = TraversalStats::default();
         for primitives in scenes {
@@ -335,7 +335,7 @@ mod tests {
 
     #[test]
     fn builds_end_with_leaves_as_small_as_asked_and_depth_within_bounds() {
-        for primitives in [one_place(10_000), geometric(10_000), soup(10_000)] {
+        for primitives in [one_place(10_000), geometric(10_000, 1e-200), soup(10_000)] {
             for split in RULES {
                 let bvh = bvh(&primitives, split, 3);
                 let stats = bvh.build_stats();

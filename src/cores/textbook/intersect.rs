@@ -1,8 +1,8 @@
 //! Part 1: one ray against one triangle or one sphere.
 //!
 //! Rays may have directions of any length; `t` counts in units of that length. Triangles and
-//! spheres are hit strictly inside the segment (t_min, t_max). Not here: normals
-//! that are interpolated, and which shape a primitive belongs to (`world`).
+//! spheres are hit strictly inside the segment (t_min, t_max). Not here: normals that are
+//! interpolated, and which shape a primitive belongs to (`world`).
 
 use crate::contract::Ray;
 use crate::scene::Aabb;
@@ -21,31 +21,29 @@ pub struct Crossing {
 /// its normal would be rounding error.
 const THINNEST: f64 = 1e-12;
 
-/// A ray is parallel to a triangle if the sine of their angle is below this: a few rounding errors.
-/// Relative to all lengths involved, so that small triangles do not vanish.
-const PARALLEL: f64 = 4.0 * f64::EPSILON;
+/// What rounding can do to a triple product, relative to the product of the three lengths.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// No more than this is forgiven to weights outside a triangle, however grazing the ray.
+const MOST_FORGIVEN: f64 = 1e-9;
 
 /// A triangle with area, as Möller and Trumbore want it: a corner and the two edges that leave it.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
     corner: DVec3,
     edges: [DVec3; 2],
-    /// Square of the determinant below which a unit ray is parallel.
-    parallel_squared: f64,
+    longest_edge: f64,
 }
 
 impl Triangle {
     /// `None` if the corners make no area or are not numbers: nothing can hit such a triangle.
     pub fn new([a, b, c]: [DVec3; 3]) -> Option<Self> {
         let edges = [b - a, c - a];
-        let longest = [edges[0], edges[1], c - b]
-            .iter()
-            .map(|edge| edge.length_squared())
-            .fold(0.0, f64::max);
-        let has_area = edges[0].cross(edges[1]).length() > THINNEST * longest;
-        let parallel_squared =
-            PARALLEL.powi(2) * edges[0].length_squared() * edges[1].length_squared();
-        has_area.then_some(Self { corner: a, edges, parallel_squared })
+        let lengths = [edges[0].length(), edges[1].length(), b.distance(c)];
+        let longest_edge = lengths.into_iter().fold(0.0, f64::max);
+        let doubled_area = edges[0].cross(edges[1]).length();
+        let has_area = doubled_area > THINNEST * longest_edge * longest_edge;
+        has_area.then_some(Self { corner: a, edges, longest_edge })
     }
 
     /// Unit, on the side from which the corners run counter-clockwise.
@@ -75,23 +73,35 @@ impl Triangle {
         let [edge1, edge2] = self.edges;
         let p = ray.direction.cross(edge2);
         let determinant = edge1.dot(p);
-        if self.is_parallel(ray, determinant) {
-            return None;
-        }
         let from_corner = ray.origin - self.corner;
         let u = from_corner.dot(p) / determinant;
-        if !(0.0..=1.0).contains(&u) {
+        if !(-MOST_FORGIVEN..=1.0 + MOST_FORGIVEN).contains(&u) {
             return None;
         }
         let q = from_corner.cross(edge1);
         let v = ray.direction.dot(q) / determinant;
         let t = edge2.dot(q) / determinant;
-        let inside = v >= 0.0 && u + v <= 1.0;
-        (inside && contains(ray, t)).then_some(Crossing { t, uv: DVec2::new(u, v) })
+        if !contains(ray, t) {
+            return None;
+        }
+        let error = self.weight_error(ray, from_corner, determinant)?;
+        let inside = u >= -error && v >= -error && u + v <= 1.0 + error;
+        inside.then_some(Crossing { t, uv: DVec2::new(u, v) })
     }
 
-    fn is_parallel(&self, ray: &Ray, determinant: f64) -> bool {
-        determinant * determinant <= self.parallel_squared * ray.direction.length_squared()
+    /// How far rounding can put u and v off; `None` if the determinant is nothing but rounding,
+    /// because the ray is parallel to the triangle.
+    ///
+    /// Two triangles that share an edge compute on which side of it a ray passes in different ways.
+    /// Were there no room for rounding, a ray through the edge could miss both: a crack along the
+    /// diagonal of every floor. The room is relative to all lengths involved, so that neither small
+    /// nor far triangles vanish or grow.
+    fn weight_error(&self, ray: &Ray, from_corner: DVec3, determinant: f64) -> Option<f64> {
+        let speed = ray.direction.length();
+        let error_by_distance = ROUNDING * speed * self.longest_edge / determinant.abs();
+        let error = error_by_distance * (from_corner.length() + self.longest_edge);
+        let is_crossed = error_by_distance * self.longest_edge < 1.0;
+        is_crossed.then_some(error.min(MOST_FORGIVEN))
     }
 }
 
@@ -219,6 +229,23 @@ mod tests {
                 let crossing = unit_triangle().intersect(&ray);
                 assert_eq!(crossing, Some(Crossing { t: 1.0, uv: DVec2::from(at) }), "{z} {at:?}");
             }
+        }
+    }
+
+    /// The unit square in two halves; a ray through their diagonal hits at least one of them.
+    #[test]
+    fn no_ray_slips_through_a_shared_edge() {
+        let mut random = Random::for_ray(5, 0);
+        for _ in 0..20_000 {
+            let [a, b, c, d] = [(); 4].map(|()| vector(&mut random));
+            let halves = [[a, b, c], [c, d, a]].map(Triangle::new);
+            let along = random.number();
+            let target = a.lerp(c, along);
+            let distance = 10.0_f64.powf(6.0 * random.number() - 3.0);
+            let direction = vector(&mut random);
+            let ray = Ray::new(target - distance * direction, direction);
+            let hits = halves.iter().flatten().filter_map(|half| half.intersect(&ray)).count();
+            assert!(hits > 0, "{ray:?} {halves:?}");
         }
     }
 

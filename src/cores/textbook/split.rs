@@ -7,7 +7,6 @@
 use crate::contract::Split;
 use crate::scene::Aabb;
 use glam::DVec3;
-use std::cmp::Ordering;
 
 /// A primitive as the builder sees it.
 #[derive(Clone, Copy, Debug)]
@@ -46,12 +45,8 @@ pub fn partition(rule: Split, items: &mut [Item]) -> usize {
 pub fn halve(items: &mut [Item]) -> usize {
     let axis = longest_axis(&centroid_bounds(items));
     let middle = items.len() / 2;
-    items.select_nth_unstable_by(middle, |a, b| compare(a.centroid[axis], b.centroid[axis]));
+    items.select_nth_unstable_by(middle, |a, b| a.centroid[axis].total_cmp(&b.centroid[axis]));
     middle
-}
-
-fn compare(a: f64, b: f64) -> Ordering {
-    a.total_cmp(&b)
 }
 
 /// The box around all boxes.
@@ -87,7 +82,7 @@ fn partition_by(items: &mut [Item], goes_left: impl Fn(&Item) -> bool) -> usize 
 fn partition_by_surface_area(items: &mut [Item]) -> usize {
     let bounds = centroid_bounds(items);
     let planes = (0..3).flat_map(|axis| axis_planes(items, &bounds, axis));
-    let best = planes.min_by(|a, b| compare(a.cost, b.cost));
+    let best = planes.min_by(|a, b| a.cost.total_cmp(&b.cost));
     best.map_or(0, |plane| {
         partition_by(items, |item| bin(item, &bounds, plane.axis) < plane.first_right_bin)
     })

@@ -184,29 +184,38 @@ fn forbidden_samples(expected: &CellProbabilities, counts: &Counts) -> Option<Fo
     hits.map(|(cell, (_, &samples))| ForbiddenSamples { cell, samples }).max_by_key(|f| f.samples)
 }
 
+/// What the stages say together.
+fn decide(
+    first: &CountStage,
+    rejected: bool,
+    resolution: f64,
+    detects: f64,
+) -> (Verdict, Option<CountDoubt>) {
+    let converged = first.quadrature_error <= LARGEST_QUADRATURE_ERROR;
+    if rejected {
+        (Verdict::Fail, None)
+    } else if !converged {
+        (Verdict::Inconclusive, Some(CountDoubt::QuadratureNotConverged))
+    } else if resolution <= detects {
+        (Verdict::Pass, None)
+    } else {
+        (Verdict::Inconclusive, Some(CountDoubt::TooFewSamples))
+    }
+}
+
 fn report(
     stages: Vec<CountStage>,
     effort: &Effort,
     expected: &CellProbabilities,
     counts: Counts,
 ) -> CountReport {
-    let first = stages[0];
+    let (first, detects) = (stages[0], effort.detects);
     let resolution = resolution(&first);
     let forbidden = forbidden_samples(expected, &counts);
     let improper_cell = expected.cells.iter().position(|p| !(*p >= 0.0 && p.is_finite()));
-    let rejected = stages.len() == 3 && stages.iter().all(|stage| stage.rejects);
-    let converged = first.quadrature_error <= LARGEST_QUADRATURE_ERROR;
-    let (verdict, doubt) = if rejected || forbidden.is_some() || improper_cell.is_some() {
-        (Verdict::Fail, None)
-    } else if !converged {
-        (Verdict::Inconclusive, Some(CountDoubt::QuadratureNotConverged))
-    } else if resolution <= effort.detects {
-        (Verdict::Pass, None)
-    } else {
-        (Verdict::Inconclusive, Some(CountDoubt::TooFewSamples))
-    };
-    let needed = needed_samples(first.freedom, effort.detects) as u64;
-    let missing = needed.saturating_sub(first.samples).max(1);
+    let all_reject = stages.len() == 3 && stages.iter().all(|stage| stage.rejects);
+    let rejected = all_reject || forbidden.is_some() || improper_cell.is_some();
+    let (verdict, doubt) = decide(&first, rejected, resolution, detects);
     let total = counts.total() as f64;
     let wanted: Vec<f64> = expected.cells.iter().map(|p| p * total).collect();
     CountReport {
@@ -215,9 +224,9 @@ fn report(
         forbidden,
         improper_cell,
         resolution,
-        detects: effort.detects,
+        detects,
         samples: stages.iter().map(|stage| stage.samples).sum(),
-        samples_missing: (doubt == Some(CountDoubt::TooFewSamples)).then_some(missing),
+        samples_missing: samples_missing(&first, doubt, detects),
         residuals: counts.cells.iter().zip(&wanted).map(|(o, e)| residual(*o, *e)).collect(),
         observed: counts.cells,
         absorbed_observed: counts.absorbed,
@@ -227,6 +236,12 @@ fn report(
         false_alarm: COUNTS_FALSE_ALARM,
         stages,
     }
+}
+
+fn samples_missing(first: &CountStage, doubt: Option<CountDoubt>, detects: f64) -> Option<u64> {
+    let needed = needed_samples(first.freedom, detects) as u64;
+    let missing = needed.saturating_sub(first.samples).max(1);
+    (doubt == Some(CountDoubt::TooFewSamples)).then_some(missing)
 }
 
 fn residual(observed: u64, expected: f64) -> f64 {

@@ -31,6 +31,7 @@ mod screen;
 mod screening;
 mod slope;
 mod spread;
+mod target;
 pub mod timing;
 mod trail;
 mod verdict;

@@ -15,7 +15,8 @@
 //! Not here: 8-bit pictures, whose codes follow another law.
 
 use super::cells::{Cells, Scale};
-use super::screening::{Screening, Target};
+use super::screening::Screening;
+use super::target::Target;
 use super::{ImageReport, Stage};
 use crate::image::Image;
 use crate::math::rng::Seed;

@@ -1,81 +1,25 @@
 //! The steps of screen-and-confirm: screening, freezing, confirming, reporting.
 
-use super::cells::{COMPONENTS, Cells, Component, Scale};
+use super::cells::{COMPONENTS, Component, Scale};
 use super::dead_pixels::LitRuns;
 use super::image_report::{
     CellScore, Confirmation, GlobalRatio, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
     TileMap,
 };
-use super::screen::{
-    CONFIRM_LEVEL, IMAGE_FALSE_ALARM, ImageDraw, ImageEffort, REFERENCE_LEVEL, SCREEN_LEVEL,
-};
+use super::screen::{CONFIRM_LEVEL, IMAGE_FALSE_ALARM, ImageDraw, ImageEffort, SCREEN_LEVEL};
 use super::spread::Spread;
-use super::{Band, Moments, Stage, Verdict, normal_upper, student_upper};
+use super::target::{Frozen, Target};
+use super::{Moments, Stage, Verdict, normal_upper, student_upper};
 use crate::image::Image;
 
 /// Cells of a scale that are confirmed together.
 const MOST_FROZEN: usize = 64;
 /// Cells of a scale that are reported.
 const MOST_REPORTED: usize = 16;
-/// Darker than this, relative to the typical brightness, the band does not shrink further: what an offset of
-/// shadow rays leaks into the dark is judged by what it adds to the picture.
-const DARK: f64 = 0.01;
 /// Probability of missing an error as large as the printed resolution.
 const MISS_LEVEL: f64 = 1e-3;
 /// Level of one side of the printed intervals.
 const INTERVAL_LEVEL: f64 = 5e-4;
-
-/// What every cell should be, and how far from that a correct core may be.
-pub(super) struct Target {
-    cells: Cells,
-    expected: Vec<f64>,
-    /// What relative errors are relative to.
-    scale: Vec<f64>,
-    errors: Vec<f64>,
-    bands: Vec<f64>,
-}
-
-impl Target {
-    pub(super) fn new(cells: Cells, expected: Vec<f64>, scale: Vec<f64>, errors: &[f64]) -> Self {
-        let mut bands = Vec::with_capacity(expected.len());
-        let whole = cells.ranges()[Scale::ALL.len() - 1].start;
-        for range in cells.ranges() {
-            let sigmas = normal_upper(REFERENCE_LEVEL / range.len() as f64);
-            bands.extend(range.map(|i| {
-                let level = scale[i].abs().max(DARK * scale[whole + i % COMPONENTS].abs());
-                Band::RADIANCE.relative() * level + sigmas * errors[i]
-            }));
-        }
-        Self { cells, expected, scale, errors: errors.to_vec(), bands }
-    }
-
-    /// How far outside its band a cell's value is, with its sign.
-    fn departure(&self, index: usize, value: f64) -> f64 {
-        let difference = value - self.expected[index];
-        (difference.abs() - self.bands[index]).max(0.0) * difference.signum()
-    }
-
-    /// The luminance of the whole picture.
-    fn whole_luminance(&self) -> usize {
-        self.expected.len() - 1
-    }
-}
-
-/// Cells that are confirmed together: one number a run.
-struct Frozen {
-    /// Cell, sign and weight.
-    terms: Vec<(usize, f64, f64)>,
-}
-
-impl Frozen {
-    /// The weighted sum of how far the frozen cells are outside their bands, towards their signs.
-    fn scalar(&self, target: &Target, values: &[f64]) -> f64 {
-        let outside = |&(index, sign, weight): &(usize, f64, f64)| {
-            weight * (sign * (values[index] - target.expected[index]) - target.bands[index])
-        };
-        self.terms.iter().map(outside).sum()
-    }
-}
 
 /// The runs of one stage.
 struct Sampled {

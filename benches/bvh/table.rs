@@ -16,7 +16,7 @@ pub fn print(subjects: &[Measured]) {
         "subject",
         "triangles",
         "rule",
-        "krays/s",
+        "s/Mray",
         "speed-up",
         "95 % interval",
         "tests/ray",
@@ -49,7 +49,7 @@ fn print_row(row: &Row) {
     println!(
         "{:<18}{:>10}{:>10}  {:<17}{:>10.1}{:>8.1}{:>10.1}{:>7.0}",
         row.rule.name,
-        three_digits(1e-3 / row.seconds_per_ray),
+        three_digits(1e6 * row.seconds_per_ray),
         speed_up,
         interval,
         row.tests_per_ray,

@@ -17,6 +17,7 @@
 //!
 //! **Invariant:** one caller at a time. A core may use threads inside a call.
 
+pub mod abi;
 mod batch;
 mod capability;
 mod error;

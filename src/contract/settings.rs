@@ -40,6 +40,7 @@ pub enum Split {
 }
 
 /// What the build made. Zero for what is not known.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BuildStats {
     /// Inner nodes and leaves.

@@ -1,6 +1,7 @@
 //! Renderer cores: who keeps the promise of [`crate::contract`]. Two of our own, written independently.
 
 pub mod builtin;
+pub mod dylib;
 pub mod textbook;
 
 use crate::contract::Core;

@@ -1,0 +1,139 @@
+// Where light comes from, and directions towards it.
+#ifndef PATHTRACER_LIGHTS_HPP
+#define PATHTRACER_LIGHTS_HPP
+
+#include "shapes.hpp"
+
+namespace pathtracer {
+
+constexpr furnace_light_sample NO_LIGHT{{0, 0, 1}, 0, {0, 0, 0}, 0, 0, 0};
+
+class Light {
+ public:
+   Light(const furnace_light &light, const furnace_scene &scene, const Geometry &geometry)
+       : light(light) {
+      if (light.kind != FURNACE_AREA) return;
+      bool     is_mesh = light.shape < scene.mesh_count;
+      uint32_t ball_index = light.shape - scene.mesh_count;
+      material = scene.materials[is_mesh ? scene.meshes[light.shape].material
+                                         : scene.spheres[ball_index].material];
+      if (!is_mesh) take_ball(geometry.balls[ball_index]);
+      for (const Primitive &p : geometry.primitives) {
+         if (p.shape != light.shape || p.is_ball) continue;
+         triangles.push_back(geometry.triangles[p.index]);
+         area += length(triangles.back().cross_edges) / 2;
+         area_up_to.push_back(area);
+      }
+   }
+
+   bool is_delta() const {
+      return light.kind == FURNACE_POINT || light.kind == FURNACE_DIRECTIONAL;
+   }
+   bool is_sky() const {
+      return light.kind == FURNACE_CONSTANT_SKY || light.kind == FURNACE_GRADIENT_SKY;
+   }
+
+   Rgb sky(Vec w) const {
+      if (light.kind == FURNACE_CONSTANT_SKY) return light.radiance;
+      if (light.kind != FURNACE_GRADIENT_SKY) return {0, 0, 0};
+      double height = std::max(0.0, dot(w, light.place));
+      return (1 - height) * light.radiance + height * light.zenith;
+   }
+
+   furnace_light_sample sample(Vec from, const Numbers &random) const {
+      switch (light.kind) {
+      case FURNACE_POINT: {
+         Vec    way = light.place - from;
+         double squared = dot(way, way);
+         if (!(squared > 0)) return NO_LIGHT;
+         return {unit(way), std::sqrt(squared), light.radiance / squared, 1, 1, 1};
+      }
+      case FURNACE_DIRECTIONAL: return {-light.place, INFINITE, light.radiance, 1, 1, 1};
+      case FURNACE_AREA: return sample_area(from, random);
+      default: {
+         Vec wi = below_pole(2 * random.point.x, random.point.y);
+         return {wi, INFINITE, sky(wi), sky_pdf(), 0, 1};
+      }
+      }
+   }
+
+   double sky_pdf() const { return is_sky() ? 1 / (4 * PI) : 0; }
+
+   // The density of `sample` in the direction of `p`, a glowing point of the light.
+   double area_pdf(Vec from, Vec p, Vec normal) const {
+      if (is_ball && fills_a_cone(from)) return 1 / (2 * PI * cone_depth(from));
+      return per_steradian(from, p, normal);
+   }
+
+ private:
+   furnace_light         light;
+   furnace_material      material{};
+   std::vector<Triangle> triangles;
+   std::vector<double>   area_up_to;
+   bool                  is_ball = false;
+   Ball                  ball{};
+   double                area = 0;
+   double                cap_depth = 2; // of the glowing part of the unit sphere
+
+   void take_ball(const Ball &of_scene) {
+      is_ball = true;
+      ball = of_scene;
+      if (material.cap_half_angle > 0) cap_depth = 1 - std::cos(material.cap_half_angle);
+      area = 2 * PI * ball.radius * ball.radius * cap_depth;
+   }
+
+   // 1 / area on the surface, as a density of directions: 0 from behind.
+   double per_steradian(Vec from, Vec p, Vec normal) const {
+      Vec    way = p - from;
+      double squared = dot(way, way), cosine = -dot(way, normal) / std::sqrt(squared);
+      return cosine > 0 ? squared / (cosine * area) : 0;
+   }
+
+   furnace_light_sample towards(Vec from, Vec p, Vec normal) const {
+      double pdf = per_steradian(from, p, normal);
+      if (!(pdf > 0)) return NO_LIGHT;
+      return {unit(p - from), length(p - from), material.emission, pdf, 0, 1};
+   }
+
+   furnace_light_sample sample_area(Vec from, const Numbers &random) const {
+      if (is_ball) return fills_a_cone(from) ? sample_cone(from, random.point)
+                                             : sample_cap(from, random.point);
+      if (triangles.empty()) return NO_LIGHT;
+      auto   found = std::upper_bound(area_up_to.begin(), area_up_to.end(), random.lobe * area);
+      size_t chosen = std::min(size_t(found - area_up_to.begin()), triangles.size() - 1);
+      double root = std::sqrt(random.point.x); // Turk 1990
+      const Triangle &triangle = triangles[chosen];
+      Vec p = triangle.point(root * (1 - random.point.y), root * random.point.y);
+      return towards(from, p, triangle.normal());
+   }
+
+   furnace_light_sample sample_cap(Vec from, furnace_vec2 u) const {
+      Vec axis = material.cap_half_angle > 0 ? material.cap_axis : Vec{0, 0, 1};
+      Vec outward = Frame(axis).to_world(below_pole(u.x * cap_depth, u.y));
+      return towards(from, ball.centre + ball.radius * outward, ball.inward ? -outward : outward);
+   }
+
+   // From outside, a ball that glows all over is the cone of directions that meet it.
+   bool fills_a_cone(Vec from) const {
+      bool glows_all_over = !ball.inward && material.cap_half_angle == 0;
+      return glows_all_over && length(from - ball.centre) > ball.radius;
+   }
+   double cone_depth(Vec from) const {
+      Vec    way = ball.centre - from;
+      double sine2 = ball.radius * ball.radius / dot(way, way);
+      return sine2 / (1 + std::sqrt(std::max(0.0, 1 - sine2)));
+   }
+   furnace_light_sample sample_cone(Vec from, furnace_vec2 u) const {
+      Vec    way = ball.centre - from;
+      double depth = u.x * cone_depth(from), distance = length(way);
+      double off_axis2 = distance * distance * depth * (2 - depth);
+      double half_chord = std::sqrt(std::max(0.0, ball.radius * ball.radius - off_axis2));
+      Vec    wi = Frame(unit(way)).to_world(below_pole(depth, u.y));
+      double pdf = 1 / (2 * PI * cone_depth(from));
+      return {wi, distance * (1 - depth) - half_chord, material.emission, pdf, 0, 1};
+   }
+};
+
+} // namespace pathtracer
+
+#endif

@@ -1,0 +1,77 @@
+// Vectors, random numbers, and directions around an axis.
+#ifndef PATHTRACER_NUMBERS_HPP
+#define PATHTRACER_NUMBERS_HPP
+
+#include "furnace_core.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace pathtracer {
+
+using furnace::cross, furnace::dot, furnace::length, furnace::unit, furnace::Numbers;
+using Vec = furnace_vec3;
+using Rgb = furnace_rgb;
+using Ray = furnace_ray;
+using Stats = furnace_traversal_stats;
+
+constexpr double PI = 3.14159265358979323846;
+constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+inline bool   is_black(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+inline double luminance(Rgb c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+inline double largest(Vec v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+inline double at(const Vec &v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+inline Vec    point_on(const Ray &ray, double t) { return ray.origin + t * ray.direction; }
+
+// SplitMix64 (Steele, Lea and Flood 2014). Every ray and every sample of a pixel has a stream of
+// its own, so that no answer depends on threads.
+class Random {
+ public:
+   Random(uint64_t seed, uint64_t stream, uint64_t sample)
+       : state(mix(mix(mix(seed) + stream) + sample)) {}
+
+   double number() { return double(mix(state += 0x9e3779b97f4a7c15) >> 11) * 0x1p-53; }
+   Numbers numbers() {
+      double x = number(), y = number();
+      return {{x, y}, number()};
+   }
+
+ private:
+   static uint64_t mix(uint64_t z) {
+      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+      z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+      return z ^ (z >> 31);
+   }
+   uint64_t state;
+};
+
+
+// An orthonormal frame around a unit vector (Duff et al. 2017).
+struct Frame {
+   Vec x, y, z;
+   explicit Frame(Vec axis) : z(axis) {
+      double sign = std::copysign(1.0, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
+      x = {1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x};
+      y = {b, sign + axis.y * axis.y * a, -axis.y};
+   }
+   Vec to_world(Vec v) const { return v.x * x + v.y * y + v.z * z; }
+   Vec to_local(Vec v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+};
+
+// The unit vector whose z is 1 - depth, at `turn` of a full turn; exact for small depths.
+inline Vec below_pole(double depth, double turn) {
+   double sine = std::sqrt(std::max(0.0, depth * (2 - depth)));
+   return {sine * std::cos(2 * PI * turn), sine * std::sin(2 * PI * turn), 1 - depth};
+}
+
+inline Vec uniform_hemisphere(furnace_vec2 u) { return below_pole(u.x, u.y); }
+inline Vec cosine_hemisphere(furnace_vec2 u) {
+   double radius = std::sqrt(u.x);
+   return {radius * std::cos(2 * PI * u.y), radius * std::sin(2 * PI * u.y), std::sqrt(1 - u.x)};
+}
+
+} // namespace pathtracer
+
+#endif

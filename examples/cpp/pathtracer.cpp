@@ -1,0 +1,149 @@
+// A small complete path tracer behind furnace_core.hpp, in double precision. Read it to see where
+// each function of your own renderer would go; copy its parts freely.
+//
+//    c++ -std=c++17 -O2 -shared -fPIC -Iinclude examples/cpp/pathtracer.cpp -o libpathtracer.so
+//    cargo furnace --core ./libpathtracer.so
+//
+// numbers.hpp    vectors, random numbers, directions around an axis
+// shapes.hpp     boxes, triangles, balls
+// hierarchy.hpp  the bounding volume hierarchy
+// surfaces.hpp   how surfaces scatter
+// lights.hpp     where light comes from
+// scene.hpp      paths
+// this file      pictures, and the type that the bench talks to
+//
+// It shares no code with the cores that come with the bench.
+#include "scene.hpp"
+
+#include <atomic>
+#include <thread>
+
+namespace pathtracer {
+
+// ---- pictures -----------------------------------------------------------------------------------
+
+Ray camera_ray(const furnace_camera &camera, furnace_vec2 film) {
+   double x = (2 * film.x - 1) * std::tan(camera.horizontal_fov / 2);
+   double y = (2 * film.y - 1) * std::tan(camera.vertical_fov / 2);
+   Vec    direction = unit(x * camera.right + y * camera.up - camera.backward);
+   return {camera.position, camera.near_clip, direction, camera.far_clip};
+}
+
+// The course's stopping rule, over luminances as they come.
+struct Tally {
+   uint32_t count = 0;
+   double   sum = 0, squares = 0;
+
+   void   add(double value) { ++count, sum += value, squares += value * value; }
+   double mean() const { return sum / count; }
+   bool   may_stop(const furnace_adaptive &rule) const {
+      if (count % std::max(1u, rule.samples_per_batch) != 0) return false;
+      double variance = std::max(0.0, squares - sum * sum / count) / (count - 1.0);
+      return 1.96 * std::sqrt(variance / count) <= rule.max_tolerance * mean();
+   }
+};
+
+void Scene::render(const furnace_camera &camera, const furnace_render &settings, float *pixels,
+                   uint32_t *sample_counts) const {
+   if (settings.samples_per_pixel == 0) throw std::invalid_argument("no samples a pixel");
+   auto render_pixel = [&](uint32_t index) {
+      uint32_t x = index % settings.width, y = index / settings.width;
+      Rgb      sum{0, 0, 0};
+      Tally    tally;
+      while (tally.count < settings.samples_per_pixel) {
+         Random  random(settings.integrator->seed, index, tally.count + 1);
+         Numbers within_pixel = random.numbers();
+         Ray     ray = camera_ray(camera, {(x + within_pixel.point.x) / settings.width,
+                                           1 - (y + within_pixel.point.y) / settings.height});
+         Rgb radiance = trace(ray, *settings.integrator, random);
+         sum = sum + radiance;
+         tally.add(luminance(radiance));
+         if (settings.adaptive && tally.may_stop(*settings.adaptive)) break;
+      }
+      Rgb mean = sum / tally.count;
+      float *pixel = pixels + 3 * size_t(index);
+      pixel[0] = float(mean.r), pixel[1] = float(mean.g), pixel[2] = float(mean.b);
+      sample_counts[index] = tally.count;
+   };
+   uint32_t wanted = settings.integrator->threads;
+   uint32_t count = wanted ? wanted : std::max(1u, std::thread::hardware_concurrency());
+   std::atomic<uint32_t>    next{0};
+   std::vector<std::thread> threads;
+   auto work = [&] {
+      for (uint32_t row; (row = next++) < settings.height;)
+         for (uint32_t x = 0; x < settings.width; ++x) render_pixel(row * settings.width + x);
+   };
+   for (uint32_t i = 1; i < count; ++i) threads.emplace_back(work);
+   work();
+   for (std::thread &thread : threads) thread.join();
+}
+
+// ---- what the bench talks to --------------------------------------------------------------------
+
+struct PathTracer {
+   furnace_ray generate_ray(const furnace_camera &camera, furnace_vec2 film) {
+      return camera_ray(camera, film);
+   }
+
+   furnace_hit intersect_triangle(const Vec *positions, const Vec *normals, const Ray &ray) {
+      return alone(Triangle(positions, normals), ray);
+   }
+   furnace_hit intersect_sphere(Vec centre, double radius, const Ray &ray) {
+      return alone(Ball{centre, radius, false}, ray);
+   }
+   furnace_box_hit intersect_box(Vec min, Vec max, const Ray &ray) {
+      furnace_box_hit hit{};
+      hit.hit = Box{min, max}.meets(ray, hit.t_enter, hit.t_exit);
+      return hit;
+   }
+
+   furnace_direction_sample sample_direction(uint32_t sampler, const Numbers &random) {
+      Vec direction = sampler == FURNACE_COSINE_HEMISPHERE ? cosine_hemisphere(random.point)
+                                                           : uniform_hemisphere(random.point);
+      return {direction, direction_pdf(sampler, direction)};
+   }
+   double direction_pdf(uint32_t sampler, Vec direction) {
+      if (direction.z <= 0) return 0;
+      return sampler == FURNACE_COSINE_HEMISPHERE ? direction.z / PI : 1 / (2 * PI);
+   }
+
+   furnace_bsdf_value eval_bsdf(const furnace_material &material, Vec wo, Vec wi) {
+      return eval_surface(known(material), wo, wi);
+   }
+   furnace_bsdf_sample sample_bsdf(const furnace_material &material, Vec wo,
+                                   const Numbers &random) {
+      return sample_surface(known(material), wo, random);
+   }
+
+   furnace_adaptive_mean adaptive_mean(const furnace_adaptive &rule, const double *luminances,
+                                       size_t count) {
+      Tally tally;
+      while (tally.count < count) {
+         tally.add(luminances[tally.count]);
+         if (tally.may_stop(rule)) break;
+      }
+      return {tally.mean(), tally.count, 0};
+   }
+
+   std::unique_ptr<Scene> build(const furnace_scene &scene, const furnace_build &settings) {
+      for (uint32_t i = 0; i < scene.material_count; ++i) known(scene.materials[i]);
+      return std::make_unique<Scene>(scene, settings);
+   }
+
+ private:
+   template <class Shape> static furnace_hit alone(const Shape &shape, const Ray &ray) {
+      furnace_hit hit{};
+      return shape.hit(ray, hit) ? hit : furnace::miss();
+   }
+   static const furnace_material &known(const furnace_material &material) {
+      if (material.kind > FURNACE_CONDUCTOR) throw furnace::Unsupported("an unknown material");
+      return material;
+   }
+};
+
+} // namespace pathtracer
+
+FURNACE_CORE(pathtracer::PathTracer, "pathtracer.cpp", "1.0",
+             FURNACE_BRUTE_FORCE | FURNACE_SPLIT_RULES | FURNACE_HEMISPHERE_SAMPLING |
+                 FURNACE_ISOLATED_BOUNCES | FURNACE_ROULETTE | FURNACE_ADAPTIVE_SAMPLING |
+                 FURNACE_COUNTS_TRAVERSAL | FURNACE_CALLERS_RANDOMNESS | FURNACE_DETERMINISTIC)

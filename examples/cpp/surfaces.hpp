@@ -1,0 +1,91 @@
+// How surfaces scatter. Directions are local (normal = +z), both away from the surface.
+#ifndef PATHTRACER_SURFACES_HPP
+#define PATHTRACER_SURFACES_HPP
+
+#include "numbers.hpp"
+
+namespace pathtracer {
+
+constexpr furnace_bsdf_value NOTHING{{0, 0, 0}, 0};
+constexpr furnace_bsdf_sample FAILED{{0, 0, 1}, {0, 0, 0}, 0, 0, 0};
+
+inline bool is_delta(const furnace_material &m) {
+   return m.kind == FURNACE_MIRROR || m.kind == FURNACE_GLASS;
+}
+inline Vec mirrored(Vec w) { return {-w.x, -w.y, w.z}; }
+
+// GGX facets with separable Smith masking (Walter et al. 2007). Written with x^2 + y^2 in place of
+// 1 - z^2: narrow lobes keep their digits.
+inline double ggx_density(double alpha, Vec h) {
+   double a2 = alpha * alpha, s = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
+   return a2 / (PI * s * s);
+}
+
+// G1(w) / cos(w)
+inline double masking_over_cosine(double alpha, Vec w) {
+   return 2 / (w.z + std::sqrt(w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y)));
+}
+
+// f, and the density of visible normals over the Jacobian of the reflection.
+inline furnace_bsdf_value eval_conductor(const furnace_material &m, Vec wo, Vec wi) {
+   double d = ggx_density(m.roughness, unit(wo + wi)), o = masking_over_cosine(m.roughness, wo);
+   return {d * o * masking_over_cosine(m.roughness, wi) / 4 * m.reflectance, d * o / 4};
+}
+
+// A visible facet is halfway between the view and a uniform point of a spherical cap, once the
+// surface is stretched so that facets form a hemisphere (Dupuy and Benyoub 2023).
+inline Vec sample_conductor(double alpha, Vec wo, furnace_vec2 u) {
+   Vec view = unit({alpha * wo.x, alpha * wo.y, wo.z});
+   Vec stretched = view + below_pole(u.x * (1 + view.z), u.y);
+   Vec facet = unit({alpha * stretched.x, alpha * stretched.y, std::max(0.0, stretched.z)});
+   return 2 * dot(wo, facet) * facet - wo;
+}
+
+// Reflectance of light that arrives at `cosine`, by Fresnel's equations; `ratio` is the index of
+// the far side over that of the near one, and `refracted` becomes the cosine there.
+inline double fresnel(double cosine, double ratio, double &refracted) {
+   double sine2 = (1 - cosine * cosine) / (ratio * ratio);
+   if (sine2 >= 1) return 1;
+   refracted = std::sqrt(1 - sine2);
+   double s = (cosine - ratio * refracted) / (cosine + ratio * refracted);
+   double p = (ratio * cosine - refracted) / (ratio * cosine + refracted);
+   return (s * s + p * p) / 2;
+}
+
+// A delta lobe: f such that f |cos| is the weight of the light along it.
+inline furnace_bsdf_sample only_way(Vec wi, Rgb weight, double probability) {
+   if (wi.z == 0 || !(probability > 0)) return FAILED;
+   return {wi, weight / std::abs(wi.z), probability, 1, 1};
+}
+
+inline furnace_bsdf_sample sample_glass(const furnace_material &m, Vec wo, double lobe) {
+   double ratio = wo.z > 0 ? m.index : 1 / m.index, cosine = 0;
+   double reflected = fresnel(std::abs(wo.z), ratio, cosine);
+   if (lobe < reflected) return only_way(mirrored(wo), reflected * m.reflectance, reflected);
+   Vec wi = unit({-wo.x / ratio, -wo.y / ratio, -std::copysign(cosine, wo.z)});
+   // Radiance over index squared is what crosses the surface unchanged.
+   return only_way(wi, (1 - reflected) / (ratio * ratio) * m.transmittance, 1 - reflected);
+}
+
+inline furnace_bsdf_value eval_surface(const furnace_material &m, Vec wo, Vec wi) {
+   if (wo.z < 0) wo = -wo, wi = -wi; // all but glass scatter the same on both sides
+   if (wo.z <= 0 || wi.z <= 0 || is_delta(m)) return NOTHING;
+   if (m.kind == FURNACE_CONDUCTOR) return eval_conductor(m, wo, wi);
+   return {m.reflectance / PI, wi.z / PI};
+}
+
+inline furnace_bsdf_sample sample_surface(const furnace_material &m, Vec wo,
+                                          const Numbers &random) {
+   if (m.kind == FURNACE_GLASS) return sample_glass(m, wo, random.lobe);
+   if (m.kind == FURNACE_MIRROR) return only_way(mirrored(wo), m.reflectance, 1);
+   Vec above = wo.z < 0 ? -wo : wo;
+   Vec wi = m.kind == FURNACE_CONDUCTOR ? sample_conductor(m.roughness, above, random.point)
+                                        : cosine_hemisphere(random.point);
+   auto [f, pdf] = eval_surface(m, above, wi);
+   if (!(pdf > 0)) return FAILED;
+   return {wo.z < 0 ? -wi : wi, f, pdf, 0, 1};
+}
+
+} // namespace pathtracer
+
+#endif

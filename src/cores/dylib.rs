@@ -1,0 +1,527 @@
+//! A core that is a shared library, called through the table of `include/furnace_core.h`.
+//!
+//! One of the two files with `unsafe`: everything that follows a foreign pointer is here. A library can do anything
+//! to the process it is loaded into, so a run loads it in a worker process (`cores::remote`) and never beside its
+//! own results. Not here: what the answers are worth (`contract::validate`), and what happens if none comes
+//! (`worker`).
+#![expect(unsafe_code, reason = "a shared library is called through C")]
+
+mod counted;
+mod declaration;
+mod description;
+
+use crate::contract::abi::{self, CoreTable, Traits};
+use crate::contract::{
+    Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
+    BuildStats, BuiltScene, Capabilities, Core, CoreError, CoreInfo, DirectionSample, Film, Hit,
+    IntegratorSettings, LightSample, Precision, Primitive, Randomness, Ray, RenderSettings, Result,
+    Sampler, Split, TraversalStats,
+};
+use crate::scene::{Aabb, Camera, Material, SceneDescription};
+use counted::CountedScene;
+use description::{MaterialTable, SceneTables, struct_size};
+use glam::{DVec2, DVec3};
+use libloading::Library;
+use std::ffi::{CStr, c_char, c_void};
+use std::mem::{MaybeUninit, offset_of};
+use std::path::{Path, PathBuf};
+use std::ptr::{self, NonNull};
+
+/// Why a library is no core.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// The system's loader says no.
+    #[error("{path} cannot be loaded: {why}")]
+    Library {
+        /// The file.
+        path: PathBuf,
+        /// What the loader says.
+        why: String,
+    },
+    /// It does not export the one symbol.
+    #[error("{0} exports no `{entry}`; does it end with FURNACE_CORE(...)?", entry = abi::ENTRY)]
+    NoEntry(PathBuf),
+    /// It answered no table.
+    #[error("{0} says that it cannot serve version {abi} of furnace_core.h", abi = abi::ABI)]
+    Declined(PathBuf),
+    /// It was compiled against another version of the header.
+    #[error("{path} was compiled with version {found} of furnace_core.h, this is version {abi}: compile it again", abi = abi::ABI)]
+    OtherAbi {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: u32,
+    },
+    /// Its table says something that cannot be.
+    #[error("{path} hands over a table that cannot be: {what}")]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+    },
+}
+
+/// A table larger than this is a lie: a pointer for every function that anybody will ever append.
+const LARGEST_TABLE: usize = 1 << 16;
+
+/// A core in a shared library.
+pub struct Dylib {
+    table: CoreTable,
+    info: CoreInfo,
+    /// The code behind the table.
+    _library: Library,
+}
+
+// SAFETY: the boundary allows one call at a time and says nothing about which thread calls, so a core may not rely
+// on one. `&mut self` sees to the one call.
+unsafe impl Send for Dylib {}
+
+/// Lets a fault inside foreign code end the process, as it would without us. Rust installs a handler that tells
+/// stack overflows apart; a fault that a core *raises* returns through it and is forgotten.
+pub fn let_faults_kill() {
+    #[cfg(unix)]
+    for signal in [libc::SIGSEGV, libc::SIGBUS] {
+        // SAFETY: SIG_DFL is a valid disposition, and nothing of ours relies on the handler that is replaced.
+        unsafe { libc::signal(signal, libc::SIG_DFL) };
+    }
+}
+
+impl Dylib {
+    /// Loads the library at `path` and asks it for its table. Its initialisers run.
+    ///
+    /// # Errors
+    /// If it is no library, or no core of this version.
+    pub fn load(path: &Path) -> std::result::Result<Self, LoadError> {
+        // SAFETY: nothing can be known of a foreign library; that is why it is loaded in a worker.
+        let library = unsafe { Library::new(path) }.map_err(|error| LoadError::Library {
+            path: path.to_owned(),
+            why: error.to_string(),
+        })?;
+        // SAFETY: the header gives this symbol this type.
+        let entry = unsafe { library.get::<abi::Entry>(abi::ENTRY) }
+            .map_err(|_| LoadError::NoEntry(path.to_owned()))?;
+        // SAFETY: as above.
+        let table = unsafe { entry(abi::ABI) };
+        let table = read_table(path, table)?;
+        let info = core_info(path, &table)?;
+        Ok(Self { table, info, _library: library })
+    }
+
+    /// What a call came to.
+    fn answered(&self, wanted: Capabilities, status: abi::Status) -> Result<()> {
+        match status {
+            abi::OK => Ok(()),
+            abi::UNSUPPORTED => Err(CoreError::Unsupported(wanted)),
+            abi::INVALID | abi::FAILED => Err(CoreError::Refused(self.last_error())),
+            other => Err(CoreError::BrokeContract(format!(
+                "status {other} is none of those in furnace_core.h"
+            ))),
+        }
+    }
+
+    fn last_error(&self) -> String {
+        let Some(last_error) = self.table.last_error else {
+            return "it gives no reason (last_error is null)".to_owned();
+        };
+        // SAFETY: the header gives the function this type.
+        let reason = unsafe { last_error(self.table.this) };
+        text(reason).unwrap_or_else(|| "it gives no reason (last_error answered null)".to_owned())
+    }
+
+    /// The table of counted tests that a core with that trait is handed.
+    fn counted_tests(&self, scene: &SceneDescription) -> Option<Box<CountedScene>> {
+        let traits = Traits::from_bits_truncate(self.table.traits);
+        traits.contains(Traits::COUNTED_TESTS).then(|| Box::new(CountedScene::new(scene)))
+    }
+
+    /// Whether the core declares what an ordinary BVH request does not need.
+    fn can_build(&self, acceleration: Acceleration) -> Result<()> {
+        let needed = match acceleration {
+            Acceleration::BruteForce => Capabilities::BRUTE_FORCE,
+            Acceleration::Bvh { split: Split::CoresChoice, .. } => Capabilities::BUILD_SCENE,
+            Acceleration::Bvh { .. } => Capabilities::SPLIT_RULES,
+        };
+        if self.info.capabilities.contains(needed) {
+            Ok(())
+        } else {
+            Err(CoreError::Unsupported(needed))
+        }
+    }
+}
+
+/// Copies as much of a core's table as both sides know.
+fn read_table(path: &Path, table: *const CoreTable) -> std::result::Result<CoreTable, LoadError> {
+    let malformed = |what: String| LoadError::Malformed { path: path.to_owned(), what };
+    let Some(table) = NonNull::new(table.cast_mut()) else {
+        return Err(LoadError::Declined(path.to_owned()));
+    };
+    if !table.is_aligned() {
+        return Err(malformed("it is not aligned".to_owned()));
+    }
+    // SAFETY: a core that answers a table answers at least these two numbers.
+    let (abi, size) = unsafe { ((*table.as_ptr()).abi, (*table.as_ptr()).struct_size as usize) };
+    if abi != abi::ABI {
+        return Err(LoadError::OtherAbi { path: path.to_owned(), found: abi });
+    }
+    let smallest = offset_of!(CoreTable, generate_rays);
+    if !(smallest..=LARGEST_TABLE).contains(&size) || !size.is_multiple_of(8) {
+        return Err(malformed(format!("struct_size is {size}")));
+    }
+    let mut copy = MaybeUninit::<CoreTable>::zeroed();
+    let known = size.min(size_of::<CoreTable>());
+    // SAFETY: the core says that `size` bytes are there. All zeros are a table of nulls, so a copy that ends early
+    // is a table whose last functions are not supported.
+    unsafe {
+        ptr::copy_nonoverlapping(table.as_ptr().cast::<u8>(), copy.as_mut_ptr().cast(), known);
+        Ok(copy.assume_init())
+    }
+}
+
+fn core_info(path: &Path, table: &CoreTable) -> std::result::Result<CoreInfo, LoadError> {
+    let conventions = declaration::conventions(&table.conventions).ok_or_else(|| {
+        let what = "it declares a convention that is none of those in furnace_core.h".to_owned();
+        LoadError::Malformed { path: path.to_owned(), what }
+    })?;
+    let traits = Traits::from_bits_truncate(table.traits);
+    let single = traits.contains(Traits::SINGLE_PRECISION);
+    Ok(CoreInfo {
+        name: text(table.name).unwrap_or_else(|| "(no name)".to_owned()),
+        version: text(table.version).unwrap_or_else(|| "(no version)".to_owned()),
+        capabilities: declaration::capabilities(table),
+        precision: if single { Precision::Single } else { Precision::Double },
+        conventions,
+    })
+}
+
+/// A C string, if there is one.
+fn text(characters: *const c_char) -> Option<String> {
+    // SAFETY: the header asks for a string that ends.
+    (!characters.is_null())
+        .then(|| unsafe { CStr::from_ptr(characters) }.to_string_lossy().into_owned())
+}
+
+/// Calls a function of the table if it is there: `ask!(core, GENERATE_RAYS, generate_rays(arguments...))`.
+macro_rules! ask {
+    ($core:expr, $capability:ident, $function:ident($($argument:expr),* $(,)?)) => {{
+        let core = $core;
+        let Some(function) = core.table.$function else {
+            return Err(CoreError::Unsupported(Capabilities::$capability));
+        };
+        // SAFETY: the header gives the function this type; every pointer is valid for the call, and every slice is
+        // as long as the count that goes with it, which `lengths` has checked.
+        let status = unsafe { function(core.table.this, $($argument),*) };
+        core.answered(Capabilities::$capability, status)
+    }};
+}
+
+/// Every slice of a request is as long as its answers: C sees only one count.
+///
+/// # Panics
+/// If one is not, which is a mistake of the caller.
+fn lengths<const N: usize>(answers: usize, others: [usize; N]) -> usize {
+    assert_eq!(others, [answers; N], "slices of one batch have one length");
+    answers
+}
+
+fn randomness(random: Randomness<'_>) -> abi::Randomness {
+    abi::Randomness {
+        points: random.points.as_ptr(),
+        lobes: random.lobes.as_ptr(),
+        seed: random.seed,
+    }
+}
+
+impl Core for Dylib {
+    fn info(&self) -> CoreInfo {
+        self.info.clone()
+    }
+
+    fn generate_rays(&mut self, camera: &Camera, film: &[DVec2], rays: &mut [Ray]) -> Result<()> {
+        let count = lengths(rays.len(), [film.len()]);
+        let camera = description::camera(camera);
+        let out = rays.as_mut_ptr();
+        ask!(self, GENERATE_RAYS, generate_rays(&raw const camera, film.as_ptr(), out, count))
+    }
+
+    fn intersect_primitive(
+        &mut self,
+        primitive: &Primitive,
+        rays: &[Ray],
+        hits: &mut [Hit],
+    ) -> Result<()> {
+        let count = lengths(hits.len(), [rays.len()]);
+        let (rays, out) = (rays.as_ptr(), hits.as_mut_ptr());
+        match primitive {
+            Primitive::Triangle { positions, normals } => {
+                let (positions, normals) = (positions.as_ptr(), normals.as_ptr());
+                ask!(
+                    self,
+                    INTERSECT_PRIMITIVE,
+                    intersect_triangle(positions, normals, rays, out, count)
+                )
+            }
+            Primitive::Sphere { centre, radius } => {
+                let centre = ptr::from_ref(centre);
+                ask!(self, INTERSECT_PRIMITIVE, intersect_sphere(centre, *radius, rays, out, count))
+            }
+        }
+    }
+
+    fn intersect_box(&mut self, bounds: &Aabb, rays: &[Ray], hits: &mut [BoxHit]) -> Result<()> {
+        let count = lengths(hits.len(), [rays.len()]);
+        let (min, max) = (ptr::from_ref(&bounds.min), ptr::from_ref(&bounds.max));
+        let out = hits.as_mut_ptr();
+        ask!(self, INTERSECT_BOX, intersect_box(min, max, rays.as_ptr(), out, count))
+    }
+
+    fn sample_direction(
+        &mut self,
+        sampler: Sampler,
+        random: Randomness<'_>,
+        samples: &mut [DirectionSample],
+    ) -> Result<()> {
+        let count = lengths(samples.len(), [random.points.len(), random.lobes.len()]);
+        let (sampler, random) = (description::sampler(sampler), randomness(random));
+        let out = samples.as_mut_ptr();
+        ask!(self, SAMPLE_DIRECTION, sample_direction(sampler, &raw const random, out, count))
+    }
+
+    fn direction_pdf(
+        &mut self,
+        sampler: Sampler,
+        directions: &[DVec3],
+        pdf: &mut [f64],
+    ) -> Result<()> {
+        let count = lengths(pdf.len(), [directions.len()]);
+        let sampler = description::sampler(sampler);
+        let (directions, out) = (directions.as_ptr(), pdf.as_mut_ptr());
+        ask!(self, SAMPLE_DIRECTION, direction_pdf(sampler, directions, out, count))
+    }
+
+    fn eval_bsdf(
+        &mut self,
+        material: &Material,
+        queries: &[BsdfQuery],
+        values: &mut [BsdfValue],
+    ) -> Result<()> {
+        let count = lengths(values.len(), [queries.len()]);
+        let table = MaterialTable::new(material);
+        let material = table.as_abi();
+        let (queries, out) = (queries.as_ptr(), values.as_mut_ptr());
+        ask!(self, EVAL_BSDF, eval_bsdf(&raw const material, queries, out, count))
+    }
+
+    fn sample_bsdf(
+        &mut self,
+        material: &Material,
+        wo: &[DVec3],
+        random: Randomness<'_>,
+        samples: &mut [BsdfSample],
+    ) -> Result<()> {
+        let count = lengths(samples.len(), [wo.len(), random.points.len(), random.lobes.len()]);
+        let table = MaterialTable::new(material);
+        let (material, random) = (table.as_abi(), randomness(random));
+        let (wo, random, out) = (wo.as_ptr(), &raw const random, samples.as_mut_ptr());
+        ask!(self, SAMPLE_BSDF, sample_bsdf(&raw const material, wo, random, out, count))
+    }
+
+    fn adaptive_mean(
+        &mut self,
+        settings: AdaptiveSettings,
+        streams: &[&[f64]],
+        means: &mut [AdaptiveMean],
+    ) -> Result<()> {
+        let count = lengths(means.len(), [streams.len()]);
+        let settings = description::adaptive(settings);
+        let stream =
+            |values: &&[f64]| abi::Stream { values: values.as_ptr(), count: values.len() as u64 };
+        let streams: Vec<_> = streams.iter().map(stream).collect();
+        let (streams, out) = (streams.as_ptr(), means.as_mut_ptr());
+        ask!(self, ADAPTIVE_MEAN, adaptive_mean(&raw const settings, streams, out, count))
+    }
+
+    fn build_scene(
+        &mut self,
+        scene: &SceneDescription,
+        acceleration: Acceleration,
+    ) -> Result<Box<dyn BuiltScene + '_>> {
+        self.can_build(acceleration)?;
+        let counted = self.counted_tests(scene);
+        let tests = counted.as_deref().map(tests_of);
+        let settings =
+            description::build(acceleration, tests.as_ref().map_or(ptr::null(), ptr::from_ref));
+        let tables = SceneTables::new(scene);
+        let scene = tables.as_abi();
+        let (mut built, mut stats) = (ptr::null_mut(), BuildStats::default());
+        let out = &raw mut built;
+        ask!(
+            &*self,
+            BUILD_SCENE,
+            build(&raw const scene, &raw const settings, out, &raw mut stats)
+        )?;
+        let built = NonNull::new(built).ok_or_else(|| {
+            CoreError::BrokeContract("build answered FURNACE_OK and no scene".to_owned())
+        })?;
+        Ok(Box::new(BuiltDylib { core: self, built, stats, counted }))
+    }
+}
+
+/// A scene that a library has taken in.
+struct BuiltDylib<'a> {
+    core: &'a Dylib,
+    built: NonNull<abi::Built>,
+    stats: BuildStats,
+    /// What the library was lent to count with; outlives what it built.
+    counted: Option<Box<CountedScene>>,
+}
+
+impl Drop for BuiltDylib<'_> {
+    fn drop(&mut self) {
+        if let Some(release) = self.core.table.release {
+            // SAFETY: the header gives the function this type, and nobody uses the scene afterwards.
+            unsafe { release(self.core.table.this, self.built.as_ptr()) };
+        }
+    }
+}
+
+impl BuiltDylib<'_> {
+    /// The bench's own counts where the core was lent its tests, the core's word otherwise.
+    fn counts(&self, reported: TraversalStats, rays: usize) -> TraversalStats {
+        match &self.counted {
+            Some(counted) => counted.take_counts(rays as u64),
+            None => reported,
+        }
+    }
+}
+
+impl BuiltScene for BuiltDylib<'_> {
+    fn stats(&self) -> BuildStats {
+        self.stats
+    }
+
+    fn intersect(&mut self, rays: &[Ray], hits: &mut [Hit]) -> Result<TraversalStats> {
+        let count = lengths(hits.len(), [rays.len()]);
+        let mut stats = TraversalStats::default();
+        let (built, out) = (self.built.as_ptr(), hits.as_mut_ptr());
+        ask!(self.core, INTERSECT, intersect(built, rays.as_ptr(), out, count, &raw mut stats))?;
+        Ok(self.counts(stats, rays.len()))
+    }
+
+    fn occluded(&mut self, rays: &[Ray], occluded: &mut [bool]) -> Result<TraversalStats> {
+        let count = lengths(occluded.len(), [rays.len()]);
+        let mut stats = TraversalStats::default();
+        let mut flags = vec![u8::MAX; count];
+        let (built, out) = (self.built.as_ptr(), flags.as_mut_ptr());
+        ask!(self.core, OCCLUDED, occluded(built, rays.as_ptr(), out, count, &raw mut stats))?;
+        for (index, flag) in flags.iter().enumerate() {
+            occluded[index] = flag_of(*flag).ok_or_else(|| {
+                CoreError::BrokeContract(format!(
+                    "occluded {index} of {count}: it is {flag}, neither 0 nor 1"
+                ))
+            })?;
+        }
+        Ok(self.counts(stats, rays.len()))
+    }
+
+    fn sample_light(
+        &mut self,
+        light: u32,
+        from: &[DVec3],
+        random: Randomness<'_>,
+        samples: &mut [LightSample],
+    ) -> Result<()> {
+        let count = lengths(samples.len(), [from.len(), random.points.len(), random.lobes.len()]);
+        let random = randomness(random);
+        let (from, random, out) = (from.as_ptr(), &raw const random, samples.as_mut_ptr());
+        let built = self.built.as_ptr();
+        ask!(self.core, SAMPLE_LIGHT, sample_light(built, light, from, random, out, count))
+    }
+
+    fn radiance(
+        &mut self,
+        rays: &[Ray],
+        settings: &IntegratorSettings,
+        radiance: &mut [[f64; 3]],
+    ) -> Result<()> {
+        let count = lengths(radiance.len(), [rays.len()]);
+        let settings = description::integrator(settings);
+        let (built, out) = (self.built.as_ptr(), radiance.as_mut_ptr());
+        let settings = &raw const settings;
+        ask!(self.core, RADIANCE, radiance(built, rays.as_ptr(), settings, out, count))
+    }
+
+    fn render(
+        &mut self,
+        camera: &Camera,
+        settings: &RenderSettings,
+        film: &mut Film,
+    ) -> Result<()> {
+        let pixel_count = settings.width as usize * settings.height as usize;
+        lengths(pixel_count, [film.pixels.len(), film.sample_counts.len()]);
+        if !self.core.info.capabilities.contains(Capabilities::ADAPTIVE_SAMPLING) {
+            film.sample_counts.fill(settings.samples_per_pixel);
+        }
+        let camera = description::camera(camera);
+        let integrator = description::integrator(&settings.integrator);
+        let adaptive = settings.adaptive.map(description::adaptive);
+        let settings = description::render(settings, &integrator, adaptive.as_ref());
+        let (built, camera, settings) =
+            (self.built.as_ptr(), &raw const camera, &raw const settings);
+        let (pixels, sample_counts) = (film.pixels.as_mut_ptr(), film.sample_counts.as_mut_ptr());
+        ask!(self.core, RENDER, render(built, camera, settings, pixels, sample_counts))
+    }
+}
+
+/// What a byte for a bool says.
+fn flag_of(byte: u8) -> Option<bool> {
+    match byte {
+        0 => Some(false),
+        1 => Some(true),
+        _ => None,
+    }
+}
+
+/// The table through which a core calls back.
+fn tests_of(scene: &CountedScene) -> abi::CountedTests {
+    abi::CountedTests {
+        struct_size: struct_size::<abi::CountedTests>(),
+        reserved: 0,
+        bench: ptr::from_ref(scene).cast_mut().cast(),
+        primitive: counted_primitive,
+        r#box: counted_box,
+    }
+}
+
+/// SAFETY: `bench` is what [`tests_of`] put there and lives as long as the built scene; `ray` and `hit` are the
+/// core's, valid by the header.
+unsafe extern "C" fn counted_primitive(
+    bench: *mut c_void,
+    shape: u32,
+    primitive: u32,
+    ray: *const Ray,
+    hit: *mut Hit,
+) -> u32 {
+    // SAFETY: as above.
+    let (scene, ray) = unsafe { (&*bench.cast::<CountedScene>(), &*ray) };
+    let Some(found) = scene.hit_primitive(shape, primitive, ray) else { return 0 };
+    // SAFETY: as above.
+    unsafe { hit.write(found) };
+    1
+}
+
+/// SAFETY: as [`counted_primitive`].
+unsafe extern "C" fn counted_box(
+    bench: *mut c_void,
+    min: *const DVec3,
+    max: *const DVec3,
+    ray: *const Ray,
+    hit: *mut BoxHit,
+) -> u32 {
+    // SAFETY: as above.
+    let (scene, min, max, ray) = unsafe { (&*bench.cast::<CountedScene>(), *min, *max, &*ray) };
+    let Some(found) = scene.hit_box(min, max, ray) else { return 0 };
+    // SAFETY: as above.
+    unsafe { hit.write(found) };
+    1
+}

@@ -1,0 +1,93 @@
+//! What a C core declares: the functions it has, its traits, its conventions.
+
+use crate::contract::abi::{self, Traits};
+use crate::contract::{
+    Capabilities, Conventions, EmissionSides, Falloff, GlassFresnel, GlassRadiance, SmithTerm,
+};
+
+/// What the core declares; `None` for a number that no convention has.
+pub fn conventions(declared: &abi::Conventions) -> Option<Conventions> {
+    Some(Conventions {
+        point_light_falloff: match declared.point_light_falloff {
+            abi::FALLOFF_INVERSE_SQUARE => Falloff::InverseSquare,
+            abi::FALLOFF_NONE => Falloff::None,
+            _ => return None,
+        },
+        emission: match declared.emission {
+            abi::EMISSION_FRONT => EmissionSides::Front,
+            abi::EMISSION_BOTH => EmissionSides::Both,
+            _ => return None,
+        },
+        smith_term: match declared.smith_term {
+            abi::SMITH_SEPARABLE => SmithTerm::Separable,
+            abi::SMITH_CORRELATED => SmithTerm::HeightCorrelated,
+            _ => return None,
+        },
+        glass_fresnel: match declared.glass_fresnel {
+            abi::FRESNEL_EXACT => GlassFresnel::Exact,
+            abi::FRESNEL_SCHLICK => GlassFresnel::Schlick,
+            _ => return None,
+        },
+        glass_radiance: match declared.glass_radiance {
+            abi::RADIANCE_SCALED => GlassRadiance::Scaled,
+            abi::RADIANCE_UNSCALED => GlassRadiance::Unscaled,
+            _ => return None,
+        },
+    })
+}
+
+/// What a core can be asked: the functions it has, and of its traits those that go with them.
+pub fn capabilities(table: &abi::CoreTable) -> Capabilities {
+    let traits = Traits::from_bits_truncate(table.traits);
+    let has = |wanted| traits.contains(wanted);
+    let builds = table.build.is_some() && table.release.is_some();
+    let intersects = builds && table.intersect.is_some();
+    let renders = builds && table.render.is_some();
+    let integrates = renders || (builds && table.radiance.is_some());
+    let counts = has(Traits::COUNTS_TRAVERSAL) || has(Traits::COUNTED_TESTS);
+    let draws = table.sample_direction.is_some() || table.direction_pdf.is_some();
+    let hits_primitives = table.intersect_triangle.is_some() || table.intersect_sphere.is_some();
+    [
+        (table.generate_rays.is_some(), Capabilities::GENERATE_RAYS),
+        (hits_primitives, Capabilities::INTERSECT_PRIMITIVE),
+        (table.intersect_box.is_some(), Capabilities::INTERSECT_BOX),
+        (draws, Capabilities::SAMPLE_DIRECTION),
+        (table.eval_bsdf.is_some(), Capabilities::EVAL_BSDF),
+        (table.sample_bsdf.is_some(), Capabilities::SAMPLE_BSDF),
+        (table.adaptive_mean.is_some(), Capabilities::ADAPTIVE_MEAN),
+        (builds, Capabilities::BUILD_SCENE),
+        (intersects, Capabilities::INTERSECT),
+        (builds && table.occluded.is_some(), Capabilities::OCCLUDED),
+        (builds && table.sample_light.is_some(), Capabilities::SAMPLE_LIGHT),
+        (builds && table.radiance.is_some(), Capabilities::RADIANCE),
+        (renders, Capabilities::RENDER),
+        (builds && has(Traits::BRUTE_FORCE), Capabilities::BRUTE_FORCE),
+        (builds && has(Traits::SPLIT_RULES), Capabilities::SPLIT_RULES),
+        (intersects && counts, Capabilities::TRAVERSAL_STATS),
+        (integrates && has(Traits::HEMISPHERE_SAMPLING), Capabilities::HEMISPHERE_SAMPLING),
+        (integrates && has(Traits::ISOLATED_BOUNCES), Capabilities::ISOLATED_BOUNCES),
+        (integrates && has(Traits::ROULETTE), Capabilities::ROULETTE),
+        (renders && has(Traits::ADAPTIVE_SAMPLING), Capabilities::ADAPTIVE_SAMPLING),
+        (has(Traits::CALLERS_RANDOMNESS), Capabilities::CALLERS_RANDOMNESS),
+        (has(Traits::DETERMINISTIC), Capabilities::DETERMINISTIC),
+    ]
+    .into_iter()
+    .filter_map(|(can, capability)| can.then_some(capability))
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_core_that_declares_nothing_follows_the_defaults() {
+        assert_eq!(conventions(&abi::Conventions::default()), Some(Conventions::default()));
+    }
+
+    #[test]
+    fn a_convention_that_nobody_knows_is_refused() {
+        let declared = abi::Conventions { smith_term: 2, ..abi::Conventions::default() };
+        assert_eq!(conventions(&declared), None);
+    }
+}

@@ -1,0 +1,50 @@
+//! What tests of foreign cores share: compiling them.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The folder of the project.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// `$CC` or `cc`. Says so where there is none: the test that asked has shown nothing then.
+pub fn c_compiler() -> Option<PathBuf> {
+    compiler("CC", "cc", "C")
+}
+
+/// `$CXX` or `c++`. Says so where there is none: the test that asked has shown nothing then.
+pub fn cpp_compiler() -> Option<PathBuf> {
+    compiler("CXX", "c++", "C++")
+}
+
+fn compiler(variable: &str, usual: &str, language: &str) -> Option<PathBuf> {
+    let program = std::env::var(variable).unwrap_or_else(|_| usual.to_owned());
+    let version = Command::new(&program).arg("--version").output();
+    if version.is_ok_and(|output| output.status.success()) {
+        return Some(program.into());
+    }
+    eprintln!("skipped: there is no {language} compiler ({usual}, or ${variable})");
+    None
+}
+
+/// Runs a compiler on our headers.
+///
+/// # Panics
+/// With the compiler's words, if it refuses.
+pub fn compile(compiler: &Path, arguments: &[&str]) {
+    let output = Command::new(compiler)
+        .arg(format!("-I{}", root().join("include").display()))
+        .args(arguments)
+        .output()
+        .unwrap();
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{}: {complaint}", arguments.join(" "));
+}
+
+/// Compiles a C++ core into a shared library.
+pub fn compile_core(compiler: &Path, source: &Path, library: &Path) {
+    let (source, library) = (source.to_string_lossy(), library.to_string_lossy());
+    let language = ["-std=c++17", "-O1", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror"];
+    compile(compiler, &[&language[..], &[&source, "-o", &library]].concat());
+}

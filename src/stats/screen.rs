@@ -310,6 +310,34 @@ mod tests {
         (1.0 + 1000.0 * hits as f64 / f64::from(samples)) / 3.0
     }
 
+    /// 256 by 256 pixels, 2 samples in each of 16 runs, relative deviation 1 a sample.
+    fn judge_large(gain: impl Fn(usize) -> f32, seed: u64) -> ImageReport {
+        let ramp = |x: usize| [0.2 + 0.6 * x as f32 / 256.0; 3];
+        let mean = Image::from_fn(256, 256, |x, _| ramp(x));
+        let error = Image::new(256, 256, [0.0; 3]);
+        let mut draw = |request: ImageDraw| {
+            let mut stream = request.seed(Seed(seed)).stream();
+            let mut gamma =
+                || -0.5 * ((1.0 - uniform(&mut stream)) * (1.0 - uniform(&mut stream))).ln();
+            let pixel = |x, _| ramp(x).map(|value| gain(x) * gamma() as f32 * value);
+            Ok::<_, Infallible>(Image::from_fn(256, 256, pixel))
+        };
+        let reference = Reference { mean: &mean, standard_error: &error };
+        let Ok(report) = judge_image(reference, &ImageEffort::new(0.02), &mut draw);
+        report
+    }
+
+    #[test]
+    #[ignore = "half a minute: the power that the design promises for 32 samples a pixel"]
+    fn one_per_cent_everywhere_and_thirty_in_sixteen_columns_fail_forty_times_of_forty() {
+        let columns = |x| if x < 16 { 1.3 } else { 1.0 };
+        for seed in 0..40 {
+            assert_eq!(judge_large(|_| 1.0, seed).verdict, Verdict::Pass);
+            assert_eq!(judge_large(|_| 1.01, seed).verdict, Verdict::Fail, "seed {seed}");
+            assert_eq!(judge_large(columns, seed).verdict, Verdict::Fail, "seed {seed}");
+        }
+    }
+
     #[test]
     #[ignore = "a minute: the share of right pictures that the screen suspects"]
     fn right_pictures_are_rarely_suspected_and_never_fail() {

@@ -1,7 +1,9 @@
-//! OpenEXR: the colours of a picture, any other channels beside them, and text about where it came from.
+//! OpenEXR: the colours of a picture, any other channels beside them, and text about where it came
+//! from.
 //!
-//! Values survive the way to disk and back bit for bit, NaN and infinity included, unless a channel asks for
-//! half precision. Files are read whatever their compression and written with ZIP, which every viewer reads.
+//! Values survive the way to disk and back bit for bit, NaN and infinity included, unless a channel
+//! asks for half precision. Files are read whatever their compression and written with ZIP, which
+//! every viewer reads.
 
 use super::{Image, ImageError};
 use ::exr::prelude as openexr;

@@ -5,7 +5,8 @@
 use super::png::Picture;
 use super::tonemap::NOT_A_NUMBER;
 
-/// Blue for too little, pale grey for right, red for too much: ColorBrewer's RdBu, seven classes, reversed.
+/// Blue for too little, pale grey for right, red for too much: ColorBrewer's RdBu, seven classes,
+/// reversed.
 const SIGNED: [[u8; 3]; 7] = [
     [33, 102, 172],
     [103, 169, 207],
@@ -74,8 +75,8 @@ fn between(stops: &[[u8; 3]], position: f64) -> [u8; 3] {
     })
 }
 
-/// A picture of `values`, row-major from the top left in rows of `width`; each becomes `magnify` by `magnify`
-/// pixels.
+/// A picture of `values`, row-major from the top left in rows of `width`; each becomes `magnify` by
+/// `magnify` pixels.
 pub fn heatmap(values: &[f64], width: usize, scale: Scale, magnify: usize) -> Picture {
     let height = values.len() / width.max(1);
     let rows = 0..height * magnify;

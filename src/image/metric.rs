@@ -1,4 +1,5 @@
-//! Numbers that say how far apart two pictures are. They inform and never grade: a metric has no null hypothesis.
+//! Numbers that say how far apart two pictures are. They inform and never grade: a metric has no
+//! null hypothesis.
 
 use super::relmse::RelativeMeanSquare;
 use super::rmse::RootMeanSquare;

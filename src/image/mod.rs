@@ -1,6 +1,7 @@
 //! Pictures: linear RGB f32, row 0 on top. Reading, writing, showing and measuring them.
 //!
-//! Not here: whether two pictures agree. That is decided in `stats`; the [`metric`]s here inform and never grade.
+//! Not here: whether two pictures agree. That is decided in `stats`; the [`metric`]s here inform
+//! and never grade.
 
 mod error;
 pub mod exr;

@@ -1,4 +1,5 @@
-//! PNG, 8 bits a channel: for reports. Never for comparison: rounding and clipping cannot be undone.
+//! PNG, 8 bits a channel: for reports. Never for comparison: rounding and clipping cannot be
+//! undone.
 
 use super::ImageError;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
@@ -25,7 +26,8 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
         })
     };
     let mut bytes = Vec::new();
-    // Filters predict a pixel from its neighbours. Noise and false colour defeat that: both are smaller without.
+    // Filters predict a pixel from its neighbours. Noise and false colour defeat that: both are
+    // smaller without.
     let (compression, filter) = (CompressionType::Default, FilterType::NoFilter);
     PngEncoder::new_with_quality(&mut bytes, compression, filter).write_image(
         picture.pixels.as_flattened(),

@@ -3,8 +3,8 @@
 use super::Image;
 use super::metric::Metric;
 
-/// Keeps dark pixels from dividing by nothing (Rousselle et al., "Adaptive Sampling and Reconstruction using
-/// Greedy Error Minimization", 2011).
+/// Keeps dark pixels from dividing by nothing (Rousselle et al., "Adaptive Sampling and
+/// Reconstruction using Greedy Error Minimization", 2011).
 const REGULARISER: f64 = 0.01;
 /// Share of the worst pixels left out.
 const TRIMMED: f64 = 0.001;

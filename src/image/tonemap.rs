@@ -1,4 +1,5 @@
-//! From radiance to what a screen shows: exposure, then the sRGB curve. NaN is magenta, so that it is seen.
+//! From radiance to what a screen shows: exposure, then the sRGB curve. NaN is magenta, so that it
+//! is seen.
 
 use super::{Image, luminance, png::Picture};
 
@@ -36,7 +37,8 @@ pub fn tonemap(image: &Image, stops: f32) -> Picture {
     Picture { width: image.width, height: image.height, pixels }
 }
 
-/// Stops with which nearly all of a picture is bright and not clipped. Use that of the reference for both.
+/// Stops with which nearly all of a picture is bright and not clipped. Use that of the reference
+/// for both.
 pub fn exposure_of(image: &Image) -> f32 {
     let mut values: Vec<f64> = image.pixels.iter().map(|pixel| luminance(*pixel)).collect();
     values.retain(|value| value.is_finite() && *value > 0.0);

@@ -14,7 +14,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Some frame around a unit normal. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017.
+    /// Some frame around a unit normal. Duff et al., "Building an Orthonormal Basis, Revisited",
+    /// JCGT 2017.
     pub fn around(normal: DVec3) -> Self {
         let sign = 1f64.copysign(normal.z);
         let a = -1.0 / (sign + normal.z);

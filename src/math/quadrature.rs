@@ -1,13 +1,16 @@
-//! Adaptive Gauss-Kronrod quadrature, on the line and over rectangles, with an estimate of its own error.
+//! Adaptive Gauss-Kronrod quadrature, on the line and over rectangles, with an estimate of its own
+//! error.
 //!
-//! Over rectangles the integrand answers whole batches of points, because it may live behind a process boundary.
-//! Both converge fast where the integrand is smooth: split panels where it is known to have kinks.
+//! Over rectangles the integrand answers whole batches of points, because it may live behind a
+//! process boundary. Both converge fast where the integrand is smooth: split panels where it is
+//! known to have kinks.
 //!
 //! Source of rule and error estimate: Piessens et al., QUADPACK (1983), routine QK15.
 
 use glam::DVec2;
 
-/// Non-negative nodes of the 15-point Kronrod rule on [−1, 1]; those with odd index are Gauss nodes.
+/// Non-negative nodes of the 15-point Kronrod rule on [−1, 1]; those with odd index are Gauss
+/// nodes.
 const NODES: [f64; 8] = [
     0.991_455_371_120_812_6,
     0.949_107_912_342_758_5,
@@ -75,8 +78,8 @@ fn rescaled_error(difference: f64, spread: f64) -> f64 {
     spread * (200.0 * difference / spread).powf(1.5).min(1.0)
 }
 
-/// The integral of `f` over the pieces between successive `breaks`, each to an absolute error of `tolerance`.
-/// Put a break at every kink.
+/// The integral of `f` over the pieces between successive `breaks`, each to an absolute error of
+/// `tolerance`. Put a break at every kink.
 pub fn integrate(breaks: &[f64], tolerance: f64, mut f: impl FnMut(f64) -> f64) -> Integral {
     let mut whole = Integral::default();
     for piece in breaks.windows(2) {
@@ -174,8 +177,8 @@ struct Estimate {
     is_zero: bool,
 }
 
-/// The integral of `f` over each rectangle. `f` writes the values at the points it is given; it is asked for
-/// many points at a time.
+/// The integral of `f` over each rectangle. `f` writes the values at the points it is given; it is
+/// asked for many points at a time.
 pub fn integrate_rectangles<E>(
     rectangles: &[Rectangle],
     diligence: Diligence,

@@ -41,8 +41,9 @@ pub struct NamedRatio {
     pub name: String,
 }
 
-/// The named ratios inside an interval, the nearest to its middle first. None if the interval is so wide that a
-/// name would mean nothing. `also` adds names that only this measurement has, such as the number of light samples.
+/// The named ratios inside an interval, the nearest to its middle first. None if the interval is so
+/// wide that a name would mean nothing. `also` adds names that only this measurement has, such as
+/// the number of light samples.
 pub fn names_of(interval: [f64; 2], also: &[(f64, &str)]) -> Vec<NamedRatio> {
     let [low, high] = interval;
     let is_narrow = high <= WIDEST * low || (low..=high).contains(&0.0) && high <= WIDEST - 1.0;

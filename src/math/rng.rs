@@ -1,7 +1,9 @@
-//! Random numbers that are nobody's accident: a stream for each (suite seed, case, stage, run, purpose).
+//! Random numbers that are nobody's accident: a stream for each (suite seed, case, stage, run,
+//! purpose).
 //!
-//! Seeds are derived by SHA-256 over the labels, so they are the same on every machine and a change of one label
-//! changes everything. Seeds are never edited; [`Seed::SUITE`] changes with the suite's version.
+//! Seeds are derived by SHA-256 over the labels, so they are the same on every machine and a change
+//! of one label changes everything. Seeds are never edited; [`Seed::SUITE`] changes with the
+//! suite's version.
 
 use rand::{Rng, SeedableRng};
 use sha2::{Digest, Sha256};

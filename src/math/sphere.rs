@@ -20,8 +20,8 @@ pub fn at_height(z: f64, phi: f64) -> DVec3 {
     DVec3::new(radius * phi.cos(), radius * phi.sin(), z)
 }
 
-/// The angle between two directions of any length, radians. Exact to rounding for tiny angles too, where
-/// the arc cosine of the dot product is not.
+/// The angle between two directions of any length, radians. Exact to rounding for tiny angles too,
+/// where the arc cosine of the dot product is not.
 pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
     a.cross(b).length().atan2(a.dot(b))
 }

@@ -1,12 +1,13 @@
-//! How small an error has to be seen, and what it may cost. The one place that says what a budget means.
+//! How small an error has to be seen, and what it may cost. The one place that says what a budget
+//! means.
 
 use serde::{Deserialize, Serialize};
 
 /// What a claim is worth: the error it promises to catch, and the samples it may spend on that.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Effort {
-    /// The relative error that must be seen: a claim passes only if this would have been caught with
-    /// probability 0.999.
+    /// The relative error that must be seen: a claim passes only if this would have been caught
+    /// with probability 0.999.
     pub detects: f64,
     /// The most samples of the first stage, over all its runs.
     pub most_samples: u64,
@@ -64,7 +65,8 @@ impl Budget {
         }
     }
 
-    /// By how much a number of samples is multiplied: an error half as large takes four times as many.
+    /// By how much a number of samples is multiplied: an error half as large takes four times as
+    /// many.
     pub const fn samples_factor(self) -> f64 {
         1.0 / (self.coarseness() * self.coarseness())
     }

@@ -1,7 +1,8 @@
-//! Simulated error rates of the ladder: how often a right core fails, and how often a wrong one passes.
+//! Simulated error rates of the ladder: how often a right core fails, and how often a wrong one
+//! passes.
 //!
-//! The fast tests relax the level of a stage so that a few thousand ladders see failures; the large ones are
-//! ignored by default and repeat the simulations that the design rests on.
+//! The fast tests relax the level of a stage so that a few thousand ladders see failures; the large
+//! ones are ignored by default and repeat the simulations that the design rests on.
 
 use super::ladder::judge_means_at;
 use super::{Band, Claim, Draw, Effort, MeanReport, STAGE_LEVEL, Verdict};
@@ -183,7 +184,8 @@ fn the_double_key_suspects_heavy_tails_no_more_often_than_its_level() {
     for law in [&LOGNORMAL, &WILD_LOGNORMAL, &FIREFLIES, &PARETO] {
         let known = Claim::value(law.mean, Band::NONE).with_null_deviation(law.deviation);
         let learnt = Claim::value(law.mean, Band::NONE);
-        // Twice the level is four standard errors above it; a learnt deviation may have missed the tail.
+        // Twice the level is four standard errors above it; a learnt deviation may have missed the
+        // tail.
         let cases = [(known, "known", 2.0 * STAGE_LEVEL), (learnt, "learnt", 10.0 * STAGE_LEVEL)];
         for (claim, what, allowed) in cases {
             let effort = Effort::new(1e-4).with_most_samples(8192);

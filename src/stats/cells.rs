@@ -1,8 +1,8 @@
 //! Pictures cut into cells of several sizes, so that errors of any extent stand out at one of them.
 //!
-//! A cell's value is a weighted mean over its pixels. The weights come from the reference alone and fall with
-//! brightness: a lamp in view, a hundred times brighter than what it lights, would otherwise decide alone, and
-//! its noisy edge with it.
+//! A cell's value is a weighted mean over its pixels. The weights come from the reference alone and
+//! fall with brightness: a lamp in view, a hundred times brighter than what it lights, would
+//! otherwise decide alone, and its noisy edge with it.
 
 use crate::image::{Image, luminance};
 use serde::{Deserialize, Serialize};
@@ -136,7 +136,8 @@ impl Grid {
         sums.into_iter().zip(total).flat_map(|(sums, total)| sums.map(|sum| sum / total)).collect()
     }
 
-    /// The standard error of each cell's mean, from those of its pixels, which are independent of each other.
+    /// The standard error of each cell's mean, from those of its pixels, which are independent of
+    /// each other.
     fn standard_errors(&self, weights: &[f64], errors: &Image) -> Vec<f64> {
         let squares = |pixel: usize| error_components(errors.pixels[pixel]).map(|e| e * e);
         let weighted: Vec<f64> = weights.iter().map(|weight| weight * weight).collect();
@@ -161,8 +162,8 @@ fn components(pixel: [f32; 3]) -> [f64; COMPONENTS] {
     [red, green, blue, luminance(pixel)]
 }
 
-/// Standard errors of the components. How the noise of the channels hangs together is not known, so that of the
-/// luminance is at most this.
+/// Standard errors of the components. How the noise of the channels hangs together is not known, so
+/// that of the luminance is at most this.
 fn error_components(errors: [f32; 3]) -> [f64; COMPONENTS] {
     components(errors)
 }
@@ -184,7 +185,8 @@ impl Cells {
         Self { grids: grids.to_vec(), weights: weights.collect() }
     }
 
-    /// The values of all cells of one picture, scale by scale, cell by cell, component by component.
+    /// The values of all cells of one picture, scale by scale, cell by cell, component by
+    /// component.
     pub(super) fn values(&self, image: &Image) -> Vec<f64> {
         let value = |pixel: usize| components(image.pixels[pixel]);
         self.grids.iter().flat_map(|grid| grid.means(&self.weights, value)).collect()

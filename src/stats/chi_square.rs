@@ -1,14 +1,16 @@
 //! Whether samples follow a density: χ² on counts, climbed like the ladder of the means.
 //!
-//! Three stages with 1, 4 and 16 times the samples, each at [`STAGE_LEVEL`]; a sampler fails if all three reject.
-//! Cells in which fewer than [`FEWEST_EXPECTED`] samples are expected are pooled, because with starved cells the
-//! far tail of the statistic is ten times too fat. A sample where the density is zero fails without statistics.
+//! Three stages with 1, 4 and 16 times the samples, each at [`STAGE_LEVEL`]; a sampler fails if all
+//! three reject. Cells in which fewer than [`FEWEST_EXPECTED`] samples are expected are pooled,
+//! because with starved cells the far tail of the statistic is ten times too fat. A sample where
+//! the density is zero fails without statistics.
 //!
-//! Expectations come from quadrature and may be wrong by δ. The statistic is judged as if the error had done its
-//! worst: √X² is a length, so an error moves it by at most √Q with Q = N Σ δ²/p. A pass needs Q ≤ 2.
+//! Expectations come from quadrature and may be wrong by δ. The statistic is judged as if the error
+//! had done its worst: √X² is a length, so an error moves it by at most √Q with Q = N Σ δ²/p. A
+//! pass needs Q ≤ 2.
 //!
-//! Not here: the cells (`histogram`), and cores that stratify their samples, whose counts vary less than χ² says:
-//! they are never rejected wrongly.
+//! Not here: the cells (`histogram`), and cores that stratify their samples, whose counts vary less
+//! than χ² says: they are never rejected wrongly.
 
 use super::quantile::{chi_square_tail, chi_square_upper, detectable_noncentrality};
 use super::{
@@ -33,8 +35,8 @@ const LARGEST_RESIDUAL: f64 = 1e6;
 pub trait CountSource {
     /// What goes wrong in the core.
     type Error;
-    /// The probabilities of the cells of this stage. Called once a stage, before [`CountSource::draw`]; a good
-    /// place to turn the cells by a new angle.
+    /// The probabilities of the cells of this stage. Called once a stage, before
+    /// [`CountSource::draw`]; a good place to turn the cells by a new angle.
     fn expected(&mut self, stage: Stage) -> Result<CellProbabilities, Self::Error>;
     /// `samples` fresh samples, counted in the cells of this stage.
     fn draw(&mut self, stage: Stage, samples: u64) -> Result<Counts, Self::Error>;
@@ -94,7 +96,8 @@ pub fn judge_count_source<S: CountSource>(
     }
 }
 
-/// Samples of the first stage that see a density error of `effort.detects`, whatever the quadrature error hides.
+/// Samples of the first stage that see a density error of `effort.detects`, whatever the quadrature
+/// error hides.
 fn planned_samples(expected: &CellProbabilities, effort: &Effort) -> u64 {
     let populated = expected.cells.iter().filter(|p| **p > 0.0).count();
     let most = effort.most_samples as f64;

@@ -5,9 +5,10 @@ use serde::{Deserialize, Serialize};
 
 /// The half width of a null hypothesis, relative to the scale of its claim.
 ///
-/// A mean is never tested against a point: single precision, shadow-ray offsets and accumulation in `f32`
-/// move a correct core by parts in ten thousand (Mitsuba's own furnace is off by 2.7e-4), and enough samples
-/// would condemn it for that. The field is private so that a band is chosen by name, not typed.
+/// A mean is never tested against a point: single precision, shadow-ray offsets and accumulation in
+/// `f32` move a correct core by parts in ten thousand (Mitsuba's own furnace is off by 2.7e-4), and
+/// enough samples would condemn it for that. The field is private so that a band is chosen by name,
+/// not typed.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
 pub struct Band(f64);
 
@@ -55,12 +56,14 @@ pub enum Sides {
 pub struct Claim {
     /// The true mean, in the unit of what is drawn.
     pub expected: f64,
-    /// What relative errors are relative to, positive. `expected` itself, unless that is a difference.
+    /// What relative errors are relative to, positive. `expected` itself, unless that is a
+    /// difference.
     pub scale: f64,
     /// How far from `expected` a correct core may be, relative to `scale`.
     pub band: Band,
-    /// Standard deviation of *one sample* of a correct core, where theory gives it. Protects a claim whose
-    /// estimator meets light less often than once in 10⁴ samples; elsewhere the other stages measure it.
+    /// Standard deviation of *one sample* of a correct core, where theory gives it. Protects a
+    /// claim whose estimator meets light less often than once in 10⁴ samples; elsewhere the other
+    /// stages measure it.
     pub null_deviation: Option<f64>,
     /// On which side the core may fail.
     pub sides: Sides,
@@ -98,7 +101,8 @@ impl Claim {
         self.band.relative() * self.scale
     }
 
-    /// How far a finite mean lies outside the band, with its sign; 0 inside, and on the forgiven side.
+    /// How far a finite mean lies outside the band, with its sign; 0 inside, and on the forgiven
+    /// side.
     pub fn departure(&self, mean: f64) -> f64 {
         let difference = mean - self.expected;
         let outside = (difference.abs() - self.band_width()).max(0.0) * difference.signum();

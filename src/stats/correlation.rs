@@ -4,7 +4,8 @@ use super::Verdict;
 
 /// Standard errors that chance is given.
 const SIGMAS: f64 = 7.0;
-/// Probability that unrelated series are called related: two sides of 7 standard errors of a normal, with room.
+/// Probability that unrelated series are called related: two sides of 7 standard errors of a
+/// normal, with room.
 pub const CORRELATION_FALSE_ALARM: f64 = 1e-10;
 
 /// What came of comparing two series.

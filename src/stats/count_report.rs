@@ -56,8 +56,8 @@ pub struct CountReport {
     pub forbidden: Option<ForbiddenSamples>,
     /// A cell whose probability is negative or not a number.
     pub improper_cell: Option<usize>,
-    /// The smallest root-mean-square relative error of the density (weighted by the expectation) that would have
-    /// been caught with probability 0.999.
+    /// The smallest root-mean-square relative error of the density (weighted by the expectation)
+    /// that would have been caught with probability 0.999.
     pub resolution: f64,
     /// The error that had to be.
     pub detects: f64,

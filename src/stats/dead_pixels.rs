@@ -1,7 +1,8 @@
 //! Pixels that stay black although pixels like them do not: no test of means sees twenty of them.
 //!
-//! That a pixel is exactly 0 in every run is no chance if its neighbours of like brightness are 0 in few: with
-//! q the share of their runs that are black, chance would do it with probability q^runs.
+//! That a pixel is exactly 0 in every run is no chance if its neighbours of like brightness are 0
+//! in few: with q the share of their runs that are black, chance would do it with probability
+//! q^runs.
 
 use crate::image::{Image, luminance};
 
@@ -58,7 +59,8 @@ impl LitRuns {
         dead.take(MOST_REPORTED).map(|i| [i % self.width, i / self.width]).collect()
     }
 
-    /// The probability that a pixel is black in all runs, judged by its neighbours of like brightness.
+    /// The probability that a pixel is black in all runs, judged by its neighbours of like
+    /// brightness.
     fn chance(&self, pixel: usize) -> f64 {
         if self.runs == 0 {
             return 1.0;

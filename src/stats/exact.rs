@@ -1,8 +1,9 @@
-//! Comparisons without noise: how far rounding may take a correct core, and where the worst element is.
+//! Comparisons without noise: how far rounding may take a correct core, and where the worst element
+//! is.
 //!
-//! Every tolerance of a deterministic check stands here, by name and for both precisions. They are rounding
-//! errors with room for another order of operations, not room for another formula: the mistakes they tell apart
-//! are orders of magnitude larger.
+//! Every tolerance of a deterministic check stands here, by name and for both precisions. They are
+//! rounding errors with room for another order of operations, not room for another formula: the
+//! mistakes they tell apart are orders of magnitude larger.
 
 use super::Verdict;
 use crate::math::Precision;
@@ -18,13 +19,15 @@ pub struct Tolerance {
 impl Tolerance {
     /// Nothing: the same bits, or a number that every precision holds exactly.
     pub const EXACT: Self = Self { double: 0.0, single: 0.0 };
-    /// Components of a unit direction after a handful of operations (camera rays, normals, mirror directions).
+    /// Components of a unit direction after a handful of operations (camera rays, normals, mirror
+    /// directions).
     pub const DIRECTION: Self = Self { double: 1e-12, single: 2e-6 };
     /// Ray parameters of intersections, relative, before their condition number.
     pub const INTERSECTION: Self = Self { double: 1e-9, single: 1e-4 };
     /// A density or a BSDF evaluated twice for the same directions, relative.
     pub const SAME_VALUE: Self = Self { double: 1e-6, single: 1e-4 };
-    /// A density or a BSDF against its formula, relative: cancellation near grazing costs single precision digits.
+    /// A density or a BSDF against its formula, relative: cancellation near grazing costs single
+    /// precision digits.
     pub const FORMULA: Self = Self { double: 1e-6, single: 1e-3 };
     /// An integral over the sphere, by quadrature of the core's own values.
     pub const INTEGRAL: Self = Self { double: 1e-6, single: 1e-5 };
@@ -32,8 +35,8 @@ impl Tolerance {
     pub const JACOBIAN_MEDIAN: Self = Self { double: 1e-6, single: 1e-2 };
     /// The same, 99 points of 100.
     pub const JACOBIAN_TAIL: Self = Self { double: 1e-3, single: 1e-1 };
-    /// Radiance without noise: delta lights, furnaces without variance. Relative. In both precisions a shadow ray
-    /// starts and ends a little off its surfaces.
+    /// Radiance without noise: delta lights, furnaces without variance. Relative. In both
+    /// precisions a shadow ray starts and ends a little off its surfaces.
     pub const RADIANCE: Self = Self { double: 1e-5, single: 1e-5 };
 
     /// The relative error allowed in this precision.

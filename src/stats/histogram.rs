@@ -1,7 +1,7 @@
 //! Directions counted in cells of equal solid angle, and what a density says the counts should be.
 //!
-//! The cells are rings in cos θ around +z, cut into sectors of φ. The sectors are turned by an angle of one's
-//! choice, so that no sampler's own seams coincide with theirs in every stage.
+//! The cells are rings in cos θ around +z, cut into sectors of φ. The sectors are turned by an
+//! angle of one's choice, so that no sampler's own seams coincide with theirs in every stage.
 
 use crate::math::frame::direction;
 use crate::math::quadrature::{Diligence, Integral, Rectangle, integrate_rectangles};
@@ -9,7 +9,8 @@ use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// A direction whose cosine is below zero by no more than single precision explains is on the horizon.
+/// A direction whose cosine is below zero by no more than single precision explains is on the
+/// horizon.
 const HORIZON: f64 = 1e-6;
 
 /// Writes its values, per steradian, for many unit directions.
@@ -28,7 +29,8 @@ pub struct SphereCells {
 }
 
 impl SphereCells {
-    /// The upper hemisphere in `rings` by `sectors` cells; all that is below the horizon is one ring more.
+    /// The upper hemisphere in `rings` by `sectors` cells; all that is below the horizon is one
+    /// ring more.
     pub fn hemisphere(rings: usize, sectors: usize) -> Self {
         let upper = (0..=rings).map(|ring| ring as f64 / rings as f64);
         Self::new([-1.0].into_iter().chain(upper).collect(), sectors)
@@ -104,8 +106,8 @@ impl SphereCells {
         counts
     }
 
-    /// The probability of each cell under a density per steradian. What is missing to 1 is the probability that a
-    /// sample fails. `pdf` answers for many directions at a time.
+    /// The probability of each cell under a density per steradian. What is missing to 1 is the
+    /// probability that a sample fails. `pdf` answers for many directions at a time.
     pub fn probabilities<E>(
         &self,
         diligence: Diligence,

@@ -56,8 +56,8 @@ pub struct CellScore {
 /// A confirmation on fresh runs of the cells frozen at one scale.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Confirmation {
-    /// How far the frozen combination of cells lies outside its band, in standard errors of these runs or of the
-    /// other confirmation's, whichever are larger.
+    /// How far the frozen combination of cells lies outside its band, in standard errors of these
+    /// runs or of the other confirmation's, whichever are larger.
     pub t: f64,
     /// Whether that is too far.
     pub rejects: bool,
@@ -74,13 +74,15 @@ pub struct ScaleReport {
     pub worst: Vec<CellScore>,
     /// What |t| of a cell had to exceed to be suspected.
     pub critical: f64,
-    /// Both confirmations, if anything was suspected at any scale and this one has cells outside their bands.
+    /// Both confirmations, if anything was suspected at any scale and this one has cells outside
+    /// their bands.
     pub confirmations: Option<[Confirmation; 2]>,
     /// Whether both reject.
     pub rejects: bool,
 }
 
-/// Measured over expected, over the whole picture, with 99.9 % confidence. The noise of the reference is in it.
+/// Measured over expected, over the whole picture, with 99.9 % confidence. The noise of the
+/// reference is in it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GlobalRatio {
     /// Red, green, blue or luminance.
@@ -91,7 +93,8 @@ pub struct GlobalRatio {
     pub interval: [f64; 2],
 }
 
-/// How far each 8 by 8 tile is off, in standard errors of core and reference together; no band. For pictures.
+/// How far each 8 by 8 tile is off, in standard errors of core and reference together; no band. For
+/// pictures.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TileMap {
     /// Tiles in a row.
@@ -107,7 +110,8 @@ pub struct ImageReport {
     pub verdict: Verdict,
     /// NaN, infinity or negative light: fails without statistics.
     pub impossible: Option<ImpossiblePixels>,
-    /// Column and row of pixels that stay black in every run while pixels like them do not; at most 64.
+    /// Column and row of pixels that stay black in every run while pixels like them do not; at most
+    /// 64.
     pub dead_pixels: Vec<[usize; 2]>,
     /// From the finest to the coarsest.
     pub scales: Vec<ScaleReport>,
@@ -115,13 +119,13 @@ pub struct ImageReport {
     pub worst_scale: Option<Scale>,
     /// How much too bright or too dark the picture is, for each component.
     pub ratios: Vec<GlobalRatio>,
-    /// The smallest relative error of the whole picture's luminance that would have been caught with
-    /// probability 0.999.
+    /// The smallest relative error of the whole picture's luminance that would have been caught
+    /// with probability 0.999.
     pub resolution: f64,
     /// The error that had to be.
     pub detects: f64,
-    /// By how much the samples of every run have to be multiplied, if inconclusive and that would help. If it would
-    /// not, the reference is too noisy.
+    /// By how much the samples of every run have to be multiplied, if inconclusive and that would
+    /// help. If it would not, the reference is too noisy.
     pub samples_factor: Option<f64>,
     /// Runs drawn.
     pub runs: u32,

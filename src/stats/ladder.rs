@@ -1,17 +1,18 @@
 //! The three-stage ladder: the only way a mean can fail.
 //!
-//! A first stage tests every claim on both sides at 2·[`STAGE_LEVEL`]. Claims it suspects are tested again on
-//! fresh runs with 4 times and then 16 times the samples, on the side the first stage chose. Only a claim that is
-//! rejected three times fails. A single test at the same overall level would rest on tails of 10⁻⁹, where the
-//! central limit theorem is wrong by factors of thousands for the skewed sums that renderers make; a product of
-//! three moderate tails stays right, and a correct core pays for the first stage only.
+//! A first stage tests every claim on both sides at 2·[`STAGE_LEVEL`]. Claims it suspects are
+//! tested again on fresh runs with 4 times and then 16 times the samples, on the side the first
+//! stage chose. Only a claim that is rejected three times fails. A single test at the same overall
+//! level would rest on tails of 10⁻⁹, where the central limit theorem is wrong by factors of
+//! thousands for the skewed sums that renderers make; a product of three moderate tails stays
+//! right, and a correct core pays for the first stage only.
 //!
-//! A stage rejects with two keys. `t` divides by the spread of the stage's own runs, and on right-skewed data
-//! errs towards "too low"; `u` divides by a spread from elsewhere (theory, or the other stages) and errs towards
-//! "too high". Both must turn.
+//! A stage rejects with two keys. `t` divides by the spread of the stage's own runs, and on
+//! right-skewed data errs towards "too low"; `u` divides by a spread from elsewhere (theory, or the
+//! other stages) and errs towards "too high". Both must turn.
 //!
-//! The unit of replication is one seeded run of the core, never a sample inside it, so that stratified and
-//! quasi-random samplers need no special case.
+//! The unit of replication is one seeded run of the core, never a sample inside it, so that
+//! stratified and quasi-random samplers need no special case.
 //!
 //! Not here: what the samples are, and how many leaves the suite has (`ledger`).
 
@@ -23,14 +24,16 @@ use serde::{Deserialize, Serialize};
 /// Level of one stage on one side.
 pub const STAGE_LEVEL: f64 = 5e-4;
 
-/// Probability that a correct core fails one claim: two sides, three stages, and twice that because the
-/// ladder may repeat one stage whose variance came out wrong.
+/// Probability that a correct core fails one claim: two sides, three stages, and twice that because
+/// the ladder may repeat one stage whose variance came out wrong.
 pub const LEAF_FALSE_ALARM: f64 = 2.0 * 2.0 * STAGE_LEVEL * STAGE_LEVEL * STAGE_LEVEL;
 
-/// Effect sizes, in standard errors, that the first stage is planned for: 3.45 to reject (Student, 63 degrees
-/// of freedom), 3.09 so that it does with probability 0.999, and the rest for bugs that also add variance.
+/// Effect sizes, in standard errors, that the first stage is planned for: 3.45 to reject (Student,
+/// 63 degrees of freedom), 3.09 so that it does with probability 0.999, and the rest for bugs that
+/// also add variance.
 pub(super) const PLANNED_SIGMAS: f64 = 7.0;
-/// The deviation comes from a pilot that knows it to 9 %, and is judged by a stage that knows it to 9 %.
+/// The deviation comes from a pilot that knows it to 9 %, and is judged by a stage that knows it to
+/// 9 %.
 pub(super) const PLAN_MARGIN: f64 = 1.2;
 /// Probability of missing an error as large as the printed resolution.
 pub(super) const MISS_LEVEL: f64 = 1e-3;
@@ -44,8 +47,9 @@ const PILOT_SAMPLES: u64 = 4096;
 const LARGEST_PILOT: u64 = 65_536;
 /// Events that a pilot must have seen to size the first stage by it.
 pub(super) const PILOT_EFFECTIVE: f64 = 50.0;
-/// Fewest samples of the second and third stage. A pilot and a first stage that are both constant may have
-/// missed an event that happens once in 10⁴ samples; this many miss it with probability 1e-3 and 4e-12.
+/// Fewest samples of the second and third stage. A pilot and a first stage that are both constant
+/// may have missed an event that happens once in 10⁴ samples; this many miss it with probability
+/// 1e-3 and 4e-12.
 const FEWEST_CONFIRMING: [u64; 2] = [65_536, 262_144];
 
 /// A step of the ladder. Each has its own random numbers.
@@ -96,8 +100,8 @@ impl Draw {
 /// Runs the core once and answers the mean of every claim over that run.
 pub type DrawMeans<'a, E> = dyn FnMut(Draw) -> Result<Vec<f64>, E> + 'a;
 
-/// Judges all claims on the same runs. `draw` runs the core once, with its own seed, and answers for each claim
-/// the mean over that run.
+/// Judges all claims on the same runs. `draw` runs the core once, with its own seed, and answers
+/// for each claim the mean over that run.
 ///
 /// # Panics
 ///
@@ -189,8 +193,8 @@ impl<E> Ladder<'_, E> {
         Ok(())
     }
 
-    /// The size at which a stage is drawn again because its variance is not what the stages before it said.
-    /// Once a ladder; the level in [`LEAF_FALSE_ALARM`] has been paid for it.
+    /// The size at which a stage is drawn again because its variance is not what the stages before
+    /// it said. Once a ladder; the level in [`LEAF_FALSE_ALARM`] has been paid for it.
     fn repeat_with(&self, stage: Stage, moments: &[Moments], samples: u64) -> Option<u64> {
         let most = self.effort.most_samples.saturating_mul(match stage {
             Stage::Third => 64,

@@ -1,7 +1,7 @@
 //! What a run has spent of the probability of blaming a correct core.
 //!
-//! Every leaf that can fail by chance enters what it may cost. The sum bounds the probability that a correct
-//! core fails anything at all, however the leaves hang together (union bound).
+//! Every leaf that can fail by chance enters what it may cost. The sum bounds the probability that
+//! a correct core fails anything at all, however the leaves hang together (union bound).
 
 use serde::{Deserialize, Serialize};
 

@@ -29,8 +29,8 @@ impl StageScore {
     }
 }
 
-/// The judgement of one claim. `mean`, `standard_error` and the intervals are those of the last stage drawn:
-/// the earlier ones chose whether it would be, the last one is fresh.
+/// The judgement of one claim. `mean`, `standard_error` and the intervals are those of the last
+/// stage drawn: the earlier ones chose whether it would be, the last one is fresh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeanReport {
     /// Pass, fail or inconclusive.
@@ -57,7 +57,8 @@ pub struct MeanReport {
     pub detects: f64,
     /// Samples drawn in all, pilot and repeated stages included.
     pub samples: u64,
-    /// Samples of the first stage that carry the mean: n μ² / (σ² + μ²), hits for a light that is rarely hit.
+    /// Samples of the first stage that carry the mean: n μ² / (σ² + μ²), hits for a light that is
+    /// rarely hit.
     pub effective_samples: f64,
     /// What the first stage lacks, if inconclusive and more samples would help.
     pub samples_missing: Option<u64>,

@@ -1,11 +1,16 @@
-//! How a verdict is reached. Every check decides here, and only here: no check types its own threshold.
+//! How a verdict is reached. Every check decides here, and only here: no check types its own
+//! threshold.
 //!
 //! - [`judge_means`]: the three-stage ladder, the only way a mean can fail.
 //! - [`judge_counts`]: whether samples follow a density, by χ² on [`SphereCells`].
-//! - [`judge_image`]: whether a picture is its reference, by screening and confirming cells of five sizes.
+//! - [`judge_image`]: whether a picture is its reference, by screening and confirming cells of five
+//!   sizes.
 //! - [`judge_exact`]: comparisons without noise, with their [`Tolerance`]s.
+//! - [`judge_share`], [`judge_slope`], [`judge_uncorrelated`]: shares, convergence, independence.
+//! - [`Ledger`]: what a run has spent of the probability of blaming a correct core.
 //! - [`Claim`]: what is true if the core is right, with the band that rounding may use up.
-//! - [`Effort`] and [`Budget`]: how small an error has to be seen, and how many samples that may cost.
+//! - [`Effort`] and [`Budget`]: how small an error has to be seen, and how many samples that may
+//!   cost.
 //!
 //! Not here: how samples are drawn (`checks`), or what a failure means (`diagnosis`).
 

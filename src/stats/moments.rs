@@ -1,6 +1,8 @@
-//! Mean and variance of a stream, after Welford (1962), merged after Chan, Golub and LeVeque (1979).
+//! Mean and variance of a stream, after Welford (1962), merged after Chan, Golub and LeVeque
+//! (1979).
 
-/// The number, the mean and the spread of what was pushed. One NaN makes the mean and the variance NaN.
+/// The number, the mean and the spread of what was pushed. One NaN makes the mean and the variance
+/// NaN.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
     count: u64,

@@ -1,8 +1,8 @@
 //! Shares of yes-or-no samples: exact binomial tails, climbed like the ladder of the means.
 //!
-//! For samples that the harness draws itself, one by one, through a core's `sample` functions: the share of
-//! reflections of glass, the share of samples accepted. The law is then binomial for every core, so no variance
-//! has to be estimated and no limit theorem believed.
+//! For samples that the harness draws itself, one by one, through a core's `sample` functions: the
+//! share of reflections of glass, the share of samples accepted. The law is then binomial for every
+//! core, so no variance has to be estimated and no limit theorem believed.
 
 use super::ladder::STAGE_LEVEL;
 use super::{Band, Effort, Stage, Verdict, normal_upper};
@@ -35,7 +35,8 @@ pub fn binomial_at_most(hits: u64, trials: u64, probability: f64) -> f64 {
     binomial_at_least(trials - hits, trials, 1.0 - probability)
 }
 
-/// The interval of Clopper and Pearson (1934): holds the share with at least the probability 1 − 2 `level`.
+/// The interval of Clopper and Pearson (1934): holds the share with at least the probability 1 − 2
+/// `level`.
 pub fn share_interval(hits: u64, trials: u64, level: f64) -> [f64; 2] {
     let (k, n) = (hits as f64, trials as f64);
     let low = if hits == 0 { 0.0 } else { inv_beta_reg(k, n - k + 1.0, level) };
@@ -83,8 +84,8 @@ pub struct ShareReport {
     pub false_alarm: f64,
 }
 
-/// Judges whether `draw`, asked for a number of samples, answers "yes" with probability `expected`. Shares of
-/// exactly 0 or 1 have no chance in them: one sample on the wrong side fails.
+/// Judges whether `draw`, asked for a number of samples, answers "yes" with probability `expected`.
+/// Shares of exactly 0 or 1 have no chance in them: one sample on the wrong side fails.
 pub fn judge_share<E>(
     expected: f64,
     band: Band,
@@ -134,7 +135,8 @@ fn sigmas() -> f64 {
     normal_upper(STAGE_LEVEL) + normal_upper(MISS_LEVEL)
 }
 
-/// Samples of the first stage that see a relative error of `detects`, on the side where the share varies more.
+/// Samples of the first stage that see a relative error of `detects`, on the side where the share
+/// varies more.
 fn planned_samples(expected: f64, band: Band, detects: f64) -> f64 {
     let wrong = (expected * (1.0 + detects)).min(0.5f64.max(expected));
     let variance = (wrong * (1.0 - wrong)).max(expected * (1.0 - expected));

@@ -15,7 +15,8 @@ pub fn student_upper(level: f64, freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |law| -law.inverse_cdf(level))
 }
 
-/// What χ² with `freedom` degrees of freedom exceeds with probability `level`. Infinite without any freedom.
+/// What χ² with `freedom` degrees of freedom exceeds with probability `level`. Infinite without any
+/// freedom.
 pub fn chi_square_upper(level: f64, freedom: f64) -> f64 {
     ChiSquared::new(freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(1.0 - level))
 }

@@ -1,16 +1,17 @@
 //! Screen and confirm: the only way a picture can fail.
 //!
-//! A few runs are screened at five scales, from the pixel to the whole picture. If no cell stands out, that was
-//! all. Otherwise the most extreme cells of each scale are frozen, with their signs and weights, and confirmed
-//! twice on fresh runs: one number a run, one degree of freedom. The price of having looked at a hundred thousand
-//! cells is paid by that split of the data, not by a threshold of seven standard errors for every pixel.
+//! A few runs are screened at five scales, from the pixel to the whole picture. If no cell stands
+//! out, that was all. Otherwise the most extreme cells of each scale are frozen, with their signs
+//! and weights, and confirmed twice on fresh runs: one number a run, one degree of freedom. The
+//! price of having looked at a hundred thousand cells is paid by that split of the data, not by a
+//! threshold of seven standard errors for every pixel.
 //!
-//! The noise of the reference is the same in every stage, so it is no fresh noise: it widens the band.
-//! The spread is the core's own, between its runs: another estimator has another variance, and neighbouring pixels
-//! may hang together as they like.
+//! The noise of the reference is the same in every stage, so it is no fresh noise: it widens the
+//! band. The spread is the core's own, between its runs: another estimator has another variance,
+//! and neighbouring pixels may hang together as they like.
 //!
-//! 16 runs of n samples rather than 8 of 2n cost the same and see errors in single pixels a third as large: Student's t
-//! at a level of 10⁻⁹ is 35 with 7 degrees of freedom and 13 with 15.
+//! 16 runs of n samples rather than 8 of 2n cost the same and see errors in single pixels a third
+//! as large: Student's t at a level of 2·10⁻⁹ is 35 with 7 degrees of freedom and 12 with 15.
 //!
 //! Not here: 8-bit pictures, whose codes follow another law.
 
@@ -53,7 +54,8 @@ pub struct ImageEffort {
 }
 
 impl ImageEffort {
-    /// The effort that sees an error of `detects` of the whole picture, if the runs have samples enough.
+    /// The effort that sees an error of `detects` of the whole picture, if the runs have samples
+    /// enough.
     pub fn new(detects: f64) -> Self {
         Self { detects, screen_runs: 16, confirm_runs: 32 }
     }
@@ -94,8 +96,9 @@ pub fn judge_image<E>(
     Screening::new(target, reference.mean, effort, &mut one).judge()
 }
 
-/// Judges whether two cores, or two ways to render, have the same mean picture. `draw` renders both, each with
-/// a seed of its own. A run of [`Stage::Pilot`] comes first; it only shows how bright the cells are.
+/// Judges whether two cores, or two ways to render, have the same mean picture. `draw` renders
+/// both, each with a seed of its own. A run of [`Stage::Pilot`] comes first; it only shows how
+/// bright the cells are.
 ///
 /// # Panics
 ///
@@ -143,7 +146,8 @@ mod tests {
         Image::new(SIZE, SIZE, [0.0; 3])
     }
 
-    /// The mean of `SAMPLES` exponential variables, all channels together: relative deviation 1 a sample.
+    /// The mean of `SAMPLES` exponential variables, all channels together: relative deviation 1 a
+    /// sample.
     fn noise(stream: &mut Stream) -> f32 {
         let sum: f64 = (0..SAMPLES).map(|_| -(1.0 - uniform(stream)).ln()).sum();
         (sum / f64::from(SAMPLES)) as f32
@@ -303,8 +307,8 @@ mod tests {
         assert!(luminance.interval[0] < 1.03 && 1.03 < luminance.interval[1], "{luminance:?}");
     }
 
-    /// The mean of `samples` samples of a pixel that caustics reach once in 500 samples, with two thirds of its
-    /// light: relative deviation 15 a sample.
+    /// The mean of `samples` samples of a pixel that caustics reach once in 500 samples, with two
+    /// thirds of its light: relative deviation 15 a sample.
     fn caustic(stream: &mut Stream, samples: u32) -> f64 {
         let hits = (0..samples).filter(|_| uniform(stream) < 0.002).count();
         (1.0 + 1000.0 * hits as f64 / f64::from(samples)) / 3.0

@@ -166,8 +166,8 @@ impl<'a, E> Screening<'a, E> {
         outside
     }
 
-    /// A matched filter for what the screen saw: each cell weighs by its departure over its variance, so that
-    /// one cell far out is not lost among 64 that are a little out by chance.
+    /// A matched filter for what the screen saw: each cell weighs by its departure over its
+    /// variance, so that one cell far out is not lost among 64 that are a little out by chance.
     fn freeze(&self, scale: usize, spread: &Spread) -> Frozen {
         let term = |(index, t): (usize, f64)| {
             // The band keeps a cell that happened not to vary from weighing more than all others.
@@ -243,8 +243,8 @@ impl<'a, E> Screening<'a, E> {
         }
     }
 
-    /// What the screen would have suspected with probability 1 − [`MISS_LEVEL`]; the confirmations, on twice the
-    /// runs, would not have missed it. Normal approximation to the noncentral t.
+    /// What the screen would have suspected with probability 1 − [`MISS_LEVEL`]; the confirmations,
+    /// on twice the runs, would not have missed it. Normal approximation to the noncentral t.
     fn resolution(&self, screened: &Spread) -> f64 {
         let whole = self.target.whole_luminance();
         let looks = 2.0 * (Scale::ALL.len() * COMPONENTS) as f64;

@@ -1,20 +1,23 @@
-//! How the error falls with the number of samples: the slope of log error on log samples, and the plateau.
+//! How the error falls with the number of samples: the slope of log error on log samples, and the
+//! plateau.
 //!
-//! Independent samples have slope −1/2. An error that stops falling is a bias; one that does not fall at all says
-//! that the samples are always the same. A core that stratifies may fall faster.
+//! Independent samples have slope −1/2. An error that stops falling is a bias; one that does not
+//! fall at all says that the samples are always the same. A core that stratifies may fall faster.
 
 use super::{Moments, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// The slope of independent samples.
 const INDEPENDENT: f64 = -0.5;
-/// How far a correct core's slope may be from that: rounding, and a band of its own bias at the far end.
+/// How far a correct core's slope may be from that: rounding, and a band of its own bias at the far
+/// end.
 const BAND: f64 = 0.02;
 /// Standard errors that chance is given: beyond 7 it has a probability below 1e-11.
 const SIGMAS: f64 = 7.0;
 /// Standard errors more with which an error is seen with probability 0.999.
 const SIGMAS_TO_SEE: f64 = 3.09;
-/// Probability that a correct core fails: two sides of 7 standard errors, with room for a t of 60 degrees of freedom.
+/// Probability that a correct core fails: two sides of 7 standard errors, with room for a t of 60
+/// degrees of freedom.
 pub const SLOPE_FALSE_ALARM: f64 = 1e-8;
 
 /// The errors at one number of samples.
@@ -85,7 +88,8 @@ pub struct SlopeReport {
     pub resolution: f64,
     /// The deviation that had to be.
     pub detects: f64,
-    /// The bias that would explain what the last level's error exceeds its own noise by; 0 if nothing.
+    /// The bias that would explain what the last level's error exceeds its own noise by; 0 if
+    /// nothing.
     pub plateau_bias: f64,
     /// Measured.
     pub points: Vec<ErrorPoint>,
@@ -131,7 +135,8 @@ fn point(level: &ErrorLevel) -> ErrorPoint {
     }
 }
 
-/// Weighted least squares of ln error on ln samples: slope and standard error. NaN of fewer than two levels.
+/// Weighted least squares of ln error on ln samples: slope and standard error. NaN of fewer than
+/// two levels.
 fn fit(points: &[ErrorPoint]) -> (f64, f64) {
     let weight = |point: &ErrorPoint| point.log_error.powi(2).max(f64::MIN_POSITIVE).recip();
     let x = |point: &ErrorPoint| (point.samples as f64).ln();
@@ -152,7 +157,8 @@ mod tests {
     use super::*;
     use crate::math::rng::{Seed, uniform};
 
-    /// 32 runs of 256 pixels of value 1, whose samples are exponential; `distort` is the core's mistake.
+    /// 32 runs of 256 pixels of value 1, whose samples are exponential; `distort` is the core's
+    /// mistake.
     fn levels(distort: impl Fn(f64, f64) -> f64) -> Vec<ErrorLevel> {
         let mut stream = Seed(12).stream();
         let truth = vec![1.0; 256];

@@ -1,6 +1,7 @@
 //! Times, which have outliers: medians, and bootstrap intervals of the ratio of paired times.
 //!
-//! Times inform and never fail a core. Measure in interleaved pairs, so that a busy machine slows both.
+//! Times inform and never fail a core. Measure in interleaved pairs, so that a busy machine slows
+//! both.
 
 use crate::math::rng::{Seed, Stream};
 use rand::Rng;

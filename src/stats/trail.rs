@@ -10,8 +10,8 @@ use super::{
 
 /// Standard errors outside the band that make a pilot suspicious.
 const PILOT_SIGMAS: f64 = 3.0;
-/// Fewest samples of a first stage after a suspicious pilot. What looks like a wrong constant may be a rare event that
-/// has not happened; 4 and 16 times as many samples confirm.
+/// Fewest samples of a first stage after a suspicious pilot. What looks like a wrong constant may
+/// be a rare event that has not happened; 4 and 16 times as many samples confirm.
 const FEWEST_TO_SUSPECT: f64 = 16_384.0;
 /// Level of one side of the printed intervals.
 const INTERVAL_LEVEL: f64 = 5e-4;
@@ -83,8 +83,8 @@ impl Trail {
         }
     }
 
-    /// Whether a pilot has seen enough to size the first stage. A constant that disagrees with the claim may be
-    /// a rare event that has not happened yet.
+    /// Whether a pilot has seen enough to size the first stage. A constant that disagrees with the
+    /// claim may be a rare event that has not happened yet.
     pub(super) fn learns_from(&self, pilot: &Moments, samples: u64) -> bool {
         let variance = sample_variance(pilot, samples);
         if !variance.is_finite() {
@@ -130,8 +130,8 @@ impl Trail {
         for_noise.max(for_normality).max(to_be_sure)
     }
 
-    /// The size a stage should have had, if its spread is not what was expected: too small to have seen the tail,
-    /// or too large to see the error promised.
+    /// The size a stage should have had, if its spread is not what was expected: too small to have
+    /// seen the tail, or too large to see the error promised.
     pub(super) fn wants_repeat(
         &self,
         stage: Stage,
@@ -205,8 +205,8 @@ impl Trail {
         samples as f64 / (1.0 + variance / self.claim.scale.powi(2))
     }
 
-    /// The smallest relative error that the first stage, which every error has to get past, would have
-    /// rejected with probability 1 − [`MISS_LEVEL`].
+    /// The smallest relative error that the first stage, which every error has to get past, would
+    /// have rejected with probability 1 − [`MISS_LEVEL`].
     fn resolution(&self) -> f64 {
         let Some(first) = self.scores.iter().find(|score| score.stage == Stage::First) else {
             return f64::INFINITY;
@@ -269,8 +269,8 @@ impl Trail {
     }
 }
 
-/// A departure in standard errors. Nothing is never significant, however small the error; anything is, where
-/// there is no error at all. Capped, because infinity does not survive JSON.
+/// A departure in standard errors. Nothing is never significant, however small the error; anything
+/// is, where there is no error at all. Capped, because infinity does not survive JSON.
 fn in_units(departure: f64, standard_error: f64) -> f64 {
     const LARGEST: f64 = 1e9;
     if departure == 0.0 { 0.0 } else { (departure / standard_error).clamp(-LARGEST, LARGEST) }

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
-/// Radiance of one bounce in a closed cavity of uniform albedo and emission. Every point sees the same radiance in
-/// every direction, so each bounce multiplies by the albedo.
+/// Radiance of one bounce in a closed cavity of uniform albedo and emission. Every point sees the
+/// same radiance in every direction, so each bounce multiplies by the albedo.
 pub fn furnace_bounce(emission: f64, albedo: f64, bounce: u32) -> f64 {
     emission * power(albedo, bounce)
 }
@@ -24,10 +24,12 @@ pub fn cap_fraction(half_angle: f64) -> f64 {
     0.5 * (1.0 - half_angle.cos())
 }
 
-/// Radiance of one bounce in a spherical cavity that glows only on a cap, at any point outside the cap.
+/// Radiance of one bounce in a spherical cavity that glows only on a cap, at any point outside the
+/// cap.
 ///
-/// Between two points inside a sphere of radius R, cos θ cos θ′ / (π r²) = 1 / (4πR²): light spreads evenly over
-/// the whole sphere at the first bounce already. Bounce 0 is 0, the cap being elsewhere.
+/// Between two points inside a sphere of radius R, cos θ cos θ′ / (π r²) = 1 / (4πR²): light
+/// spreads evenly over the whole sphere at the first bounce already. Bounce 0 is 0, the cap being
+/// elsewhere.
 pub fn cap_cavity_bounce(emission: f64, albedo: f64, half_angle: f64, bounce: u32) -> f64 {
     if bounce == 0 {
         return 0.0;
@@ -63,7 +65,8 @@ pub struct InnerAndOuter {
 }
 
 impl ConcentricSpheres {
-    /// Form factor from the outer to the inner sphere: the ratio of areas, by reciprocity with F₁₂ = 1.
+    /// Form factor from the outer to the inner sphere: the ratio of areas, by reciprocity with F₁₂
+    /// = 1.
     fn outer_to_inner(&self) -> f64 {
         self.radius_ratio * self.radius_ratio
     }
@@ -97,11 +100,12 @@ impl ConcentricSpheres {
     }
 }
 
-/// Mean over the unit square around its centre of the radiance of a Lambertian sphere that fills it, lit by a
-/// directional light of irradiance `irradiance` (at normal incidence) at phase angle `phase`.
+/// Mean over the unit square around its centre of the radiance of a Lambertian sphere that fills
+/// it, lit by a directional light of irradiance `irradiance` (at normal incidence) at phase angle
+/// `phase`.
 ///
-/// The phase integral of a Lambertian sphere, 2/(3π) (sin g + (π − g) cos g) (Lambert 1760), times ρE/π, over the
-/// disk that covers π/4 of the square.
+/// The phase integral of a Lambertian sphere, 2/(3π) (sin g + (π − g) cos g) (Lambert 1760), times
+/// ρE/π, over the disk that covers π/4 of the square.
 pub fn lit_sphere_mean(irradiance: f64, albedo: f64, phase: f64) -> f64 {
     let phase_integral = 2.0 / (3.0 * PI) * (phase.sin() + (PI - phase) * phase.cos());
     albedo * irradiance / PI * phase_integral * PI / 4.0

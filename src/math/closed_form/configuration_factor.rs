@@ -1,8 +1,9 @@
-//! What share of the light a small patch would get from all around comes from one shape: ∫ cos θ cos θ′ / (π r²) dA.
-//! A Lambertian patch of albedo ρ, lit by a shape of radiance L, has radiance ρ L F.
+//! What share of the light a small patch would get from all around comes from one shape: ∫ cos θ
+//! cos θ′ / (π r²) dA. A Lambertian patch of albedo ρ, lit by a shape of radiance L, has radiance ρ
+//! L F.
 //!
-//! Sources: J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors" (numbers B-3, B-4, B-12, B-13,
-//! B-43 there); J. H. Lambert, Photometria (1760), for polygons.
+//! Sources: J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors" (numbers
+//! B-3, B-4, B-12, B-13, B-43 there); J. H. Lambert, Photometria (1760), for polygons.
 
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -14,22 +15,23 @@ pub fn rectangle_parallel_corner(a: f64, b: f64, c: f64) -> f64 {
     (a / root_a * (b / root_a).atan() + b / root_b * (a / root_b).atan()) / (2.0 * PI)
 }
 
-/// The rectangle with x in `x` and y in `y`, parallel to the patch at the origin at distance `c`: corner rectangles,
-/// added and subtracted.
+/// The rectangle with x in `x` and y in `y`, parallel to the patch at the origin at distance `c`:
+/// corner rectangles, added and subtracted.
 pub fn rectangle_parallel(x: [f64; 2], y: [f64; 2], c: f64) -> f64 {
     let corner = |x: f64, y: f64| (x * y).signum() * rectangle_parallel_corner(x.abs(), y.abs(), c);
     corner(x[1], y[1]) - corner(x[0], y[1]) - corner(x[1], y[0]) + corner(x[0], y[0])
 }
 
-/// A rectangle at right angles to the patch, in the plane at distance `c`: `a` wide from above the patch to one
-/// side, `b` high from the plane of the patch up (B-4).
+/// A rectangle at right angles to the patch, in the plane at distance `c`: `a` wide from above the
+/// patch to one side, `b` high from the plane of the patch up (B-4).
 pub fn rectangle_perpendicular(a: f64, b: f64, c: f64) -> f64 {
     let slant = f64::hypot(c, b);
     ((a / c).atan() - c / slant * (a / slant).atan()) / (2.0 * PI)
 }
 
-/// A flat polygon, vertices relative to the patch, clipped at the horizon of the patch's unit `normal`: Lambert's
-/// formula, half the sum over edges of the angle they subtend times the cosine between normal and edge plane.
+/// A flat polygon, vertices relative to the patch, clipped at the horizon of the patch's unit
+/// `normal`: Lambert's formula, half the sum over edges of the angle they subtend times the cosine
+/// between normal and edge plane.
 pub fn polygon(vertices: &[DVec3], normal: DVec3) -> f64 {
     let above = clipped(vertices, normal);
     let next = above.iter().cycle().skip(1);
@@ -74,13 +76,14 @@ pub fn disk_offset(radius: f64, h: f64, offset: f64) -> f64 {
     0.5 * (1.0 - (z - 2.0 * radius * radius) / root)
 }
 
-/// A coaxial disk light partly hidden by a coaxial disk between it and the patch. Both are (radius, height).
+/// A coaxial disk light partly hidden by a coaxial disk between it and the patch. Both are (radius,
+/// height).
 pub fn disk_behind_disk(light: (f64, f64), occluder: (f64, f64)) -> f64 {
     (disk_coaxial(light.0, light.1) - disk_coaxial(occluder.0, occluder.1)).max(0.0)
 }
 
-/// A sphere whose centre is at `distance`, at the angle `theta` from the normal, wholly or partly above the horizon
-/// (B-43).
+/// A sphere whose centre is at `distance`, at the angle `theta` from the normal, wholly or partly
+/// above the horizon (B-43).
 pub fn sphere(radius: f64, distance: f64, theta: f64) -> f64 {
     let h = distance / radius;
     let half_angle = h.recip().acos();
@@ -101,7 +104,8 @@ pub fn sky_over_plain(tilt: f64) -> f64 {
     0.5 * (1.0 + tilt.cos())
 }
 
-/// A sky of radiance a + b cos θ over a patch that lies flat, relative to a sky of radiance 1: a + 2b/3.
+/// A sky of radiance a + b cos θ over a patch that lies flat, relative to a sky of radiance 1: a +
+/// 2b/3.
 pub fn gradient_sky(a: f64, b: f64) -> f64 {
     a + 2.0 / 3.0 * b
 }

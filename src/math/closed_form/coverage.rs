@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-/// A rectangle that faces the camera at this depth, with x and y relative to the axis; cut off at the picture's border.
+/// A rectangle that faces the camera at this depth, with x and y relative to the axis; cut off at
+/// the picture's border.
 pub fn rectangle(x: [f64; 2], y: [f64; 2], depth: f64, fields_of_view: [f64; 2]) -> f64 {
     let covered = |[low, high]: [f64; 2], field: f64| {
         let half = depth * (0.5 * field).tan();

@@ -1,6 +1,8 @@
-//! Mean configuration factors between two rectangles: what share of the light leaving one arrives at the other.
+//! Mean configuration factors between two rectangles: what share of the light leaving one arrives
+//! at the other.
 //!
-//! Source: J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", C-11 and C-14.
+//! Source: J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", C-11 and
+//! C-14.
 
 use std::f64::consts::PI;
 
@@ -16,8 +18,9 @@ pub fn parallel_rectangles(x: f64, y: f64) -> f64 {
     2.0 / (PI * x * y) * sum
 }
 
-/// From a rectangle to one at right angles to it along a common edge (C-14). `width` is how far the source goes away
-/// from the edge and `height` how far the target does, both over the length of the edge.
+/// From a rectangle to one at right angles to it along a common edge (C-14). `width` is how far the
+/// source goes away from the edge and `height` how far the target does, both over the length of the
+/// edge.
 pub fn perpendicular_rectangles(width: f64, height: f64) -> f64 {
     let (w2, h2) = (width * width, height * height);
     let both = 1.0 + w2 + h2;

@@ -1,4 +1,5 @@
-//! Reflection and refraction at smooth dielectric interfaces. `eta` is the index beyond over the index before.
+//! Reflection and refraction at smooth dielectric interfaces. `eta` is the index beyond over the
+//! index before.
 
 /// Unpolarised reflectance (Fresnel 1823); 1 under total internal reflection.
 pub fn reflectance(cos_incident: f64, eta: f64) -> f64 {
@@ -12,8 +13,8 @@ pub fn reflectance(cos_incident: f64, eta: f64) -> f64 {
     0.5 * (perpendicular * perpendicular + parallel * parallel)
 }
 
-/// Schlick's approximation (1994): R₀ + (1 − R₀)(1 − cos θ)⁵ with the cosine on the thin side; 1 under total
-/// internal reflection.
+/// Schlick's approximation (1994): R₀ + (1 − R₀)(1 − cos θ)⁵ with the cosine on the thin side; 1
+/// under total internal reflection.
 pub fn schlick(cos_incident: f64, eta: f64) -> f64 {
     let at_normal = ((eta - 1.0) / (eta + 1.0)).powi(2);
     let sine_squared = (1.0 - cos_incident * cos_incident) / (eta * eta);
@@ -24,8 +25,8 @@ pub fn schlick(cos_incident: f64, eta: f64) -> f64 {
     at_normal + (1.0 - at_normal) * (1.0 - cosine).powi(5)
 }
 
-/// What a clear parallel slab lets through, all internal reflections included, if each face reflects `face`:
-/// (1 − F)² Σ F²ᵏ = (1 − F)/(1 + F).
+/// What a clear parallel slab lets through, all internal reflections included, if each face
+/// reflects `face`: (1 − F)² Σ F²ᵏ = (1 − F)/(1 + F).
 pub fn slab_transmittance(face: f64) -> f64 {
     (1.0 - face) / (1.0 + face)
 }
@@ -35,15 +36,16 @@ pub fn slab_reflectance(face: f64) -> f64 {
     2.0 * face / (1.0 + face)
 }
 
-/// Radiance of a clear sphere in surroundings of radiance 1, if paths end after `segments` segments inside: all but
-/// what is still inside. Every reflection inside a sphere meets it at the same angle.
+/// Radiance of a clear sphere in surroundings of radiance 1, if paths end after `segments` segments
+/// inside: all but what is still inside. Every reflection inside a sphere meets it at the same
+/// angle.
 pub fn sphere_in_furnace(face: f64, segments: u32) -> f64 {
     let still_inside = (0..segments).fold(1.0 - face, |left, _| left * face);
     1.0 - still_inside
 }
 
-/// Radiance of an emitter inside a dielectric of index `eta` seen through one face: (1 − F) L / η². Radiance over
-/// index squared is what refraction conserves.
+/// Radiance of an emitter inside a dielectric of index `eta` seen through one face: (1 − F) L / η².
+/// Radiance over index squared is what refraction conserves.
 pub fn embedded_emitter(cos_outside: f64, eta: f64, emission: f64) -> f64 {
     (1.0 - reflectance(cos_outside, eta)) * emission / (eta * eta)
 }

@@ -1,7 +1,9 @@
-//! The GGX microfacet distribution, its masking, and the albedo of a perfect conductor rough that way.
+//! The GGX microfacet distribution, its masking, and the albedo of a perfect conductor rough that
+//! way.
 //!
-//! Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007); Heitz, "Understanding
-//! the Masking-Shadowing Function" (2014). Only single scattering: what bounces twice between facets is lost.
+//! Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007); Heitz,
+//! "Understanding the Masking-Shadowing Function" (2014). Only single scattering: what bounces
+//! twice between facets is lost.
 
 use crate::math::quadrature::integrate;
 use std::f64::consts::PI;
@@ -15,7 +17,8 @@ pub enum Masking {
     HeightCorrelated,
 }
 
-/// The density of facet normals at this cosine to the surface normal, per steradian; ∫ D cos dω = 1.
+/// The density of facet normals at this cosine to the surface normal, per steradian; ∫ D cos dω =
+/// 1.
 pub fn distribution(cos_theta: f64, alpha: f64) -> f64 {
     let a2 = alpha * alpha;
     let c2 = cos_theta * cos_theta;
@@ -43,8 +46,9 @@ pub fn masking_shadowing(cos_o: f64, cos_i: f64, alpha: f64, form: Masking) -> f
 
 /// The share of light that a GGX conductor of reflectance 1 sends back, viewed at this cosine.
 ///
-/// With facet normals distributed by D cos, the albedo is the mean of G (wo·h) / (cos θo cos θh) over those that
-/// reflect above the horizon. For each θh they are an interval of φ, whose end is known, so the integrand is smooth.
+/// With facet normals distributed by D cos, the albedo is the mean of G (wo·h) / (cos θo cos θh)
+/// over those that reflect above the horizon. For each θh they are an interval of φ, whose end is
+/// known, so the integrand is smooth.
 pub fn albedo(cos_o: f64, alpha: f64, form: Masking) -> f64 {
     let (cos_o, sin_o) = (cos_o, (1.0 - cos_o * cos_o).max(0.0).sqrt());
     let over_phi = |u: f64| {

@@ -21,8 +21,9 @@ impl RouletteFurnace {
 
     /// The variance of one path; infinite from ρ² = q on.
     ///
-    /// Beyond the guaranteed bounces a path adds c Σ_{j ≤ J} rʲ with r = ρ/q, c = Lₑ ρᵍ and P(J ≥ j) = qʲ. Its second
-    /// moment is c² Σᵢⱼ r^(i+j) q^max(i,j): a diagonal Σ dʲ with d = r²q, and twice Σ_j ρʲ Σ_{i<j} rⁱ.
+    /// Beyond the guaranteed bounces a path adds c Σ_{j ≤ J} rʲ with r = ρ/q, c = Lₑ ρᵍ and P(J ≥
+    /// j) = qʲ. Its second moment is c² Σᵢⱼ r^(i+j) q^max(i,j): a diagonal Σ dʲ with d = r²q, and
+    /// twice Σ_j ρʲ Σ_{i<j} rⁱ.
     pub fn variance(&self) -> f64 {
         let (rho, q) = (self.albedo, self.survival);
         if rho * rho >= q {

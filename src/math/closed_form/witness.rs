@@ -1,4 +1,5 @@
-//! Quadrature for the tests of the closed forms: the defining integrals, evaluated without cleverness.
+//! Quadrature for the tests of the closed forms: the defining integrals, evaluated without
+//! cleverness.
 
 use crate::math::quadrature::{Diligence, Rectangle, integrate_rectangles};
 use glam::{DVec2, DVec3};
@@ -20,8 +21,8 @@ pub fn over_unit_square(f: impl Fn(DVec2) -> f64) -> f64 {
     over(DVec2::ZERO, DVec2::ONE, f)
 }
 
-/// cos θ cos θ′ / (π r²) between a receiver at the origin and a point whose normal is `normal`; both cosines
-/// clamped at 0.
+/// cos θ cos θ′ / (π r²) between a receiver at the origin and a point whose normal is `normal`;
+/// both cosines clamped at 0.
 pub fn kernel(receiver_normal: DVec3, point: DVec3, normal: DVec3) -> f64 {
     let squared = point.length_squared();
     let arriving = point.dot(receiver_normal).max(0.0);

@@ -1,6 +1,7 @@
 //! `furnace`: a test bench for path tracers.
 
 pub mod case;
+pub mod cause;
 pub mod checks;
 pub mod cli;
 pub mod contract;

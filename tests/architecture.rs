@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 /// The layer of each module of the library. A new module belongs here before anything can name it.
 const LAYERS: &[(&str, u32)] = &[
     ("math", 0),
+    ("cause", 1),
     ("image", 1),
     ("text", 1),
     ("project", 1),
@@ -20,6 +21,7 @@ const LAYERS: &[(&str, u32)] = &[
     ("cores", 6),
     ("checks", 6),
     ("case", 7),
+    ("diagnosis", 7),
     ("run", 8),
     ("report", 9),
     ("reference", 9),

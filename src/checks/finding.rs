@@ -1,5 +1,6 @@
 //! What a check has to say: a verdict, a sentence, and the numbers behind it.
 
+use crate::cause::Cause;
 use crate::stats::Verdict;
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +19,19 @@ pub struct Finding {
     /// What the trial spent of the suite's error budget: the probability that a correct core fails it.
     #[serde(with = "number")]
     pub false_alarm: f64,
+    /// Mistakes that the check recognised, the likeliest first; empty where it passes, or knows none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub clues: Vec<Clue>,
+}
+
+/// A mistake that would have given just these answers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Clue {
+    /// Its name in the glossary of [`crate::cause`].
+    pub cause: String,
+    /// What speaks for it, with numbers: `predicts all 159 rays`.
+    pub evidence: String,
 }
 
 /// One number that was measured.
@@ -83,6 +97,7 @@ impl Finding {
             measures,
             resolution: resolution.into(),
             false_alarm: 0.0,
+            clues: Vec::new(),
         }
     }
 
@@ -94,12 +109,19 @@ impl Finding {
             measures: Vec::new(),
             resolution: String::new(),
             false_alarm: 0.0,
+            clues: Vec::new(),
         }
     }
 
     /// Adds what a statistical check has spent of the error budget.
     pub fn spending(mut self, false_alarm: f64) -> Self {
         self.false_alarm += false_alarm;
+        self
+    }
+
+    /// Adds a mistake that would have given just these answers, less likely than those added before.
+    pub fn because(mut self, cause: &Cause, evidence: impl Into<String>) -> Self {
+        self.clues.push(Clue { cause: cause.name.to_owned(), evidence: evidence.into() });
         self
     }
 

@@ -22,7 +22,7 @@ mod testing;
 pub mod transport;
 
 pub use context::{CheckError, Context, Picture, PictureRole, camera_of};
-pub use finding::{Finding, Measure, number};
+pub use finding::{Clue, Finding, Measure, number};
 
 use crate::contract::Capabilities;
 use serde::Deserialize;

@@ -1,0 +1,77 @@
+//! The glossary of causes: every mistake that furnace can name, in plain words, with where to look.
+//!
+//! A check that recognises a mistake leaves a clue with its name; the diagnosis weighs clues and numbers into
+//! causes; a planted fault says which cause must be told of it. All three name the same entry of this glossary, so
+//! that a mistake is called the same everywhere.
+//!
+//! To add one: a `static` in the file of its part, and its line in that file's `CAUSES`.
+
+pub mod adaptive;
+pub mod bsdf;
+pub mod bvh;
+pub mod camera;
+pub mod light;
+pub mod picture;
+pub mod sampling;
+pub mod shape;
+pub mod transport;
+
+/// A mistake that people make in path tracers.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Cause {
+    /// Kebab-case, unique: what files and tests call it.
+    pub name: &'static str,
+    /// The mistake as one sentence without full stop, in the user's words: `the film's y axis points down`.
+    pub headline: &'static str,
+    /// The function and the step in it where the mistake is made.
+    pub look_at: &'static str,
+    /// What belongs there instead, as one sentence.
+    pub remedy: &'static str,
+}
+
+/// Every cause, part by part, in the order in which one part rests on another.
+pub fn all() -> impl Iterator<Item = &'static Cause> {
+    let parts = [
+        camera::CAUSES,
+        shape::CAUSES,
+        bvh::CAUSES,
+        sampling::CAUSES,
+        bsdf::CAUSES,
+        light::CAUSES,
+        transport::CAUSES,
+        adaptive::CAUSES,
+        picture::CAUSES,
+    ];
+    parts.into_iter().flatten().copied()
+}
+
+/// The cause called `name`.
+pub fn find(name: &str) -> Option<&'static Cause> {
+    all().find(|cause| cause.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn names_are_unique_and_kebab_case() {
+        let mut seen = BTreeSet::new();
+        for cause in all() {
+            assert!(seen.insert(cause.name), "{} stands there twice", cause.name);
+            let proper = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+            assert!(cause.name.chars().all(proper), "{}", cause.name);
+        }
+    }
+
+    #[test]
+    fn every_cause_says_what_where_and_what_instead() {
+        for cause in all() {
+            for words in [cause.headline, cause.look_at, cause.remedy] {
+                assert!(words.len() > 10, "{}: `{words}`", cause.name);
+            }
+            assert!(!cause.headline.ends_with('.'), "{}", cause.name);
+        }
+    }
+}

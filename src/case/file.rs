@@ -1,7 +1,7 @@
 //! TOML → [`Case`]. The head is read first, then the check reads its own `[expect]` out of the whole text, so that
 //! every complaint knows its line.
 
-use super::{Case, SceneChoice};
+use super::{Case, Foundation, SceneChoice, Tier};
 use crate::checks::{self, CHECKS, PrepareError};
 use crate::text::{Diagnostic, Source, did_you_mean, listed};
 use serde::Deserialize;
@@ -18,6 +18,12 @@ struct Head {
     source: String,
     #[serde(default)]
     tags: Vec<String>,
+    #[serde(default)]
+    tier: Tier,
+    #[serde(default)]
+    proves: Vec<Foundation>,
+    #[serde(default)]
+    rests_on: Vec<Foundation>,
     check: Spanned<String>,
     scene: Option<Spanned<SceneEntry>>,
     /// The check's own; it reads it with its own words.
@@ -53,6 +59,9 @@ pub fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diagnostic>
         teaches: head.teaches,
         source: head.source,
         tags: head.tags,
+        tier: head.tier,
+        proves: head.proves,
+        rests_on: head.rests_on,
         scene: head.scene.map(|scene| scene_choice(source, scene)).transpose()?,
         check,
         prepared,

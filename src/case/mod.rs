@@ -4,11 +4,15 @@
 mod catalog;
 mod file;
 mod filter;
+mod foundation;
 mod part;
+mod tier;
 
 pub use catalog::{CatalogError, load_all, load_one};
 pub use filter::Filter;
+pub use foundation::{Foundation, foundations};
 pub use part::{PARTS, Part};
+pub use tier::Tier;
 
 use crate::checks::{CheckKind, Prepared};
 use std::fmt;
@@ -26,6 +30,12 @@ pub struct Case {
     pub source: String,
     /// Words to select by, without `@`.
     pub tags: Vec<String>,
+    /// What its result counts for.
+    pub tier: Tier,
+    /// What is proven where it passes.
+    pub proves: Vec<Foundation>,
+    /// What it rests on beside what follows from its scene.
+    pub rests_on: Vec<Foundation>,
     /// The scene it is tried in, if it names one.
     pub scene: Option<SceneChoice>,
     /// Which check judges.

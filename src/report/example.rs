@@ -1,6 +1,7 @@
 //! Made-up runs for the tests of the reports: no core is asked, every number is invented.
 
 use super::tree::RunTree;
+use crate::case::Tier;
 use crate::checks::{Finding, Measure, PictureRole};
 use crate::contract::{Conventions, Precision};
 use crate::image::{Image, exr};
@@ -203,6 +204,7 @@ pub fn trial(core: &str, case: &str) -> TrialRecord {
         teaches: "A survivor of roulette carries the weight of those that were stopped.".to_owned(),
         source: "By hand: L = Le (1 - rho^(m+1)) / (1 - rho); Le = 0.7, rho = 0.37.".to_owned(),
         check: "mean-radiance".to_owned(),
+        tier: Tier::Graded,
         case_hash: format!("{:064x}", seed.child("case").0),
         scene: is_random
             .then(|| SceneStamp { name: name.to_owned(), hash: format!("{:064x}", seed.0) }),

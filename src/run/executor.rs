@@ -1,9 +1,10 @@
 //! Runs trials: each core call behind validation, each result written as soon as it is there.
 
 use super::event::Event;
-use super::outcome::Outcome;
+use super::outcome::{Outcome, Status};
 use super::plan::{Plan, Trial};
 use super::record::{self, PictureFile, RecordError, SceneStamp, TrialRecord, TrialTiming};
+use super::schedule::{Next, Schedule};
 use crate::case::Case;
 use crate::checks::{CheckError, Context, Finding, Picture};
 use crate::contract::validate::Validated;
@@ -13,9 +14,9 @@ use crate::math::rng::Seed;
 use crate::scene::hash::content_hash;
 use crate::scene::{Library, SceneDescription};
 use crate::stats::Budget;
+use std::convert::Infallible;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, mpsc};
 use std::time::Instant;
 
@@ -40,18 +41,32 @@ pub struct Ended {
     pub pictures: Vec<Picture>,
 }
 
-/// What the threads tell the one that writes.
-enum Message {
+/// What the threads of a run tell the one that listens.
+pub enum Message {
+    /// A trial began.
     Started(Trial),
+    /// A trial ended, or was blocked.
     Ended(Box<Ended>),
 }
 
-/// Runs one trial. Nothing is written.
+/// Runs one trial, whatever it rests on. Nothing is written.
 pub fn run_trial(bench: &Bench, trial: &Trial) -> Ended {
     let started = Instant::now();
+    let attempt = attempt(bench, &trial.case, trial.core.make().as_mut());
+    let mut record = record_of(bench, trial, attempt.outcome);
+    record.scene = attempt.scene;
+    record.timing.seconds = started.elapsed().as_secs_f64();
+    Ended { record, pictures: attempt.pictures }
+}
+
+/// A trial that was not tried, since `by` failed.
+fn blocked(bench: &Bench, trial: &Trial, by: String) -> Ended {
+    Ended { record: record_of(bench, trial, Outcome::Blocked { by }), pictures: Vec::new() }
+}
+
+fn record_of(bench: &Bench, trial: &Trial, outcome: Outcome) -> TrialRecord {
     let case = &trial.case;
-    let attempt = attempt(bench, case, trial.core.make().as_mut());
-    let record = TrialRecord {
+    TrialRecord {
         version: record::VERSION,
         case: case.id.clone(),
         core: trial.core.to_string(),
@@ -59,16 +74,16 @@ pub fn run_trial(bench: &Bench, trial: &Trial) -> Ended {
         teaches: case.teaches.clone(),
         source: case.source.clone(),
         check: case.check.name.to_owned(),
+        tier: case.tier,
         case_hash: case.hash.clone(),
-        scene: attempt.scene,
+        scene: None,
         budget: bench.budget,
         seed: bench.seed_of(case).0,
-        outcome: attempt.outcome,
+        outcome,
         pictures: Vec::new(),
         rerun: rerun_command(bench, trial),
-        timing: TrialTiming { seconds: started.elapsed().as_secs_f64() },
-    };
-    Ended { record, pictures: attempt.pictures }
+        timing: TrialTiming { seconds: 0.0 },
+    }
 }
 
 /// What came of putting one case to one core.
@@ -154,60 +169,98 @@ fn rerun_command(bench: &Bench, trial: &Trial) -> String {
     command
 }
 
-/// Runs the trials of `plan` whose numbers are in `todo`, and writes each sidecar as soon as its trial has ended.
+/// Runs the trials of a schedule, several at a time, and hands each to `sink` as soon as it has ended. `sink` is
+/// called from this thread alone.
 ///
 /// # Errors
-/// If a file cannot be written: the run stops there, and what was written stays.
-pub fn run_trials(
+/// The first of `sink`: the run stops there.
+pub fn run_trials<E>(
     plan: &Plan,
-    todo: &[usize],
-    folder: &Path,
-    events: &mut dyn FnMut(Event<'_>),
-) -> Result<(), RecordError> {
-    let bench = plan.bench();
-    let next = AtomicUsize::new(0);
+    bench: &Bench,
+    schedule: &Schedule<'_>,
+    sink: &mut dyn FnMut(Message) -> Result<(), E>,
+) -> Result<(), E> {
     let (sender, messages) = mpsc::channel();
     std::thread::scope(|threads| {
-        for _ in 0..plan.jobs().min(todo.len()) {
+        for _ in 0..plan.jobs().min(plan.trials.len()) {
             let sender = sender.clone();
-            let (bench, next) = (&bench, &next);
-            threads.spawn(move || work(bench, plan, todo, next, &sender));
+            threads.spawn(move || work(bench, plan, schedule, &sender));
         }
         drop(sender);
-        let written = messages.iter().try_for_each(|message| match message {
-            Message::Started(trial) => {
-                events(Event::Started { core: trial.core.as_str(), case: &trial.case.id });
-                Ok(())
-            }
-            Message::Ended(ended) => {
-                let trial = write_trial(folder, *ended)?;
-                events(Event::Ended { trial: &trial });
-                Ok(())
-            }
-        });
+        let heard = messages.iter().try_for_each(sink);
         // After a failed write nobody starts another trial.
-        next.store(todo.len(), Ordering::Relaxed);
-        written
+        schedule.stop();
+        heard
     })
 }
 
 /// One thread of a run: takes trials until none is left or nobody listens.
-fn work(
-    bench: &Bench,
-    plan: &Plan,
-    todo: &[usize],
-    next: &AtomicUsize,
-    sender: &mpsc::Sender<Message>,
-) {
-    while let Some(number) = todo.get(next.fetch_add(1, Ordering::Relaxed)) {
-        let trial = &plan.trials[*number];
-        let told = sender
-            .send(Message::Started(trial.clone()))
-            .and_then(|()| sender.send(Message::Ended(Box::new(run_trial(bench, trial)))));
-        if told.is_err() {
+fn work(bench: &Bench, plan: &Plan, schedule: &Schedule<'_>, sender: &mpsc::Sender<Message>) {
+    while let Some(next) = schedule.next() {
+        let ended = match next {
+            Next::Try(number) => {
+                let trial = &plan.trials[number];
+                if sender.send(Message::Started(trial.clone())).is_err() {
+                    return;
+                }
+                let ended = run_trial(bench, trial);
+                schedule.ended(number, ended.record.outcome.status());
+                ended
+            }
+            Next::Blocked(number, by) => blocked(bench, &plan.trials[number], by),
+        };
+        if sender.send(Message::Ended(Box::new(ended))).is_err() {
             return;
         }
     }
+}
+
+/// Runs the trials of `plan` whose numbers are in `todo`, and writes each sidecar as soon as its trial has ended.
+///
+/// # Errors
+/// If a file cannot be written: the run stops there, and what was written stays.
+pub fn run_into(
+    plan: &Plan,
+    todo: &[usize],
+    earlier: &[(usize, Status)],
+    folder: &Path,
+    events: &mut dyn FnMut(Event<'_>),
+) -> Result<(), RecordError> {
+    let bench = plan.bench();
+    let schedule = Schedule::new(plan, &bench, todo, earlier);
+    run_trials(plan, &bench, &schedule, &mut |message| match message {
+        Message::Started(trial) => {
+            events(Event::Started { core: trial.core.as_str(), case: &trial.case.id });
+            Ok(())
+        }
+        Message::Ended(ended) => {
+            let trial = write_trial(folder, *ended)?;
+            events(Event::Ended { trial: &trial });
+            Ok(())
+        }
+    })
+}
+
+/// Runs all of `plan` and keeps the records in memory, in the order of the plan. Nothing is written.
+pub fn run_in_memory(plan: &Plan) -> Vec<TrialRecord> {
+    let bench = plan.bench();
+    let todo: Vec<_> = (0..plan.trials.len()).collect();
+    let schedule = Schedule::new(plan, &bench, &todo, &[]);
+    let mut records = Vec::new();
+    let heard = run_trials::<Infallible>(plan, &bench, &schedule, &mut |message| {
+        if let Message::Ended(ended) = message {
+            records.push(ended.record);
+        }
+        Ok(())
+    });
+    let Ok(()) = heard;
+    let position = |record: &TrialRecord| {
+        let is_it =
+            |trial: &Trial| trial.case.id == record.case && trial.core.as_str() == record.core;
+        plan.trials.iter().position(is_it)
+    };
+    records.sort_by_cached_key(position);
+    records
 }
 
 /// Pictures first, then the sidecar: where there is a sidecar, everything is there.

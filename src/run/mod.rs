@@ -7,9 +7,10 @@ pub mod executor;
 pub mod outcome;
 pub mod plan;
 pub mod record;
+mod schedule;
 
 pub use event::Event;
-pub use executor::{Attempt, Bench, Ended, attempt, run_trial};
+pub use executor::{Attempt, Bench, Ended, attempt, run_in_memory, run_trial};
 pub use outcome::{Outcome, Status};
 pub use plan::{Plan, Request, Trial};
 pub use record::{RecordError, RunRecord, TrialRecord};
@@ -69,21 +70,25 @@ fn carry_out(
     events: &mut dyn FnMut(Event<'_>),
 ) -> Result<(), RunError> {
     let clock = Instant::now();
-    let todo: Vec<_> =
-        (0..plan.trials.len()).filter(|number| !is_done(&plan.trials[*number], folder)).collect();
-    let already_done = plan.trials.len() - todo.len();
+    let done: Vec<_> = (0..plan.trials.len())
+        .filter_map(|number| Some((number, status_of(&plan.trials[number], folder)?)))
+        .collect();
+    let is_done = |number: &usize| done.iter().any(|(done, _)| done == number);
+    let todo: Vec<_> = (0..plan.trials.len()).filter(|number| !is_done(number)).collect();
+    let already_done = done.len();
     events(Event::Planned { run: &record, folder, already_done });
-    executor::run_trials(plan, &todo, folder, events)?;
+    executor::run_into(plan, &todo, &done, folder, events)?;
     let before = record.timing.seconds.unwrap_or(0.0);
     record.timing.seconds = Some(before + clock.elapsed().as_secs_f64());
     record::write_json(&folder.join("run.json"), &record)?;
     Ok(())
 }
 
-/// Whether the folder holds the result of this very trial.
-fn is_done(trial: &Trial, folder: &Path) -> bool {
+/// How this very trial ended, if the folder holds its result.
+fn status_of(trial: &Trial, folder: &Path) -> Option<Status> {
     let path = record::sidecar_path(folder, trial.core.as_str(), &trial.case.id);
-    record::read_json::<TrialRecord>(&path).is_ok_and(|done| done.case_hash == trial.case.hash)
+    let done = record::read_json::<TrialRecord>(&path).ok()?;
+    (done.case_hash == trial.case.hash).then(|| done.outcome.status())
 }
 
 fn describe(plan: &Plan, started: SystemTime) -> RunRecord {

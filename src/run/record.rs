@@ -11,6 +11,7 @@
 //! `timing`.
 
 use super::outcome::Outcome;
+use crate::case::Tier;
 use crate::checks::PictureRole;
 use crate::contract::{Conventions, CoreInfo, Precision};
 use crate::stats::Budget;
@@ -129,6 +130,9 @@ pub struct TrialRecord {
     pub source: String,
     /// The check that judged.
     pub check: String,
+    /// What the result counts for.
+    #[serde(default)]
+    pub tier: Tier,
     /// SHA-256 of the case file's text, hex.
     pub case_hash: String,
     /// The scene it names, if it names one.

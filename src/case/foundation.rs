@@ -1,0 +1,165 @@
+//! What a case rests on: if spheres are not hit where they are, a dark picture of spheres says nothing about light.
+//!
+//! Some cases *prove* a foundation (`proves = ["spheres"]`). Others rest on foundations: those their file names
+//! (`rests-on`), and those that follow from what they ask and from their scene. A case whose foundation has been
+//! found broken is blocked by it, not failed: its own result would blame the wrong line.
+
+use super::Case;
+use crate::contract::Capabilities;
+use crate::scene::{Light, SceneDescription, Shape, Surface};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// Something that other things rest on. The order is that of the course: a foundation rests on earlier ones only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Foundation {
+    /// Rays leave the camera through their film points.
+    Camera,
+    /// A ray meets a triangle where it should.
+    Triangles,
+    /// A ray meets a sphere where it should.
+    Spheres,
+    /// A ray meets a box or does not.
+    Boxes,
+    /// The hierarchy finds the hits that a loop over all primitives finds.
+    Hits,
+    /// f, density and samples of diffuse surfaces.
+    Diffuse,
+    /// The mirror.
+    Mirror,
+    /// Glass.
+    Glass,
+    /// Rough metal.
+    Metal,
+    /// What glows is seen glowing.
+    Emission,
+    /// A mesh lights a surface in general position.
+    DirectLight,
+    /// Meshes that glow.
+    MeshLight,
+    /// Spheres that glow.
+    SphereLight,
+    /// Points that shine.
+    PointLight,
+    /// The sun.
+    DirectionalLight,
+    /// Skies.
+    Sky,
+    /// Paths of many bounces.
+    Bounces,
+}
+
+/// What `case` rests on, in `scene` if it names one. Never what it proves itself, nor what comes later.
+pub fn foundations(case: &Case, scene: Option<&SceneDescription>) -> BTreeSet<Foundation> {
+    let mut found: BTreeSet<_> = case.rests_on.iter().copied().collect();
+    let needs = case.prepared.needs();
+    if needs.intersects(Capabilities::RADIANCE | Capabilities::RENDER) {
+        found.extend(scene.into_iter().flat_map(seen_in));
+        found.extend(beneath(case, scene));
+    }
+    if needs.intersects(Capabilities::RENDER) {
+        found.insert(Foundation::Camera);
+    }
+    let own = case.proves.iter().min();
+    found.retain(|foundation| own.is_none_or(|own| foundation < own));
+    found
+}
+
+/// Shapes and surfaces of a scene.
+fn seen_in(scene: &SceneDescription) -> BTreeSet<Foundation> {
+    let mut found = BTreeSet::new();
+    for number in 0..scene.shape_count() as u32 {
+        found.insert(match scene.shape(number) {
+            Shape::Mesh(_) => Foundation::Triangles,
+            Shape::Sphere(_) => Foundation::Spheres,
+        });
+        found.insert(match scene.material_of(number).surface {
+            Surface::Diffuse { .. } => Foundation::Diffuse,
+            Surface::Mirror { .. } => Foundation::Mirror,
+            Surface::Glass { .. } => Foundation::Glass,
+            Surface::Conductor { .. } => Foundation::Metal,
+        });
+    }
+    if scene.shape_count() > 0 {
+        found.insert(Foundation::Hits);
+    }
+    found
+}
+
+/// What later parts of a path tracer take for granted.
+fn beneath(case: &Case, scene: Option<&SceneDescription>) -> BTreeSet<Foundation> {
+    let mut found = BTreeSet::new();
+    let folder = case.id.split('/').next().unwrap_or_default();
+    if matches!(folder, "integrator" | "images") {
+        found.extend([Foundation::Emission, Foundation::DirectLight]);
+        found.extend(scene.into_iter().flat_map(lights_of));
+    }
+    if folder == "images" {
+        found.insert(Foundation::Bounces);
+    }
+    found
+}
+
+fn lights_of(scene: &SceneDescription) -> BTreeSet<Foundation> {
+    let kind = |light: &Light| match light {
+        Light::Point { .. } => Foundation::PointLight,
+        Light::Directional { .. } => Foundation::DirectionalLight,
+        Light::ConstantSky { .. } | Light::GradientSky { .. } => Foundation::Sky,
+        Light::Area { shape } => match scene.shape(*shape) {
+            Shape::Mesh(_) => Foundation::MeshLight,
+            Shape::Sphere(_) => Foundation::SphereLight,
+        },
+    };
+    scene.lights.iter().map(kind).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::project::Project;
+    use crate::scene::Library;
+    use std::path::Path;
+
+    fn of(id: &str) -> BTreeSet<Foundation> {
+        let project = Project::at(Path::new(env!("CARGO_MANIFEST_DIR")));
+        let case = super::super::load_one(&project.cases(), id).unwrap();
+        let library = Library::new(project.scenes());
+        let scene = case
+            .scene
+            .as_ref()
+            .map(|choice| library.load(&choice.name, &choice.parameters).unwrap());
+        foundations(&case, scene.as_deref())
+    }
+
+    #[test]
+    fn a_furnace_rests_on_what_it_is_made_of_and_on_direct_light() {
+        use Foundation::{Diffuse, DirectLight, Emission, Hits, SphereLight, Spheres};
+        let expected = [Spheres, Hits, Diffuse, Emission, DirectLight, SphereLight];
+        let found = of("integrator/rough-metal-under-an-even-sky-shows-its-albedo");
+        assert!(found.contains(&Foundation::Metal) && !found.contains(&Foundation::Camera));
+        assert!(!of("integrator/isolated-bounces-add-up").contains(&Foundation::Bounces));
+        assert!(of("integrator/a-furnace-glows-by-its-series").is_subset(&expected.into()));
+    }
+
+    #[test]
+    fn questions_about_one_function_rest_on_nothing_they_do_not_name() {
+        assert!(of("intersection/rays-meet-a-triangle-where-they-should").is_empty());
+        assert!(of("sampling/uniform-samples-follow-their-density").is_empty());
+    }
+
+    #[test]
+    fn what_proves_a_foundation_rests_on_earlier_ones_only() {
+        let found = of("lights/a-slanted-light-over-a-slanted-floor");
+        assert!(found.contains(&Foundation::Diffuse) && found.contains(&Foundation::Triangles));
+        assert!(found.iter().all(|foundation| *foundation < Foundation::DirectLight));
+    }
+
+    #[test]
+    fn pictures_rest_on_everything_else() {
+        let found = of("images/cornell-mirror-glass-matches-mitsuba");
+        for foundation in [Foundation::Camera, Foundation::Glass, Foundation::Bounces] {
+            assert!(found.contains(&foundation), "{foundation:?}");
+        }
+    }
+}

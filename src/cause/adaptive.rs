@@ -10,5 +10,97 @@ pub static DIVIDED_BY_CAP: Cause = Cause {
     remedy: "Divide by the number of samples that were really taken.",
 };
 
+/// See its headline.
+pub static POPULATION_VARIANCE: Cause = Cause {
+    name: "population-variance",
+    headline: "the variance is divided by n, not n − 1",
+    look_at: "adaptive sampling, where the interval's half width is computed",
+    remedy: "1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.",
+};
+
+/// See its headline.
+pub static SIGMA_OVER_N: Cause = Cause {
+    name: "sigma-over-n",
+    headline: "σ is divided by n, not by its root",
+    look_at: "adaptive sampling, where the interval's half width is computed",
+    remedy: "1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.",
+};
+
+/// See its headline.
+pub static WITHOUT_1_96: Cause = Cause {
+    name: "without-1-96",
+    headline: "the factor 1.96 is missing",
+    look_at: "adaptive sampling, where the interval's half width is computed",
+    remedy: "1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.",
+};
+
+/// See its headline.
+pub static VARIANCE_FOR_SIGMA: Cause = Cause {
+    name: "variance-for-sigma",
+    headline: "the variance stands where σ should",
+    look_at: "adaptive sampling, where the interval's half width is computed",
+    remedy: "1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.",
+};
+
+/// See its headline.
+pub static TOLERANCE_ABSOLUTE: Cause = Cause {
+    name: "tolerance-absolute",
+    headline: "the tolerance is not multiplied by the mean",
+    look_at: "adaptive sampling, where the half width is compared",
+    remedy: "1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.",
+};
+
+/// See its headline.
+pub static NEVER_STOPS: Cause = Cause {
+    name: "never-stops",
+    headline: "it never stops before the cap",
+    look_at: "adaptive sampling, the loop over samples",
+    remedy: "Stop once the half width is small enough, at the end of a batch.",
+};
+
+/// See its headline.
+pub static LOOKS_AFTER_EVERY_SAMPLE: Cause = Cause {
+    name: "looks-after-every-sample",
+    headline: "it looks after every sample, not after every batch",
+    look_at: "adaptive sampling, the loop over samples",
+    remedy: "Look only when the number of samples is a multiple of the batch.",
+};
+
+/// See its headline.
+pub static DIVIDED_BY_ONE_MORE: Cause = Cause {
+    name: "divided-by-one-more",
+    headline: "the sum is divided by one sample more than were taken",
+    look_at: "adaptive sampling, where the mean of the pixel is written",
+    remedy: "Divide by the number of samples that were really taken; a loop counter is one past it after a full loop.",
+};
+
+/// See its headline.
+pub static DIVIDED_BY_ONE_LESS: Cause = Cause {
+    name: "divided-by-one-less",
+    headline: "the sum is divided by one sample less than were taken",
+    look_at: "adaptive sampling, where the mean of the pixel is written",
+    remedy: "Divide by the number of samples that were really taken.",
+};
+
+/// See its headline.
+pub static NOT_DIVIDED: Cause = Cause {
+    name: "not-divided",
+    headline: "the sum of the samples is not divided by their number",
+    look_at: "adaptive sampling, where the mean of the pixel is written",
+    remedy: "Divide by the number of samples that were really taken.",
+};
+
 /// Every cause of this part.
-pub static CAUSES: &[&Cause] = &[&DIVIDED_BY_CAP];
+pub static CAUSES: &[&Cause] = &[
+    &DIVIDED_BY_CAP,
+    &POPULATION_VARIANCE,
+    &SIGMA_OVER_N,
+    &WITHOUT_1_96,
+    &VARIANCE_FOR_SIGMA,
+    &TOLERANCE_ABSOLUTE,
+    &NEVER_STOPS,
+    &LOOKS_AFTER_EVERY_SAMPLE,
+    &DIVIDED_BY_ONE_MORE,
+    &DIVIDED_BY_ONE_LESS,
+    &NOT_DIVIDED,
+];

@@ -14,6 +14,7 @@ pub mod light;
 pub mod picture;
 pub mod sampling;
 pub mod shape;
+pub mod slab;
 pub mod transport;
 
 /// A mistake that people make in path tracers.
@@ -34,6 +35,7 @@ pub fn all() -> impl Iterator<Item = &'static Cause> {
     let parts = [
         camera::CAUSES,
         shape::CAUSES,
+        slab::CAUSES,
         bvh::CAUSES,
         sampling::CAUSES,
         bsdf::CAUSES,

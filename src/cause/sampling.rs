@@ -10,5 +10,97 @@ pub static DENSITY_OF_OTHER_SAMPLER: Cause = Cause {
     remedy: "Cosine-distributed directions have density cos θ/π, uniform ones 1/2π.",
 };
 
+/// See its headline.
+pub static UNIFORM_DENSITY_FOR_COSINE: Cause = Cause {
+    name: "uniform-density-for-cosine",
+    headline: "directions are cosine-distributed, but their density is that of uniform ones",
+    look_at: "the sampler, where the pdf is written",
+    remedy: "Cosine-distributed directions have density cos θ/π.",
+};
+
+/// See its headline.
+pub static COSINE_DENSITY_FOR_UNIFORM: Cause = Cause {
+    name: "cosine-density-for-uniform",
+    headline: "directions are uniform, but their density is that of cosine-distributed ones",
+    look_at: "the sampler, where the pdf is written",
+    remedy: "Uniform directions of the hemisphere have density 1/2π.",
+};
+
+/// See its headline.
+pub static DENSITY_WITHOUT_PI: Cause = Cause {
+    name: "density-without-pi",
+    headline: "1/π is missing in the density",
+    look_at: "the sampler, where the pdf is written",
+    remedy: "The cosine-weighted density is cos θ/π, the uniform one 1/2π.",
+};
+
+/// See its headline.
+pub static DENSITY_HALVED: Cause = Cause {
+    name: "density-halved",
+    headline: "the density is half of what it should be: that of the whole sphere, or over 2π",
+    look_at: "the sampler, where the pdf is written",
+    remedy: "Cosine-distributed directions have density cos θ/π, uniform ones of the hemisphere 1/2π.",
+};
+
+/// See its headline.
+pub static DENSITY_DOUBLED: Cause = Cause {
+    name: "density-doubled",
+    headline: "the density is twice what it should be: 1/π stands where 1/2π belongs",
+    look_at: "the sampler, where the pdf is written",
+    remedy: "Uniform directions of the hemisphere have density 1/2π.",
+};
+
+/// See its headline.
+pub static UNIFORM_FOR_COSINE: Cause = Cause {
+    name: "uniform-for-cosine",
+    headline: "directions are uniform over the hemisphere where cosine-distributed ones belong",
+    look_at: "the sampler, where two random numbers become a direction",
+    remedy: "cos θ = √u for cosine-distributed directions, u for uniform ones.",
+};
+
+/// See its headline.
+pub static COSINE_FOR_UNIFORM: Cause = Cause {
+    name: "cosine-for-uniform",
+    headline: "directions are cosine-distributed where uniform ones belong",
+    look_at: "the sampler, where two random numbers become a direction",
+    remedy: "cos θ = u for uniform directions, √u for cosine-distributed ones.",
+};
+
+/// See its headline.
+pub static THETA_UNIFORM: Cause = Cause {
+    name: "theta-uniform",
+    headline: "the angle θ is drawn uniformly: directions are too dense at the pole",
+    look_at: "the sampler, where two random numbers become a direction",
+    remedy: "Draw cos θ, not θ: equal steps of height cut the sphere into equal areas.",
+};
+
+/// See its headline.
+pub static HALF_OF_AZIMUTHS: Cause = Cause {
+    name: "half-of-azimuths",
+    headline: "a part of the azimuths is never drawn",
+    look_at: "the sampler, where two random numbers become a direction",
+    remedy: "φ = 2π u runs all the way round.",
+};
+
+/// See its headline.
+pub static ONE_NUMBER_TWICE: Cause = Cause {
+    name: "one-number-twice",
+    headline: "both coordinates of a direction come from the same random number",
+    look_at: "the sampler, where two random numbers become a direction",
+    remedy: "Draw a number of its own for each coordinate.",
+};
+
 /// Every cause of this part.
-pub static CAUSES: &[&Cause] = &[&DENSITY_OF_OTHER_SAMPLER];
+pub static CAUSES: &[&Cause] = &[
+    &DENSITY_OF_OTHER_SAMPLER,
+    &UNIFORM_DENSITY_FOR_COSINE,
+    &COSINE_DENSITY_FOR_UNIFORM,
+    &DENSITY_WITHOUT_PI,
+    &DENSITY_HALVED,
+    &DENSITY_DOUBLED,
+    &UNIFORM_FOR_COSINE,
+    &COSINE_FOR_UNIFORM,
+    &THETA_UNIFORM,
+    &HALF_OF_AZIMUTHS,
+    &ONE_NUMBER_TWICE,
+];

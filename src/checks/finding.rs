@@ -125,6 +125,15 @@ impl Finding {
         self
     }
 
+    /// Adds mistakes that all would have given just these answers, and that nothing here tells apart.
+    pub fn because_each<'a>(
+        self,
+        causes: impl IntoIterator<Item = &'a Cause>,
+        evidence: &str,
+    ) -> Self {
+        causes.into_iter().fold(self, |finding, cause| finding.because(cause, evidence))
+    }
+
     /// The measures that did not pass.
     pub fn failed_measures(&self) -> impl Iterator<Item = &Measure> {
         self.measures.iter().filter(|measure| measure.verdict == Verdict::Fail)

@@ -1,5 +1,6 @@
 //! The stopping rule on streams whose count is known, without any picture.
 
+use crate::cause::{Cause, adaptive};
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{AdaptiveMean, AdaptiveSettings, Capabilities};
@@ -32,24 +33,33 @@ struct StreamEntry {
 /// A stopping rule: whether to stop after these samples.
 type Rule = fn(&Sums, f64) -> bool;
 
-/// The mistakes that students make, each with the rule it amounts to.
-const MISTAKES: &[(&str, Rule)] = &[
-    ("the variance is divided by n, not n - 1", |s, tolerance| {
+/// The mistakes that students make in the rule, each with the rule it amounts to.
+const WRONG_RULES: &[(&Cause, Rule)] = &[
+    (&adaptive::POPULATION_VARIANCE, |s, tolerance| {
         NORMAL_95 * (s.population_variance() / s.n).sqrt() <= tolerance * s.mean()
     }),
-    ("sigma is divided by n, not by its root", |s, tolerance| {
+    (&adaptive::SIGMA_OVER_N, |s, tolerance| {
         NORMAL_95 * s.variance().sqrt() / s.n <= tolerance * s.mean()
     }),
-    ("the factor 1.96 is missing", |s, tolerance| {
-        (s.variance() / s.n).sqrt() <= tolerance * s.mean()
-    }),
-    ("the variance stands where sigma should", |s, tolerance| {
+    (&adaptive::WITHOUT_1_96, |s, tolerance| (s.variance() / s.n).sqrt() <= tolerance * s.mean()),
+    (&adaptive::VARIANCE_FOR_SIGMA, |s, tolerance| {
         NORMAL_95 * s.variance() / s.n.sqrt() <= tolerance * s.mean()
     }),
-    ("the tolerance is not multiplied by the mean", |s, tolerance| {
+    (&adaptive::TOLERANCE_ABSOLUTE, |s, tolerance| {
         NORMAL_95 * (s.variance() / s.n).sqrt() <= tolerance
     }),
-    ("it never stops before the cap", |_, _| false),
+    (&adaptive::NEVER_STOPS, |_, _| false),
+];
+
+/// The mean as a share of the right one, where so many samples were used of so many that were allowed.
+type Share = fn(f64, f64) -> f64;
+
+/// The mistakes that students make in what they divide by.
+const WRONG_DIVISORS: &[(&Cause, Share)] = &[
+    (&adaptive::DIVIDED_BY_CAP, |used, cap| used / cap),
+    (&adaptive::DIVIDED_BY_ONE_MORE, |used, _| used / (used + 1.0)),
+    (&adaptive::DIVIDED_BY_ONE_LESS, |used, _| used / (used - 1.0)),
+    (&adaptive::NOT_DIVIDED, |used, _| used),
 ];
 
 /// The course's rule.
@@ -100,17 +110,10 @@ impl StreamEntry {
         stopping.next().unwrap_or(self.cap)
     }
 
-    /// The mistakes that would stop where the core did.
-    fn mistakes(&self, used: u32) -> Vec<&'static str> {
-        let mut named: Vec<_> = MISTAKES
-            .iter()
-            .filter(|(_, rule)| self.count(*rule, self.batch) == used)
-            .map(|(name, _)| *name)
-            .collect();
-        if self.count(stops, 1) == used {
-            named.push("it looks after every sample, not after every batch");
-        }
-        named
+    /// The mean that the samples have which a core says it has used.
+    fn mean_of(&self, answer: &AdaptiveMean) -> f64 {
+        let samples = self.samples();
+        Sums::of(&samples[..(answer.used as usize).clamp(1, samples.len())]).mean()
     }
 }
 
@@ -140,56 +143,83 @@ impl Check for StopsWhereItShould {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let tolerance = Tolerance::SAME_VALUE.of(context.info.precision);
-        let mut measures = Vec::new();
-        let mut complaints = Vec::new();
-        for stream in &self.stream {
-            let answer = ask(context, stream)?;
-            let samples = stream.samples();
-            let prefix = &samples[..(answer.used as usize).clamp(1, samples.len())];
-            let mean = Sums::of(prefix).mean();
-            let used = Measure::exact(
-                format!("{}: samples used", stream.name),
-                f64::from(answer.used),
-                f64::from(stream.stops_at),
-                0.0,
-            );
-            complaints.extend(complaint(stream, answer, mean, tolerance));
-            measures.push(used);
-            let name = format!("{}: mean of the samples used", stream.name);
-            measures.push(Measure::exact(name, answer.mean, mean, tolerance * mean.abs()));
-        }
-        let statement = match complaints.is_empty() {
-            true => format!("{} streams stop where they should", self.stream.len()),
-            false => complaints.join("; "),
-        };
-        Ok(Finding::of(statement, "would have caught a count that is off by one batch", measures))
+        let asked: Result<Vec<_>, _> =
+            self.stream.iter().map(|stream| ask(context, stream)).collect();
+        Ok(judge(&asked?, tolerance))
     }
 }
 
-fn ask(context: &mut Context<'_>, stream: &StreamEntry) -> Result<AdaptiveMean, CheckError> {
+/// A stream, and what the core made of it.
+type Answered<'a> = (&'a StreamEntry, AdaptiveMean);
+
+fn judge(answered: &[Answered<'_>], tolerance: f64) -> Finding {
+    let measures = answered.iter().flat_map(|answered| measures(answered, tolerance)).collect();
+    let complaints: Vec<_> = answered.iter().filter_map(|a| complaint(a, tolerance)).collect();
+    let causes = match complaints.is_empty() {
+        true => Vec::new(),
+        false => explanations(answered, tolerance),
+    };
+    let headlines: Vec<_> = causes.iter().map(|cause| cause.headline).collect();
+    let statement = match (complaints.is_empty(), headlines.is_empty()) {
+        (true, _) => format!("{} streams stop where they should", answered.len()),
+        (false, true) => complaints.join("; "),
+        (false, false) => format!("{}: {}", complaints.join("; "), headlines.join(", or ")),
+    };
+    let evidence = format!("predicts where {} streams stop, and their means", answered.len());
+    Finding::of(statement, "would have caught a count that is off by one batch", measures)
+        .because_each(causes, &evidence)
+}
+
+fn measures((stream, answer): &Answered<'_>, tolerance: f64) -> [Measure; 2] {
+    let mean = stream.mean_of(answer);
+    let (used, right) = (f64::from(answer.used), f64::from(stream.stops_at));
+    let name = |what: &str| format!("{}: {what}", stream.name);
+    [
+        Measure::exact(name("samples used"), used, right, 0.0),
+        Measure::exact(name("mean of the samples used"), answer.mean, mean, tolerance * mean.abs()),
+    ]
+}
+
+/// The mistakes that predict the answers for every stream.
+fn explanations(answered: &[Answered<'_>], tolerance: f64) -> Vec<&'static Cause> {
+    let stops_by = |rule: Rule, each_sample: bool| {
+        answered.iter().all(|(stream, answer)| {
+            let step = if each_sample { 1 } else { stream.batch };
+            stream.count(rule, step) == answer.used
+        })
+    };
+    let mean_is = |share: &dyn Fn(f64, f64) -> f64| {
+        answered.iter().all(|(stream, answer)| {
+            let share = share(f64::from(answer.used), f64::from(stream.cap));
+            let mean = share * stream.mean_of(answer);
+            (answer.mean - mean).abs() <= tolerance * mean.abs()
+        })
+    };
+    if stops_by(stops, false) {
+        let made = WRONG_DIVISORS.iter().filter(|(_, share)| mean_is(share));
+        return made.map(|(cause, _)| *cause).collect();
+    }
+    if !mean_is(&|_, _| 1.0) {
+        return Vec::new();
+    }
+    let made = WRONG_RULES.iter().filter(|(_, rule)| stops_by(*rule, false));
+    let too_often = stops_by(stops, true).then_some(&adaptive::LOOKS_AFTER_EVERY_SAMPLE);
+    made.map(|(cause, _)| *cause).chain(too_often).collect()
+}
+
+fn ask<'a>(context: &mut Context<'_>, stream: &'a StreamEntry) -> Result<Answered<'a>, CheckError> {
     let settings =
         AdaptiveSettings { samples_per_batch: stream.batch, max_tolerance: stream.tolerance.0 };
     let mut means = [AdaptiveMean { mean: 0.0, used: 0, reserved: 0 }];
     context.core.adaptive_mean(settings, &[&stream.samples()], &mut means)?;
-    Ok(means[0])
+    Ok((stream, means[0]))
 }
 
-/// What is wrong with one stream, and which mistake explains it.
-fn complaint(
-    stream: &StreamEntry,
-    answer: AdaptiveMean,
-    mean: f64,
-    tolerance: f64,
-) -> Option<String> {
-    let (used, right) = (answer.used, stream.stops_at);
+/// What is wrong with one stream.
+fn complaint((stream, answer): &Answered<'_>, tolerance: f64) -> Option<String> {
+    let (used, right, mean) = (answer.used, stream.stops_at, stream.mean_of(answer));
     if used != right {
-        let mistakes = stream.mistakes(used);
-        let why = if mistakes.is_empty() {
-            String::new()
-        } else {
-            format!(", as if {}", mistakes.join(", or "))
-        };
-        return Some(format!("{} stops at {used} instead of {right}{why}", stream.name));
+        return Some(format!("{} stops at {used} instead of {right}", stream.name));
     }
     let is_right = (answer.mean - mean).abs() <= tolerance * mean.abs();
     (!is_right).then(|| {
@@ -260,9 +290,10 @@ mod tests {
 
     #[test]
     fn every_mistake_fails_and_is_named() {
-        for (name, rule) in MISTAKES {
+        for (cause, rule) in WRONG_RULES {
             let finding = found(*rule, false);
-            assert!(failure(&finding).contains(name), "{name}: {}", finding.statement);
+            assert!(failure(&finding).contains(cause.headline), "{}", finding.statement);
+            assert_eq!(finding.clues.len(), 1, "{:?}", finding.clues);
         }
     }
 
@@ -270,6 +301,7 @@ mod tests {
     fn dividing_by_the_cap_is_seen() {
         let finding = found(stops, true);
         assert!(failure(&finding).contains("0.156 of that"), "{}", finding.statement);
+        assert_eq!(finding.clues[0].cause, "divided-by-cap");
     }
 
     #[test]

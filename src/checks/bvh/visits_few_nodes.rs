@@ -2,6 +2,7 @@
 
 use super::question::scene_of;
 use super::reference::{ReferenceBvh, Walk};
+use crate::cause::{Cause, bvh};
 use crate::checks::phrase::{at_most, figure};
 use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{Acceleration, Capabilities, Hit, Ray};
@@ -20,6 +21,8 @@ const STEEPEST: f64 = 0.5;
 const SLACK: f64 = 4.0;
 /// Shadow rays may test this many times the triangles that closest hits test: they can stop earlier.
 const ANY_HIT_SLACK: f64 = 1.2;
+/// Growth that is no better than the loop's.
+const ALL_TESTED: f64 = 0.9;
 /// Counts this close, relative, are those of the same walk.
 const SAME_WALK: f64 = 0.1;
 
@@ -136,7 +139,8 @@ fn judge(sizes: &[Size]) -> Finding {
         let (tests, hits) = (figure(size.closest), figure(size.hits));
         return Finding::failure(format!(
             "the core counts {tests} primitive tests a ray and {hits} hits: its counts are not real"
-        ));
+        ))
+        .because(&bvh::COUNTS_NOT_REAL, format!("{tests} tests, {hits} hits a ray"));
     }
     let slope = growth(sizes, |size| size.closest);
     let mut measures = vec![at_most("growth of tests: exponent of n", slope, STEEPEST)];
@@ -147,13 +151,21 @@ fn judge(sizes: &[Size]) -> Finding {
         let name = format!("tests of any hit over closest hit, {n} triangles");
         measures.push(at_most(name, size.any / size.closest, ANY_HIT_SLACK));
     }
-    let statement = statement(sizes, slope, measures.iter().any(|m| m.verdict == Verdict::Fail));
+    let failed = measures.iter().any(|m| m.verdict == Verdict::Fail);
+    let cause = cause(sizes, slope, failed);
+    let statement = statement(sizes, slope, cause);
     let resolution =
         "would have caught growth as n^0.5, four times the tests, or shadow rays that search on";
-    Finding::of(statement, resolution, measures)
+    let finding = Finding::of(statement, resolution, measures);
+    match cause {
+        Some(cause) if failed => {
+            finding.because(cause, format!("tests grow as n^{}", figure(slope)))
+        }
+        _ => finding,
+    }
 }
 
-fn statement(sizes: &[Size], slope: f64, failed: bool) -> String {
+fn statement(sizes: &[Size], slope: f64, cause: Option<&Cause>) -> String {
     let Some(largest) = sizes.last() else { return "no mesh was tried".to_owned() };
     let [tests, plain] = [largest.closest, largest.ordered].map(figure);
     let counted = format!(
@@ -161,32 +173,32 @@ fn statement(sizes: &[Size], slope: f64, failed: bool) -> String {
         largest.triangles,
         figure(slope)
     );
-    let walk = walk_of(sizes).map_or_else(String::new, |walk| format!("; {walk}"));
-    if !failed {
-        return format!("{counted}{walk}");
-    }
-    let shadows_stop = largest.any / largest.closest <= ANY_HIT_SLACK;
-    let cause = if slope >= 0.9 {
-        "; every triangle is tested: the hierarchy is not used".to_owned()
-    } else if !shadows_stop {
-        "; shadow rays go on after something is hit".to_owned()
+    cause.map_or(counted.clone(), |cause| format!("{counted}; {}", cause.headline))
+}
+
+/// What the counts look like. A walk that is not the best is told of even where it passes.
+fn cause(sizes: &[Size], slope: f64, failed: bool) -> Option<&'static Cause> {
+    let shadows_search = sizes.last().is_some_and(|size| size.any / size.closest > ANY_HIT_SLACK);
+    if failed && slope >= ALL_TESTED {
+        Some(&bvh::HIERARCHY_NOT_USED)
+    } else if failed && shadows_search {
+        Some(&bvh::SHADOWS_SEARCH_ON)
     } else {
-        walk
-    };
-    format!("{counted}{cause}")
+        walk_of(sizes)
+    }
 }
 
 /// Which walk has the same counts at every size, if it is not the best.
-fn walk_of(sizes: &[Size]) -> Option<&'static str> {
+fn walk_of(sizes: &[Size]) -> Option<&'static Cause> {
     let is_like = |counts: fn(&Size) -> f64| {
         sizes.iter().all(|size| (size.closest / counts(size) - 1.0).abs() <= SAME_WALK)
     };
     if is_like(|size| size.ordered) {
         None
     } else if is_like(|size| size.unshortened) {
-        Some("as many as where boxes are visited after a nearer hit is known")
+        Some(&bvh::SEGMENT_NOT_SHORTENED)
     } else if is_like(|size| size.unordered) {
-        Some("as many as where the farther child is as often visited first")
+        Some(&bvh::CHILDREN_UNORDERED)
     } else {
         None
     }
@@ -222,6 +234,7 @@ mod tests {
         let finding = found(Slip::TestsEverything, "bumpy-sphere");
         let statement = failure(&finding);
         assert!(statement.ends_with("the hierarchy is not used"), "{statement}");
+        assert_eq!(finding.clues[0].cause, "hierarchy-not-used");
     }
 
     #[test]
@@ -229,7 +242,7 @@ mod tests {
         let finding = found(Slip::NeverShortens, "soup");
         assert_passes(&finding);
         assert!(
-            finding.statement.ends_with("after a nearer hit is known"),
+            finding.statement.ends_with("boxes are visited though a nearer hit is known"),
             "{}",
             finding.statement
         );
@@ -240,6 +253,7 @@ mod tests {
         let finding = found(Slip::SearchesShadows, "soup");
         let statement = failure(&finding);
         assert!(statement.ends_with("shadow rays go on after something is hit"), "{statement}");
+        assert_eq!(finding.clues[0].cause, "shadows-search-on");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The projection formula, and the wrong formulas that people write instead.
 
+use crate::cause::{Cause, camera};
 use crate::scene::Camera;
 use glam::{DMat3, DVec2, DVec3, Vec2Swizzles};
 
@@ -32,8 +33,8 @@ fn with_fov(camera: &Camera, angle: impl Fn(f64) -> f64) -> Camera {
 
 /// A formula that people write instead.
 pub struct Mistake {
-    /// What was done, after a colon.
-    pub words: &'static str,
+    /// What was done.
+    pub cause: &'static Cause,
     /// The rays it makes.
     pub formula: Formula,
 }
@@ -42,86 +43,86 @@ pub struct Mistake {
 /// rays of all cameras is the one that was made.
 pub const MISTAKES: &[Mistake] = &[
     Mistake {
-        words: "the sensor is tan(fov) wide on each side, not tan(fov/2)",
+        cause: &camera::FOV_NOT_HALVED,
         formula: |camera, film| projection(&with_fov(camera, |fov| 2.0 * fov), film),
     },
     Mistake {
-        words: "the field of view is in radians and was converted from degrees once more",
+        cause: &camera::FOV_TO_RADIANS_TWICE,
         formula: |camera, film| projection(&with_fov(camera, f64::to_radians), film),
     },
     Mistake {
-        words: "the field of view was converted to degrees before its tangent was taken",
+        cause: &camera::FOV_TO_DEGREES,
         formula: |camera, film| projection(&with_fov(camera, f64::to_degrees), film),
     },
     Mistake {
-        words: "the angle fov/2 stands where its tangent belongs",
+        cause: &camera::FOV_WITHOUT_TANGENT,
         formula: |camera, film| {
             let half = DVec2::new(camera.horizontal_fov, camera.vertical_fov) / 2.0;
             camera.camera_to_world * (centred(film) * half).extend(-1.0)
         },
     },
     Mistake {
-        words: "the sensor is half as large as it should be: it spans ±tan(fov/2)/2",
+        cause: &camera::SENSOR_HALF_SIZE,
         formula: |camera, film| {
             camera.camera_to_world * (0.5 * centred(film) * half_sensor(camera)).extend(-1.0)
         },
     },
     Mistake {
-        words: "horizontal and vertical field of view are swapped",
+        cause: &camera::FOVS_SWAPPED,
         formula: |camera, film| {
             camera.camera_to_world * (centred(film) * half_sensor(camera).yx()).extend(-1.0)
         },
     },
     Mistake {
-        words: "the horizontal field of view is used in both directions",
+        cause: &camera::HORIZONTAL_FOV_FOR_BOTH,
         formula: |camera, film| {
             camera.camera_to_world * (centred(film) * half_sensor(camera).xx()).extend(-1.0)
         },
     },
     Mistake {
-        words: "the film's y axis points down",
+        cause: &camera::FILM_Y_DOWN,
         formula: |camera, film| projection(camera, DVec2::new(film.x, 1.0 - film.y)),
     },
     Mistake {
-        words: "the film's x axis points left",
+        cause: &camera::FILM_X_LEFT,
         formula: |camera, film| projection(camera, DVec2::new(1.0 - film.x, film.y)),
     },
     Mistake {
-        words: "the film's x and y are swapped",
+        cause: &camera::FILM_TRANSPOSED,
         formula: |camera, film| projection(camera, film.yx()),
     },
     Mistake {
-        words: "the film is not centred: (0, 0) looks straight ahead",
+        cause: &camera::FILM_NOT_CENTRED,
         formula: |camera, film| projection(camera, 0.5 * film + 0.5),
     },
     Mistake {
-        words: "half a pixel is added to film points that already are exact",
+        cause: &camera::HALF_PIXEL_TWICE,
         formula: |camera, film| {
             let pixel = DVec2::new(f64::from(camera.film[0]), f64::from(camera.film[1])).recip();
             projection(camera, film + 0.5 * pixel)
         },
     },
     Mistake {
-        words: "the camera looks along its +z axis, not −z",
+        cause: &camera::LOOKS_ALONG_PLUS_Z,
         formula: |camera, film| {
             camera.camera_to_world * (centred(film) * half_sensor(camera)).extend(1.0)
         },
     },
     Mistake {
-        words: "camera_to_world is transposed",
+        cause: &camera::CAMERA_TO_WORLD_TRANSPOSED,
         formula: |camera, film| {
             let transposed = camera.camera_to_world.transpose();
             projection(&Camera { camera_to_world: transposed, ..*camera }, film)
         },
     },
     Mistake {
-        words: "camera_to_world is not applied",
+        cause: &camera::CAMERA_TO_WORLD_FORGOTTEN,
         formula: |camera, film| {
             projection(&Camera { camera_to_world: DMat3::IDENTITY, ..*camera }, film)
         },
     },
     Mistake {
-        words: "the camera's position is added to the direction, as if it were a point",
+        cause: &camera::POSITION_ADDED_TO_DIRECTION,
         formula: |camera, film| projection(camera, film) + camera.position,
     },
 ];

@@ -3,13 +3,14 @@
 //! Not here: directions whose length is not 1, which the contract refuses before a check sees them.
 
 use super::projection::{Formula, MISTAKES, Mistake, projection};
+use crate::cause::{self, Cause};
 use crate::checks::phrase::{degrees, some_are, worst_measure};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Ray};
 use crate::math::rng::{Seed, uniform};
 use crate::math::sphere::angle_between;
 use crate::scene::Camera;
-use crate::stats::{Compared, ExactReport, Tolerance, judge_exact};
+use crate::stats::{Compared, ExactReport, Tolerance, Verdict, judge_exact};
 use crate::text::Angle;
 use glam::{DVec2, DVec3};
 use serde::Deserialize;
@@ -129,14 +130,27 @@ fn judge(shots: &[Shot], film: &[DVec2], allowed: f64) -> Finding {
         }
     }
     complaints.dedup();
-    complaints.splice(0..0, direction_complaint(shots, film, allowed));
+    let explained = explanation(shots, film, allowed);
+    complaints.splice(0..0, direction_complaint(shots, film, allowed, explained));
     let all = shots.len() * film.len();
     let statement = match complaints.is_empty() {
         true => format!("{all} rays of {} cameras leave through their film points", shots.len()),
         false => complaints.join("; "),
     };
     let resolution = format!("would have caught a ray {} off", degrees(allowed));
+    let elsewhere = causes_elsewhere(&measures);
     Finding::of(statement, resolution, measures)
+        .because_each(explained, &format!("predicts the directions of all {all} rays"))
+        .because_each(elsewhere, "the directions have no part in it")
+}
+
+/// What is wrong beside directions.
+fn causes_elsewhere(measures: &[Measure]) -> Vec<&'static Cause> {
+    let fails =
+        |what: &str| measures.iter().any(|m| m.verdict == Verdict::Fail && m.name.contains(what));
+    let origin = fails("origin").then_some(&cause::camera::ORIGIN_NOT_AT_CAMERA);
+    let clips = (fails("t_min") || fails("t_max")).then_some(&cause::camera::CLIPS_NOT_SET);
+    origin.into_iter().chain(clips).collect()
 }
 
 fn complaint(camera: usize, what: &str, worst: &Measure) -> String {
@@ -150,22 +164,42 @@ fn complaint(camera: usize, what: &str, worst: &Measure) -> String {
     }
 }
 
-/// How many directions are wrong, by how much, and the mistake that explains every one of them.
-fn direction_complaint(shots: &[Shot], film: &[DVec2], allowed: f64) -> Option<String> {
-    let errors = |formula| shots.iter().flat_map(move |shot| shot.direction_errors(film, formula));
+/// How many directions are wrong, by how much, and why.
+fn direction_complaint(
+    shots: &[Shot],
+    film: &[DVec2],
+    allowed: f64,
+    explained: Option<&Cause>,
+) -> Option<String> {
     let all = shots.len() * film.len();
-    let wrong = all - errors(projection).filter(|error| *error <= allowed).count();
+    let wrong = all - errors(shots, film, projection).filter(|error| *error <= allowed).count();
     if wrong == 0 {
         return None;
     }
     let by = degrees(largest_angle(shots, film));
+    let why = explained
+        .map_or("no single mistake that is known explains all of them", |cause| cause.headline);
+    Some(format!("{} wrong by up to {by}: {why}", some_are(wrong, all, "rays")))
+}
+
+/// The mistake that predicts every direction, the right ones among them.
+fn explanation(shots: &[Shot], film: &[DVec2], allowed: f64) -> Option<&'static Cause> {
+    if errors(shots, film, projection).all(|error| error <= allowed) {
+        return None;
+    }
     // A mistake may magnify rounding, but not a hundredfold; different mistakes are degrees apart.
-    let explains = |mistake: &&Mistake| errors(mistake.formula).all(|e| e <= 100.0 * allowed);
-    let cause = match MISTAKES.iter().find(explains) {
-        Some(mistake) => mistake.words,
-        None => "no single mistake that is known explains all of them",
-    };
-    Some(format!("{} wrong by up to {by}: {cause}", some_are(wrong, all, "rays")))
+    let explains =
+        |mistake: &&Mistake| errors(shots, film, mistake.formula).all(|e| e <= 100.0 * allowed);
+    MISTAKES.iter().find(explains).map(|mistake| mistake.cause)
+}
+
+/// How far each direction is from what a formula makes it.
+fn errors<'a>(
+    shots: &'a [Shot],
+    film: &'a [DVec2],
+    formula: Formula,
+) -> impl Iterator<Item = f64> + 'a {
+    shots.iter().flat_map(move |shot| shot.direction_errors(film, formula))
 }
 
 fn largest_angle(shots: &[Shot], film: &[DVec2]) -> f64 {
@@ -227,7 +261,10 @@ mod tests {
         for mistake in MISTAKES {
             let finding = found(mistake.formula);
             let statement = failure(&finding);
-            assert!(statement.contains(mistake.words), "{}: {statement}", mistake.words);
+            let Cause { name, headline, .. } = mistake.cause;
+            assert!(statement.contains(headline), "{name}: {statement}");
+            assert_eq!(finding.clues[0].cause, *name);
+            assert_eq!(finding.clues.len(), 1);
         }
     }
 
@@ -246,6 +283,7 @@ mod tests {
         assert!(
             failure(&finding).ends_with("no single mistake that is known explains all of them")
         );
+        assert!(finding.clues.is_empty());
     }
 
     #[test]
@@ -253,8 +291,11 @@ mod tests {
         let mut lens = Lens { formula: projection, spoil: |ray| ray.t_min = 0.0 };
         let finding = judge(&shipped(), &mut lens);
         assert!(failure(&finding).contains("t_min of the rays of camera 1 is 0, not the camera's"));
+        assert_eq!(finding.clues[0].cause, "clips-not-set");
         let mut lens = Lens { formula: projection, spoil: |ray| ray.origin += 1e-6 };
-        assert!(failure(&judge(&shipped(), &mut lens)).contains("do not start at its position"));
+        let finding = judge(&shipped(), &mut lens);
+        assert!(failure(&finding).contains("do not start at its position"));
+        assert_eq!(finding.clues[0].cause, "origin-not-at-camera");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Random triangles and rays against exact arithmetic, where the answer does not depend on rounding.
 
 use super::exact_triangle::{GridTriangle, Meeting, Truth};
+use crate::cause::{Cause, shape};
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Hit, Precision};
@@ -100,30 +101,40 @@ fn judge(encounters: &[Encounter]) -> Finding {
         count(format!("wrong t among {} hits", t.compared), t.disagree),
     ];
     let wrong = lost + invented + t.disagree;
+    let explained = if wrong == 0 { None } else { explanation(encounters) };
     let statement = if wrong == 0 {
         format!("{} clear hits and {} clear misses agree", hits.len(), misses.len())
     } else {
-        failing_statement(encounters, lost, invented, t.disagree)
+        failing_statement(encounters, [lost, invented, t.disagree], explained.as_ref())
     };
     // 6.9 = −ln 0.001: that many mistaken rays are expected where none is seen in one case of a thousand.
     let rare = encounters.len() as f64 / 6.9;
     let resolution = format!("would have caught a mistake in one ray of {}", figure(rare.floor()));
-    Finding::of(statement, resolution, measures)
+    let finding = Finding::of(statement, resolution, measures);
+    match explained {
+        Some((cause, evidence)) => finding.because(cause, evidence),
+        None => finding,
+    }
 }
 
-fn failing_statement(encounters: &[Encounter], lost: usize, invented: usize, t: usize) -> String {
-    let wrong = some_are(lost + invented + t, encounters.len(), "clear rays");
-    let counted = [(lost, "hits lost"), (invented, "hits invented"), (t, "wrong t")];
-    let kinds: Vec<_> = counted
+/// `counts` are of hits lost, hits invented, and wrong t.
+fn failing_statement(
+    encounters: &[Encounter],
+    counts: [usize; 3],
+    explained: Option<&(&Cause, String)>,
+) -> String {
+    let wrong = some_are(counts.iter().sum(), encounters.len(), "clear rays");
+    let kinds: Vec<_> = counts
         .iter()
-        .filter(|(count, _)| *count > 0)
+        .zip(["hits lost", "hits invented", "wrong t"])
+        .filter(|(count, _)| **count > 0)
         .map(|(count, what)| format!("{count} {what}"))
         .collect();
-    let cause = match cause(encounters) {
-        Some(cause) => format!(": {cause}"),
+    let why = match explained {
+        Some((cause, evidence)) => format!(": {} ({evidence})", cause.headline),
         None => example(encounters),
     };
-    format!("{wrong} wrong ({}){cause}", kinds.join(", "))
+    format!("{wrong} wrong ({}){why}", kinds.join(", "))
 }
 
 /// The first wrong ray in numbers.
@@ -138,37 +149,28 @@ fn example(encounters: &[Encounter]) -> String {
 
 /// A rule by which a wrong core decides what is a hit.
 struct Rule {
-    words: &'static str,
+    cause: &'static Cause,
     hits: fn(&Encounter) -> bool,
 }
 
 const RULES: &[Rule] = &[
+    Rule { cause: &shape::BACK_CULLED, hits: |e| e.should_hit() && e.meeting.determinant > 0.0 },
+    Rule { cause: &shape::FRONT_CULLED, hits: |e| e.should_hit() && e.meeting.determinant < 0.0 },
     Rule {
-        words: "hits from behind are culled",
-        hits: |e| e.should_hit() && e.meeting.determinant > 0.0,
-    },
-    Rule {
-        words: "hits from the front are culled",
-        hits: |e| e.should_hit() && e.meeting.determinant < 0.0,
-    },
-    Rule {
-        words: "the condition v + w ≤ 1 is missing",
+        cause: &shape::PARALLELOGRAM,
         hits: |e| is_on_segment(e) && e.meeting.weights[1] >= 0.0 && e.meeting.weights[2] >= 0.0,
     },
     Rule {
-        words: "the condition v ≥ 0 is missing",
+        cause: &shape::V_NOT_COMPARED,
         hits: |e| is_on_segment(e) && e.meeting.weights[0] >= 0.0 && e.meeting.weights[2] >= 0.0,
     },
     Rule {
-        words: "the condition w ≥ 0 is missing",
+        cause: &shape::W_NOT_COMPARED,
         hits: |e| is_on_segment(e) && e.meeting.weights[0] >= 0.0 && e.meeting.weights[1] >= 0.0,
     },
-    Rule { words: "t_max is not looked at", hits: |e| is_inside(e) && e.meeting.t > 0.0 },
-    Rule { words: "neither end of the segment is looked at", hits: is_inside },
-    Rule {
-        words: "what lies behind the origin is hit",
-        hits: |e| is_inside(e) && e.meeting.t < e.t_max,
-    },
+    Rule { cause: &shape::SEGMENT_END_IGNORED, hits: |e| is_inside(e) && e.meeting.t > 0.0 },
+    Rule { cause: &shape::SEGMENT_IGNORED, hits: is_inside },
+    Rule { cause: &shape::HITS_BEHIND_ORIGIN, hits: |e| is_inside(e) && e.meeting.t < e.t_max },
 ];
 
 fn is_inside(e: &Encounter) -> bool {
@@ -179,16 +181,20 @@ fn is_on_segment(e: &Encounter) -> bool {
     e.meeting.t > 0.0 && e.meeting.t < e.t_max
 }
 
-/// The mistake that explains every clear ray, if one does.
-fn cause(encounters: &[Encounter]) -> Option<String> {
+/// The mistake that explains every clear ray, if one does, and what speaks for it.
+fn explanation(encounters: &[Encounter]) -> Option<(&'static Cause, String)> {
+    if encounters.iter().filter_map(Encounter::t_compared).any(|t| !t.agrees()) {
+        return None;
+    }
     let follows = |rule: &&Rule| encounters.iter().all(|e| (rule.hits)(e) == e.found.is_some());
-    let rule = RULES.iter().find(follows).map(|rule| rule.words.to_owned());
+    let evidence = || format!("predicts which of {} clear rays hit", encounters.len());
+    let rule = RULES.iter().find(follows).map(|rule| (rule.cause, evidence()));
     rule.or_else(|| threshold(encounters))
 }
 
 /// Hits are lost exactly where the determinant is small: its size says nothing about parallelism.
-fn threshold(encounters: &[Encounter]) -> Option<String> {
-    if encounters.iter().any(|e| e.is_wrong() && (!e.should_hit() || e.found.is_some())) {
+fn threshold(encounters: &[Encounter]) -> Option<(&'static Cause, String)> {
+    if encounters.iter().any(|e| e.is_wrong() && !e.should_hit()) {
         return None;
     }
     let sizes = |lost: bool| {
@@ -198,10 +204,8 @@ fn threshold(encounters: &[Encounter]) -> Option<String> {
     let largest_lost = sizes(true).fold(0.0, f64::max);
     let smallest_kept = sizes(false).fold(f64::INFINITY, f64::min);
     (largest_lost < smallest_kept).then(|| {
-        format!(
-            "small triangles are lost where the determinant is below about {}; compare it with 0",
-            figure(smallest_kept)
-        )
+        let evidence = format!("hits are lost just below about {}", figure(smallest_kept));
+        (&shape::DETERMINANT_THRESHOLD, evidence)
     })
 }
 
@@ -246,17 +250,17 @@ mod tests {
 
     #[test]
     fn missing_conditions_are_named() {
-        let named = [
-            ("v + w ≤ 1", "the condition v + w ≤ 1 is missing"),
-            ("hits from behind are culled", "hits from behind are culled"),
-            ("neither end", "neither end of the segment is looked at"),
-            ("(t_max)", "t_max is not looked at"),
-            ("what lies behind the origin is hit", "what lies behind the origin is hit"),
-        ];
-        for (made, said) in named {
-            let finding = found(mistake(made));
+        for cause in [
+            &shape::PARALLELOGRAM,
+            &shape::BACK_CULLED,
+            &shape::SEGMENT_IGNORED,
+            &shape::SEGMENT_END_IGNORED,
+            &shape::HITS_BEHIND_ORIGIN,
+        ] {
+            let finding = found(mistake(cause));
             let statement = failure(&finding);
-            assert!(statement.ends_with(said), "{made}: {statement}");
+            assert!(statement.contains(cause.headline), "{}: {statement}", cause.name);
+            assert_eq!(finding.clues[0].cause, cause.name);
         }
     }
 
@@ -269,6 +273,7 @@ mod tests {
         });
         let statement = failure(&finding);
         assert!(statement.contains("below about 0.001"), "{statement}");
+        assert_eq!(finding.clues[0].cause, "determinant-threshold");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Rows of rays against one triangle or one sphere, each with what has to come out of it.
 
 use super::imitation::{Answer, explanations, intersection};
+use crate::cause::Cause;
 use crate::checks::phrase::{figure, percent, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Hit, Precision, Primitive, Ray};
@@ -158,22 +159,26 @@ fn judge(rows: &[RayRow], primitive: &Primitive, hits: &[Hit], precision: Precis
         measures.extend(of_row);
     }
     let graded = || rows.iter().zip(hits).filter(|(row, _)| !row.robustness);
-    let statement = if complaints.is_empty() {
-        format!("{} rays come out as they should", graded().count())
-    } else {
-        let rays: Vec<_> = graded().map(|(row, _)| row.ray()).collect();
-        let hits: Vec<_> = graded().map(|(_, hit)| *hit).collect();
-        let allowed = 100.0 * Tolerance::INTERSECTION.of(precision);
-        failing_statement(&complaints, rays.len(), &explanations(primitive, &rays, &hits, allowed))
+    let rays: Vec<_> = graded().map(|(row, _)| row.ray()).collect();
+    let answers: Vec<_> = graded().map(|(_, hit)| *hit).collect();
+    let allowed = 100.0 * Tolerance::INTERSECTION.of(precision);
+    let causes = match complaints.is_empty() {
+        true => Vec::new(),
+        false => explanations(primitive, &rays, &answers, allowed),
+    };
+    let statement = match complaints.is_empty() {
+        true => format!("{} rays come out as they should", rays.len()),
+        false => failing_statement(&complaints, rays.len(), &causes),
     };
     let resolution = format!(
         "would have caught a t that is off by {}",
         percent(Tolerance::INTERSECTION.of(precision))
     );
     Finding::of(statement, resolution, measures)
+        .because_each(causes, &format!("predicts the answers to all {} rays", rays.len()))
 }
 
-fn failing_statement(complaints: &[String], all: usize, causes: &[&str]) -> String {
+fn failing_statement(complaints: &[String], all: usize, causes: &[&Cause]) -> String {
     let wrong = some_are(complaints.len(), all, "rays");
     let mut details = complaints[..complaints.len().min(SPELT_OUT)].join("; ");
     if complaints.len() > SPELT_OUT {
@@ -181,7 +186,10 @@ fn failing_statement(complaints: &[String], all: usize, causes: &[&str]) -> Stri
     }
     match causes {
         [] => format!("{wrong} wrong: {details}"),
-        causes => format!("{wrong} wrong: {}. {details}", causes.join(", or ")),
+        causes => {
+            let headlines: Vec<_> = causes.iter().map(|cause| cause.headline).collect();
+            format!("{wrong} wrong: {}. {details}", headlines.join(", or "))
+        }
     }
 }
 
@@ -242,6 +250,7 @@ fn complaint(
 mod tests {
     use super::super::imitation::{Formula, as_hit, mistake};
     use super::*;
+    use crate::cause::shape;
     use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
     use crate::contract::{Core, CoreInfo, Result};
 
@@ -286,37 +295,38 @@ mod tests {
     #[test]
     fn mistakes_are_named_by_the_case_that_is_about_them() {
         let named = [
-            (0, "v + w ≤ 1"),
-            (0, "hits from behind are culled"),
-            (0, "normals are flipped towards the ray"),
-            (1, "t_max"),
-            (1, "t_min"),
-            (1, "neither end"),
-            (1, "what lies behind the origin"),
-            (1, "t counts scene units"),
-            (2, "the weights of v1 and v2 are swapped"),
-            (2, "normals of v1 and v2 are swapped in the interpolation"),
-            (2, "moved on by one vertex: v0"),
-            (2, "weights moved back by one"),
-            (2, "the geometric normal stands where the interpolated"),
-            (2, "the interpolated normal stands where the geometric"),
-            (3, "only the nearer root"),
-            (3, "the farther root"),
-            (3, "leaves out a = d·d"),
-            (3, "where 2a belongs"),
-            (3, "normals point to the wrong side"),
-            (3, "t_min"),
+            (0, &shape::PARALLELOGRAM),
+            (0, &shape::BACK_CULLED),
+            (0, &shape::NORMALS_FACE_RAY),
+            (1, &shape::SEGMENT_END_IGNORED),
+            (1, &shape::SEGMENT_START_IGNORED),
+            (1, &shape::SEGMENT_IGNORED),
+            (1, &shape::HITS_BEHIND_ORIGIN),
+            (1, &shape::T_IN_SCENE_UNITS),
+            (2, &shape::WEIGHTS_SWAPPED),
+            (2, &shape::NORMALS_SWAPPED),
+            (2, &shape::WEIGHTS_MOVED_ON),
+            (2, &shape::NORMALS_MOVED_BACK),
+            (2, &shape::FLAT_SHADING_NORMAL),
+            (2, &shape::GEOMETRIC_NORMAL_INTERPOLATED),
+            (3, &shape::NEAR_ROOT_ONLY),
+            (3, &shape::FAR_ROOT_TAKEN),
+            (3, &shape::QUADRATIC_WITHOUT_A),
+            (3, &shape::QUADRATIC_DIVIDES_BY_A),
+            (3, &shape::NORMALS_INSIDE_OUT),
+            (3, &shape::SEGMENT_START_IGNORED),
         ];
-        for (case, words) in named {
-            let finding = found(case, mistake(words));
+        for (case, cause) in named {
+            let finding = found(case, mistake(cause));
             let statement = failure(&finding);
-            assert!(statement.contains(words), "{words}: {statement}");
+            assert!(statement.contains(cause.headline), "{}: {statement}", cause.name);
+            assert!(finding.clues.iter().any(|clue| clue.cause == cause.name), "{}", cause.name);
         }
     }
 
     #[test]
     fn a_ray_from_inside_that_misses_is_told_where_it_should_hit() {
-        let finding = found(3, mistake("only the nearer root"));
+        let finding = found(3, mistake(&shape::NEAR_ROOT_ONLY));
         assert!(failure(&finding).contains("misses; it should hit at t = "), "{finding:?}");
     }
 

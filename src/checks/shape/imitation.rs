@@ -2,6 +2,7 @@
 //!
 //! A mistake is named only if it predicts every answer of a core, the right ones among them.
 
+use crate::cause::{Cause, shape};
 use crate::contract::{Hit, Primitive, Ray};
 use glam::DVec3;
 
@@ -130,8 +131,8 @@ fn sphere_meetings(centre: DVec3, radius: f64, ray: &Ray) -> Vec<Meeting> {
 
 /// An implementation that people write instead.
 pub struct Mistake {
-    /// What was done, after a colon.
-    pub words: &'static str,
+    /// What was done.
+    pub cause: &'static Cause,
     /// What it answers.
     pub formula: Formula,
 }
@@ -142,14 +143,14 @@ pub fn explanations(
     rays: &[Ray],
     hits: &[Hit],
     allowed: f64,
-) -> Vec<&'static str> {
+) -> Vec<&'static Cause> {
     let predicts = |mistake: &&Mistake| {
         rays.iter().zip(hits).all(|(ray, hit)| match (mistake.formula)(primitive, ray) {
             Some(answer) => hit.is_hit() && answer.is_like(hit, allowed),
             None => !hit.is_hit(),
         })
     };
-    MISTAKES.iter().filter(predicts).map(|mistake| mistake.words).collect()
+    MISTAKES.iter().filter(predicts).map(|mistake| mistake.cause).collect()
 }
 
 /// Accepts a meeting by another rule.
@@ -185,37 +186,34 @@ fn shaded_alone(primitive: &Primitive, ray: &Ray, order: [usize; 3]) -> Option<A
 
 const MISTAKES: &[Mistake] = &[
     Mistake {
-        words: "the end of the segment (t_max) is not looked at",
+        cause: &shape::SEGMENT_END_IGNORED,
         formula: |p, ray| first(p, ray, |m| m.is_inside() && ray.t_min < m.t),
     },
     Mistake {
-        words: "the start of the segment (t_min) is not looked at",
+        cause: &shape::SEGMENT_START_IGNORED,
         formula: |p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max && m.t > 0.0),
     },
+    Mistake { cause: &shape::SEGMENT_IGNORED, formula: |p, ray| first(p, ray, Meeting::is_inside) },
     Mistake {
-        words: "neither end of the segment is looked at: whatever the line meets is hit",
-        formula: |p, ray| first(p, ray, Meeting::is_inside),
-    },
-    Mistake {
-        words: "what lies behind the origin is hit",
+        cause: &shape::HITS_BEHIND_ORIGIN,
         formula: |p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max),
     },
     Mistake {
-        words: "only the nearer root is tried, so that a ray from inside misses",
+        cause: &shape::NEAR_ROOT_ONLY,
         formula: |p, ray| {
             let nearest = meetings(p, ray).into_iter().next();
             nearest.filter(|m| m.is_inside() && is_on(ray, m.t)).map(Meeting::answer)
         },
     },
     Mistake {
-        words: "the farther root is taken where the nearer one is right",
+        cause: &shape::FAR_ROOT_TAKEN,
         formula: |p, ray| {
             let farthest = meetings(p, ray).into_iter().next_back();
             farthest.filter(|m| m.is_inside() && is_on(ray, m.t)).map(Meeting::answer)
         },
     },
     Mistake {
-        words: "the quadratic leaves out a = d·d, which is 1 for unit directions only",
+        cause: &shape::QUADRATIC_WITHOUT_A,
         formula: |p, ray| {
             let Primitive::Sphere { centre, radius } = p else { return None };
             let from_centre = ray.origin - *centre;
@@ -228,7 +226,7 @@ const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        words: "the quadratic divides by a where 2a belongs",
+        cause: &shape::QUADRATIC_DIVIDES_BY_A,
         formula: |p, ray| {
             let normal_at = |t: f64| match p {
                 Primitive::Sphere { centre, .. } => (ray.at(t) - *centre).normalize_or_zero(),
@@ -241,61 +239,46 @@ const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        words: "t counts scene units, not lengths of the direction",
+        cause: &shape::T_IN_SCENE_UNITS,
         formula: |p, ray| {
             let unit = ray.direction.length();
             described(p, ray, |m| Answer { t: m.t * unit, ..m.answer() })
         },
     },
     Mistake {
-        words: "the condition v + w ≤ 1 is missing: the triangle has become a parallelogram",
+        cause: &shape::PARALLELOGRAM,
         formula: |p, ray| {
             first(p, ray, |m| m.weights[1] >= 0.0 && m.weights[2] >= 0.0 && is_on(ray, m.t))
         },
     },
     Mistake {
-        words: "the whole plane of the triangle is hit",
+        cause: &shape::WHOLE_PLANE_HIT,
         formula: |p, ray| first(p, ray, |m| is_on(ray, m.t)),
     },
     Mistake {
-        words: "hits from behind are culled",
+        cause: &shape::BACK_CULLED,
         formula: |p, ray| {
             let faces = |m: &Meeting| m.geometric.dot(ray.direction) < 0.0;
             first(p, ray, |m| m.is_inside() && is_on(ray, m.t) && faces(m))
         },
     },
+    Mistake { cause: &shape::WEIGHTS_SWAPPED, formula: |p, ray| shaded(p, ray, [0, 2, 1]) },
+    Mistake { cause: &shape::NORMALS_SWAPPED, formula: |p, ray| shaded_alone(p, ray, [0, 2, 1]) },
+    Mistake { cause: &shape::WEIGHTS_MOVED_ON, formula: |p, ray| shaded(p, ray, [1, 2, 0]) },
+    Mistake { cause: &shape::NORMALS_MOVED_ON, formula: |p, ray| shaded_alone(p, ray, [1, 2, 0]) },
+    Mistake { cause: &shape::WEIGHTS_MOVED_BACK, formula: |p, ray| shaded(p, ray, [2, 0, 1]) },
     Mistake {
-        words: "the weights of v1 and v2 are swapped",
-        formula: |p, ray| shaded(p, ray, [0, 2, 1]),
-    },
-    Mistake {
-        words: "the normals of v1 and v2 are swapped in the interpolation",
-        formula: |p, ray| shaded_alone(p, ray, [0, 2, 1]),
-    },
-    Mistake {
-        words: "the weights are moved on by one vertex: v0 has the weight of v1",
-        formula: |p, ray| shaded(p, ray, [1, 2, 0]),
-    },
-    Mistake {
-        words: "the normals are interpolated with weights moved on by one vertex",
-        formula: |p, ray| shaded_alone(p, ray, [1, 2, 0]),
-    },
-    Mistake {
-        words: "the weights are moved back by one vertex: v0 has the weight of v2",
-        formula: |p, ray| shaded(p, ray, [2, 0, 1]),
-    },
-    Mistake {
-        words: "the normals are interpolated with weights moved back by one vertex",
+        cause: &shape::NORMALS_MOVED_BACK,
         formula: |p, ray| shaded_alone(p, ray, [2, 0, 1]),
     },
     Mistake {
-        words: "the geometric normal stands where the interpolated one belongs",
+        cause: &shape::FLAT_SHADING_NORMAL,
         formula: |p, ray| {
             described(p, ray, |m| Answer { shading_normal: m.geometric, ..m.answer() })
         },
     },
     Mistake {
-        words: "the interpolated normal stands where the geometric one belongs",
+        cause: &shape::GEOMETRIC_NORMAL_INTERPOLATED,
         formula: |p, ray| {
             described(p, ray, |m| Answer {
                 geometric_normal: m.interpolated(m.weights),
@@ -304,7 +287,7 @@ const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        words: "normals are flipped towards the ray; the side they are on must not depend on it",
+        cause: &shape::NORMALS_FACE_RAY,
         formula: |p, ray| {
             described(p, ray, |m| {
                 let side = -m.geometric.dot(ray.direction).signum();
@@ -318,7 +301,7 @@ const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
-        words: "normals point to the wrong side",
+        cause: &shape::NORMALS_INSIDE_OUT,
         formula: |p, ray| {
             described(p, ray, |m| {
                 let answer = m.answer();
@@ -348,12 +331,12 @@ pub fn as_hit(answer: Option<Answer>) -> Hit {
     })
 }
 
-/// The formula of the mistake with these words.
+/// The formula of a mistake.
 ///
 /// # Panics
 /// If there is none.
 #[cfg(test)]
-pub fn mistake(words: &str) -> Formula {
-    let known = MISTAKES.iter().find(|mistake| mistake.words.contains(words));
-    known.unwrap_or_else(|| panic!("no mistake `{words}`")).formula
+pub fn mistake(cause: &Cause) -> Formula {
+    let known = MISTAKES.iter().find(|mistake| mistake.cause == cause);
+    known.unwrap_or_else(|| panic!("no mistake `{}`", cause.name)).formula
 }

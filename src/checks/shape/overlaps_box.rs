@@ -4,6 +4,7 @@
 //! programs differ there: such rows are marked `robustness`, shown, and not graded. A false hit only costs time;
 //! a false miss loses what is in the box.
 
+use crate::cause::{Cause, slab};
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BoxHit, Capabilities, Ray};
@@ -118,14 +119,16 @@ impl OverlapsBox {
             measures.extend(of_row);
         }
         let graded = self.ray.iter().filter(|row| !row.robustness).count();
+        let cause = if complaints.is_empty() { None } else { self.cause(answers) };
         let statement = if complaints.is_empty() {
             self.passing_statement(graded, answers)
         } else {
             let wrong = some_are(complaints.len(), graded, "rays");
-            let cause = self.cause(answers).map_or_else(String::new, |cause| format!(": {cause}"));
-            format!("{wrong} wrong{cause}; {}", complaints.join("; "))
+            let why = cause.map_or_else(String::new, |cause| format!(": {}", cause.headline));
+            format!("{wrong} wrong{why}; {}", complaints.join("; "))
         };
         Finding::of(statement, "would have caught one wrong ray", measures)
+            .because_each(cause, &format!("predicts which of {graded} rays hit"))
     }
 
     fn row_measures(
@@ -164,15 +167,18 @@ impl OverlapsBox {
     }
 
     /// The wrong implementation that gives every graded answer of the core.
-    fn cause(&self, answers: &[BoxHit]) -> Option<&'static str> {
+    fn cause(&self, answers: &[BoxHit]) -> Option<&'static Cause> {
         let graded = || self.ray.iter().zip(answers).filter(|(row, _)| !row.robustness);
+        if graded().all(|(row, answer)| row.hits == (answer.hit == 1)) {
+            return None;
+        }
         let predicts = |mistake: &&Mistake| {
             graded().all(|(row, answer)| {
                 let slabs = Slabs::new(&self.bounds(row), &row.ray());
                 (mistake.hits)(&slabs, &row.ray()) == (answer.hit == 1)
             })
         };
-        MISTAKES.iter().find(predicts).map(|mistake| mistake.words)
+        MISTAKES.iter().find(predicts).map(|mistake| mistake.cause)
     }
 }
 
@@ -260,54 +266,42 @@ impl Slabs {
 
 /// An implementation that people write instead.
 struct Mistake {
-    words: &'static str,
+    cause: &'static Cause,
     hits: fn(&Slabs, &Ray) -> bool,
 }
 
 const MISTAKES: &[Mistake] = &[
     Mistake {
-        words: "the two planes of an axis are not swapped where the direction is negative",
+        cause: &slab::PLANES_NOT_SWAPPED,
         hits: |slabs, ray| {
             let (enters, exits) = (slabs.lower.max_element(), slabs.upper.min_element());
             enters <= exits && exits >= ray.t_min && enters <= ray.t_max
         },
     },
+    Mistake { cause: &slab::BOX_SEGMENT_IGNORED, hits: |slabs, _| slabs.enters() <= slabs.exits() },
     Mistake {
-        words: "t_min and t_max are not looked at",
-        hits: |slabs, _| slabs.enters() <= slabs.exits(),
-    },
-    Mistake {
-        words: "t_min is not looked at",
+        cause: &slab::BOX_START_IGNORED,
         hits: |slabs, ray| slabs.enters() <= slabs.exits() && slabs.enters() <= ray.t_max,
     },
     Mistake {
-        words: "t_max is not looked at",
+        cause: &slab::BOX_END_IGNORED,
         hits: |slabs, ray| slabs.enters() <= slabs.exits() && slabs.exits() >= ray.t_min,
     },
     Mistake {
-        words: "the entry has to lie behind t_min, so that rays from inside miss",
+        cause: &slab::BOX_MISSED_FROM_INSIDE,
         hits: |slabs, ray| slabs.hits(ray) && slabs.enters() >= ray.t_min,
     },
     Mistake {
-        words: "the exit has to lie before t_max, so that segments which end inside miss",
+        cause: &slab::BOX_MISSED_BY_END_INSIDE,
         hits: |slabs, ray| slabs.hits(ray) && slabs.exits() <= ray.t_max,
     },
     Mistake {
-        words: "entry < exit is asked for, so that flat boxes are never hit",
+        cause: &slab::FLAT_BOX_MISSED,
         hits: |slabs, ray| slabs.hits(ray) && slabs.enters() < slabs.exits(),
     },
-    Mistake {
-        words: "the z axis is not looked at",
-        hits: |slabs, ray| without_axis(slabs, 2).hits(ray),
-    },
-    Mistake {
-        words: "the y axis is not looked at",
-        hits: |slabs, ray| without_axis(slabs, 1).hits(ray),
-    },
-    Mistake {
-        words: "the x axis is not looked at",
-        hits: |slabs, ray| without_axis(slabs, 0).hits(ray),
-    },
+    Mistake { cause: &slab::BOX_WITHOUT_Z, hits: |slabs, ray| without_axis(slabs, 2).hits(ray) },
+    Mistake { cause: &slab::BOX_WITHOUT_Y, hits: |slabs, ray| without_axis(slabs, 1).hits(ray) },
+    Mistake { cause: &slab::BOX_WITHOUT_X, hits: |slabs, ray| without_axis(slabs, 0).hits(ray) },
 ];
 
 /// An axis in which the box has no end.
@@ -365,9 +359,10 @@ mod tests {
         for mistake in MISTAKES {
             let named = (0..CASES.len()).any(|case| {
                 let finding = found(case, mistake.hits);
-                finding.verdict == Verdict::Fail && finding.statement.contains(mistake.words)
+                finding.verdict == Verdict::Fail
+                    && finding.clues.iter().any(|clue| clue.cause == mistake.cause.name)
             });
-            assert!(named, "{}", mistake.words);
+            assert!(named, "{}", mistake.cause.name);
         }
     }
 

@@ -36,6 +36,7 @@ fn plan() -> Result<Plan, String> {
         budget: from_environment("FURNACE_BUDGET")?.unwrap_or_default(),
         seed: Seed::SUITE,
         jobs: 0,
+        fail_fast: false,
     };
     Ok(Plan::new(project, request, &cases))
 }

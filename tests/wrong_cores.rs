@@ -121,6 +121,7 @@ fn cases(filters: &[&str]) -> (Bench, Vec<Arc<Case>>) {
         budget: Budget::Default,
         seed: Seed::SUITE,
         jobs: 1,
+        fail_fast: false,
     };
     let plan = Plan::new(project, request, &all);
     let cases = plan.trials.iter().map(|trial| Arc::clone(&trial.case)).collect();

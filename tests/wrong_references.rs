@@ -29,6 +29,7 @@ fn outcome_after(spoil: impl Fn(&Path)) -> Outcome {
         budget: furnace::stats::Budget::Default,
         seed: furnace::math::rng::Seed::SUITE,
         jobs: 1,
+        fail_fast: false,
     };
     let mut bench = Plan::new(project.clone(), request.clone(), &[]).bench();
     bench.references = folder.path().to_owned();

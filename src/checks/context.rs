@@ -4,7 +4,7 @@ use crate::contract::{Core, CoreError, CoreInfo};
 use crate::image::Image;
 use crate::math::rng::Seed;
 use crate::scene::{Camera, Library, SceneDescription};
-use crate::stats::Budget;
+use crate::stats::Allowance;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -22,8 +22,9 @@ pub struct Context<'a> {
     pub references: &'a Path,
     /// Seed of the trial: the same for every core, so that a core gets the same verdict on every machine.
     pub seed: Seed,
-    /// How much may be spent, and so how small an error is looked for.
-    pub budget: Budget,
+    /// How much may be spent, and so how small an error is looked for; and whether a gross one may
+    /// end the trial early.
+    pub budget: Allowance,
     /// Pictures for the report.
     pub pictures: Vec<Picture>,
 }

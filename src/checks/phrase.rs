@@ -73,7 +73,7 @@ pub fn mean_measure(name: impl Into<String>, report: &MeanReport) -> Measure {
         expected: report.expected,
         allowed: report.band,
         interval: Some(report.interval),
-        resolution: Some(report.resolution),
+        resolution: Some(report.resolution).filter(|resolution| resolution.is_finite()),
         verdict: report.verdict,
     }
 }

@@ -54,7 +54,7 @@ pub fn try_judge<C: Check>(
         scenes: &scenes,
         references: Path::new("references"),
         seed: Seed::SUITE.child(C::NAME),
-        budget: Budget::Default,
+        budget: Budget::Default.into(),
         pictures: Vec::new(),
     };
     check.run(&mut context)

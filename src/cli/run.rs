@@ -28,8 +28,11 @@ pub struct RunArguments {
     /// Trials at the same time [default: one a hardware thread].
     #[arg(short, long, default_value_t = 0, hide_default_value = true)]
     jobs: usize,
+    /// Stop at the first failure; gross errors end their trial after a few thousand samples.
+    #[arg(long)]
+    fail_fast: bool,
     /// Go on with a run that was cut off; what it was asked is read from its folder.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "cores", "budget", "seed"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "cores", "budget", "seed", "fail_fast"])]
     resume: Option<PathBuf>,
     /// What is inconclusive, skipped or blocked ends with exit code 3.
     #[arg(long)]
@@ -84,6 +87,7 @@ impl RunArguments {
             budget: self.budget,
             seed: self.seed.map_or(Seed::SUITE, Seed),
             jobs: self.jobs,
+            fail_fast: self.fail_fast,
         }
     }
 }
@@ -99,6 +103,7 @@ fn request_of(folder: &Path, jobs: usize) -> Result<Request, Failure> {
         budget: record.budget,
         seed: Seed(record.seed),
         jobs,
+        fail_fast: record.fail_fast,
     })
 }
 

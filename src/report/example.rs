@@ -137,6 +137,7 @@ impl Example {
             budget: Budget::Default,
             seed: 1,
             trials: trials.len(),
+            fail_fast: false,
             machine: Machine {
                 system: "linux".to_owned(),
                 architecture: "x86_64".to_owned(),

@@ -96,6 +96,11 @@ impl RunTree {
         self.run.trials.saturating_sub(self.trials.len())
     }
 
+    /// Whether the run ended before its last trial because that was asked of it: at a failure.
+    pub fn stopped_at_failure(&self) -> bool {
+        self.run.fail_fast && self.missing() > 0 && self.run.timing.seconds.is_some()
+    }
+
     /// Whether the run came to its end with a result for every trial.
     pub fn is_finished(&self) -> bool {
         self.missing() == 0 && self.run.timing.seconds.is_some()

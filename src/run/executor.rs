@@ -13,7 +13,7 @@ use crate::image::exr;
 use crate::math::rng::Seed;
 use crate::scene::hash::content_hash;
 use crate::scene::{Library, SceneDescription};
-use crate::stats::Budget;
+use crate::stats::{Allowance, Budget};
 use std::convert::Infallible;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ pub struct Bench {
     /// The folder of references.
     pub references: PathBuf,
     /// How much may be spent.
-    pub budget: Budget,
+    pub allowance: Allowance,
     /// The seed of the run.
     pub seed: Seed,
 }
@@ -77,7 +77,7 @@ fn record_of(bench: &Bench, trial: &Trial, outcome: Outcome) -> TrialRecord {
         tier: case.tier,
         case_hash: case.hash.clone(),
         scene: None,
-        budget: bench.budget,
+        budget: bench.allowance.budget,
         seed: bench.seed_of(case).0,
         outcome,
         pictures: Vec::new(),
@@ -146,7 +146,7 @@ fn judge(
         scenes: &bench.scenes,
         references: &bench.references,
         seed: bench.seed_of(case),
-        budget: bench.budget,
+        budget: bench.allowance,
         pictures: Vec::new(),
     };
     let run = AssertUnwindSafe(|| case.prepared.run(&mut context));
@@ -158,10 +158,13 @@ fn judge(
     result
 }
 
+/// The command that tries this again, at full length: bets that decide early say that something is
+/// wrong, the ladder says by how much.
 fn rerun_command(bench: &Bench, trial: &Trial) -> String {
     let mut command = format!("cargo furnace run {} --core {}", trial.case.id, trial.core);
-    if bench.budget != Budget::default() {
-        command += &format!(" --budget {}", bench.budget);
+    let budget = bench.allowance.budget;
+    if budget != Budget::default() {
+        command += &format!(" --budget {budget}");
     }
     if bench.seed != Seed::SUITE {
         command += &format!(" --seed {}", bench.seed.0);
@@ -205,6 +208,9 @@ fn work(bench: &Bench, plan: &Plan, schedule: &Schedule<'_>, sender: &mpsc::Send
                 }
                 let ended = run_trial(bench, trial);
                 schedule.ended(number, ended.record.outcome.status());
+                if plan.request.fail_fast && ended.record.fails_the_core() {
+                    schedule.stop();
+                }
                 ended
             }
             Next::Blocked(number, by) => blocked(bench, &plan.trials[number], by),

@@ -101,6 +101,7 @@ fn describe(plan: &Plan, started: SystemTime) -> RunRecord {
         budget: plan.request.budget,
         seed: plan.request.seed.0,
         trials: plan.trials.len(),
+        fail_fast: plan.request.fail_fast,
         machine: Machine::this(),
         timing: RunTiming {
             started: started.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),

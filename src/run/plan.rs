@@ -4,7 +4,7 @@ use crate::case::{Case, Filter};
 use crate::cores::CoreSpec;
 use crate::math::rng::Seed;
 use crate::project::Project;
-use crate::stats::Budget;
+use crate::stats::{Allowance, Budget};
 use std::sync::Arc;
 
 /// What the user asked for.
@@ -20,6 +20,9 @@ pub struct Request {
     pub seed: Seed,
     /// Trials at the same time; 0 means one a hardware thread.
     pub jobs: usize,
+    /// Stop at the first graded failure, and let bets decide what they can before ladders are
+    /// climbed.
+    pub fail_fast: bool,
 }
 
 /// Trials, and everything they need.
@@ -63,7 +66,10 @@ impl Plan {
         super::Bench {
             scenes: Arc::new(crate::scene::Library::new(self.project.scenes())),
             references: self.project.references(),
-            budget: self.request.budget,
+            allowance: Allowance {
+                budget: self.request.budget,
+                decides_early: self.request.fail_fast,
+            },
             seed: self.request.seed,
         }
     }

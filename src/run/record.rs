@@ -41,6 +41,10 @@ pub struct RunRecord {
     pub seed: u64,
     /// How many trials were planned.
     pub trials: usize,
+    /// Whether the run was to stop at the first graded failure. Trials without a sidecar were not
+    /// run then.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub fail_fast: bool,
     /// The machine.
     pub machine: Machine,
     /// When, and how long.
@@ -149,6 +153,13 @@ pub struct TrialRecord {
     pub rerun: String,
     /// The only part that differs between equal runs.
     pub timing: TrialTiming,
+}
+
+impl TrialRecord {
+    /// Whether it counts against the core.
+    pub fn fails_the_core(&self) -> bool {
+        self.tier.is_graded() && self.outcome.status().is_failure()
+    }
 }
 
 /// Which scene was rendered.

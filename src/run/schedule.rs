@@ -163,6 +163,7 @@ mod tests {
             budget: Budget::Quick,
             seed: Seed::SUITE,
             jobs: 2,
+            fail_fast: false,
         };
         Plan::new(project, request, &cases)
     }

@@ -15,6 +15,9 @@ pub struct Effort {
     pub runs: u32,
     /// The samples of a run come in multiples of this (the pixels of a film, say).
     pub grain: u64,
+    /// Whether bets may decide before the ladder is climbed. They say that a claim is false, and
+    /// less precisely than the ladder by how much.
+    pub decides_early: bool,
 }
 
 impl Effort {
@@ -23,7 +26,7 @@ impl Effort {
 
     /// The effort that sees an error of `detects`, relative to the scale of the claim.
     pub fn new(detects: f64) -> Self {
-        Self { detects, most_samples: 4_000_000, runs: 64, grain: 1 }
+        Self { detects, most_samples: 4_000_000, runs: 64, grain: 1, decides_early: false }
     }
 
     /// The same with another cap on the first stage's samples.
@@ -39,6 +42,43 @@ impl Effort {
     /// The same with samples in multiples of `grain`.
     pub fn in_steps_of(self, grain: u64) -> Self {
         Self { grain: grain.max(1), ..self }
+    }
+
+    /// The same where bets may decide before the ladder is climbed.
+    pub fn deciding_early(self) -> Self {
+        Self { decides_early: true, ..self }
+    }
+}
+
+/// What a trial may spend: a budget, and whether gross errors end it early.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Allowance {
+    /// How small an error is looked for.
+    pub budget: Budget,
+    /// Whether the first thing known is enough: `--fail-fast`.
+    pub decides_early: bool,
+}
+
+impl Allowance {
+    /// What `effort` becomes under this allowance.
+    pub fn scale(self, effort: Effort) -> Effort {
+        Effort { decides_early: self.decides_early, ..self.budget.scale(effort) }
+    }
+
+    /// [`Budget::samples`]
+    pub fn samples(self, default: u64) -> u64 {
+        self.budget.samples(default)
+    }
+
+    /// [`Budget::coarseness`]
+    pub const fn coarseness(self) -> f64 {
+        self.budget.coarseness()
+    }
+}
+
+impl From<Budget> for Allowance {
+    fn from(budget: Budget) -> Self {
+        Self { budget, decides_early: false }
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a core is held to: a true mean, and how far from it rounding may take a correct core.
 
+use super::Support;
 use crate::math::Precision;
 use serde::{Deserialize, Serialize};
 
@@ -67,12 +68,21 @@ pub struct Claim {
     pub null_deviation: Option<f64>,
     /// On which side the core may fail.
     pub sides: Sides,
+    /// What one sample of a correct core can be: whoever knows that can decide early.
+    pub support: Support,
 }
 
 impl Claim {
     /// The mean is `expected`, which is not 0.
     pub fn value(expected: f64, band: Band) -> Self {
-        Self { expected, scale: expected.abs(), band, null_deviation: None, sides: Sides::Both }
+        Self {
+            expected,
+            scale: expected.abs(),
+            band,
+            null_deviation: None,
+            sides: Sides::Both,
+            support: Support::Unbounded,
+        }
     }
 
     /// The mean of a difference is 0. `scale` is the size of the things subtracted.
@@ -83,7 +93,9 @@ impl Claim {
     /// A share of independent yes-or-no samples is `probability`, in (0, 1).
     pub fn share(probability: f64, band: Band) -> Self {
         let deviation = (probability * (1.0 - probability)).sqrt();
-        Self::value(probability, band).with_null_deviation(deviation)
+        Self::value(probability, band)
+            .with_null_deviation(deviation)
+            .with_support(Support::UpTo(1.0))
     }
 
     /// The same claim with the standard deviation of one sample known from theory.
@@ -94,6 +106,27 @@ impl Claim {
     /// The same claim, forgiving one side.
     pub fn on_side(self, sides: Sides) -> Self {
         Self { sides, ..self }
+    }
+
+    /// The same claim where it is known what one sample can be.
+    pub fn with_support(self, support: Support) -> Self {
+        Self { support, ..self }
+    }
+
+    /// The same claim about samples between 0 and `largest`, which rounding may exceed as far as
+    /// the band.
+    pub fn with_samples_up_to(self, largest: f64) -> Self {
+        self.with_support(Support::UpTo(largest * (1.0 + self.band.relative())))
+    }
+
+    /// Whether too much is wrong.
+    pub(super) fn fails_above(&self) -> bool {
+        self.sides != Sides::AtLeast
+    }
+
+    /// Whether too little is wrong.
+    pub(super) fn fails_below(&self) -> bool {
+        self.sides != Sides::AtMost
     }
 
     /// Half width of the null, in the unit of what is drawn.

@@ -1,4 +1,4 @@
-//! The three-stage ladder: the only way a mean can fail.
+//! The three-stage ladder: the way a mean fails, unless a run is in a hurry.
 //!
 //! A first stage tests every claim on both sides at 2·[`STAGE_LEVEL`]. Claims it suspects are
 //! tested again on fresh runs with 4 times and then 16 times the samples, on the side the first
@@ -13,6 +13,9 @@
 //!
 //! The unit of replication is one seeded run of the core, never a sample inside it, so that
 //! stratified and quasi-random samplers need no special case.
+//!
+//! A run that stops at its first failure does not want to know by how much: there, runs are first
+//! fed to bets ([`betting`](super::betting)), which end the matter if the error is gross.
 //!
 //! Not here: what the samples are, and how many leaves the suite has (`ledger`).
 
@@ -47,6 +50,9 @@ const PILOT_SAMPLES: u64 = 4096;
 const LARGEST_PILOT: u64 = 65_536;
 /// Events that a pilot must have seen to size the first stage by it.
 pub(super) const PILOT_EFFECTIVE: f64 = 50.0;
+/// Runs of the opening. An estimator whose largest sample is 50 times its mean shows in as many that
+/// half of the light is missing.
+const OPENING_RUNS: u32 = 4096;
 /// Fewest samples of the second and third stage. A pilot and a first stage that are both constant
 /// may have missed an event that happens once in 10⁴ samples; this many miss it with probability
 /// 1e-3 and 4e-12.
@@ -56,7 +62,9 @@ const FEWEST_CONFIRMING: [u64; 2] = [65_536, 262_144];
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
-    /// Measures the noise, decides nothing.
+    /// Bets on the smallest of runs, where early decisions are wanted.
+    Opening,
+    /// Measures the noise, decides nothing unless bets are on.
     Pilot,
     /// Suspects.
     First,
@@ -69,6 +77,7 @@ pub enum Stage {
 impl std::fmt::Display for Stage {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.pad(match self {
+            Stage::Opening => "opening",
             Stage::Pilot => "pilot",
             Stage::First => "stage 1",
             Stage::Second => "stage 2",
@@ -123,16 +132,12 @@ pub(super) fn judge_means_at<E>(
 ) -> Result<Vec<MeanReport>, E> {
     let mut ladder = Ladder {
         effort: *effort,
-        trails: claims.iter().map(|claim| Trail::new(*claim, level)).collect(),
+        trails: claims.iter().map(|claim| Trail::new(*claim, level, effort)).collect(),
         draw,
         drawn: 0,
         repeated: false,
     };
-    ladder.pilot()?;
-    let first = ladder.planned_samples();
-    ladder.stage(Stage::First, first)?;
-    ladder.stage(Stage::Second, (4 * first).max(ladder.fewest_confirming(0)))?;
-    ladder.stage(Stage::Third, (16 * first).max(ladder.fewest_confirming(1)))?;
+    ladder.climb()?;
     Ok(ladder.trails.iter().map(|trail| trail.report(effort, ladder.drawn)).collect())
 }
 
@@ -146,12 +151,52 @@ struct Ladder<'a, E> {
 }
 
 impl<E> Ladder<'_, E> {
+    fn climb(&mut self) -> Result<(), E> {
+        self.opening()?;
+        if self.is_over() {
+            return Ok(());
+        }
+        self.pilot()?;
+        if self.is_over() {
+            return Ok(());
+        }
+        let first = self.planned_samples();
+        self.stage(Stage::First, first)?;
+        self.stage(Stage::Second, (4 * first).max(self.fewest_confirming(0)))?;
+        self.stage(Stage::Third, (16 * first).max(self.fewest_confirming(1)))
+    }
+
+    /// Whether bets have decided: one claim is false, or all are true.
+    fn is_over(&self) -> bool {
+        self.trails.iter().any(Trail::is_lost) || self.trails.iter().all(Trail::is_won)
+    }
+
+    /// Bets on runs as small as they come, until one claim is lost or all are won. Only bounded
+    /// samples say more in this form than in the larger runs of the pilot.
+    fn opening(&mut self) -> Result<(), E> {
+        if !self.trails.iter().any(Trail::gains_by_opening) {
+            return Ok(());
+        }
+        let samples = self.effort.grain;
+        for run in 0..OPENING_RUNS {
+            self.run(Draw { stage: Stage::Opening, attempt: 0, run, samples })?;
+            self.drawn += samples;
+            if self.is_over() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
     /// Grows the pilot until every claim has seen enough events to know its own deviation.
     fn pilot(&mut self) -> Result<(), E> {
         let largest = self.whole_runs((self.effort.most_samples / 4).min(LARGEST_PILOT));
         let mut samples = self.whole_runs(PILOT_SAMPLES).min(largest);
         for attempt in 0.. {
             let moments = self.sample(Stage::Pilot, attempt, samples)?;
+            if self.is_over() {
+                break;
+            }
             let informed = self.trails.iter().zip(&moments).all(|(t, m)| t.learns_from(m, samples));
             if informed || samples >= largest {
                 for (trail, moments) in self.trails.iter_mut().zip(&moments) {
@@ -166,7 +211,8 @@ impl<E> Ladder<'_, E> {
 
     /// Samples of the first stage: what the hungriest claim needs, up to the cap.
     fn planned_samples(&self) -> u64 {
-        let needed = self.trails.iter().map(|t| t.needed_samples(self.effort.detects));
+        let open = self.trails.iter().filter(|trail| trail.takes_part_in(Stage::First));
+        let needed = open.map(|trail| trail.needed_samples(self.effort.detects));
         let most = self.effort.most_samples as f64;
         self.whole_runs(needed.fold(FEWEST_EFFECTIVE, f64::max).min(most).ceil() as u64)
     }
@@ -227,14 +273,25 @@ impl<E> Ladder<'_, E> {
         let mut moments = vec![Moments::default(); self.trails.len()];
         let per_run = samples / u64::from(self.effort.runs);
         for run in 0..self.effort.runs {
-            let means = (self.draw)(Draw { stage, attempt, run, samples: per_run })?;
-            assert_eq!(means.len(), moments.len(), "a run answers one mean for each claim");
+            let means = self.run(Draw { stage, attempt, run, samples: per_run })?;
             for (moments, mean) in moments.iter_mut().zip(means) {
                 moments.push(mean);
             }
         }
         self.drawn += samples;
         Ok(moments)
+    }
+
+    /// One run: the mean of each claim, on which bets are settled while they are on.
+    fn run(&mut self, draw: Draw) -> Result<Vec<f64>, E> {
+        let means = (self.draw)(draw)?;
+        assert_eq!(means.len(), self.trails.len(), "a run answers one mean for each claim");
+        if matches!(draw.stage, Stage::Opening | Stage::Pilot) {
+            for (trail, mean) in self.trails.iter_mut().zip(&means) {
+                trail.settle(*mean, draw.samples);
+            }
+        }
+        Ok(means)
     }
 
     /// `samples`, rounded up to whole grains in each run.
@@ -246,150 +303,4 @@ impl<E> Ladder<'_, E> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::math::rng::{Stream, uniform};
-    use crate::stats::{Band, Verdict};
-    use std::convert::Infallible;
-
-    /// A core whose samples are `sample(stream)`, judged on one claim.
-    fn judge(
-        claim: Claim,
-        effort: &Effort,
-        seed: Seed,
-        sample: impl Fn(&mut Stream) -> f64,
-    ) -> MeanReport {
-        let mut draw = |draw: Draw| {
-            let mut stream = draw.seed(seed).stream();
-            let sum: f64 = (0..draw.samples).map(|_| sample(&mut stream)).sum();
-            Ok::<_, Infallible>(vec![sum / draw.samples as f64])
-        };
-        let Ok(mut reports) = judge_means(&[claim], effort, &mut draw);
-        reports.remove(0)
-    }
-
-    fn exponential(mean: f64) -> impl Fn(&mut Stream) -> f64 {
-        move |stream| -mean * (1.0 - uniform(stream)).ln()
-    }
-
-    const SEED: Seed = Seed(2026);
-
-    #[test]
-    fn a_right_core_passes_and_the_pass_says_what_it_would_have_seen() {
-        let report =
-            judge(Claim::value(1.0, Band::RADIANCE), &Effort::new(0.02), SEED, exponential(1.0));
-        assert_eq!(report.verdict, Verdict::Pass);
-        assert!(report.resolution <= 0.02, "{report:?}");
-        assert!(report.resolution > 0.01, "more samples than were needed: {report:?}");
-        assert!(report.interval[0] < 1.0 && 1.0 < report.interval[1]);
-    }
-
-    #[test]
-    fn an_error_of_the_promised_size_fails_on_either_side() {
-        for wrong in [0.98, 1.02] {
-            let report = judge(
-                Claim::value(1.0, Band::RADIANCE),
-                &Effort::new(0.02),
-                SEED,
-                exponential(wrong),
-            );
-            assert_eq!(report.verdict, Verdict::Fail, "{wrong}");
-            assert_eq!(report.stages.len(), 3);
-            assert!(report.stages.iter().all(|stage| stage.rejects));
-        }
-    }
-
-    #[test]
-    fn noise_that_could_hide_the_error_is_inconclusive_and_says_what_is_missing() {
-        let effort = Effort::new(0.02).with_most_samples(10_000);
-        let report = judge(Claim::value(1.0, Band::RADIANCE), &effort, SEED, exponential(1.0));
-        assert_eq!(report.verdict, Verdict::Inconclusive);
-        let missing = report.samples_missing.unwrap();
-        // (8.4/0.019)² = 195 000 samples are planned for a relative deviation of 1.
-        assert!((150_000..250_000).contains(&missing), "{missing}");
-    }
-
-    #[test]
-    fn a_constant_needs_hardly_any_samples() {
-        let report =
-            judge(Claim::value(0.5, Band::DOUBLE_MATH), &Effort::new(0.02), SEED, |_| 0.5 + 1e-9);
-        assert_eq!(report.verdict, Verdict::Pass);
-        assert!(report.samples < 10_000, "{report:?}");
-        let wrong = judge(Claim::value(0.5, Band::RADIANCE), &Effort::new(0.02), SEED, |_| 0.51);
-        assert_eq!(wrong.verdict, Verdict::Fail);
-    }
-
-    #[test]
-    fn a_black_core_fails() {
-        let report = judge(Claim::value(0.2, Band::RADIANCE), &Effort::new(0.02), SEED, |_| 0.0);
-        assert_eq!(report.verdict, Verdict::Fail);
-        assert_eq!(report.ratio, Some([0.0, 0.0]));
-    }
-
-    #[test]
-    fn one_nan_fails() {
-        let nan_once = |stream: &mut Stream| {
-            if uniform(stream) < 1e-3 { f64::NAN } else { 1.0 }
-        };
-        let report = judge(Claim::value(1.0, Band::RADIANCE), &Effort::new(0.02), SEED, nan_once);
-        assert_eq!(report.verdict, Verdict::Fail);
-    }
-
-    #[test]
-    fn a_light_hit_once_in_ten_thousand_samples_is_not_taken_for_darkness() {
-        let rare = |stream: &mut Stream| if uniform(stream) < 1e-4 { 1e4 } else { 0.0 };
-        for seed in 0..40 {
-            let effort = Effort::new(0.5).with_most_samples(20_000);
-            let report = judge(Claim::value(1.0, Band::RADIANCE), &effort, Seed(seed), rare);
-            assert_ne!(report.verdict, Verdict::Fail, "{report:?}");
-        }
-    }
-
-    #[test]
-    fn stratified_runs_pass_although_their_spread_is_far_below_the_theory_of_independent_samples() {
-        let claim = Claim::value(0.5, Band::RADIANCE).with_null_deviation(12f64.sqrt().recip());
-        let mut draw = |draw: Draw| {
-            let mut stream = draw.seed(SEED).stream();
-            let n = draw.samples as f64;
-            let strata = (0..draw.samples).map(|i| (i as f64 + uniform(&mut stream)) / n);
-            Ok::<_, Infallible>(vec![strata.sum::<f64>() / n])
-        };
-        let Ok(reports) = judge_means(&[claim], &Effort::new(0.02), &mut draw);
-        assert_eq!(reports[0].verdict, Verdict::Pass);
-    }
-
-    #[test]
-    fn claims_on_the_same_runs_are_judged_apart() {
-        let claims = [0.37, 0.53, 0.71].map(|albedo| Claim::value(albedo, Band::RADIANCE));
-        let mut draw = |draw: Draw| {
-            let mut stream = draw.seed(SEED).stream();
-            let mean = (0..draw.samples).map(|_| 2.0 * uniform(&mut stream)).sum::<f64>()
-                / draw.samples as f64;
-            Ok::<_, Infallible>(vec![0.37 * mean, 0.56 * mean, 0.71 * mean])
-        };
-        let Ok(reports) = judge_means(&claims, &Effort::new(0.02), &mut draw);
-        let verdicts = reports.iter().map(|report| report.verdict).collect::<Vec<_>>();
-        assert_eq!(verdicts, [Verdict::Pass, Verdict::Fail, Verdict::Pass]);
-    }
-
-    #[test]
-    fn the_error_of_a_core_is_passed_on() {
-        let mut draw = |_: Draw| Err::<Vec<f64>, _>("out of memory");
-        let answer = judge_means(&[Claim::value(1.0, Band::NONE)], &Effort::new(0.02), &mut draw);
-        assert_eq!(answer.unwrap_err(), "out of memory");
-    }
-
-    #[test]
-    fn every_run_has_its_own_seed() {
-        let at = |stage, attempt, run| Draw { stage, attempt, run, samples: 1 }.seed(SEED);
-        let mut seeds = Vec::new();
-        for stage in [Stage::Pilot, Stage::First, Stage::Second, Stage::Third] {
-            for attempt in 0..2 {
-                seeds.extend((0..64).map(|run| at(stage, attempt, run).0));
-            }
-        }
-        seeds.sort_unstable();
-        seeds.dedup();
-        assert_eq!(seeds.len(), 512);
-    }
-}
+mod tests;

@@ -49,7 +49,7 @@ pub struct MeanReport {
     pub interval: [f64; 2],
     /// `interval` divided by what was expected; none for the mean of a difference.
     pub ratio: Option<[f64; 2]>,
-    /// Every stage drawn; a clean claim has one.
+    /// Every stage drawn; a clean claim has one, one that was decided early has none.
     pub stages: Vec<StageScore>,
     /// The smallest relative error that would have been caught with probability 0.999.
     pub resolution: f64,
@@ -62,6 +62,9 @@ pub struct MeanReport {
     pub effective_samples: f64,
     /// What the first stage lacks, if inconclusive and more samples would help.
     pub samples_missing: Option<u64>,
+    /// Whether bets decided before the ladder was climbed: `mean` and the intervals are those of the
+    /// few runs it took, and hold at all times at once.
+    pub decided_early: bool,
     /// Probability that a correct core fails this claim, as entered in the ledger.
     pub false_alarm: f64,
 }

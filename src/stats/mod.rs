@@ -1,7 +1,7 @@
 //! How a verdict is reached. Every check decides here, and only here: no check types its own
 //! threshold.
 //!
-//! - [`judge_means`]: the three-stage ladder, the only way a mean can fail.
+//! - [`judge_means`]: the three-stage ladder; where a run is in a hurry, bets before it.
 //! - [`judge_counts`]: whether samples follow a density, by χ² on [`SphereCells`].
 //! - [`judge_image`]: whether a picture is its reference, by screening and confirming cells of five
 //!   sizes.
@@ -14,6 +14,7 @@
 //!
 //! Not here: how samples are drawn (`checks`), or what a failure means (`diagnosis`).
 
+mod betting;
 mod budget;
 #[cfg(test)]
 mod calibration;
@@ -30,6 +31,7 @@ mod ladder;
 mod ledger;
 mod mean_report;
 mod moments;
+mod noise;
 mod proportion;
 mod quantile;
 mod screen;
@@ -41,7 +43,8 @@ pub mod timing;
 mod trail;
 mod verdict;
 
-pub use budget::{Budget, Effort};
+pub use betting::{EARLY_FALSE_ALARM, Support};
+pub use budget::{Allowance, Budget, Effort};
 pub use cells::{Component, Extent, Scale};
 pub use chi_square::{
     COUNTS_FALSE_ALARM, CountSource, FEWEST_EXPECTED, judge_count_source, judge_counts,

@@ -1,9 +1,11 @@
 //! What the ladder remembers of one claim while it climbs.
 
+use super::betting::{EARLY_FALSE_ALARM, Wager};
 use super::ladder::{
     FEWEST_EFFECTIVE, LEAF_FALSE_ALARM, MISS_LEVEL, PILOT_EFFECTIVE, PLAN_MARGIN, PLANNED_SIGMAS,
     VARIANCE_GUARD,
 };
+use super::noise::{Noise, sample_variance};
 use super::{
     Claim, Effort, MeanReport, Moments, Stage, StageScore, Verdict, normal_upper, student_upper,
 };
@@ -28,30 +30,6 @@ enum Standing {
     NotFinite,
 }
 
-/// The variance of one sample, pooled over stages.
-#[derive(Clone, Copy, Debug, Default)]
-struct Noise {
-    freedom: f64,
-    weighted_variance: f64,
-}
-
-impl Noise {
-    fn take(&mut self, moments: &Moments, samples: u64) {
-        let freedom = (moments.count() - 1) as f64;
-        self.weighted_variance += freedom * sample_variance(moments, samples);
-        self.freedom += freedom;
-    }
-
-    fn variance(&self) -> f64 {
-        self.weighted_variance / self.freedom
-    }
-}
-
-/// The variance of one sample, from the spread of means over runs of `samples` in all.
-fn sample_variance(moments: &Moments, samples: u64) -> f64 {
-    moments.variance() * samples as f64 / moments.count() as f64
-}
-
 /// A claim and its history.
 pub(super) struct Trail {
     claim: Claim,
@@ -62,10 +40,19 @@ pub(super) struct Trail {
     noise: Noise,
     scores: Vec<StageScore>,
     standing: Standing,
+    /// Where early decisions are wanted.
+    wager: Option<Wager>,
+    /// What the bets have decided.
+    early: Option<Verdict>,
 }
 
 impl Trail {
-    pub(super) fn new(claim: Claim, level: f64) -> Self {
+    pub(super) fn new(claim: Claim, level: f64, effort: &Effort) -> Self {
+        let wager = effort.decides_early.then(|| Wager::on(&claim, effort.detects));
+        Self { wager, ..Self::without_bets(claim, level) }
+    }
+
+    fn without_bets(claim: Claim, level: f64) -> Self {
         Self {
             claim,
             level,
@@ -73,12 +60,38 @@ impl Trail {
             noise: Noise::default(),
             scores: Vec::new(),
             standing: Standing::Open,
+            wager: None,
+            early: None,
         }
+    }
+
+    /// Settles the bets on the mean of one more run.
+    pub(super) fn settle(&mut self, mean: f64, samples: u64) {
+        if let (Some(wager), None) = (&mut self.wager, self.early) {
+            wager.take(mean, samples);
+            self.early = wager.verdict();
+        }
+    }
+
+    /// Whether the bets have shown that the claim is false.
+    pub(super) fn is_lost(&self) -> bool {
+        self.early == Some(Verdict::Fail)
+    }
+
+    /// Whether the bets have shown that the claim holds as well as promised.
+    pub(super) fn is_won(&self) -> bool {
+        self.early == Some(Verdict::Pass)
+    }
+
+    pub(super) fn gains_by_opening(&self) -> bool {
+        self.wager.as_ref().is_some_and(Wager::wants_small_runs)
     }
 
     pub(super) fn takes_part_in(&self, stage: Stage) -> bool {
         match stage {
-            Stage::Pilot | Stage::First => self.standing == Standing::Open,
+            Stage::Opening | Stage::Pilot | Stage::First => {
+                self.standing == Standing::Open && self.early.is_none()
+            }
             Stage::Second | Stage::Third => matches!(self.standing, Standing::Suspected(_)),
         }
     }
@@ -114,9 +127,6 @@ impl Trail {
 
     /// Samples of a first stage that would see an error of `detects`.
     pub(super) fn needed_samples(&self, detects: f64) -> f64 {
-        if self.standing == Standing::NotFinite {
-            return 0.0;
-        }
         let variance = self.variance();
         let room = detects * self.claim.scale - self.claim.band_width();
         let for_noise = if room > 0.0 {
@@ -144,7 +154,7 @@ impl Trail {
             return Some(4 * samples);
         }
         let score = self.scored(stage, moments, samples);
-        let mut wiser = Self { scores: vec![score], ..Self::new(self.claim, self.level) };
+        let mut wiser = Self { scores: vec![score], ..Self::without_bets(self.claim, self.level) };
         wiser.noise = self.noise;
         wiser.noise.take(moments, samples);
         let blind = stage == Stage::First && !score.rejects && wiser.resolution() > effort.detects;
@@ -219,6 +229,37 @@ impl Trail {
 
     /// What came out.
     pub(super) fn report(&self, effort: &Effort, drawn: u64) -> MeanReport {
+        let report = self.ladder_report(effort, drawn);
+        match &self.wager {
+            None => report,
+            Some(wager) => self.with_bets(report, wager),
+        }
+    }
+
+    /// The same where bets were on. They have cost their share of the error budget whether or not
+    /// they decided; where no stage was climbed they are all that is known.
+    fn with_bets(&self, report: MeanReport, wager: &Wager) -> MeanReport {
+        let false_alarm = report.false_alarm + EARLY_FALSE_ALARM;
+        if !self.scores.is_empty() || self.standing == Standing::NotFinite {
+            return MeanReport { false_alarm, ..report };
+        }
+        let (mean, standard_error) = wager.mean();
+        let interval = wager.interval(2.0 * INTERVAL_LEVEL);
+        MeanReport {
+            verdict: self.early.unwrap_or(Verdict::Inconclusive),
+            mean,
+            standard_error,
+            interval,
+            ratio: self.ratio(interval),
+            resolution: if self.is_won() { report.detects } else { f64::INFINITY },
+            samples_missing: None,
+            decided_early: self.early.is_some(),
+            false_alarm,
+            ..report
+        }
+    }
+
+    fn ladder_report(&self, effort: &Effort, drawn: u64) -> MeanReport {
         let last = self.scores.last();
         let first_samples = self.scores.first().map_or(0, |score| score.samples);
         let mean = last.map_or(f64::NAN, |score| score.mean);
@@ -249,6 +290,7 @@ impl Trail {
             samples: drawn,
             effective_samples,
             samples_missing: self.missing(verdict, effort, first_samples),
+            decided_early: false,
             false_alarm: LEAF_FALSE_ALARM,
         }
     }

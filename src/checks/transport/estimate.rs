@@ -5,7 +5,7 @@ use crate::contract::{
     BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray, Result, Roulette,
 };
 use crate::math::rng::Seed;
-use crate::stats::{Budget, Effort, MeanReport};
+use crate::stats::{Allowance, Effort, MeanReport};
 use crate::text::{Count, Percent};
 use glam::DVec3;
 use serde::Deserialize;
@@ -40,9 +40,9 @@ impl RayEntry {
     }
 }
 
-/// How small an error must be seen, and what it may cost: the effort under a budget.
-pub fn effort(detects: Percent, at_most: Count, budget: Budget) -> Effort {
-    budget.scale(Effort::new(detects.0).with_most_samples(at_most.0))
+/// How small an error must be seen, and what it may cost: the effort under an allowance.
+pub fn effort(detects: Percent, at_most: Count, allowance: Allowance) -> Effort {
+    allowance.scale(Effort::new(detects.0).with_most_samples(at_most.0))
 }
 
 /// `{ stop = 0.35, guaranteed = 1 }`
@@ -131,7 +131,7 @@ pub fn measure(name: String, report: &MeanReport) -> Measure {
         expected: report.expected,
         allowed: report.band,
         interval: Some(report.interval),
-        resolution: Some(report.resolution),
+        resolution: Some(report.resolution).filter(|resolution| resolution.is_finite()),
         verdict: report.verdict,
     }
 }

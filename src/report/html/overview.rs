@@ -80,9 +80,13 @@ fn unfinished(view: &View<'_>) -> Markup {
     html! {
         @if !view.tree.is_finished() {
             div.card.notice {
-                strong { "This run did not come to its end." }
+                @if view.tree.stopped_at_failure() {
+                    strong { "This run stopped at the first failure." }
+                } @else {
+                    strong { "This run did not come to its end." }
+                }
                 " " (present) " of " (planned) " planned trials have a result; "
-                "nothing is known about the others."
+                "nothing is known about the others, which were not run."
                 (command(&format!("cargo furnace run --resume {}", view.tree.folder.display())))
             }
         }

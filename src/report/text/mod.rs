@@ -152,13 +152,17 @@ fn totals(tree: &RunTree, style: Style) -> Vec<String> {
     lines
 }
 
-/// That a run was cut off, and how to go on.
+/// That a run was cut off or stopped, and how to go on.
 fn unfinished(tree: &RunTree, style: Style) -> Vec<String> {
     if tree.is_finished() {
         return Vec::new();
     }
     let (present, planned) = (tree.trials.len(), tree.run.trials);
-    let what = format!("  UNFINISHED: {present} of {planned} planned trials have a result");
+    let what = if tree.stopped_at_failure() {
+        format!("  NOT RUN: {} of {planned} trials, after the first failure", tree.missing())
+    } else {
+        format!("  UNFINISHED: {present} of {planned} planned trials have a result")
+    };
     let next = format!("  go on   cargo furnace run --resume {}", tree.folder.display());
     vec![style.paint(Paint::Unknown, &what), next]
 }

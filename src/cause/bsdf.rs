@@ -34,5 +34,22 @@ pub static COSINE_IN_F: Cause = Cause {
     remedy: "f is without the cosine; the integrator multiplies it.",
 };
 
+/// See its headline.
+pub static F_OVER_COSINE: Cause = Cause {
+    name: "f-over-cosine",
+    headline: "f of the diffuse surface is divided by the cosine, as only a mirror's is",
+    look_at: "f of the diffuse surface",
+    remedy: "f = albedo / π, the same in all directions.",
+};
+
+/// See its headline.
+pub static ALBEDO_DOUBLED: Cause = Cause {
+    name: "albedo-doubled",
+    headline: "f of the diffuse surface is twice what it should be",
+    look_at: "f of the diffuse surface",
+    remedy: "f = albedo / π.",
+};
+
 /// Every cause of this part.
-pub static CAUSES: &[&Cause] = &[&WITHOUT_PI, &ALBEDO_HALVED, &WITH_PI, &COSINE_IN_F];
+pub static CAUSES: &[&Cause] =
+    &[&WITHOUT_PI, &ALBEDO_HALVED, &WITH_PI, &COSINE_IN_F, &F_OVER_COSINE, &ALBEDO_DOUBLED];

@@ -90,6 +90,22 @@ pub static ONE_NUMBER_TWICE: Cause = Cause {
     remedy: "Draw a number of its own for each coordinate.",
 };
 
+/// See its headline.
+pub static DENSITY_BELOW_HORIZON: Cause = Cause {
+    name: "density-below-horizon",
+    headline: "the density is not 0 below the horizon, where nothing is drawn",
+    look_at: "the sampler, where the pdf is written",
+    remedy: "Answer 0 for directions with cos θ ≤ 0.",
+};
+
+/// See its headline.
+pub static DENSITY_INVERTED: Cause = Cause {
+    name: "density-inverted",
+    headline: "the density is upside down: 2π or π stands where its reciprocal belongs",
+    look_at: "the sampler, where the pdf is written",
+    remedy: "A uniform density is one over the area it covers: 1/2π for the hemisphere.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &DENSITY_OF_OTHER_SAMPLER,
@@ -103,4 +119,6 @@ pub static CAUSES: &[&Cause] = &[
     &THETA_UNIFORM,
     &HALF_OF_AZIMUTHS,
     &ONE_NUMBER_TWICE,
+    &DENSITY_BELOW_HORIZON,
+    &DENSITY_INVERTED,
 ];

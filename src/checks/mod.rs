@@ -10,6 +10,7 @@ pub mod camera;
 mod context;
 pub mod convergence;
 mod finding;
+mod form;
 pub mod light;
 mod phrase;
 pub mod picture;

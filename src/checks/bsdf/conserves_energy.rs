@@ -1,5 +1,7 @@
 //! The albedo of a surface: never above one, and what its parameters say it is.
 
+use crate::cause::{Cause, bsdf};
+use crate::checks::form::Form;
 use crate::checks::phrase::{figure, would_have_caught};
 use crate::checks::surface::{SurfaceEntry, seen_from};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -7,11 +9,15 @@ use crate::contract::{BsdfQuery, BsdfValue, Capabilities, SmithTerm};
 use crate::math::closed_form::microfacet::{self, Masking};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
+use crate::math::sphere::on_hemisphere;
 use crate::scene::Surface;
 use crate::stats::{SphereCells, Tolerance, Verdict};
 use crate::text::Angle;
 use serde::Deserialize;
+use std::f64::consts::{FRAC_1_PI, PI};
 
+/// Pairs of directions at which f is looked at.
+const DIRECTIONS: usize = 200;
 /// Rings in each hemisphere and sectors of the quadrature.
 const CELLS: (usize, usize) = (4, 8);
 
@@ -53,9 +59,58 @@ impl Check for ConservesEnergy {
             || format!("{} albedos are what they should be", measures.len()),
             complaint,
         );
+        let causes = match worst {
+            Some(_) => self.mistakes(context)?,
+            None => Vec::new(),
+        };
         let resolution = would_have_caught(&measures);
-        Ok(Finding::of(statement, resolution, measures))
+        Ok(Finding::of(statement, resolution, measures)
+            .because_each(causes, &format!("predicts f at {DIRECTIONS} pairs of directions")))
     }
+}
+
+impl ConservesEnergy {
+    /// What is wrong with diffuse surfaces, if it is the same with all of them.
+    fn mistakes(&self, context: &mut Context<'_>) -> Result<Vec<&'static Cause>, CheckError> {
+        let mut causes = Vec::new();
+        for surface in &self.surface {
+            if let Surface::Diffuse { reflectance } = surface.material().surface {
+                let form = form_of_value(context, *surface, reflectance[1])?;
+                causes.extend(form.and_then(mistake));
+            }
+        }
+        causes.dedup();
+        Ok(if causes.len() == 1 { causes } else { Vec::new() })
+    }
+}
+
+/// f as a share of albedo/π.
+fn form_of_value(
+    context: &mut Context<'_>,
+    surface: SurfaceEntry,
+    albedo: f64,
+) -> Result<Option<Form>, CheckError> {
+    let mut stream = context.seed.child("form of a value").stream();
+    let mut direction = || on_hemisphere(&mut stream);
+    let queries: Vec<_> =
+        (0..DIRECTIONS).map(|_| BsdfQuery { wo: direction(), wi: direction() }).collect();
+    let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
+    context.core.eval_bsdf(&surface.material(), &queries, &mut values)?;
+    let share = |(query, value): (&BsdfQuery, &BsdfValue)| (value.f[1] * PI / albedo, query.wi.z);
+    Ok(Form::of(&queries.iter().zip(&values).map(share).collect::<Vec<_>>()))
+}
+
+/// The mistake that makes f this share of albedo/π.
+fn mistake(share: Form) -> Option<&'static Cause> {
+    let made: [(Form, &Cause); 6] = [
+        (Form::constant(PI), &bsdf::WITHOUT_PI),
+        (Form::constant(0.5), &bsdf::ALBEDO_HALVED),
+        (Form::constant(2.0), &bsdf::ALBEDO_DOUBLED),
+        (Form::constant(FRAC_1_PI), &bsdf::WITH_PI),
+        (Form { constant: 1.0, power: 1 }, &bsdf::COSINE_IN_F),
+        (Form { constant: 1.0, power: -1 }, &bsdf::F_OVER_COSINE),
+    ];
+    made.into_iter().find(|(form, _)| share.is_like(*form)).map(|(_, cause)| cause)
 }
 
 fn complaint(measure: &Measure) -> String {
@@ -130,7 +185,11 @@ mod tests {
 
     #[test]
     fn a_missing_pi_is_named() {
-        assert!(failure(&found(std::f64::consts::PI)).contains("(π)"));
+        let finding = found(PI);
+        assert!(failure(&finding).contains("(π)"));
+        assert_eq!(finding.clues[0].cause, "brdf-without-pi");
+        assert_eq!(found(0.5).clues[0].cause, "albedo-halved");
+        assert!(found(1.1).clues.is_empty());
     }
 
     #[test]

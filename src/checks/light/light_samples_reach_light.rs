@@ -3,6 +3,8 @@
 //! Two means need no BSDF and no shadow ray: the mean of 1/pdf is the solid angle of the light, that of cos/pdf is π
 //! times its form factor. A wrong Jacobian from area to solid angle shows in both.
 
+use super::density::{self, Geometry, area_of};
+use crate::cause;
 use crate::checks::phrase::{mean_measure, some_are, worst_measure, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, Hit, LightSample, Randomness, Ray};
@@ -61,11 +63,13 @@ impl Check for LightSamplesReachLight {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let light = the_area_light(&scene)?;
+        let area = area_of(&scene, light.1);
         let (seed, precision) = (context.seed, context.info.precision);
         let effort = crate::stats::Effort::new(self.detects.0).with_most_samples(self.at_most.0);
         let effort = context.budget.scale(effort);
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let (mut measures, mut complaints, mut spent) = (Vec::new(), Vec::new(), 0.0);
+        let (mut met, mut shines_backwards) = (Vec::new(), false);
         for (number, point) in self.point.iter().enumerate() {
             let seed = seed.child(number);
             let label = format!("point {}", number + 1);
@@ -73,8 +77,10 @@ impl Check for LightSamplesReachLight {
             measures.push(traced.reached(&label, Tolerance::INTERSECTION.of(precision)));
             if point.form_factor == 0.0 {
                 measures.push(traced.dark(&label));
+                shines_backwards |= !traced.samples.is_empty();
                 continue;
             }
+            met.extend(area.into_iter().flat_map(|area| traced.geometry(area, point)));
             let claims = point.claims(Band::math(precision));
             let plain: Vec<_> = claims.iter().map(|(_, claim)| *claim).collect();
             let reports = judge_means(&plain, &effort, &mut |draw| {
@@ -89,6 +95,9 @@ impl Check for LightSamplesReachLight {
         }
         let failed = measures.iter().find(|m| m.verdict == Verdict::Fail && m.interval.is_none());
         complaints.extend(failed.map(|measure| measure.name.clone()));
+        let backwards = shines_backwards.then_some(&cause::light::LIGHT_SHINES_BACKWARDS);
+        let off = measures.iter().any(|m| m.verdict == Verdict::Fail && m.interval.is_some());
+        let density = if off { density::mistake(&met) } else { None };
         let statement = match complaints.is_empty() {
             true => "samples reach the light with the density they say".to_owned(),
             false => complaints.join("; "),
@@ -98,7 +107,10 @@ impl Check for LightSamplesReachLight {
             true => format!("would have caught one wrong sample among {TRACED}"),
             false => resolution,
         };
-        Ok(Finding::of(statement, resolution, measures).spending(spent))
+        Ok(Finding::of(statement, resolution, measures)
+            .spending(spent)
+            .because_each(backwards, "there are lit samples where the light looks away")
+            .because_each(density, &format!("predicts the densities of {} samples", met.len())))
     }
 }
 
@@ -223,6 +235,12 @@ impl Traced {
                 0.0,
             ),
         }
+    }
+
+    /// Of the samples that met the light.
+    fn geometry(&self, area: f64, point: &Point) -> Vec<(Geometry, f64)> {
+        let normal = DVec3::from_array(point.normal);
+        Geometry::of(area, normal, &self.samples, &self.hits)
     }
 
     /// A light that looks away sends nothing.

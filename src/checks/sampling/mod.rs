@@ -1,5 +1,6 @@
 //! Samplers of directions, those of BSDFs included, against the densities they claim.
 
+mod density;
 mod distribution;
 #[cfg(test)]
 mod fake;

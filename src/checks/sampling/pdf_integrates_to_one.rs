@@ -1,6 +1,8 @@
 //! A density integrates to one; where samples may fail, to the share of those that do not.
 
+use super::density::Density;
 use super::distribution::{Distribution, DistributionEntry};
+use crate::cause::Cause;
 use crate::checks::phrase::{figure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::Capabilities;
@@ -46,7 +48,10 @@ impl Check for PdfIntegratesToOne {
         };
         let spent = masses.iter().map(Mass::false_alarm).sum();
         let resolution = would_have_caught(&measures);
-        Ok(Finding::of(statement, resolution, measures).spending(spent))
+        let causes = masses.iter().filter_map(|mass| mass.cause);
+        Ok(Finding::of(statement, resolution, measures)
+            .spending(spent)
+            .because_each(causes, "has the form of the density at 200 directions"))
     }
 }
 
@@ -66,6 +71,7 @@ struct Mass {
     allowed: f64,
     /// Where samples may fail and some have to: the share of those that succeed.
     accepted: Option<ShareReport>,
+    cause: Option<&'static Cause>,
 }
 
 impl Mass {
@@ -86,7 +92,14 @@ impl Mass {
             true => Some(accepted_share(context, distribution, value)?),
             false => None,
         };
-        Ok(Self { name: distribution.name(), value, error, allowed, accepted })
+        let cause = Density::of(context.core, distribution)?.and_then(Density::mistake);
+        Ok(Self { name: distribution.name(), value, error, allowed, accepted, cause }.named())
+    }
+
+    /// Without a cause where nothing is wrong.
+    fn named(self) -> Self {
+        let cause = self.cause.filter(|_| self.complaint().is_some());
+        Self { cause, ..self }
     }
 
     fn measures(&self) -> Vec<Measure> {

@@ -3,7 +3,10 @@
 //! No statistics: wherever the map from the unit square is smooth, how much it stretches area is the reciprocal of
 //! the density (an idea seen in the tests of lajolla). Needs a core that samples with the caller's numbers.
 
+use super::density::{Density, Law};
 use super::distribution::{Distribution, DistributionEntry, Drawn, random_numbers};
+use crate::cause::Cause;
+use crate::checks::form::Form;
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Precision, Randomness};
@@ -18,8 +21,6 @@ const POINTS: usize = 2000;
 const FEWEST_POINTS: usize = POINTS / 10;
 /// Points lie on a grid of this step, so that single precision holds them and their neighbours.
 const GRID: f64 = 1.0 / 1_048_576.0;
-/// A product that varies less than this is a constant factor, relative.
-const CONSTANT: f64 = 0.02;
 
 /// Density times Jacobian is 1.
 #[derive(Clone, Debug, Deserialize)]
@@ -54,7 +55,9 @@ impl Check for SampleJacobian {
         };
         let allowed = Tolerance::JACOBIAN_MEDIAN.of(context.info.precision);
         let resolution = format!("would have caught a factor of 1 ± {}", figure(allowed));
-        Ok(Finding::of(statement, resolution, measures))
+        let causes = products.iter().filter_map(Products::cause);
+        Ok(Finding::of(statement, resolution, measures)
+            .because_each(causes, "predicts density and Jacobian at nearly all points"))
     }
 }
 
@@ -72,6 +75,7 @@ struct Products {
     /// (product, cos θ), sorted by product; points whose neighbours fail are left out.
     values: Vec<(f64, f64)>,
     precision: Precision,
+    density: Option<Density>,
 }
 
 impl Products {
@@ -101,7 +105,8 @@ impl Products {
         };
         let mut values: Vec<_> = (0..points.len()).filter_map(product).collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(Self { name: distribution.name(), values, precision })
+        let density = Density::of(context.core, distribution)?;
+        Ok(Self { name: distribution.name(), values, precision, density })
     }
 
     /// The error that this share of the points does not exceed.
@@ -127,33 +132,43 @@ impl Products {
         measures
     }
 
+    fn fails(&self) -> bool {
+        self.measures().iter().any(|measure| measure.verdict == Verdict::Fail)
+    }
+
     fn complaint(&self) -> Option<String> {
-        let failed = self.measures().iter().any(|measure| measure.verdict == Verdict::Fail);
-        failed.then(|| format!("{}: density times Jacobian is {}", self.name, self.factor()))
+        self.fails().then(|| format!("{}: density times Jacobian is {}", self.name, self.factor()))
+    }
+
+    /// A wrong density, or else a wrong map.
+    fn cause(&self) -> Option<&'static Cause> {
+        let density = self.density.filter(|_| self.fails())?;
+        density.mistake().or_else(|| density.mistake_of_map(self.law(density)?))
+    }
+
+    fn law(&self, density: Density) -> Option<Law> {
+        if self.error_of_share(0.5) > 0.99 && self.values.iter().all(|(value, _)| *value < 0.01) {
+            return Some(Law::Line);
+        }
+        density.law_of_product(Form::of(&self.values)?)
     }
 
     /// The product as a constant, as a constant times a power of the cosine, or by its range.
     fn factor(&self) -> String {
-        let powers = [(0, ""), (1, " cos θ"), (-1, " / cos θ"), (2, " cos² θ"), (-2, " / cos² θ")];
-        for (power, words) in powers {
-            if let Some(constant) = self.constant_times_cosine(power) {
-                return format!("{}{words} instead of 1", named(constant));
-            }
+        if let Some(Form { constant, power }) = Form::of(&self.values) {
+            let words = match power {
+                1 => " cos θ",
+                -1 => " / cos θ",
+                2 => " cos² θ",
+                -2 => " / cos² θ",
+                _ => "",
+            };
+            return format!("{}{words} instead of 1", named(constant));
         }
         let [low, high] = [0.05, 0.95].map(|share| {
             self.values.get((share * self.values.len() as f64) as usize).map_or(f64::NAN, |v| v.0)
         });
         format!("between {} and {} instead of 1", figure(low), figure(high))
-    }
-
-    /// c, if nearly all products are c cosᵖ θ.
-    fn constant_times_cosine(&self, power: i32) -> Option<f64> {
-        let mut constants: Vec<_> =
-            self.values.iter().map(|(value, cosine)| value / cosine.abs().powi(power)).collect();
-        constants.sort_by(f64::total_cmp);
-        let at = |share: f64| constants.get((share * constants.len() as f64) as usize).copied();
-        let (low, middle, high) = (at(0.05)?, at(0.5)?, at(0.95)?);
-        (high - low <= CONSTANT * middle.abs()).then_some(middle)
     }
 }
 
@@ -178,8 +193,16 @@ mod tests {
         judge(&check, &mut FakeSampler { map, density })
     }
 
-    fn statement(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> String {
-        failure(&found(map, density)).to_owned()
+    /// The statement and the first clue.
+    fn named(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> (String, String) {
+        let finding = found(map, density);
+        let clue = finding.clues.first().map_or_else(String::new, |clue| clue.cause.clone());
+        (failure(&finding).to_owned(), clue)
+    }
+
+    fn assert_named(found: (String, String), statement: &str, clue: &str) {
+        assert!(found.0.ends_with(statement), "{found:?}");
+        assert_eq!(found.1, clue);
     }
 
     #[test]
@@ -190,19 +213,21 @@ mod tests {
 
     #[test]
     fn a_missing_one_over_pi_is_a_constant_factor() {
-        assert!(statement(cosine, |d| d.z).ends_with("is π instead of 1"));
+        assert_named(named(cosine, |d| d.z.max(0.0)), "is π instead of 1", "density-without-pi");
     }
 
     #[test]
     fn the_wrong_density_for_the_map_is_a_cosine() {
-        assert!(statement(cosine, uniform_density).ends_with("is 1/2 / cos θ instead of 1"));
-        assert!(statement(uniform, cosine_density).ends_with("is 2 cos θ instead of 1"));
+        let wrong_density = named(cosine, uniform_density);
+        assert_named(wrong_density, "is 1/2 / cos θ instead of 1", "uniform-density-for-cosine");
+        let wrong_map = named(uniform, cosine_density);
+        assert_named(wrong_map, "is 2 cos θ instead of 1", "uniform-for-cosine");
     }
 
     #[test]
     fn half_of_the_azimuths_is_a_factor_of_one_half() {
         let half = |p: DVec2| Some(at_height((1.0 - p.x).sqrt(), 0.5 * TAU * p.y));
-        assert!(statement(half, cosine_density).ends_with("is 1/2 instead of 1"));
+        assert_named(named(half, cosine_density), "is 1/2 instead of 1", "half-of-azimuths");
     }
 
     #[test]

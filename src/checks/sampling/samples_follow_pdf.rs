@@ -1,6 +1,8 @@
 //! Samples fall where the density says, by χ² on cells of the sphere; failed samples are a cell of their own.
 
+use super::density::{Density, Law};
 use super::distribution::{Distribution, DistributionEntry, Drawn};
+use crate::cause::Cause;
 use crate::checks::phrase::{figure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Core};
@@ -54,7 +56,8 @@ impl Check for SamplesFollowPdf {
             let mut source = Source { core, distribution: &distribution, seed, cells: None };
             let report = judge_count_source(&effort, &mut source)?;
             let cells = source.cells.unwrap_or_else(|| cells(0.0));
-            judged.push(Judged { name: distribution.name(), report, cells });
+            let density = Density::of(context.core, &distribution)?;
+            judged.push(Judged { name: distribution.name(), report, cells, density });
         }
         Ok(finding(&judged))
     }
@@ -106,6 +109,7 @@ struct Judged {
     name: String,
     report: CountReport,
     cells: SphereCells,
+    density: Option<Density>,
 }
 
 fn finding(judged: &[Judged]) -> Finding {
@@ -120,7 +124,10 @@ fn finding(judged: &[Judged]) -> Finding {
     };
     let spent = judged.iter().map(|judged| judged.report.false_alarm).sum();
     let resolution = would_have_caught(&measures) + " of a density, root mean square";
-    Finding::of(statement, resolution, measures).spending(spent)
+    let causes = judged.iter().filter_map(Judged::cause);
+    Finding::of(statement, resolution, measures)
+        .spending(spent)
+        .because_each(causes, "predicts the counts of samples in all rings")
 }
 
 impl Judged {
@@ -167,7 +174,7 @@ impl Judged {
         }
         let words = format!("samples do not follow the density, {} off", percent(self.error()));
         match self.law() {
-            Some(law) => format!("{words}; they are {law}"),
+            Some(law) => format!("{words}; they are {}", law.words),
             None => format!("{words}; {}", self.worst_cell()),
         }
     }
@@ -213,7 +220,7 @@ impl Judged {
     }
 
     /// The well-known law that the samples follow instead, if there is one.
-    fn law(&self) -> Option<&'static str> {
+    fn law(&self) -> Option<&'static LawOfHeights> {
         let sectors = self.cells.sector_count();
         let rings: Vec<u64> =
             self.report.observed.chunks(sectors).map(|ring| ring.iter().sum()).collect();
@@ -221,28 +228,43 @@ impl Judged {
             self.report.observed.iter().skip(sector).step_by(sectors).all(|count| *count == 0)
         };
         if (0..sectors).any(empty) {
-            return Some("nowhere in a part of the azimuths");
+            return Some(&IN_PART_OF_THE_AZIMUTHS);
         }
         // The first ring is all below the horizon.
-        LAWS.iter().find(|law| follows(law.below, &rings[1..])).map(|law| law.words)
+        LAWS.iter().find(|law| follows(law.below, &rings[1..]))
+    }
+
+    /// A wrong density, or else a wrong map.
+    fn cause(&self) -> Option<&'static Cause> {
+        let density = self.density.filter(|_| self.report.verdict == Verdict::Fail)?;
+        density.mistake().or_else(|| density.mistake_of_map(self.law()?.law?))
     }
 }
 
 /// A law of heights: the share of samples below z.
-struct Law {
+struct LawOfHeights {
     words: &'static str,
     below: fn(f64) -> f64,
+    /// As causes know it.
+    law: Option<Law>,
 }
 
-const LAWS: &[Law] = &[
-    Law { words: "uniform over the hemisphere", below: |z| z },
-    Law { words: "distributed as cos θ", below: |z| z * z },
-    Law { words: "distributed as cos² θ", below: |z| z * z * z },
-    Law {
+static LAWS: &[LawOfHeights] = &[
+    LawOfHeights { words: "uniform over the hemisphere", below: |z| z, law: Some(Law::Uniform) },
+    LawOfHeights { words: "distributed as cos θ", below: |z| z * z, law: Some(Law::Cosine) },
+    LawOfHeights { words: "distributed as cos² θ", below: |z| z * z * z, law: None },
+    LawOfHeights {
         words: "uniform in the angle θ, too dense at the pole",
         below: |z| 1.0 - FRAC_2_PI * z.acos(),
+        law: Some(Law::ThetaUniform),
     },
 ];
+
+static IN_PART_OF_THE_AZIMUTHS: LawOfHeights = LawOfHeights {
+    words: "nowhere in a part of the azimuths",
+    below: |z| z,
+    law: Some(Law::PartOfAzimuths),
+};
 
 /// Whether counts in rings of equal height fit a law.
 fn follows(below: fn(f64) -> f64, rings: &[u64]) -> bool {
@@ -290,6 +312,8 @@ mod tests {
     #[test]
     fn other_laws_are_named() {
         assert!(statement(uniform).ends_with("they are uniform over the hemisphere"));
+        assert_eq!(found(SAMPLER, uniform).clues[0].cause, "uniform-for-cosine");
+        assert_eq!(found(SURFACE, uniform).clues[0].cause, "cosine-density-for-uniform");
         let theta = |p: DVec2| Some(crate::math::frame::direction(0.25 * TAU * p.x, TAU * p.y));
         assert!(statement(theta).contains("uniform in the angle θ"), "{}", statement(theta));
         let half = |p: DVec2| Some(at_height((1.0 - p.x).sqrt(), 0.5 * TAU * p.y));

@@ -1,0 +1,143 @@
+//! Wrong densities and wrong maps, recognised by what they are to the right ones.
+
+use super::distribution::Distribution;
+use crate::cause::{Cause, sampling};
+use crate::checks::form::Form;
+use crate::contract::{Core, Result, Sampler};
+use crate::math::rng::Seed;
+use crate::math::sphere::on_hemisphere;
+use crate::scene::Surface;
+use std::f64::consts::{PI, TAU};
+
+/// Directions at which a density is looked at.
+const DIRECTIONS: usize = 200;
+
+/// What a distribution may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Wanted {
+    Uniform,
+    Cosine,
+    /// A diffuse surface may draw as it likes, if only it says so.
+    Either,
+}
+
+impl Wanted {
+    fn of(distribution: &Distribution) -> Option<Self> {
+        match distribution {
+            Distribution::Sampler(Sampler::UniformHemisphere) => Some(Self::Uniform),
+            Distribution::Sampler(Sampler::CosineHemisphere) => Some(Self::Cosine),
+            Distribution::Bsdf { material, .. } => {
+                matches!(material.surface, Surface::Diffuse { .. }).then_some(Self::Either)
+            }
+        }
+    }
+}
+
+/// The form of the core's density over the upper hemisphere, and whether it is 0 below.
+#[derive(Clone, Copy, Debug)]
+pub struct Density {
+    wanted: Wanted,
+    form: Option<Form>,
+    is_dark_below: bool,
+}
+
+impl Density {
+    /// Asks the core. None for distributions whose density is no simple one.
+    ///
+    /// # Errors
+    /// If the core does not answer.
+    pub fn of(core: &mut dyn Core, distribution: &Distribution) -> Result<Option<Self>> {
+        let Some(wanted) = Wanted::of(distribution) else { return Ok(None) };
+        let mut stream = Seed::SUITE.child("form of a density").stream();
+        let above: Vec<_> = (0..DIRECTIONS).map(|_| on_hemisphere(&mut stream)).collect();
+        let below: Vec<_> = above.iter().map(|direction| -*direction).collect();
+        let (mut pdf, mut pdf_below) = (vec![0.0; above.len()], vec![0.0; below.len()]);
+        distribution.pdf(core, &above, &mut pdf)?;
+        distribution.pdf(core, &below, &mut pdf_below)?;
+        let values: Vec<_> = pdf.iter().zip(&above).map(|(pdf, wi)| (*pdf, wi.z)).collect();
+        let is_dark_below = pdf_below.iter().all(|pdf| *pdf == 0.0);
+        Ok(Some(Self { wanted, form: Form::of(&values), is_dark_below }))
+    }
+
+    /// The mistake that makes such a density, whatever is drawn.
+    pub fn mistake(self) -> Option<&'static Cause> {
+        let form = self.form?;
+        let right = match (self.wanted, form.power) {
+            (Wanted::Uniform, _) | (Wanted::Either, 0) => Form::UNIFORM,
+            (Wanted::Cosine, _) | (Wanted::Either, _) => Form::COSINE,
+        };
+        let is = |factor| form.is_times(factor, right);
+        if form.is_like(right) {
+            (!self.is_dark_below).then_some(&sampling::DENSITY_BELOW_HORIZON)
+        } else if is(PI) {
+            Some(&sampling::DENSITY_WITHOUT_PI)
+        } else if is(0.5) {
+            Some(&sampling::DENSITY_HALVED)
+        } else if is(2.0) {
+            Some(&sampling::DENSITY_DOUBLED)
+        } else if is(TAU * TAU) || is(PI * PI) {
+            Some(&sampling::DENSITY_INVERTED)
+        } else if form.is_like(Form::UNIFORM) {
+            Some(&sampling::UNIFORM_DENSITY_FOR_COSINE)
+        } else if form.is_like(Form::COSINE) {
+            Some(&sampling::COSINE_DENSITY_FOR_UNIFORM)
+        } else {
+            None
+        }
+    }
+
+    /// The mistake that draws directions by this law of heights, where the density is right in itself.
+    pub fn mistake_of_map(self, law: Law) -> Option<&'static Cause> {
+        let is_uniform = self.form?.is_like(Form::UNIFORM);
+        match (law, self.wanted) {
+            (Law::PartOfAzimuths, _) => Some(&sampling::HALF_OF_AZIMUTHS),
+            (Law::ThetaUniform, _) => Some(&sampling::THETA_UNIFORM),
+            (Law::Line, _) => Some(&sampling::ONE_NUMBER_TWICE),
+            (Law::Uniform, Wanted::Cosine) => Some(&sampling::UNIFORM_FOR_COSINE),
+            (Law::Cosine, Wanted::Uniform) => Some(&sampling::COSINE_FOR_UNIFORM),
+            (Law::Uniform, Wanted::Either) if !is_uniform => {
+                Some(&sampling::COSINE_DENSITY_FOR_UNIFORM)
+            }
+            (Law::Cosine, Wanted::Either) if is_uniform => {
+                Some(&sampling::UNIFORM_DENSITY_FOR_COSINE)
+            }
+            _ => None,
+        }
+    }
+
+    /// The law of heights that gives this product of density and Jacobian.
+    pub fn law_of_product(self, product: Form) -> Option<Law> {
+        let density = self.form?;
+        let jacobian = Form {
+            constant: product.constant / density.constant,
+            power: product.power - density.power,
+        };
+        let is = |right: Form| {
+            jacobian.is_times(1.0, Form { constant: right.constant.recip(), power: -right.power })
+        };
+        if is(Form::UNIFORM) {
+            Some(Law::Uniform)
+        } else if is(Form::COSINE) {
+            Some(Law::Cosine)
+        } else if product.constant < 0.75 && product.power == 0 {
+            Some(Law::PartOfAzimuths)
+        } else {
+            None
+        }
+    }
+}
+
+/// How the directions of a sampler are distributed, whatever its density says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law {
+    /// Over the hemisphere.
+    Uniform,
+    /// As cos θ.
+    Cosine,
+    /// Uniform in the angle θ.
+    ThetaUniform,
+    /// Nowhere in a part of the azimuths.
+    PartOfAzimuths,
+    /// Along a line.
+    Line,
+}

@@ -6,6 +6,7 @@ pub mod checks;
 pub mod cli;
 pub mod contract;
 pub mod cores;
+pub mod diagnosis;
 pub mod image;
 pub mod math;
 pub mod project;

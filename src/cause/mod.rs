@@ -10,6 +10,7 @@ pub mod adaptive;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
+pub mod convention;
 pub mod light;
 pub mod picture;
 pub mod sampling;
@@ -33,6 +34,7 @@ pub struct Cause {
 /// Every cause, part by part, in the order in which one part rests on another.
 pub fn all() -> impl Iterator<Item = &'static Cause> {
     let parts = [
+        convention::CAUSES,
         camera::CAUSES,
         shape::CAUSES,
         slab::CAUSES,

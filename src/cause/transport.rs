@@ -10,5 +10,142 @@ pub static ROULETTE_NOT_DIVIDED: Cause = Cause {
     remedy: "Divide by the probability of going on.",
 };
 
+/// See its headline.
+pub static ONE_BOUNCE_SHORT: Cause = Cause {
+    name: "one-bounce-short",
+    headline: "paths end one bounce too early",
+    look_at: "indirect light, where the depth is compared with the last bounce asked for",
+    remedy: "Bounce m is light that was scattered m times: count the first hit as depth 1.",
+};
+
+/// See its headline.
+pub static ONE_BOUNCE_LONG: Cause = Cause {
+    name: "one-bounce-long",
+    headline: "paths go one bounce too far",
+    look_at: "indirect light, where the depth is compared with the last bounce asked for",
+    remedy: "Bounce m is light that was scattered m times: stop when m vertices were reached.",
+};
+
+/// See its headline.
+pub static ALBEDO_TWICE: Cause = Cause {
+    name: "albedo-twice",
+    headline: "the albedo is multiplied in twice at every bounce",
+    look_at: "indirect light, where the throughput is updated",
+    remedy: "throughput ← throughput · f · cos θ / pdf, once a bounce.",
+};
+
+/// See its headline.
+pub static ALBEDO_FORGOTTEN: Cause = Cause {
+    name: "throughput-not-multiplied",
+    headline: "the throughput is not multiplied by f cos θ / pdf",
+    look_at: "indirect light, where the recursion returns or the throughput is updated",
+    remedy: "throughput ← throughput · f · cos θ / pdf, once a bounce.",
+};
+
+/// See its headline.
+pub static EMISSION_AGAIN: Cause = Cause {
+    name: "emission-added-again",
+    headline: "emission met by a bounce is added although the light was sampled already",
+    look_at: "indirect light, where the next hit's own glow is added",
+    remedy: "Add emission at the first hit and after mirror or glass only; elsewhere light sampling has counted it.",
+};
+
+/// See its headline.
+pub static NO_INDIRECT: Cause = Cause {
+    name: "no-indirect-light",
+    headline: "there is no indirect light at all",
+    look_at: "indirect light: the recursion is not reached, its result is dropped, or the depth is never set",
+    remedy: "From bounce 2 on light has to arrive over the continued path.",
+};
+
+/// See its headline.
+pub static INDIRECT_FOUR_THIRDS: Cause = Cause {
+    name: "indirect-cosine-for-uniform",
+    headline: "bounces are drawn with the cosine and weighted with the uniform density",
+    look_at: "sampling the diffuse surface, where direction and pdf are returned together",
+    remedy: "Cosine-distributed directions have pdf cos θ / π.",
+};
+
+/// See its headline.
+pub static INDIRECT_FACTOR: Cause = Cause {
+    name: "factor-per-bounce",
+    headline: "every indirect bounce has the same constant factor too much",
+    look_at: "indirect light, where f, the cosine, the pdf and the survival probability are put together",
+    remedy: "throughput ← throughput · f · cos θ / pdf / survival.",
+};
+
+/// See its headline.
+pub static GREY_THROUGHPUT: Cause = Cause {
+    name: "throughput-without-colour",
+    headline: "the throughput of paths has lost its colour",
+    look_at: "indirect light, where the throughput is updated",
+    remedy: "Keep the throughput as RGB; luminance may only steer the roulette.",
+};
+
+/// See its headline.
+pub static BOUNCE_DIRECTIONS: Cause = Cause {
+    name: "bounce-directions-wrong",
+    headline: "bounces go in wrong directions: how much light there is is right, where it goes is not",
+    look_at: "indirect light, where the sampled local direction becomes a ray",
+    remedy: "Transform with the frame's local-to-world matrix (o2w), not its transpose.",
+};
+
+/// See its headline.
+pub static EMISSION_LOST: Cause = Cause {
+    name: "emission-lost-in-sum",
+    headline: "the accumulated picture leaves out what glows by itself",
+    look_at: "the sum of bounces, where bounce 0 is added",
+    remedy: "Accumulating from 0 adds the emission that the camera sees.",
+};
+
+/// See its headline.
+pub static LAST_BOUNCE_ONLY: Cause = Cause {
+    name: "last-bounce-only",
+    headline: "the accumulated picture holds its last bounce only",
+    look_at: "the sum of bounces: a flag that isolates bounces, or = where += belongs",
+    remedy: "Accumulating adds every bounce from the first to the last asked for.",
+};
+
+/// See its headline.
+pub static ROULETTE_DIVIDED_BY_STOP: Cause = Cause {
+    name: "roulette-divided-by-stop",
+    headline: "paths that survive roulette are divided by the probability of stopping",
+    look_at: "indirect light, after the roulette test",
+    remedy: "Divide by the probability of going on, 1 − stop.",
+};
+
+/// See its headline.
+pub static ROULETTE_DIVIDED_WHEN_GUARANTEED: Cause = Cause {
+    name: "roulette-divided-when-guaranteed",
+    headline: "the bounces that are guaranteed are divided by the survival probability too",
+    look_at: "indirect light, where the throughput is divided",
+    remedy: "Divide only where roulette was played.",
+};
+
+/// See its headline.
+pub static ROULETTE_STOPS_DIRECT: Cause = Cause {
+    name: "roulette-stops-direct-light",
+    headline: "roulette also takes the direct light of the vertex it stops at",
+    look_at: "indirect light: roulette is played before direct light is added",
+    remedy: "Add direct light first, then play roulette for going on.",
+};
+
 /// Every cause of this part.
-pub static CAUSES: &[&Cause] = &[&ROULETTE_NOT_DIVIDED];
+pub static CAUSES: &[&Cause] = &[
+    &ROULETTE_NOT_DIVIDED,
+    &ONE_BOUNCE_SHORT,
+    &ONE_BOUNCE_LONG,
+    &ALBEDO_TWICE,
+    &ALBEDO_FORGOTTEN,
+    &EMISSION_AGAIN,
+    &NO_INDIRECT,
+    &INDIRECT_FOUR_THIRDS,
+    &INDIRECT_FACTOR,
+    &GREY_THROUGHPUT,
+    &BOUNCE_DIRECTIONS,
+    &EMISSION_LOST,
+    &LAST_BOUNCE_ONLY,
+    &ROULETTE_DIVIDED_BY_STOP,
+    &ROULETTE_DIVIDED_WHEN_GUARANTEED,
+    &ROULETTE_STOPS_DIRECT,
+];

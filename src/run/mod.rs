@@ -2,6 +2,7 @@
 //!
 //! Only here cores and checks meet. Not here: what is printed, and what a failure means for an exit code.
 
+mod diagnose;
 pub mod event;
 pub mod executor;
 pub mod outcome;
@@ -9,6 +10,7 @@ pub mod plan;
 pub mod record;
 mod schedule;
 
+pub use diagnose::diagnose;
 pub use event::Event;
 pub use executor::{Attempt, Bench, Ended, attempt, run_in_memory, run_trial};
 pub use outcome::{Outcome, Status};

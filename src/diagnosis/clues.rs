@@ -1,0 +1,51 @@
+//! What checks have recognised themselves: a formula that gives every wrong answer, a ratio with a name.
+
+use super::{Evidence, Suspicion};
+use crate::cause;
+
+/// By how much each clue weighs less than the one before it.
+const NEXT: f64 = 0.7;
+
+/// Every clue of every failing case.
+pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+    let mut suspicions = Vec::new();
+    for failure in evidence.failures() {
+        let Some(finding) = failure.finding else { continue };
+        let mut weight = 1.0;
+        for clue in &finding.clues {
+            // A name that the glossary does not know comes from another version: it explains nothing here.
+            let Some(cause) = cause::find(&clue.cause) else { continue };
+            suspicions.push(Suspicion {
+                cause,
+                cases: vec![failure.case.to_owned()],
+                evidence: vec![format!("{}: {}", failure.case, clue.evidence)],
+                ruled_out: Vec::new(),
+                weight,
+            });
+            weight *= NEXT;
+        }
+    }
+    suspicions
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cause::{camera, shape};
+    use crate::diagnosis::testing::{Made, failing, passing};
+
+    #[test]
+    fn only_failing_cases_give_clues_and_the_first_weighs_most() {
+        let finding = failing("wrong")
+            .because(&camera::FILM_Y_DOWN, "predicts all 159 rays")
+            .because(&shape::SEGMENT_END_IGNORED, "predicts most");
+        let made = Made::new()
+            .with("camera/a", finding)
+            .with("camera/b", passing().because(&camera::FILM_Y_DOWN, "not a failure"));
+        let found = suspect(&made.evidence());
+        assert_eq!(found.len(), 2);
+        assert_eq!(found[0].cause.name, camera::FILM_Y_DOWN.name);
+        assert_eq!(found[0].evidence, ["camera/a: predicts all 159 rays"]);
+        assert!(found[0].weight > found[1].weight);
+    }
+}

@@ -1,0 +1,96 @@
+//! What the rules see: the findings of one core in one run.
+
+use crate::case::{Part, Tier};
+use crate::checks::{Finding, Measure};
+use crate::contract::Conventions;
+
+/// How a case stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// The core passed it.
+    Passed,
+    /// The core failed it.
+    Failed,
+    /// It was not tried, since the named case failed.
+    Blocked(String),
+    /// Nothing is known: inconclusive, skipped, broken.
+    Unknown,
+}
+
+/// One case and what came of it.
+#[derive(Clone, Debug)]
+pub struct Observation<'a> {
+    /// Folder and claim.
+    pub case: &'a str,
+    /// What it counts for.
+    pub tier: Tier,
+    /// How it stands.
+    pub standing: Standing,
+    /// What the check found, if it came to that.
+    pub finding: Option<&'a Finding>,
+    /// The outcome in one sentence.
+    pub statement: String,
+    /// The command that repeats it.
+    pub rerun: &'a str,
+    /// Seconds it took.
+    pub seconds: f64,
+}
+
+/// The findings of one core in one run, in the order of parts.
+#[derive(Clone, Debug)]
+pub struct Evidence<'a> {
+    observations: Vec<Observation<'a>>,
+    /// What the core declares to have chosen.
+    pub conventions: Conventions,
+}
+
+impl<'a> Evidence<'a> {
+    /// Sorts `observations` into the order in which one part rests on another.
+    pub fn new(mut observations: Vec<Observation<'a>>, conventions: Conventions) -> Self {
+        observations
+            .sort_by_key(|observation| (Part::position(observation.case), observation.case));
+        Self { observations, conventions }
+    }
+
+    /// Every case.
+    pub fn observations(&self) -> &[Observation<'a>] {
+        &self.observations
+    }
+
+    /// Graded cases that failed, the earliest part first.
+    pub fn failures(&self) -> impl Iterator<Item = &Observation<'a>> {
+        self.observations
+            .iter()
+            .filter(|seen| seen.standing == Standing::Failed && seen.tier.is_graded())
+    }
+
+    /// The case called `case`, if it was tried and came to a finding.
+    pub fn finding(&self, case: &str) -> Option<&'a Finding> {
+        self.observations.iter().find(|seen| seen.case == case)?.finding
+    }
+
+    /// The same if it failed.
+    pub fn failed_finding(&self, case: &str) -> Option<&'a Finding> {
+        let seen = self.observations.iter().find(|seen| seen.case == case)?;
+        (seen.standing == Standing::Failed).then_some(seen.finding)?
+    }
+
+    /// Whether the case was tried and passed.
+    pub fn has_passed(&self, case: &str) -> bool {
+        self.observations.iter().any(|seen| seen.case == case && seen.standing == Standing::Passed)
+    }
+
+    /// How many cases were not tried since one of `cases` failed.
+    pub fn blocked_by(&self, cases: &[String]) -> usize {
+        let is_blocked = |seen: &&Observation<'_>| match &seen.standing {
+            Standing::Blocked(by) => cases.contains(by),
+            _ => false,
+        };
+        self.observations.iter().filter(is_blocked).count()
+    }
+}
+
+/// The measure called `name`.
+pub fn measure<'f>(finding: &'f Finding, name: &str) -> Option<&'f Measure> {
+    finding.measures.iter().find(|measure| measure.name == name)
+}

@@ -1,0 +1,73 @@
+//! From the findings of a whole run to causes: numbers in, sentences out.
+//!
+//! A failing case says that something is wrong; a cause says what. Each rule looks at the findings of one core and
+//! suspects causes of the glossary ([`crate::cause`]), with the numbers that speak for them and what they rule out.
+//! The suspicions are then ranked, and failures that share a cause become one headline.
+//!
+//! To add a rule: a file with a function from [`Evidence`] to suspicions, tested on made-up numbers, and its line in
+//! [`RULES`].
+
+mod bounces;
+mod clues;
+mod conventions;
+mod evidence;
+mod generic_position;
+mod rank;
+mod readings;
+mod roulette;
+#[cfg(test)]
+mod testing;
+
+pub use evidence::{Evidence, Observation, Standing};
+pub use rank::{Diagnosis, Headline};
+
+use crate::cause::Cause;
+
+/// A reason to suspect a cause.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Suspicion {
+    /// The mistake.
+    pub cause: &'static Cause,
+    /// The failing cases that it would explain.
+    pub cases: Vec<String>,
+    /// What speaks for it, a sentence each, with numbers.
+    pub evidence: Vec<String>,
+    /// What else could have been, and why it is not.
+    pub ruled_out: Vec<String>,
+    /// How well it explains a case: 1 if it is the first thing to think of, less for each that comes before it.
+    pub weight: f64,
+}
+
+/// A way to come from findings to causes.
+pub struct Rule {
+    /// One line for `furnace list rules`.
+    pub summary: &'static str,
+    run: fn(&Evidence<'_>) -> Vec<Suspicion>,
+}
+
+/// Every rule. Their order does not matter: suspicions are ranked by what they explain.
+pub static RULES: &[Rule] = &[
+    Rule { summary: "what a check itself has recognised", run: clues::suspect },
+    Rule {
+        summary: "the choices that a core may declare: it differs from what it declares",
+        run: conventions::suspect,
+    },
+    Rule {
+        summary: "ratios of direct light in two scenes in general position against known mistakes",
+        run: generic_position::suspect,
+    },
+    Rule {
+        summary: "energy bounce by bounce against laws such as q^k and albedo^k",
+        run: bounces::suspect,
+    },
+    Rule {
+        summary: "means under Russian roulette against what forgotten divisions would give",
+        run: roulette::suspect,
+    },
+];
+
+/// The causes of what failed, the first to look at first.
+pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
+    let suspicions = RULES.iter().flat_map(|rule| (rule.run)(evidence)).collect();
+    rank::rank(evidence, suspicions)
+}

@@ -1,0 +1,187 @@
+//! Suspicions become headlines: the earliest part that explains the most comes first, and failures that share a cause
+//! are told once.
+
+use super::{Evidence, Suspicion};
+use crate::case::Part;
+use crate::cause::Cause;
+use std::collections::BTreeMap;
+
+/// Sentences of evidence that a headline keeps.
+const EVIDENCE: usize = 4;
+
+/// One cause and all that it explains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Headline {
+    /// The mistake.
+    pub cause: &'static Cause,
+    /// What speaks for it.
+    pub evidence: Vec<String>,
+    /// What else could have been, and why it is not.
+    pub ruled_out: Vec<String>,
+    /// The failing cases that it explains, the earliest part first.
+    pub explains: Vec<String>,
+    /// Failing cases of the same and later parts that nothing else explains: they may follow from it.
+    pub may_follow: Vec<String>,
+    /// Cases that were not tried because of these.
+    pub blocked: usize,
+    /// The command that repeats the quickest of the failing cases.
+    pub command: String,
+}
+
+/// What is wrong with a core.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Diagnosis {
+    /// The causes, the one to look at first in front.
+    pub headlines: Vec<Headline>,
+    /// Failing cases that no cause explains.
+    pub unexplained: Vec<String>,
+}
+
+impl Diagnosis {
+    /// The cause to look at first.
+    pub fn first(&self) -> Option<&'static Cause> {
+        self.headlines.first().map(|headline| headline.cause)
+    }
+}
+
+/// Everything that points to one cause.
+struct Candidate {
+    cause: &'static Cause,
+    evidence: Vec<String>,
+    ruled_out: Vec<String>,
+    /// The failing cases, and how well each is explained.
+    cases: BTreeMap<String, f64>,
+}
+
+/// Takes the best candidate, then the best for what is left, until nothing is left.
+pub fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagnosis {
+    let mut left: Vec<String> = evidence.failures().map(|seen| seen.case.to_owned()).collect();
+    let mut candidates = gather(suspicions);
+    let suspected = |case: &String, candidates: &[Candidate]| {
+        candidates.iter().any(|candidate| candidate.cases.contains_key(case))
+    };
+    let mut orphans: Vec<String> =
+        left.iter().filter(|case| !suspected(case, &candidates)).cloned().collect();
+    left.retain(|case| !orphans.contains(case));
+    let mut headlines = Vec::new();
+    while !left.is_empty() {
+        let Some(best) = best_of(&candidates, &left) else { break };
+        let candidate = candidates.swap_remove(best);
+        headlines.push(headline(evidence, candidate, &mut left, &mut orphans));
+    }
+    Diagnosis { headlines, unexplained: orphans }
+}
+
+fn gather(suspicions: Vec<Suspicion>) -> Vec<Candidate> {
+    let mut candidates: Vec<Candidate> = Vec::new();
+    for suspicion in suspicions {
+        let known = candidates.iter().position(|c| c.cause.name == suspicion.cause.name);
+        let number = known.unwrap_or_else(|| {
+            let (evidence, ruled_out, cases) = Default::default();
+            candidates.push(Candidate { cause: suspicion.cause, evidence, ruled_out, cases });
+            candidates.len() - 1
+        });
+        let candidate = &mut candidates[number];
+        candidate.evidence.extend(suspicion.evidence);
+        candidate.ruled_out.extend(suspicion.ruled_out);
+        for case in suspicion.cases {
+            let weight = candidate.cases.entry(case).or_insert(0.0);
+            *weight = weight.max(suspicion.weight);
+        }
+    }
+    candidates
+}
+
+/// The number of the candidate that explains the earliest part, and of those the one that explains most.
+fn best_of(candidates: &[Candidate], left: &[String]) -> Option<usize> {
+    let part = |case: &String| Part::of_case(case).map_or(u32::MAX, |part| part.number);
+    let merit = |candidate: &Candidate| {
+        let explained: Vec<_> =
+            candidate.cases.iter().filter(|(case, _)| left.contains(case)).collect();
+        let earliest = explained.iter().map(|(case, _)| part(case)).min()?;
+        let weight: f64 = explained.iter().map(|(_, weight)| **weight).sum();
+        Some((earliest, weight))
+    };
+    let merits = candidates.iter().enumerate().filter_map(|(n, c)| Some((n, merit(c)?)));
+    let better = |a: &(usize, (u32, f64)), b: &(usize, (u32, f64))| {
+        let ((earliest_a, weight_a), (earliest_b, weight_b)) = (a.1, b.1);
+        earliest_b.cmp(&earliest_a).then(weight_a.total_cmp(&weight_b)).then(b.0.cmp(&a.0))
+    };
+    merits.max_by(better).map(|(number, _)| number)
+}
+
+fn headline(
+    evidence: &Evidence<'_>,
+    candidate: Candidate,
+    left: &mut Vec<String>,
+    orphans: &mut Vec<String>,
+) -> Headline {
+    let explains: Vec<String> =
+        left.iter().filter(|case| candidate.cases.contains_key(*case)).cloned().collect();
+    left.retain(|case| !explains.contains(case));
+    let earliest = explains.first().map_or(usize::MAX, |case| Part::position(case));
+    let (may_follow, others) =
+        std::mem::take(orphans).into_iter().partition(|case| Part::position(case) >= earliest);
+    *orphans = others;
+    let told: Vec<String> = explains.iter().chain(&may_follow).cloned().collect();
+    let blocked = evidence.blocked_by(&told);
+    let command = quickest(evidence, &explains);
+    let Candidate { cause, evidence: mut sentences, mut ruled_out, .. } = candidate;
+    sentences.dedup();
+    sentences.truncate(EVIDENCE);
+    ruled_out.dedup();
+    ruled_out.truncate(EVIDENCE);
+    Headline { cause, evidence: sentences, ruled_out, explains, may_follow, blocked, command }
+}
+
+fn quickest(evidence: &Evidence<'_>, cases: &[String]) -> String {
+    let failures = evidence.failures().filter(|seen| cases.iter().any(|case| case == seen.case));
+    let quickest = failures.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    quickest.map(|seen| seen.rerun.to_owned()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::cause::{bsdf, light, transport};
+    use crate::diagnosis::diagnose;
+    use crate::diagnosis::testing::{Made, failing, passing};
+
+    #[test]
+    fn nothing_failed_and_nothing_is_blamed() {
+        let made = Made::new().with("bsdf/a", passing());
+        assert_eq!(diagnose(&made.evidence()), super::Diagnosis::default());
+    }
+
+    #[test]
+    fn failures_of_one_cause_are_one_headline_and_the_earliest_part_comes_first() {
+        let without_pi = |name| failing(name).because(&bsdf::WITHOUT_PI, "3.142 times too bright");
+        let made = Made::new()
+            .with("integrator/z", failing("z").because(&transport::ROULETTE_NOT_DIVIDED, "0.7"))
+            .with("bsdf/a", without_pi("a"))
+            .with("lights/b", without_pi("b"))
+            .with("lights/c", failing("who knows"))
+            .with("camera/d", failing("who knows"))
+            .blocked("images/e", "bsdf/a");
+        let diagnosis = diagnose(&made.evidence());
+        let [first, second] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
+        assert_eq!(first.cause.name, bsdf::WITHOUT_PI.name);
+        assert_eq!(first.explains, ["bsdf/a", "lights/b"]);
+        assert_eq!(first.may_follow, ["lights/c"], "an earlier failure does not follow from it");
+        assert_eq!(first.blocked, 1);
+        assert_eq!(second.cause.name, transport::ROULETTE_NOT_DIVIDED.name);
+        assert_eq!(diagnosis.unexplained, ["camera/d"]);
+    }
+
+    #[test]
+    fn a_cause_that_explains_two_failures_wins_over_two_that_explain_one_each() {
+        let made = Made::new()
+            .with(
+                "lights/a",
+                failing("a").because(&light::WORLD_COSINE, "x").because(&bsdf::WITHOUT_PI, "y"),
+            )
+            .with("lights/b", failing("b").because(&bsdf::WITHOUT_PI, "z"));
+        let diagnosis = diagnose(&made.evidence());
+        assert_eq!(diagnosis.first().map(|cause| cause.name), Some(bsdf::WITHOUT_PI.name));
+        assert_eq!(diagnosis.headlines.len(), 1);
+    }
+}

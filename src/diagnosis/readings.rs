@@ -1,0 +1,62 @@
+//! Measured over expected, with the interval that comparisons are made in.
+
+use crate::checks::{Finding, Measure};
+
+/// The names of the three channels, as measures end with them.
+pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];
+
+/// Relative error that every comparison of a mean forgives on top of its interval: the band of radiances, doubled for
+/// predictions that are themselves rounded to four digits.
+const SLACK: f64 = 2e-3;
+
+/// One ratio that was measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// Measured over expected.
+    pub ratio: f64,
+    /// Holds the true ratio with 99.9 % confidence, and a little more for rounding.
+    pub interval: [f64; 2],
+}
+
+impl Reading {
+    /// The reading of a measure; none where nothing was expected, or the numbers are no numbers.
+    pub fn of(measure: &Measure) -> Option<Self> {
+        let ratio = measure.measured / measure.expected;
+        let around = |value: f64| [value - SLACK * value.abs(), value + SLACK * value.abs()];
+        let interval = match measure.interval {
+            Some([low, high]) => {
+                let ends = [low / measure.expected, high / measure.expected];
+                [
+                    around(ends[0])[0].min(around(ends[1])[0]),
+                    around(ends[1])[1].max(around(ends[0])[1]),
+                ]
+            }
+            None => around(ratio),
+        };
+        let is_proper = ratio.is_finite() && interval.iter().all(|end| end.is_finite());
+        is_proper.then_some(Self { ratio, interval })
+    }
+
+    /// Whether a prediction lies inside.
+    pub fn admits(&self, prediction: f64) -> bool {
+        self.interval[0] <= prediction && prediction <= self.interval[1]
+    }
+
+    /// Half the width of the interval.
+    pub fn half_width(&self) -> f64 {
+        0.5 * (self.interval[1] - self.interval[0])
+    }
+}
+
+/// The readings of a row of a finding, channel by channel; `None` for a channel that expects nothing.
+pub fn channels(finding: &Finding, row: &str) -> [Option<Reading>; 3] {
+    CHANNELS.map(|channel| {
+        let name = format!("{row}, {channel}");
+        finding.measures.iter().find(|measure| measure.name == name).and_then(Reading::of)
+    })
+}
+
+/// A ratio as people write it.
+pub fn written(ratio: f64) -> String {
+    if ratio == 0.0 { "0".to_owned() } else { format!("{ratio:.3}") }
+}

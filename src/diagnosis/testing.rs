@@ -1,0 +1,93 @@
+//! Made-up findings for the tests of rules.
+
+use super::{Evidence, Observation, Standing};
+use crate::case::Tier;
+use crate::checks::{Finding, Measure};
+use crate::contract::Conventions;
+use crate::stats::Verdict;
+
+/// Cases and what came of them.
+pub struct Made {
+    findings: Vec<(String, Finding)>,
+    blocked: Vec<(String, String)>,
+    /// What the core declares.
+    pub conventions: Conventions,
+}
+
+impl Made {
+    pub fn new() -> Self {
+        let conventions = Conventions::default();
+        Self { findings: Vec::new(), blocked: Vec::new(), conventions }
+    }
+
+    /// The same with the finding of another case.
+    pub fn with(mut self, case: &str, finding: Finding) -> Self {
+        self.findings.push((case.to_owned(), finding));
+        self
+    }
+
+    /// The same with a case that was not tried.
+    pub fn blocked(mut self, case: &str, by: &str) -> Self {
+        self.blocked.push((case.to_owned(), by.to_owned()));
+        self
+    }
+
+    pub fn evidence(&self) -> Evidence<'_> {
+        let tried = self.findings.iter().map(|(case, finding)| {
+            let standing = match finding.verdict {
+                Verdict::Pass => Standing::Passed,
+                Verdict::Fail => Standing::Failed,
+                Verdict::Inconclusive => Standing::Unknown,
+            };
+            observation(case, standing, Some(finding))
+        });
+        let blocked = self
+            .blocked
+            .iter()
+            .map(|(case, by)| observation(case, Standing::Blocked(by.clone()), None));
+        Evidence::new(tried.chain(blocked).collect(), self.conventions)
+    }
+}
+
+fn observation<'a>(
+    case: &'a str,
+    standing: Standing,
+    finding: Option<&'a Finding>,
+) -> Observation<'a> {
+    Observation {
+        case,
+        tier: Tier::Graded,
+        standing,
+        finding,
+        statement: finding.map(|finding| finding.statement.clone()).unwrap_or_default(),
+        rerun: case,
+        seconds: 1.0,
+    }
+}
+
+/// A finding that fails.
+pub fn failing(statement: &str) -> Finding {
+    Finding::failure(statement)
+}
+
+/// A finding that passes.
+pub fn passing() -> Finding {
+    Finding::of("right", "", vec![Measure::exact("t", 1.0, 1.0, 0.0)])
+}
+
+/// A mean of `expected` that was measured as `ratio` of it, to a relative precision of `precision`.
+pub fn mean(name: &str, expected: f64, ratio: f64, precision: f64) -> Measure {
+    let measured = expected * ratio;
+    let half = precision * measured.abs().max(1e-3 * expected);
+    let is_right = (ratio - 1.0).abs() <= precision + 1e-3;
+    Measure {
+        interval: Some([measured - half, measured + half]),
+        verdict: Verdict::pass_if(is_right),
+        ..Measure::exact(name, measured, expected, 1e-3 * expected)
+    }
+}
+
+/// A finding of such means.
+pub fn means(measures: Vec<Measure>) -> Finding {
+    Finding::of("means", "", measures)
+}

@@ -1,0 +1,37 @@
+//! From the records of a run to the causes of what failed in it.
+
+use super::record::CoreRecord;
+use super::{Outcome, Status, TrialRecord};
+use crate::diagnosis::{self, Diagnosis, Evidence, Observation, Standing};
+
+/// The causes of what failed on `core` among `trials`; those of other cores are left aside.
+pub fn diagnose<'a>(
+    core: &CoreRecord,
+    trials: impl IntoIterator<Item = &'a TrialRecord>,
+) -> Diagnosis {
+    let of_core = trials.into_iter().filter(|trial| trial.core == core.spec);
+    let observations = of_core.map(observation).collect();
+    diagnosis::diagnose(&Evidence::new(observations, core.conventions))
+}
+
+fn observation(trial: &TrialRecord) -> Observation<'_> {
+    let standing = match trial.outcome.status() {
+        Status::Pass => Standing::Passed,
+        Status::Fail | Status::Crashed | Status::TimedOut => Standing::Failed,
+        Status::Blocked | Status::Inconclusive | Status::Skipped | Status::Broken => {
+            match &trial.outcome {
+                Outcome::Blocked { by } => Standing::Blocked(by.clone()),
+                _ => Standing::Unknown,
+            }
+        }
+    };
+    Observation {
+        case: &trial.case,
+        tier: trial.tier,
+        standing,
+        finding: trial.outcome.finding(),
+        statement: trial.outcome.statement(),
+        rerun: &trial.rerun,
+        seconds: trial.timing.seconds,
+    }
+}

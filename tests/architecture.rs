@@ -21,11 +21,11 @@ const LAYERS: &[(&str, u32)] = &[
     ("cores", 6),
     ("checks", 6),
     ("case", 7),
-    ("diagnosis", 7),
-    ("run", 8),
-    ("report", 9),
-    ("reference", 9),
-    ("cli", 10),
+    ("diagnosis", 8),
+    ("run", 9),
+    ("report", 10),
+    ("reference", 10),
+    ("cli", 11),
 ];
 
 /// `unsafe` stands in these files alone.

@@ -1,8 +1,10 @@
 //! Means under Russian roulette: what is forgotten at the roulette predicts a mean for each stopping probability.
 
+use super::evidence::measure;
 use super::readings::{CHANNELS, Reading, channels, written};
 use super::{Evidence, Suspicion};
 use crate::cause::{Cause, transport};
+use crate::checks::Finding;
 
 /// The furnace at four roulettes.
 const CASE: &str = "integrator/roulette-does-not-change-the-mean";
@@ -67,57 +69,69 @@ static LAWS: &[Law] = &[
     },
 ];
 
+/// A row of the case, read.
+struct Row {
+    play: Play,
+    readings: [Option<Reading>; 3],
+    /// What the whole series adds up to in each channel.
+    totals: [f64; 3],
+}
+
 /// Laws that predict the mean of every row.
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let Some(finding) = evidence.failed_finding(CASE) else { return Vec::new() };
-    let mut rows: Vec<(Play, [Option<Reading>; 3], [f64; 3])> = Vec::new();
-    let mut seen: Vec<&str> = Vec::new();
-    for measure in &finding.measures {
-        let Some((row, _)) = measure.name.rsplit_once(", ") else { continue };
-        if let Some(play) = Play::of(row).filter(|_| !seen.contains(&row)) {
-            seen.push(row);
-            let expected = CHANNELS.map(|channel| {
-                let name = format!("{row}, {channel}");
-                finding.measures.iter().find(|m| m.name == name).map_or(0.0, |m| m.expected)
-            });
-            rows.push((play, channels(finding, row), expected));
-        }
-    }
-    let fits = |law: &&Law| {
-        !rows.is_empty()
-            && rows.iter().all(|(play, readings, expected)| {
-                readings.iter().zip(EMISSION).zip(expected).all(|((reading, emission), total)| {
-                    let predicted = predicted_ratio(law, *play, emission, *total);
-                    reading.is_none_or(|reading| reading.admits(predicted))
-                })
-            })
-    };
+    let rows = rows(finding);
+    let fits = |law: &&Law| !rows.is_empty() && rows.iter().all(|row| row.admits(law));
     LAWS.iter().filter(fits).map(|law| suspicion(law, &rows)).collect()
+}
+
+fn rows(finding: &Finding) -> Vec<Row> {
+    let names = finding.measures.iter().filter_map(|m| m.name.strip_suffix(", red"));
+    let row = |name: &str| {
+        let totals = CHANNELS.map(|channel| {
+            measure(finding, &format!("{name}, {channel}")).map_or(f64::NAN, |m| m.expected)
+        });
+        Some(Row { play: Play::of(name)?, readings: channels(finding, name), totals })
+    };
+    names.filter_map(row).collect()
+}
+
+impl Row {
+    fn admits(&self, law: &Law) -> bool {
+        (0..3).all(|channel| {
+            let predicted = law.ratio(self.play, channel, self.totals[channel]);
+            self.readings[channel].is_none_or(|reading| reading.admits(predicted))
+        })
+    }
+
+    fn words(&self, law: &Law) -> Option<String> {
+        let reading = self.readings[0]?;
+        Some(format!(
+            "stop {}, {} guaranteed: {} ± {} (predicted {})",
+            self.play.stop,
+            self.play.guaranteed,
+            written(reading.ratio),
+            written(reading.half_width()),
+            written(law.ratio(self.play, 0, self.totals[0]))
+        ))
+    }
 }
 
 /// Emission of the furnace of the case; its albedo follows from the total.
 const EMISSION: [f64; 3] = [0.7, 0.5, 0.9];
 
-/// Mean over what it should be.
-fn predicted_ratio(law: &Law, play: Play, emission: f64, total: f64) -> f64 {
-    let albedo = 1.0 - emission / total;
-    let light = |bounce: i32| emission * albedo.powi(bounce) * (law.factor)(play, bounce);
-    (0..=LAST).map(light).sum::<f64>() / total
+impl Law {
+    /// Mean over what it should be.
+    fn ratio(&self, play: Play, channel: usize, total: f64) -> f64 {
+        let emission = EMISSION[channel];
+        let albedo = 1.0 - emission / total;
+        let light = |bounce: i32| emission * albedo.powi(bounce) * (self.factor)(play, bounce);
+        (0..=LAST).map(light).sum::<f64>() / total
+    }
 }
 
-fn suspicion(law: &Law, rows: &[(Play, [Option<Reading>; 3], [f64; 3])]) -> Suspicion {
-    let row = |(play, readings, expected): &(Play, [Option<Reading>; 3], [f64; 3])| {
-        let reading = readings[0]?;
-        Some(format!(
-            "stop {}, {} guaranteed: {} ± {} (predicted {})",
-            play.stop,
-            play.guaranteed,
-            written(reading.ratio),
-            written(reading.half_width()),
-            written(predicted_ratio(law, *play, EMISSION[0], expected[0]))
-        ))
-    };
-    let measured: Vec<_> = rows.iter().filter_map(row).collect();
+fn suspicion(law: &Law, rows: &[Row]) -> Suspicion {
+    let measured: Vec<_> = rows.iter().filter_map(|row| row.words(law)).collect();
     Suspicion {
         cause: law.cause,
         cases: vec![CASE.to_owned()],
@@ -142,7 +156,7 @@ mod tests {
             for (stop, guaranteed) in plays {
                 for channel in 0..3 {
                     let play = Play { stop, guaranteed };
-                    let ratio = predicted_ratio(law, play, EMISSION[channel], totals[channel]);
+                    let ratio = law.ratio(play, channel, totals[channel]);
                     let name =
                         format!("stop {stop}, {guaranteed} guaranteed, {}", CHANNELS[channel]);
                     measures.push(mean(&name, totals[channel], ratio, 0.003));

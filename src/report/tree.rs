@@ -7,8 +7,9 @@
 //! drawn, and whose absence is shown in their place.
 
 use crate::case::Part;
-use crate::run::record::{self, PictureFile, read_json, sidecar_path};
-use crate::run::{RecordError, RunRecord, TrialRecord};
+use crate::diagnosis::Diagnosis;
+use crate::run::record::{self, CoreRecord, PictureFile, read_json, sidecar_path};
+use crate::run::{self, RecordError, RunRecord, TrialRecord};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use walkdir::WalkDir;
@@ -89,6 +90,12 @@ impl RunTree {
     /// The trials of the core that was asked as `spec`.
     pub fn trials_of<'a>(&'a self, spec: &'a str) -> impl Iterator<Item = &'a TrialRecord> {
         self.trials.iter().filter(move |trial| trial.core == spec)
+    }
+
+    /// What is wrong with each core, in the order they were asked.
+    pub fn diagnoses(&self) -> Vec<(&str, Diagnosis)> {
+        let of = |core: &'_ CoreRecord| run::diagnose(core, &self.trials);
+        self.run.cores.iter().map(|core| (core.spec.as_str(), of(core))).collect()
     }
 
     /// How many planned trials have no result.

@@ -1,5 +1,6 @@
 //! What did not pass, one block each: first what counts against a core, then what is not known.
 
+use super::headlines;
 use super::style::{Paint, Style, clean, cut, paint_of, wrap};
 use crate::case::Part;
 use crate::checks::{Finding, Measure};
@@ -15,13 +16,14 @@ const FULL_BLOCKS: usize = 5;
 /// Measures shown of a failure, the worst first.
 const MEASURES: usize = 4;
 /// Where the text of a block begins.
-const INDENT: usize = 8;
+pub const INDENT: usize = 8;
 
 /// Every block.
 pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
+    let mut lines = headlines::all(tree, style);
     let failures = failures(tree);
     let (full, brief) = failures.split_at(failures.len().min(FULL_BLOCKS));
-    let mut lines: Vec<_> = full.iter().flat_map(|trial| full_block(trial, style)).collect();
+    lines.extend(full.iter().flat_map(|trial| full_block(trial, style)));
     lines.extend(brief.iter().flat_map(|trial| brief_block(trial, style)));
     for status in [Status::Broken, Status::Inconclusive] {
         let trials = in_order_of_parts(tree, status);
@@ -79,12 +81,12 @@ fn next(trial: &TrialRecord) -> String {
     format!("{:INDENT$}try     {}", "", clean(&trial.rerun))
 }
 
-fn indented(text: &str) -> Vec<String> {
+pub fn indented(text: &str) -> Vec<String> {
     wrap(text, INDENT).into_iter().map(|line| format!("{:INDENT$}{line}", "")).collect()
 }
 
 /// A label and a text that goes on below itself.
-fn labelled(label: &str, text: &str) -> Vec<String> {
+pub fn labelled(label: &str, text: &str) -> Vec<String> {
     let label_of = |number| if number == 0 { label } else { "" };
     let lines = wrap(text, INDENT + 8).into_iter().enumerate();
     lines.map(|(number, line)| format!("{:INDENT$}{:<8}{line}", "", label_of(number))).collect()

@@ -5,6 +5,7 @@
 //! [`Style`] it is given.
 
 mod blocks;
+mod headlines;
 mod style;
 
 pub use style::{COLUMNS, Paint, Style, clean, mark, paint_of};

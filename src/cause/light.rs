@@ -172,7 +172,6 @@ pub static PDF_FORGOTTEN: Cause = Cause {
 
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
-    &C,
     &WORLD_COSINE,
     &LIGHT_COSINE_FORGOTTEN,
     &LIGHT_DISTANCE_FORGOTTEN,

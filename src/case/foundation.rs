@@ -50,6 +50,31 @@ pub enum Foundation {
     Bounces,
 }
 
+impl Foundation {
+    /// As people read it.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Camera => "camera rays",
+            Self::Triangles => "triangles",
+            Self::Spheres => "spheres",
+            Self::Boxes => "boxes",
+            Self::Hits => "hits in the hierarchy",
+            Self::Diffuse => "diffuse surfaces",
+            Self::Mirror => "the mirror",
+            Self::Glass => "glass",
+            Self::Metal => "rough metal",
+            Self::Emission => "emission",
+            Self::DirectLight => "direct light",
+            Self::MeshLight => "mesh lights",
+            Self::SphereLight => "sphere lights",
+            Self::PointLight => "point lights",
+            Self::DirectionalLight => "directional lights",
+            Self::Sky => "skies",
+            Self::Bounces => "paths of many bounces",
+        }
+    }
+}
+
 /// What `case` rests on, in `scene` if it names one. Never what it proves itself, nor what comes later.
 pub fn foundations(case: &Case, scene: Option<&SceneDescription>) -> BTreeSet<Foundation> {
     let mut found: BTreeSet<_> = case.rests_on.iter().copied().collect();

@@ -1,6 +1,7 @@
 //! The command line: one verb a file, and what each word means.
 
 mod exit_code;
+mod explain;
 mod lint;
 mod list;
 mod progress;
@@ -51,6 +52,8 @@ enum Verb {
     Run(run::RunArguments),
     /// Show cases, checks or cores.
     List(list::ListArguments),
+    /// Say what a case checks, why it is true, what it can see and how often it errs.
+    Explain(explain::ExplainArguments),
     /// Read every case and scene and say what is wrong with them.
     Lint,
     /// Write the pages of a run again.
@@ -86,6 +89,7 @@ pub fn main() -> ExitCode {
         None => run::run(&arguments.run),
         Some(Verb::Run(arguments)) => run::run(&arguments),
         Some(Verb::List(arguments)) => list::list(&arguments),
+        Some(Verb::Explain(arguments)) => explain::explain(&arguments),
         Some(Verb::Lint) => lint::lint(),
         Some(Verb::Report(arguments)) => report::report(&arguments),
         Some(Verb::Reference(arguments)) => reference::reference(&arguments),

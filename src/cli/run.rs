@@ -113,6 +113,6 @@ fn finish(arguments: &RunArguments, folder: &Path) -> Answer {
     let page = report::html::write(&tree, folder).map_err(Failure::broken)?;
     print!("{}", report::text::summary(&tree, super::report::style(arguments.verbose)));
     println!("  report  {}", super::report::address(&page));
-    let statuses = tree.trials.iter().map(|trial| trial.outcome.status());
+    let statuses = tree.graded().map(|trial| trial.outcome.status());
     Ok(ExitCode::of(statuses, arguments.strict))
 }

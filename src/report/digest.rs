@@ -3,7 +3,7 @@
 
 use super::number::count;
 use super::tree::RunTree;
-use crate::case::{PARTS, Part};
+use crate::case::{PARTS, Part, Tier};
 use crate::run::record::CoreRecord;
 use crate::run::{Status, TrialRecord};
 use std::collections::BTreeMap;
@@ -87,6 +87,18 @@ impl PartGroup<'_> {
     }
 }
 
+/// Groups that are no part: folders that belong to none, and what is not graded.
+const APART: [&str; 3] = ["other cases", "robustness, not graded", "facts, not graded"];
+
+/// The group of [`APART`] that a trial belongs to if it belongs to no part.
+const fn apart(tier: Tier) -> &'static str {
+    match tier {
+        Tier::Graded => APART[0],
+        Tier::Robustness => APART[1],
+        Tier::Informational => APART[2],
+    }
+}
+
 /// Sorts trials into parts, in the order in which one rests on another. A folder that belongs to no
 /// part is not dropped: it comes last.
 pub fn by_part<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Vec<PartGroup<'a>> {
@@ -96,10 +108,15 @@ pub fn by_part<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Vec<Par
         trials: Vec::new(),
     };
     let mut groups: Vec<_> = PARTS.iter().map(group).collect();
-    groups.push(PartGroup { number: None, title: "other cases", trials: Vec::new() });
+    groups.extend(APART.map(|title| PartGroup { number: None, title, trials: Vec::new() }));
     for trial in trials {
         let number = Part::of_case(&trial.case).map(|part| part.number);
-        if let Some(group) = groups.iter_mut().find(|group| group.number == number) {
+        let title = apart(trial.tier);
+        let belongs = |group: &&mut PartGroup<'_>| match number {
+            Some(number) if trial.tier.is_graded() => group.number == Some(number),
+            _ => group.title == title,
+        };
+        if let Some(group) = groups.iter_mut().find(belongs) {
             group.trials.push(trial);
         }
     }
@@ -123,9 +140,17 @@ pub fn failures(tree: &RunTree) -> Vec<&TrialRecord> {
         .into_iter()
         .filter(|status| status.is_failure())
         .flat_map(|status| in_order_of_parts(tree, status))
+        .filter(|trial| trial.tier.is_graded())
         .collect();
     trials.sort_by_key(|trial| (Part::position(&trial.case), &trial.case));
     trials
+}
+
+/// What went wrong beside the grade: shown, and not held against the core.
+pub fn ungraded_failures(tree: &RunTree) -> Vec<&TrialRecord> {
+    let failing =
+        |trial: &&TrialRecord| !trial.tier.is_graded() && trial.outcome.status().is_failure();
+    tree.trials.iter().filter(failing).collect()
 }
 
 /// The probability that a correct core fails any of these trials: what they spent of the error

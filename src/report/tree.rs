@@ -92,6 +92,11 @@ impl RunTree {
         self.trials.iter().filter(move |trial| trial.core == spec)
     }
 
+    /// The trials that count for or against a core.
+    pub fn graded(&self) -> impl Iterator<Item = &TrialRecord> {
+        self.trials.iter().filter(|trial| trial.tier.is_graded())
+    }
+
     /// What is wrong with each core, in the order they were asked.
     pub fn diagnoses(&self) -> Vec<(&str, Diagnosis)> {
         let of = |core: &'_ CoreRecord| run::diagnose(core, &self.trials);

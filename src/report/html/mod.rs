@@ -78,7 +78,7 @@ pub fn write(tree: &RunTree, folder: &Path) -> Result<PathBuf, ReportError> {
 /// The text of the page that is to stand in `folder`.
 pub fn render(tree: &RunTree, folder: &Path) -> String {
     let view = View { tree, folder };
-    let tally = Tally::of(&tree.trials);
+    let tally = Tally::of(tree.graded());
     let cores: Vec<_> = tree.run.cores.iter().map(|core| core.spec.as_str()).collect();
     let title = format!("{} · {} · furnace", headline(tree, &tally), cores.join(" and "));
     let page = html! {

@@ -97,7 +97,7 @@ const FALSE_ALARM: &str = "the chance that a correct core fails any of its trial
 const WEAKEST_PASS: &str = "the smallest error that every pass would have caught";
 
 fn score(view: &View<'_>) -> Markup {
-    let tally = Tally::of(&view.tree.trials);
+    let tally = Tally::of(view.tree.graded());
     let planned = tally.total() + view.tree.missing();
     html! {
         div.card.score {
@@ -113,7 +113,7 @@ fn score(view: &View<'_>) -> Markup {
                     a href="#ledger" title=(FALSE_ALARM) { "false alarm" }
                     span.number { "≤ " (probability(worst_false_alarm(view.tree))) }
                 }
-                @if let Some(weakest) = weakest_first(&view.tree.trials).first() {
+                @if let Some(weakest) = weakest_first(view.tree.graded()).first() {
                     li.fact {
                         a href=(link(weakest.trial)) title=(WEAKEST_PASS) { "weakest pass" }
                         span.number { (percent(weakest.resolution)) }

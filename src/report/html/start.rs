@@ -34,7 +34,7 @@ impl Page for Start {
     }
 
     fn body(&self, view: &View<'_>) -> Option<Markup> {
-        let tally = Tally::of(&view.tree.trials);
+        let tally = Tally::of(view.tree.graded());
         match failures(view.tree).split_first() {
             Some((first, others)) => Some(failed(first, others)),
             None if tally.total() == 0 => None,
@@ -108,7 +108,7 @@ fn unknown(view: &View<'_>) -> Markup {
     let silent = |trial: &&TrialRecord| trial.outcome.status() != Status::Pass;
     html! {
         ul.further {
-            @for trial in view.tree.trials.iter().filter(silent).take(2 * FURTHER) {
+            @for trial in view.tree.graded().filter(silent).take(2 * FURTHER) {
                 li {
                     (badge(trial.outcome.status())) " "
                     a href=(link(trial)) { (trial.case) } " on " (trial.core)
@@ -125,7 +125,7 @@ fn weakest(view: &View<'_>) -> Markup {
         div {
             h4 { "Weakest passes: the smallest error each would have caught" }
             table.small {
-                @for weakest in weakest_first(&view.tree.trials).iter().take(ROWS) {
+                @for weakest in weakest_first(view.tree.graded()).iter().take(ROWS) {
                     tr { (named(weakest.trial)) td.number { (percent(weakest.resolution)) } }
                 }
             }

@@ -4,7 +4,7 @@ use super::headlines;
 use super::style::{Paint, Style, clean, cut, paint_of, wrap};
 use crate::case::Part;
 use crate::checks::{Finding, Measure};
-use crate::report::digest::{failures, in_order_of_parts};
+use crate::report::digest::{failures, in_order_of_parts, ungraded_failures};
 use crate::report::measure::{MeasureWords, worst_first};
 use crate::report::tree::RunTree;
 use crate::run::{Outcome, Status, TrialRecord};
@@ -25,6 +25,7 @@ pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
     let (full, brief) = failures.split_at(failures.len().min(FULL_BLOCKS));
     lines.extend(full.iter().flat_map(|trial| full_block(trial, style)));
     lines.extend(brief.iter().flat_map(|trial| brief_block(trial, style)));
+    lines.extend(ungraded_failures(tree).into_iter().flat_map(|trial| note(trial, style)));
     for status in [Status::Broken, Status::Inconclusive] {
         let trials = in_order_of_parts(tree, status);
         lines.extend(trials.into_iter().flat_map(|trial| undecided_block(trial, style)));
@@ -53,6 +54,16 @@ fn brief_block(trial: &TrialRecord, style: Style) -> Vec<String> {
     let head = format!("{} on {}", clean(&trial.case), clean(&trial.core));
     let mut lines =
         vec![String::new(), format!("  {}  {head}", style.paint(paint_of(status), &word))];
+    lines.extend(indented(&trial.outcome.statement()));
+    lines
+}
+
+/// A failure beside the grade.
+fn note(trial: &TrialRecord, style: Style) -> Vec<String> {
+    let word = style.paint(Paint::Unknown, "NOTE");
+    let (case, core) = (clean(&trial.case), clean(&trial.core));
+    let head = format!("  {word}  {case} on {core} ({}, not graded)", trial.tier.word());
+    let mut lines = vec![String::new(), head];
     lines.extend(indented(&trial.outcome.statement()));
     lines
 }

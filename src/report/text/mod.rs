@@ -8,7 +8,7 @@ mod blocks;
 mod headlines;
 mod style;
 
-pub use style::{COLUMNS, Paint, Style, clean, mark, paint_of};
+pub use style::{COLUMNS, Paint, Style, clean, mark, paint_of, wrap};
 
 use super::digest::{
     PartGroup, Tally, by_case, by_part, resolution_in_words, weakest_first, worst_false_alarm,
@@ -19,7 +19,6 @@ use crate::contract::Precision;
 use crate::run::record::CoreRecord;
 use crate::run::{Status, TrialRecord};
 use std::collections::BTreeSet;
-use style::wrap;
 
 /// The longest bar of cells in one line; longer ones go on below.
 const LONGEST_BAR: usize = 30;
@@ -136,7 +135,7 @@ fn resolutions(tree: &RunTree, style: Style) -> Vec<String> {
 }
 
 fn totals(tree: &RunTree, style: Style) -> Vec<String> {
-    let tally = Tally::of(&tree.trials);
+    let tally = Tally::of(tree.graded());
     let paint = match () {
         () if tally.failures() > 0 => Paint::Bad,
         () if tally.count(Status::Pass) == tally.total() && tree.is_finished() => Paint::Good,
@@ -176,7 +175,7 @@ fn chance(tree: &RunTree) -> String {
 
 /// The pass that proves least.
 fn weakest(tree: &RunTree) -> Vec<String> {
-    let Some(weakest) = weakest_first(&tree.trials).into_iter().next() else { return Vec::new() };
+    let Some(weakest) = weakest_first(tree.graded()).into_iter().next() else { return Vec::new() };
     let (case, core) = (clean(&weakest.trial.case), clean(&weakest.trial.core));
     let caught = percent(weakest.resolution);
     let text = format!("weakest pass: {case} on {core} would have caught an error of {caught}");

@@ -1,0 +1,127 @@
+//! `furnace explain`: one case in words, before or after it failed.
+
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::case::{self, Case, Filter, foundations};
+use crate::cores::CoreSpec;
+use crate::math::rng::Seed;
+use crate::project::Project;
+use crate::report::text::wrap;
+use crate::run::{Outcome, Plan, Request, run_trial};
+use crate::stats::Budget;
+use clap::Args;
+use std::sync::Arc;
+
+/// Column where the text begins.
+const INDENT: usize = 12;
+/// Cases told at once; more are only named.
+const MOST: usize = 3;
+
+/// What `furnace explain` understands.
+#[derive(Clone, Debug, Args)]
+pub struct ExplainArguments {
+    /// Which case: its name, or a part of it.
+    #[arg(required = true)]
+    filters: Vec<String>,
+    #[command(flatten)]
+    project: ProjectArguments,
+}
+
+/// Tells what the selected cases are about.
+pub fn explain(arguments: &ExplainArguments) -> Answer {
+    let project = arguments.project.find()?;
+    let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
+    let filter = Filter::new(&arguments.filters);
+    let selected: Vec<_> = cases.iter().filter(|case| filter.selects(case)).collect();
+    if selected.is_empty() {
+        let message = format!("no case is called {}", arguments.filters.join(" "));
+        return Err(Failure { code: ExitCode::NothingSelected, message });
+    }
+    for case in selected.iter().take(MOST) {
+        println!("{}", told(&project, case)?);
+    }
+    if selected.len() > MOST {
+        let others: Vec<_> = selected[MOST..].iter().map(|case| case.id.as_str()).collect();
+        println!("{}", labelled("also", &others.join(", ")));
+    }
+    Ok(ExitCode::Good)
+}
+
+fn told(project: &Project, case: &Arc<Case>) -> Result<String, Failure> {
+    let part = case.part().map_or(String::new(), |p| format!("part {}, {}", p.number, p.title));
+    let mut lines = vec![
+        format!("{}\n", case.id),
+        labelled("claim", &case.title),
+        labelled("about", &format!("{part}; {}", case.tier.word())),
+        labelled("remember", &case.teaches),
+        labelled("checked", &format!("{} ({})", case.check.summary, case.check.name)),
+        labelled("true since", &case.source),
+    ];
+    if let Some(scene) = &case.scene {
+        lines.push(labelled("scene", &scene_words(scene)));
+    }
+    lines.push(labelled("asks for", &case.prepared.needs().names().join(", ")));
+    lines.extend(rests_on(project, case));
+    lines.extend(sees(project, case)?);
+    lines.push(labelled("try", &format!("cargo furnace run {}", case.id)));
+    Ok(lines.join("\n") + "\n")
+}
+
+fn scene_words(scene: &case::SceneChoice) -> String {
+    let changed = scene.parameters.iter().map(|(name, value)| format!("{name} = {value}"));
+    let changed: Vec<_> = changed.collect();
+    if changed.is_empty() {
+        scene.name.clone()
+    } else {
+        format!("{} with {}", scene.name, changed.join(", "))
+    }
+}
+
+/// What has to be right for its result to mean anything.
+fn rests_on(project: &Project, case: &Case) -> Option<String> {
+    let library = crate::scene::Library::new(project.scenes());
+    let scene = case.scene.as_ref();
+    let scene = scene.and_then(|choice| library.load(&choice.name, &choice.parameters).ok());
+    let found = foundations(case, scene.as_deref());
+    let words: Vec<_> = found.iter().map(|foundation| foundation.word()).collect();
+    (!words.is_empty()).then(|| labelled("rests on", &words.join(", ")))
+}
+
+/// What it can see and what it spends, as it turns out on a core that is right.
+fn sees(project: &Project, case: &Arc<Case>) -> Result<Vec<String>, Failure> {
+    let core: CoreSpec = "textbook".parse().map_err(Failure::broken)?;
+    let request = Request {
+        cores: vec![core],
+        filters: Vec::new(),
+        budget: Budget::default(),
+        seed: Seed::SUITE,
+        jobs: 1,
+        fail_fast: false,
+    };
+    let plan = Plan::new(project.clone(), request, &[Arc::clone(case)]);
+    let Some(trial) = plan.trials.first() else { return Ok(Vec::new()) };
+    let record = run_trial(&plan.bench(), trial).record;
+    let Outcome::Judged { finding } = &record.outcome else {
+        return Ok(vec![labelled("sees", &record.outcome.statement())]);
+    };
+    let blame = if finding.false_alarm > 0.0 {
+        format!("a correct core fails it with probability {:.1e} at most", finding.false_alarm)
+    } else {
+        "nothing is left to chance: a correct core never fails it".to_owned()
+    };
+    let seconds = record.timing.seconds;
+    Ok(vec![
+        labelled("sees", &format!("on textbook it {}", finding.resolution)),
+        labelled("error rate", &blame),
+        labelled("takes", &format!("{seconds:.1} s, {} numbers", finding.measures.len())),
+    ])
+}
+
+/// A label and a text that goes on below itself.
+fn labelled(label: &str, text: &str) -> String {
+    let lines = wrap(text, INDENT + 2);
+    let label_of = |number| if number == 0 { label } else { "" };
+    let lines = lines.iter().enumerate();
+    let lines: Vec<_> =
+        lines.map(|(n, line)| format!("  {:<INDENT$}{line}", label_of(n))).collect();
+    lines.join("\n")
+}

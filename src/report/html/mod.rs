@@ -5,7 +5,9 @@
 //! section is a [`Page`] in a file of its own and a line in [`PAGES`]. Text from cores and cases is
 //! escaped by the templates; only our own style sheet and script are not.
 
+mod bounces;
 mod case;
+mod cause;
 mod develop;
 mod image;
 mod interval;

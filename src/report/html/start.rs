@@ -1,6 +1,7 @@
 //! The card that says what to look at first; when nothing failed, what is left to look at.
 
 use super::case::{measures, resolution};
+use super::cause;
 use super::parts::{badge, cell, command, link};
 use super::{Page, View};
 use crate::case::Part;
@@ -12,6 +13,8 @@ use maud::{Markup, html};
 
 /// Measures in the card; the case has them all.
 const MEASURES: usize = 4;
+/// Causes that have a card.
+const CAUSES: usize = 4;
 /// Further failures that the card names.
 const FURTHER: usize = 6;
 /// Rows of the small tables of a green run.
@@ -35,12 +38,39 @@ impl Page for Start {
 
     fn body(&self, view: &View<'_>) -> Option<Markup> {
         let tally = Tally::of(view.tree.graded());
+        let causes = causes(view);
         match failures(view.tree).split_first() {
+            Some(_) if causes.is_some() => causes,
             Some((first, others)) => Some(failed(first, others)),
             None if tally.total() == 0 => None,
             None => Some(not_failed(view, &tally)),
         }
     }
+}
+
+/// The causes of every core, and the failures that no cause explains.
+fn causes(view: &View<'_>) -> Option<Markup> {
+    let diagnoses = view.tree.diagnoses();
+    let told: Vec<_> = diagnoses
+        .iter()
+        .flat_map(|(core, diagnosis)| diagnosis.headlines.iter().map(move |h| (*core, h)))
+        .collect();
+    let unexplained = |trial: &&TrialRecord| {
+        let of_core = diagnoses.iter().filter(|(core, _)| *core == trial.core);
+        of_core.clone().any(|(_, diagnosis)| diagnosis.unexplained.contains(&trial.case))
+    };
+    let others: Vec<_> = failures(view.tree).into_iter().filter(unexplained).collect();
+    let kicker = |number: usize| if number == 0 { "Start here." } else { "Then." };
+    (!told.is_empty()).then(|| {
+        html! {
+            @for (number, (core, headline)) in told.iter().take(CAUSES).enumerate() {
+                (cause::card(view.tree, core, headline, kicker(number)))
+            }
+            @if !others.is_empty() {
+                div.card.first { (further(&others)) }
+            }
+        }
+    })
 }
 
 fn failed(first: &TrialRecord, others: &[&TrialRecord]) -> Markup {

@@ -1,0 +1,74 @@
+//! A cause in the page: the mistake in one sentence, what speaks for it, what was ruled out, where to look, one
+//! command.
+
+use super::bounces;
+use super::parts::{command, escaped};
+use crate::case::Part;
+use crate::diagnosis::Headline;
+use crate::report::tree::RunTree;
+use maud::{Markup, html};
+
+/// Cases named of those that a cause explains.
+const CASES: usize = 8;
+
+/// The card of a cause.
+pub fn card(tree: &RunTree, core: &str, headline: &Headline, kicker: &str) -> Markup {
+    let part = headline.explains.first().and_then(|case| Part::of_case(case));
+    html! {
+        div.card.first {
+            p.kicker {
+                b { (kicker) } " on " b { (core) }
+                @if let Some(part) = part { " · part " (part.number) ", " (part.title) }
+            }
+            h3.said { (sentence(headline.cause.headline)) }
+            @if let Some(plot) = bounces::plot(tree, core, headline) { (plot) }
+            dl.cause {
+                (list("seen", &headline.evidence))
+                (list("ruled out", &headline.ruled_out))
+                dt { "where" } dd { (sentence(headline.cause.look_at)) }
+                dt { "instead" } dd { (headline.cause.remedy) }
+                dt { "explains" } dd { (explained(core, headline)) }
+            }
+            (command(&headline.command))
+        }
+    }
+}
+
+fn list(label: &str, sentences: &[String]) -> Markup {
+    html! {
+        @if !sentences.is_empty() {
+            dt { (label) }
+            dd { @for sentence in sentences { p { (sentence) } } }
+        }
+    }
+}
+
+/// The failures, those that may follow, and how many were not tried.
+fn explained(core: &str, headline: &Headline) -> Markup {
+    html! {
+        (cases(core, &headline.explains))
+        @if !headline.may_follow.is_empty() {
+            "; these may follow from it: " (cases(core, &headline.may_follow))
+        }
+        @if headline.blocked > 0 {
+            "; " (headline.blocked) " were not tried because of it"
+        }
+    }
+}
+
+fn cases(core: &str, cases: &[String]) -> Markup {
+    html! {
+        @for (number, case) in cases.iter().take(CASES).enumerate() {
+            @if number > 0 { ", " }
+            a href=(format!("#{}", escaped(&format!("{case}@{core}")))) { (case) }
+        }
+        @if cases.len() > CASES { " and " (cases.len() - CASES) " more" }
+    }
+}
+
+/// With a capital and a full stop.
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}

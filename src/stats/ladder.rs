@@ -58,6 +58,21 @@ const OPENING_RUNS: u32 = 4096;
 /// 1e-3 and 4e-12.
 const FEWEST_CONFIRMING: [u64; 2] = [65_536, 262_144];
 
+/// The same where the first stage was grossly below the claim: together with its own they miss an
+/// event that happens once in 5000 samples with probability 1e-9.
+const FEWEST_STEADY: [u64; 2] = [16_384, 65_536];
+
+/// How a suspicion is confirmed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Pace {
+    /// Grossly too much: no event that has not happened can lower a mean of radiances.
+    Brisk,
+    /// Grossly too little, unless rare events have not happened yet.
+    Steady,
+    /// On 4 and 16 times the samples.
+    Thorough,
+}
+
 /// A step of the ladder. Each has its own random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -162,8 +177,8 @@ impl<E> Ladder<'_, E> {
         }
         let first = self.planned_samples();
         self.stage(Stage::First, first)?;
-        self.stage(Stage::Second, (4 * first).max(self.fewest_confirming(0)))?;
-        self.stage(Stage::Third, (16 * first).max(self.fewest_confirming(1)))
+        self.stage(Stage::Second, self.confirming_samples(first, 0))?;
+        self.stage(Stage::Third, self.confirming_samples(first, 1))
     }
 
     /// Whether bets have decided: one claim is false, or all are true.
@@ -217,9 +232,17 @@ impl<E> Ladder<'_, E> {
         self.whole_runs(needed.fold(FEWEST_EFFECTIVE, f64::max).min(most).ceil() as u64)
     }
 
-    fn fewest_confirming(&self, stage: usize) -> u64 {
-        let cap = self.effort.most_samples.saturating_mul([4, 16][stage]);
-        self.whole_runs(FEWEST_CONFIRMING[stage].min(cap))
+    /// Samples of the second and third stage (0 and 1). They may follow from what earlier stages
+    /// saw, for each stage is judged on fresh samples: what is grossly wrong needs no more of them.
+    fn confirming_samples(&self, first: u64, stage: usize) -> u64 {
+        let pace = self.trails.iter().filter_map(Trail::pace).max().unwrap_or(Pace::Thorough);
+        let (factors, fewest) = match pace {
+            Pace::Brisk => ([1, 1], [0, 0]),
+            Pace::Steady => ([2, 4], FEWEST_STEADY),
+            Pace::Thorough => ([4, 16], FEWEST_CONFIRMING),
+        };
+        let cap = self.effort.most_samples.saturating_mul(factors[stage]);
+        (factors[stage] * first).max(self.whole_runs(fewest[stage].min(cap)))
     }
 
     /// Draws and scores a stage, unless nobody is suspected any more.

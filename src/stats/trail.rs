@@ -3,7 +3,7 @@
 use super::betting::{EARLY_FALSE_ALARM, Wager};
 use super::ladder::{
     FEWEST_EFFECTIVE, LEAF_FALSE_ALARM, MISS_LEVEL, PILOT_EFFECTIVE, PLAN_MARGIN, PLANNED_SIGMAS,
-    VARIANCE_GUARD,
+    Pace, VARIANCE_GUARD,
 };
 use super::noise::{Noise, sample_variance};
 use super::{
@@ -160,6 +160,19 @@ impl Trail {
         let blind = stage == Stage::First && !score.rejects && wiser.resolution() > effort.detects;
         // Past 2⁵³ the cast saturates, and the cap is far below.
         blind.then(|| wiser.needed_samples(effort.detects) as u64)
+    }
+
+    /// How this claim's suspicion wants to be confirmed, if it is suspected. Where a mean of
+    /// differences is judged, both signs may be an event that has not happened.
+    pub(super) fn pace(&self) -> Option<Pace> {
+        let Standing::Suspected(sign) = self.standing else { return None };
+        let first = self.scores.first()?;
+        let is_gross = first.t.abs().min(first.u.abs()) >= 2.0 * PLANNED_SIGMAS;
+        Some(match (is_gross, sign > 0.0 && self.claim.expected > 0.0) {
+            (true, true) => Pace::Brisk,
+            (true, false) => Pace::Steady,
+            (false, _) => Pace::Thorough,
+        })
     }
 
     /// Takes the decision of a stage.

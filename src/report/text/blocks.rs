@@ -4,6 +4,7 @@ use super::headlines;
 use super::style::{Paint, Style, clean, cut, paint_of, wrap};
 use crate::case::Part;
 use crate::checks::{Finding, Measure};
+use crate::diagnosis::Diagnosis;
 use crate::report::digest::{failures, in_order_of_parts, ungraded_failures};
 use crate::report::measure::{MeasureWords, worst_first};
 use crate::report::tree::RunTree;
@@ -21,8 +22,10 @@ pub const INDENT: usize = 8;
 /// Every block.
 pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
     let mut lines = headlines::all(tree, style);
-    let failures = failures(tree);
-    let (full, brief) = failures.split_at(failures.len().min(FULL_BLOCKS));
+    let (explained, alone): (Vec<_>, Vec<_>) =
+        failures(tree).into_iter().partition(|trial| is_explained(tree, trial));
+    lines.extend(explained.iter().flat_map(|trial| brief_block(trial, style)));
+    let (full, brief) = alone.split_at(alone.len().min(FULL_BLOCKS));
     lines.extend(full.iter().flat_map(|trial| full_block(trial, style)));
     lines.extend(brief.iter().flat_map(|trial| brief_block(trial, style)));
     lines.extend(ungraded_failures(tree).into_iter().flat_map(|trial| note(trial, style)));
@@ -33,6 +36,14 @@ pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
     lines.extend(grouped(tree, Status::Blocked, style));
     lines.extend(grouped(tree, Status::Skipped, style));
     lines
+}
+
+/// Whether a cause has been told that the trial shows, or may follow from.
+fn is_explained(tree: &RunTree, trial: &TrialRecord) -> bool {
+    let told = |(core, diagnosis): &(&str, Diagnosis)| {
+        *core == trial.core && !diagnosis.unexplained.contains(&trial.case)
+    };
+    tree.diagnoses().iter().any(told)
 }
 
 /// Verdict and size, the numbers, the place, the next command.

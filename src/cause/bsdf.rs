@@ -50,6 +50,138 @@ pub static ALBEDO_DOUBLED: Cause = Cause {
     remedy: "f = albedo / π.",
 };
 
+/// See its headline.
+pub static GLASS_SIDES_SWAPPED: Cause = Cause {
+    name: "glass-sides-swapped",
+    headline: "glass takes entering for leaving: the ratio of indices is upside down",
+    look_at: "the glass surface, where wo.z decides which index stands above the other",
+    remedy: "wo.z > 0 is outside: light comes from the far side with η = index beyond / index here.",
+};
+
+/// See its headline.
+pub static SNELL_INVERTED: Cause = Cause {
+    name: "snell-inverted",
+    headline: "refraction bends by the inverse ratio of indices, away from the normal instead of towards it",
+    look_at: "refract: the ratio that multiplies the sine",
+    remedy: "sin θ beyond = sin θ here · (index here / index beyond).",
+};
+
+/// See its headline.
+pub static SCHLICK_UNDECLARED: Cause = Cause {
+    name: "schlick-undeclared",
+    headline: "glass reflects by Schlick's approximation, and the core declares Fresnel's equations",
+    look_at: "the reflectance of glass, or the declared conventions",
+    remedy: "Use Fresnel's equations, or declare `glass-fresnel = \"schlick\"`.",
+};
+
+/// See its headline.
+pub static SCHLICK_FROM_INSIDE: Cause = Cause {
+    name: "schlick-from-inside",
+    headline: "Schlick's approximation takes the cosine inside the glass for light that leaves it",
+    look_at: "the reflectance of glass, for wo on the dense side",
+    remedy: "The cosine of the formula is the one on the thin side, outside.",
+};
+
+/// See its headline.
+pub static TOTAL_REFLECTION_FORGOTTEN: Cause = Cause {
+    name: "total-reflection-forgotten",
+    headline: "beyond the critical angle light is lost instead of reflected",
+    look_at: "the glass surface, where refraction has no solution",
+    remedy: "Where sin θ beyond would exceed one, reflect everything.",
+};
+
+/// See its headline.
+pub static GLASS_RADIANCE_NOT_SCALED: Cause = Cause {
+    name: "glass-radiance-not-scaled",
+    headline: "radiance crosses glass unchanged, where radiance over index squared is what is kept",
+    look_at: "the weight of the refracted lobe",
+    remedy: "Divide it by (index beyond / index here)², or declare `glass-radiance = \"unscaled\"`.",
+};
+
+/// See its headline.
+pub static GLASS_RADIANCE_SCALED_BACKWARDS: Cause = Cause {
+    name: "glass-radiance-scaled-backwards",
+    headline: "radiance that crosses glass is multiplied by the index squared instead of divided",
+    look_at: "the weight of the refracted lobe",
+    remedy: "Light that comes out of the denser side towards wo is worth 1/η², η = index beyond / index here.",
+};
+
+/// See its headline.
+pub static GLASS_RADIANCE_SCALED_UNDECLARED: Cause = Cause {
+    name: "glass-radiance-scaled-undeclared",
+    headline: "radiance is divided by the index squared, and the core declares that it is not",
+    look_at: "the weight of the refracted lobe, or the declared conventions",
+    remedy: "Leave the factor out, or declare `glass-radiance = \"scaled\"`.",
+};
+
+/// See its headline.
+pub static DELTA_COSINE_FORGOTTEN: Cause = Cause {
+    name: "delta-cosine-forgotten",
+    headline: "f of a mirror or of glass is not divided by |cos θ|, and the integrator multiplies by it",
+    look_at: "sample of the mirror or glass, where f is returned",
+    remedy: "f = weight · pdf / |cos θi|: the cosine of the rendering equation has no part in a mirror.",
+};
+
+/// See its headline.
+pub static DELTA_WEIGHT_TIMES_PROBABILITY: Cause = Cause {
+    name: "delta-weight-not-divided",
+    headline: "glass chooses between its two ways by chance, and does not divide by that chance",
+    look_at: "sample of the glass, where f and pdf of the chosen way are returned",
+    remedy: "f · |cos θ| / pdf is the colour alone: the share F cancels against the probability F.",
+};
+
+/// See its headline.
+pub static DELTA_PROBABILITY_IS_ONE: Cause = Cause {
+    name: "delta-probability-is-one",
+    headline: "glass chooses between its two ways by chance, and says that the chance was 1",
+    look_at: "sample of the glass, where pdf is returned",
+    remedy: "The pdf of a way is the probability of having chosen it: F, or 1 - F.",
+};
+
+/// See its headline.
+pub static DELTA_COLOUR_MISSING: Cause = Cause {
+    name: "delta-colour-missing",
+    headline: "the colour of a mirror or of glass is left out of its weight",
+    look_at: "sample of the mirror or glass, where f is returned",
+    remedy: "Multiply by the reflectance, or by the transmittance of what passes.",
+};
+
+/// See its headline.
+pub static MIRROR_RETURNS_VIEW: Cause = Cause {
+    name: "mirror-returns-view",
+    headline: "a mirror sends light back where it came from: wi is wo",
+    look_at: "sample of the mirror, where wo is mirrored about the normal",
+    remedy: "wi = (-wo.x, -wo.y, wo.z).",
+};
+
+/// See its headline.
+pub static MIRROR_GOES_THROUGH: Cause = Cause {
+    name: "mirror-goes-through",
+    headline: "a mirror lets light straight through: all of wo is turned round, its z as well",
+    look_at: "sample of the mirror, where wo is mirrored about the normal",
+    remedy: "wi = (-wo.x, -wo.y, wo.z): the side of the surface stays.",
+};
+
 /// Every cause of this part.
-pub static CAUSES: &[&Cause] =
-    &[&WITHOUT_PI, &ALBEDO_HALVED, &WITH_PI, &COSINE_IN_F, &F_OVER_COSINE, &ALBEDO_DOUBLED];
+pub static CAUSES: &[&Cause] = &[
+    &WITHOUT_PI,
+    &ALBEDO_HALVED,
+    &WITH_PI,
+    &COSINE_IN_F,
+    &F_OVER_COSINE,
+    &ALBEDO_DOUBLED,
+    &GLASS_SIDES_SWAPPED,
+    &SNELL_INVERTED,
+    &SCHLICK_UNDECLARED,
+    &SCHLICK_FROM_INSIDE,
+    &TOTAL_REFLECTION_FORGOTTEN,
+    &GLASS_RADIANCE_NOT_SCALED,
+    &GLASS_RADIANCE_SCALED_BACKWARDS,
+    &GLASS_RADIANCE_SCALED_UNDECLARED,
+    &DELTA_COSINE_FORGOTTEN,
+    &DELTA_WEIGHT_TIMES_PROBABILITY,
+    &DELTA_PROBABILITY_IS_ONE,
+    &DELTA_COLOUR_MISSING,
+    &MIRROR_RETURNS_VIEW,
+    &MIRROR_GOES_THROUGH,
+];

@@ -12,6 +12,7 @@ pub mod convergence;
 mod finding;
 mod form;
 pub mod light;
+mod numbers;
 mod phrase;
 pub mod picture;
 pub mod robustness;
@@ -124,6 +125,7 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<bsdf::AgreesWithItself>(),
     CheckKind::of::<bsdf::Reciprocal>(),
     CheckKind::of::<bsdf::ConservesEnergy>(),
+    CheckKind::of::<bsdf::ReflectsAndRefracts>(),
     CheckKind::of::<bvh::SameHitsAsBruteForce>(),
     CheckKind::of::<bvh::BuildsComeToAnEnd>(),
     CheckKind::of::<bvh::VisitsFewNodes>(),

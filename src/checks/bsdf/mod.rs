@@ -4,8 +4,12 @@ mod agrees_with_itself;
 mod conserves_energy;
 #[cfg(test)]
 mod fake;
+mod interface;
 mod reciprocal;
+mod reflects_and_refracts;
+mod smooth_view;
 
 pub use agrees_with_itself::AgreesWithItself;
 pub use conserves_energy::ConservesEnergy;
 pub use reciprocal::Reciprocal;
+pub use reflects_and_refracts::ReflectsAndRefracts;

@@ -1,0 +1,303 @@
+//! Mirrors and glass: where they send light, how much of it, and how often.
+//!
+//! Three things have to fit for each view: the directions (the law of reflection, Snell's), what each of them
+//! carries (Fresnel's share times the colour), and the chance of choosing it, which the core may pick but has to say.
+
+use super::interface::{Interface, MISTAKES};
+use super::smooth_view::{Allowed, SmoothView, is_reflection};
+use crate::cause::bsdf as cause;
+use crate::checks::numbers::Numbers;
+use crate::checks::phrase::{degrees, figure, percent};
+use crate::checks::surface::{SurfaceEntry, seen_from};
+use crate::checks::{Check, CheckError, Context, Finding};
+use crate::contract::{BsdfSample, Capabilities, Core};
+use crate::math::rng::Seed;
+use crate::scene::Material;
+use crate::stats::{Band, Effort, ShareReport, Tolerance, Verdict, judge_share};
+use crate::text::{Angle, Count, Percent};
+use glam::DVec3;
+use serde::Deserialize;
+
+/// Samples of each view that are looked at one by one: a lobe of 4 % is missed with probability 1e-72.
+const EXAMINED: usize = 4096;
+/// Samples drawn in one batch.
+const BATCH: u64 = 1 << 16;
+
+/// What a core overwrites.
+const NO_SAMPLE: BsdfSample =
+    BsdfSample { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
+
+/// Samples a mirror or glass from some angles; beyond 90° the viewer is inside.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ReflectsAndRefracts {
+    surface: SurfaceEntry,
+    seen_from: Vec<Angle>,
+    /// The smallest error of the share of samples reflected.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+impl Check for ReflectsAndRefracts {
+    const NAME: &'static str = "reflects-and-refracts";
+    const SUMMARY: &'static str =
+        "mirror and glass: directions, Fresnel's shares, weights, chances";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::SAMPLE_BSDF
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        if !self.surface.is_delta() {
+            return Err(format!("{} scatters; give a mirror or glass", self.surface));
+        }
+        if self.seen_from.is_empty() { Err("there are no views".to_owned()) } else { Ok(()) }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let precision = context.info.precision;
+        let material = self.surface.material();
+        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
+        let trial = Trial {
+            interface: Interface::new(material.surface, context.info.conventions),
+            material,
+            allowed: Allowed {
+                direction: Tolerance::DIRECTION.of(precision),
+                formula: Tolerance::FORMULA.of(precision),
+            },
+            effort: context.budget.scale(effort),
+            band: Band::math(precision),
+        };
+        let seed = context.seed;
+        let view = |Angle(angle): &Angle| trial.view(context.core, *angle, seed.child(angle));
+        let views = self.seen_from.iter().map(view).collect::<Result<Vec<_>, _>>()?;
+        Ok(trial.explained(trial.finding(self.surface, &views), &views))
+    }
+}
+
+/// What is asked of every view.
+struct Trial {
+    material: Material,
+    interface: Interface,
+    allowed: Allowed,
+    effort: Effort,
+    band: Band,
+}
+
+impl Trial {
+    fn view(&self, core: &mut dyn Core, angle: f64, seed: Seed) -> Result<SmoothView, CheckError> {
+        let wo = seen_from(angle);
+        let mut view = SmoothView {
+            name: format!("at {}", degrees(angle)),
+            wo,
+            right: self.interface.lobes(wo),
+            samples: self.samples(core, wo, seed.child("examined"), EXAMINED)?,
+            chance: None,
+            allowed: self.allowed,
+        };
+        if let Some(stated) = view.stated_chance() {
+            view.chance = Some(self.chance(core, wo, stated, seed)?);
+        }
+        Ok(view)
+    }
+
+    fn samples(
+        &self,
+        core: &mut dyn Core,
+        wo: DVec3,
+        seed: Seed,
+        count: usize,
+    ) -> Result<Vec<BsdfSample>, CheckError> {
+        let mut samples = vec![NO_SAMPLE; count];
+        let numbers = Numbers::new(seed, count);
+        core.sample_bsdf(&self.material, &vec![wo; count], numbers.randomness(), &mut samples)?;
+        Ok(samples)
+    }
+
+    /// Whether samples are reflected as often as they say.
+    fn chance(
+        &self,
+        core: &mut dyn Core,
+        wo: DVec3,
+        stated: f64,
+        seed: Seed,
+    ) -> Result<ShareReport, CheckError> {
+        judge_share(stated, self.band, &self.effort, &mut |stage, trials| {
+            let mut reflected = 0;
+            for batch in 0..trials.div_ceil(BATCH) {
+                let count = BATCH.min(trials - batch * BATCH);
+                let count = usize::try_from(count).unwrap_or(usize::MAX);
+                let samples = self.samples(core, wo, seed.child(stage).child(batch), count)?;
+                reflected += samples.iter().filter(|s| is_reflection(s, wo)).count() as u64;
+            }
+            Ok(reflected)
+        })
+    }
+
+    fn finding(&self, surface: SurfaceEntry, views: &[SmoothView]) -> Finding {
+        let statement = match views.iter().find_map(SmoothView::complaint) {
+            Some(complaint) => format!("{surface} {complaint}"),
+            None => format!("{surface} does what it should in {} views", views.len()),
+        };
+        let resolution = format!(
+            "would have caught a direction {} off, and an error of {} of what is reflected",
+            degrees(self.allowed.direction),
+            percent(self.allowed.formula)
+        );
+        let chances = views.iter().filter_map(|view| view.chance.as_ref());
+        let spent = chances.map(|chance| chance.false_alarm).sum();
+        let measures = views.iter().flat_map(SmoothView::measures).collect();
+        Finding::of(statement, resolution, measures).spending(spent)
+    }
+
+    /// With the mistakes that predict every sample of every view.
+    fn explained(&self, mut finding: Finding, views: &[SmoothView]) -> Finding {
+        if finding.verdict != Verdict::Fail {
+            return finding;
+        }
+        for mistake in MISTAKES {
+            let mistaken = |view: &SmoothView| self.interface.mistaken(view.wo, mistake);
+            let differs = views.iter().any(|view| mistaken(view) != view.right);
+            if differs && views.iter().all(|view| view.is_predicted_by(mistaken(view))) {
+                let evidence = format!("predicts every sample of {} views", views.len());
+                finding = finding.because(mistake.cause, evidence);
+            }
+        }
+        let sure: Vec<_> = views.iter().filter_map(SmoothView::is_sure_of_both).collect();
+        if !sure.is_empty() && sure.iter().all(|sure| *sure) {
+            let evidence =
+                format!("pdf is 1 in {} views that go both ways", figure(sure.len() as f64));
+            finding = finding.because(&cause::DELTA_PROBABILITY_IS_ONE, evidence);
+        }
+        finding
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::interface::Mistake;
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
+    use crate::contract::{
+        Conventions, CoreInfo, GlassFresnel, GlassRadiance, Precision, Randomness, Result,
+    };
+
+    const GLASS: &str = include_str!("../../../cases/bsdf/glass-reflects-and-refracts.toml");
+    const MIRROR: &str = include_str!("../../../cases/bsdf/a-mirror-reflects-its-share.toml");
+
+    /// Chooses between the lobes of an interface by their probability.
+    #[derive(Clone, Copy)]
+    struct Smooth {
+        mistake: Option<&'static Mistake>,
+        conventions: Conventions,
+        spoil: fn(&mut BsdfSample),
+    }
+
+    impl Default for Smooth {
+        fn default() -> Self {
+            Self { mistake: None, conventions: Conventions::default(), spoil: |_| () }
+        }
+    }
+
+    impl Core for Smooth {
+        fn info(&self) -> CoreInfo {
+            CoreInfo { conventions: self.conventions, ..info(Precision::Double) }
+        }
+
+        fn sample_bsdf(
+            &mut self,
+            material: &Material,
+            wo: &[DVec3],
+            random: Randomness<'_>,
+            samples: &mut [BsdfSample],
+        ) -> Result<()> {
+            let interface = Interface::new(material.surface, self.conventions);
+            for (i, sample) in samples.iter_mut().enumerate() {
+                let lobes = match self.mistake {
+                    None => interface.lobes(wo[i]),
+                    Some(mistake) => interface.mistaken(wo[i], mistake),
+                };
+                let share = lobes.reflected.map_or(0.0, |lobe| lobe.probability);
+                let lobe = if random.lobes[i] < share { lobes.reflected } else { lobes.refracted };
+                *sample = NO_SAMPLE;
+                let Some(lobe) = lobe else { continue };
+                *sample = BsdfSample {
+                    wi: lobe.wi,
+                    f: lobe.carried.map(|carried| carried / lobe.wi.z.abs()),
+                    pdf: lobe.probability,
+                    is_delta: 1,
+                    is_valid: 1,
+                };
+                (self.spoil)(sample);
+            }
+            Ok(())
+        }
+    }
+
+    fn found(case: &str, mut smooth: Smooth) -> Finding {
+        // The chance of a reflection is not what takes time to judge here.
+        let case = case.replace("5 %", "30 %");
+        judge(&check_of::<ReflectsAndRefracts>(&case), &mut smooth)
+    }
+
+    fn spoilt(spoil: fn(&mut BsdfSample)) -> Finding {
+        found(GLASS, Smooth { spoil, ..Smooth::default() })
+    }
+
+    #[test]
+    fn right_ones_pass_by_every_convention() {
+        assert_passes(&found(MIRROR, Smooth::default()));
+        for glass_radiance in [GlassRadiance::Scaled, GlassRadiance::Unscaled] {
+            for glass_fresnel in [GlassFresnel::Exact, GlassFresnel::Schlick] {
+                let conventions =
+                    Conventions { glass_radiance, glass_fresnel, ..Conventions::default() };
+                assert_passes(&found(GLASS, Smooth { conventions, ..Smooth::default() }));
+            }
+        }
+    }
+
+    #[test]
+    fn a_chance_that_is_stated_wrongly_is_seen() {
+        let halved = Smooth { spoil: |sample| sample.pdf = 0.5, ..Smooth::default() };
+        assert!(failure(&found(MIRROR, halved)).contains("100 % of samples are reflected"));
+    }
+
+    #[test]
+    fn every_mistake_fails_under_its_own_name() {
+        for mistake in MISTAKES {
+            let is_named = |case, glass_radiance| {
+                let conventions = Conventions { glass_radiance, ..Conventions::default() };
+                let smooth = Smooth { mistake: Some(mistake), conventions, ..Smooth::default() };
+                let finding = found(case, smooth);
+                let clue = finding.clues.first().map(|clue| clue.cause.as_str());
+                finding.verdict == Verdict::Fail && clue == Some(mistake.cause.name)
+            };
+            let named = is_named(GLASS, GlassRadiance::Scaled)
+                || is_named(GLASS, GlassRadiance::Unscaled)
+                || is_named(MIRROR, GlassRadiance::Scaled);
+            assert!(named, "{}", mistake.cause.name);
+        }
+    }
+
+    #[test]
+    fn chances_that_are_not_stated_are_seen() {
+        let finding = spoilt(|sample| sample.pdf = 1.0);
+        assert_eq!(
+            failure(&finding).split(": ").nth(1),
+            Some("pdf says that light is refracted with probability 1, of 0 left")
+        );
+        assert_eq!(finding.clues[0].cause, cause::DELTA_PROBABILITY_IS_ONE.name);
+        failure(&spoilt(|sample| sample.pdf *= 0.99));
+    }
+
+    #[test]
+    fn samples_that_are_not_marked_or_slightly_off_are_seen() {
+        assert!(failure(&spoilt(|sample| sample.is_delta = 0)).contains("not marked as delta"));
+        assert!(failure(&spoilt(|sample| sample.is_valid = 0)).contains("samples fail"));
+        let bent = spoilt(|sample| sample.wi = (sample.wi + 1e-6 * DVec3::X).normalize());
+        assert!(failure(&bent).contains("off its direction") && bent.clues.is_empty());
+        let brighter = spoilt(|sample| sample.f[1] *= 1.001);
+        assert!(failure(&brighter).contains("off by 0.1 %"), "{}", brighter.statement);
+    }
+}

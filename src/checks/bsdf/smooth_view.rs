@@ -1,0 +1,225 @@
+//! What a core made of one view of a mirror or of glass, next to what is right.
+
+use super::interface::{Lobe, Lobes};
+use crate::checks::Measure;
+use crate::checks::phrase::{degrees, figure, percent, worst_measure};
+use crate::contract::BsdfSample;
+use crate::math::sphere::angle_between;
+use crate::stats::{Compared, ExactReport, ShareReport, Verdict, judge_exact};
+use glam::DVec3;
+
+/// A mistake may magnify rounding, but not a hundredfold; different mistakes differ in the second digit.
+const LIKENESS: f64 = 100.0;
+
+/// How far rounding may take a correct core.
+#[derive(Clone, Copy, Debug)]
+pub struct Allowed {
+    /// Of a direction, radians, before its condition.
+    pub direction: f64,
+    /// Of what a lobe carries, and of its probability; relative.
+    pub formula: f64,
+}
+
+/// One view, the samples drawn for it, and how often they were reflections.
+pub struct SmoothView {
+    /// `at 60°`
+    pub name: String,
+    /// Towards the viewer, local.
+    pub wo: DVec3,
+    /// What light should do.
+    pub right: Lobes,
+    /// Samples that are looked at one by one.
+    pub samples: Vec<BsdfSample>,
+    /// Whether samples are reflections as often as they say.
+    pub chance: Option<ShareReport>,
+    /// How far rounding may take a correct core.
+    pub allowed: Allowed,
+}
+
+/// One of the two ways, and what went it.
+struct Way<'a> {
+    name: &'static str,
+    /// `None` where no light goes.
+    right: Option<Lobe>,
+    samples: Vec<&'a BsdfSample>,
+    /// The probability that it should have, by what reflections say of theirs.
+    chance: f64,
+}
+
+impl SmoothView {
+    /// The probability of a reflection that the samples state.
+    pub fn stated_chance(&self) -> Option<f64> {
+        let (back, through) = self.sides();
+        let of_reflection = back.first().map(|sample| sample.pdf);
+        let stated = of_reflection.or_else(|| through.first().map(|sample| 1.0 - sample.pdf));
+        stated.map(|chance| chance.clamp(0.0, 1.0))
+    }
+
+    /// Whether light goes both ways, and every sample states a probability of one.
+    pub fn is_sure_of_both(&self) -> Option<bool> {
+        let (back, through) = self.sides();
+        let goes_both_ways = !back.is_empty() && !through.is_empty();
+        goes_both_ways.then(|| self.samples.iter().all(|s| s.is_valid == 1 && s.pdf == 1.0))
+    }
+
+    /// Whether a core that works light out this way would have given every sample.
+    pub fn is_predicted_by(&self, lobes: Lobes) -> bool {
+        let (back, through) = self.sides();
+        let samples = || back.iter().chain(&through);
+        let is_met = |lobe: Lobe| samples().any(|s| self.is_like(s, lobe));
+        samples().all(|s| lobes.iter().any(|lobe| self.is_like(s, lobe)))
+            && lobes.iter().all(is_met)
+    }
+
+    fn is_like(&self, sample: &BsdfSample, lobe: Lobe) -> bool {
+        let carried = carried(sample);
+        let is_as_bright = |c: usize| {
+            let slack = LIKENESS * self.allowed.formula * lobe.carried[c];
+            (carried[c] - lobe.carried[c]).abs() <= slack
+        };
+        angle_between(sample.wi, lobe.wi) <= LIKENESS * self.allowed_angle(lobe)
+            && (0..3).all(is_as_bright)
+    }
+
+    /// A cosine near zero magnifies the rounding of its square.
+    fn allowed_angle(&self, lobe: Lobe) -> f64 {
+        self.allowed.direction / lobe.wi.z.abs()
+    }
+
+    /// The samples that stay on the side of the viewer, and those that pass.
+    fn sides(&self) -> (Vec<&BsdfSample>, Vec<&BsdfSample>) {
+        let valid = self.samples.iter().filter(|sample| sample.is_valid == 1);
+        valid.partition(|sample| is_reflection(sample, self.wo))
+    }
+
+    fn ways(&self) -> [Way<'_>; 2] {
+        let (back, through) = self.sides();
+        let chance = self.stated_chance().unwrap_or(f64::NAN);
+        let Lobes { reflected, refracted } = self.right;
+        [
+            Way { name: "reflected", right: reflected, samples: back, chance },
+            Way { name: "refracted", right: refracted, samples: through, chance: 1.0 - chance },
+        ]
+    }
+
+    /// How many samples failed, and how many are not marked.
+    fn unusable(&self) -> (usize, usize) {
+        let failed = self.samples.iter().filter(|sample| sample.is_valid != 1).count();
+        let marked = self.samples.iter().filter(|s| s.is_valid == 1 && s.is_delta == 1).count();
+        (failed, self.samples.len() - failed - marked)
+    }
+
+    /// The rows of the finding.
+    pub fn measures(&self) -> Vec<Measure> {
+        let named = |what: &str| format!("{}, {what}", self.name);
+        let count = |what: &str, found: usize| {
+            Measure::exact(named(what), found as f64, 0.0, 0.0).in_unit("samples")
+        };
+        let (failed, unmarked) = self.unusable();
+        let mut measures = vec![count("failed", failed), count("not marked as delta", unmarked)];
+        for way in self.ways() {
+            let Some(lobe) = way.right else {
+                let what = format!("{} where no light goes", way.name);
+                measures.push(count(&what, way.samples.len()));
+                continue;
+            };
+            let rows = [
+                ("direction, radians off", self.directions(&way, lobe)),
+                ("share of light", self.shares(&way, lobe)),
+                ("probability", self.chances(&way)),
+            ];
+            let row =
+                |(what, report)| worst_measure(named(&format!("{} {what}", way.name)), report);
+            measures.extend(rows.iter().map(|(what, report)| row((*what, report))));
+        }
+        measures.extend(self.chance.as_ref().map(|report| Measure {
+            interval: Some(report.interval),
+            resolution: Some(report.resolution),
+            verdict: report.verdict,
+            ..Measure::exact(named("samples reflected"), report.share, report.expected, 0.0)
+        }));
+        measures
+    }
+
+    fn directions(&self, way: &Way<'_>, lobe: Lobe) -> ExactReport {
+        let allowed = self.allowed_angle(lobe);
+        let off = |s: &&BsdfSample| Compared::within(angle_between(s.wi, lobe.wi), 0.0, allowed);
+        judge_exact(way.samples.iter().map(off))
+    }
+
+    fn shares(&self, way: &Way<'_>, lobe: Lobe) -> ExactReport {
+        judge_exact(way.samples.iter().flat_map(|sample| {
+            let carried = carried(sample);
+            let share = |c| Compared::relative(carried[c], lobe.carried[c], self.allowed.formula);
+            (0..3).map(share).collect::<Vec<_>>()
+        }))
+    }
+
+    fn chances(&self, way: &Way<'_>) -> ExactReport {
+        let chance = |s: &&BsdfSample| Compared::relative(s.pdf, way.chance, self.allowed.formula);
+        judge_exact(way.samples.iter().map(chance))
+    }
+
+    /// The first thing that is wrong.
+    pub fn complaint(&self) -> Option<String> {
+        let at = &self.name;
+        match self.unusable() {
+            (0, 0) => {}
+            (0, unmarked) => {
+                return Some(format!("{at}: {unmarked} samples are not marked as delta"));
+            }
+            (failed, _) => {
+                let all = self.samples.len();
+                return Some(format!(
+                    "{at}: {failed} of {all} samples fail, and their light is lost"
+                ));
+            }
+        }
+        let of_way = self.ways().iter().find_map(|way| self.complaint_of(way));
+        of_way.or_else(|| self.complaint_of_chance()).map(|what| format!("{at}: {what}"))
+    }
+
+    fn complaint_of(&self, way: &Way<'_>) -> Option<String> {
+        let name = way.name;
+        let Some(lobe) = way.right else {
+            let some = !way.samples.is_empty();
+            return some.then(|| format!("light is {name} where none goes"));
+        };
+        if way.samples.is_empty() {
+            return Some(format!("light is never {name}"));
+        }
+        let directions = self.directions(way, lobe);
+        if directions.disagree > 0 {
+            let off = degrees(directions.worst?.compared.found);
+            return Some(format!("light is {name} {off} off its direction"));
+        }
+        let shares = self.shares(way, lobe);
+        if shares.disagree > 0 {
+            let Compared { found, expected, .. } = shares.worst?.compared;
+            let (is, should) = (figure(found), figure(expected));
+            let by = percent(found / expected - 1.0);
+            return Some(format!("{is} of the light is {name} instead of {should}, off by {by}"));
+        }
+        let chances = self.chances(way);
+        let Compared { found, expected, .. } = chances.worst?.compared;
+        let (is, rest) = (figure(found), figure(expected));
+        (chances.disagree > 0)
+            .then(|| format!("pdf says that light is {name} with probability {is}, of {rest} left"))
+    }
+
+    fn complaint_of_chance(&self) -> Option<String> {
+        let chance = self.chance.as_ref().filter(|chance| chance.verdict == Verdict::Fail)?;
+        let (stated, share) = (percent(chance.expected), percent(chance.share));
+        Some(format!("{share} of samples are reflected, and pdf says {stated}"))
+    }
+}
+
+/// Whether a sample stays on the side of the viewer.
+pub fn is_reflection(sample: &BsdfSample, wo: DVec3) -> bool {
+    sample.is_valid == 1 && sample.wi.z * wo.z > 0.0
+}
+
+/// What a sample carries, whatever its probability.
+fn carried(sample: &BsdfSample) -> [f64; 3] {
+    sample.f.map(|f| f * sample.wi.z.abs())
+}

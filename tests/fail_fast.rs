@@ -97,7 +97,7 @@ fn what_is_plainly_wrong_is_known_by_bets_and_otherwise_measured_by_the_ladder()
         let finding = records[1].outcome.finding().unwrap().clone();
         let [low, high] = finding.measures[0].interval.unwrap();
         assert!(low < 0.2180828882 && 0.2180828882 < high && high < 0.7, "{low} {high}");
-        (high - low, finding.false_alarm)
+        (high - low, finding.false_alarm())
     };
     let ((early, early_alarm), (late, late_alarm)) = (width(true), width(false));
     assert!(early > 5.0 * late, "{early} against {late}");

@@ -1,7 +1,7 @@
 //! What a check has to say: a verdict, a sentence, and the numbers behind it.
 
 use crate::cause::Cause;
-use crate::stats::Verdict;
+use crate::stats::{Leaf, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// The result of one check on one core.
@@ -16,9 +16,6 @@ pub struct Finding {
     pub measures: Vec<Measure>,
     /// The smallest error this trial would have caught, in words. Empty only where nothing was measured.
     pub resolution: String,
-    /// What the trial spent of the suite's error budget: the probability that a correct core fails it.
-    #[serde(with = "number")]
-    pub false_alarm: f64,
     /// Mistakes that the check recognised, the likeliest first; empty where it passes, or knows none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub clues: Vec<Clue>,
@@ -58,6 +55,10 @@ pub struct Measure {
     pub resolution: Option<f64>,
     /// The verdict on this number alone.
     pub verdict: Verdict,
+    /// What the ledger enters for it; none where chance has no part in it, or where another measure
+    /// stands for the same test.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub leaf: Option<Leaf>,
 }
 
 impl Measure {
@@ -73,7 +74,13 @@ impl Measure {
             interval: None,
             resolution: (expected != 0.0).then(|| allowed / expected.abs()),
             verdict: if passes { Verdict::Pass } else { Verdict::Fail },
+            leaf: None,
         }
+    }
+
+    /// The same, judged by a test that can fail by chance.
+    pub fn judged_by(self, leaf: Leaf) -> Self {
+        Self { leaf: Some(leaf), ..self }
     }
 
     /// The same with a unit.
@@ -96,7 +103,6 @@ impl Finding {
             statement: statement.into(),
             measures,
             resolution: resolution.into(),
-            false_alarm: 0.0,
             clues: Vec::new(),
         }
     }
@@ -108,15 +114,8 @@ impl Finding {
             statement: statement.into(),
             measures: Vec::new(),
             resolution: String::new(),
-            false_alarm: 0.0,
             clues: Vec::new(),
         }
-    }
-
-    /// Adds what a statistical check has spent of the error budget.
-    pub fn spending(mut self, false_alarm: f64) -> Self {
-        self.false_alarm += false_alarm;
-        self
     }
 
     /// Adds a mistake that would have given just these answers, less likely than those added before.
@@ -132,6 +131,16 @@ impl Finding {
         evidence: &str,
     ) -> Self {
         causes.into_iter().fold(self, |finding, cause| finding.because(cause, evidence))
+    }
+
+    /// The tests that could have failed by chance.
+    pub fn leaves(&self) -> impl Iterator<Item = Leaf> {
+        self.measures.iter().filter_map(|measure| measure.leaf)
+    }
+
+    /// The probability that a correct core fails it, at most.
+    pub fn false_alarm(&self) -> f64 {
+        self.leaves().map(|leaf| leaf.false_alarm).sum()
     }
 
     /// The measures that did not pass.

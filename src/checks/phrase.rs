@@ -67,14 +67,11 @@ pub fn at_most(name: impl Into<String>, measured: f64, limit: f64) -> Measure {
 /// A mean that went up the ladder as a measure.
 pub fn mean_measure(name: impl Into<String>, report: &MeanReport) -> Measure {
     Measure {
-        name: name.into(),
-        unit: String::new(),
-        measured: report.mean,
-        expected: report.expected,
-        allowed: report.band,
         interval: Some(report.interval),
         resolution: Some(report.resolution).filter(|resolution| resolution.is_finite()),
         verdict: report.verdict,
+        leaf: Some(report.leaf()),
+        ..Measure::exact(name, report.mean, report.expected, report.band)
     }
 }
 

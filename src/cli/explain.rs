@@ -103,8 +103,8 @@ fn sees(project: &Project, case: &Arc<Case>) -> Result<Vec<String>, Failure> {
     let Outcome::Judged { finding } = &record.outcome else {
         return Ok(vec![labelled("sees", &record.outcome.statement())]);
     };
-    let blame = if finding.false_alarm > 0.0 {
-        format!("a correct core fails it with probability {:.1e} at most", finding.false_alarm)
+    let blame = if finding.false_alarm() > 0.0 {
+        format!("a correct core fails it with probability {:.1e} at most", finding.false_alarm())
     } else {
         "nothing is left to chance: a correct core never fails it".to_owned()
     };

@@ -4,8 +4,10 @@
 use super::number::count;
 use super::tree::RunTree;
 use crate::case::{PARTS, Part, Tier};
+use crate::checks::Finding;
 use crate::run::record::CoreRecord;
 use crate::run::{Status, TrialRecord};
+use crate::stats::{Ledger, TestKind};
 use std::collections::BTreeMap;
 
 /// How many trials ended in which way.
@@ -153,16 +155,30 @@ pub fn ungraded_failures(tree: &RunTree) -> Vec<&TrialRecord> {
     tree.trials.iter().filter(failing).collect()
 }
 
-/// The probability that a correct core fails any of these trials: what they spent of the error
-/// budget, added up.
-pub fn false_alarm<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> f64 {
-    trials.into_iter().filter_map(|trial| trial.outcome.finding()).map(|f| f.false_alarm).sum()
+/// What these trials spent of the probability of failing a correct core, leaf by leaf. What is not
+/// graded cannot.
+pub fn ledger<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Ledger {
+    let graded = trials.into_iter().filter(|trial| trial.tier.is_graded());
+    graded.filter_map(|trial| trial.outcome.finding()).flat_map(Finding::leaves).collect()
 }
 
-/// [`false_alarm`] of the core that has spent most: every core is judged for itself.
-pub fn worst_false_alarm(tree: &RunTree) -> f64 {
-    let of_core = |core: &CoreRecord| false_alarm(tree.trials_of(&core.spec));
-    tree.run.cores.iter().map(of_core).max_by(f64::total_cmp).unwrap_or(0.0)
+/// The [`ledger`] of the core that has spent most: every core is judged for itself.
+pub fn dearest_ledger(tree: &RunTree) -> Ledger {
+    let of_core = |core: &CoreRecord| ledger(tree.trials_of(&core.spec));
+    let ledgers = tree.run.cores.iter().map(of_core);
+    ledgers.max_by(|a, b| a.spent().total_cmp(&b.spent())).unwrap_or_default()
+}
+
+/// The largest relative error that any leaf of a kind would have let through: what a ledger cannot
+/// know. None where no leaf of the kind states one.
+pub fn worst_resolution<'a>(
+    trials: impl IntoIterator<Item = &'a TrialRecord>,
+    kind: TestKind,
+) -> Option<f64> {
+    let findings = trials.into_iter().filter_map(|trial| trial.outcome.finding());
+    let measures = findings.flat_map(|finding| &finding.measures);
+    let of_kind = measures.filter(|measure| measure.leaf.is_some_and(|leaf| leaf.kind == kind));
+    of_kind.filter_map(|measure| measure.resolution).max_by(f64::total_cmp)
 }
 
 /// A trial that passed, and the largest relative error that it would have let through.
@@ -270,10 +286,15 @@ mod tests {
     #[test]
     fn the_ledger_adds_up() {
         let tree = Example::mixed().tree();
-        let builtin = false_alarm(tree.trials_of("builtin"));
-        let textbook = false_alarm(tree.trials_of("textbook"));
-        assert!(builtin > 0.0);
-        assert!((false_alarm(&tree.trials) - builtin - textbook).abs() < 1e-18);
+        let builtin = ledger(tree.trials_of("builtin"));
+        let textbook = ledger(tree.trials_of("textbook"));
+        let both = ledger(&tree.trials);
+        assert!(builtin.spent() > textbook.spent() && textbook.spent() > 0.0);
+        assert!((both.spent() - builtin.spent() - textbook.spent()).abs() < 1e-18);
+        assert_eq!(both.leaves(), builtin.leaves() + textbook.leaves());
+        assert_eq!(dearest_ledger(&tree), builtin);
+        let worst = worst_resolution(&tree.trials, TestKind::Mean).unwrap();
+        assert!((0.012..0.016).contains(&worst), "{worst}");
     }
 
     #[test]

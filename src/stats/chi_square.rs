@@ -236,7 +236,6 @@ fn report(
         absorbed_expected: expected.absorbed * total,
         expected: wanted,
         mass: expected.mass,
-        false_alarm: COUNTS_FALSE_ALARM,
         stages,
     }
 }

@@ -1,6 +1,6 @@
 //! Whether two series have nothing to do with each other.
 
-use super::Verdict;
+use super::{Leaf, TestKind, Verdict};
 
 /// Standard errors that chance is given.
 const SIGMAS: f64 = 7.0;
@@ -17,6 +17,13 @@ pub struct CorrelationReport {
     pub coefficient: f64,
     /// The largest that chance explains.
     pub limit: f64,
+}
+
+impl CorrelationReport {
+    /// What the ledger enters.
+    pub fn leaf(&self) -> Leaf {
+        Leaf::new(TestKind::Correlation, false)
+    }
 }
 
 /// Judges pairs of numbers: Pearson's coefficient of n unrelated pairs has standard error 1/√n.

@@ -1,6 +1,6 @@
 //! What counting samples found out about a sampler.
 
-use super::{Stage, Verdict};
+use super::{Leaf, Stage, TestKind, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// One stage of counting.
@@ -77,6 +77,11 @@ pub struct CountReport {
     pub absorbed_expected: f64,
     /// The integral of the density over all cells.
     pub mass: f64,
-    /// Probability that a correct sampler fails, as entered in the ledger.
-    pub false_alarm: f64,
+}
+
+impl CountReport {
+    /// What the ledger enters.
+    pub fn leaf(&self) -> Leaf {
+        Leaf::new(TestKind::Counts, self.stages.first().is_some_and(|stage| stage.rejects))
+    }
 }

@@ -1,7 +1,7 @@
 //! What screen-and-confirm found out about a picture.
 
 use super::cells::{Component, Extent, Scale};
-use super::{Stage, Verdict};
+use super::{Leaf, Stage, TestKind, Verdict};
 use crate::image::Image;
 use serde::{Deserialize, Serialize};
 
@@ -131,12 +131,18 @@ pub struct ImageReport {
     pub runs: u32,
     /// How far each tile is off.
     pub tiles: TileMap,
-    /// Probability that a correct core fails, as entered in the ledger.
-    pub false_alarm: f64,
     /// Mean of all runs.
     #[serde(skip)]
     pub mean: Image,
     /// Standard error of `mean`.
     #[serde(skip)]
     pub standard_error: Image,
+}
+
+impl ImageReport {
+    /// What the ledger enters.
+    pub fn leaf(&self) -> Leaf {
+        let confirmed = self.scales.iter().any(|scale| scale.confirmations.is_some());
+        Leaf::new(TestKind::Picture, confirmed)
+    }
 }

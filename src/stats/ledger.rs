@@ -1,110 +1,194 @@
 //! What a run has spent of the probability of blaming a correct core.
 //!
-//! Every leaf that can fail by chance enters what it may cost. The sum bounds the probability that
-//! a correct core fails anything at all, however the leaves hang together (union bound).
+//! Every test that can fail by chance is a leaf and says what that may cost. The sum bounds the
+//! probability that a correct core fails anything at all, however the leaves hang together (union
+//! bound). Whether the bound is true can be seen long before anything fails: first stages have to
+//! suspect correct cores just as often as their level says.
 
+use super::chi_square::COUNTS_FALSE_ALARM;
+use super::correlation::CORRELATION_FALSE_ALARM;
+use super::ladder::{LEAF_FALSE_ALARM, STAGE_LEVEL};
+use super::proportion::SHARE_FALSE_ALARM;
+use super::screen::{IMAGE_FALSE_ALARM, SCREEN_LEVEL};
+use super::slope::SLOPE_FALSE_ALARM;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// What a whole suite may spend.
 pub const SUITE_FALSE_ALARM: f64 = 1e-6;
 
-/// Leaves of one kind in one check.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LedgerEntry {
-    /// Which check of which case.
-    pub name: String,
-    /// How many claims it made.
-    pub leaves: u32,
-    /// What each may cost.
+/// How a leaf is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TestKind {
+    /// A mean, by the ladder.
+    Mean,
+    /// Counts against a density, by χ² in three stages.
+    Counts,
+    /// A share of yes-or-no samples, by binomial tails in three stages.
+    Share,
+    /// A picture, by screen and confirm.
+    Picture,
+    /// The slope of an error, at once.
+    Slope,
+    /// The correlation of two series, at once.
+    Correlation,
+}
+
+impl TestKind {
+    /// As people read it, of one.
+    pub const fn singular(self) -> &'static str {
+        match self {
+            Self::Mean => "mean",
+            Self::Counts => "density",
+            Self::Share => "share",
+            Self::Picture => "picture",
+            Self::Slope => "slope",
+            Self::Correlation => "correlation",
+        }
+    }
+
+    /// As people read it, of many.
+    pub const fn plural(self) -> &'static str {
+        match self {
+            Self::Mean => "means",
+            Self::Counts => "densities",
+            Self::Share => "shares",
+            Self::Picture => "pictures",
+            Self::Slope => "slopes",
+            Self::Correlation => "correlations",
+        }
+    }
+
+    /// The probability that a correct core fails one such leaf.
+    pub const fn false_alarm(self) -> f64 {
+        match self {
+            Self::Mean => LEAF_FALSE_ALARM,
+            Self::Counts => COUNTS_FALSE_ALARM,
+            Self::Share => SHARE_FALSE_ALARM,
+            Self::Picture => IMAGE_FALSE_ALARM,
+            Self::Slope => SLOPE_FALSE_ALARM,
+            Self::Correlation => CORRELATION_FALSE_ALARM,
+        }
+    }
+
+    /// The probability that the first of several stages suspects a correct core.
+    pub const fn suspicion(self) -> Option<f64> {
+        match self {
+            Self::Mean | Self::Share => Some(2.0 * STAGE_LEVEL),
+            Self::Counts => Some(STAGE_LEVEL),
+            Self::Picture => Some(SCREEN_LEVEL),
+            Self::Slope | Self::Correlation => None,
+        }
+    }
+}
+
+/// A test that can fail by chance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Leaf {
+    /// How it is judged.
+    pub kind: TestKind,
+    /// The probability that a correct core fails it.
     pub false_alarm: f64,
+    /// Whether its first stage rejected, so that there was a second; never where there are no
+    /// stages.
+    pub suspected: bool,
+}
+
+impl Leaf {
+    /// A leaf of this kind at its usual price.
+    pub const fn new(kind: TestKind, suspected: bool) -> Self {
+        Self { kind, false_alarm: kind.false_alarm(), suspected }
+    }
+}
+
+/// All leaves of one kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LedgerEntry {
+    /// How many.
+    pub leaves: usize,
+    /// What they may cost together.
+    pub false_alarm: f64,
+    /// How many a first stage suspected.
+    pub suspected: usize,
 }
 
 impl LedgerEntry {
-    /// What all of them may cost.
-    pub fn total(&self) -> f64 {
-        f64::from(self.leaves) * self.false_alarm
+    fn enter(&mut self, leaf: Leaf) {
+        self.leaves += 1;
+        self.false_alarm += leaf.false_alarm;
+        self.suspected += usize::from(leaf.suspected);
     }
 }
 
 /// The book.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Ledger {
-    entries: Vec<LedgerEntry>,
-}
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ledger(BTreeMap<TestKind, LedgerEntry>);
 
 impl Ledger {
-    /// Enters `leaves` claims that each fail a correct core with probability `false_alarm`.
-    pub fn enter(&mut self, name: impl Into<String>, leaves: u32, false_alarm: f64) {
-        self.entries.push(LedgerEntry { name: name.into(), leaves, false_alarm });
+    /// By kind.
+    pub fn entries(&self) -> impl Iterator<Item = (TestKind, LedgerEntry)> {
+        self.0.iter().map(|(kind, entry)| (*kind, *entry))
     }
 
-    /// In the order entered.
-    pub fn entries(&self) -> &[LedgerEntry] {
-        &self.entries
+    /// How many leaves there are.
+    pub fn leaves(&self) -> usize {
+        self.0.values().map(|entry| entry.leaves).sum()
     }
 
-    /// All claims.
-    pub fn leaves(&self) -> u32 {
-        self.entries.iter().map(|entry| entry.leaves).sum()
+    /// How many leaves a first stage suspected.
+    pub fn suspected(&self) -> usize {
+        self.0.values().map(|entry| entry.suspected).sum()
     }
 
     /// At most this is the probability that a correct core fails anything.
     pub fn spent(&self) -> f64 {
-        self.entries.iter().map(LedgerEntry::total).sum()
+        self.0.values().map(|entry| entry.false_alarm).sum()
     }
 
     /// Whether that is within what a suite may spend. NaN is not.
     pub fn is_within_budget(&self) -> bool {
         self.spent() <= SUITE_FALSE_ALARM
     }
+}
 
-    /// The entries that cost most, most first.
-    pub fn dearest(&self, count: usize) -> Vec<&LedgerEntry> {
-        let mut entries: Vec<&LedgerEntry> = self.entries.iter().collect();
-        entries.sort_by(|a, b| b.total().total_cmp(&a.total()));
-        entries.truncate(count);
-        entries
+impl Extend<Leaf> for Ledger {
+    fn extend<T: IntoIterator<Item = Leaf>>(&mut self, leaves: T) {
+        leaves.into_iter().for_each(|leaf| self.0.entry(leaf.kind).or_default().enter(leaf));
     }
 }
 
-impl std::fmt::Display for Ledger {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (leaves, spent) = (self.leaves(), self.spent());
-        write!(
-            f,
-            "{leaves} random claims; a correct core fails any of them with probability below "
-        )?;
-        write!(f, "{spent:.1e}")?;
-        if self.is_within_budget() {
-            return Ok(());
-        }
-        write!(f, ", more than the {SUITE_FALSE_ALARM:.0e} a suite may spend")
+impl FromIterator<Leaf> for Ledger {
+    fn from_iter<T: IntoIterator<Item = Leaf>>(leaves: T) -> Self {
+        let mut ledger = Self::default();
+        ledger.extend(leaves);
+        ledger
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stats::{IMAGE_FALSE_ALARM, LEAF_FALSE_ALARM};
 
-    #[test]
-    fn a_suite_of_a_thousand_means_and_twelve_pictures_is_within_its_budget() {
-        let mut ledger = Ledger::default();
-        ledger.enter("means", 1000, LEAF_FALSE_ALARM);
-        ledger.enter("pictures", 12, IMAGE_FALSE_ALARM);
-        assert!(ledger.is_within_budget(), "{ledger}");
-        assert_eq!(ledger.dearest(1)[0].name, "means");
-        let text = "1012 random claims; a correct core fails any of them with probability below";
-        assert!(ledger.to_string().starts_with(text), "{ledger}");
+    fn of(kind: TestKind, leaves: usize) -> Ledger {
+        std::iter::repeat_n(Leaf::new(kind, false), leaves).collect()
     }
 
     #[test]
-    fn more_is_admitted() {
-        let mut ledger = Ledger::default();
-        ledger.enter("means", 10_000, LEAF_FALSE_ALARM);
-        assert!(!ledger.is_within_budget());
-        assert!(ledger.to_string().contains("more than the 1e-6"), "{ledger}");
-        ledger.enter("nonsense", 1, f64::NAN);
-        assert!(!ledger.is_within_budget());
+    fn a_suite_of_a_thousand_means_and_twelve_pictures_is_within_its_budget() {
+        let mut ledger = of(TestKind::Mean, 1000);
+        ledger.extend([Leaf::new(TestKind::Picture, true); 12]);
+        assert!(ledger.is_within_budget(), "{ledger:?}");
+        assert_eq!((ledger.leaves(), ledger.suspected()), (1012, 12));
+        let kinds: Vec<_> = ledger.entries().map(|(kind, entry)| (kind, entry.leaves)).collect();
+        assert_eq!(kinds, [(TestKind::Mean, 1000), (TestKind::Picture, 12)]);
+    }
+
+    #[test]
+    fn more_is_not_and_nonsense_is_never() {
+        assert!(!of(TestKind::Mean, 10_000).is_within_budget());
+        let nonsense = Leaf { false_alarm: f64::NAN, ..Leaf::new(TestKind::Mean, false) };
+        assert!(!Ledger::from_iter([nonsense]).is_within_budget());
     }
 }

@@ -1,6 +1,6 @@
 //! What the ladder found out about one claim.
 
-use super::{Stage, Verdict};
+use super::{Leaf, Stage, TestKind, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// One stage of the ladder, seen by one claim.
@@ -70,6 +70,12 @@ pub struct MeanReport {
 }
 
 impl MeanReport {
+    /// What the ledger enters.
+    pub fn leaf(&self) -> Leaf {
+        let suspected = self.stages.first().is_some_and(|stage| stage.rejects);
+        Leaf { false_alarm: self.false_alarm, ..Leaf::new(TestKind::Mean, suspected) }
+    }
+
     /// Measured over expected; none for the mean of a difference.
     pub fn mean_ratio(&self) -> Option<f64> {
         (self.expected != 0.0).then(|| self.mean / self.expected)

@@ -7,7 +7,7 @@
 //!   sizes.
 //! - [`judge_exact`]: comparisons without noise, with their [`Tolerance`]s.
 //! - [`judge_share`], [`judge_slope`], [`judge_uncorrelated`]: shares, convergence, independence.
-//! - [`Ledger`]: what a run has spent of the probability of blaming a correct core.
+//! - [`Leaf`], [`Ledger`]: what a run has spent of the probability of blaming a correct core.
 //! - [`Claim`]: what is true if the core is right, with the band that rounding may use up.
 //! - [`Effort`] and [`Budget`]: how small an error has to be seen, and how many samples that may
 //!   cost.
@@ -59,7 +59,7 @@ pub use image_report::{
     TileMap,
 };
 pub use ladder::{Draw, DrawMeans, LEAF_FALSE_ALARM, STAGE_LEVEL, Stage, judge_means};
-pub use ledger::{Ledger, LedgerEntry, SUITE_FALSE_ALARM};
+pub use ledger::{Leaf, Ledger, LedgerEntry, SUITE_FALSE_ALARM, TestKind};
 pub use mean_report::{MeanReport, StageScore};
 pub use moments::Moments;
 pub use proportion::{

@@ -5,7 +5,7 @@
 //! core, so no variance has to be estimated and no limit theorem believed.
 
 use super::ladder::STAGE_LEVEL;
-use super::{Band, Effort, Stage, Verdict, normal_upper};
+use super::{Band, Effort, Leaf, Stage, TestKind, Verdict, normal_upper};
 use serde::{Deserialize, Serialize};
 use statrs::function::beta::{beta_reg, inv_beta_reg};
 
@@ -80,8 +80,13 @@ pub struct ShareReport {
     pub samples: u64,
     /// What the first stage lacks, if inconclusive.
     pub samples_missing: Option<u64>,
-    /// Probability that a correct core fails, as entered in the ledger.
-    pub false_alarm: f64,
+}
+
+impl ShareReport {
+    /// What the ledger enters.
+    pub fn leaf(&self) -> Leaf {
+        Leaf::new(TestKind::Share, self.stages.first().is_some_and(|stage| stage.rejects))
+    }
 }
 
 /// Judges whether `draw`, asked for a number of samples, answers "yes" with probability `expected`.
@@ -168,7 +173,6 @@ fn report(expected: f64, band: Band, effort: &Effort, stages: Vec<ShareStage>) -
         detects: effort.detects,
         samples: stages.iter().map(|stage| stage.trials).sum(),
         samples_missing: worth_asking.then_some(missing as u64),
-        false_alarm: SHARE_FALSE_ALARM,
         stages,
     }
 }

@@ -6,7 +6,7 @@ use super::image_report::{
     CellScore, Confirmation, GlobalRatio, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
     TileMap,
 };
-use super::screen::{CONFIRM_LEVEL, IMAGE_FALSE_ALARM, ImageDraw, ImageEffort, SCREEN_LEVEL};
+use super::screen::{CONFIRM_LEVEL, ImageDraw, ImageEffort, SCREEN_LEVEL};
 use super::spread::Spread;
 use super::target::{Frozen, Target};
 use super::{Moments, Stage, Verdict, normal_upper, student_upper};
@@ -217,7 +217,6 @@ impl<'a, E> Screening<'a, E> {
             samples_factor: if inconclusive { self.samples_factor(resolution) } else { None },
             runs: self.runs,
             tiles: self.tile_map(last),
-            false_alarm: IMAGE_FALSE_ALARM,
             mean: self.pixels(|index| self.all.mean(index)),
             standard_error: self.pixels(|index| self.all.standard_error(index)),
         }
@@ -237,7 +236,6 @@ impl<'a, E> Screening<'a, E> {
             samples_factor: None,
             runs: self.runs + 1,
             tiles: TileMap::default(),
-            false_alarm: IMAGE_FALSE_ALARM,
             standard_error: Image::new(image.width, image.height, [0.0; 3]),
             mean: image,
         }

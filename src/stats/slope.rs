@@ -4,7 +4,7 @@
 //! Independent samples have slope −1/2. An error that stops falling is a bias; one that does not
 //! fall at all says that the samples are always the same. A core that stratifies may fall faster.
 
-use super::{Moments, Verdict};
+use super::{Leaf, Moments, TestKind, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// The slope of independent samples.
@@ -93,8 +93,13 @@ pub struct SlopeReport {
     pub plateau_bias: f64,
     /// Measured.
     pub points: Vec<ErrorPoint>,
-    /// Probability that a correct core fails, as entered in the ledger.
-    pub false_alarm: f64,
+}
+
+impl SlopeReport {
+    /// What the ledger enters.
+    pub fn leaf(&self) -> Leaf {
+        Leaf::new(TestKind::Slope, false)
+    }
 }
 
 /// Judges the slope of the errors; it must be seen if it is off by `detects`.
@@ -121,7 +126,6 @@ pub fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f64) -> S
         detects,
         plateau_bias: levels.last().map_or(0.0, plateau_bias),
         points,
-        false_alarm: SLOPE_FALSE_ALARM,
     }
 }
 

@@ -112,16 +112,13 @@ impl ErrorFallsAsRootN {
 
     fn finding(&self, report: &SlopeReport) -> Finding {
         let slope = Measure {
-            name: "slope of log error on log samples".to_owned(),
-            unit: String::new(),
-            measured: report.slope,
-            expected: -0.5,
-            allowed: 0.0,
             interval: Some(
                 [-1.0, 1.0].map(|side| report.slope + side * THREE_NINES * report.standard_error),
             ),
             resolution: Some(report.resolution / 0.5),
             verdict: report.verdict,
+            leaf: Some(report.leaf()),
+            ..Measure::exact("slope of log error on log samples", report.slope, -0.5, 0.0)
         };
         let statement = match report.verdict {
             Verdict::Fail => format!(
@@ -132,7 +129,7 @@ impl ErrorFallsAsRootN {
         };
         let resolution =
             format!("would have caught a slope that is off by {:.3}", report.resolution);
-        Finding::of(statement, resolution, vec![slope]).spending(report.false_alarm)
+        Finding::of(statement, resolution, vec![slope])
     }
 }
 

@@ -68,7 +68,7 @@ impl Check for LightSamplesReachLight {
         let effort = crate::stats::Effort::new(self.detects.0).with_most_samples(self.at_most.0);
         let effort = context.budget.scale(effort);
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let (mut measures, mut complaints, mut spent) = (Vec::new(), Vec::new(), 0.0);
+        let (mut measures, mut complaints) = (Vec::new(), Vec::new());
         let (mut met, mut shines_backwards) = (Vec::new(), false);
         for (number, point) in self.point.iter().enumerate() {
             let seed = seed.child(number);
@@ -90,7 +90,6 @@ impl Check for LightSamplesReachLight {
             for ((name, _), report) in claims.iter().zip(&reports) {
                 measures.push(mean_measure(format!("{label}: {name}"), report));
                 complaints.extend(complaint(&label, name, report));
-                spent += report.false_alarm;
             }
         }
         let failed = measures.iter().find(|m| m.verdict == Verdict::Fail && m.interval.is_none());
@@ -108,7 +107,6 @@ impl Check for LightSamplesReachLight {
             false => resolution,
         };
         Ok(Finding::of(statement, resolution, measures)
-            .spending(spent)
             .because_each(backwards, "there are lit samples where the light looks away")
             .because_each(density, &format!("predicts the densities of {} samples", met.len())))
     }

@@ -132,23 +132,22 @@ fn finding(report: &ImageReport) -> Finding {
             100.0 * report.resolution
         ),
         measures,
-    )
-    .spending(report.false_alarm);
+    );
     finding.verdict = report.verdict;
     finding
 }
 
-/// How bright the whole picture is: what people ask first.
+/// How bright the whole picture is: what people ask first. Luminance stands for the test of the
+/// picture.
 fn ratio_measure(ratio: &GlobalRatio, report: &ImageReport) -> Measure {
+    let name = format!("brightness of the whole picture, {}", component_name(ratio.component));
+    let is_luminance = ratio.component == Component::Luminance;
     Measure {
-        name: format!("brightness of the whole picture, {}", component_name(ratio.component)),
-        unit: "of the reference".to_owned(),
-        measured: ratio.ratio,
-        expected: 1.0,
-        allowed: 0.0,
         interval: Some(ratio.interval),
-        resolution: (ratio.component == Component::Luminance).then_some(report.resolution),
+        resolution: is_luminance.then_some(report.resolution),
         verdict: report.verdict,
+        leaf: is_luminance.then(|| report.leaf()),
+        ..Measure::exact(name, ratio.ratio, 1.0, 0.0).in_unit("of the reference")
     }
 }
 
@@ -167,15 +166,10 @@ fn scale_measure(scale: &ScaleReport) -> Measure {
         Some(cell) if scale.rejects => format!(" at ({}, {})", cell.extent.x, cell.extent.y),
         _ => String::new(),
     };
+    let name = format!("worst {}{place}{name}", scale_name(scale.scale));
     Measure {
-        name: format!("worst {}{place}{name}", scale_name(scale.scale)),
-        unit: "standard errors".to_owned(),
-        measured,
-        expected: 0.0,
-        allowed: scale.critical,
-        interval: None,
-        resolution: None,
         verdict: if scale.rejects { Verdict::Fail } else { Verdict::Pass },
+        ..Measure::exact(name, measured, 0.0, scale.critical).in_unit("standard errors")
     }
 }
 

@@ -4,7 +4,7 @@ use super::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
 use crate::image::luminance;
-use crate::stats::{CORRELATION_FALSE_ALARM, Verdict, judge_uncorrelated};
+use crate::stats::{Verdict, judge_uncorrelated};
 use serde::Deserialize;
 
 /// Renders a noisy picture with many seeds.
@@ -48,7 +48,7 @@ impl Check for SeedsMatter {
         };
         let limit = measures[1].allowed;
         let resolution = format!("would have caught a correlation of {:.3}", 2.0 * limit);
-        Ok(Finding::of(statement, resolution, measures).spending(2.0 * CORRELATION_FALSE_ALARM))
+        Ok(Finding::of(statement, resolution, measures))
     }
 }
 
@@ -68,7 +68,7 @@ fn neighbours(films: &[Film], step: [usize; 2]) -> Measure {
     let direction = if step[0] > 0 { "side by side" } else { "above each other" };
     let name = format!("correlation of pixels {direction}");
     let measure = Measure::exact(name, report.coefficient, 0.0, report.limit);
-    Measure { verdict: report.verdict, ..measure }
+    Measure { verdict: report.verdict, ..measure }.judged_by(report.leaf())
 }
 
 /// Signs of the noise of each pixel and of the one `step` further, where both have any.

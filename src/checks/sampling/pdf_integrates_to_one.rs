@@ -46,11 +46,9 @@ impl Check for PdfIntegratesToOne {
             true => passing_statement(&masses),
             false => complaints.join("; "),
         };
-        let spent = masses.iter().map(Mass::false_alarm).sum();
         let resolution = would_have_caught(&measures);
         let causes = masses.iter().filter_map(|mass| mass.cause);
         Ok(Finding::of(statement, resolution, measures)
-            .spending(spent)
             .because_each(causes, "has the form of the density at 200 directions"))
     }
 }
@@ -110,6 +108,7 @@ impl Mass {
             Some(report) => vec![Measure {
                 interval: Some(report.interval),
                 resolution: Some(report.resolution),
+                leaf: Some(report.leaf()),
                 verdict: report.verdict,
                 allowed: report.resolution * expected,
                 ..Measure::exact(
@@ -141,10 +140,6 @@ impl Mass {
             "the density of {} integrates to {measured}{also} instead of {expected}",
             self.name
         ))
-    }
-
-    fn false_alarm(&self) -> f64 {
-        self.accepted.as_ref().map_or(0.0, |report| report.false_alarm)
     }
 }
 

@@ -122,11 +122,9 @@ fn finding(judged: &[Judged]) -> Finding {
         }
         false => complaints.join("; "),
     };
-    let spent = judged.iter().map(|judged| judged.report.false_alarm).sum();
     let resolution = would_have_caught(&measures) + " of a density, root mean square";
     let causes = judged.iter().filter_map(Judged::cause);
     Finding::of(statement, resolution, measures)
-        .spending(spent)
         .because_each(causes, "predicts the counts of samples in all rings")
 }
 
@@ -141,6 +139,7 @@ impl Judged {
         Measure {
             verdict: self.report.verdict,
             resolution: Some(self.report.resolution),
+            leaf: Some(self.report.leaf()),
             ..Measure::exact(name, found, 1.0, critical - 1.0)
         }
     }
@@ -305,7 +304,7 @@ mod tests {
     fn samples_that_follow_their_density_pass_and_spend_of_the_budget() {
         let finding = found(SAMPLER, cosine);
         assert_passes(&finding);
-        assert!(finding.false_alarm > 0.0);
+        assert!(finding.leaves().count() > 0);
         assert_passes(&found(SURFACE, cosine));
     }
 

@@ -74,8 +74,7 @@ impl Check for BouncesAddUp {
         } else {
             format!("bounces 0 to {} add up", self.last)
         };
-        let spent = reports.iter().map(|report| report.false_alarm).sum();
         let resolution = resolution_sentence(&measures);
-        Ok(Finding::of(statement, resolution, measures).spending(spent))
+        Ok(Finding::of(statement, resolution, measures))
     }
 }

@@ -1,11 +1,12 @@
 //! What the checks of radiance share: the words of their `[expect]`, and means over seeded runs.
 
 use crate::checks::Measure;
+pub use crate::checks::phrase::mean_measure as measure;
 use crate::contract::{
     BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray, Result, Roulette,
 };
 use crate::math::rng::Seed;
-use crate::stats::{Allowance, Effort, MeanReport};
+use crate::stats::{Allowance, Effort};
 use crate::text::{Count, Percent};
 use glam::DVec3;
 use serde::Deserialize;
@@ -120,20 +121,6 @@ pub fn estimate(
         }
     }
     Ok(Estimate { mean: sum.map(|sum| sum / samples as f64), largest })
-}
-
-/// The measure of a claim about a mean.
-pub fn measure(name: String, report: &MeanReport) -> Measure {
-    Measure {
-        name,
-        unit: String::new(),
-        measured: report.mean,
-        expected: report.expected,
-        allowed: report.band,
-        interval: Some(report.interval),
-        resolution: Some(report.resolution).filter(|resolution| resolution.is_finite()),
-        verdict: report.verdict,
-    }
 }
 
 /// "would have caught an error of 0.42 %": the weakest of some measures.

@@ -77,22 +77,20 @@ impl Check for EstimatorsAgree {
         let (seed, budget) = (context.seed, context.budget);
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut measures = Vec::new();
-        let mut false_alarm = 0.0;
         for (number, ray) in self.ray.iter().enumerate() {
             for other in &self.estimator[1..] {
                 let seed = seed.child(number).child(other.name());
                 let comparison = Comparison { check: self, ray: ray.ray(), other: *other, seed };
                 let effort = effort(self.detects, self.at_most, budget);
-                let (found, spent) = comparison.judge(built.as_mut(), &effort)?;
+                let found = comparison.judge(built.as_mut(), &effort)?;
                 measures.extend(found.into_iter().map(|measure| Measure {
                     name: format!("ray {}, {}", number + 1, measure.name),
                     ..measure
                 }));
-                false_alarm += spent;
             }
         }
         let resolution = resolution_sentence(&measures);
-        Ok(Finding::of(statement(&measures), resolution, measures).spending(false_alarm))
+        Ok(Finding::of(statement(&measures), resolution, measures))
     }
 }
 
@@ -109,7 +107,7 @@ impl Comparison<'_> {
         &self,
         scene: &mut dyn BuiltScene,
         effort: &crate::stats::Effort,
-    ) -> Result<(Vec<Measure>, f64), CheckError> {
+    ) -> Result<Vec<Measure>, CheckError> {
         let first = self.check.estimator[0];
         let (ours, theirs) =
             (self.other.settings(self.check.bounces), first.settings(self.check.bounces));
@@ -122,14 +120,10 @@ impl Comparison<'_> {
             let b = estimate(scene, self.ray, &theirs, seed.child("b"), draw.samples)?.mean;
             Ok::<_, CheckError>((0..3).map(|c| a[c] - b[c]).collect())
         })?;
-        let spent = reports.iter().map(|report| report.false_alarm).sum();
         let name = format!("{} minus {}", self.other.name(), first.name());
         let measures = reports.iter().enumerate();
         let labelled = |c: usize| format!("{name}, {}", CHANNELS[c]);
-        Ok((
-            measures.map(|(c, report)| relative(measure(labelled(c), report), scale[c])).collect(),
-            spent,
-        ))
+        Ok(measures.map(|(c, report)| relative(measure(labelled(c), report), scale[c])).collect())
     }
 }
 

@@ -83,13 +83,11 @@ impl Check for MeanRadiance {
         let (seed, effort) = (context.seed, effort(self.detects, self.at_most, context.budget));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut measures = Vec::new();
-        let mut false_alarm = 0.0;
         for (number, row) in self.row.iter().enumerate() {
             let question = self.question(row, seed.child(number));
-            let (row_measures, spent) = question.judge(built.as_mut(), &effort)?;
+            let row_measures = question.judge(built.as_mut(), &effort)?;
             let failed = row_measures.iter().any(|measure| measure.verdict == Verdict::Fail);
             measures.extend(row_measures);
-            false_alarm += spent;
             if failed && effort.decides_early {
                 break;
             }
@@ -101,7 +99,7 @@ impl Check for MeanRadiance {
             }
             lit => lit,
         };
-        Ok(Finding::of(statement, resolution, measures).spending(false_alarm))
+        Ok(Finding::of(statement, resolution, measures))
     }
 }
 
@@ -149,17 +147,17 @@ struct Question {
 }
 
 impl Question {
-    /// The measures of the three channels, and what they spent of the error budget.
+    /// The measures of the three channels.
     fn judge(
         &self,
         scene: &mut dyn BuiltScene,
         effort: &Effort,
-    ) -> Result<(Vec<Measure>, f64), CheckError> {
+    ) -> Result<Vec<Measure>, CheckError> {
         if self.expected == [0.0; 3] {
-            return Ok((self.judge_dark(scene)?, 0.0));
+            return self.judge_dark(scene);
         }
         if self.exact {
-            return Ok((self.judge_exact(scene)?, 0.0));
+            return self.judge_exact(scene);
         }
         let lit: Vec<_> = (0..3).filter(|channel| self.expected[*channel] != 0.0).collect();
         let claims: Vec<_> = lit.iter().map(|channel| self.claim(*channel)).collect();
@@ -168,12 +166,8 @@ impl Question {
             let run = estimate(scene, self.ray, &self.settings, seed, draw.samples)?;
             Ok::<_, CheckError>(lit.iter().map(|channel| run.mean[*channel]).collect())
         })?;
-        let spent = reports.iter().map(|report| report.false_alarm).sum();
         let measures = lit.iter().zip(&reports);
-        Ok((
-            measures.map(|(channel, report)| measure(self.label(*channel), report)).collect(),
-            spent,
-        ))
+        Ok(measures.map(|(channel, report)| measure(self.label(*channel), report)).collect())
     }
 
     /// Radiance is not negative, and sometimes more is known.

@@ -3,9 +3,10 @@
 
 use super::parts::link;
 use super::{Page, View};
-use crate::report::digest::{by_case, false_alarm, resolution_in_words};
-use crate::report::number::{count, probability};
+use crate::report::digest::{by_case, ledger, resolution_in_words, worst_resolution};
+use crate::report::number::{percent, probability, significant};
 use crate::run::TrialRecord;
+use crate::stats::{LedgerEntry, SUITE_FALSE_ALARM, TestKind};
 use maud::{Markup, html};
 
 /// Error budget and resolution.
@@ -35,37 +36,68 @@ impl Page for Ledger {
     }
 }
 
-/// Every core is judged for itself: a sum a core.
+/// Every core is judged for itself: a book a core.
 fn sums(view: &View<'_>) -> Markup {
     html! {
         div.card {
             p {
                 "A check that draws random numbers can fail a correct core by chance. The chances "
                 "below add up to a bound for the whole run, whatever the trials have in common; "
-                "checks without noise spend nothing."
+                "checks without noise spend nothing. A suite may spend "
+                (probability(SUITE_FALSE_ALARM)) "."
+            }
+            p {
+                "Most tests have several stages, and only what every stage rejects fails. How "
+                "often first stages suspect a correct core is known: if the counts below are far "
+                "from what is expected, the bound is not to be believed."
             }
             table.small.sums {
                 thead { tr {
                     th scope="col" { "core" }
-                    th.number scope="col" { "trials that spend" }
+                    th scope="col" { "kind of test" }
+                    th.number scope="col" { "random claims" }
+                    th.number scope="col" { "suspected by a first stage" }
+                    th.number scope="col" { "expected of a correct core" }
+                    th.number scope="col" { "would have caught at least" }
                     th.number scope="col" { "chance that a correct core fails any, at most" }
                 } }
-                tbody {
-                    @for core in &view.tree.run.cores { (sum(view, &core.spec)) }
-                }
+                @for core in &view.tree.run.cores { (book(view, &core.spec)) }
             }
         }
     }
 }
 
-fn sum(view: &View<'_>, core: &str) -> Markup {
-    let spends = |trial: &&TrialRecord| false_alarm([*trial]) != 0.0;
-    let spending = view.tree.trials_of(core).filter(spends).count();
+/// The entries of one core, and their sum.
+fn book(view: &View<'_>, core: &str) -> Markup {
+    let ledger = ledger(view.tree.trials_of(core));
+    html! {
+        tbody {
+            @for (kind, entry) in ledger.entries() { (entry_row(view, core, kind, entry)) }
+            tr {
+                th scope="row" { (core) }
+                td { b { "all" } }
+                td.number { b { (ledger.leaves()) } }
+                td.number { b { (ledger.suspected()) } }
+                td {}
+                td {}
+                td.number { b { (probability(ledger.spent())) } }
+            }
+        }
+    }
+}
+
+fn entry_row(view: &View<'_>, core: &str, kind: TestKind, entry: LedgerEntry) -> Markup {
+    let expected = kind.suspicion().map(|share| share * entry.leaves as f64);
+    let resolution = worst_resolution(view.tree.trials_of(core), kind);
     html! {
         tr {
             th scope="row" { (core) }
-            td.number { (count(spending, "trial")) }
-            td.number { b { (probability(false_alarm(view.tree.trials_of(core)))) } }
+            td { (kind.plural()) }
+            td.number { (entry.leaves) }
+            td.number { @if expected.is_some() { (entry.suspected) } @else { "no stages" } }
+            td.number { @if let Some(expected) = expected { (significant(expected, 2)) } }
+            td.number { @if let Some(resolution) = resolution { (percent(resolution)) } }
+            td.number { (probability(entry.false_alarm)) }
         }
     }
 }
@@ -90,7 +122,7 @@ fn row(trial: &TrialRecord) -> Markup {
         tr {
             th scope="row" { a href=(link(trial)) { (trial.case) } }
             td { (trial.core) }
-            td.number { (probability(false_alarm([trial]))) }
+            td.number { (probability(ledger([trial]).spent())) }
             td { (resolution_in_words(trial)) }
         }
     }

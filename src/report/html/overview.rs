@@ -3,7 +3,7 @@
 
 use super::parts::{badge, cell, command, link};
 use super::{Page, View};
-use crate::report::digest::{PartGroup, Tally, by_part, weakest_first, worst_false_alarm};
+use crate::report::digest::{PartGroup, Tally, by_part, dearest_ledger, weakest_first};
 use crate::report::number::{count, duration, percent, probability};
 use crate::run::{Status, TrialRecord};
 use maud::{Markup, html};
@@ -111,7 +111,7 @@ fn score(view: &View<'_>) -> Markup {
                 }
                 li.fact {
                     a href="#ledger" title=(FALSE_ALARM) { "false alarm" }
-                    span.number { "≤ " (probability(worst_false_alarm(view.tree))) }
+                    span.number { "≤ " (probability(dearest_ledger(view.tree).spent())) }
                 }
                 @if let Some(weakest) = weakest_first(view.tree.graded()).first() {
                     li.fact {

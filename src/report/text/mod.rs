@@ -11,13 +11,14 @@ mod style;
 pub use style::{COLUMNS, Paint, Style, clean, mark, paint_of, wrap};
 
 use super::digest::{
-    PartGroup, Tally, by_case, by_part, resolution_in_words, weakest_first, worst_false_alarm,
+    PartGroup, Tally, by_case, by_part, dearest_ledger, resolution_in_words, weakest_first,
 };
 use super::number::{count, duration, percent, probability};
 use super::tree::RunTree;
 use crate::contract::Precision;
 use crate::run::record::CoreRecord;
 use crate::run::{Status, TrialRecord};
+use crate::stats::{Ledger, LedgerEntry, SUITE_FALSE_ALARM, TestKind};
 use std::collections::BTreeSet;
 
 /// The longest bar of cells in one line; longer ones go on below.
@@ -147,7 +148,7 @@ fn totals(tree: &RunTree, style: Style) -> Vec<String> {
     let painted = |line: String| format!("  {}", style.paint(paint, &line));
     let mut lines: Vec<_> = wrap(&text, 2).into_iter().map(painted).collect();
     lines.extend(unfinished(tree, style));
-    lines.push(chance(tree));
+    lines.extend(chance(tree));
     lines.extend(weakest(tree));
     lines
 }
@@ -167,10 +168,36 @@ fn unfinished(tree: &RunTree, style: Style) -> Vec<String> {
     vec![style.paint(Paint::Unknown, &what), next]
 }
 
-/// The ledger's sum.
-fn chance(tree: &RunTree) -> String {
-    let chance = probability(worst_false_alarm(tree));
-    format!("  chance that a correct core fails any of them: at most {chance}")
+/// What the dearest ledger says: its sum, and of how many tests of which kind.
+fn chance(tree: &RunTree) -> Vec<String> {
+    let ledger = dearest_ledger(tree);
+    let (spent, whole) = (probability(ledger.spent()), probability(SUITE_FALSE_ALARM));
+    let mut text = match ledger.is_within_budget() {
+        true => format!("chance that a correct core fails any of them: at most {spent}"),
+        false => format!(
+            "chance that a correct core fails any of them: up to {spent}, more than the {whole} \
+             that a suite may spend"
+        ),
+    };
+    if ledger.leaves() > 0 {
+        text += &format!("\n{}", entries(&ledger));
+    }
+    wrap(&text, 2).into_iter().map(|line| format!("  {line}")).collect()
+}
+
+/// `40 random claims: 38 means 1.9e-8, 2 pictures 1e-8; 1 suspected by its first stage`
+fn entries(ledger: &Ledger) -> String {
+    let entry = |(kind, entry): (TestKind, LedgerEntry)| {
+        let name = if entry.leaves == 1 { kind.singular() } else { kind.plural() };
+        format!("{} {name} {}", entry.leaves, probability(entry.false_alarm))
+    };
+    let entries: Vec<_> = ledger.entries().map(entry).collect();
+    let claims = count(ledger.leaves(), "random claim");
+    let suspected = match ledger.suspected() {
+        0 => "none".to_owned(),
+        some => some.to_string(),
+    };
+    format!("{claims}: {}; {suspected} suspected by its first stage", entries.join(", "))
 }
 
 /// The pass that proves least.

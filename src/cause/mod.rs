@@ -13,6 +13,7 @@ pub mod camera;
 pub mod convention;
 pub mod light;
 pub mod picture;
+pub mod pixel;
 pub mod sampling;
 pub mod shape;
 pub mod slab;
@@ -36,6 +37,7 @@ pub fn all() -> impl Iterator<Item = &'static Cause> {
     let parts = [
         convention::CAUSES,
         camera::CAUSES,
+        pixel::CAUSES,
         shape::CAUSES,
         slab::CAUSES,
         bvh::CAUSES,

@@ -3,6 +3,46 @@
 use super::Cause;
 
 /// See its headline.
+pub static NOT_DIVIDED: Cause = Cause {
+    name: "pixel-not-divided-by-samples",
+    headline: "the sum over a pixel's samples is not divided by their number",
+    look_at: "the film, where the samples of a pixel become its value",
+    remedy: "Divide the sum of radiance by the number of samples, once.",
+};
+
+/// See its headline.
+pub static DIVIDED_TWICE: Cause = Cause {
+    name: "pixel-divided-twice",
+    headline: "the sum over a pixel's samples is divided by their number twice",
+    look_at: "the film, where the samples of a pixel become its value",
+    remedy: "Weight each sample with 1/n or divide the sum by n, not both.",
+};
+
+/// See its headline.
+pub static DIVIDED_BY_ONE_MORE: Cause = Cause {
+    name: "pixel-divided-by-one-too-many",
+    headline: "a pixel's sum is divided by one sample more than was added",
+    look_at: "the loop over the samples of a pixel, and its counter after the last one",
+    remedy: "Count a sample where it is added; a loop's counter may be one off when it ends.",
+};
+
+/// See its headline.
+pub static ONE_SAMPLE_TOO_MANY: Cause = Cause {
+    name: "pixel-adds-one-too-many",
+    headline: "one sample more is added to a pixel than its sum is divided by",
+    look_at: "the loop over the samples of a pixel: its first and its last turn",
+    remedy: "Take exactly as many samples as the sum is divided by.",
+};
+
+/// See its headline.
+pub static CLAMPED: Cause = Cause {
+    name: "film-clamped",
+    headline: "radiance is clamped to 1 before it is stored",
+    look_at: "the film, where radiance is stored",
+    remedy: "Store radiance as it is; clamp only when an 8-bit picture is written.",
+};
+
+/// See its headline.
 pub static GAMMA_TWICE: Cause = Cause {
     name: "gamma-in-film",
     headline: "the film holds gamma-encoded values where linear radiance belongs",
@@ -10,5 +50,84 @@ pub static GAMMA_TWICE: Cause = Cause {
     remedy: "Write linear radiance; encode only when an 8-bit picture is written.",
 };
 
+/// See its headline.
+pub static CHANNELS_SWAPPED: Cause = Cause {
+    name: "channels-swapped",
+    headline: "red and blue are swapped",
+    look_at: "the film, where the three channels of a pixel are stored",
+    remedy: "A pixel is red, green, blue, in this order.",
+};
+
+/// See its headline.
+pub static BORDER_LEFT_OUT: Cause = Cause {
+    name: "picture-border-left-out",
+    headline: "the first or the last row and column of the picture are not rendered",
+    look_at: "the loops over rows and columns: where they begin and end",
+    remedy: "Columns run from 0 to width − 1 and rows from 0 to height − 1, all included.",
+};
+
+/// See its headline.
+pub static PARTIAL_TILES_LEFT_OUT: Cause = Cause {
+    name: "partial-tiles-left-out",
+    headline: "what is left over when the picture is cut into tiles is not rendered",
+    look_at: "the number of tiles, and the size of the last one in each direction",
+    remedy: "Round the number of tiles up, and cut the last tile off at the picture's border.",
+};
+
+/// See its headline.
+pub static COUNTS_OFF_BY_ONE: Cause = Cause {
+    name: "sample-counts-off-by-one",
+    headline: "the count of samples is one off",
+    look_at: "the loop over the samples of a pixel, and its counter after the last one",
+    remedy: "Count a sample where it is added to the pixel.",
+};
+
+/// See its headline.
+pub static UPSIDE_DOWN: Cause = Cause {
+    name: "picture-upside-down",
+    headline: "the picture is upside down",
+    look_at: "the step from the row of a pixel to the film's y, or the order of rows in the film",
+    remedy: "Row 0 is the top of the picture, and the film's y grows upwards: y = 1 − (row + v)/height.",
+};
+
+/// See its headline.
+pub static MIRRORED: Cause = Cause {
+    name: "picture-mirrored",
+    headline: "left and right of the picture are swapped",
+    look_at: "the step from the column of a pixel to the film's x, or the camera's right axis",
+    remedy: "Column 0 is on the left: x = (column + u)/width, and right is up × backward.",
+};
+
+/// See its headline.
+pub static TURNED: Cause = Cause {
+    name: "picture-turned-round",
+    headline: "the picture is turned by 180°",
+    look_at: "the signs of the camera's right and up axes",
+    remedy: "The camera looks along −z of its frame; with +z both axes come out reversed.",
+};
+
+/// See its headline.
+pub static TRANSPOSED: Cause = Cause {
+    name: "picture-transposed",
+    headline: "rows and columns of the picture are swapped",
+    look_at: "the index of a pixel in the film, or x and y in the step from pixel to film point",
+    remedy: "The pixel of column x and row y stands at y · width + x, and x goes with the width.",
+};
+
 /// Every cause of this part.
-pub static CAUSES: &[&Cause] = &[&GAMMA_TWICE];
+pub static CAUSES: &[&Cause] = &[
+    &NOT_DIVIDED,
+    &DIVIDED_TWICE,
+    &DIVIDED_BY_ONE_MORE,
+    &ONE_SAMPLE_TOO_MANY,
+    &CLAMPED,
+    &GAMMA_TWICE,
+    &CHANNELS_SWAPPED,
+    &BORDER_LEFT_OUT,
+    &PARTIAL_TILES_LEFT_OUT,
+    &COUNTS_OFF_BY_ONE,
+    &UPSIDE_DOWN,
+    &MIRRORED,
+    &TURNED,
+    &TRANSPOSED,
+];

@@ -9,12 +9,16 @@ pub mod bvh;
 pub mod camera;
 mod context;
 pub mod convergence;
+pub mod film;
 mod finding;
 mod form;
 pub mod light;
 mod numbers;
+#[cfg(test)]
+mod oracle;
 mod phrase;
 pub mod picture;
+mod rendering;
 pub mod robustness;
 pub mod sampling;
 pub mod shape;
@@ -119,6 +123,10 @@ fn prepare<C: Check>(text: &str) -> Result<Box<dyn Prepared>, PrepareError> {
 /// Every check there is, in the order of the parts of a path tracer.
 pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<camera::RaysThroughFilm>(),
+    CheckKind::of::<film::ConstantFilm>(),
+    CheckKind::of::<film::PictureOrientation>(),
+    CheckKind::of::<film::PixelSamples>(),
+    CheckKind::of::<film::ViewCoverage>(),
     CheckKind::of::<shape::HitsPrimitive>(),
     CheckKind::of::<shape::AgreesWithExactArithmetic>(),
     CheckKind::of::<shape::OverlapsBox>(),

@@ -39,6 +39,10 @@ impl Tolerance {
     /// precisions a shadow ray starts and ends a little off its surfaces.
     pub const RADIANCE: Self = Self { double: 1e-5, single: 1e-5 };
 
+    /// A pixel that is the mean of equal samples, relative: films are single precision in every
+    /// core, and weights of 1/n round once a sample.
+    pub const PIXEL: Self = Self { double: 1e-6, single: 1e-6 };
+
     /// The relative error allowed in this precision.
     pub const fn of(self, precision: Precision) -> f64 {
         match precision {

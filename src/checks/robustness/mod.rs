@@ -1,7 +1,6 @@
 //! What must hold whatever is rendered: finite radiance, seeds that matter, answers that repeat.
 
 mod radiance_is_finite;
-mod rendering;
 mod same_seed_same_picture;
 mod seeds_matter;
 

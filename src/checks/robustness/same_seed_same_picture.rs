@@ -1,6 +1,6 @@
 //! The same seed gives the same bits, whatever the number of threads.
 
-use super::rendering::Rendering;
+use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
 use serde::Deserialize;

@@ -1,6 +1,6 @@
 //! Different seeds give different noise, and neighbouring pixels have nothing to do with each other.
 
-use super::rendering::Rendering;
+use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
 use crate::image::luminance;

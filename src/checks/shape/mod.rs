@@ -8,4 +8,6 @@ mod overlaps_box;
 
 pub use agrees_with_exact_arithmetic::AgreesWithExactArithmetic;
 pub use hits_primitive::HitsPrimitive;
+#[cfg(test)]
+pub(in crate::checks) use imitation::{Answer, intersection};
 pub use overlaps_box::OverlapsBox;

@@ -1,6 +1,6 @@
-//! A small picture of a scene, as the checks of seeds render it.
+//! A small picture of a scene, as the checks of film, pixels and seeds render it.
 
-use crate::checks::{CheckError, camera_of};
+use super::{CheckError, camera_of};
 use crate::contract::{BuiltScene, Film, IntegratorSettings, RenderSettings};
 use crate::scene::{Camera, SceneDescription};
 
@@ -12,12 +12,25 @@ pub struct Rendering {
 
 impl Rendering {
     /// A picture of `scene` from its camera.
+    ///
+    /// # Errors
+    /// If it has none.
     pub fn of(
         scene: &SceneDescription,
         size: [u32; 2],
         bounces: [u32; 2],
         samples_per_pixel: u32,
     ) -> Result<Self, CheckError> {
+        Ok(Self::through(camera_of(scene)?, size, bounces, samples_per_pixel))
+    }
+
+    /// A picture from another camera.
+    pub fn through(
+        camera: Camera,
+        size: [u32; 2],
+        bounces: [u32; 2],
+        samples_per_pixel: u32,
+    ) -> Self {
         let settings = RenderSettings {
             width: size[0],
             height: size[1],
@@ -28,10 +41,13 @@ impl Rendering {
             },
             adaptive: None,
         };
-        Ok(Self { camera: camera_of(scene)?, settings })
+        Self { camera, settings }
     }
 
     /// The picture of a seed; `threads` as in [`IntegratorSettings::threads`].
+    ///
+    /// # Errors
+    /// If the core does not render.
     pub fn film(
         &self,
         scene: &mut dyn BuiltScene,

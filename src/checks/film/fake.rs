@@ -1,0 +1,105 @@
+//! A core that can only make pictures, and makes them of a function of the film: for the tests of
+//! this folder.
+
+use super::film_mistakes::Place;
+use crate::checks::testing::info;
+use crate::contract::{
+    Acceleration, BuildStats, BuiltScene, Core, CoreInfo, Film, Precision, RenderSettings, Result,
+};
+use crate::math::rng::{Seed, Stream, uniform};
+use crate::scene::{Camera, SceneDescription};
+use glam::{DVec2, DVec3};
+
+/// What a ray through a point brings home: in pixels, from the top left; the second is the film's
+/// size.
+pub type Radiance = fn(DVec2, DVec2) -> [f64; 3];
+/// At which index the pixel of column and row is stored, in a film of this size.
+pub type Index = fn([u32; 2], [u32; 2]) -> usize;
+
+/// What is added to the count of samples.
+#[derive(Clone, Copy)]
+pub struct Step(pub i32);
+
+/// A renderer of a picture that is a function of the film point; each step can be replaced by a
+/// wrong one.
+pub struct FakeFilm {
+    /// See [`Radiance`].
+    pub radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send>,
+    /// Where a sample with these random numbers lies, from the corner of its pixel.
+    pub place: fn(DVec2) -> DVec2,
+    /// What becomes of the mean of a pixel.
+    pub develop: fn([f64; 3], Place) -> [f64; 3],
+    /// See [`Index`].
+    pub index: Index,
+    /// See [`Step`].
+    pub count: Step,
+}
+
+impl Default for FakeFilm {
+    fn default() -> Self {
+        Self {
+            radiance: Box::new(|_, _| [0.0; 3]),
+            place: |numbers| numbers,
+            develop: |mean, _| mean,
+            index: |[x, y], [width, _]| (y * width + x) as usize,
+            count: Step(0),
+        }
+    }
+}
+
+impl FakeFilm {
+    /// Some camera: the fake looks at nothing but the film.
+    pub fn camera() -> Camera {
+        Camera::look_at(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, [16, 12])
+    }
+
+    fn mean(&self, place: Place, stream: &mut Stream) -> [f64; 3] {
+        let corner = DVec2::from(place.at.map(f64::from));
+        let size = DVec2::from(place.size.map(f64::from));
+        let mut sum = [0.0; 3];
+        for _ in 0..place.samples {
+            let numbers = DVec2::new(uniform(stream), uniform(stream));
+            let sample = (self.radiance)(corner + (self.place)(numbers), size);
+            sum = std::array::from_fn(|c| sum[c] + sample[c]);
+        }
+        sum.map(|sum| sum / f64::from(place.samples))
+    }
+}
+
+impl Core for FakeFilm {
+    fn info(&self) -> CoreInfo {
+        info(Precision::Double)
+    }
+
+    fn build_scene(
+        &mut self,
+        _: &SceneDescription,
+        _: Acceleration,
+    ) -> Result<Box<dyn BuiltScene + '_>> {
+        Ok(Box::new(Exposure(self)))
+    }
+}
+
+struct Exposure<'a>(&'a FakeFilm);
+
+impl BuiltScene for Exposure<'_> {
+    fn stats(&self) -> BuildStats {
+        BuildStats::default()
+    }
+
+    fn render(&mut self, _: &Camera, settings: &RenderSettings, film: &mut Film) -> Result<()> {
+        let core = self.0;
+        let size = [settings.width, settings.height];
+        let samples = settings.samples_per_pixel;
+        let stream = &mut Seed(settings.integrator.seed).stream();
+        for at in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y])) {
+            let place = Place { at, size, samples };
+            let pixel = (core.develop)(core.mean(place, stream), place);
+            let index = (core.index)(at, size) % film.pixels.len();
+            film.pixels[index] = pixel.map(|value| value as f32);
+        }
+        let Step(step) = core.count;
+        film.sample_counts.fill(samples.saturating_add_signed(step));
+        Ok(())
+    }
+}

@@ -1,0 +1,76 @@
+//! What becomes of a constant radiance in a film that is developed wrongly.
+
+use crate::cause::{Cause, picture};
+
+/// A pixel of a film that should hold the same radiance everywhere.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Column and row, from the top left.
+    pub at: [u32; 2],
+    /// Columns and rows of the film.
+    pub size: [u32; 2],
+    /// Camera rays per pixel.
+    pub samples: u32,
+}
+
+/// A mistake and what it writes where `radiance` belongs.
+pub struct FilmMistake {
+    /// In the glossary.
+    pub cause: &'static Cause,
+    /// The pixel it makes.
+    pub develop: fn([f64; 3], Place) -> [f64; 3],
+}
+
+/// Edges of the tiles that people cut pictures into.
+pub const TILES: [u32; 6] = [64, 32, 16, 8, 4, 2];
+
+const fn mistake(cause: &'static Cause, develop: fn([f64; 3], Place) -> [f64; 3]) -> FilmMistake {
+    FilmMistake { cause, develop }
+}
+
+fn scaled(radiance: [f64; 3], factor: f64) -> [f64; 3] {
+    radiance.map(|value| factor * value)
+}
+
+/// What a film holds if `develop` loses all that is outside `is_inside`.
+fn only(radiance: [f64; 3], is_inside: bool) -> [f64; 3] {
+    if is_inside { radiance } else { [0.0; 3] }
+}
+
+/// Every mistake but those with a size of their own ([`TILES`]).
+pub const MISTAKES: &[FilmMistake] = &[
+    mistake(&picture::NOT_DIVIDED, |radiance, place| scaled(radiance, f64::from(place.samples))),
+    mistake(&picture::DIVIDED_TWICE, |radiance, place| {
+        scaled(radiance, f64::from(place.samples).recip())
+    }),
+    mistake(&picture::DIVIDED_BY_ONE_MORE, |radiance, place| {
+        let n = f64::from(place.samples);
+        scaled(radiance, n / (n + 1.0))
+    }),
+    mistake(&picture::DIVIDED_BY_ONE_MORE, |radiance, place| {
+        let n = f64::from(place.samples);
+        scaled(radiance, (n - 1.0) / n)
+    }),
+    mistake(&picture::ONE_SAMPLE_TOO_MANY, |radiance, place| {
+        let n = f64::from(place.samples);
+        scaled(radiance, (n + 1.0) / n)
+    }),
+    mistake(&picture::CLAMPED, |radiance, _| radiance.map(|value| value.min(1.0))),
+    mistake(&picture::GAMMA_TWICE, |radiance, _| radiance.map(|value| value.powf(1.0 / 2.2))),
+    mistake(&picture::GAMMA_TWICE, |radiance, _| {
+        radiance.map(|value| value.min(1.0).powf(1.0 / 2.2))
+    }),
+    mistake(&picture::CHANNELS_SWAPPED, |[red, green, blue], _| [blue, green, red]),
+    mistake(&picture::BORDER_LEFT_OUT, |radiance, Place { at, size, .. }| {
+        only(radiance, at[0] + 1 < size[0] && at[1] + 1 < size[1])
+    }),
+    mistake(&picture::BORDER_LEFT_OUT, |radiance, Place { at, .. }| {
+        only(radiance, at[0] > 0 && at[1] > 0)
+    }),
+];
+
+/// What a film holds if only whole tiles of this edge are rendered.
+pub fn whole_tiles_only(radiance: [f64; 3], Place { at, size, .. }: Place, tile: u32) -> [f64; 3] {
+    let is_whole = |axis: usize| at[axis] / tile < size[axis] / tile;
+    only(radiance, is_whole(0) && is_whole(1))
+}

@@ -1,0 +1,212 @@
+//! How much of a picture a lamp covers, and where: field of view, aspect and position, without any
+//! shading.
+
+use crate::cause::picture;
+use crate::checks::phrase::{figure, mean_measure, percent, would_have_caught};
+use crate::checks::rendering::Rendering;
+use crate::checks::{Check, CheckError, Context, Finding};
+use crate::contract::{Acceleration, Capabilities, Film};
+use crate::stats::{Band, Claim, Effort, MeanReport, Verdict, judge_means};
+use crate::text::{Count, Percent};
+use serde::Deserialize;
+
+/// Samples of a pixel in each run; more than one, since some cores send a lone sample through the
+/// centre.
+const SAMPLES: u32 = 4;
+
+/// A lamp of radiance 1 before nothing covers a given share of the picture, around a given point of
+/// it.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ViewCoverage {
+    /// Columns and rows. Pixels stand for their centres, so that they should be small.
+    size: [u32; 2],
+    /// Of the picture.
+    share: f64,
+    /// In film coordinates, (0, 0) bottom left.
+    centroid: [f64; 2],
+    /// The smallest error, of the share or of the whole film's width, that must be seen.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+impl Check for ViewCoverage {
+    const NAME: &'static str = "view-coverage";
+    const SUMMARY: &'static str = "how much of the picture a lamp covers, and where";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::RENDER
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        let is_inside = |share: &f64| 0.0 < *share && *share < 1.0;
+        let numbers = [self.share, self.centroid[0], self.centroid[1]];
+        if numbers.iter().all(is_inside) && self.size.iter().all(|n| *n > 0) {
+            Ok(())
+        } else {
+            Err("`share` and `centroid` lie between 0 and 1".to_owned())
+        }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let rendering = Rendering::of(&scene, self.size, [0, 0], SAMPLES)?;
+        let of_a_film = u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(SAMPLES);
+        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
+        let effort = context.budget.scale(effort.with_runs(32)).in_steps_of(of_a_film);
+        let seed = context.seed;
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let reports = judge_means(&self.claims(), &effort, &mut |draw| {
+            let films = draw.samples / of_a_film;
+            let mut means = [0.0; 3];
+            for number in 0..films {
+                let film = rendering.film(built.as_mut(), draw.seed(seed).child(number).0, 0)?;
+                let moments = moments(&film);
+                means = std::array::from_fn(|i| means[i] + moments[i] / films as f64);
+            }
+            Ok::<_, CheckError>(means.to_vec())
+        })?;
+        Ok(self.finding(&reports))
+    }
+}
+
+/// The mean of the picture, and of the picture times the film coordinates of its pixels.
+fn moments(film: &Film) -> [f64; 3] {
+    let [width, height] = [film.width, film.height].map(f64::from);
+    let places = (0..film.height).flat_map(|y| (0..film.width).map(move |x| [x, y]));
+    let mut sums = [0.0; 3];
+    for ([x, y], pixel) in places.zip(&film.pixels) {
+        let seen = f64::from(pixel[1]);
+        sums[0] += seen;
+        sums[1] += seen * (f64::from(x) + 0.5) / width;
+        sums[2] += seen * (1.0 - (f64::from(y) + 0.5) / height);
+    }
+    sums.map(|sum| sum / (width * height))
+}
+
+impl ViewCoverage {
+    /// Of the share itself and of its first moments; a moment's error counts relative to the share.
+    fn claims(&self) -> [Claim; 3] {
+        let moment =
+            |at: f64| Claim { scale: self.share, ..Claim::value(self.share * at, Band::RADIANCE) };
+        let [x, y] = self.centroid;
+        [Claim::value(self.share, Band::RADIANCE), moment(x), moment(y)]
+    }
+
+    fn finding(&self, reports: &[MeanReport]) -> Finding {
+        let names = ["share of the picture", "share times film x", "share times film y"];
+        let measures: Vec<_> =
+            names.into_iter().zip(reports).map(|(n, r)| mean_measure(n, r)).collect();
+        let share = reports[0].mean;
+        let centroid = [reports[1].mean / share, reports[2].mean / share];
+        let failed = measures.iter().any(|measure| measure.verdict == Verdict::Fail);
+        let [x, y] = centroid.map(figure);
+        let covered =
+            format!("the lamp covers {} of the picture, around ({x}, {y})", percent(share));
+        let statement = match failed {
+            false => covered,
+            true => {
+                let [x, y] = self.centroid.map(figure);
+                format!("{covered}, instead of {} around ({x}, {y})", percent(self.share))
+            }
+        };
+        let resolution = would_have_caught(&measures) + " of the share";
+        let spent = reports.iter().map(|report| report.false_alarm).sum();
+        let finding = Finding::of(statement, resolution, measures).spending(spent);
+        if failed { self.explain(finding, reports) } else { finding }
+    }
+
+    /// A share that is right in a place that is mirrored.
+    fn explain(&self, finding: Finding, reports: &[MeanReport]) -> Finding {
+        if reports[0].verdict == Verdict::Fail {
+            return finding;
+        }
+        let holds = |number: usize, at: f64| {
+            let [low, high] = reports[number].interval;
+            let slack = reports[number].band;
+            (low - slack..=high + slack).contains(&(self.share * at))
+        };
+        let [x, y] = self.centroid;
+        let tried = [
+            (&picture::UPSIDE_DOWN, [x, 1.0 - y]),
+            (&picture::MIRRORED, [1.0 - x, y]),
+            (&picture::TURNED, [1.0 - x, 1.0 - y]),
+            (&picture::TRANSPOSED, [y, x]),
+        ];
+        let found = tried.into_iter().find(|(_, [x, y])| holds(1, *x) && holds(2, *y));
+        match found {
+            Some((cause, [x, y])) => {
+                let evidence = format!("predicts its middle at ({}, {})", figure(x), figure(y));
+                finding.because(cause, evidence)
+            }
+            None => finding,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::{FakeFilm, Radiance};
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::scene::SceneDescription;
+    use glam::DVec2;
+
+    const CASE: &str = "[expect]\nsize = [32, 24]\nshare = 0.12\ncentroid = [0.35, 0.8]\n\
+                        detects = \"3 %\"\nat-most = \"1 M\"";
+
+    /// A lamp that covers [0.2, 0.5] × [0.6, 1] of the film.
+    fn lamp(at: DVec2, size: DVec2) -> [f64; 3] {
+        let film = DVec2::new(at.x / size.x, 1.0 - at.y / size.y);
+        let covers = (0.2..0.5).contains(&film.x) && (0.6..=1.0).contains(&film.y);
+        [f64::from(u8::from(covers)); 3]
+    }
+
+    fn found(core: FakeFilm) -> Finding {
+        let check: ViewCoverage = check_of(CASE);
+        let scene = SceneDescription { camera: Some(FakeFilm::camera()), ..Default::default() };
+        try_judge(&check, &mut { core }, Some(scene)).unwrap()
+    }
+
+    fn seen(radiance: Radiance) -> Finding {
+        found(FakeFilm { radiance: Box::new(radiance), ..FakeFilm::default() })
+    }
+
+    #[test]
+    fn the_right_view_passes() {
+        assert_passes(&seen(lamp));
+    }
+
+    #[test]
+    fn a_view_that_is_too_wide_fails_with_both_numbers() {
+        let finding = seen(|at, size| lamp(size / 2.0 + 1.1 * (at - size / 2.0), size));
+        let statement = failure(&finding);
+        assert!(statement.starts_with("the lamp covers 9.9"), "{statement}");
+        assert!(statement.ends_with("instead of 12 % around (0.35, 0.8)"), "{statement}");
+    }
+
+    #[test]
+    fn mirrored_pictures_are_named() {
+        let cases: [(Radiance, &str); 4] = [
+            (|at, size| lamp(DVec2::new(at.x, size.y - at.y), size), "picture-upside-down"),
+            (|at, size| lamp(DVec2::new(size.x - at.x, at.y), size), "picture-mirrored"),
+            (|at, size| lamp(size - at, size), "picture-turned-round"),
+            (
+                |at, size| lamp(DVec2::new(1.0 - at.y / size.y, 1.0 - at.x / size.x) * size, size),
+                "picture-transposed",
+            ),
+        ];
+        for (radiance, name) in cases {
+            let finding = seen(radiance);
+            failure(&finding);
+            let causes: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
+            assert_eq!(causes, [name], "{}", finding.statement);
+        }
+    }
+
+    #[test]
+    fn a_lamp_a_pixel_further_right_fails() {
+        failure(&seen(|at, size| lamp(at - DVec2::X, size)));
+    }
+}

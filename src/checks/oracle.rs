@@ -1,0 +1,78 @@
+//! What a ray meets in a scene: a loop over everything in double precision, as the third witness
+//! between a core and a check.
+
+use super::shape::{Answer, intersection};
+use crate::contract::{Primitive, Ray};
+use crate::scene::{Rgb, SceneDescription, Shape};
+use glam::DVec3;
+
+/// What a ray meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Met {
+    /// Number of the shape in the scene.
+    pub shape: u32,
+    /// Number of the triangle in its mesh, 0 for a sphere.
+    pub primitive: u32,
+    /// Where, and the normals there; those of an inward sphere point inward.
+    pub answer: Answer,
+}
+
+/// The nearest hit on the segment of `ray`.
+pub fn nearest(scene: &SceneDescription, ray: &Ray) -> Option<Met> {
+    let mut ray = *ray;
+    let mut met = None;
+    for (shape, primitive, geometry) in primitives(scene) {
+        if let Some(answer) = intersection(&geometry, &ray) {
+            ray.t_max = answer.t;
+            met = Some(Met { shape, primitive, answer: facing(scene, shape, answer) });
+        }
+    }
+    met
+}
+
+/// Radiance that glows towards the origin of `ray`, nothing scattered; skies included.
+pub fn emission_along(scene: &SceneDescription, ray: &Ray) -> Rgb {
+    let Some(met) = nearest(scene, ray) else {
+        let skies = scene.lights.iter().map(|light| light.sky_radiance(ray.direction));
+        return skies.fold([0.0; 3], |sum, sky| std::array::from_fn(|c| sum[c] + sky[c]));
+    };
+    let is_front = met.answer.geometric_normal.dot(ray.direction) < 0.0;
+    let emission = scene.material_of(met.shape).emission.filter(|_| is_front);
+    let at = |centre: DVec3| (ray.at(met.answer.t) - centre).normalize_or_zero();
+    emission.map_or([0.0; 3], |emission| match scene.shape(met.shape) {
+        Shape::Sphere(sphere) => emission.at_sphere_point(at(sphere.centre)),
+        Shape::Mesh(_) => emission.radiance,
+    })
+}
+
+/// Every primitive with the numbers of its shape and of itself.
+fn primitives(scene: &SceneDescription) -> impl Iterator<Item = (u32, u32, Primitive)> + '_ {
+    (0..scene.shape_count() as u32).flat_map(move |shape| {
+        let count = match scene.shape(shape) {
+            Shape::Mesh(mesh) => mesh.indices.len(),
+            Shape::Sphere(_) => 1,
+        };
+        (0..count).map(move |number| (shape, number as u32, primitive(scene, shape, number)))
+    })
+}
+
+fn primitive(scene: &SceneDescription, shape: u32, number: usize) -> Primitive {
+    match scene.shape(shape) {
+        Shape::Mesh(mesh) => Primitive::Triangle {
+            positions: mesh.corners(number),
+            normals: mesh.corner_normals(number),
+        },
+        Shape::Sphere(sphere) => Primitive::Sphere { centre: sphere.centre, radius: sphere.radius },
+    }
+}
+
+fn facing(scene: &SceneDescription, shape: u32, answer: Answer) -> Answer {
+    match scene.shape(shape) {
+        Shape::Sphere(sphere) if sphere.inward => Answer {
+            geometric_normal: -answer.geometric_normal,
+            shading_normal: -answer.shading_normal,
+            ..answer
+        },
+        _ => answer,
+    }
+}

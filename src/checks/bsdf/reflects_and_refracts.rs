@@ -145,10 +145,8 @@ impl Trial {
             degrees(self.allowed.direction),
             percent(self.allowed.formula)
         );
-        let chances = views.iter().filter_map(|view| view.chance.as_ref());
-        let spent = chances.map(|chance| chance.false_alarm).sum();
         let measures = views.iter().flat_map(SmoothView::measures).collect();
-        Finding::of(statement, resolution, measures).spending(spent)
+        Finding::of(statement, resolution, measures)
     }
 
     /// With the mistakes that predict every sample of every view.

@@ -136,6 +136,7 @@ impl SmoothView {
             interval: Some(report.interval),
             resolution: Some(report.resolution),
             verdict: report.verdict,
+            leaf: Some(report.leaf()),
             ..Measure::exact(named("samples reflected"), report.share, report.expected, 0.0)
         }));
         measures

@@ -89,13 +89,12 @@ fn finding(reports: &[MeanReport], all: &Tally) -> Finding {
     let none = |name: &str, found: f64| Measure::exact(name, found, 0.0, 0.0);
     measures.push(none("samples that see another pixel", all.strayed));
     measures.push(none("pixels that are no mean of three samples", all.unreadable as f64));
-    let spent = reports.iter().map(|report| report.false_alarm).sum();
     let failed = measures.iter().any(|measure| measure.verdict == Verdict::Fail);
     let statement = match failed {
         false => format!("{} samples lie evenly in their pixels", all.samples),
         true => complaint(all),
     };
-    let finding = Finding::of(statement, resolution, measures).spending(spent);
+    let finding = Finding::of(statement, resolution, measures);
     if failed { explain(finding, all) } else { finding }
 }
 

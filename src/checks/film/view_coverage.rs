@@ -112,8 +112,7 @@ impl ViewCoverage {
             }
         };
         let resolution = would_have_caught(&measures) + " of the share";
-        let spent = reports.iter().map(|report| report.false_alarm).sum();
-        let finding = Finding::of(statement, resolution, measures).spending(spent);
+        let finding = Finding::of(statement, resolution, measures);
         if failed { self.explain(finding, reports) } else { finding }
     }
 

@@ -7,6 +7,7 @@ pub mod cli;
 pub mod contract;
 pub mod cores;
 pub mod diagnosis;
+pub mod faults;
 pub mod image;
 pub mod math;
 pub mod project;

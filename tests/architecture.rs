@@ -23,6 +23,7 @@ const LAYERS: &[(&str, u32)] = &[
     ("case", 7),
     ("diagnosis", 8),
     ("run", 9),
+    ("faults", 10),
     ("report", 10),
     ("reference", 10),
     ("cli", 11),

@@ -90,6 +90,54 @@ pub static NOT_DIVIDED: Cause = Cause {
     remedy: "Divide by the number of samples that were really taken.",
 };
 
+/// See its headline.
+pub static COUNT_ONE_SHORT: Cause = Cause {
+    name: "count-one-short",
+    headline: "n is one short of the samples in the sums",
+    look_at: "adaptive sampling, where the variance is computed",
+    remedy: "Count a sample when it is added to the sums.",
+};
+
+/// See its headline.
+pub static BATCH_IGNORED: Cause = Cause {
+    name: "batch-ignored",
+    headline: "the rule looks after 32 samples, whatever batch is asked for",
+    look_at: "adaptive sampling, the loop over samples",
+    remedy: "Look whenever the number of samples is a multiple of the batch that is asked for.",
+};
+
+/// See its headline.
+pub static REST_OF_BATCH_DROPPED: Cause = Cause {
+    name: "rest-of-batch-dropped",
+    headline: "samples beyond the last whole batch are not taken",
+    look_at: "adaptive sampling, the loop over samples",
+    remedy: "Go on to the cap, also where it is no multiple of the batch.",
+};
+
+/// See its headline.
+pub static COUNTS_ARE_CAP: Cause = Cause {
+    name: "counts-are-cap",
+    headline: "the picture of counts says the most that was allowed, not what was taken",
+    look_at: "the buffer of sample counts",
+    remedy: "Write the number of samples that were really taken.",
+};
+
+/// See its headline.
+pub static LAST_BATCH_NOT_COUNTED: Cause = Cause {
+    name: "last-batch-not-counted",
+    headline: "the picture of counts lacks the last batch",
+    look_at: "the buffer of sample counts",
+    remedy: "Write the number of samples that were really taken.",
+};
+
+/// See its headline.
+pub static ADAPTIVE_ALWAYS: Cause = Cause {
+    name: "adaptive-always",
+    headline: "pixels stop early though adaptive sampling is off",
+    look_at: "the choice between adaptive and fixed sampling",
+    remedy: "Without adaptive sampling every pixel takes all its samples.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &DIVIDED_BY_CAP,
@@ -103,4 +151,10 @@ pub static CAUSES: &[&Cause] = &[
     &DIVIDED_BY_ONE_MORE,
     &DIVIDED_BY_ONE_LESS,
     &NOT_DIVIDED,
+    &COUNT_ONE_SHORT,
+    &BATCH_IGNORED,
+    &REST_OF_BATCH_DROPPED,
+    &COUNTS_ARE_CAP,
+    &LAST_BATCH_NOT_COUNTED,
+    &ADAPTIVE_ALWAYS,
 ];

@@ -162,6 +162,86 @@ pub static MIRROR_GOES_THROUGH: Cause = Cause {
     remedy: "wi = (-wo.x, -wo.y, wo.z): the side of the surface stays.",
 };
 
+/// See its headline.
+pub static COSINE_IN_SAMPLED_F: Cause = Cause {
+    name: "cosine-in-sampled-f",
+    headline: "f of a sample has the cosine in it already, f evaluated has not",
+    look_at: "sampling the surface, where f is returned",
+    remedy: "Return f without the cosine, as the evaluation does.",
+};
+
+/// See its headline.
+pub static LIGHT_FROM_BELOW: Cause = Cause {
+    name: "light-from-below",
+    headline: "light from behind the surface is scattered too",
+    look_at: "f of the surface, where the side of the direction is tested",
+    remedy: "f is 0 where cos θ ≤ 0; do not take its absolute value first.",
+};
+
+/// See its headline.
+pub static ALBEDO_AVERAGED: Cause = Cause {
+    name: "albedo-averaged",
+    headline: "the surface has lost its colour: all channels have the mean albedo",
+    look_at: "f of the surface",
+    remedy: "Multiply each channel by its own albedo.",
+};
+
+/// See its headline.
+pub static MIRROR_NOT_DELTA: Cause = Cause {
+    name: "mirror-not-delta",
+    headline: "a mirror's only direction is not marked as such",
+    look_at: "sampling the mirror, where the sample is returned",
+    remedy: "Say that the sample is a delta: no light can be sampled towards it.",
+};
+
+/// See its headline.
+pub static GLASS_WEIGHT_WITHOUT_FRESNEL: Cause = Cause {
+    name: "glass-weight-without-fresnel",
+    headline: "glass divides by the chance of a way, and leaves Fresnel's share out of its weight",
+    look_at: "glass, where f of the chosen way is written",
+    remedy: "The share F belongs to what is reflected, 1 − F to what passes, and each is divided by its chance.",
+};
+
+/// See its headline.
+pub static GLASS_OTHER_CHANCE: Cause = Cause {
+    name: "glass-other-chance",
+    headline: "glass chooses its way by another chance than it divides by",
+    look_at: "glass, where a random number chooses between its two ways",
+    remedy: "Compare the random number with the probability that is returned.",
+};
+
+/// See its headline.
+pub static ROUGHNESS_SQUARED: Cause = Cause {
+    name: "roughness-squared",
+    headline: "the roughness is squared before it is used as the width of the lobe",
+    look_at: "the microfacet distribution, where α comes from",
+    remedy: "Here the roughness is α itself.",
+};
+
+/// See its headline.
+pub static MASKING_FORGOTTEN: Cause = Cause {
+    name: "masking-forgotten",
+    headline: "the masking term is missing",
+    look_at: "f of rough metal",
+    remedy: "f = F D G / (4 cos θo cos θi), with Smith's G.",
+};
+
+/// See its headline.
+pub static PDF_OF_FACETS: Cause = Cause {
+    name: "pdf-of-facets",
+    headline: "the density is that of the facet's normal, not of the direction",
+    look_at: "sampling rough metal, where the pdf is written",
+    remedy: "Divide the density of the half vector by 4 (wo · h).",
+};
+
+/// See its headline.
+pub static FOUR_FORGOTTEN: Cause = Cause {
+    name: "four-forgotten",
+    headline: "f of rough metal is four times too large: the 4 of its denominator is missing",
+    look_at: "f of rough metal",
+    remedy: "f = F D G / (4 cos θo cos θi).",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &WITHOUT_PI,
@@ -184,4 +264,14 @@ pub static CAUSES: &[&Cause] = &[
     &DELTA_COLOUR_MISSING,
     &MIRROR_RETURNS_VIEW,
     &MIRROR_GOES_THROUGH,
+    &COSINE_IN_SAMPLED_F,
+    &LIGHT_FROM_BELOW,
+    &ALBEDO_AVERAGED,
+    &MIRROR_NOT_DELTA,
+    &GLASS_WEIGHT_WITHOUT_FRESNEL,
+    &GLASS_OTHER_CHANCE,
+    &ROUGHNESS_SQUARED,
+    &MASKING_FORGOTTEN,
+    &PDF_OF_FACETS,
+    &FOUR_FORGOTTEN,
 ];

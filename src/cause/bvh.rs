@@ -50,6 +50,94 @@ pub static COUNTS_NOT_REAL: Cause = Cause {
     remedy: "Count every call of a primitive's intersection test.",
 };
 
+/// See its headline.
+pub static BOX_OF_CENTROIDS: Cause = Cause {
+    name: "box-of-centroids",
+    headline: "the boxes of nodes hold the centroids of their primitives, not the primitives",
+    look_at: "the build, where the box of a node is made",
+    remedy: "Unite the boxes of the primitives; the centroids are only for the split.",
+};
+
+/// See its headline.
+pub static PRIMITIVES_LOST: Cause = Cause {
+    name: "primitives-lost",
+    headline: "some primitives are in no leaf: a range ends one short",
+    look_at: "the build, where a range is handed to the children",
+    remedy: "A range [begin, end) is cut into [begin, middle) and [middle, end).",
+};
+
+/// See its headline.
+pub static SPLIT_REPEATED: Cause = Cause {
+    name: "split-repeated",
+    headline: "a split that separates nothing is made again and again",
+    look_at: "the build, where a node is divided",
+    remedy: "If one side is empty, cut the range in half, or make a leaf.",
+};
+
+/// See its headline.
+pub static Z_NEVER_SPLIT: Cause = Cause {
+    name: "z-never-split",
+    headline: "nodes are never divided along z",
+    look_at: "the build, where a node is divided",
+    remedy: "Compare the extents of all three axes.",
+};
+
+/// See its headline.
+pub static SHORTEST_AXIS: Cause = Cause {
+    name: "shortest-axis",
+    headline: "nodes are divided along their shortest axis",
+    look_at: "the build, where a node is divided",
+    remedy: "Divide along the axis on which the centroids reach furthest.",
+};
+
+/// See its headline.
+pub static RANGE_OVERWRITTEN: Cause = Cause {
+    name: "range-overwritten",
+    headline: "the box test overwrites the segment of the ray",
+    look_at: "the traversal, where the box of a node is tested",
+    remedy: "Hand copies of t_min and t_max to the box test; it writes where the ray enters and leaves.",
+};
+
+/// See its headline.
+pub static HIT_OVERWRITTEN: Cause = Cause {
+    name: "hit-overwritten",
+    headline: "a farther hit overwrites a nearer one",
+    look_at: "the loop over the primitives of a leaf",
+    remedy: "Shorten t_max to each hit, or keep a hit only if it is nearer than the best so far.",
+};
+
+/// See its headline.
+pub static LEAF_ORDER_NUMBERS: Cause = Cause {
+    name: "leaf-order-numbers",
+    headline: "hits carry the number of a primitive in the order of the leaves, not in the scene",
+    look_at: "the hit, where the primitive is named",
+    remedy: "Carry the primitive's own number through the build.",
+};
+
+/// See its headline.
+pub static SHADOW_SECOND_CHILD_SKIPPED: Cause = Cause {
+    name: "shadow-second-child-skipped",
+    headline: "shadow rays look into one child of a node only",
+    look_at: "the any-hit query, where the children of a node are visited",
+    remedy: "A miss in the first child says nothing about the second: `a || b`.",
+};
+
+/// See its headline.
+pub static SHADOW_END_IGNORED: Cause = Cause {
+    name: "shadow-end-ignored",
+    headline: "shadow rays do not end: what lies behind t_max stops them too",
+    look_at: "the any-hit query, where the children of a node are visited",
+    remedy: "Only what lies inside (t_min, t_max) occludes.",
+};
+
+/// See its headline.
+pub static SHADOWS_HIT_BOXES: Cause = Cause {
+    name: "shadows-hit-boxes",
+    headline: "shadow rays are stopped by boxes, whether or not a primitive is hit",
+    look_at: "the any-hit query, where the children of a node are visited",
+    remedy: "A box only says that something may be hit: test the primitives of the leaf.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &SECOND_CHILD_SKIPPED,
@@ -58,4 +146,15 @@ pub static CAUSES: &[&Cause] = &[
     &SEGMENT_NOT_SHORTENED,
     &CHILDREN_UNORDERED,
     &COUNTS_NOT_REAL,
+    &BOX_OF_CENTROIDS,
+    &PRIMITIVES_LOST,
+    &SPLIT_REPEATED,
+    &Z_NEVER_SPLIT,
+    &SHORTEST_AXIS,
+    &RANGE_OVERWRITTEN,
+    &HIT_OVERWRITTEN,
+    &LEAF_ORDER_NUMBERS,
+    &SHADOW_SECOND_CHILD_SKIPPED,
+    &SHADOW_END_IGNORED,
+    &SHADOWS_HIT_BOXES,
 ];

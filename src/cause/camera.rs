@@ -146,6 +146,14 @@ pub static ORIGIN_NOT_AT_CAMERA: Cause = Cause {
     remedy: "The origin of every camera ray is the camera's position in the world.",
 };
 
+/// See its headline.
+pub static DIRECTION_NOT_UNIT: Cause = Cause {
+    name: "direction-not-unit",
+    headline: "camera rays have directions that are not of unit length",
+    look_at: "the camera's rays, at the end",
+    remedy: "Normalise the direction, and keep the result: `d = d.unit()`.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &FILM_Y_DOWN,
@@ -166,4 +174,5 @@ pub static CAUSES: &[&Cause] = &[
     &POSITION_ADDED_TO_DIRECTION,
     &CLIPS_NOT_SET,
     &ORIGIN_NOT_AT_CAMERA,
+    &DIRECTION_NOT_UNIT,
 ];

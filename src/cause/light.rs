@@ -170,6 +170,110 @@ pub static PDF_FORGOTTEN: Cause = Cause {
     remedy: "Each sample counts f · cos θ · radiance / pdf.",
 };
 
+/// See its headline.
+pub static DIRECTIONAL_FLIPPED: Cause = Cause {
+    name: "directional-flipped",
+    headline: "a directional light shines the wrong way",
+    look_at: "light sampling, where the direction to the light is made",
+    remedy: "wi points to the light: it is minus the direction in which the light travels.",
+};
+
+/// See its headline.
+pub static SKY_PDF_OF_HEMISPHERE: Cause = Cause {
+    name: "sky-pdf-of-hemisphere",
+    headline: "the sky is sampled over the whole sphere with the density of the hemisphere",
+    look_at: "light sampling, where the pdf is computed",
+    remedy: "Directions of the whole sphere have density 1/4π.",
+};
+
+/// See its headline.
+pub static HEMISPHERE_IN_WORLD: Cause = Cause {
+    name: "hemisphere-in-world",
+    headline: "directions of the hemisphere are followed as if they were world directions",
+    look_at: "hemisphere sampling",
+    remedy: "Turn the local direction into the world before it becomes a ray.",
+};
+
+/// See its headline.
+pub static HEMISPHERE_IGNORED: Cause = Cause {
+    name: "hemisphere-ignored",
+    headline: "light is sampled even where hemisphere sampling is asked for",
+    look_at: "the choice between hemisphere and light sampling",
+    remedy: "Let the flag choose the estimator.",
+};
+
+/// See its headline.
+pub static DIVIDED_BY_ZERO_LIGHTS: Cause = Cause {
+    name: "divided-by-zero-lights",
+    headline: "without lights the hemisphere's sum of no samples is divided by 0",
+    look_at: "hemisphere sampling",
+    remedy: "Draw at least one direction, or answer 0 where there is no light.",
+};
+
+/// See its headline.
+pub static NO_SHADOWS: Cause = Cause {
+    name: "no-shadows",
+    headline: "light is not blocked by what stands in between",
+    look_at: "the shadow ray",
+    remedy: "Add a light sample only if nothing lies between the point and the light.",
+};
+
+/// See its headline.
+pub static SHADOW_BEYOND_LIGHT: Cause = Cause {
+    name: "shadow-beyond-light",
+    headline: "what lies behind the light casts a shadow",
+    look_at: "the shadow ray",
+    remedy: "End the shadow ray at the light: t_max = distance − ε.",
+};
+
+/// See its headline.
+pub static ACNE: Cause = Cause {
+    name: "acne",
+    headline: "rays that leave a surface meet it again",
+    look_at: "the shadow ray",
+    remedy: "Start t_min (or the origin) a little off the surface.",
+};
+
+/// See its headline.
+pub static DIVIDED_IN_LOOP: Cause = Cause {
+    name: "divided-in-loop",
+    headline: "earlier lights are divided by the number of samples again for each light that follows",
+    look_at: "light sampling, the loop over lights",
+    remedy: "Divide each light's own sum, then add it to the total.",
+};
+
+/// See its headline.
+pub static DIVIDED_BY_LIGHTS: Cause = Cause {
+    name: "divided-by-lights",
+    headline: "the sum over lights is divided by their number",
+    look_at: "light sampling, the loop over lights",
+    remedy: "Every light adds its share: only the samples of one light are averaged.",
+};
+
+/// See its headline.
+pub static DELTA_DIVIDED: Cause = Cause {
+    name: "delta-divided",
+    headline: "a delta light is sampled once and divided by the number of samples",
+    look_at: "light sampling, where the number of samples is chosen",
+    remedy: "A delta light has one sample: divide by one.",
+};
+
+/// See its headline.
+pub static LAST_LIGHT_ONLY: Cause = Cause {
+    name: "last-light-only",
+    headline: "only one of the lights counts",
+    look_at: "light sampling, the loop over lights",
+    remedy: "Add to the sum outside the loop; do not declare it anew inside.",
+};
+
+/// See its headline.
+pub static RANGE_KEPT: Cause = Cause {
+    name: "range-kept",
+    headline: "rays that leave a surface end where the ray before ended",
+    look_at: "the ray that leaves a surface",
+    remedy: "Give every new ray its own range: t_max is infinite again.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &WORLD_COSINE,
@@ -193,4 +297,17 @@ pub static CAUSES: &[&Cause] = &[
     &HALF_AS_BRIGHT,
     &TIMES_PDF,
     &PDF_FORGOTTEN,
+    &DIRECTIONAL_FLIPPED,
+    &SKY_PDF_OF_HEMISPHERE,
+    &HEMISPHERE_IN_WORLD,
+    &HEMISPHERE_IGNORED,
+    &DIVIDED_BY_ZERO_LIGHTS,
+    &NO_SHADOWS,
+    &SHADOW_BEYOND_LIGHT,
+    &ACNE,
+    &DIVIDED_IN_LOOP,
+    &DIVIDED_BY_LIGHTS,
+    &DELTA_DIVIDED,
+    &LAST_LIGHT_ONLY,
+    &RANGE_KEPT,
 ];

@@ -15,6 +15,7 @@ pub mod light;
 pub mod picture;
 pub mod pixel;
 pub mod sampling;
+pub mod seed;
 pub mod shape;
 pub mod slab;
 pub mod transport;
@@ -46,6 +47,7 @@ pub fn all() -> impl Iterator<Item = &'static Cause> {
         light::CAUSES,
         transport::CAUSES,
         adaptive::CAUSES,
+        seed::CAUSES,
         picture::CAUSES,
     ];
     parts.into_iter().flatten().copied()

@@ -210,6 +210,62 @@ pub static NORMALS_INSIDE_OUT: Cause = Cause {
     remedy: "A sphere's normal is (point − centre) / radius; a triangle's is (v1 − v0) × (v2 − v0).",
 };
 
+/// See its headline.
+pub static BOTH_ROOTS_REQUIRED: Cause = Cause {
+    name: "both-roots-required",
+    headline: "both roots have to lie on the segment, so that spheres cut by its end vanish",
+    look_at: "the sphere's test, where the roots of the quadratic are chosen",
+    remedy: "One root inside (t_min, t_max) is enough; take the smaller such.",
+};
+
+/// See its headline.
+pub static FIRST_ROOT_UNCHECKED: Cause = Cause {
+    name: "first-root-unchecked",
+    headline: "the nearer root is reported even where only the farther one lies on the segment",
+    look_at: "the sphere's test, where the roots of the quadratic are chosen",
+    remedy: "Report the root that was found to lie inside (t_min, t_max).",
+};
+
+/// See its headline.
+pub static QUADRATIC_PRECEDENCE: Cause = Cause {
+    name: "quadratic-precedence",
+    headline: "the quadratic is divided by 2 and multiplied by a: `/ 2 * a` is not `/ (2 * a)`",
+    look_at: "the sphere's test, where the quadratic is solved",
+    remedy: "t = (−b ± √(b² − 4ac)) / (2a): mind the parentheses around 2a.",
+};
+
+/// See its headline.
+pub static SPHERE_CANCELLATION: Cause = Cause {
+    name: "sphere-cancellation",
+    headline: "the roots of far spheres lose their digits in b² − 4ac",
+    look_at: "the sphere's test, where the quadratic is solved",
+    remedy: "Take the discriminant from the distance between line and centre, and the smaller root as c/q.",
+};
+
+/// See its headline.
+pub static NORMAL_NOT_UNIT: Cause = Cause {
+    name: "normal-not-unit",
+    headline: "normals are not of unit length",
+    look_at: "the intersection test, where normals are written",
+    remedy: "Normalise the interpolated normal, and divide the sphere's by its radius.",
+};
+
+/// See its headline.
+pub static NAN_HIT_ACCEPTED: Cause = Cause {
+    name: "nan-hit-accepted",
+    headline: "a ray in the plane of a triangle divides 0 by 0, and what is no number counts as a hit",
+    look_at: "the triangle's test, where parallel rays are rejected",
+    remedy: "Reject a determinant of 0, or write comparisons that accept: `0 ≤ u`, not `!(u < 0)`.",
+};
+
+/// See its headline.
+pub static EDGES_EXCLUDED: Cause = Cause {
+    name: "edges-excluded",
+    headline: "rays through an edge that two triangles share hit neither",
+    look_at: "the triangle's test, where the weights are compared",
+    remedy: "Edges belong to the triangle: compare with ≥ 0, and leave room for rounding.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &SEGMENT_END_IGNORED,
@@ -238,4 +294,11 @@ pub static CAUSES: &[&Cause] = &[
     &GEOMETRIC_NORMAL_INTERPOLATED,
     &NORMALS_FACE_RAY,
     &NORMALS_INSIDE_OUT,
+    &BOTH_ROOTS_REQUIRED,
+    &FIRST_ROOT_UNCHECKED,
+    &QUADRATIC_PRECEDENCE,
+    &SPHERE_CANCELLATION,
+    &NORMAL_NOT_UNIT,
+    &NAN_HIT_ACCEPTED,
+    &EDGES_EXCLUDED,
 ];

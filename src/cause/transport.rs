@@ -130,6 +130,78 @@ pub static ROULETTE_STOPS_DIRECT: Cause = Cause {
     remedy: "Add direct light first, then play roulette for going on.",
 };
 
+/// See its headline.
+pub static DEPTH_IGNORED: Cause = Cause {
+    name: "depth-ignored",
+    headline: "the last bounce is not looked at: paths go on and on",
+    look_at: "the depth of a path",
+    remedy: "Stop after the last bounce that is asked for; count up, or beware of 0 − 1 with unsigned numbers.",
+};
+
+/// See its headline.
+pub static ZERO_DEPTH_LIT: Cause = Cause {
+    name: "zero-depth-lit",
+    headline: "with no bounces asked for, light of the first bounce is shown all the same",
+    look_at: "the depth of a path",
+    remedy: "Bounces 0 to 0 are what glows by itself, and nothing else.",
+};
+
+/// See its headline.
+pub static MIRROR_SHOWS_NO_LIGHT: Cause = Cause {
+    name: "mirror-shows-no-light",
+    headline: "what glows is not seen in mirrors and through glass",
+    look_at: "indirect light, after a mirror or glass",
+    remedy: "No light can be sampled there: add what glows at the end of the ray.",
+};
+
+/// See its headline.
+pub static ISOLATION_IGNORED: Cause = Cause {
+    name: "isolation-ignored",
+    headline: "a single bounce is asked for, and those before it are added too",
+    look_at: "indirect light, where the light of a vertex is added",
+    remedy: "Add the light of a vertex only if its bounce is asked for.",
+};
+
+/// See its headline.
+pub static DIRECT_ONLY_WITH_BOUNCE: Cause = Cause {
+    name: "direct-only-with-bounce",
+    headline: "direct light counts only where the path goes on and hits something",
+    look_at: "indirect light, where the light of a vertex is added",
+    remedy: "Add the direct light of a vertex before the next ray is traced.",
+};
+
+/// See its headline.
+pub static WEIGHT_REPLACED: Cause = Cause {
+    name: "weight-replaced",
+    headline: "the throughput is set to the weight of the last bounce instead of multiplied by it",
+    look_at: "indirect light, where the throughput is updated",
+    remedy: "throughput *= f cos θ / pdf.",
+};
+
+/// See its headline.
+pub static BOUNCE_TIMES_PDF: Cause = Cause {
+    name: "bounce-times-pdf",
+    headline: "bounces are multiplied by their density where they should be divided",
+    look_at: "indirect light, the weight of a bounce",
+    remedy: "Weight = f cos θ / pdf.",
+};
+
+/// See its headline.
+pub static BOUNCE_WITHOUT_COSINE: Cause = Cause {
+    name: "bounce-without-cosine",
+    headline: "the cosine is missing in the weight of a bounce",
+    look_at: "indirect light, the weight of a bounce",
+    remedy: "Weight = f cos θ / pdf.",
+};
+
+/// See its headline.
+pub static BOUNCE_WORLD_COSINE: Cause = Cause {
+    name: "bounce-world-cosine",
+    headline: "the cosine of a bounce is taken in world space",
+    look_at: "indirect light, the weight of a bounce",
+    remedy: "Take the local direction's z.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &ROULETTE_NOT_DIVIDED,
@@ -148,4 +220,13 @@ pub static CAUSES: &[&Cause] = &[
     &ROULETTE_DIVIDED_BY_STOP,
     &ROULETTE_DIVIDED_WHEN_GUARANTEED,
     &ROULETTE_STOPS_DIRECT,
+    &DEPTH_IGNORED,
+    &ZERO_DEPTH_LIT,
+    &MIRROR_SHOWS_NO_LIGHT,
+    &ISOLATION_IGNORED,
+    &DIRECT_ONLY_WITH_BOUNCE,
+    &WEIGHT_REPLACED,
+    &BOUNCE_TIMES_PDF,
+    &BOUNCE_WITHOUT_COSINE,
+    &BOUNCE_WORLD_COSINE,
 ];

@@ -4,6 +4,8 @@ use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Filter};
 use crate::checks::CHECKS;
 use crate::cores::CORES;
+use crate::cores::textbook::different::DIFFERENT;
+use crate::cores::textbook::fault;
 use clap::{Args, ValueEnum};
 
 /// What `furnace list` understands.
@@ -24,6 +26,7 @@ enum What {
     Cases,
     Checks,
     Cores,
+    Faults,
 }
 
 /// Prints a table.
@@ -31,6 +34,10 @@ pub fn list(arguments: &ListArguments) -> Answer {
     match arguments.what {
         What::Cases => return list_cases(arguments),
         What::Checks => print_table(CHECKS.iter().map(|check| (check.name, check.summary))),
+        What::Faults => {
+            print_table(fault::all().map(|fault| (fault.name, fault.summary)));
+            print_table(DIFFERENT.iter().map(|core| (core.name, core.summary)));
+        }
         What::Cores => print_table(CORES.iter().map(|core| (core.name, core.summary))),
     }
     Ok(ExitCode::Good)

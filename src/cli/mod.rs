@@ -2,6 +2,7 @@
 
 mod exit_code;
 mod explain;
+mod faults;
 mod lint;
 mod list;
 mod progress;
@@ -54,6 +55,8 @@ enum Verb {
     List(list::ListArguments),
     /// Say what a case checks, why it is true, what it can see and how often it errs.
     Explain(explain::ExplainArguments),
+    /// Put planted mistakes to the cases: each has to be caught and named.
+    Faults(faults::FaultsArguments),
     /// Read every case and scene and say what is wrong with them.
     Lint,
     /// Write the pages of a run again.
@@ -90,6 +93,7 @@ pub fn main() -> ExitCode {
         Some(Verb::Run(arguments)) => run::run(&arguments),
         Some(Verb::List(arguments)) => list::list(&arguments),
         Some(Verb::Explain(arguments)) => explain::explain(&arguments),
+        Some(Verb::Faults(arguments)) => faults::faults(&arguments),
         Some(Verb::Lint) => lint::lint(),
         Some(Verb::Report(arguments)) => report::report(&arguments),
         Some(Verb::Reference(arguments)) => reference::reference(&arguments),

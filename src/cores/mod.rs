@@ -5,6 +5,7 @@ pub mod dylib;
 pub mod textbook;
 
 use crate::contract::Core;
+use crate::text::did_you_mean;
 use std::fmt;
 use std::str::FromStr;
 
@@ -49,6 +50,9 @@ impl CoreSpec {
     /// # Panics
     /// Never: a specification is only made of a core that exists.
     pub fn make(&self) -> Box<dyn Core> {
+        if let Some(change) = self.change() {
+            return textbook::with_change(change).expect("checked when it was read");
+        }
         let kind = CORES.iter().find(|kind| kind.name == self.0).expect("checked when it was read");
         (kind.make)()
     }
@@ -57,7 +61,15 @@ impl CoreSpec {
     pub fn as_str(&self) -> &str {
         &self.0
     }
+
+    /// What follows `textbook:`.
+    fn change(&self) -> Option<&str> {
+        self.0.strip_prefix(CHANGED)
+    }
 }
+
+/// What the name of a changed copy of the plain core begins with.
+const CHANGED: &str = "textbook:";
 
 impl FromStr for CoreSpec {
     type Err = UnknownCore;
@@ -66,10 +78,23 @@ impl FromStr for CoreSpec {
         if CORES.iter().any(|kind| kind.name == word) {
             return Ok(Self(word.to_owned()));
         }
+        if let Some(change) = word.strip_prefix(CHANGED) {
+            return changed(word, change);
+        }
         let names: Vec<_> = CORES.iter().map(|kind| format!("`{}`", kind.name)).collect();
         let hint = format!("the cores are {}", names.join(" and "));
         Err(UnknownCore { word: word.to_owned(), hint })
     }
+}
+
+/// A copy of the plain core, if there is such a change.
+fn changed(word: &str, change: &str) -> Result<CoreSpec, UnknownCore> {
+    if textbook::change_names().any(|name| name == change) {
+        return Ok(CoreSpec(word.to_owned()));
+    }
+    let hint = did_you_mean(change, textbook::change_names())
+        .unwrap_or_else(|| "`furnace list faults` shows every fault".to_owned());
+    Err(UnknownCore { word: word.to_owned(), hint })
 }
 
 impl fmt::Display for CoreSpec {

@@ -1,5 +1,6 @@
 //! Part 5: how many samples a pixel needs.
 
+use super::change::Change;
 use crate::contract::{AdaptiveMean, AdaptiveSettings};
 
 /// Half width of the 95 % interval of a normal variable, in standard deviations.
@@ -35,21 +36,37 @@ impl Tally {
     }
 
     /// Sample variance: over n − 1, not a number for a single sample.
-    fn variance(&self) -> f64 {
+    fn variance(&self, change: Change) -> f64 {
         let n = f64::from(self.count);
+        if change == Change::CountOneShort {
+            return (self.sum_of_squares - self.sum * self.sum / (n - 1.0)) / (n - 2.0);
+        }
         let squared_deviations = (self.sum_of_squares - self.sum * self.sum / n).max(0.0);
-        squared_deviations / (n - 1.0)
+        match change {
+            Change::PopulationVariance => squared_deviations / n,
+            _ => squared_deviations / (n - 1.0),
+        }
     }
 
     /// Half width of the 95 % interval of the mean.
-    fn half_width(&self) -> f64 {
-        Z_95 * (self.variance() / f64::from(self.count)).sqrt()
+    fn half_width(&self, change: Change) -> f64 {
+        let (n, variance) = (f64::from(self.count), self.variance(change));
+        match change {
+            Change::SigmaOverN => Z_95 * variance.sqrt() / n,
+            Change::Without196 => (variance / n).sqrt(),
+            Change::VarianceForSigma => Z_95 * variance / n.sqrt(),
+            _ => Z_95 * (variance / n).sqrt(),
+        }
     }
 
     /// Whether the mean is known well enough. A black pixel is; a pixel that is not a number never
     /// is.
-    fn has_converged(&self, max_tolerance: f64) -> bool {
-        self.half_width() <= max_tolerance * self.mean()
+    fn has_converged(&self, max_tolerance: f64, change: Change) -> bool {
+        let half_width = self.half_width(change);
+        match change {
+            Change::ToleranceAbsolute => half_width <= max_tolerance,
+            _ => half_width <= max_tolerance * self.mean(),
+        }
     }
 }
 
@@ -57,12 +74,23 @@ impl Tally {
 pub fn sample_until_converged(
     settings: AdaptiveSettings,
     cap: u32,
+    change: Change,
     mut next: impl FnMut(u32) -> f64,
 ) -> Tally {
+    let batch = match change {
+        Change::LooksAfterEverySample => 1,
+        Change::BatchIgnored => 32,
+        _ => settings.samples_per_batch.max(1),
+    };
+    let cap = match change {
+        Change::RestOfBatchDropped => (cap - cap % batch).max(1),
+        _ => cap,
+    };
     let mut tally = Tally::default();
     while tally.count() < cap {
         tally.add(next(tally.count()));
-        if ends_batch(tally.count(), settings) && tally.has_converged(settings.max_tolerance) {
+        let ends_batch = tally.count().is_multiple_of(batch);
+        if ends_batch && tally.has_converged(settings.max_tolerance, change) {
             break;
         }
     }
@@ -76,16 +104,31 @@ pub fn sample_all(cap: u32, next: impl FnMut(u32) -> f64) -> Tally {
     tally
 }
 
-/// Whether the rule is looked at after `count` samples.
-fn ends_batch(count: u32, settings: AdaptiveSettings) -> bool {
-    count.is_multiple_of(settings.samples_per_batch.max(1))
+/// What the sum of `count` samples is divided by.
+pub fn divisor(count: u32, cap: u32, change: Change) -> f64 {
+    f64::from(match change {
+        Change::DividedByCap => cap,
+        Change::DividedByOneMore => count + 1,
+        _ => count,
+    })
+}
+
+/// How many samples a pixel says it has taken. Without a batch it has taken them all.
+pub fn reported(count: u32, cap: u32, batch: Option<u32>, change: Change) -> u32 {
+    match (change, batch) {
+        (Change::CountsAreCap, _) => cap,
+        (Change::CountWithoutLastBatch, Some(batch)) => count.saturating_sub(batch),
+        _ => count,
+    }
 }
 
 /// What the rule makes of a given stream, which is as long as the cap.
-pub fn mean_of_stream(settings: AdaptiveSettings, stream: &[f64]) -> AdaptiveMean {
+pub fn mean_of_stream(settings: AdaptiveSettings, stream: &[f64], change: Change) -> AdaptiveMean {
     let cap = u32::try_from(stream.len()).unwrap_or(u32::MAX);
-    let tally = sample_until_converged(settings, cap, |index| stream[index as usize]);
-    AdaptiveMean { mean: tally.mean(), used: tally.count(), reserved: 0 }
+    let tally = sample_until_converged(settings, cap, change, |index| stream[index as usize]);
+    let mean = tally.sum / divisor(tally.count(), cap, change);
+    let used = reported(tally.count(), cap, Some(settings.samples_per_batch), change);
+    AdaptiveMean { mean, used, reserved: 0 }
 }
 
 #[cfg(test)]
@@ -94,7 +137,7 @@ mod tests {
 
     fn run(period: &[f64], samples_per_batch: u32, max_tolerance: f64) -> AdaptiveMean {
         let stream: Vec<f64> = period.iter().copied().cycle().take(2048).collect();
-        mean_of_stream(AdaptiveSettings { samples_per_batch, max_tolerance }, &stream)
+        mean_of_stream(AdaptiveSettings { samples_per_batch, max_tolerance }, &stream, Change::None)
     }
 
     /// Variants of the rule stop elsewhere: population variance at 8, σ/n at 4, no 1.96 at 2,
@@ -125,12 +168,12 @@ mod tests {
     #[test]
     fn the_last_batch_is_cut_off_at_the_cap() {
         let settings = AdaptiveSettings { samples_per_batch: 4, max_tolerance: 0.0 };
-        assert_eq!(mean_of_stream(settings, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]).used, 6);
+        assert_eq!(mean_of_stream(settings, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], Change::None).used, 6);
     }
 
     #[test]
     fn a_single_sample_is_no_interval() {
         let settings = AdaptiveSettings { samples_per_batch: 1, max_tolerance: 0.05 };
-        assert_eq!(mean_of_stream(settings, &[1.0; 8]).used, 2);
+        assert_eq!(mean_of_stream(settings, &[1.0; 8], Change::None).used, 2);
     }
 }

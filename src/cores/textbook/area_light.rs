@@ -3,6 +3,7 @@
 //! A mesh, and a sphere that is not seen whole, are sampled uniformly over their area; a ball seen
 //! from outside uniformly over the cone that it fills.
 
+use super::change::Change;
 use super::frame::Frame;
 use super::intersect::{Ball, Triangle};
 use super::light::towards;
@@ -20,11 +21,12 @@ pub struct MeshLight {
     cumulative_area: Vec<f64>,
     /// From the front.
     radiance: Rgb,
+    change: Change,
 }
 
 impl MeshLight {
     /// Prepares a mesh that glows with `radiance`.
-    pub fn new(mesh: &Mesh, radiance: Rgb) -> Self {
+    pub fn new(mesh: &Mesh, radiance: Rgb, change: Change) -> Self {
         let corners = (0..mesh.indices.len()).map(|triangle| mesh.corners(triangle));
         let triangles: Vec<Triangle> = corners.filter_map(Triangle::new).collect();
         let mut total = 0.0;
@@ -35,7 +37,7 @@ impl MeshLight {
                 total
             })
             .collect();
-        Self { triangles, cumulative_area, radiance }
+        Self { triangles, cumulative_area, radiance, change }
     }
 
     fn area(&self) -> f64 {
@@ -45,9 +47,16 @@ impl MeshLight {
     /// Uniform over the area of the mesh: a triangle in proportion to its area, then a point of it.
     pub fn sample(&self, from: DVec3, point: DVec2, lobe: f64) -> Option<LightSample> {
         let triangle = self.choose_triangle(lobe)?;
-        let at = triangle.point(uniform_triangle(point));
+        let at = triangle.point(uniform_triangle(point, self.change));
         let pdf = self.pdf(from, at, triangle.normal());
-        towards(from, at, self.radiance, pdf)
+        let radiance = match self.change {
+            Change::LightCosineMoved => {
+                let cosine = (from - at).normalize().dot(triangle.normal());
+                self.radiance.map(|radiance| radiance * cosine.max(0.0))
+            }
+            _ => self.radiance,
+        };
+        towards(from, at, radiance, pdf)
     }
 
     fn choose_triangle(&self, lobe: f64) -> Option<&Triangle> {
@@ -59,22 +68,40 @@ impl MeshLight {
 
     /// The density of the direction from `from` to the point `at` with this normal.
     pub fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3) -> f64 {
-        per_steradian(from, at, normal) / self.area()
+        match self.change {
+            Change::LightAreaForgotten => per_steradian(from, at, normal, self.change),
+            _ => per_steradian(from, at, normal, self.change) / self.area(),
+        }
     }
 }
 
 /// Weights of vertices 1 and 2 of a uniform point of a triangle (Turk 1990).
-fn uniform_triangle(point: DVec2) -> DVec2 {
-    let root = point.x.sqrt();
+fn uniform_triangle(point: DVec2, change: Change) -> DVec2 {
+    let root = match change {
+        Change::LightPointsUneven => point.x,
+        _ => point.x.sqrt(),
+    };
     DVec2::new(root * (1.0 - point.y), root * point.y)
 }
 
 /// Area per steradian as seen from `from`: distance² / cos θ at the light; 0 from behind.
-fn per_steradian(from: DVec3, at: DVec3, normal: DVec3) -> f64 {
+fn per_steradian(from: DVec3, at: DVec3, normal: DVec3, change: Change) -> f64 {
     let to_light = at - from;
     let distance_squared = to_light.length_squared();
     let cosine = -to_light.dot(normal) / distance_squared.sqrt();
-    if cosine > 0.0 { distance_squared / cosine } else { 0.0 }
+    let cosine = match change {
+        Change::LightShinesBackwards => cosine.abs(),
+        _ => cosine,
+    };
+    if cosine <= 0.0 {
+        return 0.0;
+    }
+    match change {
+        Change::LightPdfByDistance => distance_squared.sqrt() / cosine,
+        Change::LightPdfWithoutCosine | Change::LightCosineMoved => distance_squared,
+        Change::LightPdfPerArea => 1.0,
+        _ => distance_squared / cosine,
+    }
 }
 
 /// A sphere that glows.
@@ -84,13 +111,14 @@ pub struct BallLight {
     /// Whether it shines towards its centre.
     inward: bool,
     emission: Emission,
+    change: Change,
 }
 
 impl BallLight {
     /// Prepares a sphere.
-    pub fn new(sphere: &Sphere, emission: Emission) -> Self {
+    pub fn new(sphere: &Sphere, emission: Emission, change: Change) -> Self {
         let Sphere { centre, radius, inward, .. } = *sphere;
-        Self { ball: Ball { centre, radius }, inward, emission }
+        Self { ball: Ball { centre, radius }, inward, emission, change }
     }
 
     /// A direction from `from` towards a glowing point.
@@ -107,7 +135,7 @@ impl BallLight {
         if self.fills_cone(from) {
             self.cone_pdf(from)
         } else {
-            per_steradian(from, at, normal) / self.glowing_area()
+            per_steradian(from, at, normal, self.change) / self.glowing_area()
         }
     }
 

@@ -4,7 +4,9 @@
 //! turned over first. Glass is not: which side is outside matters there. Not here: the formulas of
 //! `glass` and of `ggx`.
 
-use super::{ggx, glass, sampling};
+use super::change::Change;
+use super::glass::Glass;
+use super::{ggx, sampling};
 use crate::contract::{BsdfSample, BsdfValue};
 use crate::scene::{Rgb, Surface};
 use glam::{DVec2, DVec3};
@@ -25,56 +27,109 @@ pub fn is_delta(surface: &Surface) -> bool {
 
 /// `f` and the density of [`sample`]. Zero for mirror and glass, and for directions on different
 /// sides.
-pub fn evaluate(surface: &Surface, wo: DVec3, wi: DVec3) -> BsdfValue {
+pub fn evaluate(surface: &Surface, wo: DVec3, wi: DVec3, change: Change) -> BsdfValue {
     if wo.z < 0.0 {
-        evaluate_from_above(surface, -wo, -wi)
+        evaluate_from_above(surface, -wo, -wi, change)
     } else {
-        evaluate_from_above(surface, wo, wi)
+        evaluate_from_above(surface, wo, wi, change)
     }
 }
 
-fn evaluate_from_above(surface: &Surface, wo: DVec3, wi: DVec3) -> BsdfValue {
-    if wo.z <= 0.0 || wi.z <= 0.0 {
+fn evaluate_from_above(surface: &Surface, wo: DVec3, wi: DVec3, change: Change) -> BsdfValue {
+    let is_backlit = wi.z <= 0.0 && change != Change::BacklitSurface;
+    if wo.z <= 0.0 || is_backlit {
         return NOTHING;
     }
     match *surface {
         Surface::Diffuse { reflectance } => {
-            BsdfValue { f: diffuse(reflectance), pdf: sampling::cosine_hemisphere_pdf(wi) }
+            let pdf = match change {
+                Change::DiffusePdfUniform | Change::UniformBounces => 0.5 * FRAC_1_PI,
+                _ => sampling::cosine_hemisphere_pdf(wi, change),
+            };
+            BsdfValue { f: diffuse(reflectance, wi, change), pdf: pdf.max(0.0) }
         }
-        Surface::Conductor { reflectance, roughness } => {
-            ggx::evaluate(reflectance, roughness, wo, wi)
+        Surface::Conductor { reflectance, roughness } if wi.z > 0.0 => {
+            ggx::evaluate(reflectance, roughness, wo, wi, change)
         }
+        Surface::Conductor { .. } => NOTHING,
         Surface::Mirror { .. } | Surface::Glass { .. } => NOTHING,
     }
 }
 
 /// One incident direction for `wo`; `point` chooses the direction, `lobe` between reflection and
 /// refraction.
-pub fn sample(surface: &Surface, wo: DVec3, point: DVec2, lobe: f64) -> Option<BsdfSample> {
+pub fn sample(
+    surface: &Surface,
+    wo: DVec3,
+    point: DVec2,
+    lobe: f64,
+    change: Change,
+) -> Option<BsdfSample> {
     if let Surface::Glass { index, reflectance, transmittance } = *surface {
-        return glass::sample(index, reflectance, transmittance, wo, lobe);
+        let glass = Glass { index, reflectance, transmittance, change };
+        return glass.sample(wo, lobe);
     }
     if wo.z < 0.0 {
-        let sample = sample_from_above(surface, -wo, point)?;
+        let sample = sample_from_above(surface, -wo, point, change)?;
         return Some(BsdfSample { wi: -sample.wi, ..sample });
     }
-    sample_from_above(surface, wo, point)
+    sample_from_above(surface, wo, point, change)
 }
 
-fn sample_from_above(surface: &Surface, wo: DVec3, point: DVec2) -> Option<BsdfSample> {
+fn sample_from_above(
+    surface: &Surface,
+    wo: DVec3,
+    point: DVec2,
+    change: Change,
+) -> Option<BsdfSample> {
     let wi = match *surface {
-        Surface::Diffuse { .. } => sampling::cosine_hemisphere(point),
-        Surface::Conductor { roughness, .. } => ggx::sample(roughness, wo, point),
-        Surface::Mirror { reflectance } => return delta(reflect(wo), reflectance, 1.0),
+        Surface::Diffuse { .. } if change == Change::UniformBounces => {
+            sampling::uniform_hemisphere(point, change)
+        }
+        Surface::Diffuse { .. } => sampling::cosine_hemisphere(point, change),
+        Surface::Conductor { roughness, .. } => ggx::sample(roughness, wo, point, change),
+        Surface::Mirror { reflectance } => return mirror(wo, reflectance, change),
         Surface::Glass { .. } => return None,
     };
-    let BsdfValue { f, pdf } = evaluate_from_above(surface, wo, wi);
+    let BsdfValue { f, pdf } = evaluate_from_above(surface, wo, wi, change);
+    let f = match change {
+        Change::CosineInSampledF => f.map(|f| f * wi.z),
+        _ => f,
+    };
     (pdf > 0.0).then_some(BsdfSample { wi, f, pdf, is_delta: 0, is_valid: 1 })
 }
 
 /// Lambert's law: f = reflectance/π.
-fn diffuse(reflectance: Rgb) -> Rgb {
-    reflectance.map(|reflectance| reflectance * FRAC_1_PI)
+fn diffuse(reflectance: Rgb, wi: DVec3, change: Change) -> Rgb {
+    let mean = reflectance.iter().sum::<f64>() / 3.0;
+    reflectance.map(|reflectance| match change {
+        Change::BrdfWithoutPi | Change::PiDividedLater => reflectance,
+        Change::BrdfHalved => reflectance * FRAC_1_PI / 2.0,
+        Change::CosineInBrdf => reflectance * FRAC_1_PI * wi.z,
+        Change::AlbedoAveraged => mean * FRAC_1_PI,
+        _ => reflectance * FRAC_1_PI,
+    })
+}
+
+/// f as whoever sums up light wants it: [`Change::PiDividedLater`] makes good there what is missing
+/// here.
+pub fn corrected(surface: &Surface, f: Rgb, change: Change) -> DVec3 {
+    match (surface, change) {
+        (Surface::Diffuse { .. }, Change::PiDividedLater) => DVec3::from(f) * FRAC_1_PI,
+        _ => DVec3::from(f),
+    }
+}
+
+fn mirror(wo: DVec3, reflectance: Rgb, change: Change) -> Option<BsdfSample> {
+    let sample = match change {
+        Change::MirrorTurnsBack => delta(wo, reflectance, 1.0)?,
+        _ => delta(reflect(wo), reflectance, 1.0)?,
+    };
+    Some(match change {
+        Change::MirrorWithoutCosine => BsdfSample { f: reflectance, ..sample },
+        Change::MirrorNotDelta => BsdfSample { is_delta: 0, ..sample },
+        _ => sample,
+    })
 }
 
 /// `w` mirrored about the normal.
@@ -99,6 +154,7 @@ mod tests {
     use crate::cores::textbook::random::Random;
     use crate::cores::textbook::testing::grey;
 
+    const NONE: Change = Change::None;
     const ROUGHNESSES: [f64; 4] = [1e-4, 0.1, 0.3, 1.0];
 
     fn smooth_and_rough() -> Vec<Surface> {
@@ -117,10 +173,11 @@ mod tests {
         for surface in smooth_and_rough() {
             for _ in 0..2000 {
                 let wo = direction(&mut random);
-                let Some(sample) = sample(&surface, wo, random.point(), random.number()) else {
+                let Some(sample) = sample(&surface, wo, random.point(), random.number(), NONE)
+                else {
                     continue;
                 };
-                let value = evaluate(&surface, wo, sample.wi);
+                let value = evaluate(&surface, wo, sample.wi, NONE);
                 assert_eq!((sample.f, sample.pdf), (value.f, value.pdf), "{surface:?} {wo}");
                 assert!(wo.z * sample.wi.z > 0.0 && sample.is_delta == 0, "{sample:?}");
                 assert!((sample.wi.length() - 1.0).abs() < 1e-12, "{sample:?}");
@@ -134,7 +191,8 @@ mod tests {
         for surface in smooth_and_rough() {
             for _ in 0..2000 {
                 let (a, b) = (direction(&mut random), direction(&mut random));
-                let (there, back) = (evaluate(&surface, a, b).f[0], evaluate(&surface, b, a).f[0]);
+                let (there, back) =
+                    (evaluate(&surface, a, b, NONE).f[0], evaluate(&surface, b, a, NONE).f[0]);
                 assert!((there - back).abs() <= 1e-12 * there, "{surface:?}: {there} {back}");
             }
         }
@@ -146,9 +204,9 @@ mod tests {
         for surface in smooth_and_rough() {
             for _ in 0..1000 {
                 let (wo, wi) = (direction(&mut random), direction(&mut random));
-                assert_eq!(evaluate(&surface, wo, wi), evaluate(&surface, -wo, -wi));
+                assert_eq!(evaluate(&surface, wo, wi, NONE), evaluate(&surface, -wo, -wi, NONE));
                 if wo.z * wi.z < 0.0 {
-                    assert_eq!(evaluate(&surface, wo, wi), NOTHING);
+                    assert_eq!(evaluate(&surface, wo, wi, NONE), NOTHING);
                 }
             }
         }
@@ -162,7 +220,7 @@ mod tests {
         for surface in smooth_and_rough() {
             for wo in views {
                 for (x, y) in points.iter().flat_map(|x| points.map(|y| (*x, y))) {
-                    let Some(sample) = sample(&surface, wo, DVec2::new(x, y), 0.5) else {
+                    let Some(sample) = sample(&surface, wo, DVec2::new(x, y), 0.5, NONE) else {
                         continue;
                     };
                     let weight = sample.f[0] * sample.wi.z / sample.pdf;
@@ -177,11 +235,11 @@ mod tests {
         let mirror = Surface::Mirror { reflectance: grey(0.83) };
         for z in [0.8, -0.8] {
             let wo = DVec3::new(0.6, 0.0, z);
-            let sample = sample(&mirror, wo, DVec2::splat(0.5), 0.5).expect("it reflects");
+            let sample = sample(&mirror, wo, DVec2::splat(0.5), 0.5, NONE).expect("it reflects");
             assert_eq!((sample.wi, sample.is_delta), (DVec3::new(-0.6, 0.0, z), 1));
             let weight = sample.f[0] * sample.wi.z.abs() / sample.pdf;
             assert!((weight - 0.83).abs() < 1e-15, "{weight}");
-            assert_eq!(evaluate(&mirror, wo, sample.wi), NOTHING);
+            assert_eq!(evaluate(&mirror, wo, sample.wi, NONE), NOTHING);
         }
     }
 
@@ -189,7 +247,8 @@ mod tests {
     fn a_diffuse_surface_reflects_its_reflectance() {
         // Cosine samples make every weight the albedo.
         let surface = Surface::Diffuse { reflectance: [0.2, 0.5, 0.8] };
-        let sample = sample(&surface, DVec3::Z, DVec2::new(0.3, 0.7), 0.0).expect("it reflects");
+        let sample =
+            sample(&surface, DVec3::Z, DVec2::new(0.3, 0.7), 0.0, NONE).expect("it reflects");
         let weight = DVec3::from(sample.f) * sample.wi.z / sample.pdf;
         assert!(weight.abs_diff_eq(DVec3::new(0.2, 0.5, 0.8), 1e-15), "{weight}");
     }

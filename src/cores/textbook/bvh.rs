@@ -5,6 +5,7 @@
 //! force.
 
 use super::build::{Content, Node, build};
+use super::change::Change;
 use super::intersect::{Ball, Crossing, Triangle};
 use super::slab::intersect_box;
 use crate::contract::{Acceleration, BuildStats, Ray, TraversalStats};
@@ -22,10 +23,10 @@ pub enum Form {
 }
 
 impl Form {
-    fn intersect(&self, ray: &Ray) -> Option<Crossing> {
+    fn intersect(&self, ray: &Ray, change: Change) -> Option<Crossing> {
         match self {
-            Self::Triangle(triangle) => triangle.intersect(ray),
-            Self::Ball(ball) => ball.intersect(ray),
+            Self::Triangle(triangle) => triangle.intersect(ray, change),
+            Self::Ball(ball) => ball.intersect(ray, change),
         }
     }
 
@@ -61,17 +62,22 @@ pub struct Bvh {
     nodes: Vec<Node>,
     /// In the order of the leaves.
     primitives: Vec<Primitive>,
+    change: Change,
 }
 
 impl Bvh {
     /// Takes the primitives in.
-    pub fn new(primitives: Vec<Primitive>, acceleration: Acceleration) -> Self {
+    pub fn new(primitives: Vec<Primitive>, acceleration: Acceleration, change: Change) -> Self {
         let Acceleration::Bvh { split, max_leaf_size } = acceleration else {
-            return Self { nodes: Vec::new(), primitives };
+            return Self { nodes: Vec::new(), primitives, change };
         };
         let boxes = primitives.iter().map(|primitive| primitive.form.bounds());
-        let (nodes, order) = build(boxes, split, max_leaf_size);
-        Self { nodes, primitives: order.into_iter().map(|index| primitives[index]).collect() }
+        let (nodes, order) = build(boxes, split, max_leaf_size, change);
+        let mut primitives: Vec<_> = order.into_iter().map(|index| primitives[index]).collect();
+        if change == Change::LeafOrderNumbers {
+            (0..).zip(&mut primitives).for_each(|(place, primitive)| primitive.number = place);
+        }
+        Self { nodes, primitives, change }
     }
 
     /// The primitive with number `index` in the order of the leaves.
@@ -82,7 +88,8 @@ impl Bvh {
     /// The nearest crossing of `ray`, and the index of its primitive.
     pub fn closest(&self, ray: &Ray, stats: &mut TraversalStats) -> Option<(usize, Crossing)> {
         stats.rays += 1;
-        let mut search = Search { segment: *ray, found: None, stats };
+        let mut search =
+            Search { ray: *ray, segment: *ray, found: None, stats, change: self.change };
         match self.nodes.first() {
             None => self.closest_among(0..self.primitives.len(), &mut search),
             Some(root) => {
@@ -98,10 +105,15 @@ impl Bvh {
     /// then.
     fn closest_below(&self, node: &Node, search: &mut Search<'_>) {
         match &node.content {
-            Content::Leaf(range) => self.closest_among(range.clone(), search),
+            Content::Leaf(range) => self.closest_among(self.tested(range), search),
             Content::Inner(children) => {
                 for (enter, child) in self.near_to_far(*children, search).into_iter().flatten() {
-                    if enter <= search.segment.t_max {
+                    let is_wanted = match self.change {
+                        Change::SecondChildSkipped => search.found.is_none(),
+                        Change::SegmentNotShortened => true,
+                        _ => enter <= search.segment.t_max,
+                    };
+                    if is_wanted {
                         self.closest_below(child, search);
                     }
                 }
@@ -120,6 +132,7 @@ impl Bvh {
             search.enters(&node.bounds).map(|enter| (enter, node))
         });
         match (left, right) {
+            _ if self.is_unordered() => [left, right],
             (Some((left_enter, _)), Some((right_enter, _))) if right_enter < left_enter => {
                 [right, left]
             }
@@ -127,12 +140,32 @@ impl Bvh {
         }
     }
 
+    /// Without order the nearest is not the first that is found: who stops there is wrong.
+    fn is_unordered(&self) -> bool {
+        matches!(self.change, Change::ChildrenUnordered | Change::SecondChildSkipped)
+    }
+
+    /// The primitives that are tested for a leaf.
+    fn tested(&self, leaf: &Range<usize>) -> Range<usize> {
+        match self.change {
+            Change::LeafTestsAll => 0..self.primitives.len(),
+            _ => leaf.clone(),
+        }
+    }
+
     /// Tests every primitive of a range; each one found shortens the segment for those after it.
     fn closest_among(&self, range: Range<usize>, search: &mut Search<'_>) {
-        for (index, primitive) in range.clone().zip(&self.primitives[range]) {
+        for place in range.clone() {
+            let index = match self.change {
+                Change::ReversedLeaves => range.start + range.end - 1 - place,
+                _ => place,
+            };
+            let primitive = &self.primitives[index];
             search.stats.primitive_tests += 1;
-            if let Some(crossing) = primitive.form.intersect(&search.segment) {
-                search.segment.t_max = crossing.t;
+            if let Some(crossing) = primitive.form.intersect(&search.segment, self.change) {
+                if self.change != Change::HitOverwritten {
+                    search.segment.t_max = crossing.t;
+                }
                 search.found = Some((index, crossing));
             }
         }
@@ -141,6 +174,10 @@ impl Bvh {
     /// Whether anything lies on the segment; stops at the first that does.
     pub fn any(&self, ray: &Ray, stats: &mut TraversalStats) -> bool {
         stats.rays += 1;
+        let ray = &match self.change {
+            Change::ShadowEndIgnored => Ray { t_max: f64::INFINITY, ..*ray },
+            _ => *ray,
+        };
         match self.nodes.first() {
             None => self.any_among(0..self.primitives.len(), ray, stats),
             Some(root) => self.any_below(root, ray, stats),
@@ -149,14 +186,21 @@ impl Bvh {
 
     fn any_below(&self, node: &Node, ray: &Ray, stats: &mut TraversalStats) -> bool {
         stats.box_tests += 1;
-        if intersect_box(&node.bounds, ray).is_none() {
+        if intersect_box(&node.bounds, ray, self.change).is_none() {
             return false;
         }
         match &node.content {
-            Content::Leaf(range) => self.any_among(range.clone(), ray, stats),
-            Content::Inner([left, right]) => {
-                self.any_below(&self.nodes[*left], ray, stats)
-                    || self.any_below(&self.nodes[*right], ray, stats)
+            Content::Leaf(_) if self.change == Change::ShadowsHitBoxes => true,
+            Content::Leaf(range) => self.any_among(self.tested(range), ray, stats),
+            Content::Inner(children) => {
+                let [left, right] = children.map(|child| &self.nodes[child]);
+                match self.change {
+                    Change::ShadowSecondChildSkipped => self.any_below(left, ray, stats),
+                    Change::ShadowsSearchOn => {
+                        self.any_below(left, ray, stats) | self.any_below(right, ray, stats)
+                    }
+                    _ => self.any_below(left, ray, stats) || self.any_below(right, ray, stats),
+                }
             }
         }
     }
@@ -164,7 +208,7 @@ impl Bvh {
     fn any_among(&self, range: Range<usize>, ray: &Ray, stats: &mut TraversalStats) -> bool {
         self.primitives[range].iter().any(|primitive| {
             stats.primitive_tests += 1;
-            primitive.form.intersect(ray).is_some()
+            primitive.form.intersect(ray, self.change).is_some()
         })
     }
 
@@ -192,17 +236,28 @@ impl Bvh {
 
 /// One closest-hit query under way.
 struct Search<'a> {
+    /// The whole ray.
+    ray: Ray,
     /// The ray, up to the nearest crossing so far.
     segment: Ray,
     found: Option<(usize, Crossing)>,
     stats: &'a mut TraversalStats,
+    change: Change,
 }
 
 impl Search<'_> {
     /// Where the segment enters the box, if it does.
     fn enters(&mut self, bounds: &Aabb) -> Option<f64> {
         self.stats.box_tests += 1;
-        intersect_box(bounds, &self.segment).map(|(enter, _)| enter)
+        let segment = match self.change {
+            Change::SegmentNotShortened => &self.ray,
+            _ => &self.segment,
+        };
+        let (enter, exit) = intersect_box(bounds, segment, self.change)?;
+        if self.change == Change::RangeOverwritten {
+            (self.segment.t_min, self.segment.t_max) = (enter, exit);
+        }
+        Some(enter)
     }
 }
 
@@ -216,7 +271,7 @@ mod tests {
         [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea];
 
     fn bvh(primitives: &[Primitive], split: Split, max_leaf_size: u32) -> Bvh {
-        Bvh::new(primitives.to_vec(), Acceleration::Bvh { split, max_leaf_size })
+        Bvh::new(primitives.to_vec(), Acceleration::Bvh { split, max_leaf_size }, Change::None)
     }
 
     fn vector(random: &mut Random) -> DVec3 {
@@ -290,7 +345,7 @@ mod tests {
         let rays = rays(1500);
         let mut stats = TraversalStats::default();
         for primitives in scenes {
-            let brute = Bvh::new(primitives.clone(), Acceleration::BruteForce);
+            let brute = Bvh::new(primitives.clone(), Acceleration::BruteForce, Change::None);
             for split in RULES {
                 for max_leaf_size in [1, 4] {
                     let bvh = bvh(&primitives, split, max_leaf_size);
@@ -307,7 +362,7 @@ mod tests {
 
     #[test]
     fn brute_force_counts_every_primitive_and_no_box() {
-        let brute = Bvh::new(soup(100), Acceleration::BruteForce);
+        let brute = Bvh::new(soup(100), Acceleration::BruteForce, Change::None);
         let mut stats = TraversalStats::default();
         let rays = rays(10);
         rays.iter().for_each(|ray| _ = brute.closest(ray, &mut stats));

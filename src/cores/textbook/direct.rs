@@ -5,12 +5,13 @@
 //! met by following the path.
 
 use super::bsdf;
+use super::change::Change;
 use super::light::Lamp;
 use super::random::Random;
 use super::sampling;
 use super::vertex::{Vertex, View};
 use super::world::World;
-use crate::contract::{DirectSampling, IntegratorSettings, LightSample, TraversalStats};
+use crate::contract::{DirectSampling, IntegratorSettings, LightSample, Ray, TraversalStats};
 use crate::scene::Surface;
 use glam::DVec3;
 
@@ -24,8 +25,13 @@ pub fn one_bounce(
     if bsdf::is_delta(vertex.surface) {
         return DVec3::ZERO;
     }
-    let scatter = Scatter { world, samples: settings.samples_per_light.max(1), vertex };
-    match settings.direct {
+    let change = world.change();
+    let scatter = Scatter { world, samples: settings.samples_per_light.max(1), vertex, change };
+    let direct = match change {
+        Change::HemisphereIgnored => DirectSampling::Lights,
+        _ => settings.direct,
+    };
+    match direct {
         DirectSampling::Hemisphere => {
             scatter.by_hemisphere(random) + scatter.by_lights(random, Lamp::is_delta)
         }
@@ -48,62 +54,110 @@ struct Scatter<'a> {
     /// Samples of each light that is not a delta light.
     samples: u32,
     vertex: &'a Vertex<'a>,
+    change: Change,
 }
 
 impl Scatter<'_> {
     /// Mean over uniform directions of what glows where they arrive.
     fn by_hemisphere(&self, random: &mut Random) -> DVec3 {
         let lights = self.world.lights().iter().filter(|light| !light.is_delta()).count() as u32;
-        let samples = (self.samples * lights).max(1);
+        let samples = match self.change {
+            Change::HemisphereWithoutLights => self.samples * lights,
+            _ => (self.samples * lights).max(1),
+        };
         let total: DVec3 = (0..samples).map(|_| self.hemisphere_sample(random)).sum();
-        total / f64::from(samples)
+        match self.change {
+            Change::HemisphereNotDivided => total,
+            _ => total / f64::from(samples),
+        }
     }
 
     fn hemisphere_sample(&self, random: &mut Random) -> DVec3 {
-        let above = sampling::uniform_hemisphere(random.point());
+        let above = sampling::uniform_hemisphere(random.point(), self.change);
         let wi = if self.vertex.wo.z < 0.0 { -above } else { above };
         let arriving = self.glow_along(wi);
-        arriving * self.f_cosine(wi) / sampling::uniform_hemisphere_pdf()
+        let light = arriving * self.f_cosine(wi) / sampling::uniform_hemisphere_pdf(self.change);
+        match self.change {
+            Change::UniformPdfDoubledTwice => 2.0 * light,
+            _ => light,
+        }
     }
 
     /// Radiance of the first thing in direction `wi` (local).
     fn glow_along(&self, wi: DVec3) -> DVec3 {
-        zero_bounce(self.world, &self.world.look(&self.vertex.ray(wi)))
+        let ray = match self.change {
+            Change::HemisphereWorldDirection => Ray { direction: wi, ..self.vertex.ray(wi) },
+            _ => self.vertex.ray(wi),
+        };
+        zero_bounce(self.world, &self.world.look(&ray))
     }
 
     /// f · |cos θ| for the local direction `wi`.
     fn f_cosine(&self, wi: DVec3) -> DVec3 {
-        let value = bsdf::evaluate(self.vertex.surface, self.vertex.wo, wi);
-        DVec3::from(value.f) * wi.z.abs()
+        self.f(wi) * wi.z.abs()
+    }
+
+    /// For the local direction `wi`.
+    fn f(&self, wi: DVec3) -> DVec3 {
+        let value = bsdf::evaluate(self.vertex.surface, self.vertex.wo, wi, self.change);
+        bsdf::corrected(self.vertex.surface, value.f, self.change)
     }
 
     /// Sum over the `wanted` lights of the mean over samples of each.
     fn by_lights(&self, random: &mut Random, wanted: impl Fn(&Lamp) -> bool) -> DVec3 {
         let lights = self.world.lights().iter().filter(|light| wanted(light));
-        lights.map(|light| self.by_light(light, random)).sum()
+        let count = lights.clone().count() as f64;
+        let radiances = lights.map(|light| self.by_light(light, random));
+        match self.change {
+            Change::DividedInLoop => radiances
+                .fold(DVec3::ZERO, |total, radiance| total / f64::from(self.samples) + radiance),
+            Change::DividedByLights => radiances.sum::<DVec3>() / count.max(1.0),
+            Change::LastLightOnly => radiances.last().unwrap_or(DVec3::ZERO),
+            _ => radiances.sum(),
+        }
     }
 
     /// A delta light is one direction: it needs no second sample.
     fn by_light(&self, light: &Lamp, random: &mut Random) -> DVec3 {
         let samples = if light.is_delta() { 1 } else { self.samples };
-        let total: DVec3 = (0..samples).map(|_| self.light_sample(light, random)).sum();
-        total / f64::from(samples)
+        let total: DVec3 =
+            (0..samples).map(|number| self.light_sample(light, number, samples, random)).sum();
+        match self.change {
+            Change::DeltaDivided => total / f64::from(self.samples),
+            _ => total / f64::from(samples),
+        }
     }
 
-    fn light_sample(&self, light: &Lamp, random: &mut Random) -> DVec3 {
+    /// Sample number `number` of so many of a light.
+    fn light_sample(&self, light: &Lamp, number: u32, of: u32, random: &mut Random) -> DVec3 {
         let (point, lobe) = (random.point(), random.number());
-        let Some(sample) = light.sample(self.vertex.point, point, lobe) else {
+        let point = match self.change {
+            Change::StratifiedLights => point.with_x((f64::from(number) + point.x) / f64::from(of)),
+            _ => point,
+        };
+        let Some(sample) = light.sample(self.vertex.point, point, lobe, self.change) else {
             return DVec3::ZERO;
         };
-        let f_cosine = self.f_cosine(self.vertex.frame.to_local(sample.wi));
+        let wi = self.vertex.frame.to_local(sample.wi);
+        let f_cosine = match self.change {
+            Change::WorldCosine => self.f(wi) * sample.wi.z.abs(),
+            _ => self.f_cosine(wi),
+        };
         if f_cosine == DVec3::ZERO || self.is_shadowed(&sample) {
             return DVec3::ZERO;
         }
         let weight = self.light_weight(&sample);
-        weight * DVec3::from(sample.radiance) * f_cosine / sample.pdf
+        let light = weight * DVec3::from(sample.radiance) * f_cosine;
+        match self.change {
+            Change::LightTimesPdf => light * sample.pdf,
+            _ => light / sample.pdf,
+        }
     }
 
     fn is_shadowed(&self, sample: &LightSample) -> bool {
+        if self.change == Change::NoShadows {
+            return false;
+        }
         let ray = self.vertex.shadow_ray(sample.wi, sample.distance);
         self.world.any_hit(&ray, &mut TraversalStats::default())
     }
@@ -114,7 +168,7 @@ impl Scatter<'_> {
             return 1.0;
         }
         let wi = self.vertex.frame.to_local(sample.wi);
-        let value = bsdf::evaluate(self.vertex.surface, self.vertex.wo, wi);
+        let value = bsdf::evaluate(self.vertex.surface, self.vertex.wo, wi, self.change);
         power_heuristic(sample.pdf, value.pdf)
     }
 
@@ -126,7 +180,8 @@ impl Scatter<'_> {
 
     fn surface_sample(&self, random: &mut Random) -> DVec3 {
         let (point, lobe) = (random.point(), random.number());
-        let Some(sample) = bsdf::sample(self.vertex.surface, self.vertex.wo, point, lobe) else {
+        let (surface, wo) = (self.vertex.surface, self.vertex.wo);
+        let Some(sample) = bsdf::sample(surface, wo, point, lobe, self.change) else {
             return DVec3::ZERO;
         };
         let arriving = match self.world.look(&self.vertex.ray(sample.wi)) {
@@ -145,7 +200,7 @@ impl Scatter<'_> {
 
     fn weighted_sky(&self, direction: DVec3, surface_pdf: f64) -> DVec3 {
         let of_light = |light: &Lamp| {
-            power_heuristic(surface_pdf, light.sky_pdf())
+            power_heuristic(surface_pdf, light.sky_pdf(self.change))
                 * DVec3::from(light.sky_radiance(direction))
         };
         self.world.lights().iter().map(of_light).sum()

@@ -3,6 +3,7 @@
 //! Formulas: Walter et al. 2007 (distribution, masking); Heitz 2018, "Sampling the GGX distribution
 //! of visible normals". All directions have z > 0 here.
 
+use super::change::Change;
 use crate::contract::BsdfValue;
 use crate::scene::Rgb;
 use glam::{DVec2, DVec3};
@@ -10,17 +11,44 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// f = R D(h) G₁(wo) G₁(wi) / (4 cos θo cos θi), and the density of visible normals G₁(wo) D(h)
 /// max(0, wo·h) / cos θo over the Jacobian 4 wo·h of the reflection.
-pub fn evaluate(reflectance: Rgb, roughness: f64, wo: DVec3, wi: DVec3) -> BsdfValue {
-    let density = facet_density(roughness, (wo + wi).normalize());
+pub fn evaluate(
+    reflectance: Rgb,
+    roughness: f64,
+    wo: DVec3,
+    wi: DVec3,
+    change: Change,
+) -> BsdfValue {
+    let roughness = alpha(roughness, change);
+    let facet = (wo + wi).normalize();
+    let density = facet_density(roughness, facet);
     let masked_wo = masking_over_cosine(roughness, wo);
     let masked_wi = masking_over_cosine(roughness, wi);
-    let value = density * masked_wo * masked_wi / 4.0;
-    BsdfValue { f: reflectance.map(|r| r * value), pdf: density * masked_wo / 4.0 }
+    let value = match change {
+        Change::MetalWithoutMasking => density / (4.0 * wo.z * wi.z),
+        Change::MetalWithoutFour => density * masked_wo * masked_wi,
+        Change::CorrelatedSmith => {
+            density * height_correlated_masking(roughness, wo, wi) / (4.0 * wo.z * wi.z)
+        }
+        _ => density * masked_wo * masked_wi / 4.0,
+    };
+    let pdf = match change {
+        Change::MetalPdfOfFacets => density * masked_wo * wo.dot(facet).max(0.0),
+        _ => density * masked_wo / 4.0,
+    };
+    BsdfValue { f: reflectance.map(|r| r * value), pdf }
+}
+
+/// The width of the lobe is the roughness itself.
+fn alpha(roughness: f64, change: Change) -> f64 {
+    match change {
+        Change::MetalRoughnessSquared => roughness * roughness,
+        _ => roughness,
+    }
 }
 
 /// A direction reflected from a visible facet; it may point below the horizon, where `f` is zero.
-pub fn sample(roughness: f64, wo: DVec3, point: DVec2) -> DVec3 {
-    let facet = visible_facet(roughness, wo, point);
+pub fn sample(roughness: f64, wo: DVec3, point: DVec2, change: Change) -> DVec3 {
+    let facet = visible_facet(alpha(roughness, change), wo, point);
     2.0 * wo.dot(facet) * facet - wo
 }
 
@@ -38,6 +66,15 @@ fn masking_over_cosine(roughness: f64, w: DVec3) -> f64 {
     let alpha_squared = roughness * roughness;
     let sine_squared = w.x * w.x + w.y * w.y;
     2.0 / (w.z + (w.z * w.z + alpha_squared * sine_squared).sqrt())
+}
+
+/// 1/(1 + Λ(wo) + Λ(wi)), with Λ = (√(1 + α² tan² θ) − 1)/2.
+fn height_correlated_masking(roughness: f64, wo: DVec3, wi: DVec3) -> f64 {
+    let lambda = |w: DVec3| {
+        let tangent_squared = (w.x * w.x + w.y * w.y) / (w.z * w.z);
+        ((1.0 + roughness * roughness * tangent_squared).sqrt() - 1.0) / 2.0
+    };
+    1.0 / (1.0 + lambda(wo) + lambda(wi))
 }
 
 /// Heitz 2018, listing 1: stretch to the unit hemisphere, sample its projected area as seen from
@@ -96,7 +133,7 @@ mod tests {
             }
             let facets_per_point = 2.0 * point.x / (facet_density(roughness, facet) * facet.z);
             let directions_per_facet = 4.0 * wo.dot(facet);
-            let value = evaluate([1.0; 3], roughness, wo, wi);
+            let value = evaluate([1.0; 3], roughness, wo, wi, Change::None);
             integrand(wi, &value) * directions_per_facet * facets_per_point
         };
         grid(SIDE).map(of_point).sum::<f64>() / f64::from(SIDE * SIDE)
@@ -152,7 +189,7 @@ mod tests {
         for (roughness, degrees, _) in ALBEDOS.into_iter().step_by(3) {
             let wo = view(degrees);
             for (number, moment) in moments.into_iter().enumerate() {
-                let sampled = grid(SIDE).map(|point| sample(roughness, wo, point));
+                let sampled = grid(SIDE).map(|point| sample(roughness, wo, point, Change::None));
                 let sampled: f64 = sampled.filter(|wi| wi.z > 0.0).map(moment).sum();
                 let sampled = sampled / f64::from(SIDE * SIDE);
                 let claimed = integrate(roughness, wo, |wi, value| value.pdf * moment(wi));

@@ -1,36 +1,73 @@
 //! A smooth interface between vacuum (the side of the normal) and glass.
 
 use super::bsdf;
+use super::change::Change;
 use crate::contract::BsdfSample;
 use crate::scene::Rgb;
 use glam::DVec3;
 
-/// Reflects with the probability of Fresnel's reflectance, refracts otherwise.
-pub fn sample(
-    index: f64,
-    reflectance: Rgb,
-    transmittance: Rgb,
-    wo: DVec3,
-    lobe: f64,
-) -> Option<BsdfSample> {
-    let ratio = index_ratio(index, wo);
-    let fresnel = fresnel_reflectance(wo.z.abs(), ratio);
-    if lobe < fresnel {
-        return bsdf::delta(bsdf::reflect(wo), reflectance.map(|r| r * fresnel), fresnel);
+/// A smooth interface.
+#[derive(Clone, Copy, Debug)]
+pub struct Glass {
+    /// Of the inside; outside is vacuum.
+    pub index: f64,
+    /// Multiplies what is reflected.
+    pub reflectance: Rgb,
+    /// Multiplies what is let through.
+    pub transmittance: Rgb,
+    /// What this copy of the core does otherwise.
+    pub change: Change,
+}
+
+impl Glass {
+    /// Reflects with the probability of Fresnel's reflectance, refracts otherwise.
+    pub fn sample(&self, wo: DVec3, lobe: f64) -> Option<BsdfSample> {
+        let ratio = self.index_ratio(wo);
+        let fresnel = self.fresnel(wo.z.abs(), ratio);
+        let reflects = match self.change {
+            Change::GlassCoinToss => lobe < 0.5 && fresnel > 0.0,
+            _ => lobe < fresnel,
+        };
+        let (reflected, passed) = match self.change {
+            Change::GlassFresnelForgotten => (1.0, 1.0),
+            _ => (fresnel, 1.0 - fresnel),
+        };
+        if reflects {
+            let weight = self.reflectance.map(|r| r * reflected);
+            return bsdf::delta(bsdf::reflect(wo), weight, fresnel);
+        }
+        let weight = self.transmittance.map(|t| t * passed * self.radiance_scale(ratio));
+        bsdf::delta(refract(wo, ratio)?, weight, 1.0 - fresnel)
     }
-    let passed = (1.0 - fresnel) * radiance_scale(ratio);
-    bsdf::delta(refract(wo, ratio)?, transmittance.map(|t| t * passed), 1.0 - fresnel)
-}
 
-/// Index of refraction on the far side over that on the side of `wo`.
-fn index_ratio(index: f64, wo: DVec3) -> f64 {
-    if wo.z > 0.0 { index } else { 1.0 / index }
-}
+    /// Index of refraction on the far side over that on the side of `wo`.
+    fn index_ratio(&self, wo: DVec3) -> f64 {
+        let enters = match self.change {
+            Change::GlassIndicesSwapped => wo.z < 0.0,
+            _ => wo.z > 0.0,
+        };
+        if enters { self.index } else { 1.0 / self.index }
+    }
 
-/// Radiance over index squared is what crosses an interface unchanged: light that comes to the side
-/// of `wo` out of the denser medium is spread over a wider cone.
-fn radiance_scale(ratio: f64) -> f64 {
-    1.0 / (ratio * ratio)
+    /// Share of light that is reflected.
+    fn fresnel(&self, cosine: f64, ratio: f64) -> f64 {
+        match self.change {
+            Change::GlassSchlickUndeclared | Change::SchlickGlass => {
+                schlick_reflectance(cosine, ratio)
+            }
+            Change::GlassWithoutTotalReflection if refracted_cosine(cosine, ratio).is_none() => 0.0,
+            _ => fresnel_reflectance(cosine, ratio),
+        }
+    }
+
+    /// Radiance over index squared is what crosses an interface unchanged: light that comes to the
+    /// side of `wo` out of the denser medium is spread over a wider cone.
+    fn radiance_scale(&self, ratio: f64) -> f64 {
+        match self.change {
+            Change::GlassUnscaledUndeclared | Change::UnscaledGlass => 1.0,
+            _ => 1.0 / (ratio * ratio),
+        }
+    }
 }
 
 /// Cosine of the refracted direction by Snell's law; `None` if all light is reflected.
@@ -47,6 +84,15 @@ pub fn fresnel_reflectance(cosine: f64, ratio: f64) -> f64 {
     (perpendicular * perpendicular + parallel * parallel) / 2.0
 }
 
+/// Schlick's approximation; total reflection stays total.
+fn schlick_reflectance(cosine: f64, ratio: f64) -> f64 {
+    if refracted_cosine(cosine, ratio).is_none() {
+        return 1.0;
+    }
+    let at_normal = ((1.0 - ratio) / (1.0 + ratio)).powi(2);
+    at_normal + (1.0 - at_normal) * (1.0 - cosine).powi(5)
+}
+
 /// The direction on the far side from which light is bent towards `wo`.
 fn refract(wo: DVec3, ratio: f64) -> Option<DVec3> {
     let cosine = refracted_cosine(wo.z.abs(), ratio)?;
@@ -57,6 +103,10 @@ fn refract(wo: DVec3, ratio: f64) -> Option<DVec3> {
 mod tests {
     use super::*;
 
+    fn clear() -> Glass {
+        Glass { index: 1.5, reflectance: [1.0; 3], transmittance: [1.0; 3], change: Change::None }
+    }
+
     fn from_degrees(degrees: f64) -> DVec3 {
         let (sine, cosine) = degrees.to_radians().sin_cos();
         DVec3::new(sine, 0.0, cosine)
@@ -64,7 +114,7 @@ mod tests {
 
     fn refracted(wo: DVec3) -> BsdfSample {
         let almost_one = 1.0 - f64::EPSILON;
-        sample(1.5, [1.0; 3], [1.0; 3], wo, almost_one).expect("light passes")
+        clear().sample(wo, almost_one).expect("light passes")
     }
 
     /// Mean over the hemisphere with cosine weight: ∫ 2c F(c) dc.
@@ -99,7 +149,7 @@ mod tests {
         let critical = (1.0_f64 / 1.5).asin().to_degrees();
         let below = |degrees| -from_degrees(degrees);
         assert!(refracted(below(critical - 0.01)).wi.z > 0.0);
-        let reflected = sample(1.5, [1.0; 3], [1.0; 3], below(critical + 0.01), 0.999);
+        let reflected = clear().sample(below(critical + 0.01), 0.999);
         let reflected = reflected.expect("light comes back");
         assert!(reflected.wi.z < 0.0 && reflected.pdf == 1.0, "{reflected:?}");
     }
@@ -115,6 +165,6 @@ mod tests {
 
     #[test]
     fn light_along_the_surface_is_a_failed_sample_and_not_a_number_game() {
-        assert_eq!(sample(1.5, [1.0; 3], [1.0; 3], DVec3::X, 0.3), None);
+        assert_eq!(clear().sample(DVec3::X, 0.3), None);
     }
 }

@@ -4,6 +4,7 @@
 //! spheres are hit strictly inside the segment (t_min, t_max). Not here: normals that are
 //! interpolated, and which shape a primitive belongs to (`world`).
 
+use super::change::Change;
 use crate::contract::Ray;
 use crate::scene::Aabb;
 use glam::{DVec2, DVec3};
@@ -69,10 +70,18 @@ impl Triangle {
 
     /// Möller and Trumbore 1997: solve origin + t·direction = (1 − u − v)·a + u·b + v·c by Cramer's
     /// rule. Both sides are hit, and edges belong to the triangle.
-    pub fn intersect(&self, ray: &Ray) -> Option<Crossing> {
+    pub fn intersect(&self, ray: &Ray, change: Change) -> Option<Crossing> {
         let [edge1, edge2] = self.edges;
         let p = ray.direction.cross(edge2);
         let determinant = edge1.dot(p);
+        if change == Change::NanAccepted {
+            return self.intersect_by_rejection(ray);
+        }
+        if change == Change::DeterminantThreshold && determinant.abs() < 1e-5
+            || change == Change::BackCulled && determinant < 0.0
+        {
+            return None;
+        }
         let from_corner = ray.origin - self.corner;
         let u = from_corner.dot(p) / determinant;
         if !(-MOST_FORGIVEN..=1.0 + MOST_FORGIVEN).contains(&u) {
@@ -81,12 +90,34 @@ impl Triangle {
         let q = from_corner.cross(edge1);
         let v = ray.direction.dot(q) / determinant;
         let t = edge2.dot(q) / determinant;
-        if !contains(ray, t) {
+        let is_on_segment = match change {
+            Change::TriangleEndIgnored => t > ray.t_min,
+            _ => contains(ray, t),
+        };
+        if !is_on_segment {
             return None;
         }
         let error = self.weight_error(ray, from_corner, determinant)?;
-        let inside = u >= -error && v >= -error && u + v <= 1.0 + error;
+        let inside = match change {
+            Change::StrictEdges => u > 0.0 && v > 0.0 && u + v < 1.0,
+            Change::Parallelogram => u >= -error && v >= -error && v <= 1.0 + error,
+            _ => u >= -error && v >= -error && u + v <= 1.0 + error,
+        };
         inside.then_some(Crossing { t, uv: DVec2::new(u, v) })
+    }
+
+    /// [`Change::NanAccepted`]: no test for parallel rays, and comparisons that reject. A ray in the
+    /// plane divides 0 by 0, and what is not a number is not rejected.
+    fn intersect_by_rejection(&self, ray: &Ray) -> Option<Crossing> {
+        let [edge1, edge2] = self.edges;
+        let p = ray.direction.cross(edge2);
+        let from_corner = ray.origin - self.corner;
+        let q = from_corner.cross(edge1);
+        let [u, v, t] = [from_corner.dot(p), ray.direction.dot(q), edge2.dot(q)]
+            .map(|numerator| numerator / edge1.dot(p));
+        let is_outside = u < 0.0 || v < 0.0 || u + v > 1.0;
+        let is_rejected = is_outside || t <= ray.t_min || t >= ray.t_max;
+        (!is_rejected).then_some(Crossing { t, uv: DVec2::new(u, v) })
     }
 
     /// How far rounding can put u and v off; `None` if the determinant is nothing but rounding,
@@ -126,14 +157,28 @@ impl Ball {
     }
 
     /// Unit, away from the centre.
-    pub fn outward_normal(&self, point: DVec3) -> DVec3 {
-        (point - self.centre).normalize()
+    pub fn outward_normal(&self, point: DVec3, change: Change) -> DVec3 {
+        match change {
+            Change::SphereNormalNotUnit => point - self.centre,
+            _ => (point - self.centre).normalize(),
+        }
     }
 
     /// The nearer crossing inside the segment; from inside the ball that is the far one.
-    pub fn intersect(&self, ray: &Ray) -> Option<Crossing> {
-        let (near, far) = self.roots(ray)?;
-        let t = [near, far].into_iter().find(|t| contains(ray, *t))?;
+    pub fn intersect(&self, ray: &Ray, change: Change) -> Option<Crossing> {
+        let (near, far) = self.roots(ray, change)?;
+        let t = match change {
+            Change::NearRootOnly => contains(ray, near).then_some(near),
+            Change::BothRootsRequired => {
+                (contains(ray, near) && contains(ray, far)).then_some(near)
+            }
+            Change::FirstRootUnchecked => {
+                (contains(ray, near) || contains(ray, far)).then_some(near)
+            }
+            Change::FarRootTaken => contains(ray, far).then_some(far),
+            Change::SphereBehindHit => [near, far].into_iter().find(|t| *t < ray.t_max),
+            _ => [near, far].into_iter().find(|t| contains(ray, *t)),
+        }?;
         Some(Crossing { t, uv: DVec2::ZERO })
     }
 
@@ -142,7 +187,7 @@ impl Ball {
     /// The discriminant comes from the distance between centre and line, and the smaller root from
     /// the product of both: neither subtracts large equal numbers when the ball is small and far
     /// away (Haines et al., Ray Tracing Gems, chapter 7).
-    fn roots(&self, ray: &Ray) -> Option<(f64, f64)> {
+    fn roots(&self, ray: &Ray, change: Change) -> Option<(f64, f64)> {
         let from_centre = ray.origin - self.centre;
         let a = ray.direction.length_squared();
         let half_b = from_centre.dot(ray.direction);
@@ -153,7 +198,14 @@ impl Ball {
             return None;
         }
         let q = -(half_b + discriminant.sqrt().copysign(half_b));
-        let (first, second) = (c / q, q / a);
+        let (first, second) = match change {
+            Change::QuadraticPrecedence => (c / q * a * a, q * a),
+            Change::SphereCancellation => {
+                let root = (half_b * half_b - a * c).max(0.0).sqrt();
+                ((-half_b - root) / a, (-half_b + root) / a)
+            }
+            _ => (c / q, q / a),
+        };
         Some(if first <= second { (first, second) } else { (second, first) })
     }
 }
@@ -201,7 +253,7 @@ mod tests {
             let uv =
                 DVec2::new(u, (1.0 - u) * random.number()).clamp(DVec2::splat(1e-9), DVec2::ONE);
             let (triangle, ray) = aimed(&mut random, uv * (1.0 - 1e-8), t);
-            let crossing = triangle.intersect(&ray).expect("aimed inside");
+            let crossing = triangle.intersect(&ray, Change::None).expect("aimed inside");
             assert!((crossing.t - t).abs() < 1e-11, "{crossing:?} {t}");
             assert!(crossing.uv.abs_diff_eq(uv * (1.0 - 1e-8), 1e-11), "{crossing:?} {uv}");
         }
@@ -213,7 +265,7 @@ mod tests {
         let beside = [[-1e-9, 0.5], [0.5, -1e-9], [0.5, 0.5 + 1e-9], [1.7, -0.3], [-0.4, 1.1]];
         for uv in beside.into_iter().cycle().take(20_000) {
             let (triangle, ray) = aimed(&mut random, DVec2::from(uv), 1.0);
-            assert_eq!(triangle.intersect(&ray), None, "{uv:?}");
+            assert_eq!(triangle.intersect(&ray, Change::None), None, "{uv:?}");
         }
     }
 
@@ -226,7 +278,7 @@ mod tests {
         for z in [1.0, -1.0] {
             for at in [[0.25, 0.25], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.5], [0.0, 0.3]] {
                 let ray = Ray::new(DVec3::new(at[0], at[1], z), DVec3::new(0.0, 0.0, -z));
-                let crossing = unit_triangle().intersect(&ray);
+                let crossing = unit_triangle().intersect(&ray, Change::None);
                 assert_eq!(crossing, Some(Crossing { t: 1.0, uv: DVec2::from(at) }), "{z} {at:?}");
             }
         }
@@ -244,7 +296,11 @@ mod tests {
             let distance = 10.0_f64.powf(6.0 * random.number() - 3.0);
             let direction = vector(&mut random);
             let ray = Ray::new(target - distance * direction, direction);
-            let hits = halves.iter().flatten().filter_map(|half| half.intersect(&ray)).count();
+            let hits = halves
+                .iter()
+                .flatten()
+                .filter_map(|half| half.intersect(&ray, Change::None))
+                .count();
             assert!(hits > 0, "{ray:?} {halves:?}");
         }
     }
@@ -257,7 +313,10 @@ mod tests {
             [(0.0, 3.0, true), (2.0, 3.0, false), (0.0, 2.0, false), (1.999, 2.001, true)]
         {
             let segment = Ray { t_min, t_max, ..ray };
-            let hits = (unit_triangle().intersect(&segment), ball.intersect(&segment));
+            let hits = (
+                unit_triangle().intersect(&segment, Change::None),
+                ball.intersect(&segment, Change::None),
+            );
             assert_eq!((hits.0.is_some(), hits.1.is_some()), (is_hit, is_hit), "{segment:?}");
         }
     }
@@ -274,7 +333,7 @@ mod tests {
             let (triangle, _) = aimed(&mut random, DVec2::splat(0.3), 1.0);
             let in_plane = triangle.edges[0] + random.number() * triangle.edges[1];
             let ray = Ray::new(triangle.point(DVec2::splat(0.3)) - 2.0 * in_plane, in_plane);
-            assert_eq!(triangle.intersect(&ray), None, "{triangle:?}");
+            assert_eq!(triangle.intersect(&ray, Change::None), None, "{triangle:?}");
         }
     }
 
@@ -283,7 +342,7 @@ mod tests {
         let ball = Ball { centre: DVec3::new(1.0, 2.0, 3.0), radius: 0.5 };
         let t_from = |z: f64, speed: f64| {
             let ray = Ray::new(ball.centre + DVec3::Z * z, DVec3::NEG_Z * speed);
-            ball.intersect(&ray).map(|crossing| crossing.t)
+            ball.intersect(&ray, Change::None).map(|crossing| crossing.t)
         };
         assert_eq!(t_from(2.0, 1.0), Some(1.5));
         assert_eq!(t_from(2.0, 0.25), Some(6.0));
@@ -298,7 +357,7 @@ mod tests {
         for distance in [1e2, 1e4, 1e6] {
             let (offset, direction) = (DVec3::new(0.6, 0.0, 0.0), DVec3::new(0.0, 0.6, -0.8));
             let ray = Ray::new(offset - distance * direction, direction);
-            let t = ball.intersect(&ray).expect("aimed at it").t;
+            let t = ball.intersect(&ray, Change::None).expect("aimed at it").t;
             let allowed = 16.0 * f64::EPSILON * distance * distance;
             assert!((t - (distance - 0.8)).abs() <= allowed, "{distance}: {t}");
         }
@@ -313,7 +372,7 @@ mod tests {
             let direction = (normal + 0.999 * vector(&mut random).normalize()).normalize();
             let point = ball.centre + ball.radius * normal;
             let ray = Ray { t_min: 1e-9, ..Ray::new(point, direction) };
-            assert_eq!(ball.intersect(&ray), None, "{ray:?}");
+            assert_eq!(ball.intersect(&ray, Change::None), None, "{ray:?}");
         }
     }
 }

@@ -5,6 +5,7 @@
 //! are sampled (`area_light`).
 
 use super::area_light::{BallLight, MeshLight};
+use super::change::Change;
 use super::sampling;
 use crate::contract::LightSample;
 use crate::scene::{Light, Rgb, SceneDescription, Shape};
@@ -35,12 +36,12 @@ pub enum Lamp {
 
 impl Lamp {
     /// Prepares `light` of `scene`.
-    pub fn new(light: &Light, scene: &SceneDescription) -> Self {
+    pub fn new(light: &Light, scene: &SceneDescription, change: Change) -> Self {
         let Light::Area { shape } = *light else { return Self::Simple(*light) };
         let Some(emission) = scene.material_of(shape).emission else { return Self::Dark };
         match scene.shape(shape) {
-            Shape::Mesh(mesh) => Self::Mesh(MeshLight::new(mesh, emission.radiance)),
-            Shape::Sphere(sphere) => Self::Ball(BallLight::new(sphere, emission)),
+            Shape::Mesh(mesh) => Self::Mesh(MeshLight::new(mesh, emission.radiance, change)),
+            Shape::Sphere(sphere) => Self::Ball(BallLight::new(sphere, emission, change)),
         }
     }
 
@@ -58,9 +59,15 @@ impl Lamp {
     }
 
     /// A direction from `from` towards the light; `lobe` chooses the triangle of a mesh.
-    pub fn sample(&self, from: DVec3, point: DVec2, lobe: f64) -> Option<LightSample> {
+    pub fn sample(
+        &self,
+        from: DVec3,
+        point: DVec2,
+        lobe: f64,
+        change: Change,
+    ) -> Option<LightSample> {
         match self {
-            Self::Simple(light) => sample_simple(light, from, point),
+            Self::Simple(light) => sample_simple(light, from, point, change),
             Self::Mesh(mesh) => mesh.sample(from, point, lobe),
             Self::Ball(ball) => ball.sample(from, point),
             Self::Dark => None,
@@ -79,32 +86,46 @@ impl Lamp {
 
     /// The density with which [`Self::sample`] draws a direction into the sky; zero for other
     /// lights.
-    pub fn sky_pdf(&self) -> f64 {
+    pub fn sky_pdf(&self, change: Change) -> f64 {
         match self {
             Self::Simple(Light::ConstantSky { .. } | Light::GradientSky { .. }) => {
-                sampling::uniform_sphere_pdf()
+                uniform_sky_pdf(change)
             }
             _ => 0.0,
         }
     }
 }
 
-fn sample_simple(light: &Light, from: DVec3, point: DVec2) -> Option<LightSample> {
+fn sample_simple(light: &Light, from: DVec3, point: DVec2, change: Change) -> Option<LightSample> {
     match *light {
-        Light::Point { position, intensity } => sample_point_light(position, intensity, from),
-        Light::Directional { direction, irradiance } => {
-            Some(delta(-direction, f64::INFINITY, irradiance))
+        Light::Point { position, intensity } => {
+            sample_point_light(position, intensity, from, change)
         }
-        Light::ConstantSky { .. } | Light::GradientSky { .. } => Some(sample_sky(light, point)),
+        Light::Directional { direction, irradiance } => {
+            let wi = if change == Change::DirectionalFlipped { direction } else { -direction };
+            Some(delta(wi, f64::INFINITY, irradiance))
+        }
+        Light::ConstantSky { .. } | Light::GradientSky { .. } => {
+            Some(sample_sky(light, point, change))
+        }
         Light::Area { .. } => None,
     }
 }
 
 /// Intensity over distance squared.
-fn sample_point_light(position: DVec3, intensity: Rgb, from: DVec3) -> Option<LightSample> {
+fn sample_point_light(
+    position: DVec3,
+    intensity: Rgb,
+    from: DVec3,
+    change: Change,
+) -> Option<LightSample> {
     let wi = (position - from).try_normalize()?;
     let distance = (position - from).length();
-    Some(delta(wi, distance, intensity.map(|i| i / (distance * distance))))
+    let radiance = match change {
+        Change::PointLightUnweakened | Change::NoFalloff => intensity,
+        _ => intensity.map(|i| i / (distance * distance)),
+    };
+    Some(delta(wi, distance, radiance))
 }
 
 fn delta(wi: DVec3, distance: f64, radiance: Rgb) -> LightSample {
@@ -121,15 +142,22 @@ pub fn towards(from: DVec3, at: DVec3, radiance: Rgb, pdf: f64) -> Option<LightS
 }
 
 /// Uniform over all directions: the point that asks has no normal to prefer some.
-fn sample_sky(light: &Light, point: DVec2) -> LightSample {
+fn sample_sky(light: &Light, point: DVec2, change: Change) -> LightSample {
     let wi = sampling::uniform_sphere(point);
     LightSample {
         wi,
         distance: f64::INFINITY,
         radiance: light.sky_radiance(wi),
-        pdf: sampling::uniform_sphere_pdf(),
+        pdf: uniform_sky_pdf(change),
         is_delta: 0,
         is_valid: 1,
+    }
+}
+
+fn uniform_sky_pdf(change: Change) -> f64 {
+    match change {
+        Change::SkyPdfOfHemisphere => 2.0 * sampling::uniform_sphere_pdf(),
+        _ => sampling::uniform_sphere_pdf(),
     }
 }
 
@@ -144,7 +172,7 @@ mod tests {
     /// The last light of a stage.
     fn lamp(stage: Stage) -> Lamp {
         let scene = stage.scene();
-        Lamp::new(scene.lights.last().expect("something glows"), &scene)
+        Lamp::new(scene.lights.last().expect("something glows"), &scene, Change::None)
     }
 
     fn rectangle(x: f64, y: f64, z: f64) -> Lamp {
@@ -154,7 +182,9 @@ mod tests {
 
     fn samples(lamp: &Lamp, from: DVec3, count: usize) -> Vec<Option<LightSample>> {
         let mut random = Random::for_ray(5, 0);
-        (0..count).map(|_| lamp.sample(from, random.point(), random.number())).collect()
+        (0..count)
+            .map(|_| lamp.sample(from, random.point(), random.number(), Change::None))
+            .collect()
     }
 
     /// Mean of 1/pdf with its standard error.
@@ -246,7 +276,9 @@ mod tests {
         };
         let lamp = lamp(Stage::empty().mesh(mesh, diffuse(0.0).glowing(1.0)));
         for lobe in [0.0, 0.49, 0.5, 1.0 - f64::EPSILON / 2.0] {
-            let sample = lamp.sample(DVec3::Z, DVec2::splat(0.5), lobe).expect("it is in front");
+            let sample = lamp
+                .sample(DVec3::Z, DVec2::splat(0.5), lobe, Change::None)
+                .expect("it is in front");
             assert!(sample.pdf.is_finite() && sample.pdf > 0.0, "{sample:?}");
             let at = DVec3::Z + sample.distance * sample.wi;
             assert_eq!(at.x > at.y, lobe < 0.5, "{lobe}: {at}");
@@ -256,6 +288,6 @@ mod tests {
     #[test]
     fn a_light_in_the_point_that_asks_is_a_failed_sample() {
         let light = Light::Point { position: DVec3::ONE, intensity: grey(1.0) };
-        assert_eq!(Lamp::Simple(light).sample(DVec3::ONE, DVec2::ZERO, 0.0), None);
+        assert_eq!(Lamp::Simple(light).sample(DVec3::ONE, DVec2::ZERO, 0.0, Change::None), None);
     }
 }

@@ -19,6 +19,9 @@
 //! Beyond the course: `glass` and `ggx` scatter as their names say; `world` is the scene as rays
 //! see it, and `vertex` a point of a path in it; `random` gives every path its own stream, so that
 //! answers do not depend on threads.
+//!
+//! A copy of this core may have one change: a mistake that students make (`fault`), or a choice that
+//! is as right (`different`). The right line stands last where a `match change` offers others.
 
 mod adaptive;
 mod area_light;
@@ -26,7 +29,10 @@ mod bsdf;
 mod build;
 mod bvh;
 mod camera;
+mod change;
+pub mod different;
 mod direct;
+pub mod fault;
 mod frame;
 mod ggx;
 mod glass;
@@ -36,6 +42,7 @@ mod light;
 mod random;
 mod render;
 mod sampling;
+mod single;
 mod slab;
 mod split;
 mod vertex;
@@ -48,40 +55,71 @@ mod testing;
 
 use crate::contract::{
     Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
-    BuildStats, BuiltScene, Capabilities, Conventions, Core, CoreError, CoreInfo, DirectionSample,
-    Film, Hit, IntegratorSettings, LightSample, Precision, Primitive, Randomness, Ray,
-    RenderSettings, Result, Sampler, TraversalStats,
+    BuildStats, BuiltScene, Core, CoreError, CoreInfo, DirectionSample, Film, Hit,
+    IntegratorSettings, LightSample, Primitive, Randomness, Ray, RenderSettings, Result, Sampler,
+    TraversalStats,
 };
 use crate::scene::{Aabb, Camera, Material, SceneDescription};
+use change::Change;
 use glam::{DVec2, DVec3};
 use integrator::Integrator;
 use random::Random;
 use world::World;
 
-/// The plain core.
+/// The plain core, or a copy of it with one change.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Textbook;
+pub struct Textbook {
+    change: Change,
+}
 
 impl Textbook {
-    /// The core, ready to be asked.
+    /// The plain core, ready to be asked.
     pub const fn new() -> Self {
-        Self
+        Self { change: Change::None }
     }
+
+    /// The name of its change.
+    fn name(&self) -> String {
+        let fault = fault::all().find(|fault| fault.change == self.change).map(|f| f.name);
+        let different = different::DIFFERENT.iter().find(|core| core.change == self.change);
+        match fault.or(different.map(|core| core.name)) {
+            Some(name) => format!("textbook:{name}"),
+            None => "textbook".to_owned(),
+        }
+    }
+}
+
+/// The names of all changes: the words that may follow `textbook:`.
+pub fn change_names() -> impl Iterator<Item = &'static str> {
+    let different = different::DIFFERENT.iter().map(|core| core.name);
+    fault::all().map(|fault| fault.name).chain(different)
+}
+
+/// A copy of the core with the change of this name.
+pub fn with_change(name: &str) -> Option<Box<dyn Core>> {
+    let fault = fault::all().find(|fault| fault.name == name).map(|fault| fault.change);
+    let different = different::DIFFERENT.iter().find(|core| core.name == name);
+    let change = fault.or(different.map(|core| core.change))?;
+    let core = Textbook { change };
+    Some(match change {
+        Change::SinglePrecision => Box::new(single::Single(core)),
+        _ => Box::new(core),
+    })
 }
 
 impl Core for Textbook {
     fn info(&self) -> CoreInfo {
         CoreInfo {
-            name: "textbook".to_owned(),
+            name: self.name(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            capabilities: Capabilities::all(),
-            precision: Precision::Double,
-            conventions: Conventions::default(),
+            capabilities: different::capabilities(self.change),
+            precision: different::precision(self.change),
+            conventions: different::conventions(self.change),
         }
     }
 
     fn generate_rays(&mut self, camera: &Camera, film: &[DVec2], rays: &mut [Ray]) -> Result<()> {
-        answer(film, rays, |point| camera::generate_ray(camera, *point));
+        answer(film, rays, |point| camera::generate_ray(camera, *point, self.change));
         Ok(())
     }
 
@@ -91,12 +129,14 @@ impl Core for Textbook {
         rays: &[Ray],
         hits: &mut [Hit],
     ) -> Result<()> {
-        answer(rays, hits, |ray| world::hit_alone(primitive, ray).unwrap_or(Hit::MISS));
+        answer(rays, hits, |ray| {
+            world::hit_alone(primitive, ray, self.change).unwrap_or(Hit::MISS)
+        });
         Ok(())
     }
 
     fn intersect_box(&mut self, bounds: &Aabb, rays: &[Ray], hits: &mut [BoxHit]) -> Result<()> {
-        answer(rays, hits, |ray| box_hit(slab::intersect_box(bounds, ray)));
+        answer(rays, hits, |ray| box_hit(slab::intersect_box(bounds, ray, self.change)));
         Ok(())
     }
 
@@ -106,7 +146,10 @@ impl Core for Textbook {
         random: Randomness<'_>,
         samples: &mut [DirectionSample],
     ) -> Result<()> {
-        answer(random.points, samples, |point| sampling::sample(sampler, *point));
+        let numbers = Numbers::of(random, self.change);
+        for (index, sample) in samples.iter_mut().enumerate() {
+            *sample = sampling::sample(sampler, numbers.at(index).0, self.change);
+        }
         Ok(())
     }
 
@@ -116,7 +159,7 @@ impl Core for Textbook {
         directions: &[DVec3],
         pdf: &mut [f64],
     ) -> Result<()> {
-        answer(directions, pdf, |direction| sampling::pdf(sampler, *direction));
+        answer(directions, pdf, |direction| sampling::pdf(sampler, *direction, self.change));
         Ok(())
     }
 
@@ -126,7 +169,9 @@ impl Core for Textbook {
         queries: &[BsdfQuery],
         values: &mut [BsdfValue],
     ) -> Result<()> {
-        answer(queries, values, |query| bsdf::evaluate(&material.surface, query.wo, query.wi));
+        answer(queries, values, |query| {
+            bsdf::evaluate(&material.surface, query.wo, query.wi, self.change)
+        });
         Ok(())
     }
 
@@ -137,9 +182,11 @@ impl Core for Textbook {
         random: Randomness<'_>,
         samples: &mut [BsdfSample],
     ) -> Result<()> {
+        let numbers = Numbers::of(random, self.change);
         for (index, (wo, sample)) in wo.iter().zip(samples).enumerate() {
-            let (point, lobe) = (random.points[index], random.lobes[index]);
-            *sample = bsdf::sample(&material.surface, *wo, point, lobe).unwrap_or(bsdf::FAILED);
+            let (point, lobe) = numbers.at(index);
+            let drawn = bsdf::sample(&material.surface, *wo, point, lobe, self.change);
+            *sample = drawn.unwrap_or(bsdf::FAILED);
         }
         Ok(())
     }
@@ -150,7 +197,7 @@ impl Core for Textbook {
         streams: &[&[f64]],
         means: &mut [AdaptiveMean],
     ) -> Result<()> {
-        answer(streams, means, |stream| adaptive::mean_of_stream(settings, stream));
+        answer(streams, means, |stream| adaptive::mean_of_stream(settings, stream, self.change));
         Ok(())
     }
 
@@ -159,7 +206,7 @@ impl Core for Textbook {
         scene: &SceneDescription,
         acceleration: Acceleration,
     ) -> Result<Box<dyn BuiltScene + '_>> {
-        Ok(Box::new(BuiltWorld { world: World::new(scene, acceleration) }))
+        Ok(Box::new(BuiltWorld { world: World::new(scene, acceleration, self.change) }))
     }
 }
 
@@ -196,9 +243,11 @@ impl BuiltScene for BuiltWorld {
         let light = lights.get(light as usize).ok_or_else(|| {
             CoreError::Refused(format!("there is no light {light}, the scene has {}", lights.len()))
         })?;
+        let change = self.world.change();
+        let numbers = Numbers::of(random, change);
         for (index, (from, sample)) in from.iter().zip(samples).enumerate() {
-            let (point, lobe) = (random.points[index], random.lobes[index]);
-            *sample = light.sample(*from, point, lobe).unwrap_or(light::FAILED);
+            let (point, lobe) = numbers.at(index);
+            *sample = light.sample(*from, point, lobe, change).unwrap_or(light::FAILED);
         }
         Ok(())
     }
@@ -210,8 +259,10 @@ impl BuiltScene for BuiltWorld {
         radiance: &mut [[f64; 3]],
     ) -> Result<()> {
         let integrator = Integrator::new(&self.world, settings);
+        let change = self.world.change();
+        let seed = random::seed(settings.seed, change);
         render::fill(settings.threads, radiance, |index| {
-            let mut random = Random::for_ray(settings.seed, index);
+            let mut random = Random::for_ray(seed, index).changed(change);
             integrator.radiance(&rays[index], &mut random).to_array()
         })
     }
@@ -223,6 +274,26 @@ impl BuiltScene for BuiltWorld {
         film: &mut Film,
     ) -> Result<()> {
         render::render(&self.world, camera, settings, film)
+    }
+}
+
+/// The caller's numbers, or the core's own.
+struct Numbers<'a> {
+    random: Randomness<'a>,
+    change: Change,
+}
+
+impl<'a> Numbers<'a> {
+    fn of(random: Randomness<'a>, change: Change) -> Self {
+        Self { random, change }
+    }
+
+    fn at(&self, index: usize) -> (DVec2, f64) {
+        if self.change == Change::OwnNumbers {
+            let mut own = Random::for_ray(self.random.seed, index);
+            return (own.point(), own.number());
+        }
+        (self.random.points[index], self.random.lobes[index])
     }
 }
 

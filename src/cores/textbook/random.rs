@@ -1,13 +1,20 @@
 //! Random numbers: every path has its own stream, named by what it is for and never by which thread
 //! draws it.
 
+use super::change::Change;
 use crate::math::rng::{Stream, uniform};
 use glam::DVec2;
 use rand::SeedableRng;
+use std::time::SystemTime;
 
 /// The random numbers of one path.
 #[derive(Debug)]
-pub struct Random(Stream);
+pub struct Random {
+    stream: Stream,
+    /// [`Change::OtherGenerator`].
+    counter: u64,
+    change: Change,
+}
 
 impl Random {
     /// For ray number `ray` of one call.
@@ -22,18 +29,45 @@ impl Random {
 
     fn named(labels: &[u64]) -> Self {
         let name = labels.iter().fold(0, |name, label| scramble(name ^ label));
-        Self(Stream::seed_from_u64(name))
+        Self { stream: Stream::seed_from_u64(name), counter: name, change: Change::None }
+    }
+
+    /// Draws as `change` does.
+    pub fn changed(self, change: Change) -> Self {
+        Self { change, ..self }
     }
 
     /// A number in [0, 1).
     pub fn number(&mut self) -> f64 {
-        uniform(&mut self.0)
+        match self.change {
+            Change::OtherGenerator => {
+                self.counter = self.counter.wrapping_add(1);
+                (scramble(self.counter) >> 11) as f64 * 0.5 * f64::EPSILON
+            }
+            Change::ExtraDimensions => {
+                uniform(&mut self.stream);
+                uniform(&mut self.stream)
+            }
+            _ => uniform(&mut self.stream),
+        }
     }
 
     /// A point of the unit square.
     pub fn point(&mut self) -> DVec2 {
         let x = self.number();
         DVec2::new(x, self.number())
+    }
+}
+
+/// The seed that numbers are drawn by.
+pub fn seed(seed: u64, change: Change) -> u64 {
+    match change {
+        Change::SeedIgnored => 0,
+        Change::SeedOfClock => {
+            let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+            now.map_or(0, |now| now.as_nanos() as u64)
+        }
+        _ => seed,
     }
 }
 

@@ -4,11 +4,12 @@
 //! are shared out among threads.
 
 use super::adaptive::{self, Tally};
-use super::camera::generate_ray;
+use super::camera::{generate_ray, half_pixel};
+use super::change::Change;
 use super::integrator::Integrator;
-use super::random::Random;
+use super::random::{self, Random};
 use super::world::World;
-use crate::contract::{CoreError, Film, RenderSettings, Result};
+use crate::contract::{AdaptiveSettings, CoreError, Film, RenderSettings, Result};
 use crate::scene::Camera;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -24,7 +25,8 @@ pub fn render(
         return Err(CoreError::Refused("samples_per_pixel is 0: nothing to average".to_owned()));
     }
     let integrator = Integrator::new(world, &settings.integrator);
-    let picture = Picture { integrator, camera, settings };
+    let change = world.change();
+    let picture = Picture { integrator, camera, settings, change };
     let mut pixels = vec![(DVec3::ZERO, 0); film.pixels.len()];
     fill(settings.integrator.threads, &mut pixels, |index| picture.pixel(index))?;
     for (index, (radiance, samples)) in pixels.into_iter().enumerate() {
@@ -49,10 +51,18 @@ pub fn fill<T: Send>(threads: u32, out: &mut [T], value: impl Fn(usize) -> T + S
     Ok(())
 }
 
+/// What [`Change::AdaptiveAlways`] does where it is not asked for.
+const ADAPTIVE_DEFAULT: AdaptiveSettings =
+    AdaptiveSettings { samples_per_batch: 32, max_tolerance: 0.05 };
+
+/// Steps that fill the unit square evenly (Roberts 2018, the R2 sequence).
+const EVEN_STEPS: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_2);
+
 struct Picture<'a> {
     integrator: Integrator<'a>,
     camera: &'a Camera,
     settings: &'a RenderSettings,
+    change: Change,
 }
 
 impl Picture<'_> {
@@ -64,22 +74,52 @@ impl Picture<'_> {
             total += radiance;
             luminance(radiance)
         });
-        (total / f64::from(tally.count()), tally.count())
+        let cap = self.settings.samples_per_pixel;
+        let mean = match self.change {
+            Change::SamplesNotDivided => total,
+            _ => total / adaptive::divisor(tally.count(), cap, self.change),
+        };
+        let batch = self.settings.adaptive.map(|adaptive| adaptive.samples_per_batch);
+        (mean, adaptive::reported(tally.count(), cap, batch, self.change))
     }
 
     fn spend_samples(&self, next: impl FnMut(u32) -> f64) -> Tally {
         let cap = self.settings.samples_per_pixel;
-        match self.settings.adaptive {
-            Some(adaptive) => adaptive::sample_until_converged(adaptive, cap, next),
+        let adaptive = match self.change {
+            Change::AdaptiveAlways => Some(self.settings.adaptive.unwrap_or(ADAPTIVE_DEFAULT)),
+            _ => self.settings.adaptive,
+        };
+        match adaptive {
+            Some(adaptive) => adaptive::sample_until_converged(adaptive, cap, self.change, next),
             None => adaptive::sample_all(cap, next),
         }
     }
 
     /// Radiance along one ray through a uniform point of the pixel.
     fn sample(&self, index: usize, sample: u32) -> DVec3 {
-        let mut random = Random::for_sample(self.settings.integrator.seed, index, sample);
-        let film = self.film_point(index, random.point());
-        self.integrator.radiance(&generate_ray(self.camera, film), &mut random)
+        let seed = random::seed(self.settings.integrator.seed, self.change);
+        let mut random = match self.change {
+            Change::SamePixelNoise => Random::for_sample(seed, 0, sample),
+            Change::SampleRepeated => Random::for_sample(seed, index, 0),
+            _ => Random::for_sample(seed, index, sample),
+        }
+        .changed(self.change);
+        let film = self.film_point(index, self.within_pixel(seed, index, sample, &mut random));
+        self.integrator.radiance(&generate_ray(self.camera, film, self.change), &mut random)
+    }
+
+    /// A uniform point of the unit square.
+    fn within_pixel(&self, seed: u64, index: usize, sample: u32, random: &mut Random) -> DVec2 {
+        let point = random.point();
+        match self.change {
+            Change::PixelCorner => DVec2::ZERO,
+            Change::HalfPixelAdded => point + 0.5,
+            Change::StratifiedPixels => {
+                let start = Random::for_sample(seed, index, u32::MAX).point();
+                (start + f64::from(sample) * EVEN_STEPS).fract()
+            }
+            _ => point,
+        }
     }
 
     /// Where on the film a point of the pixel lies. Rows run down the picture, the film runs up.
@@ -88,7 +128,12 @@ impl Picture<'_> {
         let corner = DVec2::new((index % width) as f64, (index / width) as f64);
         let size = DVec2::new(f64::from(self.settings.width), f64::from(self.settings.height));
         let from_top = (corner + within) / size;
-        DVec2::new(from_top.x, 1.0 - from_top.y)
+        let film = DVec2::new(from_top.x, 1.0 - from_top.y);
+        match self.change {
+            Change::PictureUpsideDown => from_top,
+            Change::HalfPixelBothWays => film - half_pixel(self.camera.film),
+            _ => film,
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 //! separate anything (all centroids in one place): then it answers 0 or all of them, and the
 //! builder halves the node instead.
 
+use super::change::Change;
 use crate::contract::Split;
 use crate::scene::Aabb;
 use glam::DVec3;
@@ -23,27 +24,28 @@ pub struct Item {
 const BINS: usize = 16;
 
 /// Reorders `items` by `rule`, and answers how many of them go left.
-pub fn partition(rule: Split, items: &mut [Item]) -> usize {
+pub fn partition(rule: Split, items: &mut [Item], change: Change) -> usize {
     match rule {
-        Split::Median => halve(items),
+        _ if change == Change::MedianSplit => halve(items, change),
+        Split::Median => halve(items, change),
         Split::MeanOfCentroids => {
             let mean = items.iter().map(|item| item.centroid).sum::<DVec3>() / items.len() as f64;
-            let axis = longest_axis(&centroid_bounds(items));
+            let axis = longest_axis(&centroid_bounds(items), change);
             partition_by(items, |item| item.centroid[axis] < mean[axis])
         }
         Split::Midpoint => {
             let bounds = centroid_bounds(items);
-            let axis = longest_axis(&bounds);
+            let axis = longest_axis(&bounds, change);
             let middle = (bounds.min[axis] + bounds.max[axis]) / 2.0;
             partition_by(items, |item| item.centroid[axis] < middle)
         }
-        Split::SurfaceArea | Split::CoresChoice => partition_by_surface_area(items),
+        Split::SurfaceArea | Split::CoresChoice => partition_by_surface_area(items, change),
     }
 }
 
 /// Equal counts along the longest axis: always separates.
-pub fn halve(items: &mut [Item]) -> usize {
-    let axis = longest_axis(&centroid_bounds(items));
+pub fn halve(items: &mut [Item], change: Change) -> usize {
+    let axis = longest_axis(&centroid_bounds(items), change);
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |a, b| a.centroid[axis].total_cmp(&b.centroid[axis]));
     middle
@@ -57,12 +59,18 @@ pub fn union(boxes: impl Iterator<Item = Aabb>) -> Aabb {
 /// The box that adds nothing to a union.
 const EMPTY: Aabb = Aabb { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
-fn centroid_bounds(items: &[Item]) -> Aabb {
+/// The box around all centroids.
+pub fn centroid_bounds(items: &[Item]) -> Aabb {
     union(items.iter().map(|item| Aabb { min: item.centroid, max: item.centroid }))
 }
 
-fn longest_axis(bounds: &Aabb) -> usize {
-    (bounds.max - bounds.min).max_position()
+fn longest_axis(bounds: &Aabb, change: Change) -> usize {
+    let extent = bounds.max - bounds.min;
+    match change {
+        Change::NeverSplitsZ => extent.truncate().max_position(),
+        Change::ShortestAxis => extent.min_position(),
+        _ => extent.max_position(),
+    }
 }
 
 /// Moves the items for which `goes_left` to the front, and counts them.
@@ -79,9 +87,17 @@ fn partition_by(items: &mut [Item], goes_left: impl Fn(&Item) -> bool) -> usize 
 
 /// The division whose children cost a random ray least: sum of count times surface area (MacDonald
 /// and Booth 1990), with planes between equal bins of each axis (Wald 2007).
-fn partition_by_surface_area(items: &mut [Item]) -> usize {
+fn partition_by_surface_area(items: &mut [Item], change: Change) -> usize {
     let bounds = centroid_bounds(items);
-    let planes = (0..3).flat_map(|axis| axis_planes(items, &bounds, axis));
+    let axes = match change {
+        Change::NeverSplitsZ => 0..2,
+        Change::ShortestAxis => {
+            let axis = longest_axis(&bounds, change);
+            axis..axis + 1
+        }
+        _ => 0..3,
+    };
+    let planes = axes.flat_map(|axis| axis_planes(items, &bounds, axis));
     let best = planes.min_by(|a, b| a.cost.total_cmp(&b.cost));
     best.map_or(0, |plane| {
         partition_by(items, |item| bin(item, &bounds, plane.axis) < plane.first_right_bin)
@@ -152,14 +168,15 @@ mod tests {
     #[test]
     fn each_rule_divides_where_its_name_says() {
         let places = [9.0, 0.0, 1.0, 2.0, 3.0, 10.0, 10.1, 10.2];
-        let left = RULES.map(|rule| partition(rule, &mut items_at(&places)));
+        let left = RULES.map(|rule| partition(rule, &mut items_at(&places), Change::None));
         // Mean 5.66 and middle 5.1 both separate the four that lie low; so does the emptiest gap.
         assert_eq!(left, [4, 4, 4, 4]);
         let skewed = [0.0, 1.0, 2.0, 3.0, 4.0, 100.0];
-        let left = RULES.map(|rule| partition(rule, &mut items_at(&skewed)));
+        let left = RULES.map(|rule| partition(rule, &mut items_at(&skewed), Change::None));
         assert_eq!(left, [3, 5, 5, 5]);
         let mean_is_not_middle = [0.0, 1.0, 4.0, 9.0];
-        let left = RULES.map(|rule| partition(rule, &mut items_at(&mean_is_not_middle)));
+        let left =
+            RULES.map(|rule| partition(rule, &mut items_at(&mean_is_not_middle), Change::None));
         assert_eq!(left[1..3], [2, 3]);
     }
 
@@ -167,7 +184,7 @@ mod tests {
     fn what_goes_left_lies_left() {
         for rule in RULES {
             let mut items = items_at(&[5.0, 3.0, 8.0, 1.0, 9.0, 2.0, 7.0]);
-            let left = partition(rule, &mut items);
+            let left = partition(rule, &mut items, Change::None);
             let (low, high) = items.split_at(left);
             let largest = low.iter().map(|item| item.centroid.y).fold(f64::MIN, f64::max);
             assert!(high.iter().all(|item| item.centroid.y >= largest), "{rule:?}");
@@ -177,9 +194,9 @@ mod tests {
     #[test]
     fn centroids_in_one_place_are_not_separated_but_halved() {
         for rule in [Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea] {
-            let left = partition(rule, &mut items_at(&[4.0; 10]));
+            let left = partition(rule, &mut items_at(&[4.0; 10]), Change::None);
             assert!(left == 0 || left == 10, "{rule:?}: {left}");
         }
-        assert_eq!(halve(&mut items_at(&[4.0; 10])), 5);
+        assert_eq!(halve(&mut items_at(&[4.0; 10]), Change::None), 5);
     }
 }

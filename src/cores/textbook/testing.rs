@@ -1,5 +1,6 @@
 //! Scenes of a few lines and means with their errors, for the tests of this core.
 
+use super::change::Change;
 use super::integrator::Integrator;
 use super::random::Random;
 use super::world::World;
@@ -74,7 +75,7 @@ impl Stage {
 
     /// The scene as rays see it.
     pub fn world(self) -> World {
-        World::new(&self.scene(), Acceleration::DEFAULT)
+        World::new(&self.scene(), Acceleration::DEFAULT, Change::None)
     }
 }
 

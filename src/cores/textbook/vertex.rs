@@ -1,6 +1,7 @@
 //! Points of a path, and the rays that leave them.
 
 use super::bvh::Form;
+use super::change::Change;
 use super::frame::Frame;
 use super::light::Lamp;
 use crate::contract::{Hit, Ray};
@@ -35,6 +36,10 @@ pub struct Vertex<'a> {
     pub light: Option<&'a Lamp>,
     /// Rays that leave the point start this far away.
     pub clearance: f64,
+    /// How far the path came from the point before.
+    pub travelled: f64,
+    /// What this copy of the core does otherwise.
+    pub change: Change,
 }
 
 /// Share of the largest length involved by which rays keep clear of the surface they leave: far
@@ -45,24 +50,39 @@ impl Vertex<'_> {
     /// The ray from here in the local direction `wi`.
     pub fn ray(&self, wi: DVec3) -> Ray {
         let direction = self.frame.to_world(wi);
-        Ray { t_min: self.clearance, ..Ray::new(self.point, direction) }
+        let ray = Ray { t_min: self.clearance, ..Ray::new(self.point, direction) };
+        match self.change {
+            Change::BounceRangeKept => Ray { t_max: self.travelled, ..ray },
+            _ => ray,
+        }
     }
 
     /// The ray to a point of a light `distance` away along the world direction `wi`. It stops short
     /// of the light, which would shadow itself.
     pub fn shadow_ray(&self, wi: DVec3, distance: f64) -> Ray {
-        let stop_short = self.clearance.max(CLEARANCE * distance);
-        let t_max = if distance.is_finite() { distance - stop_short } else { distance };
+        let stop_short = match self.change {
+            Change::LampShadowsItself => -self.clearance,
+            _ => self.clearance.max(CLEARANCE * distance),
+        };
+        let t_max = match self.change {
+            Change::ShadowWithoutEnd => f64::INFINITY,
+            _ if distance.is_finite() => distance - stop_short,
+            _ => distance,
+        };
         Ray { origin: self.point, t_min: self.clearance, direction: wi, t_max }
     }
 }
 
 /// How far rays must keep clear of the point at `t`: its error grows with where the ray began, how
 /// far it came, and the coordinates of what it hit.
-pub fn clearance(form: &Form, ray: &Ray, t: f64) -> f64 {
+pub fn clearance(form: &Form, ray: &Ray, t: f64, change: Change) -> f64 {
     let travelled = t * ray.direction;
     let longest = ray.origin.abs().max(travelled.abs()).max(form.reach());
-    CLEARANCE * longest.max_element()
+    match change {
+        Change::ShadowAcne => 0.0,
+        Change::LargerOffset => 1e4 * CLEARANCE * longest.max_element(),
+        _ => CLEARANCE * longest.max_element(),
+    }
 }
 
 /// The shading normal; but glass has an inside, and where the shading normal disagrees with the
@@ -101,7 +121,7 @@ mod tests {
             let View::Surface(vertex) = world.look(&Ray::new(origin, target - origin)) else {
                 continue;
             };
-            let wi = sampling::uniform_hemisphere(random.point());
+            let wi = sampling::uniform_hemisphere(random.point(), Change::None);
             let ray = vertex.ray(if vertex.wo.z < 0.0 { -wi } else { wi });
             let again = world.closest_hit(&ray, &mut TraversalStats::default());
             assert!(again.is_none_or(|hit| hit.t > 1e-6), "{ray:?} {again:?}");

@@ -1,6 +1,7 @@
 //! The scene as rays see it: primitives to hit, materials at the hits, lights.
 
 use super::bvh::{Bvh, Form, Primitive};
+use super::change::Change;
 use super::frame::Frame;
 use super::intersect::{Ball, Crossing, Triangle};
 use super::light::Lamp;
@@ -15,6 +16,7 @@ pub struct World {
     bvh: Bvh,
     shapes: Vec<Shape>,
     lights: Vec<Lamp>,
+    change: Change,
 }
 
 /// What all primitives of a shape share.
@@ -34,12 +36,19 @@ struct Shape {
 
 impl World {
     /// Takes the scene in.
-    pub fn new(scene: &SceneDescription, acceleration: Acceleration) -> Self {
+    pub fn new(scene: &SceneDescription, acceleration: Acceleration, change: Change) -> Self {
+        let lamp = |light| Lamp::new(light, scene, change);
         Self {
-            bvh: Bvh::new(primitives(scene), acceleration),
+            bvh: Bvh::new(primitives(scene), acceleration, change),
             shapes: (0..scene.shape_count() as u32).map(|n| Shape::new(scene, n)).collect(),
-            lights: scene.lights.iter().map(|light| Lamp::new(light, scene)).collect(),
+            lights: scene.lights.iter().map(lamp).collect(),
+            change,
         }
+    }
+
+    /// What this copy of the core does otherwise.
+    pub fn change(&self) -> Change {
+        self.change
     }
 
     /// The lights, by number.
@@ -85,17 +94,21 @@ impl World {
         let shape = &self.shapes[primitive.shape as usize];
         let normal = match &primitive.form {
             Form::Triangle(triangle) => triangle.normal(),
-            Form::Ball(ball) if shape.inward => -ball.outward_normal(ray.at(crossing.t)),
-            Form::Ball(ball) => ball.outward_normal(ray.at(crossing.t)),
+            Form::Ball(ball) if shape.inward => {
+                -ball.outward_normal(ray.at(crossing.t), self.change)
+            }
+            Form::Ball(ball) => ball.outward_normal(ray.at(crossing.t), self.change),
         };
-        Hit {
+        let interpolated = shape.shading_normal(primitive.number, crossing.uv, self.change);
+        let hit = Hit {
             t: crossing.t,
             shape: primitive.shape,
             primitive: primitive.number,
             geometric_normal: normal,
-            shading_normal: shape.shading_normal(primitive.number, crossing.uv).unwrap_or(normal),
+            shading_normal: interpolated.unwrap_or(normal),
             uv: crossing.uv,
-        }
+        };
+        turned(hit, ray, self.change)
     }
 
     fn vertex(&self, primitive: &Primitive, ray: &Ray, hit: Hit, to_viewer: DVec3) -> Vertex<'_> {
@@ -107,9 +120,11 @@ impl World {
             wo: frame.to_local(to_viewer),
             frame,
             surface: &shape.surface,
-            emitted: shape.emitted(&primitive.form, &hit, ray, to_viewer),
+            emitted: shape.emitted(&primitive.form, &hit, ray, to_viewer, self.change),
             light: shape.light.map(|light| &self.lights[light]),
-            clearance: clearance(&primitive.form, ray, hit.t),
+            clearance: clearance(&primitive.form, ray, hit.t, self.change),
+            travelled: hit.t,
+            change: self.change,
         }
     }
 }
@@ -135,17 +150,24 @@ impl Shape {
 
     /// The normals of the vertices, weighted like their positions; `None` for flat faces and
     /// spheres.
-    fn shading_normal(&self, triangle: u32, uv: DVec2) -> Option<DVec3> {
+    fn shading_normal(&self, triangle: u32, uv: DVec2, change: Change) -> Option<DVec3> {
         let corners = self.indices.get(triangle as usize)?;
-        interpolate_normal(corners.map(|corner| self.normals[corner as usize]), uv)
+        interpolate_normal(corners.map(|corner| self.normals[corner as usize]), uv, change)
     }
 
     /// Radiance that leaves the hit towards the viewer: from the front alone.
-    fn emitted(&self, form: &Form, hit: &Hit, ray: &Ray, to_viewer: DVec3) -> DVec3 {
+    fn emitted(
+        &self,
+        form: &Form,
+        hit: &Hit,
+        ray: &Ray,
+        to_viewer: DVec3,
+        change: Change,
+    ) -> DVec3 {
+        let is_lit =
+            is_front(hit.geometric_normal, to_viewer) || change == Change::TwoSidedEmission;
         match &self.emission {
-            Some(emission) if is_front(hit.geometric_normal, to_viewer) => {
-                emitted_at(emission, form, ray.at(hit.t)).into()
-            }
+            Some(emission) if is_lit => emitted_at(emission, form, ray.at(hit.t)).into(),
             _ => DVec3::ZERO,
         }
     }
@@ -157,38 +179,56 @@ fn is_front(normal: DVec3, to_viewer: DVec3) -> bool {
 
 fn emitted_at(emission: &Emission, form: &Form, point: DVec3) -> Rgb {
     match form {
-        Form::Ball(ball) => emission.at_sphere_point(ball.outward_normal(point)),
+        Form::Ball(ball) => emission.at_sphere_point(ball.outward_normal(point, Change::None)),
         Form::Triangle(_) => emission.radiance,
     }
 }
 
 /// Barycentric interpolation: `uv` are the weights of vertices 1 and 2.
-fn interpolate_normal([n0, n1, n2]: [DVec3; 3], uv: DVec2) -> Option<DVec3> {
-    ((1.0 - uv.x - uv.y) * n0 + uv.x * n1 + uv.y * n2).try_normalize()
+fn interpolate_normal([n0, n1, n2]: [DVec3; 3], uv: DVec2, change: Change) -> Option<DVec3> {
+    let normal = match change {
+        Change::NormalsSwapped => (1.0 - uv.x - uv.y) * n0 + uv.y * n1 + uv.x * n2,
+        _ => (1.0 - uv.x - uv.y) * n0 + uv.x * n1 + uv.y * n2,
+    };
+    match change {
+        Change::FlatShading => None,
+        Change::NormalNotNormalised => Some(normal),
+        _ => normal.try_normalize(),
+    }
+}
+
+/// Normals stay on their side, wherever the ray comes from.
+fn turned(hit: Hit, ray: &Ray, change: Change) -> Hit {
+    let is_from_behind = hit.geometric_normal.dot(ray.direction) > 0.0;
+    if change != Change::NormalsFaceRay || !is_from_behind {
+        return hit;
+    }
+    Hit { geometric_normal: -hit.geometric_normal, shading_normal: -hit.shading_normal, ..hit }
 }
 
 /// The hit of `ray` with a single primitive that belongs to no scene.
-pub fn hit_alone(primitive: &contract::Primitive, ray: &Ray) -> Option<Hit> {
+pub fn hit_alone(primitive: &contract::Primitive, ray: &Ray, change: Change) -> Option<Hit> {
     let (crossing, normal, shading_normal) = match *primitive {
         contract::Primitive::Triangle { positions, normals } => {
             let triangle = Triangle::new(positions)?;
-            let crossing = triangle.intersect(ray)?;
-            (crossing, triangle.normal(), interpolate_normal(normals, crossing.uv))
+            let crossing = triangle.intersect(ray, change)?;
+            (crossing, triangle.normal(), interpolate_normal(normals, crossing.uv, change))
         }
         contract::Primitive::Sphere { centre, radius } => {
             let ball = Ball::new(centre, radius)?;
-            let crossing = ball.intersect(ray)?;
-            (crossing, ball.outward_normal(ray.at(crossing.t)), None)
+            let crossing = ball.intersect(ray, change)?;
+            (crossing, ball.outward_normal(ray.at(crossing.t), change), None)
         }
     };
-    Some(Hit {
+    let hit = Hit {
         t: crossing.t,
         shape: 0,
         primitive: 0,
         geometric_normal: normal,
         shading_normal: shading_normal.unwrap_or(normal),
         uv: crossing.uv,
-    })
+    };
+    Some(turned(hit, ray, change))
 }
 
 /// Everything that can be hit, each with its number in its shape.
@@ -247,7 +287,7 @@ mod tests {
             normals: [mesh.normals[0], mesh.normals[1], mesh.normals[2]],
         };
         let ray = Ray::new(DVec3::new(0.2, 0.3, 1.0), DVec3::NEG_Z);
-        let alone = hit_alone(&alone, &ray).expect("aimed at it");
+        let alone = hit_alone(&alone, &ray, Change::None).expect("aimed at it");
         assert_eq!(alone.shading_normal, hit.shading_normal);
     }
 

@@ -1,6 +1,7 @@
 //! Light scattered many times: furnaces, cavities, mirrors and glass.
 
 use crate::contract::{DirectSampling, IntegratorSettings, Ray, Roulette};
+use crate::cores::textbook::change::Change;
 use crate::cores::textbook::testing::{Estimate, Stage, clear_glass, diffuse, grey, looks};
 use crate::cores::textbook::world::World;
 use crate::scene::{Light, Surface};
@@ -233,7 +234,7 @@ fn colours_keep_to_their_channels() {
     let mut scene = Stage::empty().room(1.0, diffuse(0.0).glowing(0.0)).scene();
     scene.materials[0].surface = Surface::Diffuse { reflectance };
     scene.materials[0].emission.as_mut().expect("it glows").radiance = [0.7, 0.5, 0.3];
-    let world = World::new(&scene, crate::contract::Acceleration::DEFAULT);
+    let world = World::new(&scene, crate::contract::Acceleration::DEFAULT, Change::None);
     let settings = settings(2..=2, BOTH[0]);
     let integrator = crate::cores::textbook::integrator::Integrator::new(&world, &settings);
     let mut random = crate::cores::textbook::random::Random::for_ray(0, 0);

@@ -1,0 +1,135 @@
+//! `furnace faults`: the bench put to the test.
+
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::case;
+use crate::cores::textbook::{different::Different, fault::Fault};
+use crate::faults::{Matrix, Spared, Tried, select_different, select_faults};
+use crate::stats::Budget;
+use clap::Args;
+use serde::Serialize;
+
+/// Width of the columns of names.
+const NAME: usize = 34;
+
+/// What `furnace faults` understands.
+#[derive(Clone, Debug, Args)]
+pub struct FaultsArguments {
+    /// Which faults: parts of their names, or the number of a part of the course. All without.
+    filters: Vec<String>,
+    /// How small an error each case looks for.
+    #[arg(long, default_value_t = Budget::Quick)]
+    budget: Budget,
+    /// Trials at the same time [default: one a hardware thread].
+    #[arg(short, long, default_value_t = 0, hide_default_value = true)]
+    jobs: usize,
+    /// One JSON document in place of the table.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    project: ProjectArguments,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Document {
+    faults: Vec<Tried>,
+    different: Vec<Spared>,
+}
+
+/// Puts every selected fault, and every core that is right but different, to the cases.
+pub fn faults(arguments: &FaultsArguments) -> Answer {
+    let project = arguments.project.find()?;
+    let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
+    let matrix = Matrix::new(project, &cases, arguments.budget, arguments.jobs);
+    let (faults, different) =
+        (select_faults(&arguments.filters), select_different(&arguments.filters));
+    if faults.is_empty() && different.is_empty() {
+        let message = format!("no fault is called {}", arguments.filters.join(" "));
+        return Err(Failure { code: ExitCode::NothingSelected, message });
+    }
+    let document = Document {
+        faults: try_faults(&matrix, &faults, arguments.json),
+        different: try_different(&matrix, &different, arguments.json),
+    };
+    let is_good = document.faults.iter().all(Tried::is_good)
+        && document.different.iter().all(Spared::is_good);
+    if arguments.json {
+        println!("{}", serde_json::to_string_pretty(&document).map_err(Failure::broken)?);
+    } else {
+        println!("{}", summary(&document));
+    }
+    Ok(if is_good { ExitCode::Good } else { ExitCode::Failed })
+}
+
+/// Rows appear as they come: the table is its own progress.
+fn try_faults(matrix: &Matrix, faults: &[&'static Fault], json: bool) -> Vec<Tried> {
+    if !json && !faults.is_empty() {
+        println!("{:NAME$} part  caught  named  seconds  by", "fault");
+    }
+    let tried = |fault: &&'static Fault| {
+        let tried = matrix.try_fault(fault);
+        if !json {
+            println!("{}", fault_row(&tried, fault));
+        }
+        tried
+    };
+    faults.iter().map(tried).collect()
+}
+
+fn try_different(matrix: &Matrix, cores: &[&'static Different], json: bool) -> Vec<Spared> {
+    if !json && !cores.is_empty() {
+        println!("\n{:NAME$} spared  seconds  by", "right but different");
+    }
+    let spared = |core: &&'static Different| {
+        let spared = matrix.try_different(core);
+        if !json {
+            println!("{}", different_row(&spared));
+        }
+        spared
+    };
+    cores.iter().map(spared).collect()
+}
+
+fn fault_row(tried: &Tried, fault: &Fault) -> String {
+    let by = match tried.by.as_slice() {
+        [] => "nothing".to_owned(),
+        [only] => only.clone(),
+        [first, rest @ ..] => format!("{first} and {} more", rest.len()),
+    };
+    let told = match tried.told {
+        _ if tried.named => String::new(),
+        Some(told) => format!("; told as {told}, not {}", fault.cause.name),
+        None => format!("; not told, {} is meant", fault.cause.name),
+    };
+    let wanted = if tried.caught { "" } else { fault.caught_by };
+    let missing = if wanted.is_empty() { String::new() } else { format!("; not by {wanted}") };
+    format!(
+        "{:NAME$} {:<5} {:<7} {:<6} {:>7.1}  {by}{missing}{told}",
+        tried.name,
+        tried.part,
+        yes(tried.caught),
+        yes(tried.named),
+        tried.seconds
+    )
+}
+
+fn different_row(spared: &Spared) -> String {
+    let by = spared.statements.join("; ");
+    format!("{:NAME$} {:<7} {:>7.1}  {by}", spared.name, yes(spared.is_good()), spared.seconds)
+}
+
+const fn yes(is_so: bool) -> &'static str {
+    if is_so { "yes" } else { "NO" }
+}
+
+fn summary(document: &Document) -> String {
+    let (faults, different) = (&document.faults, &document.different);
+    let caught = faults.iter().filter(|tried| tried.caught).count();
+    let named = faults.iter().filter(|tried| tried.is_good()).count();
+    let spared = different.iter().filter(|core| core.is_good()).count();
+    format!(
+        "\n{caught} of {} faults are caught, {named} of them named; {spared} of {} right cores are spared",
+        faults.len(),
+        different.len()
+    )
+}

@@ -1,0 +1,156 @@
+//! Part 5: adaptive sampling and random numbers.
+
+use super::Fault;
+use crate::cause::{adaptive, seed};
+use crate::cores::textbook::change::Change;
+
+const STREAMS: &str = "sampling/streams-stop-where-the-rule-says";
+const NOISY: &str = "sampling/noisy-pixels-take-more-samples";
+
+/// In the order of the lecture.
+pub const FAULTS: &[Fault] = &[
+    Fault {
+        change: Change::PopulationVariance,
+        name: "population-variance",
+        part: 5,
+        summary: "the variance is divided by n",
+        caught_by: STREAMS,
+        cause: &adaptive::POPULATION_VARIANCE,
+    },
+    Fault {
+        change: Change::SigmaOverN,
+        name: "sigma-over-n",
+        part: 5,
+        summary: "1.96 σ/n",
+        caught_by: STREAMS,
+        cause: &adaptive::SIGMA_OVER_N,
+    },
+    Fault {
+        change: Change::Without196,
+        name: "without-1-96",
+        part: 5,
+        summary: "σ/√n",
+        caught_by: STREAMS,
+        cause: &adaptive::WITHOUT_1_96,
+    },
+    Fault {
+        change: Change::VarianceForSigma,
+        name: "variance-for-sigma",
+        part: 5,
+        summary: "σ² for σ",
+        caught_by: STREAMS,
+        cause: &adaptive::VARIANCE_FOR_SIGMA,
+    },
+    Fault {
+        change: Change::ToleranceAbsolute,
+        name: "tolerance-absolute",
+        part: 5,
+        summary: "the tolerance is not multiplied by the mean",
+        caught_by: STREAMS,
+        cause: &adaptive::TOLERANCE_ABSOLUTE,
+    },
+    Fault {
+        change: Change::CountOneShort,
+        name: "count-one-short",
+        part: 5,
+        summary: "n is incremented after the test",
+        caught_by: STREAMS,
+        cause: &adaptive::COUNT_ONE_SHORT,
+    },
+    Fault {
+        change: Change::LooksAfterEverySample,
+        name: "looks-after-every-sample",
+        part: 5,
+        summary: "the rule is applied after every sample",
+        caught_by: STREAMS,
+        cause: &adaptive::LOOKS_AFTER_EVERY_SAMPLE,
+    },
+    Fault {
+        change: Change::BatchIgnored,
+        name: "batch-ignored",
+        part: 5,
+        summary: "the batch is 32, whatever -a says",
+        caught_by: STREAMS,
+        cause: &adaptive::BATCH_IGNORED,
+    },
+    Fault {
+        change: Change::RestOfBatchDropped,
+        name: "rest-of-batch-dropped",
+        part: 5,
+        summary: "the loop runs over whole batches only",
+        caught_by: STREAMS,
+        cause: &adaptive::REST_OF_BATCH_DROPPED,
+    },
+    Fault {
+        change: Change::DividedByCap,
+        name: "divided-by-cap",
+        part: 5,
+        summary: "the sum is divided by ns_aa after an early stop",
+        caught_by: STREAMS,
+        cause: &adaptive::DIVIDED_BY_CAP,
+    },
+    Fault {
+        change: Change::DividedByOneMore,
+        name: "divided-by-one-more",
+        part: 5,
+        summary: "the loop's counter is one past the samples",
+        caught_by: STREAMS,
+        cause: &adaptive::DIVIDED_BY_ONE_MORE,
+    },
+    Fault {
+        change: Change::CountsAreCap,
+        name: "counts-are-cap",
+        part: 5,
+        summary: "sampleCountBuffer says ns_aa everywhere",
+        caught_by: NOISY,
+        cause: &adaptive::COUNTS_ARE_CAP,
+    },
+    Fault {
+        change: Change::CountWithoutLastBatch,
+        name: "count-without-last-batch",
+        part: 5,
+        summary: "sampleCountBuffer says n − batch",
+        caught_by: STREAMS,
+        cause: &adaptive::LAST_BATCH_NOT_COUNTED,
+    },
+    Fault {
+        change: Change::AdaptiveAlways,
+        name: "adaptive-always",
+        part: 5,
+        summary: "adaptive sampling is on by default",
+        caught_by: "camera/equal-samples-make-equal-pixels",
+        cause: &adaptive::ADAPTIVE_ALWAYS,
+    },
+    Fault {
+        change: Change::SeedIgnored,
+        name: "seed-ignored",
+        part: 5,
+        summary: "the generator has a fixed seed",
+        caught_by: "integrator/different-seeds-give-different-noise",
+        cause: &seed::SEED_IGNORED,
+    },
+    Fault {
+        change: Change::SeedOfClock,
+        name: "seed-of-clock",
+        part: 5,
+        summary: "the generator is seeded by the clock",
+        caught_by: "integrator/the-same-seed-gives-the-same-picture",
+        cause: &seed::NOT_REPRODUCIBLE,
+    },
+    Fault {
+        change: Change::SamePixelNoise,
+        name: "same-pixel-noise",
+        part: 5,
+        summary: "every pixel seeds the same stream",
+        caught_by: "integrator/different-seeds-give-different-noise",
+        cause: &seed::PIXELS_SHARE_NOISE,
+    },
+    Fault {
+        change: Change::SampleRepeated,
+        name: "sample-repeated",
+        part: 5,
+        summary: "every sample of a pixel seeds the same stream",
+        caught_by: "integrator/error-falls-as-one-over-the-root-of-samples",
+        cause: &seed::SAMPLES_REPEAT,
+    },
+];

@@ -1,0 +1,211 @@
+//! The matrix: every planted fault has to fail the case that is named for it and to be told by its cause; cores that
+//! are right but different have to fail nothing.
+//!
+//! Pictures against references are left out: a mistake that only a picture shows is one that nobody is told of.
+
+use crate::case::{Case, Part};
+use crate::cores::CoreSpec;
+use crate::cores::textbook::different::{DIFFERENT, Different};
+use crate::cores::textbook::fault::{self, Fault};
+use crate::diagnosis::Diagnosis;
+use crate::math::rng::Seed;
+use crate::project::Project;
+use crate::run::record::CoreRecord;
+use crate::run::{Outcome, Plan, Request, TrialRecord, diagnose, run_in_memory};
+use crate::stats::Budget;
+use serde::Serialize;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What changed cores are put to.
+#[derive(Clone, Debug)]
+pub struct Matrix {
+    /// Where scenes are.
+    pub project: Project,
+    /// The cases, pictures against references left out.
+    cases: Vec<Arc<Case>>,
+    /// How much each case may spend.
+    pub budget: Budget,
+    /// Trials at the same time; 0 means one a hardware thread.
+    pub jobs: usize,
+}
+
+/// What came of a fault.
+#[derive(Clone, Debug, Serialize)]
+pub struct Tried {
+    /// The fault.
+    pub name: &'static str,
+    /// Of the course.
+    pub part: u32,
+    /// Whether the case that is named for it failed.
+    pub caught: bool,
+    /// Whether its cause is what the diagnosis says first.
+    pub named: bool,
+    /// The cases that failed, the one named for it in front.
+    pub by: Vec<String>,
+    /// What the diagnosis says first.
+    pub told: Option<&'static str>,
+    /// Wall time.
+    pub seconds: f64,
+}
+
+/// What came of a core that is right.
+#[derive(Clone, Debug, Serialize)]
+pub struct Spared {
+    /// The choice.
+    pub name: &'static str,
+    /// The cases that failed it, or could not decide.
+    pub by: Vec<String>,
+    /// The same with what they say.
+    pub statements: Vec<String>,
+    /// Wall time.
+    pub seconds: f64,
+}
+
+impl Tried {
+    /// Whether nothing is left to wish for.
+    pub fn is_good(&self) -> bool {
+        self.caught && self.named
+    }
+}
+
+impl Spared {
+    /// Whether no case has anything against it.
+    pub fn is_good(&self) -> bool {
+        self.by.is_empty()
+    }
+}
+
+/// The faults whose names contain one of the words, or whose part is one of them; all without words.
+pub fn select_faults(words: &[String]) -> Vec<&'static Fault> {
+    let is_wanted = |fault: &&Fault| selects(words, fault.name, Some(fault.part));
+    fault::all().filter(is_wanted).collect()
+}
+
+/// The right but different cores whose names contain one of the words; all without words.
+pub fn select_different(words: &[String]) -> Vec<&'static Different> {
+    DIFFERENT.iter().filter(|core| selects(words, core.name, None)).collect()
+}
+
+fn selects(words: &[String], name: &str, part: Option<u32>) -> bool {
+    let is_meant = |word: &String| match word.parse() {
+        Ok(number) => part == Some(number),
+        Err(_) => name.contains(word.as_str()),
+    };
+    words.is_empty() || words.iter().any(is_meant)
+}
+
+impl Matrix {
+    /// Puts changed cores to `cases`.
+    pub fn new(project: Project, cases: &[Arc<Case>], budget: Budget, jobs: usize) -> Self {
+        let is_picture = |case: &Arc<Case>| case.part().is_some_and(is_of_pictures);
+        let cases = cases.iter().filter(|case| !is_picture(case)).cloned().collect();
+        Self { project, cases, budget, jobs }
+    }
+
+    /// The same with only the cases that are asked for.
+    pub fn with_cases(&self, wanted: impl Fn(&Case) -> bool) -> Self {
+        let cases = self.cases.iter().filter(|case| wanted(case)).cloned().collect();
+        Self { cases, ..self.clone() }
+    }
+
+    /// The cases of the same folder and the same check as the one named for the fault: what its diagnosis needs.
+    pub fn around(&self, fault: &Fault) -> Self {
+        let folder = |case: &str| case.split('/').next().map(str::to_owned);
+        let named = self.cases.iter().find(|case| case.id == fault.caught_by);
+        let check = named.map(|case| case.check.name);
+        self.with_cases(|case| {
+            Some(case.check.name) == check && folder(&case.id) == folder(fault.caught_by)
+        })
+    }
+
+    /// Puts a fault to the cases.
+    pub fn try_fault(&self, fault: &Fault) -> Tried {
+        let clock = Instant::now();
+        let records = self.records(fault.name);
+        let mut by: Vec<_> = failures(&records).map(|record| record.case.clone()).collect();
+        by.sort_by_key(|case| case != fault.caught_by);
+        let told = self.diagnosis(fault.name, &records).first();
+        Tried {
+            name: fault.name,
+            part: fault.part,
+            caught: by.iter().any(|case| case == fault.caught_by),
+            named: told == Some(fault.cause),
+            by,
+            told: told.map(|cause| cause.name),
+            seconds: clock.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// Puts a core that is right to the cases.
+    pub fn try_different(&self, core: &Different) -> Spared {
+        let clock = Instant::now();
+        let records = self.records(core.name);
+        let against = || records.iter().filter(|record| !is_content(&record.outcome));
+        let statement = |r: &TrialRecord| format!("{}: {}", r.case, r.outcome.statement());
+        Spared {
+            name: core.name,
+            by: against().map(|record| record.case.clone()).collect(),
+            statements: against().map(statement).collect(),
+            seconds: clock.elapsed().as_secs_f64(),
+        }
+    }
+
+    fn records(&self, change: &str) -> Vec<TrialRecord> {
+        let request = Request {
+            cores: vec![core(change)],
+            filters: Vec::new(),
+            budget: self.budget,
+            seed: Seed::SUITE,
+            jobs: self.jobs,
+            fail_fast: false,
+        };
+        run_in_memory(&Plan::new(self.project.clone(), request, &self.cases))
+    }
+
+    fn diagnosis(&self, change: &str, records: &[TrialRecord]) -> Diagnosis {
+        let spec = core(change);
+        diagnose(&CoreRecord::new(spec.as_str(), &spec.make().info()), records)
+    }
+}
+
+fn is_of_pictures(part: &'static Part) -> bool {
+    part.folders.contains(&"images")
+}
+
+/// # Panics
+/// Never: every change is a core.
+fn core(change: &str) -> CoreSpec {
+    format!("textbook:{change}").parse().expect("every change is a core")
+}
+
+fn failures(records: &[TrialRecord]) -> impl Iterator<Item = &TrialRecord> {
+    records.iter().filter(|record| record.outcome.status().is_failure())
+}
+
+/// Passed, or not asked for what the core does not do.
+fn is_content(outcome: &Outcome) -> bool {
+    use crate::run::Status;
+    matches!(outcome.status(), Status::Pass | Status::Skipped)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(words: &[&str]) -> Vec<String> {
+        words.iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn faults_are_selected_by_part_of_their_name_and_by_part_of_the_course() {
+        let names = |given: &[&str]| -> Vec<_> {
+            select_faults(&words(given)).iter().map(|fault| fault.name).collect()
+        };
+        assert_eq!(names(&["brdf-without-pi"]), ["brdf-without-pi"]);
+        assert!(names(&["2"]).contains(&"second-child-skipped"));
+        assert!(!names(&["2"]).contains(&"brdf-without-pi"));
+        assert!(names(&[]).len() > 75);
+        assert!(select_different(&words(&["schlick"])).len() == 1);
+    }
+}

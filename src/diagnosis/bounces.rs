@@ -10,6 +10,7 @@ use super::{Evidence, Suspicion};
 use crate::cause::{Cause, transport};
 use crate::checks::Finding;
 use crate::math::ratios::names_of;
+use std::f64::consts::PI;
 
 /// The furnaces whose bounces are told one by one.
 const FURNACES: [&str; 2] = [
@@ -29,10 +30,16 @@ struct Channel {
     emission: f64,
     albedo: f64,
     /// Luminance of the three albedos.
-    grey: f64,
+    luminance: f64,
+    /// Their mean.
+    mean: f64,
 }
 
 impl Channel {
+    fn of(emission: f64, albedo: f64, all: [f64; 3]) -> Self {
+        let luminance = 0.2126 * all[0] + 0.7152 * all[1] + 0.0722 * all[2];
+        Self { emission, albedo, luminance, mean: all.iter().sum::<f64>() / 3.0 }
+    }
     /// Light that was scattered `bounce` times.
     fn bounce(&self, bounce: u32) -> f64 {
         self.emission * self.albedo.powi(bounce.cast_signed())
@@ -49,6 +56,23 @@ struct Law {
     cause: &'static Cause,
     words: &'static str,
     predict: fn(&Channel, [u32; 2]) -> f64,
+    /// What it makes of light that is scattered once, over what is right.
+    direct: f64,
+}
+
+impl Law {
+    const fn new(
+        cause: &'static Cause,
+        words: &'static str,
+        predict: fn(&Channel, [u32; 2]) -> f64,
+    ) -> Self {
+        Self { cause, words, predict, direct: 1.0 }
+    }
+
+    /// A law that direct light shows too.
+    const fn with_direct(self, direct: f64) -> Self {
+        Self { direct, ..self }
+    }
 }
 
 /// Indirect bounces: those that need the path to go on.
@@ -56,94 +80,146 @@ fn indirect(bounce: u32) -> i32 {
     bounce.saturating_sub(1).cast_signed()
 }
 
+/// What a bounce is multiplied by if it is weighted with f cos θ · pdf, cosine-distributed: the integral of
+/// cos³ θ/π³ over the hemisphere.
+const TIMES_PDF: f64 = 1.0 / (2.0 * PI * PI);
+
 static LAWS: &[Law] = &[
-    Law {
-        cause: &transport::ONE_BOUNCE_SHORT,
-        words: "bounce k holds what belongs to bounce k − 1, and sums end one bounce early",
-        predict: |c, [first, last]| match (first, last) {
+    Law::new(
+        &transport::ONE_BOUNCE_SHORT,
+        "bounce k holds what belongs to bounce k − 1, and sums end one bounce early",
+        |c, [first, last]| match (first, last) {
             (0, last) => c.sum([0, last.saturating_sub(1)], |_| 1.0),
             (first, last) => c.sum([first - 1, last - 1], |_| 1.0),
         },
-    },
-    Law {
-        cause: &transport::ONE_BOUNCE_SHORT,
-        words: "the last bounce asked for is missing",
-        predict: |c, [first, last]| match last {
-            0 => c.bounce(0),
-            1 => c.sum([first, last], |_| 1.0),
+    )
+    .with_direct(0.0),
+    Law::new(
+        &transport::ONE_BOUNCE_SHORT,
+        "the last bounce asked for is missing, from the second on",
+        |c, [first, last]| match last {
+            0 | 1 => c.sum([first, last], |_| 1.0),
             last => c.sum([first, last - 1], |_| 1.0),
         },
-    },
-    Law {
-        cause: &transport::ONE_BOUNCE_LONG,
-        words: "bounce k holds what belongs to bounce k + 1",
-        predict: |c, [first, last]| match (first, last) {
+    ),
+    Law::new(
+        &transport::ONE_BOUNCE_SHORT,
+        "the last bounce asked for is missing",
+        |c, [first, last]| match last {
+            0 => c.bounce(0),
+            last => c.sum([first, last - 1], |_| 1.0),
+        },
+    )
+    .with_direct(0.0),
+    Law::new(
+        &transport::ONE_BOUNCE_LONG,
+        "bounce k holds what belongs to bounce k + 1",
+        |c, [first, last]| match (first, last) {
             (0, 0) => c.bounce(0),
             (0, last) => c.sum([0, last + 1], |_| 1.0),
             (first, last) => c.sum([first + 1, last + 1], |_| 1.0),
         },
-    },
-    Law {
-        cause: &transport::ONE_BOUNCE_LONG,
-        words: "every sum holds one bounce more than was asked for",
-        predict: |c, [first, last]| {
+    ),
+    Law::new(
+        &transport::ONE_BOUNCE_LONG,
+        "every sum holds one bounce more than was asked for",
+        |c, [first, last]| {
             if last == 0 { c.bounce(0) } else { c.sum([first, last + 1], |_| 1.0) }
         },
-    },
-    Law {
-        cause: &transport::ALBEDO_TWICE,
-        words: "indirect bounce k is albedo^(k−1) of what it should be, in the colours of the surface",
-        predict: |c, rows| c.sum(rows, |bounce| c.albedo.powi(indirect(bounce))),
-    },
-    Law {
-        cause: &transport::ALBEDO_FORGOTTEN,
-        words: "indirect bounce k is 1/albedo^(k−1) of what it should be, in the colours of the surface",
-        predict: |c, rows| c.sum(rows, |bounce| c.albedo.powi(-indirect(bounce))),
-    },
-    Law {
-        cause: &transport::GREY_THROUGHPUT,
-        words: "indirect bounce k is (luminance/albedo)^(k−1) of what it should be",
-        predict: |c, rows| c.sum(rows, |bounce| (c.grey / c.albedo).powi(indirect(bounce))),
-    },
-    Law {
-        cause: &transport::EMISSION_AGAIN,
-        words: "every bounce is there twice",
-        predict: |c, rows| c.sum(rows, |bounce| if bounce == 0 { 1.0 } else { 2.0 }),
-    },
-    Law {
-        cause: &transport::EMISSION_AGAIN,
-        words: "every bounce from the second on is there twice",
-        predict: |c, rows| c.sum(rows, |bounce| if bounce < 2 { 1.0 } else { 2.0 }),
-    },
-    Law {
-        cause: &transport::EMISSION_AGAIN,
-        words: "every bounce but the last of a sum is there twice",
-        predict: |c, [first, last]| {
+    ),
+    Law::new(
+        &transport::DEPTH_IGNORED,
+        "whatever bounce is the last asked for, all later ones are there too",
+        |c, [first, _]| c.sum([first, LAST], |_| 1.0),
+    ),
+    Law::new(
+        &transport::ZERO_DEPTH_LIT,
+        "bounce 0 holds bounce 1 too, and bounce 1 alone is empty",
+        |c, bounces| match bounces {
+            [0, last] => c.sum([0, last.max(1)], |_| 1.0),
+            [1, 1] => 0.0,
+            rows => c.sum(rows, |_| 1.0),
+        },
+    )
+    .with_direct(0.0),
+    Law::new(&transport::ZERO_DEPTH_LIT, "bounce 0 holds bounce 1 too", |c, [first, last]| {
+        c.sum([first, if first == 0 { last.max(1) } else { last }], |_| 1.0)
+    }),
+    Law::new(
+        &transport::ISOLATION_IGNORED,
+        "bounce k holds all bounces up to k",
+        |c, [_, last]| c.sum([0, last], |_| 1.0),
+    ),
+    Law::new(
+        &transport::ISOLATION_IGNORED,
+        "bounce k holds all bounces from 1 to k",
+        |c, [first, last]| c.sum([first.min(1), last], |_| 1.0),
+    ),
+    Law::new(
+        &transport::ALBEDO_TWICE,
+        "indirect bounce k is albedo^(k−1) of what it should be, in the colours of the surface",
+        |c, rows| c.sum(rows, |bounce| c.albedo.powi(indirect(bounce))),
+    ),
+    Law::new(
+        &transport::ALBEDO_FORGOTTEN,
+        "indirect bounce k is 1/albedo^(k−1) of what it should be, in the colours of the surface",
+        |c, rows| c.sum(rows, |bounce| c.albedo.powi(-indirect(bounce))),
+    ),
+    Law::new(
+        &transport::WEIGHT_REPLACED,
+        "from bounce 3 on there is albedo² of what glows",
+        |c, rows| c.sum(rows, |bounce| c.albedo.powi(-indirect(bounce.saturating_sub(1)))),
+    ),
+    Law::new(
+        &transport::GREY_THROUGHPUT,
+        "indirect bounce k is (luminance/albedo)^(k−1) of what it should be",
+        |c, rows| c.sum(rows, |bounce| (c.luminance / c.albedo).powi(indirect(bounce))),
+    ),
+    Law::new(
+        &transport::GREY_THROUGHPUT,
+        "indirect bounce k is (mean albedo/albedo)^(k−1) of what it should be",
+        |c, rows| c.sum(rows, |bounce| (c.mean / c.albedo).powi(indirect(bounce))),
+    ),
+    Law::new(&transport::EMISSION_AGAIN, "every bounce is there twice", |c, rows| {
+        c.sum(rows, |bounce| if bounce == 0 { 1.0 } else { 2.0 })
+    })
+    .with_direct(2.0),
+    Law::new(
+        &transport::EMISSION_AGAIN,
+        "every bounce from the second on is there twice",
+        |c, rows| c.sum(rows, |bounce| if bounce < 2 { 1.0 } else { 2.0 }),
+    ),
+    Law::new(
+        &transport::EMISSION_AGAIN,
+        "every bounce but the last of a sum is there twice",
+        |c, [first, last]| {
             c.sum([first, last], |bounce| if bounce == 0 || bounce == last { 1.0 } else { 2.0 })
         },
-    },
-    Law {
-        cause: &transport::NO_INDIRECT,
-        words: "from bounce 2 on there is nothing",
-        predict: |c, rows| c.sum(rows, |bounce| if bounce < 2 { 1.0 } else { 0.0 }),
-    },
-    Law {
-        cause: &transport::INDIRECT_FOUR_THIRDS,
-        words: "indirect bounce k is (4/3)^(k−1) of what it should be",
-        predict: |c, rows| c.sum(rows, |bounce| (4.0_f64 / 3.0).powi(indirect(bounce))),
-    },
-    Law {
-        cause: &transport::EMISSION_LOST,
-        words: "sums lack bounce 0",
-        predict: |c, [first, last]| {
-            if first == last { c.bounce(first) } else { c.sum([first.max(1), last], |_| 1.0) }
-        },
-    },
-    Law {
-        cause: &transport::LAST_BOUNCE_ONLY,
-        words: "sums are their last bounce alone",
-        predict: |c, [_, last]| c.bounce(last),
-    },
+    ),
+    Law::new(&transport::NO_INDIRECT, "from bounce 2 on there is nothing", |c, rows| {
+        c.sum(rows, |bounce| if bounce < 2 { 1.0 } else { 0.0 })
+    }),
+    Law::new(
+        &transport::INDIRECT_FOUR_THIRDS,
+        "indirect bounce k is (4/3)^(k−1) of what it should be",
+        |c, rows| c.sum(rows, |bounce| (4.0_f64 / 3.0).powi(indirect(bounce))),
+    ),
+    Law::new(
+        &transport::BOUNCE_TIMES_PDF,
+        "indirect bounce k is (1/2π²)^(k−1) of what it should be",
+        |c, rows| c.sum(rows, |bounce| TIMES_PDF.powi(indirect(bounce))),
+    ),
+    Law::new(
+        &transport::BOUNCE_WITHOUT_COSINE,
+        "indirect bounce k is 2^(k−1) of what it should be",
+        |c, rows| c.sum(rows, |bounce| 2.0_f64.powi(indirect(bounce))),
+    ),
+    Law::new(&transport::EMISSION_LOST, "sums lack bounce 0", |c, [first, last]| {
+        if first == last { c.bounce(first) } else { c.sum([first.max(1), last], |_| 1.0) }
+    }),
+    Law::new(&transport::LAST_BOUNCE_ONLY, "sums are their last bounce alone", |c, [_, last]| {
+        c.bounce(last)
+    }),
 ];
 
 /// Laws that predict a failing furnace, a factor a bounce, or directions that only the cavity sees.
@@ -160,15 +236,27 @@ fn explain(evidence: &Evidence<'_>, case: &str) -> Vec<Suspicion> {
     let weight = if fitting.len() == 1 { 1.0 } else { SHARED };
     let told = |law: &&Law| Suspicion {
         cause: law.cause,
-        cases: vec![case.to_owned()],
+        cases: std::iter::once(case.to_owned()).chain(direct_light(evidence, law)).collect(),
         evidence: vec![furnace.table(), law.words.to_owned()],
         ruled_out: furnace.ruled_out(law),
         weight,
     };
     if fitting.is_empty() {
-        return furnace.constant_factor(case).into_iter().collect();
+        let factor = furnace.constant_factor(case);
+        return factor.or_else(|| furnace.lost_ways(case)).into_iter().collect();
     }
     fitting.iter().map(told).collect()
+}
+
+/// Failing cases of direct light that a law explains too.
+fn direct_light(evidence: &Evidence<'_>, law: &Law) -> Vec<String> {
+    let explains = |finding: &Finding| {
+        let mut wrong = finding.failed_measures().filter_map(Reading::of).peekable();
+        law.direct != 1.0 && wrong.peek().is_some() && wrong.all(|r| r.admits(law.direct))
+    };
+    let failures = evidence.failures().filter(|seen| seen.case.starts_with("lights/"));
+    let explained = failures.filter(|seen| seen.finding.is_some_and(explains));
+    explained.map(|seen| seen.case.to_owned()).collect()
 }
 
 /// A row of a furnace: which bounces it adds up, and what was read in each channel.
@@ -196,10 +284,8 @@ impl Furnace {
             albedo[number] = second / first;
             emission[number] = first / albedo[number];
         }
-        let grey = 0.2126 * albedo[0] + 0.7152 * albedo[1] + 0.0722 * albedo[2];
-        let channel =
-            |number: usize| Channel { emission: emission[number], albedo: albedo[number], grey };
-        Some(Self { channels: [0, 1, 2].map(channel), rows: rows(finding) })
+        let channels = [0, 1, 2].map(|c| Channel::of(emission[c], albedo[c], albedo));
+        Some(Self { channels, rows: rows(finding) })
     }
 
     /// Whether a law predicts every number.
@@ -275,6 +361,24 @@ impl Furnace {
         (most > 2 && low <= high && high.is_finite()).then(|| self.of_factor(case, interval))
     }
 
+    /// Direct light is right, and indirect light is off by other grey factors at each bounce: it does not come
+    /// from where it should.
+    fn lost_ways(&self, case: &str) -> Option<Suspicion> {
+        let isolated = || self.rows.iter().filter(|row| row.bounces[0] == row.bounces[1]);
+        let mut direct = isolated().filter(|row| row.bounces[0] == 1).peekable();
+        let right = direct.peek().is_some()
+            && direct.all(|row| row.readings.iter().flatten().all(|r| r.admits(1.0)));
+        let mut indirect = isolated().filter(|row| row.bounces[0] > 1).peekable();
+        let grey = indirect.peek().is_some() && indirect.all(|row| is_grey(&row.readings));
+        (right && grey).then(|| Suspicion {
+            cause: &transport::BOUNCE_DIRECTIONS,
+            cases: vec![case.to_owned()],
+            evidence: vec![self.table(), "the same in all colours, and no power of k".to_owned()],
+            ruled_out: vec!["a wrong weight of bounces (it would be a power of k)".to_owned()],
+            weight: SHARED,
+        })
+    }
+
     fn of_factor(&self, case: &str, [low, high]: [f64; 2]) -> Suspicion {
         let factor = 0.5 * (low + high);
         let half = 0.5 * (high - low);
@@ -294,6 +398,13 @@ impl Furnace {
             weight: SHARED,
         }
     }
+}
+
+/// Whether one ratio fits all channels.
+fn is_grey(readings: &[Option<Reading>; 3]) -> bool {
+    let low = readings.iter().flatten().map(|r| r.interval[0]).fold(f64::NEG_INFINITY, f64::max);
+    let high = readings.iter().flatten().map(|r| r.interval[1]).fold(f64::INFINITY, f64::min);
+    low <= high
 }
 
 /// `bounce 2` and `bounces 0 to 3`, as the checks name them.
@@ -358,8 +469,7 @@ mod tests {
     const ROWS: [[u32; 2]; 8] = [[0, 0], [1, 1], [2, 2], [3, 3], [5, 5], [0, 1], [0, 3], [0, 5]];
 
     fn channel(number: usize) -> Channel {
-        let grey = 0.2126 * ALBEDO[0] + 0.7152 * ALBEDO[1] + 0.0722 * ALBEDO[2];
-        Channel { emission: EMISSION[number], albedo: ALBEDO[number], grey }
+        Channel::of(EMISSION[number], ALBEDO[number], ALBEDO)
     }
 
     fn furnace(predict: impl Fn(&Channel, [u32; 2]) -> f64) -> Finding {

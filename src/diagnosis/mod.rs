@@ -12,6 +12,7 @@ mod clues;
 mod conventions;
 mod evidence;
 mod generic_position;
+mod mirrors;
 mod rank;
 mod readings;
 mod roulette;
@@ -60,6 +61,7 @@ pub static RULES: &[Rule] = &[
         summary: "energy bounce by bounce against laws such as q^k and albedo^k",
         run: bounces::suspect,
     },
+    Rule { summary: "mirrors and glass that show nothing", run: mirrors::suspect },
     Rule {
         summary: "means under Russian roulette against what forgotten divisions would give",
         run: roulette::suspect,

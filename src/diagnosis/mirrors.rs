@@ -1,0 +1,53 @@
+//! Mirror and glass where everything else is right: the path alone can meet what glows there.
+
+use super::readings::Reading;
+use super::{Evidence, Suspicion};
+use crate::cause::transport;
+use crate::checks::Finding;
+
+const MIRRORS: &str = "integrator/three-mirrors-reflect-three-times";
+const FURNACE: &str = "integrator/a-furnace-glows-by-its-series";
+
+/// Mirrors and glass are dark, and the furnace is right.
+pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+    if evidence.failed_finding(MIRRORS).is_none() || evidence.failed_finding(FURNACE).is_some() {
+        return Vec::new();
+    }
+    let dark = |finding: &Finding| {
+        let mut wrong = finding.failed_measures().filter_map(Reading::of).peekable();
+        wrong.peek().is_some() && wrong.all(|reading| reading.admits(0.0))
+    };
+    let failures = evidence.failures().filter(|seen| seen.case.starts_with("integrator/"));
+    let cases: Vec<_> = failures
+        .filter(|seen| seen.finding.is_some_and(dark))
+        .map(|seen| seen.case.to_owned())
+        .collect();
+    if !cases.iter().any(|case| case == MIRRORS) {
+        return Vec::new();
+    }
+    vec![Suspicion {
+        cause: &transport::MIRROR_SHOWS_NO_LIGHT,
+        cases,
+        evidence: vec!["what glows is 0 of what it should be behind mirrors".to_owned()],
+        ruled_out: vec!["a bounce short (the furnace is right)".to_owned()],
+        weight: 1.0,
+    }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnosis::diagnose;
+    use crate::diagnosis::testing::{Made, mean, means, passing};
+
+    #[test]
+    fn mirrors_that_show_nothing_are_named_where_the_furnace_is_right() {
+        let dark = || means(vec![mean("bounce 3, red", 0.5, 0.0, 1e-4)]);
+        let made = Made::new().with(MIRRORS, dark()).with(FURNACE, passing());
+        let found = diagnose(&made.evidence());
+        assert_eq!(found.first().map(|c| c.name), Some(transport::MIRROR_SHOWS_NO_LIGHT.name));
+        let dim = means(vec![mean("bounce 3, red", 0.5, 0.7, 1e-4)]);
+        let made = Made::new().with(MIRRORS, dim).with(FURNACE, passing());
+        assert_eq!(diagnose(&made.evidence()).first(), None);
+    }
+}

@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn questions_about_one_function_rest_on_nothing_they_do_not_name() {
         assert!(of("intersection/rays-meet-a-triangle-where-they-should").is_empty());
-        assert!(of("sampling/uniform-samples-follow-their-density").is_empty());
+        assert!(of("samplers/uniform-samples-follow-their-density").is_empty());
     }
 
     #[test]

@@ -15,7 +15,7 @@ pub struct Part {
 pub static PARTS: &[Part] = &[
     Part { number: 1, title: "rays and intersections", folders: &["camera", "intersection"] },
     Part { number: 2, title: "bounding volumes", folders: &["bvh"] },
-    Part { number: 3, title: "direct light", folders: &["bsdf", "lights"] },
+    Part { number: 3, title: "direct light", folders: &["samplers", "bsdf", "lights"] },
     Part { number: 4, title: "global illumination", folders: &["integrator"] },
     Part { number: 5, title: "adaptive sampling", folders: &["sampling"] },
     Part { number: 6, title: "pictures against Mitsuba", folders: &["images"] },

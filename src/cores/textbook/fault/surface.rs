@@ -4,10 +4,10 @@ use super::Fault;
 use crate::cause::{bsdf, convention, sampling};
 use crate::cores::textbook::change::Change;
 
-const UNIFORM_MAP: &str = "sampling/the-uniform-map-fits-its-density";
-const COSINE_MAP: &str = "sampling/the-cosine-map-fits-its-density";
-const UNIFORM_DENSITY: &str = "sampling/the-uniform-density-integrates-to-one";
-const COSINE_DENSITY: &str = "sampling/the-cosine-density-integrates-to-one";
+const UNIFORM_MAP: &str = "samplers/the-uniform-map-fits-its-density";
+const COSINE_MAP: &str = "samplers/the-cosine-map-fits-its-density";
+const UNIFORM_DENSITY: &str = "samplers/the-uniform-density-integrates-to-one";
+const COSINE_DENSITY: &str = "samplers/the-cosine-density-integrates-to-one";
 const ALBEDO: &str = "bsdf/a-diffuse-surface-reflects-its-albedo";
 const ITSELF: &str = "bsdf/samples-are-what-is-evaluated";
 const DIFFUSE: &str = "bsdf/diffuse-samples-follow-their-density";

@@ -35,7 +35,6 @@ const fn signature(cause: &'static Cause, first: f64, second: f64) -> Signature 
 static OF_BOTH: &[Signature] = &[
     signature(&bsdf::WITHOUT_PI, PI, PI),
     signature(&light::EMISSION_OVER_PI, FRAC_1_PI, FRAC_1_PI),
-    signature(&light::WORLD_COSINE, 0.87589, 0.83780),
     signature(&light::COSINE_TWICE, 0.90211, 0.56201),
     signature(&light::COSINE_FORGOTTEN, 1.11073, 1.79493),
     signature(&light::TWICE_AS_BRIGHT, 2.0, 2.0),
@@ -47,6 +46,7 @@ static OF_BOTH: &[Signature] = &[
 /// Mistakes of light sampling.
 static OF_LIGHTS: &[Signature] = &[
     signature(&light::LAMP_SHADOWS_ITSELF, 0.0, 0.0),
+    signature(&light::WORLD_COSINE, 0.87589, 0.83780),
     signature(&light::LIGHT_COSINE_FORGOTTEN, 1.11544, 1.92193),
     signature(&light::LIGHT_DISTANCE_NOT_SQUARED, 1.65690, 1.54050),
     signature(&light::LIGHT_DISTANCE_FORGOTTEN, 2.75220, 2.38790),
@@ -58,6 +58,8 @@ static OF_LIGHTS: &[Signature] = &[
 
 /// Mistakes of hemisphere sampling.
 static OF_HEMISPHERE: &[Signature] = &[
+    // Local directions taken for world ones have their cosine with +z, and the light in view.
+    signature(&light::HEMISPHERE_IN_WORLD, 0.87589, 0.83780),
     signature(&sampling::COSINE_DENSITY_FOR_UNIFORM, 0.55537, 0.89747),
     signature(&sampling::UNIFORM_DENSITY_FOR_COSINE, 1.80423, 1.12401),
     signature(&light::PDF_FORGOTTEN, 1.0 / TAU, 1.0 / TAU),

@@ -16,6 +16,7 @@ mod mirrors;
 mod rank;
 mod readings;
 mod roulette;
+mod shadows;
 #[cfg(test)]
 mod testing;
 
@@ -61,6 +62,7 @@ pub static RULES: &[Rule] = &[
         summary: "energy bounce by bounce against laws such as q^k and albedo^k",
         run: bounces::suspect,
     },
+    Rule { summary: "what blocks light and what does not", run: shadows::suspect },
     Rule { summary: "mirrors and glass that show nothing", run: mirrors::suspect },
     Rule {
         summary: "means under Russian roulette against what forgotten divisions would give",

@@ -19,6 +19,8 @@ const FURNACES: [&str; 2] = [
 ];
 /// The cavity that sees directions, which a furnace cannot.
 const CAVITY: &str = "integrator/a-glowing-cap-lights-its-cavity-evenly";
+/// A wall that faces sideways.
+const SIDE: &str = "integrator/a-room-is-lit-from-its-middle-at-its-sides-too";
 /// How much less a mistake weighs if it is not the only one that fits.
 const SHARED: f64 = 0.6;
 /// The last bounce that rows of a furnace ask for.
@@ -226,6 +228,7 @@ static LAWS: &[Law] = &[
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let mut suspicions: Vec<_> = FURNACES.iter().flat_map(|case| explain(evidence, case)).collect();
     suspicions.extend(wrong_directions(evidence));
+    suspicions.extend(world_cosine(evidence));
     suspicions
 }
 
@@ -458,6 +461,40 @@ fn wrong_directions(evidence: &Evidence<'_>) -> Option<Suspicion> {
     })
 }
 
+/// Where a room faces sideways, a cosine with +z weighs the ball in its middle otherwise; averaged over all
+/// directions, as in the furnace and the cavity, it is the same.
+fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
+    let finding = evidence.failed_finding(SIDE)?;
+    let admits_one = |bounce: u32| {
+        let readings = channels(finding, &format!("bounce {bounce}"));
+        readings.iter().flatten().all(|reading| reading.admits(1.0))
+    };
+    let averages = [FURNACES[0], CAVITY].iter().all(|case| evidence.has_withstood(case));
+    (averages && admits_one(1) && !admits_one(2)).then(|| Suspicion {
+        cause: &transport::BOUNCE_WORLD_COSINE,
+        cases: std::iter::once(SIDE.to_owned()).chain(delta_cases(evidence)).collect(),
+        evidence: vec![
+            "at a wall that faces sideways bounce 1 is right and bounce 2 is not".to_owned(),
+            format!(
+                "{} and {CAVITY} do not fail: over all directions the weights are right",
+                FURNACES[0]
+            ),
+        ],
+        ruled_out: vec!["bounces in wrong directions (the cavity would see it)".to_owned()],
+        weight: 1.0,
+    })
+}
+
+/// Failing cases of mirrors and glass, whose only direction has a cosine too.
+fn delta_cases(evidence: &Evidence<'_>) -> Vec<String> {
+    let about = ["mirror", "glass"];
+    let failures = evidence.failures().filter(|seen| seen.case.starts_with("integrator/"));
+    failures
+        .filter(|seen| about.iter().any(|word| seen.case.contains(word)))
+        .map(|seen| seen.case.to_owned())
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -526,6 +563,21 @@ mod tests {
         let odd = |c: &Channel, rows: [u32; 2]| c.sum(rows, |k| 1.0 + 0.1 * f64::from(k % 2));
         let diagnosis = diagnose(&Made::new().with(FURNACES[0], furnace(odd)).evidence());
         assert_eq!(diagnosis.first(), None, "{diagnosis:?}");
+    }
+
+    #[test]
+    fn a_wall_that_faces_sideways_shows_a_cosine_with_the_world() {
+        let rows = [("bounce 1", 1.0), ("bounce 2", 0.8)];
+        let side = rows.map(|(row, ratio)| mean(&format!("{row}, red"), 0.2, ratio, 0.004));
+        let made = |cavity: Finding| {
+            Made::new()
+                .with(FURNACES[0], passing())
+                .with(CAVITY, cavity)
+                .with(SIDE, means(side.to_vec()))
+        };
+        let name = |made: Made| diagnose(&made.evidence()).first().map(|cause| cause.name);
+        assert_eq!(name(made(passing())), Some(transport::BOUNCE_WORLD_COSINE.name));
+        assert_eq!(name(made(crate::diagnosis::testing::failing("too"))), None);
     }
 
     #[test]

@@ -80,6 +80,11 @@ impl<'a> Evidence<'a> {
         self.observations.iter().any(|seen| seen.case == case && seen.standing == Standing::Passed)
     }
 
+    /// Whether the case was tried and did not fail: it passed, or noise left it open.
+    pub fn has_withstood(&self, case: &str) -> bool {
+        self.finding(case).is_some() && self.failed_finding(case).is_none()
+    }
+
     /// How many cases were not tried since one of `cases` failed.
     pub fn blocked_by(&self, cases: &[String]) -> usize {
         let is_blocked = |seen: &&Observation<'_>| match &seen.standing {

@@ -118,7 +118,7 @@ pub const FAULTS: &[Fault] = &[
         name: "bounce-world-cosine",
         part: 4,
         summary: "the cosine of a bounce is wi.z in the world",
-        caught_by: FURNACE,
+        caught_by: "integrator/a-room-is-lit-from-its-middle-at-its-sides-too",
         cause: &transport::BOUNCE_WORLD_COSINE,
     },
     Fault {

@@ -35,6 +35,8 @@ mod noise;
 mod proportion;
 mod quantile;
 mod screen;
+#[cfg(test)]
+mod screen_simulation;
 mod screening;
 mod slope;
 mod spread;

@@ -77,6 +77,20 @@ impl ImageDraw {
     }
 }
 
+/// How easily a picture is suspected and a suspicion confirmed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Levels {
+    /// [`SCREEN_LEVEL`], over all cells.
+    pub(super) screen: f64,
+    /// [`CONFIRM_LEVEL`], of each confirmation at each scale.
+    pub(super) confirm: f64,
+}
+
+impl Levels {
+    /// Those that count.
+    pub(super) const DEFAULT: Self = Self { screen: SCREEN_LEVEL, confirm: CONFIRM_LEVEL };
+}
+
 /// Judges the pictures that `draw` renders against a reference of the same size.
 ///
 /// # Panics
@@ -87,13 +101,23 @@ pub fn judge_image<E>(
     effort: &ImageEffort,
     draw: &mut dyn FnMut(ImageDraw) -> Result<Image, E>,
 ) -> Result<ImageReport, E> {
+    judge_image_at(Levels::DEFAULT, reference, effort, draw)
+}
+
+/// The same at other levels, so that calibration can be simulated.
+pub(super) fn judge_image_at<E>(
+    levels: Levels,
+    reference: Reference<'_>,
+    effort: &ImageEffort,
+    draw: &mut dyn FnMut(ImageDraw) -> Result<Image, E>,
+) -> Result<ImageReport, E> {
     assert!(reference.mean.same_size(reference.standard_error), "mean and error of one size");
     let cells = Cells::new(reference.mean);
     let expected = cells.values(reference.mean);
     let errors = cells.standard_errors(reference.standard_error);
     let target = Target::new(cells, expected.clone(), expected, &errors);
     let mut one = |request| draw(request).map(|image| vec![image]);
-    Screening::new(target, reference.mean, effort, &mut one).judge()
+    Screening::new(target, reference.mean, effort, &mut one).at(levels).judge()
 }
 
 /// Judges whether two cores, or two ways to render, have the same mean picture. `draw` renders

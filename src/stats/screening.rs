@@ -6,7 +6,7 @@ use super::image_report::{
     CellScore, Confirmation, GlobalRatio, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
     TileMap,
 };
-use super::screen::{CONFIRM_LEVEL, ImageDraw, ImageEffort, SCREEN_LEVEL};
+use super::screen::{ImageDraw, ImageEffort, Levels};
 use super::spread::Spread;
 use super::target::{Frozen, Target};
 use super::{Moments, Stage, Verdict, normal_upper, student_upper};
@@ -41,6 +41,7 @@ enum Interrupted<E> {
 pub(super) struct Screening<'a, E> {
     target: Target,
     effort: &'a ImageEffort,
+    levels: Levels,
     draw: &'a mut DrawImages<'a, E>,
     lit: LitRuns,
     all: Spread,
@@ -57,7 +58,13 @@ impl<'a, E> Screening<'a, E> {
     ) -> Self {
         let size = (guide.width, guide.height);
         let lit = LitRuns::new(guide);
-        Self { target, effort, draw, lit, all: Spread::default(), runs: 0, size }
+        let (all, levels) = (Spread::default(), Levels::DEFAULT);
+        Self { target, effort, levels, draw, lit, all, runs: 0, size }
+    }
+
+    /// The same at other levels.
+    pub(super) fn at(self, levels: Levels) -> Self {
+        Self { levels, ..self }
     }
 
     pub(super) fn judge(mut self) -> Result<ImageReport, E> {
@@ -84,7 +91,8 @@ impl<'a, E> Screening<'a, E> {
         let third = self.sample(Stage::Third, self.effort.confirm_runs, &frozen)?;
         for (i, report) in scales.iter_mut().enumerate() {
             if !frozen[i].terms.is_empty() {
-                let confirmations = confirm(&second.scalars[i], &third.scalars[i]);
+                let confirmations =
+                    confirm(self.levels.confirm, &second.scalars[i], &third.scalars[i]);
                 report.rejects = confirmations.iter().all(|confirmation| confirmation.rejects);
                 report.confirmations = Some(confirmations);
             }
@@ -147,7 +155,7 @@ impl<'a, E> Screening<'a, E> {
             scale: Scale::ALL[scale],
             cells: range.len(),
             worst: worst.map(|(index, t)| self.cell_score(scale, index, spread, t)).collect(),
-            critical: student_upper(SCREEN_LEVEL / looks, spread.freedom()),
+            critical: student_upper(self.levels.screen / looks, spread.freedom()),
             confirmations: None,
             rejects: false,
         }
@@ -246,7 +254,7 @@ impl<'a, E> Screening<'a, E> {
     fn resolution(&self, screened: &Spread) -> f64 {
         let whole = self.target.whole_luminance();
         let looks = 2.0 * (Scale::ALL.len() * COMPONENTS) as f64;
-        let critical = student_upper(SCREEN_LEVEL / looks, screened.freedom());
+        let critical = student_upper(self.levels.screen / looks, screened.freedom());
         let spread_of_t = (1.0 + 0.5 * critical * critical / screened.freedom()).sqrt();
         let sigmas = critical + normal_upper(MISS_LEVEL) * spread_of_t;
         let error = sigmas * screened.standard_error(whole);
@@ -299,12 +307,12 @@ impl<'a, E> Screening<'a, E> {
 }
 
 /// Both confirmations of one scale, each with the larger of the two spreads: the double key.
-fn confirm(second: &Moments, third: &Moments) -> [Confirmation; 2] {
+fn confirm(level: f64, second: &Moments, third: &Moments) -> [Confirmation; 2] {
     let error = second.standard_error().max(third.standard_error());
     let freedom = (second.count() - 1) as f64;
     [second, third].map(|moments| {
         let t = if moments.mean() == 0.0 { 0.0 } else { moments.mean() / error };
-        let rejects = t > student_upper(CONFIRM_LEVEL, freedom);
+        let rejects = t > student_upper(level, freedom);
         Confirmation { t: t.clamp(-1e9, 1e9), rejects }
     })
 }

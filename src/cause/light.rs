@@ -187,14 +187,6 @@ pub static SKY_PDF_OF_HEMISPHERE: Cause = Cause {
 };
 
 /// See its headline.
-pub static HEMISPHERE_IN_WORLD: Cause = Cause {
-    name: "hemisphere-in-world",
-    headline: "directions of the hemisphere are followed as if they were world directions",
-    look_at: "hemisphere sampling",
-    remedy: "Turn the local direction into the world before it becomes a ray.",
-};
-
-/// See its headline.
 pub static HEMISPHERE_IGNORED: Cause = Cause {
     name: "hemisphere-ignored",
     headline: "light is sampled even where hemisphere sampling is asked for",
@@ -274,6 +266,14 @@ pub static RANGE_KEPT: Cause = Cause {
     remedy: "Give every new ray its own range: t_max is infinite again.",
 };
 
+/// See its headline.
+pub static HEMISPHERE_IN_WORLD: Cause = Cause {
+    name: "hemisphere-in-world",
+    headline: "directions of the hemisphere are followed as if they were world directions",
+    look_at: "hemisphere sampling",
+    remedy: "Turn the local direction into the world before it becomes a ray.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &WORLD_COSINE,
@@ -299,7 +299,6 @@ pub static CAUSES: &[&Cause] = &[
     &PDF_FORGOTTEN,
     &DIRECTIONAL_FLIPPED,
     &SKY_PDF_OF_HEMISPHERE,
-    &HEMISPHERE_IN_WORLD,
     &HEMISPHERE_IGNORED,
     &DIVIDED_BY_ZERO_LIGHTS,
     &NO_SHADOWS,
@@ -310,4 +309,5 @@ pub static CAUSES: &[&Cause] = &[
     &DELTA_DIVIDED,
     &LAST_LIGHT_ONLY,
     &RANGE_KEPT,
+    &HEMISPHERE_IN_WORLD,
 ];

@@ -111,6 +111,10 @@ pub static MISTAKES: &[Mistake] = &[
         change: |w| w.carried = |share| share.carried() * share.probability,
     },
     Mistake {
+        cause: &cause::GLASS_WEIGHT_WITHOUT_FRESNEL,
+        change: |w| w.carried = |share| share.carried() / share.probability,
+    },
+    Mistake {
         cause: &cause::DELTA_COLOUR_MISSING,
         change: |w| w.carried = |share| share.carried() / share.colour,
     },

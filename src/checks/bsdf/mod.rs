@@ -5,6 +5,7 @@ mod conserves_energy;
 #[cfg(test)]
 mod fake;
 mod interface;
+pub(super) mod metal;
 mod reciprocal;
 mod reflects_and_refracts;
 mod smooth_view;

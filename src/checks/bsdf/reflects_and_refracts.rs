@@ -162,6 +162,16 @@ impl Trial {
                 finding = finding.because(mistake.cause, evidence);
             }
         }
+        let is_right = |view: &SmoothView| view.is_predicted_by(view.right);
+        let views_fit = format!("every sample of {} views is right in itself", views.len());
+        let is_sure = views.iter().filter_map(SmoothView::is_sure_of_both).any(|sure| sure);
+        let is_chosen_otherwise = !is_sure && views.iter().any(SmoothView::is_chosen_otherwise);
+        if views.iter().all(is_right) && is_chosen_otherwise {
+            finding = finding.because(&cause::GLASS_OTHER_CHANCE, &views_fit);
+        }
+        if views.iter().all(|view| is_right(view) && view.is_unmarked()) {
+            finding = finding.because(&cause::MIRROR_NOT_DELTA, views_fit);
+        }
         let sure: Vec<_> = views.iter().filter_map(SmoothView::is_sure_of_both).collect();
         if !sure.is_empty() && sure.iter().all(|sure| *sure) {
             let evidence =

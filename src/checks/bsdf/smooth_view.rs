@@ -62,6 +62,17 @@ impl SmoothView {
         goes_both_ways.then(|| self.samples.iter().all(|s| s.is_valid == 1 && s.pdf == 1.0))
     }
 
+    /// Whether reflections are more or less frequent than their probability.
+    pub fn is_chosen_otherwise(&self) -> bool {
+        self.chance.as_ref().is_some_and(|chance| chance.verdict == Verdict::Fail)
+    }
+
+    /// Whether no sample is marked as a delta.
+    pub fn is_unmarked(&self) -> bool {
+        let valid = self.samples.iter().filter(|sample| sample.is_valid == 1);
+        valid.clone().count() > 0 && valid.clone().all(|sample| sample.is_delta == 0)
+    }
+
     /// Whether a core that works light out this way would have given every sample.
     pub fn is_predicted_by(&self, lobes: Lobes) -> bool {
         let (back, through) = self.sides();

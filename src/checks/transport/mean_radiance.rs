@@ -4,6 +4,8 @@ use super::estimate::{
     CHANNELS, RayEntry, RouletteEntry, effort, estimate, measure, needs, percent,
     resolution_sentence, settings,
 };
+use super::mistaken::{Measured, Mistaken, explanations};
+use crate::cause::Cause;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray,
@@ -55,6 +57,9 @@ struct Row {
     /// The scene leaves nothing to chance: judged to rounding, on a few samples.
     #[serde(default)]
     exact: bool,
+    /// What known mistakes would make of it.
+    #[serde(default)]
+    mistaken: Mistaken,
 }
 
 const fn one() -> u32 {
@@ -74,6 +79,7 @@ impl Check for MeanRadiance {
             return Err("there are no rows; add `[[expect.row]]`".to_owned());
         }
         self.row.iter().try_for_each(|row| {
+            row.mistaken.validate()?;
             row.ray.or(self.ray).ok_or("a row has no `ray`, and neither has `[expect]`")?.validate()
         })
     }
@@ -87,11 +93,13 @@ impl Check for MeanRadiance {
             let question = self.question(row, seed.child(number));
             let row_measures = question.judge(built.as_mut(), &effort)?;
             let failed = row_measures.iter().any(|measure| measure.verdict == Verdict::Fail);
-            measures.extend(row_measures);
+            measures.push(row_measures);
             if failed && effort.decides_early {
                 break;
             }
         }
+        let causes = self.explanations(&measures);
+        let measures: Vec<_> = measures.into_iter().flatten().collect();
         let statement = statement(&measures);
         let resolution = match resolution_sentence(&measures) {
             dark if dark.is_empty() => {
@@ -99,11 +107,21 @@ impl Check for MeanRadiance {
             }
             lit => lit,
         };
-        Ok(Finding::of(statement, resolution, measures))
+        Ok(Finding::of(statement, resolution, measures)
+            .because_each(causes, "predicts every row of the case"))
     }
 }
 
 impl MeanRadiance {
+    /// The mistakes that predict all rows that were tried, if one of them failed.
+    fn explanations(&self, measures: &[Vec<Measure>]) -> Vec<&'static Cause> {
+        if measures.iter().flatten().all(|measure| measure.verdict != Verdict::Fail) {
+            return Vec::new();
+        }
+        let tried = self.row.iter().zip(measures);
+        explanations(&tried.map(|(row, measures)| row.measured(measures)).collect::<Vec<_>>())
+    }
+
     fn settings(&self, row: &Row) -> IntegratorSettings {
         IntegratorSettings {
             samples_per_light: self.samples_per_light,
@@ -127,6 +145,18 @@ impl MeanRadiance {
 }
 
 impl Row {
+    /// The channels that are measured: those that are not dark, or all of a dark row.
+    fn channels(&self) -> impl Iterator<Item = usize> {
+        let Colour(radiance) = self.radiance;
+        let is_dark = radiance == [0.0; 3];
+        (0..3).filter(move |channel| is_dark || self.exact || radiance[*channel] != 0.0)
+    }
+
+    fn measured<'a>(&'a self, measures: &'a [Measure]) -> Measured<'a> {
+        let (mistaken, right) = (&self.mistaken, self.radiance.0);
+        Measured { mistaken, right, measures: self.channels().zip(measures).collect() }
+    }
+
     fn name(&self) -> String {
         self.name.clone().unwrap_or_else(|| match self.bounces {
             [first, last] if first == last => format!("bounce {first}"),

@@ -4,6 +4,7 @@ mod bounces_add_up;
 mod estimate;
 mod estimators_agree;
 mod mean_radiance;
+mod mistaken;
 mod radiance_is_linear;
 
 pub use bounces_add_up::BouncesAddUp;

@@ -91,14 +91,6 @@ pub static TOTAL_REFLECTION_FORGOTTEN: Cause = Cause {
 };
 
 /// See its headline.
-pub static GLASS_RADIANCE_NOT_SCALED: Cause = Cause {
-    name: "glass-radiance-not-scaled",
-    headline: "radiance crosses glass unchanged, where radiance over index squared is what is kept",
-    look_at: "the weight of the refracted lobe",
-    remedy: "Divide it by (index beyond / index here)², or declare `glass-radiance = \"unscaled\"`.",
-};
-
-/// See its headline.
 pub static GLASS_RADIANCE_SCALED_BACKWARDS: Cause = Cause {
     name: "glass-radiance-scaled-backwards",
     headline: "radiance that crosses glass is multiplied by the index squared instead of divided",
@@ -242,6 +234,38 @@ pub static FOUR_FORGOTTEN: Cause = Cause {
     remedy: "f = F D G / (4 cos θo cos θi).",
 };
 
+/// See its headline.
+pub static MASKING_ONE_SIDED: Cause = Cause {
+    name: "masking-one-sided",
+    headline: "facets hidden from the eye are left out, those hidden from the light are not",
+    look_at: "the masking term of rough metal",
+    remedy: "G has a factor for the eye and one for the light.",
+};
+
+/// See its headline.
+pub static FACETS_WITHOUT_PI: Cause = Cause {
+    name: "facets-without-pi",
+    headline: "1/π is missing in the density of facets",
+    look_at: "the distribution of normals of rough metal",
+    remedy: "The integral of D cos over the hemisphere is one.",
+};
+
+/// See its headline.
+pub static BECKMANN_FACETS: Cause = Cause {
+    name: "beckmann-facets",
+    headline: "the density of facets is that of Beckmann, and GGX was asked for",
+    look_at: "the distribution of normals of rough metal",
+    remedy: "D = α² / (π (cos² (α² - 1) + 1)²).",
+};
+
+/// See its headline.
+pub static HALF_NOT_NORMALISED: Cause = Cause {
+    name: "half-not-normalised",
+    headline: "the half vector of rough metal is not normalised",
+    look_at: "the half vector of rough metal",
+    remedy: "h = (wo + wi) / |wo + wi|.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &WITHOUT_PI,
@@ -255,7 +279,6 @@ pub static CAUSES: &[&Cause] = &[
     &SCHLICK_UNDECLARED,
     &SCHLICK_FROM_INSIDE,
     &TOTAL_REFLECTION_FORGOTTEN,
-    &GLASS_RADIANCE_NOT_SCALED,
     &GLASS_RADIANCE_SCALED_BACKWARDS,
     &GLASS_RADIANCE_SCALED_UNDECLARED,
     &DELTA_COSINE_FORGOTTEN,
@@ -274,4 +297,8 @@ pub static CAUSES: &[&Cause] = &[
     &MASKING_FORGOTTEN,
     &PDF_OF_FACETS,
     &FOUR_FORGOTTEN,
+    &MASKING_ONE_SIDED,
+    &FACETS_WITHOUT_PI,
+    &BECKMANN_FACETS,
+    &HALF_NOT_NORMALISED,
 ];

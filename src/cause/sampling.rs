@@ -106,6 +106,14 @@ pub static DENSITY_INVERTED: Cause = Cause {
     remedy: "A uniform density is one over the area it covers: 1/2π for the hemisphere.",
 };
 
+/// See its headline.
+pub static SAMPLES_ALL_ALIKE: Cause = Cause {
+    name: "samples-all-alike",
+    headline: "all samples of one estimate are the same sample: more of them do not help",
+    look_at: "where the random numbers of a sample are drawn",
+    remedy: "Draw new random numbers for each sample.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &DENSITY_OF_OTHER_SAMPLER,
@@ -121,4 +129,5 @@ pub static CAUSES: &[&Cause] = &[
     &ONE_NUMBER_TWICE,
     &DENSITY_BELOW_HORIZON,
     &DENSITY_INVERTED,
+    &SAMPLES_ALL_ALIKE,
 ];

@@ -202,6 +202,46 @@ pub static BOUNCE_WORLD_COSINE: Cause = Cause {
     remedy: "Take the local direction's z.",
 };
 
+/// See its headline.
+pub static ROULETTE_SURVIVES_BY_STOP: Cause = Cause {
+    name: "roulette-survives-by-stop",
+    headline: "paths go on with the probability of stopping",
+    look_at: "the roulette test",
+    remedy: "Stop if a random number is below the probability of stopping.",
+};
+
+/// See its headline.
+pub static ROULETTE_GUARANTEE_FORGOTTEN: Cause = Cause {
+    name: "roulette-guarantee-forgotten",
+    headline: "roulette is played also at the bounces that are guaranteed",
+    look_at: "the roulette test",
+    remedy: "Play it only after the guaranteed bounces.",
+};
+
+/// See its headline.
+pub static ROULETTE_GUARANTEES_ONE_MORE: Cause = Cause {
+    name: "roulette-guarantees-one-more",
+    headline: "roulette begins one bounce too late",
+    look_at: "the roulette test, where bounces are counted",
+    remedy: "With one guaranteed bounce, the first indirect one is spared and the second is not.",
+};
+
+/// See its headline.
+pub static ROULETTE_PLAYED_ONCE: Cause = Cause {
+    name: "roulette-played-once",
+    headline: "roulette is played once, and never again on the same path",
+    look_at: "the roulette test",
+    remedy: "Play it at every bounce after the guaranteed ones.",
+};
+
+/// See its headline.
+pub static ROULETTE_NOT_PLAYED: Cause = Cause {
+    name: "roulette-not-played",
+    headline: "roulette never stops a path",
+    look_at: "the roulette test",
+    remedy: "Stop with the given probability at every bounce after the guaranteed ones.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &ROULETTE_NOT_DIVIDED,
@@ -229,4 +269,9 @@ pub static CAUSES: &[&Cause] = &[
     &BOUNCE_TIMES_PDF,
     &BOUNCE_WITHOUT_COSINE,
     &BOUNCE_WORLD_COSINE,
+    &ROULETTE_SURVIVES_BY_STOP,
+    &ROULETTE_GUARANTEE_FORGOTTEN,
+    &ROULETTE_GUARANTEES_ONE_MORE,
+    &ROULETTE_PLAYED_ONCE,
+    &ROULETTE_NOT_PLAYED,
 ];

@@ -4,7 +4,6 @@
 //! seed; it leaves every verdict to [`crate::stats`]. To add one: write the file, add a line to [`CHECKS`].
 
 pub mod adaptive;
-pub mod breach;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
@@ -134,14 +133,14 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<bsdf::AgreesWithItself>(),
     CheckKind::of::<bsdf::Reciprocal>(),
     CheckKind::of::<bsdf::ConservesEnergy>(),
+    CheckKind::of::<bsdf::WeightsMakeTheAlbedo>(),
+    CheckKind::of::<bsdf::FollowsGgx>(),
     CheckKind::of::<bsdf::ReflectsAndRefracts>(),
     CheckKind::of::<bvh::SameHitsAsBruteForce>(),
     CheckKind::of::<bvh::BuildsComeToAnEnd>(),
     CheckKind::of::<bvh::VisitsFewNodes>(),
-    CheckKind::of::<bvh::StopsBehindHits>(),
-    CheckKind::of::<bvh::DividesLongScenes>(),
     CheckKind::of::<light::LightSamplesReachLight>(),
-    CheckKind::of::<light::OpenLightSamples>(),
+    CheckKind::of::<light::LampAtTheEye>(),
     CheckKind::of::<sampling::PdfIntegratesToOne>(),
     CheckKind::of::<sampling::SampleJacobian>(),
     CheckKind::of::<sampling::SamplesFollowPdf>(),
@@ -149,11 +148,14 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<transport::EstimatorsAgree>(),
     CheckKind::of::<transport::RadianceIsLinear>(),
     CheckKind::of::<transport::BouncesAddUp>(),
+    CheckKind::of::<transport::RouletteStopsPaths>(),
     CheckKind::of::<adaptive::StopsWhereItShould>(),
+    CheckKind::of::<adaptive::StopsByItsLaw>(),
     CheckKind::of::<adaptive::SampleCounts>(),
     CheckKind::of::<robustness::SameSeedSamePicture>(),
     CheckKind::of::<robustness::SeedsMatter>(),
     CheckKind::of::<robustness::RadianceIsFinite>(),
+    CheckKind::of::<convergence::VarianceIsKnown>(),
     CheckKind::of::<convergence::ErrorFallsAsRootN>(),
     CheckKind::of::<picture::MatchesReference>(),
 ];

@@ -1,8 +1,12 @@
 //! The random numbers that a batch of sampling calls is handed.
 
-use crate::contract::Randomness;
+use crate::contract::{BsdfSample, Randomness};
 use crate::math::rng::{Seed, uniform};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+
+/// What a core overwrites: a sample that has failed.
+pub const NO_SAMPLE: BsdfSample =
+    BsdfSample { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
 
 /// Numbers for one batch, drawn from one seed.
 pub struct Numbers {

@@ -51,6 +51,12 @@ pub fn judge_counts<E>(
     judge_count_source(effort, &mut Fixed { expected, draw })
 }
 
+/// Whether counts may well be of this law: one χ² at [`STAGE_LEVEL`]. It gives a name to what has
+/// failed already, and is no verdict on its own.
+pub fn follows_law(law: &CellProbabilities, counts: &Counts) -> bool {
+    forbidden_samples(law, counts).is_none() && !score(Stage::Third, law, counts).rejects
+}
+
 struct Fixed<'a, E> {
     expected: &'a CellProbabilities,
     draw: &'a mut dyn FnMut(Stage, u64) -> Result<Counts, E>,

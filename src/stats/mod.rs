@@ -14,6 +14,7 @@
 //!
 //! Not here: how samples are drawn (`checks`), or what a failure means (`diagnosis`).
 
+mod adaptive_law;
 mod betting;
 mod budget;
 #[cfg(test)]
@@ -45,11 +46,12 @@ pub mod timing;
 mod trail;
 mod verdict;
 
+pub use adaptive_law::{StoppingLaw, TwoValues};
 pub use betting::{EARLY_FALSE_ALARM, Support};
 pub use budget::{Allowance, Budget, Effort};
 pub use cells::{Component, Extent, Scale};
 pub use chi_square::{
-    COUNTS_FALSE_ALARM, CountSource, FEWEST_EXPECTED, judge_count_source, judge_counts,
+    COUNTS_FALSE_ALARM, CountSource, FEWEST_EXPECTED, follows_law, judge_count_source, judge_counts,
 };
 pub use claim::{Band, Claim, Sides};
 pub use correlation::{CORRELATION_FALSE_ALARM, CorrelationReport, judge_uncorrelated};

@@ -23,8 +23,8 @@ pub struct Count(pub u64);
 pub struct Colour(pub [f64; 3]);
 
 /// What may be counted: a noun after a [`Count`] is read aloud and means nothing.
-const COUNTABLE: [&str; 8] =
-    ["directions", "pairs", "paths", "pixels", "points", "rays", "samples", "triangles"];
+const COUNTABLE: [&str; 9] =
+    ["directions", "pairs", "paths", "pixels", "points", "rays", "samples", "streams", "triangles"];
 
 /// A number and the words after it.
 fn number_and_words(text: &str) -> Option<(f64, Vec<&str>)> {

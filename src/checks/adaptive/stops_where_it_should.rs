@@ -1,15 +1,13 @@
 //! The stopping rule on streams whose count is known, without any picture.
 
-use crate::cause::{Cause, adaptive, picture};
+use super::rule::{Rule, Sums, WRONG_RULES, stops};
+use crate::cause::{Cause, adaptive};
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{AdaptiveMean, AdaptiveSettings, Capabilities};
 use crate::stats::Tolerance;
 use crate::text::Percent;
 use serde::Deserialize;
-
-/// The number of a normal distribution's standard deviations that hold 95 %.
-const NORMAL_95: f64 = 1.96;
 
 /// Each stream stops after a given number of samples, with the mean of just those.
 #[derive(Clone, Debug, Deserialize)]
@@ -30,144 +28,16 @@ struct StreamEntry {
     stops_at: u32,
 }
 
-/// A stopping rule: whether to stop after these samples.
-type Rule = fn(&Sums, f64) -> bool;
+/// The mean as a share of the right one, where so many samples were used of so many that were allowed.
+type Share = fn(f64, f64) -> f64;
 
-/// What a core would answer to a stream: the samples used, and their mean.
-type Answer = (u32, f64);
-
-/// A mistake, and what it answers.
-struct Mistake {
-    cause: &'static Cause,
-    answers: fn(&StreamEntry) -> Answer,
-}
-
-/// The course's rule.
-fn stops(sums: &Sums, tolerance: f64) -> bool {
-    NORMAL_95 * (sums.variance() / sums.n).sqrt() <= tolerance * sums.mean()
-}
-
-/// A rule that is looked at after every batch, and right otherwise.
-fn by(stream: &StreamEntry, rule: Rule) -> Answer {
-    stream.prefix(stream.count(rule, stream.batch))
-}
-
-/// The right count, with a mean that is this share of the right one.
-fn scaled(stream: &StreamEntry, share: fn(f64, f64) -> f64) -> Answer {
-    let (used, mean) = stream.prefix(stream.stops_at);
-    (used, mean * share(f64::from(used), f64::from(stream.cap)))
-}
-
-/// The right mean, with another count beside it.
-fn reported(stream: &StreamEntry, count: u32) -> Answer {
-    (count, stream.prefix(stream.stops_at).1)
-}
-
-/// The mistakes that students make.
-const MISTAKES: &[Mistake] = &[
-    Mistake {
-        cause: &adaptive::POPULATION_VARIANCE,
-        answers: |stream| {
-            by(stream, |s, tolerance| {
-                NORMAL_95 * (s.population_variance() / s.n).sqrt() <= tolerance * s.mean()
-            })
-        },
-    },
-    Mistake {
-        cause: &adaptive::SIGMA_OVER_N,
-        answers: |stream| {
-            by(stream, |s, tolerance| NORMAL_95 * s.variance().sqrt() / s.n <= tolerance * s.mean())
-        },
-    },
-    Mistake {
-        cause: &adaptive::WITHOUT_1_96,
-        answers: |stream| {
-            by(stream, |s, tolerance| (s.variance() / s.n).sqrt() <= tolerance * s.mean())
-        },
-    },
-    Mistake {
-        cause: &adaptive::VARIANCE_FOR_SIGMA,
-        answers: |stream| {
-            by(stream, |s, tolerance| NORMAL_95 * s.variance() / s.n.sqrt() <= tolerance * s.mean())
-        },
-    },
-    Mistake {
-        cause: &adaptive::TOLERANCE_ABSOLUTE,
-        answers: |stream| {
-            by(stream, |s, tolerance| NORMAL_95 * (s.variance() / s.n).sqrt() <= tolerance)
-        },
-    },
-    Mistake {
-        cause: &adaptive::COUNT_ONE_SHORT,
-        answers: |stream| {
-            by(stream, |s, tolerance| {
-                let variance = (s.squares - s.sum * s.sum / (s.n - 1.0)) / (s.n - 2.0);
-                NORMAL_95 * (variance / s.n).sqrt() <= tolerance * s.mean()
-            })
-        },
-    },
-    Mistake { cause: &adaptive::NEVER_STOPS, answers: |stream| by(stream, |_, _| false) },
-    Mistake {
-        cause: &adaptive::LOOKS_AFTER_EVERY_SAMPLE,
-        answers: |stream| stream.prefix(stream.count(stops, 1)),
-    },
-    Mistake {
-        cause: &adaptive::BATCH_IGNORED,
-        answers: |stream| stream.prefix(stream.count(stops, 32)),
-    },
-    Mistake {
-        cause: &adaptive::REST_OF_BATCH_DROPPED,
-        answers: |stream| {
-            let whole_batches = stream.cap - stream.cap % stream.batch;
-            stream.prefix(stream.count(stops, stream.batch).min(whole_batches))
-        },
-    },
-    Mistake {
-        cause: &adaptive::DIVIDED_BY_CAP,
-        answers: |stream| scaled(stream, |used, cap| used / cap),
-    },
-    Mistake {
-        cause: &picture::DIVIDED_BY_ONE_MORE,
-        answers: |stream| scaled(stream, |used, _| used / (used + 1.0)),
-    },
-    Mistake {
-        cause: &adaptive::DIVIDED_BY_ONE_LESS,
-        answers: |stream| scaled(stream, |used, _| used / (used - 1.0)),
-    },
-    Mistake { cause: &picture::NOT_DIVIDED, answers: |stream| scaled(stream, |used, _| used) },
-    Mistake { cause: &adaptive::COUNTS_ARE_CAP, answers: |stream| reported(stream, stream.cap) },
-    Mistake {
-        cause: &adaptive::LAST_BATCH_NOT_COUNTED,
-        answers: |stream| reported(stream, stream.stops_at.saturating_sub(stream.batch)),
-    },
+/// The mistakes that students make in what they divide by.
+const WRONG_DIVISORS: &[(&Cause, Share)] = &[
+    (&adaptive::DIVIDED_BY_CAP, |used, cap| used / cap),
+    (&adaptive::DIVIDED_BY_ONE_MORE, |used, _| used / (used + 1.0)),
+    (&adaptive::DIVIDED_BY_ONE_LESS, |used, _| used / (used - 1.0)),
+    (&adaptive::NOT_DIVIDED, |used, _| used),
 ];
-
-/// What the rule needs of the samples so far.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sums {
-    n: f64,
-    sum: f64,
-    squares: f64,
-}
-
-impl Sums {
-    fn of(samples: &[f64]) -> Self {
-        let squares = samples.iter().map(|x| x * x).sum();
-        Self { n: samples.len() as f64, sum: samples.iter().sum(), squares }
-    }
-
-    fn mean(&self) -> f64 {
-        self.sum / self.n
-    }
-
-    fn population_variance(&self) -> f64 {
-        (self.squares / self.n - self.mean() * self.mean()).max(0.0)
-    }
-
-    fn variance(&self) -> f64 {
-        self.population_variance() * self.n / (self.n - 1.0)
-    }
-}
 
 impl StreamEntry {
     /// As long as the cap.
@@ -185,10 +55,10 @@ impl StreamEntry {
         stopping.next().unwrap_or(self.cap)
     }
 
-    /// So many samples, and their mean.
-    fn prefix(&self, used: u32) -> Answer {
+    /// The mean that the samples have which a core says it has used.
+    fn mean_of(&self, answer: &AdaptiveMean) -> f64 {
         let samples = self.samples();
-        (used, Sums::of(&samples[..(used as usize).clamp(1, samples.len())]).mean())
+        Sums::of(&samples[..(answer.used as usize).clamp(1, samples.len())]).mean()
     }
 }
 
@@ -246,7 +116,7 @@ fn judge(answered: &[Answered<'_>], tolerance: f64) -> Finding {
 }
 
 fn measures((stream, answer): &Answered<'_>, tolerance: f64) -> [Measure; 2] {
-    let (_, mean) = stream.prefix(answer.used);
+    let mean = stream.mean_of(answer);
     let (used, right) = (f64::from(answer.used), f64::from(stream.stops_at));
     let name = |what: &str| format!("{}: {what}", stream.name);
     [
@@ -257,13 +127,29 @@ fn measures((stream, answer): &Answered<'_>, tolerance: f64) -> [Measure; 2] {
 
 /// The mistakes that predict the answers for every stream.
 fn explanations(answered: &[Answered<'_>], tolerance: f64) -> Vec<&'static Cause> {
-    let predicts = |mistake: &&Mistake| {
+    let stops_by = |rule: Rule, each_sample: bool| {
         answered.iter().all(|(stream, answer)| {
-            let (used, mean) = (mistake.answers)(stream);
-            answer.used == used && (answer.mean - mean).abs() <= tolerance * mean.abs()
+            let step = if each_sample { 1 } else { stream.batch };
+            stream.count(rule, step) == answer.used
         })
     };
-    MISTAKES.iter().filter(predicts).map(|mistake| mistake.cause).collect()
+    let mean_is = |share: &dyn Fn(f64, f64) -> f64| {
+        answered.iter().all(|(stream, answer)| {
+            let share = share(f64::from(answer.used), f64::from(stream.cap));
+            let mean = share * stream.mean_of(answer);
+            (answer.mean - mean).abs() <= tolerance * mean.abs()
+        })
+    };
+    if stops_by(stops, false) {
+        let made = WRONG_DIVISORS.iter().filter(|(_, share)| mean_is(share));
+        return made.map(|(cause, _)| *cause).collect();
+    }
+    if !mean_is(&|_, _| 1.0) {
+        return Vec::new();
+    }
+    let made = WRONG_RULES.iter().filter(|(_, rule)| stops_by(*rule, false));
+    let too_often = stops_by(stops, true).then_some(&adaptive::LOOKS_AFTER_EVERY_SAMPLE);
+    made.map(|(cause, _)| *cause).chain(too_often).collect()
 }
 
 fn ask<'a>(context: &mut Context<'_>, stream: &'a StreamEntry) -> Result<Answered<'a>, CheckError> {
@@ -276,8 +162,7 @@ fn ask<'a>(context: &mut Context<'_>, stream: &'a StreamEntry) -> Result<Answere
 
 /// What is wrong with one stream.
 fn complaint((stream, answer): &Answered<'_>, tolerance: f64) -> Option<String> {
-    let (used, mean) = stream.prefix(answer.used);
-    let right = stream.stops_at;
+    let (used, right, mean) = (answer.used, stream.stops_at, stream.mean_of(answer));
     if used != right {
         return Some(format!("{} stops at {used} instead of {right}", stream.name));
     }
@@ -297,10 +182,23 @@ mod tests {
     use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
     use crate::contract::{Core, CoreInfo, Precision, Result};
 
-    /// Answers as it is told.
-    struct Answering(fn(&StreamEntry) -> Answer);
+    const CASE: &str = r#"
+        [[expect.stream]]
+        name      = "five values"
+        repeats   = [1, 3, 0.5, 1, 1]
+        batch     = 2
+        tolerance = "50 %"
+        cap       = 64
+        stops-at  = 10
+    "#;
 
-    impl Core for Answering {
+    /// Stops by a rule, and divides by what it says.
+    struct Stopping {
+        rule: Rule,
+        divide_by_cap: bool,
+    }
+
+    impl Core for Stopping {
         fn info(&self) -> CoreInfo {
             info(Precision::Double)
         }
@@ -311,55 +209,52 @@ mod tests {
             streams: &[&[f64]],
             means: &mut [AdaptiveMean],
         ) -> Result<()> {
-            for (stream, answer) in streams.iter().zip(means) {
-                let mut entry = StreamEntry {
-                    name: String::new(),
-                    repeats: stream.to_vec(),
-                    batch: settings.samples_per_batch,
-                    tolerance: Percent(settings.max_tolerance),
-                    cap: u32::try_from(stream.len()).unwrap(),
-                    stops_at: 0,
-                };
-                entry.stops_at = entry.count(stops, entry.batch);
-                let (used, mean) = (self.0)(&entry);
-                *answer = AdaptiveMean { mean, used, reserved: 0 };
+            for (stream, mean) in streams.iter().zip(means) {
+                let step = settings.samples_per_batch as usize;
+                let stop = (step..stream.len())
+                    .step_by(step)
+                    .find(|n| (self.rule)(&Sums::of(&stream[..*n]), settings.max_tolerance));
+                let used = stop.unwrap_or(stream.len());
+                let divisor = if self.divide_by_cap { stream.len() } else { used };
+                let sum: f64 = stream[..used].iter().sum();
+                let used = u32::try_from(used).unwrap();
+                *mean = AdaptiveMean { mean: sum / divisor as f64, used, reserved: 0 };
             }
             Ok(())
         }
     }
 
-    fn found(answers: fn(&StreamEntry) -> Answer) -> Finding {
-        let case = include_str!("../../../cases/sampling/streams-stop-where-the-rule-says.toml");
-        judge(&check_of::<StopsWhereItShould>(case), &mut Answering(answers))
+    fn found(rule: Rule, divide_by_cap: bool) -> Finding {
+        judge(&check_of::<StopsWhereItShould>(CASE), &mut Stopping { rule, divide_by_cap })
     }
 
     #[test]
     fn the_rule_itself_passes() {
-        assert_passes(&found(|stream| by(stream, stops)));
+        assert_passes(&found(stops, false));
     }
 
     #[test]
-    fn every_mistake_fails_and_is_told_from_the_others() {
-        for mistake in MISTAKES {
-            let finding = found(mistake.answers);
-            let told: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
-            assert!(failure(&finding).contains(mistake.cause.headline), "{}", finding.statement);
-            assert_eq!(told, [mistake.cause.name]);
+    fn every_mistake_fails_and_is_named() {
+        for (cause, rule) in WRONG_RULES {
+            let finding = found(*rule, false);
+            assert!(failure(&finding).contains(cause.headline), "{}", finding.statement);
+            assert_eq!(finding.clues.len(), 1, "{:?}", finding.clues);
         }
     }
 
     #[test]
-    fn a_mean_of_something_else_is_seen() {
-        let finding = found(|stream| (stream.stops_at, 0.99 * stream.prefix(stream.stops_at).1));
-        assert!(failure(&finding).contains("the mean is 0.99 of that"), "{}", finding.statement);
-        assert!(finding.clues.is_empty());
+    fn dividing_by_the_cap_is_seen() {
+        let finding = found(stops, true);
+        assert!(failure(&finding).contains("0.156 of that"), "{}", finding.statement);
+        assert_eq!(finding.clues[0].cause, "divided-by-cap");
     }
 
     #[test]
     fn a_case_with_a_wrong_count_is_refused() {
-        let wrong = "stream = [{ name = \"five values\", repeats = [1, 3, 0.5, 1, 1], batch = 2, \
-                     tolerance = \"50 %\", cap = 64, stops-at = 8 }]";
-        let check: StopsWhereItShould = toml::from_str(wrong).unwrap();
-        assert!(check.validate().unwrap_err().contains("stops at 10"));
+        let check = check_of::<StopsWhereItShould>(CASE);
+        let mut stream = check.stream[0].clone();
+        stream.stops_at = 8;
+        let wrong = StopsWhereItShould { stream: vec![stream] };
+        assert!(wrong.validate().unwrap_err().contains("stops at 10"));
     }
 }

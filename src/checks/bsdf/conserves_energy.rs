@@ -1,6 +1,5 @@
 //! The albedo of a surface: never above one, and what its parameters say it is.
 
-use super::metal;
 use crate::cause::{Cause, bsdf};
 use crate::checks::form::Form;
 use crate::checks::phrase::{figure, would_have_caught};
@@ -11,7 +10,7 @@ use crate::math::closed_form::microfacet::{self, Masking};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
 use crate::math::sphere::on_hemisphere;
-use crate::scene::{Rgb, Surface};
+use crate::scene::Surface;
 use crate::stats::{SphereCells, Tolerance, Verdict};
 use crate::text::Angle;
 use serde::Deserialize;
@@ -19,8 +18,6 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Pairs of directions at which f is looked at.
 const DIRECTIONS: usize = 200;
-/// How far from the mean albedo a channel may be to be it, relative.
-const AVERAGED: f64 = 1e-4;
 /// Rings in each hemisphere and sectors of the quadrature.
 const CELLS: (usize, usize) = (4, 8);
 
@@ -73,53 +70,34 @@ impl Check for ConservesEnergy {
 }
 
 impl ConservesEnergy {
-    /// What is wrong with the surfaces, if it is the same with all of them that something is wrong with.
+    /// What is wrong with diffuse surfaces, if it is the same with all of them.
     fn mistakes(&self, context: &mut Context<'_>) -> Result<Vec<&'static Cause>, CheckError> {
         let mut causes = Vec::new();
         for surface in &self.surface {
-            causes.extend(mistake_of(context, *surface)?);
+            if let Surface::Diffuse { reflectance } = surface.material().surface {
+                let form = form_of_value(context, *surface, reflectance[1])?;
+                causes.extend(form.and_then(mistake));
+            }
         }
         causes.dedup();
         Ok(if causes.len() == 1 { causes } else { Vec::new() })
     }
 }
 
-/// The mistake that predicts f at many pairs of directions.
-fn mistake_of(
+/// f as a share of albedo/π.
+fn form_of_value(
     context: &mut Context<'_>,
     surface: SurfaceEntry,
-) -> Result<Option<&'static Cause>, CheckError> {
+    albedo: f64,
+) -> Result<Option<Form>, CheckError> {
     let mut stream = context.seed.child("form of a value").stream();
     let mut direction = || on_hemisphere(&mut stream);
     let queries: Vec<_> =
         (0..DIRECTIONS).map(|_| BsdfQuery { wo: direction(), wi: direction() }).collect();
     let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
     context.core.eval_bsdf(&surface.material(), &queries, &mut values)?;
-    Ok(match surface.material().surface {
-        Surface::Diffuse { reflectance } if is_averaged(reflectance, &values) => {
-            Some(&bsdf::ALBEDO_AVERAGED)
-        }
-        Surface::Diffuse { reflectance } => {
-            let share = |(query, value): (&BsdfQuery, &BsdfValue)| {
-                (value.f[1] * PI / reflectance[1], query.wi.z)
-            };
-            let shares: Vec<_> = queries.iter().zip(&values).map(share).collect();
-            Form::of(&shares).and_then(mistake)
-        }
-        Surface::Conductor { reflectance, roughness } => {
-            let smith = context.info.conventions.smith_term;
-            metal::mistake_of_value((reflectance[1], roughness), smith, &queries, &values)
-        }
-        Surface::Mirror { .. } | Surface::Glass { .. } => None,
-    })
-}
-
-/// Whether a coloured surface answers the mean of its albedos in every channel.
-fn is_averaged(reflectance: Rgb, values: &[BsdfValue]) -> bool {
-    let mean = reflectance.iter().sum::<f64>() / 3.0;
-    let is_mean = |f: &f64| (f * PI / mean - 1.0).abs() <= AVERAGED;
-    let is_coloured = reflectance.iter().any(|albedo| (albedo / mean - 1.0).abs() > 0.01);
-    is_coloured && values.iter().flat_map(|value| &value.f).all(is_mean)
+    let share = |(query, value): (&BsdfQuery, &BsdfValue)| (value.f[1] * PI / albedo, query.wi.z);
+    Ok(Form::of(&queries.iter().zip(&values).map(share).collect::<Vec<_>>()))
 }
 
 /// The mistake that makes f this share of albedo/π.
@@ -173,7 +151,7 @@ fn albedo_measure(
 
 /// By the formula, independent of any core. Single scattering from GGX loses light, more of it with the
 /// separable Smith term.
-fn expected_albedo(surface: SurfaceEntry, angle: f64, smith: SmithTerm) -> f64 {
+pub fn expected_albedo(surface: SurfaceEntry, angle: f64, smith: SmithTerm) -> f64 {
     let masking = match smith {
         SmithTerm::Separable => Masking::Separable,
         SmithTerm::HeightCorrelated => Masking::HeightCorrelated,

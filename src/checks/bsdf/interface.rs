@@ -1,7 +1,7 @@
 //! Smooth surfaces, right and wrong: where a mirror or a pane of glass sends light, how much of it, and what
 //! comes out if one of the usual mistakes is made in working that out.
 
-use crate::cause::{Cause, bsdf as cause};
+use crate::cause::{Cause, bsdf as cause, convention};
 use crate::contract::{Conventions, GlassFresnel, GlassRadiance};
 use crate::math::closed_form::fresnel;
 use crate::scene::{Rgb, Surface};
@@ -93,7 +93,7 @@ pub static MISTAKES: &[Mistake] = &[
         change: |w| w.reflectance = schlick_by_the_cosine_at_hand,
     },
     Mistake { cause: &cause::TOTAL_REFLECTION_FORGOTTEN, change: |w| w.reflects_totally = false },
-    Mistake { cause: &cause::GLASS_RADIANCE_NOT_SCALED, change: |w| w.crossing = |_| 1.0 },
+    Mistake { cause: &convention::UNSCALED_RADIANCE, change: |w| w.crossing = |_| 1.0 },
     Mistake {
         cause: &cause::GLASS_RADIANCE_SCALED_BACKWARDS,
         change: |w| w.crossing = |ratio| ratio * ratio,
@@ -112,7 +112,7 @@ pub static MISTAKES: &[Mistake] = &[
     },
     Mistake {
         cause: &cause::GLASS_WEIGHT_WITHOUT_FRESNEL,
-        change: |w| w.carried = |share| share.carried() / share.probability,
+        change: |w| w.carried = |share| share.colour * share.crossing,
     },
     Mistake {
         cause: &cause::DELTA_COLOUR_MISSING,

@@ -5,9 +5,9 @@
 
 use super::interface::{Interface, MISTAKES};
 use super::smooth_view::{Allowed, SmoothView, is_reflection};
-use crate::cause::bsdf as cause;
-use crate::checks::numbers::Numbers;
-use crate::checks::phrase::{degrees, figure, percent};
+use crate::cause::{Cause, bsdf as cause};
+use crate::checks::numbers::{NO_SAMPLE, Numbers};
+use crate::checks::phrase::{degrees, percent};
 use crate::checks::surface::{SurfaceEntry, seen_from};
 use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{BsdfSample, Capabilities, Core};
@@ -22,10 +22,6 @@ use serde::Deserialize;
 const EXAMINED: usize = 4096;
 /// Samples drawn in one batch.
 const BATCH: u64 = 1 << 16;
-
-/// What a core overwrites.
-const NO_SAMPLE: BsdfSample =
-    BsdfSample { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
 
 /// Samples a mirror or glass from some angles; beyond 90° the viewer is inside.
 #[derive(Clone, Debug, Deserialize)]
@@ -162,24 +158,28 @@ impl Trial {
                 finding = finding.because(mistake.cause, evidence);
             }
         }
-        let is_right = |view: &SmoothView| view.is_predicted_by(view.right);
-        let views_fit = format!("every sample of {} views is right in itself", views.len());
-        let is_sure = views.iter().filter_map(SmoothView::is_sure_of_both).any(|sure| sure);
-        let is_chosen_otherwise = !is_sure && views.iter().any(SmoothView::is_chosen_otherwise);
-        if views.iter().all(is_right) && is_chosen_otherwise {
-            finding = finding.because(&cause::GLASS_OTHER_CHANCE, &views_fit);
-        }
-        if views.iter().all(|view| is_right(view) && view.is_unmarked()) {
-            finding = finding.because(&cause::MIRROR_NOT_DELTA, views_fit);
-        }
-        let sure: Vec<_> = views.iter().filter_map(SmoothView::is_sure_of_both).collect();
-        if !sure.is_empty() && sure.iter().all(|sure| *sure) {
-            let evidence =
-                format!("pdf is 1 in {} views that go both ways", figure(sure.len() as f64));
-            finding = finding.because(&cause::DELTA_PROBABILITY_IS_ONE, evidence);
-        }
-        finding
+        let told = chance_clue(views).into_iter().chain(mark_clue(views));
+        told.fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence))
     }
+}
+
+/// What is wrong with the chances of the two ways, if only they are.
+fn chance_clue(views: &[SmoothView]) -> Option<(&'static Cause, String)> {
+    let sure: Vec<_> = views.iter().filter_map(SmoothView::is_sure_of_both).collect();
+    if !sure.is_empty() && sure.iter().all(|sure| *sure) {
+        let evidence = format!("pdf is 1 in {} views that go both ways", sure.len());
+        return Some((&cause::DELTA_PROBABILITY_IS_ONE, evidence));
+    }
+    let (stated, share) = views.iter().find_map(SmoothView::other_chance)?;
+    let (stated, share) = (percent(stated), percent(share));
+    let evidence = format!("{share} of samples are reflections where pdf says {stated}");
+    Some((&cause::GLASS_OTHER_CHANCE, evidence))
+}
+
+/// Right samples that no view has marked.
+fn mark_clue(views: &[SmoothView]) -> Option<(&'static Cause, String)> {
+    let evidence = format!("is-delta is 0 in {} views, and all else is right", views.len());
+    views.iter().all(SmoothView::lacks_its_mark).then_some((&cause::MIRROR_NOT_DELTA, evidence))
 }
 
 #[cfg(test)]
@@ -301,7 +301,9 @@ mod tests {
 
     #[test]
     fn samples_that_are_not_marked_or_slightly_off_are_seen() {
-        assert!(failure(&spoilt(|sample| sample.is_delta = 0)).contains("not marked as delta"));
+        let unmarked = spoilt(|sample| sample.is_delta = 0);
+        assert!(failure(&unmarked).contains("not marked as delta"));
+        assert_eq!(unmarked.clues[0].cause, cause::MIRROR_NOT_DELTA.name);
         assert!(failure(&spoilt(|sample| sample.is_valid = 0)).contains("samples fail"));
         let bent = spoilt(|sample| sample.wi = (sample.wi + 1e-6 * DVec3::X).normalize());
         assert!(failure(&bent).contains("off its direction") && bent.clues.is_empty());

@@ -55,22 +55,23 @@ impl SmoothView {
         stated.map(|chance| chance.clamp(0.0, 1.0))
     }
 
+    /// Whether every sample goes where it should with what it should carry, and none is marked.
+    pub fn lacks_its_mark(&self) -> bool {
+        self.samples.iter().all(|sample| sample.is_valid == 1 && sample.is_delta == 0)
+            && self.is_predicted_by(self.right)
+    }
+
+    /// What pdf says of a reflection and how many there are, if that is all that is wrong.
+    pub fn other_chance(&self) -> Option<(f64, f64)> {
+        let chance = self.chance.as_ref().filter(|chance| chance.verdict == Verdict::Fail)?;
+        self.is_predicted_by(self.right).then_some((chance.expected, chance.share))
+    }
+
     /// Whether light goes both ways, and every sample states a probability of one.
     pub fn is_sure_of_both(&self) -> Option<bool> {
         let (back, through) = self.sides();
         let goes_both_ways = !back.is_empty() && !through.is_empty();
         goes_both_ways.then(|| self.samples.iter().all(|s| s.is_valid == 1 && s.pdf == 1.0))
-    }
-
-    /// Whether reflections are more or less frequent than their probability.
-    pub fn is_chosen_otherwise(&self) -> bool {
-        self.chance.as_ref().is_some_and(|chance| chance.verdict == Verdict::Fail)
-    }
-
-    /// Whether no sample is marked as a delta.
-    pub fn is_unmarked(&self) -> bool {
-        let valid = self.samples.iter().filter(|sample| sample.is_valid == 1);
-        valid.clone().count() > 0 && valid.clone().all(|sample| sample.is_delta == 0)
     }
 
     /// Whether a core that works light out this way would have given every sample.

@@ -30,8 +30,6 @@ pub enum Slip {
     TestsEverything,
     /// The ray does not end at what was found.
     NeverShortens,
-    /// The left child is always visited first.
-    NeverOrders,
     /// Shadow rays look for the nearest hit among everything.
     SearchesShadows,
 }
@@ -90,7 +88,6 @@ impl FakeScene {
         match self.slip {
             Slip::KeepsTheFirstHit => self.walk(ray, Walk::AnyHit),
             Slip::NeverShortens => self.walk(ray, Walk::Unshortened),
-            Slip::NeverOrders => self.walk(ray, Walk::Unordered),
             Slip::ForgetsTheEnd => self.walk(&Ray { t_max: f64::INFINITY, ..*ray }, Walk::Ordered),
             _ => self.walk(ray, Walk::Ordered),
         }

@@ -1,5 +1,7 @@
-//! How estimates get better with more samples.
+//! How noisy estimates are, and how they get better with more samples.
 
 mod error_falls_as_root_n;
+mod variance_is_known;
 
 pub use error_falls_as_root_n::ErrorFallsAsRootN;
+pub use variance_is_known::VarianceIsKnown;

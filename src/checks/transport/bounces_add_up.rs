@@ -1,8 +1,7 @@
 //! What is accumulated over some bounces is the sum of those bounces, isolated.
 
-use super::estimate::{
-    CHANNELS, RayEntry, effort, estimate, measure, needs, percent, resolution_sentence, settings,
-};
+use super::estimate::{CHANNELS, RayEntry, effort, estimate, needs, settings};
+use crate::checks::phrase::{mean_measure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
 use crate::stats::{Band, Claim, Verdict, judge_means};
@@ -63,9 +62,10 @@ impl Check for BouncesAddUp {
             Ok::<_, CheckError>(difference.to_vec())
         })?;
         let measures: Vec<_> = (0..3)
-            .map(|c| measure(format!("accumulated minus sum, {}", CHANNELS[c]), &reports[c]))
+            .map(|c| mean_measure(format!("accumulated minus sum, {}", CHANNELS[c]), &reports[c]))
             .collect();
-        let worst = (0..3).map(|c| measures[c].measured / scale[c]).fold(0.0, f64::max);
+        let share = |c: usize| (measures[c].measured / scale[c]).abs();
+        let worst = (0..3).map(share).fold(0.0, f64::max);
         let statement = if reports.iter().any(|report| report.verdict == Verdict::Fail) {
             format!(
                 "accumulated radiance differs from the sum of its bounces by {}",
@@ -74,7 +74,7 @@ impl Check for BouncesAddUp {
         } else {
             format!("bounces 0 to {} add up", self.last)
         };
-        let resolution = resolution_sentence(&measures);
+        let resolution = would_have_caught(&measures);
         Ok(Finding::of(statement, resolution, measures))
     }
 }

@@ -1,7 +1,5 @@
 //! What the checks of radiance share: the words of their `[expect]`, and means over seeded runs.
 
-use crate::checks::Measure;
-pub use crate::checks::phrase::mean_measure as measure;
 use crate::contract::{
     BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray, Result, Roulette,
 };
@@ -83,6 +81,31 @@ pub fn needs(settings: &IntegratorSettings) -> Capabilities {
     needs
 }
 
+/// Draws `samples` independent estimates along `ray` and hands them over, some at a time.
+pub fn draw_estimates(
+    scene: &mut dyn BuiltScene,
+    ray: Ray,
+    settings: &IntegratorSettings,
+    seed: Seed,
+    samples: u64,
+    take: &mut dyn FnMut(&[[f64; 3]]),
+) -> Result<()> {
+    let mut left = samples;
+    for part in 0.. {
+        let count = left.min(RAYS_PER_CALL);
+        let settings = IntegratorSettings { seed: seed.child(part).0, ..settings.clone() };
+        let rays = vec![ray; usize::try_from(count).unwrap_or(usize::MAX)];
+        let mut radiance = vec![[0.0; 3]; rays.len()];
+        scene.radiance(&rays, &settings, &mut radiance)?;
+        take(&radiance);
+        left -= count;
+        if left == 0 {
+            break;
+        }
+    }
+    Ok(())
+}
+
 /// Mean and largest channel value of `samples` estimates along `ray`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Estimate {
@@ -102,44 +125,13 @@ pub fn estimate(
 ) -> Result<Estimate> {
     let mut sum = [0.0; 3];
     let mut largest = [0.0_f64; 3];
-    let mut left = samples;
-    for part in 0.. {
-        let count = left.min(RAYS_PER_CALL);
-        let settings = IntegratorSettings { seed: seed.child(part).0, ..settings.clone() };
-        let rays = vec![ray; usize::try_from(count).unwrap_or(usize::MAX)];
-        let mut radiance = vec![[0.0; 3]; rays.len()];
-        scene.radiance(&rays, &settings, &mut radiance)?;
-        for value in &radiance {
+    draw_estimates(scene, ray, settings, seed, samples, &mut |radiance| {
+        for value in radiance {
             for channel in 0..3 {
                 sum[channel] += value[channel];
                 largest[channel] = largest[channel].max(value[channel]);
             }
         }
-        left -= count;
-        if left == 0 {
-            break;
-        }
-    }
+    })?;
     Ok(Estimate { mean: sum.map(|sum| sum / samples as f64), largest })
-}
-
-/// "would have caught an error of 0.42 %": the weakest of some measures.
-pub fn resolution_sentence(measures: &[Measure]) -> String {
-    let resolutions = measures.iter().filter_map(|measure| measure.resolution);
-    match resolutions.reduce(f64::max) {
-        Some(worst) => format!("would have caught an error of {}", percent(worst)),
-        None => String::new(),
-    }
-}
-
-/// A share as people write it: `0.42 %`, `12 %`, `1e-5`.
-pub fn percent(share: f64) -> String {
-    let percent = share.abs() * 100.0;
-    if percent < 0.01 {
-        format!("{:.0e}", share.abs())
-    } else if percent < 10.0 {
-        format!("{percent:.2} %")
-    } else {
-        format!("{percent:.0} %")
-    }
 }

@@ -1,8 +1,7 @@
 //! Two ways to estimate the same radiance have the same mean, whatever that is: no reference is needed.
 
-use super::estimate::{
-    CHANNELS, RayEntry, effort, estimate, measure, needs, percent, resolution_sentence, settings,
-};
+use super::estimate::{CHANNELS, RayEntry, effort, estimate, needs, settings};
+use crate::checks::phrase::{mean_measure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray,
@@ -89,7 +88,7 @@ impl Check for EstimatorsAgree {
                 }));
             }
         }
-        let resolution = resolution_sentence(&measures);
+        let resolution = would_have_caught(&measures);
         Ok(Finding::of(statement(&measures), resolution, measures))
     }
 }
@@ -123,7 +122,9 @@ impl Comparison<'_> {
         let name = format!("{} minus {}", self.other.name(), first.name());
         let measures = reports.iter().enumerate();
         let labelled = |c: usize| format!("{name}, {}", CHANNELS[c]);
-        Ok(measures.map(|(c, report)| relative(measure(labelled(c), report), scale[c])).collect())
+        Ok(measures
+            .map(|(c, report)| relative(mean_measure(labelled(c), report), scale[c]))
+            .collect())
     }
 }
 
@@ -146,9 +147,8 @@ fn statement(measures: &[Measure]) -> String {
     match worst {
         None => format!("{} differences of means, none of them real", measures.len()),
         Some(worst) => format!(
-            "the estimators do not agree: {} is {}{} of the mean",
+            "the estimators do not agree: {} is {} of the mean",
             worst.name,
-            if worst.measured < 0.0 { "-" } else { "" },
             percent(worst.measured),
         ),
     }

@@ -1,23 +1,19 @@
 //! Mean radiance along a ray against a number that is known.
 
-use super::estimate::{
-    CHANNELS, RayEntry, RouletteEntry, effort, estimate, measure, needs, percent,
-    resolution_sentence, settings,
-};
-use super::mistaken::{Measured, Mistaken, explanations};
-use crate::cause::Cause;
+use super::by_convention::ConventionEntry;
+use super::estimate::{CHANNELS, RayEntry, RouletteEntry, effort, estimate, needs, settings};
+use super::foretold::MistakeEntry;
+use crate::checks::phrase::{figure, mean_measure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{
-    Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray,
+    Acceleration, BuiltScene, Capabilities, Conventions, CoreInfo, DirectSampling,
+    IntegratorSettings, Ray,
 };
 use crate::math::rng::Seed;
-use crate::stats::{Band, Claim, Effort, Support, Verdict, judge_means};
+use crate::stats::{Band, Claim, Effort, Support, Tolerance, Verdict, judge_means};
 use crate::text::{Colour, Count, Percent};
 use serde::Deserialize;
 
-/// Relative error of a radiance that no random number touches: a dozen operations in single precision, and a
-/// shadow ray that starts and ends a little off its surfaces.
-const EXACT_RADIANCE: f64 = 1e-5;
 /// Samples of a row that has no variance.
 const EXACT_SAMPLES: u64 = 64;
 /// Samples of a row that has to be dark: one photon is enough to fail.
@@ -38,6 +34,9 @@ pub struct MeanRadiance {
     /// Past this the verdict is inconclusive, never a pass.
     at_most: Count,
     row: Vec<Row>,
+    /// What known mistakes would give.
+    #[serde(default)]
+    mistake: Vec<MistakeEntry>,
 }
 
 /// One number.
@@ -49,6 +48,9 @@ struct Row {
     ray: Option<RayEntry>,
     bounces: [u32; 2],
     radiance: Colour,
+    /// What it is for cores that have chosen otherwise.
+    #[serde(default)]
+    by_convention: Vec<ConventionEntry>,
     direct: Option<DirectSampling>,
     roulette: Option<RouletteEntry>,
     /// What no sample exceeds, however a core keeps its word; only where `source` says why. A run
@@ -57,9 +59,6 @@ struct Row {
     /// The scene leaves nothing to chance: judged to rounding, on a few samples.
     #[serde(default)]
     exact: bool,
-    /// What known mistakes would make of it.
-    #[serde(default)]
-    mistaken: Mistaken,
 }
 
 const fn one() -> u32 {
@@ -78,8 +77,9 @@ impl Check for MeanRadiance {
         if self.row.is_empty() {
             return Err("there are no rows; add `[[expect.row]]`".to_owned());
         }
+        self.mistake.iter().try_for_each(|mistake| mistake.validate(self.row.len()))?;
         self.row.iter().try_for_each(|row| {
-            row.mistaken.validate()?;
+            row.by_convention.iter().try_for_each(ConventionEntry::validate)?;
             row.ray.or(self.ray).ok_or("a row has no `ray`, and neither has `[expect]`")?.validate()
         })
     }
@@ -88,40 +88,33 @@ impl Check for MeanRadiance {
         let scene = context.scene()?;
         let (seed, effort) = (context.seed, effort(self.detects, self.at_most, context.budget));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let mut measures = Vec::new();
+        let info = context.info.clone();
+        let mut rows = Vec::new();
         for (number, row) in self.row.iter().enumerate() {
-            let question = self.question(row, seed.child(number));
-            let row_measures = question.judge(built.as_mut(), &effort)?;
-            let failed = row_measures.iter().any(|measure| measure.verdict == Verdict::Fail);
-            measures.push(row_measures);
+            let question = self.question(row, seed.child(number), &info);
+            let measures = question.judge(built.as_mut(), &effort)?;
+            let failed = measures.iter().any(|(_, measure)| measure.verdict == Verdict::Fail);
+            rows.push(measures);
             if failed && effort.decides_early {
                 break;
             }
         }
-        let causes = self.explanations(&measures);
-        let measures: Vec<_> = measures.into_iter().flatten().collect();
-        let statement = statement(&measures);
-        let resolution = match resolution_sentence(&measures) {
+        let causes: Vec<_> =
+            self.mistake.iter().filter_map(|mistake| mistake.explains(&rows)).collect();
+        let measures: Vec<_> = rows.into_iter().flatten().map(|(_, measure)| measure).collect();
+        let resolution = match would_have_caught(&measures) {
             dark if dark.is_empty() => {
                 format!("would have caught one lit sample among {DARK_SAMPLES}")
             }
             lit => lit,
         };
-        Ok(Finding::of(statement, resolution, measures)
-            .because_each(causes, "predicts every row of the case"))
+        let finding = Finding::of(statement(&measures), resolution, measures);
+        let explained = |finding: Finding, (cause, evidence)| finding.because(cause, evidence);
+        Ok(causes.into_iter().fold(finding, explained))
     }
 }
 
 impl MeanRadiance {
-    /// The mistakes that predict all rows that were tried, if one of them failed.
-    fn explanations(&self, measures: &[Vec<Measure>]) -> Vec<&'static Cause> {
-        if measures.iter().flatten().all(|measure| measure.verdict != Verdict::Fail) {
-            return Vec::new();
-        }
-        let tried = self.row.iter().zip(measures);
-        explanations(&tried.map(|(row, measures)| row.measured(measures)).collect::<Vec<_>>())
-    }
-
     fn settings(&self, row: &Row) -> IntegratorSettings {
         IntegratorSettings {
             samples_per_light: self.samples_per_light,
@@ -130,31 +123,26 @@ impl MeanRadiance {
         }
     }
 
-    fn question(&self, row: &Row, seed: Seed) -> Question {
+    fn question(&self, row: &Row, seed: Seed, info: &CoreInfo) -> Question {
         let entry = row.ray.or(self.ray);
         Question {
             name: row.name(),
             ray: entry.map_or(Ray::new(glam::DVec3::ZERO, glam::DVec3::Z), RayEntry::ray),
             settings: self.settings(row),
-            expected: row.radiance.0,
+            expected: row.expected(&info.conventions),
             largest: row.largest.map(|largest| largest.0),
-            exact: row.exact,
+            exact: row.exact.then_some(Tolerance::RADIANCE.of(info.precision)),
             seed,
         }
     }
 }
 
 impl Row {
-    /// The channels that are measured: those that are not dark, or all of a dark row.
-    fn channels(&self) -> impl Iterator<Item = usize> {
-        let Colour(radiance) = self.radiance;
-        let is_dark = radiance == [0.0; 3];
-        (0..3).filter(move |channel| is_dark || self.exact || radiance[*channel] != 0.0)
-    }
-
-    fn measured<'a>(&'a self, measures: &'a [Measure]) -> Measured<'a> {
-        let (mistaken, right) = (&self.mistaken, self.radiance.0);
-        Measured { mistaken, right, measures: self.channels().zip(measures).collect() }
+    /// What is right for a core that has chosen so.
+    fn expected(&self, declared: &Conventions) -> [f64; 3] {
+        let mut exceptions = self.by_convention.iter();
+        let exception = exceptions.find(|entry| entry.is_declared_by(declared));
+        exception.map_or(self.radiance, |entry| entry.radiance).0
     }
 
     fn name(&self) -> String {
@@ -172,32 +160,45 @@ struct Question {
     settings: IntegratorSettings,
     expected: [f64; 3],
     largest: Option<[f64; 3]>,
-    exact: bool,
+    /// Relative error allowed where nothing is left to chance.
+    exact: Option<f64>,
     seed: Seed,
 }
 
 impl Question {
-    /// The measures of the three channels.
+    /// The measures of the three channels, with their numbers.
     fn judge(
         &self,
         scene: &mut dyn BuiltScene,
         effort: &Effort,
-    ) -> Result<Vec<Measure>, CheckError> {
-        if self.expected == [0.0; 3] {
-            return self.judge_dark(scene);
+    ) -> Result<Vec<(usize, Measure)>, CheckError> {
+        let (lit, dark): (Vec<_>, Vec<_>) = (0..3).partition(|c| self.expected[*c] != 0.0);
+        let mut measures = match self.exact {
+            Some(tolerance) => self.judge_exact(scene, &lit, tolerance)?,
+            None => self.judge_lit(scene, &lit, effort)?,
+        };
+        measures.extend(self.judge_dark(scene, &dark)?);
+        Ok(measures)
+    }
+
+    /// The means of channels with light, by the ladder.
+    fn judge_lit(
+        &self,
+        scene: &mut dyn BuiltScene,
+        channels: &[usize],
+        effort: &Effort,
+    ) -> Result<Vec<(usize, Measure)>, CheckError> {
+        if channels.is_empty() {
+            return Ok(Vec::new());
         }
-        if self.exact {
-            return self.judge_exact(scene);
-        }
-        let lit: Vec<_> = (0..3).filter(|channel| self.expected[*channel] != 0.0).collect();
-        let claims: Vec<_> = lit.iter().map(|channel| self.claim(*channel)).collect();
+        let claims: Vec<_> = channels.iter().map(|channel| self.claim(*channel)).collect();
         let reports = judge_means(&claims, effort, &mut |draw| {
             let seed = draw.seed(self.seed);
             let run = estimate(scene, self.ray, &self.settings, seed, draw.samples)?;
-            Ok::<_, CheckError>(lit.iter().map(|channel| run.mean[*channel]).collect())
+            Ok::<_, CheckError>(channels.iter().map(|channel| run.mean[*channel]).collect())
         })?;
-        let measures = lit.iter().zip(&reports);
-        Ok(measures.map(|(channel, report)| measure(self.label(*channel), report)).collect())
+        let measures = channels.iter().zip(&reports);
+        Ok(measures.map(|(c, report)| (*c, mean_measure(self.label(*c), report))).collect())
     }
 
     /// Radiance is not negative, and sometimes more is known.
@@ -210,19 +211,32 @@ impl Question {
     }
 
     /// No light at all: not one sample may carry any.
-    fn judge_dark(&self, scene: &mut dyn BuiltScene) -> Result<Vec<Measure>, CheckError> {
+    fn judge_dark(
+        &self,
+        scene: &mut dyn BuiltScene,
+        channels: &[usize],
+    ) -> Result<Vec<(usize, Measure)>, CheckError> {
+        if channels.is_empty() {
+            return Ok(Vec::new());
+        }
         let run = estimate(scene, self.ray, &self.settings, self.seed, DARK_SAMPLES)?;
-        Ok((0..3).map(|c| Measure::exact(self.label(c), run.largest[c], 0.0, 0.0)).collect())
+        let dark = |c: usize| (c, Measure::exact(self.label(c), run.largest[c], 0.0, 0.0));
+        Ok(channels.iter().copied().map(dark).collect())
     }
 
     /// No variance: a few samples say it all.
-    fn judge_exact(&self, scene: &mut dyn BuiltScene) -> Result<Vec<Measure>, CheckError> {
+    fn judge_exact(
+        &self,
+        scene: &mut dyn BuiltScene,
+        channels: &[usize],
+        tolerance: f64,
+    ) -> Result<Vec<(usize, Measure)>, CheckError> {
         let run = estimate(scene, self.ray, &self.settings, self.seed, EXACT_SAMPLES)?;
         let exact = |c: usize| {
-            let allowed = EXACT_RADIANCE * self.expected[c].abs();
-            Measure::exact(self.label(c), run.mean[c], self.expected[c], allowed)
+            let allowed = tolerance * self.expected[c].abs();
+            (c, Measure::exact(self.label(c), run.mean[c], self.expected[c], allowed))
         };
-        Ok((0..3).map(exact).collect())
+        Ok(channels.iter().copied().map(exact).collect())
     }
 
     fn label(&self, channel: usize) -> String {
@@ -242,13 +256,19 @@ fn statement(measures: &[Measure]) -> String {
         Some(worst) if worst.expected == 0.0 => {
             format!("{}: radiance {:.3e} where there is no light", worst.name, worst.measured)
         }
-        Some(worst) => format!(
-            "{}: {:.4} of what it should be ({:.6} instead of {:.6}), off by {}",
-            worst.name,
-            worst.measured / worst.expected,
-            worst.measured,
-            worst.expected,
-            percent(departure(worst)),
-        ),
+        Some(worst) => {
+            let ratio = worst.measured / worst.expected;
+            let between = worst.interval.map_or_else(String::new, |[low, high]| {
+                let [low, high] = [low, high].map(|end| figure(end / worst.expected));
+                format!(" (between {low} and {high})")
+            });
+            format!(
+                "{}: {ratio:.4}{between} of what it should be ({:.6} instead of {:.6}), off by {}",
+                worst.name,
+                worst.measured,
+                worst.expected,
+                percent(departure(worst)),
+            )
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Part 3: samplers and surfaces.
 
 use super::Fault;
-use crate::cause::{bsdf, sampling};
+use crate::cause::{bsdf, convention, sampling};
 use crate::cores::textbook::change::Change;
 
 const UNIFORM_MAP: &str = "samplers/the-uniform-map-fits-its-density";
@@ -220,14 +220,14 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "radiance is not scaled by the index squared, while that is declared",
         caught_by: "bsdf/glass-reflects-and-refracts",
-        cause: &bsdf::GLASS_RADIANCE_NOT_SCALED,
+        cause: &convention::UNSCALED_RADIANCE,
     },
     Fault {
         change: Change::MetalRoughnessSquared,
         name: "metal-roughness-squared",
         part: 3,
         summary: "α = roughness², while α is given",
-        caught_by: "bsdf/a-rough-metal-reflects-its-albedo",
+        caught_by: "bsdf/rough-metal-samples-follow-their-density",
         cause: &bsdf::ROUGHNESS_SQUARED,
     },
     Fault {

@@ -1,0 +1,275 @@
+//! f of a rough conductor against the microfacet formula, pair by pair: R · D(h) · G(wo, wi) / (4 cos θo cos θi).
+//!
+//! That the facets cover the surface once (∫ D cos = 1), that no more of them is seen than there is (G ≤ 1), and
+//! which Smith term a core uses: all of it follows, and a wrong factor is named by where it is wrong.
+
+use crate::cause::{Cause, bsdf as cause, convention};
+use crate::checks::phrase::{figure, percent, some_are, worst_measure};
+use crate::checks::surface::SurfaceEntry;
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{BsdfQuery, BsdfValue, Capabilities, SmithTerm};
+use crate::math::closed_form::microfacet::{Masking, distribution, masking, masking_shadowing};
+use crate::math::sphere::on_hemisphere;
+use crate::scene::{Rgb, Surface};
+use crate::stats::{Compared, ExactReport, Tolerance, judge_exact};
+use glam::DVec3;
+use serde::Deserialize;
+use std::f64::consts::PI;
+
+/// Pairs of directions for each surface.
+const PAIRS: usize = 10_000;
+/// Nearer to the horizon, cosines of single precision have lost their digits.
+const GRAZING: f64 = 1e-3;
+/// A mistake may magnify rounding, but not a hundredfold.
+const LIKENESS: f64 = 100.0;
+
+/// Rough conductors, at random pairs of directions.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct FollowsGgx {
+    surface: Vec<SurfaceEntry>,
+}
+
+impl Check for FollowsGgx {
+    const NAME: &'static str = "bsdf-follows-ggx";
+    const SUMMARY: &'static str = "f of rough metal against the microfacet formula, pair by pair";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::EVAL_BSDF
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        let other = self.surface.iter().find(|s| !matches!(s, SurfaceEntry::Conductor(_)));
+        match other {
+            Some(other) => Err(format!("{other} has no facets; give conductors")),
+            None if self.surface.is_empty() => Err("there are no surfaces".to_owned()),
+            None => Ok(()),
+        }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let smith = context.info.conventions.smith_term;
+        let mut tried = Vec::new();
+        for surface in &self.surface {
+            tried.extend(Tried::of(context, *surface, smith)?);
+        }
+        Ok(finding(&tried, Tolerance::FORMULA.of(context.info.precision)))
+    }
+}
+
+/// A conductor at one pair of directions.
+#[derive(Clone, Copy)]
+struct Pair {
+    wo: DVec3,
+    wi: DVec3,
+    reflectance: Rgb,
+    roughness: f64,
+    masking: Masking,
+}
+
+impl Pair {
+    fn half(&self) -> DVec3 {
+        (self.wo + self.wi).normalize()
+    }
+
+    fn both_masked(&self) -> f64 {
+        self.masked_by(self.masking)
+    }
+
+    fn masked_by(&self, form: Masking) -> f64 {
+        masking_shadowing(self.wo.z, self.wi.z, self.roughness, form)
+    }
+
+    /// D G / (4 cos cos): f for a reflectance of 1.
+    fn right(&self) -> f64 {
+        let facets = distribution(self.half().z, self.roughness);
+        facets * self.both_masked() / (4.0 * self.wo.z * self.wi.z)
+    }
+}
+
+/// f as a share of what is right, under a mistake.
+type Mistake = fn(&Pair) -> f64;
+
+const MISTAKES: &[(&Cause, Mistake)] = &[
+    (&cause::MASKING_FORGOTTEN, |pair| pair.both_masked().recip()),
+    (&cause::MASKING_ONE_SIDED, |pair| masking(pair.wo.z, pair.roughness) / pair.both_masked()),
+    (&convention::OTHER_SMITH_TERM, |pair| {
+        let other = match pair.masking {
+            Masking::Separable => Masking::HeightCorrelated,
+            Masking::HeightCorrelated => Masking::Separable,
+        };
+        pair.masked_by(other) / pair.both_masked()
+    }),
+    (&cause::FOUR_FORGOTTEN, |_| 4.0),
+    (&cause::ROUGHNESS_SQUARED, |pair| {
+        Pair { roughness: pair.roughness.powi(2), ..*pair }.right() / pair.right()
+    }),
+    (&cause::FACETS_WITHOUT_PI, |_| PI),
+    (&cause::BECKMANN_FACETS, |pair| {
+        beckmann(pair.half().z, pair.roughness) / distribution(pair.half().z, pair.roughness)
+    }),
+    (&cause::HALF_NOT_NORMALISED, |pair| {
+        let [half, whole] = [pair.half().z, (pair.wo + pair.wi).z];
+        distribution(whole, pair.roughness) / distribution(half, pair.roughness)
+    }),
+    (&cause::COSINE_IN_F, |pair| pair.wi.z),
+];
+
+/// The density of facets of Beckmann and Spizzichino (1963).
+fn beckmann(cosine: f64, alpha: f64) -> f64 {
+    let squared = cosine * cosine;
+    let tangent = (1.0 - squared) / squared;
+    (-tangent / (alpha * alpha)).exp() / (PI * alpha * alpha * squared * squared)
+}
+
+/// One surface, and what the core made of it.
+struct Tried {
+    name: String,
+    pairs: Vec<Pair>,
+    values: Vec<BsdfValue>,
+}
+
+impl Tried {
+    fn of(
+        context: &mut Context<'_>,
+        surface: SurfaceEntry,
+        smith: SmithTerm,
+    ) -> Result<Option<Self>, CheckError> {
+        let material = surface.material();
+        let Surface::Conductor { reflectance, roughness } = material.surface else {
+            return Ok(None);
+        };
+        let masking = match smith {
+            SmithTerm::Separable => Masking::Separable,
+            SmithTerm::HeightCorrelated => Masking::HeightCorrelated,
+        };
+        let mut stream = context.seed.child(surface).stream();
+        let mut next = || (on_hemisphere(&mut stream), on_hemisphere(&mut stream));
+        let pairs: Vec<_> = (0..PAIRS)
+            .map(|_| next())
+            .filter(|(wo, wi)| wo.z > GRAZING && wi.z > GRAZING)
+            .map(|(wo, wi)| Pair { wo, wi, reflectance, roughness, masking })
+            .collect();
+        let queries: Vec<_> =
+            pairs.iter().map(|Pair { wo, wi, .. }| BsdfQuery { wo: *wo, wi: *wi }).collect();
+        let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
+        context.core.eval_bsdf(&material, &queries, &mut values)?;
+        Ok(Some(Self { name: surface.to_string(), pairs, values }))
+    }
+
+    /// Every channel of every pair against a share of what is right.
+    fn report(&self, share: Mistake, tolerance: f64) -> ExactReport {
+        let pairs = self.pairs.iter().zip(&self.values);
+        judge_exact(pairs.flat_map(|(pair, value)| {
+            let right = share(pair) * pair.right();
+            (0..3).map(move |c| {
+                Compared::relative(value.f[c], pair.reflectance[c] * right, tolerance)
+            })
+        }))
+    }
+
+    fn measure(&self, tolerance: f64) -> Measure {
+        worst_measure(format!("f of {}", self.name), &self.report(|_| 1.0, tolerance))
+    }
+
+    fn complaint(&self, tolerance: f64) -> Option<String> {
+        let report = self.report(|_| 1.0, tolerance);
+        let worst = report.worst.filter(|_| report.disagree > 0)?.compared;
+        let some = some_are(report.disagree, report.compared, "values");
+        let ratio = figure(worst.found / worst.expected);
+        Some(format!("{}: {some} not D G / (4 cos cos), the worst {ratio} of it", self.name))
+    }
+}
+
+fn finding(tried: &[Tried], tolerance: f64) -> Finding {
+    let measures = tried.iter().map(|one| one.measure(tolerance)).collect();
+    let complaints: Vec<_> = tried.iter().filter_map(|one| one.complaint(tolerance)).collect();
+    let pairs: usize = tried.iter().map(|one| one.pairs.len()).sum();
+    let statement = match complaints.is_empty() {
+        true => format!("f is D G / (4 cos cos) at {pairs} pairs of directions"),
+        false => complaints.join("; "),
+    };
+    let resolution = format!("would have caught an error of {} at one pair", percent(tolerance));
+    let finding = Finding::of(statement, resolution, measures);
+    if complaints.is_empty() {
+        return finding;
+    }
+    let explains = |(_, mistake): &&(&Cause, Mistake)| {
+        tried.iter().all(|one| one.report(*mistake, LIKENESS * tolerance).disagree == 0)
+    };
+    let made = MISTAKES.iter().filter(explains).map(|(cause, _)| *cause);
+    finding.because_each(made, &format!("predicts f at {pairs} pairs of directions"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
+    use crate::contract::{Conventions, Core, CoreInfo, Precision, Result};
+    use crate::scene::Material;
+
+    const CASE: &str = include_str!("../../../cases/bsdf/rough-metal-follows-its-formula.toml");
+
+    /// The formula times the share of a mistake.
+    struct Rough {
+        mistake: Mistake,
+        smith_term: SmithTerm,
+    }
+
+    impl Core for Rough {
+        fn info(&self) -> CoreInfo {
+            let conventions = Conventions { smith_term: self.smith_term, ..Conventions::default() };
+            CoreInfo { conventions, ..info(Precision::Double) }
+        }
+
+        fn eval_bsdf(
+            &mut self,
+            material: &Material,
+            queries: &[BsdfQuery],
+            values: &mut [BsdfValue],
+        ) -> Result<()> {
+            let Surface::Conductor { reflectance, roughness } = material.surface else {
+                return Ok(());
+            };
+            let masking = match self.smith_term {
+                SmithTerm::Separable => Masking::Separable,
+                SmithTerm::HeightCorrelated => Masking::HeightCorrelated,
+            };
+            for (query, value) in queries.iter().zip(values) {
+                let BsdfQuery { wo, wi } = *query;
+                let pair = Pair { wo, wi, reflectance, roughness, masking };
+                let f = (self.mistake)(&pair) * pair.right();
+                *value = BsdfValue { f: reflectance.map(|r| r * f), pdf: 1.0 };
+            }
+            Ok(())
+        }
+    }
+
+    fn found(mistake: Mistake) -> Finding {
+        let mut core = Rough { mistake, smith_term: SmithTerm::Separable };
+        judge(&check_of::<FollowsGgx>(CASE), &mut core)
+    }
+
+    #[test]
+    fn the_formula_passes_with_the_term_that_is_declared() {
+        for smith_term in [SmithTerm::Separable, SmithTerm::HeightCorrelated] {
+            let mut core = Rough { mistake: |_| 1.0, smith_term };
+            assert_passes(&judge(&check_of::<FollowsGgx>(CASE), &mut core));
+        }
+    }
+
+    #[test]
+    fn every_mistake_fails_under_its_own_name() {
+        for (cause, mistake) in MISTAKES {
+            let finding = found(*mistake);
+            failure(&finding);
+            assert_eq!(finding.clues.len(), 1, "{} {:?}", cause.name, finding.clues);
+            assert_eq!(finding.clues[0].cause, cause.name);
+        }
+    }
+
+    #[test]
+    fn a_part_in_a_hundred_thousand_is_seen() {
+        assert!(failure(&found(|_| 1.00001)).contains("1 of it"));
+    }
+}

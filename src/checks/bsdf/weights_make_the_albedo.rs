@@ -1,0 +1,122 @@
+//! The mean weight of samples, f cos / pdf, is the albedo: what a path tracer really multiplies by.
+
+use super::conserves_energy::expected_albedo;
+use crate::checks::numbers::{NO_SAMPLE, Numbers};
+use crate::checks::phrase::{degrees, figure, mean_measure, would_have_caught};
+use crate::checks::surface::{SurfaceEntry, seen_from};
+use crate::checks::{Check, CheckError, Context, Finding};
+use crate::contract::{Capabilities, Core};
+use crate::math::rng::Seed;
+use crate::stats::{Band, Claim, Effort, Verdict, judge_means};
+use crate::text::{Angle, Count, Percent};
+use serde::Deserialize;
+
+/// Means over the samples of each surface from each view.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct WeightsMakeTheAlbedo {
+    surface: Vec<SurfaceEntry>,
+    seen_from: Vec<Angle>,
+    /// The smallest error of a mean that must be seen.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+impl Check for WeightsMakeTheAlbedo {
+    const NAME: &'static str = "weights-make-the-albedo";
+    const SUMMARY: &'static str = "the mean of f cos / pdf over samples is the albedo";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::SAMPLE_BSDF
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        match self.surface.iter().find(|surface| surface.is_delta()) {
+            Some(delta) => Err(format!("{delta} has weights of its own: `reflects-and-refracts`")),
+            None if self.surface.is_empty() || self.seen_from.is_empty() => {
+                Err("give at least one `surface` and one angle in `seen-from`".to_owned())
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
+        let effort = context.budget.scale(effort);
+        let band = Band::math(context.info.precision);
+        let smith = context.info.conventions.smith_term;
+        let mut measures = Vec::new();
+        for surface in &self.surface {
+            for Angle(angle) in &self.seen_from {
+                let seed = context.seed.child(surface).child(angle);
+                let claim = Claim::value(expected_albedo(*surface, *angle, smith), band);
+                let reports = judge_means(&[claim], &effort, &mut |draw| {
+                    let samples = usize::try_from(draw.samples).unwrap_or(usize::MAX);
+                    mean_weight(context.core, *surface, *angle, draw.seed(seed), samples)
+                })?;
+                let name = format!("weight of {surface} at {}", degrees(*angle));
+                measures.extend(reports.iter().map(|report| mean_measure(name.clone(), report)));
+            }
+        }
+        let failed = measures.iter().find(|measure| measure.verdict == Verdict::Fail);
+        let statement = match failed {
+            None => format!("{} mean weights are albedos", measures.len()),
+            Some(measure) => format!(
+                "{} is {} on average, and the albedo is {}",
+                measure.name,
+                figure(measure.measured),
+                figure(measure.expected)
+            ),
+        };
+        Ok(Finding::of(statement, would_have_caught(&measures), measures))
+    }
+}
+
+/// Of the green channel; a failed sample weighs nothing.
+fn mean_weight(
+    core: &mut dyn Core,
+    surface: SurfaceEntry,
+    angle: f64,
+    seed: Seed,
+    count: usize,
+) -> Result<Vec<f64>, CheckError> {
+    let views = vec![seen_from(angle); count];
+    let mut samples = vec![NO_SAMPLE; count];
+    let numbers = Numbers::new(seed, count);
+    core.sample_bsdf(&surface.material(), &views, numbers.randomness(), &mut samples)?;
+    let valid = samples.iter().filter(|sample| sample.is_valid == 1);
+    let sum: f64 = valid.map(|sample| sample.f[1] * sample.wi.z.abs() / sample.pdf).sum();
+    Ok(vec![sum / count as f64])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::Fake;
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+
+    const CASE: &str = r#"
+        [expect]
+        surface   = [{ diffuse = 0.5 }]
+        seen-from = ["20 deg", "70 deg"]
+        detects   = "1 %"
+        at-most   = "100 k"
+    "#;
+
+    fn found(fake: Fake) -> Finding {
+        judge(&check_of::<WeightsMakeTheAlbedo>(CASE), &mut { fake })
+    }
+
+    #[test]
+    fn cosine_samples_of_a_diffuse_surface_all_weigh_the_albedo() {
+        assert_passes(&found(Fake::default()));
+    }
+
+    #[test]
+    fn a_hundredth_in_the_value_or_in_the_density_is_seen() {
+        let bright = found(Fake { sampled_value: 1.01, ..Fake::default() });
+        assert!(failure(&bright).contains("is 0.505 on average, and the albedo is 0.5"));
+        failure(&found(Fake { sampled_pdf: 1.01, ..Fake::default() }));
+    }
+}

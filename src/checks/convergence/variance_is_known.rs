@@ -1,0 +1,235 @@
+//! The variance of an estimator where theory gives it: two estimators of one mean may be told apart by their noise.
+//!
+//! What is judged is the mean of the unbiased sample variances of independent runs, a mean like any other; the ratio
+//! of two variances would need a normal law that radiance does not have.
+
+use crate::checks::phrase::{figure, mean_measure, would_have_caught};
+use crate::checks::transport::{
+    CHANNELS, MistakeEntry, RayEntry, RouletteEntry, draw_estimates, effort, needs, settings,
+};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings};
+use crate::math::rng::Seed;
+use crate::stats::{Band, Claim, Effort, Moments, Sides, Verdict, judge_means};
+use crate::text::{Colour, Count, Percent};
+use serde::Deserialize;
+
+/// Each row: the variance of one estimate along a ray is a given number.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct VarianceIsKnown {
+    ray: RayEntry,
+    bounces: [u32; 2],
+    #[serde(default)]
+    direct: DirectSampling,
+    /// `at-most` where a core may know better ways.
+    #[serde(default)]
+    sides: Sides,
+    /// The smallest error of a variance that must be seen.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+    row: Vec<Row>,
+    /// What known mistakes would give.
+    #[serde(default)]
+    mistake: Vec<MistakeEntry>,
+}
+
+/// One variance.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Row {
+    name: String,
+    #[serde(default = "one")]
+    samples_per_light: u32,
+    roulette: Option<RouletteEntry>,
+    /// Of one estimate.
+    variance: Colour,
+}
+
+const fn one() -> u32 {
+    1
+}
+
+impl Check for VarianceIsKnown {
+    const NAME: &'static str = "variance-is-known";
+    const SUMMARY: &'static str = "the variance of one estimate along a ray against theory";
+
+    fn needs(&self) -> Capabilities {
+        self.row.iter().fold(Capabilities::empty(), |all, row| all | needs(&self.settings(row)))
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        if self.detects.0 <= Band::VARIANCE.relative() {
+            let band = 100.0 * Band::VARIANCE.relative();
+            return Err(format!("`detects` must be above the {band} % that are forgiven"));
+        }
+        if self.row.is_empty() {
+            return Err("there are no rows; add `[[expect.row]]`".to_owned());
+        }
+        self.mistake.iter().try_for_each(|mistake| mistake.validate(self.row.len()))?;
+        self.ray.validate()
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let (seed, effort) = (context.seed, effort(self.detects, self.at_most, context.budget));
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let mut rows = Vec::new();
+        for (number, row) in self.row.iter().enumerate() {
+            rows.push(self.judge(built.as_mut(), row, seed.child(number), &effort)?);
+        }
+        let causes: Vec<_> =
+            self.mistake.iter().filter_map(|mistake| mistake.explains(&rows)).collect();
+        let measures: Vec<_> = rows.into_iter().flatten().map(|(_, measure)| measure).collect();
+        let finding = Finding::of(statement(&measures), would_have_caught(&measures), measures);
+        let explained = |finding: Finding, (cause, evidence)| finding.because(cause, evidence);
+        Ok(causes.into_iter().fold(finding, explained))
+    }
+}
+
+impl VarianceIsKnown {
+    fn settings(&self, row: &Row) -> IntegratorSettings {
+        IntegratorSettings {
+            samples_per_light: row.samples_per_light,
+            roulette: row.roulette.map(Into::into),
+            ..settings(self.bounces, self.direct)
+        }
+    }
+
+    /// The measures of the three channels, with their numbers.
+    fn judge(
+        &self,
+        scene: &mut dyn BuiltScene,
+        row: &Row,
+        seed: Seed,
+        effort: &Effort,
+    ) -> Result<Vec<(usize, Measure)>, CheckError> {
+        let settings = self.settings(row);
+        let claim = |variance| Claim::value(variance, Band::VARIANCE).on_side(self.sides);
+        let reports = judge_means(&row.variance.0.map(claim), effort, &mut |draw| {
+            let mut moments = [Moments::default(); 3];
+            let seed = draw.seed(seed);
+            let ray = self.ray.ray();
+            draw_estimates(scene, ray, &settings, seed, draw.samples, &mut |radiance| {
+                for value in radiance {
+                    (0..3).for_each(|channel| moments[channel].push(value[channel]));
+                }
+            })?;
+            Ok::<_, CheckError>(moments.iter().map(Moments::variance).collect())
+        })?;
+        let label = |channel: usize| format!("{}, {}", row.name, CHANNELS[channel]);
+        let measure = |(c, report)| (c, mean_measure(label(c), report));
+        Ok(reports.iter().enumerate().map(measure).collect())
+    }
+}
+
+fn statement(measures: &[Measure]) -> String {
+    let failed = measures.iter().find(|measure| measure.verdict == Verdict::Fail);
+    let Some(measure) = failed else {
+        return format!("{} variances are what they should be", measures.len());
+    };
+    let ratio = |value: f64| figure(value / measure.expected);
+    let between = measure.interval.map_or_else(String::new, |[low, high]| {
+        format!(" (between {} and {})", ratio(low), ratio(high))
+    });
+    format!(
+        "{}: the variance is {}{between} of what it should be: {} instead of {}",
+        measure.name,
+        ratio(measure.measured),
+        figure(measure.measured),
+        figure(measure.expected),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
+    use crate::contract::{BuildStats, Core, CoreInfo, Precision, Ray, Result};
+    use crate::math::rng::uniform;
+    use crate::scene::SceneDescription;
+
+    /// A uniform estimate around 1 of variance 1/12, and the mean of `samples_per_light` of them.
+    #[derive(Clone, Copy)]
+    struct Noisy {
+        width: f64,
+        /// All samples of an estimate are one and the same.
+        alike: bool,
+    }
+
+    impl Core for Noisy {
+        fn info(&self) -> CoreInfo {
+            info(Precision::Double)
+        }
+
+        fn build_scene(
+            &mut self,
+            _: &SceneDescription,
+            _: Acceleration,
+        ) -> Result<Box<dyn BuiltScene + '_>> {
+            Ok(Box::new(*self))
+        }
+    }
+
+    impl BuiltScene for Noisy {
+        fn stats(&self) -> BuildStats {
+            BuildStats::default()
+        }
+
+        fn radiance(
+            &mut self,
+            _: &[Ray],
+            settings: &IntegratorSettings,
+            radiance: &mut [[f64; 3]],
+        ) -> Result<()> {
+            let mut stream = Seed(settings.seed).stream();
+            let mut once = || 1.0 + self.width * (uniform(&mut stream) - 0.5);
+            let n = if self.alike { 1 } else { settings.samples_per_light };
+            radiance.iter_mut().for_each(|value| {
+                *value = [(0..n).map(|_| once()).sum::<f64>() / f64::from(n); 3];
+            });
+            Ok(())
+        }
+    }
+
+    const CASE: &str = r#"
+        [expect]
+        ray     = { from = [0, 0, 0], toward = [0, 0, 1] }
+        bounces = [1, 1]
+        detects = "30 %"
+        at-most = "400 k"
+        row     = [
+          { name = "one", variance = 0.0833333 },
+          { name = "four", samples-per-light = 4, variance = 0.0208333 },
+        ]
+        mistake = [{ cause = "samples-all-alike", gives = [0.0833333, 0.0833333] }]
+    "#;
+
+    fn found(noisy: Noisy, case: &str) -> Finding {
+        let check = check_of::<VarianceIsKnown>(case);
+        try_judge(&check, &mut { noisy }, Some(SceneDescription::default())).unwrap()
+    }
+
+    #[test]
+    fn the_variance_of_a_uniform_law_is_a_twelfth() {
+        assert_passes(&found(Noisy { width: 1.0, alike: false }, CASE));
+    }
+
+    #[test]
+    fn half_again_as_much_is_seen_and_forgiven_where_less_is_allowed() {
+        let wide = Noisy { width: 1.5f64.sqrt(), alike: false };
+        assert!(failure(&found(wide, CASE)).starts_with("one, red: the variance is 1.5"));
+        let narrow = Noisy { width: 0.5, alike: false };
+        failure(&found(narrow, CASE));
+        let case = CASE.replace("bounces", "sides = \"at-most\"\nbounces");
+        assert_passes(&found(narrow, &case));
+    }
+
+    #[test]
+    fn samples_that_are_all_alike_are_named() {
+        let finding = found(Noisy { width: 1.0, alike: true }, CASE);
+        assert!(failure(&finding).contains("four, red: the variance is 4"), "{finding:?}");
+        assert_eq!(finding.clues[0].cause, "samples-all-alike");
+    }
+}

@@ -1,0 +1,75 @@
+//! Numbers that hang on what a core has freely chosen.
+
+use crate::contract::{
+    Conventions, EmissionSides, Falloff, GlassFresnel, GlassRadiance, SmithTerm,
+};
+use crate::text::Colour;
+use serde::Deserialize;
+
+/// `{ glass-radiance = "unscaled", radiance = 0.96 }`: what is right for a core that declares all of this.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ConventionEntry {
+    point_light_falloff: Option<Falloff>,
+    emission: Option<EmissionSides>,
+    smith_term: Option<SmithTerm>,
+    glass_fresnel: Option<GlassFresnel>,
+    glass_radiance: Option<GlassRadiance>,
+    /// Instead of that of the row.
+    pub radiance: Colour,
+}
+
+impl ConventionEntry {
+    /// Whether a core declares all that is named here.
+    pub fn is_declared_by(&self, declared: &Conventions) -> bool {
+        is_met(self.point_light_falloff, declared.point_light_falloff)
+            && is_met(self.emission, declared.emission)
+            && is_met(self.smith_term, declared.smith_term)
+            && is_met(self.glass_fresnel, declared.glass_fresnel)
+            && is_met(self.glass_radiance, declared.glass_radiance)
+    }
+
+    /// What is wrong with it.
+    ///
+    /// # Errors
+    /// A sentence for the author of the case.
+    pub fn validate(&self) -> Result<(), String> {
+        match self.is_declared_by(&Conventions::default()) {
+            true => {
+                Err("`by-convention` names no choice that differs from the usual one".to_owned())
+            }
+            false => Ok(()),
+        }
+    }
+}
+
+fn is_met<T: PartialEq>(named: Option<T>, declared: T) -> bool {
+    named.is_none_or(|named| named == declared)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(text: &str) -> ConventionEntry {
+        toml::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn it_holds_for_cores_that_declare_all_of_it() {
+        let both =
+            entry("glass-fresnel = \"schlick\"\nglass-radiance = \"unscaled\"\nradiance = 1");
+        let half = Conventions { glass_fresnel: GlassFresnel::Schlick, ..Conventions::default() };
+        assert!(!both.is_declared_by(&half));
+        assert!(
+            both.is_declared_by(&Conventions { glass_radiance: GlassRadiance::Unscaled, ..half })
+        );
+        assert!(both.validate().is_ok());
+    }
+
+    #[test]
+    fn what_is_usual_is_no_exception() {
+        assert!(entry("emission = \"front\"\nradiance = 1").validate().is_err());
+        assert!(entry("radiance = 1").validate().is_err());
+    }
+}

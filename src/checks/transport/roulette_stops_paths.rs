@@ -1,0 +1,272 @@
+//! Russian roulette: which share of paths gets how far.
+//!
+//! In a furnace every path that goes on brings light, so an isolated bounce is dark in just those paths that have
+//! been stopped. What the survivors are worth is not looked at here: means say that.
+
+use super::estimate::{RayEntry, RouletteEntry, draw_estimates, effort, needs, settings};
+use crate::cause::{Cause, transport as cause};
+use crate::checks::phrase::{figure, percent, would_have_caught};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{
+    Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Roulette,
+};
+use crate::math::rng::Seed;
+use crate::stats::{Band, Effort, ShareReport, Verdict, judge_share};
+use crate::text::{Count, Percent};
+use serde::Deserialize;
+
+/// The share of paths that bring light at each isolated bounce, under each roulette.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct RouletteStopsPaths {
+    ray: RayEntry,
+    /// The last bounce that is looked at; the first is 1.
+    last: u32,
+    roulette: Vec<RouletteEntry>,
+    /// The smallest error of a share that must be seen.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+/// The probability that a path brings light at a bounce.
+type Law = fn(&Roulette, u32) -> f64;
+
+/// q to the number of coins thrown before this bounce: one after each vertex but the guaranteed ones.
+fn law(roulette: &Roulette, bounce: u32) -> f64 {
+    survival(roulette).powi(coins(bounce, 1 + roulette.guaranteed))
+}
+
+fn survival(roulette: &Roulette) -> f64 {
+    1.0 - roulette.stop
+}
+
+/// Bounces beyond the first `spared`.
+fn coins(bounce: u32, spared: u32) -> i32 {
+    i32::try_from(bounce.saturating_sub(spared)).unwrap_or(i32::MAX)
+}
+
+/// What common mistakes make of it.
+const MISTAKES: &[(&Cause, Law)] = &[
+    (&cause::ROULETTE_STOPS_DIRECT, |roulette, bounce| {
+        survival(roulette).powi(coins(bounce, roulette.guaranteed))
+    }),
+    (&cause::ROULETTE_SURVIVES_BY_STOP, |roulette, bounce| {
+        roulette.stop.powi(coins(bounce, 1 + roulette.guaranteed))
+    }),
+    (&cause::ROULETTE_GUARANTEE_FORGOTTEN, |roulette, bounce| {
+        survival(roulette).powi(coins(bounce, 1))
+    }),
+    (&cause::ROULETTE_GUARANTEES_ONE_MORE, |roulette, bounce| {
+        survival(roulette).powi(coins(bounce, 2 + roulette.guaranteed))
+    }),
+    (&cause::ROULETTE_PLAYED_ONCE, |roulette, bounce| {
+        survival(roulette).powi(coins(bounce, 1 + roulette.guaranteed).min(1))
+    }),
+    (&cause::ROULETTE_NOT_PLAYED, |_, _| 1.0),
+];
+
+impl Check for RouletteStopsPaths {
+    const NAME: &'static str = "roulette-stops-paths";
+    const SUMMARY: &'static str = "Russian roulette: the share of paths that reaches each bounce";
+
+    fn needs(&self) -> Capabilities {
+        let one = self.roulette.first().copied();
+        needs(&IntegratorSettings { roulette: one.map(Into::into), ..self.settings(1) })
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        if self.last < 3 {
+            return Err("`last` must be 3 or more, or no law can be told from another".to_owned());
+        }
+        if self.roulette.iter().any(|roulette| !(0.0..1.0).contains(&roulette.stop)) {
+            return Err("`stop` is a probability below 1".to_owned());
+        }
+        if self.roulette.is_empty() { Err("there is no roulette".to_owned()) } else { Ok(()) }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let (seed, effort) = (context.seed, effort(self.detects, self.at_most, context.budget));
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let mut shares = Vec::new();
+        for (number, entry) in self.roulette.iter().enumerate() {
+            for bounce in 1..=self.last {
+                let seed = seed.child(number).child(bounce);
+                shares.push(self.share(built.as_mut(), (*entry).into(), bounce, seed, &effort)?);
+            }
+        }
+        Ok(finding(&shares))
+    }
+}
+
+/// One roulette and one bounce.
+struct Share {
+    roulette: Roulette,
+    bounce: u32,
+    report: ShareReport,
+}
+
+impl RouletteStopsPaths {
+    /// By the hemisphere: every direction inside a furnace meets light, whatever a core knows of light sampling.
+    fn settings(&self, bounce: u32) -> IntegratorSettings {
+        settings([bounce, bounce], DirectSampling::Hemisphere)
+    }
+
+    fn share(
+        &self,
+        scene: &mut dyn BuiltScene,
+        roulette: Roulette,
+        bounce: u32,
+        seed: Seed,
+        effort: &Effort,
+    ) -> Result<Share, CheckError> {
+        let settings = IntegratorSettings { roulette: Some(roulette), ..self.settings(bounce) };
+        let expected = law(&roulette, bounce);
+        let report = judge_share(expected, Band::RADIANCE, effort, &mut |stage, samples| {
+            let mut lit = 0;
+            let seed = seed.child(stage);
+            draw_estimates(scene, self.ray.ray(), &settings, seed, samples, &mut |radiance| {
+                lit += radiance.iter().filter(|value| **value != [0.0; 3]).count() as u64;
+            })?;
+            Ok::<_, CheckError>(lit)
+        })?;
+        Ok(Share { roulette, bounce, report })
+    }
+}
+
+fn finding(shares: &[Share]) -> Finding {
+    let measures: Vec<_> = shares.iter().map(Share::measure).collect();
+    let failed = shares.iter().find(|share| share.report.verdict == Verdict::Fail);
+    let statement = match failed {
+        None => "roulette stops as many paths as it says".to_owned(),
+        Some(share) => share.complaint(),
+    };
+    let finding = Finding::of(statement, would_have_caught(&measures), measures);
+    if failed.is_none() {
+        return finding;
+    }
+    let made = MISTAKES.iter().filter(|(_, law)| {
+        let differs = |share: &Share| share.expected(*law) != share.report.expected;
+        shares.iter().any(differs) && shares.iter().all(|share| share.is_of(*law))
+    });
+    let evidence = format!("predicts the shares of all {} isolated bounces", shares.len());
+    finding.because_each(made.map(|(cause, _)| *cause), &evidence)
+}
+
+impl Share {
+    fn expected(&self, law: Law) -> f64 {
+        law(&self.roulette, self.bounce)
+    }
+
+    /// Whether the share is that of a law.
+    fn is_of(&self, law: Law) -> bool {
+        let [low, high] = self.report.interval;
+        let slack = Band::RADIANCE.relative() * self.expected(law);
+        (low - slack..=high + slack).contains(&self.expected(law))
+    }
+
+    fn name(&self) -> String {
+        let Roulette { stop, guaranteed } = self.roulette;
+        format!("stop {}, {guaranteed} guaranteed, bounce {}", figure(stop), self.bounce)
+    }
+
+    fn measure(&self) -> Measure {
+        Measure {
+            interval: Some(self.report.interval),
+            resolution: Some(self.report.resolution),
+            verdict: self.report.verdict,
+            leaf: Some(self.report.leaf()),
+            ..Measure::exact(self.name(), self.report.share, self.report.expected, 0.0)
+        }
+    }
+
+    fn complaint(&self) -> String {
+        let [low, high] = self.report.interval.map(percent);
+        let (share, expected) = (percent(self.report.share), percent(self.report.expected));
+        let name = self.name();
+        format!("{name}: {share} ({low} to {high}) of paths bring light, not {expected}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
+    use crate::contract::{BuildStats, Core, CoreInfo, Precision, Ray, Result};
+    use crate::math::rng::uniform;
+    use crate::scene::SceneDescription;
+
+    const CASE: &str =
+        include_str!("../../../cases/integrator/roulette-stops-paths-by-its-law.toml");
+
+    /// Paths bring light at a bounce with the probability of a law.
+    #[derive(Clone, Copy)]
+    struct Stopping(Law);
+
+    impl Core for Stopping {
+        fn info(&self) -> CoreInfo {
+            info(Precision::Double)
+        }
+
+        fn build_scene(
+            &mut self,
+            _: &SceneDescription,
+            _: Acceleration,
+        ) -> Result<Box<dyn BuiltScene + '_>> {
+            Ok(Box::new(*self))
+        }
+    }
+
+    impl BuiltScene for Stopping {
+        fn stats(&self) -> BuildStats {
+            BuildStats::default()
+        }
+
+        fn radiance(
+            &mut self,
+            _: &[Ray],
+            settings: &IntegratorSettings,
+            radiance: &mut [[f64; 3]],
+        ) -> Result<()> {
+            let mut stream = Seed(settings.seed).stream();
+            let chance = (self.0)(&settings.roulette.unwrap(), *settings.bounces.start());
+            radiance.iter_mut().for_each(|value| {
+                *value = [if uniform(&mut stream) < chance { 0.7 } else { 0.0 }; 3];
+            });
+            Ok(())
+        }
+    }
+
+    fn found(law: Law) -> Finding {
+        // Large errors are what these tests make: no need to look for small ones.
+        let check = check_of::<RouletteStopsPaths>(&CASE.replace("5 %", "20 %"));
+        try_judge(&check, &mut Stopping(law), Some(SceneDescription::default())).unwrap()
+    }
+
+    #[test]
+    fn the_geometric_law_passes() {
+        assert_passes(&found(law));
+    }
+
+    #[test]
+    fn every_mistake_fails_under_its_own_name() {
+        for (cause, law) in MISTAKES {
+            let finding = found(*law);
+            failure(&finding);
+            assert_eq!(finding.clues.len(), 1, "{} {:?}", cause.name, finding.clues);
+            assert_eq!(finding.clues[0].cause, cause.name);
+        }
+    }
+
+    #[test]
+    fn a_share_that_is_a_little_off_is_seen_and_has_no_name() {
+        let finding = found(|roulette, bounce| 0.7 * law(roulette, bounce));
+        assert!(
+            failure(&finding).contains(" of paths bring light, not 100 %"),
+            "{}",
+            finding.statement
+        );
+        assert!(finding.clues.is_empty());
+    }
+}

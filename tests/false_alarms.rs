@@ -1,0 +1,218 @@
+//! The whole suite on both cores with other random numbers, many times: no correct core fails, and first stages
+//! suspect correct cores no more often than their levels say.
+//!
+//! ```sh
+//! FURNACE_SEEDS=200 cargo test --test false_alarms -- --ignored --nocapture
+//! FURNACE_SHARD=1/4 ...                      # the first of four parts, for other machines
+//! FURNACE_PICTURES=20 ...                    # so many of the seeds also draw pictures
+//! ```
+//!
+//! Results are kept below `target/tmp`, by program and seed: what was cut off goes on where it was, and the same
+//! program asked again only counts.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use furnace::case;
+use furnace::cores::CORES;
+use furnace::math::rng::Seed;
+use furnace::project::Project;
+use furnace::run::{Plan, Request, Status, TrialRecord, run_in_memory};
+use furnace::stats::{Budget, TestKind, binomial_at_least, share_interval};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Probability of calling a right error rate wrong, over all leaves together.
+const LEVEL: f64 = 1e-3;
+
+/// How the trials of one seed ended.
+#[derive(Serialize, Deserialize)]
+struct Drawn {
+    failed: Vec<String>,
+    inconclusive: Vec<String>,
+    /// Of every leaf whether its first stage suspected it.
+    suspected: BTreeMap<String, (TestKind, bool)>,
+    seconds: f64,
+}
+
+impl Drawn {
+    fn of(records: &[TrialRecord], seconds: f64) -> Self {
+        let ended = |wanted: fn(Status) -> bool| {
+            let of = records.iter().filter(|r| r.tier.is_graded() && wanted(r.outcome.status()));
+            of.map(|r| format!("{} on {}: {}", r.case, r.core, r.outcome.statement())).collect()
+        };
+        Self {
+            failed: ended(|status| !matches!(status, Status::Pass | Status::Inconclusive)),
+            inconclusive: ended(|status| status == Status::Inconclusive),
+            suspected: records.iter().flat_map(leaves).collect(),
+            seconds,
+        }
+    }
+}
+
+/// The leaves of a trial, by names that no other has.
+fn leaves(record: &TrialRecord) -> Vec<(String, (TestKind, bool))> {
+    let measures = record.outcome.finding().map_or(&[][..], |finding| &finding.measures);
+    let named = measures.iter().enumerate().filter_map(|(number, measure)| {
+        let name = format!("{} on {}: {number}, {}", record.case, record.core, measure.name);
+        measure.leaf.map(|leaf| (name, (leaf.kind, leaf.suspected)))
+    });
+    named.collect()
+}
+
+/// How often each leaf was drawn, and how often it was suspected.
+#[derive(Default)]
+struct Audit {
+    seeds: u32,
+    failed: Vec<String>,
+    inconclusive: BTreeMap<String, u32>,
+    leaves: BTreeMap<String, (TestKind, u64, u64)>,
+}
+
+impl Audit {
+    fn take(&mut self, seed: u32, drawn: Drawn) {
+        self.seeds += 1;
+        self.failed.extend(drawn.failed.into_iter().map(|what| format!("seed {seed}: {what}")));
+        for what in drawn.inconclusive {
+            *self.inconclusive.entry(what).or_default() += 1;
+        }
+        for (name, (kind, suspected)) in drawn.suspected {
+            let leaf = self.leaves.entry(name).or_insert((kind, 0, 0));
+            leaf.1 += 1;
+            leaf.2 += u64::from(suspected);
+        }
+    }
+
+    /// Leaves that are suspected more often than their level can explain.
+    fn over_suspected(&self) -> Vec<String> {
+        let level = LEVEL / self.leaves.len().max(1) as f64;
+        let too_often = |(name, (kind, drawn, suspected)): (&String, &(TestKind, u64, u64))| {
+            let expected = kind.suspicion()?;
+            let chance = binomial_at_least(*suspected, *drawn, expected);
+            (chance < level).then(|| {
+                format!("{name}: {suspected} of {drawn} at {expected:.1e} (chance {chance:.1e})")
+            })
+        };
+        self.leaves.iter().filter_map(too_often).collect()
+    }
+
+    fn print(&self) {
+        let leaves = self.leaves.len();
+        println!("{} seeds, {leaves} leaves, {} failures", self.seeds, self.failed.len());
+        println!("first stages that suspected a correct core, by kind of test:");
+        for kind in [TestKind::Mean, TestKind::Counts, TestKind::Share, TestKind::Picture] {
+            let of_kind = || self.leaves.values().filter(|leaf| leaf.0 == kind);
+            let drawn: u64 = of_kind().map(|leaf| leaf.1).sum();
+            let suspected: u64 = of_kind().map(|leaf| leaf.2).sum();
+            let (Some(level), true) = (kind.suspicion(), drawn > 0) else { continue };
+            let [low, high] = share_interval(suspected, drawn, 0.5 * LEVEL);
+            println!(
+                "  {:<9} {suspected} of {drawn}: {:.1e}, 99.9 % interval {low:.1e} to {high:.1e}, level \
+                 {level:.1e}",
+                kind.plural(),
+                suspected as f64 / drawn as f64,
+            );
+        }
+        println!(
+            "(leaves on the same runs are suspected together; the interval does not know that)"
+        );
+        for (what, times) in &self.inconclusive {
+            println!("inconclusive {times} times: {what}");
+        }
+        self.failed.iter().for_each(|what| println!("FAILED {what}"));
+    }
+}
+
+fn number(name: &str, default: u32) -> u32 {
+    std::env::var(name).map_or(default, |word| word.parse().unwrap())
+}
+
+/// `1/4`: this part, and of how many.
+fn shard() -> (u32, u32) {
+    let Ok(word) = std::env::var("FURNACE_SHARD") else { return (1, 1) };
+    let (part, of) = word.split_once('/').unwrap();
+    (part.parse().unwrap(), of.parse().unwrap())
+}
+
+fn draw(seed: u32, with_pictures: bool) -> Drawn {
+    let clock = Instant::now();
+    let project = Project::at(env!("CARGO_MANIFEST_DIR"));
+    let cases = case::load_all(&project.cases()).unwrap();
+    let request = Request {
+        cores: CORES.iter().map(|kind| kind.name.parse().unwrap()).collect(),
+        filters: if with_pictures { Vec::new() } else { vec!["!images/".to_owned()] },
+        budget: Budget::Default,
+        seed: Seed::SUITE.child("false alarms").child(seed),
+        jobs: 0,
+        fail_fast: false,
+    };
+    let records = run_in_memory(&Plan::new(project, request, &cases));
+    Drawn::of(&records, clock.elapsed().as_secs_f64())
+}
+
+/// Where the results of this very program are kept.
+fn folder() -> PathBuf {
+    let program = std::fs::read(std::env::current_exe().unwrap()).unwrap();
+    let hash: String = Sha256::digest(&program)[..8].iter().map(|b| format!("{b:02x}")).collect();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("false-alarms").join(hash);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// What was drawn with this seed, now or earlier.
+fn drawn(folder: &Path, seed: u32, with_pictures: bool) -> Drawn {
+    let with = if with_pictures { "-with-pictures" } else { "" };
+    let path = folder.join(format!("{seed}{with}.json"));
+    if let Ok(text) = std::fs::read_to_string(&path) {
+        return serde_json::from_str(&text).unwrap();
+    }
+    let drawn = draw(seed, with_pictures);
+    std::fs::write(&path, serde_json::to_string(&drawn).unwrap()).unwrap();
+    drawn
+}
+
+#[test]
+#[ignore = "hours: the suite 200 times on both cores, for audits"]
+fn a_correct_core_fails_nothing_whatever_the_random_numbers() {
+    let (seeds, pictures) = (number("FURNACE_SEEDS", 200), number("FURNACE_PICTURES", 10));
+    let (part, of) = shard();
+    let folder = folder();
+    println!("results are kept in {}", folder.display());
+    let mut audit = Audit::default();
+    for seed in (0..seeds).filter(|seed| seed % of == part - 1) {
+        let drawn = drawn(&folder, seed, seed < pictures);
+        let suspected = drawn.suspected.values().filter(|(_, suspected)| *suspected).count();
+        println!(
+            "seed {seed}: {} failed, {} inconclusive, {suspected} of {} leaves suspected, {:.0} s",
+            drawn.failed.len(),
+            drawn.inconclusive.len(),
+            drawn.suspected.len(),
+            drawn.seconds
+        );
+        audit.take(seed, drawn);
+    }
+    audit.print();
+    let over_suspected = audit.over_suspected();
+    over_suspected.iter().for_each(|what| println!("SUSPECTED TOO OFTEN {what}"));
+    assert!(audit.failed.is_empty() && over_suspected.is_empty());
+}
+
+#[test]
+fn the_audit_counts_failures_and_sees_a_wrong_level() {
+    let drawn = |suspected| Drawn {
+        failed: Vec::new(),
+        inconclusive: vec!["a".to_owned()],
+        suspected: BTreeMap::from([("leaf".to_owned(), (TestKind::Mean, suspected))]),
+        seconds: 0.0,
+    };
+    let mut audit = Audit::default();
+    (0..199).for_each(|seed| audit.take(seed, drawn(seed == 0)));
+    assert!(audit.over_suspected().is_empty(), "one of 199 is chance");
+    (199..205).for_each(|seed| audit.take(seed, drawn(true)));
+    assert_eq!(audit.over_suspected().len(), 1);
+    assert_eq!(audit.inconclusive["a"], 205);
+    audit.take(205, Drawn { failed: vec!["b".to_owned()], ..drawn(false) });
+    assert_eq!(audit.failed, ["seed 205: b"]);
+}

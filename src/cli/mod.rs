@@ -9,6 +9,7 @@ mod progress;
 mod reference;
 mod report;
 mod run;
+mod watch;
 
 pub use exit_code::ExitCode;
 

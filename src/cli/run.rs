@@ -1,6 +1,7 @@
 //! `furnace run`: the default verb.
 
 use super::progress::Progress;
+use super::watch;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, CatalogError};
 use crate::cores::{CORES, CoreSpec};
@@ -31,6 +32,9 @@ pub struct RunArguments {
     /// Stop at the first failure; gross errors end their trial after a few thousand samples.
     #[arg(long)]
     fail_fast: bool,
+    /// Try again whenever a case, a scene or the core's file changes, what failed last first; ctrl-c ends.
+    #[arg(long, conflicts_with_all = ["resume", "verbose", "strict"])]
+    watch: bool,
     /// Go on with a run that was cut off; what it was asked is read from its folder.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "cores", "budget", "seed", "fail_fast"])]
     resume: Option<PathBuf>,
@@ -53,6 +57,10 @@ pub struct RunArguments {
 /// Tries the cases, prints the summary, writes the report.
 pub fn run(arguments: &RunArguments) -> Answer {
     let project = arguments.project.find()?;
+    if arguments.watch {
+        let runs = arguments.report.clone().unwrap_or_else(|| project.runs());
+        return watch::watch(arguments, &project, &runs);
+    }
     let cases = case::load_all(&project.cases()).map_err(|error| match error {
         CatalogError::Io { .. } => Failure::broken(error),
         CatalogError::Malformed(_) => Failure::request(error),
@@ -79,7 +87,8 @@ pub fn run(arguments: &RunArguments) -> Answer {
 }
 
 impl RunArguments {
-    fn request(&self) -> Request {
+    /// What is to be run.
+    pub fn request(&self) -> Request {
         let all = || CORES.iter().filter_map(|kind| kind.name.parse().ok()).collect();
         Request {
             cores: if self.cores.is_empty() { all() } else { self.cores.clone() },

@@ -14,6 +14,8 @@ use std::collections::BTreeSet;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Foundation {
+    /// Different seeds give different, independent numbers: whatever is judged by its mean rests on it.
+    Seeds,
     /// Rays leave the camera through their film points.
     Camera,
     /// A ray meets a triangle where it should.
@@ -24,6 +26,10 @@ pub enum Foundation {
     Boxes,
     /// The hierarchy finds the hits that a loop over all primitives finds.
     Hits,
+    /// Uniform directions of the hemisphere, and their density.
+    UniformDirections,
+    /// Cosine-distributed directions, and their density.
+    CosineDirections,
     /// f, density and samples of diffuse surfaces.
     Diffuse,
     /// The mirror.
@@ -54,11 +60,14 @@ impl Foundation {
     /// As people read it.
     pub const fn word(self) -> &'static str {
         match self {
+            Self::Seeds => "random numbers",
             Self::Camera => "camera rays",
             Self::Triangles => "triangles",
             Self::Spheres => "spheres",
             Self::Boxes => "boxes",
             Self::Hits => "hits in the hierarchy",
+            Self::UniformDirections => "uniform directions",
+            Self::CosineDirections => "cosine-distributed directions",
             Self::Diffuse => "diffuse surfaces",
             Self::Mirror => "the mirror",
             Self::Glass => "glass",
@@ -82,9 +91,13 @@ pub fn foundations(case: &Case, scene: Option<&SceneDescription>) -> BTreeSet<Fo
     if needs.intersects(Capabilities::RADIANCE | Capabilities::RENDER) {
         found.extend(scene.into_iter().flat_map(seen_in));
         found.extend(beneath(case, scene));
+        found.insert(Foundation::Seeds);
     }
     if needs.intersects(Capabilities::RENDER) {
         found.insert(Foundation::Camera);
+    }
+    if needs.intersects(Capabilities::HEMISPHERE_SAMPLING) {
+        found.insert(Foundation::UniformDirections);
     }
     let own = case.proves.iter().min();
     found.retain(|foundation| own.is_none_or(|own| foundation < own));
@@ -163,8 +176,10 @@ mod tests {
 
     #[test]
     fn a_furnace_rests_on_what_it_is_made_of_and_on_direct_light() {
-        use Foundation::{Diffuse, DirectLight, Emission, Hits, SphereLight, Spheres};
-        let expected = [Spheres, Hits, Diffuse, Emission, DirectLight, SphereLight];
+        use Foundation::UniformDirections;
+        use Foundation::{Diffuse, DirectLight, Emission, Hits, Seeds, SphereLight, Spheres};
+        let expected =
+            [Seeds, Spheres, Hits, Diffuse, UniformDirections, Emission, DirectLight, SphereLight];
         let found = of("integrator/rough-metal-under-an-even-sky-shows-its-albedo");
         assert!(found.contains(&Foundation::Metal) && !found.contains(&Foundation::Camera));
         assert!(!of("integrator/isolated-bounces-add-up").contains(&Foundation::Bounces));
@@ -172,7 +187,7 @@ mod tests {
         assert_eq!(hemisphere, expected.into());
         assert_eq!(
             of("integrator/a-furnace-glows-by-its-series"),
-            expected[..3].iter().copied().collect()
+            expected[..4].iter().copied().collect()
         );
     }
 

@@ -67,25 +67,9 @@ pub static LOOKS_AFTER_EVERY_SAMPLE: Cause = Cause {
 };
 
 /// See its headline.
-pub static DIVIDED_BY_ONE_MORE: Cause = Cause {
-    name: "divided-by-one-more",
-    headline: "the sum is divided by one sample more than were taken",
-    look_at: "adaptive sampling, where the mean of the pixel is written",
-    remedy: "Divide by the number of samples that were really taken; a loop counter is one past it after a full loop.",
-};
-
-/// See its headline.
 pub static DIVIDED_BY_ONE_LESS: Cause = Cause {
     name: "divided-by-one-less",
     headline: "the sum is divided by one sample less than were taken",
-    look_at: "adaptive sampling, where the mean of the pixel is written",
-    remedy: "Divide by the number of samples that were really taken.",
-};
-
-/// See its headline.
-pub static NOT_DIVIDED: Cause = Cause {
-    name: "not-divided",
-    headline: "the sum of the samples is not divided by their number",
     look_at: "adaptive sampling, where the mean of the pixel is written",
     remedy: "Divide by the number of samples that were really taken.",
 };
@@ -148,9 +132,7 @@ pub static CAUSES: &[&Cause] = &[
     &TOLERANCE_ABSOLUTE,
     &NEVER_STOPS,
     &LOOKS_AFTER_EVERY_SAMPLE,
-    &DIVIDED_BY_ONE_MORE,
     &DIVIDED_BY_ONE_LESS,
-    &NOT_DIVIDED,
     &COUNT_ONE_SHORT,
     &BATCH_IGNORED,
     &REST_OF_BATCH_DROPPED,

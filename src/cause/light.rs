@@ -187,14 +187,6 @@ pub static SKY_PDF_OF_HEMISPHERE: Cause = Cause {
 };
 
 /// See its headline.
-pub static HEMISPHERE_IN_WORLD: Cause = Cause {
-    name: "hemisphere-in-world",
-    headline: "directions of the hemisphere are followed as if they were world directions",
-    look_at: "hemisphere sampling",
-    remedy: "Turn the local direction into the world before it becomes a ray.",
-};
-
-/// See its headline.
 pub static HEMISPHERE_IGNORED: Cause = Cause {
     name: "hemisphere-ignored",
     headline: "light is sampled even where hemisphere sampling is asked for",
@@ -275,6 +267,14 @@ pub static RANGE_KEPT: Cause = Cause {
 };
 
 /// See its headline.
+pub static HEMISPHERE_IN_WORLD: Cause = Cause {
+    name: "hemisphere-in-world",
+    headline: "directions of the hemisphere are followed as if they were world directions",
+    look_at: "hemisphere sampling",
+    remedy: "Turn the local direction into the world before it becomes a ray.",
+};
+
+/// See its headline.
 pub static FADES_WITH_DISTANCE: Cause = Cause {
     name: "point-light-fades-with-distance",
     headline: "a point light weakens with distance, not with its square",
@@ -307,7 +307,6 @@ pub static CAUSES: &[&Cause] = &[
     &PDF_FORGOTTEN,
     &DIRECTIONAL_FLIPPED,
     &SKY_PDF_OF_HEMISPHERE,
-    &HEMISPHERE_IN_WORLD,
     &HEMISPHERE_IGNORED,
     &DIVIDED_BY_ZERO_LIGHTS,
     &NO_SHADOWS,
@@ -318,5 +317,6 @@ pub static CAUSES: &[&Cause] = &[
     &DELTA_DIVIDED,
     &LAST_LIGHT_ONLY,
     &RANGE_KEPT,
+    &HEMISPHERE_IN_WORLD,
     &FADES_WITH_DISTANCE,
 ];

@@ -7,6 +7,7 @@
 //! To add one: a `static` in the file of its part, and its line in that file's `CAUSES`.
 
 pub mod adaptive;
+pub mod answer;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
@@ -48,6 +49,7 @@ pub fn all() -> impl Iterator<Item = &'static Cause> {
         transport::CAUSES,
         adaptive::CAUSES,
         seed::CAUSES,
+        answer::CAUSES,
         picture::CAUSES,
     ];
     parts.into_iter().flatten().copied()

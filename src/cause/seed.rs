@@ -34,6 +34,14 @@ pub static SAMPLES_REPEAT: Cause = Cause {
     remedy: "Seed once for each pixel, or let the stream depend on the sample too.",
 };
 
+/// See its headline.
+pub static THREADS_MATTER: Cause = Cause {
+    name: "threads-matter",
+    headline: "the picture depends on the number of threads",
+    look_at: "the random generator, where it is seeded",
+    remedy: "Let the stream of a sample depend on its pixel and number, never on the thread that draws it.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] =
-    &[&SEED_IGNORED, &NOT_REPRODUCIBLE, &PIXELS_SHARE_NOISE, &SAMPLES_REPEAT];
+    &[&SEED_IGNORED, &NOT_REPRODUCIBLE, &PIXELS_SHARE_NOISE, &SAMPLES_REPEAT, &THREADS_MATTER];

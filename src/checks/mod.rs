@@ -4,6 +4,7 @@
 //! seed; it leaves every verdict to [`crate::stats`]. To add one: write the file, add a line to [`CHECKS`].
 
 pub mod adaptive;
+pub mod breach;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
@@ -139,7 +140,10 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<bvh::SameHitsAsBruteForce>(),
     CheckKind::of::<bvh::BuildsComeToAnEnd>(),
     CheckKind::of::<bvh::VisitsFewNodes>(),
+    CheckKind::of::<bvh::StopsBehindHits>(),
+    CheckKind::of::<bvh::DividesLongScenes>(),
     CheckKind::of::<light::LightSamplesReachLight>(),
+    CheckKind::of::<light::OpenLightSamples>(),
     CheckKind::of::<light::LampAtTheEye>(),
     CheckKind::of::<sampling::PdfIntegratesToOne>(),
     CheckKind::of::<sampling::SampleJacobian>(),

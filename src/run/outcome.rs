@@ -1,6 +1,6 @@
 //! How a trial ended. Absence of evidence is never success: each way of not being judged has its own name.
 
-use crate::checks::{CheckError, Finding};
+use crate::checks::{CheckError, Finding, breach};
 use crate::contract::CoreError;
 use crate::stats::Verdict;
 use serde::{Deserialize, Serialize};
@@ -118,8 +118,11 @@ impl Outcome {
             CoreError::TimedOut { limit, during } => {
                 Self::TimedOut { limit: limit.as_secs_f64(), during }
             }
-            CoreError::Refused(_) | CoreError::BrokeContract(_) => {
-                Self::Judged { finding: Finding::failure(error.to_string()) }
+            CoreError::Refused(_) => Self::Judged { finding: Finding::failure(error.to_string()) },
+            CoreError::BrokeContract(ref complaint) => {
+                let finding = Finding::failure(error.to_string());
+                let cause = breach::cause_of(complaint);
+                Self::Judged { finding: finding.because_each(cause, complaint) }
             }
         }
     }

@@ -23,6 +23,10 @@ pub const WRONG_RULES: &[(&Cause, Rule)] = &[
     (&adaptive::TOLERANCE_ABSOLUTE, |s, tolerance| {
         NORMAL_95 * (s.variance() / s.n).sqrt() <= tolerance
     }),
+    (&adaptive::COUNT_ONE_SHORT, |s, tolerance| {
+        let variance = (s.squares - s.sum * s.sum / (s.n - 1.0)) / (s.n - 2.0);
+        NORMAL_95 * (variance / s.n).sqrt() <= tolerance * s.mean()
+    }),
     (&adaptive::NEVER_STOPS, |_, _| false),
 ];
 

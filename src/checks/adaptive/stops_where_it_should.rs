@@ -1,7 +1,7 @@
 //! The stopping rule on streams whose count is known, without any picture.
 
 use super::rule::{Rule, Sums, WRONG_RULES, stops};
-use crate::cause::{Cause, adaptive};
+use crate::cause::{Cause, adaptive, picture};
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{AdaptiveMean, AdaptiveSettings, Capabilities};
@@ -28,15 +28,66 @@ struct StreamEntry {
     stops_at: u32,
 }
 
-/// The mean as a share of the right one, where so many samples were used of so many that were allowed.
-type Share = fn(f64, f64) -> f64;
+/// What a core would answer to a stream: the samples used, and their mean.
+type Answer = (u32, f64);
 
-/// The mistakes that students make in what they divide by.
-const WRONG_DIVISORS: &[(&Cause, Share)] = &[
-    (&adaptive::DIVIDED_BY_CAP, |used, cap| used / cap),
-    (&adaptive::DIVIDED_BY_ONE_MORE, |used, _| used / (used + 1.0)),
-    (&adaptive::DIVIDED_BY_ONE_LESS, |used, _| used / (used - 1.0)),
-    (&adaptive::NOT_DIVIDED, |used, _| used),
+/// A mistake, and what it answers.
+struct Mistake {
+    cause: &'static Cause,
+    answers: fn(&StreamEntry) -> Answer,
+}
+
+/// A rule that is looked at after every batch, and right otherwise.
+fn by(stream: &StreamEntry, rule: Rule) -> Answer {
+    stream.prefix(stream.count(rule, stream.batch))
+}
+
+/// The right count, with a mean that is this share of the right one.
+fn scaled(stream: &StreamEntry, share: fn(f64, f64) -> f64) -> Answer {
+    let (used, mean) = stream.prefix(stream.stops_at);
+    (used, mean * share(f64::from(used), f64::from(stream.cap)))
+}
+
+/// The right mean, with another count beside it.
+fn reported(stream: &StreamEntry, count: u32) -> Answer {
+    (count, stream.prefix(stream.stops_at).1)
+}
+
+/// The mistakes that students make beside those in the rule itself.
+const MISTAKES: &[Mistake] = &[
+    Mistake {
+        cause: &adaptive::LOOKS_AFTER_EVERY_SAMPLE,
+        answers: |stream| stream.prefix(stream.count(stops, 1)),
+    },
+    Mistake {
+        cause: &adaptive::BATCH_IGNORED,
+        answers: |stream| stream.prefix(stream.count(stops, 32)),
+    },
+    Mistake {
+        cause: &adaptive::REST_OF_BATCH_DROPPED,
+        answers: |stream| {
+            let whole_batches = stream.cap - stream.cap % stream.batch;
+            stream.prefix(stream.count(stops, stream.batch).min(whole_batches))
+        },
+    },
+    Mistake {
+        cause: &adaptive::DIVIDED_BY_CAP,
+        answers: |stream| scaled(stream, |used, cap| used / cap),
+    },
+    Mistake {
+        cause: &picture::DIVIDED_BY_ONE_MORE,
+        answers: |stream| scaled(stream, |used, _| used / (used + 1.0)),
+    },
+    Mistake {
+        cause: &adaptive::DIVIDED_BY_ONE_LESS,
+        answers: |stream| scaled(stream, |used, _| used / (used - 1.0)),
+    },
+    Mistake { cause: &picture::NOT_DIVIDED, answers: |stream| scaled(stream, |used, _| used) },
+    Mistake { cause: &adaptive::COUNTS_ARE_CAP, answers: |stream| reported(stream, stream.cap) },
+    Mistake {
+        cause: &adaptive::LAST_BATCH_NOT_COUNTED,
+        answers: |stream| reported(stream, stream.stops_at.saturating_sub(stream.batch)),
+    },
 ];
 
 impl StreamEntry {
@@ -55,10 +106,10 @@ impl StreamEntry {
         stopping.next().unwrap_or(self.cap)
     }
 
-    /// The mean that the samples have which a core says it has used.
-    fn mean_of(&self, answer: &AdaptiveMean) -> f64 {
+    /// So many samples, and their mean.
+    fn prefix(&self, used: u32) -> Answer {
         let samples = self.samples();
-        Sums::of(&samples[..(answer.used as usize).clamp(1, samples.len())]).mean()
+        (used, Sums::of(&samples[..(used as usize).clamp(1, samples.len())]).mean())
     }
 }
 
@@ -116,7 +167,7 @@ fn judge(answered: &[Answered<'_>], tolerance: f64) -> Finding {
 }
 
 fn measures((stream, answer): &Answered<'_>, tolerance: f64) -> [Measure; 2] {
-    let mean = stream.mean_of(answer);
+    let (_, mean) = stream.prefix(answer.used);
     let (used, right) = (f64::from(answer.used), f64::from(stream.stops_at));
     let name = |what: &str| format!("{}: {what}", stream.name);
     [
@@ -127,29 +178,15 @@ fn measures((stream, answer): &Answered<'_>, tolerance: f64) -> [Measure; 2] {
 
 /// The mistakes that predict the answers for every stream.
 fn explanations(answered: &[Answered<'_>], tolerance: f64) -> Vec<&'static Cause> {
-    let stops_by = |rule: Rule, each_sample: bool| {
+    let predicts = |answers: &dyn Fn(&StreamEntry) -> Answer| {
         answered.iter().all(|(stream, answer)| {
-            let step = if each_sample { 1 } else { stream.batch };
-            stream.count(rule, step) == answer.used
+            let (used, mean) = answers(stream);
+            answer.used == used && (answer.mean - mean).abs() <= tolerance * mean.abs()
         })
     };
-    let mean_is = |share: &dyn Fn(f64, f64) -> f64| {
-        answered.iter().all(|(stream, answer)| {
-            let share = share(f64::from(answer.used), f64::from(stream.cap));
-            let mean = share * stream.mean_of(answer);
-            (answer.mean - mean).abs() <= tolerance * mean.abs()
-        })
-    };
-    if stops_by(stops, false) {
-        let made = WRONG_DIVISORS.iter().filter(|(_, share)| mean_is(share));
-        return made.map(|(cause, _)| *cause).collect();
-    }
-    if !mean_is(&|_, _| 1.0) {
-        return Vec::new();
-    }
-    let made = WRONG_RULES.iter().filter(|(_, rule)| stops_by(*rule, false));
-    let too_often = stops_by(stops, true).then_some(&adaptive::LOOKS_AFTER_EVERY_SAMPLE);
-    made.map(|(cause, _)| *cause).chain(too_often).collect()
+    let in_rule = WRONG_RULES.iter().filter(|(_, rule)| predicts(&|stream| by(stream, *rule)));
+    let elsewhere = MISTAKES.iter().filter(|mistake| predicts(&mistake.answers));
+    in_rule.map(|(cause, _)| *cause).chain(elsewhere.map(|mistake| mistake.cause)).collect()
 }
 
 fn ask<'a>(context: &mut Context<'_>, stream: &'a StreamEntry) -> Result<Answered<'a>, CheckError> {
@@ -162,7 +199,8 @@ fn ask<'a>(context: &mut Context<'_>, stream: &'a StreamEntry) -> Result<Answere
 
 /// What is wrong with one stream.
 fn complaint((stream, answer): &Answered<'_>, tolerance: f64) -> Option<String> {
-    let (used, right, mean) = (answer.used, stream.stops_at, stream.mean_of(answer));
+    let (used, mean) = stream.prefix(answer.used);
+    let right = stream.stops_at;
     if used != right {
         return Some(format!("{} stops at {used} instead of {right}", stream.name));
     }
@@ -182,23 +220,10 @@ mod tests {
     use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
     use crate::contract::{Core, CoreInfo, Precision, Result};
 
-    const CASE: &str = r#"
-        [[expect.stream]]
-        name      = "five values"
-        repeats   = [1, 3, 0.5, 1, 1]
-        batch     = 2
-        tolerance = "50 %"
-        cap       = 64
-        stops-at  = 10
-    "#;
+    /// Answers as it is told.
+    struct Answering(Box<dyn Fn(&StreamEntry) -> Answer + Send>);
 
-    /// Stops by a rule, and divides by what it says.
-    struct Stopping {
-        rule: Rule,
-        divide_by_cap: bool,
-    }
-
-    impl Core for Stopping {
+    impl Core for Answering {
         fn info(&self) -> CoreInfo {
             info(Precision::Double)
         }
@@ -209,52 +234,60 @@ mod tests {
             streams: &[&[f64]],
             means: &mut [AdaptiveMean],
         ) -> Result<()> {
-            for (stream, mean) in streams.iter().zip(means) {
-                let step = settings.samples_per_batch as usize;
-                let stop = (step..stream.len())
-                    .step_by(step)
-                    .find(|n| (self.rule)(&Sums::of(&stream[..*n]), settings.max_tolerance));
-                let used = stop.unwrap_or(stream.len());
-                let divisor = if self.divide_by_cap { stream.len() } else { used };
-                let sum: f64 = stream[..used].iter().sum();
-                let used = u32::try_from(used).unwrap();
-                *mean = AdaptiveMean { mean: sum / divisor as f64, used, reserved: 0 };
+            for (stream, answer) in streams.iter().zip(means) {
+                let mut entry = StreamEntry {
+                    name: String::new(),
+                    repeats: stream.to_vec(),
+                    batch: settings.samples_per_batch,
+                    tolerance: Percent(settings.max_tolerance),
+                    cap: u32::try_from(stream.len()).unwrap(),
+                    stops_at: 0,
+                };
+                entry.stops_at = entry.count(stops, entry.batch);
+                let (used, mean) = (self.0)(&entry);
+                *answer = AdaptiveMean { mean, used, reserved: 0 };
             }
             Ok(())
         }
     }
 
-    fn found(rule: Rule, divide_by_cap: bool) -> Finding {
-        judge(&check_of::<StopsWhereItShould>(CASE), &mut Stopping { rule, divide_by_cap })
+    fn found(answers: impl Fn(&StreamEntry) -> Answer + Send + 'static) -> Finding {
+        let case = include_str!("../../../cases/sampling/streams-stop-where-the-rule-says.toml");
+        judge(&check_of::<StopsWhereItShould>(case), &mut Answering(Box::new(answers)))
     }
 
     #[test]
     fn the_rule_itself_passes() {
-        assert_passes(&found(stops, false));
+        assert_passes(&found(|stream| by(stream, stops)));
     }
 
     #[test]
-    fn every_mistake_fails_and_is_named() {
-        for (cause, rule) in WRONG_RULES {
-            let finding = found(*rule, false);
+    fn every_mistake_fails_and_is_told_from_the_others() {
+        let assert_told = |cause: &Cause, finding: Finding| {
+            let told: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
             assert!(failure(&finding).contains(cause.headline), "{}", finding.statement);
-            assert_eq!(finding.clues.len(), 1, "{:?}", finding.clues);
+            assert_eq!(told, [cause.name]);
+        };
+        for (cause, rule) in WRONG_RULES {
+            assert_told(cause, found(|stream| by(stream, *rule)));
+        }
+        for mistake in MISTAKES {
+            assert_told(mistake.cause, found(mistake.answers));
         }
     }
 
     #[test]
-    fn dividing_by_the_cap_is_seen() {
-        let finding = found(stops, true);
-        assert!(failure(&finding).contains("0.156 of that"), "{}", finding.statement);
-        assert_eq!(finding.clues[0].cause, "divided-by-cap");
+    fn a_mean_of_something_else_is_seen() {
+        let finding = found(|stream| (stream.stops_at, 0.99 * stream.prefix(stream.stops_at).1));
+        assert!(failure(&finding).contains("the mean is 0.99 of that"), "{}", finding.statement);
+        assert!(finding.clues.is_empty());
     }
 
     #[test]
     fn a_case_with_a_wrong_count_is_refused() {
-        let check = check_of::<StopsWhereItShould>(CASE);
-        let mut stream = check.stream[0].clone();
-        stream.stops_at = 8;
-        let wrong = StopsWhereItShould { stream: vec![stream] };
-        assert!(wrong.validate().unwrap_err().contains("stops at 10"));
+        let wrong = "stream = [{ name = \"five values\", repeats = [1, 3, 0.5, 1, 1], batch = 2, \
+                     tolerance = \"50 %\", cap = 64, stops-at = 8 }]";
+        let check: StopsWhereItShould = toml::from_str(wrong).unwrap();
+        assert!(check.validate().unwrap_err().contains("stops at 10"));
     }
 }

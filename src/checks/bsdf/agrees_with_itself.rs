@@ -1,5 +1,7 @@
 //! What a BSDF samples is what it evaluates: the same value, the same density, nothing below the horizon.
 
+use crate::cause::{Cause, bsdf};
+use crate::checks::form::Form;
 use crate::checks::phrase::{some_are, worst_measure};
 use crate::checks::surface::SurfaceEntry;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -40,18 +42,29 @@ impl Check for AgreesWithItself {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut measures = Vec::new();
         let mut complaints = Vec::new();
+        let mut causes = Vec::new();
         for surface in &self.surface {
             let drawn = Drawn::new(context, *surface)?;
-            let (more, complaint) = drawn.judge(context)?;
+            let Judged { measures: more, complaint, cause } = drawn.judge(context)?;
             measures.extend(more);
             complaints.extend(complaint);
+            causes.extend(cause);
         }
+        causes.dedup();
         let statement = match complaints.is_empty() {
             true => format!("{} surfaces agree with themselves", self.surface.len()),
             false => complaints.join("; "),
         };
-        Ok(Finding::of(statement, "would have caught one sample in a hundred thousand", measures))
+        Ok(Finding::of(statement, "would have caught one sample in a hundred thousand", measures)
+            .because_each(causes, "predicts all samples and values that were compared"))
     }
+}
+
+/// What there is to say of one surface.
+struct Judged {
+    measures: Vec<Measure>,
+    complaint: Option<String>,
+    cause: Option<&'static Cause>,
 }
 
 /// Samples of one surface, with the views they were drawn for.
@@ -83,10 +96,7 @@ impl Drawn {
         Ok(Self { surface, views, samples })
     }
 
-    fn judge(
-        &self,
-        context: &mut Context<'_>,
-    ) -> Result<(Vec<Measure>, Option<String>), CheckError> {
+    fn judge(&self, context: &mut Context<'_>) -> Result<Judged, CheckError> {
         if self.surface.is_delta() {
             return self.judge_delta(context);
         }
@@ -99,6 +109,10 @@ impl Drawn {
             (0..3).map(move |c| Compared::relative(s.f[c], v.f[c], allowed))
         }));
         let below = self.lit_below_horizon(context)?;
+        let cosines = pairs().filter(|(_, value)| value.f[1] > 0.0);
+        let shares: Vec<_> = cosines.map(|((_, s), v)| (s.f[1] / v.f[1], s.wi.z)).collect();
+        let is_cosine =
+            Form::of(&shares).is_some_and(|f| f.is_like(Form { constant: 1.0, power: 1 }));
         let name = self.surface.to_string();
         let measures = vec![
             worst_measure(format!("{name}: density of a sample"), &pdf),
@@ -124,14 +138,17 @@ impl Drawn {
             (below > 0.0)
                 .then(|| format!("{below} directions below the horizon have a value or a density"))
         };
-        Ok((measures, complaint.map(|complaint| format!("{name}: {complaint}"))))
+        let cause = match (pdf.disagree, f.disagree) {
+            (0, 0) if below > 0.0 => Some(&bsdf::LIGHT_FROM_BELOW),
+            (0, 1..) if is_cosine => Some(&bsdf::COSINE_IN_SAMPLED_F),
+            _ => None,
+        };
+        let complaint = complaint.map(|complaint| format!("{name}: {complaint}"));
+        Ok(Judged { measures, complaint, cause })
     }
 
     /// A mirror or glass says so, and is nothing to whoever evaluates it.
-    fn judge_delta(
-        &self,
-        context: &mut Context<'_>,
-    ) -> Result<(Vec<Measure>, Option<String>), CheckError> {
+    fn judge_delta(&self, context: &mut Context<'_>) -> Result<Judged, CheckError> {
         let unmarked = self.valid().filter(|(_, sample)| sample.is_delta == 0).count();
         let mut stream = context.seed.child("elsewhere").stream();
         let elsewhere: Vec<_> =
@@ -150,7 +167,8 @@ impl Drawn {
         ];
         let complaint = (unmarked + lit > 0)
             .then(|| format!("{name} is certain of its direction: mark it, and evaluate to zero"));
-        Ok((measures, complaint))
+        let cause = (unmarked > 0 && lit == 0).then_some(&bsdf::MIRROR_NOT_DELTA);
+        Ok(Judged { measures, complaint, cause })
     }
 
     fn valid(&self) -> impl Iterator<Item = (DVec3, BsdfSample)> {
@@ -223,6 +241,8 @@ mod tests {
     #[test]
     fn light_from_below_is_seen() {
         let fake = Fake { shines_through: true, ..Fake::default() };
-        assert!(failure(&found(fake)).contains("below the horizon"));
+        let finding = found(fake);
+        assert!(failure(&finding).contains("below the horizon"));
+        assert_eq!(finding.clues[0].cause, "light-from-below");
     }
 }

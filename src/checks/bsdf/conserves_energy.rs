@@ -1,5 +1,6 @@
 //! The albedo of a surface: never above one, and what its parameters say it is.
 
+use super::metal;
 use crate::cause::{Cause, bsdf};
 use crate::checks::form::Form;
 use crate::checks::phrase::{figure, would_have_caught};
@@ -10,7 +11,7 @@ use crate::math::closed_form::microfacet::{self, Masking};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
 use crate::math::sphere::on_hemisphere;
-use crate::scene::Surface;
+use crate::scene::{Rgb, Surface};
 use crate::stats::{SphereCells, Tolerance, Verdict};
 use crate::text::Angle;
 use serde::Deserialize;
@@ -18,6 +19,8 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Pairs of directions at which f is looked at.
 const DIRECTIONS: usize = 200;
+/// How far from the mean albedo a channel may be to be it, relative.
+const AVERAGED: f64 = 1e-4;
 /// Rings in each hemisphere and sectors of the quadrature.
 const CELLS: (usize, usize) = (4, 8);
 
@@ -70,34 +73,53 @@ impl Check for ConservesEnergy {
 }
 
 impl ConservesEnergy {
-    /// What is wrong with diffuse surfaces, if it is the same with all of them.
+    /// What is wrong with the surfaces, if it is the same with all of them that something is wrong with.
     fn mistakes(&self, context: &mut Context<'_>) -> Result<Vec<&'static Cause>, CheckError> {
         let mut causes = Vec::new();
         for surface in &self.surface {
-            if let Surface::Diffuse { reflectance } = surface.material().surface {
-                let form = form_of_value(context, *surface, reflectance[1])?;
-                causes.extend(form.and_then(mistake));
-            }
+            causes.extend(mistake_of(context, *surface)?);
         }
         causes.dedup();
         Ok(if causes.len() == 1 { causes } else { Vec::new() })
     }
 }
 
-/// f as a share of albedo/π.
-fn form_of_value(
+/// The mistake that predicts f at many pairs of directions.
+fn mistake_of(
     context: &mut Context<'_>,
     surface: SurfaceEntry,
-    albedo: f64,
-) -> Result<Option<Form>, CheckError> {
+) -> Result<Option<&'static Cause>, CheckError> {
     let mut stream = context.seed.child("form of a value").stream();
     let mut direction = || on_hemisphere(&mut stream);
     let queries: Vec<_> =
         (0..DIRECTIONS).map(|_| BsdfQuery { wo: direction(), wi: direction() }).collect();
     let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
     context.core.eval_bsdf(&surface.material(), &queries, &mut values)?;
-    let share = |(query, value): (&BsdfQuery, &BsdfValue)| (value.f[1] * PI / albedo, query.wi.z);
-    Ok(Form::of(&queries.iter().zip(&values).map(share).collect::<Vec<_>>()))
+    Ok(match surface.material().surface {
+        Surface::Diffuse { reflectance } if is_averaged(reflectance, &values) => {
+            Some(&bsdf::ALBEDO_AVERAGED)
+        }
+        Surface::Diffuse { reflectance } => {
+            let share = |(query, value): (&BsdfQuery, &BsdfValue)| {
+                (value.f[1] * PI / reflectance[1], query.wi.z)
+            };
+            let shares: Vec<_> = queries.iter().zip(&values).map(share).collect();
+            Form::of(&shares).and_then(mistake)
+        }
+        Surface::Conductor { reflectance, roughness } => {
+            let smith = context.info.conventions.smith_term;
+            metal::mistake_of_value((reflectance[1], roughness), smith, &queries, &values)
+        }
+        Surface::Mirror { .. } | Surface::Glass { .. } => None,
+    })
+}
+
+/// Whether a coloured surface answers the mean of its albedos in every channel.
+fn is_averaged(reflectance: Rgb, values: &[BsdfValue]) -> bool {
+    let mean = reflectance.iter().sum::<f64>() / 3.0;
+    let is_mean = |f: &f64| (f * PI / mean - 1.0).abs() <= AVERAGED;
+    let is_coloured = reflectance.iter().any(|albedo| (albedo / mean - 1.0).abs() > 0.01);
+    is_coloured && values.iter().flat_map(|value| &value.f).all(is_mean)
 }
 
 /// The mistake that makes f this share of albedo/π.

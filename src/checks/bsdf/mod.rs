@@ -6,6 +6,7 @@ mod conserves_energy;
 mod fake;
 mod follows_ggx;
 mod interface;
+pub(super) mod metal;
 mod reciprocal;
 mod reflects_and_refracts;
 mod smooth_view;

@@ -5,6 +5,7 @@
 
 use super::question::{Build, scene_of};
 use super::trial::{NEEDS, Trial, Tried};
+use crate::cause;
 use crate::checks::phrase::at_most;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::Capabilities;
@@ -33,6 +34,8 @@ const LAYOUTS: [(Layout, &str); 5] = [
     (Layout::SizeRatio, "sizes of 1 to a million"),
     (Layout::GridOnOneAxis, "a grid on one axis"),
 ];
+/// So many of them have all their centroids in one place.
+const IN_ONE_PLACE: usize = 2;
 /// Scenes that have next to nothing to divide.
 const FEW: [(u32, &str); 3] = [(0, "no triangle"), (1, "one triangle"), (2, "two triangles")];
 
@@ -162,11 +165,24 @@ fn judge(results: &[Outcome]) -> Finding {
         complaints.join("; ")
     };
     let measures = results.iter().flat_map(Outcome::measures).collect();
-    Finding::of(
+    let finding = Finding::of(
         statement,
         "would have caught a depth above 2 log2 n + 64, or one wrong hit",
         measures,
-    )
+    );
+    match deep_where_nothing_separates(results) {
+        Some(evidence) => finding.because(&cause::bvh::SPLIT_REPEATED, evidence),
+        None => finding,
+    }
+}
+
+/// Only hierarchies over centroids in one place are too deep.
+fn deep_where_nothing_separates(results: &[Outcome]) -> Option<String> {
+    let is_too_deep = |outcome: &&Outcome| outcome.depth() > outcome.deepest_allowed();
+    let deep: Vec<_> = results.iter().filter(is_too_deep).map(|outcome| outcome.name).collect();
+    let in_one_place = |name: &&str| LAYOUTS[..IN_ONE_PLACE].iter().any(|layout| layout.1 == *name);
+    let is_it = !deep.is_empty() && deep.iter().all(in_one_place);
+    is_it.then(|| format!("hierarchies over {} alone are too deep", deep.join(" and ")))
 }
 
 #[cfg(test)]
@@ -196,6 +212,7 @@ mod tests {
             statement.contains("is 1000 nodes deep for 1000 triangles, more than 84"),
             "{statement}"
         );
+        assert!(finding.clues.is_empty(), "grids can be separated");
     }
 
     #[test]

@@ -18,9 +18,12 @@ pub struct Questions {
 /// What a hierarchy answers.
 #[derive(Clone, Debug)]
 pub struct Answers {
-    rays: Vec<Hit>,
-    segments: Vec<Hit>,
-    occluded: Vec<bool>,
+    /// To [`Questions::rays`].
+    pub rays: Vec<Hit>,
+    /// To [`Questions::segments`].
+    pub segments: Vec<Hit>,
+    /// The same, any hit.
+    pub occluded: Vec<bool>,
 }
 
 /// What the loop answers; whether a segment is occluded follows.
@@ -30,6 +33,10 @@ pub struct Truth {
     pub rays: Vec<Hit>,
     /// Of [`Questions::segments`].
     pub segments: Vec<Hit>,
+    /// Whether each segment would be occluded if it had no end.
+    pub endless: Vec<bool>,
+    /// Rays that hit something nearer than their hit, once they are told to end just before it.
+    pub overwritten: usize,
 }
 
 /// The closest hits of some rays.

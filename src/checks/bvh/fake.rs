@@ -30,6 +30,8 @@ pub enum Slip {
     TestsEverything,
     /// The ray does not end at what was found.
     NeverShortens,
+    /// The left child is always visited first.
+    NeverOrders,
     /// Shadow rays look for the nearest hit among everything.
     SearchesShadows,
 }
@@ -88,6 +90,7 @@ impl FakeScene {
         match self.slip {
             Slip::KeepsTheFirstHit => self.walk(ray, Walk::AnyHit),
             Slip::NeverShortens => self.walk(ray, Walk::Unshortened),
+            Slip::NeverOrders => self.walk(ray, Walk::Unordered),
             Slip::ForgetsTheEnd => self.walk(&Ray { t_max: f64::INFINITY, ..*ray }, Walk::Ordered),
             _ => self.walk(ray, Walk::Ordered),
         }

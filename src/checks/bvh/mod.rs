@@ -2,14 +2,19 @@
 
 mod builds_come_to_an_end;
 mod comparison;
+mod divides_long_scenes;
+mod explanation;
 #[cfg(test)]
 mod fake;
 mod question;
 mod reference;
 mod same_hits_as_brute_force;
+mod stops_behind_hits;
 mod trial;
 mod visits_few_nodes;
 
 pub use builds_come_to_an_end::BuildsComeToAnEnd;
+pub use divides_long_scenes::DividesLongScenes;
 pub use same_hits_as_brute_force::SameHitsAsBruteForce;
+pub use stops_behind_hits::StopsBehindHits;
 pub use visits_few_nodes::VisitsFewNodes;

@@ -11,6 +11,9 @@ use glam::DVec3;
 /// Triangles in a leaf.
 const LEAF: usize = 4;
 
+/// A core may test this many times the triangles that a plain median hierarchy tests.
+pub const SLACK: f64 = 4.0;
+
 /// How a hierarchy is walked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Walk {

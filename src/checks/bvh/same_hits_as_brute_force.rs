@@ -1,5 +1,6 @@
 //! With a hierarchy and without one, a core meets the same things at the same places.
 
+use super::explanation::shared;
 use super::question::Build;
 use super::trial::{NEEDS, Trial, Tried};
 use crate::checks::phrase::figure;
@@ -42,16 +43,22 @@ impl Check for SameHitsAsBruteForce {
         let builds = Build::all(context.info.capabilities, &self.leaf_sizes);
         let tried: Result<Vec<_>, _> =
             builds.into_iter().map(|build| trial.put_to(context, build)).collect();
-        Ok(judge(&tried?, trial.answers()))
+        Ok(judge(&tried?, trial.answers(), trial.overwritten()))
     }
 }
 
-fn judge(tried: &[Tried], answers: usize) -> Finding {
-    let measures: Vec<_> = tried.iter().flat_map(measures).collect();
+fn judge(tried: &[Tried], answers: usize, overwritten: usize) -> Finding {
+    let mut measures: Vec<_> = tried.iter().flat_map(measures).collect();
+    let name = "hits without a hierarchy that are not the nearest";
+    measures.push(Measure::exact(name, overwritten as f64, 0.0, 0.0));
     let wrong = tried.iter().filter(|tried| tried.differences.total() > 0);
     let count = wrong.clone().count();
+    let causes: Vec<_> = wrong.clone().map(|tried| tried.cause).collect();
     let hierarchies = tried.len();
     let statement = match wrong.max_by_key(|tried| tried.differences.total()) {
+        None if overwritten > 0 => {
+            format!("{overwritten} hits without a hierarchy are not the nearest")
+        }
         None => format!("{answers} answers are the same with {hierarchies} hierarchies as without"),
         Some(worst) => format!(
             "{count} of {hierarchies} hierarchies disagree with brute force; {}: {} of {answers} answers differ, {}",
@@ -62,7 +69,12 @@ fn judge(tried: &[Tried], answers: usize) -> Finding {
     };
     // 6.9 = −ln 0.001: so rare a mistake shows in none of the answers once in a thousand times.
     let rare = figure((answers as f64 / 6.9).floor());
-    Finding::of(statement, format!("would have caught one wrong answer in {rare}"), measures)
+    let finding =
+        Finding::of(statement, format!("would have caught one wrong answer in {rare}"), measures);
+    match shared(&causes) {
+        Some((cause, evidence)) => finding.because(cause, evidence),
+        None => finding,
+    }
 }
 
 /// The second is shown, not graded.
@@ -101,6 +113,7 @@ mod tests {
         let statement = failure(&finding);
         assert!(statement.contains("10 of 10 hierarchies"), "{statement}");
         assert!(statement.contains("hits beyond the nearest one"), "{statement}");
+        assert_eq!(finding.clues[0].cause, "second-child-skipped");
     }
 
     #[test]
@@ -114,6 +127,7 @@ mod tests {
         let finding = found(Slip::ShadowsWithoutEnd);
         let statement = failure(&finding);
         assert!(statement.ends_with("shadow rays stopped by nothing"), "{statement}");
+        assert_eq!(finding.clues[0].cause, "shadow-end-ignored");
     }
 
     #[test]
@@ -126,5 +140,6 @@ mod tests {
     fn the_number_of_the_leaf_instead_of_the_triangle_is_seen() {
         let finding = found(Slip::NamesTheLeafOrder);
         assert!(failure(&finding).contains("hits with the wrong primitive"), "{finding:?}");
+        assert_eq!(finding.clues[0].cause, "leaf-order-numbers");
     }
 }

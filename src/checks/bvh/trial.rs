@@ -1,7 +1,9 @@
 //! One scene, with and without a hierarchy: what both checks of hits share.
 
 use super::comparison::{Differences, Questions, Truth, closest_hits, compare};
+use super::explanation::explain;
 use super::question::{Build, generic_rays, rays_at_vertices, segments};
+use crate::cause::Cause;
 use crate::checks::{CheckError, Context};
 use crate::contract::{Acceleration, BuildStats, BuiltScene, Capabilities, Hit, Ray};
 use crate::math::rng::Seed;
@@ -10,6 +12,9 @@ use glam::DVec3;
 
 /// How far from its primitive a hit may lie, relative to the coordinates: a hundred roundings of single precision.
 const ON_PRIMITIVE: f64 = 1e-5;
+
+/// Rays by which brute force itself is tried: a mistake there shows in many of them.
+const OVERWRITTEN_RAYS: usize = 500;
 
 /// What a comparison with brute force asks of a core.
 pub const NEEDS: Capabilities = Capabilities::BUILD_SCENE
@@ -35,6 +40,8 @@ pub struct Tried {
     pub differences: Differences,
     /// For rays at vertices.
     pub at_vertices: Differences,
+    /// The mistake that makes such differences.
+    pub cause: Option<&'static Cause>,
 }
 
 impl<'a> Trial<'a> {
@@ -72,7 +79,15 @@ impl<'a> Trial<'a> {
     ) -> Result<(Questions, Truth), CheckError> {
         let hits = closest_hits(brute, &rays)?;
         let segments = segments(&rays, &hits, bounds, &mut seed.stream());
-        let truth = Truth { segments: closest_hits(brute, &segments)?, rays: hits };
+        let without_end: Vec<_> =
+            segments.iter().map(|ray| Ray { t_max: f64::INFINITY, ..*ray }).collect();
+        let endless = closest_hits(brute, &without_end)?.iter().map(Hit::is_hit).collect();
+        let truth = Truth {
+            segments: closest_hits(brute, &segments)?,
+            endless,
+            overwritten: overwritten(brute, &rays, &hits)?,
+            rays: hits,
+        };
         Ok((Questions { rays, segments }, truth))
     }
 
@@ -86,16 +101,37 @@ impl<'a> Trial<'a> {
         let is_there = |ray: &Ray, hit: &Hit| lies_on_its_primitive(self.scene, ray, hit);
         let mut differences = |(questions, right): &(Questions, Truth)| {
             let found = questions.ask(built.as_mut())?;
-            Ok::<_, CheckError>(compare(questions, &found, right, &is_there))
+            let differences = compare(questions, &found, right, &is_there);
+            Ok::<_, CheckError>((differences, explain(questions, &found, right, &differences)))
         };
-        let (graded, at_vertices) = (differences(&self.graded)?, differences(&self.shown)?);
-        Ok(Tried { build, stats, differences: graded, at_vertices })
+        let ((differences, cause), (at_vertices, _)) =
+            (differences(&self.graded)?, differences(&self.shown)?);
+        Ok(Tried { build, stats, differences, at_vertices, cause })
+    }
+
+    /// Hits of brute force that are not the nearest.
+    pub fn overwritten(&self) -> usize {
+        self.graded.1.overwritten
     }
 
     /// Graded answers of each hierarchy.
     pub fn answers(&self) -> usize {
         self.graded.0.answers()
     }
+}
+
+/// How many hits are not the nearest, even without a hierarchy: the ray hits something when it ends just before.
+fn overwritten(
+    brute: &mut dyn BuiltScene,
+    rays: &[Ray],
+    hits: &[Hit],
+) -> Result<usize, CheckError> {
+    let hitting = rays.iter().zip(hits).filter(|(_, hit)| hit.is_hit());
+    let shortened: Vec<_> = hitting
+        .take(OVERWRITTEN_RAYS)
+        .map(|(ray, hit)| Ray { t_max: (1.0 - ON_PRIMITIVE) * hit.t, ..*ray })
+        .collect();
+    Ok(closest_hits(brute, &shortened)?.iter().filter(|hit| hit.is_hit()).count())
 }
 
 /// Whether the point of a hit lies on the primitive that the hit names.

@@ -1,7 +1,7 @@
 //! How many triangles are tested a ray, as meshes grow: counts, which no clock and no machine can change.
 
 use super::question::scene_of;
-use super::reference::{ReferenceBvh, Walk};
+use super::reference::{ReferenceBvh, SLACK, Walk};
 use crate::cause::{Cause, bvh};
 use crate::checks::phrase::{at_most, figure};
 use crate::checks::{Check, CheckError, Context, Finding};
@@ -17,8 +17,6 @@ use serde::Deserialize;
 
 /// Tests a ray may not grow faster than this power of the number of triangles: the loop has 1, hierarchies about 0.2.
 const STEEPEST: f64 = 0.5;
-/// A core may test this many times the triangles that a plain median hierarchy tests.
-const SLACK: f64 = 4.0;
 /// Shadow rays may test this many times the triangles that closest hits test: they can stop earlier.
 const ANY_HIT_SLACK: f64 = 1.2;
 /// Growth that is no better than the loop's.
@@ -123,6 +121,14 @@ fn measure_size(context: &mut Context<'_>, mesh: Mesh, rays: &[Ray]) -> Result<S
     })
 }
 
+impl Size {
+    /// Shadow rays test too many, and not because everything does.
+    fn shadows_search_on(&self) -> bool {
+        let is_plain = self.closest <= self.unordered;
+        is_plain && self.any / self.closest > ANY_HIT_SLACK
+    }
+}
+
 /// The slope of the least-squares line through (ln n, ln y).
 fn growth(sizes: &[Size], tests: impl Fn(&Size) -> f64) -> f64 {
     let points = || sizes.iter().map(|size| (size.triangles.ln(), tests(size).ln()));
@@ -178,7 +184,7 @@ fn statement(sizes: &[Size], slope: f64, cause: Option<&Cause>) -> String {
 
 /// What the counts look like. A walk that is not the best is told of even where it passes.
 fn cause(sizes: &[Size], slope: f64, failed: bool) -> Option<&'static Cause> {
-    let shadows_search = sizes.last().is_some_and(|size| size.any / size.closest > ANY_HIT_SLACK);
+    let shadows_search = sizes.last().is_some_and(Size::shadows_search_on);
     if failed && slope >= ALL_TESTED {
         Some(&bvh::HIERARCHY_NOT_USED)
     } else if failed && shadows_search {

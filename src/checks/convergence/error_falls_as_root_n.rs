@@ -1,5 +1,6 @@
 //! Error against sample count: the slope of log error on log samples is −1/2.
 
+use crate::cause;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, Film, IntegratorSettings,
@@ -129,9 +130,14 @@ impl ErrorFallsAsRootN {
         };
         let resolution =
             format!("would have caught a slope that is off by {:.3}", report.resolution);
-        Finding::of(statement, resolution, vec![slope])
+        let repeats = report.verdict == Verdict::Fail && report.slope.abs() <= NO_SLOPE;
+        let cause = repeats.then_some(&cause::seed::SAMPLES_REPEAT);
+        let evidence = format!("more samples change nothing: the slope is {:.3}", report.slope);
+        Finding::of(statement, resolution, vec![slope]).because_each(cause, &evidence)
     }
 }
 
+/// A slope that is none: samples that repeat, or a bias that nothing averages out.
+const NO_SLOPE: f64 = 0.05;
 /// Standard errors on each side of a 99.9 % interval of a normal mean.
 const THREE_NINES: f64 = 3.29;

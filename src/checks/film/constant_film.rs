@@ -2,7 +2,7 @@
 //! samples.
 
 use super::film_mistakes::{MISTAKES, Place, TILES, whole_tiles_only};
-use crate::cause::{Cause, picture};
+use crate::cause::{Cause, adaptive, picture};
 use crate::checks::phrase::{figure, some_are, worst_measure};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -160,7 +160,13 @@ impl ConstantFilm {
                 finding = finding.because(&picture::COUNTS_OFF_BY_ONE, evidence);
             }
         }
-        finding
+        match stops_early(films).filter(|_| !pixels_wrong) {
+            Some(count) => {
+                let evidence = format!("pixels of more samples than {count} stop at {count}");
+                finding.because(&adaptive::ADAPTIVE_ALWAYS, evidence)
+            }
+            None => finding,
+        }
     }
 
     /// The mistakes that write just these pixels.
@@ -180,6 +186,15 @@ impl ConstantFilm {
             .map(|tile| (&picture::PARTIAL_TILES_LEFT_OUT, format!("a tile of {tile} × {tile} ")));
         plain.map(|mistake| (mistake.cause, String::new())).chain(tile).collect()
     }
+}
+
+/// The count at which every pixel stops that was to take more.
+fn stops_early(films: &[Exposed]) -> Option<u32> {
+    let wrong = films.iter().filter(|e| e.film.sample_counts.iter().any(|n| *n != e.samples));
+    let stop = *wrong.clone().next()?.film.sample_counts.first()?;
+    let is_stop = |exposed: &Exposed| exposed.film.sample_counts.iter().all(|n| *n == stop);
+    let most_asked = wrong.clone().map(|exposed| exposed.samples).min()?;
+    (stop > 1 && stop < most_asked && wrong.clone().all(is_stop)).then_some(stop)
 }
 
 fn wrong_counts(exposed: &Exposed) -> Measure {
@@ -218,6 +233,17 @@ mod tests {
     #[test]
     fn a_film_that_averages_passes() {
         assert_passes(&found(FakeFilm::default()));
+    }
+
+    #[test]
+    fn pixels_that_stop_early_are_told_from_counts_that_are_off_by_one() {
+        let exposed = |samples: u32, count: u32| Exposed {
+            samples,
+            film: Film { width: 1, height: 1, pixels: vec![[1.0; 3]], sample_counts: vec![count] },
+        };
+        assert_eq!(stops_early(&[exposed(1, 1), exposed(64, 32)]), Some(32));
+        assert_eq!(stops_early(&[exposed(1, 0), exposed(64, 63)]), None);
+        assert_eq!(stops_early(&[exposed(1, 1), exposed(64, 64)]), None);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! The validation in front of every core refuses such pixels by itself; this check renders what provokes them:
 //! grazing light, roughness near zero, rays along planes, a camera inside glass.
 
-use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, breach, camera_of};
 use crate::contract::{
     Acceleration, Capabilities, CoreError, DirectSampling, Film, IntegratorSettings, RenderSettings,
 };
@@ -54,7 +54,9 @@ impl Check for RadianceIsFinite {
             None => format!("every pixel of {} pictures is finite", measures.len()),
             Some(first) => first.clone(),
         };
-        Ok(Finding::of(statement, "would have caught one such pixel", measures))
+        let cause = complaints.first().and_then(|first| breach::cause_of(first));
+        Ok(Finding::of(&statement, "would have caught one such pixel", measures)
+            .because_each(cause, &statement))
     }
 }
 

@@ -1,5 +1,6 @@
 //! The same seed gives the same bits, whatever the number of threads.
 
+use crate::cause::{self, Cause};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
@@ -46,11 +47,24 @@ impl Check for SameSeedSamePicture {
                 format!("{}: {} of {pixels} pixels differ", measure.name, measure.measured)
             }
         };
-        Ok(Finding::of(statement, "would have caught one bit in one pixel", measures))
+        let cause = cause(&measures);
+        let evidence = statement.clone();
+        Ok(Finding::of(statement, "would have caught one bit in one pixel", measures)
+            .because_each(cause, &evidence))
     }
 }
 
 /// How many pixels have not the same bits.
+/// Pictures differ each time, or only with the number of threads.
+fn cause(measures: &[Measure]) -> Option<&'static Cause> {
+    let differs = |name: &str| measures.iter().any(|m| m.name == name && m.measured > 0.0);
+    match (differs("rendered again"), differs("on one thread")) {
+        (true, _) => Some(&cause::seed::NOT_REPRODUCIBLE),
+        (false, true) => Some(&cause::seed::THREADS_MATTER),
+        (false, false) => None,
+    }
+}
+
 fn differing(name: &str, first: &Film, other: &Film) -> Measure {
     let bits = |pixel: &[f32; 3]| pixel.map(f32::to_bits);
     let pairs = first.pixels.iter().zip(&other.pixels);

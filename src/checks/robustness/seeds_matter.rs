@@ -1,5 +1,6 @@
 //! Different seeds give different noise, and neighbouring pixels have nothing to do with each other.
 
+use crate::cause::{self, Cause};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
@@ -48,7 +49,23 @@ impl Check for SeedsMatter {
         };
         let limit = measures[1].allowed;
         let resolution = format!("would have caught a correlation of {:.3}", 2.0 * limit);
-        Ok(Finding::of(statement, resolution, measures))
+        let cause = cause(&measures, films.len());
+        let evidence = statement.clone();
+        Ok(Finding::of(statement, resolution, measures).because_each(cause, &evidence))
+    }
+}
+
+/// Every picture is the same, or else every pixel's noise is.
+fn cause(measures: &[Measure], pictures: usize) -> Option<&'static Cause> {
+    let [equal, beside, above] = measures else { return None };
+    let is_shared =
+        |measure: &Measure| measure.verdict == Verdict::Fail && measure.measured >= SHARED;
+    if equal.verdict == Verdict::Fail && equal.measured as usize == pictures - 1 {
+        Some(&cause::seed::SEED_IGNORED)
+    } else if is_shared(beside) && is_shared(above) {
+        Some(&cause::seed::PIXELS_SHARE_NOISE)
+    } else {
+        None
     }
 }
 
@@ -56,8 +73,18 @@ impl Check for SeedsMatter {
 fn equal_pictures(films: &[Film]) -> Measure {
     let is_repeated = |i: usize| films[..i].iter().any(|earlier| earlier.pixels == films[i].pixels);
     let repeated = (1..films.len()).filter(|i| is_repeated(*i)).count();
-    Measure::exact("pictures that an earlier seed has given", repeated as f64, 0.0, 0.0)
+    let measure =
+        Measure::exact("pictures that an earlier seed has given", repeated as f64, 0.0, 0.0);
+    // Where nothing is to be seen there is no noise that could differ.
+    let is_plain = |film: &Film| film.pixels.windows(2).all(|two| two[0] == two[1]);
+    match films.iter().all(is_plain) {
+        true => Measure { verdict: Verdict::Inconclusive, ..measure },
+        false => measure,
+    }
 }
+
+/// Noise that is nearly the same in neighbouring pixels.
+const SHARED: f64 = 0.5;
 
 /// Correlation of the signs of the noise of pixels that are `step` apart. Differences of two seeds have no picture
 /// left in them, and signs count every pixel alike: the few at the edge of a lamp, a hundred times as noisy as the
@@ -121,5 +148,23 @@ mod tests {
         let mut films = films(0.0);
         films[7] = films[2].clone();
         assert_eq!(equal_pictures(&films).measured, 1.0);
+    }
+
+    #[test]
+    fn black_pictures_say_nothing_of_seeds() {
+        let black = Film { width: 2, height: 1, pixels: vec![[0.0; 3]; 2], ..Film::default() };
+        assert_eq!(equal_pictures(&[black.clone(), black]).verdict, Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn one_picture_for_all_seeds_and_one_noise_for_all_pixels_are_named() {
+        let measures = |equal: f64, correlation: f64| {
+            let correlated = Measure::exact("correlation", correlation, 0.0, 0.05);
+            [Measure::exact("equal", equal, 0.0, 0.0), correlated.clone(), correlated]
+        };
+        assert_eq!(cause(&measures(0.0, 0.01), 8), None);
+        assert_eq!(cause(&measures(7.0, 0.01), 8), Some(&cause::seed::SEED_IGNORED));
+        assert_eq!(cause(&measures(0.0, 0.97), 8), Some(&cause::seed::PIXELS_SHARE_NOISE));
+        assert_eq!(cause(&measures(1.0, 0.2), 8), None);
     }
 }

@@ -2,11 +2,13 @@
 
 use super::distribution::Distribution;
 use crate::cause::{Cause, sampling};
+use crate::checks::bsdf::metal::{Facets, mistake_of_density};
 use crate::checks::form::Form;
 use crate::contract::{Core, Result, Sampler};
 use crate::math::rng::Seed;
 use crate::math::sphere::on_hemisphere;
 use crate::scene::Surface;
+use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
 /// Directions at which a density is looked at.
@@ -19,6 +21,8 @@ enum Wanted {
     Cosine,
     /// A diffuse surface may draw as it likes, if only it says so.
     Either,
+    /// Rough metal may draw by all its facets, or by those that are seen.
+    Metal,
 }
 
 impl Wanted {
@@ -26,9 +30,11 @@ impl Wanted {
         match distribution {
             Distribution::Sampler(Sampler::UniformHemisphere) => Some(Self::Uniform),
             Distribution::Sampler(Sampler::CosineHemisphere) => Some(Self::Cosine),
-            Distribution::Bsdf { material, .. } => {
-                matches!(material.surface, Surface::Diffuse { .. }).then_some(Self::Either)
-            }
+            Distribution::Bsdf { material, .. } => match material.surface {
+                Surface::Diffuse { .. } => Some(Self::Either),
+                Surface::Conductor { .. } => Some(Self::Metal),
+                Surface::Mirror { .. } | Surface::Glass { .. } => None,
+            },
         }
     }
 }
@@ -39,6 +45,8 @@ pub struct Density {
     wanted: Wanted,
     form: Option<Form>,
     is_dark_below: bool,
+    /// What is wrong with the density of rough metal, which has no such form.
+    of_metal: Option<&'static Cause>,
 }
 
 impl Density {
@@ -56,15 +64,17 @@ impl Density {
         distribution.pdf(core, &below, &mut pdf_below)?;
         let values: Vec<_> = pdf.iter().zip(&above).map(|(pdf, wi)| (*pdf, wi.z)).collect();
         let is_dark_below = pdf_below.iter().all(|pdf| *pdf == 0.0);
-        Ok(Some(Self { wanted, form: Form::of(&values), is_dark_below }))
+        let of_metal = mistake_of_metal(distribution, &above, &pdf);
+        let form = if wanted == Wanted::Metal { None } else { Form::of(&values) };
+        Ok(Some(Self { wanted, form, is_dark_below, of_metal }))
     }
 
     /// The mistake that makes such a density, whatever is drawn.
     pub fn mistake(self) -> Option<&'static Cause> {
-        let form = self.form?;
+        let Some(form) = self.form else { return self.of_metal };
         let right = match (self.wanted, form.power) {
             (Wanted::Uniform, _) | (Wanted::Either, 0) => Form::UNIFORM,
-            (Wanted::Cosine, _) | (Wanted::Either, _) => Form::COSINE,
+            _ => Form::COSINE,
         };
         let is = |factor| form.is_times(factor, right);
         if form.is_like(right) {
@@ -125,6 +135,17 @@ impl Density {
             None
         }
     }
+}
+
+fn mistake_of_metal(
+    distribution: &Distribution,
+    directions: &[DVec3],
+    pdf: &[f64],
+) -> Option<&'static Cause> {
+    let Distribution::Bsdf { material, wo, .. } = distribution else { return None };
+    let Surface::Conductor { roughness, .. } = material.surface else { return None };
+    let facets = directions.iter().map(|wi| Facets::of(roughness, *wo, *wi));
+    mistake_of_density(&facets.zip(pdf.iter().copied()).collect::<Vec<_>>())
 }
 
 /// How the directions of a sampler are distributed, whatever its density says.

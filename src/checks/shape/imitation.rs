@@ -199,6 +199,33 @@ const MISTAKES: &[Mistake] = &[
         formula: |p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max),
     },
     Mistake {
+        cause: &shape::BOTH_ROOTS_REQUIRED,
+        formula: |p, ray| {
+            let all = meetings(p, ray);
+            let accepted = all.iter().all(|m| m.is_inside() && is_on(ray, m.t));
+            all.first().filter(|_| accepted).map(|m| m.answer())
+        },
+    },
+    Mistake {
+        cause: &shape::FIRST_ROOT_UNCHECKED,
+        formula: |p, ray| {
+            let all = meetings(p, ray);
+            let accepted = all.iter().any(|m| m.is_inside() && is_on(ray, m.t));
+            all.first().filter(|_| accepted).map(|m| m.answer())
+        },
+    },
+    Mistake {
+        cause: &shape::QUADRATIC_PRECEDENCE,
+        formula: |p, ray| {
+            let Primitive::Sphere { centre, .. } = p else { return None };
+            let a = ray.direction.length_squared();
+            let all = meetings(p, ray).into_iter().map(|m| m.t * a * a);
+            let t = all.into_iter().find(|t| is_on(ray, *t))?;
+            let normal = (ray.at(t) - *centre).normalize_or_zero();
+            Some(Answer { t, geometric_normal: normal, shading_normal: normal, weights: None })
+        },
+    },
+    Mistake {
         cause: &shape::NEAR_ROOT_ONLY,
         formula: |p, ray| {
             let nearest = meetings(p, ray).into_iter().next();

@@ -2,6 +2,7 @@
 //! scene does not matter.
 
 use super::estimate::{CHANNELS, RayEntry, effort, estimate, needs, settings};
+use crate::cause::{Cause, light};
 use crate::checks::phrase::{mean_measure, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Core, DirectSampling, IntegratorSettings, Ray};
@@ -13,6 +14,8 @@ use serde::Deserialize;
 
 /// Samples of an estimate that relative errors are relative to, and of the bitwise comparison.
 const SCALE_SAMPLES: u64 = 16_384;
+/// How far a sum may be from what a mistake makes of its parts, relative: more than their noise.
+const LIKE: f64 = 0.05;
 /// A power of two, so that doubling commutes with every rounding.
 const BRIGHTER: f64 = 2.0;
 const LARGER: f64 = 2.0;
@@ -56,6 +59,10 @@ impl Check for RadianceIsLinear {
             measures.extend(trial.doubles(context.core, &scene)?);
         }
         measures.extend(trial.superposes(context.core, &scene)?);
+        let cause = match measures.iter().any(|measure| measure.verdict == Verdict::Fail) {
+            true => trial.what_lights_make_of_each_other(context.core, &scene)?,
+            false => None,
+        };
         measures.extend(trial.ignores_size(context.core, &scene)?);
         let failed = measures.iter().find(|measure| measure.verdict == Verdict::Fail);
         let statement = match failed {
@@ -66,7 +73,8 @@ impl Check for RadianceIsLinear {
             ),
         };
         let resolution = would_have_caught(&measures);
-        Ok(Finding::of(statement, resolution, measures))
+        Ok(Finding::of(statement, resolution, measures)
+            .because_each(cause, "predicts the radiance of all lights from that of each alone"))
     }
 }
 
@@ -126,6 +134,34 @@ impl Trial {
             Ok(difference)
         })?;
         Ok(measures("all lights minus each alone", &reports))
+    }
+
+    /// The mistake that makes the radiance of all lights out of that of each alone.
+    fn what_lights_make_of_each_other(
+        &self,
+        core: &mut dyn Core,
+        scene: &SceneDescription,
+    ) -> Result<Option<&'static Cause>, CheckError> {
+        let seed = self.seed.child("cause");
+        let all = self.mean(core, scene, self.ray, seed, SCALE_SAMPLES)?;
+        let alone = (0..scene.lights.len())
+            .map(|light| self.mean(core, &only(scene, light), self.ray, seed, SCALE_SAMPLES))
+            .collect::<Result<Vec<_>, _>>()?;
+        let is_like = |predicted: [f64; 3]| {
+            (0..3).all(|c| (all[c] - predicted[c]).abs() <= LIKE * predicted[c])
+        };
+        let count = alone.len() as f64;
+        let mean: [f64; 3] =
+            std::array::from_fn(|c| alone.iter().map(|part| part[c]).sum::<f64>() / count);
+        Ok(if alone.len() < 2 {
+            None
+        } else if is_like(mean) {
+            Some(&light::DIVIDED_BY_LIGHTS)
+        } else if alone.iter().any(|part| is_like(*part)) {
+            Some(&light::LAST_LIGHT_ONLY)
+        } else {
+            None
+        })
     }
 
     /// Everything twice as large, and the ray starts twice as far away.

@@ -159,6 +159,10 @@ impl Scatter<'_> {
             return false;
         }
         let ray = self.vertex.shadow_ray(sample.wi, sample.distance);
+        let ray = match self.change {
+            Change::ShadowWithoutEnd if sample.is_delta == 1 => Ray { t_max: f64::INFINITY, ..ray },
+            _ => ray,
+        };
         self.world.any_hit(&ray, &mut TraversalStats::default())
     }
 

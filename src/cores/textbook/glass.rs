@@ -84,11 +84,10 @@ pub fn fresnel_reflectance(cosine: f64, ratio: f64) -> f64 {
     (perpendicular * perpendicular + parallel * parallel) / 2.0
 }
 
-/// Schlick's approximation; total reflection stays total.
+/// Schlick's approximation, with the cosine on the thin side; total reflection stays total.
 fn schlick_reflectance(cosine: f64, ratio: f64) -> f64 {
-    if refracted_cosine(cosine, ratio).is_none() {
-        return 1.0;
-    }
+    let Some(beyond) = refracted_cosine(cosine, ratio) else { return 1.0 };
+    let cosine = if ratio < 1.0 { beyond } else { cosine };
     let at_normal = ((1.0 - ratio) / (1.0 + ratio)).powi(2);
     at_normal + (1.0 - at_normal) * (1.0 - cosine).powi(5)
 }

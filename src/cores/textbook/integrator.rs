@@ -72,7 +72,7 @@ impl<'a> Integrator<'a> {
                 Change::ThroughputReplaced => next.weight,
                 _ => throughput * next.weight,
             };
-            let meets_light = self.adds_emission(vertex) && self.wants(bounce);
+            let meets_light = self.adds_emission(vertex, bounce) && self.wants(bounce);
             view = self.world.look(&next.ray);
             if self.change == Change::DirectOnlyWithBounce
                 && bounce < self.last_bounce()
@@ -92,7 +92,7 @@ impl<'a> Integrator<'a> {
         match self.change {
             Change::IsolationIgnored => bounce <= *self.settings.bounces.end(),
             Change::DepthIgnored => *self.settings.bounces.start() <= bounce,
-            Change::ZeroDepthLit if bounce == 1 => self.settings.bounces.contains(&0),
+            Change::ZeroDepthLit if bounce == 1 => self.settings.bounces.start() <= &1,
             _ => self.settings.bounces.contains(&bounce),
         }
     }
@@ -100,8 +100,8 @@ impl<'a> Integrator<'a> {
     fn last_bounce(&self) -> u32 {
         let last = *self.settings.bounces.end();
         match self.change {
-            Change::DepthOffByOne => last.saturating_sub(1),
-            Change::DepthIgnored => last.max(DEPTH_IGNORED),
+            Change::DepthOffByOne if last > 1 => last - 1,
+            Change::DepthIgnored if last > 0 => last.max(DEPTH_IGNORED),
             Change::FirstBounceOnly => last.min(1),
             Change::ZeroDepthLit => last.max(1),
             _ => last,
@@ -109,9 +109,9 @@ impl<'a> Integrator<'a> {
     }
 
     /// Whether what glows at the end of the next segment is light of the bounce at `vertex`.
-    fn adds_emission(&self, vertex: &Vertex<'_>) -> bool {
+    fn adds_emission(&self, vertex: &Vertex<'_>, bounce: u32) -> bool {
         match self.change {
-            Change::EmissionEveryBounce => true,
+            Change::EmissionEveryBounce if bounce < self.last_bounce() => true,
             Change::EmissionMissedInMirror => false,
             _ => bsdf::is_delta(vertex.surface),
         }
@@ -126,9 +126,7 @@ impl<'a> Integrator<'a> {
     /// Light of this very bounce comes over the continued path at mirror and glass, from lights
     /// elsewhere.
     fn needs_continuation(&self, vertex: &Vertex<'_>, bounce: u32) -> bool {
-        bounce < self.last_bounce()
-            || bsdf::is_delta(vertex.surface)
-            || self.change == Change::EmissionEveryBounce
+        bounce < self.last_bounce() || bsdf::is_delta(vertex.surface)
     }
 
     /// The ray after `vertex`; `continuation` counts such rays from 0. `None` where the path ends.

@@ -64,11 +64,7 @@ impl Vertex<'_> {
             Change::LampShadowsItself => -self.clearance,
             _ => self.clearance.max(CLEARANCE * distance),
         };
-        let t_max = match self.change {
-            Change::ShadowWithoutEnd => f64::INFINITY,
-            _ if distance.is_finite() => distance - stop_short,
-            _ => distance,
-        };
+        let t_max = if distance.is_finite() { distance - stop_short } else { distance };
         Ray { origin: self.point, t_min: self.clearance, direction: wi, t_max }
     }
 }

@@ -1,11 +1,10 @@
 //! Part 5: adaptive sampling and random numbers.
 
 use super::Fault;
-use crate::cause::{adaptive, seed};
+use crate::cause::{adaptive, picture, seed};
 use crate::cores::textbook::change::Change;
 
 const STREAMS: &str = "sampling/streams-stop-where-the-rule-says";
-const NOISY: &str = "sampling/noisy-pixels-take-more-samples";
 
 /// In the order of the lecture.
 pub const FAULTS: &[Fault] = &[
@@ -95,14 +94,14 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "the loop's counter is one past the samples",
         caught_by: STREAMS,
-        cause: &adaptive::DIVIDED_BY_ONE_MORE,
+        cause: &picture::DIVIDED_BY_ONE_MORE,
     },
     Fault {
         change: Change::CountsAreCap,
         name: "counts-are-cap",
         part: 5,
         summary: "sampleCountBuffer says ns_aa everywhere",
-        caught_by: NOISY,
+        caught_by: STREAMS,
         cause: &adaptive::COUNTS_ARE_CAP,
     },
     Fault {

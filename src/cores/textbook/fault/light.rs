@@ -28,9 +28,9 @@ pub const FAULTS: &[Fault] = &[
         change: Change::LightPdfPerArea,
         name: "light-pdf-per-area",
         part: 3,
-        summary: "1/area over the cosine",
+        summary: "1/area, as if it were a density over directions",
         caught_by: RECTANGLE,
-        cause: &light::LIGHT_DISTANCE_FORGOTTEN,
+        cause: &light::LIGHT_DENSITY_PER_AREA,
     },
     Fault {
         change: Change::LightAreaForgotten,
@@ -77,7 +77,7 @@ pub const FAULTS: &[Fault] = &[
         name: "directional-flipped",
         part: 3,
         summary: "wi is the direction in which the light travels",
-        caught_by: "lights/a-directional-light-lights-by-its-cosine",
+        caught_by: "lights/samples-of-the-sun-lead-to-it",
         cause: &light::DIRECTIONAL_FLIPPED,
     },
     Fault {
@@ -85,7 +85,7 @@ pub const FAULTS: &[Fault] = &[
         name: "sky-pdf-of-hemisphere",
         part: 3,
         summary: "1/2π for directions of the whole sphere",
-        caught_by: "lights/a-bright-sky-lights-a-floor-by-its-albedo",
+        caught_by: "lights/samples-of-a-sky-cover-it",
         cause: &light::SKY_PDF_OF_HEMISPHERE,
     },
     Fault {
@@ -93,7 +93,7 @@ pub const FAULTS: &[Fault] = &[
         name: "hemisphere-not-divided",
         part: 3,
         summary: "the sum is not divided by num_samples",
-        caught_by: "lights/the-number-of-light-samples-does-not-matter",
+        caught_by: "lights/a-slanted-light-is-found-by-the-hemisphere",
         cause: &light::NOT_DIVIDED_BY_SAMPLES,
     },
     Fault {
@@ -156,7 +156,7 @@ pub const FAULTS: &[Fault] = &[
         change: Change::ShadowWithoutEnd,
         name: "shadow-without-end",
         part: 3,
-        summary: "the shadow ray has no max_t",
+        summary: "the shadow ray to a point light has no max_t",
         caught_by: "lights/what-is-behind-a-light-casts-no-shadow",
         cause: &light::SHADOW_BEYOND_LIGHT,
     },

@@ -227,7 +227,7 @@ pub const FAULTS: &[Fault] = &[
         name: "metal-roughness-squared",
         part: 3,
         summary: "α = roughness², while α is given",
-        caught_by: "bsdf/rough-metal-samples-follow-their-density",
+        caught_by: "bsdf/a-rough-metal-reflects-its-albedo",
         cause: &bsdf::ROUGHNESS_SQUARED,
     },
     Fault {

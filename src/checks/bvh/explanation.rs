@@ -1,0 +1,160 @@
+//! What a hierarchy does wrong, from the pattern of its wrong answers: which of the two queries errs, in which
+//! direction, and whether some primitives are never found at all.
+
+use super::comparison::{Answers, Differences, Questions, Truth};
+use crate::cause::{Cause, bvh};
+use crate::contract::Hit;
+use std::collections::BTreeSet;
+
+/// Wrong answers for each primitive that is never found, on average: fewer could be chance.
+const ASKED_OFTEN: usize = 2;
+
+/// The mistake that makes just such a pattern. Nothing is said where two mistakes would.
+pub fn explain(
+    questions: &Questions,
+    found: &Answers,
+    right: &Truth,
+    differences: &Differences,
+) -> Option<&'static Cause> {
+    let d = differences;
+    let closest = d.lost + d.farther + d.invented + d.outside + d.misnamed;
+    match (closest, d.unoccluded, d.occluded) {
+        (0, 0, 0) => None,
+        _ if right.overwritten > 0 => Some(&bvh::HIT_OVERWRITTEN),
+        (0, 0, _) => Some(shadows_stopped_by_nothing(questions, found, right)),
+        (0, _, 0) => Some(&bvh::SHADOW_SECOND_CHILD_SKIPPED),
+        (all, 0, 0) if all == d.misnamed => Some(&bvh::LEAF_ORDER_NUMBERS),
+        (all, _, 0) if all == d.lost + d.farther => hits_lost(found, right, d),
+        _ => None,
+    }
+}
+
+fn shadows_stopped_by_nothing(
+    questions: &Questions,
+    found: &Answers,
+    right: &Truth,
+) -> &'static Cause {
+    let answers = found.occluded.iter().zip(&right.endless);
+    let follows = questions.segments.len() == right.endless.len()
+        && answers.clone().all(|(found, endless)| found == endless);
+    if follows { &bvh::SHADOW_END_IGNORED } else { &bvh::SHADOWS_HIT_BOXES }
+}
+
+/// Nearest hits are missed, and nothing else is wrong.
+fn hits_lost(found: &Answers, right: &Truth, d: &Differences) -> Option<&'static Cause> {
+    if some_are_never_found(found, right) {
+        Some(&bvh::PRIMITIVES_LOST)
+    } else if d.lost == 0 && d.unoccluded == 0 {
+        Some(&bvh::SECOND_CHILD_SKIPPED)
+    } else if d.unoccluded == 0 {
+        Some(&bvh::RANGE_OVERWRITTEN)
+    } else {
+        Some(&bvh::BOX_OF_CENTROIDS)
+    }
+}
+
+/// Whether the primitives that should have been hit where others were are hit nowhere at all.
+fn some_are_never_found(found: &Answers, right: &Truth) -> bool {
+    let name = |hit: &Hit| (hit.shape, hit.primitive);
+    let all_found = || found.rays.iter().chain(&found.segments);
+    let all_right = || right.rays.iter().chain(&right.segments);
+    let ever: BTreeSet<_> = all_found().filter(|hit| hit.is_hit()).map(name).collect();
+    let missed: Vec<_> = all_found()
+        .zip(all_right())
+        .filter(|(found, right)| right.is_hit() && found.t.to_bits() != right.t.to_bits())
+        .map(|(_, right)| name(right))
+        .collect();
+    let distinct: BTreeSet<_> = missed.iter().copied().collect();
+    missed.len() >= ASKED_OFTEN * distinct.len() && distinct.is_disjoint(&ever)
+}
+
+/// The mistake that most of the wrong hierarchies share, with how many they are.
+pub fn shared(causes: &[Option<&'static Cause>]) -> Option<(&'static Cause, String)> {
+    let count = |cause: &Cause| causes.iter().flatten().filter(|other| **other == cause).count();
+    let most = causes.iter().flatten().max_by_key(|cause| count(cause))?;
+    let evidence = format!(
+        "is the pattern of the wrong answers of {} of {} wrong hierarchies",
+        count(most),
+        causes.len()
+    );
+    (2 * count(most) > causes.len()).then_some((*most, evidence))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::Ray;
+    use glam::DVec3;
+
+    fn hit(t: f64, primitive: u32) -> Hit {
+        Hit { t, shape: 0, primitive, ..Hit::MISS }
+    }
+
+    /// Ten rays at each of three primitives, and as many segments.
+    fn truth() -> Truth {
+        let hits: Vec<_> = (0..30).map(|i| hit(1.0 + f64::from(i), i as u32 % 3)).collect();
+        Truth { rays: hits.clone(), segments: hits, endless: vec![true; 30], overwritten: 0 }
+    }
+
+    fn right_answers(truth: &Truth) -> Answers {
+        let occluded = truth.segments.iter().map(Hit::is_hit).collect();
+        Answers { rays: truth.rays.clone(), segments: truth.segments.clone(), occluded }
+    }
+
+    fn told(change: impl Fn(&mut Answers, &mut Truth)) -> Option<&'static Cause> {
+        let mut truth = truth();
+        let mut answers = right_answers(&truth);
+        change(&mut answers, &mut truth);
+        let ray = Ray::new(DVec3::ZERO, DVec3::X);
+        let questions = Questions { rays: vec![ray; 30], segments: vec![ray; 30] };
+        let differences =
+            super::super::comparison::compare(&questions, &answers, &truth, &|_, _| false);
+        explain(&questions, &answers, &truth, &differences)
+    }
+
+    #[test]
+    fn each_pattern_has_its_mistake() {
+        assert_eq!(told(|_, _| ()), None);
+        let farther = told(|answers, _| answers.rays[3].t = 100.0);
+        assert_eq!(farther, Some(&bvh::SECOND_CHILD_SKIPPED));
+        assert_eq!(told(|answers, _| answers.rays[3] = Hit::MISS), Some(&bvh::RANGE_OVERWRITTEN));
+        let both = told(|answers, _| {
+            answers.rays[3] = Hit::MISS;
+            answers.occluded[4] = false;
+        });
+        assert_eq!(both, Some(&bvh::BOX_OF_CENTROIDS));
+        let never = told(|answers, _| {
+            let lost = answers.rays.iter_mut().chain(&mut answers.segments);
+            lost.filter(|hit| hit.primitive == 1).for_each(|hit| *hit = Hit::MISS);
+        });
+        assert_eq!(never, Some(&bvh::PRIMITIVES_LOST));
+        let renamed = told(|answers, _| answers.rays.iter_mut().for_each(|hit| hit.primitive += 1));
+        assert_eq!(renamed, Some(&bvh::LEAF_ORDER_NUMBERS));
+        let through = told(|answers, _| answers.occluded[0] = false);
+        assert_eq!(through, Some(&bvh::SHADOW_SECOND_CHILD_SKIPPED));
+        let endless = told(|answers, truth| {
+            truth.segments[0] = Hit::MISS;
+            answers.segments[0] = Hit::MISS;
+        });
+        assert_eq!(endless, Some(&bvh::SHADOW_END_IGNORED));
+        let boxes = told(|answers, truth| {
+            truth.segments[0] = Hit::MISS;
+            answers.segments[0] = Hit::MISS;
+            truth.endless[0] = false;
+        });
+        assert_eq!(boxes, Some(&bvh::SHADOWS_HIT_BOXES));
+        let overwritten = told(|answers, truth| {
+            answers.rays[0].t = 0.5;
+            truth.overwritten = 2;
+        });
+        assert_eq!(overwritten, Some(&bvh::HIT_OVERWRITTEN));
+    }
+
+    #[test]
+    fn a_mistake_is_shared_by_most_or_by_none() {
+        let lost = Some(&bvh::PRIMITIVES_LOST);
+        assert_eq!(shared(&[lost, lost, None]).unwrap().0, &bvh::PRIMITIVES_LOST);
+        assert!(shared(&[lost, Some(&bvh::RANGE_OVERWRITTEN), None]).is_none());
+        assert!(shared(&[]).is_none());
+    }
+}

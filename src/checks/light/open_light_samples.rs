@@ -1,0 +1,295 @@
+//! Samples of lights that are no shapes: points, the sun, skies. Direction, distance and radiance of the first two are
+//! known exactly; of an even sky the mean of radiance over density is 4π times its radiance, however it is sampled.
+
+use crate::cause::{Cause, convention, light as cause};
+use crate::checks::numbers::Numbers;
+use crate::checks::phrase::{figure, mean_measure, worst_measure, would_have_caught};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Acceleration, BuiltScene, Capabilities, Falloff, LightSample};
+use crate::math::rng::{Seed, uniform};
+use crate::scene::Light;
+use crate::stats::{Band, Claim, Compared, Effort, Tolerance, Verdict, judge_exact, judge_means};
+use crate::text::{Count, Percent};
+use glam::DVec3;
+use serde::Deserialize;
+use std::f64::consts::PI;
+
+/// Points from which lights are sampled, in a cube of this half width around the origin.
+const POINTS: usize = 256;
+const REACH: f64 = 3.0;
+
+/// Samples every light of the scene that is no shape.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct OpenLightSamples {
+    /// The smallest error of the mean of a sky that must be seen.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+impl Check for OpenLightSamples {
+    const NAME: &'static str = "open-light-samples";
+    const SUMMARY: &'static str = "samples of points, suns and even skies";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::SAMPLE_LIGHT
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let falloff = context.info.conventions.point_light_falloff;
+        let tolerance = Tolerance::FORMULA.of(context.info.precision);
+        let band = Band::math(context.info.precision);
+        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
+        let effort = context.budget.scale(effort);
+        let seed = context.seed;
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let mut found = Vec::new();
+        for (number, light) in (0..).zip(&scene.lights) {
+            let seed = seed.child(number);
+            match light {
+                Light::Point { .. } | Light::Directional { .. } => {
+                    let samples = Sampled::new(built.as_mut(), number, seed)?;
+                    found.push(samples.judge_delta(light, falloff, tolerance));
+                }
+                Light::ConstantSky { radiance } => {
+                    let sky = Sky { number, radiance: *radiance, seed };
+                    found.push(sky.judge(built.as_mut(), &effort, band)?);
+                }
+                Light::GradientSky { .. } | Light::Area { .. } => {}
+            }
+        }
+        if found.is_empty() {
+            return Err(CheckError::Broken("the scene has no light of this kind".to_owned()));
+        }
+        Ok(finding(found))
+    }
+}
+
+/// What there is to say of one light.
+struct Judged {
+    name: String,
+    measures: Vec<Measure>,
+    cause: Option<&'static Cause>,
+}
+
+fn finding(found: Vec<Judged>) -> Finding {
+    let fails = |judged: &Judged| judged.measures.iter().any(|m| m.verdict == Verdict::Fail);
+    let complaint = |judged: &Judged| {
+        let wrong = judged.measures.iter().find(|m| m.verdict == Verdict::Fail)?;
+        let (measured, expected) = (figure(wrong.measured), figure(wrong.expected));
+        Some(format!("{}: {} is {measured} instead of {expected}", judged.name, wrong.name))
+    };
+    let complaints: Vec<_> = found.iter().filter_map(complaint).collect();
+    let statement = match complaints.is_empty() {
+        true => format!("samples of {} lights are what they should be", found.len()),
+        false => complaints.join("; "),
+    };
+    let causes: Vec<_> =
+        found.iter().filter(|judged| fails(judged)).filter_map(|j| j.cause).collect();
+    let measures: Vec<_> = found.into_iter().flat_map(|judged| judged.measures).collect();
+    let resolution = match would_have_caught(&measures) {
+        empty if empty.is_empty() => "would have caught one wrong sample".to_owned(),
+        known => known,
+    };
+    Finding::of(statement, resolution, measures)
+        .because_each(causes, "predicts every sample of the light")
+}
+
+/// One sample from each of some points.
+struct Sampled {
+    from: Vec<DVec3>,
+    samples: Vec<LightSample>,
+}
+
+/// What a core overwrites.
+const NOTHING: LightSample = LightSample {
+    wi: DVec3::Z,
+    distance: 0.0,
+    radiance: [0.0; 3],
+    pdf: 0.0,
+    is_delta: 0,
+    is_valid: 0,
+};
+
+impl Sampled {
+    fn new(scene: &mut dyn BuiltScene, light: u32, seed: Seed) -> Result<Self, CheckError> {
+        let stream = &mut seed.child("points").stream();
+        let mut coordinate = || REACH * (2.0 * uniform(stream) - 1.0);
+        let from: Vec<_> =
+            (0..POINTS).map(|_| DVec3::new(coordinate(), coordinate(), coordinate())).collect();
+        let numbers = Numbers::new(seed, POINTS);
+        let mut samples = vec![NOTHING; POINTS];
+        scene.sample_light(light, &from, numbers.randomness(), &mut samples)?;
+        Ok(Self { from, samples })
+    }
+
+    fn judge_delta(&self, light: &Light, falloff: Falloff, tolerance: f64) -> Judged {
+        let right = |from: DVec3| expected(light, from, falloff);
+        let pairs = || self.from.iter().map(|from| right(*from)).zip(&self.samples);
+        let usable = self.samples.iter().filter(|s| s.is_valid == 1 && s.is_delta == 1).count();
+        let directions = judge_exact(pairs().map(|(expected, sample)| {
+            Compared::within(sample.wi.distance(expected.wi), 0.0, tolerance)
+        }));
+        let distances = judge_exact(pairs().filter(|(e, _)| e.distance.is_finite()).map(
+            |(expected, sample)| Compared::relative(sample.distance, expected.distance, tolerance),
+        ));
+        let radiances = judge_exact(pairs().flat_map(|(expected, sample)| {
+            let channel = move |c: usize| {
+                Compared::relative(sample.radiance[c] / sample.pdf, expected.radiance[c], tolerance)
+            };
+            (0..3).map(channel)
+        }));
+        let mut measures = vec![
+            Measure::exact(
+                "samples marked as delta",
+                usable as f64,
+                self.samples.len() as f64,
+                0.0,
+            ),
+            worst_measure("direction, how far off", &directions),
+            worst_measure("radiance over density", &radiances),
+        ];
+        if distances.compared > 0 {
+            measures.push(worst_measure("distance", &distances));
+        }
+        let name = if distances.compared > 0 { "the point light" } else { "the sun" };
+        Judged { name: name.to_owned(), measures, cause: self.mistake(light, falloff, tolerance) }
+    }
+
+    /// The mistake that predicts every sample.
+    fn mistake(&self, light: &Light, falloff: Falloff, tolerance: f64) -> Option<&'static Cause> {
+        let predicts = |change: &dyn Fn(Expected) -> Expected, falloff: Falloff| {
+            self.from.iter().zip(&self.samples).all(|(from, sample)| {
+                let predicted = change(expected(light, *from, falloff));
+                let is_like = |c: usize| {
+                    let ratio = sample.radiance[c] / sample.pdf / predicted.radiance[c];
+                    (ratio - 1.0).abs() <= tolerance
+                };
+                sample.wi.distance(predicted.wi) <= tolerance && (0..3).all(is_like)
+            })
+        };
+        let other = match falloff {
+            Falloff::InverseSquare => (Falloff::None, &convention::NO_FALLOFF),
+            Falloff::None => (Falloff::InverseSquare, &convention::INVERSE_SQUARE),
+        };
+        let flipped = |expected: Expected| Expected { wi: -expected.wi, ..expected };
+        if predicts(&flipped, falloff) {
+            Some(&cause::DIRECTIONAL_FLIPPED)
+        } else if matches!(light, Light::Point { .. }) && predicts(&|e| e, other.0) {
+            Some(other.1)
+        } else {
+            None
+        }
+    }
+}
+
+/// What a sample of a delta light has to be.
+#[derive(Clone, Copy)]
+struct Expected {
+    wi: DVec3,
+    distance: f64,
+    radiance: [f64; 3],
+}
+
+fn expected(light: &Light, from: DVec3, falloff: Falloff) -> Expected {
+    match *light {
+        Light::Point { position, intensity } => {
+            let distance = position.distance(from);
+            let weakened = match falloff {
+                Falloff::InverseSquare => distance * distance,
+                Falloff::None => 1.0,
+            };
+            let radiance = intensity.map(|intensity| intensity / weakened);
+            Expected { wi: (position - from) / distance, distance, radiance }
+        }
+        Light::Directional { direction, irradiance } => {
+            Expected { wi: -direction, distance: f64::INFINITY, radiance: irradiance }
+        }
+        Light::ConstantSky { .. } | Light::GradientSky { .. } | Light::Area { .. } => {
+            Expected { wi: DVec3::ZERO, distance: f64::NAN, radiance: [f64::NAN; 3] }
+        }
+    }
+}
+
+/// A sky that is bright alike everywhere.
+struct Sky {
+    number: u32,
+    radiance: [f64; 3],
+    seed: Seed,
+}
+
+impl Sky {
+    fn judge(
+        &self,
+        scene: &mut dyn BuiltScene,
+        effort: &Effort,
+        band: Band,
+    ) -> Result<Judged, CheckError> {
+        let expected = 4.0 * PI * self.radiance[1];
+        let claims = [Claim::value(expected, band)];
+        let reports = judge_means(&claims, effort, &mut |draw| {
+            let seed = draw.seed(self.seed);
+            let count = usize::try_from(draw.samples).unwrap_or(usize::MAX);
+            let numbers = Numbers::new(seed, count);
+            let mut samples = vec![NOTHING; count];
+            let from = vec![DVec3::ZERO; count];
+            scene.sample_light(self.number, &from, numbers.randomness(), &mut samples)?;
+            let valid = samples.iter().filter(|sample| sample.is_valid == 1);
+            let sum: f64 = valid.map(|sample| sample.radiance[1] / sample.pdf).sum();
+            Ok::<_, CheckError>(vec![sum / count as f64])
+        })?;
+        let ratio = reports[0].ratio.unwrap_or([f64::NAN; 2]);
+        let is_half = ratio[0] <= 0.5 && 0.5 <= ratio[1];
+        Ok(Judged {
+            name: "the sky".to_owned(),
+            measures: vec![mean_measure("mean of radiance over density", &reports[0])],
+            cause: is_half.then_some(&cause::SKY_PDF_OF_HEMISPHERE),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sampled(light: &Light, spoil: impl Fn(&mut LightSample)) -> Sampled {
+        let from: Vec<_> = (0..20).map(|i| DVec3::new(f64::from(i), 0.3, -1.0)).collect();
+        let sample = |from: &DVec3| {
+            let Expected { wi, distance, radiance } =
+                expected(light, *from, Falloff::InverseSquare);
+            let mut sample =
+                LightSample { wi, distance, radiance, pdf: 1.0, is_delta: 1, is_valid: 1 };
+            spoil(&mut sample);
+            sample
+        };
+        let samples = from.iter().map(sample).collect();
+        Sampled { from, samples }
+    }
+
+    fn told(light: &Light, spoil: impl Fn(&mut LightSample)) -> Option<&'static str> {
+        let judged = sampled(light, spoil).judge_delta(light, Falloff::InverseSquare, 1e-6);
+        let finding = finding(vec![judged]);
+        (finding.verdict == Verdict::Fail).then(|| cause_of(&finding).unwrap_or("something"))
+    }
+
+    fn cause_of(finding: &Finding) -> Option<&'static str> {
+        let clue = finding.clues.first()?;
+        crate::cause::find(&clue.cause).map(|cause| cause.name)
+    }
+
+    const LAMP: Light = Light::Point { position: DVec3::new(1.0, 2.0, 3.0), intensity: [2.0; 3] };
+    const SUN: Light = Light::Directional { direction: DVec3::NEG_Z, irradiance: [2.0; 3] };
+
+    #[test]
+    fn right_samples_pass_and_wrong_ones_are_named() {
+        assert_eq!(told(&LAMP, |_| ()), None);
+        assert_eq!(told(&SUN, |_| ()), None);
+        assert_eq!(told(&SUN, |sample| sample.wi = -sample.wi), Some("directional-flipped"));
+        let same_everywhere = told(&LAMP, |sample| sample.radiance = [2.0; 3]);
+        assert_eq!(same_everywhere, Some("falloff-undeclared"));
+        assert_eq!(told(&LAMP, |sample| sample.distance *= 1.01), Some("something"));
+        assert_eq!(told(&LAMP, |sample| sample.pdf = f64::NAN), Some("something"));
+    }
+}

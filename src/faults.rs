@@ -109,8 +109,19 @@ impl Matrix {
         Self { cases, ..self.clone() }
     }
 
-    /// The cases of the same folder and the same check as the one named for the fault: what its diagnosis needs.
-    pub fn around(&self, fault: &Fault) -> Self {
+    /// The cases of the parts of the course whose answers a core changes.
+    pub fn touched_by(&self, core: &Different) -> Self {
+        self.with_cases(|case| case.part().is_some_and(|part| core.parts.contains(&part.number)))
+    }
+
+    /// Puts a fault to the case named for it, and if that alone does not tell its cause, to those beside it.
+    pub fn try_fault_briefly(&self, fault: &Fault) -> Tried {
+        let alone = self.with_cases(|case| case.id == fault.caught_by).try_fault(fault);
+        if alone.is_good() || !alone.caught { alone } else { self.around(fault).try_fault(fault) }
+    }
+
+    /// The cases of the same folder and the same check as the one named for the fault.
+    fn around(&self, fault: &Fault) -> Self {
         let folder = |case: &str| case.split('/').next().map(str::to_owned);
         let named = self.cases.iter().find(|case| case.id == fault.caught_by);
         let check = named.map(|case| case.check.name);

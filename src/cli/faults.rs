@@ -22,6 +22,10 @@ pub struct FaultsArguments {
     /// Trials at the same time [default: one a hardware thread].
     #[arg(short, long, default_value_t = 0, hide_default_value = true)]
     jobs: usize,
+    /// Only the case named for a fault, and those beside it where it does not tell the cause; of
+    /// cores that are right only the parts that they change.
+    #[arg(long)]
+    brief: bool,
     /// One JSON document in place of the table.
     #[arg(long)]
     json: bool,
@@ -48,8 +52,8 @@ pub fn faults(arguments: &FaultsArguments) -> Answer {
         return Err(Failure { code: ExitCode::NothingSelected, message });
     }
     let document = Document {
-        faults: try_faults(&matrix, &faults, arguments.json),
-        different: try_different(&matrix, &different, arguments.json),
+        faults: try_faults(&matrix, &faults, arguments),
+        different: try_different(&matrix, &different, arguments),
     };
     let is_good = document.faults.iter().all(Tried::is_good)
         && document.different.iter().all(Spared::is_good);
@@ -62,12 +66,20 @@ pub fn faults(arguments: &FaultsArguments) -> Answer {
 }
 
 /// Rows appear as they come: the table is its own progress.
-fn try_faults(matrix: &Matrix, faults: &[&'static Fault], json: bool) -> Vec<Tried> {
+fn try_faults(
+    matrix: &Matrix,
+    faults: &[&'static Fault],
+    arguments: &FaultsArguments,
+) -> Vec<Tried> {
+    let json = arguments.json;
     if !json && !faults.is_empty() {
         println!("{:NAME$} part  caught  named  seconds  by", "fault");
     }
     let tried = |fault: &&'static Fault| {
-        let tried = matrix.try_fault(fault);
+        let tried = match arguments.brief {
+            true => matrix.try_fault_briefly(fault),
+            false => matrix.try_fault(fault),
+        };
         if !json {
             println!("{}", fault_row(&tried, fault));
         }
@@ -76,12 +88,20 @@ fn try_faults(matrix: &Matrix, faults: &[&'static Fault], json: bool) -> Vec<Tri
     faults.iter().map(tried).collect()
 }
 
-fn try_different(matrix: &Matrix, cores: &[&'static Different], json: bool) -> Vec<Spared> {
+fn try_different(
+    matrix: &Matrix,
+    cores: &[&'static Different],
+    arguments: &FaultsArguments,
+) -> Vec<Spared> {
+    let json = arguments.json;
     if !json && !cores.is_empty() {
         println!("\n{:NAME$} spared  seconds  by", "right but different");
     }
     let spared = |core: &&'static Different| {
-        let spared = matrix.try_different(core);
+        let spared = match arguments.brief {
+            true => matrix.touched_by(core).try_different(core),
+            false => matrix.try_different(core),
+        };
         if !json {
             println!("{}", different_row(&spared));
         }

@@ -40,9 +40,9 @@ fn shadows_stopped_by_nothing(
     if follows { &bvh::SHADOW_END_IGNORED } else { &bvh::SHADOWS_HIT_BOXES }
 }
 
-/// Nearest hits are missed, and nothing else is wrong.
+/// Nearest hits are missed, and nothing else is wrong. A primitive that is in no leaf occludes nothing either.
 fn hits_lost(found: &Answers, right: &Truth, d: &Differences) -> Option<&'static Cause> {
-    if some_are_never_found(found, right) {
+    if d.unoccluded > 0 && some_are_never_found(found, right) {
         Some(&bvh::PRIMITIVES_LOST)
     } else if d.lost == 0 && d.unoccluded == 0 {
         Some(&bvh::SECOND_CHILD_SKIPPED)
@@ -126,6 +126,7 @@ mod tests {
         let never = told(|answers, _| {
             let lost = answers.rays.iter_mut().chain(&mut answers.segments);
             lost.filter(|hit| hit.primitive == 1).for_each(|hit| *hit = Hit::MISS);
+            answers.occluded[1] = false;
         });
         assert_eq!(never, Some(&bvh::PRIMITIVES_LOST));
         let renamed = told(|answers, _| answers.rays.iter_mut().for_each(|hit| hit.primitive += 1));

@@ -6,6 +6,7 @@ use crate::checks::numbers::Numbers;
 use crate::checks::phrase::{figure, mean_measure, worst_measure, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, Falloff, LightSample};
+use crate::math::ratios::names_of;
 use crate::math::rng::{Seed, uniform};
 use crate::scene::Light;
 use crate::stats::{Band, Claim, Compared, Effort, Tolerance, Verdict, judge_exact, judge_means};
@@ -241,7 +242,9 @@ impl Sky {
             Ok::<_, CheckError>(vec![sum / count as f64])
         })?;
         let ratio = reports[0].ratio.unwrap_or([f64::NAN; 2]);
-        let is_half = ratio[0] <= 0.5 && 0.5 <= ratio[1];
+        let is_half = names_of([0.99 * ratio[0], 1.01 * ratio[1]], &[])
+            .first()
+            .is_some_and(|named| named.value == 0.5);
         Ok(Judged {
             name: "the sky".to_owned(),
             measures: vec![mean_measure("mean of radiance over density", &reports[0])],

@@ -115,6 +115,13 @@ impl Density {
         }
     }
 
+    /// The law that gives this product of density and Jacobian, over the sine: it draws the angle uniformly.
+    pub fn law_of_angle(self, product: Form) -> Option<Law> {
+        let density = self.form?;
+        let predicted = Form { constant: AREA_BY_ANGLE * density.constant, power: density.power };
+        product.is_like(predicted).then_some(Law::ThetaUniform)
+    }
+
     /// The law of heights that gives this product of density and Jacobian.
     pub fn law_of_product(self, product: Form) -> Option<Law> {
         let density = self.form?;
@@ -147,6 +154,9 @@ fn mistake_of_metal(
     let facets = directions.iter().map(|wi| Facets::of(roughness, *wo, *wi));
     mistake_of_density(&facets.zip(pdf.iter().copied()).collect::<Vec<_>>())
 }
+
+/// The area of the map that draws θ uniformly: π² sin θ.
+const AREA_BY_ANGLE: f64 = PI * PI;
 
 /// How the directions of a sampler are distributed, whatever its density says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

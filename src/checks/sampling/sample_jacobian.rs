@@ -150,7 +150,13 @@ impl Products {
         if self.error_of_share(0.5) > 0.99 && self.values.iter().all(|(value, _)| *value < 0.01) {
             return Some(Law::Line);
         }
-        density.law_of_product(Form::of(&self.values)?)
+        let over_sine =
+            |(value, cosine): &(f64, f64)| (value / (1.0 - cosine * cosine).sqrt(), *cosine);
+        let by_angle: Vec<_> = self.values.iter().map(over_sine).collect();
+        match Form::of(&self.values) {
+            Some(product) => density.law_of_product(product),
+            None => density.law_of_angle(Form::of(&by_angle)?),
+        }
     }
 
     /// The product as a constant, as a constant times a power of the cosine, or by its range.
@@ -222,6 +228,14 @@ mod tests {
         assert_named(wrong_density, "is 1/2 / cos θ instead of 1", "uniform-density-for-cosine");
         let wrong_map = named(uniform, cosine_density);
         assert_named(wrong_map, "is 2 cos θ instead of 1", "uniform-for-cosine");
+    }
+
+    #[test]
+    fn angles_that_are_drawn_uniformly_are_named() {
+        let theta = |p: DVec2| Some(crate::math::frame::direction(0.25 * TAU * p.x, TAU * p.y));
+        let finding = found(theta, cosine_density);
+        failure(&finding);
+        assert_eq!(finding.clues[0].cause, "theta-uniform");
     }
 
     #[test]

@@ -14,6 +14,8 @@ pub struct Different {
     pub name: &'static str,
     /// What it does, in one line.
     pub summary: &'static str,
+    /// The parts of the course whose answers it changes.
+    pub parts: &'static [u32],
 }
 
 /// Every choice.
@@ -22,81 +24,97 @@ pub const DIFFERENT: &[Different] = &[
         change: Change::UniformBounces,
         name: "uniform-bounces",
         summary: "the diffuse surface draws uniform directions, with their density",
+        parts: &[3, 4, 5],
     },
     Different {
         change: Change::OtherRoulette,
         name: "other-roulette",
         summary: "dark paths are cut short by roulette of the core's own",
+        parts: &[4, 5],
     },
     Different {
         change: Change::LargerOffset,
         name: "larger-offset",
         summary: "rays keep clear of surfaces by 1e-6 in place of 1e-10",
+        parts: &[3, 4, 5],
     },
     Different {
         change: Change::StratifiedPixels,
         name: "stratified-pixels",
         summary: "the samples of a pixel fill it evenly",
+        parts: &[1, 4, 5],
     },
     Different {
         change: Change::StratifiedLights,
         name: "stratified-lights",
         summary: "the samples of a light are stratified",
+        parts: &[3, 4, 5],
     },
     Different {
         change: Change::MedianSplit,
         name: "median-split",
         summary: "nodes are halved, whatever rule is asked for",
+        parts: &[2],
     },
     Different {
         change: Change::ReversedLeaves,
         name: "reversed-leaves",
         summary: "the primitives of a leaf are tested from the last to the first",
+        parts: &[2],
     },
     Different {
         change: Change::SinglePrecision,
         name: "single-precision",
         summary: "every answer is rounded to f32, and the core says so",
+        parts: &[1, 2, 3, 4, 5],
     },
     Different {
         change: Change::SchlickGlass,
         name: "schlick-glass",
         summary: "Schlick's approximation, declared",
+        parts: &[3, 4],
     },
     Different {
         change: Change::CorrelatedSmith,
         name: "correlated-smith",
         summary: "the height-correlated Smith term, declared",
+        parts: &[3, 4],
     },
     Different {
         change: Change::TwoSidedEmission,
         name: "two-sided-emission",
         summary: "lamps glow on both sides when they are seen, declared",
+        parts: &[1, 3, 4],
     },
     Different {
         change: Change::NoFalloff,
         name: "no-falloff",
         summary: "point lights do not weaken with distance, declared",
+        parts: &[3, 4],
     },
     Different {
         change: Change::UnscaledGlass,
         name: "unscaled-glass",
         summary: "radiance crosses glass unchanged, declared",
+        parts: &[3, 4],
     },
     Different {
         change: Change::OwnNumbers,
         name: "own-numbers",
         summary: "the core draws its own random numbers, and says so",
+        parts: &[3],
     },
     Different {
         change: Change::OtherGenerator,
         name: "other-generator",
         summary: "random numbers come from another generator",
+        parts: &[1, 3, 4, 5],
     },
     Different {
         change: Change::ExtraDimensions,
         name: "extra-dimensions",
         summary: "every second random number is thrown away",
+        parts: &[1, 3, 4, 5],
     },
 ];
 

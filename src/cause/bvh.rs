@@ -138,6 +138,14 @@ pub static SHADOWS_HIT_BOXES: Cause = Cause {
     remedy: "A box only says that something may be hit: test the primitives of the leaf.",
 };
 
+/// See its headline.
+pub static HITS_LOST: Cause = Cause {
+    name: "hierarchy-loses-hits",
+    headline: "the hierarchy misses what the loop over all triangles hits",
+    look_at: "the boxes of nodes, the test against them, and what is skipped because of it",
+    remedy: "A node's box encloses everything below it; a box may be missed only if all of it is.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &SECOND_CHILD_SKIPPED,
@@ -157,4 +165,5 @@ pub static CAUSES: &[&Cause] = &[
     &SHADOW_SECOND_CHILD_SKIPPED,
     &SHADOW_END_IGNORED,
     &SHADOWS_HIT_BOXES,
+    &HITS_LOST,
 ];

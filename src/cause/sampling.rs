@@ -114,6 +114,78 @@ pub static SAMPLES_ALL_ALIKE: Cause = Cause {
     remedy: "Draw new random numbers for each sample.",
 };
 
+/// See its headline.
+pub static AROUND_Y: Cause = Cause {
+    name: "hemisphere-around-y",
+    headline: "directions are drawn around +y where the normal is +z",
+    look_at: "the sampler, where height and azimuth become x, y and z",
+    remedy: "In the local frame the normal is +z: z is the height, x and y the azimuth.",
+};
+
+/// See its headline.
+pub static AROUND_X: Cause = Cause {
+    name: "hemisphere-around-x",
+    headline: "directions are drawn around +x where the normal is +z",
+    look_at: "the sampler, where height and azimuth become x, y and z",
+    remedy: "In the local frame the normal is +z: z is the height, x and y the azimuth.",
+};
+
+/// See its headline.
+pub static BELOW_SURFACE: Cause = Cause {
+    name: "samples-below-surface",
+    headline: "directions are drawn into the surface: z is negative where it should be positive",
+    look_at: "the sampler, where height and azimuth become x, y and z",
+    remedy: "Directions point away from the surface: z = cos θ > 0.",
+};
+
+/// See its headline.
+pub static LOBE_AROUND_VIEWER: Cause = Cause {
+    name: "lobe-around-viewer",
+    headline: "a lobe leans towards the viewer where it should lean to the other side of the normal",
+    look_at: "the step from a half vector or a mirror direction to wi",
+    remedy: "Both directions point away from the surface: wi = 2 (wo·h) h − wo.",
+};
+
+/// See its headline.
+pub static TANGENTS_SWAPPED: Cause = Cause {
+    name: "tangents-swapped",
+    headline: "the two tangents of the local frame are swapped",
+    look_at: "the sampler, where height and azimuth become x, y and z",
+    remedy: "x = sin θ cos φ and y = sin θ sin φ, in the frame in which wo is given.",
+};
+
+/// See its headline.
+pub static ENDS_OF_RANGE: Cause = Cause {
+    name: "ends-of-range-forgotten",
+    headline: "random numbers of 0, or just below 1, give samples without density or none at all",
+    look_at: "square roots, logarithms and divisions of a random number",
+    remedy: "Numbers lie in [0, 1): take 1 − u, which is never 0, and hold roots at 0 or above.",
+};
+
+/// See its headline.
+pub static OWN_NUMBERS: Cause = Cause {
+    name: "own-random-numbers",
+    headline: "samples do not follow from the random numbers that are handed over",
+    look_at: "the sampler, where it takes its random numbers",
+    remedy: "Use the caller's numbers, or do not declare that you do.",
+};
+
+/// See its headline.
+pub static NUMBERS_OF_ANOTHER: Cause = Cause {
+    name: "numbers-of-another-sample",
+    headline: "a sample is made of the random numbers of another one",
+    look_at: "the index into the random numbers of a batch",
+    remedy: "Element i of the answers belongs to element i of the numbers.",
+};
+
+/// See its headline.
+pub static NUMBER_DRAWN_AGAIN: Cause = Cause {
+    name: "random-number-drawn-again",
+    headline: "a sample uses a random number that the sample before it has used",
+    look_at: "where the generator is seeded or copied: its state must move on",
+    remedy: "Draw every number from one generator that is kept, never from a copy or a fresh seed.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &DENSITY_OF_OTHER_SAMPLER,
@@ -130,4 +202,13 @@ pub static CAUSES: &[&Cause] = &[
     &DENSITY_BELOW_HORIZON,
     &DENSITY_INVERTED,
     &SAMPLES_ALL_ALIKE,
+    &AROUND_Y,
+    &AROUND_X,
+    &BELOW_SURFACE,
+    &LOBE_AROUND_VIEWER,
+    &TANGENTS_SWAPPED,
+    &ENDS_OF_RANGE,
+    &OWN_NUMBERS,
+    &NUMBERS_OF_ANOTHER,
+    &NUMBER_DRAWN_AGAIN,
 ];

@@ -42,6 +42,20 @@ pub static THREADS_MATTER: Cause = Cause {
     remedy: "Let the stream of a sample depend on its pixel and number, never on the thread that draws it.",
 };
 
+/// See its headline.
+pub static SEED_PLUS_PIXEL: Cause = Cause {
+    name: "seed-plus-pixel",
+    headline: "the seed is added to the number of a pixel, so that the next seed repeats the noise one pixel further",
+    look_at: "where the generator of a pixel is seeded",
+    remedy: "Mix seed, pixel and sample with a hash, not with a sum.",
+};
+
 /// Every cause of this part.
-pub static CAUSES: &[&Cause] =
-    &[&SEED_IGNORED, &NOT_REPRODUCIBLE, &PIXELS_SHARE_NOISE, &SAMPLES_REPEAT, &THREADS_MATTER];
+pub static CAUSES: &[&Cause] = &[
+    &SEED_IGNORED,
+    &NOT_REPRODUCIBLE,
+    &PIXELS_SHARE_NOISE,
+    &SAMPLES_REPEAT,
+    &THREADS_MATTER,
+    &SEED_PLUS_PIXEL,
+];

@@ -266,6 +266,22 @@ pub static EDGES_EXCLUDED: Cause = Cause {
     remedy: "Edges belong to the triangle: compare with ≥ 0, and leave room for rounding.",
 };
 
+/// See its headline.
+pub static SINGLE_PRECISION_INSIDE: Cause = Cause {
+    name: "single-precision-inside",
+    headline: "a core that declares double precision computes in single precision somewhere",
+    look_at: "the types of t, of directions and of constants: float where double is meant",
+    remedy: "Use one precision throughout, and declare that one.",
+};
+
+/// See its headline.
+pub static DEGENERATE_HIT: Cause = Cause {
+    name: "degenerate-triangle-hit",
+    headline: "triangles without area are hit",
+    look_at: "the triangle test, before it divides by the determinant",
+    remedy: "A determinant of 0 is a miss; write comparisons so that NaN makes them false.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &SEGMENT_END_IGNORED,
@@ -301,4 +317,6 @@ pub static CAUSES: &[&Cause] = &[
     &NORMAL_NOT_UNIT,
     &NAN_HIT_ACCEPTED,
     &EDGES_EXCLUDED,
+    &SINGLE_PRECISION_INSIDE,
+    &DEGENERATE_HIT,
 ];

@@ -1,7 +1,9 @@
-//! How answers are judged: one check a file, its name the `check = "…"` of cases, its struct their `[expect]`.
+//! How answers are judged: one check a file, its name the `check = "…"` of cases, its struct their
+//! `[expect]`.
 //!
-//! A check sees a `&mut dyn Core` and never a particular core; it draws its random numbers from the trial's
-//! seed; it leaves every verdict to [`crate::stats`]. To add one: write the file, add a line to [`CHECKS`].
+//! A check sees a `&mut dyn Core` and never a particular core; it draws its random numbers from the
+//! trial's seed; it leaves every verdict to [`crate::stats`]. To add one: write the file, add a
+//! line to [`CHECKS`].
 
 pub mod adaptive;
 pub mod breach;
@@ -15,7 +17,6 @@ mod finding;
 mod form;
 pub mod light;
 mod numbers;
-#[cfg(test)]
 mod oracle;
 mod phrase;
 pub mod picture;
@@ -130,7 +131,11 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<film::ViewCoverage>(),
     CheckKind::of::<shape::HitsPrimitive>(),
     CheckKind::of::<shape::AgreesWithExactArithmetic>(),
+    CheckKind::of::<shape::FarSpheres>(),
+    CheckKind::of::<shape::DegenerateTriangles>(),
+    CheckKind::of::<shape::LeavesItsSurface>(),
     CheckKind::of::<shape::OverlapsBox>(),
+    CheckKind::of::<shape::BoxesAreNeverMissed>(),
     CheckKind::of::<bsdf::AgreesWithItself>(),
     CheckKind::of::<bsdf::Reciprocal>(),
     CheckKind::of::<bsdf::ConservesEnergy>(),
@@ -138,6 +143,9 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<bsdf::FollowsGgx>(),
     CheckKind::of::<bsdf::ReflectsAndRefracts>(),
     CheckKind::of::<bvh::SameHitsAsBruteForce>(),
+    CheckKind::of::<bvh::OrderDoesNotMatter>(),
+    CheckKind::of::<bvh::NoRayLeaks>(),
+    CheckKind::of::<bvh::SizesAddUp>(),
     CheckKind::of::<bvh::BuildsComeToAnEnd>(),
     CheckKind::of::<bvh::VisitsFewNodes>(),
     CheckKind::of::<bvh::StopsBehindHits>(),
@@ -145,9 +153,14 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<light::LightSamplesReachLight>(),
     CheckKind::of::<light::OpenLightSamples>(),
     CheckKind::of::<light::LampAtTheEye>(),
+    CheckKind::of::<sampling::NumbersAsGiven>(),
+    CheckKind::of::<sampling::ExtremeNumbers>(),
     CheckKind::of::<sampling::PdfIntegratesToOne>(),
     CheckKind::of::<sampling::SampleJacobian>(),
     CheckKind::of::<sampling::SamplesFollowPdf>(),
+    CheckKind::of::<sampling::MomentsFollowPdf>(),
+    CheckKind::of::<sampling::WeightsIntegrate>(),
+    CheckKind::of::<sampling::ConsecutiveSamples>(),
     CheckKind::of::<transport::MeanRadiance>(),
     CheckKind::of::<transport::EstimatorsAgree>(),
     CheckKind::of::<transport::RadianceIsLinear>(),
@@ -158,9 +171,11 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<adaptive::SampleCounts>(),
     CheckKind::of::<robustness::SameSeedSamePicture>(),
     CheckKind::of::<robustness::SeedsMatter>(),
+    CheckKind::of::<robustness::NeighbouringSeeds>(),
     CheckKind::of::<robustness::RadianceIsFinite>(),
     CheckKind::of::<convergence::VarianceIsKnown>(),
     CheckKind::of::<convergence::ErrorFallsAsRootN>(),
+    CheckKind::of::<picture::FirstHits>(),
     CheckKind::of::<picture::MatchesReference>(),
 ];
 

@@ -3,8 +3,7 @@
 
 use super::shape::{Answer, intersection};
 use crate::contract::{Primitive, Ray};
-use crate::scene::{Rgb, SceneDescription, Shape};
-use glam::DVec3;
+use crate::scene::{SceneDescription, Shape};
 
 /// What a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,21 +27,6 @@ pub fn nearest(scene: &SceneDescription, ray: &Ray) -> Option<Met> {
         }
     }
     met
-}
-
-/// Radiance that glows towards the origin of `ray`, nothing scattered; skies included.
-pub fn emission_along(scene: &SceneDescription, ray: &Ray) -> Rgb {
-    let Some(met) = nearest(scene, ray) else {
-        let skies = scene.lights.iter().map(|light| light.sky_radiance(ray.direction));
-        return skies.fold([0.0; 3], |sum, sky| std::array::from_fn(|c| sum[c] + sky[c]));
-    };
-    let is_front = met.answer.geometric_normal.dot(ray.direction) < 0.0;
-    let emission = scene.material_of(met.shape).emission.filter(|_| is_front);
-    let at = |centre: DVec3| (ray.at(met.answer.t) - centre).normalize_or_zero();
-    emission.map_or([0.0; 3], |emission| match scene.shape(met.shape) {
-        Shape::Sphere(sphere) => emission.at_sphere_point(at(sphere.centre)),
-        Shape::Mesh(_) => emission.radiance,
-    })
 }
 
 /// Every primitive with the numbers of its shape and of itself.

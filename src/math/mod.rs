@@ -2,6 +2,7 @@
 
 pub mod closed_form;
 pub mod frame;
+pub mod harmonics;
 mod precision;
 pub mod quadrature;
 pub mod ratios;

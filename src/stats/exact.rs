@@ -24,6 +24,11 @@ impl Tolerance {
     pub const DIRECTION: Self = Self { double: 1e-12, single: 2e-6 };
     /// Ray parameters of intersections, relative, before their condition number.
     pub const INTERSECTION: Self = Self { double: 1e-9, single: 1e-4 };
+    /// Some sixteen roundings of numbers whose size is known; what is compared says which.
+    pub const ROUNDINGS: Self = Self { double: 16.0 * f64::EPSILON, single: 16.0 * 1.2e-7 };
+    /// By how much two ways around a box may differ that do not touch: a box test rounds each
+    /// crossing twice.
+    pub const SLAB: Self = Self { double: 1e-12, single: 1e-6 };
     /// A density or a BSDF evaluated twice for the same directions, relative.
     pub const SAME_VALUE: Self = Self { double: 1e-6, single: 1e-4 };
     /// A density or a BSDF against its formula, relative: cancellation near grazing costs single

@@ -9,6 +9,7 @@ use super::chi_square::COUNTS_FALSE_ALARM;
 use super::correlation::CORRELATION_FALSE_ALARM;
 use super::ladder::{LEAF_FALSE_ALARM, STAGE_LEVEL};
 use super::proportion::SHARE_FALSE_ALARM;
+use super::rare::RARE_FALSE_ALARM;
 use super::screen::{IMAGE_FALSE_ALARM, SCREEN_LEVEL};
 use super::slope::SLOPE_FALSE_ALARM;
 use serde::{Deserialize, Serialize};
@@ -33,6 +34,8 @@ pub enum TestKind {
     Slope,
     /// The correlation of two series, at once.
     Correlation,
+    /// A count of what must hardly ever happen, at once.
+    Rare,
 }
 
 impl TestKind {
@@ -45,6 +48,7 @@ impl TestKind {
             Self::Picture => "picture",
             Self::Slope => "slope",
             Self::Correlation => "correlation",
+            Self::Rare => "rare event",
         }
     }
 
@@ -57,6 +61,7 @@ impl TestKind {
             Self::Picture => "pictures",
             Self::Slope => "slopes",
             Self::Correlation => "correlations",
+            Self::Rare => "rare events",
         }
     }
 
@@ -69,6 +74,7 @@ impl TestKind {
             Self::Picture => IMAGE_FALSE_ALARM,
             Self::Slope => SLOPE_FALSE_ALARM,
             Self::Correlation => CORRELATION_FALSE_ALARM,
+            Self::Rare => RARE_FALSE_ALARM,
         }
     }
 
@@ -78,7 +84,7 @@ impl TestKind {
             Self::Mean | Self::Share => Some(2.0 * STAGE_LEVEL),
             Self::Counts => Some(STAGE_LEVEL),
             Self::Picture => Some(SCREEN_LEVEL),
-            Self::Slope | Self::Correlation => None,
+            Self::Slope | Self::Correlation | Self::Rare => None,
         }
     }
 }

@@ -7,6 +7,7 @@
 //!   sizes.
 //! - [`judge_exact`]: comparisons without noise, with their [`Tolerance`]s.
 //! - [`judge_share`], [`judge_slope`], [`judge_uncorrelated`]: shares, convergence, independence.
+//! - [`judge_rare`]: what must hardly ever happen.
 //! - [`Leaf`], [`Ledger`]: what a run has spent of the probability of blaming a correct core.
 //! - [`Claim`]: what is true if the core is right, with the band that rounding may use up.
 //! - [`Effort`] and [`Budget`]: how small an error has to be seen, and how many samples that may
@@ -35,6 +36,7 @@ mod moments;
 mod noise;
 mod proportion;
 mod quantile;
+mod rare;
 mod screen;
 #[cfg(test)]
 mod screen_simulation;
@@ -74,6 +76,7 @@ pub use quantile::{
     chi_square_tail, chi_square_upper, detectable_noncentrality, noncentral_chi_square_tail,
     normal_upper, student_upper,
 };
+pub use rare::{RARE_FALSE_ALARM, RareReport, Rarity, judge_rare};
 pub use screen::{
     IMAGE_FALSE_ALARM, ImageDraw, ImageEffort, Reference, judge_image, judge_image_pair,
 };

@@ -1,4 +1,5 @@
-//! A core over the reference hierarchy that can be made to slip, for the tests of the checks in this folder.
+//! A core over the reference hierarchy that can be made to slip, for the tests of the checks in
+//! this folder.
 
 use super::reference::{ReferenceBvh, Walk, Walked, meets};
 use crate::checks::testing::info;
@@ -34,6 +35,19 @@ pub enum Slip {
     NeverOrders,
     /// Shadow rays look for the nearest hit among everything.
     SearchesShadows,
+    /// Triangles are not hit near their edges.
+    ShrinksTriangles,
+    /// Triangles are not hit from behind.
+    CullsBack,
+    /// The last triangle is lost.
+    LosesTheLast,
+}
+
+impl Slip {
+    /// Whether it is one of the triangles themselves, which a loop over them makes too.
+    const fn is_in_triangles(self) -> bool {
+        matches!(self, Self::ShrinksTriangles | Self::CullsBack | Self::LosesTheLast)
+    }
 }
 
 /// See the module.
@@ -65,7 +79,8 @@ impl Core for FakeCore {
             });
         }
         let brute = acceleration == Acceleration::BruteForce;
-        Ok(Box::new(FakeScene { slip: if brute { Slip::None } else { self.0 }, brute, bvh, mesh }))
+        let slip = if brute && !self.0.is_in_triangles() { Slip::None } else { self.0 };
+        Ok(Box::new(FakeScene { slip, brute, bvh, mesh }))
     }
 }
 
@@ -106,6 +121,25 @@ impl FakeScene {
         }
     }
 
+    /// Whether a slip in the triangle test loses the hit.
+    fn loses(&self, ray: &Ray, found: &Walked) -> bool {
+        let Some((t, triangle)) = found.nearest else { return false };
+        let corners = self.mesh.corners(triangle as usize);
+        match self.slip {
+            Slip::ShrinksTriangles => {
+                let middle = corners.iter().sum::<DVec3>() / 3.0;
+                let outwards = 1.001 * (ray.at(t) - middle);
+                meets(&Ray::new(ray.origin, middle + outwards - ray.origin), &corners).is_none()
+            }
+            Slip::CullsBack => {
+                let [a, b, c] = corners;
+                (b - a).cross(c - a).dot(ray.direction) > 0.0
+            }
+            Slip::LosesTheLast => triangle as usize + 1 == self.mesh.indices.len(),
+            _ => false,
+        }
+    }
+
     fn hit(&self, found: Walked) -> Hit {
         let Some((t, triangle)) = found.nearest else { return Hit::MISS };
         let [a, b, c] = self.mesh.corners(triangle as usize);
@@ -139,7 +173,7 @@ impl BuiltScene for FakeScene {
         for (ray, hit) in rays.iter().zip(hits) {
             let found = self.closest(ray);
             stats.primitive_tests += found.tests;
-            *hit = self.hit(found);
+            *hit = if self.loses(ray, &found) { Hit::MISS } else { self.hit(found) };
         }
         Ok(stats)
     }

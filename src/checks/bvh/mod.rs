@@ -1,4 +1,5 @@
-//! Bounding volume hierarchies: the same hits as without one, from a build that ends, with less work.
+//! Bounding volume hierarchies: the same hits as without one, from a build that ends, with less
+//! work.
 
 mod builds_come_to_an_end;
 mod comparison;
@@ -6,15 +7,21 @@ mod divides_long_scenes;
 mod explanation;
 #[cfg(test)]
 mod fake;
+mod no_ray_leaks;
+mod order_does_not_matter;
 mod question;
 mod reference;
 mod same_hits_as_brute_force;
+mod sizes_add_up;
 mod stops_behind_hits;
 mod trial;
 mod visits_few_nodes;
 
 pub use builds_come_to_an_end::BuildsComeToAnEnd;
 pub use divides_long_scenes::DividesLongScenes;
+pub use no_ray_leaks::NoRayLeaks;
+pub use order_does_not_matter::OrderDoesNotMatter;
 pub use same_hits_as_brute_force::SameHitsAsBruteForce;
+pub use sizes_add_up::SizesAddUp;
 pub use stops_behind_hits::StopsBehindHits;
 pub use visits_few_nodes::VisitsFewNodes;

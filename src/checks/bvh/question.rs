@@ -34,6 +34,11 @@ impl Build {
         Acceleration::Bvh { split: self.split, max_leaf_size: self.max_leaf_size }
     }
 
+    /// At most this many primitives in a leaf.
+    pub const fn max_leaf_size(self) -> u32 {
+        self.max_leaf_size
+    }
+
     /// `split at the median, leaves of 4`
     pub fn name(self) -> String {
         let split = match self.split {
@@ -57,8 +62,8 @@ pub fn scene_of(mesh: Mesh) -> SceneDescription {
     SceneDescription { materials: vec![white], meshes: vec![mesh], ..SceneDescription::default() }
 }
 
-/// Half the rays cross the scene from outside, the rest start inside it, run along an axis or in a plane of two.
-/// All are in general position: none is aimed at an edge.
+/// Half the rays cross the scene from outside, the rest start inside it, run along an axis or in a
+/// plane of two. All are in general position: none is aimed at an edge.
 pub fn generic_rays(bounds: Aabb, count: usize, stream: &mut Stream) -> Vec<Ray> {
     let ray = |number: usize| match number % 6 {
         0..=2 => from_outside(bounds, stream),
@@ -88,7 +93,8 @@ pub fn rays_at_vertices(
     (0..count).map(ray).collect()
 }
 
-/// Some segment of each ray: it may begin before or behind the ray's hit, and end before or behind it.
+/// Some segment of each ray: it may begin before or behind the ray's hit, and end before or behind
+/// it.
 pub fn segments(rays: &[Ray], hits: &[Hit], bounds: Aabb, stream: &mut Stream) -> Vec<Ray> {
     let size = bounds.diagonal().max(1.0);
     let segment = |(ray, hit): (&Ray, &Hit)| {

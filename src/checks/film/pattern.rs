@@ -198,7 +198,10 @@ mod tests {
             let pixels = point * DVec2::from(FILM.map(f64::from));
             let direction = seen_at(&camera, pixels, 1.0) - camera.position;
             let ray = Ray::new(camera.position, direction.normalize());
-            assert_eq!(oracle::emission_along(&scene, &ray), radiance_at(pixels), "{pixels}");
+            let met = oracle::nearest(&scene, &ray).unwrap();
+            assert!(met.answer.geometric_normal.dot(ray.direction) < 0.0, "seen from behind");
+            let emission = scene.material_of(met.shape).emission.unwrap();
+            assert_eq!(emission.radiance, radiance_at(pixels), "{pixels}");
         }
     }
 

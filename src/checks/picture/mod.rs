@@ -1,5 +1,7 @@
 //! Whole pictures.
 
+mod first_hits;
 mod matches_reference;
 
+pub use first_hits::FirstHits;
 pub use matches_reference::MatchesReference;

@@ -1,10 +1,12 @@
-//! Rows of rays against boxes, the slab test, with exact rational arithmetic as the judge of the rows themselves.
+//! Rows of rays against boxes, the slab test, with exact rational arithmetic as the judge of the
+//! rows themselves.
 //!
-//! A ray that runs exactly along a face of the box divides 0 by 0 in the textbook's slab test, and correct
-//! programs differ there: such rows are marked `robustness`, shown, and not graded. A false hit only costs time;
-//! a false miss loses what is in the box.
+//! A ray that runs exactly along a face of the box divides 0 by 0 in the textbook's slab test, and
+//! correct programs differ there: such rows are marked `robustness`, shown, and not graded. A false
+//! hit only costs time; a false miss loses what is in the box.
 
-use crate::cause::{Cause, slab};
+use super::slabs::mistake_that_predicts;
+use crate::cause::Cause;
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BoxHit, Capabilities, Ray};
@@ -172,13 +174,8 @@ impl OverlapsBox {
         if graded().all(|(row, answer)| row.hits == (answer.hit == 1)) {
             return None;
         }
-        let predicts = |mistake: &&Mistake| {
-            graded().all(|(row, answer)| {
-                let slabs = Slabs::new(&self.bounds(row), &row.ray());
-                (mistake.hits)(&slabs, &row.ray()) == (answer.hit == 1)
-            })
-        };
-        MISTAKES.iter().find(predicts).map(|mistake| mistake.cause)
+        let answered = graded().map(|(row, answer)| (self.bounds(row), row.ray(), answer.hit == 1));
+        mistake_that_predicts(&answered.collect::<Vec<_>>())
     }
 }
 
@@ -196,17 +193,17 @@ fn complaint(row: &RayRow, number: usize, answer: &BoxHit, worst: &Measure) -> S
 
 /// The truth about a ray and a box.
 #[derive(Clone, Copy, Debug)]
-struct Overlap {
-    hits: bool,
+pub(super) struct Overlap {
+    pub(super) hits: bool,
     /// Where the line enters the box and leaves it, rounded once.
     enters: f64,
     exits: f64,
 }
 
 impl Overlap {
-    /// In rationals: t ∈ [(lo − o)/d, (hi − o)/d] on each axis, or the axis decides alone if d = 0. `None` if a number
-    /// that has to be finite is not.
-    fn exact(bounds: &Aabb, ray: &Ray) -> Option<Self> {
+    /// In rationals: t ∈ [(lo − o)/d, (hi − o)/d] on each axis, or the axis decides alone if d = 0.
+    /// `None` if a number that has to be finite is not.
+    pub(super) fn exact(bounds: &Aabb, ray: &Ray) -> Option<Self> {
         let mut line: Option<(BigRational, BigRational)> = None;
         for axis in 0..3 {
             let [low, high, origin, direction] =
@@ -236,108 +233,11 @@ impl Overlap {
     }
 }
 
-/// The parameters at which a line crosses the planes of a box, as the textbook divides them.
-struct Slabs {
-    lower: DVec3,
-    upper: DVec3,
-}
-
-impl Slabs {
-    fn new(bounds: &Aabb, ray: &Ray) -> Self {
-        Self {
-            lower: (bounds.min - ray.origin) / ray.direction,
-            upper: (bounds.max - ray.origin) / ray.direction,
-        }
-    }
-
-    fn enters(&self) -> f64 {
-        self.lower.min(self.upper).max_element()
-    }
-
-    fn exits(&self) -> f64 {
-        self.lower.max(self.upper).min_element()
-    }
-
-    /// The right test, where no 0/0 occurs.
-    fn hits(&self, ray: &Ray) -> bool {
-        self.enters() <= self.exits() && self.exits() >= ray.t_min && self.enters() <= ray.t_max
-    }
-}
-
-/// An implementation that people write instead.
-struct Mistake {
-    cause: &'static Cause,
-    hits: fn(&Slabs, &Ray) -> bool,
-}
-
-const MISTAKES: &[Mistake] = &[
-    Mistake {
-        cause: &slab::PLANES_NOT_SWAPPED,
-        hits: |slabs, ray| {
-            let (enters, exits) = (slabs.lower.max_element(), slabs.upper.min_element());
-            enters <= exits && exits >= ray.t_min && enters <= ray.t_max
-        },
-    },
-    Mistake { cause: &slab::BOX_SEGMENT_IGNORED, hits: |slabs, _| slabs.enters() <= slabs.exits() },
-    Mistake {
-        cause: &slab::BOX_START_IGNORED,
-        hits: |slabs, ray| slabs.enters() <= slabs.exits() && slabs.enters() <= ray.t_max,
-    },
-    Mistake {
-        cause: &slab::BOX_END_IGNORED,
-        hits: |slabs, ray| slabs.enters() <= slabs.exits() && slabs.exits() >= ray.t_min,
-    },
-    Mistake {
-        cause: &slab::BOX_MISSED_FROM_INSIDE,
-        hits: |slabs, ray| slabs.hits(ray) && slabs.enters() >= ray.t_min,
-    },
-    Mistake {
-        cause: &slab::BOX_MISSED_BY_END_INSIDE,
-        hits: |slabs, ray| slabs.hits(ray) && slabs.exits() <= ray.t_max,
-    },
-    Mistake {
-        cause: &slab::FLAT_BOX_MISSED,
-        hits: |slabs, ray| slabs.hits(ray) && slabs.enters() < slabs.exits(),
-    },
-    Mistake { cause: &slab::BOX_WITHOUT_Z, hits: |slabs, ray| without_axis(slabs, 2).hits(ray) },
-    Mistake { cause: &slab::BOX_WITHOUT_Y, hits: |slabs, ray| without_axis(slabs, 1).hits(ray) },
-    Mistake { cause: &slab::BOX_WITHOUT_X, hits: |slabs, ray| without_axis(slabs, 0).hits(ray) },
-];
-
-/// An axis in which the box has no end.
-fn without_axis(slabs: &Slabs, axis: usize) -> Slabs {
-    let (mut lower, mut upper) = (slabs.lower, slabs.upper);
-    (lower[axis], upper[axis]) = (f64::NEG_INFINITY, f64::INFINITY);
-    Slabs { lower, upper }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::slabs::{Boxes, MISTAKES, Slabs};
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{Core, CoreInfo, Precision, Result};
-
-    struct Boxes(fn(&Slabs, &Ray) -> bool);
-
-    impl Core for Boxes {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn intersect_box(
-            &mut self,
-            bounds: &Aabb,
-            rays: &[Ray],
-            hits: &mut [BoxHit],
-        ) -> Result<()> {
-            for (ray, hit) in rays.iter().zip(hits) {
-                let slabs = Slabs::new(bounds, ray);
-                let (t_enter, t_exit) = (slabs.enters(), slabs.exits());
-                *hit = BoxHit { t_enter, t_exit, hit: (self.0)(&slabs, ray).into(), reserved: 0 };
-            }
-            Ok(())
-        }
-    }
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     const CASES: [&str; 3] = [
         include_str!("../../../cases/bvh/a-segment-meets-a-box-or-does-not.toml"),

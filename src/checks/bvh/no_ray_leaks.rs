@@ -1,0 +1,291 @@
+//! Rays from inside a closed surface: every one has to meet it.
+//!
+//! A triangle test that is a hair too strict loses rays at the edges that triangles share, and a
+//! hierarchy whose boxes are a hair too small loses them anywhere: cracks that let light through
+//! walls.
+
+use super::comparison::closest_hits;
+use crate::cause::{Cause, bvh, shape};
+use crate::checks::oracle::{self, Met};
+use crate::checks::phrase::{figure, percent};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Acceleration, Capabilities, Ray};
+use crate::math::rng::{Seed, Stream, uniform};
+use crate::math::sphere::on_sphere;
+use crate::scene::{Aabb, SceneDescription};
+use crate::stats::{RareReport, Rarity, Verdict, judge_rare};
+use crate::text::Count;
+use glam::DVec3;
+use serde::Deserialize;
+
+/// Rays asked in one call.
+const BATCH: u64 = 1 << 16;
+/// Rays start within this share of the half size of the surface around its middle.
+const INNER: f64 = 0.4;
+/// Rays at vertices for every hundred others: shown, not graded, since a rounding decides.
+const AT_VERTICES: u64 = 100;
+/// Leaks that are looked at one by one.
+const LOOKED_AT: usize = 300;
+/// A leak this near an edge, in weights, is one of the edge.
+const EDGE: f64 = 0.01;
+
+/// No ray from the middle of a closed mesh escapes.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct NoRayLeaks {
+    /// In random directions, at the default budget.
+    rays: Count,
+}
+
+impl Check for NoRayLeaks {
+    const NAME: &'static str = "no-ray-leaks";
+    const SUMMARY: &'static str = "rays from inside a closed surface all meet it";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::INTERSECT
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let inside = Inside::of(&scene)?;
+        let count = context.budget.samples(self.rays.0);
+        let seed = context.seed;
+        let leaks = leaks(context, &scene, count, &mut |batch, size| {
+            let stream = &mut seed.child("anywhere").child(batch).stream();
+            (0..size).map(|_| Ray::new(inside.point(stream), on_sphere(stream))).collect()
+        })?;
+        let at_vertices = (count / AT_VERTICES).max(1);
+        let slipped = leaks_at_vertices(context, &scene, &inside, at_vertices)?;
+        let report =
+            judge_rare(leaks.len() as u64, count, Rarity::LEAKS.of(context.info.precision));
+        let causes = match report.verdict {
+            Verdict::Fail => causes(context, &scene, &leaks, count)?,
+            _ => Vec::new(),
+        };
+        Ok(finding(&report, slipped as f64 / at_vertices as f64, causes))
+    }
+}
+
+/// The rays that meet nothing, of `count` that `draw` makes batch by batch.
+fn leaks(
+    context: &mut Context<'_>,
+    scene: &SceneDescription,
+    count: u64,
+    draw: &mut dyn FnMut(u64, usize) -> Vec<Ray>,
+) -> Result<Vec<Ray>, CheckError> {
+    let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
+    let mut leaks = Vec::new();
+    for batch in 0..count.div_ceil(BATCH) {
+        let size = usize::try_from(BATCH.min(count - batch * BATCH)).unwrap_or(usize::MAX);
+        let rays = draw(batch, size);
+        let hits = closest_hits(built.as_mut(), &rays)?;
+        leaks.extend(rays.iter().zip(&hits).filter(|(_, hit)| !hit.is_hit()).map(|(ray, _)| *ray));
+    }
+    Ok(leaks)
+}
+
+fn leaks_at_vertices(
+    context: &mut Context<'_>,
+    scene: &SceneDescription,
+    inside: &Inside,
+    count: u64,
+) -> Result<usize, CheckError> {
+    let vertices: Vec<_> = scene.meshes.iter().flat_map(|mesh| &mesh.positions).collect();
+    let seed: Seed = context.seed.child("vertices");
+    let leaks = leaks(context, scene, count, &mut |batch, size| {
+        let stream = &mut seed.child(batch).stream();
+        let ray = |_| {
+            let vertex = *vertices[(uniform(stream) * vertices.len() as f64) as usize];
+            let origin = inside.point(stream);
+            Ray::new(origin, (vertex - origin).normalize())
+        };
+        (0..size).map(ray).collect()
+    })?;
+    Ok(leaks.len())
+}
+
+/// Points well inside.
+struct Inside {
+    middle: DVec3,
+    radius: f64,
+}
+
+impl Inside {
+    fn of(scene: &SceneDescription) -> Result<Self, CheckError> {
+        let Some(Aabb { min, max }) = scene.bounds().filter(|_| !scene.meshes.is_empty()) else {
+            return Err(CheckError::Broken("the scene has no mesh to be inside of".to_owned()));
+        };
+        Ok(Self { middle: 0.5 * (min + max), radius: INNER * 0.5 * (max - min).min_element() })
+    }
+
+    fn point(&self, stream: &mut Stream) -> DVec3 {
+        self.middle + self.radius * uniform(stream).cbrt() * on_sphere(stream)
+    }
+}
+
+fn finding(report: &RareReport, at_vertices: f64, causes: Vec<(&Cause, String)>) -> Finding {
+    let share = report.hits as f64 / report.trials as f64;
+    let statement = match (report.verdict, report.hits) {
+        (Verdict::Pass, 0) => format!("none of {} rays leaks", report.trials),
+        _ => format!(
+            "{} of {} rays from inside leak, {}; at most {} may",
+            report.hits,
+            report.trials,
+            percent(share),
+            percent(report.allowed)
+        ),
+    };
+    let measures = vec![
+        Measure {
+            interval: Some(report.interval),
+            verdict: report.verdict,
+            leaf: Some(report.leaf()),
+            ..Measure::exact("share of rays that leak", share, 0.0, report.allowed)
+        },
+        Measure {
+            verdict: Verdict::Pass,
+            ..Measure::exact(
+                "share of rays at vertices that leak (not graded)",
+                at_vertices,
+                0.0,
+                0.0,
+            )
+        },
+    ];
+    let one_in = figure(report.resolution.recip().floor());
+    let resolution = format!("would have caught one leak in {one_in} rays");
+    let finding = Finding::of(statement, resolution, measures);
+    causes.into_iter().fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence))
+}
+
+/// What the leaks have in common.
+fn causes(
+    context: &mut Context<'_>,
+    scene: &SceneDescription,
+    leaks: &[Ray],
+    count: u64,
+) -> Result<Vec<(&'static Cause, String)>, CheckError> {
+    let looked_at = &leaks[..leaks.len().min(LOOKED_AT)];
+    if leaks.len() as u64 == count {
+        return Ok(culled(context, scene, looked_at)?.into_iter().collect());
+    }
+    let found_by_loop = found_by_loop(context, scene, looked_at)?;
+    if found_by_loop == Some(looked_at.len()) {
+        let evidence = format!("the loop over all triangles meets all {} rays", looked_at.len());
+        return Ok(vec![(&bvh::HITS_LOST, evidence)]);
+    }
+    let met: Vec<_> = looked_at.iter().filter_map(|ray| oracle::nearest(scene, ray)).collect();
+    let farthest = met.iter().map(distance_to_edge).fold(0.0, f64::max);
+    if met.len() == looked_at.len() && farthest < EDGE {
+        let evidence = format!(
+            "all {} leaks that were looked at pass within a weight of {} of an edge",
+            met.len(),
+            figure(farthest)
+        );
+        return Ok(vec![(&shape::EDGES_EXCLUDED, evidence)]);
+    }
+    Ok(missing_triangles(&met).into_iter().collect())
+}
+
+/// What every ray misses from inside is there from outside.
+fn culled(
+    context: &mut Context<'_>,
+    scene: &SceneDescription,
+    leaks: &[Ray],
+) -> Result<Option<(&'static Cause, String)>, CheckError> {
+    let far = scene.bounds().map_or(0.0, |bounds| 2.0 * bounds.diagonal());
+    let back = |ray: &Ray| Ray::new(ray.at(far), -ray.direction);
+    let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
+    let rays: Vec<_> = leaks.iter().map(back).collect();
+    let hits = closest_hits(built.as_mut(), &rays)?;
+    let evidence = "every ray misses the surface from inside, and meets it from outside";
+    let is_culled = hits.iter().all(|hit| hit.is_hit());
+    Ok(is_culled.then(|| (&shape::BACK_CULLED, evidence.to_owned())))
+}
+
+/// How many of the rays the loop meets; `None` if the core has no loop.
+fn found_by_loop(
+    context: &mut Context<'_>,
+    scene: &SceneDescription,
+    rays: &[Ray],
+) -> Result<Option<usize>, CheckError> {
+    if !context.info.capabilities.contains(Capabilities::BRUTE_FORCE) {
+        return Ok(None);
+    }
+    let mut brute = context.core.build_scene(scene, Acceleration::BruteForce)?;
+    let hits = closest_hits(brute.as_mut(), rays)?;
+    Ok(Some(hits.iter().filter(|hit| hit.is_hit()).count()))
+}
+
+/// The least of the three weights.
+fn distance_to_edge(met: &Met) -> f64 {
+    met.answer.weights.map_or(1.0, |weights| weights.into_iter().fold(1.0, f64::min))
+}
+
+/// Few triangles that many leaks pass through are missing.
+fn missing_triangles(met: &[Met]) -> Option<(&'static Cause, String)> {
+    let mut triangles: Vec<_> = met.iter().map(|met| (met.shape, met.primitive)).collect();
+    triangles.sort_unstable();
+    triangles.dedup();
+    let is_few = !triangles.is_empty() && 4 * triangles.len() <= met.len();
+    is_few.then(|| {
+        let numbers: Vec<_> =
+            triangles.iter().take(3).map(|(_, number)| number.to_string()).collect();
+        let more = if triangles.len() > 3 { ", …" } else { "" };
+        let evidence = format!(
+            "all {} leaks that were looked at pass through {} triangles: {}{more}",
+            met.len(),
+            triangles.len(),
+            numbers.join(", ")
+        );
+        (&bvh::PRIMITIVES_LOST, evidence)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::{FakeCore, Slip};
+    use super::super::question::scene_of;
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::scene::procedural::bumpy_sphere;
+
+    fn found(slip: Slip) -> Finding {
+        let check: NoRayLeaks = check_of("[expect]\nrays = \"20 k\"");
+        try_judge(&check, &mut FakeCore(slip), Some(scene_of(bumpy_sphere(3)))).unwrap()
+    }
+
+    fn cause(slip: Slip) -> String {
+        let finding = found(slip);
+        failure(&finding);
+        let causes: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
+        causes.join(" ")
+    }
+
+    #[test]
+    fn a_closed_surface_passes() {
+        let finding = found(Slip::None);
+        assert_passes(&finding);
+        assert_eq!(finding.statement, "none of 20000 rays leaks");
+        assert_eq!(finding.resolution, "would have caught one leak in 2895 rays");
+    }
+
+    #[test]
+    fn every_kind_of_leak_has_its_name() {
+        assert_eq!(cause(Slip::ShrinksTriangles), "edges-excluded");
+        assert_eq!(cause(Slip::ShrinksBoxes), "hierarchy-loses-hits");
+        assert_eq!(cause(Slip::CullsBack), "back-culled");
+        assert_eq!(cause(Slip::LosesTheLast), "primitives-lost");
+    }
+
+    #[test]
+    fn the_number_of_leaks_is_told() {
+        let finding = found(Slip::LosesTheLast);
+        let statement = failure(&finding);
+        assert!(statement.contains(" of 20000 rays from inside leak, 0.0"), "{statement}");
+        assert!(
+            finding.clues[0].evidence.ends_with("pass through 1 triangles: 1279"),
+            "{finding:?}"
+        );
+    }
+}

@@ -1,0 +1,228 @@
+//! The order of triangles in their mesh is nobody's business: shuffled, they are hit at the same t.
+//!
+//! Needs no loop to compare with, and so sees what a loop over a wrong range would not: a triangle
+//! that is lost wherever it stands last.
+
+use super::comparison::closest_hits;
+use super::question::{generic_rays, segments};
+use crate::cause::{Cause, bvh};
+use crate::checks::phrase::{figure, some_are};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Acceleration, Capabilities, Hit, Ray};
+use crate::math::rng::{Stream, uniform};
+use crate::scene::{Aabb, SceneDescription};
+use crate::text::Count;
+use glam::DVec3;
+use serde::Deserialize;
+
+/// Orders beside the one of the scene.
+const ORDERS: usize = 3;
+
+/// Hits do not depend on the order of triangles.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct OrderDoesNotMatter {
+    /// Rays, and as many segments.
+    rays: Count,
+}
+
+impl Check for OrderDoesNotMatter {
+    const NAME: &'static str = "order-does-not-matter";
+    const SUMMARY: &'static str = "shuffled triangles are hit at the same t";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::INTERSECT | Capabilities::OCCLUDED
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let bounds = scene.bounds().unwrap_or(Aabb { min: DVec3::ZERO, max: DVec3::ONE });
+        let count = usize::try_from(self.rays.0).unwrap_or(usize::MAX);
+        let rays = generic_rays(bounds, count, &mut context.seed.child("rays").stream());
+        let first = Answers::of(context, &scene, &rays, None)?;
+        let stream = &mut context.seed.child("segments").stream();
+        let segments = segments(&rays, &first.hits, bounds, stream);
+        let first = Answers::of(context, &scene, &rays, Some(&segments))?;
+        let mut differences = Vec::new();
+        for number in 0..ORDERS {
+            let stream = &mut context.seed.child("order").child(number).stream();
+            let order = Order::shuffled(&scene, stream);
+            let answers = Answers::of(context, &order.scene, &rays, Some(&segments))?;
+            differences.push(Difference::between(&first, &answers, &order));
+        }
+        Ok(finding(&differences, rays.len() + segments.len()))
+    }
+}
+
+/// What a core answers for one order.
+struct Answers {
+    hits: Vec<Hit>,
+    occluded: Vec<bool>,
+}
+
+impl Answers {
+    fn of(
+        context: &mut Context<'_>,
+        scene: &SceneDescription,
+        rays: &[Ray],
+        segments: Option<&[Ray]>,
+    ) -> Result<Self, CheckError> {
+        let segments = segments.unwrap_or_default();
+        let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
+        let hits = closest_hits(built.as_mut(), rays)?;
+        let mut occluded = vec![false; segments.len()];
+        built.occluded(segments, &mut occluded)?;
+        Ok(Self { hits, occluded })
+    }
+}
+
+/// A scene with the triangles of each mesh in another order.
+struct Order {
+    scene: SceneDescription,
+    /// For each mesh, where each triangle of the first order stands now.
+    places: Vec<Vec<u32>>,
+}
+
+impl Order {
+    fn shuffled(scene: &SceneDescription, stream: &mut Stream) -> Self {
+        let mut scene = scene.clone();
+        let mut places = Vec::new();
+        for mesh in &mut scene.meshes {
+            let mut order: Vec<usize> = (0..mesh.indices.len()).collect();
+            for last in (1..order.len()).rev() {
+                order.swap(last, (uniform(stream) * (last + 1) as f64) as usize);
+            }
+            mesh.indices = order.iter().map(|number| mesh.indices[*number]).collect();
+            let mut place = vec![0; order.len()];
+            for (now, number) in (0..).zip(&order) {
+                place[*number] = now;
+            }
+            places.push(place);
+        }
+        Self { scene, places }
+    }
+
+    /// Where the triangle of a hit in the first order stands now.
+    fn place(&self, hit: &Hit) -> u32 {
+        let place =
+            self.places.get(hit.shape as usize).and_then(|mesh| mesh.get(hit.primitive as usize));
+        place.copied().unwrap_or(hit.primitive)
+    }
+}
+
+/// How the answers for two orders differ.
+struct Difference {
+    hits: usize,
+    occlusions: usize,
+    /// Where the triangles stand that one order hits and the other does not, in the order that does
+    /// not, and how many there are in all.
+    lost: Vec<(u32, usize)>,
+}
+
+impl Difference {
+    fn between(first: &Answers, other: &Answers, order: &Order) -> Self {
+        let mut difference = Self { hits: 0, occlusions: 0, lost: Vec::new() };
+        for (a, b) in first.hits.iter().zip(&other.hits) {
+            let is_same =
+                a.is_hit() == b.is_hit() && (!a.is_hit() || a.t.to_bits() == b.t.to_bits());
+            difference.hits += usize::from(!is_same);
+            if is_same {
+                continue;
+            }
+            let triangles = |hit: &Hit| order.places.get(hit.shape as usize).map_or(0, Vec::len);
+            if a.is_hit() && (!b.is_hit() || a.t < b.t) {
+                difference.lost.push((order.place(a), triangles(a)));
+            } else if let Some(mesh) = order.places.get(b.shape as usize) {
+                let number = mesh.iter().position(|now| *now == b.primitive);
+                difference.lost.extend(number.map(|number| (number as u32, mesh.len())));
+            }
+        }
+        let pairs = first.occluded.iter().zip(&other.occluded);
+        difference.occlusions = pairs.filter(|(a, b)| a != b).count();
+        difference
+    }
+
+    fn total(&self) -> usize {
+        self.hits + self.occlusions
+    }
+}
+
+fn finding(differences: &[Difference], asked: usize) -> Finding {
+    let measures = (1..)
+        .zip(differences)
+        .flat_map(|(number, difference)| {
+            let count = |what: &str, found: usize| {
+                Measure::exact(
+                    format!("order {number}: {what} that differ"),
+                    found as f64,
+                    0.0,
+                    0.0,
+                )
+            };
+            [count("closest hits", difference.hits), count("any hits", difference.occlusions)]
+        })
+        .collect();
+    let worst = differences.iter().max_by_key(|difference| difference.total());
+    let statement = match worst.filter(|difference| difference.total() > 0) {
+        None => format!("{asked} answers are the same in {} orders", differences.len() + 1),
+        Some(worst) => format!(
+            "{} another when the triangles are shuffled",
+            some_are(worst.total(), asked, "answers")
+        ),
+    };
+    let rare = figure(((asked * differences.len()) as f64 / 6.9).floor());
+    let finding =
+        Finding::of(statement, format!("would have caught one answer in {rare}"), measures);
+    match lost_place(differences) {
+        Some((cause, evidence)) => finding.because(cause, evidence),
+        None => finding,
+    }
+}
+
+/// What is lost always stands at the same place of its order.
+fn lost_place(differences: &[Difference]) -> Option<(&'static Cause, String)> {
+    let lost: Vec<_> = differences.iter().flat_map(|difference| &difference.lost).collect();
+    let (place, triangles) = **lost.first()?;
+    let is_same = lost.iter().all(|(other, _)| *other == place);
+    (is_same && lost.len() > 1).then(|| {
+        let evidence = format!(
+            "all {} hits that one order loses are of triangle {place} of {triangles} in that order",
+            lost.len()
+        );
+        (&bvh::PRIMITIVES_LOST, evidence)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::{FakeCore, Slip};
+    use super::super::question::scene_of;
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::scene::procedural::bumpy_sphere;
+
+    fn found(slip: Slip) -> Finding {
+        let check: OrderDoesNotMatter = check_of("[expect]\nrays = \"3 k\"");
+        try_judge(&check, &mut FakeCore(slip), Some(scene_of(bumpy_sphere(2)))).unwrap()
+    }
+
+    #[test]
+    fn a_hierarchy_without_mistakes_passes() {
+        assert_passes(&found(Slip::None));
+    }
+
+    #[test]
+    fn a_triangle_that_is_lost_where_it_stands_last_is_named() {
+        let finding = found(Slip::LosesTheLast);
+        assert!(failure(&finding).ends_with("another when the triangles are shuffled"));
+        assert_eq!(finding.clues[0].cause, "primitives-lost");
+        assert!(finding.clues[0].evidence.contains("of triangle 319 of 320"), "{finding:?}");
+    }
+
+    #[test]
+    fn the_first_hit_depends_on_the_order_and_has_no_name() {
+        let finding = found(Slip::KeepsTheFirstHit);
+        failure(&finding);
+        assert!(finding.clues.is_empty());
+    }
+}

@@ -1,0 +1,191 @@
+//! The size of a hierarchy, as the core tells it: leaves for all primitives, nodes for all leaves,
+//! a depth that both allow.
+
+use super::question::Build;
+use crate::checks::phrase::{at_most, figure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{BuildStats, Capabilities, CoreError};
+use crate::stats::Verdict;
+use serde::Deserialize;
+
+/// The widest node there is.
+const WIDEST: f64 = 16.0;
+
+/// Nodes, leaves and depth fit each other and the scene.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SizesAddUp {
+    /// Each split rule is tried with each of these.
+    leaf_sizes: Vec<u32>,
+}
+
+impl Check for SizesAddUp {
+    const NAME: &'static str = "sizes-add-up";
+    const SUMMARY: &'static str = "nodes, leaves and depth of hierarchies fit each other";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        match self.leaf_sizes.iter().all(|size| *size > 0) && !self.leaf_sizes.is_empty() {
+            true => Ok(()),
+            false => Err("`leaf-sizes` needs numbers above 0".to_owned()),
+        }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let mut built = Vec::new();
+        for build in Build::all(context.info.capabilities, &self.leaf_sizes) {
+            let stats = context.core.build_scene(&scene, build.acceleration())?.stats();
+            built.push(Sizes { build, stats, primitives: scene.primitive_count() });
+        }
+        if built.iter().all(|sizes| sizes.stats.nodes == 0) {
+            let words = "it does not say how large its hierarchies are";
+            return Err(CoreError::Beyond(words.to_owned()).into());
+        }
+        Ok(finding(&built))
+    }
+}
+
+/// What a core says of one hierarchy.
+struct Sizes {
+    build: Build,
+    stats: BuildStats,
+    primitives: usize,
+}
+
+impl Sizes {
+    fn inner(&self) -> f64 {
+        self.stats.nodes as f64 - self.stats.leaves as f64
+    }
+
+    /// Children of an inner node, on average: every node but the root is a child.
+    fn width(&self) -> f64 {
+        (self.stats.nodes as f64 - 1.0) / self.inner()
+    }
+
+    fn measures(&self) -> Vec<Measure> {
+        let name = |what: &str| format!("{}: {what}", self.build.name());
+        let (leaves, depth) = (self.stats.leaves as f64, self.stats.max_depth as f64);
+        let held = leaves * f64::from(self.build.max_leaf_size());
+        let mut measures = vec![
+            at_most(name("leaves"), leaves, self.primitives as f64),
+            at_most(name("primitives, for the room in its leaves"), self.primitives as f64, held),
+            at_most(name("depth"), depth, self.inner() + 1.0),
+            at_most(name("logarithm of leaves, for the depth"), leaves.log(WIDEST), depth - 1.0),
+        ];
+        if leaves > 1.0 {
+            measures.push(at_most(
+                name("two children a node, for its children"),
+                2.0,
+                self.width(),
+            ));
+            measures.push(at_most(name("children of a node, on average"), self.width(), WIDEST));
+        }
+        measures
+    }
+
+    fn words(&self) -> String {
+        format!(
+            "{} nodes, {} of them leaves, {} deep",
+            self.stats.nodes, self.stats.leaves, self.stats.max_depth
+        )
+    }
+}
+
+fn finding(built: &[Sizes]) -> Finding {
+    let measures: Vec<_> = built.iter().flat_map(Sizes::measures).collect();
+    let wrong = built.iter().find_map(|sizes| {
+        let failed = sizes.measures().into_iter().find(|m| m.verdict == Verdict::Fail)?;
+        Some((sizes, failed))
+    });
+    let statement = match (wrong, built.first()) {
+        (Some((sizes, failed)), _) => format!(
+            "{}: {} is {}, more than {}; the core tells of {}, over {} primitives",
+            sizes.build.name(),
+            failed.name.trim_start_matches(&format!("{}: ", sizes.build.name())),
+            figure(failed.measured),
+            figure(failed.expected),
+            sizes.words(),
+            sizes.primitives
+        ),
+        (None, Some(first)) => {
+            format!("{} hierarchies add up; the core's own has {}", built.len(), first.words())
+        }
+        (None, None) => "no hierarchy was built".to_owned(),
+    };
+    Finding::of(statement, "would have caught a number that the others forbid", measures)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::question::scene_of;
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
+    use crate::contract::{Acceleration, BuiltScene, Core, CoreInfo, Precision, Result};
+    use crate::math::rng::Seed;
+    use crate::scene::SceneDescription;
+    use crate::scene::procedural::soup;
+
+    #[derive(Clone, Copy)]
+    struct Says(BuildStats);
+
+    impl Core for Says {
+        fn info(&self) -> CoreInfo {
+            info(Precision::Double)
+        }
+
+        fn build_scene(
+            &mut self,
+            _: &SceneDescription,
+            _: Acceleration,
+        ) -> Result<Box<dyn BuiltScene + '_>> {
+            Ok(Box::new(*self))
+        }
+    }
+
+    impl BuiltScene for Says {
+        fn stats(&self) -> BuildStats {
+            self.0
+        }
+    }
+
+    fn found(nodes: u64, leaves: u64, max_depth: u64) -> std::result::Result<Finding, CheckError> {
+        let check: SizesAddUp = check_of("[expect]\nleaf-sizes = [4]");
+        let stats = BuildStats { nodes, leaves, max_depth, bytes: 0 };
+        try_judge(&check, &mut Says(stats), Some(scene_of(soup(1000, Seed(1)))))
+    }
+
+    #[test]
+    fn binary_and_wide_hierarchies_pass() {
+        assert_passes(&found(511, 256, 9).unwrap());
+        assert_passes(&found(300, 262, 4).unwrap());
+    }
+
+    #[test]
+    fn numbers_that_cannot_be_fail_and_are_told() {
+        for (nodes, leaves, depth, words) in [
+            (2001, 1001, 12, "leaves (at most) is 1001, more than 1000"),
+            (
+                199,
+                100,
+                9,
+                "primitives, for the room in its leaves (at most) is 1000, more than 400",
+            ),
+            (511, 256, 300, "depth (at most) is 300"),
+            (511, 256, 2, "logarithm of leaves"),
+            (600, 256, 9, "two children a node"),
+            (260, 256, 3, "children of a node, on average"),
+        ] {
+            let finding = found(nodes, leaves, depth).unwrap();
+            assert!(failure(&finding).contains(words), "{words}: {}", finding.statement);
+        }
+    }
+
+    #[test]
+    fn a_core_that_does_not_say_is_not_judged() {
+        assert!(found(0, 0, 0).unwrap_err().to_string().contains("does not say how large"));
+    }
+}

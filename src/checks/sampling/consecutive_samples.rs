@@ -1,0 +1,272 @@
+//! A sample has nothing to do with the one before: pairs of consecutive samples fill their cells
+//! evenly, heights and azimuths against each other.
+//!
+//! Counts of single samples cannot see this: a generator whose numbers come in pairs has the right
+//! density and the wrong picture.
+
+use super::distribution::{Distribution, DistributionEntry, Drawn};
+use crate::cause::{Cause, sampling};
+use crate::checks::phrase::{figure, percent, would_have_caught};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Capabilities, Sampler};
+use crate::math::rng::Seed;
+use crate::stats::{CellProbabilities, CountReport, Counts, Effort, Stage, Verdict, judge_counts};
+use crate::text::{Count, Percent};
+use glam::DVec3;
+use serde::Deserialize;
+use std::f64::consts::TAU;
+
+/// Parts of each of the three numbers that are counted.
+const PARTS: usize = 8;
+const CELLS: usize = PARTS * PARTS * PARTS;
+
+/// Height and azimuth of a sample and the height of the next, in 8 × 8 × 8 cells.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ConsecutiveSamples {
+    /// A sampler of the hemisphere: what is even in it is known.
+    distribution: DistributionEntry,
+    /// The smallest dependence that must be seen, as a root mean square error of the cells.
+    detects: Percent,
+    /// Pairs; past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+impl Check for ConsecutiveSamples {
+    const NAME: &'static str = "consecutive-samples";
+    const SUMMARY: &'static str = "consecutive samples are independent, by chi-square of pairs";
+
+    fn needs(&self) -> Capabilities {
+        self.distribution.needs()
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        self.distribution.validate()?;
+        let is_sampler = |distribution: &Distribution| sampler_of(distribution).is_some();
+        match self.distribution.distributions().iter().all(is_sampler) {
+            true => Ok(()),
+            false => Err("give a `sampler`: what a surface draws is not even".to_owned()),
+        }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
+        let effort = context.budget.scale(effort);
+        let expected = CellProbabilities::exact(vec![1.0 / CELLS as f64; CELLS]);
+        let mut judged = Vec::new();
+        for distribution in self.distribution.distributions() {
+            let seed = context.seed.child(distribution.name());
+            let report = judge_counts(&expected, &effort, &mut |stage: Stage, pairs| {
+                count_pairs(context, &distribution, seed.child(stage), pairs)
+            })?;
+            judged.push((distribution.name(), report));
+        }
+        Ok(finding(&judged))
+    }
+}
+
+const fn sampler_of(distribution: &Distribution) -> Option<Sampler> {
+    match distribution {
+        Distribution::Sampler(sampler) => Some(*sampler),
+        Distribution::Bsdf { .. } => None,
+    }
+}
+
+/// Height and azimuth of a direction as two numbers that are even from 0 to 1.
+fn even_numbers(sampler: Option<Sampler>, direction: DVec3) -> [f64; 2] {
+    let height = match sampler {
+        Some(Sampler::CosineHemisphere) => direction.z * direction.z,
+        _ => direction.z,
+    };
+    [height, (direction.y.atan2(direction.x) / TAU).rem_euclid(1.0)]
+}
+
+fn count_pairs(
+    context: &mut Context<'_>,
+    distribution: &Distribution,
+    seed: Seed,
+    pairs: u64,
+) -> Result<Counts, CheckError> {
+    let sampler = sampler_of(distribution);
+    let part = |number: f64| ((number * PARTS as f64) as usize).min(PARTS - 1);
+    let mut counts = Counts { cells: vec![0; CELLS], absorbed: 0 };
+    distribution.draw(context.core, seed, 2 * pairs, |drawn: &[Drawn]| {
+        for pair in drawn.chunks_exact(2) {
+            let [Some(first), Some(second)] = [pair[0].direction, pair[1].direction] else {
+                counts.absorbed += 1;
+                continue;
+            };
+            let [height, azimuth] = even_numbers(sampler, first).map(part);
+            let [next, _] = even_numbers(sampler, second).map(part);
+            counts.cells[(height * PARTS + azimuth) * PARTS + next] += 1;
+        }
+    })?;
+    Ok(counts)
+}
+
+fn measure(name: &str, report: &CountReport) -> Measure {
+    let stage = report.stages.last();
+    let per_freedom = |value: f64| stage.map_or(f64::NAN, |s| value / s.freedom.max(1.0));
+    let found = per_freedom(stage.map_or(f64::NAN, |stage| stage.statistic));
+    let critical = per_freedom(stage.map_or(f64::NAN, |stage| stage.critical));
+    Measure {
+        verdict: report.verdict,
+        resolution: Some(report.resolution),
+        leaf: Some(report.leaf()),
+        ..Measure::exact(
+            format!("χ² per degree of freedom, pairs of {name}"),
+            found,
+            1.0,
+            critical - 1.0,
+        )
+    }
+}
+
+/// Pearson's coefficient of two of the three numbers, from the counts.
+fn correlation(report: &CountReport, [a, b]: [usize; 2]) -> f64 {
+    let place = |cell: usize| [cell / (PARTS * PARTS), cell / PARTS % PARTS, cell % PARTS];
+    let total: f64 = report.observed.iter().map(|count| *count as f64).sum();
+    let mean = |of: &dyn Fn([usize; 3]) -> f64| {
+        let sum = report.observed.iter().enumerate();
+        sum.map(|(cell, count)| *count as f64 * of(place(cell))).sum::<f64>() / total
+    };
+    let means = [a, b].map(|number| mean(&|place| place[number] as f64));
+    let off = |place: [usize; 3], i: usize| place[[a, b][i]] as f64 - means[i];
+    let product = |i, j| mean(&|place| off(place, i) * off(place, j));
+    product(0, 1) / (product(0, 0) * product(1, 1)).sqrt()
+}
+
+/// The three pairs of numbers, and what relates them.
+const PAIRS: [([usize; 2], &str); 3] = [
+    ([0, 1], "height and azimuth of a sample"),
+    ([0, 2], "the heights of consecutive samples"),
+    ([1, 2], "the azimuth of a sample and the height of the next"),
+];
+
+fn strongest(report: &CountReport) -> (f64, &'static str) {
+    let all = PAIRS.map(|(pair, what)| (correlation(report, pair), what));
+    all.into_iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).unwrap_or((0.0, ""))
+}
+
+fn complaint(name: &str, report: &CountReport) -> Option<String> {
+    match report.verdict {
+        Verdict::Pass => None,
+        Verdict::Inconclusive => Some(format!("{name}: too few pairs")),
+        Verdict::Fail => {
+            let (coefficient, what) = strongest(report);
+            let empty = report.observed.iter().filter(|count| **count == 0).count();
+            let empty = percent(empty as f64 / CELLS as f64);
+            let told = figure(coefficient);
+            Some(format!(
+                "{name}: {what} are correlated by {told}; {empty} of the cells of pairs stay empty"
+            ))
+        }
+    }
+}
+
+/// The next sample repeats a number of this one.
+fn cause(report: &CountReport) -> Option<(&'static Cause, String)> {
+    let repeats = |pair| correlation(report, pair) > 0.99;
+    let (cause, what) = if report.verdict != Verdict::Fail {
+        return None;
+    } else if repeats([0, 1]) {
+        (&sampling::ONE_NUMBER_TWICE, "height and azimuth are one number")
+    } else if repeats([0, 2]) {
+        (&sampling::NUMBER_DRAWN_AGAIN, "the next sample has the same height")
+    } else if repeats([1, 2]) {
+        (&sampling::NUMBER_DRAWN_AGAIN, "the next sample begins with this one's last number")
+    } else {
+        return None;
+    };
+    Some((cause, format!("{what}, in all pairs")))
+}
+
+fn finding(judged: &[(String, CountReport)]) -> Finding {
+    let measures: Vec<_> = judged.iter().map(|(name, report)| measure(name, report)).collect();
+    let complaints: Vec<_> =
+        judged.iter().filter_map(|(name, report)| complaint(name, report)).collect();
+    let statement = match complaints.is_empty() {
+        true => "consecutive samples have nothing to do with each other".to_owned(),
+        false => complaints.join("; "),
+    };
+    let resolution = would_have_caught(&measures) + " of the cells of pairs, root mean square";
+    let finding = Finding::of(statement, resolution, measures);
+    let causes = judged.iter().filter_map(|(_, report)| cause(report));
+    causes.fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::cosine;
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
+    use crate::contract::{Core, CoreInfo, DirectionSample, Precision, Randomness, Result};
+    use crate::math::rng::{Stream, uniform};
+    use glam::DVec2;
+
+    /// Draws its own numbers, each point from the one before.
+    struct Own(fn(&mut Stream, DVec2) -> DVec2);
+
+    impl Core for Own {
+        fn info(&self) -> CoreInfo {
+            info(Precision::Double)
+        }
+
+        fn sample_direction(
+            &mut self,
+            _: Sampler,
+            random: Randomness<'_>,
+            samples: &mut [DirectionSample],
+        ) -> Result<()> {
+            let stream = &mut Seed(random.seed).stream();
+            let mut point = DVec2::splat(0.5);
+            for sample in samples {
+                point = (self.0)(stream, point);
+                let direction = cosine(point).unwrap_or(DVec3::Z);
+                *sample = DirectionSample { direction, pdf: direction.z };
+            }
+            Ok(())
+        }
+    }
+
+    fn found(next: fn(&mut Stream, DVec2) -> DVec2) -> Finding {
+        let check: ConsecutiveSamples = check_of(
+            "[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }\n\
+             detects = \"8 %\"\nat-most = \"100 k\"",
+        );
+        judge(&check, &mut Own(next))
+    }
+
+    fn fresh(stream: &mut Stream) -> DVec2 {
+        DVec2::new(uniform(stream), uniform(stream))
+    }
+
+    #[test]
+    fn fresh_numbers_pass() {
+        assert_passes(&found(|stream, _| fresh(stream)));
+    }
+
+    #[test]
+    fn numbers_that_come_again_are_named() {
+        let finding = found(|stream, last| DVec2::new(1.0 - last.y, uniform(stream)));
+        let statement = failure(&finding);
+        assert!(statement.contains("the azimuth of a sample and the height of the next"));
+        assert_eq!(finding.clues[0].cause, "random-number-drawn-again");
+        let finding = found(|stream, _| DVec2::splat(uniform(stream)));
+        failure(&finding);
+    }
+
+    #[test]
+    fn a_weak_dependence_is_seen_and_has_no_name() {
+        let finding = found(|stream, last| {
+            let point = fresh(stream);
+            if uniform(stream) < 0.3 { point.with_x(last.x) } else { point }
+        });
+        let statement = failure(&finding);
+        assert!(
+            statement.contains("the heights of consecutive samples are correlated by 0.3"),
+            "{statement}"
+        );
+        assert!(finding.clues.is_empty());
+    }
+}

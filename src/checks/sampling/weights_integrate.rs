@@ -1,0 +1,213 @@
+//! A density is a weight: the mean of g/pdf over samples is the integral of g, whatever is sampled.
+//!
+//! g = cos³θ and cos⁴θ of the upper hemisphere: their weights are bounded for uniform and for
+//! cosine-distributed directions alike. A wrong constant shows as one ratio, a wrong power of the
+//! cosine as two different ones; no surface and no light takes part.
+
+use super::density::{Density, Law};
+use super::distribution::{Distribution, DistributionEntry, Drawn};
+use crate::cause::Cause;
+use crate::checks::phrase::{figure, mean_measure, would_have_caught};
+use crate::checks::{Check, CheckError, Context, Finding};
+use crate::contract::Capabilities;
+use crate::math::ratios::names_of;
+use crate::math::rng::Seed;
+use crate::stats::{Band, Claim, Effort, MeanReport, Verdict, judge_means};
+use crate::text::{Count, Percent};
+use serde::Deserialize;
+use std::f64::consts::TAU;
+
+/// Powers of the cosine that are integrated.
+const POWERS: [i32; 2] = [3, 4];
+/// Weights are called constant if they differ by less than this.
+const SAME: f64 = 0.02;
+
+/// E[cosⁿθ / pdf] = 2π/(n + 1).
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct WeightsIntegrate {
+    /// A sampler, or a surface whose samples fill the hemisphere.
+    distribution: DistributionEntry,
+    /// The smallest error of an integral that must be seen.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+impl Check for WeightsIntegrate {
+    const NAME: &'static str = "weights-integrate";
+    const SUMMARY: &'static str = "means of cos³/pdf and cos⁴/pdf are integrals that are known";
+
+    fn needs(&self) -> Capabilities {
+        self.distribution.needs()
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        self.distribution.validate()
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
+        let effort = context.budget.scale(effort);
+        let band = Band::math(context.info.precision);
+        let claims = POWERS.map(|power| Claim::value(TAU / f64::from(power + 1), band));
+        let mut judged = Vec::new();
+        for distribution in self.distribution.distributions() {
+            let seed = context.seed.child(distribution.name());
+            let reports = judge_means(&claims, &effort, &mut |draw| {
+                mean_weights(context, &distribution, draw.seed(seed), draw.samples)
+            })?;
+            let density = Density::of(context.core, &distribution)?;
+            judged.push(Judged { name: distribution.name(), reports, density });
+        }
+        Ok(finding(&judged))
+    }
+}
+
+/// Means over one run; a failed sample counts as zero.
+fn mean_weights(
+    context: &mut Context<'_>,
+    distribution: &Distribution,
+    seed: Seed,
+    samples: u64,
+) -> Result<Vec<f64>, CheckError> {
+    let mut sums = [0.0; POWERS.len()];
+    distribution.draw(context.core, seed, samples, |drawn: &[Drawn]| {
+        for sample in drawn {
+            let Some(direction) = sample.direction.filter(|direction| direction.z > 0.0) else {
+                continue;
+            };
+            for (sum, power) in sums.iter_mut().zip(POWERS) {
+                *sum += direction.z.powi(power) / sample.pdf;
+            }
+        }
+    })?;
+    Ok(sums.map(|sum| sum / samples as f64).to_vec())
+}
+
+/// What came of one distribution.
+struct Judged {
+    name: String,
+    reports: Vec<MeanReport>,
+    density: Option<Density>,
+}
+
+impl Judged {
+    fn failed(&self) -> bool {
+        self.reports.iter().any(|report| report.verdict == Verdict::Fail)
+    }
+
+    /// Measured over expected.
+    fn ratios(&self) -> [f64; POWERS.len()] {
+        std::array::from_fn(|i| self.reports[i].mean / self.reports[i].expected)
+    }
+
+    fn complaint(&self) -> Option<String> {
+        if !self.failed() {
+            return None;
+        }
+        let [third, fourth] = self.ratios();
+        let name = &self.name;
+        if (third / fourth - 1.0).abs() > SAME {
+            let (third, fourth) = (figure(third), figure(fourth));
+            return Some(format!(
+                "{name}: the mean of cos³/pdf is {third} of its integral, that of cos⁴/pdf {fourth}"
+            ));
+        }
+        let named = names_of(self.reports[0].ratio.unwrap_or([third; 2]), &[]);
+        let word = named.first().map_or_else(|| figure(third), |ratio| ratio.name.clone());
+        Some(format!("{name}: means of g/pdf are {word} of the integrals of g"))
+    }
+
+    /// A density that is wrong in itself, or one that belongs to another law of heights.
+    fn cause(&self) -> Option<(&'static Cause, String)> {
+        let density = self.density.filter(|_| self.failed())?;
+        let [third, fourth] = self.ratios();
+        let told = format!("ratios of {} and {}", figure(third), figure(fourth));
+        let is_near = |expected: [f64; 2]| {
+            (third / expected[0] - 1.0).abs() <= SAME && (fourth / expected[1] - 1.0).abs() <= SAME
+        };
+        if is_near([third, third]) {
+            return Some((density.mistake()?, told));
+        }
+        // ∫ cosⁿ p/q with p and q out of 1/2π and cos/π.
+        let law = if is_near([2.0 / 3.0, 5.0 / 8.0]) {
+            Law::Uniform
+        } else if is_near([8.0 / 5.0, 5.0 / 3.0]) {
+            Law::Cosine
+        } else {
+            return None;
+        };
+        Some((density.mistake_of_map(law).or_else(|| density.mistake())?, told))
+    }
+}
+
+fn finding(judged: &[Judged]) -> Finding {
+    let measures: Vec<_> = judged
+        .iter()
+        .flat_map(|judged| {
+            judged.reports.iter().zip(POWERS).map(|(report, power)| {
+                mean_measure(format!("{}: mean of cos^{power}/pdf", judged.name), report)
+            })
+        })
+        .collect();
+    let complaints: Vec<_> = judged.iter().filter_map(Judged::complaint).collect();
+    let statement = match complaints.is_empty() {
+        true => format!("{} integrals come out of samples and their densities", measures.len()),
+        false => complaints.join("; "),
+    };
+    let resolution = would_have_caught(&measures);
+    let finding = Finding::of(statement, resolution, measures);
+    let causes = judged.iter().filter_map(Judged::cause);
+    causes.fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::{FakeSampler, cosine, cosine_density, uniform, uniform_density};
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use glam::{DVec2, DVec3};
+
+    fn found(sampler: &str, map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Finding {
+        let check: WeightsIntegrate = check_of(&format!(
+            "[expect]\ndistribution = {{ sampler = \"{sampler}\" }}\n\
+             detects = \"3 %\"\nat-most = \"400 k\""
+        ));
+        judge(&check, &mut FakeSampler { map, density })
+    }
+
+    fn cause(finding: &Finding) -> &str {
+        failure(finding);
+        finding.clues.first().map_or("", |clue| clue.cause.as_str())
+    }
+
+    #[test]
+    fn right_densities_integrate() {
+        assert_passes(&found("cosine-hemisphere", cosine, cosine_density));
+        assert_passes(&found("uniform-hemisphere", uniform, uniform_density));
+    }
+
+    #[test]
+    fn constants_are_named() {
+        let finding = found("cosine-hemisphere", cosine, |d| d.z.max(0.0));
+        assert!(failure(&finding).ends_with("means of g/pdf are 1/π of the integrals of g"));
+        assert_eq!(cause(&finding), "density-without-pi");
+        let finding = found("uniform-hemisphere", uniform, |d| 0.5 * uniform_density(d));
+        assert!(failure(&finding).contains("are 2 of"), "{}", finding.statement);
+        assert_eq!(cause(&finding), "density-halved");
+    }
+
+    #[test]
+    fn the_wrong_density_for_the_map_shows_in_two_ratios() {
+        let finding = found("uniform-hemisphere", uniform, cosine_density);
+        let statement = failure(&finding);
+        assert!(statement.contains("cos³/pdf is 0.66"), "{statement}");
+        assert!(statement.contains("cos⁴/pdf 0.62"), "{statement}");
+        assert_eq!(cause(&finding), "cosine-density-for-uniform");
+        let finding = found("cosine-hemisphere", uniform, cosine_density);
+        assert_eq!(cause(&finding), "uniform-for-cosine");
+        let finding = found("uniform-hemisphere", cosine, uniform_density);
+        assert_eq!(cause(&finding), "cosine-for-uniform");
+    }
+}

@@ -1,0 +1,290 @@
+//! Triangles that are none, rays that run in their plane, directions of any length: an answer is
+//! asked for, not a crash and not NaN, and what has no area is not hit.
+
+use crate::cause::shape;
+use crate::checks::phrase::some_are;
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Capabilities, CoreError, Hit, Primitive, Ray};
+use crate::math::rng::{Stream, uniform};
+use crate::math::sphere::on_sphere;
+use glam::DVec3;
+use serde::Deserialize;
+
+/// Rays of each kind at each triangle.
+const RAYS_EACH: usize = 200;
+/// Lengths of directions.
+const LENGTHS: [f64; 4] = [1e-3, 0.125, 30.0, 1e3];
+
+/// Degenerate triangles are missed, and every other question gets an answer.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DegenerateTriangles {}
+
+impl Check for DegenerateTriangles {
+    const NAME: &'static str = "degenerate-triangles";
+    const SUMMARY: &'static str = "triangles without area, rays in their plane: no crash, no NaN";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::INTERSECT_PRIMITIVE
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let mut outcomes = Vec::new();
+        for question in questions(&mut context.seed.stream()) {
+            let rays = question.rays.len();
+            let mut hits = vec![Hit::MISS; rays];
+            let asked =
+                context.core.intersect_primitive(&question.primitive, &question.rays, &mut hits);
+            let complaint = match asked {
+                Ok(()) => None,
+                Err(error @ (CoreError::BrokeContract(_) | CoreError::Crashed { .. })) => {
+                    Some(error.to_string())
+                }
+                Err(other) => return Err(other.into()),
+            };
+            let hit = hits.iter().filter(|hit| complaint.is_none() && hit.is_hit()).count();
+            outcomes.push(Outcome { question, hit, complaint });
+        }
+        Ok(judge(&outcomes))
+    }
+}
+
+/// A triangle, some rays, and whether any of them may hit.
+struct Question {
+    name: &'static str,
+    primitive: Primitive,
+    rays: Vec<Ray>,
+    may_hit: bool,
+}
+
+/// What came of a question.
+struct Outcome {
+    question: Question,
+    hit: usize,
+    /// Why there is no answer.
+    complaint: Option<String>,
+}
+
+const PROPER: [DVec3; 3] =
+    [DVec3::new(0.25, 0.5, -0.25), DVec3::new(1.5, 0.75, 0.5), DVec3::new(-0.5, 1.25, 1.0)];
+
+fn questions(stream: &mut Stream) -> Vec<Question> {
+    let [a, b, c] = PROPER;
+    let without_area = [
+        ("three times the same vertex", [a, a, a]),
+        ("the first two vertices equal", [a, a, c]),
+        ("the last two vertices equal", [a, b, b]),
+        ("the first and the last vertex equal", [a, b, a]),
+        ("vertices on a line", [a, a + 0.5 * (b - a), b]),
+        ("a vertex that is NaN", [a, DVec3::NAN, c]),
+        ("all vertices NaN", [DVec3::NAN; 3]),
+    ];
+    let degenerate = without_area.map(|(name, vertices)| Question {
+        name,
+        primitive: triangle(vertices),
+        rays: rays_at(a, b, stream),
+        may_hit: false,
+    });
+    let proper = [
+        ("a ray in the plane of its triangle", in_plane(stream)),
+        ("a ray along an edge", along_edges(stream)),
+        ("a direction of any length", of_any_length(stream)),
+    ];
+    let proper = proper.map(|(name, rays)| Question {
+        name,
+        primitive: triangle(PROPER),
+        rays,
+        may_hit: true,
+    });
+    degenerate.into_iter().chain(proper).collect()
+}
+
+/// With a normal that is unit, whatever the vertices are.
+fn triangle(positions: [DVec3; 3]) -> Primitive {
+    Primitive::Triangle { positions, normals: [DVec3::Z; 3] }
+}
+
+/// At points between two vertices, from all sides.
+fn rays_at(a: DVec3, b: DVec3, stream: &mut Stream) -> Vec<Ray> {
+    let mut ray = |_| {
+        let target = a.lerp(b, uniform(stream));
+        let origin = target + 2.0 * on_sphere(stream);
+        Ray::new(origin, target - origin)
+    };
+    (0..RAYS_EACH).map(&mut ray).collect()
+}
+
+/// Between points of the plane; half of them start inside the triangle.
+fn in_plane(stream: &mut Stream) -> Vec<Ray> {
+    let [a, b, c] = PROPER;
+    let point = |stream: &mut Stream, reach: f64| {
+        a + reach * uniform(stream) * (b - a) + reach * uniform(stream) * (c - a)
+    };
+    let ray = |number: usize| {
+        let origin = point(stream, if number.is_multiple_of(2) { 0.5 } else { -2.0 });
+        Ray::new(origin, point(stream, 1.0) - origin)
+    };
+    (0..RAYS_EACH).map(ray).collect()
+}
+
+fn along_edges(stream: &mut Stream) -> Vec<Ray> {
+    let ray = |number: usize| {
+        let (from, to) = (PROPER[number % 3], PROPER[(number + 1) % 3]);
+        let origin = from - 2.0 * uniform(stream) * (to - from);
+        Ray::new(origin, to - from)
+    };
+    (0..RAYS_EACH).map(ray).collect()
+}
+
+fn of_any_length(stream: &mut Stream) -> Vec<Ray> {
+    let middle = PROPER.iter().sum::<DVec3>() / 3.0;
+    let ray = |number: usize| {
+        let toward = on_sphere(stream);
+        Ray::new(middle - toward, LENGTHS[number % LENGTHS.len()] * toward)
+    };
+    (0..RAYS_EACH).map(ray).collect()
+}
+
+impl Outcome {
+    fn wrong_hits(&self) -> usize {
+        if self.question.may_hit { 0 } else { self.hit }
+    }
+
+    fn measures(&self) -> [Measure; 2] {
+        let unanswered = f64::from(u8::from(self.complaint.is_some()));
+        let name = self.question.name;
+        [
+            Measure::exact(format!("{name}: questions without an answer"), unanswered, 0.0, 0.0),
+            Measure::exact(format!("{name}: wrong hits"), self.wrong_hits() as f64, 0.0, 0.0),
+        ]
+    }
+
+    fn words(&self) -> Option<String> {
+        let name = self.question.name;
+        if let Some(complaint) = &self.complaint {
+            return Some(format!("{name}: {complaint}"));
+        }
+        let all = self.question.rays.len();
+        let wrong = self.wrong_hits();
+        (wrong > 0).then(|| format!("{name}: {} hits", some_are(wrong, all, "rays")))
+    }
+}
+
+fn judge(outcomes: &[Outcome]) -> Finding {
+    let complaints: Vec<_> = outcomes.iter().filter_map(Outcome::words).collect();
+    let rays: usize = outcomes.iter().map(|outcome| outcome.question.rays.len()).sum();
+    let statement = match complaints.is_empty() {
+        true => {
+            format!("{rays} rays at triangles of no area, in planes and along edges get answers")
+        }
+        false => complaints.join("; "),
+    };
+    let measures = outcomes.iter().flat_map(Outcome::measures).collect();
+    let finding = Finding::of(statement, "would have caught one wrong answer", measures);
+    explain(finding, outcomes)
+}
+
+fn explain(mut finding: Finding, outcomes: &[Outcome]) -> Finding {
+    let is_nan = |outcome: &&Outcome| outcome.complaint.as_ref().is_some_and(|c| c.contains("NaN"));
+    let nan = outcomes.iter().filter(is_nan).count();
+    if nan > 0 {
+        let kinds = outcomes.len();
+        let evidence = format!("{nan} of {kinds} kinds of questions are answered with NaN");
+        finding = finding.because(&shape::NAN_HIT_ACCEPTED, evidence);
+    }
+    let hit = outcomes.iter().filter(|outcome| outcome.wrong_hits() > 0).count();
+    if hit > 0 {
+        let kinds = outcomes.iter().filter(|outcome| !outcome.question.may_hit).count();
+        let evidence = format!("{hit} of {kinds} kinds of triangles without area are hit");
+        finding = finding.because(&shape::DEGENERATE_HIT, evidence);
+    }
+    finding
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::imitation::{Answer, Formula, as_hit, intersection};
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
+    use crate::contract::{Core, CoreInfo, Precision, Result};
+
+    struct Intersects(Formula);
+
+    impl Core for Intersects {
+        fn info(&self) -> CoreInfo {
+            info(Precision::Double)
+        }
+
+        fn intersect_primitive(
+            &mut self,
+            p: &Primitive,
+            rays: &[Ray],
+            hits: &mut [Hit],
+        ) -> Result<()> {
+            for (ray, hit) in rays.iter().zip(hits) {
+                *hit = as_hit((self.0)(p, ray));
+            }
+            Ok(())
+        }
+    }
+
+    fn found(formula: Formula) -> Finding {
+        judge(&check_of::<DegenerateTriangles>("[expect]"), &mut Intersects(formula))
+    }
+
+    #[test]
+    fn comparisons_that_nan_makes_false_pass() {
+        assert_passes(&found(|primitive, ray| {
+            intersection(primitive, ray).filter(|answer| answer.geometric_normal.is_finite())
+        }));
+    }
+
+    /// Rejects instead of accepting, so that NaN comes through, and does not look at the
+    /// determinant.
+    fn rejecting(primitive: &Primitive, ray: &Ray) -> Option<Answer> {
+        let Primitive::Triangle { positions: [a, b, c], .. } = *primitive else { return None };
+        let (e1, e2, from_a) = (b - a, c - a, ray.origin - a);
+        let scale = e1.dot(ray.direction.cross(e2)).recip();
+        let v = scale * from_a.dot(ray.direction.cross(e2));
+        let w = scale * ray.direction.dot(from_a.cross(e1));
+        let t = scale * e2.dot(from_a.cross(e1));
+        if v < 0.0 || w < 0.0 || v + w > 1.0 || t < ray.t_min || t > ray.t_max {
+            return None;
+        }
+        Some(Answer { t, geometric_normal: DVec3::Z, shading_normal: DVec3::Z, weights: None })
+    }
+
+    #[test]
+    fn nan_that_comes_through_is_told_with_its_triangle() {
+        let finding = found(rejecting);
+        let statement = failure(&finding);
+        assert!(
+            statement.starts_with("three times the same vertex: the core broke"),
+            "{statement}"
+        );
+        assert_eq!(finding.clues[0].cause, "nan-hit-accepted");
+    }
+
+    #[test]
+    fn hits_on_nothing_are_counted_and_named() {
+        let finding = found(|primitive, ray| {
+            rejecting(primitive, ray).map(|answer| Answer { t: 1.0, ..answer })
+        });
+        let statement = failure(&finding);
+        assert!(
+            statement.contains("three times the same vertex: 200 of 200 rays are hits"),
+            "{statement}"
+        );
+        assert_eq!(finding.clues[0].cause, "degenerate-triangle-hit");
+    }
+
+    #[test]
+    fn a_panic_is_told_as_one() {
+        let finding = found(|_, ray| {
+            assert!(ray.direction.length() < 10.0, "too long");
+            None
+        });
+        let statement = failure(&finding);
+        assert!(statement.contains("a direction of any length: the core crashed"), "{statement}");
+    }
+}

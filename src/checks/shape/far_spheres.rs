@@ -1,0 +1,343 @@
+//! Spheres near and far: t and the normal, with the digits that distance may cost and no more.
+
+use super::exact_sphere::{Encounter, Formula};
+use crate::cause::{Cause, shape};
+use crate::checks::phrase::{figure, some_are, worst_measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Capabilities, CoreError, Hit, Precision};
+use crate::stats::{Compared, Verdict, judge_exact};
+use crate::text::Count;
+use glam::DVec3;
+use serde::Deserialize;
+
+/// Spheres are hit where they are, from any distance.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct FarSpheres {
+    /// From the origin of the rays to the centre, in radii; 0 is inside.
+    distances: Vec<f64>,
+    /// At each distance.
+    rays: Count,
+    /// Whose roundings are allowed.
+    formula: Formula,
+}
+
+impl Check for FarSpheres {
+    const NAME: &'static str = "far-spheres";
+    const SUMMARY: &'static str = "hits of spheres at growing distances against exact arithmetic";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::INTERSECT_PRIMITIVE
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        let is_distance = |distance: &f64| (0.0..=1e6).contains(distance);
+        if !self.distances.is_empty() && self.distances.iter().all(is_distance) {
+            Ok(())
+        } else {
+            Err("`distances` needs numbers of radii from 0 to a million".to_owned())
+        }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let mut ranges = Vec::new();
+        for distance in &self.distances {
+            let stream = &mut context.seed.child(distance).stream();
+            let mut answers = Vec::new();
+            for _ in 0..self.rays.0 {
+                let encounter = Encounter::random(*distance, context.info.precision, stream);
+                answers.push(Answer { encounter, found: ask(context, &encounter)? });
+            }
+            ranges.push(Range { distance: *distance, answers });
+        }
+        Ok(self.judge(&ranges, context.info.precision))
+    }
+}
+
+/// The core's answer; where it breaks the contract, since a normal has lost its length say, one
+/// that is wrong in every number.
+fn ask(context: &mut Context<'_>, encounter: &Encounter) -> Result<Hit, CheckError> {
+    let mut hit = [Hit::MISS];
+    let core = &mut *context.core;
+    match core.intersect_primitive(&encounter.primitive, &[encounter.ray], &mut hit) {
+        Err(CoreError::BrokeContract(_)) => {
+            Ok(Hit { t: f64::NAN, geometric_normal: DVec3::NAN, primitive: 0, ..Hit::MISS })
+        }
+        answer => answer.map(|()| hit[0]).map_err(CheckError::from),
+    }
+}
+
+/// An encounter, and what a core makes of it.
+struct Answer {
+    encounter: Encounter,
+    found: Hit,
+}
+
+impl Answer {
+    /// The error of t; none if there is no t to compare.
+    fn error(&self) -> Option<f64> {
+        let (t, _) = self.encounter.hit.filter(|_| self.found.is_hit())?;
+        Some((self.found.t - t).abs())
+    }
+
+    fn is_wrong_side(&self) -> bool {
+        self.encounter.hit.is_some() != self.found.is_hit()
+    }
+}
+
+/// The answers at one distance.
+struct Range {
+    distance: f64,
+    answers: Vec<Answer>,
+}
+
+/// The four things that are compared at one distance.
+struct Judged {
+    measures: Vec<Measure>,
+    wrong_sides: usize,
+    clear: usize,
+    worst_t: f64,
+}
+
+impl Range {
+    fn name(&self) -> String {
+        match self.distance {
+            distance if distance < 1.0 => "from inside".to_owned(),
+            distance => format!("{} radii away", figure(distance)),
+        }
+    }
+
+    /// The answers in which rounding decides nothing.
+    fn clear(&self, formula: Formula, precision: Precision) -> Vec<&Answer> {
+        let is_clear = |answer: &&Answer| answer.encounter.is_clear(formula, precision);
+        self.answers.iter().filter(is_clear).collect()
+    }
+
+    fn judge(&self, formula: Formula, precision: Precision) -> Judged {
+        let clear = self.clear(formula, precision);
+        if clear.is_empty() {
+            return Judged { measures: Vec::new(), wrong_sides: 0, clear: 0, worst_t: 0.0 };
+        }
+        let wrong_sides = clear.iter().filter(|answer| answer.is_wrong_side()).count();
+        let name = |what: &str| format!("{}: {what}", self.name());
+        let sides = name(&format!("hits lost or invented of {}", clear.len()));
+        let mut measures = vec![Measure::exact(sides, wrong_sides as f64, 0.0, 0.0)];
+        let both = || clear.iter().filter(|answer| answer.error().is_some());
+        let t = judge_exact(both().filter_map(|answer| {
+            let (t, _) = answer.encounter.hit?;
+            let allowed = answer.encounter.allowed(formula, precision);
+            Some(Compared::within(answer.found.t, t, allowed))
+        }));
+        let normals = judge_exact(both().filter_map(|answer| {
+            let (_, normal) = answer.encounter.hit?;
+            let off = answer.found.geometric_normal.distance(normal);
+            Some(Compared::within(off, 0.0, answer.encounter.allowed_normal(formula, precision)))
+        }));
+        if t.compared > 0 {
+            measures.push(worst_measure(name("t"), &t));
+            measures.push(worst_measure(name("normal off by"), &normals));
+        }
+        let in_radii = |answer: &&&Answer| {
+            let length = answer.encounter.ray.direction.length() / answer.encounter.radius;
+            answer.error().map_or(0.0, |error| error * length)
+        };
+        let worst_t = both().map(|answer| in_radii(&answer)).fold(0.0, f64::max);
+        Judged { measures, wrong_sides, clear: clear.len(), worst_t }
+    }
+
+    /// Decimal digits of the distance that t has lost.
+    fn digits_lost(&self, worst_t: f64, precision: Precision) -> f64 {
+        (worst_t / (precision.epsilon() * self.distance.max(1.0))).max(1.0).log10()
+    }
+}
+
+impl FarSpheres {
+    fn judge(&self, ranges: &[Range], precision: Precision) -> Finding {
+        let judged: Vec<_> =
+            ranges.iter().map(|range| (range, range.judge(self.formula, precision))).collect();
+        let has_failed = |judged: &Judged| {
+            judged.measures.iter().any(|measure| measure.verdict == Verdict::Fail)
+        };
+        let complaints: Vec<_> = judged
+            .iter()
+            .filter(|(_, judged)| has_failed(judged))
+            .map(|(range, judged)| complaint(range, judged, precision))
+            .collect();
+        let statement = match complaints.is_empty() {
+            true => self.passing_statement(&judged, precision),
+            false => complaints.join("; "),
+        };
+        let rays: usize = judged.iter().map(|(_, judged)| judged.clear).sum();
+        let measures: Vec<_> =
+            judged.iter().flat_map(|(_, judged)| judged.measures.clone()).collect();
+        let nearest = self.distances.iter().copied().fold(f64::INFINITY, f64::min).max(1.0);
+        let resolution = format!(
+            "would have caught an error of {} of the distance in one of {rays} rays",
+            figure(crate::stats::Tolerance::ROUNDINGS.of(precision) * self.magnified(nearest))
+        );
+        let finding = Finding::of(statement, resolution, measures);
+        match finding.verdict {
+            Verdict::Fail => explain(finding, ranges, precision),
+            _ => finding,
+        }
+    }
+
+    fn magnified(&self, distance: f64) -> f64 {
+        if self.formula == Formula::Quadratic { distance } else { 1.0 }
+    }
+
+    fn passing_statement(&self, judged: &[(&Range, Judged)], precision: Precision) -> String {
+        let rays: usize = judged.iter().map(|(_, judged)| judged.clear).sum();
+        let worst = judged.iter().map(|(range, j)| range.digits_lost(j.worst_t, precision));
+        let lost = worst.fold(0.0, f64::max);
+        format!(
+            "{rays} rays meet their spheres where they should; distance costs {lost:.0} of {:.0} digits",
+            -precision.epsilon().log10()
+        )
+    }
+}
+
+fn complaint(range: &Range, judged: &Judged, precision: Precision) -> String {
+    let digits = -precision.epsilon().log10();
+    let name = range.name();
+    if judged.wrong_sides > 0 {
+        let some = some_are(judged.wrong_sides, judged.clear, "rays");
+        return format!("{name}: {some} wrong about hit or miss");
+    }
+    format!(
+        "{name}: t is off by up to {} radii: {:.0} of {digits:.0} digits are lost",
+        figure(judged.worst_t),
+        range.digits_lost(judged.worst_t, precision)
+    )
+}
+
+/// Errors that grow as the square of the distance are those of the quadratic's discriminant; errors
+/// of single precision everywhere are those of a float.
+fn explain(finding: Finding, ranges: &[Range], precision: Precision) -> Finding {
+    let holds = |range: &Range, formula, precision| {
+        let judged = range.judge(formula, precision);
+        judged.measures.iter().all(|measure| measure.verdict != Verdict::Fail)
+    };
+    let nearest = ranges.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
+    let near_is_right = nearest.is_some_and(|range| holds(range, Formula::Stable, precision));
+    let fits = |formula, precision| ranges.iter().all(|range| holds(range, formula, precision));
+    let all: usize = ranges.iter().map(|range| range.answers.len()).sum();
+    let evidence = |what: &str| format!("all {all} rays are within {what}");
+    let found: Option<(&'static Cause, String)> =
+        if near_is_right && fits(Formula::Quadratic, precision) {
+            let what = "the roundings of b² − 4ac, which grow as the square of the distance";
+            Some((&shape::SPHERE_CANCELLATION, evidence(what)))
+        } else if precision == Precision::Double && fits(Formula::Stable, Precision::Single) {
+            let what = "the roundings of single precision";
+            Some((&shape::SINGLE_PRECISION_INSIDE, evidence(what)))
+        } else {
+            None
+        };
+    match found {
+        Some((cause, evidence)) => finding.because(cause, evidence),
+        None => finding,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::imitation::{
+        Answer as Meeting, Formula as Intersection, as_hit, intersection,
+    };
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
+    use crate::contract::{Core, CoreInfo, Primitive, Ray, Result};
+
+    struct Intersects(Intersection);
+
+    impl Core for Intersects {
+        fn info(&self) -> CoreInfo {
+            info(Precision::Double)
+        }
+
+        fn intersect_primitive(
+            &mut self,
+            primitive: &Primitive,
+            rays: &[Ray],
+            hits: &mut [Hit],
+        ) -> Result<()> {
+            for (ray, hit) in rays.iter().zip(hits) {
+                *hit = as_hit((self.0)(primitive, ray));
+            }
+            Ok(())
+        }
+    }
+
+    /// r² − |l|², after Hearn and Baker, as Haines et al. (2019) recommend.
+    fn stable(primitive: &Primitive, ray: &Ray) -> Option<Meeting> {
+        let Primitive::Sphere { centre, radius } = *primitive else { return None };
+        let from_centre = ray.origin - centre;
+        let a = ray.direction.length_squared();
+        let middle = -from_centre.dot(ray.direction) / a;
+        let offset = from_centre + middle * ray.direction;
+        let half = ((radius * radius - offset.length_squared()) / a).sqrt();
+        let t = [middle - half, middle + half]
+            .into_iter()
+            .find(|t| ray.t_min < *t && *t < ray.t_max)?;
+        let normal = ((ray.at(t) - centre) / radius).normalize();
+        Some(Meeting { t, geometric_normal: normal, shading_normal: normal, weights: None })
+    }
+
+    const ALL: &str = "distances = [0, 2, 1e2, 1e4, 1e6]\nrays = 300\nformula = ";
+
+    fn found(formula: &str, intersection: Intersection) -> Finding {
+        let check: FarSpheres = check_of(&format!("[expect]\n{ALL}\"{formula}\""));
+        judge(&check, &mut Intersects(intersection))
+    }
+
+    #[test]
+    fn the_stable_formula_passes_its_own_bound_and_the_other() {
+        assert_passes(&found("stable", stable));
+        assert_passes(&found("quadratic", stable));
+    }
+
+    /// The quadratic of the lecture, with its normal set right.
+    fn quadratic(primitive: &Primitive, ray: &Ray) -> Option<Meeting> {
+        let answer = intersection(primitive, ray)?;
+        let normal = answer.geometric_normal.normalize();
+        Some(Meeting { geometric_normal: normal, shading_normal: normal, ..answer })
+    }
+
+    #[test]
+    fn the_quadratic_passes_its_own_bound_and_is_named_under_the_stable_one() {
+        assert_passes(&found("quadratic", quadratic));
+        let finding = found("stable", quadratic);
+        let statement = failure(&finding);
+        assert!(statement.contains("1e6 radii away: "), "{statement}");
+        assert!(statement.contains(" of 16 digits are lost"), "{statement}");
+        assert_eq!(finding.clues[0].cause, "sphere-cancellation");
+    }
+
+    #[test]
+    fn a_float_on_the_way_is_named() {
+        let finding = found("stable", |primitive, ray| {
+            let answer = stable(primitive, ray)?;
+            Some(Meeting { t: f64::from(answer.t as f32), ..answer })
+        });
+        failure(&finding);
+        assert_eq!(finding.clues[0].cause, "single-precision-inside");
+    }
+
+    #[test]
+    fn normals_that_have_lost_their_length_are_a_failure_not_an_error() {
+        failure(&found("stable", intersection));
+    }
+
+    #[test]
+    fn normals_are_looked_at_from_inside_too() {
+        let finding = found("quadratic", |primitive, ray| {
+            let answer = stable(primitive, ray)?;
+            let faces = if answer.geometric_normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
+            Some(Meeting { geometric_normal: faces * answer.geometric_normal, ..answer })
+        });
+        failure(&finding);
+        let failed: Vec<_> = finding.failed_measures().map(|m| m.name.as_str()).collect();
+        assert!(failed[0].starts_with("from inside: normal off by"), "{failed:?}");
+        assert!(finding.clues.is_empty());
+    }
+}

@@ -1,0 +1,271 @@
+//! Random rays and boxes: a box that a ray meets must never be missed, for what is in it would be
+//! lost; one that is hit for nothing only costs time, and is counted.
+//!
+//! No rationals are needed: in double precision each crossing is right to two roundings, and an
+//! overlap is graded only where it is thousands of times as long. Not here: flat boxes and rays
+//! along a face, which need exact arithmetic ([`super::OverlapsBox`]).
+
+use super::slabs::mistake_that_predicts;
+use crate::checks::phrase::{figure, percent, some_are};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{BoxHit, Capabilities, Ray};
+use crate::math::rng::{Seed, Stream, uniform};
+use crate::math::sphere::on_sphere;
+use crate::scene::Aabb;
+use crate::stats::Tolerance;
+use crate::text::Count;
+use glam::DVec3;
+use serde::Deserialize;
+
+/// Rays at each box.
+const RAYS_EACH: usize = 1000;
+
+/// No box is missed that a segment meets.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct BoxesAreNeverMissed {
+    /// Random segments at the default budget, a thousand at each random box.
+    rays: Count,
+}
+
+impl Check for BoxesAreNeverMissed {
+    const NAME: &'static str = "boxes-are-never-missed";
+    const SUMMARY: &'static str = "random segments against random boxes: no false miss";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::INTERSECT_BOX
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let margin = Tolerance::SLAB.of(context.info.precision);
+        let boxes = context.budget.samples(self.rays.0).div_ceil(RAYS_EACH as u64);
+        let mut tally = Tally::default();
+        for number in 0..boxes {
+            let trial = Trial::random(context.seed.child(number));
+            let blank = BoxHit { t_enter: 0.0, t_exit: 0.0, hit: 0, reserved: 0 };
+            let mut hits = vec![blank; trial.rays.len()];
+            context.core.intersect_box(&trial.bounds, &trial.rays, &mut hits)?;
+            tally.take(&trial, &hits, margin);
+        }
+        Ok(tally.finding(margin))
+    }
+}
+
+/// A box and segments around it.
+struct Trial {
+    bounds: Aabb,
+    rays: Vec<Ray>,
+}
+
+impl Trial {
+    /// Numbers that single precision holds, so that every core sees the same box.
+    fn random(seed: Seed) -> Self {
+        let stream = &mut seed.stream();
+        let size = 2f64.powi((uniform(stream) * 21.0) as i32 - 10);
+        let corner = |stream: &mut Stream| size * (4.0 * cube_point(stream) - 2.0);
+        let (a, b) = (single(corner(stream)), single(corner(stream)));
+        let bounds = Aabb { min: a.min(b), max: a.max(b) };
+        let rays = (0..RAYS_EACH).map(|_| segment(bounds, size, stream)).collect();
+        Self { bounds, rays }
+    }
+}
+
+fn cube_point(stream: &mut Stream) -> DVec3 {
+    DVec3::from_array(std::array::from_fn(|_| uniform(stream)))
+}
+
+fn single(vector: DVec3) -> DVec3 {
+    vector.as_vec3().as_dvec3()
+}
+
+/// From anywhere around the box, towards a point of a box twice as large; every fourth runs in a
+/// plane of two axes or along one.
+fn segment(bounds: Aabb, size: f64, stream: &mut Stream) -> Ray {
+    let middle = 0.5 * (bounds.min + bounds.max);
+    let target = middle + 2.0 * (cube_point(stream) - 0.5) * (bounds.max - bounds.min);
+    let reach = size * 8.0 * uniform(stream);
+    let origin = single(target + reach * on_sphere(stream));
+    let mut direction = (target - origin).normalize_or(DVec3::X);
+    for axis in 0..3 {
+        if uniform(stream) < 0.1 {
+            direction[axis] = if uniform(stream) < 0.5 { 0.0 } else { -0.0 };
+        }
+    }
+    let direction = single(direction.normalize_or(DVec3::Y));
+    let ends = [uniform(stream), uniform(stream)].map(|end| f64::from((4.0 * size * end) as f32));
+    let [t_min, t_max] = match (uniform(stream) * 4.0) as u32 {
+        0 => [ends[0].min(ends[1]), ends[0].max(ends[1])],
+        1 => [0.0, ends[0]],
+        _ => [0.0, f64::INFINITY],
+    };
+    Ray { origin, t_min, direction, t_max }
+}
+
+/// How a segment and a box stand to each other, to rounding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Truth {
+    /// They share a part that is long against rounding.
+    Meet,
+    /// There is room between them that is.
+    Pass,
+    /// Rounding may decide.
+    Touch,
+}
+
+impl Truth {
+    fn of(bounds: &Aabb, ray: &Ray, margin: f64) -> Self {
+        let (mut enters, mut exits) = (ray.t_min, ray.t_max);
+        let mut touches = false;
+        for axis in 0..3 {
+            let [low, high, from, direction] =
+                [bounds.min[axis], bounds.max[axis], ray.origin[axis], ray.direction[axis]];
+            if direction == 0.0 {
+                if from < low || from > high {
+                    return Self::Pass;
+                }
+                touches |= from == low || from == high;
+                continue;
+            }
+            let [a, b] = [(low - from) / direction, (high - from) / direction];
+            enters = enters.max(a.min(b));
+            exits = exits.min(a.max(b));
+        }
+        let size = if exits.is_finite() { enters.abs().max(exits.abs()) } else { enters.abs() };
+        let overlap = exits - enters;
+        if overlap < -margin * size {
+            Self::Pass
+        } else if overlap > margin * size && !touches {
+            Self::Meet
+        } else {
+            Self::Touch
+        }
+    }
+}
+
+/// Answers, counted.
+#[derive(Default)]
+struct Tally {
+    met: usize,
+    missed: usize,
+    passed: usize,
+    false_hits: usize,
+    example: Option<(Aabb, Ray)>,
+    /// Some of the clear answers, for naming a mistake.
+    answers: Vec<(Aabb, Ray, bool)>,
+}
+
+/// Answers by which a mistake is named: more would be as sure, and slower.
+const ENOUGH: usize = 20_000;
+
+impl Tally {
+    fn take(&mut self, trial: &Trial, hits: &[BoxHit], margin: f64) {
+        for (ray, hit) in trial.rays.iter().zip(hits) {
+            let (truth, found) = (Truth::of(&trial.bounds, ray, margin), hit.hit == 1);
+            self.met += usize::from(truth == Truth::Meet);
+            self.passed += usize::from(truth == Truth::Pass);
+            self.false_hits += usize::from(truth == Truth::Pass && found);
+            if truth == Truth::Meet && !found {
+                self.missed += 1;
+                self.example.get_or_insert((trial.bounds, *ray));
+            }
+            if truth != Truth::Touch && self.answers.len() < ENOUGH {
+                self.answers.push((trial.bounds, *ray, found));
+            }
+        }
+    }
+
+    fn finding(&self, margin: f64) -> Finding {
+        let share = self.false_hits as f64 / self.passed.max(1) as f64;
+        let measures = vec![
+            Measure::exact(
+                format!("boxes missed of {} that are met", self.met),
+                self.missed as f64,
+                0.0,
+                0.0,
+            ),
+            Measure::exact("share of boxes hit for nothing (not graded)", share, 0.0, 1.0),
+        ];
+        let for_nothing = match self.false_hits {
+            0 => "none is hit for nothing".to_owned(),
+            _ => format!("{} of the others are hit for nothing", percent(share)),
+        };
+        let statement = match self.example {
+            None => format!("none of {} boxes is missed; {for_nothing}", self.met),
+            Some((bounds, ray)) => format!(
+                "{} missed; for example {} to {} from {} towards {}; {for_nothing}",
+                some_are(self.missed, self.met, "boxes"),
+                bounds.min,
+                bounds.max,
+                ray.origin,
+                ray.direction
+            ),
+        };
+        let resolution = format!(
+            "would have caught a miss in one of {} boxes, by an overlap of {} of t",
+            figure((self.met as f64 / 6.9).floor()),
+            figure(margin)
+        );
+        let cause = mistake_that_predicts(&self.answers).filter(|_| self.missed > 0);
+        let evidence = format!("predicts which of {} segments hit", self.answers.len());
+        Finding::of(statement, resolution, measures).because_each(cause, &evidence)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::overlaps_box::Overlap;
+    use super::super::slabs::{Boxes, MISTAKES, Slabs};
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::stats::Verdict;
+
+    fn found(hits: fn(&Slabs, &Ray) -> bool) -> Finding {
+        judge(&check_of::<BoxesAreNeverMissed>("[expect]\nrays = \"50 k\""), &mut Boxes(hits))
+    }
+
+    #[test]
+    fn the_truth_agrees_with_rationals() {
+        let mut counts = [0; 3];
+        for number in 0..4 {
+            let trial = Trial::random(Seed(number));
+            for ray in &trial.rays[..300] {
+                let truth = Truth::of(&trial.bounds, ray, 1e-12);
+                counts[truth as usize] += 1;
+                if truth != Truth::Touch {
+                    let exact = Overlap::exact(&trial.bounds, ray).unwrap().hits;
+                    assert_eq!(truth == Truth::Meet, exact, "{:?} {ray:?}", trial.bounds);
+                }
+            }
+        }
+        assert!(counts[0] > 200 && counts[1] > 200 && counts[2] < 100, "{counts:?}");
+    }
+
+    #[test]
+    fn the_right_test_passes() {
+        let finding = found(Slabs::hits);
+        assert_passes(&finding);
+        assert!(finding.statement.ends_with("none is hit for nothing"), "{}", finding.statement);
+    }
+
+    #[test]
+    fn every_mistake_that_loses_boxes_fails_under_its_name() {
+        let mut failed = 0;
+        for mistake in MISTAKES {
+            let finding = found(mistake.hits);
+            if finding.verdict == Verdict::Fail {
+                failed += 1;
+                assert_eq!(finding.clues[0].cause, mistake.cause.name);
+            }
+        }
+        assert_eq!(failed, 3, "not swapped, from inside, ends inside");
+    }
+
+    #[test]
+    fn a_test_that_shrinks_boxes_a_little_is_seen_and_has_no_name() {
+        let finding = found(|slabs, ray| {
+            slabs.hits(ray) && slabs.exits() - slabs.enters() > 1e-4 * slabs.exits().abs()
+        });
+        assert!(failure(&finding).contains("missed; for example "), "{finding:?}");
+        assert!(finding.clues.is_empty());
+    }
+}

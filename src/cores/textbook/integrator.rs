@@ -24,7 +24,7 @@ pub struct Integrator<'a> {
 }
 
 /// The bounces of [`Change::DepthIgnored`], which a student's recursion would not end.
-const DEPTH_IGNORED: u32 = 64;
+const DEPTH_IGNORED: u32 = 24;
 
 /// How a path goes on from a vertex.
 struct Continuation {

@@ -132,7 +132,7 @@ pub const FAULTS: &[Fault] = &[
         name: "leaf-tests-everything",
         part: 2,
         summary: "a leaf loops over all primitives",
-        caught_by: TESTS,
+        caught_by: LAYERS,
         cause: &bvh::HIERARCHY_NOT_USED,
     },
     Fault {

@@ -165,7 +165,7 @@ pub const FAULTS: &[Fault] = &[
         name: "shadow-acne",
         part: 3,
         summary: "rays that leave a surface have no min_t",
-        caught_by: "lights/a-slanted-light-over-a-slanted-floor",
+        caught_by: "lights/a-lamp-at-the-eye-sees-no-shadows",
         cause: &light::ACNE,
     },
     Fault {

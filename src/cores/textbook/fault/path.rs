@@ -21,7 +21,7 @@ pub const FAULTS: &[Fault] = &[
         change: Change::DepthIgnored,
         name: "depth-ignored",
         part: 4,
-        summary: "`depth − 1` of an unsigned 0: the limit is never met (64 bounces here)",
+        summary: "`depth − 1` of an unsigned 0: the limit is never met (24 bounces here)",
         caught_by: FURNACE,
         cause: &transport::DEPTH_IGNORED,
     },

@@ -57,7 +57,7 @@ pub const FAULTS: &[Fault] = &[
         name: "strict-edges",
         part: 1,
         summary: "u > 0, v > 0, u + v < 1: edges belong to no triangle",
-        caught_by: "intersection/a-closed-surface-does-not-leak",
+        caught_by: "intersection/no-ray-leaks-out-of-a-closed-surface",
         cause: &shape::EDGES_EXCLUDED,
     },
     Fault {
@@ -81,7 +81,7 @@ pub const FAULTS: &[Fault] = &[
         name: "nan-hit-accepted",
         part: 1,
         summary: "no test for parallel rays, and comparisons that reject: NaN is a hit",
-        caught_by: "intersection/degenerate-triangles-are-missed",
+        caught_by: "intersection/triangles-without-area-are-missed",
         cause: &shape::NAN_HIT_ACCEPTED,
     },
     Fault {
@@ -145,7 +145,7 @@ pub const FAULTS: &[Fault] = &[
         name: "sphere-cancellation",
         part: 1,
         summary: "b² − 4ac as it stands: far spheres lose their digits",
-        caught_by: "intersection/a-far-sphere-keeps-its-digits",
+        caught_by: "intersection/far-spheres-keep-their-digits",
         cause: &shape::SPHERE_CANCELLATION,
     },
     Fault {

@@ -1,0 +1,69 @@
+//! The kill matrix: every planted mistake is caught by the case that is named for it and told by its cause, and cores
+//! that are right but different pass. One trial each; `cargo furnace faults` shows the same as a table.
+//!
+//! Budgets are quick, and each fault is put to the case named for it first: this is the part of the matrix that a test
+//! run can afford. `cargo furnace faults` without `--brief` puts each fault to the whole suite.
+
+use furnace::case;
+use furnace::faults::{Matrix, select_different, select_faults};
+use furnace::project::Project;
+use furnace::stats::Budget;
+use libtest_mimic::{Arguments, Failed, Trial};
+use std::process::ExitCode;
+use std::sync::Arc;
+
+/// Not yet caught, not yet named, or not yet spared: shown as ignored, and counted against us.
+const OPEN: &[&str] = &[
+    "nan-hit-accepted",
+    "strict-edges",
+    "sphere-cancellation",
+    "range-overwritten",
+    "hemisphere-without-lights",
+    "other-roulette",
+    "uniform-bounces",
+];
+
+fn main() -> ExitCode {
+    let arguments = Arguments::from_args();
+    let project = Project::at(env!("CARGO_MANIFEST_DIR"));
+    let cases = match case::load_all(&project.cases()) {
+        Ok(cases) => cases,
+        Err(error) => {
+            eprintln!("{error}");
+            return ExitCode::from(2);
+        }
+    };
+    let matrix = Arc::new(Matrix::new(project, &cases, Budget::Quick, 1));
+    libtest_mimic::run(&arguments, trials(&matrix)).exit_code()
+}
+
+fn trials(matrix: &Arc<Matrix>) -> Vec<Trial> {
+    let faults = select_faults(&[]).into_iter().map(|fault| {
+        let matrix = Arc::clone(matrix);
+        Trial::test(format!("fault::{}", fault.name), move || {
+            let tried = matrix.try_fault_briefly(fault);
+            match (tried.caught, tried.named) {
+                (true, true) => Ok(()),
+                (false, _) => Err(Failed::from(format!("not caught by {}", fault.caught_by))),
+                (true, false) => Err(Failed::from(format!(
+                    "told as {}, not as {}",
+                    tried.told.unwrap_or("nothing"),
+                    fault.cause.name
+                ))),
+            }
+        })
+        .with_ignored_flag(OPEN.contains(&fault.name))
+    });
+    let different = select_different(&[]).into_iter().map(|core| {
+        let matrix = Arc::clone(matrix);
+        Trial::test(format!("different::{}", core.name), move || {
+            let spared = matrix.touched_by(core).try_different(core);
+            match spared.is_good() {
+                true => Ok(()),
+                false => Err(Failed::from(spared.statements.join("; "))),
+            }
+        })
+        .with_ignored_flag(OPEN.contains(&core.name))
+    });
+    faults.chain(different).collect()
+}

@@ -22,7 +22,7 @@ const QUADRATURE: Diligence = Diligence { tolerance: 1e-7, most_evaluations: 2_0
 /// How far moments may be from those of a turned density, beyond their interval.
 const EXPLAINED: f64 = 2e-3;
 
-/// E[Yₗₘ] over samples is ∫ pdf Yₗₘ, for degrees 1 to 3.
+/// E\[Yₗₘ\] over samples is ∫ pdf Yₗₘ, for degrees 1 to 3.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MomentsFollowPdf {

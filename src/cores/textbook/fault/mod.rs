@@ -4,7 +4,7 @@
 //! question to the core can tell apart share a cause. Bounded here are those that would not come
 //! back: a recursion without end is answered as one that is far too deep.
 //!
-//! To plant one: a variant of [`Change`], the wrong line beside the right one, and an entry in the
+//! To plant one: a variant of `Change`, the wrong line beside the right one, and an entry in the
 //! table of its part.
 
 mod adaptive;

@@ -75,14 +75,6 @@ pub static SCHLICK_UNDECLARED: Cause = Cause {
 };
 
 /// See its headline.
-pub static SCHLICK_FROM_INSIDE: Cause = Cause {
-    name: "schlick-from-inside",
-    headline: "Schlick's approximation takes the cosine inside the glass for light that leaves it",
-    look_at: "the reflectance of glass, for wo on the dense side",
-    remedy: "The cosine of the formula is the one on the thin side, outside.",
-};
-
-/// See its headline.
 pub static TOTAL_REFLECTION_FORGOTTEN: Cause = Cause {
     name: "total-reflection-forgotten",
     headline: "beyond the critical angle light is lost instead of reflected",
@@ -277,7 +269,6 @@ pub static CAUSES: &[&Cause] = &[
     &GLASS_SIDES_SWAPPED,
     &SNELL_INVERTED,
     &SCHLICK_UNDECLARED,
-    &SCHLICK_FROM_INSIDE,
     &TOTAL_REFLECTION_FORGOTTEN,
     &GLASS_RADIANCE_SCALED_BACKWARDS,
     &GLASS_RADIANCE_SCALED_UNDECLARED,

@@ -134,7 +134,7 @@ pub enum GlassFresnel {
     /// The unpolarised Fresnel equations.
     #[default]
     Exact,
-    /// Schlick's approximation, as the course teaches it.
+    /// Schlick's approximation, as the course teaches it: with the cosine of the view, outside and inside.
     Schlick,
 }
 

@@ -32,6 +32,8 @@ pub struct Lobes {
 pub struct Interface {
     surface: Surface,
     conventions: Conventions,
+    /// Where a core declares it.
+    schlick: fn(f64, f64) -> f64,
 }
 
 /// How the lobes are worked out. A mistake changes one step.
@@ -89,8 +91,8 @@ pub static MISTAKES: &[Mistake] = &[
     Mistake { cause: &cause::SNELL_INVERTED, change: |w| w.bends_by = f64::recip },
     Mistake { cause: &cause::SCHLICK_UNDECLARED, change: |w| w.reflectance = fresnel::schlick },
     Mistake {
-        cause: &cause::SCHLICK_FROM_INSIDE,
-        change: |w| w.reflectance = schlick_by_the_cosine_at_hand,
+        cause: &cause::SCHLICK_UNDECLARED,
+        change: |w| w.reflectance = fresnel::schlick_of_view,
     },
     Mistake { cause: &cause::TOTAL_REFLECTION_FORGOTTEN, change: |w| w.reflects_totally = false },
     Mistake { cause: &convention::UNSCALED_RADIANCE, change: |w| w.crossing = |_| 1.0 },
@@ -122,15 +124,6 @@ pub static MISTAKES: &[Mistake] = &[
     Mistake { cause: &cause::MIRROR_GOES_THROUGH, change: |w| w.reflects_to = |wo| -wo },
 ];
 
-/// Schlick's approximation with the cosine of `wo`, also where that is on the dense side.
-fn schlick_by_the_cosine_at_hand(cosine: f64, ratio: f64) -> f64 {
-    if fresnel::reflectance(cosine, ratio) == 1.0 {
-        return 1.0;
-    }
-    let at_normal = ((ratio - 1.0) / (ratio + 1.0)).powi(2);
-    at_normal + (1.0 - at_normal) * (1.0 - cosine).powi(5)
-}
-
 impl Lobes {
     /// Those that light takes.
     pub fn iter(&self) -> impl Iterator<Item = Lobe> {
@@ -141,7 +134,12 @@ impl Lobes {
 impl Interface {
     /// A mirror or glass; anything else sends light nowhere.
     pub const fn new(surface: Surface, conventions: Conventions) -> Self {
-        Self { surface, conventions }
+        Self { surface, conventions, schlick: fresnel::schlick_of_view }
+    }
+
+    /// The same, with Schlick's approximation of the cosine outside where that is declared.
+    pub const fn with_schlick_outside(self) -> Self {
+        Self { schlick: fresnel::schlick, ..self }
     }
 
     /// As it should be.
@@ -162,7 +160,7 @@ impl Interface {
             bends_by: |ratio| ratio,
             reflectance: match self.conventions.glass_fresnel {
                 GlassFresnel::Exact => fresnel::reflectance,
-                GlassFresnel::Schlick => fresnel::schlick,
+                GlassFresnel::Schlick => self.schlick,
             },
             crossing: match self.conventions.glass_radiance {
                 GlassRadiance::Scaled => |ratio| (ratio * ratio).recip(),

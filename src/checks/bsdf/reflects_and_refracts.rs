@@ -67,7 +67,8 @@ impl Check for ReflectsAndRefracts {
         };
         let seed = context.seed;
         let view = |Angle(angle): &Angle| trial.view(context.core, *angle, seed.child(angle));
-        let views = self.seen_from.iter().map(view).collect::<Result<Vec<_>, _>>()?;
+        let mut views = self.seen_from.iter().map(view).collect::<Result<Vec<_>, _>>()?;
+        trial.allow_schlick_outside(&mut views);
         Ok(trial.explained(trial.finding(self.surface, &views), &views))
     }
 }
@@ -129,6 +130,14 @@ impl Trial {
             }
             Ok(reflected)
         })
+    }
+
+    /// Schlick's approximation of the cosine outside is nearer to the truth than what courses teach.
+    fn allow_schlick_outside(&self, views: &mut [SmoothView]) {
+        let outside = self.interface.with_schlick_outside();
+        if views.iter().all(|view| view.is_predicted_by(outside.lobes(view.wo))) {
+            views.iter_mut().for_each(|view| view.right = outside.lobes(view.wo));
+        }
     }
 
     fn finding(&self, surface: SurfaceEntry, views: &[SmoothView]) -> Finding {
@@ -269,6 +278,14 @@ mod tests {
     fn a_chance_that_is_stated_wrongly_is_seen() {
         let halved = Smooth { spoil: |sample| sample.pdf = 0.5, ..Smooth::default() };
         assert!(failure(&found(MIRROR, halved)).contains("100 % of samples are reflected"));
+    }
+
+    #[test]
+    fn either_form_of_schlick_passes_where_it_is_declared() {
+        let conventions =
+            Conventions { glass_fresnel: GlassFresnel::Schlick, ..Conventions::default() };
+        let outside = MISTAKES.iter().find(|m| m.cause == &cause::SCHLICK_UNDECLARED);
+        assert_passes(&found(GLASS, Smooth { mistake: outside, conventions, ..Smooth::default() }));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::contract::{
     BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray, Result, Roulette,
 };
-use crate::math::rng::Seed;
+use crate::math::rng::{Seed, Stream, uniform};
 use crate::stats::{Allowance, Effort};
 use crate::text::{Count, Percent};
 use glam::DVec3;
@@ -35,6 +35,51 @@ impl RayEntry {
             Ok(())
         } else {
             Err("`toward` has no length; it is a direction".to_owned())
+        }
+    }
+}
+
+/// `{ from = […], corner = […], edges = [[…], […]] }`: rays from a point to points that are uniform over a
+/// parallelogram. Their mean is the mean of the radiance that leaves it.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct PatchEntry {
+    from: [f64; 3],
+    corner: [f64; 3],
+    edges: [[f64; 3]; 2],
+}
+
+impl PatchEntry {
+    fn ray(self, stream: &mut Stream) -> Ray {
+        let [u, v] = self.edges.map(|edge| uniform(stream) * DVec3::from_array(edge));
+        let from = DVec3::from_array(self.from);
+        Ray::new(from, (DVec3::from_array(self.corner) + u + v - from).normalize())
+    }
+}
+
+/// Where estimates are asked for.
+#[derive(Clone, Copy, Debug)]
+pub enum Aim {
+    /// Along one ray.
+    Ray(Ray),
+    /// At random points of a surface.
+    Patch(PatchEntry),
+}
+
+impl From<Ray> for Aim {
+    fn from(ray: Ray) -> Self {
+        Self::Ray(ray)
+    }
+}
+
+impl Aim {
+    fn rays(self, seed: Seed, count: usize) -> Vec<Ray> {
+        match self {
+            Self::Ray(ray) => vec![ray; count],
+            Self::Patch(patch) => {
+                let mut stream = seed.stream();
+                (0..count).map(|_| patch.ray(&mut stream)).collect()
+            }
         }
     }
 }
@@ -81,20 +126,22 @@ pub fn needs(settings: &IntegratorSettings) -> Capabilities {
     needs
 }
 
-/// Draws `samples` independent estimates along `ray` and hands them over, some at a time.
+/// Draws `samples` independent estimates and hands them over, some at a time.
 pub fn draw_estimates(
     scene: &mut dyn BuiltScene,
-    ray: Ray,
+    aim: impl Into<Aim>,
     settings: &IntegratorSettings,
     seed: Seed,
     samples: u64,
     take: &mut dyn FnMut(&[[f64; 3]]),
 ) -> Result<()> {
+    let aim = aim.into();
     let mut left = samples;
     for part in 0.. {
         let count = left.min(RAYS_PER_CALL);
-        let settings = IntegratorSettings { seed: seed.child(part).0, ..settings.clone() };
-        let rays = vec![ray; usize::try_from(count).unwrap_or(usize::MAX)];
+        let seed = seed.child(part);
+        let settings = IntegratorSettings { seed: seed.0, ..settings.clone() };
+        let rays = aim.rays(seed.child("aim"), usize::try_from(count).unwrap_or(usize::MAX));
         let mut radiance = vec![[0.0; 3]; rays.len()];
         scene.radiance(&rays, &settings, &mut radiance)?;
         take(&radiance);
@@ -115,17 +162,17 @@ pub struct Estimate {
     pub largest: [f64; 3],
 }
 
-/// One seeded run: `samples` independent estimates along `ray`.
+/// One seeded run: `samples` independent estimates.
 pub fn estimate(
     scene: &mut dyn BuiltScene,
-    ray: Ray,
+    aim: impl Into<Aim>,
     settings: &IntegratorSettings,
     seed: Seed,
     samples: u64,
 ) -> Result<Estimate> {
     let mut sum = [0.0; 3];
     let mut largest = [0.0_f64; 3];
-    draw_estimates(scene, ray, settings, seed, samples, &mut |radiance| {
+    draw_estimates(scene, aim, settings, seed, samples, &mut |radiance| {
         for value in radiance {
             for channel in 0..3 {
                 sum[channel] += value[channel];
@@ -134,4 +181,26 @@ pub fn estimate(
         }
     })?;
     Ok(Estimate { mean: sum.map(|sum| sum / samples as f64), largest })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rays_over_a_patch_meet_all_of_it_alike() {
+        let patch = PatchEntry {
+            from: [2.0, 0.5, 3.0],
+            corner: [0.0, 0.0, 1.0],
+            edges: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        };
+        let mut quarters = [0; 4];
+        for ray in Aim::Patch(patch).rays(Seed(1), 4000) {
+            let point = ray.at((1.0 - ray.origin.z) / ray.direction.z);
+            assert!((0.0..=1.0).contains(&point.x) && (0.0..=1.0).contains(&point.y), "{point}");
+            quarters[2 * usize::from(point.x > 0.5) + usize::from(point.y > 0.5)] += 1;
+        }
+        // 1000 ± 27 each.
+        assert!(quarters.iter().all(|count| (840..1160).contains(count)), "{quarters:?}");
+    }
 }

@@ -1,15 +1,19 @@
 //! Mean radiance along a ray against a number that is known.
 
 use super::by_convention::ConventionEntry;
-use super::estimate::{CHANNELS, RayEntry, RouletteEntry, effort, estimate, needs, settings};
+use super::estimate::{
+    Aim, CHANNELS, PatchEntry, RayEntry, RouletteEntry, effort, estimate, needs, settings,
+};
 use super::foretold::MistakeEntry;
+use crate::cause::{answer, light};
 use crate::checks::phrase::{figure, mean_measure, percent, would_have_caught};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, breach};
 use crate::contract::{
-    Acceleration, BuiltScene, Capabilities, Conventions, CoreInfo, DirectSampling,
+    Acceleration, BuiltScene, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
     IntegratorSettings, Ray,
 };
 use crate::math::rng::Seed;
+use crate::scene::SceneDescription;
 use crate::stats::{Band, Claim, Effort, Support, Tolerance, Verdict, judge_means};
 use crate::text::{Colour, Count, Percent};
 use serde::Deserialize;
@@ -46,6 +50,8 @@ struct Row {
     /// What this row is, where `bounces` do not say enough.
     name: Option<String>,
     ray: Option<RayEntry>,
+    /// The mean over a surface, instead of a ray.
+    over: Option<PatchEntry>,
     bounces: [u32; 2],
     radiance: Colour,
     /// What it is for cores that have chosen otherwise.
@@ -80,7 +86,11 @@ impl Check for MeanRadiance {
         self.mistake.iter().try_for_each(|mistake| mistake.validate(self.row.len()))?;
         self.row.iter().try_for_each(|row| {
             row.by_convention.iter().try_for_each(ConventionEntry::validate)?;
-            row.ray.or(self.ray).ok_or("a row has no `ray`, and neither has `[expect]`")?.validate()
+            match row.ray.or(self.ray) {
+                Some(ray) => ray.validate(),
+                None if row.over.is_some() => Ok(()),
+                None => Err("a row has no `ray`, and neither has `[expect]`".to_owned()),
+            }
         })
     }
 
@@ -92,7 +102,13 @@ impl Check for MeanRadiance {
         let mut rows = Vec::new();
         for (number, row) in self.row.iter().enumerate() {
             let question = self.question(row, seed.child(number), &info);
-            let measures = question.judge(built.as_mut(), &effort)?;
+            let measures = match question.judge(built.as_mut(), &effort) {
+                Err(CheckError::Core(error)) if divides_by_no_lights(&scene, &error) => {
+                    let finding = Finding::failure(error.to_string());
+                    return Ok(finding.because(&light::DIVIDED_BY_ZERO_LIGHTS, NO_LIGHTS));
+                }
+                judged => judged?,
+            };
             let failed = measures.iter().any(|(_, measure)| measure.verdict == Verdict::Fail);
             rows.push(measures);
             if failed && effort.decides_early {
@@ -114,6 +130,13 @@ impl Check for MeanRadiance {
     }
 }
 
+/// What speaks for a division by the number of lights.
+const NO_LIGHTS: &str = "radiance is not a number in a scene that has no light";
+
+fn divides_by_no_lights(scene: &SceneDescription, error: &CoreError) -> bool {
+    scene.lights.is_empty() && breach::cause_of(&error.to_string()) == Some(&answer::NOT_A_NUMBER)
+}
+
 impl MeanRadiance {
     fn settings(&self, row: &Row) -> IntegratorSettings {
         IntegratorSettings {
@@ -124,10 +147,11 @@ impl MeanRadiance {
     }
 
     fn question(&self, row: &Row, seed: Seed, info: &CoreInfo) -> Question {
-        let entry = row.ray.or(self.ray);
+        let ray = || row.ray.or(self.ray).map(|entry| Aim::Ray(entry.ray()));
+        let straight_up = Aim::Ray(Ray::new(glam::DVec3::ZERO, glam::DVec3::Z));
         Question {
             name: row.name(),
-            ray: entry.map_or(Ray::new(glam::DVec3::ZERO, glam::DVec3::Z), RayEntry::ray),
+            aim: row.over.map(Aim::Patch).or_else(ray).unwrap_or(straight_up),
             settings: self.settings(row),
             expected: row.expected(&info.conventions),
             largest: row.largest.map(|largest| largest.0),
@@ -156,7 +180,7 @@ impl Row {
 /// One row, put to one core.
 struct Question {
     name: String,
-    ray: Ray,
+    aim: Aim,
     settings: IntegratorSettings,
     expected: [f64; 3],
     largest: Option<[f64; 3]>,
@@ -194,7 +218,7 @@ impl Question {
         let claims: Vec<_> = channels.iter().map(|channel| self.claim(*channel)).collect();
         let reports = judge_means(&claims, effort, &mut |draw| {
             let seed = draw.seed(self.seed);
-            let run = estimate(scene, self.ray, &self.settings, seed, draw.samples)?;
+            let run = estimate(scene, self.aim, &self.settings, seed, draw.samples)?;
             Ok::<_, CheckError>(channels.iter().map(|channel| run.mean[*channel]).collect())
         })?;
         let measures = channels.iter().zip(&reports);
@@ -219,7 +243,7 @@ impl Question {
         if channels.is_empty() {
             return Ok(Vec::new());
         }
-        let run = estimate(scene, self.ray, &self.settings, self.seed, DARK_SAMPLES)?;
+        let run = estimate(scene, self.aim, &self.settings, self.seed, DARK_SAMPLES)?;
         let dark = |c: usize| (c, Measure::exact(self.label(c), run.largest[c], 0.0, 0.0));
         Ok(channels.iter().copied().map(dark).collect())
     }
@@ -231,7 +255,7 @@ impl Question {
         channels: &[usize],
         tolerance: f64,
     ) -> Result<Vec<(usize, Measure)>, CheckError> {
-        let run = estimate(scene, self.ray, &self.settings, self.seed, EXACT_SAMPLES)?;
+        let run = estimate(scene, self.aim, &self.settings, self.seed, EXACT_SAMPLES)?;
         let exact = |c: usize| {
             let allowed = tolerance * self.expected[c].abs();
             (c, Measure::exact(self.label(c), run.mean[c], self.expected[c], allowed))

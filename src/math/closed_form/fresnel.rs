@@ -25,6 +25,16 @@ pub fn schlick(cos_incident: f64, eta: f64) -> f64 {
     at_normal + (1.0 - at_normal) * (1.0 - cosine).powi(5)
 }
 
+/// The same with the cosine at hand on either side, as courses teach it: no longer the same both
+/// ways through a face.
+pub fn schlick_of_view(cos_incident: f64, eta: f64) -> f64 {
+    if reflectance(cos_incident, eta) == 1.0 {
+        return 1.0;
+    }
+    let at_normal = ((eta - 1.0) / (eta + 1.0)).powi(2);
+    at_normal + (1.0 - at_normal) * (1.0 - cos_incident).powi(5)
+}
+
 /// What a clear parallel slab lets through, all internal reflections included, if each face
 /// reflects `face`: (1 − F)² Σ F²ᵏ = (1 − F)/(1 + F).
 pub fn slab_transmittance(face: f64) -> f64 {
@@ -142,5 +152,16 @@ mod tests {
         assert_close(diffuse_internal(GLASS), diffuse_by_quadrature(GLASS.recip()), 1e-8);
         assert_close(diffuse_external(GLASS), 0.091_777_959_34, 1e-9);
         assert_close(diffuse_internal(GLASS), 0.596_345_759_7, 1e-9);
+    }
+
+    #[test]
+    fn the_two_forms_of_schlick_agree_outside_and_part_inside() {
+        let cosine = 60f64.to_radians().cos();
+        assert_close(schlick_of_view(cosine, GLASS), schlick(cosine, GLASS), 1e-15);
+        // 0.04 + 0.96 (1 - cos 35°)⁵, and with the cosine of 59.36° outside.
+        let inside = 35f64.to_radians().cos();
+        assert_close(schlick_of_view(inside, GLASS.recip()), 0.040_185_7, 1e-5);
+        assert_close(schlick(inside, GLASS.recip()), 0.067_206_6, 1e-5);
+        assert_eq!(schlick_of_view(50f64.to_radians().cos(), GLASS.recip()), 1.0);
     }
 }

@@ -146,6 +146,14 @@ pub static HITS_LOST: Cause = Cause {
     remedy: "A node's box encloses everything below it; a box may be missed only if all of it is.",
 };
 
+/// See its headline.
+pub static UNBALANCED: Cause = Cause {
+    name: "hierarchy-unbalanced",
+    headline: "the hierarchy is as deep as a list: the boxes that are tested grow with the number of triangles",
+    look_at: "the build, where a node is divided",
+    remedy: "Divide so that both sides get a share of the primitives; the middle of the sorted centroids always does.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &SECOND_CHILD_SKIPPED,
@@ -166,4 +174,5 @@ pub static CAUSES: &[&Cause] = &[
     &SHADOW_END_IGNORED,
     &SHADOWS_HIT_BOXES,
     &HITS_LOST,
+    &UNBALANCED,
 ];

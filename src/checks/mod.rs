@@ -151,6 +151,7 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<bvh::StopsBehindHits>(),
     CheckKind::of::<bvh::DividesLongScenes>(),
     CheckKind::of::<light::LightSamplesReachLight>(),
+    CheckKind::of::<light::LightNumbers>(),
     CheckKind::of::<light::OpenLightSamples>(),
     CheckKind::of::<light::LampAtTheEye>(),
     CheckKind::of::<sampling::NumbersAsGiven>(),

@@ -121,6 +121,14 @@ impl FakeScene {
         }
     }
 
+    /// Boxes tested for a ray: in a list, those of all triangles.
+    fn boxes(&self, found: &Walked) -> u64 {
+        match self.slip {
+            Slip::IsAList => self.mesh.indices.len() as u64,
+            _ => 2 * found.tests + 1,
+        }
+    }
+
     /// Whether a slip in the triangle test loses the hit.
     fn loses(&self, ray: &Ray, found: &Walked) -> bool {
         let Some((t, triangle)) = found.nearest else { return false };
@@ -173,6 +181,7 @@ impl BuiltScene for FakeScene {
         for (ray, hit) in rays.iter().zip(hits) {
             let found = self.closest(ray);
             stats.primitive_tests += found.tests;
+            stats.box_tests += self.boxes(&found);
             *hit = if self.loses(ray, &found) { Hit::MISS } else { self.hit(found) };
         }
         Ok(stats)

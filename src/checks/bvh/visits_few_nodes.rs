@@ -93,6 +93,8 @@ struct Size {
     triangles: f64,
     closest: f64,
     any: f64,
+    /// Boxes tested a ray; 0 if the core does not count them.
+    boxes: f64,
     /// Fewer tests than hits cannot be.
     hits: f64,
     /// The plain hierarchy's, for each way to walk.
@@ -114,6 +116,7 @@ fn measure_size(context: &mut Context<'_>, mesh: Mesh, rays: &[Ray]) -> Result<S
         triangles,
         closest: per_ray(closest.primitive_tests),
         any: per_ray(any.primitive_tests),
+        boxes: per_ray(closest.box_tests),
         hits: per_ray(hits.iter().filter(|hit| hit.is_hit()).count() as u64),
         ordered: reference.tests_per_ray(rays, Walk::Ordered),
         unordered: reference.tests_per_ray(rays, Walk::Unordered),
@@ -150,6 +153,11 @@ fn judge(sizes: &[Size]) -> Finding {
     }
     let slope = growth(sizes, |size| size.closest);
     let mut measures = vec![at_most("growth of tests: exponent of n", slope, STEEPEST)];
+    let counts_boxes = sizes.iter().all(|size| size.boxes > 0.0);
+    let slope_of_boxes = growth(sizes, |size| size.boxes);
+    if counts_boxes {
+        measures.push(at_most("growth of box tests: exponent of n", slope_of_boxes, STEEPEST));
+    }
     for size in sizes {
         let n = size.triangles;
         let name = format!("tests a ray, {n} triangles");
@@ -158,14 +166,21 @@ fn judge(sizes: &[Size]) -> Finding {
         measures.push(at_most(name, size.any / size.closest, ANY_HIT_SLACK));
     }
     let failed = measures.iter().any(|m| m.verdict == Verdict::Fail);
-    let cause = cause(sizes, slope, failed);
+    let is_unbalanced = counts_boxes && slope_of_boxes >= ALL_TESTED && slope < STEEPEST;
+    let cause = match is_unbalanced {
+        true => Some(&bvh::UNBALANCED),
+        false => cause(sizes, slope, failed),
+    };
     let statement = statement(sizes, slope, cause);
     let resolution =
         "would have caught growth as n^0.5, four times the tests, or shadow rays that search on";
     let finding = Finding::of(statement, resolution, measures);
     match cause {
         Some(cause) if failed => {
-            finding.because(cause, format!("tests grow as n^{}", figure(slope)))
+            let [primitives, boxes] = [slope, slope_of_boxes].map(figure);
+            let boxes =
+                if counts_boxes { format!(", of boxes as n^{boxes}") } else { String::new() };
+            finding.because(cause, format!("tests grow as n^{primitives}{boxes}"))
         }
         _ => finding,
     }
@@ -244,6 +259,13 @@ mod tests {
     }
 
     #[test]
+    fn a_list_is_unbalanced_though_it_tests_few_triangles() {
+        let finding = found(Slip::IsAList, "bumpy-sphere");
+        failure(&finding);
+        assert_eq!(finding.clues[0].cause, "hierarchy-unbalanced");
+    }
+
+    #[test]
     fn boxes_visited_for_nothing_are_named_though_they_pass() {
         let finding = found(Slip::NeverShortens, "soup");
         assert_passes(&finding);
@@ -268,6 +290,7 @@ mod tests {
             triangles: 512.0,
             closest: 0.0,
             any: 0.0,
+            boxes: 0.0,
             hits: 0.5,
             ordered: 20.0,
             unordered: 25.0,

@@ -2,13 +2,15 @@
 
 mod consecutive_samples;
 mod density;
-mod distribution;
+pub(in crate::checks) mod distribution;
 mod extreme_numbers;
+pub(in crate::checks) mod extremes;
 #[cfg(test)]
 mod fake;
 mod moments_follow_pdf;
 mod numbers_as_given;
 mod pdf_integrates_to_one;
+pub(in crate::checks) mod replay;
 mod sample_jacobian;
 mod samples_follow_pdf;
 mod weights_integrate;

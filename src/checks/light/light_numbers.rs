@@ -1,0 +1,189 @@
+//! Samples of area lights follow from their own random numbers, use both, and survive those at the
+//! ends of their range.
+
+use crate::checks::sampling::distribution::Drawn;
+use crate::checks::sampling::extremes::{self, Extremes, Range};
+use crate::checks::sampling::replay::{Numbers, Replayed};
+use crate::checks::{Check, CheckError, Context, Finding};
+use crate::contract::{
+    Acceleration, BuiltScene, Capabilities, CoreError, LightSample, Randomness, Result,
+};
+use crate::scene::Light;
+use glam::DVec3;
+use serde::Deserialize;
+
+/// A sample and its density come out of the same call: nothing else is evaluated.
+const SAME: f64 = 0.0;
+
+/// Samples of every area light from some points that see its front.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct LightNumbers {
+    from: Vec<[f64; 3]>,
+}
+
+impl Check for LightNumbers {
+    const NAME: &'static str = "light-numbers";
+    const SUMMARY: &'static str =
+        "samples of area lights follow from their numbers, the extreme ones too";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::SAMPLE_LIGHT | Capabilities::CALLERS_RANDOMNESS
+    }
+
+    fn validate(&self) -> std::result::Result<(), String> {
+        if self.from.is_empty() { Err("there are no points".to_owned()) } else { Ok(()) }
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> std::result::Result<Finding, CheckError> {
+        let scene = context.scene()?;
+        let numbers = Numbers::random(context.seed);
+        let area = (0..).zip(&scene.lights);
+        let area = area.filter(|(_, light)| matches!(light, Light::Area { .. }));
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let (mut replayed, mut extremes) = (Vec::new(), Vec::new());
+        for (light, _) in area {
+            for (number, from) in self.from.iter().enumerate() {
+                let name = format!("light {} from point {}", light + 1, number + 1);
+                let mut asked = Asked { scene: built.as_mut(), light, from: (*from).into() };
+                let ask = &mut |numbers: &Numbers| asked.samples(numbers);
+                replayed.push(Replayed::of(name.clone(), &numbers, ask)?);
+                let ask = &mut |numbers| asked.sample(numbers);
+                extremes.push(Extremes::of(name, Range::Sphere, SAME, ask)?);
+            }
+        }
+        if replayed.is_empty() {
+            return Err(CheckError::Broken(format!("scene `{}` has no area light", scene.name)));
+        }
+        Ok(together(&replayed, &extremes))
+    }
+}
+
+/// A light, asked from one point.
+struct Asked<'a> {
+    scene: &'a mut dyn BuiltScene,
+    light: u32,
+    from: DVec3,
+}
+
+impl Asked<'_> {
+    fn samples(&mut self, numbers: &Numbers) -> Result<Vec<Drawn>> {
+        let nothing = LightSample {
+            wi: DVec3::Z,
+            distance: 0.0,
+            radiance: [0.0; 3],
+            pdf: 0.0,
+            is_delta: 0,
+            is_valid: 0,
+        };
+        let mut samples = vec![nothing; numbers.points.len()];
+        let from = vec![self.from; samples.len()];
+        let random = Randomness { points: &numbers.points, lobes: &numbers.lobes, seed: 0 };
+        self.scene.sample_light(self.light, &from, random, &mut samples)?;
+        samples.iter().map(drawn).collect()
+    }
+
+    fn sample(&mut self, (point, lobe): extremes::Extreme) -> Result<(Drawn, f64)> {
+        let drawn = self.samples(&Numbers { points: vec![point], lobes: vec![lobe] })?[0];
+        Ok((drawn, drawn.pdf))
+    }
+}
+
+/// A sample without its light: where it leads, if it leads anywhere.
+fn drawn(sample: &LightSample) -> Result<Drawn> {
+    let is_valid = sample.is_valid == 1;
+    if is_valid && !(sample.distance > 0.0 && sample.distance.is_finite()) {
+        let distance = sample.distance;
+        return Err(CoreError::BrokeContract(format!("the distance to the light is {distance}")));
+    }
+    Ok(Drawn { direction: is_valid.then_some(sample.wi), pdf: sample.pdf })
+}
+
+fn together(replayed: &[Replayed], extremes: &[Extremes]) -> Finding {
+    let at_the_ends = extremes::finding(extremes);
+    let complaints = replayed.iter().filter_map(Replayed::complaint);
+    let statement = complaints.chain([at_the_ends.statement]).collect::<Vec<_>>().join("; ");
+    let measures = replayed.iter().flat_map(Replayed::measures).chain(at_the_ends.measures);
+    let finding = Finding::of(statement, "would have caught one wrong sample", measures.collect());
+    let causes = replayed.iter().filter_map(Replayed::cause);
+    let mut finding =
+        causes.fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence));
+    finding.clues.extend(at_the_ends.clues);
+    finding
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
+    use crate::contract::{BuildStats, Core, CoreInfo, Precision};
+    use crate::scene::{Library, SceneDescription};
+    use glam::DVec2;
+
+    /// A lamp over the origin: a unit square at height 1, whose points are found by `place`.
+    struct Lamp(fn(DVec2) -> DVec2);
+
+    impl Core for Lamp {
+        fn info(&self) -> CoreInfo {
+            info(Precision::Double)
+        }
+
+        fn build_scene(
+            &mut self,
+            _: &SceneDescription,
+            _: Acceleration,
+        ) -> Result<Box<dyn BuiltScene + '_>> {
+            Ok(Box::new(Lamp(self.0)))
+        }
+    }
+
+    impl BuiltScene for Lamp {
+        fn stats(&self) -> BuildStats {
+            BuildStats::default()
+        }
+
+        fn sample_light(
+            &mut self,
+            _: u32,
+            from: &[DVec3],
+            random: Randomness<'_>,
+            samples: &mut [LightSample],
+        ) -> Result<()> {
+            for ((from, point), sample) in from.iter().zip(random.points).zip(samples) {
+                let to = (self.0)(*point).extend(1.0) - *from;
+                let (wi, distance) = (to.normalize(), to.length());
+                let pdf = distance * distance / wi.z;
+                *sample =
+                    LightSample { wi, distance, radiance: [1.0; 3], pdf, is_delta: 0, is_valid: 1 };
+            }
+            Ok(())
+        }
+    }
+
+    fn found(place: fn(DVec2) -> DVec2) -> Finding {
+        let check: LightNumbers = check_of("[expect]\nfrom = [[0, 0, 0]]");
+        let scene = Library::new("scenes").load("rectangle-light", &toml::Table::new()).unwrap();
+        let scene = SceneDescription::clone(&scene);
+        try_judge(&check, &mut Lamp(place), Some(scene)).unwrap()
+    }
+
+    #[test]
+    fn a_lamp_sampled_by_both_numbers_passes() {
+        assert_passes(&found(|point| point - 0.5));
+    }
+
+    #[test]
+    fn a_lamp_sampled_along_its_diagonal_is_named() {
+        let finding = found(|point| DVec2::splat(point.x - 0.5));
+        assert!(failure(&finding).contains("the second number moves 0 % of the samples"));
+        assert_eq!(finding.clues[0].cause, "one-number-twice");
+    }
+
+    #[test]
+    fn a_map_that_divides_by_a_number_breaks_at_its_end() {
+        let finding = found(|point| point - 0.5 + 0.0 / point.x);
+        let statement = failure(&finding);
+        assert!(statement.contains("of the numbers 0, 0 and 0: "), "{statement}");
+        assert_eq!(finding.clues[0].cause, "ends-of-range-forgotten");
+    }
+}

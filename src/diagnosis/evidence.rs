@@ -28,8 +28,6 @@ pub struct Observation<'a> {
     pub standing: Standing,
     /// What the check found, if it came to that.
     pub finding: Option<&'a Finding>,
-    /// The outcome in one sentence.
-    pub statement: String,
     /// The command that repeats it.
     pub rerun: &'a str,
     /// Seconds it took.

@@ -1,13 +1,14 @@
 //! Measured over expected, with the interval that comparisons are made in.
 
 use crate::checks::{Finding, Measure};
+use crate::stats::Band;
 
 /// The names of the three channels, as measures end with them.
 pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
-/// Relative error that every comparison of a mean forgives on top of its interval: the band of radiances, doubled for
-/// predictions that are themselves rounded to four digits.
-const SLACK: f64 = 2e-3;
+/// Relative error that a comparison forgives on top of an interval: what is forgiven of a radiance, once for what was
+/// measured and once for what a rule predicts from the radiance of another question.
+const SLACK: f64 = 2.0 * Band::RADIANCE.relative();
 
 /// One ratio that was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -54,15 +54,7 @@ fn observation<'a>(
     standing: Standing,
     finding: Option<&'a Finding>,
 ) -> Observation<'a> {
-    Observation {
-        case,
-        tier: Tier::Graded,
-        standing,
-        finding,
-        statement: finding.map(|finding| finding.statement.clone()).unwrap_or_default(),
-        rerun: case,
-        seconds: 1.0,
-    }
+    Observation { case, tier: Tier::Graded, standing, finding, rerun: case, seconds: 1.0 }
 }
 
 /// A finding that fails.

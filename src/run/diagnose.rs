@@ -18,20 +18,21 @@ fn observation(trial: &TrialRecord) -> Observation<'_> {
     let standing = match trial.outcome.status() {
         Status::Pass => Standing::Passed,
         Status::Fail | Status::Crashed | Status::TimedOut => Standing::Failed,
-        Status::Blocked | Status::Inconclusive | Status::Skipped | Status::Broken => {
-            match &trial.outcome {
-                Outcome::Blocked { by } => Standing::Blocked(by.clone()),
-                _ => Standing::Unknown,
-            }
-        }
+        Status::Blocked | Status::Inconclusive | Status::Skipped | Status::Broken => unknown(trial),
     };
     Observation {
         case: &trial.case,
         tier: trial.tier,
         standing,
         finding: trial.outcome.finding(),
-        statement: trial.outcome.statement(),
         rerun: &trial.rerun,
         seconds: trial.timing.seconds,
+    }
+}
+
+fn unknown(trial: &TrialRecord) -> Standing {
+    match &trial.outcome {
+        Outcome::Blocked { by } => Standing::Blocked(by.clone()),
+        _ => Standing::Unknown,
     }
 }

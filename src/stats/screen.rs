@@ -24,7 +24,7 @@ use crate::math::rng::Seed;
 use serde::{Deserialize, Serialize};
 
 /// Probability that the screen suspects a picture without cause.
-pub(super) const SCREEN_LEVEL: f64 = 1e-3;
+const SCREEN_LEVEL: f64 = 1e-3;
 /// Level of each confirmation, at each scale.
 pub(super) const CONFIRM_LEVEL: f64 = 2e-5;
 /// Probability that the reference is off by more than its band, at each scale.

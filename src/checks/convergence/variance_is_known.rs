@@ -145,9 +145,10 @@ fn statement(measures: &[Measure]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
-    use crate::contract::{BuildStats, Core, CoreInfo, Precision, Ray, Result};
-    use crate::math::rng::uniform;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::checks::transport::fake::Draws;
+    use crate::contract::IntegratorSettings;
+    use crate::math::rng::{Stream, uniform};
     use crate::scene::SceneDescription;
 
     /// A uniform estimate around 1 of variance 1/12, and the mean of `samples_per_light` of them.
@@ -158,38 +159,11 @@ mod tests {
         alike: bool,
     }
 
-    impl Core for Noisy {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn build_scene(
-            &mut self,
-            _: &SceneDescription,
-            _: Acceleration,
-        ) -> Result<Box<dyn BuiltScene + '_>> {
-            Ok(Box::new(*self))
-        }
-    }
-
-    impl BuiltScene for Noisy {
-        fn stats(&self) -> BuildStats {
-            BuildStats::default()
-        }
-
-        fn radiance(
-            &mut self,
-            _: &[Ray],
-            settings: &IntegratorSettings,
-            radiance: &mut [[f64; 3]],
-        ) -> Result<()> {
-            let mut stream = Seed(settings.seed).stream();
-            let mut once = || 1.0 + self.width * (uniform(&mut stream) - 0.5);
+    impl Noisy {
+        fn estimate(self, stream: &mut Stream, settings: &IntegratorSettings) -> f64 {
             let n = if self.alike { 1 } else { settings.samples_per_light };
-            radiance.iter_mut().for_each(|value| {
-                *value = [(0..n).map(|_| once()).sum::<f64>() / f64::from(n); 3];
-            });
-            Ok(())
+            let mut once = || 1.0 + self.width * (uniform(stream) - 0.5);
+            (0..n).map(|_| once()).sum::<f64>() / f64::from(n)
         }
     }
 
@@ -208,7 +182,10 @@ mod tests {
 
     fn found(noisy: Noisy, case: &str) -> Finding {
         let check = check_of::<VarianceIsKnown>(case);
-        try_judge(&check, &mut { noisy }, Some(SceneDescription::default())).unwrap()
+        let draw = move |stream: &mut Stream, settings: &IntegratorSettings| {
+            noisy.estimate(stream, settings)
+        };
+        try_judge(&check, &mut Draws(draw), Some(SceneDescription::default())).unwrap()
     }
 
     #[test]

@@ -211,30 +211,11 @@ fn threshold(encounters: &[Encounter]) -> Option<(&'static Cause, String)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::imitation::{Formula, as_hit, intersection, mistake};
+    use super::super::fake::Intersects;
+    use super::super::imitation::{Formula, intersection, mistake};
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{Core, CoreInfo, Primitive, Ray, Result};
-
-    struct Intersects(Formula);
-
-    impl Core for Intersects {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn intersect_primitive(
-            &mut self,
-            p: &Primitive,
-            rays: &[Ray],
-            hits: &mut [Hit],
-        ) -> Result<()> {
-            for (ray, hit) in rays.iter().zip(hits) {
-                *hit = as_hit((self.0)(p, ray));
-            }
-            Ok(())
-        }
-    }
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::contract::Primitive;
 
     fn found(formula: Formula) -> Finding {
         let check: AgreesWithExactArithmetic = check_of("[expect]\nrays = \"20 k\"");

@@ -203,30 +203,10 @@ fn explain(mut finding: Finding, outcomes: &[Outcome]) -> Finding {
 
 #[cfg(test)]
 mod tests {
-    use super::super::imitation::{Answer, Formula, as_hit, intersection};
+    use super::super::fake::Intersects;
+    use super::super::imitation::{Answer, Formula, intersection};
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{Core, CoreInfo, Precision, Result};
-
-    struct Intersects(Formula);
-
-    impl Core for Intersects {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn intersect_primitive(
-            &mut self,
-            p: &Primitive,
-            rays: &[Ray],
-            hits: &mut [Hit],
-        ) -> Result<()> {
-            for (ray, hit) in rays.iter().zip(hits) {
-                *hit = as_hit((self.0)(p, ray));
-            }
-            Ok(())
-        }
-    }
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     fn found(formula: Formula) -> Finding {
         judge(&check_of::<DegenerateTriangles>("[expect]"), &mut Intersects(formula))

@@ -241,32 +241,11 @@ fn explain(finding: Finding, ranges: &[Range], precision: Precision) -> Finding 
 
 #[cfg(test)]
 mod tests {
-    use super::super::imitation::{
-        Answer as Meeting, Formula as Intersection, as_hit, intersection,
-    };
+    use super::super::fake::Intersects;
+    use super::super::imitation::{Answer as Meeting, Formula as Intersection, intersection};
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{Core, CoreInfo, Primitive, Ray, Result};
-
-    struct Intersects(Intersection);
-
-    impl Core for Intersects {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn intersect_primitive(
-            &mut self,
-            primitive: &Primitive,
-            rays: &[Ray],
-            hits: &mut [Hit],
-        ) -> Result<()> {
-            for (ray, hit) in rays.iter().zip(hits) {
-                *hit = as_hit((self.0)(primitive, ray));
-            }
-            Ok(())
-        }
-    }
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::contract::{Primitive, Ray};
 
     /// r² − |l|², after Hearn and Baker, as Haines et al. (2019) recommend.
     fn stable(primitive: &Primitive, ray: &Ray) -> Option<Meeting> {

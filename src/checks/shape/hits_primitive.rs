@@ -248,31 +248,11 @@ fn complaint(
 
 #[cfg(test)]
 mod tests {
-    use super::super::imitation::{Formula, as_hit, mistake};
+    use super::super::fake::Intersects;
+    use super::super::imitation::{Formula, mistake};
     use super::*;
     use crate::cause::shape;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{Core, CoreInfo, Result};
-
-    struct Intersects(Formula);
-
-    impl Core for Intersects {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn intersect_primitive(
-            &mut self,
-            p: &Primitive,
-            rays: &[Ray],
-            hits: &mut [Hit],
-        ) -> Result<()> {
-            for (ray, hit) in rays.iter().zip(hits) {
-                *hit = as_hit((self.0)(p, ray));
-            }
-            Ok(())
-        }
-    }
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     const CASES: [&str; 4] = [
         include_str!("../../../cases/intersection/rays-meet-a-triangle-where-they-should.toml"),

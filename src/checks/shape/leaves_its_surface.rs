@@ -181,30 +181,10 @@ fn complaint(tally: &Tally) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::imitation::{Answer, Formula, as_hit, intersection};
+    use super::super::fake::Intersects;
+    use super::super::imitation::{Answer, Formula, intersection};
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{Core, CoreInfo, Precision, Result};
-
-    struct Intersects(Formula);
-
-    impl Core for Intersects {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn intersect_primitive(
-            &mut self,
-            p: &Primitive,
-            rays: &[Ray],
-            hits: &mut [Hit],
-        ) -> Result<()> {
-            for (ray, hit) in rays.iter().zip(hits) {
-                *hit = as_hit((self.0)(p, ray).map(with_unit_normals));
-            }
-            Ok(())
-        }
-    }
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     fn with_unit_normals(answer: Answer) -> Answer {
         let normal = answer.geometric_normal.normalize();
@@ -212,7 +192,8 @@ mod tests {
     }
 
     fn found(formula: Formula) -> Finding {
-        judge(&check_of::<LeavesItsSurface>("[expect]\nrays = \"20 k\""), &mut Intersects(formula))
+        let unit = move |p: &Primitive, ray: &Ray| formula(p, ray).map(with_unit_normals);
+        judge(&check_of::<LeavesItsSurface>("[expect]\nrays = \"20 k\""), &mut Intersects(unit))
     }
 
     #[test]

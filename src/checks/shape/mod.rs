@@ -4,6 +4,8 @@ mod agrees_with_exact_arithmetic;
 mod degenerate_triangles;
 mod exact_sphere;
 mod exact_triangle;
+#[cfg(test)]
+mod fake;
 mod far_spheres;
 mod hits_primitive;
 mod imitation;

@@ -4,6 +4,8 @@ mod bounces_add_up;
 mod by_convention;
 mod estimate;
 mod estimators_agree;
+#[cfg(test)]
+pub(in crate::checks) mod fake;
 mod foretold;
 mod mean_radiance;
 mod radiance_is_linear;

@@ -192,56 +192,27 @@ impl Share {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
-    use crate::contract::{BuildStats, Core, CoreInfo, Precision, Ray, Result};
-    use crate::math::rng::uniform;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::checks::transport::fake::Draws;
+    use crate::contract::IntegratorSettings;
+    use crate::math::rng::{Stream, uniform};
     use crate::scene::SceneDescription;
 
     const CASE: &str =
         include_str!("../../../cases/integrator/roulette-stops-paths-by-its-law.toml");
 
     /// Paths bring light at a bounce with the probability of a law.
-    #[derive(Clone, Copy)]
-    struct Stopping(Law);
-
-    impl Core for Stopping {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn build_scene(
-            &mut self,
-            _: &SceneDescription,
-            _: Acceleration,
-        ) -> Result<Box<dyn BuiltScene + '_>> {
-            Ok(Box::new(*self))
-        }
-    }
-
-    impl BuiltScene for Stopping {
-        fn stats(&self) -> BuildStats {
-            BuildStats::default()
-        }
-
-        fn radiance(
-            &mut self,
-            _: &[Ray],
-            settings: &IntegratorSettings,
-            radiance: &mut [[f64; 3]],
-        ) -> Result<()> {
-            let mut stream = Seed(settings.seed).stream();
-            let chance = (self.0)(&settings.roulette.unwrap(), *settings.bounces.start());
-            radiance.iter_mut().for_each(|value| {
-                *value = [if uniform(&mut stream) < chance { 0.7 } else { 0.0 }; 3];
-            });
-            Ok(())
+    fn stopping(law: Law) -> impl Fn(&mut Stream, &IntegratorSettings) -> f64 + Copy + Send {
+        move |stream, settings| {
+            let chance = law(&settings.roulette.unwrap(), *settings.bounces.start());
+            if uniform(stream) < chance { 0.7 } else { 0.0 }
         }
     }
 
     fn found(law: Law) -> Finding {
         // Large errors are what these tests make: no need to look for small ones.
         let check = check_of::<RouletteStopsPaths>(&CASE.replace("5 %", "20 %"));
-        try_judge(&check, &mut Stopping(law), Some(SceneDescription::default())).unwrap()
+        try_judge(&check, &mut Draws(stopping(law)), Some(SceneDescription::default())).unwrap()
     }
 
     #[test]

@@ -21,9 +21,10 @@ pub const INDENT: usize = 8;
 
 /// Every block.
 pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
-    let mut lines = headlines::all(tree, style);
+    let diagnoses = tree.diagnoses();
+    let mut lines = headlines::all(&diagnoses, style);
     let (explained, alone): (Vec<_>, Vec<_>) =
-        failures(tree).into_iter().partition(|trial| is_explained(tree, trial));
+        failures(tree).into_iter().partition(|trial| is_explained(&diagnoses, trial));
     lines.extend(explained.iter().flat_map(|trial| brief_block(trial, style)));
     let (full, brief) = alone.split_at(alone.len().min(FULL_BLOCKS));
     lines.extend(full.iter().flat_map(|trial| full_block(trial, style)));
@@ -39,11 +40,11 @@ pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
 }
 
 /// Whether a cause has been told that the trial shows, or may follow from.
-fn is_explained(tree: &RunTree, trial: &TrialRecord) -> bool {
+fn is_explained(diagnoses: &[(&str, Diagnosis)], trial: &TrialRecord) -> bool {
     let told = |(core, diagnosis): &(&str, Diagnosis)| {
         *core == trial.core && !diagnosis.unexplained.contains(&trial.case)
     };
-    tree.diagnoses().iter().any(told)
+    diagnoses.iter().any(told)
 }
 
 /// Verdict and size, the numbers, the place, the next command.

@@ -3,8 +3,7 @@
 
 use super::blocks::{INDENT, indented, labelled};
 use super::style::{Paint, Style, clean};
-use crate::diagnosis::Headline;
-use crate::report::tree::RunTree;
+use crate::diagnosis::{Diagnosis, Headline};
 
 /// Causes told; a core that is wrong everywhere is not helped by a page of them.
 const MOST: usize = 3;
@@ -12,12 +11,12 @@ const MOST: usize = 3;
 const CASES: usize = 4;
 
 /// The causes of every core, the one to look at first in front.
-pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
-    let of_core = |(core, diagnosis): (&str, crate::diagnosis::Diagnosis)| {
+pub fn all(diagnoses: &[(&str, Diagnosis)], style: Style) -> Vec<String> {
+    let of_core = |(core, diagnosis): &(&str, Diagnosis)| {
         let told = diagnosis.headlines.iter().take(MOST);
         told.flat_map(|headline| block(core, headline, style)).collect::<Vec<_>>()
     };
-    tree.diagnoses().into_iter().flat_map(of_core).collect()
+    diagnoses.iter().flat_map(of_core).collect()
 }
 
 /// `grep FAIL -A2` finds verdict and cause.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 /// What can be wrong with a picture file.
 #[derive(Debug, thiserror::Error)]
 pub enum ImageError {
-    /// Missing, truncated, or not an OpenEXR file.
-    #[error("`{}` cannot be read as OpenEXR: {cause}", .path.display())]
+    /// Missing, truncated, or not a file of its kind.
+    #[error("`{}` cannot be read as a picture: {cause}", .path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -31,6 +31,16 @@ pub enum ImageError {
         /// Width times height.
         pixels: usize,
     },
+    /// Two pictures that are to be compared differ in size.
+    #[error("the pictures differ in size: {} × {} and {} × {} pixels",
+        .sizes[0][0], .sizes[0][1], .sizes[1][0], .sizes[1][1])]
+    DifferentSizes {
+        /// Columns and rows of each.
+        sizes: [[usize; 2]; 2],
+    },
+    /// There is nothing to compare.
+    #[error("the pictures have no pixels")]
+    Empty,
     /// The file cannot be written.
     #[error("`{}` cannot be written: {cause}", .path.display())]
     Unwritable {

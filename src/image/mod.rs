@@ -5,12 +5,21 @@
 
 mod error;
 pub mod exr;
+mod filter;
+pub mod flip;
 pub mod heatmap;
+mod mae;
 pub mod metric;
+mod ms_ssim;
+pub mod pair;
+pub mod pfm;
 pub mod png;
+mod psnr;
 mod relmse;
 mod rmse;
 mod shrink;
+mod smape;
+mod ssim;
 pub mod tonemap;
 
 pub use error::ImageError;

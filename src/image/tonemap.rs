@@ -11,16 +11,16 @@ const WHITE_PERCENTILE: f64 = 0.95;
 /// The linear value those pixels stay below.
 const WHITE: f64 = 0.8;
 
-/// Linear light in [0, 1] to an sRGB code (IEC 61966-2-1).
-pub fn srgb_code(linear: f32) -> u8 {
+/// Linear light, clipped to [0, 1], to sRGB in [0, 1] (IEC 61966-2-1). NaN stays NaN.
+pub fn encode_srgb(linear: f32) -> f32 {
     let clipped = linear.clamp(0.0, 1.0);
-    let encoded = if clipped <= 0.003_130_8 {
-        12.92 * clipped
-    } else {
-        1.055 * clipped.powf(1.0 / 2.4) - 0.055
-    };
+    if clipped <= 0.003_130_8 { 12.92 * clipped } else { 1.055 * clipped.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// Linear light in [0, 1] to an sRGB code.
+pub fn srgb_code(linear: f32) -> u8 {
     // In [0, 255.5): the cast rounds to nearest and cannot overflow.
-    (255.0 * encoded + 0.5) as u8
+    (255.0 * encode_srgb(linear) + 0.5) as u8
 }
 
 /// The picture times 2^`stops`, clipped to white.
@@ -42,9 +42,12 @@ pub fn tonemap(image: &Image, stops: f32) -> Picture {
 pub fn exposure_of(image: &Image) -> f32 {
     let mut values: Vec<f64> = image.pixels.iter().map(|pixel| luminance(*pixel)).collect();
     values.retain(|value| value.is_finite() && *value > 0.0);
-    values.sort_by(f64::total_cmp);
-    let rank = (WHITE_PERCENTILE * values.len() as f64) as usize;
-    values.get(rank.min(values.len().saturating_sub(1))).map_or(0.0, |v| (WHITE / v).log2() as f32)
+    if values.is_empty() {
+        return 0.0;
+    }
+    let rank = ((WHITE_PERCENTILE * values.len() as f64) as usize).min(values.len() - 1);
+    let (_, level, _) = values.select_nth_unstable_by(rank, f64::total_cmp);
+    (WHITE / *level).log2() as f32
 }
 
 #[cfg(test)]

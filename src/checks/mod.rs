@@ -135,6 +135,7 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<shape::DegenerateTriangles>(),
     CheckKind::of::<shape::LeavesItsSurface>(),
     CheckKind::of::<shape::OverlapsBox>(),
+    CheckKind::of::<shape::SharedEdges>(),
     CheckKind::of::<shape::BoxesAreNeverMissed>(),
     CheckKind::of::<bsdf::AgreesWithItself>(),
     CheckKind::of::<bsdf::Reciprocal>(),

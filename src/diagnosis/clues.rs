@@ -9,7 +9,7 @@ const NEXT: f64 = 0.7;
 /// Every clue of every failing case.
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let mut suspicions = Vec::new();
-    for failure in evidence.failures() {
+    for failure in evidence.failures().chain(evidence.failures_of_robustness()) {
         let Some(finding) = failure.finding else { continue };
         let mut weight = 1.0;
         for clue in &finding.clues {

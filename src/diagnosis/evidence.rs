@@ -62,6 +62,13 @@ impl<'a> Evidence<'a> {
             .filter(|seen| seen.standing == Standing::Failed && seen.tier.is_graded())
     }
 
+    /// Failures of robustness, which count nothing, in the same order.
+    pub fn failures_of_robustness(&self) -> impl Iterator<Item = &Observation<'a>> {
+        self.observations
+            .iter()
+            .filter(|seen| seen.standing == Standing::Failed && seen.tier == Tier::Robustness)
+    }
+
     /// The case called `case`, if it was tried and came to a finding.
     pub fn finding(&self, case: &str) -> Option<&'a Finding> {
         self.observations.iter().find(|seen| seen.case == case)?.finding

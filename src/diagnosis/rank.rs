@@ -1,8 +1,8 @@
 //! Suspicions become headlines: the earliest part that explains the most comes first, and failures that share a cause
 //! are told once.
 
-use super::{Evidence, Suspicion};
-use crate::case::Part;
+use super::{Evidence, Observation, Suspicion};
+use crate::case::{Part, Tier};
 use crate::cause::Cause;
 use std::collections::BTreeMap;
 
@@ -14,6 +14,8 @@ const EVIDENCE: usize = 4;
 pub struct Headline {
     /// The mistake.
     pub cause: &'static Cause,
+    /// What the failures count for.
+    pub tier: Tier,
     /// What speaks for it.
     pub evidence: Vec<String>,
     /// What else could have been, and why it is not.
@@ -53,21 +55,25 @@ struct Candidate {
     cases: BTreeMap<String, f64>,
 }
 
-/// Takes the best candidate, then the best for what is left, until nothing is left.
+/// Takes the best candidate, then the best for what is left, until nothing is left; what counts comes before what
+/// does not.
 pub fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagnosis {
-    let mut left: Vec<String> = evidence.failures().map(|seen| seen.case.to_owned()).collect();
     let mut candidates = gather(suspicions);
-    let suspected = |case: &String, candidates: &[Candidate]| {
-        candidates.iter().any(|candidate| candidate.cases.contains_key(case))
-    };
-    let mut orphans: Vec<String> =
-        left.iter().filter(|case| !suspected(case, &candidates)).cloned().collect();
-    left.retain(|case| !orphans.contains(case));
+    let case = |seen: &Observation<'_>| seen.case.to_owned();
+    let suspected = |case: &String| candidates.iter().any(|c| c.cases.contains_key(case));
+    let (mut left, mut orphans): (Vec<_>, Vec<_>) =
+        evidence.failures().map(case).partition(suspected);
+    let mut beside: Vec<_> = evidence.failures_of_robustness().map(case).collect();
     let mut headlines = Vec::new();
-    while !left.is_empty() {
-        let Some(best) = best_of(&candidates, &left) else { break };
+    while let Some(best) = best_of(&candidates, &left) {
         let candidate = candidates.swap_remove(best);
-        headlines.push(headline(evidence, candidate, &mut left, &mut orphans));
+        beside.retain(|case| !candidate.cases.contains_key(case));
+        headlines.push(headline(evidence, Tier::Graded, candidate, &mut left, &mut orphans));
+    }
+    while let Some(best) = best_of(&candidates, &beside) {
+        let candidate = candidates.swap_remove(best);
+        let tier = Tier::Robustness;
+        headlines.push(headline(evidence, tier, candidate, &mut beside, &mut Vec::new()));
     }
     Diagnosis { headlines, unexplained: orphans }
 }
@@ -112,6 +118,7 @@ fn best_of(candidates: &[Candidate], left: &[String]) -> Option<usize> {
 
 fn headline(
     evidence: &Evidence<'_>,
+    tier: Tier,
     candidate: Candidate,
     left: &mut Vec<String>,
     orphans: &mut Vec<String>,
@@ -131,18 +138,20 @@ fn headline(
     sentences.truncate(EVIDENCE);
     ruled_out.dedup();
     ruled_out.truncate(EVIDENCE);
-    Headline { cause, evidence: sentences, ruled_out, explains, may_follow, blocked, command }
+    Headline { cause, tier, evidence: sentences, ruled_out, explains, may_follow, blocked, command }
 }
 
 fn quickest(evidence: &Evidence<'_>, cases: &[String]) -> String {
-    let failures = evidence.failures().filter(|seen| cases.iter().any(|case| case == seen.case));
+    let failures = evidence.failures().chain(evidence.failures_of_robustness());
+    let failures = failures.filter(|seen| cases.iter().any(|case| case == seen.case));
     let quickest = failures.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
     quickest.map(|seen| seen.rerun.to_owned()).unwrap_or_default()
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::cause::{bsdf, light, transport};
+    use crate::case::Tier;
+    use crate::cause::{bsdf, light, shape, transport};
     use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, failing, passing};
 
@@ -170,6 +179,21 @@ mod tests {
         assert_eq!(first.blocked, 1);
         assert_eq!(second.cause.name, transport::ROULETTE_NOT_DIVIDED.name);
         assert_eq!(diagnosis.unexplained, ["camera/d"]);
+    }
+
+    #[test]
+    fn what_counts_nothing_is_told_last_and_once() {
+        let made = Made::new()
+            .with("intersection/a", failing("a").because(&shape::SPHERE_CANCELLATION, "3 digits"))
+            .beside_the_grade("intersection/a")
+            .with("lights/b", failing("b").because(&bsdf::WITHOUT_PI, "y"))
+            .with("lights/c", failing("c").because(&bsdf::WITHOUT_PI, "z"))
+            .beside_the_grade("lights/c");
+        let diagnosis = diagnose(&made.evidence());
+        let [first, second] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
+        assert_eq!((first.cause.name, first.tier), (bsdf::WITHOUT_PI.name, Tier::Graded));
+        assert_eq!(second.cause.name, shape::SPHERE_CANCELLATION.name);
+        assert_eq!((second.tier, &second.command[..]), (Tier::Robustness, "intersection/a"));
     }
 
     #[test]

@@ -10,6 +10,7 @@ use crate::stats::Verdict;
 pub struct Made {
     findings: Vec<(String, Finding)>,
     blocked: Vec<(String, String)>,
+    robustness: Vec<String>,
     /// What the core declares.
     pub conventions: Conventions,
 }
@@ -17,12 +18,18 @@ pub struct Made {
 impl Made {
     pub fn new() -> Self {
         let conventions = Conventions::default();
-        Self { findings: Vec::new(), blocked: Vec::new(), conventions }
+        Self { findings: Vec::new(), blocked: Vec::new(), robustness: Vec::new(), conventions }
     }
 
     /// The same with the finding of another case.
     pub fn with(mut self, case: &str, finding: Finding) -> Self {
         self.findings.push((case.to_owned(), finding));
+        self
+    }
+
+    /// The same with a case that counts nothing.
+    pub fn beside_the_grade(mut self, case: &str) -> Self {
+        self.robustness.push(case.to_owned());
         self
     }
 
@@ -39,7 +46,12 @@ impl Made {
                 Verdict::Fail => Standing::Failed,
                 Verdict::Inconclusive => Standing::Unknown,
             };
-            observation(case, standing, Some(finding))
+            let tier = if self.robustness.iter().any(|beside| beside == case) {
+                Tier::Robustness
+            } else {
+                Tier::Graded
+            };
+            Observation { tier, ..observation(case, standing, Some(finding)) }
         });
         let blocked = self
             .blocked

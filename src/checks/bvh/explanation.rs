@@ -25,6 +25,9 @@ pub fn explain(
         (0, _, 0) => Some(&bvh::SHADOW_SECOND_CHILD_SKIPPED),
         (all, 0, 0) if all == d.misnamed => Some(&bvh::LEAF_ORDER_NUMBERS),
         (all, _, 0) if all == d.lost + d.farther => hits_lost(found, right, d),
+        (all, 0, 0) if d.lost > 0 && all == d.lost + d.farther + d.outside => {
+            Some(&bvh::RANGE_OVERWRITTEN)
+        }
         _ => None,
     }
 }
@@ -118,6 +121,11 @@ mod tests {
         let farther = told(|answers, _| answers.rays[3].t = 100.0);
         assert_eq!(farther, Some(&bvh::SECOND_CHILD_SKIPPED));
         assert_eq!(told(|answers, _| answers.rays[3] = Hit::MISS), Some(&bvh::RANGE_OVERWRITTEN));
+        let widened = told(|answers, _| {
+            answers.rays[3] = Hit::MISS;
+            answers.rays[4].t = -1.0;
+        });
+        assert_eq!(widened, Some(&bvh::RANGE_OVERWRITTEN));
         let both = told(|answers, _| {
             answers.rays[3] = Hit::MISS;
             answers.occluded[4] = false;

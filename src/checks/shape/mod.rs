@@ -12,6 +12,7 @@ mod imitation;
 mod leaves_its_surface;
 mod overlaps_box;
 mod random_boxes;
+mod shared_edges;
 mod slabs;
 
 pub use agrees_with_exact_arithmetic::AgreesWithExactArithmetic;
@@ -22,3 +23,4 @@ pub(in crate::checks) use imitation::{Answer, intersection};
 pub use leaves_its_surface::LeavesItsSurface;
 pub use overlaps_box::OverlapsBox;
 pub use random_boxes::BoxesAreNeverMissed;
+pub use shared_edges::SharedEdges;

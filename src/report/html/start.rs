@@ -5,6 +5,7 @@ use super::cause;
 use super::parts::{badge, cell, command, link};
 use super::{Page, View};
 use crate::case::Part;
+use crate::diagnosis::Headline;
 use crate::report::digest::{Tally, failures, slowest_first, weakest_first};
 use crate::report::measure::worst_first;
 use crate::report::number::{duration, percent};
@@ -43,7 +44,9 @@ impl Page for Start {
             Some(_) if causes.is_some() => causes,
             Some((first, others)) => Some(failed(first, others)),
             None if tally.total() == 0 => None,
-            None => Some(not_failed(view, &tally)),
+            None => Some(
+                html! { (not_failed(view, &tally)) @if let Some(causes) = causes { (causes) } },
+            ),
         }
     }
 }
@@ -51,20 +54,25 @@ impl Page for Start {
 /// The causes of every core, and the failures that no cause explains.
 fn causes(view: &View<'_>) -> Option<Markup> {
     let diagnoses = view.tree.diagnoses();
-    let told: Vec<_> = diagnoses
+    let mut told: Vec<_> = diagnoses
         .iter()
         .flat_map(|(core, diagnosis)| diagnosis.headlines.iter().map(move |h| (*core, h)))
         .collect();
+    told.sort_by_key(|(_, headline)| !headline.tier.is_graded());
     let unexplained = |trial: &&TrialRecord| {
         let of_core = diagnoses.iter().filter(|(core, _)| *core == trial.core);
         of_core.clone().any(|(_, diagnosis)| diagnosis.unexplained.contains(&trial.case))
     };
     let others: Vec<_> = failures(view.tree).into_iter().filter(unexplained).collect();
-    let kicker = |number: usize| if number == 0 { "Start here." } else { "Then." };
+    let kicker = |number: usize, headline: &Headline| match (headline.tier.is_graded(), number) {
+        (false, _) => "Not graded.",
+        (true, 0) => "Start here.",
+        (true, _) => "Then.",
+    };
     (!told.is_empty()).then(|| {
         html! {
             @for (number, (core, headline)) in told.iter().take(CAUSES).enumerate() {
-                (cause::card(view.tree, core, headline, kicker(number)))
+                (cause::card(view.tree, core, headline, kicker(number, headline)))
             }
             @if !others.is_empty() {
                 div.card.first { (further(&others)) }

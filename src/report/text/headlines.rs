@@ -21,10 +21,17 @@ pub fn all(diagnoses: &[(&str, Diagnosis)], style: Style) -> Vec<String> {
 
 /// `grep FAIL -A2` finds verdict and cause.
 fn block(core: &str, headline: &Headline, style: Style) -> Vec<String> {
-    let word = style.paint(Paint::Bad, "FAIL");
+    let (word, grade) = match headline.tier.is_graded() {
+        true => (style.paint(Paint::Bad, "FAIL"), String::new()),
+        false => (
+            style.paint(Paint::Unknown, "NOTE"),
+            format!(" ({}, not graded)", headline.tier.word()),
+        ),
+    };
+    let (core, cases) = (clean(core), cases(headline));
     let mut lines = vec![
         String::new(),
-        format!("  {word}  {} on {}: {}", count(headline), clean(core), cases(headline)),
+        format!("  {word}  {} on {core}: {cases}{grade}", count(headline)),
         String::new(),
     ];
     let sentence = format!("{}.", capitalised(headline.cause.headline));

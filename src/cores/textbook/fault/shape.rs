@@ -57,7 +57,7 @@ pub const FAULTS: &[Fault] = &[
         name: "strict-edges",
         part: 1,
         summary: "u > 0, v > 0, u + v < 1: edges belong to no triangle",
-        caught_by: "intersection/no-ray-leaks-out-of-a-closed-surface",
+        caught_by: "intersection/rays-at-a-shared-edge-meet-one-of-its-triangles",
         cause: &shape::EDGES_EXCLUDED,
     },
     Fault {
@@ -81,7 +81,7 @@ pub const FAULTS: &[Fault] = &[
         name: "nan-hit-accepted",
         part: 1,
         summary: "no test for parallel rays, and comparisons that reject: NaN is a hit",
-        caught_by: "intersection/triangles-without-area-are-missed",
+        caught_by: TRIANGLE,
         cause: &shape::NAN_HIT_ACCEPTED,
     },
     Fault {

@@ -5,6 +5,7 @@
 //! FURNACE_SEEDS=200 cargo test --test false_alarms -- --ignored --nocapture
 //! FURNACE_SHARD=1/4 ...                      # the first of four parts, for other machines
 //! FURNACE_PICTURES=20 ...                    # so many of the seeds also draw pictures
+//! FURNACE_CASES=bvh/,intersection/ ...        # only these
 //! ```
 //!
 //! Results are kept below `target/tmp`, by program and seed: what was cut off goes on where it was, and the same
@@ -136,13 +137,21 @@ fn shard() -> (u32, u32) {
     (part.parse().unwrap(), of.parse().unwrap())
 }
 
+/// Which cases are drawn, as a run on the command line would be told.
+fn filters(with_pictures: bool) -> Vec<String> {
+    let asked = std::env::var("FURNACE_CASES").unwrap_or_default();
+    let asked = asked.split(',').filter(|filter| !filter.is_empty()).map(str::to_owned);
+    let without = (!with_pictures).then(|| "!images/".to_owned());
+    asked.chain(without).collect()
+}
+
 fn draw(seed: u32, with_pictures: bool) -> Drawn {
     let clock = Instant::now();
     let project = Project::at(env!("CARGO_MANIFEST_DIR"));
     let cases = case::load_all(&project.cases()).unwrap();
     let request = Request {
         cores: CORES.iter().map(|kind| kind.name.parse().unwrap()).collect(),
-        filters: if with_pictures { Vec::new() } else { vec!["!images/".to_owned()] },
+        filters: filters(with_pictures),
         budget: Budget::Default,
         seed: Seed::SUITE.child("false alarms").child(seed),
         jobs: 0,
@@ -156,7 +165,8 @@ fn draw(seed: u32, with_pictures: bool) -> Drawn {
 fn folder() -> PathBuf {
     let program = std::fs::read(std::env::current_exe().unwrap()).unwrap();
     let hash: String = Sha256::digest(&program)[..8].iter().map(|b| format!("{b:02x}")).collect();
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("false-alarms").join(hash);
+    let asked = std::env::var("FURNACE_CASES").unwrap_or_default().replace(['/', ','], "_");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("false-alarms").join(hash + &asked);
     std::fs::create_dir_all(&folder).unwrap();
     folder
 }

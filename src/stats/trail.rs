@@ -157,9 +157,14 @@ impl Trail {
         let mut wiser = Self { scores: vec![score], ..Self::without_bets(self.claim, self.level) };
         wiser.noise = self.noise;
         wiser.noise.take(moments, samples);
-        let blind = stage == Stage::First && !score.rejects && wiser.resolution() > effort.detects;
+        let resolution = wiser.resolution();
+        let blind = stage == Stage::First && !score.rejects && resolution > effort.detects;
+        // The spread of the stage itself may be what is large, which the plan does not know.
+        let band = self.claim.band_width() / self.claim.scale;
+        let short = PLAN_MARGIN * (resolution - band) / (effort.detects - band);
+        let needed = wiser.needed_samples(effort.detects).max(short.powi(2) * samples as f64);
         // Past 2⁵³ the cast saturates, and the cap is far below.
-        blind.then(|| wiser.needed_samples(effort.detects) as u64)
+        blind.then_some(needed as u64)
     }
 
     /// How this claim's suspicion wants to be confirmed, if it is suspected. Where a mean of

@@ -41,12 +41,17 @@ pub enum Slip {
     CullsBack,
     /// The last triangle is lost.
     LosesTheLast,
+    /// No mistake: t is compared in fewer digits than it is told in.
+    ComparesFewDigits,
 }
 
 impl Slip {
     /// Whether it is one of the triangles themselves, which a loop over them makes too.
     const fn is_in_triangles(self) -> bool {
-        matches!(self, Self::ShrinksTriangles | Self::CullsBack | Self::LosesTheLast)
+        matches!(
+            self,
+            Self::ShrinksTriangles | Self::CullsBack | Self::LosesTheLast | Self::ComparesFewDigits
+        )
     }
 }
 
@@ -107,6 +112,9 @@ impl FakeScene {
             Slip::NeverShortens => self.walk(ray, Walk::Unshortened),
             Slip::NeverOrders => self.walk(ray, Walk::Unordered),
             Slip::ForgetsTheEnd => self.walk(&Ray { t_max: f64::INFINITY, ..*ray }, Walk::Ordered),
+            Slip::ComparesFewDigits => {
+                self.walk(&Ray { t_max: (1.0 + 3e-5) * ray.t_max, ..*ray }, Walk::Ordered)
+            }
             _ => self.walk(ray, Walk::Ordered),
         }
     }

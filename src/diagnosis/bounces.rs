@@ -4,232 +4,24 @@
 //! case, channel by channel. Where no law fits and indirect light is off by one grey factor a bounce, the factor is
 //! fitted and told with its interval.
 
+use super::bounce_laws::{Channel, LAWS, Law, indirect};
 use super::evidence::measure;
 use super::readings::{CHANNELS, Reading, channels, written};
 use super::{Evidence, Suspicion};
-use crate::cause::{Cause, transport};
+use crate::cause::transport;
 use crate::checks::Finding;
 use crate::math::ratios::names_of;
-use std::f64::consts::PI;
 
 /// The furnaces whose bounces are told one by one.
-const FURNACES: [&str; 2] = [
+pub const FURNACES: [&str; 2] = [
     "integrator/a-furnace-glows-by-its-series",
     "integrator/a-furnace-by-the-hemisphere-glows-the-same",
 ];
-/// The cavity that sees directions, which a furnace cannot.
-const CAVITY: &str = "integrator/a-glowing-cap-lights-its-cavity-evenly";
-/// A wall that faces sideways.
-const SIDE: &str = "integrator/a-room-is-lit-from-its-middle-at-its-sides-too";
 /// How much less a mistake weighs if it is not the only one that fits.
 const SHARED: f64 = 0.6;
-/// The last bounce that rows of a furnace ask for.
-const LAST: u32 = 40;
-
-/// Emission and albedo of one channel, as the case expects them.
-#[derive(Clone, Copy, Debug)]
-struct Channel {
-    emission: f64,
-    albedo: f64,
-    /// Luminance of the three albedos.
-    luminance: f64,
-    /// Their mean.
-    mean: f64,
-}
-
-impl Channel {
-    fn of(emission: f64, albedo: f64, all: [f64; 3]) -> Self {
-        let luminance = 0.2126 * all[0] + 0.7152 * all[1] + 0.0722 * all[2];
-        Self { emission, albedo, luminance, mean: all.iter().sum::<f64>() / 3.0 }
-    }
-    /// Light that was scattered `bounce` times.
-    fn bounce(&self, bounce: u32) -> f64 {
-        self.emission * self.albedo.powi(bounce.cast_signed())
-    }
-
-    /// The sum over bounces of `weight(bounce)` times what is right.
-    fn sum(&self, [first, last]: [u32; 2], weight: impl Fn(u32) -> f64) -> f64 {
-        (first..=last.min(LAST)).map(|bounce| weight(bounce) * self.bounce(bounce)).sum()
-    }
-}
-
-/// A mistake, and what it makes of the sum of bounces `first..=last`.
-struct Law {
-    cause: &'static Cause,
-    words: &'static str,
-    predict: fn(&Channel, [u32; 2]) -> f64,
-    /// What it makes of light that is scattered once, over what is right.
-    direct: f64,
-}
-
-impl Law {
-    const fn new(
-        cause: &'static Cause,
-        words: &'static str,
-        predict: fn(&Channel, [u32; 2]) -> f64,
-    ) -> Self {
-        Self { cause, words, predict, direct: 1.0 }
-    }
-
-    /// A law that direct light shows too.
-    const fn with_direct(self, direct: f64) -> Self {
-        Self { direct, ..self }
-    }
-}
-
-/// Indirect bounces: those that need the path to go on.
-fn indirect(bounce: u32) -> i32 {
-    bounce.saturating_sub(1).cast_signed()
-}
-
-/// What a bounce is multiplied by if it is weighted with f cos θ · pdf, cosine-distributed: the integral of
-/// cos³ θ/π³ over the hemisphere.
-const TIMES_PDF: f64 = 1.0 / (2.0 * PI * PI);
-
-static LAWS: &[Law] = &[
-    Law::new(
-        &transport::ONE_BOUNCE_SHORT,
-        "bounce k holds what belongs to bounce k − 1, and sums end one bounce early",
-        |c, [first, last]| match (first, last) {
-            (0, last) => c.sum([0, last.saturating_sub(1)], |_| 1.0),
-            (first, last) => c.sum([first - 1, last - 1], |_| 1.0),
-        },
-    )
-    .with_direct(0.0),
-    Law::new(
-        &transport::ONE_BOUNCE_SHORT,
-        "the last bounce asked for is missing, from the second on",
-        |c, [first, last]| match last {
-            0 | 1 => c.sum([first, last], |_| 1.0),
-            last => c.sum([first, last - 1], |_| 1.0),
-        },
-    ),
-    Law::new(
-        &transport::ONE_BOUNCE_SHORT,
-        "the last bounce asked for is missing",
-        |c, [first, last]| match last {
-            0 => c.bounce(0),
-            last => c.sum([first, last - 1], |_| 1.0),
-        },
-    )
-    .with_direct(0.0),
-    Law::new(
-        &transport::ONE_BOUNCE_LONG,
-        "bounce k holds what belongs to bounce k + 1",
-        |c, [first, last]| match (first, last) {
-            (0, 0) => c.bounce(0),
-            (0, last) => c.sum([0, last + 1], |_| 1.0),
-            (first, last) => c.sum([first + 1, last + 1], |_| 1.0),
-        },
-    ),
-    Law::new(
-        &transport::ONE_BOUNCE_LONG,
-        "every sum holds one bounce more than was asked for",
-        |c, [first, last]| {
-            if last == 0 { c.bounce(0) } else { c.sum([first, last + 1], |_| 1.0) }
-        },
-    ),
-    Law::new(
-        &transport::DEPTH_IGNORED,
-        "whatever bounce is the last asked for, all later ones are there too",
-        |c, [first, _]| c.sum([first, LAST], |_| 1.0),
-    ),
-    Law::new(
-        &transport::ZERO_DEPTH_LIT,
-        "bounce 0 holds bounce 1 too, and bounce 1 alone is empty",
-        |c, bounces| match bounces {
-            [0, last] => c.sum([0, last.max(1)], |_| 1.0),
-            [1, 1] => 0.0,
-            rows => c.sum(rows, |_| 1.0),
-        },
-    )
-    .with_direct(0.0),
-    Law::new(&transport::ZERO_DEPTH_LIT, "bounce 0 holds bounce 1 too", |c, [first, last]| {
-        c.sum([first, if first == 0 { last.max(1) } else { last }], |_| 1.0)
-    }),
-    Law::new(
-        &transport::ISOLATION_IGNORED,
-        "bounce k holds all bounces up to k",
-        |c, [_, last]| c.sum([0, last], |_| 1.0),
-    ),
-    Law::new(
-        &transport::ISOLATION_IGNORED,
-        "bounce k holds all bounces from 1 to k",
-        |c, [first, last]| c.sum([first.min(1), last], |_| 1.0),
-    ),
-    Law::new(
-        &transport::ALBEDO_TWICE,
-        "indirect bounce k is albedo^(k−1) of what it should be, in the colours of the surface",
-        |c, rows| c.sum(rows, |bounce| c.albedo.powi(indirect(bounce))),
-    ),
-    Law::new(
-        &transport::ALBEDO_FORGOTTEN,
-        "indirect bounce k is 1/albedo^(k−1) of what it should be, in the colours of the surface",
-        |c, rows| c.sum(rows, |bounce| c.albedo.powi(-indirect(bounce))),
-    ),
-    Law::new(
-        &transport::WEIGHT_REPLACED,
-        "from bounce 3 on there is albedo² of what glows",
-        |c, rows| c.sum(rows, |bounce| c.albedo.powi(-indirect(bounce.saturating_sub(1)))),
-    ),
-    Law::new(
-        &transport::GREY_THROUGHPUT,
-        "indirect bounce k is (luminance/albedo)^(k−1) of what it should be",
-        |c, rows| c.sum(rows, |bounce| (c.luminance / c.albedo).powi(indirect(bounce))),
-    ),
-    Law::new(
-        &transport::GREY_THROUGHPUT,
-        "indirect bounce k is (mean albedo/albedo)^(k−1) of what it should be",
-        |c, rows| c.sum(rows, |bounce| (c.mean / c.albedo).powi(indirect(bounce))),
-    ),
-    Law::new(&transport::EMISSION_AGAIN, "every bounce is there twice", |c, rows| {
-        c.sum(rows, |bounce| if bounce == 0 { 1.0 } else { 2.0 })
-    })
-    .with_direct(2.0),
-    Law::new(
-        &transport::EMISSION_AGAIN,
-        "every bounce from the second on is there twice",
-        |c, rows| c.sum(rows, |bounce| if bounce < 2 { 1.0 } else { 2.0 }),
-    ),
-    Law::new(
-        &transport::EMISSION_AGAIN,
-        "every bounce but the last of a sum is there twice",
-        |c, [first, last]| {
-            c.sum([first, last], |bounce| if bounce == 0 || bounce == last { 1.0 } else { 2.0 })
-        },
-    ),
-    Law::new(&transport::NO_INDIRECT, "from bounce 2 on there is nothing", |c, rows| {
-        c.sum(rows, |bounce| if bounce < 2 { 1.0 } else { 0.0 })
-    }),
-    Law::new(
-        &transport::INDIRECT_FOUR_THIRDS,
-        "indirect bounce k is (4/3)^(k−1) of what it should be",
-        |c, rows| c.sum(rows, |bounce| (4.0_f64 / 3.0).powi(indirect(bounce))),
-    ),
-    Law::new(
-        &transport::BOUNCE_TIMES_PDF,
-        "indirect bounce k is (1/2π²)^(k−1) of what it should be",
-        |c, rows| c.sum(rows, |bounce| TIMES_PDF.powi(indirect(bounce))),
-    ),
-    Law::new(
-        &transport::BOUNCE_WITHOUT_COSINE,
-        "indirect bounce k is 2^(k−1) of what it should be",
-        |c, rows| c.sum(rows, |bounce| 2.0_f64.powi(indirect(bounce))),
-    ),
-    Law::new(&transport::EMISSION_LOST, "sums lack bounce 0", |c, [first, last]| {
-        if first == last { c.bounce(first) } else { c.sum([first.max(1), last], |_| 1.0) }
-    }),
-    Law::new(&transport::LAST_BOUNCE_ONLY, "sums are their last bounce alone", |c, [_, last]| {
-        c.bounce(last)
-    }),
-];
-
 /// Laws that predict a failing furnace, a factor a bounce, or directions that only the cavity sees.
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
-    let mut suspicions: Vec<_> = FURNACES.iter().flat_map(|case| explain(evidence, case)).collect();
-    suspicions.extend(wrong_directions(evidence));
-    suspicions.extend(world_cosine(evidence));
-    suspicions
+    FURNACES.iter().flat_map(|case| explain(evidence, case)).collect()
 }
 
 fn explain(evidence: &Evidence<'_>, case: &str) -> Vec<Suspicion> {
@@ -263,9 +55,9 @@ fn direct_light(evidence: &Evidence<'_>, law: &Law) -> Vec<String> {
 }
 
 /// A row of a furnace: which bounces it adds up, and what was read in each channel.
-struct Row {
-    bounces: [u32; 2],
-    readings: [Option<Reading>; 3],
+pub struct Row {
+    pub bounces: [u32; 2],
+    pub readings: [Option<Reading>; 3],
 }
 
 /// The rows of a failing furnace.
@@ -411,7 +203,7 @@ fn is_grey(readings: &[Option<Reading>; 3]) -> bool {
 }
 
 /// `bounce 2` and `bounces 0 to 3`, as the checks name them.
-fn rows(finding: &Finding) -> Vec<Row> {
+pub fn rows(finding: &Finding) -> Vec<Row> {
     let mut seen: Vec<[u32; 2]> = Vec::new();
     for measure in &finding.measures {
         let Some((row, _)) = measure.name.rsplit_once(", ") else { continue };
@@ -436,70 +228,11 @@ fn bounces_of(row: &str) -> Option<[u32; 2]> {
     Some([first.parse().ok()?, last.parse().ok()?])
 }
 
-/// In a furnace every direction is like every other: what is right there and wrong in the cavity is where light goes.
-fn wrong_directions(evidence: &Evidence<'_>) -> Option<Suspicion> {
-    let cavity = evidence.failed_finding(CAVITY)?;
-    if !evidence.has_passed(FURNACES[0]) {
-        return None;
-    }
-    let rows = rows(cavity);
-    let admits_one = |bounce: u32| {
-        rows.iter()
-            .filter(|row| row.bounces == [bounce, bounce])
-            .flat_map(|row| row.readings.iter().flatten())
-            .all(|reading| reading.admits(1.0))
-    };
-    (admits_one(1) && !admits_one(2)).then(|| Suspicion {
-        cause: &transport::BOUNCE_DIRECTIONS,
-        cases: vec![CAVITY.to_owned()],
-        evidence: vec![
-            "bounce 1 of the cavity is right and bounce 2 is not".to_owned(),
-            format!("{} passes: the energy of each bounce is right", FURNACES[0]),
-        ],
-        ruled_out: vec!["a wrong weight of bounces (the furnace would see it)".to_owned()],
-        weight: 1.0,
-    })
-}
-
-/// Where a room faces sideways, a cosine with +z weighs the ball in its middle otherwise; averaged over all
-/// directions, as in the furnace and the cavity, it is the same.
-fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
-    let finding = evidence.failed_finding(SIDE)?;
-    let admits_one = |bounce: u32| {
-        let readings = channels(finding, &format!("bounce {bounce}"));
-        readings.iter().flatten().all(|reading| reading.admits(1.0))
-    };
-    let averages = [FURNACES[0], CAVITY].iter().all(|case| evidence.has_withstood(case));
-    (averages && admits_one(1) && !admits_one(2)).then(|| Suspicion {
-        cause: &transport::BOUNCE_WORLD_COSINE,
-        cases: std::iter::once(SIDE.to_owned()).chain(delta_cases(evidence)).collect(),
-        evidence: vec![
-            "at a wall that faces sideways bounce 1 is right and bounce 2 is not".to_owned(),
-            format!(
-                "{} and {CAVITY} do not fail: over all directions the weights are right",
-                FURNACES[0]
-            ),
-        ],
-        ruled_out: vec!["bounces in wrong directions (the cavity would see it)".to_owned()],
-        weight: 1.0,
-    })
-}
-
-/// Failing cases of mirrors and glass, whose only direction has a cosine too.
-fn delta_cases(evidence: &Evidence<'_>) -> Vec<String> {
-    let about = ["mirror", "glass"];
-    let failures = evidence.failures().filter(|seen| seen.case.starts_with("integrator/"));
-    failures
-        .filter(|seen| about.iter().any(|word| seen.case.contains(word)))
-        .map(|seen| seen.case.to_owned())
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::diagnosis::diagnose;
-    use crate::diagnosis::testing::{Made, mean, means, passing};
+    use crate::diagnosis::testing::{Made, mean, means};
 
     const EMISSION: [f64; 3] = [0.7, 0.5, 0.9];
     const ALBEDO: [f64; 3] = [0.37, 0.53, 0.71];
@@ -563,29 +296,5 @@ mod tests {
         let odd = |c: &Channel, rows: [u32; 2]| c.sum(rows, |k| 1.0 + 0.1 * f64::from(k % 2));
         let diagnosis = diagnose(&Made::new().with(FURNACES[0], furnace(odd)).evidence());
         assert_eq!(diagnosis.first(), None, "{diagnosis:?}");
-    }
-
-    #[test]
-    fn a_wall_that_faces_sideways_shows_a_cosine_with_the_world() {
-        let rows = [("bounce 1", 1.0), ("bounce 2", 0.8)];
-        let side = rows.map(|(row, ratio)| mean(&format!("{row}, red"), 0.2, ratio, 0.004));
-        let made = |cavity: Finding| {
-            Made::new()
-                .with(FURNACES[0], passing())
-                .with(CAVITY, cavity)
-                .with(SIDE, means(side.to_vec()))
-        };
-        let name = |made: Made| diagnose(&made.evidence()).first().map(|cause| cause.name);
-        assert_eq!(name(made(passing())), Some(transport::BOUNCE_WORLD_COSINE.name));
-        assert_eq!(name(made(crate::diagnosis::testing::failing("too"))), None);
-    }
-
-    #[test]
-    fn a_cavity_that_is_wrong_where_the_furnace_is_right_is_about_directions() {
-        let rows = [("bounce 1", 1.0), ("bounce 2", 0.8)];
-        let measures = rows.map(|(row, ratio)| mean(&format!("{row}, red"), 0.2, ratio, 0.004));
-        let made = Made::new().with(FURNACES[0], passing()).with(CAVITY, means(measures.into()));
-        let name = diagnose(&made.evidence()).first().map(|cause| cause.name);
-        assert_eq!(name, Some(transport::BOUNCE_DIRECTIONS.name));
     }
 }

@@ -7,9 +7,11 @@
 //! To add a rule: a file with a function from [`Evidence`] to suspicions, tested on made-up numbers, and its line in
 //! [`RULES`].
 
+mod bounce_laws;
 mod bounces;
 mod clues;
 mod conventions;
+mod directions;
 mod evidence;
 mod generic_position;
 mod mirrors;
@@ -42,29 +44,40 @@ pub struct Suspicion {
 
 /// A way to come from findings to causes.
 pub struct Rule {
-    /// One line for `furnace list rules`.
+    /// As `furnace list rules` shows it.
+    pub name: &'static str,
+    /// What it compares with what, in one line.
     pub summary: &'static str,
     run: fn(&Evidence<'_>) -> Vec<Suspicion>,
 }
 
 /// Every rule. Their order does not matter: suspicions are ranked by what they explain.
 pub static RULES: &[Rule] = &[
-    Rule { summary: "what a check itself has recognised", run: clues::suspect },
+    Rule { name: "clues", summary: "what a check itself has recognised", run: clues::suspect },
     Rule {
+        name: "conventions",
         summary: "the choices that a core may declare: it differs from what it declares",
         run: conventions::suspect,
     },
     Rule {
+        name: "generic-position",
         summary: "ratios of direct light in two scenes in general position against known mistakes",
         run: generic_position::suspect,
     },
     Rule {
+        name: "bounces",
         summary: "energy bounce by bounce against laws such as q^k and albedo^k",
         run: bounces::suspect,
     },
-    Rule { summary: "what blocks light and what does not", run: shadows::suspect },
-    Rule { summary: "mirrors and glass that show nothing", run: mirrors::suspect },
     Rule {
+        name: "directions",
+        summary: "bounces that have the right energy where only directions are wrong",
+        run: directions::suspect,
+    },
+    Rule { name: "shadows", summary: "what blocks light and what does not", run: shadows::suspect },
+    Rule { name: "mirrors", summary: "mirrors and glass that show nothing", run: mirrors::suspect },
+    Rule {
+        name: "roulette",
         summary: "means under Russian roulette against what forgotten divisions would give",
         run: roulette::suspect,
     },

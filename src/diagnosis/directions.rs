@@ -1,0 +1,107 @@
+//! Bounces that carry the right energy in the wrong directions: a furnace, where every direction is like every other,
+//! is right, and a scene that sees directions is not.
+
+use super::bounces::{FURNACES, rows};
+use super::readings::channels;
+use super::{Evidence, Suspicion};
+use crate::cause::transport;
+
+/// The cavity that sees directions, which a furnace cannot.
+const CAVITY: &str = "integrator/a-glowing-cap-lights-its-cavity-evenly";
+/// A wall that faces sideways.
+const SIDE: &str = "integrator/a-room-is-lit-from-its-middle-at-its-sides-too";
+/// Directions of bounces, and the cosine they are weighted with.
+pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+    wrong_directions(evidence).into_iter().chain(world_cosine(evidence)).collect()
+}
+
+/// In a furnace every direction is like every other: what is right there and wrong in the cavity is where light goes.
+fn wrong_directions(evidence: &Evidence<'_>) -> Option<Suspicion> {
+    let cavity = evidence.failed_finding(CAVITY)?;
+    if !evidence.has_passed(FURNACES[0]) {
+        return None;
+    }
+    let rows = rows(cavity);
+    let admits_one = |bounce: u32| {
+        rows.iter()
+            .filter(|row| row.bounces == [bounce, bounce])
+            .flat_map(|row| row.readings.iter().flatten())
+            .all(|reading| reading.admits(1.0))
+    };
+    (admits_one(1) && !admits_one(2)).then(|| Suspicion {
+        cause: &transport::BOUNCE_DIRECTIONS,
+        cases: vec![CAVITY.to_owned()],
+        evidence: vec![
+            "bounce 1 of the cavity is right and bounce 2 is not".to_owned(),
+            format!("{} passes: the energy of each bounce is right", FURNACES[0]),
+        ],
+        ruled_out: vec!["a wrong weight of bounces (the furnace would see it)".to_owned()],
+        weight: 1.0,
+    })
+}
+
+/// Where a room faces sideways, a cosine with +z weighs the ball in its middle otherwise; averaged over all
+/// directions, as in the furnace and the cavity, it is the same.
+fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
+    let finding = evidence.failed_finding(SIDE)?;
+    let admits_one = |bounce: u32| {
+        let readings = channels(finding, &format!("bounce {bounce}"));
+        readings.iter().flatten().all(|reading| reading.admits(1.0))
+    };
+    let averages = [FURNACES[0], CAVITY].iter().all(|case| evidence.has_withstood(case));
+    (averages && admits_one(1) && !admits_one(2)).then(|| Suspicion {
+        cause: &transport::BOUNCE_WORLD_COSINE,
+        cases: std::iter::once(SIDE.to_owned()).chain(delta_cases(evidence)).collect(),
+        evidence: vec![
+            "at a wall that faces sideways bounce 1 is right and bounce 2 is not".to_owned(),
+            format!(
+                "{} and {CAVITY} do not fail: over all directions the weights are right",
+                FURNACES[0]
+            ),
+        ],
+        ruled_out: vec!["bounces in wrong directions (the cavity would see it)".to_owned()],
+        weight: 1.0,
+    })
+}
+
+/// Failing cases of mirrors and glass, whose only direction has a cosine too.
+fn delta_cases(evidence: &Evidence<'_>) -> Vec<String> {
+    let about = ["mirror", "glass"];
+    let failures = evidence.failures().filter(|seen| seen.case.starts_with("integrator/"));
+    failures
+        .filter(|seen| about.iter().any(|word| seen.case.contains(word)))
+        .map(|seen| seen.case.to_owned())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::Finding;
+    use crate::diagnosis::diagnose;
+    use crate::diagnosis::testing::{Made, mean, means, passing};
+
+    #[test]
+    fn a_wall_that_faces_sideways_shows_a_cosine_with_the_world() {
+        let rows = [("bounce 1", 1.0), ("bounce 2", 0.8)];
+        let side = rows.map(|(row, ratio)| mean(&format!("{row}, red"), 0.2, ratio, 0.004));
+        let made = |cavity: Finding| {
+            Made::new()
+                .with(FURNACES[0], passing())
+                .with(CAVITY, cavity)
+                .with(SIDE, means(side.to_vec()))
+        };
+        let name = |made: Made| diagnose(&made.evidence()).first().map(|cause| cause.name);
+        assert_eq!(name(made(passing())), Some(transport::BOUNCE_WORLD_COSINE.name));
+        assert_eq!(name(made(crate::diagnosis::testing::failing("too"))), None);
+    }
+
+    #[test]
+    fn a_cavity_that_is_wrong_where_the_furnace_is_right_is_about_directions() {
+        let rows = [("bounce 1", 1.0), ("bounce 2", 0.8)];
+        let measures = rows.map(|(row, ratio)| mean(&format!("{row}, red"), 0.2, ratio, 0.004));
+        let made = Made::new().with(FURNACES[0], passing()).with(CAVITY, means(measures.into()));
+        let name = diagnose(&made.evidence()).first().map(|cause| cause.name);
+        assert_eq!(name, Some(transport::BOUNCE_DIRECTIONS.name));
+    }
+}

@@ -21,13 +21,13 @@ use std::time::Instant;
 #[derive(Clone, Debug)]
 pub struct Matrix {
     /// Where scenes are.
-    pub project: Project,
+    project: Project,
     /// The cases, pictures against references left out.
     cases: Vec<Arc<Case>>,
     /// How much each case may spend.
-    pub budget: Budget,
+    budget: Budget,
     /// Trials at the same time; 0 means one a hardware thread.
-    pub jobs: usize,
+    jobs: usize,
 }
 
 /// What came of a fault.

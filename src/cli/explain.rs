@@ -3,6 +3,7 @@
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Case, Filter, foundations};
 use crate::cores::CoreSpec;
+use crate::cores::textbook::fault;
 use crate::math::rng::Seed;
 use crate::project::Project;
 use crate::report::text::wrap;
@@ -62,6 +63,7 @@ fn told(project: &Project, case: &Arc<Case>) -> Result<String, Failure> {
     lines.push(labelled("asks for", &case.prepared.needs().names().join(", ")));
     lines.extend(rests_on(project, case));
     lines.extend(sees(project, case)?);
+    lines.extend(usual_causes(case));
     lines.push(labelled("try", &format!("cargo furnace run {}", case.id)));
     Ok(lines.join("\n") + "\n")
 }
@@ -114,6 +116,22 @@ fn sees(project: &Project, case: &Arc<Case>) -> Result<Vec<String>, Failure> {
         labelled("error rate", &blame),
         labelled("takes", &format!("{seconds:.1} s, {} numbers", finding.measures.len())),
     ])
+}
+
+/// The mistakes that this case is the first to show, and how to watch it fail.
+fn usual_causes(case: &Case) -> Vec<String> {
+    let faults: Vec<_> = fault::all().filter(|fault| fault.caught_by == case.id).collect();
+    let mut causes: Vec<_> = faults.iter().map(|fault| fault.cause.headline).collect();
+    causes.dedup();
+    let label_of = |number| if number == 0 { "often" } else { "" };
+    let lines = causes.iter().enumerate();
+    let mut lines: Vec<_> =
+        lines.map(|(number, words)| labelled(label_of(number), words)).collect();
+    if let Some(fault) = faults.first() {
+        let command = format!("cargo furnace run {} --core textbook:{}", case.id, fault.name);
+        lines.push(labelled("fails with", &command));
+    }
+    lines
 }
 
 /// A label and a text that goes on below itself.

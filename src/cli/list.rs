@@ -2,10 +2,12 @@
 
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Filter};
+use crate::cause;
 use crate::checks::CHECKS;
 use crate::cores::CORES;
 use crate::cores::textbook::different::DIFFERENT;
 use crate::cores::textbook::fault;
+use crate::diagnosis::RULES;
 use clap::{Args, ValueEnum};
 
 /// What `furnace list` understands.
@@ -27,6 +29,8 @@ enum What {
     Checks,
     Cores,
     Faults,
+    Causes,
+    Rules,
 }
 
 /// Prints a table.
@@ -38,6 +42,8 @@ pub fn list(arguments: &ListArguments) -> Answer {
             print_table(fault::all().map(|fault| (fault.name, fault.summary)));
             print_table(DIFFERENT.iter().map(|core| (core.name, core.summary)));
         }
+        What::Causes => print_table(cause::all().map(|cause| (cause.name, cause.headline))),
+        What::Rules => print_table(RULES.iter().map(|rule| (rule.name, rule.summary))),
         What::Cores => print_table(CORES.iter().map(|core| (core.name, core.summary))),
     }
     Ok(ExitCode::Good)

@@ -15,7 +15,7 @@ const CASES: usize = 8;
 pub fn card(tree: &RunTree, core: &str, headline: &Headline, kicker: &str) -> Markup {
     let part = headline.explains.first().and_then(|case| Part::of_case(case));
     html! {
-        div.card.first {
+        div.card.first.beside[!headline.tier.is_graded()] {
             p.kicker {
                 b { (kicker) } " on " b { (core) }
                 @if let Some(part) = part { " · part " (part.number) ", " (part.title) }

@@ -55,7 +55,7 @@ impl Tally {
     pub fn headline(&self) -> String {
         let (total, failures, passes) = (self.total(), self.failures(), self.count(Status::Pass));
         if total == 0 {
-            "no trial has a result".to_owned()
+            "no graded trial has a result".to_owned()
         } else if failures > 0 {
             let verb = if failures == 1 { "fails" } else { "fail" };
             format!("{failures} of {} {verb}", count(total, "trial"))
@@ -262,7 +262,7 @@ mod tests {
         let pass = trial("builtin", "bvh/a");
         let mut skipped = trial("builtin", "bvh/b");
         skipped.outcome = Outcome::Skipped { missing: vec!["render".to_owned()] };
-        assert_eq!(Tally::of([]).headline(), "no trial has a result");
+        assert_eq!(Tally::of([]).headline(), "no graded trial has a result");
         assert_eq!(Tally::of([&pass]).headline(), "1 trial passes");
         assert_eq!(Tally::of([&pass, &skipped]).headline(), "1 of 2 trials pass, none fails");
     }

@@ -43,7 +43,7 @@ impl Page for Start {
         match failures(view.tree).split_first() {
             Some(_) if causes.is_some() => causes,
             Some((first, others)) => Some(failed(first, others)),
-            None if tally.total() == 0 => None,
+            None if tally.total() == 0 => causes,
             None => Some(
                 html! { (not_failed(view, &tally)) @if let Some(causes) = causes { (causes) } },
             ),

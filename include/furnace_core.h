@@ -324,7 +324,8 @@ enum { /* furnace_conventions; 0 is the default of every field */
    FURNACE_SMITH_SEPARABLE = 0,  /* G1(wo) G1(wi) */
    FURNACE_SMITH_CORRELATED = 1, /* 1 / (1 + L(wo) + L(wi)) */
    FURNACE_FRESNEL_EXACT = 0,
-   FURNACE_FRESNEL_SCHLICK = 1,
+   FURNACE_FRESNEL_SCHLICK = 1,         /* with the cosine of the view on both sides, as courses teach it */
+   FURNACE_FRESNEL_SCHLICK_OUTSIDE = 2, /* with the cosine on the thin side, seen from inside too */
    FURNACE_RADIANCE_SCALED = 0,  /* radiance over index squared is conserved across glass */
    FURNACE_RADIANCE_UNSCALED = 1
 };

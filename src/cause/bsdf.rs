@@ -69,9 +69,9 @@ pub static SNELL_INVERTED: Cause = Cause {
 /// See its headline.
 pub static SCHLICK_UNDECLARED: Cause = Cause {
     name: "schlick-undeclared",
-    headline: "glass reflects by Schlick's approximation, and the core declares Fresnel's equations",
+    headline: "glass reflects by a form of Schlick's approximation that the core does not declare",
     look_at: "the reflectance of glass, or the declared conventions",
-    remedy: "Use Fresnel's equations, or declare `glass-fresnel = \"schlick\"`.",
+    remedy: "Use Fresnel's equations, or declare `glass-fresnel = \"schlick\"`, `\"schlick-outside\"` if the cosine is always that on the thin side.",
 };
 
 /// See its headline.

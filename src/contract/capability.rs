@@ -134,8 +134,10 @@ pub enum GlassFresnel {
     /// The unpolarised Fresnel equations.
     #[default]
     Exact,
-    /// Schlick's approximation, as the course teaches it: with the cosine of the view, outside and inside.
+    /// Schlick's approximation, as courses teach it: with the cosine of the view, outside and inside.
     Schlick,
+    /// Schlick's approximation with the cosine on the thin side, seen from inside too: the same both ways through a face.
+    SchlickOutside,
 }
 
 /// Whether radiance is scaled by the index squared when it crosses an interface.

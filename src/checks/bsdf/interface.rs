@@ -32,8 +32,6 @@ pub struct Lobes {
 pub struct Interface {
     surface: Surface,
     conventions: Conventions,
-    /// Where a core declares it.
-    schlick: fn(f64, f64) -> f64,
 }
 
 /// How the lobes are worked out. A mistake changes one step.
@@ -134,12 +132,7 @@ impl Lobes {
 impl Interface {
     /// A mirror or glass; anything else sends light nowhere.
     pub const fn new(surface: Surface, conventions: Conventions) -> Self {
-        Self { surface, conventions, schlick: fresnel::schlick_of_view }
-    }
-
-    /// The same, with Schlick's approximation of the cosine outside where that is declared.
-    pub const fn with_schlick_outside(self) -> Self {
-        Self { schlick: fresnel::schlick, ..self }
+        Self { surface, conventions }
     }
 
     /// As it should be.
@@ -160,7 +153,8 @@ impl Interface {
             bends_by: |ratio| ratio,
             reflectance: match self.conventions.glass_fresnel {
                 GlassFresnel::Exact => fresnel::reflectance,
-                GlassFresnel::Schlick => self.schlick,
+                GlassFresnel::Schlick => fresnel::schlick_of_view,
+                GlassFresnel::SchlickOutside => fresnel::schlick,
             },
             crossing: match self.conventions.glass_radiance {
                 GlassRadiance::Scaled => |ratio| (ratio * ratio).recip(),

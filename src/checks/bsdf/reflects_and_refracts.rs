@@ -67,8 +67,7 @@ impl Check for ReflectsAndRefracts {
         };
         let seed = context.seed;
         let view = |Angle(angle): &Angle| trial.view(context.core, *angle, seed.child(angle));
-        let mut views = self.seen_from.iter().map(view).collect::<Result<Vec<_>, _>>()?;
-        trial.allow_schlick_outside(&mut views);
+        let views = self.seen_from.iter().map(view).collect::<Result<Vec<_>, _>>()?;
         Ok(trial.explained(trial.finding(self.surface, &views), &views))
     }
 }
@@ -130,14 +129,6 @@ impl Trial {
             }
             Ok(reflected)
         })
-    }
-
-    /// Schlick's approximation of the cosine outside is nearer to the truth than what courses teach.
-    fn allow_schlick_outside(&self, views: &mut [SmoothView]) {
-        let outside = self.interface.with_schlick_outside();
-        if views.iter().all(|view| view.is_predicted_by(outside.lobes(view.wo))) {
-            views.iter_mut().for_each(|view| view.right = outside.lobes(view.wo));
-        }
     }
 
     fn finding(&self, surface: SurfaceEntry, views: &[SmoothView]) -> Finding {
@@ -266,7 +257,8 @@ mod tests {
     fn right_ones_pass_by_every_convention() {
         assert_passes(&found(MIRROR, Smooth::default()));
         for glass_radiance in [GlassRadiance::Scaled, GlassRadiance::Unscaled] {
-            for glass_fresnel in [GlassFresnel::Exact, GlassFresnel::Schlick] {
+            let forms = [GlassFresnel::Exact, GlassFresnel::Schlick, GlassFresnel::SchlickOutside];
+            for glass_fresnel in forms {
                 let conventions =
                     Conventions { glass_radiance, glass_fresnel, ..Conventions::default() };
                 assert_passes(&found(GLASS, Smooth { conventions, ..Smooth::default() }));
@@ -278,14 +270,6 @@ mod tests {
     fn a_chance_that_is_stated_wrongly_is_seen() {
         let halved = Smooth { spoil: |sample| sample.pdf = 0.5, ..Smooth::default() };
         assert!(failure(&found(MIRROR, halved)).contains("100 % of samples are reflected"));
-    }
-
-    #[test]
-    fn either_form_of_schlick_passes_where_it_is_declared() {
-        let conventions =
-            Conventions { glass_fresnel: GlassFresnel::Schlick, ..Conventions::default() };
-        let outside = MISTAKES.iter().find(|m| m.cause == &cause::SCHLICK_UNDECLARED);
-        assert_passes(&found(GLASS, Smooth { mistake: outside, conventions, ..Smooth::default() }));
     }
 
     #[test]

@@ -26,6 +26,7 @@ pub fn conventions(declared: &abi::Conventions) -> Option<Conventions> {
         glass_fresnel: match declared.glass_fresnel {
             abi::FRESNEL_EXACT => GlassFresnel::Exact,
             abi::FRESNEL_SCHLICK => GlassFresnel::Schlick,
+            abi::FRESNEL_SCHLICK_OUTSIDE => GlassFresnel::SchlickOutside,
             _ => return None,
         },
         glass_radiance: match declared.glass_radiance {

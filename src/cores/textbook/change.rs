@@ -191,6 +191,7 @@ pub enum Change {
     ReversedLeaves,
     SinglePrecision,
     SchlickGlass,
+    SchlickGlassOutside,
     CorrelatedSmith,
     TwoSidedEmission,
     NoFalloff,

@@ -71,7 +71,13 @@ pub const DIFFERENT: &[Different] = &[
     Different {
         change: Change::SchlickGlass,
         name: "schlick-glass",
-        summary: "Schlick's approximation, declared",
+        summary: "Schlick's approximation of the view's cosine, declared",
+        parts: &[3, 4],
+    },
+    Different {
+        change: Change::SchlickGlassOutside,
+        name: "schlick-glass-outside",
+        summary: "Schlick's approximation of the cosine on the thin side, declared",
         parts: &[3, 4],
     },
     Different {
@@ -123,6 +129,9 @@ pub fn conventions(change: Change) -> Conventions {
     let plain = Conventions::default();
     match change {
         Change::SchlickGlass => Conventions { glass_fresnel: GlassFresnel::Schlick, ..plain },
+        Change::SchlickGlassOutside => {
+            Conventions { glass_fresnel: GlassFresnel::SchlickOutside, ..plain }
+        }
         Change::CorrelatedSmith => Conventions { smith_term: SmithTerm::HeightCorrelated, ..plain },
         Change::TwoSidedEmission => Conventions { emission: EmissionSides::Both, ..plain },
         Change::NoFalloff => Conventions { point_light_falloff: Falloff::None, ..plain },

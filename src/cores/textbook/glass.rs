@@ -52,8 +52,10 @@ impl Glass {
     /// Share of light that is reflected.
     fn fresnel(&self, cosine: f64, ratio: f64) -> f64 {
         match self.change {
-            Change::GlassSchlickUndeclared | Change::SchlickGlass => {
-                schlick_reflectance(cosine, ratio)
+            Change::SchlickGlass => schlick_reflectance(cosine, cosine, ratio),
+            Change::GlassSchlickUndeclared | Change::SchlickGlassOutside => {
+                let beyond = refracted_cosine(cosine, ratio).unwrap_or(cosine);
+                schlick_reflectance(cosine, if ratio < 1.0 { beyond } else { cosine }, ratio)
             }
             Change::GlassWithoutTotalReflection if refracted_cosine(cosine, ratio).is_none() => 0.0,
             _ => fresnel_reflectance(cosine, ratio),
@@ -84,12 +86,14 @@ pub fn fresnel_reflectance(cosine: f64, ratio: f64) -> f64 {
     (perpendicular * perpendicular + parallel * parallel) / 2.0
 }
 
-/// Schlick's approximation, with the cosine on the thin side; total reflection stays total.
-fn schlick_reflectance(cosine: f64, ratio: f64) -> f64 {
-    let Some(beyond) = refracted_cosine(cosine, ratio) else { return 1.0 };
-    let cosine = if ratio < 1.0 { beyond } else { cosine };
+/// Schlick's approximation of some cosine, for light that arrives at `cosine`; total reflection stays
+/// total.
+fn schlick_reflectance(cosine: f64, of: f64, ratio: f64) -> f64 {
+    if refracted_cosine(cosine, ratio).is_none() {
+        return 1.0;
+    }
     let at_normal = ((1.0 - ratio) / (1.0 + ratio)).powi(2);
-    at_normal + (1.0 - at_normal) * (1.0 - cosine).powi(5)
+    at_normal + (1.0 - at_normal) * (1.0 - of).powi(5)
 }
 
 /// The direction on the far side from which light is bent towards `wo`.

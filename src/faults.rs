@@ -176,7 +176,8 @@ impl Matrix {
 
     fn diagnosis(&self, change: &str, records: &[TrialRecord]) -> Diagnosis {
         let spec = core(change);
-        diagnose(&CoreRecord::new(spec.as_str(), &spec.make().info()), records)
+        let info = spec.make().expect("every change is a core of our own").info();
+        diagnose(&CoreRecord::new(spec.as_str(), &info), records)
     }
 }
 

@@ -17,3 +17,4 @@ pub mod run;
 pub mod scene;
 pub mod stats;
 pub mod text;
+pub mod worker;

@@ -49,6 +49,14 @@ impl Project {
         self.root.join("references")
     }
 
+    /// What no core may read: what is asked, what is true, what was found, and where copies of that
+    /// are kept.
+    pub fn secrets(&self) -> Vec<PathBuf> {
+        ["cases", "references", "reports", "suites", ".git"]
+            .map(|folder| self.root.join(folder))
+            .to_vec()
+    }
+
     /// Where runs go.
     pub fn runs(&self) -> PathBuf {
         self.root.join("reports").join("runs")

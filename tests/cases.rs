@@ -1,10 +1,10 @@
 //! Every case on every core, one trial each, through the same path as `furnace run`.
 //!
-//! `FURNACE_CORE=NAME` grades that core alone, `FURNACE_BUDGET=quick|default|strict` says how small an error is
+//! `FURNACE_CORE=NAME|path/to/lib.so|'exec: COMMAND'` grades that core alone, `FURNACE_BUDGET=quick|default|strict` says how small an error is
 //! looked for. Names are paths: `cargo test --test cases builtin::bvh`, `-- --exact textbook::lights/claim`.
 
 use furnace::case::{self, Case};
-use furnace::cores::{CORES, CoreSpec};
+use furnace::cores::{CORES, CoreSpec, Hosting};
 use furnace::math::rng::Seed;
 use furnace::project::Project;
 use furnace::run::{Bench, Plan, Request, Status, Trial, run_trial};
@@ -38,7 +38,8 @@ fn plan() -> Result<Plan, String> {
         jobs: 0,
         fail_fast: false,
     };
-    Ok(Plan::new(project, request, &cases))
+    let program = env!("CARGO_BIN_EXE_furnace").into();
+    Ok(Plan::new(project, request, &cases).hosted(Hosting { program, ..Hosting::default() }))
 }
 
 fn cores() -> Result<Vec<CoreSpec>, String> {

@@ -17,7 +17,7 @@ const SIZE: [u32; 2] = [64, 48];
 
 fn render(core: &str, scene: &SceneDescription, seed: Seed) -> Image {
     let spec: CoreSpec = core.parse().unwrap();
-    let mut core = spec.make();
+    let mut core = spec.make().unwrap();
     let mut core = Validated::new(core.as_mut());
     let settings = RenderSettings {
         width: SIZE[0],

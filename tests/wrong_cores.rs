@@ -135,7 +135,7 @@ fn core(name: &str) -> CoreSpec {
 fn outcomes(wrong: Wrong, name: &str, filters: &[&str]) -> Vec<(String, Outcome)> {
     let (bench, cases) = cases(filters);
     assert!(!cases.is_empty(), "no case is selected by {filters:?}");
-    let mut core = WrongCore { core: core(name).make(), wrong };
+    let mut core = WrongCore { core: core(name).make().unwrap(), wrong };
     cases.iter().map(|case| (case.id.clone(), attempt(&bench, case, &mut core).outcome)).collect()
 }
 

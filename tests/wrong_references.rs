@@ -34,7 +34,7 @@ fn outcome_after(spoil: impl Fn(&Path)) -> Outcome {
     let mut bench = Plan::new(project.clone(), request.clone(), &[]).bench();
     bench.references = folder.path().to_owned();
     let case = load_one(&project.cases(), CASE).unwrap();
-    attempt(&bench, &case, request.cores[0].make().as_mut()).outcome
+    attempt(&bench, &case, request.cores[0].make().unwrap().as_mut()).outcome
 }
 
 fn assert_broken(outcome: &Outcome, words: &str) {

@@ -5,12 +5,14 @@ mod catalog;
 mod file;
 mod filter;
 mod foundation;
+mod next_step;
 mod part;
 mod tier;
 
 pub use catalog::{CatalogError, load_all, load_one};
 pub use filter::Filter;
 pub use foundation::{Foundation, foundations};
+pub use next_step::{NextStep, next_steps};
 pub use part::{PARTS, Part};
 pub use tier::Tier;
 

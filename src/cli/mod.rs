@@ -1,8 +1,10 @@
 //! The command line: one verb a file, and what each word means.
 
+mod doctor;
 mod exit_code;
 mod explain;
 mod faults;
+mod hosting;
 mod lint;
 mod list;
 mod progress;
@@ -10,6 +12,7 @@ mod reference;
 mod report;
 mod run;
 mod watch;
+mod worker;
 
 pub use exit_code::ExitCode;
 
@@ -62,6 +65,11 @@ enum Verb {
     Lint,
     /// Write the pages of a run again.
     Report(report::ReportArguments),
+    /// Examine a core: what it can do, what keeps it, and what is worth doing next.
+    Doctor(doctor::DoctorArguments),
+    /// The process of a core; furnace starts it by itself.
+    #[command(hide = true)]
+    Worker(worker::WorkerArguments),
     /// Make, verify or list Mitsuba references.
     Reference(reference::ReferenceArguments),
 }
@@ -95,6 +103,8 @@ pub fn main() -> ExitCode {
         Some(Verb::List(arguments)) => list::list(&arguments),
         Some(Verb::Explain(arguments)) => explain::explain(&arguments),
         Some(Verb::Faults(arguments)) => faults::faults(&arguments),
+        Some(Verb::Doctor(arguments)) => doctor::doctor(&arguments),
+        Some(Verb::Worker(arguments)) => worker::worker(&arguments),
         Some(Verb::Lint) => lint::lint(),
         Some(Verb::Report(arguments)) => report::report(&arguments),
         Some(Verb::Reference(arguments)) => reference::reference(&arguments),

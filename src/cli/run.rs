@@ -1,5 +1,6 @@
 //! `furnace run`: the default verb.
 
+use super::hosting::HostingArguments;
 use super::progress::Progress;
 use super::watch;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
@@ -51,6 +52,8 @@ pub struct RunArguments {
     #[arg(short, long)]
     verbose: bool,
     #[command(flatten)]
+    hosting: HostingArguments,
+    #[command(flatten)]
     project: ProjectArguments,
 }
 
@@ -70,7 +73,8 @@ pub fn run(arguments: &RunArguments) -> Answer {
         Some(folder) => request_of(folder, arguments.jobs)?,
         None => arguments.request(),
     };
-    let plan = Plan::new(project, request, &cases);
+    let hosting = arguments.hosting.hosting(&runs);
+    let plan = Plan::new(project, request, &cases).hosted(hosting);
     let mut progress = Progress::new(arguments.quiet);
     let mut listen = |event: run::Event<'_>| progress.hear(event);
     let folder = match &arguments.resume {
@@ -82,6 +86,7 @@ pub fn run(arguments: &RunArguments) -> Answer {
         Err(error @ RunError::NothingSelected(_)) => {
             Err(Failure { code: ExitCode::NothingSelected, message: error.to_string() })
         }
+        Err(error @ RunError::NoCore { .. }) => Err(Failure::request(error)),
         Err(error) => Err(Failure::broken(error)),
     }
 }

@@ -1,11 +1,14 @@
 //! The elements of batches: rays, hits, samples. Plain `repr(C)` data, the same in Rust and in C.
 
+use super::{CoreError, Result};
+use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// A ray segment: the points `origin + t · direction` for t in (t_min, t_max).
 /// 64 bytes: one cache line.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Ray {
     /// Where `t = 0`, in world space.
     pub origin: DVec3,
@@ -31,7 +34,7 @@ impl Ray {
 
 /// The nearest intersection, or a miss.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Hit {
     /// Ray parameter in units of `|direction|`.
     pub t: f64,
@@ -70,7 +73,7 @@ impl Hit {
 
 /// Where a ray segment meets a box.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct BoxHit {
     /// Where the line enters the box, in units of `|direction|`; read only where `hit` is 1.
     pub t_enter: f64,
@@ -103,7 +106,8 @@ pub enum Primitive {
 
 /// Work done by one batch, summed over its rays.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct TraversalStats {
     /// Rays in the batch.
     pub rays: u64,
@@ -122,7 +126,8 @@ impl std::ops::AddAssign for TraversalStats {
 }
 
 /// The samplers of directions that a course asks for, apart from any BSDF.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Sampler {
     /// Uniform over the hemisphere around +z: density 1/2π.
     UniformHemisphere,
@@ -132,7 +137,7 @@ pub enum Sampler {
 
 /// A direction of the hemisphere around +z.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct DirectionSample {
     /// Unit.
     pub direction: DVec3,
@@ -142,7 +147,7 @@ pub struct DirectionSample {
 
 /// A pair of directions to evaluate a BSDF for.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct BsdfQuery {
     /// Towards the viewer, local frame, unit.
     pub wo: DVec3,
@@ -152,7 +157,7 @@ pub struct BsdfQuery {
 
 /// What a BSDF answers for a pair of directions.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct BsdfValue {
     /// Per steradian, RGB, without the cosine.
     pub f: [f64; 3],
@@ -162,7 +167,7 @@ pub struct BsdfValue {
 
 /// A sampled incident direction.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct BsdfSample {
     /// Towards the light, local frame, unit.
     pub wi: DVec3,
@@ -179,7 +184,7 @@ pub struct BsdfSample {
 
 /// A sampled direction towards a light.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct LightSample {
     /// Towards the light, world space, unit.
     pub wi: DVec3,
@@ -210,7 +215,7 @@ pub struct Randomness<'a> {
 
 /// What the adaptive stopping rule made of one stream.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct AdaptiveMean {
     /// Mean of the samples used.
     pub mean: f64,
@@ -218,6 +223,25 @@ pub struct AdaptiveMean {
     pub used: u32,
     /// Always 0.
     pub reserved: u32,
+}
+
+/// Reads flags that cross the boundary as bytes.
+///
+/// # Errors
+/// If one is neither 0 nor 1.
+pub fn read_flags(bytes: &[u8], flags: &mut [bool]) -> Result<()> {
+    for (index, (flag, byte)) in flags.iter_mut().zip(bytes).enumerate() {
+        *flag = match byte {
+            0 => false,
+            1 => true,
+            _ => {
+                let place = format!("occluded {index} of {}", bytes.len());
+                let what = format!("{place}: it is {byte}, neither 0 nor 1");
+                return Err(CoreError::BrokeContract(what));
+            }
+        };
+    }
+    Ok(())
 }
 
 /// A picture: row-major from the top left, linear RGB radiance.

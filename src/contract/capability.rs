@@ -61,6 +61,17 @@ impl Capabilities {
     pub fn names(self) -> Vec<String> {
         self.iter_names().map(|(name, _)| name.to_lowercase().replace('_', "-")).collect()
     }
+
+    /// The capabilities of these names.
+    ///
+    /// # Errors
+    /// With the word that names none.
+    pub fn from_names(names: &[String]) -> Result<Self, String> {
+        names.iter().try_fold(Self::empty(), |all, name| {
+            let flag = Self::from_name(&name.to_uppercase().replace('-', "_"));
+            flag.map(|flag| all | flag).ok_or_else(|| format!("there is no capability `{name}`"))
+        })
+    }
 }
 
 /// Who the core is. Shown on every report page.

@@ -26,7 +26,7 @@ pub mod validate;
 
 pub use batch::{
     AdaptiveMean, BoxHit, BsdfQuery, BsdfSample, BsdfValue, DirectionSample, Film, Hit,
-    LightSample, Primitive, Randomness, Ray, Sampler, TraversalStats,
+    LightSample, Primitive, Randomness, Ray, Sampler, TraversalStats, read_flags,
 };
 pub use capability::{
     Capabilities, Conventions, CoreInfo, EmissionSides, Falloff, GlassFresnel, GlassRadiance,

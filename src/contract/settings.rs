@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 /// What stands between a ray and the primitives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 pub enum Acceleration {
     /// A loop over every primitive: the oracle of every BVH check and the baseline of every speed-up.
     BruteForce,
@@ -41,7 +42,8 @@ pub enum Split {
 
 /// What the build made. Zero for what is not known.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct BuildStats {
     /// Inner nodes and leaves.
     pub nodes: u64,
@@ -54,7 +56,8 @@ pub struct BuildStats {
 }
 
 /// How a path is traced.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct IntegratorSettings {
     /// Shadow rays to each area light or sky at each vertex; a delta light always gets one.
     /// With hemisphere sampling this many directions *per light* are drawn.
@@ -98,7 +101,8 @@ pub enum DirectSampling {
 }
 
 /// Russian roulette.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Roulette {
     /// Probability of stopping at each bounce it is played at, in [0, 1).
     pub stop: f64,
@@ -107,7 +111,8 @@ pub struct Roulette {
 }
 
 /// How a picture is made.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct RenderSettings {
     /// Pixels in a row.
     pub width: u32,
@@ -123,7 +128,8 @@ pub struct RenderSettings {
 
 /// The course's adaptive rule: after every batch, with mean μ and sample standard deviation σ (n − 1) of the n
 /// luminances so far, stop if 1.96 σ/√n ≤ max_tolerance · μ.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct AdaptiveSettings {
     /// Samples between two looks.
     pub samples_per_batch: u32,

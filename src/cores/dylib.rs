@@ -15,7 +15,7 @@ use crate::contract::{
     Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
     BuildStats, BuiltScene, Capabilities, Core, CoreError, CoreInfo, DirectionSample, Film, Hit,
     IntegratorSettings, LightSample, Precision, Primitive, Randomness, Ray, RenderSettings, Result,
-    Sampler, Split, TraversalStats,
+    Sampler, Split, TraversalStats, read_flags,
 };
 use crate::scene::{Aabb, Camera, Material, SceneDescription};
 use counted::CountedScene;
@@ -52,6 +52,9 @@ pub enum LoadError {
         /// Its version.
         found: u32,
     },
+    /// It is a program, which is started and not loaded.
+    #[error("`{0}` is a program: it runs in a worker, and cannot be loaded")]
+    IsProgram(String),
     /// Its table says something that cannot be.
     #[error("{path} hands over a table that cannot be: {what}")]
     Malformed {
@@ -112,7 +115,10 @@ impl Dylib {
     fn answered(&self, wanted: Capabilities, status: abi::Status) -> Result<()> {
         match status {
             abi::OK => Ok(()),
-            abi::UNSUPPORTED => Err(CoreError::Unsupported(wanted)),
+            abi::UNSUPPORTED => Err(match self.reason() {
+                Some(reason) if !reason.is_empty() => CoreError::Beyond(reason),
+                _ => CoreError::Unsupported(wanted),
+            }),
             abi::INVALID | abi::FAILED => Err(CoreError::Refused(self.last_error())),
             other => Err(CoreError::BrokeContract(format!(
                 "status {other} is none of those in furnace_core.h"
@@ -121,12 +127,14 @@ impl Dylib {
     }
 
     fn last_error(&self) -> String {
-        let Some(last_error) = self.table.last_error else {
-            return "it gives no reason (last_error is null)".to_owned();
-        };
+        self.reason().unwrap_or_else(|| "it gives no reason (no last_error)".to_owned())
+    }
+
+    /// In the core's own words, if it has any.
+    fn reason(&self) -> Option<String> {
+        let last_error = self.table.last_error?;
         // SAFETY: the header gives the function this type.
-        let reason = unsafe { last_error(self.table.this) };
-        text(reason).unwrap_or_else(|| "it gives no reason (last_error answered null)".to_owned())
+        text(unsafe { last_error(self.table.this) })
     }
 
     /// The table of counted tests that a core with that trait is handed.
@@ -414,13 +422,7 @@ impl BuiltScene for BuiltDylib<'_> {
         let mut flags = vec![u8::MAX; count];
         let (built, out) = (self.built.as_ptr(), flags.as_mut_ptr());
         ask!(self.core, OCCLUDED, occluded(built, rays.as_ptr(), out, count, &raw mut stats))?;
-        for (index, flag) in flags.iter().enumerate() {
-            occluded[index] = flag_of(*flag).ok_or_else(|| {
-                CoreError::BrokeContract(format!(
-                    "occluded {index} of {count}: it is {flag}, neither 0 nor 1"
-                ))
-            })?;
-        }
+        read_flags(&flags, occluded)?;
         Ok(self.counts(stats, rays.len()))
     }
 
@@ -470,15 +472,6 @@ impl BuiltScene for BuiltDylib<'_> {
             (self.built.as_ptr(), &raw const camera, &raw const settings);
         let (pixels, sample_counts) = (film.pixels.as_mut_ptr(), film.sample_counts.as_mut_ptr());
         ask!(self.core, RENDER, render(built, camera, settings, pixels, sample_counts))
-    }
-}
-
-/// What a byte for a bool says.
-fn flag_of(byte: u8) -> Option<bool> {
-    match byte {
-        0 => Some(false),
-        1 => Some(true),
-        _ => None,
     }
 }
 

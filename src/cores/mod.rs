@@ -1,11 +1,19 @@
-//! Renderer cores: who keeps the promise of [`crate::contract`]. Two of our own, written independently.
+//! Renderer cores: who keeps the promise of [`crate::contract`]. Two of our own, written independently;
+//! everybody else's through a shared library ([`dylib`]) or a program, in a worker ([`remote`]).
 
 pub mod builtin;
 pub mod dylib;
+mod foreign;
+mod hosting;
+pub mod remote;
 pub mod textbook;
+
+pub use hosting::{HostError, Hosted, Hosting};
 
 use crate::contract::Core;
 use crate::text::did_you_mean;
+use crate::worker::Guest;
+use dylib::{Dylib, LoadError};
 use std::fmt;
 use std::str::FromStr;
 
@@ -34,7 +42,10 @@ pub static CORES: &[CoreKind] = &[
 
 /// Which core, as the user typed it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CoreSpec(String);
+pub struct CoreSpec {
+    word: String,
+    guest: Guest,
+}
 
 /// The words after `--core` name no core.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -45,26 +56,43 @@ pub struct UnknownCore {
 }
 
 impl CoreSpec {
-    /// Makes the core.
+    /// Makes the core in this process. A library can do anything to it: only a worker loads one.
+    ///
+    /// # Errors
+    /// If it is a library that cannot be loaded, or a program, which is not loaded at all.
     ///
     /// # Panics
     /// Never: a specification is only made of a core that exists.
-    pub fn make(&self) -> Box<dyn Core> {
+    pub fn make(&self) -> Result<Box<dyn Core>, LoadError> {
+        match &self.guest {
+            Guest::Resident => Ok(self.resident()),
+            Guest::Library(path) => Ok(Box::new(Dylib::load(path)?)),
+            Guest::Program(_) => Err(LoadError::IsProgram(self.word.clone())),
+        }
+    }
+
+    /// One of our own.
+    fn resident(&self) -> Box<dyn Core> {
         if let Some(change) = self.change() {
             return textbook::with_change(change).expect("checked when it was read");
         }
-        let kind = CORES.iter().find(|kind| kind.name == self.0).expect("checked when it was read");
-        (kind.make)()
+        let kind = CORES.iter().find(|kind| kind.name == self.word);
+        (kind.expect("checked when it was read").make)()
+    }
+
+    /// What kind of core it is.
+    pub const fn guest(&self) -> &Guest {
+        &self.guest
     }
 
     /// As the user typed it.
     pub fn as_str(&self) -> &str {
-        &self.0
+        &self.word
     }
 
     /// What follows `textbook:`.
     fn change(&self) -> Option<&str> {
-        self.0.strip_prefix(CHANGED)
+        self.word.strip_prefix(CHANGED)
     }
 }
 
@@ -76,21 +104,26 @@ impl FromStr for CoreSpec {
 
     fn from_str(word: &str) -> Result<Self, UnknownCore> {
         if CORES.iter().any(|kind| kind.name == word) {
-            return Ok(Self(word.to_owned()));
+            return Ok(Self { word: word.to_owned(), guest: Guest::Resident });
         }
         if let Some(change) = word.strip_prefix(CHANGED) {
             return changed(word, change);
         }
         let names: Vec<_> = CORES.iter().map(|kind| format!("`{}`", kind.name)).collect();
-        let hint = format!("the cores are {}", names.join(" and "));
-        Err(UnknownCore { word: word.to_owned(), hint })
+        let forms = "or path/to/lib.so, or 'exec: COMMAND'";
+        let hint = || format!("the cores are {}, {forms}", names.join(" and "));
+        let guest = foreign::guest(word).unwrap_or_else(|| Err(hint()));
+        match guest {
+            Ok(guest) => Ok(Self { word: word.to_owned(), guest }),
+            Err(hint) => Err(UnknownCore { word: word.to_owned(), hint }),
+        }
     }
 }
 
 /// A copy of the plain core, if there is such a change.
 fn changed(word: &str, change: &str) -> Result<CoreSpec, UnknownCore> {
     if textbook::change_names().any(|name| name == change) {
-        return Ok(CoreSpec(word.to_owned()));
+        return Ok(CoreSpec { word: word.to_owned(), guest: Guest::Resident });
     }
     let hint = did_you_mean(change, textbook::change_names())
         .unwrap_or_else(|| "`furnace list faults` shows every fault".to_owned());
@@ -99,6 +132,6 @@ fn changed(word: &str, change: &str) -> Result<CoreSpec, UnknownCore> {
 
 impl fmt::Display for CoreSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
+        f.write_str(&self.word)
     }
 }

@@ -188,6 +188,8 @@ fn core(spec: &str, precision: Precision) -> CoreRecord {
         precision,
         capabilities: ["generate-rays", "render"].map(str::to_owned).to_vec(),
         conventions: Conventions::default(),
+        confinement: None,
+        problem: None,
     }
 }
 
@@ -213,6 +215,7 @@ pub fn trial(core: &str, case: &str) -> TrialRecord {
         seed: seed.0,
         outcome: Outcome::Judged { finding: if is_random { agreeing(seed) } else { exact(seed) } },
         pictures: if case.starts_with("images/") { pictures(name) } else { Vec::new() },
+        printed: String::new(),
         rerun: format!("cargo furnace run {case} --core {core}"),
         timing: TrialTiming { seconds: uniform(&mut seed.child("time").stream()).powi(3) * 8.0 },
     }

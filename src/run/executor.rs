@@ -9,11 +9,14 @@ use crate::case::Case;
 use crate::checks::{CheckError, Context, Finding, Picture};
 use crate::contract::validate::Validated;
 use crate::contract::{Capabilities, Core, CoreError};
+use crate::cores::{HostError, Hosting};
 use crate::image::exr;
 use crate::math::rng::Seed;
 use crate::scene::hash::content_hash;
 use crate::scene::{Library, SceneDescription};
 use crate::stats::{Allowance, Budget};
+use crate::worker::StartError;
+use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -31,6 +34,11 @@ pub struct Bench {
     pub allowance: Allowance,
     /// The seed of the run.
     pub seed: Seed,
+    /// Where cores live.
+    pub hosting: Hosting,
+    /// Cores that died before they said who they are: how, and what they printed. Nothing else is
+    /// asked of them.
+    pub unfit: BTreeMap<String, (CoreError, String)>,
 }
 
 /// A trial that has ended, before anything is written.
@@ -52,11 +60,34 @@ pub enum Message {
 /// Runs one trial, whatever it rests on. Nothing is written.
 pub fn run_trial(bench: &Bench, trial: &Trial) -> Ended {
     let started = Instant::now();
-    let attempt = attempt(bench, &trial.case, trial.core.make().as_mut());
+    let (attempt, printed) = attempt_hosted(bench, trial);
     let mut record = record_of(bench, trial, attempt.outcome);
     record.scene = attempt.scene;
+    record.keep_printed(&printed);
     record.timing.seconds = started.elapsed().as_secs_f64();
     Ended { record, pictures: attempt.pictures }
+}
+
+/// Brings up the core of a trial, and puts the case to it. Also answers what the core printed.
+fn attempt_hosted(bench: &Bench, trial: &Trial) -> (Attempt, String) {
+    let unfit = bench.unfit.get(trial.core.as_str());
+    let hosted = match unfit {
+        Some((error, printed)) => {
+            let (error, printed) = (error.clone(), printed.clone());
+            Err(HostError::Start(StartError::Core { error, printed }))
+        }
+        None => bench.hosting.host(&trial.core),
+    };
+    match hosted {
+        Ok(mut hosted) => {
+            let attempt = attempt(bench, &trial.case, hosted.core_mut());
+            (attempt, hosted.printed())
+        }
+        Err(HostError::Start(StartError::Core { error, printed })) => {
+            (Attempt::without_core(CheckError::Core(error)), printed)
+        }
+        Err(error) => (Attempt::without_core(CheckError::Broken(error.to_string())), String::new()),
+    }
 }
 
 /// A trial that was not tried, since `by` failed.
@@ -81,6 +112,7 @@ fn record_of(bench: &Bench, trial: &Trial, outcome: Outcome) -> TrialRecord {
         seed: bench.seed_of(case).0,
         outcome,
         pictures: Vec::new(),
+        printed: String::new(),
         rerun: rerun_command(bench, trial),
         timing: TrialTiming { seconds: 0.0 },
     }
@@ -95,6 +127,13 @@ pub struct Attempt {
     pub scene: Option<SceneStamp>,
     /// What the check wants people to see.
     pub pictures: Vec<Picture>,
+}
+
+impl Attempt {
+    /// Of a core that did not come up.
+    fn without_core(error: CheckError) -> Self {
+        Self { outcome: Outcome::of(Err(error)), scene: None, pictures: Vec::new() }
+    }
 }
 
 /// Puts one case to one core, whoever made it.
@@ -161,7 +200,8 @@ fn judge(
 /// The command that tries this again, at full length: bets that decide early say that something is
 /// wrong, the ladder says by how much.
 fn rerun_command(bench: &Bench, trial: &Trial) -> String {
-    let mut command = format!("cargo furnace run {} --core {}", trial.case.id, trial.core);
+    let core = shell_words::quote(trial.core.as_str());
+    let mut command = format!("cargo furnace run {} --core {core}", trial.case.id);
     let budget = bench.allowance.budget;
     if budget != Budget::default() {
         command += &format!(" --budget {budget}");
@@ -227,14 +267,14 @@ fn work(bench: &Bench, plan: &Plan, schedule: &Schedule<'_>, sender: &mpsc::Send
 /// If a file cannot be written: the run stops there, and what was written stays.
 pub fn run_into(
     plan: &Plan,
+    bench: &Bench,
     todo: &[usize],
     earlier: &[(usize, Status)],
     folder: &Path,
     events: &mut dyn FnMut(Event<'_>),
 ) -> Result<(), RecordError> {
-    let bench = plan.bench();
-    let schedule = Schedule::new(plan, &bench, todo, earlier);
-    run_trials(plan, &bench, &schedule, &mut |message| match message {
+    let schedule = Schedule::new(plan, bench, todo, earlier);
+    run_trials(plan, bench, &schedule, &mut |message| match message {
         Message::Started(trial) => {
             events(Event::Started { core: trial.core.as_str(), case: &trial.case.id });
             Ok(())

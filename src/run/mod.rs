@@ -17,6 +17,9 @@ pub use outcome::{Outcome, Status};
 pub use plan::{Plan, Request, Trial};
 pub use record::{RecordError, RunRecord, TrialRecord};
 
+use crate::contract::CoreError;
+use crate::cores::HostError;
+use crate::worker::StartError;
 use record::{CoreRecord, Machine, RunTiming};
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
@@ -30,6 +33,14 @@ pub enum RunError {
     /// The filters select no case.
     #[error("nothing is selected by {}\nhint: `cargo furnace list` shows the cases", .0.join(" "))]
     NothingSelected(Vec<String>),
+    /// A core is there, but is none that can be asked.
+    #[error("`{spec}` does not come up: {error}")]
+    NoCore {
+        /// The core, as the user named it.
+        spec: String,
+        /// Why.
+        error: HostError,
+    },
 }
 
 /// Runs `plan` into a new folder below `runs`, and answers that folder.
@@ -45,10 +56,12 @@ pub fn run(
         return Err(RunError::NothingSelected(plan.request.filters.clone()));
     }
     let started = SystemTime::now();
+    let mut bench = plan.bench();
+    let cores = discover(plan, &mut bench)?;
     let folder = new_folder(runs, started)?;
-    let record = describe(plan, started);
+    let record = describe(plan, cores, started);
     record::write_json(&folder.join("run.json"), &record)?;
-    carry_out(plan, record, &folder, events)?;
+    carry_out(plan, &bench, record, &folder, events)?;
     Ok(folder)
 }
 
@@ -62,11 +75,12 @@ pub fn resume(
     events: &mut dyn FnMut(Event<'_>),
 ) -> Result<(), RunError> {
     let record: RunRecord = record::read_json(&folder.join("run.json"))?;
-    carry_out(plan, record, folder, events)
+    carry_out(plan, &plan.bench(), record, folder, events)
 }
 
 fn carry_out(
     plan: &Plan,
+    bench: &Bench,
     mut record: RunRecord,
     folder: &Path,
     events: &mut dyn FnMut(Event<'_>),
@@ -79,7 +93,7 @@ fn carry_out(
     let todo: Vec<_> = (0..plan.trials.len()).filter(|number| !is_done(number)).collect();
     let already_done = done.len();
     events(Event::Planned { run: &record, folder, already_done });
-    executor::run_into(plan, &todo, &done, folder, events)?;
+    executor::run_into(plan, bench, &todo, &done, folder, events)?;
     let before = record.timing.seconds.unwrap_or(0.0);
     record.timing.seconds = Some(before + clock.elapsed().as_secs_f64());
     record::write_json(&folder.join("run.json"), &record)?;
@@ -93,12 +107,36 @@ fn status_of(trial: &Trial, folder: &Path) -> Option<Status> {
     (done.case_hash == trial.case.hash).then(|| done.outcome.status())
 }
 
-fn describe(plan: &Plan, started: SystemTime) -> RunRecord {
-    let core = |spec: &crate::cores::CoreSpec| CoreRecord::new(spec.as_str(), &spec.make().info());
+/// Asks every core who it is. One that dies of that is known to `bench`, and the run goes on.
+fn discover(plan: &Plan, bench: &mut Bench) -> Result<Vec<CoreRecord>, RunError> {
+    let mut records = Vec::new();
+    for spec in &plan.request.cores {
+        let record = match bench.hosting.host(spec) {
+            Ok(mut hosted) => {
+                let mut record = CoreRecord::new(spec.as_str(), &hosted.core_mut().info());
+                record.confinement = hosted.confinement().cloned();
+                record
+            }
+            Err(HostError::Start(StartError::Core {
+                error: error @ (CoreError::Crashed { .. } | CoreError::TimedOut { .. }),
+                printed,
+            })) => {
+                let record = CoreRecord::unknown(spec.as_str(), error.to_string());
+                bench.unfit.insert(spec.to_string(), (error, printed));
+                record
+            }
+            Err(error) => return Err(RunError::NoCore { spec: spec.to_string(), error }),
+        };
+        records.push(record);
+    }
+    Ok(records)
+}
+
+fn describe(plan: &Plan, cores: Vec<CoreRecord>, started: SystemTime) -> RunRecord {
     RunRecord {
         version: record::VERSION,
         furnace: env!("CARGO_PKG_VERSION").to_owned(),
-        cores: plan.request.cores.iter().map(core).collect(),
+        cores,
         filters: plan.request.filters.clone(),
         budget: plan.request.budget,
         seed: plan.request.seed.0,

@@ -1,10 +1,11 @@
 //! What is to be run: cases × cores, in the order in which one part rests on another.
 
 use crate::case::{Case, Filter};
-use crate::cores::CoreSpec;
+use crate::cores::{CoreSpec, Hosting};
 use crate::math::rng::Seed;
 use crate::project::Project;
 use crate::stats::{Allowance, Budget};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// What the user asked for.
@@ -33,6 +34,8 @@ pub struct Plan {
     pub request: Request,
     /// In the order in which they are run.
     pub trials: Vec<Trial>,
+    /// Where cores live.
+    pub hosting: Hosting,
 }
 
 /// One case on one core.
@@ -56,7 +59,13 @@ impl Plan {
                 selected.iter().map(|case| Trial { case: Arc::clone(case), core: core.clone() })
             })
             .collect();
-        Self { project, request, trials }
+        Self { project, request, trials, hosting: Hosting::default() }
+    }
+
+    /// The same with cores hosted so.
+    pub fn hosted(mut self, hosting: Hosting) -> Self {
+        self.hosting = hosting;
+        self
     }
 }
 
@@ -71,7 +80,14 @@ impl Plan {
                 decides_early: self.request.fail_fast,
             },
             seed: self.request.seed,
+            hosting: self.hosting(),
+            unfit: BTreeMap::new(),
         }
+    }
+
+    /// Where cores live, out of sight of what is expected of them.
+    pub fn hosting(&self) -> Hosting {
+        self.hosting.clone().hiding(self.project.secrets())
     }
 
     /// Trials at the same time.

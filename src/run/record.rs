@@ -10,11 +10,12 @@
 //! version or a word it does not know stops with an error. The same run twice gives the same sidecars but for
 //! `timing`.
 
-use super::outcome::Outcome;
+use super::outcome::{Outcome, Status};
 use crate::case::Tier;
 use crate::checks::PictureRole;
 use crate::contract::{Conventions, CoreInfo, Precision};
 use crate::stats::Budget;
+use crate::worker::Confinement;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io::Write;
@@ -77,6 +78,12 @@ pub struct CoreRecord {
     pub capabilities: Vec<String>,
     /// What it has freely chosen.
     pub conventions: Conventions,
+    /// What the system enforces on it; none for a core that lives in the bench's own process.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub confinement: Option<Confinement>,
+    /// Why nothing is known of it, if it died before it said who it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub problem: Option<String>,
 }
 
 impl CoreRecord {
@@ -89,6 +96,22 @@ impl CoreRecord {
             precision: info.precision,
             capabilities: info.capabilities.names(),
             conventions: info.conventions,
+            confinement: None,
+            problem: None,
+        }
+    }
+
+    /// The record of a core that did not come up.
+    pub fn unknown(spec: &str, problem: String) -> Self {
+        Self {
+            spec: spec.to_owned(),
+            name: "(unknown)".to_owned(),
+            version: String::new(),
+            precision: Precision::Double,
+            capabilities: Vec::new(),
+            conventions: Conventions::default(),
+            confinement: None,
+            problem: Some(problem),
         }
     }
 }
@@ -149,6 +172,9 @@ pub struct TrialRecord {
     pub outcome: Outcome,
     /// Files beside this one.
     pub pictures: Vec<PictureFile>,
+    /// The end of what the core printed, if it lives in a worker and did not pass.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub printed: String,
     /// The command that repeats this trial alone.
     pub rerun: String,
     /// The only part that differs between equal runs.
@@ -159,6 +185,21 @@ impl TrialRecord {
     /// Whether it counts against the core.
     pub fn fails_the_core(&self) -> bool {
         self.tier.is_graded() && self.outcome.status().is_failure()
+    }
+}
+
+/// How much of what a core printed a sidecar keeps, bytes.
+const PRINTED: usize = 8 << 10;
+
+impl TrialRecord {
+    /// Keeps the end of what the core printed, where somebody will ask for it.
+    pub fn keep_printed(&mut self, printed: &str) {
+        let asked_for = !matches!(self.outcome.status(), Status::Pass | Status::Skipped);
+        if asked_for {
+            let first = printed.len().saturating_sub(PRINTED);
+            let start = (first..printed.len()).find(|place| printed.is_char_boundary(*place));
+            printed[start.unwrap_or(printed.len())..].clone_into(&mut self.printed);
+        }
     }
 }
 

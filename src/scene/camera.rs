@@ -1,10 +1,12 @@
 //! The pinhole camera.
 
 use glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// A pinhole camera. A film point (x, y) of [0, 1]² looks along
 /// `camera_to_world · ((2x − 1) tan(h/2), (2y − 1) tan(v/2), −1)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Camera {
     /// The pinhole, world space.
     pub position: DVec3,

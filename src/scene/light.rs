@@ -2,9 +2,11 @@
 
 use super::Rgb;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// A light of the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Light {
     /// Shines from a point equally in all directions.
     Point {

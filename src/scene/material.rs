@@ -2,9 +2,11 @@
 
 use super::Rgb;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// The material of a shape.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Material {
     /// As the scene file calls it.
     pub name: String,
@@ -15,7 +17,8 @@ pub struct Material {
 }
 
 /// How a surface scatters.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Surface {
     /// f = reflectance/π. Black is a reflectance of zero.
     Diffuse {
@@ -46,7 +49,8 @@ pub enum Surface {
 }
 
 /// How a surface glows, from its front side only (the side of the geometric normal).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Emission {
     /// In every direction of the front side.
     pub radiance: Rgb,
@@ -55,7 +59,8 @@ pub struct Emission {
 }
 
 /// The part of a sphere within `half_angle` of `axis`, seen from its centre.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Cap {
     /// Unit.
     pub axis: DVec3,

@@ -8,17 +8,13 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// `$CC` or `cc`. Says so where there is none: the test that asked has shown nothing then.
-pub fn c_compiler() -> Option<PathBuf> {
-    compiler("CC", "cc", "C")
-}
-
 /// `$CXX` or `c++`. Says so where there is none: the test that asked has shown nothing then.
 pub fn cpp_compiler() -> Option<PathBuf> {
     compiler("CXX", "c++", "C++")
 }
 
-fn compiler(variable: &str, usual: &str, language: &str) -> Option<PathBuf> {
+/// What a variable of the environment names, or the usual one.
+pub fn compiler(variable: &str, usual: &str, language: &str) -> Option<PathBuf> {
     let program = std::env::var(variable).unwrap_or_else(|_| usual.to_owned());
     let version = Command::new(&program).arg("--version").output();
     if version.is_ok_and(|output| output.status.success()) {
@@ -45,6 +41,6 @@ pub fn compile(compiler: &Path, arguments: &[&str]) {
 /// Compiles a C++ core into a shared library.
 pub fn compile_core(compiler: &Path, source: &Path, library: &Path) {
     let (source, library) = (source.to_string_lossy(), library.to_string_lossy());
-    let language = ["-std=c++17", "-O1", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror"];
+    let language = ["-std=c++17", "-O2", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror"];
     compile(compiler, &[&language[..], &[&source, "-o", &library]].concat());
 }

@@ -95,6 +95,9 @@ fn judgement(trial: &TrialRecord) -> Markup {
                 (all_measures(finding))
                 (resolution(finding))
             }
+            @if !trial.printed.is_empty() {
+                details { summary { "what the core printed" } pre { (trial.printed) } }
+            }
             (command(&trial.rerun))
         }
     }

@@ -6,6 +6,7 @@ use crate::contract::{Conventions, Precision};
 use crate::report::number::duration;
 use crate::run::RunRecord;
 use crate::run::record::CoreRecord;
+use crate::worker::Confinement;
 use maud::{Markup, html};
 
 /// The run itself.
@@ -67,9 +68,24 @@ fn about(core: &CoreRecord) -> Markup {
                     span.choice { (name) ": " (choice) }
                 }
             }
+            @if let Some(problem) = &core.problem { p { (problem) } }
             details {
                 summary { (core.capabilities.len()) " capabilities" }
                 p { (core.capabilities.join(", ")) }
+            }
+            @if let Some(confinement) = &core.confinement { (walls(confinement)) }
+        }
+    }
+}
+
+/// What kept the core from looking up answers and from harming others, and what did not.
+fn walls(confinement: &Confinement) -> Markup {
+    html! {
+        details open[!confinement.lacking.is_empty()] {
+            summary { "in a process of its own" }
+            ul {
+                @for sentence in &confinement.in_force { li { (sentence) } }
+                @for sentence in &confinement.lacking { li { b { "not enforced: " } (sentence) } }
             }
         }
     }

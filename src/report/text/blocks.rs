@@ -16,6 +16,8 @@ use std::collections::BTreeMap;
 const FULL_BLOCKS: usize = 5;
 /// Measures shown of a failure, the worst first.
 const MEASURES: usize = 4;
+/// Lines shown of what a core printed before it crashed.
+const LAST_WORDS: usize = 3;
 /// Where the text of a block begins.
 pub const INDENT: usize = 8;
 
@@ -53,6 +55,7 @@ fn full_block(trial: &TrialRecord, style: Style) -> Vec<String> {
     if let Some(finding) = trial.outcome.finding() {
         lines.extend(measures(finding, style));
     }
+    lines.extend(last_words(trial));
     lines.extend(labelled("claim", &claim(trial)));
     lines.extend(labelled("recall", &trial.teaches));
     lines.push(next(trial));
@@ -78,6 +81,16 @@ fn note(trial: &TrialRecord, style: Style) -> Vec<String> {
     let mut lines = vec![String::new(), head];
     lines.extend(indented(&trial.outcome.statement()));
     lines
+}
+
+/// The end of what a core printed that has crashed or hung.
+fn last_words(trial: &TrialRecord) -> Vec<String> {
+    if !matches!(trial.outcome.status(), Status::Crashed | Status::TimedOut) {
+        return Vec::new();
+    }
+    let printed: Vec<_> = trial.printed.lines().filter(|line| !line.trim().is_empty()).collect();
+    let last = &printed[printed.len().saturating_sub(LAST_WORDS)..];
+    last.iter().flat_map(|line| labelled("printed", &clean(line))).collect()
 }
 
 /// Nothing counts against the core: what is missing, and how to learn more.

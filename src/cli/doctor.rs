@@ -1,0 +1,192 @@
+//! `furnace doctor`: does a core come up, what can it do, what keeps it, and what is worth doing next.
+
+use super::hosting::HostingArguments;
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::case::{self, Case, next_steps};
+use crate::contract::{Capabilities, Conventions, CoreError, CoreInfo, Precision};
+use crate::cores::{CORES, CoreSpec, HostError, Hosted, Hosting};
+use crate::worker::StartError;
+use clap::Args;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Steps that are told; who has done one asks again.
+const STEPS: usize = 5;
+
+/// What `furnace doctor` understands.
+#[derive(Clone, Debug, Args)]
+pub struct DoctorArguments {
+    /// The core to examine; may be repeated [default: every core of our own].
+    #[arg(long = "core", value_name = "CORE")]
+    cores: Vec<CoreSpec>,
+    #[command(flatten)]
+    hosting: HostingArguments,
+    #[command(flatten)]
+    project: ProjectArguments,
+}
+
+/// Examines cores one after another.
+pub fn doctor(arguments: &DoctorArguments) -> Answer {
+    let project = arguments.project.find()?;
+    let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
+    let hosting = arguments.hosting.hosting(&project.runs()).hiding(project.secrets());
+    let own = || CORES.iter().filter_map(|kind| kind.name.parse().ok()).collect();
+    let cores = if arguments.cores.is_empty() { own() } else { arguments.cores.clone() };
+    let mut code = ExitCode::Good;
+    for spec in &cores {
+        let begun = Instant::now();
+        println!("core   {spec}");
+        match hosting.host(spec) {
+            Ok(mut hosted) => {
+                let milliseconds = begun.elapsed().as_millis();
+                println!("       comes up in {milliseconds} ms, {}", place(&hosted));
+                let info = hosted.core_mut().info();
+                introduce(&info);
+                tell_walls(&hosted, &hosting);
+                tell_next_steps(&cases, info.capabilities);
+            }
+            Err(error) => code = tell_failure(error),
+        }
+        println!();
+    }
+    Ok(code)
+}
+
+fn place(hosted: &Hosted) -> &'static str {
+    match hosted {
+        Hosted::Here(_) => "in this process",
+        Hosted::Away(_) => "in a process of its own",
+    }
+}
+
+fn introduce(info: &CoreInfo) {
+    let precision = match info.precision {
+        Precision::Single => "single",
+        Precision::Double => "double",
+    };
+    println!("       {} {}, {precision} precision", info.name, info.version);
+    tell("can", &info.capabilities.names());
+    tell("cannot", &(Capabilities::all() - info.capabilities).names());
+    tell("chose", &conventions(info.conventions));
+}
+
+/// What the core has chosen, as a file would say it.
+fn conventions(conventions: Conventions) -> Vec<String> {
+    let Ok(serde_json::Value::Object(choices)) = serde_json::to_value(conventions) else {
+        return Vec::new();
+    };
+    let choice = |(name, choice): (&String, &serde_json::Value)| {
+        format!("{name} = {}", choice.as_str().unwrap_or_default())
+    };
+    choices.iter().map(choice).collect()
+}
+
+fn tell_walls(hosted: &Hosted, hosting: &Hosting) {
+    let Some(confinement) = hosted.confinement() else { return };
+    tell("holds", &confinement.in_force);
+    tell("lacks", &confinement.lacking);
+    let readable: Vec<_> = hosting.readable.iter().map(|path| path.display().to_string()).collect();
+    tell("opened", &readable);
+}
+
+fn tell_next_steps(cases: &[Arc<Case>], has: Capabilities) {
+    let open = cases.iter().filter(|case| has.contains(case.prepared.needs())).count();
+    println!("tried  on {open} of {} cases", cases.len());
+    for (number, step) in next_steps(cases, has).iter().take(STEPS).enumerate() {
+        let label = if number == 0 { "next" } else { "" };
+        let names = step.missing.names().join(", ");
+        println!("{label:<7}{names}: {} more cases, as {}", step.cases.len(), step.cases[0]);
+        for (_, advice) in ADVICE.iter().filter(|(one, _)| step.missing.contains(*one)) {
+            println!("         {advice}");
+        }
+    }
+}
+
+fn tell(label: &str, lines: &[String]) {
+    for (number, line) in lines.iter().enumerate() {
+        println!("{:<7}{line}", if number == 0 { label } else { "" });
+    }
+}
+
+/// A core that dies has failed; what is no core at all is a wrong request.
+fn tell_failure(error: HostError) -> ExitCode {
+    println!("       does not come up: {error}");
+    match error {
+        HostError::Start(StartError::Core { error, printed }) => {
+            for line in printed.lines() {
+                println!("printed {line}");
+            }
+            match error {
+                CoreError::Crashed { .. } | CoreError::TimedOut { .. } => ExitCode::Failed,
+                _ => ExitCode::BadRequest,
+            }
+        }
+        HostError::Start(StartError::Bench { .. }) => ExitCode::Broken,
+        HostError::Load(_) => ExitCode::BadRequest,
+    }
+}
+
+/// How each capability is written in furnace_core.hpp.
+const ADVICE: &[(Capabilities, &str)] = &[
+    (Capabilities::GENERATE_RAYS, "generate_ray(camera, film)"),
+    (
+        Capabilities::INTERSECT_PRIMITIVE,
+        "intersect_triangle(positions, normals, ray), intersect_sphere(centre, radius, ray)",
+    ),
+    (Capabilities::INTERSECT_BOX, "intersect_box(min, max, ray)"),
+    (
+        Capabilities::SAMPLE_DIRECTION,
+        "sample_direction(sampler, random), direction_pdf(sampler, direction)",
+    ),
+    (Capabilities::EVAL_BSDF, "eval_bsdf(material, wo, wi)"),
+    (Capabilities::SAMPLE_BSDF, "sample_bsdf(material, wo, random)"),
+    (Capabilities::ADAPTIVE_MEAN, "adaptive_mean(rule, luminances, count)"),
+    (
+        Capabilities::BUILD_SCENE,
+        "build(scene, settings), which answers a std::unique_ptr to a type of yours",
+    ),
+    (Capabilities::INTERSECT, "of that type: intersect(ray, stats)"),
+    (Capabilities::OCCLUDED, "of that type: occluded(ray, stats)"),
+    (Capabilities::SAMPLE_LIGHT, "of that type: sample_light(light, from, random)"),
+    (Capabilities::RADIANCE, "of that type: radiance(ray, settings, index)"),
+    (Capabilities::RENDER, "of that type: render(camera, settings, pixels, sample_counts)"),
+    (Capabilities::BRUTE_FORCE, "honour settings.accelerate == 0, and say FURNACE_BRUTE_FORCE"),
+    (Capabilities::SPLIT_RULES, "honour settings.split, and say FURNACE_SPLIT_RULES"),
+    (
+        Capabilities::TRAVERSAL_STATS,
+        "count tests, and say FURNACE_COUNTS_TRAVERSAL; or use the bench's own with FURNACE_COUNTED_TESTS",
+    ),
+    (
+        Capabilities::HEMISPHERE_SAMPLING,
+        "honour settings.by_hemisphere, and say FURNACE_HEMISPHERE_SAMPLING",
+    ),
+    (
+        Capabilities::ISOLATED_BOUNCES,
+        "honour settings.first_bounce, and say FURNACE_ISOLATED_BOUNCES",
+    ),
+    (Capabilities::ROULETTE, "honour settings.roulette_stop, and say FURNACE_ROULETTE"),
+    (
+        Capabilities::ADAPTIVE_SAMPLING,
+        "honour settings.adaptive in render, and say FURNACE_ADAPTIVE_SAMPLING",
+    ),
+    (
+        Capabilities::CALLERS_RANDOMNESS,
+        "draw with random.point and random.lobe alone, and say FURNACE_CALLERS_RANDOMNESS",
+    ),
+    (
+        Capabilities::DETERMINISTIC,
+        "give the same bits for the same seed, and say FURNACE_DETERMINISTIC",
+    ),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn there_is_advice_for_every_capability() {
+        let advised = ADVICE.iter().map(|(one, _)| *one).collect::<Capabilities>();
+        assert_eq!((Capabilities::all() - advised).names(), Vec::<String>::new());
+        assert!(ADVICE.iter().all(|(one, _)| one.iter().count() == 1));
+    }
+}

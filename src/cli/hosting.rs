@@ -1,0 +1,78 @@
+//! What the command line says of the processes of cores.
+
+use crate::cores::Hosting;
+use crate::worker::Limits;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Where cores live and what they may use up.
+#[derive(Clone, Debug, Args)]
+pub struct HostingArguments {
+    /// Seconds to wait for a core in one trial [default: 120].
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    time_limit: Option<f64>,
+    /// Memory of a core's process: 512M, 4G, or `none` [default: 4G].
+    #[arg(long, value_name = "SIZE", value_parser = memory)]
+    memory_limit: Option<Memory>,
+    /// Let foreign cores read this file or folder too; may be repeated.
+    #[arg(long, value_name = "PATH")]
+    allow_read: Vec<PathBuf>,
+    /// Shut no core in: files, network and processes are open to it.
+    #[arg(long)]
+    unconfined: bool,
+    /// Put our own cores into processes of their own too.
+    #[arg(long)]
+    isolate: bool,
+}
+
+/// Bytes, or no limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Memory(Option<u64>);
+
+impl HostingArguments {
+    /// How cores are hosted, out of sight of the results in `runs`.
+    pub fn hosting(&self, runs: &Path) -> Hosting {
+        let mut limits = Limits::default();
+        limits.seconds = self.time_limit.unwrap_or(limits.seconds);
+        limits.memory = self.memory_limit.map_or(limits.memory, |limit| limit.0);
+        Hosting {
+            limits,
+            hidden: vec![runs.to_owned()],
+            readable: self.allow_read.clone(),
+            confined: !self.unconfined,
+            isolates_own: self.isolate,
+            ..Hosting::default()
+        }
+    }
+}
+
+fn positive(word: &str) -> Result<f64, String> {
+    let number = word.parse().ok().filter(|seconds: &f64| *seconds > 0.0 && seconds.is_finite());
+    number.ok_or_else(|| "it is no positive number of seconds".to_owned())
+}
+
+fn memory(word: &str) -> Result<Memory, String> {
+    if word == "none" {
+        return Ok(Memory(None));
+    }
+    let (digits, shift) = match word.strip_suffix('G') {
+        Some(digits) => (digits, 30),
+        None => (word.strip_suffix('M').unwrap_or(""), 20),
+    };
+    let size = digits.parse::<u64>().ok().and_then(|number| number.checked_mul(1 << shift));
+    let size = size.ok_or_else(|| "sizes are written 512M, 4G or none".to_owned())?;
+    Ok(Memory(Some(size)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_read_as_they_are_written() {
+        assert_eq!(memory("512M"), Ok(Memory(Some(512 << 20))));
+        assert_eq!(memory("4G"), Ok(Memory(Some(4 << 30))));
+        assert_eq!(memory("none"), Ok(Memory(None)));
+        assert!(memory("4").is_err() && memory("-1G").is_err() && memory("").is_err());
+    }
+}

@@ -1,0 +1,106 @@
+//! Cores that somebody else has written, as they are named after `--core`: a shared library by its
+//! path, a program by `exec:` and its command.
+
+use crate::text::listed;
+use crate::worker::Guest;
+use std::env;
+use std::path::{Path, PathBuf};
+
+/// What shared libraries are called.
+const LIBRARIES: &[&str] = &["so", "dylib", "dll"];
+
+/// How a program is named.
+const PROGRAM: &str = "exec:";
+
+/// The foreign core that a word names, if it names one at all.
+///
+/// # Errors
+/// A hint, if there is no such library or program.
+pub fn guest(word: &str) -> Option<Result<Guest, String>> {
+    if let Some(command) = word.strip_prefix(PROGRAM) {
+        return Some(program(command));
+    }
+    let path = Path::new(word);
+    let extension = path.extension()?.to_str()?;
+    LIBRARIES.contains(&extension).then(|| library(path))
+}
+
+fn library(path: &Path) -> Result<Guest, String> {
+    let found = path.canonicalize();
+    found.map(Guest::Library).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The words of a command; the program and files among them by their whole paths, since a worker
+/// runs in a folder of its own.
+fn program(command: &str) -> Result<Guest, String> {
+    let words = shell_words::split(command).map_err(|error| error.to_string())?;
+    let [program, arguments @ ..] = words.as_slice() else {
+        return Err(format!("after `{PROGRAM}` comes a command, as in 'exec: python3 core.py'"));
+    };
+    let program = found(program).ok_or_else(|| {
+        format!("there is no program {} here or on the PATH", listed([program.as_str()]))
+    })?;
+    let mut words = vec![program.to_string_lossy().into_owned()];
+    words.extend(arguments.iter().map(|word| absolute(word)));
+    Ok(Guest::Program(words))
+}
+
+/// Where a program is. Links are not followed: a program may ask by which name it was called.
+fn found(program: &str) -> Option<PathBuf> {
+    if Path::new(program).components().count() > 1 {
+        return std::path::absolute(program).ok().filter(|path| path.is_file());
+    }
+    let folders = env::var_os("PATH")?;
+    let suffix = env::consts::EXE_SUFFIX;
+    let candidates = env::split_paths(&folders)
+        .flat_map(|folder| [folder.join(program), folder.join(format!("{program}{suffix}"))]);
+    candidates.filter_map(|path| std::path::absolute(path).ok()).find(|path| path.is_file())
+}
+
+fn absolute(word: &str) -> String {
+    let path = Path::new(word);
+    let absolute = path.exists().then(|| std::path::absolute(path).ok()).flatten();
+    absolute.map_or_else(|| word.to_owned(), |path| path.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_our_own_are_nobody_elses() {
+        assert_eq!(guest("builtin"), None);
+        assert_eq!(guest("textbook:no-pi"), None);
+    }
+
+    #[test]
+    fn a_library_is_named_by_its_whole_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("libcore.so");
+        std::fs::write(&path, "").unwrap();
+        let expected = Guest::Library(path.canonicalize().unwrap());
+        assert_eq!(guest(&path.to_string_lossy()), Some(Ok(expected)));
+        assert!(guest("no/such/lib.so").unwrap().unwrap_err().starts_with("no/such/lib.so: "));
+    }
+
+    #[test]
+    fn files_among_the_words_of_a_command_are_named_by_their_whole_paths() {
+        let here = env::current_dir().unwrap();
+        let program = env::current_exe().unwrap();
+        let command = format!("exec: '{}' Cargo.toml --scale '2 3'", program.display());
+        let words = [
+            program.to_string_lossy().into_owned(),
+            here.join("Cargo.toml").to_string_lossy().into_owned(),
+            "--scale".to_owned(),
+            "2 3".to_owned(),
+        ];
+        assert_eq!(guest(&command), Some(Ok(Guest::Program(words.to_vec()))));
+    }
+
+    #[test]
+    fn a_program_that_is_nowhere_is_said_so() {
+        let complaint = guest("exec: no-such-program --fast").unwrap().unwrap_err();
+        assert!(complaint.contains("no program `no-such-program`"), "{complaint}");
+        assert!(guest("exec:").unwrap().unwrap_err().contains("comes a command"));
+    }
+}

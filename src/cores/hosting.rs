@@ -1,0 +1,118 @@
+//! Where a core lives: our own in this process, everybody else's in a worker.
+
+use super::CoreSpec;
+use super::dylib::LoadError;
+use super::remote::Remote;
+use crate::contract::Core;
+use crate::worker::{Confinement, Guest, Launch, Limits, StartError};
+use std::path::PathBuf;
+
+/// How cores are hosted in a run.
+#[derive(Clone, Debug)]
+pub struct Hosting {
+    /// The `furnace` program, which is what a worker runs.
+    pub program: PathBuf,
+    /// What each worker may use up.
+    pub limits: Limits,
+    /// What no core may read, wherever it lies: cases, references, results.
+    pub hidden: Vec<PathBuf>,
+    /// What the user lets cores read besides themselves and the system.
+    pub readable: Vec<PathBuf>,
+    /// Whether workers are shut in at all.
+    pub confined: bool,
+    /// Whether our own cores live in workers too.
+    pub isolates_own: bool,
+}
+
+impl Default for Hosting {
+    /// Workers of this program, shut in.
+    fn default() -> Self {
+        Self {
+            program: std::env::current_exe().unwrap_or_else(|_| "furnace".into()),
+            limits: Limits::default(),
+            hidden: Vec::new(),
+            readable: Vec::new(),
+            confined: true,
+            isolates_own: false,
+        }
+    }
+}
+
+/// A core, wherever it lives.
+pub enum Hosted {
+    /// In this process.
+    Here(Box<dyn Core>),
+    /// In a worker.
+    Away(Box<Remote>),
+}
+
+/// Why a core does not come up.
+#[derive(Debug, thiserror::Error)]
+pub enum HostError {
+    /// There is no such core.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// Its worker did not come up.
+    #[error(transparent)]
+    Start(#[from] StartError),
+}
+
+impl Hosting {
+    /// The same with more out of sight.
+    pub fn hiding(mut self, paths: impl IntoIterator<Item = PathBuf>) -> Self {
+        self.hidden.extend(paths);
+        self
+    }
+
+    /// Brings up a core.
+    ///
+    /// # Errors
+    /// If it does not come up.
+    pub fn host(&self, spec: &CoreSpec) -> Result<Hosted, HostError> {
+        if *spec.guest() == Guest::Resident && !self.isolates_own {
+            return Ok(Hosted::Here(spec.make()?));
+        }
+        Ok(Hosted::Away(Box::new(Remote::start(&self.launch(spec))?)))
+    }
+
+    /// How the workers of a core are started.
+    pub fn launch(&self, spec: &CoreSpec) -> Launch {
+        // What does not exist yet has no real path, but a place.
+        let real = |path: &PathBuf| path.canonicalize().or_else(|_| std::path::absolute(path)).ok();
+        Launch {
+            program: self.program.clone(),
+            spec: spec.to_string(),
+            guest: spec.guest().clone(),
+            limits: self.limits,
+            hidden: self.hidden.iter().filter_map(real).collect(),
+            readable: self.readable.iter().filter_map(real).collect(),
+            confined: self.confined,
+        }
+    }
+}
+
+impl Hosted {
+    /// The core.
+    pub fn core_mut(&mut self) -> &mut dyn Core {
+        match self {
+            Self::Here(core) => core.as_mut(),
+            Self::Away(remote) => remote.as_mut(),
+        }
+    }
+
+    /// What the system enforces on it; none for a core in this process.
+    pub fn confinement(&self) -> Option<&Confinement> {
+        match self {
+            Self::Here(_) => None,
+            Self::Away(remote) => Some(remote.confinement()),
+        }
+    }
+
+    /// What it has printed; nothing of a core in this process is kept.
+    pub fn printed(&self) -> String {
+        match self {
+            Self::Here(_) => String::new(),
+            Self::Away(remote) => remote.printed(),
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! The bytes of one message: a prefix of 24 bytes, a header in JSON, and arrays as they lie in
+//! memory.
+//!
+//! ```text
+//! offset  size  what, little-endian
+//!      0     4  "FRN1": the version of the protocol
+//!      4     4  H, bytes of the header
+//!      8     8  number of the request, echoed by its answer
+//!     16     8  B, bytes of the body
+//!     24     H  the header: a JSON object, UTF-8
+//!   24+H     B  the body: the arrays that the header lists, each filled up to a multiple of 8
+//! ```
+//!
+//! Not here: what headers say (`message`). Whoever sends is not trusted: no length is believed
+//! before it is bounded.
+
+use std::io::{self, Read, Write};
+
+/// The first bytes of every frame.
+pub const MAGIC: [u8; 4] = *b"FRN1";
+
+/// Bytes before the header.
+const PREFIX: usize = 24;
+
+/// The longest header that is read: the names of a scene's shapes, or a long complaint.
+const LONGEST_HEADER: usize = 64 << 20;
+
+/// Every array begins at a multiple of this.
+pub const ALIGNMENT: usize = 8;
+
+/// Why no frame could be read.
+#[derive(Debug, thiserror::Error)]
+pub enum FrameError {
+    /// The other side has closed the channel, between two frames or within one.
+    #[error("the channel was closed")]
+    Closed,
+    /// The system says no.
+    #[error("the channel failed: {0}")]
+    Io(io::Error),
+    /// What came is no frame.
+    #[error("what came on the channel is no frame: {0}")]
+    Malformed(String),
+}
+
+impl From<io::Error> for FrameError {
+    fn from(error: io::Error) -> Self {
+        use io::ErrorKind::{BrokenPipe, ConnectionReset, UnexpectedEof};
+        match error.kind() {
+            UnexpectedEof | BrokenPipe | ConnectionReset => Self::Closed,
+            _ => Self::Io(error),
+        }
+    }
+}
+
+/// What a frame announces of itself, and its header.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Opening {
+    /// Number of the request.
+    pub number: u64,
+    /// The header's text.
+    pub header: Vec<u8>,
+    /// Bytes of the body, which have not been read yet.
+    pub body: u64,
+}
+
+/// How many bytes an array of so many takes in the body.
+pub fn padded(bytes: usize) -> usize {
+    bytes.next_multiple_of(ALIGNMENT)
+}
+
+/// Puts a whole frame into `buffer`, in place of what was there.
+///
+/// # Errors
+/// If the header is longer than any reader takes.
+pub fn encode(
+    buffer: &mut Vec<u8>,
+    number: u64,
+    header: &[u8],
+    arrays: &[&[u8]],
+) -> Result<(), FrameError> {
+    let too_long = |_| FrameError::Malformed(format!("a header of {} bytes", header.len()));
+    let header_length = u32::try_from(header.len()).map_err(too_long)?;
+    let body: usize = arrays.iter().map(|array| padded(array.len())).sum();
+    buffer.clear();
+    buffer.reserve(PREFIX + header.len() + body);
+    buffer.extend_from_slice(&MAGIC);
+    buffer.extend_from_slice(&header_length.to_le_bytes());
+    buffer.extend_from_slice(&number.to_le_bytes());
+    buffer.extend_from_slice(&(body as u64).to_le_bytes());
+    buffer.extend_from_slice(header);
+    for array in arrays {
+        buffer.extend_from_slice(array);
+        buffer.resize(buffer.len() + padded(array.len()) - array.len(), 0);
+    }
+    Ok(())
+}
+
+/// Sends what [`encode`] has made.
+///
+/// # Errors
+/// If the other side is gone, or the system says no.
+pub fn send(channel: &mut impl Write, frame: &[u8]) -> Result<(), FrameError> {
+    channel.write_all(frame)?;
+    Ok(channel.flush()?)
+}
+
+/// Reads a frame up to its body.
+///
+/// # Errors
+/// If the channel ends, or what comes is no frame.
+pub fn open(channel: &mut impl Read) -> Result<Opening, FrameError> {
+    let mut prefix = [0; PREFIX];
+    channel.read_exact(&mut prefix)?;
+    if prefix[..4] != MAGIC {
+        let found = String::from_utf8_lossy(&prefix).escape_debug().to_string();
+        return Err(FrameError::Malformed(format!("it begins with \"{found}\"")));
+    }
+    let length = number_at(&prefix, 4, 4) as usize;
+    if length > LONGEST_HEADER {
+        return Err(FrameError::Malformed(format!("it announces a header of {length} bytes")));
+    }
+    let mut header = Vec::new();
+    // In pieces: a frame that announces more than it sends costs no more than it sends.
+    if channel.take(length as u64).read_to_end(&mut header)? != length {
+        return Err(FrameError::Closed);
+    }
+    Ok(Opening { number: number_at(&prefix, 8, 8), header, body: number_at(&prefix, 16, 8) })
+}
+
+/// The little-endian number in `size` bytes from `offset` on.
+fn number_at(bytes: &[u8; PREFIX], offset: usize, size: usize) -> u64 {
+    let digits = bytes[offset..offset + size].iter().rev();
+    digits.fold(0, |number, byte| number << 8 | u64::from(*byte))
+}
+
+/// Reads one array of a body, and what it is filled up with.
+///
+/// # Errors
+/// If the channel ends.
+pub fn read_array(channel: &mut impl Read, array: &mut [u8]) -> Result<(), FrameError> {
+    channel.read_exact(array)?;
+    let mut filling = [0; ALIGNMENT];
+    Ok(channel.read_exact(&mut filling[..padded(array.len()) - array.len()])?)
+}
+
+/// A body that was read whole, aligned so that its arrays can be looked at where they lie.
+#[derive(Debug, Default)]
+pub struct Body(Vec<u64>);
+
+impl Body {
+    /// Reads a body into the memory of the last one.
+    ///
+    /// # Errors
+    /// If the channel ends, or the length is no multiple of 8.
+    pub fn read(&mut self, channel: &mut impl Read, bytes: u64) -> Result<(), FrameError> {
+        let words = usize::try_from(bytes / ALIGNMENT as u64).unwrap_or(usize::MAX);
+        if !bytes.is_multiple_of(ALIGNMENT as u64) || words == usize::MAX {
+            return Err(FrameError::Malformed(format!("it announces a body of {bytes} bytes")));
+        }
+        self.0.resize(words, 0);
+        Ok(channel.read_exact(bytemuck::cast_slice_mut(&mut self.0))?)
+    }
+
+    /// The bytes.
+    pub fn bytes(&self) -> &[u8] {
+        bytemuck::cast_slice(&self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(number: u64, header: &[u8], arrays: &[&[u8]]) -> Vec<u8> {
+        let mut buffer = b"left over".to_vec();
+        encode(&mut buffer, number, header, arrays).unwrap();
+        buffer
+    }
+
+    #[test]
+    fn what_is_sent_is_what_arrives() {
+        let sent = frame(7, b"{}", &[b"12345", b"12345678"]);
+        let mut channel = sent.as_slice();
+        let opening = open(&mut channel).unwrap();
+        assert_eq!(opening, Opening { number: 7, header: b"{}".to_vec(), body: 16 });
+        let mut array = [0; 5];
+        read_array(&mut channel, &mut array).unwrap();
+        assert_eq!(&array, b"12345");
+        let mut body = Body::default();
+        body.read(&mut channel, 8).unwrap();
+        assert_eq!(body.bytes(), b"12345678");
+        assert!(matches!(open(&mut channel), Err(FrameError::Closed)));
+    }
+
+    #[test]
+    fn text_on_the_channel_is_told_in_its_own_words() {
+        let complaint = open(&mut b"Building BVH...\nDone! (0.1 s)\n".as_slice()).unwrap_err();
+        assert!(complaint.to_string().contains(r#"begins with "Building BVH...\nDone!"#));
+    }
+
+    #[test]
+    fn a_frame_cut_anywhere_is_a_closed_channel() {
+        let whole = frame(1, b"{\"a\":1}", &[&[1, 2, 3]]);
+        for end in 0..whole.len() {
+            let mut channel = &whole[..end];
+            let outcome = open(&mut channel)
+                .and_then(|opening| Body::default().read(&mut channel, opening.body));
+            assert!(matches!(outcome, Err(FrameError::Closed)), "cut at {end}: {outcome:?}");
+        }
+    }
+
+    #[test]
+    fn lengths_that_cannot_be_are_refused_before_memory_is_taken() {
+        let mut lie = frame(1, b"{}", &[]);
+        lie[4..8].copy_from_slice(&u32::MAX.to_le_bytes());
+        assert!(matches!(open(&mut lie.as_slice()), Err(FrameError::Malformed(_))));
+        let mut body = Body::default();
+        assert!(matches!(body.read(&mut io::empty(), 12), Err(FrameError::Malformed(_))));
+    }
+}

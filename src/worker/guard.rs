@@ -1,0 +1,327 @@
+//! Holds a worker to its limits, ends it with everything it has started, and says how it ended.
+
+use super::process::Limits;
+use crate::contract::CoreError;
+use std::io;
+use std::process::{Child, ExitStatus};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How often a worker is looked at: while processes can multiply, and otherwise.
+const TICK_OF_PROGRAMS: Duration = Duration::from_millis(25);
+const TICK: Duration = Duration::from_millis(200);
+
+/// How long a worker that has closed its channel may take to end.
+const FAREWELL: Duration = Duration::from_secs(1);
+
+/// How many times its limit the bench waits for a worker in all, however busy the machine is: one
+/// that computes a little now and then does not go on for ever.
+const PATIENCE: u32 = 20;
+
+/// What keeps a worker within its limits.
+pub struct Guard {
+    limits: Limits,
+    /// Whether it may start processes, which are then counted.
+    is_program: bool,
+    state: Mutex<State>,
+    /// Wakes whoever reads the channel, though a process that got away may hold its other end.
+    hang_up: Box<dyn Fn() + Send + Sync>,
+}
+
+struct State {
+    child: Child,
+    /// Whether the bench waits for an answer.
+    is_asked: bool,
+    /// The time that is charged to it; see [`Guard::charge`].
+    charged: Duration,
+    /// The time that the bench has waited for it.
+    waited: Duration,
+    /// When it was last looked at, and what it had used by then.
+    seen: (Instant, Usage),
+    /// Why it was ended, if it was.
+    sentence: Option<Sentence>,
+    /// How it ended.
+    status: Option<ExitStatus>,
+}
+
+/// What a worker uses at a moment, with all that it has started.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Usage {
+    /// Processes.
+    pub processes: usize,
+    /// Memory they occupy together.
+    pub bytes: u64,
+    /// Processor time that those there are have had so far.
+    pub computed: Duration,
+    /// Whether some thread computes, or waits only for its turn.
+    pub would_compute: bool,
+}
+
+impl Usage {
+    /// Of two processes together.
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            processes: self.processes + other.processes,
+            bytes: self.bytes + other.bytes,
+            computed: self.computed + other.computed,
+            would_compute: self.would_compute || other.would_compute,
+        }
+    }
+}
+
+/// Which limit a worker has broken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sentence {
+    Time,
+    Processes(usize),
+    Memory(u64),
+}
+
+/// Stops the looking when it is dropped.
+pub struct Watch(#[expect(dead_code, reason = "held, never used")] mpsc::Sender<()>);
+
+impl Guard {
+    /// Over `child`, which leads a process group.
+    pub fn new(
+        child: Child,
+        limits: Limits,
+        is_program: bool,
+        hang_up: Box<dyn Fn() + Send + Sync>,
+    ) -> Arc<Self> {
+        let state = State {
+            child,
+            is_asked: false,
+            charged: Duration::ZERO,
+            waited: Duration::ZERO,
+            seen: (Instant::now(), Usage::default()),
+            sentence: None,
+            status: None,
+        };
+        Arc::new(Self { limits, is_program, state: Mutex::new(state), hang_up })
+    }
+
+    /// Looks at the worker again and again until the answer is dropped.
+    pub fn watch(self: &Arc<Self>) -> Watch {
+        let guard = Arc::clone(self);
+        let (sender, receiver) = mpsc::channel();
+        let tick = if self.is_program { TICK_OF_PROGRAMS } else { TICK };
+        thread::spawn(move || {
+            while receiver.recv_timeout(tick) == Err(mpsc::RecvTimeoutError::Timeout) {
+                guard.look();
+            }
+        });
+        Watch(sender)
+    }
+
+    /// The bench begins to wait.
+    pub fn asked(&self) {
+        self.lock().is_asked = true;
+    }
+
+    /// The bench has been answered.
+    pub fn answered(&self) {
+        self.lock().is_asked = false;
+    }
+
+    fn look(&self) {
+        let mut state = self.lock();
+        if state.sentence.is_some() || state.status.is_some() {
+            return;
+        }
+        let usage = usage(&state.child, self.is_program);
+        Self::charge(&mut state, usage);
+        let Some(sentence) = self.judge(&state) else { return };
+        state.sentence = Some(sentence);
+        kill(&mut state.child);
+        (self.hang_up)();
+    }
+
+    /// Charges the time since the last look, if the bench waits. To a worker that would compute,
+    /// only as much as it was given: a machine that is busy with something else makes nobody late.
+    fn charge(state: &mut State, usage: Usage) {
+        let (seen, before) = std::mem::replace(&mut state.seen, (Instant::now(), usage));
+        if state.is_asked {
+            let passed = seen.elapsed();
+            let computed = usage.computed.saturating_sub(before.computed);
+            let is_idle = !before.would_compute && !usage.would_compute && computed.is_zero();
+            state.charged += if is_idle { passed } else { passed.min(computed) };
+            state.waited += passed;
+        }
+    }
+
+    fn judge(&self, state: &State) -> Option<Sentence> {
+        let Usage { processes, bytes, .. } = state.seen.1;
+        let late = state.waited > self.limits.time().saturating_mul(PATIENCE);
+        if late || state.charged > self.limits.time() {
+            Some(Sentence::Time)
+        } else if processes > self.limits.processes {
+            Some(Sentence::Processes(processes))
+        } else {
+            self.limits.memory.filter(|limit| bytes > *limit).map(|_| Sentence::Memory(bytes))
+        }
+    }
+
+    /// Ends the worker, if it has not ended, with all it has started; nothing of it is left
+    /// afterwards.
+    pub fn end(&self) -> io::Result<ExitStatus> {
+        let mut state = self.lock();
+        if let Some(status) = state.status {
+            return Ok(status);
+        }
+        // Before it is waited for: until then its group is nobody else's.
+        kill(&mut state.child);
+        let status = state.child.wait()?;
+        state.status = Some(status);
+        bury(&state.child);
+        Ok(status)
+    }
+
+    /// Why no answer has come, once the channel is closed. `printed` is what the core has printed.
+    pub fn explain(&self, during: &str, printed: impl FnOnce() -> String) -> CoreError {
+        let ended_by_itself = self.wait_for_the_end();
+        let sentence = self.lock().sentence;
+        let during = during.to_owned();
+        let crashed = |how: String| CoreError::Crashed { how, during: during.clone() };
+        match (sentence, self.end()) {
+            (Some(Sentence::Time), _) => CoreError::TimedOut { limit: self.limits.time(), during },
+            (Some(Sentence::Processes(count)), _) => {
+                crashed(format!("ended: it had started {count} processes"))
+            }
+            (Some(Sentence::Memory(bytes)), _) => {
+                crashed(format!("ended: out of memory, {} MiB in all its processes", bytes >> 20))
+            }
+            (None, Ok(_)) if !ended_by_itself => {
+                crashed("it closed its channel and went on running".to_owned())
+            }
+            (None, Ok(status)) => {
+                let out_of_memory = is_about_memory(&printed());
+                let why = if out_of_memory { ", out of memory" } else { "" };
+                crashed(format!("{}{why}", death(status)))
+            }
+            (None, Err(error)) => crashed(format!("its process cannot be waited for: {error}")),
+        }
+    }
+
+    fn wait_for_the_end(&self) -> bool {
+        let begun = Instant::now();
+        while begun.elapsed() < FAREWELL {
+            let state = self.lock();
+            if state.status.is_some() || state.sentence.is_some() || has_ended(&state.child) {
+                return true;
+            }
+            drop(state);
+            thread::sleep(Duration::from_millis(1));
+        }
+        false
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// What runtimes of C++, Python and Rust say when there is no more.
+fn is_about_memory(printed: &str) -> bool {
+    let words = ["bad_alloc", "MemoryError", "memory allocation of", "annot allocate memory"];
+    words.iter().any(|word| printed.contains(word))
+}
+
+#[cfg(unix)]
+use unix::{bury, death, has_ended, kill, usage};
+
+#[cfg(unix)]
+mod unix {
+    use super::Usage;
+    use rustix::process::{
+        Pid, Signal, WaitId, WaitIdOptions, WaitOptions, kill_process_group, waitid, waitpgid,
+    };
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::{Child, ExitStatus};
+
+    /// Ends the whole group at once: nobody in it can start anything any more.
+    pub fn kill(child: &mut Child) {
+        // Nothing to be done if it is gone already.
+        let _ = kill_process_group(Pid::from_child(child), Signal::KILL);
+    }
+
+    /// Whether it has ended; whoever asks for its status still gets it.
+    pub fn has_ended(child: &Child) -> bool {
+        let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT | WaitIdOptions::NOHANG;
+        !matches!(waitid(WaitId::Pid(Pid::from_child(child)), options), Ok(None))
+    }
+
+    /// Waits for those it had started, who are ours since it ended.
+    pub fn bury(child: &Child) {
+        while let Ok(Some(_)) = waitpgid(Pid::from_child(child), WaitOptions::empty()) {}
+    }
+
+    #[cfg(target_os = "linux")]
+    pub fn usage(child: &Child, is_program: bool) -> Usage {
+        crate::worker::confine_linux::usage(Pid::from_child(child), is_program)
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    pub fn usage(_: &Child, _: bool) -> Usage {
+        Usage::default()
+    }
+
+    /// How a process ended, in words.
+    pub fn death(status: ExitStatus) -> String {
+        match (status.signal(), status.code()) {
+            (Some(signal), _) => format!("signal {signal}{}", meaning(signal)),
+            (None, Some(code)) => format!("exit code {code} without an answer"),
+            (None, None) => "it ended in an unknown way".to_owned(),
+        }
+    }
+
+    fn meaning(signal: i32) -> &'static str {
+        match signal {
+            libc::SIGSEGV => " (SIGSEGV: memory that is not its own, or a stack that overflowed)",
+            libc::SIGBUS => " (SIGBUS: memory that is not there)",
+            libc::SIGABRT => " (SIGABRT: it gave up, as after an uncaught exception)",
+            libc::SIGFPE => " (SIGFPE: an integer divided by zero)",
+            libc::SIGILL => " (SIGILL: an instruction that does not exist)",
+            libc::SIGTRAP => " (SIGTRAP: a trap, as at the end of a function without return)",
+            libc::SIGKILL => " (SIGKILL: ended from outside, as when the machine is out of memory)",
+            libc::SIGXFSZ => " (SIGXFSZ: a file longer than it may be)",
+            libc::SIGPIPE => " (SIGPIPE: it wrote where nobody reads)",
+            libc::SIGTERM => " (SIGTERM: it was asked to end)",
+            libc::SIGSYS => " (SIGSYS: a call that it may not make)",
+            _ => "",
+        }
+    }
+}
+
+#[cfg(not(unix))]
+use elsewhere::{bury, death, has_ended, kill, usage};
+
+#[cfg(not(unix))]
+mod elsewhere {
+    use super::Usage;
+    use std::process::{Child, ExitStatus};
+
+    /// Ends the process; what it has started goes on.
+    pub fn kill(child: &mut Child) {
+        // Nothing to be done if it is gone already.
+        let _ = child.kill();
+    }
+
+    /// Not to be known without taking its status: whoever waits finds out.
+    pub fn has_ended(_: &Child) -> bool {
+        true
+    }
+
+    pub fn bury(_: &Child) {}
+
+    pub fn usage(_: &Child, _: bool) -> Usage {
+        Usage::default()
+    }
+
+    pub fn death(status: ExitStatus) -> String {
+        match status.code() {
+            Some(code) => format!("exit code {code} without an answer"),
+            None => "it ended in an unknown way".to_owned(),
+        }
+    }
+}

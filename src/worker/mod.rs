@@ -1,0 +1,40 @@
+//! Why a process: a core is foreign code. It crashes, hangs, prints, eats memory, and some would
+//! cheat; whatever it does has to stay one trial's result.
+//!
+//! A core is asked through frames on a private channel (`frame`, `message`; `client` asks, `serve`
+//! answers). `process` starts the worker that the core lives in, holds it to its limits (`guard`),
+//! keeps what it prints (`output`) and says how it ended; `child` is the other end of that, which
+//! shuts itself in (`confine`) before any foreign code runs. `narrow` finds the element of a batch
+//! that a core dies of.
+//!
+//! Not here: which cores there are (`cores`), and what their answers are worth (`checks`).
+
+pub mod child;
+mod client;
+mod confine;
+#[cfg(target_os = "linux")]
+mod confine_linux;
+pub mod frame;
+mod guard;
+pub mod message;
+pub mod narrow;
+mod output;
+mod process;
+mod scene;
+mod serve;
+
+pub use child::{Errand, Guest};
+pub use confine::Confinement;
+pub use process::{Launch, Limits, StartError, Worker};
+pub use scene::{SceneArrays, header as scene_header};
+pub use serve::{refuse, serve};
+
+use std::io::{Read, Write};
+
+/// Both directions of a private channel.
+pub struct Channel {
+    /// Where frames come from.
+    pub input: Box<dyn Read + Send>,
+    /// Where frames go.
+    pub output: Box<dyn Write + Send>,
+}

@@ -1,0 +1,302 @@
+//! One worker: a process with a core in it, from its start to its end.
+
+use super::Channel;
+use super::child::{Errand, Guest};
+use super::client::{Client, Silence};
+use super::confine::Confinement;
+use super::guard::{Guard, Watch};
+use super::message::{Answer, Request, Sent, Wanted};
+use super::output::Output;
+use crate::contract::{CoreError, CoreInfo};
+use serde::{Deserialize, Serialize};
+use std::io;
+use std::path::PathBuf;
+use std::process::{Child, Command};
+use std::sync::Arc;
+use std::time::Duration;
+use tempfile::TempDir;
+
+/// How long to wait for the last words of a core that has crashed.
+const PATIENCE: Duration = Duration::from_millis(200);
+
+/// What one worker may use up.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Limits {
+    /// Seconds that the bench waits for it in one trial, all its answers together.
+    pub seconds: f64,
+    /// Bytes of memory a process, or as many as it likes.
+    pub memory: Option<u64>,
+    /// Bytes of one file.
+    pub file: u64,
+    /// Processes at a time, of a program; a library has one.
+    pub processes: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { seconds: 120.0, memory: Some(4 << 30), file: 256 << 20, processes: 64 }
+    }
+}
+
+impl Limits {
+    /// [`Self::seconds`] as the standard library has it.
+    pub fn time(&self) -> Duration {
+        Duration::try_from_secs_f64(self.seconds).unwrap_or(Duration::MAX)
+    }
+}
+
+/// How the workers of a core are started, always the same way.
+#[derive(Clone, Debug)]
+pub struct Launch {
+    /// The `furnace` program.
+    pub program: PathBuf,
+    /// The core, as the user named it.
+    pub spec: String,
+    /// What kind of core that is.
+    pub guest: Guest,
+    /// What each worker may use up.
+    pub limits: Limits,
+    /// What it may never read, wherever it lies: cases, references, results.
+    pub hidden: Vec<PathBuf>,
+    /// What the user lets it read besides itself and the system.
+    pub readable: Vec<PathBuf>,
+    /// Whether it is shut in at all.
+    pub confined: bool,
+}
+
+/// Why there is no worker.
+#[derive(Debug, thiserror::Error)]
+pub enum StartError {
+    /// The bench cannot start one.
+    #[error("no worker can be started with {program}: {error}")]
+    Bench {
+        /// The `furnace` program.
+        program: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// The core did not come up.
+    #[error("{error}")]
+    Core {
+        /// How it ended, or what it refused.
+        error: CoreError,
+        /// The end of what it printed.
+        printed: String,
+    },
+}
+
+/// Variables that a worker keeps; whatever else the bench knows, secrets above all, is not for it.
+const KEPT_VARIABLES: &[&str] = &[
+    "PATH",
+    "LANG",
+    "LC_ALL",
+    "LD_LIBRARY_PATH",
+    "DYLD_LIBRARY_PATH",
+    "PYTHONPATH",
+    "VIRTUAL_ENV",
+    "PYENV_VERSION",
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "ASAN_OPTIONS",
+    "UBSAN_OPTIONS",
+    "RUST_BACKTRACE",
+    "SystemRoot",
+    "PATHEXT",
+];
+
+/// A process with a core in it. It ends, with all it has started, when this is dropped.
+pub struct Worker {
+    client: Client,
+    guard: Arc<Guard>,
+    output: Output,
+    info: CoreInfo,
+    confinement: Confinement,
+    /// Why it answers no more.
+    dead: Option<CoreError>,
+    _watch: Watch,
+    /// Deleted when the process has ended.
+    _scratch: TempDir,
+}
+
+impl Worker {
+    /// Starts the process and waits until the core says who it is.
+    ///
+    /// # Errors
+    /// If there is no process, or the core does not come up.
+    pub fn start(launch: &Launch) -> Result<Self, StartError> {
+        let failed = |error| StartError::Bench { program: launch.program.clone(), error };
+        let scratch = TempDir::with_prefix("furnace-").map_err(failed)?;
+        let (reader, writer) = io::pipe().map_err(failed)?;
+        let mut command = launch.command(&scratch).map_err(failed)?;
+        command.stderr(writer.try_clone().map_err(failed)?);
+        let Started { child, channel, hang_up } =
+            start_with_channel(command, writer).map_err(failed)?;
+        let is_program = matches!(launch.guest, Guest::Program(_));
+        let guard = Guard::new(child, launch.limits, is_program, hang_up);
+        let mut worker = Self {
+            client: Client::new(channel),
+            _watch: guard.watch(),
+            guard,
+            output: Output::of(reader),
+            info: nobody(),
+            confinement: Confinement::default(),
+            dead: None,
+            _scratch: scratch,
+        };
+        match worker.meet(&launch.limits) {
+            Ok(()) => Ok(worker),
+            Err(error) => Err(StartError::Core { error, printed: worker.printed() }),
+        }
+    }
+
+    /// Hears how the worker is confined, and asks the core who it is.
+    fn meet(&mut self, limits: &Limits) -> Result<(), CoreError> {
+        let first = self.guarded("start", |client| client.hear(&mut []))?;
+        if let Answer::Confined { confinement } = first {
+            self.confinement = confinement;
+        }
+        self.confinement.in_force.push(format!("time: {} s a trial", limits.seconds));
+        let nonsense = |what| CoreError::BrokeContract(format!("when it was greeted: {what}"));
+        match self.ask(&Request::Hello, &[], &mut [])? {
+            Answer::Core { core } => self.info = core.info().map_err(nonsense)?,
+            other => return Err(nonsense(format!("it answered {other:?}"))),
+        }
+        Ok(())
+    }
+
+    /// Asks the core, and fills `wanted`.
+    ///
+    /// # Errors
+    /// What the core answers, if it is an error, or how it ended. After that it only says the same.
+    pub fn ask(
+        &mut self,
+        request: &Request,
+        sent: &[Sent<'_>],
+        wanted: &mut [Wanted<'_>],
+    ) -> Result<Answer, CoreError> {
+        self.guarded(request.name(), |client| client.ask(request, sent, wanted))?.into_result()
+    }
+
+    fn guarded(
+        &mut self,
+        during: &str,
+        exchange: impl FnOnce(&mut Client) -> Result<Answer, Silence>,
+    ) -> Result<Answer, CoreError> {
+        if let Some(error) = &self.dead {
+            return Err(error.clone());
+        }
+        self.guard.asked();
+        let outcome = exchange(&mut self.client);
+        self.guard.answered();
+        outcome.map_err(|silence| {
+            let error = match silence {
+                Silence::Gone => self.guard.explain(during, || self.output.last_words(PATIENCE)),
+                Silence::Nonsense(what) => {
+                    CoreError::BrokeContract(format!("during {during} {what}"))
+                }
+            };
+            // Waiting for a status is all that can fail, and then nobody is there to be ended.
+            let _ = self.guard.end();
+            self.dead.insert(error).clone()
+        })
+    }
+
+    /// Who the core is.
+    pub const fn info(&self) -> &CoreInfo {
+        &self.info
+    }
+
+    /// What the system enforces on it.
+    pub const fn confinement(&self) -> &Confinement {
+        &self.confinement
+    }
+
+    /// What the core has printed: all of it, if it has crashed; so far, if it lives.
+    pub fn printed(&self) -> String {
+        match self.dead {
+            Some(_) => self.output.last_words(PATIENCE),
+            None => self.output.text(),
+        }
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        // As above.
+        let _ = self.guard.end();
+    }
+}
+
+/// Who a core is before it has said so.
+fn nobody() -> CoreInfo {
+    CoreInfo {
+        name: String::new(),
+        version: String::new(),
+        capabilities: crate::contract::Capabilities::empty(),
+        precision: crate::contract::Precision::Double,
+        conventions: crate::contract::Conventions::default(),
+    }
+}
+
+impl Launch {
+    fn command(&self, scratch: &TempDir) -> io::Result<Command> {
+        let scratch = scratch.path().canonicalize()?;
+        let errand = Errand {
+            spec: self.spec.clone(),
+            guest: self.guest.clone(),
+            limits: self.limits,
+            scratch: scratch.clone(),
+            hidden: self.hidden.clone(),
+            readable: self.readable.clone(),
+            confined: self.confined,
+        };
+        let mut command = Command::new(&self.program);
+        command.arg("worker").arg(serde_json::to_string(&errand)?).env_clear();
+        command
+            .envs(KEPT_VARIABLES.iter().filter_map(|name| Some((name, std::env::var_os(name)?))));
+        // What a core writes at home or for a while goes to the folder that it may write.
+        command.envs(["HOME", "TMPDIR", "TMP", "TEMP"].map(|name| (name, &scratch)));
+        command.env("PYTHONDONTWRITEBYTECODE", "1").env("PYTHONUNBUFFERED", "1");
+        command.current_dir(&scratch);
+        Ok(command)
+    }
+}
+
+/// A process, and the bench's end of its channel.
+struct Started {
+    child: Child,
+    channel: Channel,
+    hang_up: Box<dyn Fn() + Send + Sync>,
+}
+
+/// The channel is a socket that the worker finds as its standard input, and moves away from there.
+#[cfg(unix)]
+fn start_with_channel(mut command: Command, printed: io::PipeWriter) -> io::Result<Started> {
+    use std::net::Shutdown;
+    use std::os::fd::OwnedFd;
+    use std::os::unix::net::UnixStream;
+    use std::os::unix::process::CommandExt;
+
+    #[cfg(target_os = "linux")]
+    super::confine_linux::adopt_orphans();
+    let (ours, theirs) = UnixStream::pair()?;
+    let child = command.process_group(0).stdin(OwnedFd::from(theirs)).stdout(printed).spawn()?;
+    let (reader, handle) = (ours.try_clone()?, ours.try_clone()?);
+    let hang_up = Box::new(move || drop(handle.shutdown(Shutdown::Both)));
+    let channel = Channel { input: Box::new(reader), output: Box::new(ours) };
+    Ok(Started { child, channel, hang_up })
+}
+
+/// The channel is standard input and output; what the core prints there breaks it.
+#[cfg(not(unix))]
+fn start_with_channel(mut command: Command, printed: io::PipeWriter) -> io::Result<Started> {
+    use std::process::Stdio;
+    drop(printed);
+    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
+    let missing = || io::Error::other("a worker without standard streams");
+    let output = child.stdin.take().ok_or_else(missing)?;
+    let input = child.stdout.take().ok_or_else(missing)?;
+    let channel = Channel { input: Box::new(input), output: Box::new(output) };
+    Ok(Started { child, channel, hang_up: Box::new(|| {}) })
+}

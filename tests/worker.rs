@@ -1,0 +1,92 @@
+//! A worker changes nothing but where a core lives: the same core gives the same findings in it, and cores that come with
+//! the project as examples are asked like any other.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod support;
+
+use furnace::case;
+use furnace::cores::Hosting;
+use furnace::math::rng::Seed;
+use furnace::project::Project;
+use furnace::run::{Plan, Request, Status, TrialRecord, run_in_memory};
+use furnace::stats::Budget;
+use std::path::Path;
+use std::process::Command;
+use support::{compile_core, cpp_compiler, root};
+
+fn run(core: &str, filters: &[&str], isolates_own: bool) -> Vec<TrialRecord> {
+    let project = Project::at(env!("CARGO_MANIFEST_DIR"));
+    let cases = case::load_all(&project.cases()).unwrap();
+    let request = Request {
+        cores: vec![core.parse().unwrap()],
+        filters: filters.iter().map(ToString::to_string).collect(),
+        budget: Budget::Quick,
+        seed: Seed::SUITE,
+        jobs: 2,
+        fail_fast: false,
+    };
+    let program = env!("CARGO_BIN_EXE_furnace").into();
+    let hosting = Hosting { program, isolates_own, ..Hosting::default() };
+    run_in_memory(&Plan::new(project, request, &cases).hosted(hosting))
+}
+
+/// Every kind of request: rays, shapes, boxes, samplers, surfaces, streams, scenes, light, pictures.
+const EVERYTHING: &[&str] = &[
+    "camera/",
+    "intersection/rays",
+    "bvh/flat",
+    "bvh/spheres-and",
+    "sampling/streams",
+    "sampling/the-cosine-map",
+    "bsdf/samples-are",
+    "lights/samples-of-a-ball",
+    "lights/a-point-light",
+    "images/point-light",
+];
+
+#[test]
+fn a_core_gives_the_same_findings_in_a_worker() {
+    let here = run("builtin", EVERYTHING, false);
+    let away = run("builtin", EVERYTHING, true);
+    assert!(here.len() > EVERYTHING.len(), "{} cases", here.len());
+    for (here, away) in here.iter().zip(&away) {
+        assert_eq!(here.case, away.case);
+        assert_eq!(here.outcome, away.outcome, "{}", here.case);
+    }
+}
+
+fn assert_nothing_fails(trials: &[TrialRecord], least: usize) {
+    assert!(trials.len() >= least, "{} trials", trials.len());
+    for trial in trials {
+        let status = trial.outcome.status();
+        let is_fine = matches!(status, Status::Pass | Status::Inconclusive | Status::Skipped);
+        assert!(is_fine, "{}: {}\n{}", trial.case, trial.outcome.statement(), trial.printed);
+    }
+}
+
+#[test]
+fn the_cpp_example_is_right() {
+    let Some(compiler) = cpp_compiler() else { return };
+    let library = Path::new(env!("CARGO_TARGET_TMPDIR")).join("libpathtracer.so");
+    let source = root().join("examples/cpp/pathtracer.cpp");
+    compile_core(&compiler, &source, &library);
+    let core = library.to_string_lossy();
+    // Pictures take long; `cargo furnace --core` tries them too.
+    assert_nothing_fails(&run(&core, &["!images/"], false), 60);
+}
+
+#[test]
+fn the_numpy_example_is_right() {
+    let python = std::env::var("FURNACE_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let imports = Command::new(&python).args(["-c", "import numpy, furnace_core"]).output();
+    if !imports.is_ok_and(|output| output.status.success()) {
+        eprintln!(
+            "skipped: `{python}` has no numpy and furnace_core; see adapters/python/README.md"
+        );
+        return;
+    }
+    let script = root().join("examples/python/numpy_core.py");
+    let core = format!("exec: {python} '{}'", script.display());
+    assert_nothing_fails(&run(&core, &["camera/", "intersection/", "bvh/"], false), 15);
+}

@@ -1,0 +1,256 @@
+"""The channel: requests come, answers go. `docs/protocol.md` says what they are made of."""
+
+import json
+import os
+import struct
+import sys
+import traceback
+
+import numpy as np
+
+from .core import Unsupported, capabilities
+from .elements import ADAPTIVE_MEAN, BSDF_VALUE, ELEMENTS, decode, encode
+
+MAGIC = b"FRN1"
+PREFIX = struct.Struct("<4sIQQ")
+
+
+class Table:
+    """A JSON object whose members are attributes: `settings.samples_per_light`."""
+
+    def __init__(self, members):
+        for name, value in members.items():
+            setattr(self, name.replace("-", "_"), table(value))
+
+    def __repr__(self):
+        return f"Table({vars(self)})"
+
+
+def table(value):
+    """Objects as tables, lists of numbers as arrays."""
+    if isinstance(value, dict):
+        return Table(value)
+    if isinstance(value, list) and value and all(isinstance(v, (int, float)) for v in value):
+        return np.array(value, dtype=float)
+    if isinstance(value, list):
+        return [table(v) for v in value]
+    return value
+
+
+def camera_of(members):
+    """A camera with its axes as the rows of a matrix."""
+    camera = Table(members)
+    camera.axes = camera.camera_to_world.reshape(3, 3)
+    return camera
+
+
+class Channel:
+    """Both directions."""
+
+    def __init__(self):
+        place = os.environ.get("FURNACE_CHANNEL", "stdio")
+        if place == "stdio":
+            source, sink = os.dup(0), os.dup(1)
+            # What the core prints must not come between the frames.
+            os.dup2(2, 1)
+        else:
+            source, sink = int(place), os.dup(int(place))
+        self.source, self.sink = os.fdopen(source, "rb"), os.fdopen(sink, "wb")
+
+    def read(self):
+        """The next request: its number, its header, its arrays. None when the channel is closed."""
+        prefix = self.source.read(PREFIX.size)
+        if len(prefix) < PREFIX.size:
+            return None
+        magic, header_size, number, body_size = PREFIX.unpack(prefix)
+        if magic != MAGIC:
+            raise RuntimeError(f"a frame that begins with {magic!r}")
+        header = json.loads(self.source.read(header_size))
+        body = self.source.read(body_size)
+        arrays, offset = {}, 0
+        for name, element, count in header.pop("arrays", []):
+            size = self.size(element, count)
+            arrays[name] = decode(element, count, body[offset:offset + size])
+            offset += size + -size % 8
+        return number, header, arrays
+
+    @staticmethod
+    def size(element, count):
+        """Bytes of so many elements."""
+        dtype, shape = ELEMENTS[element]
+        return dtype.itemsize * int(np.prod(shape, dtype=int)) * count
+
+    def write(self, number, header, arrays=()):
+        """Answers: `arrays` are (name, element, count, array)."""
+        parts = [(name, element, count, encode(element, count, array))
+                 for name, element, count, array in arrays]
+        header = dict(header, arrays=[part[:3] for part in parts])
+        text = json.dumps(header).encode()
+        body = b"".join(data + bytes(-len(data) % 8) for *_, data in parts)
+        self.sink.write(PREFIX.pack(MAGIC, len(text), number, len(body)) + text + body)
+        self.sink.flush()
+
+
+def serve(core):
+    """Answers every request until the bench closes the channel."""
+    channel = Channel()
+    built = None
+    while True:
+        request = channel.read()
+        if request is None:
+            return
+        number, header, arrays = request
+        try:
+            answer, sent, built = ask(core, built, header, arrays)
+            channel.write(number, answer, sent)
+        except (Unsupported, NotImplementedError) as error:
+            why = str(error) or f"{header['request']} is not there"
+            channel.write(number, {"answer": "beyond", "why": why})
+        except MemoryError as error:
+            traceback.print_exc()
+            channel.write(number, {"answer": "refused", "why": f"MemoryError: {error}"})
+        except Exception as error:  # whatever it is, it is the core's answer
+            traceback.print_exc()
+            sys.stderr.flush()
+            why = f"{type(error).__name__}: {error}"
+            channel.write(number, {"answer": "refused", "why": why})
+
+
+def ask(core, built, header, arrays):
+    """What the core answers: a header, its arrays, and the built scene from now on."""
+    request = header["request"]
+    if request == "hello":
+        return introduction(core), [], built
+    if request == "build":
+        built = None  # at most one at a time
+        built = core.build(Scene(header["scene"], arrays), Table(header["acceleration"]))
+        stats = {"nodes": 0, "leaves": 0, "max-depth": 0, "bytes": 0}
+        return {"answer": "built", "stats": whole({**stats, **built.stats()})}, [], built
+    if request == "release":
+        return {"answer": "done"}, [], None
+    if request in ("intersect", "occluded"):
+        return (*traced(built, request, arrays["rays"]), built)
+    return {"answer": "done"}, batch(core, built, request, header, arrays), built
+
+
+def introduction(core):
+    """Who the core is."""
+    return {
+        "answer": "core",
+        "name": core.name,
+        "version": core.version,
+        "precision": core.precision,
+        "capabilities": capabilities(core),
+        "conventions": core.conventions,
+    }
+
+
+def traced(built, request, rays):
+    """Hits or flags, and what it took."""
+    answer, counts = getattr(built, request)(rays)
+    name, element = ("hits", "hit") if request == "intersect" else ("occluded", "u8")
+    stats = {"rays": len(rays), "box-tests": 0, "primitive-tests": 0, **counts}
+    return {"answer": "traced", "stats": whole(stats)}, [(name, element, len(rays), answer)]
+
+
+def whole(counts):
+    """Counts as JSON has them, whatever kind of integer they were."""
+    return {name: int(count) for name, count in counts.items()}
+
+
+class Random:
+    """The caller's random numbers for one batch, in [0, 1)."""
+
+    def __init__(self, header, arrays):
+        self.seed, self.points, self.lobes = header["seed"], arrays["points"], arrays["lobes"]
+
+
+def batch(core, built, request, header, arrays):
+    """The arrays that answer a request."""
+    rays = arrays.get("rays")
+    if request == "generate-rays":
+        film = arrays["film"]
+        return [("rays", "ray", len(film), core.generate_rays(camera_of(header["camera"]), film))]
+    if request == "intersect-triangle":
+        corners = arrays["positions"], arrays["normals"]
+        return [("hits", "hit", len(rays), core.intersect_triangle(*corners, rays))]
+    if request == "intersect-sphere":
+        [sphere] = arrays["spheres"]
+        hits = core.intersect_sphere(sphere[:3], float(sphere[3]), rays)
+        return [("hits", "hit", len(rays), hits)]
+    if request == "intersect-box":
+        low, high = arrays["bounds"]
+        return [("box-hits", "box-hit", len(rays), core.intersect_box(low, high, rays))]
+    if request == "sample-direction":
+        random = Random(header, arrays)
+        samples = core.sample_direction(header["sampler"], random)
+        return [("samples", "direction-sample", len(random.points), samples)]
+    if request == "direction-pdf":
+        directions = arrays["directions"]
+        pdf = core.direction_pdf(header["sampler"], directions)
+        return [("pdf", "f64", len(directions), pdf)]
+    if request == "eval-bsdf":
+        queries = arrays["queries"]
+        values = np.empty(len(queries), BSDF_VALUE)
+        material = material_of(header["material"])
+        values["f"], values["pdf"] = core.eval_bsdf(material, queries["wo"], queries["wi"])
+        return [("values", "bsdf-value", len(queries), values)]
+    if request == "sample-bsdf":
+        wo, random = arrays["wo"], Random(header, arrays)
+        samples = core.sample_bsdf(material_of(header["material"]), wo, random)
+        return [("samples", "bsdf-sample", len(wo), samples)]
+    if request == "adaptive-mean":
+        streams = np.split(arrays["values"], np.cumsum(arrays["lengths"]).astype(int)[:-1])
+        means = np.zeros(len(streams), ADAPTIVE_MEAN)
+        rule = header["samples-per-batch"], header["max-tolerance"]
+        for index, answer in enumerate(core.adaptive_mean(*rule, streams)):
+            means[index]["mean"], means[index]["used"] = answer
+        return [("means", "adaptive-mean", len(means), means)]
+    if request == "sample-light":
+        origins, random = arrays["from"], Random(header, arrays)
+        samples = built.sample_light(header["light"], origins, random)
+        return [("samples", "light-sample", len(origins), samples)]
+    if request == "radiance":
+        return [("radiance", "rgb", len(rays), built.radiance(rays, Table(header["settings"])))]
+    if request == "render":
+        settings = Table(header["settings"])
+        pixels, samples = built.render(camera_of(header["camera"]), settings)
+        count = settings.width * settings.height
+        return [
+            ("pixels", "rgb-f32", count, np.reshape(pixels, (count, 3))),
+            ("sample-counts", "u32", count, np.reshape(samples, count)),
+        ]
+    raise Unsupported(f"the request `{request}` is not known to this version of furnace_core")
+
+
+def material_of(members):
+    """A material: its surface's members are its own."""
+    material = Table({**members["surface"], "name": members["name"]})
+    emission = members["emission"]
+    material.emission = emission and Table(emission)
+    return material
+
+
+class Scene:
+    """A scene. Shapes are numbered meshes first, then spheres."""
+
+    def __init__(self, header, arrays):
+        self.name = header["name"]
+        self.camera = header["camera"] and camera_of(header["camera"])
+        self.materials = [material_of(material) for material in header["materials"]]
+        self.lights = [Table(light) for light in header["lights"]]
+        self.meshes, rest = [], {name: arrays[name] for name in ("positions", "normals", "indices")}
+        for members in header["meshes"]:
+            mesh = Table(members)
+            normals = mesh.vertices if mesh.smooth else 0
+            for name, count in (("positions", mesh.vertices), ("normals", normals),
+                                ("indices", mesh.triangles)):
+                setattr(mesh, name, rest[name][:count])
+                rest[name] = rest[name][count:]
+            self.meshes.append(mesh)
+        shapes = zip(header["spheres"], arrays["spheres"], arrays["sphere-kinds"])
+        self.spheres = [
+            Table({"name": name, "centre": list(shape[:3]), "radius": float(shape[3]),
+                   "inward": bool(kind[0]), "material": int(kind[1])})
+            for name, shape, kind in shapes
+        ]

@@ -43,6 +43,38 @@ pub static CLAMPED: Cause = Cause {
 };
 
 /// See its headline.
+pub static SAMPLES_CLAMPED: Cause = Cause {
+    name: "samples-clamped",
+    headline: "bright samples are cut off before they are averaged: energy is lost with the fireflies",
+    look_at: "where the radiance of one path is added to its pixel",
+    remedy: "Add every sample as it is; more samples, not a limit, make fireflies fade.",
+};
+
+/// See its headline.
+pub static DISPLACED: Cause = Cause {
+    name: "picture-displaced",
+    headline: "the whole picture lies beside its place",
+    look_at: "the way from a pixel's column and row to a film point",
+    remedy: "Sample (u, v) of the pixel in column c and row r is ((c + u)/width, 1 − (r + v)/height).",
+};
+
+/// See its headline.
+pub static MAGNIFIED: Cause = Cause {
+    name: "picture-magnified",
+    headline: "the whole picture is larger or smaller than it should be",
+    look_at: "the field of view, and the division by the film's size",
+    remedy: "The film spans 2 tan(fov/2): divide by width and height, not by one less.",
+};
+
+/// See its headline.
+pub static FACTOR: Cause = Cause {
+    name: "picture-factor",
+    headline: "the whole picture is too bright or too dark by one factor",
+    look_at: "the division by the number of samples, and the strength of the lights",
+    remedy: "Divide the sum of all samples by how many there were, once.",
+};
+
+/// See its headline.
 pub static GAMMA_TWICE: Cause = Cause {
     name: "gamma-in-film",
     headline: "the film holds gamma-encoded values where linear radiance belongs",
@@ -121,6 +153,10 @@ pub static CAUSES: &[&Cause] = &[
     &DIVIDED_BY_ONE_MORE,
     &ONE_SAMPLE_TOO_MANY,
     &CLAMPED,
+    &SAMPLES_CLAMPED,
+    &DISPLACED,
+    &MAGNIFIED,
+    &FACTOR,
     &GAMMA_TWICE,
     &CHANNELS_SWAPPED,
     &BORDER_LEFT_OUT,

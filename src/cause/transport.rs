@@ -19,6 +19,14 @@ pub static ONE_BOUNCE_SHORT: Cause = Cause {
 };
 
 /// See its headline.
+pub static BOUNCE_MISSING: Cause = Cause {
+    name: "bounce-missing",
+    headline: "the accumulated picture lacks one of its bounces",
+    look_at: "where the radiance of each bounce is added to the path's",
+    remedy: "Every bounce up to the last adds its light, weighted with the throughput so far.",
+};
+
+/// See its headline.
 pub static ONE_BOUNCE_LONG: Cause = Cause {
     name: "one-bounce-long",
     headline: "paths go one bounce too far",
@@ -246,6 +254,7 @@ pub static ROULETTE_NOT_PLAYED: Cause = Cause {
 pub static CAUSES: &[&Cause] = &[
     &ROULETTE_NOT_DIVIDED,
     &ONE_BOUNCE_SHORT,
+    &BOUNCE_MISSING,
     &ONE_BOUNCE_LONG,
     &ALBEDO_TWICE,
     &ALBEDO_FORGOTTEN,

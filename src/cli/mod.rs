@@ -1,5 +1,6 @@
 //! The command line: one verb a file, and what each word means.
 
+mod compare;
 mod doctor;
 mod exit_code;
 mod explain;
@@ -61,6 +62,8 @@ enum Verb {
     Explain(explain::ExplainArguments),
     /// Put planted mistakes to the cases: each has to be caught and named.
     Faults(faults::FaultsArguments),
+    /// Say whether two pictures show the same, and if not, which mistake turns one into the other.
+    Compare(compare::CompareArguments),
     /// Read every case and scene and say what is wrong with them.
     Lint,
     /// Write the pages of a run again.
@@ -105,6 +108,7 @@ pub fn main() -> ExitCode {
         Some(Verb::Faults(arguments)) => faults::faults(&arguments),
         Some(Verb::Doctor(arguments)) => doctor::doctor(&arguments),
         Some(Verb::Worker(arguments)) => worker::worker(&arguments),
+        Some(Verb::Compare(arguments)) => compare::compare(&arguments),
         Some(Verb::Lint) => lint::lint(),
         Some(Verb::Report(arguments)) => report::report(&arguments),
         Some(Verb::Reference(arguments)) => reference::reference(&arguments),

@@ -5,10 +5,12 @@
 
 mod error;
 pub mod exr;
+pub mod file;
 mod filter;
 pub mod flip;
 pub mod heatmap;
 mod mae;
+pub mod mask;
 pub mod metric;
 mod ms_ssim;
 pub mod pair;

@@ -17,6 +17,11 @@ pub fn encode_srgb(linear: f32) -> f32 {
     if clipped <= 0.003_130_8 { 12.92 * clipped } else { 1.055 * clipped.powf(1.0 / 2.4) - 0.055 }
 }
 
+/// sRGB in [0, 1] to linear light.
+pub fn decode_srgb(encoded: f32) -> f32 {
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
 /// Linear light in [0, 1] to an sRGB code.
 pub fn srgb_code(linear: f32) -> u8 {
     // In [0, 255.5): the cast rounds to nearest and cannot overflow.

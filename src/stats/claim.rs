@@ -25,6 +25,9 @@ impl Band {
     /// The variance of an estimator: two legitimate ways to write one differ by a few per cent.
     pub const VARIANCE: Band = Band(0.2);
 
+    /// How far a picture may be displaced, pixels: what no eye and no float notices.
+    pub const ALIGNMENT: Band = Band(0.01);
+
     /// One evaluation in this precision.
     pub const fn math(precision: Precision) -> Band {
         match precision {

@@ -17,6 +17,18 @@ pub enum Impossible {
     Negative,
 }
 
+impl Impossible {
+    /// What is wrong with a value, if anything is.
+    pub(super) fn of(value: f32) -> Option<Self> {
+        match value {
+            v if v.is_nan() => Some(Self::NotANumber),
+            v if v.is_infinite() => Some(Self::Infinite),
+            v if v < 0.0 => Some(Self::Negative),
+            _ => None,
+        }
+    }
+}
+
 /// Pixels that are impossible in some run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ImpossiblePixels {

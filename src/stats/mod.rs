@@ -5,6 +5,8 @@
 //! - [`judge_counts`]: whether samples follow a density, by χ² on [`SphereCells`].
 //! - [`judge_image`]: whether a picture is its reference, by screening and confirming cells of five
 //!   sizes.
+//! - [`judge_difference`]: whether two pictures differ that were rendered once each.
+//! - [`misfit`]: which mistake turns one picture into another. It names, and never grades.
 //! - [`judge_exact`]: comparisons without noise, with their [`Tolerance`]s.
 //! - [`judge_share`], [`judge_slope`], [`judge_uncorrelated`]: shares, convergence, independence.
 //! - [`judge_rare`]: what must hardly ever happen.
@@ -26,12 +28,14 @@ mod claim;
 mod correlation;
 mod count_report;
 mod dead_pixels;
+mod difference;
 mod exact;
 mod histogram;
 mod image_report;
 mod ladder;
 mod ledger;
 mod mean_report;
+pub mod misfit;
 mod moments;
 mod noise;
 mod proportion;
@@ -58,6 +62,10 @@ pub use chi_square::{
 pub use claim::{Band, Claim, Sides};
 pub use correlation::{CORRELATION_FALSE_ALARM, CorrelationReport, judge_uncorrelated};
 pub use count_report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};
+pub use difference::{
+    DIFFERENCE_FALSE_ALARM, DifferenceReport, OddPixels, Pattern, PatternReport, Sample,
+    judge_difference,
+};
 pub use exact::{Compared, ExactReport, Tolerance, Worst, judge_exact};
 pub use histogram::{BatchDensity, CellProbabilities, Counts, SphereCells};
 pub use image_report::{

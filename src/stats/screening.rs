@@ -319,20 +319,11 @@ fn confirm(level: f64, second: &Moments, third: &Moments) -> [Confirmation; 2] {
 
 /// The first impossible pixel of a picture.
 fn impossible(image: &Image, stage: Stage, run: u32) -> Option<ImpossiblePixels> {
-    let wrong = |pixel: &[f32; 3]| pixel.iter().find_map(|value| impossible_value(*value));
+    let wrong = |pixel: &[f32; 3]| pixel.iter().find_map(|value| Impossible::of(*value));
     let mut found = image.pixels.iter().enumerate().filter_map(|(i, p)| Some((i, wrong(p)?)));
     let (first, kind) = found.next()?;
     let (x, y) = (first % image.width, first / image.width);
     Some(ImpossiblePixels { kind, x, y, pixels: 1 + found.count(), stage, run })
-}
-
-fn impossible_value(value: f32) -> Option<Impossible> {
-    match value {
-        v if v.is_nan() => Some(Impossible::NotANumber),
-        v if v.is_infinite() => Some(Impossible::Infinite),
-        v if v < 0.0 => Some(Impossible::Negative),
-        _ => None,
-    }
 }
 
 /// The scale whose weaker confirmation is the strongest, among those that reject.

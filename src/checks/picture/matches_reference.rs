@@ -1,5 +1,6 @@
 //! A render against a Mitsuba reference, with the noise of both in the account.
 
+use super::clues;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, PictureRole, camera_of};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, Film, IntegratorSettings,
@@ -60,7 +61,10 @@ impl Check for MatchesReference {
             )));
         }
         let samples = context.budget.samples(u64::from(self.samples_per_pixel));
-        let shot = Shot { check: self, camera, samples: samples.try_into().unwrap_or(u32::MAX) };
+        let samples_per_run = samples.try_into().unwrap_or(u32::MAX);
+        let isolates = context.info.capabilities.contains(Capabilities::ISOLATED_BOUNCES);
+        let shot =
+            Shot { check: self, camera, bounces: self.bounces, samples: samples_per_run, isolates };
         let effort = ImageEffort::new(self.detects.0 * context.budget.coarseness());
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
@@ -69,6 +73,20 @@ impl Check for MatchesReference {
         let report = judge_image(question, &effort, &mut |draw| {
             shot.render(built.as_mut(), draw.seed(seed))
         })?;
+        let finding = match report.verdict {
+            Verdict::Fail if report.impossible.is_none() => {
+                let seed = seed.child("clues");
+                clues::explained(
+                    finding(&report),
+                    &report,
+                    &reference,
+                    &shot,
+                    built.as_mut(),
+                    seed,
+                )?
+            }
+            _ => finding(&report),
+        };
         drop(built);
         let caption = format!("mean of {} runs of {samples} samples per pixel", report.runs);
         let error = error_picture(&report, &reference.mean, &reference.standard_error);
@@ -76,26 +94,49 @@ impl Check for MatchesReference {
         context.show(PictureRole::Render, caption, report.mean.clone());
         let caption = format!("difference, {ERROR_SCALE} standard errors at the ends of the scale");
         context.show(PictureRole::SignedError, caption, error);
-        Ok(finding(&report))
+        Ok(finding)
     }
 }
 
 /// How each run is rendered.
-struct Shot<'a> {
+#[derive(Clone, Copy)]
+pub(super) struct Shot<'a> {
     check: &'a MatchesReference,
     camera: Camera,
+    bounces: [u32; 2],
     samples: u32,
+    /// Whether the core renders a bounce alone.
+    pub(super) isolates: bool,
 }
 
 impl Shot<'_> {
-    fn render(&self, scene: &mut dyn BuiltScene, seed: Seed) -> Result<Image, CheckError> {
+    /// First and last bounce.
+    pub(super) fn bounces(&self) -> [u32; 2] {
+        self.bounces
+    }
+
+    /// The same of one bounce alone.
+    pub(super) fn of_bounce(self, bounce: u32) -> Self {
+        Self { bounces: [bounce; 2], ..self }
+    }
+
+    /// The same with another number of samples a pixel.
+    pub(super) fn with_samples(self, samples: u32) -> Self {
+        Self { samples, ..self }
+    }
+
+    pub(super) fn render(
+        &self,
+        scene: &mut dyn BuiltScene,
+        seed: Seed,
+    ) -> Result<Image, CheckError> {
         let [width, height] = self.camera.film;
         let settings = RenderSettings {
             width,
             height,
             samples_per_pixel: self.samples,
             integrator: IntegratorSettings {
-                bounces: self.check.bounces[0]..=self.check.bounces[1],
+                bounces: self.bounces[0]..=self.bounces[1],
                 direct: self.check.direct,
                 seed: seed.0,
                 ..Default::default()

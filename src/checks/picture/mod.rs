@@ -1,5 +1,6 @@
 //! Whole pictures.
 
+mod clues;
 mod first_hits;
 mod matches_reference;
 

@@ -1,0 +1,172 @@
+//! Which mistake turns the reference into the picture: told where a fit explains what differs.
+
+use super::matches_reference::Shot;
+use crate::cause::{Cause, picture, pixel, transport};
+use crate::checks::{CheckError, Finding};
+use crate::contract::BuiltScene;
+use crate::image::Image;
+use crate::math::rng::Seed;
+use crate::scene::reference::Reference;
+use crate::stats::ImageReport;
+use crate::stats::misfit::{
+    Estimate, Fit, Knowledge, Misfit, Share, Symmetry, explain, share_of_part,
+};
+
+/// Of what differs, the share that a mistake has to explain to be told as its cause.
+const EXPLAINS: f64 = 0.5;
+/// Renders that say how bright a bounce is.
+const BOUNCE_RUNS: u32 = 8;
+/// Pictures of one sample a pixel that are searched for a limit.
+const LIMIT_RUNS: u32 = 16;
+/// Pixels that have to share the largest value of all.
+const FEWEST_AT_LIMIT: usize = 8;
+/// Pixels of the reference with a value, to a hundredth, that make it the value of a lamp.
+const FEWEST_OF_LAMP: usize = 4;
+
+/// Adds what the fits say to a failure.
+pub(super) fn explained(
+    finding: Finding,
+    report: &ImageReport,
+    reference: &Reference,
+    shot: &Shot<'_>,
+    built: &mut dyn BuiltScene,
+    seed: Seed,
+) -> Result<Finding, CheckError> {
+    let noise = Image::from_fn(reference.mean.width, reference.mean.height, |x, y| {
+        let i = y * reference.mean.width + x;
+        std::array::from_fn(|c| {
+            report.standard_error.pixels[i][c].hypot(reference.standard_error.pixels[i][c])
+        })
+    });
+    let knowledge = Knowledge { standard_error: Some(&noise), ..Knowledge::default() };
+    let fits = explain(&report.mean, &reference.mean, &knowledge);
+    let limit = limit(reference, shot, built, seed.child("limit"))?;
+    let mut finding = match limit {
+        Some((level, pixels)) => finding.because(
+            &picture::SAMPLES_CLAMPED,
+            format!(
+                "{pixels} pixels of {LIMIT_RUNS} pictures of one sample a pixel have exactly the value \
+                 {level}, and none is brighter"
+            ),
+        ),
+        None => finding,
+    };
+    for fit in fits.iter().filter(|fit| fit.explains > EXPLAINS) {
+        finding.statement += &format!("; the picture is {fit}");
+        if let Some(cause) = cause_of(&fit.misfit) {
+            finding = finding.because(cause, evidence(fit));
+        }
+    }
+    if fits.iter().any(|fit| fit.explains > EXPLAINS) {
+        return Ok(finding);
+    }
+    if !shot.isolates {
+        return Ok(finding);
+    }
+    match missing_bounce(report, reference, shot, built, seed.child("bounce"))? {
+        Some((bounce, share)) => {
+            let Estimate { value, interval: [low, high] } = share.missing;
+            let words = format!(
+                "what is missing is bounce {bounce} as the core itself renders it alone, {value:.2} \
+                 times ({low:.2} to {high:.2})"
+            );
+            finding.statement += &format!("; {words}");
+            Ok(finding.because(&transport::BOUNCE_MISSING, words))
+        }
+        None => Ok(finding),
+    }
+}
+
+fn evidence(fit: &Fit) -> String {
+    format!("the picture is the reference, {fit}")
+}
+
+/// The cause that a fit stands for.
+fn cause_of(misfit: &Misfit) -> Option<&'static Cause> {
+    Some(match misfit {
+        Misfit::Turned(Symmetry::LeftRight) => &picture::MIRRORED,
+        Misfit::Turned(Symmetry::UpsideDown) => &picture::UPSIDE_DOWN,
+        Misfit::Turned(Symmetry::Transposed | Symmetry::AntiTransposed) => &picture::TRANSPOSED,
+        Misfit::Turned(_) => &picture::TURNED,
+        Misfit::EncodedTwice => &picture::GAMMA_TWICE,
+        Misfit::Power(power) if power.value < 1.0 => &picture::GAMMA_TWICE,
+        Misfit::Clipped { .. } => &picture::CLAMPED,
+        Misfit::Displaced { right, down } => displaced([right, down]),
+        Misfit::Magnified { .. } => &picture::MAGNIFIED,
+        Misfit::Brighter(_) => &picture::FACTOR,
+        _ => return None,
+    })
+}
+
+/// Half a pixel and a whole one have mistakes of their own.
+fn displaced(offsets: [&Estimate; 2]) -> &'static Cause {
+    let is = |size: f64| {
+        let fits = |offset: &Estimate| offset.allows(size) || offset.allows(-size);
+        let rests = |offset: &Estimate| offset.allows(0.0);
+        offsets.iter().all(|offset| fits(offset) || rests(offset))
+            && offsets.iter().any(|offset| fits(offset))
+    };
+    match () {
+        () if is(0.5) => &pixel::HALF_A_PIXEL,
+        () if is(1.0) => &pixel::WHOLE_PIXEL,
+        () => &picture::DISPLACED,
+    }
+}
+
+/// The value that bright samples are cut off at, and how many pixels have it: the largest of
+/// single samples, if many pixels share it to the last bit and it is not the light of a lamp in view.
+fn limit(
+    reference: &Reference,
+    shot: &Shot<'_>,
+    built: &mut dyn BuiltScene,
+    seed: Seed,
+) -> Result<Option<(f32, usize)>, CheckError> {
+    let mut brightest: Vec<f32> = Vec::new();
+    for run in 0..LIMIT_RUNS {
+        let single = shot.with_samples(1).render(built, seed.child(run))?;
+        let pairs = single.pixels.iter().zip(&reference.mean.pixels);
+        // A pixel of a lamp has the lamp's value, and rightly so.
+        let lit = pairs.filter(|(one, mean)| largest(mean) < 0.5 * largest(one));
+        brightest.extend(lit.map(|(one, _)| largest(one)));
+    }
+    let level = brightest.iter().copied().fold(0.0, f32::max);
+    let pixels = brightest.iter().filter(|value| **value == level).count();
+    let is_level = |pixel: &&[f32; 3]| (largest(pixel) / level - 1.0).abs() < 0.01;
+    let is_lamp = reference.mean.pixels.iter().filter(is_level).count() >= FEWEST_OF_LAMP;
+    Ok((level > 0.0 && pixels >= FEWEST_AT_LIMIT && !is_lamp).then_some((level, pixels)))
+}
+
+/// The bounce whose light is what the picture lacks, and how many times over; none if no bounce
+/// explains what differs by being missing once.
+fn missing_bounce(
+    report: &ImageReport,
+    reference: &Reference,
+    shot: &Shot<'_>,
+    built: &mut dyn BuiltScene,
+    seed: Seed,
+) -> Result<Option<(u32, Share)>, CheckError> {
+    let [first, last] = shot.bounces();
+    let mut best: Option<(u32, Share)> = None;
+    for bounce in first..=last {
+        let alone = shot.of_bounce(bounce);
+        let mut light = Image::new(reference.mean.width, reference.mean.height, [0.0; 3]);
+        for run in 0..BOUNCE_RUNS {
+            let run = alone.render(built, seed.child(bounce).child(run))?;
+            for (sum, pixel) in light.pixels.iter_mut().zip(&run.pixels) {
+                *sum = std::array::from_fn(|c| sum[c] + pixel[c] / BOUNCE_RUNS as f32);
+            }
+        }
+        let knowledge = Knowledge::default();
+        let share = share_of_part(&report.mean, &reference.mean, &light, &knowledge);
+        let is_better = |share: &Share| best.is_none_or(|(_, best)| share.explains > best.explains);
+        if let Some(share) = share.filter(is_better) {
+            best = Some((bounce, share));
+        }
+    }
+    let is_once = |share: &Share| share.missing.allows(1.0) && !share.missing.allows(0.5);
+    Ok(best.filter(|(_, share)| is_once(share)))
+}
+
+fn largest(pixel: &[f32; 3]) -> f32 {
+    pixel.iter().copied().fold(0.0, f32::max)
+}

@@ -1,0 +1,170 @@
+//! `furnace compare`: whether a picture shows what another shows, and if not, which mistake turns
+//! one into the other.
+
+mod side;
+mod words;
+
+use super::{Answer, ExitCode, Failure};
+use crate::image::ImageError;
+use crate::image::mask::{Mask, Rectangle};
+use crate::image::metric::METRICS;
+use crate::image::pair::Pair;
+use crate::stats::misfit::{Fit, Knowledge, explain};
+use crate::stats::{DifferenceReport, Verdict, judge_difference};
+use clap::Args;
+use serde::Serialize;
+use side::{Side, encoding};
+use std::path::PathBuf;
+
+/// What `furnace compare` understands.
+#[derive(Clone, Debug, Args)]
+pub struct CompareArguments {
+    /// Pictures (EXR, PFM, HDR, PNG); the last is the reference. Several before it are independent
+    /// renders of one picture, whose mean and variance are taken.
+    #[arg(required = true, num_args = 2.., value_name = "PICTURE")]
+    pictures: Vec<PathBuf>,
+    /// How PNG stands for light: srgb, linear, or a gamma such as 2.2.
+    #[arg(long, value_parser = encoding, default_value = "srgb")]
+    encoding: crate::image::file::Encoding,
+    /// A picture of the variance of every value of the first.
+    #[arg(long, value_name = "FILE")]
+    variance: Option<PathBuf>,
+    /// The same of the reference; an EXR with se.R, se.G and se.B needs none.
+    #[arg(long, value_name = "FILE")]
+    reference_variance: Option<PathBuf>,
+    /// A picture that is black where pixels do not count.
+    #[arg(long, value_name = "FILE")]
+    mask: Option<PathBuf>,
+    /// Pixels that do not count: first column, first row from the top, columns, rows.
+    #[arg(long, value_name = "X,Y,W,H", value_parser = rectangle)]
+    ignore: Vec<Rectangle>,
+    /// Leave out FLIP, which takes longest.
+    #[arg(long)]
+    no_flip: bool,
+    /// Answer in JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// All that a comparison found out.
+#[derive(Debug, Serialize)]
+struct Comparison {
+    verdict: Verdict,
+    size: [usize; 2],
+    /// Pixels that count.
+    pixels: usize,
+    difference: DifferenceReport,
+    /// What turns the reference into the picture, the greatest mistake first.
+    mistakes: Vec<Fit>,
+    metrics: Vec<Measured>,
+}
+
+#[derive(Debug, Serialize)]
+struct Measured {
+    name: &'static str,
+    /// None where a pixel is no number.
+    value: Option<f64>,
+}
+
+/// Compares, and says how it went.
+pub fn compare(arguments: &CompareArguments) -> Answer {
+    let comparison = measure(arguments)?;
+    if arguments.json {
+        println!("{}", serde_json::to_string_pretty(&comparison).map_err(Failure::broken)?);
+    } else {
+        print!("{}", words::told(&comparison));
+    }
+    Ok(match comparison.verdict {
+        Verdict::Pass => ExitCode::Good,
+        Verdict::Fail => ExitCode::Failed,
+        Verdict::Inconclusive => ExitCode::Broken,
+    })
+}
+
+fn measure(arguments: &CompareArguments) -> Result<Comparison, Failure> {
+    let (picture, reference) = rayon::join(|| picture(arguments), || reference(arguments));
+    let (picture, reference) = (picture?, reference?);
+    let size = [reference.image.width, reference.image.height];
+    if !picture.image.same_size(&reference.image) {
+        let sizes = [[picture.image.width, picture.image.height], size];
+        return Err(Failure::request(ImageError::DifferentSizes { sizes }));
+    }
+    let counted = counted(arguments, &picture, &reference)?;
+    let difference = judge_difference(picture.sample(), reference.sample(), counted.as_deref());
+    let mistakes = match difference.verdict {
+        Verdict::Fail => explain(
+            &picture.image,
+            &reference.image,
+            &Knowledge {
+                alpha: picture.alpha.as_ref(),
+                counted: counted.as_deref(),
+                standard_error: None,
+            },
+        ),
+        _ => Vec::new(),
+    };
+    let mut shown = picture.image;
+    if let Some(counted) = &counted {
+        shown.paint_over(counted, &reference.image);
+    }
+    let pair = Pair::new(&shown, &reference.image).map_err(Failure::request)?;
+    let metrics = METRICS.iter().filter(|metric| !(arguments.no_flip && metric.is_slow()));
+    let metrics = metrics.map(|metric| {
+        let value = metric.measure(&pair);
+        Measured { name: metric.name(), value: (!value.is_nan()).then_some(value) }
+    });
+    Ok(Comparison {
+        verdict: difference.verdict,
+        size,
+        pixels: counted.map_or(size[0] * size[1], |all| all.iter().filter(|one| **one).count()),
+        metrics: metrics.collect(),
+        difference,
+        mistakes,
+    })
+}
+
+fn picture(arguments: &CompareArguments) -> Result<Side, Failure> {
+    let (_, runs) = arguments.pictures.split_last().ok_or_else(nothing)?;
+    Side::of_runs(runs, arguments.encoding, arguments.variance.as_deref())
+}
+
+fn reference(arguments: &CompareArguments) -> Result<Side, Failure> {
+    let (reference, _) = arguments.pictures.split_last().ok_or_else(nothing)?;
+    let variance = arguments.reference_variance.as_deref();
+    Side::of_runs(std::slice::from_ref(reference), arguments.encoding, variance)
+}
+
+fn nothing() -> Failure {
+    Failure::request("two pictures are needed")
+}
+
+/// The pixels that count, if not all do. Of files of codes, those that noise may clip do not: what
+/// is lost above white is no mistake.
+fn counted(
+    arguments: &CompareArguments,
+    picture: &Side,
+    reference: &Side,
+) -> Result<Option<Vec<bool>>, Failure> {
+    let size = [reference.image.width, reference.image.height];
+    let mut counted = Mask::of_rectangles(&arguments.ignore).counted(size);
+    if let (Some(path), Ok(counted)) = (&arguments.mask, &mut counted) {
+        let mask = crate::image::file::load(path, None).map_err(Failure::request)?;
+        let drawn = Mask::from_picture(&mask.image).counted(size).map_err(Failure::request)?;
+        counted.iter_mut().zip(drawn).for_each(|(counted, drawn)| *counted &= drawn);
+    }
+    let mut counted = counted.map_err(Failure::request)?;
+    if picture.is_coded || reference.is_coded {
+        let levels = reference.image.pixels.iter().zip(&mut counted);
+        levels.for_each(|(level, counted)| *counted &= side::is_safe_from_clipping(*level));
+    }
+    Ok(counted.contains(&false).then_some(counted))
+}
+
+fn rectangle(text: &str) -> Result<Rectangle, String> {
+    let numbers: Result<Vec<usize>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let numbers = numbers.map_err(|error| error.to_string())?;
+    numbers.try_into().map_err(|_| "four numbers: X,Y,W,H".to_owned())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,131 @@
+//! One side of a comparison: a picture, and all that its files say of its noise.
+
+use crate::cli::Failure;
+use crate::image::Image;
+use crate::image::file::{Encoding, Loaded, load};
+use crate::image::pair::Plane;
+use crate::scene::reference::ERROR_PREFIX;
+use crate::stats::Sample;
+use std::path::{Path, PathBuf};
+
+/// Of white, what a pixel may have so that hardly any noise clips it.
+const SAFE_FROM_CLIPPING: f32 = 0.5;
+/// Fewer renders say too little of their variance.
+const FEWEST_RUNS: usize = 4;
+
+/// A picture and how well it is known.
+pub(super) struct Side {
+    pub image: Image,
+    pub alpha: Option<Plane>,
+    variance: Option<Image>,
+    rounding: Option<Image>,
+    /// Whether it came from a file of whole numbers.
+    pub is_coded: bool,
+}
+
+impl Side {
+    /// One picture, or the mean of several renders.
+    pub fn of_runs(
+        runs: &[PathBuf],
+        encoding: Encoding,
+        variance: Option<&Path>,
+    ) -> Result<Self, Failure> {
+        let read = |path: &PathBuf| load(path, Some(encoding)).map_err(Failure::request);
+        let mut side = match runs {
+            [one] => Self::of(read(one)?),
+            _ => Self::mean(&runs.iter().map(read).collect::<Result<Vec<_>, _>>()?)?,
+        };
+        if let Some(path) = variance {
+            let variance = load(path, Some(Encoding::Linear)).map_err(Failure::request)?.image;
+            side.take_variance(variance, path)?;
+        }
+        Ok(side)
+    }
+
+    fn of(loaded: Loaded) -> Self {
+        let rounding = loaded.codes.map(|codes| rounding(&loaded, codes.largest));
+        let errors = loaded.extra.and_then(|file| file.colours(ERROR_PREFIX).ok());
+        let variance = errors.map(|errors| each(&errors, |error| error * error));
+        let is_coded = rounding.is_some();
+        Self { image: loaded.image, alpha: loaded.alpha, variance, rounding, is_coded }
+    }
+
+    fn mean(runs: &[Loaded]) -> Result<Self, Failure> {
+        let count = runs.len();
+        let (width, height) = (runs[0].image.width, runs[0].image.height);
+        if runs.iter().any(|run| run.image.width != width || run.image.height != height) {
+            return Err(Failure::request("the renders differ in size"));
+        }
+        let moments = |x: usize, y: usize, c: usize| -> crate::stats::Moments {
+            runs.iter().map(|run| f64::from(run.image.pixels[y * width + x][c])).collect()
+        };
+        let image =
+            Image::from_fn(width, height, |x, y| [0, 1, 2].map(|c| moments(x, y, c).mean() as f32));
+        let variance = (count >= FEWEST_RUNS).then(|| {
+            Image::from_fn(width, height, |x, y| {
+                [0, 1, 2].map(|c| moments(x, y, c).standard_error().powi(2) as f32)
+            })
+        });
+        let is_coded = runs.iter().any(|run| run.codes.is_some());
+        Ok(Self { image, alpha: runs[0].alpha.clone(), variance, rounding: None, is_coded })
+    }
+
+    fn take_variance(&mut self, variance: Image, path: &Path) -> Result<(), Failure> {
+        let is_variance = |value: &f32| *value >= 0.0 && value.is_finite();
+        let fits = [variance.width, variance.height] == [self.image.width, self.image.height];
+        if fits && variance.pixels.as_flattened().iter().all(is_variance) {
+            self.variance = Some(variance);
+            return Ok(());
+        }
+        let path = path.display();
+        Err(Failure::request(format!(
+            "`{path}` is no variance of the picture: another size, or negative"
+        )))
+    }
+
+    /// As the test takes it.
+    pub fn sample(&self) -> Sample<'_> {
+        Sample {
+            image: &self.image,
+            variance: self.variance.as_ref(),
+            rounding: self.rounding.as_ref(),
+        }
+    }
+}
+
+/// Whether noise would have to be as large as the light to clip a pixel.
+pub(super) fn is_safe_from_clipping(level: [f32; 3]) -> bool {
+    level.iter().all(|value| *value < SAFE_FROM_CLIPPING)
+}
+
+/// Half a step of the codes, as light, at every value.
+fn rounding(loaded: &Loaded, largest: u32) -> Image {
+    let half = 0.5 / largest as f32;
+    let encoded = |value: f32| match loaded.encoding {
+        Encoding::Linear => value,
+        Encoding::Srgb => crate::image::tonemap::encode_srgb(value),
+        Encoding::Gamma(gamma) => value.powf(1.0 / gamma as f32),
+    };
+    each(&loaded.image, |value| {
+        let code = encoded(value);
+        let light = |code: f32| loaded.encoding.decode(code.clamp(0.0, 1.0));
+        0.5 * (light(code + half) - light(code - half))
+    })
+}
+
+fn each(image: &Image, value: impl Fn(f32) -> f32) -> Image {
+    let pixels = image.pixels.iter().map(|pixel| pixel.map(&value)).collect();
+    Image { pixels, ..*image }
+}
+
+/// `srgb`, `linear`, or a gamma.
+pub(super) fn encoding(text: &str) -> Result<Encoding, String> {
+    match text {
+        "srgb" => Ok(Encoding::Srgb),
+        "linear" => Ok(Encoding::Linear),
+        number => match number.parse::<f64>() {
+            Ok(gamma) if gamma > 0.1 && gamma < 10.0 => Ok(Encoding::Gamma(gamma)),
+            _ => Err("`srgb`, `linear`, or a gamma between 0.1 and 10".to_owned()),
+        },
+    }
+}

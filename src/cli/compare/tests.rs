@@ -1,0 +1,103 @@
+//! Files in, words and exit codes out.
+
+use super::*;
+use crate::image::exr::{self, Exr, Storage};
+use crate::image::{Image, pfm};
+use crate::math::rng::{Seed, uniform};
+use crate::scene::reference::ERROR_PREFIX;
+use clap::Parser;
+use std::path::Path;
+
+#[derive(Parser)]
+struct Line {
+    #[command(flatten)]
+    compare: CompareArguments,
+}
+
+fn compared(words: &[&str]) -> Result<Comparison, Failure> {
+    let line = Line::try_parse_from(std::iter::once("compare").chain(words.iter().copied()));
+    measure(&line.unwrap().compare)
+}
+
+fn scene(x: usize, y: usize) -> f64 {
+    let stripe = if (x + y / 2) % 40 < 16 { 0.5 } else { 1.0 };
+    stripe * (0.05 + 0.001 * x as f64 + 0.0008 * y as f64)
+}
+
+fn render(seed: u64, amount: f64, factor: f64) -> Image {
+    let mut stream = Seed(seed).stream();
+    Image::from_fn(192, 128, |x, y| {
+        let noise = 1.0 + amount * (2.0 * uniform(&mut stream) - 1.0);
+        [(factor * scene(x, y) * noise) as f32; 3]
+    })
+}
+
+fn file(folder: &Path, name: &str, image: &Image) -> String {
+    let path = folder.join(name);
+    pfm::write(&path, image).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_second_render_passes_and_a_brighter_one_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let reference = file(folder.path(), "b.pfm", &render(1, 0.02, 1.0));
+    let good = file(folder.path(), "good.pfm", &render(2, 0.1, 1.0));
+    let bright = file(folder.path(), "bright.pfm", &render(3, 0.02, 1.05));
+    let found = compared(&[&good, &reference, "--no-flip"]).unwrap();
+    assert_eq!(found.verdict, Verdict::Pass, "{found:#?}");
+    assert_eq!(found.metrics.len(), METRICS.len() - 2);
+    let found = compared(&[&bright, &reference]).unwrap();
+    let told = words::told(&found);
+    assert!(told.starts_with("fail: the picture has 1.05"), "{told}");
+    assert!(told.contains("times as bright, alike in all channels"), "{told}");
+    assert!(told.contains("FLIP"), "{told}");
+}
+
+#[test]
+fn a_reference_brings_its_own_errors_and_several_renders_theirs() {
+    let folder = tempfile::tempdir().unwrap();
+    let reference = render(1, 0.01, 1.0);
+    let errors = Image::from_fn(192, 128, |x, y| [(0.006 * scene(x, y)) as f32; 3]);
+    let path = folder.path().join("reference.exr");
+    let with_errors =
+        Exr::from_image(&reference).with_colours(ERROR_PREFIX, &errors, Storage::Half);
+    exr::write(&path, &with_errors).unwrap();
+    let runs: Vec<String> = (10..18)
+        .map(|seed| {
+            let mut image = render(seed, 0.1, 1.0);
+            image.pixels[5000] = [0.0; 3];
+            file(folder.path(), &format!("{seed}.pfm"), &image)
+        })
+        .collect();
+    let mut words: Vec<&str> = runs.iter().map(String::as_str).collect();
+    words.extend([path.to_str().unwrap(), "--no-flip"]);
+    let found = compared(&words).unwrap();
+    assert_eq!(found.difference.outliers.map(|odd| odd.pixels), Some(1), "{found:#?}");
+    let place = format!("{},{},1,1", 5000 % 192, 5000 / 192);
+    words.extend(["--ignore", &place]);
+    assert_eq!(compared(&words).unwrap().verdict, Verdict::Pass);
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let a = file(folder.path(), "a.pfm", &render(1, 0.1, 1.0));
+    let small = file(folder.path(), "small.pfm", &Image::new(8, 8, [1.0; 3]));
+    assert!(compared(&[&a, &small]).unwrap_err().message.contains("differ in size"));
+    assert!(compared(&[&a, "nowhere.exr"]).unwrap_err().message.contains("nowhere.exr"));
+    assert!(compared(&[&a, &a, "--ignore", "0,0,999,999"]).is_err());
+    let same = compared(&[&a, &a, "--no-flip"]).unwrap();
+    assert!(words::told(&same).contains("equal to the last bit"));
+}
+
+#[test]
+fn a_pixel_that_is_no_number_fails() {
+    let folder = tempfile::tempdir().unwrap();
+    let reference = file(folder.path(), "b.pfm", &render(1, 0.02, 1.0));
+    let mut broken = render(2, 0.1, 1.0);
+    broken.pixels[193] = [f32::NAN; 3];
+    let broken = file(folder.path(), "a.pfm", &broken);
+    let told = words::told(&compared(&[&broken, &reference]).unwrap());
+    assert!(told.starts_with("fail: 1 pixels are NaN"), "{told}");
+}

@@ -1,0 +1,132 @@
+//! A picture, what it should be, and how a difference is measured.
+
+use super::Knowledge;
+use crate::image::{Image, luminance};
+use rayon::prelude::*;
+
+/// Width and height of a unit: differences are summed up over units, whose noise is independent.
+pub(super) const UNIT: usize = 8;
+/// No difference counts for more than this share of its pixel's light.
+const MOST: f32 = 1.0;
+/// Pixels to each side whose brightness a weight goes by.
+const REACH: usize = 2;
+
+/// A picture and what it should be.
+pub(super) struct Question<'a> {
+    pub(super) image: &'a Image,
+    /// The reference, with the mistakes found so far.
+    pub(super) reference: &'a Image,
+    pub(super) knowledge: &'a Knowledge<'a>,
+    /// What makes differences relative: one over brightness, 0 for pixels that do not count.
+    pub(super) weights: &'a [f32],
+}
+
+/// The weights of pixels: relative to the brightness of the reference around them. A pixel's own
+/// noise hardly moves its weight, so that products of both have the right mean.
+pub(super) fn weights(image: &Image, reference: &Image, knowledge: &Knowledge<'_>) -> Vec<f32> {
+    let levels: Vec<f64> = reference.pixels.par_iter().map(|pixel| luminance(*pixel)).collect();
+    let typical = middle(&levels);
+    let levels = around(&levels, reference.width);
+    #[expect(clippy::cast_possible_truncation, reason = "weights are used in single precision")]
+    let weight = |(i, level): (usize, &f64)| {
+        let finite = |picture: &Image| picture.pixels[i].iter().all(|value| value.is_finite());
+        let counts = knowledge.counted.is_none_or(|counted| counted[i]);
+        let usable = counts && finite(image) && finite(reference);
+        if usable { 1.0 / (level.max(0.0) + typical) as f32 } else { 0.0 }
+    };
+    levels.par_iter().enumerate().map(weight).collect()
+}
+
+impl Question<'_> {
+    pub(super) fn width(&self) -> usize {
+        self.image.width
+    }
+
+    pub(super) fn height(&self) -> usize {
+        self.image.height
+    }
+
+    /// The difference of a channel as it counts.
+    #[inline(always)]
+    pub(super) fn difference(&self, pixel: usize, image: f32, candidate: f32) -> f32 {
+        let weight = self.weights[pixel];
+        // A pixel that does not count may be no number.
+        if weight > 0.0 { (weight * (image - candidate)).clamp(-MOST, MOST) } else { 0.0 }
+    }
+
+    /// The squared differences from `candidate`, summed up over each unit.
+    pub(super) fn energies(&self, candidate: &Image) -> Vec<f64> {
+        self.each_unit(|pixel| {
+            let (a, b) = (self.image.pixels[pixel], candidate.pixels[pixel]);
+            let square = |c: usize| f64::from(self.difference(pixel, a[c], b[c])).powi(2);
+            square(0) + square(1) + square(2)
+        })
+    }
+
+    /// The energy that noise alone adds to the difference; 0 where nothing is known of it.
+    pub(super) fn noise_energy(&self) -> f64 {
+        let Some(errors) = self.knowledge.standard_error else { return 0.0 };
+        let of_pixel = |pixel: usize| {
+            let square =
+                |c: usize| f64::from(self.difference(pixel, errors.pixels[pixel][c], 0.0)).powi(2);
+            square(0) + square(1) + square(2)
+        };
+        self.each_unit(of_pixel).iter().sum()
+    }
+
+    /// The sums of `value` over units, row by row.
+    fn each_unit(&self, value: impl Fn(usize) -> f64 + Sync) -> Vec<f64> {
+        self.fold_units(0.0, |sum, pixel| *sum += value(pixel))
+    }
+
+    /// What `add` makes of the pixels of every unit, row by row.
+    pub(super) fn fold_units<T: Clone + Send + Sync>(
+        &self,
+        nothing: T,
+        add: impl Fn(&mut T, usize) + Sync,
+    ) -> Vec<T> {
+        let (width, height) = (self.width(), self.height());
+        let of_row = |top: usize| {
+            let mut units = vec![nothing.clone(); width.div_ceil(UNIT)];
+            for y in top..(top + UNIT).min(height) {
+                for x in 0..width {
+                    add(&mut units[x / UNIT], y * width + x);
+                }
+            }
+            units
+        };
+        let tops: Vec<usize> = (0..height).step_by(UNIT).collect();
+        tops.into_par_iter().flat_map_iter(of_row).collect()
+    }
+}
+
+/// The mean of the finite values up to [`REACH`] pixels away.
+fn around(levels: &[f64], width: usize) -> Vec<f64> {
+    let height = levels.len() / width.max(1);
+    let near = |at: usize, end: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(end);
+    let mean = |pixel: usize| {
+        let (x, y) = (pixel % width, pixel / width);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for row in near(y, height) {
+            for level in &levels[row * width..][near(x, width)] {
+                if level.is_finite() {
+                    sum += level;
+                    count += 1.0;
+                }
+            }
+        }
+        if count > 0.0 { sum / count } else { 0.0 }
+    };
+    (0..levels.len()).into_par_iter().map(mean).collect()
+}
+
+/// The upper median of what is positive and finite; 1 of none.
+fn middle(levels: &[f64]) -> f64 {
+    let lit = levels.iter().copied().filter(|level| *level > 0.0 && level.is_finite());
+    let mut lit: Vec<f64> = lit.collect();
+    if lit.is_empty() {
+        return 1.0;
+    }
+    let rank = lit.len() / 2;
+    *lit.select_nth_unstable_by(rank, f64::total_cmp).1
+}

@@ -1,0 +1,133 @@
+//! Pictures between their pixels: Catmull and Rom's cubic through the four nearest, along each axis.
+
+use crate::image::Image;
+use crate::image::pair::Plane;
+use rayon::prelude::*;
+
+/// Which place of the reference is seen at each pixel of an axis: `slope` · pixel + `start`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Axis {
+    pub(super) start: f64,
+    pub(super) slope: f64,
+}
+
+impl Axis {
+    /// An axis of `length` pixels that is magnified about its middle, then displaced.
+    pub(super) fn new(length: usize, displaced: f64, magnified: f64) -> Self {
+        let middle = 0.5 * (length as f64 - 1.0);
+        Self { start: middle - (middle + displaced) / magnified, slope: 1.0 / magnified }
+    }
+
+    /// The first of four pixels around the place, and their weights.
+    fn taps(self, pixel: usize) -> (isize, [f32; 4]) {
+        let place = self.slope * pixel as f64 + self.start;
+        let cell = place.floor();
+        #[expect(clippy::cast_possible_truncation, reason = "places are near the picture")]
+        let (first, t) = (cell as isize - 1, (place - cell) as f32);
+        (first, cubic(t))
+    }
+
+    /// Whether the place is in the picture.
+    pub(super) fn is_inside(self, pixel: usize, length: usize) -> bool {
+        let place = self.slope * pixel as f64 + self.start;
+        (0.0..=length as f64 - 1.0).contains(&place)
+    }
+}
+
+/// Weights of the pixels at −1, 0, 1 and 2 for a place between 0 and 1.
+fn cubic(t: f32) -> [f32; 4] {
+    let (square, cube) = (t * t, t * t * t);
+    [
+        0.5 * (-cube + 2.0 * square - t),
+        0.5 * (3.0 * cube - 5.0 * square + 2.0),
+        0.5 * (-3.0 * cube + 4.0 * square + t),
+        0.5 * (cube - square),
+    ]
+}
+
+/// The plane as seen through both axes; its border goes on beyond it.
+pub(super) fn resampled(plane: &Plane, across: Axis, down: Axis) -> Plane {
+    let along_rows =
+        resample_rows(&plane.values, [plane.width, plane.height], across, |a, b| a * b);
+    let values = resample_columns(&along_rows, [plane.width, plane.height], down);
+    Plane { width: plane.width, height: plane.height, values }
+}
+
+/// The same for the three channels of a picture.
+pub(super) fn resampled_image(image: &Image, across: Axis, down: Axis) -> Image {
+    let (width, height) = (image.width, image.height);
+    let channel = |c: usize| {
+        let values = image.pixels.iter().map(|pixel| pixel[c]).collect();
+        resampled(&Plane { width, height, values }, across, down).values
+    };
+    let [red, green, blue] = [channel(0), channel(1), channel(2)];
+    let pixels = (0..width * height).map(|i| [red[i], green[i], blue[i]]).collect();
+    Image { width, height, pixels }
+}
+
+fn resample_rows(
+    values: &[f32],
+    [width, height]: [usize; 2],
+    axis: Axis,
+    times: impl Fn(f32, f32) -> f32 + Sync,
+) -> Vec<f32> {
+    let taps: Vec<_> = (0..width).map(|x| axis.taps(x)).collect();
+    let mut out = vec![0.0; width * height];
+    out.par_chunks_mut(width).zip(values.par_chunks(width)).for_each(|(out, row)| {
+        for (out, (first, weights)) in out.iter_mut().zip(&taps) {
+            let value = |i: isize| row[within(first + i, width)];
+            let [a, b, c, d] = *weights;
+            *out =
+                times(a, value(0)) + times(b, value(1)) + times(c, value(2)) + times(d, value(3));
+        }
+    });
+    out
+}
+
+fn resample_columns(values: &[f32], [width, height]: [usize; 2], axis: Axis) -> Vec<f32> {
+    let mut out = vec![0.0; width * height];
+    out.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
+        let (first, weights) = axis.taps(y);
+        for (i, weight) in (0..).zip(weights) {
+            let row = &values[within(first + i, height) * width..][..width];
+            out.iter_mut().zip(row).for_each(|(out, value)| *out += weight * value);
+        }
+    });
+    out
+}
+
+/// The nearest pixel of the picture.
+fn within(place: isize, length: usize) -> usize {
+    place.clamp(0, length as isize - 1) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ramp() -> Plane {
+        let values = (0..12 * 9).map(|i| (i % 12) as f32 + 100.0 * (i / 12) as f32).collect();
+        Plane { width: 12, height: 9, values }
+    }
+
+    #[test]
+    fn an_axis_that_is_as_it_was_changes_nothing() {
+        let (across, down) = (Axis::new(12, 0.0, 1.0), Axis::new(9, 0.0, 1.0));
+        assert_eq!(resampled(&ramp(), across, down), ramp());
+    }
+
+    #[test]
+    fn a_displaced_ramp_is_displaced() {
+        let (across, down) = (Axis::new(12, 0.25, 1.0), Axis::new(9, -1.0, 1.0));
+        let moved = resampled(&ramp(), across, down);
+        assert!((moved.row(3)[6] - (5.75 + 400.0)).abs() < 1e-3);
+        assert!(!across.is_inside(0, 12) && across.is_inside(1, 12));
+    }
+
+    #[test]
+    fn magnification_keeps_the_middle() {
+        let across = Axis::new(12, 0.0, 2.0);
+        let moved = resampled(&ramp(), across, Axis::new(9, 0.0, 1.0));
+        assert!((moved.row(0)[5] - 5.25).abs() < 1e-4 && (moved.row(0)[7] - 6.25).abs() < 1e-4);
+    }
+}

@@ -43,6 +43,8 @@ const BETTER: f64 = 4.0;
 const MORE: f64 = 0.01;
 /// Less than this share of a difference is not worth naming.
 const WORTH_NAMING: f64 = 0.05;
+/// A factor is, for it is what people ask first, and no noise is less for being multiplied.
+const FACTOR_WORTH_NAMING: f64 = 0.001;
 
 /// A number, and where it lies with 99.9 % confidence.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -173,7 +175,11 @@ fn best(question: &Question<'_>) -> Option<(Fit, Image)> {
     let mut consider = |(misfit, picture): (Misfit, Image)| {
         let after = question.energies(&picture);
         let incumbent = found.as_ref().map_or(&before, |(_, _, after)| after);
-        let needed = if found.is_some() { (BETTER, MORE) } else { (CERTAIN, WORTH_NAMING) };
+        let worth = match misfit {
+            Misfit::Brighter(_) => FACTOR_WORTH_NAMING,
+            _ => WORTH_NAMING,
+        };
+        let needed = if found.is_some() { (BETTER, MORE) } else { (CERTAIN, worth) };
         let gained: f64 = incumbent.iter().zip(&after).map(|(a, b)| a - b).sum();
         let left: f64 = incumbent.iter().sum();
         let certain = certainty(incumbent, &after);

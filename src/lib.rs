@@ -1,5 +1,6 @@
 //! `furnace`: a test bench for path tracers.
 
+pub mod agreement;
 pub mod case;
 pub mod cause;
 pub mod checks;
@@ -7,6 +8,7 @@ pub mod cli;
 pub mod contract;
 pub mod cores;
 pub mod diagnosis;
+pub mod export;
 pub mod faults;
 pub mod image;
 pub mod math;

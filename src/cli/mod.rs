@@ -1,9 +1,11 @@
 //! The command line: one verb a file, and what each word means.
 
+mod agreement;
 mod compare;
 mod doctor;
 mod exit_code;
 mod explain;
+mod export;
 mod faults;
 mod hosting;
 mod lint;
@@ -73,6 +75,10 @@ enum Verb {
     /// The process of a core; furnace starts it by itself.
     #[command(hide = true)]
     Worker(worker::WorkerArguments),
+    /// Render what the references are of, and say how far a renderer is from them.
+    Agreement(agreement::AgreementArguments),
+    /// Write a scene for another program: Mitsuba, the course's COLLADA, pbrt, OBJ.
+    Export(export::ExportArguments),
     /// Make, verify or list Mitsuba references.
     Reference(reference::ReferenceArguments),
 }
@@ -111,6 +117,8 @@ pub fn main() -> ExitCode {
         Some(Verb::Compare(arguments)) => compare::compare(&arguments),
         Some(Verb::Lint) => lint::lint(),
         Some(Verb::Report(arguments)) => report::report(&arguments),
+        Some(Verb::Agreement(arguments)) => agreement::agreement(&arguments),
+        Some(Verb::Export(arguments)) => export::export(&arguments),
         Some(Verb::Reference(arguments)) => reference::reference(&arguments),
     };
     answer.unwrap_or_else(|failure| {

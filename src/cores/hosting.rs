@@ -69,7 +69,9 @@ impl Hosting {
     /// # Errors
     /// If it does not come up.
     pub fn host(&self, spec: &CoreSpec) -> Result<Hosted, HostError> {
-        if *spec.guest() == Guest::Resident && !self.isolates_own {
+        // A program that makes pictures is a process already, and a worker may start none.
+        let is_here = !self.isolates_own || spec.program().is_some();
+        if *spec.guest() == Guest::Resident && is_here {
             return Ok(Hosted::Here(spec.make()?));
         }
         Ok(Hosted::Away(Box::new(Remote::start(&self.launch(spec))?)))

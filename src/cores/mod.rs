@@ -1,7 +1,9 @@
 //! Renderer cores: who keeps the promise of [`crate::contract`]. Two of our own, written independently;
-//! everybody else's through a shared library ([`dylib`]) or a program, in a worker ([`remote`]).
+//! everybody else's through a shared library ([`dylib`]) or a program, in a worker ([`remote`]), or as pictures
+//! that any program makes ([`command`]).
 
 pub mod builtin;
+pub mod command;
 pub mod dylib;
 mod foreign;
 mod hosting;
@@ -13,8 +15,10 @@ pub use hosting::{HostError, Hosted, Hosting};
 use crate::contract::Core;
 use crate::text::did_you_mean;
 use crate::worker::Guest;
+use command::{AdapterError, CommandCore, Program};
 use dylib::{Dylib, LoadError};
 use std::fmt;
+use std::path::Path;
 use std::str::FromStr;
 
 /// A line of [`CORES`].
@@ -76,8 +80,17 @@ impl CoreSpec {
         if let Some(change) = self.change() {
             return textbook::with_change(change).expect("checked when it was read");
         }
+        if let Some(program) = self.program() {
+            return Box::new(CommandCore(program.expect("checked when it was read")));
+        }
         let kind = CORES.iter().find(|kind| kind.name == self.word);
         (kind.expect("checked when it was read").make)()
+    }
+
+    /// The program that an adapter's file describes, if this is one.
+    pub fn program(&self) -> Option<Result<Program, AdapterError>> {
+        let path = Path::new(&self.word);
+        path.extension().is_some_and(|ending| ending == "toml").then(|| Program::load(path))
     }
 
     /// What kind of core it is.
@@ -109,8 +122,16 @@ impl FromStr for CoreSpec {
         if let Some(change) = word.strip_prefix(CHANGED) {
             return changed(word, change);
         }
+        let resident = Self { word: word.to_owned(), guest: Guest::Resident };
+        match resident.program() {
+            Some(Ok(_)) => return Ok(resident),
+            Some(Err(error)) => {
+                return Err(UnknownCore { word: word.to_owned(), hint: error.to_string() });
+            }
+            None => {}
+        }
         let names: Vec<_> = CORES.iter().map(|kind| format!("`{}`", kind.name)).collect();
-        let forms = "or path/to/lib.so, or 'exec: COMMAND'";
+        let forms = "or path/to/lib.so, or an adapter's .toml, or 'exec: COMMAND'";
         let hint = || format!("the cores are {}, {forms}", names.join(" and "));
         let guest = foreign::guest(word).unwrap_or_else(|| Err(hint()));
         match guest {

@@ -52,7 +52,8 @@ pub enum ImageError {
 }
 
 impl ImageError {
-    pub(super) fn unreadable(path: &Path, cause: impl std::fmt::Display) -> Self {
+    /// A file that is not what it should be, in the words of whoever read it.
+    pub fn unreadable(path: &Path, cause: impl std::fmt::Display) -> Self {
         Self::Unreadable { path: path.to_owned(), cause: cause.to_string() }
     }
 

@@ -90,11 +90,11 @@ fn is_scene_file(path: &Path) -> bool {
     path.extension().is_some_and(|extension| EXTENSIONS.iter().any(|known| extension == *known))
 }
 
-/// The scene in a file, called by the file's name without its extension. A `.dae` file has one parameter,
-/// `film`.
+/// The scene in a file, called by the file's name without its extension. A `.dae` file has the parameters
+/// `film` and `camera`.
 pub fn load_file(path: &Path, overrides: &Overrides) -> Result<SceneDescription, SceneError> {
     if path.extension().is_some_and(|extension| extension == "dae") {
-        return Ok(collada::load(path, film(path, overrides)?)?.scene);
+        return load_collada(path, overrides);
     }
     let source = Source::read(path).map_err(|problem| SceneError::Unreadable {
         path: path.display().to_string(),
@@ -105,19 +105,27 @@ pub fn load_file(path: &Path, overrides: &Overrides) -> Result<SceneDescription,
     file::parse(&name, &source, folder, overrides)
 }
 
-/// The size of the picture of a `.dae` file: its only parameter.
-fn film(path: &Path, overrides: &Overrides) -> Result<[u32; 2], SceneError> {
-    let mut film = collada::FILM;
+/// A `.dae` file with its two parameters: the size of the picture, and a camera file beside it, the course's
+/// `-c`.
+fn load_collada(path: &Path, overrides: &Overrides) -> Result<SceneDescription, SceneError> {
+    let (mut film, mut camera) = (collada::FILM, None);
     for (parameter, value) in overrides {
-        film = value.clone().try_into().ok().filter(|_| parameter == "film").ok_or_else(|| {
-            SceneError::NoSuchParameter {
-                scene: path.display().to_string(),
-                parameter: format!("{parameter} = {value}"),
-                known: "`film`, such as [480, 360]".to_owned(),
-            }
+        let known = match parameter.as_str() {
+            "film" => value.clone().try_into().ok().map(|pixels| film = pixels),
+            "camera" => value.as_str().map(|name| camera = Some(path.with_file_name(name))),
+            _ => None,
+        };
+        known.ok_or_else(|| SceneError::NoSuchParameter {
+            scene: path.display().to_string(),
+            parameter: format!("{parameter} = {value}"),
+            known: "`film`, such as [480, 360], and `camera`, such as \"camera.txt\"".to_owned(),
         })?;
     }
-    Ok(film)
+    let mut scene = collada::load(path, film)?.scene;
+    if let Some(settings) = camera {
+        scene.camera = Some(collada::load_camera(&settings, film)?);
+    }
+    Ok(scene)
 }
 
 #[cfg(test)]

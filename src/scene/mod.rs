@@ -25,7 +25,7 @@ pub use file::Overrides;
 pub use library::{Library, load_file};
 pub use light::Light;
 pub use material::{Cap, Emission, Material, Surface};
-pub use shape::{Aabb, Mesh, Sphere};
+pub use shape::{Aabb, Mesh, Rectangle, Sphere};
 
 /// Linear RGB: radiance, reflectance or intensity, as the field says.
 pub type Rgb = [f64; 3];

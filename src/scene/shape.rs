@@ -40,6 +40,31 @@ impl Mesh {
     }
 }
 
+/// A flat rectangle: where its middle is and which way it faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rectangle {
+    /// World space.
+    pub centre: DVec3,
+    /// Two whole sides at a right angle.
+    pub sides: [DVec3; 2],
+    /// Unit, on the front side.
+    pub normal: DVec3,
+}
+
+impl Mesh {
+    /// The rectangle that a flat mesh of two triangles is, if it is one.
+    pub fn as_rectangle(&self) -> Option<Rectangle> {
+        let &[a, b, c, d] = self.positions.as_slice() else { return None };
+        let [u, v] = [b - a, d - a];
+        let is_parallelogram = (a + u + v).abs_diff_eq(c, 1e-12);
+        let is_rectangular = u.dot(v).abs() <= 1e-12 * u.length() * v.length();
+        let is_plain = self.normals.is_empty() && self.indices == [[0, 1, 2], [0, 2, 3]];
+        let normal = u.cross(v).try_normalize()?;
+        let rectangle = Rectangle { centre: (a + c) / 2.0, sides: [u, v], normal };
+        (is_plain && is_parallelogram && is_rectangular).then_some(rectangle)
+    }
+}
+
 /// A sphere in world space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sphere {

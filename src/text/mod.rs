@@ -1,12 +1,14 @@
 //! What people write, and what they are told about it: messages that point into a file, and the
-//! values with units that scene files and case files share.
+//! values with units that scene files and case files share; and how XML is written.
 //!
 //! Not here: what any key of a file means. Scenes and cases keep their own vocabulary.
 
 mod diagnostic;
 mod suggestion;
 mod units;
+mod xml;
 
 pub use diagnostic::{Diagnostic, Source};
 pub use suggestion::{did_you_mean, listed};
 pub use units::{Angle, Colour, Count, Percent};
+pub use xml::XmlWriter;

@@ -137,7 +137,7 @@ fn axes(offset: DVec3) -> DMat3 {
 }
 
 /// `f64::to_radians` multiplies by the same factor, but does not promise to.
-fn radians(degrees: f64) -> f64 {
+pub(super) fn radians(degrees: f64) -> f64 {
     degrees * (PI / 180.0)
 }
 

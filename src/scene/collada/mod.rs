@@ -26,7 +26,11 @@ mod light;
 mod material;
 mod node;
 mod normals;
+mod settings;
 mod xml;
+
+pub use normals::vertex_normals;
+pub use settings::{degrees_for, load_camera};
 
 use super::{SceneDescription, SceneError};
 use crate::text::Source;

@@ -2,7 +2,7 @@
 
 use super::xml::Xml;
 use super::{Attachment, MitsubaError};
-use crate::scene::{Material, Mesh, SceneDescription, Sphere, Surface};
+use crate::scene::{Material, Mesh, Rectangle, SceneDescription, Sphere, Surface};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// Writes every shape, and returns the meshes that got a file of their own.
@@ -12,10 +12,10 @@ pub(super) fn write_all(
 ) -> Result<Vec<(String, Attachment)>, MitsubaError> {
     let mut attachments = Vec::new();
     for (number, mesh) in scene.meshes.iter().enumerate() {
-        match rectangle(mesh) {
-            Some(to_world) => {
+        match mesh.as_rectangle() {
+            Some(rectangle) => {
                 xml.open("shape", &[("type", "rectangle"), ("id", &mesh.name)]);
-                xml.transform(to_world);
+                xml.transform(to_world(rectangle));
             }
             None => {
                 let file = format!("mesh-{number}.ply");
@@ -45,16 +45,12 @@ fn write_sphere(xml: &mut Xml, sphere: &Sphere) {
 
 /// What takes Mitsuba's rectangle, [−1, 1]² with its front along +z, to a mesh that is one. It is
 /// sampled with less noise than two triangles are.
-fn rectangle(mesh: &Mesh) -> Option<DAffine3> {
-    let &[a, b, c, d] = mesh.positions.as_slice() else { return None };
-    let [u, v] = [b - a, d - a];
-    let is_parallelogram = (a + u + v).abs_diff_eq(c, 1e-12);
-    let is_rectangular = u.dot(v).abs() <= 1e-12 * u.length() * v.length();
-    let is_plain = mesh.normals.is_empty() && mesh.indices == [[0, 1, 2], [0, 2, 3]];
-    (is_plain && is_parallelogram && is_rectangular).then(|| DAffine3 {
-        matrix3: DMat3::from_cols(u / 2.0, v / 2.0, u.cross(v).normalize()),
-        translation: (a + c) / 2.0,
-    })
+fn to_world(rectangle: Rectangle) -> DAffine3 {
+    let [u, v] = rectangle.sides;
+    DAffine3 {
+        matrix3: DMat3::from_cols(u / 2.0, v / 2.0, rectangle.normal),
+        translation: rectangle.centre,
+    }
 }
 
 /// A binary PLY file; Mitsuba computes in single precision anyway.

@@ -1,33 +1,27 @@
-//! Just enough XML: elements with attributes, indented.
+//! The values that Mitsuba's elements hold.
 
 use crate::scene::Rgb;
+use crate::text::XmlWriter;
 use glam::{DAffine3, DVec3};
 
 /// A document in the making.
 #[derive(Default)]
-pub(super) struct Xml {
-    text: String,
-    open: Vec<&'static str>,
-}
+pub(super) struct Xml(XmlWriter);
 
 impl Xml {
     /// Begins an element that others go into.
     pub fn open(&mut self, element: &'static str, attributes: &[(&str, &str)]) {
-        self.line(element, attributes, ">");
-        self.open.push(element);
+        self.0.open(element, attributes);
     }
 
     /// Ends the element begun last.
     pub fn close(&mut self) {
-        if let Some(element) = self.open.pop() {
-            self.indent();
-            self.text.push_str(&format!("</{element}>\n"));
-        }
+        self.0.close();
     }
 
     /// An element that nothing goes into.
     pub fn leaf(&mut self, element: &str, attributes: &[(&str, &str)]) {
-        self.line(element, attributes, "/>");
+        self.0.leaf(element, attributes);
     }
 
     pub fn integer(&mut self, name: &str, value: u32) {
@@ -76,33 +70,16 @@ impl Xml {
     }
 
     pub fn finish(self) -> String {
-        self.text
+        self.0.finish()
     }
 
     fn vector(&mut self, element: &str, name: &str, value: DVec3) {
         let [x, y, z] = value.to_array().map(|coordinate| coordinate.to_string());
         self.leaf(element, &[("name", name), ("x", &x), ("y", &y), ("z", &z)]);
     }
-
-    fn line(&mut self, element: &str, attributes: &[(&str, &str)], end: &str) {
-        self.indent();
-        self.text.push_str(&format!("<{element}"));
-        for (name, value) in attributes {
-            self.text.push_str(&format!(" {name}=\"{}\"", escaped(value)));
-        }
-        self.text.push_str(&format!("{end}\n"));
-    }
-
-    fn indent(&mut self) {
-        self.text.push_str(&"    ".repeat(self.open.len()));
-    }
 }
 
 /// Numbers with as many digits as it takes to read them back unchanged.
 fn numbers<const N: usize>(values: [f64; N], separator: &str) -> String {
     values.map(|value| value.to_string()).join(separator)
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

@@ -1,0 +1,53 @@
+//! `furnace agreement`: how far renderers are from the references.
+
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::agreement::{self, Effort};
+use crate::cores::CoreSpec;
+use clap::Args;
+
+/// What `furnace agreement` understands.
+#[derive(Clone, Debug, Args)]
+pub struct AgreementArguments {
+    /// References: parts of their names. All without.
+    filters: Vec<String>,
+    /// The renderer, such as adapters/command/cycles.toml; may be repeated.
+    #[arg(long = "core", value_name = "CORE", required = true)]
+    cores: Vec<CoreSpec>,
+    /// Independent pictures of each scene.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(2..))]
+    runs: u32,
+    /// Samples a pixel in each.
+    #[arg(long, value_name = "N", default_value_t = 64)]
+    spp: u32,
+    /// Gather light by directions over the hemisphere.
+    #[arg(long)]
+    hemisphere: bool,
+    #[command(flatten)]
+    project: ProjectArguments,
+}
+
+/// Renders and prints one table a renderer, in Markdown.
+pub fn agreement(arguments: &AgreementArguments) -> Answer {
+    let project = arguments.project.find()?;
+    let filters = &arguments.filters;
+    let is_selected =
+        |name: &String| filters.is_empty() || filters.iter().any(|part| name.contains(part));
+    let names: Vec<_> = agreement::references(&project).into_iter().filter(is_selected).collect();
+    if names.is_empty() {
+        let message = format!("no reference is called {}", filters.join(" "));
+        return Err(Failure { code: ExitCode::NothingSelected, message });
+    }
+    let effort = Effort {
+        runs: arguments.runs,
+        samples: arguments.spp,
+        by_hemisphere: arguments.hemisphere,
+    };
+    for core in &arguments.cores {
+        let rows: Vec<_> = names
+            .iter()
+            .map(|name| (name.clone(), agreement::compare(&project, core, name, effort)))
+            .collect();
+        println!("{}", agreement::table(core.as_str(), &rows));
+    }
+    Ok(ExitCode::Good)
+}

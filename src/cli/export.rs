@@ -1,0 +1,53 @@
+//! `furnace export`: a scene in another program's words.
+
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::export::{self, ExportError, Format, Request};
+use crate::scene::{Library, Overrides};
+use clap::Args;
+use std::path::PathBuf;
+
+/// What `furnace export` understands.
+#[derive(Clone, Debug, Args)]
+pub struct ExportArguments {
+    /// A scene of the project, or a `.toml` or `.dae` file.
+    scene: String,
+    /// mitsuba, collada (with the course's CGL profile and camera file), pbrt or obj.
+    #[arg(long, value_name = "FORMAT")]
+    format: Format,
+    /// The folder for the files; it is made if it is not there.
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// The last bounce to add up, for formats that say so in the scene.
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    bounces: u32,
+    /// Samples a pixel, for formats that say so in the scene.
+    #[arg(long, value_name = "N", default_value_t = 64)]
+    spp: u32,
+    /// Of the random numbers, for formats that say so in the scene.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    #[command(flatten)]
+    project: ProjectArguments,
+}
+
+/// Writes the files and says where they are.
+pub fn export(arguments: &ExportArguments) -> Answer {
+    let project = arguments.project.find()?;
+    let library = Library::new(project.scenes());
+    let scene = library.load(&arguments.scene, &Overrides::new()).map_err(Failure::request)?;
+    std::fs::create_dir_all(&arguments.output).map_err(|error| {
+        Failure::broken(format!("cannot make {}: {error}", arguments.output.display()))
+    })?;
+    let request =
+        Request { last_bounce: arguments.bounces, samples: arguments.spp, seed: arguments.seed };
+    let written = export::write(&scene, arguments.format, request, &arguments.output);
+    let written = written.map_err(|error| match error {
+        ExportError::Io { .. } => Failure::broken(error),
+        ExportError::CannotHold { .. } | ExportError::Mitsuba(_) => Failure::request(error),
+    })?;
+    println!("{}", written.scene.display());
+    if let Some(camera) = written.camera {
+        println!("{}", camera.display());
+    }
+    Ok(ExitCode::Good)
+}

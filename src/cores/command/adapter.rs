@@ -1,0 +1,325 @@
+//! `adapters/command/<name>.toml`: how a program is called, what it writes, and what it is known to do otherwise.
+
+use crate::contract::Conventions;
+use crate::export::Format;
+use crate::text::{Diagnostic, Source};
+use regex::Regex;
+use serde::Deserialize;
+use serde::de::{Deserializer, Error};
+use std::collections::BTreeMap;
+
+/// The words of a template, and what each stands for.
+pub(super) const PLACEHOLDERS: [(&str, &str); 19] = [
+    ("program", "the program"),
+    ("adapter", "the folder of the adapter's file"),
+    ("scene", "the scene's file"),
+    ("camera", "the camera's file, for formats that have one"),
+    ("folder", "where the scene is and the picture goes"),
+    ("output", "the picture's file"),
+    ("width", "pixels in a row"),
+    ("height", "rows"),
+    ("spp", "samples a pixel"),
+    ("seed", "of the random numbers"),
+    ("first-bounce", "the first bounce to add up"),
+    ("last-bounce", "the last bounce to add up"),
+    ("depth", "the last bounce plus `depth-offset`"),
+    ("threads", "how many it may use"),
+    ("light-samples", "samples to each light"),
+    ("horizontal-fov", "degrees"),
+    ("vertical-fov", "degrees"),
+    ("name", "of the scene"),
+    ("direct", "the arguments of the way to gather light"),
+];
+
+/// What an adapter's file says.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Adapter {
+    /// What reports call the renderer.
+    pub name: String,
+    /// Of the renderer that it was written for.
+    pub version: String,
+    /// One line for people.
+    pub about: String,
+    /// What scenes are written in.
+    pub scene: Format,
+    /// What is started.
+    pub program: Executable,
+    /// What it is given; words in braces are replaced.
+    pub arguments: Vec<String>,
+    /// For the environment of the program.
+    #[serde(default)]
+    pub environment: BTreeMap<String, String>,
+    /// What `{depth}` adds to the last bounce.
+    #[serde(default)]
+    pub depth_offset: u32,
+    /// Seconds until a picture is given up.
+    pub time_limit: u32,
+    /// What it writes.
+    pub output: Output,
+    /// How two pictures become independent.
+    pub runs: Runs,
+    /// What it can be asked beyond a picture of all bounces.
+    #[serde(default)]
+    pub can: Abilities,
+    /// What scenes may say and this program cannot do.
+    #[serde(default)]
+    pub lacks: Vec<Feature>,
+    /// What it has freely chosen.
+    #[serde(default)]
+    pub conventions: Conventions,
+    /// What is read from the program's own words.
+    #[serde(default)]
+    pub log: LogPatterns,
+}
+
+/// Where the program is.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Executable {
+    /// An environment variable that names it.
+    pub variable: String,
+    /// What is started where that is not set.
+    pub default: String,
+    /// What it has to be, for the message where it is not.
+    pub needs: String,
+}
+
+/// The picture.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Output {
+    /// Its file; the ending says which format: `.exr`, `.pfm`, `.hdr` or `.png`.
+    pub file: String,
+    /// From radiance to what is stored.
+    pub encoding: Encoding,
+    /// Which row comes first.
+    #[serde(default)]
+    pub first_row: FirstRow,
+}
+
+/// From radiance to what is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Encoding {
+    /// Radiance itself.
+    Linear,
+    /// 8 bits of sRGB, rounded.
+    Srgb,
+    /// The course's 8 bits: ⌊255 (√2 L)^(1/2.2)⌋.
+    Course,
+}
+
+/// Which row comes first in the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FirstRow {
+    /// As in most formats.
+    #[default]
+    Top,
+    /// Upside down, beyond what the format itself prescribes.
+    Bottom,
+}
+
+/// How two pictures become independent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub enum Runs {
+    /// `{seed}` is a number of this many bits.
+    SeedBits(u32),
+    /// The program takes no seed and draws one stream of numbers through the picture: the n-th run has n
+    /// samples a pixel more, so that every number meets another sample. The first pixel's first samples are
+    /// the same in all of them.
+    OneSampleMore,
+}
+
+/// What can be asked beyond a picture of all bounces.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct Abilities {
+    /// `{first-bounce}` is honoured.
+    pub isolated_bounces: bool,
+    /// Arguments with which light is gathered by the hemisphere; what `{direct}` stands for then.
+    pub hemisphere: Option<Vec<String>>,
+    /// The same command gives the same bits.
+    pub deterministic: bool,
+}
+
+/// Something in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Feature {
+    /// A mirror.
+    Mirror,
+    /// Glass.
+    Glass,
+    /// Glass whose reflectance or transmittance is not one.
+    TintedGlass,
+    /// A rough metal.
+    RoughMetal,
+    /// A point light.
+    PointLight,
+    /// A directional light.
+    DirectionalLight,
+    /// A sky of one radiance.
+    ConstantSky,
+    /// A sky that is brighter above.
+    GradientSky,
+    /// A sphere that glows.
+    SphereLight,
+    /// A surface that glows and reflects.
+    GlowingSurface,
+    /// A sphere that looks inward.
+    InwardSphere,
+}
+
+/// Patterns with one group, a number.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct LogPatterns {
+    /// Seconds of rendering, by whichever clock the program has.
+    pub seconds: Option<Pattern>,
+    /// Rays traced.
+    pub rays: Option<Pattern>,
+    /// Boxes and primitives tested for one ray.
+    pub tests_per_ray: Option<Pattern>,
+}
+
+/// A regular expression with one group.
+#[derive(Clone, Debug)]
+pub struct Pattern(pub Regex);
+
+impl<'de> Deserialize<'de> for Pattern {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        let regex = Regex::new(&text).map_err(D::Error::custom)?;
+        match regex.captures_len() {
+            2 => Ok(Self(regex)),
+            groups => Err(D::Error::custom(format!("`{text}` has {} groups, not one", groups - 1))),
+        }
+    }
+}
+
+impl Adapter {
+    /// Reads an adapter's file.
+    ///
+    /// # Errors
+    /// If it says something that is not known, or does not fit together.
+    pub fn parse(source: &Source) -> Result<Self, Diagnostic> {
+        let adapter: Self = source.parse_toml()?;
+        match adapter.complaint() {
+            None => Ok(adapter),
+            Some(complaint) => {
+                let at = source.text.find(&complaint.word).unwrap_or(0);
+                Err(source.diagnostic(at..at + complaint.word.len(), complaint.message))
+            }
+        }
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        for argument in self.arguments.iter().chain(self.environment.values()) {
+            if let Some(word) = unknown_placeholder(argument) {
+                let known: Vec<_> = PLACEHOLDERS.iter().map(|(name, _)| *name).collect();
+                let message = format!(
+                    "`{{{word}}}` stands for nothing; there are {}",
+                    crate::text::listed(known)
+                );
+                return Some(Complaint { word, message });
+            }
+        }
+        let has = |word: &str| self.arguments.iter().any(|argument| argument.contains(word));
+        let complain = |word: &str, message: &str| {
+            Some(Complaint { word: word.to_owned(), message: message.to_owned() })
+        };
+        match self.runs {
+            Runs::SeedBits(bits) if !(1..=64).contains(&bits) => {
+                return complain("seed-bits", "a seed has 1 to 64 bits");
+            }
+            Runs::SeedBits(_) if !has("{seed}") && self.scene != Format::Pbrt => {
+                return complain("seed-bits", "`{seed}` stands nowhere in the arguments");
+            }
+            _ => {}
+        }
+        if self.can.hemisphere.is_some() && !self.arguments.iter().any(|a| a == "{direct}") {
+            return complain("hemisphere", "`{direct}` is none of the arguments");
+        }
+        if self.can.isolated_bounces && !has("{first-bounce}") {
+            return complain(
+                "isolated-bounces",
+                "`{first-bounce}` stands nowhere in the arguments",
+            );
+        }
+        let ending = self.output.file.rsplit_once('.').map_or("", |(_, ending)| ending);
+        match (ending, self.output.encoding) {
+            ("exr" | "pfm" | "hdr", Encoding::Linear) => None,
+            ("png", Encoding::Srgb | Encoding::Course) => None,
+            ("exr" | "pfm" | "hdr", _) => {
+                complain("encoding", "such files hold radiance: `linear`")
+            }
+            ("png", _) => complain("encoding", "a PNG has 8 bits: `srgb` or `course`"),
+            _ => complain("file", "the picture is an .exr, .pfm, .hdr or .png"),
+        }
+    }
+}
+
+struct Complaint {
+    /// Where it is, as it stands in the file.
+    word: String,
+    message: String,
+}
+
+/// The first word in braces that stands for nothing.
+fn unknown_placeholder(text: &str) -> Option<String> {
+    let words = text.split('{').skip(1).filter_map(|rest| rest.split_once('}'));
+    let is_known = |word: &str| PLACEHOLDERS.iter().any(|(name, _)| *name == word);
+    words.map(|(word, _)| word).find(|word| !is_known(word)).map(str::to_owned)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// An adapter that is in order.
+    pub const GOOD: &str = r#"
+name = "sh"
+version = "1"
+about = "A shell"
+scene = "mitsuba"
+arguments = ["-c", "true", "{scene}", "{output}", "{seed}"]
+time-limit = 5
+program = { variable = "FURNACE_TEST_SHELL", default = "sh", needs = "a shell" }
+output = { file = "picture.pfm", encoding = "linear" }
+runs = { seed-bits = 31 }
+"#;
+
+    fn parse(text: &str) -> Result<Adapter, String> {
+        Adapter::parse(&Source::new("sh.toml", text)).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn an_adapter_in_order_is_read() {
+        let adapter = parse(GOOD).unwrap();
+        assert_eq!(adapter.runs, Runs::SeedBits(31));
+        assert_eq!(adapter.output.first_row, FirstRow::Top);
+    }
+
+    #[test]
+    fn what_is_wrong_is_pointed_at() {
+        for (from, to, message) in [
+            ("{scene}", "{scenes}", "`{scenes}` stands for nothing"),
+            ("name = \"sh\"", "name = \"sh\"\nnames = 1", "unknown field `names`"),
+            ("{seed}", "1", "`{seed}` stands nowhere"),
+            ("linear", "srgb", "such files hold radiance"),
+            ("picture.pfm", "picture.png", "a PNG has 8 bits"),
+            ("picture.pfm", "picture.jpg", "an .exr, .pfm, .hdr or .png"),
+            ("{ seed-bits = 31 }", "{ seed-bits = 0 }", "1 to 64 bits"),
+            ("\nruns", "\ncan = { hemisphere = [\"-H\"] }\nruns", "`{direct}` is none"),
+            ("\nruns", "\ncan = { isolated-bounces = true }\nruns", "`{first-bounce}`"),
+            ("\nruns", "\nlog = { seconds = \"no group\" }\nruns", "has 0 groups"),
+        ] {
+            assert!(GOOD.contains(from), "{from}");
+            let error = parse(&GOOD.replacen(from, to, 1)).expect_err(message);
+            assert!(error.contains(message) && error.contains("sh.toml:"), "{error}");
+        }
+    }
+}

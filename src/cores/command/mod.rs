@@ -1,0 +1,84 @@
+//! A core that is any program which turns a scene into a picture, described by a file of
+//! `adapters/command/`.
+//!
+//! The program is started anew for every picture, in a folder of its own and in a group of processes of its own,
+//! and gets the scene in one of the formats of [`crate::export`]. It can be asked for pictures only. One that
+//! writes 8 bits cannot even be asked that: what they cut off is not to be held against a renderer. `furnace
+//! agreement` compares those where they are not clipped.
+//!
+//! Pictures are never kept for another time: a core that is asked twice for one seed has to answer twice.
+
+mod adapter;
+mod picture;
+mod process;
+mod program;
+
+pub use adapter::Adapter;
+pub use picture::Picture;
+pub use program::{AdapterError, Log, Program, Rendered};
+
+use crate::contract::{
+    Acceleration, BuildStats, BuiltScene, Capabilities, Core, CoreInfo, Film, Precision,
+    RenderSettings, Result,
+};
+use crate::scene::{Camera, SceneDescription};
+
+/// A program as a core.
+#[derive(Debug)]
+pub struct CommandCore(pub Program);
+
+impl Core for CommandCore {
+    fn info(&self) -> CoreInfo {
+        let adapter = self.0.adapter();
+        let capabilities = [
+            (self.0.is_linear(), Capabilities::RENDER),
+            (adapter.can.isolated_bounces, Capabilities::ISOLATED_BOUNCES),
+            (adapter.can.hemisphere.is_some(), Capabilities::HEMISPHERE_SAMPLING),
+            (adapter.can.deterministic, Capabilities::DETERMINISTIC),
+        ];
+        let has = capabilities.into_iter().filter(|(has, _)| *has).map(|(_, it)| it);
+        CoreInfo {
+            name: adapter.name.clone(),
+            version: adapter.version.clone(),
+            capabilities: has.fold(Capabilities::BUILD_SCENE, Capabilities::union),
+            precision: Precision::Single,
+            conventions: adapter.conventions,
+        }
+    }
+
+    /// Nothing happens yet: the scene is written with each picture, for its camera is part of it.
+    fn build_scene(
+        &mut self,
+        scene: &SceneDescription,
+        _acceleration: Acceleration,
+    ) -> Result<Box<dyn BuiltScene + '_>> {
+        Ok(Box::new(BuiltCommand { program: &self.0, scene: scene.clone() }))
+    }
+}
+
+struct BuiltCommand<'a> {
+    program: &'a Program,
+    scene: SceneDescription,
+}
+
+impl BuiltScene for BuiltCommand<'_> {
+    fn stats(&self) -> BuildStats {
+        BuildStats::default()
+    }
+
+    fn render(
+        &mut self,
+        camera: &Camera,
+        settings: &RenderSettings,
+        film: &mut Film,
+    ) -> Result<()> {
+        let rendered = self.program.render(&self.scene, camera, settings)?;
+        film.pixels = rendered.picture.image.pixels;
+        film.sample_counts.fill(settings.samples_per_pixel);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+#[cfg(unix)]
+mod tests;

@@ -46,7 +46,7 @@ impl Mistake {
             Self::None => "agrees with the reference",
             Self::OnePercent => "picture-factor",
             Self::Columns => "pixel (",
-            Self::DeadPixels => "20 pixels stay black",
+            Self::DeadPixels => "pixels stay black in every run",
             Self::HalfPixel => "half-a-pixel-off",
             Self::GammaTwice => "gamma-in-film",
             Self::MissingBounce => "bounce-missing",

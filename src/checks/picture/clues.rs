@@ -20,7 +20,7 @@ const BOUNCE_RUNS: u32 = 8;
 const LIMIT_RUNS: u32 = 16;
 /// Pixels that have to share the largest value of all.
 const FEWEST_AT_LIMIT: usize = 8;
-/// Pixels of the reference with a value, to a hundredth, that make it the value of a lamp.
+/// Pixels with a value, to a hundredth, that make it the value of a lamp.
 const FEWEST_OF_LAMP: usize = 4;
 
 /// Adds what the fits say to a failure.
@@ -40,7 +40,7 @@ pub(super) fn explained(
     });
     let knowledge = Knowledge { standard_error: Some(&noise), ..Knowledge::default() };
     let fits = explain(&report.mean, &reference.mean, &knowledge);
-    let limit = limit(reference, shot, built, seed.child("limit"))?;
+    let limit = limit(report, reference, shot, built, seed.child("limit"))?;
     let mut finding = match limit {
         Some((level, pixels)) => finding.because(
             &picture::SAMPLES_CLAMPED,
@@ -116,6 +116,7 @@ fn displaced(offsets: [&Estimate; 2]) -> &'static Cause {
 /// The value that bright samples are cut off at, and how many pixels have it: the largest of
 /// single samples, if many pixels share it to the last bit and it is not the light of a lamp in view.
 fn limit(
+    report: &ImageReport,
     reference: &Reference,
     shot: &Shot<'_>,
     built: &mut dyn BuiltScene,
@@ -131,8 +132,12 @@ fn limit(
     }
     let level = brightest.iter().copied().fold(0.0, f32::max);
     let pixels = brightest.iter().filter(|value| **value == level).count();
-    let is_level = |pixel: &&[f32; 3]| (largest(pixel) / level - 1.0).abs() < 0.01;
-    let is_lamp = reference.mean.pixels.iter().filter(is_level).count() >= FEWEST_OF_LAMP;
+    // A lamp in view has its value in the mean as well, unless it should have more.
+    let is_lamp_pixel = |(mean, expected): &(&[f32; 3], &[f32; 3])| {
+        (largest(mean) / level - 1.0).abs() < 0.01 && largest(expected) < 1.01 * level
+    };
+    let pairs = report.mean.pixels.iter().zip(&reference.mean.pixels);
+    let is_lamp = pairs.filter(is_lamp_pixel).count() >= FEWEST_OF_LAMP;
     Ok((level > 0.0 && pixels >= FEWEST_AT_LIMIT && !is_lamp).then_some((level, pixels)))
 }
 

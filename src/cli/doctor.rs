@@ -93,7 +93,7 @@ fn tell_next_steps(cases: &[Arc<Case>], has: Capabilities) {
     let open = cases.iter().filter(|case| has.contains(case.prepared.needs())).count();
     println!("tried  on {open} of {} cases", cases.len());
     for (number, step) in next_steps(cases, has).iter().take(STEPS).enumerate() {
-        let label = if number == 0 { "next" } else { "" };
+        let label = if number == 0 { "next" } else { "then" };
         let names = step.missing.names().join(", ");
         println!("{label:<7}{names}: {} more cases, as {}", step.cases.len(), step.cases[0]);
         for (_, advice) in ADVICE.iter().filter(|(one, _)| step.missing.contains(*one)) {

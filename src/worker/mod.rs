@@ -24,6 +24,7 @@ mod scene;
 mod serve;
 
 pub use child::{Errand, Guest};
+pub use client::{Client, Silence};
 pub use confine::Confinement;
 pub use process::{Launch, Limits, StartError, Worker};
 pub use scene::{SceneArrays, header as scene_header};

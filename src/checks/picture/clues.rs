@@ -51,30 +51,32 @@ pub(super) fn explained(
         ),
         None => finding,
     };
+    // A bounce that is missing also looks like a factor: what explains more is told.
+    let bounce = match shot.isolates {
+        true => missing_bounce(report, reference, shot, built, seed.child("bounce"))?,
+        false => None,
+    };
+    let most = fits.iter().map(|fit| fit.explains).fold(EXPLAINS, f64::max);
+    if let Some((bounce, share)) = bounce.filter(|(_, share)| share.explains > most) {
+        return Ok(without_bounce(finding, bounce, &share));
+    }
     for fit in fits.iter().filter(|fit| fit.explains > EXPLAINS) {
         finding.statement += &format!("; the picture is {fit}");
         if let Some(cause) = cause_of(&fit.misfit) {
             finding = finding.because(cause, evidence(fit));
         }
     }
-    if fits.iter().any(|fit| fit.explains > EXPLAINS) {
-        return Ok(finding);
-    }
-    if !shot.isolates {
-        return Ok(finding);
-    }
-    match missing_bounce(report, reference, shot, built, seed.child("bounce"))? {
-        Some((bounce, share)) => {
-            let Estimate { value, interval: [low, high] } = share.missing;
-            let words = format!(
-                "what is missing is bounce {bounce} as the core itself renders it alone, {value:.2} \
-                 times ({low:.2} to {high:.2})"
-            );
-            finding.statement += &format!("; {words}");
-            Ok(finding.because(&transport::BOUNCE_MISSING, words))
-        }
-        None => Ok(finding),
-    }
+    Ok(finding)
+}
+
+fn without_bounce(mut finding: Finding, bounce: u32, share: &Share) -> Finding {
+    let Estimate { value, interval: [low, high] } = share.missing;
+    let words = format!(
+        "what is missing is bounce {bounce} as the core itself renders it alone, {value:.2} times \
+         ({low:.2} to {high:.2})"
+    );
+    finding.statement += &format!("; {words}");
+    finding.because(&transport::BOUNCE_MISSING, words)
 }
 
 fn evidence(fit: &Fit) -> String {

@@ -98,8 +98,29 @@ impl Exr {
     }
 }
 
+/// How many times its own size a file may unfold to: even a picture of one colour is packed less.
+const UNFOLDS: u128 = 1 << 16;
+
+/// That a file can hold what it announces: memory is asked for before the first pixel is read.
+fn check_size(path: &Path) -> Result<(), ImageError> {
+    let unreadable = |error: &dyn std::fmt::Display| ImageError::unreadable(path, error);
+    let length = std::fs::metadata(path).map_err(|error| unreadable(&error))?.len();
+    let meta = ::exr::meta::MetaData::read_from_file(path, false);
+    let meta = meta.map_err(|error| unreadable(&error))?;
+    let announced = |header: &::exr::meta::header::Header| {
+        let [width, height] = [header.layer_size.width(), header.layer_size.height()];
+        width as u128 * height as u128 * header.channels.bytes_per_pixel as u128
+    };
+    let announced: u128 = meta.headers.iter().map(announced).sum();
+    if announced > UNFOLDS * u128::from(length) {
+        return Err(unreadable(&format!("{announced} bytes of pixels in a file of {length}")));
+    }
+    Ok(())
+}
+
 /// Reads the first layer of a file.
 pub fn read(path: &Path) -> Result<Exr, ImageError> {
+    check_size(path)?;
     let reader = openexr::read().no_deep_data().largest_resolution_level().all_channels();
     let file = reader
         .first_valid_layer()

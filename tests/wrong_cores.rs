@@ -172,7 +172,8 @@ fn an_untouched_pixel_is_told_from_a_nan() {
 
 #[test]
 fn a_light_density_without_the_square_is_seen_in_the_solid_angle() {
-    let area_lights = ["ball", "rectangle", "triangle"].map(|l| format!("lights/samples-of-a-{l}"));
+    let area_lights =
+        ["ball", "rectangle", "triangle"].map(|l| format!("lights/samples-of-a-{l}-reach-it"));
     let area_lights = area_lights.each_ref().map(String::as_str);
     for (id, outcome) in outcomes(Wrong::LightPdfByDistance, "textbook", &area_lights) {
         assert_eq!(outcome.status(), Status::Fail, "{id}");

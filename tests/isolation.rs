@@ -140,7 +140,7 @@ impl Lair {
     }
 
     /// A copy of the library under the name of its deed.
-    fn library(&self, library: &Path, deed: &str) -> String {
+    fn core_of(&self, library: &Path, deed: &str) -> String {
         let path = self.den().join(format!("lib{deed}.so"));
         fs::copy(library, &path).unwrap();
         path.to_string_lossy().into_owned()
@@ -275,7 +275,7 @@ fn a_library_can_harm_nothing_but_its_own_trial() {
     let Some(library) = compiled("hostile") else { return };
     let lair = Lair::new();
     let cores: Vec<_> =
-        LIBRARIES.iter().map(|(deed, ending)| (lair.library(&library, deed), *ending)).collect();
+        LIBRARIES.iter().map(|(deed, ending)| (lair.core_of(&library, deed), *ending)).collect();
     assert_endings(&lair, &cores);
 }
 
@@ -288,7 +288,7 @@ fn a_library_reaches_neither_secrets_nor_results_nor_anybody_else() {
     }
     let lair = Lair::new();
     let cores: Vec<_> =
-        PRISONERS.iter().map(|(deed, ending)| (lair.library(&library, deed), *ending)).collect();
+        PRISONERS.iter().map(|(deed, ending)| (lair.core_of(&library, deed), *ending)).collect();
     assert_endings(&lair, &cores);
 }
 
@@ -321,7 +321,7 @@ fn a_crash_is_narrowed_to_the_ray_it_comes_of() {
     let _alone = ALONE.lock();
     let Some(library) = compiled("hostile") else { return };
     let lair = Lair::new();
-    let trials = lair.run(&[lair.library(&library, "segfault")], &[STRUCK]).unwrap();
+    let trials = lair.run(&[lair.core_of(&library, "segfault")], &[STRUCK]).unwrap();
     let Outcome::Crashed { during, .. } = &trials[0].outcome else { panic!("{trials:?}") };
     let place = "intersect-triangle, element 6 of 9: origin [0.25, 0.25, 1], direction [1, 0.5, 0]";
     assert!(during.starts_with(place), "{during}");
@@ -343,8 +343,8 @@ fn a_core_that_dies_of_being_loaded_is_one_line_and_not_the_end() {
     let _alone = ALONE.lock();
     let Some(library) = compiled("hostile") else { return };
     let lair = Lair::new();
-    let crash = lair.library(&library, "loadcrash");
-    let hang = lair.library(&library, "loadhang");
+    let crash = lair.core_of(&library, "loadcrash");
+    let hang = lair.core_of(&library, "loadhang");
     let cores = [crash.clone(), hang.clone(), "textbook".to_owned()];
     let trials = lair.run(&cores, &[STRUCK]).unwrap();
     let status =
@@ -383,8 +383,8 @@ fn what_is_no_core_is_a_wrong_request() {
     let text = lair.den().join("text.so");
     fs::write(&text, "not a library").unwrap();
     let mut endings = vec![
-        (lair.library(&library, "decline"), "cannot serve version 1"),
-        (lair.library(&library, "otherabi"), "compiled with version 99"),
+        (lair.core_of(&library, "decline"), "cannot serve version 1"),
+        (lair.core_of(&library, "otherabi"), "compiled with version 99"),
         (text.to_string_lossy().into_owned(), "cannot be loaded"),
     ];
     if python().is_some() {
@@ -402,7 +402,7 @@ fn a_core_that_ignores_the_seed_is_found_out() {
     let Some(library) = compiled("stubborn") else { return };
     let lair = Lair::new();
     let filters = ["integrator/different-seeds"];
-    let trials = lair.run(&[lair.library(&library, "stubborn")], &filters).unwrap();
+    let trials = lair.run(&[lair.core_of(&library, "stubborn")], &filters).unwrap();
     assert_eq!(trials[0].outcome.status(), Status::Fail, "{:?}", trials[0].outcome);
 }
 
@@ -412,7 +412,7 @@ fn a_core_that_knows_published_answers_by_heart_is_found_out() {
     let Some(library) = compiled("crib") else { return };
     let lair = Lair::new();
     let filters = ["lights/a-rectangle-overhead-matches", "lights/a-rectangle-to-the-side"];
-    let trials = lair.run(&[lair.library(&library, "crib")], &filters).unwrap();
+    let trials = lair.run(&[lair.core_of(&library, "crib")], &filters).unwrap();
     assert_eq!(trials.len(), 2);
     for trial in trials {
         let expected = if trial.case.contains("overhead") { Status::Pass } else { Status::Fail };

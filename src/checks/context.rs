@@ -4,7 +4,8 @@ use crate::contract::{Core, CoreError, CoreInfo};
 use crate::image::Image;
 use crate::math::rng::Seed;
 use crate::scene::{Camera, Library, SceneDescription};
-use crate::stats::Allowance;
+use crate::stats::{Allowance, Effort};
+use crate::text::{Count, Percent};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -30,6 +31,11 @@ pub struct Context<'a> {
 }
 
 impl Context<'_> {
+    /// How small an error must be seen, in at most so many samples: both under the budget.
+    pub fn effort(&self, detects: Percent, at_most: Count) -> Effort {
+        self.budget.scale(Effort::new(detects.0).with_most_samples(at_most.0))
+    }
+
     /// The scene that the case names.
     ///
     /// # Errors

@@ -1,18 +1,18 @@
 //! The random numbers that a batch of sampling calls is handed.
 
-use crate::contract::{BsdfSample, Randomness};
+use crate::contract::Randomness;
 use crate::math::rng::{Seed, uniform};
-use glam::{DVec2, DVec3};
-
-/// What a core overwrites: a sample that has failed.
-pub const NO_SAMPLE: BsdfSample =
-    BsdfSample { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
+use glam::DVec2;
 
 /// Numbers for one batch, drawn from one seed.
+#[derive(Clone)]
 pub struct Numbers {
-    points: Vec<DVec2>,
-    lobes: Vec<f64>,
-    seed: Seed,
+    /// Two for each sample.
+    pub points: Vec<DVec2>,
+    /// One for each sample.
+    pub lobes: Vec<f64>,
+    /// For cores that draw their own.
+    pub seed: Seed,
 }
 
 impl Numbers {

@@ -182,6 +182,11 @@ pub struct BsdfSample {
     pub is_valid: u32,
 }
 
+impl BsdfSample {
+    /// A sample that failed.
+    pub const NONE: Self = Self { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
+}
+
 /// A sampled direction towards a light.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -199,6 +204,18 @@ pub struct LightSample {
     pub is_delta: u32,
     /// 0: sampling failed, count the sample as zero.
     pub is_valid: u32,
+}
+
+impl LightSample {
+    /// A sample that failed.
+    pub const NONE: Self = Self {
+        wi: DVec3::Z,
+        distance: 0.0,
+        radiance: [0.0; 3],
+        pdf: 0.0,
+        is_delta: 0,
+        is_valid: 0,
+    };
 }
 
 /// Random numbers for one batch, all in [0, 1). `points[i]` and `lobes[i]` belong to element i; a core without

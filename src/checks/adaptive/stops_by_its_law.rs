@@ -64,10 +64,7 @@ impl Check for StopsByItsLaw {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let precision = context.info.precision;
-        let effort = |detects: Percent| {
-            let effort = Effort::new(detects.0).with_most_samples(self.at_most.0);
-            context.budget.scale(effort)
-        };
+        let effort = |detects: Percent| context.effort(detects, self.at_most);
         let (of_counts, of_mean) = (effort(self.detects), effort(self.mean_detects));
         let mut judged = Vec::new();
         for (number, entry) in self.stream.iter().enumerate() {

@@ -2,15 +2,16 @@
 
 use crate::cause::{Cause, bsdf};
 use crate::checks::form::Form;
+use crate::checks::numbers::Numbers;
 use crate::checks::phrase::{some_are, worst_measure};
 use crate::checks::surface::SurfaceEntry;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{BsdfQuery, BsdfSample, BsdfValue, Capabilities, Randomness};
+use crate::contract::{BsdfQuery, BsdfSample, BsdfValue, Capabilities};
 use crate::math::frame::direction;
-use crate::math::rng::{Seed, Stream, uniform};
+use crate::math::rng::{Stream, uniform};
 use crate::math::sphere::{at_height, on_hemisphere};
 use crate::stats::{Compared, Tolerance, judge_exact};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -88,10 +89,9 @@ impl Drawn {
         let mut stream = seed.stream();
         let each = |view: DVec3| std::iter::repeat_n(view, SAMPLES_PER_VIEW);
         let views: Vec<_> = views(&mut stream).into_iter().flat_map(each).collect();
-        let (points, lobes) = numbers(seed, views.len());
-        let random = Randomness { points: &points, lobes: &lobes, seed: seed.0 };
-        let nothing = BsdfSample { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
-        let mut samples = vec![nothing; views.len()];
+        let numbers = Numbers::new(seed.child("numbers"), views.len());
+        let mut samples = vec![BsdfSample::NONE; views.len()];
+        let random = numbers.randomness();
         context.core.sample_bsdf(&surface.material(), &views, random, &mut samples)?;
         Ok(Self { surface, views, samples })
     }
@@ -199,14 +199,6 @@ impl Drawn {
 
 fn has_value(value: &BsdfValue) -> bool {
     value.pdf != 0.0 || value.f != [0.0; 3]
-}
-
-fn numbers(seed: Seed, count: usize) -> (Vec<DVec2>, Vec<f64>) {
-    let mut stream = seed.child("numbers").stream();
-    let mut next = || uniform(&mut stream);
-    let points = (0..count).map(|_| DVec2::new(next(), next())).collect();
-    let lobes = (0..count).map(|_| next()).collect();
-    (points, lobes)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 use super::interface::{Interface, MISTAKES};
 use super::smooth_view::{Allowed, SmoothView, is_reflection};
 use crate::cause::{Cause, bsdf as cause};
-use crate::checks::numbers::{NO_SAMPLE, Numbers};
+use crate::checks::numbers::Numbers;
 use crate::checks::phrase::{degrees, percent};
 use crate::checks::surface::{SurfaceEntry, seen_from};
 use crate::checks::{Check, CheckError, Context, Finding};
@@ -54,7 +54,6 @@ impl Check for ReflectsAndRefracts {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let precision = context.info.precision;
         let material = self.surface.material();
-        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
         let trial = Trial {
             interface: Interface::new(material.surface, context.info.conventions),
             material,
@@ -62,7 +61,7 @@ impl Check for ReflectsAndRefracts {
                 direction: Tolerance::DIRECTION.of(precision),
                 formula: Tolerance::FORMULA.of(precision),
             },
-            effort: context.budget.scale(effort),
+            effort: context.effort(self.detects, self.at_most),
             band: Band::math(precision),
         };
         let seed = context.seed;
@@ -105,7 +104,7 @@ impl Trial {
         seed: Seed,
         count: usize,
     ) -> Result<Vec<BsdfSample>, CheckError> {
-        let mut samples = vec![NO_SAMPLE; count];
+        let mut samples = vec![BsdfSample::NONE; count];
         let numbers = Numbers::new(seed, count);
         core.sample_bsdf(&self.material, &vec![wo; count], numbers.randomness(), &mut samples)?;
         Ok(samples)
@@ -228,7 +227,7 @@ mod tests {
                 };
                 let share = lobes.reflected.map_or(0.0, |lobe| lobe.probability);
                 let lobe = if random.lobes[i] < share { lobes.reflected } else { lobes.refracted };
-                *sample = NO_SAMPLE;
+                *sample = BsdfSample::NONE;
                 let Some(lobe) = lobe else { continue };
                 *sample = BsdfSample {
                     wi: lobe.wi,

@@ -1,13 +1,13 @@
 //! The mean weight of samples, f cos / pdf, is the albedo: what a path tracer really multiplies by.
 
 use super::conserves_energy::expected_albedo;
-use crate::checks::numbers::{NO_SAMPLE, Numbers};
+use crate::checks::numbers::Numbers;
 use crate::checks::phrase::{degrees, figure, mean_measure, would_have_caught};
 use crate::checks::surface::{SurfaceEntry, seen_from};
 use crate::checks::{Check, CheckError, Context, Finding};
-use crate::contract::{Capabilities, Core};
+use crate::contract::{BsdfSample, Capabilities, Core};
 use crate::math::rng::Seed;
-use crate::stats::{Band, Claim, Effort, Verdict, judge_means};
+use crate::stats::{Band, Claim, Verdict, judge_means};
 use crate::text::{Angle, Count, Percent};
 use serde::Deserialize;
 
@@ -42,8 +42,7 @@ impl Check for WeightsMakeTheAlbedo {
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
-        let effort = context.budget.scale(effort);
+        let effort = context.effort(self.detects, self.at_most);
         let band = Band::math(context.info.precision);
         let smith = context.info.conventions.smith_term;
         let mut measures = Vec::new();
@@ -82,7 +81,7 @@ fn mean_weight(
     count: usize,
 ) -> Result<Vec<f64>, CheckError> {
     let views = vec![seen_from(angle); count];
-    let mut samples = vec![NO_SAMPLE; count];
+    let mut samples = vec![BsdfSample::NONE; count];
     let numbers = Numbers::new(seed, count);
     core.sample_bsdf(&surface.material(), &views, numbers.randomness(), &mut samples)?;
     let valid = samples.iter().filter(|sample| sample.is_valid == 1);

@@ -5,7 +5,7 @@
 
 use crate::checks::phrase::{figure, mean_measure, would_have_caught};
 use crate::checks::transport::{
-    CHANNELS, MistakeEntry, RayEntry, RouletteEntry, draw_estimates, effort, needs, settings,
+    CHANNELS, MistakeEntry, RayEntry, RouletteEntry, draw_estimates, needs, settings,
 };
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings};
@@ -73,7 +73,7 @@ impl Check for VarianceIsKnown {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let (seed, effort) = (context.seed, effort(self.detects, self.at_most, context.budget));
+        let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut rows = Vec::new();
         for (number, row) in self.row.iter().enumerate() {

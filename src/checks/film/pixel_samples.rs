@@ -11,7 +11,7 @@ use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities};
 use crate::math::rng::Seed;
-use crate::stats::{Band, Claim, Effort, MeanReport, Verdict, judge_means};
+use crate::stats::{Band, Claim, MeanReport, Verdict, judge_means};
 use crate::text::{Count, Percent};
 use serde::Deserialize;
 
@@ -40,8 +40,10 @@ impl Check for PixelSamples {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = scene();
         let rendering = Rendering::of(&scene, FILM, [0, 0], SAMPLES)?;
-        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
-        let effort = context.budget.scale(effort.with_runs(32)).in_steps_of(samples_of_a_picture());
+        let effort = context
+            .effort(self.detects, self.at_most)
+            .with_runs(32)
+            .in_steps_of(samples_of_a_picture());
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut all = Tally::default();

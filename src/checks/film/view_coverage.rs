@@ -6,7 +6,7 @@ use crate::checks::phrase::{figure, mean_measure, percent, would_have_caught};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{Acceleration, Capabilities, Film};
-use crate::stats::{Band, Claim, Effort, MeanReport, Verdict, judge_means};
+use crate::stats::{Band, Claim, MeanReport, Verdict, judge_means};
 use crate::text::{Count, Percent};
 use serde::Deserialize;
 
@@ -53,8 +53,8 @@ impl Check for ViewCoverage {
         let scene = context.scene()?;
         let rendering = Rendering::of(&scene, self.size, [0, 0], SAMPLES)?;
         let of_a_film = u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(SAMPLES);
-        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
-        let effort = context.budget.scale(effort.with_runs(32)).in_steps_of(of_a_film);
+        let effort =
+            context.effort(self.detects, self.at_most).with_runs(32).in_steps_of(of_a_film);
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let reports = judge_means(&self.claims(), &effort, &mut |draw| {

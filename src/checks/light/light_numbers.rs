@@ -1,13 +1,13 @@
 //! Samples of area lights follow from their own random numbers, use both, and survive those at the
 //! ends of their range.
 
+use crate::checks::numbers::Numbers;
 use crate::checks::sampling::distribution::Drawn;
 use crate::checks::sampling::extremes::{self, Extremes, Range};
-use crate::checks::sampling::replay::{Numbers, Replayed};
+use crate::checks::sampling::replay::{self, Replayed};
 use crate::checks::{Check, CheckError, Context, Finding};
-use crate::contract::{
-    Acceleration, BuiltScene, Capabilities, CoreError, LightSample, Randomness, Result,
-};
+use crate::contract::{Acceleration, BuiltScene, Capabilities, CoreError, LightSample, Result};
+use crate::math::rng::Seed;
 use crate::scene::Light;
 use glam::DVec3;
 use serde::Deserialize;
@@ -37,7 +37,7 @@ impl Check for LightNumbers {
 
     fn run(&self, context: &mut Context<'_>) -> std::result::Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let numbers = Numbers::random(context.seed);
+        let numbers = Numbers::new(context.seed, replay::COUNT);
         let area = (0..).zip(&scene.lights);
         let area = area.filter(|(_, light)| matches!(light, Light::Area { .. }));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
@@ -68,23 +68,15 @@ struct Asked<'a> {
 
 impl Asked<'_> {
     fn samples(&mut self, numbers: &Numbers) -> Result<Vec<Drawn>> {
-        let nothing = LightSample {
-            wi: DVec3::Z,
-            distance: 0.0,
-            radiance: [0.0; 3],
-            pdf: 0.0,
-            is_delta: 0,
-            is_valid: 0,
-        };
-        let mut samples = vec![nothing; numbers.points.len()];
+        let mut samples = vec![LightSample::NONE; numbers.points.len()];
         let from = vec![self.from; samples.len()];
-        let random = Randomness { points: &numbers.points, lobes: &numbers.lobes, seed: 0 };
-        self.scene.sample_light(self.light, &from, random, &mut samples)?;
+        self.scene.sample_light(self.light, &from, numbers.randomness(), &mut samples)?;
         samples.iter().map(drawn).collect()
     }
 
     fn sample(&mut self, (point, lobe): extremes::Extreme) -> Result<(Drawn, f64)> {
-        let drawn = self.samples(&Numbers { points: vec![point], lobes: vec![lobe] })?[0];
+        let number = Numbers { points: vec![point], lobes: vec![lobe], seed: Seed(0) };
+        let drawn = self.samples(&number)?[0];
         Ok((drawn, drawn.pdf))
     }
 }
@@ -116,7 +108,7 @@ fn together(replayed: &[Replayed], extremes: &[Extremes]) -> Finding {
 mod tests {
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
-    use crate::contract::{BuildStats, Core, CoreInfo, Precision};
+    use crate::contract::{BuildStats, Core, CoreInfo, Precision, Randomness};
     use crate::scene::{Library, SceneDescription};
     use glam::DVec2;
 

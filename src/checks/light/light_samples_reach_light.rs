@@ -5,17 +5,18 @@
 
 use super::density::{self, Geometry, area_of};
 use crate::cause;
+use crate::checks::numbers::Numbers;
 use crate::checks::phrase::{mean_measure, some_are, worst_measure, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, BuiltScene, Capabilities, Hit, LightSample, Randomness, Ray};
+use crate::contract::{Acceleration, BuiltScene, Capabilities, Hit, LightSample, Ray};
 use crate::math::ratios::names_of;
-use crate::math::rng::{Seed, uniform};
+use crate::math::rng::Seed;
 use crate::scene::{Light, SceneDescription};
 use crate::stats::{
     Band, Claim, Compared, MeanReport, Support, Tolerance, Verdict, judge_exact, judge_means,
 };
 use crate::text::{Count, Percent};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -65,8 +66,7 @@ impl Check for LightSamplesReachLight {
         let light = the_area_light(&scene)?;
         let area = area_of(&scene, light.1);
         let (seed, precision) = (context.seed, context.info.precision);
-        let effort = crate::stats::Effort::new(self.detects.0).with_most_samples(self.at_most.0);
-        let effort = context.budget.scale(effort);
+        let effort = context.effort(self.detects, self.at_most);
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let (mut measures, mut complaints) = (Vec::new(), Vec::new());
         let (mut met, mut shines_backwards) = (Vec::new(), false);
@@ -161,21 +161,10 @@ impl Point {
         seed: Seed,
         count: usize,
     ) -> Result<Vec<LightSample>, CheckError> {
-        let mut stream = seed.stream();
-        let mut next = || uniform(&mut stream);
-        let points: Vec<_> = (0..count).map(|_| DVec2::new(next(), next())).collect();
-        let lobes: Vec<_> = (0..count).map(|_| next()).collect();
-        let random = Randomness { points: &points, lobes: &lobes, seed: seed.0 };
-        let nothing = LightSample {
-            wi: DVec3::Z,
-            distance: 0.0,
-            radiance: [0.0; 3],
-            pdf: 0.0,
-            is_delta: 0,
-            is_valid: 0,
-        };
-        let mut samples = vec![nothing; count];
-        scene.sample_light(light, &vec![self.from(); count], random, &mut samples)?;
+        let numbers = Numbers::new(seed, count);
+        let mut samples = vec![LightSample::NONE; count];
+        let from = vec![self.from(); count];
+        scene.sample_light(light, &from, numbers.randomness(), &mut samples)?;
         Ok(samples)
     }
 }

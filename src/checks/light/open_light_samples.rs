@@ -42,8 +42,7 @@ impl Check for OpenLightSamples {
         let falloff = context.info.conventions.point_light_falloff;
         let tolerance = Tolerance::FORMULA.of(context.info.precision);
         let band = Band::math(context.info.precision);
-        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
-        let effort = context.budget.scale(effort);
+        let effort = context.effort(self.detects, self.at_most);
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut found = Vec::new();
@@ -104,16 +103,6 @@ struct Sampled {
     samples: Vec<LightSample>,
 }
 
-/// What a core overwrites.
-const NOTHING: LightSample = LightSample {
-    wi: DVec3::Z,
-    distance: 0.0,
-    radiance: [0.0; 3],
-    pdf: 0.0,
-    is_delta: 0,
-    is_valid: 0,
-};
-
 impl Sampled {
     fn new(scene: &mut dyn BuiltScene, light: u32, seed: Seed) -> Result<Self, CheckError> {
         let stream = &mut seed.child("points").stream();
@@ -121,7 +110,7 @@ impl Sampled {
         let from: Vec<_> =
             (0..POINTS).map(|_| DVec3::new(coordinate(), coordinate(), coordinate())).collect();
         let numbers = Numbers::new(seed, POINTS);
-        let mut samples = vec![NOTHING; POINTS];
+        let mut samples = vec![LightSample::NONE; POINTS];
         scene.sample_light(light, &from, numbers.randomness(), &mut samples)?;
         Ok(Self { from, samples })
     }
@@ -234,7 +223,7 @@ impl Sky {
             let seed = draw.seed(self.seed);
             let count = usize::try_from(draw.samples).unwrap_or(usize::MAX);
             let numbers = Numbers::new(seed, count);
-            let mut samples = vec![NOTHING; count];
+            let mut samples = vec![LightSample::NONE; count];
             let from = vec![DVec3::ZERO; count];
             scene.sample_light(self.number, &from, numbers.randomness(), &mut samples)?;
             let valid = samples.iter().filter(|sample| sample.is_valid == 1);

@@ -10,7 +10,7 @@ use crate::checks::phrase::{figure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Sampler};
 use crate::math::rng::Seed;
-use crate::stats::{CellProbabilities, CountReport, Counts, Effort, Stage, Verdict, judge_counts};
+use crate::stats::{CellProbabilities, CountReport, Counts, Stage, Verdict, judge_counts};
 use crate::text::{Count, Percent};
 use glam::DVec3;
 use serde::Deserialize;
@@ -50,8 +50,7 @@ impl Check for ConsecutiveSamples {
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
-        let effort = context.budget.scale(effort);
+        let effort = context.effort(self.detects, self.at_most);
         let expected = CellProbabilities::exact(vec![1.0 / CELLS as f64; CELLS]);
         let mut judged = Vec::new();
         for distribution in self.distribution.distributions() {

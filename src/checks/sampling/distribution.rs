@@ -1,14 +1,15 @@
 //! Anything that draws directions with a density: the samplers of a course, and BSDFs seen from a direction.
 
+use crate::checks::numbers::Numbers;
 use crate::checks::surface::{SurfaceEntry, seen_from};
 use crate::contract::{
     BsdfQuery, BsdfSample, BsdfValue, Capabilities, Core, DirectionSample, Randomness, Result,
     Sampler,
 };
-use crate::math::rng::{Seed, uniform};
+use crate::math::rng::Seed;
 use crate::scene::Material;
 use crate::text::Angle;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use serde::Deserialize;
 
 /// Samples asked for in one call.
@@ -158,7 +159,7 @@ impl Distribution {
             }
             Self::Bsdf { material, wo, .. } => {
                 let views = vec![*wo; random.points.len()];
-                let mut samples = vec![NO_SAMPLE; views.len()];
+                let mut samples = vec![BsdfSample::NONE; views.len()];
                 core.sample_bsdf(material, &views, random, &mut samples)?;
                 let drawn = |sample: &BsdfSample| Drawn {
                     direction: (sample.is_valid == 1).then_some(sample.wi),
@@ -183,21 +184,8 @@ impl Distribution {
         for batch in 0..count.div_ceil(BATCH) {
             let seed = seed.child(batch);
             let size = usize::try_from(BATCH.min(count - batch * BATCH)).unwrap_or(usize::MAX);
-            let (points, lobes) = random_numbers(seed, size);
-            let random = Randomness { points: &points, lobes: &lobes, seed: seed.0 };
-            take(&self.sample(core, random)?);
+            take(&self.sample(core, Numbers::new(seed, size).randomness())?);
         }
         Ok(())
     }
 }
-
-/// The numbers that a core with the caller's randomness uses.
-pub fn random_numbers(seed: Seed, count: usize) -> (Vec<DVec2>, Vec<f64>) {
-    let stream = &mut seed.stream();
-    let points = (0..count).map(|_| DVec2::new(uniform(stream), uniform(stream))).collect();
-    (points, (0..count).map(|_| uniform(stream)).collect())
-}
-
-/// What a core overwrites.
-pub const NO_SAMPLE: BsdfSample =
-    BsdfSample { wi: DVec3::ZERO, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };

@@ -46,8 +46,7 @@ impl Check for MomentsFollowPdf {
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
-        let effort = context.budget.scale(effort);
+        let effort = context.effort(self.detects, self.at_most);
         let band = Band::math(context.info.precision);
         let mut judged = Vec::new();
         for distribution in self.distribution.distributions() {

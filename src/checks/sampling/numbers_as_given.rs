@@ -2,9 +2,10 @@
 //! stands in a batch, and moved by each of the two that choose the direction.
 
 use super::distribution::DistributionEntry;
-use super::replay::{COUNT, Numbers, Replayed};
+use super::replay::{COUNT, Replayed};
+use crate::checks::numbers::Numbers;
 use crate::checks::{Check, CheckError, Context, Finding};
-use crate::contract::{Capabilities, Randomness};
+use crate::contract::Capabilities;
 use serde::Deserialize;
 
 /// Samples follow from the numbers they are given.
@@ -30,12 +31,10 @@ impl Check for NumbersAsGiven {
         let mut replayed = Vec::new();
         for distribution in self.distribution.distributions() {
             let seed = context.seed.child(distribution.name());
-            let mut ask = |numbers: &Numbers| {
-                let random =
-                    Randomness { points: &numbers.points, lobes: &numbers.lobes, seed: seed.0 };
-                distribution.sample(context.core, random)
-            };
-            replayed.push(Replayed::of(distribution.name(), &Numbers::random(seed), &mut ask)?);
+            let numbers = Numbers::new(seed, COUNT);
+            let mut ask =
+                |numbers: &Numbers| distribution.sample(context.core, numbers.randomness());
+            replayed.push(Replayed::of(distribution.name(), &numbers, &mut ask)?);
         }
         Ok(finding(&replayed))
     }
@@ -59,7 +58,9 @@ mod tests {
     use super::super::fake::cosine;
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{Core, CoreInfo, DirectionSample, Precision, Result, Sampler};
+    use crate::contract::{
+        Core, CoreInfo, DirectionSample, Precision, Randomness, Result, Sampler,
+    };
     use glam::{DVec2, DVec3};
 
     /// Samples by the numbers of a whole batch.

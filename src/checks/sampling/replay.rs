@@ -1,10 +1,10 @@
 //! Asking for the same samples again, in another order, and with one of their numbers changed.
 
-use super::distribution::{Drawn, random_numbers};
+use super::distribution::Drawn;
 use crate::cause::{Cause, sampling};
 use crate::checks::Measure;
+use crate::checks::numbers::Numbers;
 use crate::checks::phrase::{at_most, percent, some_are};
-use crate::math::rng::Seed;
 use glam::{DVec2, DVec3};
 
 /// Samples.
@@ -17,27 +17,13 @@ const MOVED: f64 = 1e-4;
 /// they are, and so do those of a lobe that needs fewer numbers.
 const MOSTLY: f64 = 0.5;
 
-/// The numbers of a batch.
-#[derive(Clone)]
-pub struct Numbers {
-    /// Two for each sample.
-    pub points: Vec<DVec2>,
-    /// One for each sample.
-    pub lobes: Vec<f64>,
-}
-
 impl Numbers {
-    /// Of as many samples as are looked at.
-    pub fn random(seed: Seed) -> Self {
-        let (points, lobes) = random_numbers(seed, COUNT);
-        Self { points, lobes }
-    }
-
     /// The same backwards.
     fn reversed(&self) -> Self {
         Self {
             points: self.points.iter().rev().copied().collect(),
             lobes: self.lobes.iter().rev().copied().collect(),
+            seed: self.seed,
         }
     }
 

@@ -4,9 +4,10 @@
 //! the density (an idea seen in the tests of lajolla). Needs a core that samples with the caller's numbers.
 
 use super::density::{Density, Law};
-use super::distribution::{Distribution, DistributionEntry, Drawn, random_numbers};
+use super::distribution::{Distribution, DistributionEntry, Drawn};
 use crate::cause::Cause;
 use crate::checks::form::Form;
+use crate::checks::numbers::Numbers;
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Precision, Randomness};
@@ -83,10 +84,10 @@ impl Products {
         let precision = context.info.precision;
         let h = step(precision);
         let seed = context.seed.child(distribution.name());
-        let (points, _) = random_numbers(seed, POINTS);
+        let numbers = Numbers::new(seed, POINTS);
         let on_grid = |u: f64| h + ((1.0 - 2.0 * h) * u / GRID).floor() * GRID;
         let points: Vec<_> =
-            points.iter().map(|p| DVec2::new(on_grid(p.x), on_grid(p.y))).collect();
+            numbers.points.iter().map(|p| DVec2::new(on_grid(p.x), on_grid(p.y))).collect();
         let lobes = vec![0.5; points.len()];
         let mut at = |offset: DVec2| {
             let points: Vec<_> = points.iter().map(|point| *point + offset).collect();

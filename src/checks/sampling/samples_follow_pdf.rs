@@ -9,8 +9,8 @@ use crate::contract::{Capabilities, Core};
 use crate::math::quadrature::Diligence;
 use crate::math::rng::{Seed, uniform};
 use crate::stats::{
-    CellProbabilities, CountDoubt, CountReport, CountSource, Counts, Effort, SphereCells, Stage,
-    Verdict, chi_square_upper, judge_count_source,
+    CellProbabilities, CountDoubt, CountReport, CountSource, Counts, SphereCells, Stage, Verdict,
+    chi_square_upper, judge_count_source,
 };
 use crate::text::{Count, Percent};
 use serde::Deserialize;
@@ -47,8 +47,7 @@ impl Check for SamplesFollowPdf {
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
-        let effort = context.budget.scale(effort);
+        let effort = context.effort(self.detects, self.at_most);
         let mut judged = Vec::new();
         for distribution in self.distribution.distributions() {
             let seed = context.seed.child(distribution.name());

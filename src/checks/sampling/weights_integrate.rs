@@ -12,7 +12,7 @@ use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::Capabilities;
 use crate::math::ratios::names_of;
 use crate::math::rng::Seed;
-use crate::stats::{Band, Claim, Effort, MeanReport, Verdict, judge_means};
+use crate::stats::{Band, Claim, MeanReport, Verdict, judge_means};
 use crate::text::{Count, Percent};
 use serde::Deserialize;
 use std::f64::consts::TAU;
@@ -47,8 +47,7 @@ impl Check for WeightsIntegrate {
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let effort = Effort::new(self.detects.0).with_most_samples(self.at_most.0);
-        let effort = context.budget.scale(effort);
+        let effort = context.effort(self.detects, self.at_most);
         let band = Band::math(context.info.precision);
         let claims = POWERS.map(|power| Claim::value(TAU / f64::from(power + 1), band));
         let mut judged = Vec::new();

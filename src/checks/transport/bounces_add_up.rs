@@ -1,6 +1,6 @@
 //! What is accumulated over some bounces is the sum of those bounces, isolated.
 
-use super::estimate::{CHANNELS, RayEntry, effort, estimate, needs, settings};
+use super::estimate::{CHANNELS, RayEntry, estimate, needs, settings};
 use crate::checks::phrase::{mean_measure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
@@ -41,7 +41,7 @@ impl Check for BouncesAddUp {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let (seed, ray) = (context.seed, self.ray.ray());
-        let effort = effort(self.detects, self.at_most, context.budget);
+        let effort = context.effort(self.detects, self.at_most);
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let accumulated = settings([0, self.last], self.direct);
         let isolated: Vec<_> =

@@ -4,8 +4,6 @@ use crate::contract::{
     BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray, Result, Roulette,
 };
 use crate::math::rng::{Seed, Stream, uniform};
-use crate::stats::{Allowance, Effort};
-use crate::text::{Count, Percent};
 use glam::DVec3;
 use serde::Deserialize;
 
@@ -82,11 +80,6 @@ impl Aim {
             }
         }
     }
-}
-
-/// How small an error must be seen, and what it may cost: the effort under an allowance.
-pub fn effort(detects: Percent, at_most: Count, allowance: Allowance) -> Effort {
-    allowance.scale(Effort::new(detects.0).with_most_samples(at_most.0))
 }
 
 /// `{ stop = 0.35, guaranteed = 1 }`

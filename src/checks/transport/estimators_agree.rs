@@ -1,6 +1,6 @@
 //! Two ways to estimate the same radiance have the same mean, whatever that is: no reference is needed.
 
-use super::estimate::{CHANNELS, RayEntry, effort, estimate, needs, settings};
+use super::estimate::{CHANNELS, RayEntry, estimate, needs, settings};
 use crate::checks::phrase::{mean_measure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{
@@ -73,14 +73,13 @@ impl Check for EstimatorsAgree {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let (seed, budget) = (context.seed, context.budget);
+        let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut measures = Vec::new();
         for (number, ray) in self.ray.iter().enumerate() {
             for other in &self.estimator[1..] {
                 let seed = seed.child(number).child(other.name());
                 let comparison = Comparison { check: self, ray: ray.ray(), other: *other, seed };
-                let effort = effort(self.detects, self.at_most, budget);
                 let found = comparison.judge(built.as_mut(), &effort)?;
                 measures.extend(found.into_iter().map(|measure| Measure {
                     name: format!("ray {}, {}", number + 1, measure.name),

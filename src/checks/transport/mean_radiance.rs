@@ -2,7 +2,7 @@
 
 use super::by_convention::ConventionEntry;
 use super::estimate::{
-    Aim, CHANNELS, PatchEntry, RayEntry, RouletteEntry, effort, estimate, needs, settings,
+    Aim, CHANNELS, PatchEntry, RayEntry, RouletteEntry, estimate, needs, settings,
 };
 use super::foretold::MistakeEntry;
 use crate::cause::{answer, light};
@@ -96,7 +96,7 @@ impl Check for MeanRadiance {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let (seed, effort) = (context.seed, effort(self.detects, self.at_most, context.budget));
+        let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let info = context.info.clone();
         let mut rows = Vec::new();

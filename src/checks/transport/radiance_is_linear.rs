@@ -1,7 +1,7 @@
 //! Light adds up: twice the light gives twice the radiance, two lights give the sum of each, and the size of the
 //! scene does not matter.
 
-use super::estimate::{CHANNELS, RayEntry, effort, estimate, needs, settings};
+use super::estimate::{CHANNELS, RayEntry, estimate, needs, settings};
 use crate::cause::{Cause, light};
 use crate::checks::phrase::{mean_measure, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -50,7 +50,7 @@ impl Check for RadianceIsLinear {
         let scene = context.scene()?;
         let trial = Trial {
             settings: settings(self.bounces, self.direct),
-            effort: effort(self.detects, self.at_most, context.budget),
+            effort: context.effort(self.detects, self.at_most),
             ray: self.ray.ray(),
             seed: context.seed,
         };

@@ -3,7 +3,7 @@
 //! In a furnace every path that goes on brings light, so an isolated bounce is dark in just those paths that have
 //! been stopped. What the survivors are worth is not looked at here: means say that.
 
-use super::estimate::{RayEntry, RouletteEntry, draw_estimates, effort, needs, settings};
+use super::estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
 use crate::cause::{Cause, transport as cause};
 use crate::checks::phrase::{figure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -87,7 +87,7 @@ impl Check for RouletteStopsPaths {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let (seed, effort) = (context.seed, effort(self.detects, self.at_most, context.budget));
+        let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut shares = Vec::new();
         for (number, entry) in self.roulette.iter().enumerate() {

@@ -41,14 +41,7 @@ pub struct Aim {
     pub target: Option<DVec3>,
 }
 
-const INVALID: LightSample = LightSample {
-    wi: DVec3::Z,
-    distance: f64::INFINITY,
-    radiance: [0.0; 3],
-    pdf: 0.0,
-    is_delta: 0,
-    is_valid: 0,
-};
+const INVALID: LightSample = LightSample { distance: f64::INFINITY, ..LightSample::NONE };
 
 impl Light {
     /// Prepares light `light` of `scene`.

@@ -193,7 +193,7 @@ impl Core for Builtin {
 fn sample_bsdf(bsdf: &Bsdf, wo: DVec3, point: DVec2, lobe: f64) -> BsdfSample {
     let wo = wo.as_vec3();
     let is_delta = u32::from(bsdf.is_delta());
-    let invalid = BsdfSample { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta, is_valid: 0 };
+    let invalid = BsdfSample { is_delta, ..BsdfSample::NONE };
     let Some(found) = bsdf.sample(wo, warp::narrow_point(point), warp::narrow(lobe)) else {
         return invalid;
     };

@@ -15,10 +15,6 @@ use std::f64::consts::FRAC_1_PI;
 /// A pair of directions between which nothing is scattered.
 pub const NOTHING: BsdfValue = BsdfValue { f: [0.0; 3], pdf: 0.0 };
 
-/// A sample that failed.
-pub const FAILED: BsdfSample =
-    BsdfSample { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
-
 /// Whether the surface scatters each direction into finitely many: nothing else can be evaluated,
 /// and no light be sampled, there.
 pub fn is_delta(surface: &Surface) -> bool {

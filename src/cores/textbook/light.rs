@@ -11,16 +11,6 @@ use crate::contract::LightSample;
 use crate::scene::{Light, Rgb, SceneDescription, Shape};
 use glam::{DVec2, DVec3};
 
-/// A sample that failed.
-pub const FAILED: LightSample = LightSample {
-    wi: DVec3::Z,
-    distance: 0.0,
-    radiance: [0.0; 3],
-    pdf: 0.0,
-    is_delta: 0,
-    is_valid: 0,
-};
-
 /// A light, prepared for sampling.
 #[derive(Clone, Debug)]
 pub enum Lamp {

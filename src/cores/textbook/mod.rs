@@ -186,7 +186,7 @@ impl Core for Textbook {
         for (index, (wo, sample)) in wo.iter().zip(samples).enumerate() {
             let (point, lobe) = numbers.at(index);
             let drawn = bsdf::sample(&material.surface, *wo, point, lobe, self.change);
-            *sample = drawn.unwrap_or(bsdf::FAILED);
+            *sample = drawn.unwrap_or(BsdfSample::NONE);
         }
         Ok(())
     }
@@ -247,7 +247,7 @@ impl BuiltScene for BuiltWorld {
         let numbers = Numbers::of(random, change);
         for (index, (from, sample)) in from.iter().zip(samples).enumerate() {
             let (point, lobe) = numbers.at(index);
-            *sample = light.sample(*from, point, lobe, change).unwrap_or(light::FAILED);
+            *sample = light.sample(*from, point, lobe, change).unwrap_or(LightSample::NONE);
         }
         Ok(())
     }
@@ -356,16 +356,17 @@ mod tests {
         }
         let wo = directions.map(|sample| sample.direction);
         for material in &scene().materials {
-            core.sample_bsdf(material, &wo, random(), &mut [bsdf::FAILED; COUNT]).expect("valid");
+            core.sample_bsdf(material, &wo, random(), &mut [BsdfSample::NONE; COUNT])
+                .expect("valid");
         }
         let scene = scene();
         let mut built = core.build_scene(&scene, Acceleration::DEFAULT).expect("valid");
         for light in 0..scene.lights.len() as u32 {
-            let samples = &mut [light::FAILED; COUNT];
+            let samples = &mut [LightSample::NONE; COUNT];
             built.sample_light(light, &wo, random(), samples).expect("valid");
         }
         let beyond = scene.lights.len() as u32;
-        let refused = built.sample_light(beyond, &wo, random(), &mut [light::FAILED; COUNT]);
+        let refused = built.sample_light(beyond, &wo, random(), &mut [LightSample::NONE; COUNT]);
         assert!(refused.unwrap_err().to_string().contains("there is no light 6"));
     }
 

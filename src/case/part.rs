@@ -22,6 +22,9 @@ pub static PARTS: &[Part] = &[
 ];
 
 impl Part {
+    /// The number of the part that builds and walks the hierarchy.
+    pub const HIERARCHY: u32 = 2;
+
     /// The part that a case belongs to, by its folder.
     pub fn of_case(case: &str) -> Option<&'static Part> {
         let folder = case.split('/').next().unwrap_or(case);

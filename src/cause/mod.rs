@@ -55,6 +55,17 @@ pub fn all() -> impl Iterator<Item = &'static Cause> {
     parts.into_iter().flatten().copied()
 }
 
+/// Whether the mistake is one of the hierarchy: closed surfaces leak by it, though every triangle is hit.
+pub fn is_of_hierarchy(cause: &Cause) -> bool {
+    let causes = [slab::CAUSES, bvh::CAUSES].concat();
+    causes.iter().any(|of_hierarchy| of_hierarchy.name == cause.name)
+}
+
+/// Whether the cause says what is lost and not why: any other of its kind explains more.
+pub fn is_vague(cause: &Cause) -> bool {
+    cause.name == bvh::HITS_LOST.name
+}
+
 /// The cause called `name`.
 pub fn find(name: &str) -> Option<&'static Cause> {
     all().find(|cause| cause.name == name)

@@ -3,7 +3,8 @@
 
 use super::{Evidence, Observation, Suspicion};
 use crate::case::{Part, Tier};
-use crate::cause::Cause;
+use crate::cause::{self, Cause};
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// Sentences of evidence that a headline keeps.
@@ -66,7 +67,8 @@ pub fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagnosis {
     let mut beside: Vec<_> = evidence.failures_of_robustness().map(case).collect();
     let mut headlines = Vec::new();
     while let Some(best) = best_of(&candidates, &left) {
-        let candidate = candidates.swap_remove(best);
+        let mut candidate = candidates.swap_remove(best);
+        absorb_the_vague(&mut candidate, &mut candidates);
         beside.retain(|case| !candidate.cases.contains_key(case));
         headlines.push(headline(evidence, Tier::Graded, candidate, &mut left, &mut orphans));
     }
@@ -98,21 +100,54 @@ fn gather(suspicions: Vec<Suspicion>) -> Vec<Candidate> {
     candidates
 }
 
-/// The number of the candidate that explains the earliest part, and of those the one that explains most.
+/// A mistake of the hierarchy that has a name explains the cases of the vague cause of the same part too.
+fn absorb_the_vague(told: &mut Candidate, candidates: &mut Vec<Candidate>) {
+    if cause::is_of_hierarchy(told.cause) {
+        for vague in candidates.extract_if(.., |candidate| cause::is_vague(candidate.cause)) {
+            told.cases.extend(vague.cases);
+            told.evidence.extend(vague.evidence);
+        }
+    }
+}
+
+/// How well a candidate explains what is left: the earlier, the more exact and the more the better.
+#[derive(PartialEq)]
+struct Merit {
+    part: u32,
+    is_vague: bool,
+    weight: f64,
+}
+
+impl Merit {
+    /// `None` where it explains nothing.
+    fn of(candidate: &Candidate, left: &[String]) -> Option<Self> {
+        let part = |case: &String| Part::of_case(case).map_or(u32::MAX, |part| part.number);
+        let explained = || candidate.cases.iter().filter(|(case, _)| left.contains(case));
+        let earliest = explained().map(|(case, _)| part(case)).min()?;
+        Some(Self {
+            part: earliest.max(part_of_mistake(candidate.cause)),
+            is_vague: cause::is_vague(candidate.cause),
+            weight: explained().map(|(_, weight)| weight).sum(),
+        })
+    }
+
+    fn compare(&self, other: &Self) -> Ordering {
+        let part = other.part.cmp(&self.part);
+        let exact = other.is_vague.cmp(&self.is_vague);
+        part.then(exact).then(self.weight.total_cmp(&other.weight))
+    }
+}
+
+/// The part that a mistake is made in, where that is not the part in which it shows first.
+fn part_of_mistake(cause: &Cause) -> u32 {
+    if cause::is_of_hierarchy(cause) { Part::HIERARCHY } else { 0 }
+}
+
+/// The number of the best candidate; of equals the first.
 fn best_of(candidates: &[Candidate], left: &[String]) -> Option<usize> {
-    let part = |case: &String| Part::of_case(case).map_or(u32::MAX, |part| part.number);
-    let merit = |candidate: &Candidate| {
-        let explained: Vec<_> =
-            candidate.cases.iter().filter(|(case, _)| left.contains(case)).collect();
-        let earliest = explained.iter().map(|(case, _)| part(case)).min()?;
-        let weight: f64 = explained.iter().map(|(_, weight)| **weight).sum();
-        Some((earliest, weight))
-    };
-    let merits = candidates.iter().enumerate().filter_map(|(n, c)| Some((n, merit(c)?)));
-    let better = |a: &(usize, (u32, f64)), b: &(usize, (u32, f64))| {
-        let ((earliest_a, weight_a), (earliest_b, weight_b)) = (a.1, b.1);
-        earliest_b.cmp(&earliest_a).then(weight_a.total_cmp(&weight_b)).then(b.0.cmp(&a.0))
-    };
+    let merits = candidates.iter().enumerate();
+    let merits = merits.filter_map(|(number, c)| Some((number, Merit::of(c, left)?)));
+    let better = |a: &(usize, Merit), b: &(usize, Merit)| a.1.compare(&b.1).then(b.0.cmp(&a.0));
     merits.max_by(better).map(|(number, _)| number)
 }
 
@@ -151,7 +186,7 @@ fn quickest(evidence: &Evidence<'_>, cases: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use crate::case::Tier;
-    use crate::cause::{bsdf, light, shape, transport};
+    use crate::cause::{bsdf, bvh, light, shape, transport};
     use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, failing, passing};
 
@@ -194,6 +229,26 @@ mod tests {
         assert_eq!((first.cause.name, first.tier), (bsdf::WITHOUT_PI.name, Tier::Graded));
         assert_eq!(second.cause.name, shape::SPHERE_CANCELLATION.name);
         assert_eq!((second.tier, &second.command[..]), (Tier::Robustness, "intersection/a"));
+    }
+
+    #[test]
+    fn a_mistake_of_the_hierarchy_that_has_a_name_explains_the_leaks_of_part_one() {
+        let made = Made::new()
+            .with("intersection/a", failing("a").because(&bvh::HITS_LOST, "the loop meets them"))
+            .with("bvh/b", failing("b").because(&bvh::RANGE_OVERWRITTEN, "y"));
+        let diagnosis = diagnose(&made.evidence());
+        let [only] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
+        assert_eq!(only.cause.name, bvh::RANGE_OVERWRITTEN.name);
+        assert_eq!((only.explains.len(), diagnosis.unexplained.len()), (2, 0));
+    }
+
+    #[test]
+    fn leaks_that_nothing_else_explains_are_the_hierarchys() {
+        let made = Made::new()
+            .with("intersection/a", failing("a").because(&bvh::HITS_LOST, "the loop meets them"))
+            .with("bvh/b", failing("b"));
+        let diagnosis = diagnose(&made.evidence());
+        assert_eq!(diagnosis.first().map(|cause| cause.name), Some(bvh::HITS_LOST.name));
     }
 
     #[test]

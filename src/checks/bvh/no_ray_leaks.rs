@@ -166,15 +166,14 @@ fn causes(
     count: u64,
 ) -> Result<Vec<(&'static Cause, String)>, CheckError> {
     let looked_at = &leaks[..leaks.len().min(LOOKED_AT)];
+    let met: Vec<_> = looked_at.iter().filter_map(|ray| oracle::nearest(scene, ray)).collect();
+    if found_by_loop(context, scene, looked_at)? == Some(looked_at.len()) {
+        let evidence = format!("the loop over all triangles meets all {} rays", looked_at.len());
+        return Ok(vec![missing_triangles(&met).unwrap_or((&bvh::HITS_LOST, evidence))]);
+    }
     if leaks.len() as u64 == count {
         return Ok(culled(context, scene, looked_at)?.into_iter().collect());
     }
-    let found_by_loop = found_by_loop(context, scene, looked_at)?;
-    if found_by_loop == Some(looked_at.len()) {
-        let evidence = format!("the loop over all triangles meets all {} rays", looked_at.len());
-        return Ok(vec![(&bvh::HITS_LOST, evidence)]);
-    }
-    let met: Vec<_> = looked_at.iter().filter_map(|ray| oracle::nearest(scene, ray)).collect();
     let farthest = met.iter().map(distance_to_edge).fold(0.0, f64::max);
     if met.len() == looked_at.len() && farthest < EDGE {
         let evidence = format!(

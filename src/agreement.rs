@@ -191,7 +191,7 @@ fn render(
     drop(built);
     let image =
         Image { width: film.width as usize, height: film.height as usize, pixels: film.pixels };
-    Ok(Picture { image, clipped: vec![false; pixels] })
+    Ok(Picture::linear(image))
 }
 
 fn row(reference: &Reference, shots: &Shots) -> Row {
@@ -328,6 +328,7 @@ mod tests {
         let picture = |value| Picture {
             image: Image { pixels: vec![[value; 3], [0.7; 3]], ..flat(0.0) },
             clipped: vec![false, true],
+            codes: None,
         };
         let shots = Shots { pictures: vec![picture(0.49), picture(0.51)], seconds: vec![] };
         let row = row(&reference, &shots);

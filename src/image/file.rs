@@ -1,45 +1,11 @@
 //! Picture files of whatever kind: OpenEXR, PFM, Radiance HDR, PNG. What a file holds is told by
 //! its first bytes, not by its name.
 
+use super::encoding::Curve;
 use super::pair::Plane;
-use super::tonemap::decode_srgb;
 use super::{Image, ImageError, exr, pfm};
 use image::{DynamicImage, ImageReader};
 use std::path::Path;
-
-/// How the numbers of a file stand for light.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Encoding {
-    /// Twice the number is twice the light.
-    Linear,
-    /// The curve of IEC 61966-2-1.
-    Srgb,
-    /// Light to the power of one over this.
-    Gamma(f64),
-}
-
-impl Encoding {
-    /// The light that an encoded number in [0, 1] stands for.
-    pub fn decode(self, encoded: f32) -> f32 {
-        match self {
-            Self::Linear => encoded,
-            Self::Srgb => decode_srgb(encoded),
-            #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
-            Self::Gamma(gamma) => encoded.powf(gamma as f32),
-        }
-    }
-}
-
-impl std::fmt::Display for Encoding {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Linear => f.pad("linear"),
-            Self::Srgb => f.pad("sRGB"),
-            Self::Gamma(gamma) => write!(f, "gamma {gamma}"),
-        }
-    }
-}
 
 /// The codes of a file of whole numbers, and how many there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -56,7 +22,7 @@ pub struct Loaded {
     /// Coverage, where the file has it.
     pub alpha: Option<Plane>,
     /// How the numbers were taken.
-    pub encoding: Encoding,
+    pub encoding: Curve,
     /// Of a file of whole numbers.
     pub codes: Option<Codes>,
     /// Other channels of an OpenEXR file, such as standard errors.
@@ -68,11 +34,11 @@ pub struct Loaded {
 ///
 /// # Errors
 /// If the file is missing, damaged, or of another kind.
-pub fn load(path: &Path, encoding: Option<Encoding>) -> Result<Loaded, ImageError> {
+pub fn load(path: &Path, encoding: Option<Curve>) -> Result<Loaded, ImageError> {
     match Kind::of(path)? {
         Kind::OpenExr => load_exr(path),
         Kind::FloatMap => Ok(linear(pfm::read(path)?)),
-        Kind::Other => load_other(path, encoding.unwrap_or(Encoding::Srgb)),
+        Kind::Other => load_other(path, encoding.unwrap_or(Curve::Srgb)),
     }
 }
 
@@ -99,7 +65,7 @@ impl Kind {
 }
 
 fn linear(image: Image) -> Loaded {
-    Loaded { image, alpha: None, encoding: Encoding::Linear, codes: None, extra: None }
+    Loaded { image, alpha: None, encoding: Curve::Linear, codes: None, extra: None }
 }
 
 fn load_exr(path: &Path) -> Result<Loaded, ImageError> {
@@ -118,7 +84,7 @@ fn load_exr(path: &Path) -> Result<Loaded, ImageError> {
     Ok(Loaded { alpha, extra: Some(file), ..linear(image) })
 }
 
-fn load_other(path: &Path, encoding: Encoding) -> Result<Loaded, ImageError> {
+fn load_other(path: &Path, encoding: Curve) -> Result<Loaded, ImageError> {
     let failed = |error: &dyn std::fmt::Display| ImageError::unreadable(path, error);
     let reader = ImageReader::open(path).map_err(|error| failed(&error))?;
     let reader = reader.with_guessed_format().map_err(|error| failed(&error))?;
@@ -135,7 +101,7 @@ fn load_other(path: &Path, encoding: Encoding) -> Result<Loaded, ImageError> {
 }
 
 /// A picture of whole numbers.
-fn of_codes(decoded: &DynamicImage, encoding: Encoding) -> Loaded {
+fn of_codes(decoded: &DynamicImage, encoding: Curve) -> Loaded {
     let largest = match decoded {
         DynamicImage::ImageLuma16(_)
         | DynamicImage::ImageLumaA16(_)
@@ -146,14 +112,12 @@ fn of_codes(decoded: &DynamicImage, encoding: Encoding) -> Loaded {
     // Codes of 8 bits are widened without loss: 65,535 = 257 · 255.
     let wide = decoded.to_rgba16();
     let [width, height] = [wide.width(), wide.height()].map(|side| side as usize);
-    let share = |code: u16| f32::from(code) / 65_535.0;
-    let light = |pixel: &image::Rgba<u16>| {
-        let [red, green, blue, _] = pixel.0.map(share);
-        [red, green, blue].map(|value| encoding.decode(value))
-    };
-    let pixels = wide.pixels().map(light).collect();
+    #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
+    let light = |code: u16| encoding.decode(f64::from(code) / 65_535.0) as f32;
+    let colour = |pixel: &image::Rgba<u16>| [pixel.0[0], pixel.0[1], pixel.0[2]].map(light);
+    let pixels = wide.pixels().map(colour).collect();
     let alpha = decoded.color().has_alpha().then(|| {
-        let values = wide.pixels().map(|pixel| share(pixel.0[3])).collect();
+        let values = wide.pixels().map(|pixel| f32::from(pixel.0[3]) / 65_535.0).collect();
         Plane { width, height, values }
     });
     let codes = Some(Codes { largest });
@@ -173,7 +137,7 @@ mod tests {
         exr::write_image(&path, &image).unwrap();
         assert_eq!(load(&path, None).unwrap().image, image);
         pfm::write(&path, &image).unwrap();
-        assert_eq!(load(&path, Some(Encoding::Srgb)).unwrap().image, image);
+        assert_eq!(load(&path, Some(Curve::Srgb)).unwrap().image, image);
     }
 
     #[test]
@@ -184,8 +148,8 @@ mod tests {
         png::write(&path, &Picture { width: 3, height: 2, pixels }).unwrap();
         for (encoding, middle) in [
             (None, 0.215_860_5),
-            (Some(Encoding::Linear), 128.0 / 255.0),
-            (Some(Encoding::Gamma(2.0)), (128.0f32 / 255.0).powi(2)),
+            (Some(Curve::Linear), 128.0 / 255.0),
+            (Some(Curve::Gamma(2.0)), (128.0f32 / 255.0).powi(2)),
         ] {
             let loaded = load(&path, encoding).unwrap();
             assert_eq!(loaded.codes, Some(Codes { largest: 255 }));

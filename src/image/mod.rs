@@ -3,6 +3,7 @@
 //! Not here: whether two pictures agree. That is decided in `stats`; the [`metric`]s here inform
 //! and never grade.
 
+pub mod encoding;
 mod error;
 pub mod exr;
 pub mod file;

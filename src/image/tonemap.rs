@@ -1,6 +1,7 @@
 //! From radiance to what a screen shows: exposure, then the sRGB curve. NaN is magenta, so that it
 //! is seen.
 
+use super::encoding::{Curve, Encoding};
 use super::{Image, luminance, png::Picture};
 
 /// The colour of a pixel that is not a number.
@@ -12,20 +13,14 @@ const WHITE_PERCENTILE: f64 = 0.95;
 const WHITE: f64 = 0.8;
 
 /// Linear light, clipped to [0, 1], to sRGB in [0, 1] (IEC 61966-2-1). NaN stays NaN.
+#[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
 pub fn encode_srgb(linear: f32) -> f32 {
-    let clipped = linear.clamp(0.0, 1.0);
-    if clipped <= 0.003_130_8 { 12.92 * clipped } else { 1.055 * clipped.powf(1.0 / 2.4) - 0.055 }
-}
-
-/// sRGB in [0, 1] to linear light.
-pub fn decode_srgb(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+    Curve::Srgb.encode(f64::from(linear)) as f32
 }
 
 /// Linear light in [0, 1] to an sRGB code.
 pub fn srgb_code(linear: f32) -> u8 {
-    // In [0, 255.5): the cast rounds to nearest and cannot overflow.
-    (255.0 * encode_srgb(linear) + 0.5) as u8
+    Encoding::of(Curve::Srgb).code(f64::from(linear))
 }
 
 /// The picture times 2^`stops`, clipped to white.

@@ -6,6 +6,7 @@
 //! suspect correct cores just as often as their level says.
 
 use super::chi_square::COUNTS_FALSE_ALARM;
+use super::codes::CODES_FALSE_ALARM;
 use super::correlation::CORRELATION_FALSE_ALARM;
 use super::ladder::{LEAF_FALSE_ALARM, STAGE_LEVEL};
 use super::proportion::SHARE_FALSE_ALARM;
@@ -30,6 +31,8 @@ pub enum TestKind {
     Share,
     /// A picture, by screen and confirm.
     Picture,
+    /// A picture of 8-bit codes, by screen and confirm.
+    Codes,
     /// The slope of an error, at once.
     Slope,
     /// The correlation of two series, at once.
@@ -46,6 +49,7 @@ impl TestKind {
             Self::Counts => "density",
             Self::Share => "share",
             Self::Picture => "picture",
+            Self::Codes => "picture of codes",
             Self::Slope => "slope",
             Self::Correlation => "correlation",
             Self::Rare => "rare event",
@@ -59,6 +63,7 @@ impl TestKind {
             Self::Counts => "densities",
             Self::Share => "shares",
             Self::Picture => "pictures",
+            Self::Codes => "pictures of codes",
             Self::Slope => "slopes",
             Self::Correlation => "correlations",
             Self::Rare => "rare events",
@@ -72,6 +77,7 @@ impl TestKind {
             Self::Counts => COUNTS_FALSE_ALARM,
             Self::Share => SHARE_FALSE_ALARM,
             Self::Picture => IMAGE_FALSE_ALARM,
+            Self::Codes => CODES_FALSE_ALARM,
             Self::Slope => SLOPE_FALSE_ALARM,
             Self::Correlation => CORRELATION_FALSE_ALARM,
             Self::Rare => RARE_FALSE_ALARM,
@@ -85,7 +91,7 @@ impl TestKind {
         match self {
             Self::Mean | Self::Share => Some(2.0 * STAGE_LEVEL),
             Self::Counts => Some(STAGE_LEVEL),
-            Self::Picture | Self::Slope | Self::Correlation | Self::Rare => None,
+            Self::Picture | Self::Codes | Self::Slope | Self::Correlation | Self::Rare => None,
         }
     }
 }

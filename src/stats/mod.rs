@@ -5,6 +5,7 @@
 //! - [`judge_counts`]: whether samples follow a density, by χ² on [`SphereCells`].
 //! - [`judge_image`]: whether a picture is its reference, by screening and confirming cells of five
 //!   sizes.
+//! - [`judge_codes`]: whether an 8-bit picture is its reference, by the law of its codes.
 //! - [`judge_difference`]: whether two pictures differ that were rendered once each.
 //! - [`misfit`]: which mistake turns one picture into another. It names, and never grades.
 //! - [`judge_exact`]: comparisons without noise, with their [`Tolerance`]s.
@@ -25,6 +26,7 @@ mod calibration;
 mod cells;
 mod chi_square;
 mod claim;
+mod codes;
 mod correlation;
 mod count_report;
 mod dead_pixels;
@@ -60,6 +62,10 @@ pub use chi_square::{
     COUNTS_FALSE_ALARM, CountSource, FEWEST_EXPECTED, follows_law, judge_count_source, judge_counts,
 };
 pub use claim::{Band, Claim, Sides};
+pub use codes::{
+    CODES_FALSE_ALARM, ClippingReport, CodeLaw, CodeReference, CodeReport, CodeSettings,
+    Deciphered, PixelLaw, judge_codes,
+};
 pub use correlation::{CORRELATION_FALSE_ALARM, CorrelationReport, judge_uncorrelated};
 pub use count_report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};
 pub use difference::{

@@ -33,6 +33,16 @@ impl Spread {
         (self.squares[index] / (runs - 1.0) / runs).sqrt()
     }
 
+    /// Standard deviation of one run; NaN of fewer than two.
+    pub(super) fn deviation(&self, index: usize) -> f64 {
+        (self.squares[index] / (f64::from(self.count) - 1.0)).sqrt()
+    }
+
+    /// How many numbers a run has.
+    pub(super) fn len(&self) -> usize {
+        self.means.len()
+    }
+
     /// Degrees of freedom of a standard error.
     pub(super) fn freedom(&self) -> f64 {
         f64::from(self.count) - 1.0

@@ -34,6 +34,12 @@ impl Target {
         Self { cells, expected, scale, errors: errors.to_vec(), bands }
     }
 
+    /// The same with wider bands.
+    pub(super) fn with_slack(mut self, slack: &[f64]) -> Self {
+        self.bands.iter_mut().zip(slack).for_each(|(band, slack)| *band += slack);
+        self
+    }
+
     /// How far outside its band a cell's value is, with its sign.
     pub(super) fn departure(&self, index: usize, value: f64) -> f64 {
         let difference = value - self.expected[index];

@@ -6,6 +6,7 @@ mod words;
 
 use super::{Answer, ExitCode, Failure};
 use crate::image::ImageError;
+use crate::image::encoding::Curve;
 use crate::image::mask::{Mask, Rectangle};
 use crate::image::metric::METRICS;
 use crate::image::pair::Pair;
@@ -25,7 +26,7 @@ pub struct CompareArguments {
     pictures: Vec<PathBuf>,
     /// How PNG stands for light: srgb, linear, or a gamma such as 2.2.
     #[arg(long, value_parser = encoding, default_value = "srgb")]
-    encoding: crate::image::file::Encoding,
+    encoding: Curve,
     /// A picture of the variance of every value of the first.
     #[arg(long, value_name = "FILE")]
     variance: Option<PathBuf>,

@@ -2,7 +2,8 @@
 
 use crate::cli::Failure;
 use crate::image::Image;
-use crate::image::file::{Encoding, Loaded, load};
+use crate::image::encoding::Curve;
+use crate::image::file::{Loaded, load};
 use crate::image::pair::Plane;
 use crate::scene::reference::ERROR_PREFIX;
 use crate::stats::Sample;
@@ -27,7 +28,7 @@ impl Side {
     /// One picture, or the mean of several renders.
     pub fn of_runs(
         runs: &[PathBuf],
-        encoding: Encoding,
+        encoding: Curve,
         variance: Option<&Path>,
     ) -> Result<Self, Failure> {
         let read = |path: &PathBuf| load(path, Some(encoding)).map_err(Failure::request);
@@ -36,7 +37,7 @@ impl Side {
             _ => Self::mean(&runs.iter().map(read).collect::<Result<Vec<_>, _>>()?)?,
         };
         if let Some(path) = variance {
-            let variance = load(path, Some(Encoding::Linear)).map_err(Failure::request)?.image;
+            let variance = load(path, Some(Curve::Linear)).map_err(Failure::request)?.image;
             side.take_variance(variance, path)?;
         }
         Ok(side)
@@ -100,16 +101,13 @@ pub(super) fn is_safe_from_clipping(level: [f32; 3]) -> bool {
 
 /// Half a step of the codes, as light, at every value.
 fn rounding(loaded: &Loaded, largest: u32) -> Image {
-    let half = 0.5 / largest as f32;
-    let encoded = |value: f32| match loaded.encoding {
-        Encoding::Linear => value,
-        Encoding::Srgb => crate::image::tonemap::encode_srgb(value),
-        Encoding::Gamma(gamma) => value.powf(1.0 / gamma as f32),
-    };
+    let half = 0.5 / f64::from(largest);
     each(&loaded.image, |value| {
-        let code = encoded(value);
-        let light = |code: f32| loaded.encoding.decode(code.clamp(0.0, 1.0));
-        0.5 * (light(code + half) - light(code - half))
+        let share = loaded.encoding.encode(f64::from(value));
+        let light = |share: f64| loaded.encoding.decode(share.clamp(0.0, 1.0));
+        #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
+        let step = (light(share + half) - light(share - half)) as f32;
+        0.5 * step
     })
 }
 
@@ -119,12 +117,12 @@ fn each(image: &Image, value: impl Fn(f32) -> f32) -> Image {
 }
 
 /// `srgb`, `linear`, or a gamma.
-pub(super) fn encoding(text: &str) -> Result<Encoding, String> {
+pub(super) fn encoding(text: &str) -> Result<Curve, String> {
     match text {
-        "srgb" => Ok(Encoding::Srgb),
-        "linear" => Ok(Encoding::Linear),
+        "srgb" => Ok(Curve::Srgb),
+        "linear" => Ok(Curve::Linear),
         number => match number.parse::<f64>() {
-            Ok(gamma) if gamma > 0.1 && gamma < 10.0 => Ok(Encoding::Gamma(gamma)),
+            Ok(gamma) if gamma > 0.1 && gamma < 10.0 => Ok(Curve::Gamma(gamma)),
             _ => Err("`srgb`, `linear`, or a gamma between 0.1 and 10".to_owned()),
         },
     }

@@ -2,6 +2,7 @@
 
 use crate::contract::Conventions;
 use crate::export::Format;
+use crate::image;
 use crate::text::{Diagnostic, Source};
 use regex::Regex;
 use serde::Deserialize;
@@ -108,6 +109,17 @@ pub enum Encoding {
     Srgb,
     /// The course's 8 bits: ⌊255 (√2 L)^(1/2.2)⌋.
     Course,
+}
+
+impl Encoding {
+    /// How codes are made; none where radiance itself is stored.
+    pub fn of_codes(self) -> Option<image::encoding::Encoding> {
+        match self {
+            Self::Linear => None,
+            Self::Srgb => Some(image::encoding::Encoding::of(image::encoding::Curve::Srgb)),
+            Self::Course => Some(image::encoding::Encoding::COURSE),
+        }
+    }
 }
 
 /// Which row comes first in the file.

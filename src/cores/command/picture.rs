@@ -1,6 +1,8 @@
 //! The picture that a program has written, as linear radiance from the top left.
 
-use super::adapter::{Encoding, FirstRow, Output};
+use super::adapter::{FirstRow, Output};
+use crate::image::encoding::Encoding;
+use crate::image::png::Picture as Codes;
 use crate::image::{Image, ImageError, exr, pfm};
 use std::path::Path;
 
@@ -11,6 +13,16 @@ pub struct Picture {
     pub image: Image,
     /// Codes of 255 stand for anything from there up.
     pub clipped: Vec<bool>,
+    /// The codes themselves, if the file holds no more.
+    pub codes: Option<Codes>,
+}
+
+impl Picture {
+    /// One that holds radiance as it is.
+    pub fn linear(image: Image) -> Self {
+        let clipped = vec![false; image.pixels.len()];
+        Self { image, clipped, codes: None }
+    }
 }
 
 /// Reads what `output` declares from `folder`.
@@ -21,25 +33,20 @@ pub fn read(output: &Output, folder: &Path) -> Result<Picture, ImageError> {
     let path = folder.join(&output.file);
     let ending = path.extension().unwrap_or_default();
     let mut picture = if ending == "exr" {
-        linear(exr::read_image(&path)?)
+        Picture::linear(exr::read_image(&path)?)
     } else if ending == "pfm" {
-        linear(pfm::read(&path)?)
+        Picture::linear(pfm::read(&path)?)
     } else {
         let opened = image::open(&path).map_err(|error| ImageError::unreadable(&path, error))?;
-        match output.encoding {
-            Encoding::Linear => linear(from_floats(&opened.to_rgb32f())),
-            encoding => decoded(&opened.to_rgb8(), encoding),
+        match output.encoding.of_codes() {
+            None => Picture::linear(from_floats(&opened.to_rgb32f())),
+            Some(encoding) => decoded(&opened.to_rgb8(), encoding),
         }
     };
     if output.first_row == FirstRow::Bottom {
         turn_over(&mut picture);
     }
     Ok(picture)
-}
-
-fn linear(image: Image) -> Picture {
-    let clipped = vec![false; image.pixels.len()];
-    Picture { image, clipped }
 }
 
 fn from_floats(buffer: &image::Rgb32FImage) -> Image {
@@ -50,56 +57,30 @@ fn from_floats(buffer: &image::Rgb32FImage) -> Image {
 
 fn decoded(buffer: &image::RgbImage, encoding: Encoding) -> Picture {
     let (width, height) = buffer.dimensions();
-    let pixels =
-        buffer.pixels().map(|pixel| pixel.0.map(|code| radiance(code, encoding))).collect();
+    let (width, height) = (width as usize, height as usize);
+    let codes = Codes { width, height, pixels: buffer.pixels().map(|pixel| pixel.0).collect() };
+    #[expect(clippy::cast_possible_truncation, reason = "pictures are single precision")]
+    let light = |code: u8| encoding.light(code) as f32;
+    let pixels = codes.pixels.iter().map(|pixel| pixel.map(light)).collect();
     Picture {
-        image: Image { width: width as usize, height: height as usize, pixels },
-        clipped: buffer.pixels().map(|pixel| pixel.0.contains(&255)).collect(),
+        image: Image { width, height, pixels },
+        clipped: codes.pixels.iter().map(|pixel| pixel.contains(&255)).collect(),
+        codes: Some(codes),
     }
-}
-
-/// The radiance in the middle of what gives a code.
-#[expect(clippy::cast_possible_truncation, reason = "pictures are single precision")]
-pub fn radiance(code: u8, encoding: Encoding) -> f32 {
-    let code = f64::from(code);
-    let value = match encoding {
-        Encoding::Linear => code / 255.0,
-        Encoding::Srgb if code <= 10.0 => code / 255.0 / 12.92,
-        Encoding::Srgb => ((code / 255.0 + 0.055) / 1.055).powf(2.4),
-        Encoding::Course if code == 0.0 => 0.0,
-        // Codes are cut off, not rounded.
-        Encoding::Course => ((code + 0.5) / 255.0).powf(2.2) / std::f64::consts::SQRT_2,
-    };
-    value as f32
 }
 
 fn turn_over(picture: &mut Picture) {
     let width = picture.image.width.max(1);
     picture.image.pixels = picture.image.pixels.rchunks(width).flatten().copied().collect();
     picture.clipped = picture.clipped.rchunks(width).flatten().copied().collect();
+    if let Some(codes) = &mut picture.codes {
+        codes.pixels = codes.pixels.rchunks(width).flatten().copied().collect();
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn every_code_of_the_course_comes_back_as_itself() {
-        for code in 1..=254u8 {
-            let radiance = f64::from(radiance(code, Encoding::Course));
-            let again = (255.0 * (2f64.sqrt() * radiance).powf(1.0 / 2.2)).floor();
-            assert_eq!(again, f64::from(code));
-        }
-        assert_eq!(radiance(0, Encoding::Course), 0.0);
-    }
-
-    #[test]
-    fn every_code_of_srgb_comes_back_as_itself() {
-        for code in 0..=255u8 {
-            let radiance = radiance(code, Encoding::Srgb);
-            assert_eq!(crate::image::tonemap::srgb_code(radiance), code);
-        }
-    }
 
     #[test]
     fn a_png_says_where_it_is_clipped_and_can_stand_upside_down() {
@@ -108,7 +89,7 @@ mod tests {
         pixels.save(folder.path().join("p.png")).unwrap();
         let mut output = Output {
             file: "p.png".to_owned(),
-            encoding: Encoding::Course,
+            encoding: crate::cores::command::adapter::Encoding::Course,
             first_row: FirstRow::Top,
         };
         let upright = read(&output, folder.path()).unwrap();
@@ -117,5 +98,6 @@ mod tests {
         let turned = read(&output, folder.path()).unwrap();
         assert_eq!(turned.clipped, [true, false]);
         assert_eq!(turned.image.pixels[1], upright.image.pixels[0]);
+        assert_eq!(turned.codes.unwrap().pixels, [[255, 0, 0], [10, 20, 30]]);
     }
 }

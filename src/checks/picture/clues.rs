@@ -115,8 +115,7 @@ fn displaced(offsets: [&Estimate; 2]) -> &'static Cause {
     }
 }
 
-/// The value that bright samples are cut off at, and how many pixels have it: the largest of
-/// single samples, if many pixels share it to the last bit and it is not the light of a lamp in view.
+/// The value that bright samples are cut off at, and how many pixels of single samples have it.
 fn limit(
     report: &ImageReport,
     reference: &Reference,
@@ -124,23 +123,32 @@ fn limit(
     built: &mut dyn BuiltScene,
     seed: Seed,
 ) -> Result<Option<(f32, usize)>, CheckError> {
-    let mut brightest: Vec<f32> = Vec::new();
-    for run in 0..LIMIT_RUNS {
-        let single = shot.with_samples(1).render(built, seed.child(run))?;
-        let pairs = single.pixels.iter().zip(&reference.mean.pixels);
+    let single = shot.with_samples(1);
+    let singles: Vec<_> = (0..LIMIT_RUNS)
+        .map(|run| single.render(built, seed.child(run)))
+        .collect::<Result<_, _>>()?;
+    Ok(shared_limit(&singles, &report.mean, &reference.mean))
+}
+
+/// The largest of single samples, if many pixels share it to the last bit and it is not the light
+/// of a lamp in view.
+fn shared_limit(singles: &[Image], mean: &Image, expected: &Image) -> Option<(f32, usize)> {
+    let of_singles = |single: &Image| {
+        let pairs = single.pixels.iter().zip(&expected.pixels);
         // A pixel of a lamp has the lamp's value, and rightly so.
-        let lit = pairs.filter(|(one, mean)| largest(mean) < 0.5 * largest(one));
-        brightest.extend(lit.map(|(one, _)| largest(one)));
-    }
+        let lit = pairs.filter(|(one, expected)| largest(expected) < 0.5 * largest(one));
+        lit.map(|(one, _)| largest(one)).collect::<Vec<_>>()
+    };
+    let brightest: Vec<f32> = singles.iter().flat_map(of_singles).collect();
     let level = brightest.iter().copied().fold(0.0, f32::max);
     let pixels = brightest.iter().filter(|value| **value == level).count();
     // A lamp in view has its value in the mean as well, unless it should have more.
     let is_lamp_pixel = |(mean, expected): &(&[f32; 3], &[f32; 3])| {
         (largest(mean) / level - 1.0).abs() < 0.01 && largest(expected) < 1.01 * level
     };
-    let pairs = report.mean.pixels.iter().zip(&reference.mean.pixels);
-    let is_lamp = pairs.filter(is_lamp_pixel).count() >= FEWEST_OF_LAMP;
-    Ok((level > 0.0 && pixels >= FEWEST_AT_LIMIT && !is_lamp).then_some((level, pixels)))
+    let lamp_pixels = mean.pixels.iter().zip(&expected.pixels).filter(is_lamp_pixel).count();
+    let is_limit = level > 0.0 && pixels >= FEWEST_AT_LIMIT && lamp_pixels < FEWEST_OF_LAMP;
+    is_limit.then_some((level, pixels))
 }
 
 /// The bounce whose light is what the picture lacks, and how many times over; none if no bounce
@@ -176,4 +184,62 @@ fn missing_bounce(
 
 fn largest(pixel: &[f32; 3]) -> f32 {
     pixel.iter().copied().fold(0.0, f32::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn about(value: f64) -> Estimate {
+        Estimate { value, interval: [value - 0.02, value + 0.02] }
+    }
+
+    fn told(right: f64, down: f64) -> &'static str {
+        let displaced = Misfit::Displaced { right: about(right), down: about(down) };
+        cause_of(&displaced).unwrap().name
+    }
+
+    #[test]
+    fn half_a_pixel_and_a_whole_one_have_causes_of_their_own() {
+        assert_eq!(told(0.5, 0.0), pixel::HALF_A_PIXEL.name);
+        assert_eq!(told(-0.49, 0.51), pixel::HALF_A_PIXEL.name);
+        assert_eq!(told(0.0, 1.0), pixel::WHOLE_PIXEL.name);
+        assert_eq!(told(0.3, 0.0), picture::DISPLACED.name);
+        assert_eq!(told(0.5, 1.0), picture::DISPLACED.name);
+    }
+
+    #[test]
+    fn a_brighter_power_is_gamma_applied_twice_and_a_darker_one_has_no_name() {
+        let cause = |power| cause_of(&Misfit::Power(about(power))).map(|cause| cause.name);
+        assert_eq!(cause(0.45), Some(picture::GAMMA_TWICE.name));
+        assert_eq!(cause(2.2), None);
+    }
+
+    /// A row of pixels of these values.
+    fn row(values: &[f32]) -> Image {
+        Image::from_fn(values.len(), 1, |x, _| [values[x]; 3])
+    }
+
+    #[test]
+    fn samples_that_share_their_largest_value_are_cut_off_there() {
+        let mean = row(&[0.5; 12]);
+        let mut clamped = [0.1f32; 12];
+        clamped[..8].fill(10.0);
+        assert_eq!(shared_limit(&[row(&clamped)], &mean, &mean), Some((10.0, 8)));
+        clamped[0] = 10.5;
+        assert_eq!(shared_limit(&[row(&clamped)], &mean, &mean), None, "one is brighter");
+        assert_eq!(shared_limit(&[row(&[0.0; 12])], &mean, &mean), None, "nothing is lit");
+    }
+
+    #[test]
+    fn the_light_of_a_lamp_in_view_is_no_limit() {
+        let mut seen = [0.5f32; 16];
+        seen[..4].fill(10.0);
+        let mut single = [10.0f32; 16];
+        single[12..].fill(0.1);
+        assert_eq!(shared_limit(&[row(&single)], &row(&seen), &row(&seen)), None);
+        let mut brighter = seen;
+        brighter[..4].fill(30.0);
+        assert!(shared_limit(&[row(&single)], &row(&seen), &row(&brighter)).is_some());
+    }
 }

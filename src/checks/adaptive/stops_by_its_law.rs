@@ -227,6 +227,12 @@ fn finding(judged: &[Judged]) -> Finding {
     let Some(first) = failed().next() else { return finding };
     let common = first.causes.iter().filter(|cause| failed().all(|one| one.causes.contains(cause)));
     let evidence = format!("its law fits where {} kinds of random streams stop", failed().count());
+    let means_know_better = judged.iter().all(|one| one.mean.verdict == Verdict::Pass)
+        && judged.iter().any(Judged::is_biased_by_the_rule);
+    if means_know_better && common.clone().any(|cause| *cause == &adaptive::NEVER_STOPS) {
+        let evidence = "every count is the cap, and the means are biased as the rule biases them";
+        return finding.because(&adaptive::COUNTS_ARE_CAP, evidence);
+    }
     finding.because_each(common.copied(), &evidence)
 }
 
@@ -265,6 +271,12 @@ impl Judged {
         sum / (self.counts.observed.iter().sum::<u64>() + self.counts.absorbed_observed) as f64
     }
 
+    /// Whether the mean is so far from the truth that a stream that is read to its end has another.
+    fn is_biased_by_the_rule(&self) -> bool {
+        let [low, high] = self.mean.interval;
+        self.truth < low || self.truth > high
+    }
+
     fn complaint(&self) -> Option<String> {
         let (name, law) = (&self.name, &self.law);
         if self.counts.verdict == Verdict::Fail {
@@ -295,6 +307,8 @@ mod tests {
         rule: Rule,
         every: Option<u32>,
         gain: f64,
+        /// Whatever was used.
+        says_cap: bool,
     }
 
     impl Core for Stopping {
@@ -323,6 +337,7 @@ mod tests {
                     }
                 }
                 let sums = Sums::of_two_values(used, highs, low, high);
+                let used = if self.says_cap { stream.len() } else { used };
                 let used = u32::try_from(used).unwrap();
                 *mean = AdaptiveMean { mean: self.gain * sums.mean(), used, reserved: 0 };
             }
@@ -330,7 +345,7 @@ mod tests {
         }
     }
 
-    const RIGHT: Stopping = Stopping { rule: stops, every: None, gain: 1.0 };
+    const RIGHT: Stopping = Stopping { rule: stops, every: None, gain: 1.0, says_cap: false };
 
     /// Streams that stop early cost little: the third kind of the case.
     fn found(mut core: Stopping) -> Finding {
@@ -358,6 +373,15 @@ mod tests {
         let finding = found(Stopping { every: Some(1), ..RIGHT });
         assert!(failure(&finding).contains("on average where the rule uses 37.7"), "{finding:?}");
         assert_eq!(finding.clues[0].cause, adaptive::LOOKS_AFTER_EVERY_SAMPLE.name);
+    }
+
+    #[test]
+    fn counts_that_are_the_cap_beside_right_means_are_named() {
+        let finding =
+            judge(&check_of::<StopsByItsLaw>(CASE), &mut Stopping { says_cap: true, ..RIGHT });
+        failure(&finding);
+        let clues: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
+        assert_eq!(clues, [adaptive::COUNTS_ARE_CAP.name]);
     }
 
     #[test]

@@ -83,6 +83,22 @@ pub static GAMMA_TWICE: Cause = Cause {
 };
 
 /// See its headline.
+pub static ENCODED_OTHERWISE: Cause = Cause {
+    name: "encoded-otherwise",
+    headline: "the 8-bit picture is encoded with another curve than is declared",
+    look_at: "where radiance becomes codes: the exponent, or the sRGB curve",
+    remedy: "Encode with the curve that is declared, or declare the one that is used.",
+};
+
+/// See its headline.
+pub static ROUNDED_OTHERWISE: Cause = Cause {
+    name: "codes-rounded-otherwise",
+    headline: "the codes of the 8-bit picture lie half a code off: cut off where they should be rounded",
+    look_at: "the conversion of a number to a byte",
+    remedy: "Round to the nearest code: floor(255 v + 0.5). A cast alone cuts off.",
+};
+
+/// See its headline.
 pub static CHANNELS_SWAPPED: Cause = Cause {
     name: "channels-swapped",
     headline: "red and blue are swapped",
@@ -158,6 +174,8 @@ pub static CAUSES: &[&Cause] = &[
     &MAGNIFIED,
     &FACTOR,
     &GAMMA_TWICE,
+    &ENCODED_OTHERWISE,
+    &ROUNDED_OTHERWISE,
     &CHANNELS_SWAPPED,
     &BORDER_LEFT_OUT,
     &PARTIAL_TILES_LEFT_OUT,

@@ -46,6 +46,11 @@ pub trait Check: DeserializeOwned + Send + Sync + 'static {
     /// What the core must be able to do; a core without it skips the trial.
     fn needs(&self) -> Capabilities;
 
+    /// Other capabilities that do as well, if any do.
+    fn needs_instead(&self) -> Option<Capabilities> {
+        None
+    }
+
     /// What is wrong with the settings themselves, before any core is asked.
     ///
     /// # Errors
@@ -66,6 +71,9 @@ pub trait Prepared: Send + Sync {
     /// What the core must be able to do.
     fn needs(&self) -> Capabilities;
 
+    /// What of that it cannot do, if it has these capabilities; nothing where others do as well.
+    fn missing(&self, has: Capabilities) -> Capabilities;
+
     /// Asks the core and judges.
     ///
     /// # Errors
@@ -76,6 +84,13 @@ pub trait Prepared: Send + Sync {
 impl<C: Check> Prepared for C {
     fn needs(&self) -> Capabilities {
         Check::needs(self)
+    }
+
+    fn missing(&self, has: Capabilities) -> Capabilities {
+        match Check::needs_instead(self) {
+            Some(instead) if has.contains(instead) => Capabilities::empty(),
+            _ => Check::needs(self) - has,
+        }
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -179,6 +194,7 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<convergence::ErrorFallsAsRootN>(),
     CheckKind::of::<picture::FirstHits>(),
     CheckKind::of::<picture::MatchesReference>(),
+    CheckKind::of::<picture::MatchesAsPng>(),
 ];
 
 /// The check called `name`.

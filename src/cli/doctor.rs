@@ -90,7 +90,7 @@ fn tell_walls(hosted: &Hosted, hosting: &Hosting) {
 }
 
 fn tell_next_steps(cases: &[Arc<Case>], has: Capabilities) {
-    let open = cases.iter().filter(|case| has.contains(case.prepared.needs())).count();
+    let open = cases.iter().filter(|case| case.prepared.missing(has).is_empty()).count();
     println!("tried  on {open} of {} cases", cases.len());
     for (number, step) in next_steps(cases, has).iter().take(STEPS).enumerate() {
         let label = if number == 0 { "next" } else { "then" };
@@ -150,6 +150,10 @@ const ADVICE: &[(Capabilities, &str)] = &[
     (Capabilities::SAMPLE_LIGHT, "of that type: sample_light(light, from, random)"),
     (Capabilities::RADIANCE, "of that type: radiance(ray, settings, index)"),
     (Capabilities::RENDER, "of that type: render(camera, settings, pixels, sample_counts)"),
+    (
+        Capabilities::RENDER_CODES,
+        "nothing: programs that write 8 bits are described by an adapter, see docs/adapters.md",
+    ),
     (Capabilities::BRUTE_FORCE, "honour settings.accelerate == 0, and say FURNACE_BRUTE_FORCE"),
     (Capabilities::SPLIT_RULES, "honour settings.split, and say FURNACE_SPLIT_RULES"),
     (

@@ -1,6 +1,8 @@
 //! The elements of batches: rays, hits, samples. Plain `repr(C)` data, the same in Rust and in C.
 
 use super::{CoreError, Result};
+use crate::image::encoding::Encoding;
+use crate::image::png;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -272,6 +274,15 @@ pub struct Film {
     pub pixels: Vec<[f32; 3]>,
     /// Camera samples spent on each pixel, `width · height` values.
     pub sample_counts: Vec<u32>,
+}
+
+/// A picture of 8 bits, and how its codes were made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CodedFilm {
+    /// From radiance to codes, as the core declares it.
+    pub encoding: Encoding,
+    /// Row-major, row 0 on top.
+    pub codes: png::Picture,
 }
 
 const _: () = {

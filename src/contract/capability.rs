@@ -49,6 +49,8 @@ bitflags! {
         const ISOLATED_BOUNCES = 1 << 18;
         /// Russian roulette with a given probability.
         const ROULETTE = 1 << 19;
+        /// [`super::BuiltScene::render_codes`]: pictures of 8 bits, of a core that writes nothing else.
+        const RENDER_CODES = 1 << 20;
         /// Sampling calls use the caller's random numbers, so they can be replayed.
         const CALLERS_RANDOMNESS = 1 << 32;
         /// The same settings and seed give the same bits.

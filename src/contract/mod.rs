@@ -25,7 +25,7 @@ mod settings;
 pub mod validate;
 
 pub use batch::{
-    AdaptiveMean, BoxHit, BsdfQuery, BsdfSample, BsdfValue, DirectionSample, Film, Hit,
+    AdaptiveMean, BoxHit, BsdfQuery, BsdfSample, BsdfValue, CodedFilm, DirectionSample, Film, Hit,
     LightSample, Primitive, Randomness, Ray, Sampler, TraversalStats, read_flags,
 };
 pub use capability::{
@@ -193,5 +193,11 @@ pub trait BuiltScene {
     ) -> Result<()> {
         let _ = (camera, settings, film);
         Err(CoreError::Unsupported(Capabilities::RENDER))
+    }
+
+    /// A picture of 8 bits, from a core that writes nothing else.
+    fn render_codes(&mut self, camera: &Camera, settings: &RenderSettings) -> Result<CodedFilm> {
+        let _ = (camera, settings);
+        Err(CoreError::Unsupported(Capabilities::RENDER_CODES))
     }
 }

@@ -7,7 +7,7 @@
 
 use super::{
     Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
-    BuildStats, BuiltScene, Core, CoreError, CoreInfo, DirectionSample, Film, Hit,
+    BuildStats, BuiltScene, CodedFilm, Core, CoreError, CoreInfo, DirectionSample, Film, Hit,
     IntegratorSettings, LightSample, Primitive, Randomness, Ray, RenderSettings, Result, Sampler,
     TraversalStats,
 };
@@ -254,6 +254,19 @@ impl BuiltScene for ValidatedScene<'_> {
         };
         guarded("render", || self.scene.render(camera, settings, film))?;
         valid_film(film, width, height)
+    }
+
+    fn render_codes(&mut self, camera: &Camera, settings: &RenderSettings) -> Result<CodedFilm> {
+        let film = guarded("render_codes", || self.scene.render_codes(camera, settings))?;
+        let (asked, codes) = ([settings.width, settings.height].map(|n| n as usize), &film.codes);
+        let is_whole = codes.pixels.len() == codes.width * codes.height;
+        if asked == [codes.width, codes.height] && is_whole {
+            return Ok(film);
+        }
+        Err(CoreError::BrokeContract(format!(
+            "the picture has {} × {} pixels, not {} × {}",
+            codes.width, codes.height, asked[0], asked[1]
+        )))
     }
 }
 

@@ -1,6 +1,8 @@
 //! How linear light becomes the codes of an 8-bit picture: an exposure, a curve, and how what lies
 //! between two codes is rounded.
 
+use super::Image;
+use super::png::Picture;
 use serde::{Deserialize, Serialize};
 
 /// The largest code.
@@ -161,6 +163,12 @@ impl Encoding {
     pub fn light(self, code: u8) -> f64 {
         let middle = f64::from(code) + 0.5 - self.half();
         if code == 0 { 0.0 } else { self.curve.decode(middle / WHITE) / self.exposure }
+    }
+
+    /// The codes of a picture.
+    pub fn picture(self, image: &Image) -> Picture {
+        let pixels = image.pixels.iter().map(|pixel| pixel.map(|light| self.code(light.into())));
+        Picture { width: image.width, height: image.height, pixels: pixels.collect() }
     }
 
     fn half(self) -> f64 {

@@ -174,7 +174,7 @@ fn judge(
 ) -> Result<Finding, CheckError> {
     let mut core = Validated::new(core);
     let info = core.info();
-    let missing = case.prepared.needs() - info.capabilities;
+    let missing = case.prepared.missing(info.capabilities);
     if missing != Capabilities::empty() {
         return Err(CoreError::Unsupported(missing).into());
     }

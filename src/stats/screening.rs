@@ -274,9 +274,7 @@ impl<'a, E> Screening<'a, E> {
         let ratio = |(i, component)| {
             let index: usize = start + i;
             let scale = self.target.scale[index];
-            // Of a pair, the difference on top of equality.
-            let offset = if self.target.expected[index] == 0.0 { 1.0 } else { 0.0 };
-            let ratio = offset + spread.mean(index) / scale;
+            let ratio = 1.0 + (spread.mean(index) - self.target.expected[index]) / scale;
             let error = spread.standard_error(index).hypot(self.target.errors[index]);
             let half = student_upper(INTERVAL_LEVEL, spread.freedom()) * error / scale;
             GlobalRatio { component, ratio, interval: [ratio - half, ratio + half] }

@@ -1,20 +1,22 @@
 //! A render against a Mitsuba reference, with the noise of both in the account.
 
-use super::clues;
+use super::{by_codes, clues};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, PictureRole, camera_of};
 use crate::contract::{
-    Acceleration, BuiltScene, Capabilities, DirectSampling, Film, IntegratorSettings,
+    Acceleration, BuiltScene, Capabilities, CodedFilm, DirectSampling, Film, IntegratorSettings,
     RenderSettings,
 };
 use crate::image::Image;
 use crate::math::rng::Seed;
-use crate::scene::{Camera, reference};
+use crate::scene::reference::{self, Reference};
+use crate::scene::{Camera, SceneDescription};
 use crate::stats::{
-    Component, GlobalRatio, ImageEffort, ImageReport, Impossible, Reference, Scale, ScaleReport,
+    self, Component, GlobalRatio, ImageEffort, ImageReport, Impossible, Leaf, Scale, ScaleReport,
     Verdict, judge_image,
 };
 use crate::text::Percent;
 use serde::Deserialize;
+use std::sync::Arc;
 
 /// Standard errors at the ends of the scale of the error picture.
 const ERROR_SCALE: f32 = 6.0;
@@ -39,7 +41,24 @@ impl Check for MatchesReference {
     const SUMMARY: &'static str = "independent renders against a Mitsuba reference, at every scale";
 
     fn needs(&self) -> Capabilities {
-        let mut needs = Capabilities::BUILD_SCENE | Capabilities::RENDER;
+        self.needs_beside(Capabilities::RENDER)
+    }
+
+    fn needs_instead(&self) -> Option<Capabilities> {
+        Some(self.needs_beside(Capabilities::RENDER_CODES))
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        match context.info.capabilities.contains(Capabilities::RENDER) {
+            true => self.by_radiance(context),
+            false => self.by_codes(context),
+        }
+    }
+}
+
+impl MatchesReference {
+    fn needs_beside(&self, picture: Capabilities) -> Capabilities {
+        let mut needs = Capabilities::BUILD_SCENE | picture;
         if self.direct == DirectSampling::Hemisphere {
             needs |= Capabilities::HEMISPHERE_SAMPLING;
         }
@@ -49,7 +68,8 @@ impl Check for MatchesReference {
         needs
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    /// The reference, and how the core is asked for the same.
+    pub(super) fn setup(&self, context: &Context<'_>) -> Result<Setup<'_>, CheckError> {
         let scene = context.scene()?;
         let camera = camera_of(&scene)?;
         let reference = reference::load(context.references, &self.reference, &scene)
@@ -66,10 +86,28 @@ impl Check for MatchesReference {
         let shot =
             Shot { check: self, camera, bounces: self.bounces, samples: samples_per_run, isolates };
         let effort = ImageEffort::new(self.detects.0 * context.budget.coarseness());
+        Ok(Setup { scene, reference, shot, effort })
+    }
+
+    /// A core that writes 8 bits and nothing else.
+    fn by_codes(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let setup = self.setup(context)?;
+        let seed = context.seed;
+        let mut built = context.core.build_scene(&setup.scene, Acceleration::DEFAULT)?;
+        let declared = setup.shot.codes(built.as_mut(), seed.child("encoding"))?.encoding;
+        let judged = by_codes::judge(&setup, declared, &mut |draw| {
+            Ok(setup.shot.codes(built.as_mut(), draw.seed(seed))?.codes)
+        })?;
+        drop(built);
+        Ok(judged.shown(&setup, context))
+    }
+
+    fn by_radiance(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let Setup { scene, reference, shot, effort } = self.setup(context)?;
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let question =
-            Reference { mean: &reference.mean, standard_error: &reference.standard_error };
+            stats::Reference { mean: &reference.mean, standard_error: &reference.standard_error };
         let report = judge_image(question, &effort, &mut |draw| {
             shot.render(built.as_mut(), draw.seed(seed))
         })?;
@@ -77,7 +115,7 @@ impl Check for MatchesReference {
             Verdict::Fail if report.impossible.is_none() => {
                 let seed = seed.child("clues");
                 clues::explained(
-                    finding(&report),
+                    finding(&report, report.leaf()),
                     &report,
                     &reference,
                     &shot,
@@ -85,10 +123,10 @@ impl Check for MatchesReference {
                     seed,
                 )?
             }
-            _ => finding(&report),
+            _ => finding(&report, report.leaf()),
         };
         drop(built);
-        let caption = format!("mean of {} runs of {samples} samples per pixel", report.runs);
+        let caption = format!("mean of {} runs of {} samples per pixel", report.runs, shot.samples);
         let error = error_picture(&report, &reference.mean, &reference.standard_error);
         context.show(PictureRole::Reference, "Mitsuba", reference.mean);
         context.show(PictureRole::Render, caption, report.mean.clone());
@@ -98,13 +136,21 @@ impl Check for MatchesReference {
     }
 }
 
+/// What a core is asked for, and what it should show.
+pub(super) struct Setup<'a> {
+    pub(super) scene: Arc<SceneDescription>,
+    pub(super) reference: Reference,
+    pub(super) shot: Shot<'a>,
+    pub(super) effort: ImageEffort,
+}
+
 /// How each run is rendered.
 #[derive(Clone, Copy)]
 pub(super) struct Shot<'a> {
     check: &'a MatchesReference,
     camera: Camera,
     bounces: [u32; 2],
-    samples: u32,
+    pub(super) samples: u32,
     /// Whether the core renders a bounce alone.
     pub(super) isolates: bool,
 }
@@ -130,8 +176,20 @@ impl Shot<'_> {
         scene: &mut dyn BuiltScene,
         seed: Seed,
     ) -> Result<Image, CheckError> {
+        let mut film = Film::default();
+        scene.render(&self.camera, &self.settings(seed), &mut film)?;
+        let [width, height] = self.camera.film.map(|side| side as usize);
+        Ok(Image { width, height, pixels: film.pixels })
+    }
+
+    /// The same of a core that writes 8 bits.
+    fn codes(&self, scene: &mut dyn BuiltScene, seed: Seed) -> Result<CodedFilm, CheckError> {
+        Ok(scene.render_codes(&self.camera, &self.settings(seed))?)
+    }
+
+    fn settings(&self, seed: Seed) -> RenderSettings {
         let [width, height] = self.camera.film;
-        let settings = RenderSettings {
+        RenderSettings {
             width,
             height,
             samples_per_pixel: self.samples,
@@ -142,15 +200,12 @@ impl Shot<'_> {
                 ..Default::default()
             },
             adaptive: None,
-        };
-        let mut film = Film::default();
-        scene.render(&self.camera, &settings, &mut film)?;
-        Ok(Image { width: width as usize, height: height as usize, pixels: film.pixels })
+        }
     }
 }
 
 /// Difference over its standard error, core and reference together; ±1 is the end of the scale.
-fn error_picture(report: &ImageReport, mean: &Image, standard_error: &Image) -> Image {
+pub(super) fn error_picture(report: &ImageReport, mean: &Image, standard_error: &Image) -> Image {
     Image::from_fn(mean.width, mean.height, |x, y| {
         let pixel = y * mean.width + x;
         std::array::from_fn(|c| {
@@ -162,9 +217,10 @@ fn error_picture(report: &ImageReport, mean: &Image, standard_error: &Image) -> 
     })
 }
 
-fn finding(report: &ImageReport) -> Finding {
+/// What a report says in words and numbers; `leaf` is what the ledger enters.
+pub(super) fn finding(report: &ImageReport, leaf: Leaf) -> Finding {
     let mut measures: Vec<_> =
-        report.ratios.iter().map(|ratio| ratio_measure(ratio, report)).collect();
+        report.ratios.iter().map(|ratio| ratio_measure(ratio, report, leaf)).collect();
     measures.extend(report.scales.iter().map(scale_measure));
     let mut finding = Finding::of(
         statement(report),
@@ -180,14 +236,14 @@ fn finding(report: &ImageReport) -> Finding {
 
 /// How bright the whole picture is: what people ask first. Luminance stands for the test of the
 /// picture.
-fn ratio_measure(ratio: &GlobalRatio, report: &ImageReport) -> Measure {
+fn ratio_measure(ratio: &GlobalRatio, report: &ImageReport, leaf: Leaf) -> Measure {
     let name = format!("brightness of the whole picture, {}", component_name(ratio.component));
     let is_luminance = ratio.component == Component::Luminance;
     Measure {
         interval: Some(ratio.interval),
         resolution: is_luminance.then_some(report.resolution),
         verdict: report.verdict,
-        leaf: is_luminance.then(|| report.leaf()),
+        leaf: is_luminance.then_some(leaf),
         ..Measure::exact(name, ratio.ratio, 1.0, 0.0).in_unit("of the reference")
     }
 }

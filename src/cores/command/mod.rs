@@ -3,8 +3,8 @@
 //!
 //! The program is started anew for every picture, in a folder of its own and in a group of processes of its own,
 //! and gets the scene in one of the formats of [`crate::export`]. It can be asked for pictures only. One that
-//! writes 8 bits cannot even be asked that: what they cut off is not to be held against a renderer. `furnace
-//! agreement` compares those where they are not clipped.
+//! writes 8 bits is asked for its codes, which are judged by their law and never decoded: what 8 bits cut off is
+//! not to be held against a renderer.
 //!
 //! Pictures are never kept for another time: a core that is asked twice for one seed has to answer twice.
 
@@ -18,8 +18,8 @@ pub use picture::Picture;
 pub use program::{AdapterError, Log, Program, Rendered};
 
 use crate::contract::{
-    Acceleration, BuildStats, BuiltScene, Capabilities, Core, CoreInfo, Film, Precision,
-    RenderSettings, Result,
+    Acceleration, BuildStats, BuiltScene, Capabilities, CodedFilm, Core, CoreError, CoreInfo, Film,
+    Precision, RenderSettings, Result,
 };
 use crate::scene::{Camera, SceneDescription};
 
@@ -32,6 +32,7 @@ impl Core for CommandCore {
         let adapter = self.0.adapter();
         let capabilities = [
             (self.0.is_linear(), Capabilities::RENDER),
+            (!self.0.is_linear(), Capabilities::RENDER_CODES),
             (adapter.can.isolated_bounces, Capabilities::ISOLATED_BOUNCES),
             (adapter.can.hemisphere.is_some(), Capabilities::HEMISPHERE_SAMPLING),
             (adapter.can.deterministic, Capabilities::DETERMINISTIC),
@@ -76,6 +77,16 @@ impl BuiltScene for BuiltCommand<'_> {
         film.pixels = rendered.picture.image.pixels;
         film.sample_counts.fill(settings.samples_per_pixel);
         Ok(())
+    }
+
+    fn render_codes(&mut self, camera: &Camera, settings: &RenderSettings) -> Result<CodedFilm> {
+        let unsupported = CoreError::Unsupported(Capabilities::RENDER_CODES);
+        let Some(encoding) = self.program.adapter().output.encoding.of_codes() else {
+            return Err(unsupported);
+        };
+        let rendered = self.program.render(&self.scene, camera, settings)?;
+        let codes = rendered.picture.codes.ok_or(unsupported)?;
+        Ok(CodedFilm { encoding, codes })
     }
 }
 

@@ -2,8 +2,10 @@
 
 use super::*;
 use crate::contract::{CoreError, IntegratorSettings};
+use crate::image::encoding::Encoding;
 use crate::scene::{Library, Overrides};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Writes the picture of one pixel whose red is the seed and whose green is the depth.
 const GOOD: &str = r#"
@@ -28,6 +30,14 @@ fn render(core: &mut CommandCore, scene: &str) -> Result<Film> {
 }
 
 fn render_with(core: &mut CommandCore, scene: &str, seed: u64) -> Result<Film> {
+    let (scene, camera, settings) = request(scene, seed);
+    let mut film = Film { width: 1, height: 1, sample_counts: vec![0], ..Film::default() };
+    core.build_scene(&scene, Acceleration::DEFAULT)?.render(&camera, &settings, &mut film)?;
+    Ok(film)
+}
+
+/// One pixel of four samples.
+fn request(scene: &str, seed: u64) -> (Arc<SceneDescription>, Camera, RenderSettings) {
     let library = Library::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"));
     let scene = library.load(scene, &Overrides::new()).unwrap();
     let camera =
@@ -35,9 +45,7 @@ fn render_with(core: &mut CommandCore, scene: &str, seed: u64) -> Result<Film> {
     let integrator = IntegratorSettings { seed, ..IntegratorSettings::default() };
     let settings =
         RenderSettings { width: 1, height: 1, samples_per_pixel: 4, integrator, adaptive: None };
-    let mut film = Film { width: 1, height: 1, sample_counts: vec![0], ..Film::default() };
-    core.build_scene(&scene, Acceleration::DEFAULT)?.render(&camera, &settings, &mut film)?;
-    Ok(film)
+    (scene, camera, settings)
 }
 
 fn outcome(script: &str, change: (&str, &str)) -> Result<Film> {
@@ -58,24 +66,30 @@ fn a_program_can_be_asked_for_pictures_only() {
     assert_eq!(info.capabilities, Capabilities::BUILD_SCENE | Capabilities::RENDER);
     let eight_bits = ("picture.pfm\", encoding = \"linear\"", "picture.png\", encoding = \"srgb\"");
     let info = core(folder.path(), GOOD, eight_bits).info();
-    assert_eq!(info.capabilities, Capabilities::BUILD_SCENE);
+    assert_eq!(info.capabilities, Capabilities::BUILD_SCENE | Capabilities::RENDER_CODES);
+}
+
+#[test]
+fn a_program_that_writes_8_bits_is_asked_for_its_codes() {
+    let folder = tempfile::tempdir().unwrap();
+    let codes = image::RgbImage::from_raw(1, 1, vec![10, 128, 255]).unwrap();
+    codes.save(folder.path().join("made.png")).unwrap();
+    let script = format!("cp {}/made.png $2", folder.path().display());
+    let eight_bits =
+        ("picture.pfm\", encoding = \"linear\"", "picture.png\", encoding = \"course\"");
+    let mut core = core(folder.path(), &script, eight_bits);
+    let (scene, camera, settings) = request("point-light-plane", 5);
+    let mut built = core.build_scene(&scene, Acceleration::DEFAULT).unwrap();
+    let film = built.render_codes(&camera, &settings).unwrap();
+    assert_eq!(film.encoding, Encoding::COURSE);
+    assert_eq!(film.codes.pixels, [[10, 128, 255]]);
 }
 
 #[test]
 fn times_are_read_from_the_log() {
     let folder = tempfile::tempdir().unwrap();
     let core = core(folder.path(), GOOD, ("", ""));
-    let library = Library::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"));
-    let scene = library.load("point-light-plane", &Overrides::new()).unwrap();
-    let camera =
-        Camera { vertical_fov: scene.camera.unwrap().horizontal_fov, ..scene.camera.unwrap() };
-    let settings = RenderSettings {
-        width: 1,
-        height: 1,
-        samples_per_pixel: 4,
-        integrator: IntegratorSettings::default(),
-        adaptive: None,
-    };
+    let (scene, camera, settings) = request("point-light-plane", 5);
     assert_eq!(core.0.render(&scene, &camera, &settings).unwrap().log.seconds, Some(1250.5));
 }
 

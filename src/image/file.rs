@@ -3,15 +3,18 @@
 
 use super::encoding::Curve;
 use super::pair::Plane;
+use super::png::Picture;
 use super::{Image, ImageError, exr, pfm};
 use image::{DynamicImage, ImageReader};
 use std::path::Path;
 
-/// The codes of a file of whole numbers, and how many there are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+/// The codes of a file of whole numbers.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Codes {
     /// The largest: 255 or 65,535.
     pub largest: u32,
+    /// The codes themselves, if there are 256.
+    pub picture: Option<Picture>,
 }
 
 /// What a file holds.
@@ -120,13 +123,17 @@ fn of_codes(decoded: &DynamicImage, encoding: Curve) -> Loaded {
         let values = wide.pixels().map(|pixel| f32::from(pixel.0[3]) / 65_535.0).collect();
         Plane { width, height, values }
     });
-    let codes = Some(Codes { largest });
+    let picture = (largest == 255).then(|| {
+        let pixels = decoded.to_rgb8().pixels().map(|pixel| pixel.0).collect();
+        Picture { width, height, pixels }
+    });
+    let codes = Some(Codes { largest, picture });
     Loaded { image: Image { width, height, pixels }, alpha, encoding, codes, extra: None }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::png::{self, Picture};
+    use super::super::png;
     use super::*;
 
     #[test]
@@ -152,7 +159,8 @@ mod tests {
             (Some(Curve::Gamma(2.0)), (128.0f32 / 255.0).powi(2)),
         ] {
             let loaded = load(&path, encoding).unwrap();
-            assert_eq!(loaded.codes, Some(Codes { largest: 255 }));
+            let codes = loaded.codes.unwrap();
+            assert_eq!((codes.largest, codes.picture.unwrap().pixels[5]), (255, [0, 128, 255]));
             let [black, grey, white] = loaded.image.pixels[5];
             assert!(black == 0.0 && (grey - middle).abs() < 1e-5 && white == 1.0, "{grey}");
         }

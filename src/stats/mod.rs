@@ -6,7 +6,8 @@
 //! - [`judge_image`]: whether a picture is its reference, by screening and confirming cells of five
 //!   sizes.
 //! - [`judge_codes`]: whether an 8-bit picture is its reference, by the law of its codes.
-//! - [`judge_difference`]: whether two pictures differ that were rendered once each.
+//! - [`judge_difference`]: whether two pictures differ that were rendered once each;
+//!   [`light_of_codes`]: what of an 8-bit one can be compared.
 //! - [`misfit`]: which mistake turns one picture into another. It names, and never grades.
 //! - [`judge_exact`]: comparisons without noise, with their [`Tolerance`]s.
 //! - [`judge_share`], [`judge_slope`], [`judge_uncorrelated`]: shares, convergence, independence.
@@ -64,7 +65,7 @@ pub use chi_square::{
 pub use claim::{Band, Claim, Sides};
 pub use codes::{
     CODES_FALSE_ALARM, ClippingReport, CodeLaw, CodeReference, CodeReport, CodeSettings,
-    Deciphered, PixelLaw, judge_codes,
+    Deciphered, LightOfCodes, NoiseSource, PixelLaw, judge_codes, light_of_codes,
 };
 pub use correlation::{CORRELATION_FALSE_ALARM, CorrelationReport, judge_uncorrelated};
 pub use count_report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};

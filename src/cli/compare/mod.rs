@@ -6,12 +6,14 @@ mod words;
 
 use super::{Answer, ExitCode, Failure};
 use crate::image::ImageError;
-use crate::image::encoding::Curve;
+use crate::image::encoding::{Curve, Encoding, Rounding};
 use crate::image::mask::{Mask, Rectangle};
 use crate::image::metric::METRICS;
 use crate::image::pair::Pair;
 use crate::stats::misfit::{Fit, Knowledge, explain};
-use crate::stats::{DifferenceReport, Verdict, judge_difference};
+use crate::stats::{
+    Deciphered, DifferenceReport, LightOfCodes, NoiseSource, Verdict, judge_difference,
+};
 use clap::Args;
 use serde::Serialize;
 use side::{Side, encoding};
@@ -27,6 +29,9 @@ pub struct CompareArguments {
     /// How PNG stands for light: srgb, linear, or a gamma such as 2.2.
     #[arg(long, value_parser = encoding, default_value = "srgb")]
     encoding: Curve,
+    /// PNG holds codes whose fractions were cut off, not rounded.
+    #[arg(long)]
+    truncated: bool,
     /// A picture of the variance of every value of the first.
     #[arg(long, value_name = "FILE")]
     variance: Option<PathBuf>,
@@ -55,9 +60,19 @@ struct Comparison {
     /// Pixels that count.
     pixels: usize,
     difference: DifferenceReport,
+    /// How the codes of an 8-bit picture were compared, if it could be done by their law.
+    codes: Option<CodesCompared>,
     /// What turns the reference into the picture, the greatest mistake first.
     mistakes: Vec<Fit>,
     metrics: Vec<Measured>,
+}
+
+/// What was done with codes.
+#[derive(Debug, Serialize)]
+struct CodesCompared {
+    deciphered: Deciphered,
+    /// Where the noise of the picture is known from.
+    noise: NoiseSource,
 }
 
 #[derive(Debug, Serialize)]
@@ -65,6 +80,14 @@ struct Measured {
     name: &'static str,
     /// None where a pixel is no number.
     value: Option<f64>,
+}
+
+impl CompareArguments {
+    /// How codes are said to be made.
+    fn encoding(&self) -> Encoding {
+        let rounding = if self.truncated { Rounding::Down } else { Rounding::Nearest };
+        Encoding { rounding, ..Encoding::of(self.encoding) }
+    }
 }
 
 /// Compares, and says how it went.
@@ -90,10 +113,15 @@ fn measure(arguments: &CompareArguments) -> Result<Comparison, Failure> {
         let sizes = [[picture.image.width, picture.image.height], size];
         return Err(Failure::request(ImageError::DifferentSizes { sizes }));
     }
-    let counted = counted(arguments, &picture, &reference)?;
-    let difference = judge_difference(picture.sample(), reference.sample(), counted.as_deref());
+    let light =
+        picture.light_against(&reference, arguments.encoding(), arguments.variance.is_some());
+    let counted = counted(arguments, &picture, &reference, light.as_ref())?;
+    let sample = light.as_ref().map_or(picture.sample(), side::sample_of);
+    let difference = judge_difference(sample, reference.sample(), counted.as_deref());
+    let is_encoded_otherwise = light.as_ref().is_some_and(|light| light.deciphered.is_another());
+    let verdict = if is_encoded_otherwise { Verdict::Fail } else { difference.verdict };
     let mistakes = match difference.verdict {
-        Verdict::Fail => explain(
+        Verdict::Fail if !is_encoded_otherwise => explain(
             &picture.image,
             &reference.image,
             &Knowledge {
@@ -115,11 +143,13 @@ fn measure(arguments: &CompareArguments) -> Result<Comparison, Failure> {
         Measured { name: metric.name(), value: (!value.is_nan()).then_some(value) }
     });
     Ok(Comparison {
-        verdict: difference.verdict,
+        verdict,
         size,
         pixels: counted.map_or(size[0] * size[1], |all| all.iter().filter(|one| **one).count()),
         metrics: metrics.collect(),
         difference,
+        codes: light
+            .map(|light| CodesCompared { deciphered: light.deciphered, noise: light.noise }),
         mistakes,
     })
 }
@@ -140,11 +170,12 @@ fn nothing() -> Failure {
 }
 
 /// The pixels that count, if not all do. Of files of codes, those that noise may clip do not: what
-/// is lost above white is no mistake.
+/// is lost above white is no mistake. The law of codes says which those are, where it is known.
 fn counted(
     arguments: &CompareArguments,
     picture: &Side,
     reference: &Side,
+    light: Option<&LightOfCodes>,
 ) -> Result<Option<Vec<bool>>, Failure> {
     let size = [reference.image.width, reference.image.height];
     let mut counted = Mask::of_rectangles(&arguments.ignore).counted(size);
@@ -154,7 +185,9 @@ fn counted(
         counted.iter_mut().zip(drawn).for_each(|(counted, drawn)| *counted &= drawn);
     }
     let mut counted = counted.map_err(Failure::request)?;
-    if picture.is_coded || reference.is_coded {
+    if let Some(light) = light {
+        counted.iter_mut().zip(&light.compared).for_each(|(counted, says)| *counted &= says);
+    } else if picture.is_coded || reference.is_coded {
         let levels = reference.image.pixels.iter().zip(&mut counted);
         levels.for_each(|(level, counted)| *counted &= side::is_safe_from_clipping(*level));
     }

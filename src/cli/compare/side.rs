@@ -2,11 +2,12 @@
 
 use crate::cli::Failure;
 use crate::image::Image;
-use crate::image::encoding::Curve;
+use crate::image::encoding::{Curve, Encoding};
 use crate::image::file::{Loaded, load};
 use crate::image::pair::Plane;
+use crate::image::png::Picture as Codes;
 use crate::scene::reference::ERROR_PREFIX;
-use crate::stats::Sample;
+use crate::stats::{CodeReference, LightOfCodes, Sample, light_of_codes};
 use std::path::{Path, PathBuf};
 
 /// Of white, what a pixel may have so that hardly any noise clips it.
@@ -22,6 +23,8 @@ pub(super) struct Side {
     rounding: Option<Image>,
     /// Whether it came from a file of whole numbers.
     pub is_coded: bool,
+    /// The codes of every file, if all hold 8 bits.
+    codes: Vec<Codes>,
 }
 
 impl Side {
@@ -44,11 +47,12 @@ impl Side {
     }
 
     fn of(loaded: Loaded) -> Self {
-        let rounding = loaded.codes.map(|codes| rounding(&loaded, codes.largest));
+        let rounding = loaded.codes.as_ref().map(|codes| rounding(&loaded, codes.largest));
+        let codes = loaded.codes.and_then(|codes| codes.picture).into_iter().collect();
         let errors = loaded.extra.and_then(|file| file.colours(ERROR_PREFIX).ok());
         let variance = errors.map(|errors| each(&errors, |error| error * error));
         let is_coded = rounding.is_some();
-        Self { image: loaded.image, alpha: loaded.alpha, variance, rounding, is_coded }
+        Self { image: loaded.image, alpha: loaded.alpha, variance, rounding, is_coded, codes }
     }
 
     fn mean(runs: &[Loaded]) -> Result<Self, Failure> {
@@ -68,7 +72,9 @@ impl Side {
             })
         });
         let is_coded = runs.iter().any(|run| run.codes.is_some());
-        Ok(Self { image, alpha: runs[0].alpha.clone(), variance, rounding: None, is_coded })
+        let codes = runs.iter().map(|run| run.codes.as_ref()?.picture.clone());
+        let codes = codes.collect::<Option<Vec<_>>>().unwrap_or_default();
+        Ok(Self { image, alpha: runs[0].alpha.clone(), variance, rounding: None, is_coded, codes })
     }
 
     fn take_variance(&mut self, variance: Image, path: &Path) -> Result<(), Failure> {
@@ -84,6 +90,26 @@ impl Side {
         )))
     }
 
+    /// The light behind the codes of this side, if it has no more than 8 bits and the other is
+    /// radiance that is known with its errors: decoded, noise would look like darkness.
+    pub fn light_against(
+        &self,
+        reference: &Self,
+        encoding: Encoding,
+        has_variance: bool,
+    ) -> Option<LightOfCodes> {
+        let errors = reference.variance.as_ref().filter(|_| !reference.is_coded)?;
+        let standard_error = each(errors, f32::sqrt);
+        let known = CodeReference {
+            mean: &reference.image,
+            standard_error: &standard_error,
+            samples: None,
+        };
+        let codes: Vec<&Codes> = self.codes.iter().collect();
+        let variance = self.variance.as_ref().filter(|_| has_variance);
+        (!codes.is_empty()).then(|| light_of_codes(known, &codes, variance, encoding))
+    }
+
     /// As the test takes it.
     pub fn sample(&self) -> Sample<'_> {
         Sample {
@@ -92,6 +118,11 @@ impl Side {
             rounding: self.rounding.as_ref(),
         }
     }
+}
+
+/// As the test takes the light behind codes.
+pub(super) fn sample_of(light: &LightOfCodes) -> Sample<'_> {
+    Sample { image: &light.image, variance: light.variance.as_ref(), rounding: Some(&light.slack) }
 }
 
 /// Whether noise would have to be as large as the light to clip a pixel.

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::image::exr::{self, Exr, Storage};
-use crate::image::{Image, pfm};
+use crate::image::{Image, pfm, png};
 use crate::math::rng::{Seed, uniform};
 use crate::scene::reference::ERROR_PREFIX;
 use clap::Parser;
@@ -77,6 +77,44 @@ fn a_reference_brings_its_own_errors_and_several_renders_theirs() {
     let place = format!("{},{},1,1", 5000 % 192, 5000 / 192);
     words.extend(["--ignore", &place]);
     assert_eq!(compared(&words).unwrap().verdict, Verdict::Pass);
+}
+
+/// A reference with its errors, and a noisy picture of 8 bits of it, as files.
+fn coded(folder: &Path, seed: u64, factor: f64, encoding: Encoding) -> [String; 2] {
+    let reference = render(1, 0.005, 1.0);
+    let errors = Image::from_fn(192, 128, |x, y| [(0.003 * scene(x, y)) as f32; 3]);
+    let exact = folder.join("reference.exr");
+    let with_errors =
+        Exr::from_image(&reference).with_colours(ERROR_PREFIX, &errors, Storage::Half);
+    exr::write(&exact, &with_errors).unwrap();
+    let path = folder.join(format!("{seed}.png"));
+    png::write(&path, &encoding.picture(&render(seed, 0.3, factor))).unwrap();
+    [&path, &exact].map(|path| path.to_str().unwrap().to_owned())
+}
+
+#[test]
+fn codes_are_compared_by_their_law() {
+    let folder = tempfile::tempdir().unwrap();
+    let gamma = Encoding::of(Curve::Gamma(2.2));
+    let told = |seed, factor, encoding, more: &[&str]| {
+        let [picture, reference] = coded(folder.path(), seed, factor, encoding);
+        let mut all = vec![picture.as_str(), reference.as_str(), "--encoding", "2.2", "--no-flip"];
+        all.extend(more);
+        let found = compared(&all).unwrap();
+        (words::told(&found), found)
+    };
+    let (good, found) = told(5, 1.0, gamma, &[]);
+    assert_eq!(found.verdict, Verdict::Pass, "{good}");
+    assert!(good.contains("the noise of the picture is not known"), "{good}");
+    assert!((found.difference.ratio - 1.0).abs() < 0.01, "{good}");
+    let (bright, found) = told(6, 1.1, gamma, &[]);
+    assert!(bright.starts_with("fail: the picture has 1."), "{bright}");
+    assert!((found.difference.ratio - 1.1).abs() < 0.02, "{bright}");
+    let (other, _) = told(7, 1.0, Encoding::of(Curve::Srgb), &[]);
+    assert!(other.starts_with("fail: encoding mismatch: the codes are sRGB, rounded"), "{other}");
+    let cut = Encoding { rounding: Rounding::Down, ..gamma };
+    let (cut, found) = told(8, 1.0, cut, &["--truncated"]);
+    assert_eq!(found.verdict, Verdict::Pass, "{cut}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A comparison as text.
 
-use super::Comparison;
-use crate::stats::{DifferenceReport, Impossible, OddPixels, PatternReport, Verdict};
+use super::{CodesCompared, Comparison};
+use crate::stats::{DifferenceReport, Impossible, NoiseSource, OddPixels, PatternReport, Verdict};
 use std::fmt::Write;
 
 /// What is printed.
@@ -12,6 +12,7 @@ pub(super) fn told(comparison: &Comparison) -> String {
         let _ = writeln!(text, "  {words}");
     };
     let difference = &comparison.difference;
+    comparison.codes.iter().for_each(|codes| line(by_law(codes, comparison)));
     difference.outliers.iter().for_each(|odd| line(outliers(odd)));
     difference.patterns.iter().filter(|found| found.rejects).for_each(|found| line(pattern(found)));
     comparison.mistakes.iter().for_each(|fit| line(format!("the picture is {fit}")));
@@ -24,8 +25,34 @@ pub(super) fn told(comparison: &Comparison) -> String {
     text
 }
 
+/// How an 8-bit picture was compared, and what is not known of its noise.
+fn by_law(codes: &CodesCompared, comparison: &Comparison) -> String {
+    let [width, height] = comparison.size;
+    let share = 100.0 * comparison.pixels as f64 / (width * height) as f64;
+    let noise = match codes.noise {
+        NoiseSource::Runs => "the noise is that between the pictures",
+        NoiseSource::Variance => "the noise is that of the picture of the variance",
+        NoiseSource::Scatter => {
+            "the noise of the picture is not known: it is taken from how codes scatter within 8 × 8 \
+             pixels, so that errors as small as that count as noise"
+        }
+    };
+    format!(
+        "8-bit codes ({}) by their law, not decoded, in {share:.0} % of the pixels; {noise}",
+        codes.deciphered.declared
+    )
+}
+
 fn sentence(comparison: &Comparison) -> String {
     let difference = &comparison.difference;
+    let deciphered = comparison.codes.as_ref().map(|codes| &codes.deciphered);
+    if let Some(deciphered) = deciphered.filter(|deciphered| deciphered.is_another()) {
+        let found = deciphered.found.unwrap_or(deciphered.declared);
+        return format!(
+            "encoding mismatch: the codes are {found}, and not {}; nothing is said of the light",
+            deciphered.declared
+        );
+    }
     let [width, height] = comparison.size;
     if let Some(odd) = difference.impossible {
         return impossible(&odd);

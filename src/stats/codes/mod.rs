@@ -20,6 +20,7 @@ mod channel;
 mod clipping;
 mod decipher;
 mod law;
+mod light;
 mod model;
 mod observed;
 
@@ -31,6 +32,7 @@ mod tests;
 pub use clipping::ClippingReport;
 pub use decipher::Deciphered;
 pub use law::{CodeLaw, PixelLaw};
+pub use light::{LightOfCodes, NoiseSource, light_of_codes};
 
 use super::screen::{CONFIRM_LEVEL, IMAGE_FALSE_ALARM, Levels};
 use super::screening::Screening;

@@ -51,7 +51,19 @@ impl Model {
 
     /// A picture of a property of the channels.
     pub(super) fn image(&self, value: impl Fn(&Channel) -> f64) -> Image {
-        self.picture(|index| value(&self.channels[index]))
+        self.map(|_, channel| value(channel))
+    }
+
+    /// A picture of something of every channel and its number.
+    pub(super) fn map(&self, value: impl Fn(usize, &Channel) -> f64) -> Image {
+        self.picture(|index| value(index, &self.channels[index]))
+    }
+
+    /// Which pixels stand so in all their channels.
+    pub(super) fn pixels_of(&self, standing: Standing) -> Vec<bool> {
+        let (pixels, _) = self.channels.as_chunks::<3>();
+        let stands = |channel: &Channel| channel.standing == standing;
+        pixels.iter().map(|pixel| pixel.iter().all(stands)).collect()
     }
 
     /// The codes that are compared, 0 elsewhere.

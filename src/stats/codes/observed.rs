@@ -32,6 +32,11 @@ impl Observed {
         Self { codes: (0..runs.len()).map(seen).collect(), freedom: runs.freedom() }
     }
 
+    /// Of pictures whose noise is known in another way.
+    pub(super) fn with(codes: Vec<Seen>, freedom: f64) -> Self {
+        Self { codes, freedom }
+    }
+
     /// A channel of a pixel: `3 · pixel + channel`.
     pub(super) fn channel(&self, index: usize) -> Seen {
         self.codes[index]

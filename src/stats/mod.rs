@@ -21,6 +21,7 @@
 
 mod adaptive_law;
 mod betting;
+mod brightness;
 mod budget;
 #[cfg(test)]
 mod calibration;

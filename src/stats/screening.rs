@@ -1,10 +1,10 @@
 //! The steps of screen-and-confirm: screening, freezing, confirming, reporting.
 
+use super::brightness::Brightness;
 use super::cells::{COMPONENTS, Component, Scale};
 use super::dead_pixels::LitRuns;
 use super::image_report::{
-    CellScore, Confirmation, GlobalRatio, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
-    TileMap,
+    CellScore, Confirmation, ImageReport, Impossible, ImpossiblePixels, ScaleReport, TileMap,
 };
 use super::screen::{ImageDraw, ImageEffort, Levels};
 use super::spread::Spread;
@@ -18,12 +18,11 @@ const MOST_FROZEN: usize = 64;
 const MOST_REPORTED: usize = 16;
 /// Probability of missing an error as large as the printed resolution.
 const MISS_LEVEL: f64 = 1e-3;
-/// Level of one side of the printed intervals.
-const INTERVAL_LEVEL: f64 = 5e-4;
 
 /// The runs of one stage.
 struct Sampled {
     spread: Spread,
+    brightness: Brightness,
     /// Of each scale, the numbers of its frozen cells.
     scalars: Vec<Moments>,
 }
@@ -57,7 +56,9 @@ impl<'a, E> Screening<'a, E> {
         draw: &'a mut DrawImages<'a, E>,
     ) -> Self {
         let size = (guide.width, guide.height);
-        let lit = LitRuns::new(guide);
+        let pixels = size.0 * size.1;
+        let luminance = (0..pixels).map(|pixel| target.errors[(pixel + 1) * COMPONENTS - 1]);
+        let lit = LitRuns::new(guide, luminance);
         let (all, levels) = (Spread::default(), Levels::DEFAULT);
         Self { target, effort, levels, draw, lit, all, runs: 0, size }
     }
@@ -83,7 +84,7 @@ impl<'a, E> Screening<'a, E> {
             report.worst.first().is_some_and(|cell| cell.t.abs() > report.critical)
         };
         if !scales.iter().any(suspected) && self.lit.suspects().is_empty() {
-            return Ok(self.report(scales, &screened.spread, &screened.spread));
+            return Ok(self.report(scales, &screened, &screened));
         }
         let frozen: Vec<Frozen> =
             (0..Scale::ALL.len()).map(|i| self.freeze(i, &screened.spread)).collect();
@@ -97,7 +98,7 @@ impl<'a, E> Screening<'a, E> {
                 report.confirmations = Some(confirmations);
             }
         }
-        Ok(self.report(scales, &screened.spread, &third.spread))
+        Ok(self.report(scales, &screened, &third))
     }
 
     /// Draws the runs of a stage.
@@ -107,8 +108,11 @@ impl<'a, E> Screening<'a, E> {
         runs: u32,
         frozen: &[Frozen],
     ) -> Result<Sampled, Interrupted<E>> {
-        let mut sampled =
-            Sampled { spread: Spread::default(), scalars: vec![Moments::default(); frozen.len()] };
+        let mut sampled = Sampled {
+            spread: Spread::default(),
+            brightness: Brightness::of(self.size.0 * self.size.1),
+            scalars: vec![Moments::default(); frozen.len()],
+        };
         for run in 0..runs {
             let images = (self.draw)(ImageDraw { stage, run }).map_err(Interrupted::Core)?;
             let values = self.values(images, stage, run)?;
@@ -116,6 +120,7 @@ impl<'a, E> Screening<'a, E> {
                 moments.push(frozen.scalar(&self.target, &values));
             }
             sampled.spread.push(&values);
+            sampled.brightness.push(&values);
             self.all.push(&values[..COMPONENTS * self.size.0 * self.size.1]);
             self.runs += 1;
         }
@@ -201,9 +206,9 @@ impl<'a, E> Screening<'a, E> {
         }
     }
 
-    fn report(&self, scales: Vec<ScaleReport>, screened: &Spread, last: &Spread) -> ImageReport {
+    fn report(&self, scales: Vec<ScaleReport>, screened: &Sampled, last: &Sampled) -> ImageReport {
         let dead_pixels = self.lit.dead();
-        let resolution = self.resolution(screened);
+        let resolution = self.resolution(&screened.spread);
         let rejected = !dead_pixels.is_empty() || scales.iter().any(|scale| scale.rejects);
         let verdict = if rejected {
             Verdict::Fail
@@ -219,12 +224,12 @@ impl<'a, E> Screening<'a, E> {
             dead_pixels,
             worst_scale: worst_scale(&scales),
             scales,
-            ratios: self.ratios(last),
+            ratios: last.brightness.ratios(&self.target),
             resolution,
             detects: self.effort.detects,
             samples_factor: if inconclusive { self.samples_factor(resolution) } else { None },
             runs: self.runs,
-            tiles: self.tile_map(last),
+            tiles: self.tile_map(&last.spread),
             mean: self.pixels(|index| self.all.mean(index)),
             standard_error: self.pixels(|index| self.all.standard_error(index)),
         }
@@ -267,19 +272,6 @@ impl<'a, E> Screening<'a, E> {
         let band = self.target.bands[whole] / self.target.scale[whole];
         let factor = ((resolution - band) / (self.effort.detects - band)).powi(2);
         (self.effort.detects > band && factor.is_finite()).then_some(factor)
-    }
-
-    fn ratios(&self, spread: &Spread) -> Vec<GlobalRatio> {
-        let start = self.target.whole_luminance() + 1 - COMPONENTS;
-        let ratio = |(i, component)| {
-            let index: usize = start + i;
-            let scale = self.target.scale[index];
-            let ratio = 1.0 + (spread.mean(index) - self.target.expected[index]) / scale;
-            let error = spread.standard_error(index).hypot(self.target.errors[index]);
-            let half = student_upper(INTERVAL_LEVEL, spread.freedom()) * error / scale;
-            GlobalRatio { component, ratio, interval: [ratio - half, ratio + half] }
-        };
-        Component::ALL.into_iter().enumerate().map(ratio).collect()
     }
 
     fn tile_map(&self, spread: &Spread) -> TileMap {

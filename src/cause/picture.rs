@@ -75,6 +75,14 @@ pub static FACTOR: Cause = Cause {
 };
 
 /// See its headline.
+pub static STRIPE: Cause = Cause {
+    name: "picture-stripe",
+    headline: "some columns or rows side by side are brighter or darker than all others",
+    look_at: "what those columns or rows have of their own: a tile, a thread, lanes of a vector, the last of a loop",
+    remedy: "Give every column and row the same samples, each with numbers of its own, and divide by their number.",
+};
+
+/// See its headline.
 pub static GAMMA_TWICE: Cause = Cause {
     name: "gamma-in-film",
     headline: "the film holds gamma-encoded values where linear radiance belongs",
@@ -173,6 +181,7 @@ pub static CAUSES: &[&Cause] = &[
     &DISPLACED,
     &MAGNIFIED,
     &FACTOR,
+    &STRIPE,
     &GAMMA_TWICE,
     &ENCODED_OTHERWISE,
     &ROUNDED_OTHERWISE,

@@ -53,7 +53,7 @@ pub(super) fn explained(
     };
     // A bounce that is missing also looks like a factor: what explains more is told.
     let bounce = match shot.isolates {
-        true => missing_bounce(report, reference, shot, built, seed.child("bounce"))?,
+        true => missing_bounce(report, reference, &knowledge, shot, built, seed.child("bounce"))?,
         false => None,
     };
     let most = fits.iter().map(|fit| fit.explains).fold(EXPLAINS, f64::max);
@@ -96,6 +96,7 @@ fn cause_of(misfit: &Misfit) -> Option<&'static Cause> {
         Misfit::Displaced { right, down } => displaced([right, down]),
         Misfit::Magnified { .. } => &picture::MAGNIFIED,
         Misfit::Brighter(_) => &picture::FACTOR,
+        Misfit::Stripe { .. } => &picture::STRIPE,
         _ => return None,
     })
 }
@@ -156,6 +157,7 @@ fn shared_limit(singles: &[Image], mean: &Image, expected: &Image) -> Option<(f3
 fn missing_bounce(
     report: &ImageReport,
     reference: &Reference,
+    knowledge: &Knowledge<'_>,
     shot: &Shot<'_>,
     built: &mut dyn BuiltScene,
     seed: Seed,
@@ -171,15 +173,15 @@ fn missing_bounce(
                 *sum = std::array::from_fn(|c| sum[c] + pixel[c] / BOUNCE_RUNS as f32);
             }
         }
-        let knowledge = Knowledge::default();
-        let share = share_of_part(&report.mean, &reference.mean, &light, &knowledge);
+        let share = share_of_part(&report.mean, &reference.mean, &light, knowledge);
+        // The bounce before, which looks much the same, is not missing once but in part.
+        let is_once = |share: &Share| share.missing.allows(1.0) && !share.missing.allows(0.5);
         let is_better = |share: &Share| best.is_none_or(|(_, best)| share.explains > best.explains);
-        if let Some(share) = share.filter(is_better) {
+        if let Some(share) = share.filter(|share| is_once(share) && is_better(share)) {
             best = Some((bounce, share));
         }
     }
-    let is_once = |share: &Share| share.missing.allows(1.0) && !share.missing.allows(0.5);
-    Ok(best.filter(|(_, share)| is_once(share)))
+    Ok(best)
 }
 
 fn largest(pixel: &[f32; 3]) -> f32 {

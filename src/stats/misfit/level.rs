@@ -19,6 +19,13 @@ const CLEARLY: f32 = 1.02;
 /// Coverage below this cannot be divided by.
 const TRANSPARENT: f32 = 1e-3;
 
+/// What becomes of a value.
+type Curve = fn(f32) -> f32;
+
+/// The curve of a screen and its inverse.
+const CURVES: [(Misfit, Curve); 2] =
+    [(Misfit::EncodedTwice, encoded), (Misfit::DecodedTwice, decoded)];
+
 /// What becomes of the reference by each of them, as fits the picture best.
 pub(super) fn candidates(question: &Question<'_>, consider: &mut dyn FnMut((Misfit, Image))) {
     let picture = |value: &(dyn Fn(usize, f32) -> f32 + Sync)| each(question.reference, value);
@@ -28,8 +35,11 @@ pub(super) fn candidates(question: &Question<'_>, consider: &mut dyn FnMut((Misf
         let misfit = Misfit::Clipped { level: f64::from(level), pixels };
         consider((misfit, picture(&|_, value| value.min(level))));
     }
-    consider((Misfit::EncodedTwice, picture(&|_, value| encoded(value))));
-    consider((Misfit::DecodedTwice, picture(&|_, value| decoded(value))));
+    for (misfit, curve) in CURVES {
+        if question.is_worth_a_look(|pixel| question.reference.pixels[pixel].map(curve)) {
+            consider((misfit, picture(&|_, value| curve(value))));
+        }
+    }
     if let Some(alpha) = question.knowledge.alpha {
         let alpha = |pixel: usize| alpha.values[pixel];
         consider((Misfit::TimesAlpha, picture(&|pixel, value| value * alpha(pixel))));
@@ -46,10 +56,13 @@ pub(super) fn candidates(question: &Question<'_>, consider: &mut dyn FnMut((Misf
         let pixels = brighter.collect();
         consider((Misfit::Brighter(gain), Image { pixels, ..*question.reference }));
     }
-    if let Some(power) = power(question) {
+    if let Some(power) = power(&question.thin()) {
         #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
         let exponent = power.value as f32;
-        consider((Misfit::Power(power), picture(&|_, value| value.max(0.0).powf(exponent))));
+        let raised = |value: f32| value.max(0.0).powf(exponent);
+        if question.is_worth_a_look(|pixel| question.reference.pixels[pixel].map(raised)) {
+            consider((Misfit::Power(power), picture(&|_, value| raised(value))));
+        }
     }
 }
 
@@ -132,8 +145,8 @@ fn power(question: &Question<'_>) -> Option<Estimate> {
 }
 
 fn energy(question: &Question<'_>, power: f64) -> f64 {
-    let raised = each(question.reference, &|_, value| value.max(0.0).powf(power as f32));
-    question.energies(&raised).iter().sum()
+    let raised = |value: f32| value.max(0.0).powf(power as f32);
+    question.energies_of(|pixel| question.reference.pixels[pixel].map(raised)).iter().sum()
 }
 
 fn power_sums(question: &Question<'_>, power: f64) -> Vec<Sums<1>> {

@@ -1,5 +1,5 @@
 //! What would have to be done to a reference to make it the picture: displaced, magnified, turned,
-//! brighter, encoded, clipped.
+//! brighter as a whole or in a stripe, encoded, clipped.
 //!
 //! Each kind of mistake is fitted, and what it leaves of the difference is measured. The one that
 //! leaves the least is named, with its numbers, if it explains a part of the difference that noise
@@ -14,6 +14,7 @@ mod part;
 mod place;
 mod question;
 mod resample;
+mod stripe;
 mod symmetry;
 mod words;
 
@@ -21,11 +22,13 @@ mod words;
 mod tests;
 
 pub use part::{Share, share_of_part};
+pub use stripe::Lines;
 pub use symmetry::Symmetry;
 
 use crate::image::Image;
 use crate::image::pair::Plane;
 use question::Question;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Mistakes that are looked for in one picture, each in what the ones before leave.
@@ -98,6 +101,17 @@ pub enum Misfit {
         /// Pixels down.
         down: Estimate,
     },
+    /// Lines side by side times a factor.
+    Stripe {
+        /// Columns or rows.
+        lines: Lines,
+        /// The first, from the top left.
+        first: usize,
+        /// The last.
+        last: usize,
+        /// How bright they are beside what they should be.
+        factor: Estimate,
+    },
     /// Larger about its centre, and moved.
     Magnified {
         /// Factor along rows.
@@ -143,11 +157,17 @@ pub struct Knowledge<'a> {
 pub fn explain(image: &Image, reference: &Image, knowledge: &Knowledge<'_>) -> Vec<Fit> {
     assert!(image.same_size(reference), "two pictures of one size");
     let weights = question::weights(image, reference, knowledge);
+    let few = question::thinned(&weights, image.width);
     let (image, mut explained) = (finite(image), finite(reference));
     let mut fits = Vec::new();
     while fits.len() < MOST_MISTAKES {
-        let question =
-            Question { image: &image, reference: &explained, knowledge, weights: &weights };
+        let question = Question {
+            image: &image,
+            reference: &explained,
+            knowledge,
+            weights: &weights,
+            thinned: few.as_deref(),
+        };
         let Some((fit, picture)) = best(&question) else { break };
         let kind = std::mem::discriminant(&fit.misfit);
         // What was fitted before the rest was known is only a little off: no second mistake.
@@ -163,7 +183,7 @@ pub fn explain(image: &Image, reference: &Image, knowledge: &Knowledge<'_>) -> V
 /// Black where the picture is no number: such pixels do not count, and must not spoil others.
 fn finite(image: &Image) -> Image {
     let finite = |pixel: &[f32; 3]| pixel.map(|value| if value.is_finite() { value } else { 0.0 });
-    Image { pixels: image.pixels.iter().map(finite).collect(), ..*image }
+    Image { pixels: image.pixels.par_iter().map(finite).collect(), ..*image }
 }
 
 /// The mistake that explains most of what differs, and what it makes of the reference. One with
@@ -192,6 +212,7 @@ fn best(question: &Question<'_>) -> Option<(Fit, Image)> {
     symmetry::candidates(question, &mut consider);
     level::candidates(question, &mut consider);
     place::candidates(question, &mut consider);
+    stripe::candidates(question, &mut consider);
     let (misfit, picture, after) = found?;
     let noise = question.noise_energy().min(after.iter().sum());
     let explains = 1.0 - (after.iter().sum::<f64>() - noise) / (total - noise);

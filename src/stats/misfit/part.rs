@@ -13,7 +13,7 @@ const ALLOWANCE: f64 = 0.1;
 pub struct Share {
     /// 1 if the part is missing once, negative if it is there once too often.
     pub missing: Estimate,
-    /// The share of the difference that this explains, from 0 to 1.
+    /// The share of the difference that this explains, from 0 to 1, without known noise.
     pub explains: f64,
 }
 
@@ -31,15 +31,16 @@ pub fn share_of_part(
 ) -> Option<Share> {
     assert!(image.same_size(reference) && image.same_size(part), "three pictures of one size");
     let weights = question::weights(image, reference, knowledge);
-    let question = Question { image, reference, knowledge, weights: &weights };
+    let question = Question { image, reference, knowledge, weights: &weights, thinned: None };
     // Sums over a unit first: there, noise is small against light.
-    let units = question.fold_units([[0.0f64; 2]; 3], |sums, pixel| {
+    let units = question.fold_units([[0.0f64; 3]; 3], |sums, pixel| {
         let weight = f64::from(weights[pixel]);
         if weight > 0.0 {
             for (c, sum) in sums.iter_mut().enumerate() {
                 let of = |picture: &Image| f64::from(picture.pixels[pixel][c]);
                 sum[0] += weight * of(part);
                 sum[1] += weight * (of(reference) - of(image));
+                sum[2] += knowledge.standard_error.map_or(0.0, |e| (weight * of(e)).powi(2));
             }
         }
     });
@@ -47,16 +48,17 @@ pub fn share_of_part(
         .iter()
         .map(|unit| {
             let mut sums = Sums::NOTHING;
-            unit.iter().for_each(|[part, lacks]| sums.add([*part], *lacks));
+            unit.iter().for_each(|[part, lacks, _]| sums.add([*part], *lacks));
             sums
         })
         .collect();
     let ([share], [error]) = solve(&sums)?;
-    let pairs = || units.iter().flatten();
-    let before: f64 = pairs().map(|[_, lacks]| lacks * lacks).sum();
-    let after: f64 = pairs().map(|[part, lacks]| (lacks - share * part).powi(2)).sum();
+    let parts = || units.iter().flatten();
+    let before: f64 = parts().map(|[_, lacks, _]| lacks * lacks).sum();
+    let after: f64 = parts().map(|[part, lacks, _]| (lacks - share * part).powi(2)).sum();
+    let noise = parts().map(|[_, _, noise]| noise).sum::<f64>().min(after);
     let [missing] = estimates([share], [error], [ALLOWANCE]);
-    Some(Share { missing, explains: 1.0 - after / before })
+    Some(Share { missing, explains: 1.0 - (after - noise) / (before - noise) })
 }
 
 #[cfg(test)]

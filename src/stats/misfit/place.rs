@@ -16,6 +16,9 @@ const COARSEST: usize = 24;
 const STEPS: usize = 12;
 /// A step shorter than this, in pixels at the border of the picture, is the last.
 const CONVERGED: f64 = 1e-4;
+/// Relative slope a pixel from where on an edge says no more for being sharper: what pixels make of
+/// it depends on where they cut it, and no interpolation knows. Else one lamp in view would decide.
+const SHARP: f64 = 0.2;
 /// What interpolation is not exact to, pixels.
 const ALLOWANCE: f64 = 0.01;
 
@@ -44,7 +47,8 @@ pub(super) fn candidates(question: &Question<'_>, consider: &mut dyn FnMut((Misf
     let [image, reference] =
         [question.image, question.reference].map(|image| smoothed(&grey(image)));
     let start = whole_pixels(&image, &reference, question.weights);
-    let seen = Seen { question, image: &image, reference: &reference };
+    let few = question.thin();
+    let seen = Seen { question: &few, image: &image, reference: &reference };
     let Some((place, errors)) = seen.displaced(start) else { return };
     let [right, down] = estimates(place.displaced, errors, [ALLOWANCE; 2]);
     let [across, upright] = place.axes(size);
@@ -157,13 +161,16 @@ impl Seen<'_> {
                 let [above, below] = [moved.values[pixel - width], moved.values[pixel + width]];
                 // Moved to the right, a pixel shows what was to its left.
                 let slope = [left - right, above - below].map(|d| 0.5 * weight * f64::from(d));
+                let trust =
+                    (1.0 + (slope[0].powi(2) + slope[1].powi(2)) / SHARP.powi(2)).sqrt().recip();
+                let slope = slope.map(|slope| trust * slope);
                 let from_middle = [
                     x as f64 - middle[0] - place.displaced[0],
                     y as f64 - middle[1] - place.displaced[1],
                 ];
                 let (a, b) = (self.image.values[pixel], moved.values[pixel]);
                 let difference = f64::from(self.question.difference(pixel, a, b));
-                sums.add(slopes(slope, from_middle), difference);
+                sums.add(slopes(slope, from_middle), trust * difference);
             }
         })
     }

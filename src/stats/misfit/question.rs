@@ -8,6 +8,10 @@ use rayon::prelude::*;
 pub(super) const UNIT: usize = 8;
 /// No difference counts for more than this share of its pixel's light.
 const MOST: f32 = 1.0;
+/// Pixels that are enough for a search.
+const ENOUGH: usize = 1 << 17;
+/// A candidate that leaves more than this of the difference in units enough for a search is none.
+const HOPELESS: f64 = 0.98;
 /// Pixels to each side whose brightness a weight goes by.
 const REACH: usize = 2;
 
@@ -19,6 +23,18 @@ pub(super) struct Question<'a> {
     pub(super) knowledge: &'a Knowledge<'a>,
     /// What makes differences relative: one over brightness, 0 for pixels that do not count.
     pub(super) weights: &'a [f32],
+    /// The same with enough units for a search, and 0 in all others; none of small pictures.
+    pub(super) thinned: Option<&'a [f32]>,
+}
+
+/// The weights of every so many-th unit, along diagonals; none where all units are few enough.
+pub(super) fn thinned(weights: &[f32], width: usize) -> Option<Vec<f32>> {
+    let every = weights.len() / ENOUGH;
+    let kept = |(pixel, weight): (usize, &f32)| {
+        let (column, row) = (pixel % width / UNIT, pixel / width / UNIT);
+        if (column + 3 * row).is_multiple_of(every) { *weight } else { 0.0 }
+    };
+    (every > 1).then(|| weights.par_iter().enumerate().map(kept).collect())
 }
 
 /// The weights of pixels: relative to the brightness of the reference around them. A pixel's own
@@ -54,10 +70,33 @@ impl Question<'_> {
         if weight > 0.0 { (weight * (image - candidate)).clamp(-MOST, MOST) } else { 0.0 }
     }
 
+    /// The same question of units enough for a search.
+    pub(super) fn thin(&self) -> Question<'_> {
+        Question { weights: self.thinned.unwrap_or(self.weights), thinned: None, ..*self }
+    }
+
+    /// Whether a candidate could explain something, judged by units enough for a search.
+    pub(super) fn is_worth_a_look(&self, candidate: impl Fn(usize) -> [f32; 3] + Sync) -> bool {
+        if self.thinned.is_none() {
+            return true;
+        }
+        let few = self.thin();
+        let before: f64 = few.energies(few.reference).iter().sum();
+        few.energies_of(candidate).iter().sum::<f64>() < HOPELESS * before
+    }
+
     /// The squared differences from `candidate`, summed up over each unit.
     pub(super) fn energies(&self, candidate: &Image) -> Vec<f64> {
+        self.energies_of(|pixel| candidate.pixels[pixel])
+    }
+
+    /// The same of a candidate that is not drawn yet.
+    pub(super) fn energies_of(&self, candidate: impl Fn(usize) -> [f32; 3] + Sync) -> Vec<f64> {
         self.each_unit(|pixel| {
-            let (a, b) = (self.image.pixels[pixel], candidate.pixels[pixel]);
+            if self.weights[pixel] <= 0.0 {
+                return 0.0;
+            }
+            let (a, b) = (self.image.pixels[pixel], candidate(pixel));
             let square = |c: usize| f64::from(self.difference(pixel, a[c], b[c])).powi(2);
             square(0) + square(1) + square(2)
         })

@@ -45,10 +45,16 @@ impl Symmetry {
     /// The picture laid so.
     pub fn of(self, image: &Image) -> Image {
         let (width, height) = (image.width, image.height);
-        let at = |x: usize, y: usize| image.pixels[y * width + x];
         let (new_width, new_height) =
             if self.exchanges_axes() { (height, width) } else { (width, height) };
-        Image::from_fn(new_width, new_height, |x, y| match self {
+        Image::from_fn(new_width, new_height, |x, y| self.seen_at(image, x, y))
+    }
+
+    /// What lies in a column and row of the picture laid so.
+    fn seen_at(self, image: &Image, x: usize, y: usize) -> [f32; 3] {
+        let (width, height) = (image.width, image.height);
+        let at = |x: usize, y: usize| image.pixels[y * width + x];
+        match self {
             Self::LeftRight => at(width - 1 - x, y),
             Self::UpsideDown => at(x, height - 1 - y),
             Self::HalfTurn => at(width - 1 - x, height - 1 - y),
@@ -56,7 +62,7 @@ impl Symmetry {
             Self::AntiTransposed => at(width - 1 - y, height - 1 - x),
             Self::QuarterTurn => at(y, height - 1 - x),
             Self::QuarterTurnBack => at(width - 1 - y, x),
-        })
+        }
     }
 }
 
@@ -64,7 +70,12 @@ impl Symmetry {
 pub(super) fn candidates(question: &Question<'_>, consider: &mut dyn FnMut((Misfit, Image))) {
     let is_square = question.width() == question.height();
     for symmetry in Symmetry::ALL {
-        if is_square || !symmetry.exchanges_axes() {
+        let fits_film = is_square || !symmetry.exchanges_axes();
+        let laid = |pixel: usize| {
+            let width = question.width();
+            symmetry.seen_at(question.reference, pixel % width, pixel / width)
+        };
+        if fits_film && question.is_worth_a_look(laid) {
             consider((Misfit::Turned(symmetry), symmetry.of(question.reference)));
         }
     }

@@ -237,3 +237,50 @@ fn sentences_say_how_far_which_way() {
     let alike = Misfit::Brighter([1.01, 1.012, 1.011].map(estimate)).to_string();
     assert_eq!(alike, "1.0110 ± 0.0100 times as bright, alike in all channels");
 }
+
+#[test]
+fn a_stripe_is_found_with_its_ends_and_its_factor() {
+    let striped = |lines: Lines, amount: f32| {
+        let reference = reference();
+        let image = Image::from_fn(WIDTH, HEIGHT, |x, y| {
+            let line = if lines == Lines::Columns { x } else { y };
+            let factor = if (32..40).contains(&line) { amount } else { 1.0 };
+            reference.pixels[y * WIDTH + x].map(|value| factor * value)
+        });
+        noisy(&image, 0.05, 3)
+    };
+    for (lines, amount) in [(Lines::Columns, 1.3), (Lines::Rows, 0.7)] {
+        let fits = fits(&striped(lines, amount));
+        let Misfit::Stripe { lines: found, first, last, factor } = fits[0].misfit else {
+            panic!("{fits:#?}")
+        };
+        assert_eq!((found, first, last), (lines, 32, 39));
+        assert!(factor.allows(f64::from(amount)), "{factor:?}");
+    }
+}
+
+#[test]
+fn large_pictures_are_searched_in_part_and_told_the_same() {
+    let (width, height) = (800, 480);
+    let place = |x: f64, y: f64| [x * 96.0 / 800.0, y * 72.0 / 480.0];
+    let large = |change: &dyn Fn([f32; 3]) -> [f32; 3]| {
+        let picture = seen(width, height, place);
+        Image { pixels: picture.pixels.iter().map(|pixel| change(*pixel)).collect(), ..picture }
+    };
+    let reference = large(&|pixel| pixel);
+    let only = |image: &Image| {
+        let fits = explain(image, &reference, &Knowledge::default());
+        assert_eq!(fits.len(), 1, "{fits:#?}");
+        fits[0].misfit
+    };
+    let raised = noisy(&large(&|pixel| pixel.map(|value| value.powf(0.6))), 0.05, 1);
+    let Misfit::Power(power) = only(&raised) else { panic!("a power") };
+    assert!(power.allows(0.6), "{power:?}");
+    let mirrored = noisy(&Symmetry::LeftRight.of(&reference), 0.05, 2);
+    assert_eq!(only(&mirrored), Misfit::Turned(Symmetry::LeftRight));
+    let moved = seen(width, height, |x, y| place(x - 0.5, y));
+    let Misfit::Displaced { right, down } = only(&noisy(&moved, 0.05, 3)) else {
+        panic!("displaced")
+    };
+    assert!((right.value - 0.5).abs() < 0.02 && down.value.abs() < 0.02, "{right:?} {down:?}");
+}

@@ -1,6 +1,6 @@
 //! What was found, as sentences.
 
-use super::{Fit, Misfit, Symmetry};
+use super::{Fit, Lines, Misfit, Symmetry};
 use std::fmt;
 
 impl fmt::Display for Symmetry {
@@ -37,6 +37,18 @@ impl fmt::Display for Misfit {
                 displaced(f, [right.value, down.value])?;
                 let half = |ends: [f64; 2]| 0.5 * (ends[1] - ends[0]);
                 write!(f, ", ± {:.3} and {:.3}", half(right.interval), half(down.interval))
+            }
+            Self::Stripe { lines, first, last, factor } => {
+                let lines = match lines {
+                    Lines::Columns => "columns",
+                    Lines::Rows => "rows",
+                };
+                let half = factor.interval[1] - factor.value;
+                write!(
+                    f,
+                    "{:.3} ± {half:.3} times as bright in {lines} {first} to {last}",
+                    factor.value
+                )
             }
             Self::Magnified { across, upright, right, down } => {
                 write!(f, "magnified by {:.4} × {:.4}", across.value, upright.value)?;

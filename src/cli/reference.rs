@@ -1,11 +1,13 @@
 //! `furnace reference`: makes, verifies and lists Mitsuba references.
 
 use super::{Answer, ExitCode, Failure, ProjectArguments};
-use crate::reference::{MakeOptions, Progress, References, State, VerifyOptions};
+use crate::reference::{Made, MakeOptions, Progress, References, State, VerifyOptions};
 use crate::scene::Library;
 use crate::stats::Verdict;
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::ops::Range;
+use std::path::PathBuf;
 
 /// What `furnace reference` understands.
 #[derive(Clone, Debug, Args)]
@@ -25,6 +27,18 @@ enum Verb {
         /// Make it anew although there is one.
         #[arg(long)]
         replace: bool,
+        /// Add the passes that the one there is lacks to be as the recipe, --passes or --spp say.
+        #[arg(long, conflicts_with = "replace")]
+        extend: bool,
+        /// Render the passes of these seeds only, the last left out, and leave their sums for --merge.
+        #[arg(long, value_name = "A..B", value_parser = range, conflicts_with = "extend")]
+        seeds: Option<Range<u32>>,
+        /// Add up the sums in these files, and those of the reference there is.
+        #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["extend", "seeds"])]
+        merge: Vec<PathBuf>,
+        /// Samples a pixel in all, instead of the recipe's; rounded up to whole passes.
+        #[arg(long, value_name = "N", conflicts_with = "passes")]
+        spp: Option<u32>,
         /// Passes, instead of the recipe's.
         #[arg(long, value_name = "N")]
         passes: Option<u32>,
@@ -60,9 +74,23 @@ pub fn reference(arguments: &ReferenceArguments) -> Answer {
     let project = arguments.project.find()?;
     let references = References::new(project.references(), Library::new(project.scenes()));
     match &arguments.verb {
-        Verb::Make { name, replace, passes, samples_per_pass, mitsuba } => {
+        Verb::Make {
+            name,
+            replace,
+            extend,
+            seeds,
+            merge,
+            spp,
+            passes,
+            samples_per_pass,
+            mitsuba,
+        } => {
             let options = MakeOptions {
                 replace: *replace,
+                extend: *extend,
+                seeds: seeds.clone(),
+                merge: merge.clone(),
+                samples: *spp,
                 create_environment: mitsuba.create_environment,
                 passes: *passes,
                 samples_per_pass: *samples_per_pass,
@@ -84,11 +112,16 @@ pub fn reference(arguments: &ReferenceArguments) -> Answer {
 fn make(references: &References, name: &str, options: &MakeOptions) -> Answer {
     let display = Display::new();
     let made = references.make(name, options, &mut |progress| display.show(progress));
-    let made = made.map_err(Failure::broken)?;
-    println!(
-        "made {name}: median relative standard error {:.2} %; look at references/{name}, then commit it",
-        100.0 * made.provenance.median_relative_error
-    );
+    match made.map_err(Failure::broken)? {
+        Made::Reference(made) => println!(
+            "made {name}: median relative standard error {:.2} %; look at references/{name}, then commit it",
+            100.0 * made.provenance.median_relative_error
+        ),
+        Made::Part(path) => println!(
+            "made a part of {name}; `furnace reference make {name} --merge {}` adds it",
+            path.display()
+        ),
+    }
     Ok(ExitCode::Good)
 }
 
@@ -131,6 +164,15 @@ fn list(references: &References) -> Answer {
         println!("{:26}  {state}", entry.name);
     }
     Ok(if all_good { ExitCode::Good } else { ExitCode::Broken })
+}
+
+/// A range like 0..64.
+fn range(text: &str) -> Result<Range<u32>, String> {
+    let parsed = text.split_once("..").and_then(|(start, end)| {
+        let [start, end] = [start, end].map(|number| number.trim().parse().ok());
+        Some(start?..end?)
+    });
+    parsed.ok_or_else(|| "write 0..64 for the seeds from 0 to 63".to_owned())
 }
 
 /// Progress on standard error: a bar while passes are rendered, a line for all else.

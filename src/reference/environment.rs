@@ -56,7 +56,7 @@ pub(super) fn mitsuba(
     let mut failure = None;
     for variant in candidates(asked) {
         progress(Progress::TryingVariant { variant: variant.to_string() });
-        let mitsuba = Mitsuba { python: python.clone(), variant };
+        let mut mitsuba = Mitsuba { python: python.clone(), variant, version: String::new() };
         // In a process of its own: an LLVM that is too old aborts.
         match mitsuba.probe(job) {
             Ok(()) => return Ok(mitsuba),

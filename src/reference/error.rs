@@ -42,8 +42,23 @@ pub enum MakeError {
         film: [u32; 2],
     },
     /// There is one already.
-    #[error("reference `{0}` exists already\nhint: `--replace` makes it anew")]
+    #[error(
+        "reference `{0}` exists already\nhint: `--extend` adds passes, `--replace` makes it anew"
+    )]
     Exists(String),
+    /// What its passes add up to is not known here.
+    #[error(
+        "the sums of the passes of `{name}` are not in `{}`: {problem}\n\
+         hint: `--replace` renders all passes, and keeps their sums", .path.display()
+    )]
+    NoSums {
+        /// The reference.
+        name: String,
+        /// Where they should be.
+        path: PathBuf,
+        /// Why they are not.
+        problem: String,
+    },
     /// The reference to verify is not there.
     #[error(transparent)]
     Reference(#[from] ReferenceError),

@@ -18,6 +18,8 @@ const LAST_WORDS: u64 = 2_000;
 pub(super) struct Mitsuba {
     pub python: PathBuf,
     pub variant: Variant,
+    /// Its version; empty until it has been probed.
+    pub version: String,
 }
 
 /// A back end of Mitsuba.
@@ -77,11 +79,11 @@ impl Job {
 
 impl Mitsuba {
     /// Whether this back end renders the scene at all, found out with a pass of one sample.
-    pub fn probe(&self, job: &Job) -> Result<(), MakeError> {
+    pub fn probe(&mut self, job: &Job) -> Result<(), MakeError> {
         const SEED: u32 = 0;
         let folder =
             tempfile::tempdir().map_err(|problem| MakeError::file(&job.folder, &problem))?;
-        self.run(job, folder.path(), 1, &[SEED], &mut |_| ())?;
+        self.version = self.run(job, folder.path(), 1, &[SEED], &mut |_| ())?.version;
         Ok(())
     }
 
@@ -193,7 +195,8 @@ mod tests {
         let (_folder, job) = job();
         std::fs::write(job.pass_path(0), [0; 24]).unwrap();
         let variant = Variant { name: "scalar_rgb".to_owned(), llvm: None };
-        let mitsuba = Mitsuba { python: "no-such-python".into(), variant };
+        let python = "no-such-python".into();
+        let mitsuba = Mitsuba { python, variant, version: String::new() };
         let mut heard = Vec::new();
         mitsuba.render(&job, &[0], &mut |progress| heard.push(progress)).unwrap();
         assert_eq!(heard, [Progress::Rendering { done: 1, of: 1 }]);

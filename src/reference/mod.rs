@@ -3,14 +3,15 @@
 //! What to make is written in `references/recipes.toml`: the scene, the last bounce, how many
 //! passes of how many samples. [`References::make`] renders those passes in a process of Mitsuba's
 //! own, each with its own seed and into its own file, so that a run which is killed goes on where
-//! it was; then it takes mean and variance over the passes in double precision. Why passes: Mitsuba
+//! it was; then it adds the passes and their squares up, exactly, and takes mean and variance. The
+//! sums stay in `references/.work`: by them a reference is extended by more passes, or merged from
+//! parts that several machines have rendered. Why passes: Mitsuba
 //! adds up in single precision, which drifts beyond 2⁸ samples, and its own second moments are of
 //! another colour space.
 //!
 //! Not here: reading a reference in order to compare with it (`scene::reference`), and printing:
 //! whoever asks hears of [`Progress`].
 
-mod average;
 mod date;
 mod environment;
 mod error;
@@ -18,12 +19,16 @@ mod list;
 mod make;
 mod mitsuba;
 mod recipe;
+mod seeds;
+mod shard;
+mod store;
+mod sums;
 mod verify;
 
 pub use crate::scene::reference::{Provenance, Reference, ReferenceError};
 pub use error::MakeError;
 pub use list::{Listed, State};
-pub use make::MakeOptions;
+pub use make::{Made, MakeOptions};
 pub use recipe::Recipe;
 pub use verify::{Verification, VerifyOptions};
 

@@ -2,6 +2,7 @@
 
 use crate::scene::Overrides;
 use serde::{Deserialize, Serialize};
+use std::fmt::Write;
 
 /// What `provenance.toml` says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,8 +28,8 @@ pub struct Provenance {
     pub passes: u32,
     /// Samples a pixel in each.
     pub samples_per_pass: u32,
-    /// First and last seed; every pass has one of its own.
-    pub seeds: [u32; 2],
+    /// First and last seed of each unbroken range; every pass has a seed of its own.
+    pub seeds: Vec<[u32; 2]>,
     /// Standard error over mean, the middle one of all pixels and channels that are not black.
     pub median_relative_error: f64,
     /// The same, exceeded by one value in a hundred.
@@ -50,5 +51,34 @@ impl Provenance {
     /// Samples a pixel in all.
     pub fn samples_per_pixel(&self) -> u64 {
         u64::from(self.passes) * u64::from(self.samples_per_pass)
+    }
+
+    /// What the header of `reference.exr` says, so that a picture on its own can be made again.
+    pub fn header(&self) -> String {
+        let mut text = format!(
+            "furnace {}\nscene {} {}\n",
+            env!("CARGO_PKG_VERSION"),
+            self.scene,
+            self.scene_hash
+        );
+        for (name, value) in &self.parameters {
+            // Writing into a string does not fail.
+            let _ = writeln!(text, "parameter {name} = {value}");
+        }
+        let [first, last] = self.bounces;
+        let seeds: Vec<String> =
+            self.seeds.iter().map(|[first, last]| format!("{first} to {last}")).collect();
+        let _ = write!(
+            text,
+            "bounces {first} to {last}\n{} {}, {}, {}\n{} passes of {} samples a pixel, seeds {}",
+            self.renderer,
+            self.version,
+            self.variant,
+            self.sampler,
+            self.passes,
+            self.samples_per_pass,
+            seeds.join(" and ")
+        );
+        text
     }
 }

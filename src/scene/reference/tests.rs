@@ -30,7 +30,7 @@ fn written(width: usize, height: usize, mean: f32) -> TempDir {
         sampler: "multijitter".to_owned(),
         passes: 64,
         samples_per_pass: 64,
-        seeds: [0, 63],
+        seeds: vec![[0, 63]],
         median_relative_error: 0.125,
         high_relative_error: 0.125,
         picture_hash: fingerprint(&std::fs::read(&path).unwrap()),
@@ -120,4 +120,18 @@ fn provenance_with_an_unknown_word_is_damaged() {
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::write(&path, format!("samples = 3\n{text}")).unwrap();
     assert!(complaint(&folder).contains("unknown field `samples`"));
+}
+
+#[test]
+fn a_picture_says_in_its_header_how_to_make_it_again() {
+    let folder = written(32, 64, 0.75);
+    let mut provenance = read_provenance(folder.path(), "room").unwrap();
+    provenance.seeds = vec![[0, 31], [40, 71]];
+    let header = provenance.header();
+    let lines: Vec<&str> = header.lines().collect();
+    assert!(lines[0].starts_with("furnace "), "{header}");
+    assert_eq!(lines[1], format!("scene room {}", provenance.scene_hash));
+    assert_eq!(lines[2], "bounces 0 to 5");
+    assert_eq!(lines[3], "mitsuba 3.9.1, llvm_ad_rgb, multijitter");
+    assert_eq!(lines[4], "64 passes of 64 samples a pixel, seeds 0 to 31 and 40 to 71");
 }

@@ -1,0 +1,66 @@
+//! How a reference is made where the recipe does not say, or says otherwise.
+
+use super::MakeError;
+use super::recipe::Recipe;
+use std::ops::Range;
+use std::path::PathBuf;
+
+/// How to make a reference, where it differs from the recipe.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MakeOptions {
+    /// Make it even if there is one already.
+    pub replace: bool,
+    /// Add the passes that the one there is lacks.
+    pub extend: bool,
+    /// Render these seeds only, and leave their sums for a merge.
+    pub seeds: Option<Range<u32>>,
+    /// Files of sums: render nothing, and add these up, with those of the reference there is.
+    pub merge: Vec<PathBuf>,
+    /// Install Mitsuba into `references/.venv` if it is not there.
+    pub create_environment: bool,
+    /// Passes, instead of the recipe's.
+    pub passes: Option<u32>,
+    /// Samples a pixel in all passes together, instead of the recipe's, rounded up to whole passes.
+    pub samples: Option<u32>,
+    /// Samples a pixel in each pass, instead of the recipe's.
+    pub samples_per_pass: Option<u32>,
+    /// Mitsuba's back end, instead of the fastest that works.
+    pub variant: Option<String>,
+}
+
+impl MakeOptions {
+    /// The recipe with what is different here.
+    pub(super) fn recipe(&self, mut recipe: Recipe) -> Result<Recipe, MakeError> {
+        recipe.samples_per_pass = self.samples_per_pass.unwrap_or(recipe.samples_per_pass);
+        let enough = self.samples.map(|samples| samples.div_ceil(recipe.samples_per_pass.max(1)));
+        recipe.passes = self.passes.or(enough).unwrap_or(recipe.passes);
+        recipe.check().map_err(MakeError::Options)?;
+        Ok(recipe)
+    }
+
+    /// The command line that says the same.
+    pub(super) fn command(&self, name: &str) -> String {
+        let mut command = format!("furnace reference make {name}");
+        if self.extend {
+            command += " --extend";
+        }
+        for path in &self.merge {
+            let file = path.file_name().unwrap_or_default().to_string_lossy();
+            command += &format!(" --merge {file}");
+        }
+        let numbers = [
+            ("passes", self.passes),
+            ("spp", self.samples),
+            ("samples-per-pass", self.samples_per_pass),
+        ];
+        for (flag, number) in numbers {
+            if let Some(number) = number {
+                command += &format!(" --{flag} {number}");
+            }
+        }
+        if let Some(variant) = &self.variant {
+            command += &format!(" --variant {variant}");
+        }
+        command
+    }
+}

@@ -1,0 +1,149 @@
+//! Passes that have been added up, in a file: what references are merged from and extended by.
+//!
+//! A file begins with a line of its own and a table that says what the passes are of; after a line
+//! of three dashes come Σx and Σx² of every value, each in two doubles, little-endian.
+
+use super::MakeError;
+use super::seeds::Seeds;
+use super::sums::Sums;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+const FIRST_LINE: &str = "furnace-sums 1\n";
+const LAST_LINE: &str = "---\n";
+
+/// What passes are of. Only those alike in all of this are added up.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(super) struct About {
+    pub scene: String,
+    pub scene_hash: String,
+    pub bounces: [u32; 2],
+    pub film: [u32; 2],
+    pub samples_per_pass: u32,
+    pub sampler: String,
+    pub version: String,
+    pub variant: String,
+}
+
+/// Passes that have been added up.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Shard {
+    pub about: About,
+    pub seeds: Seeds,
+    pub cpu_seconds: f64,
+    pub sums: Sums,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Head {
+    seeds: Vec<[u32; 2]>,
+    cpu_seconds: f64,
+    about: About,
+}
+
+impl Shard {
+    /// Takes in passes of the same kind with other seeds, from the file `path` if they are refused.
+    pub fn merge(&mut self, other: &Self, path: &Path) -> Result<(), MakeError> {
+        let refused = |problem: String| Err(MakeError::file(path, &problem));
+        if let Some(seed) = self.seeds.first_in_both(&other.seeds) {
+            return refused(format!("seed {seed} is in the sums already, and counts once"));
+        }
+        if self.about != other.about {
+            return refused(format!(
+                "its passes are of another kind\n  here  {:?}\n  there {:?}",
+                self.about, other.about
+            ));
+        }
+        self.seeds.add(&other.seeds);
+        self.cpu_seconds += other.cpu_seconds;
+        self.sums.merge(&other.sums);
+        Ok(())
+    }
+
+    /// Writes a file, whole or not at all.
+    pub fn write(&self, path: &Path) -> Result<(), MakeError> {
+        let failed = |problem: &dyn std::fmt::Display| MakeError::file(path, problem);
+        let head = Head {
+            seeds: self.seeds.ranges().to_vec(),
+            cpu_seconds: self.cpu_seconds,
+            about: self.about.clone(),
+        };
+        let head = toml::to_string(&head).map_err(|problem| failed(&problem))?;
+        let content =
+            [FIRST_LINE.as_bytes(), head.as_bytes(), LAST_LINE.as_bytes(), self.sums.bytes()];
+        let beside = path.with_extension("sums.tmp");
+        std::fs::write(&beside, content.concat()).map_err(|problem| failed(&problem))?;
+        std::fs::rename(&beside, path).map_err(|problem| failed(&problem))
+    }
+
+    /// Reads a file that [`Shard::write`] wrote.
+    pub fn read(path: &Path) -> Result<Self, MakeError> {
+        let failed = |problem: &dyn std::fmt::Display| MakeError::file(path, problem);
+        let content = std::fs::read(path).map_err(|problem| failed(&problem))?;
+        Self::parsed(&content).ok_or_else(|| failed(&"these are no sums of passes, or cut off"))
+    }
+
+    fn parsed(content: &[u8]) -> Option<Self> {
+        let rest = content.strip_prefix(FIRST_LINE.as_bytes())?;
+        let end = LAST_LINE.len();
+        let at = rest.windows(end).position(|bytes| bytes == LAST_LINE.as_bytes())?;
+        let head: Head = toml::from_str(std::str::from_utf8(&rest[..at]).ok()?).ok()?;
+        let seeds = Seeds::from_ranges(&head.seeds)?;
+        let film = head.about.film.map(|pixels| pixels as usize);
+        let sums = Sums::from_bytes(film, seeds.count(), &rest[at + end..])?;
+        Some(Self { about: head.about, seeds, cpu_seconds: head.cpu_seconds, sums })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::Image;
+
+    fn shard(first: u32, last: u32) -> Shard {
+        let about = About {
+            scene: "room".to_owned(),
+            scene_hash: "0123".to_owned(),
+            bounces: [0, 2],
+            film: [32, 32],
+            samples_per_pass: 8,
+            sampler: "multijitter".to_owned(),
+            version: "3.9.1".to_owned(),
+            variant: "scalar_rgb".to_owned(),
+        };
+        let mut sums = Sums::new(32, 32);
+        (first..=last).for_each(|seed| sums.push(&Image::new(32, 32, [seed as f32 / 7.0; 3])));
+        let seeds = Seeds::from_ranges(&[[first, last]]).unwrap();
+        Shard { about, seeds, cpu_seconds: 0.5, sums }
+    }
+
+    #[test]
+    fn a_shard_comes_back_from_its_file_and_a_part_of_the_file_does_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.sums");
+        shard(3, 9).write(&path).unwrap();
+        assert_eq!(Shard::read(&path).unwrap(), shard(3, 9));
+        let content = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &content[..content.len() - 1]).unwrap();
+        let message = Shard::read(&path).unwrap_err().to_string();
+        assert!(message.contains("no sums of passes, or cut off"), "{message}");
+    }
+
+    #[test]
+    fn merged_shards_are_the_whole_and_seeds_count_once() {
+        let mut merged = shard(0, 3);
+        merged.merge(&shard(8, 15), Path::new("b")).unwrap();
+        merged.merge(&shard(4, 7), Path::new("c")).unwrap();
+        assert_eq!(merged.sums, shard(0, 15).sums);
+        assert_eq!(merged.seeds.ranges(), [[0, 15]]);
+        let message = merged.merge(&shard(15, 20), Path::new("d")).unwrap_err().to_string();
+        assert!(message.contains("`d`: seed 15 is in the sums already"), "{message}");
+        let mut other = shard(20, 21);
+        other.about.version = "3.9.2".to_owned();
+        let message = merged.merge(&other, Path::new("e")).unwrap_err().to_string();
+        assert!(message.contains("of another kind"), "{message}");
+        assert_eq!(merged.seeds.count(), 16);
+    }
+}

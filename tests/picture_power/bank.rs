@@ -1,7 +1,7 @@
 //! Renders to draw from, and a core that answers with them.
 
 use super::mistake::Mistake;
-use super::{SAMPLES, SCENE};
+use super::{LAST, SAMPLES, SCENE};
 use furnace::contract::{
     Acceleration, BuildStats, BuiltScene, Core, CoreInfo, Film, IntegratorSettings, RenderSettings,
     Result,
@@ -12,6 +12,10 @@ use furnace::math::rng::{Seed, uniform};
 use furnace::project::Project;
 use furnace::scene::{Camera, Library, Overrides, SceneDescription};
 use std::sync::Arc;
+
+/// Kinds of pictures, after those of each bounce alone.
+const SINGLE: usize = LAST as usize + 1;
+const WHOLE: usize = LAST as usize + 2;
 
 /// Renders with the built-in core.
 pub struct Studio {
@@ -73,7 +77,7 @@ impl Studio {
     /// of fine pixels left out.
     fn displaced(&mut self, count: usize) -> Vec<Image> {
         let camera = Camera { film: self.camera.film.map(|side| 2 * side), ..self.camera };
-        let fine = self.shoot_with(&camera, "displaced", count, SAMPLES / 4, [0, 5]);
+        let fine = self.shoot_with(&camera, "displaced", count, SAMPLES / 4, [0, LAST]);
         fine.iter().map(half_off).collect()
     }
 
@@ -82,7 +86,7 @@ impl Studio {
         let mean = |run: usize| {
             let mut sum = Image::new(width, height, [0.0; 3]);
             for single in
-                self.shoot(&format!("clamped {run}"), SAMPLES as usize, 1, [0, 5]).iter_mut()
+                self.shoot(&format!("clamped {run}"), SAMPLES as usize, 1, [0, LAST]).iter_mut()
             {
                 clamp(single);
                 for (sum, pixel) in sum.pixels.iter_mut().zip(&single.pixels) {
@@ -129,12 +133,12 @@ impl Bank {
         let count = right.len();
         let mut runs = match mistake {
             Mistake::HalfPixel => studio.displaced(count),
-            Mistake::MissingBounce => studio.shoot("short", count, SAMPLES, [0, 4]),
+            Mistake::MissingBounce => studio.shoot("short", count, SAMPLES, [0, LAST - 1]),
             Mistake::Clamped => studio.clamped(count, [right[0].width, right[0].height]),
             _ => right.to_vec(),
         };
         runs.iter_mut().for_each(|run| mistake.spoil(run));
-        let mut singles = studio.shoot("singles", 16, 1, [0, 5]);
+        let mut singles = studio.shoot("singles", 16, 1, [0, LAST]);
         for single in &mut singles {
             mistake.spoil(single);
             if mistake == Mistake::Clamped {
@@ -166,7 +170,7 @@ pub struct Teller<'a> {
 pub struct Told<'a> {
     bank: &'a Bank,
     order: Vec<usize>,
-    asked: [usize; 8],
+    asked: [usize; LAST as usize + 3],
 }
 
 impl Core for Teller<'_> {
@@ -179,7 +183,11 @@ impl Core for Teller<'_> {
         _: &SceneDescription,
         _: Acceleration,
     ) -> Result<Box<dyn BuiltScene + '_>> {
-        Ok(Box::new(Told { bank: self.bank, order: self.order.clone(), asked: [0; 8] }))
+        Ok(Box::new(Told {
+            bank: self.bank,
+            order: self.order.clone(),
+            asked: [0; LAST as usize + 3],
+        }))
     }
 }
 
@@ -192,13 +200,13 @@ impl BuiltScene for Told<'_> {
         let (first, last) =
             (*settings.integrator.bounces.start(), *settings.integrator.bounces.end());
         let (kind, pictures) = match (settings.samples_per_pixel, first == last) {
-            (1, _) => (6, &self.bank.singles),
+            (1, _) => (SINGLE, &self.bank.singles),
             (_, true) => (last as usize, &self.bank.alone[last as usize]),
-            _ => (7, &self.bank.runs),
+            _ => (WHOLE, &self.bank.runs),
         };
         let asked = self.asked[kind];
         self.asked[kind] += 1;
-        let image = if kind == 7 { &pictures[self.order[asked]] } else { &pictures[asked] };
+        let image = if kind == WHOLE { &pictures[self.order[asked]] } else { &pictures[asked] };
         film.width = settings.width;
         film.height = settings.height;
         film.pixels.clone_from(&image.pixels);

@@ -7,12 +7,16 @@
 //!
 //! writes `docs/simulations/picture-power.md`. The runs of a comparison are drawn from a bank of
 //! independent renders by the built-in core, without replacement, so that no verdict uses one twice;
-//! different comparisons share the bank. `POWER_TIMES` says how often, `POWER_BANK` how many renders.
+//! different comparisons share the bank. `POWER_TIMES` says how often, `POWER_BANK` how many
+//! renders, `POWER_TOLD` for how many the message is read and the metrics are measured. What is
+//! known of each mistake is kept below `target/tmp`, so that the same program goes on where it was
+//! cut off.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod bank;
 mod mistake;
 mod rules;
+mod tally;
 
 use bank::{Bank, Studio, Teller};
 use furnace::case;
@@ -23,11 +27,16 @@ use furnace::run::{Outcome, Plan, Request, attempt};
 use furnace::scene::reference::load;
 use furnace::stats::Budget;
 use mistake::Mistake;
-use rules::{Row, Scores, deviations, energy, scores, table, worse};
+use rayon::prelude::*;
+use rules::{Scores, deviations, energy, scores};
 use std::sync::Arc;
+use tally::{Tally, table};
 
-const CASE: &str = "cornell-diffuse-spheres-matches-mitsuba";
+const CASE: &str = "cornell-six-bounces-match-mitsuba";
+const REFERENCE: &str = "cornell-six-bounces";
 const SCENE: &str = "cornell-diffuse-spheres";
+/// The last bounce of the case.
+const LAST: u32 = 6;
 /// Samples a pixel of each run, and what has to be seen: those of the case.
 const SAMPLES: u32 = 12;
 const DETECTS: f64 = 0.01;
@@ -43,7 +52,7 @@ fn number(name: &str, otherwise: usize) -> usize {
 fn a_thousand_comparisons_of_right_and_wrong_pictures() {
     let project = Project::at(env!("CARGO_MANIFEST_DIR"));
     let mut studio = Studio::new(&project);
-    let reference = load(&project.references(), SCENE, &studio.scene).unwrap();
+    let reference = load(&project.references(), REFERENCE, &studio.scene).unwrap();
     let cases = case::load_all(&project.cases()).unwrap();
     let request = Request {
         cores: vec!["builtin".parse().unwrap()],
@@ -57,62 +66,44 @@ fn a_thousand_comparisons_of_right_and_wrong_pictures() {
     let (bench, case) = (plan.bench(), Arc::clone(&plan.trials[0].case));
     let times = number("POWER_TIMES", 1000);
     let told = number("POWER_TOLD", 100).min(times);
-    let right = studio.shoot("right", number("POWER_BANK", 240), SAMPLES, [0, 5]);
+    let right = studio.shoot("right", number("POWER_BANK", 240), SAMPLES, [0, LAST]);
     let alone: Vec<_> =
-        (0..=5).map(|bounce| studio.shoot("alone", 8, SAMPLES, [bounce; 2])).collect();
+        (0..=LAST).map(|bounce| studio.shoot("alone", 8, SAMPLES, [bounce; 2])).collect();
     let deviations = deviations(&right);
-    let share = energy(&alone[5]) / energy(&right);
-    let mut rows = Vec::new();
-    let mut best: Vec<Vec<f64>> = vec![Vec::new(); METRICS.len()];
-    for mistake in Mistake::ALL {
+    let share = energy(&alone[LAST as usize]) / energy(&right);
+    let tally = |mistake: Mistake| {
         let bank = Bank::of(mistake, &mut studio, &right, &alone);
-        let info = studio.core.info();
         let all: Vec<Scores> = (0..times)
+            .into_par_iter()
             .map(|time| {
                 scores(&bank, &bank.order(time as u64), &reference, &deviations, time < told)
             })
             .collect();
-        let named = (0..told)
-            .filter(|time| {
-                let order = bank.order(*time as u64);
-                let mut core = Teller { bank: &bank, info: info.clone(), order };
-                let trial = attempt(&bench, &case, &mut core);
-                let Outcome::Judged { finding, .. } = trial.outcome else { return false };
-                let clues = finding.clues.first().map_or("", |clue| clue.cause.as_str());
-                if *time == 0 {
-                    println!("{}: {}\n  {:?}", mistake.words(), finding.statement, finding.clues);
-                }
-                clues == mistake.name() || finding.statement.contains(mistake.name())
-            })
-            .count();
-        let metrics: Vec<Vec<f64>> = (0..METRICS.len())
-            .map(|metric| all.iter().filter_map(|s| s.metrics.get(metric).copied()).collect())
-            .collect();
-        if mistake == Mistake::None {
-            best.clone_from(&metrics);
-        }
-        rows.push(Row {
-            mistake,
+        let named = |time: &usize| {
+            let order = bank.order(*time as u64);
+            let mut core = Teller { bank: &bank, info: studio.core.info(), order };
+            let trial = attempt(&bench, &case, &mut core);
+            let Outcome::Judged { finding, .. } = trial.outcome else { return false };
+            let first = finding.clues.first().map_or("", |clue| clue.cause.as_str());
+            let is_named = mistake.is_named_by(first, &finding.statement);
+            if *time == 0 || !is_named {
+                println!("{}: {}\n  {:?}", mistake.words(), finding.statement, finding.clues);
+            }
+            is_named
+        };
+        Tally {
             fails: all.iter().filter(|score| score.fails).count(),
-            named,
+            named: (0..told).filter(named).count(),
             mitsuba: all.iter().filter(|score| score.mitsuba).count(),
-            metrics: metrics
-                .iter()
-                .zip(&best)
-                .zip(METRICS)
-                .map(|((wrong, right), metric)| worse(wrong, right, metric.of_equals() == 0.0))
+            metrics: (0..METRICS.len())
+                .map(|metric| all.iter().filter_map(|s| s.metrics.get(metric).copied()).collect())
                 .collect(),
-        });
-        let row = rows.last().unwrap();
-        println!(
-            "{:30} failed {} of {times}, named {} of {told}",
-            mistake.words(),
-            row.fails,
-            row.named
-        );
-    }
-    let text = table(&rows, times, told, share);
+        }
+    };
+    let key = format!("{times}-{told}-{}", right.len());
+    let tallies: Vec<Tally> = tally::kept(&key, tally);
+    let text = table(&tallies, times, told, share);
     std::fs::write("docs/simulations/picture-power.md", &text).unwrap();
-    assert_eq!(rows[0].fails, 0);
-    assert!(rows[1..].iter().all(|row| 1000 * row.fails >= 999 * times), "{text}");
+    assert_eq!(tallies[0].fails, 0);
+    assert!(tallies[1..].iter().all(|tally| 1000 * tally.fails >= 999 * times), "{text}");
 }

@@ -35,22 +35,24 @@ impl Mistake {
             Self::DeadPixels => "20 dead pixels",
             Self::HalfPixel => "displaced by half a pixel",
             Self::GammaTwice => "gamma applied once too often",
-            Self::MissingBounce => "the fifth bounce is missing",
+            Self::MissingBounce => "the sixth bounce is missing",
             Self::Clamped => "samples clamped at 10, those of the lamp of 12 too",
         }
     }
 
-    /// What the message has to say.
-    pub const fn name(self) -> &'static str {
+    /// Whether the first cause of a failure, or else its message, names the mistake.
+    pub fn is_named_by(self, cause: &str, statement: &str) -> bool {
         match self {
-            Self::None => "agrees with the reference",
-            Self::OnePercent => "picture-factor",
-            Self::Columns => "pixel (",
-            Self::DeadPixels => "pixels stay black in every run",
-            Self::HalfPixel => "half-a-pixel-off",
-            Self::GammaTwice => "gamma-in-film",
-            Self::MissingBounce => "bounce-missing",
-            Self::Clamped => "samples-clamped",
+            Self::None => statement.contains("agrees with the reference"),
+            Self::OnePercent => cause == "picture-factor",
+            Self::Columns => cause == "picture-stripe" && statement.contains("columns 48 to 63"),
+            Self::DeadPixels => statement.contains("pixels stay black in every run"),
+            Self::HalfPixel => cause == "half-a-pixel-off",
+            Self::GammaTwice => cause == "gamma-in-film",
+            Self::MissingBounce => {
+                cause == "bounce-missing" && statement.contains("what is missing is bounce 6")
+            }
+            Self::Clamped => cause == "samples-clamped",
         }
     }
 

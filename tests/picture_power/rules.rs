@@ -1,14 +1,12 @@
-//! What each rule says of a comparison, and the table of it all.
+//! What each rule says of a comparison.
 
 use super::bank::Bank;
-use super::mistake::Mistake;
-use super::{DETECTS, SAMPLES, SCENE, SCREEN_RUNS};
+use super::{DETECTS, SCREEN_RUNS};
 use furnace::image::metric::METRICS;
 use furnace::image::pair::Pair;
 use furnace::image::{Image, luminance};
 use furnace::scene::reference::Reference;
 use furnace::stats::{self, ImageEffort, Verdict, judge_image, normal_upper};
-use std::fmt::Write;
 
 /// What each rule says of one comparison.
 pub struct Scores {
@@ -83,52 +81,7 @@ pub fn mitsuba_fails(mean: &Image, deviations: &[f64], reference: &Reference) ->
     outside as f64 > 0.0025 * pixels
 }
 
-pub struct Row {
-    pub mistake: Mistake,
-    pub fails: usize,
-    pub named: usize,
-    pub mitsuba: usize,
-    pub metrics: Vec<usize>,
-}
-
-/// How many are worse than the worst of the right ones.
-pub fn worse(wrong: &[f64], right: &[f64], larger_is_worse: bool) -> usize {
-    let worst = |a: f64, b: f64| if (b > a) == larger_is_worse { b } else { a };
-    let limit = right.iter().copied().reduce(worst).unwrap();
-    wrong.iter().filter(|value| !(**value == limit || worst(**value, limit) == limit)).count()
-}
-
 pub fn energy(pictures: &[Image]) -> f64 {
     let of = |image: &Image| image.pixels.iter().map(|p| luminance(*p)).sum::<f64>();
     pictures.iter().map(of).sum::<f64>() / pictures.len() as f64
-}
-
-pub fn table(rows: &[Row], times: usize, told: usize, share: f64) -> String {
-    let mut text = format!(
-        "# What the picture test sees\n\n\
-         Written by `cargo test --test picture_power -- --ignored --nocapture`. Scene `{SCENE}` at 128 × 96, {SAMPLES} samples \
-         a pixel and run, the\nbudget of its case: a screen of 16 runs, two confirmations of 32. The fifth bounce has {:.2} % \
-         of the light.\n\n\
-         `furnace`: failed of {times}. `named`: the message of the case names the mistake, of {told}. `Mitsuba`: the rule of \
-         its render tests, of {times}.\nThe metrics: of {told}, how many are worse than the worst of {told} right pictures, \
-         which is the most that any threshold\non them could tell without ever blaming a right core. Mitsuba's rule and the \
-         metrics see the mean of the 16 runs of the screen.\n\n| mistake | furnace | named | Mitsuba |",
-        100.0 * share
-    );
-    METRICS.iter().for_each(|metric| write!(text, " {} |", metric.name()).unwrap());
-    writeln!(text, "\n|---|---|---|---|{}", "---|".repeat(METRICS.len())).unwrap();
-    for row in rows {
-        write!(
-            text,
-            "| {} | {} | {} | {} |",
-            row.mistake.words(),
-            row.fails,
-            row.named,
-            row.mitsuba
-        )
-        .unwrap();
-        row.metrics.iter().for_each(|count| write!(text, " {count} |").unwrap());
-        text.push('\n');
-    }
-    text
 }

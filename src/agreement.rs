@@ -2,7 +2,8 @@
 //! and blocks of 8 x 8 pixels. It informs; verdicts are what `furnace run` gives.
 //!
 //! It needs nothing but pictures, and takes those of 8 bits too: there the pixels that are clipped in any run, or nearly
-//! so in the reference, are left out on both sides.
+//! so in the reference, are left out on both sides. What is left is decoded, so that noise looks
+//! darker than it is: by 0.4 % at 64 samples of relative deviation 1. `furnace compare` and the cases go by the law of the codes ([`crate::stats::judge_codes`]).
 
 use crate::contract::{
     Acceleration, CoreError, DirectSampling, Film, IntegratorSettings, RenderSettings,
@@ -67,7 +68,8 @@ impl Difference {
 
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mark = if self.sigmas().abs() > 3.0 { " **" } else { "" };
+        let agrees = self.sigmas().abs() <= 3.0;
+        let mark = if agrees { "" } else { " **" };
         write!(f, "{:+.1e} ({:.0e}){mark}", self.mean, self.standard_error)
     }
 }
@@ -302,6 +304,14 @@ mod tests {
         assert_eq!(row.compared, 1.0);
         let text = table("builtin", &[("point-light-plane".to_owned(), Ok(row))]);
         assert!(text.contains("| point-light-plane | "), "{text}");
+    }
+
+    #[test]
+    fn a_difference_that_is_no_number_is_marked() {
+        let told = |mean| Difference { mean, standard_error: 0.01 }.to_string();
+        assert!(told(f64::NAN).ends_with("**"));
+        assert!(told(0.031).ends_with("**"));
+        assert!(!told(0.029).ends_with("**"));
     }
 
     #[test]

@@ -57,13 +57,12 @@ pub fn all() -> impl Iterator<Item = &'static Cause> {
 
 /// Whether the mistake is one of the hierarchy: closed surfaces leak by it, though every triangle is hit.
 pub fn is_of_hierarchy(cause: &Cause) -> bool {
-    let causes = [slab::CAUSES, bvh::CAUSES].concat();
-    causes.iter().any(|of_hierarchy| of_hierarchy.name == cause.name)
+    slab::CAUSES.iter().chain(bvh::CAUSES).any(|known| *known == cause)
 }
 
 /// Whether the cause says what is lost and not why: any other of its kind explains more.
 pub fn is_vague(cause: &Cause) -> bool {
-    cause.name == bvh::HITS_LOST.name
+    *cause == bvh::HITS_LOST
 }
 
 /// The cause called `name`.

@@ -103,15 +103,19 @@ impl Audit {
         let leaves = self.leaves.len();
         println!("{} seeds, {leaves} leaves, {} failures", self.seeds, self.failed.len());
         println!("first stages that suspected a correct core, by kind of test:");
-        for kind in [TestKind::Mean, TestKind::Counts, TestKind::Share, TestKind::Picture] {
+        use TestKind::{Codes, Counts, Mean, Picture, Share};
+        for kind in [Mean, Counts, Share, Picture, Codes] {
             let of_kind = || self.leaves.values().filter(|leaf| leaf.0 == kind);
             let drawn: u64 = of_kind().map(|leaf| leaf.1).sum();
             let suspected: u64 = of_kind().map(|leaf| leaf.2).sum();
-            let (Some(level), true) = (kind.suspicion(), drawn > 0) else { continue };
+            if drawn == 0 {
+                continue;
+            }
             let [low, high] = share_interval(suspected, drawn, 0.5 * LEVEL);
+            let level = kind.suspicion();
+            let level = level.map_or("no level".to_owned(), |level| format!("level {level:.1e}"));
             println!(
-                "  {:<9} {suspected} of {drawn}: {:.1e}, 99.9 % interval {low:.1e} to {high:.1e}, level \
-                 {level:.1e}",
+                "  {:<9} {suspected} of {drawn}: {:.1e}, 99.9 % interval {low:.1e} to {high:.1e}, {level}",
                 kind.plural(),
                 suspected as f64 / drawn as f64,
             );

@@ -51,7 +51,7 @@ fn worse(wrong: &[f64], right: &[f64], larger_is_worse: bool) -> usize {
 pub fn table(tallies: &[Tally], times: usize, told: usize, share: f64) -> String {
     let mut text = format!(
         "# What the picture test sees\n\n\
-         Written by `cargo test --test picture_power -- --ignored --nocapture`. Scene `{SCENE}` at 128 × 96, {SAMPLES} samples \
+         Written by `POWER_TIMES={times} POWER_TOLD={told} cargo test --test picture_power -- --ignored --nocapture`. Scene `{SCENE}` at 128 × 96, {SAMPLES} samples \
          a pixel and run, the\nbudget of its case: a screen of 16 runs, two confirmations of 32. Bounce {LAST}, the last, has \
          {:.2} % of the light.\n\n\
          `furnace`: failed of {times}. `named`: the message of the case names the mistake, of {told}. `Mitsuba`: the rule of \

@@ -9,8 +9,8 @@ use crate::contract::{
 use crate::image::luminance;
 use crate::math::rng::Seed;
 use crate::scene::Camera;
-use crate::stats::{ErrorLevel, Sampling, SlopeReport, Verdict, judge_slope};
-use crate::text::{Colour, Percent};
+use crate::stats::{Allowance, ErrorLevel, Sampling, SlopeReport, Verdict, judge_slope};
+use crate::text::{Colour, Count, Percent};
 use serde::Deserialize;
 
 /// Renders small pictures of which every pixel has the same known radiance, at growing sample counts.
@@ -25,6 +25,8 @@ pub struct ErrorFallsAsRootN {
     samples: Vec<u32>,
     /// Pictures at each count.
     runs: u32,
+    /// Samples of all pictures at one count: pictures of more samples have fewer rows, down to one.
+    at_most: Count,
     /// What every pixel is.
     radiance: Colour,
     /// The deviation of the slope from −1/2 that must be seen, as a share of 1.
@@ -61,43 +63,64 @@ impl Check for ErrorFallsAsRootN {
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let levels = self
-            .samples
-            .iter()
-            .map(|samples| self.level(built.as_mut(), &camera, *samples, seed))
+            .levels(context.budget)
+            .into_iter()
+            .map(|level| self.level(built.as_mut(), &camera, level, seed))
             .collect::<Result<Vec<_>, _>>()?;
-        let report = judge_slope(&levels, Sampling::Stratified, self.detects.0);
-        Ok(self.finding(&report))
+        // The band of a slope is the same in every budget: a strict one cannot ask for less than it.
+        let detects = self.detects.0 * context.budget.coarseness().max(1.0);
+        Ok(finding(&judge_slope(&levels, Sampling::Stratified, detects)))
     }
 }
 
+/// A number of samples, and the rows of the pictures that are made with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Level {
+    samples: u32,
+    rows: u32,
+}
+
 impl ErrorFallsAsRootN {
+    /// The counts that a budget can afford: the first three, and those of which it can pay a row.
+    fn levels(&self, budget: Allowance) -> Vec<Level> {
+        let most = budget.samples(self.at_most.0);
+        let [width, height] = self.size;
+        let rows = |samples: u32| {
+            let row = u64::from(samples) * u64::from(self.runs) * u64::from(width);
+            u32::try_from(most / row).unwrap_or(u32::MAX).min(height)
+        };
+        let levels = self.samples.iter().map(|&samples| Level { samples, rows: rows(samples) });
+        let affordable = levels.enumerate().filter(|(number, level)| *number < 3 || level.rows > 0);
+        affordable.map(|(_, level)| Level { rows: level.rows.max(1), ..level }).collect()
+    }
+
     /// The errors at one sample count.
     fn level(
         &self,
         scene: &mut dyn BuiltScene,
         camera: &Camera,
-        samples: u32,
+        level: Level,
         seed: Seed,
     ) -> Result<ErrorLevel, CheckError> {
-        let seed = seed.child(samples);
+        let seed = seed.child(level.samples);
         let runs = (0..self.runs)
-            .map(|run| self.luminances(scene, camera, samples, seed.child(run)))
+            .map(|run| self.luminances(scene, camera, level, seed.child(run)))
             .collect::<Result<Vec<_>, _>>()?;
         let truth = vec![luminance(self.radiance.0.map(|value| value as f32)); runs[0].len()];
-        Ok(ErrorLevel::from_runs(u64::from(samples), &runs, &truth))
+        Ok(ErrorLevel::from_runs(u64::from(level.samples), &runs, &truth))
     }
 
     fn luminances(
         &self,
         scene: &mut dyn BuiltScene,
         camera: &Camera,
-        samples: u32,
+        level: Level,
         seed: Seed,
     ) -> Result<Vec<f64>, CheckError> {
         let settings = RenderSettings {
             width: self.size[0],
-            height: self.size[1],
-            samples_per_pixel: samples,
+            height: level.rows,
+            samples_per_pixel: level.samples,
             integrator: IntegratorSettings {
                 bounces: self.bounces[0]..=self.bounces[1],
                 direct: self.direct,
@@ -110,34 +133,95 @@ impl ErrorFallsAsRootN {
         scene.render(camera, &settings, &mut film)?;
         Ok(film.pixels.iter().copied().map(luminance).collect())
     }
+}
 
-    fn finding(&self, report: &SlopeReport) -> Finding {
-        let slope = Measure {
-            interval: Some(
-                [-1.0, 1.0].map(|side| report.slope + side * THREE_NINES * report.standard_error),
-            ),
-            resolution: Some(report.resolution / 0.5),
-            verdict: report.verdict,
-            leaf: Some(report.leaf()),
-            ..Measure::exact("slope of log error on log samples", report.slope, -0.5, 0.0)
-        };
-        let statement = match report.verdict {
-            Verdict::Fail => format!(
-                "error falls as n^{:.3}, not n^-0.5; a bias of {:.2e} would explain its plateau",
-                report.slope, report.plateau_bias
-            ),
-            _ => format!("error falls as n^{:.3}", report.slope),
-        };
-        let resolution =
-            format!("would have caught a slope that is off by {:.3}", report.resolution);
-        let repeats = report.verdict == Verdict::Fail && report.slope.abs() <= NO_SLOPE;
-        let cause = repeats.then_some(&cause::seed::SAMPLES_REPEAT);
-        let evidence = format!("more samples change nothing: the slope is {:.3}", report.slope);
-        Finding::of(statement, resolution, vec![slope]).because_each(cause, &evidence)
-    }
+fn finding(report: &SlopeReport) -> Finding {
+    let slope = Measure {
+        interval: Some(
+            [-1.0, 1.0].map(|side| report.slope + side * THREE_NINES * report.standard_error),
+        ),
+        resolution: Some(report.resolution / 0.5),
+        verdict: report.verdict,
+        leaf: Some(report.leaf()),
+        ..Measure::exact("slope of log error on log samples", report.slope, -0.5, 0.0)
+    };
+    let statement = match report.verdict {
+        Verdict::Fail => format!(
+            "error falls as n^{:.3}, not n^-0.5; a bias of {:.2e} would explain its plateau",
+            report.slope, report.plateau_bias
+        ),
+        _ => format!("error falls as n^{:.3}", report.slope),
+    };
+    let resolution = format!("would have caught a slope that is off by {:.3}", report.resolution);
+    let repeats = report.verdict == Verdict::Fail && report.slope.abs() <= NO_SLOPE;
+    let cause = repeats.then_some(&cause::seed::SAMPLES_REPEAT);
+    let evidence = format!("more samples change nothing: the slope is {:.3}", report.slope);
+    Finding::of(statement, resolution, vec![slope]).because_each(cause, &evidence)
 }
 
 /// A slope that is none: samples that repeat, or a bias that nothing averages out.
 const NO_SLOPE: f64 = 0.05;
 /// Standard errors on each side of a 99.9 % interval of a normal mean.
 const THREE_NINES: f64 = 3.29;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::film::fake::FakeFilm;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::scene::SceneDescription;
+    use crate::stats::Budget;
+    use glam::DVec2;
+
+    const CASE: &str = r#"
+        [expect]
+        size     = [8, 8]
+        bounces  = [0, 0]
+        samples  = [4, 16, 64, 256]
+        runs     = 32
+        at-most  = "70 k"
+        radiance = 1
+        detects  = "15 %"
+    "#;
+
+    /// What is found of a core whose samples are uniform between 0 and 2.
+    fn found(core: FakeFilm) -> Finding {
+        let camera = Some(FakeFilm::camera());
+        let scene = SceneDescription { camera, ..SceneDescription::default() };
+        let radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send> =
+            Box::new(|at, _| [2.0 * at.x.fract(); 3]);
+        let check = check_of::<ErrorFallsAsRootN>(CASE);
+        try_judge(&check, &mut FakeFilm { radiance, ..core }, Some(scene)).unwrap()
+    }
+
+    #[test]
+    fn means_of_samples_pass() {
+        assert_passes(&found(FakeFilm::default()));
+    }
+
+    #[test]
+    fn a_plateau_fails_and_is_measured() {
+        let biased = FakeFilm { develop: |mean, _| mean.map(|v| v + 0.1), ..FakeFilm::default() };
+        let finding = found(biased);
+        let told = failure(&finding);
+        assert!(told.contains("a bias of 1.0") || told.contains("a bias of 9.9"), "{told}");
+        assert!(finding.clues.is_empty());
+    }
+
+    #[test]
+    fn samples_that_change_nothing_are_named() {
+        let first = FakeFilm { samples_used: |_| 1, ..FakeFilm::default() };
+        assert_eq!(found(first).clues[0].cause, cause::seed::SAMPLES_REPEAT.name);
+    }
+
+    #[test]
+    fn pictures_of_many_samples_are_small_and_a_budget_does_without_the_dearest() {
+        let check = check_of::<ErrorFallsAsRootN>(CASE);
+        let of = |budget: Budget| {
+            let levels = check.levels(budget.into());
+            levels.iter().map(|level| (level.samples, level.rows)).collect::<Vec<_>>()
+        };
+        assert_eq!(of(Budget::Default), [(4, 8), (16, 8), (64, 4), (256, 1)]);
+        assert_eq!(of(Budget::Quick), [(4, 8), (16, 2), (64, 1)]);
+    }
+}

@@ -29,6 +29,8 @@ pub struct FakeFilm {
     pub place: fn(DVec2) -> DVec2,
     /// What becomes of the mean of a pixel.
     pub develop: fn([f64; 3], Place) -> [f64; 3],
+    /// How many samples are taken where so many are asked for.
+    pub samples_used: fn(u32) -> u32,
     /// See [`Index`].
     pub index: Index,
     /// See [`Step`].
@@ -41,6 +43,7 @@ impl Default for FakeFilm {
             radiance: Box::new(|_, _| [0.0; 3]),
             place: |numbers| numbers,
             develop: |mean, _| mean,
+            samples_used: |asked| asked,
             index: |[x, y], [width, _]| (y * width + x) as usize,
             count: Step(0),
         }
@@ -56,13 +59,13 @@ impl FakeFilm {
     fn mean(&self, place: Place, stream: &mut Stream) -> [f64; 3] {
         let corner = DVec2::from(place.at.map(f64::from));
         let size = DVec2::from(place.size.map(f64::from));
-        let mut sum = [0.0; 3];
-        for _ in 0..place.samples {
+        let (mut sum, used) = ([0.0; 3], (self.samples_used)(place.samples));
+        for _ in 0..used {
             let numbers = DVec2::new(uniform(stream), uniform(stream));
             let sample = (self.radiance)(corner + (self.place)(numbers), size);
             sum = std::array::from_fn(|c| sum[c] + sample[c]);
         }
-        sum.map(|sum| sum / f64::from(place.samples))
+        sum.map(|sum| sum / f64::from(used))
     }
 }
 

@@ -15,4 +15,4 @@ pub use pixel_samples::PixelSamples;
 pub use view_coverage::ViewCoverage;
 
 #[cfg(test)]
-mod fake;
+pub(in crate::checks) mod fake;

@@ -14,6 +14,7 @@ use furnace::stats::{ImageEffort, Verdict, judge_image_pair};
 
 /// Pixels: small, for every scene is rendered 16 times by each core.
 const SIZE: [u32; 2] = [64, 48];
+const SAMPLES: u32 = 16;
 
 fn render(core: &str, scene: &SceneDescription, seed: Seed) -> Image {
     let spec: CoreSpec = core.parse().unwrap();
@@ -22,7 +23,7 @@ fn render(core: &str, scene: &SceneDescription, seed: Seed) -> Image {
     let settings = RenderSettings {
         width: SIZE[0],
         height: SIZE[1],
-        samples_per_pixel: 16,
+        samples_per_pixel: SAMPLES,
         integrator: IntegratorSettings { bounces: 0..=4, seed: seed.0, ..Default::default() },
         adaptive: None,
     };
@@ -35,7 +36,7 @@ fn render(core: &str, scene: &SceneDescription, seed: Seed) -> Image {
 fn agree(name: &str, gain: f32) -> Verdict {
     let project = Project::at(env!("CARGO_MANIFEST_DIR"));
     let scene = Library::new(project.scenes()).load(name, &Overrides::new()).unwrap();
-    let report = judge_image_pair(&ImageEffort::new(0.03), &mut |draw| {
+    let report = judge_image_pair(&ImageEffort::new(0.03, SAMPLES), &mut |draw| {
         let seed = draw.seed(Seed(2).child(name));
         let mut textbook = render("textbook", &scene, seed.child("textbook"));
         textbook.pixels.iter_mut().flatten().for_each(|value| *value *= gain);

@@ -47,7 +47,7 @@ impl References {
         let python = environment::python(&self.folder, options.create_environment, progress)?;
         let asked = options.variant.as_deref();
         let mitsuba = environment::mitsuba(python, asked, &plan.job, progress)?;
-        let effort = ImageEffort::new(DETECTS);
+        let effort = ImageEffort::new(DETECTS, plan.job.samples);
         let mut draw = |request: ImageDraw| {
             let seeds = seeds_of(request.stage, &effort);
             let seed = seeds[request.run as usize];

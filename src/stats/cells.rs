@@ -157,6 +157,18 @@ impl Grid {
     }
 }
 
+/// The cells up to `reach` away from one, and that one, of so many columns and rows.
+pub(super) fn around(
+    (width, height): (usize, usize),
+    cell: usize,
+    reach: usize,
+) -> impl Iterator<Item = usize> {
+    let (x, y) = (cell % width, cell / width);
+    let columns = x.saturating_sub(reach)..(x + reach + 1).min(width);
+    let rows = y.saturating_sub(reach)..(y + reach + 1).min(height);
+    rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+}
+
 fn components(pixel: [f32; 3]) -> [f64; COMPONENTS] {
     let [red, green, blue] = pixel.map(f64::from);
     [red, green, blue, luminance(pixel)]

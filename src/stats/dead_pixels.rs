@@ -16,6 +16,7 @@
 //! to what it is a sliver of, so pixels beside others of another brightness are not judged.
 
 use super::Moments;
+use super::cells::around;
 use crate::image::{Image, luminance};
 
 /// Chance below which a pixel is suspected after the screen.
@@ -131,11 +132,7 @@ impl LitRuns {
 
     /// The pixels up to `reach` away, and the pixel itself.
     fn around(&self, pixel: usize, reach: usize) -> impl Iterator<Item = usize> {
-        let (x, y) = (pixel % self.width, pixel / self.width);
-        let columns = x.saturating_sub(reach)..(x + reach + 1).min(self.width);
-        let rows = y.saturating_sub(reach)..(y + reach + 1).min(self.height);
-        let width = self.width;
-        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+        around((self.width, self.height), pixel, reach)
     }
 }
 

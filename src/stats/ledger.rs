@@ -11,7 +11,7 @@ use super::correlation::CORRELATION_FALSE_ALARM;
 use super::ladder::{LEAF_FALSE_ALARM, STAGE_LEVEL};
 use super::proportion::SHARE_FALSE_ALARM;
 use super::rare::RARE_FALSE_ALARM;
-use super::screen::IMAGE_FALSE_ALARM;
+use super::screen::{IMAGE_FALSE_ALARM, SCREEN_LEVEL};
 use super::slope::SLOPE_FALSE_ALARM;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -84,14 +84,13 @@ impl TestKind {
         }
     }
 
-    /// The probability that the first of several stages suspects a correct core; none where there is one stage, and none
-    /// for pictures: their screen trusts the normal law far out, which skewed noise breaks. That costs runs and no
-    /// verdict, see `docs/simulations/screen-and-confirm.log`.
+    /// The probability that the first of several stages suspects a correct core; none where there is one stage.
     pub const fn suspicion(self) -> Option<f64> {
         match self {
             Self::Mean | Self::Share => Some(2.0 * STAGE_LEVEL),
             Self::Counts => Some(STAGE_LEVEL),
-            Self::Picture | Self::Codes | Self::Slope | Self::Correlation | Self::Rare => None,
+            Self::Picture | Self::Codes => Some(SCREEN_LEVEL),
+            Self::Slope | Self::Correlation | Self::Rare => None,
         }
     }
 }

@@ -25,6 +25,7 @@ mod brightness;
 mod budget;
 #[cfg(test)]
 mod calibration;
+mod cell_noise;
 mod cells;
 mod chi_square;
 mod claim;

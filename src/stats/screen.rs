@@ -10,6 +10,9 @@
 //! band. The spread is the core's own, between its runs: another estimator has another variance,
 //! and neighbouring pixels may hang together as they like.
 //!
+//! A cell stands out by its own spread and by what is known of its noise ([`super::cell_noise`]):
+//! sixteen runs that all miss rare light have hardly any spread.
+//!
 //! 16 runs of n samples rather than 8 of 2n cost the same and see errors in single pixels a third
 //! as large: Student's t at a level of 2·10⁻⁹ is 35 with 7 degrees of freedom and 12 with 15.
 //!
@@ -24,7 +27,7 @@ use crate::math::rng::Seed;
 use serde::{Deserialize, Serialize};
 
 /// Probability that the screen suspects a picture without cause.
-const SCREEN_LEVEL: f64 = 1e-3;
+pub(super) const SCREEN_LEVEL: f64 = 1e-3;
 /// Level of each confirmation, at each scale.
 pub(super) const CONFIRM_LEVEL: f64 = 2e-5;
 /// Probability that the reference is off by more than its band, at each scale.
@@ -42,11 +45,13 @@ pub struct Reference<'a> {
     pub standard_error: &'a Image,
 }
 
-/// What a picture is worth. The samples of each run are the caller's.
+/// What a picture is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImageEffort {
     /// The relative error of the whole picture that must be seen.
     pub detects: f64,
+    /// Samples a pixel of each run, which the caller draws; 1 if that is not known.
+    pub samples: u32,
     /// Runs of the screen: all that a correct core pays.
     pub screen_runs: u32,
     /// Runs of each of two confirmations.
@@ -56,8 +61,8 @@ pub struct ImageEffort {
 impl ImageEffort {
     /// The effort that sees an error of `detects` of the whole picture, if the runs have samples
     /// enough.
-    pub fn new(detects: f64) -> Self {
-        Self { detects, screen_runs: 16, confirm_runs: 32 }
+    pub fn new(detects: f64, samples: u32) -> Self {
+        Self { detects, samples, screen_runs: 16, confirm_runs: 32 }
     }
 }
 
@@ -188,7 +193,7 @@ mod tests {
         let mut draw = |request: ImageDraw| {
             Ok::<_, Infallible>(noisy(truth, &mut request.seed(Seed(seed)).stream()))
         };
-        let Ok(report) = judge_image(reference, &ImageEffort::new(0.02), &mut draw);
+        let Ok(report) = judge_image(reference, &ImageEffort::new(0.02, SAMPLES), &mut draw);
         report
     }
 
@@ -307,9 +312,63 @@ mod tests {
             Ok::<_, Infallible>(noisy(&mean, &mut request.seed(Seed(1)).stream()))
         };
         let reference = Reference { mean: &mean, standard_error: &error };
-        let Ok(report) = judge_image(reference, &ImageEffort::new(0.004), &mut draw);
+        let Ok(report) = judge_image(reference, &ImageEffort::new(0.004, SAMPLES), &mut draw);
         assert_eq!(report.verdict, Verdict::Inconclusive);
         assert!(report.samples_factor.is_some_and(|factor| factor > 1.0 && factor < 100.0));
+    }
+
+    /// Pixels that one sample in 40 lights at all, with 40 times the light: all samples of a screen
+    /// miss some of a thousand. The reference has 100 times the samples.
+    fn judge_rare(light: impl Fn(usize) -> f32) -> ImageReport {
+        let chance = 0.025;
+        let mean = Image::new(SIZE, SIZE, [0.5; 3]);
+        let stored = 100.0 * 16.0 * f64::from(SAMPLES);
+        let error = 0.5 * (1.0 / chance / stored).sqrt() as f32;
+        let error = Image::new(SIZE, SIZE, [error; 3]);
+        let mut draw = |request: ImageDraw| {
+            let mut stream = request.seed(Seed(7)).stream();
+            let lit = |stream: &mut Stream| {
+                let hits = (0..SAMPLES).filter(|_| uniform(stream) < chance).count();
+                hits as f32 / SAMPLES as f32 / chance as f32
+            };
+            let pixel = |x, y| [0.5 * light(y * SIZE + x) * lit(&mut stream); 3];
+            Ok::<_, Infallible>(Image::from_fn(SIZE, SIZE, pixel))
+        };
+        let reference = Reference { mean: &mean, standard_error: &error };
+        let Ok(report) = judge_image(reference, &ImageEffort::new(0.1, SAMPLES), &mut draw);
+        report
+    }
+
+    #[test]
+    fn rare_light_that_a_screen_misses_is_not_suspected_and_wrong_light_is() {
+        let right = judge_rare(|_| 1.0);
+        assert_eq!((right.runs, right.verdict), (16, Verdict::Pass), "{:?}", right.scales[0]);
+        assert_eq!(judge_rare(|_| 0.9).verdict, Verdict::Fail);
+        assert_eq!(judge_rare(|i| if i == 70 { 20.0 } else { 1.0 }).verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn slivers_that_a_screen_misses_are_not_suspected_though_the_reference_knows_them_exactly() {
+        // A lamp of 20 before a wall of 0.2, and a fiftieth of the pixels beside it.
+        let cover = |x: usize| match x {
+            0..8 => 1.0,
+            8 => 0.02,
+            _ => 0.0,
+        };
+        let mean = Image::from_fn(SIZE, SIZE, |x, _| [0.2 + 20.0 * cover(x) as f32; 3]);
+        let error = no_error();
+        let mut draw = |request: ImageDraw| {
+            let mut stream = request.seed(Seed(3)).stream();
+            let mut pixel = |x, _| {
+                let hits = (0..2).filter(|_| uniform(&mut stream) < cover(x)).count();
+                [0.2 + 10.0 * hits as f32; 3]
+            };
+            let image = Image::from_fn(SIZE, SIZE, &mut pixel);
+            Ok::<_, Infallible>(image)
+        };
+        let reference = Reference { mean: &mean, standard_error: &error };
+        let Ok(report) = judge_image(reference, &ImageEffort::new(0.05, 2), &mut draw);
+        assert_eq!((report.runs, report.verdict), (16, Verdict::Pass), "{:?}", report.scales[0]);
     }
 
     fn judge_pair(left: &Image, right: &Image) -> ImageReport {
@@ -318,7 +377,7 @@ mod tests {
             let render = |truth, side: &str| noisy(truth, &mut seed.child(side).stream());
             Ok::<_, Infallible>([render(left, "left"), render(right, "right")])
         };
-        let Ok(report) = judge_image_pair(&ImageEffort::new(0.03), &mut draw);
+        let Ok(report) = judge_image_pair(&ImageEffort::new(0.03, SAMPLES), &mut draw);
         report
     }
 
@@ -351,7 +410,7 @@ mod tests {
             Ok::<_, Infallible>(Image::from_fn(256, 256, pixel))
         };
         let reference = Reference { mean: &mean, standard_error: &error };
-        let Ok(report) = judge_image(reference, &ImageEffort::new(0.02), &mut draw);
+        let Ok(report) = judge_image(reference, &ImageEffort::new(0.02, 2), &mut draw);
         report
     }
 
@@ -397,7 +456,7 @@ mod tests {
                 let pixel = |_, _| [caustic(&mut stream, SAMPLES) as f32; 3];
                 Ok::<_, Infallible>(Image::from_fn(SIZE, SIZE, pixel))
             };
-            let Ok(report) = judge_image(reference, &ImageEffort::new(0.5), &mut draw);
+            let Ok(report) = judge_image(reference, &ImageEffort::new(0.5, SAMPLES), &mut draw);
             assert_ne!(report.verdict, Verdict::Fail, "{:?}", report.scales);
             suspected += u32::from(report.runs > 16);
         }

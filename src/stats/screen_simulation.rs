@@ -53,7 +53,7 @@ fn judged(
         Ok::<_, Infallible>(Image::from_fn(size, size, pixel))
     };
     let reference = Reference { mean: &mean, standard_error: &error };
-    let Ok(report) = judge_image_at(levels, reference, &ImageEffort::new(0.02), &mut draw);
+    let Ok(report) = judge_image_at(levels, reference, &ImageEffort::new(0.02, 2), &mut draw);
     report
 }
 

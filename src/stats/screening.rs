@@ -1,6 +1,7 @@
 //! The steps of screen-and-confirm: screening, freezing, confirming, reporting.
 
 use super::brightness::Brightness;
+use super::cell_noise::CellNoise;
 use super::cells::{COMPONENTS, Component, Scale};
 use super::dead_pixels::LitRuns;
 use super::image_report::{
@@ -78,16 +79,17 @@ impl<'a, E> Screening<'a, E> {
 
     fn screen_and_confirm(&mut self) -> Result<ImageReport, Interrupted<E>> {
         let screened = self.sample(Stage::First, self.effort.screen_runs, &[])?;
+        let noise =
+            CellNoise::of(&screened.spread, &self.target, self.effort.samples, self.levels.screen);
         let mut scales: Vec<ScaleReport> =
-            (0..Scale::ALL.len()).map(|i| self.screen(i, &screened.spread)).collect();
+            (0..Scale::ALL.len()).map(|i| self.screen(i, &noise)).collect();
         let suspected = |report: &ScaleReport| {
             report.worst.first().is_some_and(|cell| cell.t.abs() > report.critical)
         };
         if !scales.iter().any(suspected) && self.lit.suspects().is_empty() {
             return Ok(self.report(scales, &screened, &screened));
         }
-        let frozen: Vec<Frozen> =
-            (0..Scale::ALL.len()).map(|i| self.freeze(i, &screened.spread)).collect();
+        let frozen: Vec<Frozen> = (0..Scale::ALL.len()).map(|i| self.freeze(i, &noise)).collect();
         let second = self.sample(Stage::Second, self.effort.confirm_runs, &frozen)?;
         let third = self.sample(Stage::Third, self.effort.confirm_runs, &frozen)?;
         for (i, report) in scales.iter_mut().enumerate() {
@@ -152,26 +154,25 @@ impl<'a, E> Screening<'a, E> {
     }
 
     /// The banded t of every cell of a scale, the worst first.
-    fn screen(&self, scale: usize, spread: &Spread) -> ScaleReport {
+    fn screen(&self, scale: usize, noise: &CellNoise<'_>) -> ScaleReport {
         let range = self.target.cells.ranges()[scale].clone();
-        let looks = 2.0 * (Scale::ALL.len() * range.len()) as f64;
-        let worst = self.extremes(scale, spread).into_iter().take(MOST_REPORTED);
+        let worst = self.extremes(scale, noise).into_iter().take(MOST_REPORTED);
         ScaleReport {
             scale: Scale::ALL[scale],
             cells: range.len(),
-            worst: worst.map(|(index, t)| self.cell_score(scale, index, spread, t)).collect(),
-            critical: student_upper(self.levels.screen / looks, spread.freedom()),
+            worst: worst.map(|(index, t)| self.cell_score(scale, index, noise.spread, t)).collect(),
+            critical: noise.critical[scale],
             confirmations: None,
             rejects: false,
         }
     }
 
     /// The cells of a scale outside their bands with their t, the most extreme first.
-    fn extremes(&self, scale: usize, spread: &Spread) -> Vec<(usize, f64)> {
+    fn extremes(&self, scale: usize, noise: &CellNoise<'_>) -> Vec<(usize, f64)> {
         let range = self.target.cells.ranges()[scale].clone();
         let t = |index: usize| {
-            let departure = self.target.departure(index, spread.mean(index));
-            (departure != 0.0).then(|| (index, departure / spread.standard_error(index)))
+            let departure = self.target.departure(index, noise.spread.mean(index));
+            (departure != 0.0).then(|| (index, departure / noise.standard_error(index)))
         };
         let mut outside: Vec<(usize, f64)> = range.filter_map(t).collect();
         outside.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
@@ -181,14 +182,14 @@ impl<'a, E> Screening<'a, E> {
 
     /// A matched filter for what the screen saw: each cell weighs by its departure over its
     /// variance, so that one cell far out is not lost among 64 that are a little out by chance.
-    fn freeze(&self, scale: usize, spread: &Spread) -> Frozen {
+    fn freeze(&self, scale: usize, noise: &CellNoise<'_>) -> Frozen {
         let term = |(index, t): (usize, f64)| {
             // The band keeps a cell that happened not to vary from weighing more than all others.
-            let variance = spread.standard_error(index).powi(2) + self.target.bands[index].powi(2);
-            let departure = self.target.departure(index, spread.mean(index));
-            (index, t.signum(), departure.abs() / variance)
+            let error = noise.standard_error(index).hypot(self.target.bands[index]);
+            let departure = self.target.departure(index, noise.spread.mean(index));
+            (index, t.signum(), departure.abs() / error.powi(2))
         };
-        Frozen { terms: self.extremes(scale, spread).into_iter().map(term).collect() }
+        Frozen { terms: self.extremes(scale, noise).into_iter().map(term).collect() }
     }
 
     fn cell_score(&self, scale: usize, index: usize, spread: &Spread, t: f64) -> CellScore {

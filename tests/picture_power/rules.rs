@@ -1,7 +1,7 @@
 //! What each rule says of a comparison.
 
 use super::bank::Bank;
-use super::{DETECTS, SCREEN_RUNS};
+use super::{DETECTS, SAMPLES, SCREEN_RUNS};
 use furnace::image::metric::METRICS;
 use furnace::image::pair::Pair;
 use furnace::image::{Image, luminance};
@@ -25,7 +25,7 @@ pub fn scores(
     let question =
         stats::Reference { mean: &reference.mean, standard_error: &reference.standard_error };
     let mut drawn = 0;
-    let report = judge_image(question, &ImageEffort::new(DETECTS), &mut |_| {
+    let report = judge_image(question, &ImageEffort::new(DETECTS, SAMPLES), &mut |_| {
         drawn += 1;
         Ok::<_, ()>(bank.runs[order[drawn - 1]].clone())
     })

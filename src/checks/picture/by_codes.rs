@@ -31,8 +31,7 @@ pub(super) fn judge(
         standard_error: &setup.reference.standard_error,
         samples: Some(setup.reference.provenance.samples_per_pixel()),
     };
-    let samples = u64::from(setup.shot.samples);
-    let settings = CodeSettings { declared, samples, effort: setup.effort };
+    let settings = CodeSettings { declared, effort: setup.effort };
     let report = judge_codes(reference, &settings, draw)?;
     Ok(Judged { finding: found(&report), report, declared })
 }

@@ -81,11 +81,10 @@ impl MatchesReference {
             )));
         }
         let samples = context.budget.samples(u64::from(self.samples_per_pixel));
-        let samples_per_run = samples.try_into().unwrap_or(u32::MAX);
+        let samples = samples.try_into().unwrap_or(u32::MAX);
         let isolates = context.info.capabilities.contains(Capabilities::ISOLATED_BOUNCES);
-        let shot =
-            Shot { check: self, camera, bounces: self.bounces, samples: samples_per_run, isolates };
-        let effort = ImageEffort::new(self.detects.0 * context.budget.coarseness());
+        let shot = Shot { check: self, camera, bounces: self.bounces, samples, isolates };
+        let effort = ImageEffort::new(self.detects.0 * context.budget.coarseness(), samples);
         Ok(Setup { scene, reference, shot, effort })
     }
 

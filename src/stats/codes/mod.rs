@@ -72,8 +72,8 @@ pub struct CodeReference<'a> {
 
 impl CodeReference<'_> {
     /// How many times noisier a pixel of a picture with so many samples is; 0 if that is not known.
-    fn noise_share(&self, samples: Option<u64>) -> f64 {
-        let share = |(more, fewer): (u64, u64)| (more as f64 / fewer as f64).sqrt();
+    fn noise_share(&self, samples: Option<u32>) -> f64 {
+        let share = |(more, fewer): (u64, u32)| (more as f64 / f64::from(fewer)).sqrt();
         self.samples.zip(samples).map_or(0.0, share)
     }
 }
@@ -83,8 +83,6 @@ impl CodeReference<'_> {
 pub struct CodeSettings {
     /// How light is said to be encoded.
     pub declared: Encoding,
-    /// Samples a pixel of each picture.
-    pub samples: u64,
     /// What has to be seen, and on how many pictures.
     pub effort: ImageEffort,
 }
@@ -153,7 +151,7 @@ fn judge_codes_at<E>(
             expected: Image::default(),
         });
     }
-    let model = Model::new(reference, &observed, settings.declared, Some(settings.samples));
+    let model = Model::new(reference, &observed, settings.declared, Some(settings.effort.samples));
     let mut clipping = Clipping::new(&model.channels, levels);
     let mut codes = |request: ImageDraw| {
         let picture = draw(request)?;

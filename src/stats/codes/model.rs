@@ -21,7 +21,7 @@ impl Model {
         reference: CodeReference<'_>,
         observed: &Observed,
         encoding: Encoding,
-        samples: Option<u64>,
+        samples: Option<u32>,
     ) -> Self {
         let means = reference.mean.pixels.as_flattened();
         let errors = reference.standard_error.pixels.as_flattened();

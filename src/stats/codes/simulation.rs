@@ -47,8 +47,8 @@ fn judged(
 ) -> CodeReport {
     let (mean, error) = (scene(size), Image::new(size, size, [0.0; 3]));
     let reference = CodeReference { mean: &mean, standard_error: &error, samples: None };
-    let effort = ImageEffort::new(0.02);
-    let settings = CodeSettings { declared: GAMMA, samples: u64::from(samples), effort };
+    let effort = ImageEffort::new(0.02, samples);
+    let settings = CodeSettings { declared: GAMMA, effort };
     let mut draw = |request: ImageDraw| {
         let mut stream = request.seed(Seed(seed)).stream();
         let pixel = |light: &[f32; 3]| {

@@ -36,11 +36,7 @@ fn picture(light: &Image, encoding: Encoding, stream: &mut Stream) -> Codes {
 fn judge_against(error: f32, light: &Image, encoding: Encoding, seed: u64) -> CodeReport {
     let (mean, error) = (ramp(), Image::new(SIZE, SIZE, [error; 3]));
     let reference = CodeReference { mean: &mean, standard_error: &error, samples: Some(1 << 16) };
-    let settings = CodeSettings {
-        declared: GAMMA,
-        samples: u64::from(SAMPLES),
-        effort: ImageEffort::new(0.02),
-    };
+    let settings = CodeSettings { declared: GAMMA, effort: ImageEffort::new(0.02, SAMPLES) };
     let Ok(report) = judge_codes(reference, &settings, &mut |draw| {
         Ok::<_, Infallible>(picture(light, encoding, &mut draw.seed(Seed(seed)).stream()))
     });
@@ -125,8 +121,8 @@ fn pictures_without_noise_are_compared_to_the_step() {
     let judge = |gain: f32| {
         let (mean, error) = (ramp(), Image::new(SIZE, SIZE, [1e-5; 3]));
         let reference = CodeReference { mean: &mean, standard_error: &error, samples: Some(64) };
-        let effort = ImageEffort::new(0.02);
-        let settings = CodeSettings { declared: GAMMA, samples: 64, effort };
+        let effort = ImageEffort::new(0.02, 64);
+        let settings = CodeSettings { declared: GAMMA, effort };
         let picture = silent(&with_gain(|_, _| gain));
         let Ok(report) =
             judge_codes(reference, &settings, &mut |_| Ok::<_, Infallible>(picture.clone()));
@@ -145,8 +141,8 @@ fn pixels_that_fireflies_reach_are_not_compared() {
     let error =
         Image::from_fn(SIZE, SIZE, |x, y| mean.pixels[y * SIZE + x].map(|v| deviation(v) / 256.0));
     let reference = CodeReference { mean: &mean, standard_error: &error, samples: Some(1 << 16) };
-    let effort = ImageEffort::new(0.02);
-    let settings = CodeSettings { declared: GAMMA, samples: u64::from(SAMPLES), effort };
+    let effort = ImageEffort::new(0.02, SAMPLES);
+    let settings = CodeSettings { declared: GAMMA, effort };
     let dark = with_gain(|_, _| 0.5);
     let Ok(report) = judge_codes(reference, &settings, &mut |draw| {
         Ok::<_, Infallible>(picture(&dark, GAMMA, &mut draw.seed(Seed(1)).stream()))

@@ -172,7 +172,10 @@ enum { /* furnace_material.kind */
    FURNACE_DIFFUSE = 0,  /* f = reflectance / pi */
    FURNACE_MIRROR = 1,   /* reflectance, the same at every angle */
    FURNACE_GLASS = 2,    /* smooth; vacuum on the side of the normal, `index` behind it */
-   FURNACE_CONDUCTOR = 3 /* GGX facets of width `roughness`, each reflects `reflectance` */
+   FURNACE_CONDUCTOR = 3, /* GGX facets of width `roughness`, each reflects `reflectance` */
+   /* GGX facets of width `roughness`, each smooth glass by Fresnel's equations; only cores with
+    * FURNACE_KNOWS_ROUGH_GLASS meet it */
+   FURNACE_ROUGH_GLASS = 4
 };
 
 /* Diffuse, mirror and conductor scatter on both sides; emission leaves the front side only. */
@@ -181,9 +184,9 @@ typedef struct furnace_material {
    uint32_t     kind;
    uint32_t     emits;          /* 1: the surface glows with `emission`; 0: it does not */
    furnace_rgb  reflectance;    /* share of light that is reflected; glass: times Fresnel's */
-   furnace_rgb  transmittance;  /* glass: times Fresnel's */
-   double       index;          /* glass: index of refraction inside */
-   double       roughness;      /* conductor: alpha in (0, 1] */
+   furnace_rgb  transmittance;  /* glass, smooth or rough: times Fresnel's */
+   double       index;          /* glass, smooth or rough: index of refraction inside */
+   double       roughness;      /* conductor, rough glass: alpha in (0, 1] */
    furnace_rgb  emission;       /* radiance in every direction of the front side */
    furnace_vec3 cap_axis;       /* on a sphere: only what is within cap_half_angle of it glows */
    double       cap_half_angle; /* 0: all of it glows */
@@ -313,7 +316,8 @@ enum { /* furnace_core.traits: what no function pointer can say */
    FURNACE_COUNTED_TESTS = 1u << 7,       /* traversal uses furnace_build.counted */
    FURNACE_CALLERS_RANDOMNESS = 1u << 8,  /* sampling uses the caller's numbers: replayable */
    FURNACE_DETERMINISTIC = 1u << 9,       /* the same settings and seed give the same bits */
-   FURNACE_SINGLE_PRECISION = 1u << 10    /* computes in float: tolerances are wider */
+   FURNACE_SINGLE_PRECISION = 1u << 10,   /* computes in float: tolerances are wider */
+   FURNACE_KNOWS_ROUGH_GLASS = 1u << 11   /* knows FURNACE_ROUGH_GLASS: without it, it is not shown */
 };
 
 enum { /* furnace_conventions; 0 is the default of every field */

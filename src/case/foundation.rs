@@ -38,6 +38,8 @@ pub enum Foundation {
     Glass,
     /// Rough metal.
     Metal,
+    /// Rough glass.
+    RoughGlass,
     /// What glows is seen glowing.
     Emission,
     /// A mesh lights a surface in general position.
@@ -72,6 +74,7 @@ impl Foundation {
             Self::Mirror => "the mirror",
             Self::Glass => "glass",
             Self::Metal => "rough metal",
+            Self::RoughGlass => "rough glass",
             Self::Emission => "emission",
             Self::DirectLight => "direct light",
             Self::MeshLight => "mesh lights",
@@ -117,6 +120,7 @@ fn seen_in(scene: &SceneDescription) -> BTreeSet<Foundation> {
             Surface::Mirror { .. } => Foundation::Mirror,
             Surface::Glass { .. } => Foundation::Glass,
             Surface::Conductor { .. } => Foundation::Metal,
+            Surface::RoughGlass { .. } => Foundation::RoughGlass,
         });
     }
     if scene.shape_count() > 0 {

@@ -258,6 +258,38 @@ pub static HALF_NOT_NORMALISED: Cause = Cause {
     remedy: "h = (wo + wi) / |wo + wi|.",
 };
 
+/// See its headline.
+pub static REFRACTION_JACOBIAN_WITHOUT_INDEX: Cause = Cause {
+    name: "refraction-jacobian-without-index",
+    headline: "the density of refracted directions lacks the index squared",
+    look_at: "sampling rough glass, where the density of the facet becomes one of directions",
+    remedy: "Multiply by η² |wi·h| / (wo·h + η wi·h)², η = index beyond / index here.",
+};
+
+/// See its headline.
+pub static LOBE_CHANCE_FORGOTTEN: Cause = Cause {
+    name: "lobe-chance-forgotten",
+    headline: "the density of rough glass lacks the chance of the way that was chosen",
+    look_at: "the pdf of rough glass",
+    remedy: "Multiply it by F for what is reflected, by 1 − F for what passes.",
+};
+
+/// See its headline.
+pub static HALF_WITH_INDEX_OF_ENTERING: Cause = Cause {
+    name: "half-vector-with-index-of-entering",
+    headline: "where light leaves rough glass, the half vector is made with the index of light that enters",
+    look_at: "the half vector of rough glass, where wo is inside",
+    remedy: "h = -(wo + η wi), η = index on the side of wi over that on the side of wo: below 1 from inside.",
+};
+
+/// See its headline.
+pub static FRESNEL_OF_SURFACE: Cause = Cause {
+    name: "fresnel-of-surface",
+    headline: "rough glass takes Fresnel's share at the angle with the surface, not with the facet",
+    look_at: "the Fresnel term of rough glass",
+    remedy: "F is a function of wo·h: light meets the facet.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &WITHOUT_PI,
@@ -292,4 +324,8 @@ pub static CAUSES: &[&Cause] = &[
     &FACETS_WITHOUT_PI,
     &BECKMANN_FACETS,
     &HALF_NOT_NORMALISED,
+    &REFRACTION_JACOBIAN_WITHOUT_INDEX,
+    &LOBE_CHANCE_FORGOTTEN,
+    &HALF_WITH_INDEX_OF_ENTERING,
+    &FRESNEL_OF_SURFACE,
 ];

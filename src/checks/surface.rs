@@ -1,6 +1,10 @@
 //! Surfaces as cases write them, with the words of scene files: `{ diffuse = 0.8 }`, `{ mirror = 0.83 }`,
-//! `{ glass = { index = 1.5 } }`, `{ conductor = { reflectance = 1, roughness = 0.3 } }`.
+//! `{ glass = { index = 1.5 } }`, `{ conductor = { reflectance = 1, roughness = 0.3 } }`,
+//! `{ rough-glass = { index = 1.5, roughness = 0.3 } }`.
 
+use crate::contract::Capabilities;
+use crate::math::rng::Stream;
+use crate::math::sphere::{on_hemisphere, on_sphere};
 use crate::scene::{Material, Surface};
 use crate::text::Colour;
 use glam::DVec3;
@@ -19,6 +23,8 @@ pub enum SurfaceEntry {
     Glass(GlassEntry),
     /// GGX microfacets.
     Conductor(ConductorEntry),
+    /// GGX microfacets that light passes.
+    RoughGlass(RoughGlassEntry),
 }
 
 /// `{ index = 1.5, reflectance = 0.8, transmittance = 0.9 }`
@@ -45,6 +51,22 @@ pub struct ConductorEntry {
     pub roughness: f64,
 }
 
+/// `{ index = 1.5, roughness = 0.3, reflectance = 0.8, transmittance = 0.9 }`
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RoughGlassEntry {
+    /// Inside; outside is vacuum.
+    pub index: f64,
+    /// The width parameter α.
+    pub roughness: f64,
+    /// Multiplies what is reflected.
+    #[serde(default = "white")]
+    pub reflectance: Colour,
+    /// Multiplies what is let through.
+    #[serde(default = "white")]
+    pub transmittance: Colour,
+}
+
 const fn white() -> Colour {
     Colour([1.0; 3])
 }
@@ -61,8 +83,37 @@ impl SurfaceEntry {
             Self::Conductor(ConductorEntry { reflectance, roughness }) => {
                 Surface::Conductor { reflectance: reflectance.0, roughness }
             }
+            Self::RoughGlass(glass) => Surface::RoughGlass {
+                index: glass.index,
+                roughness: glass.roughness,
+                reflectance: glass.reflectance.0,
+                transmittance: glass.transmittance.0,
+            },
         };
         Material { name: self.to_string(), surface, emission: None }
+    }
+
+    /// What a core has to know of besides.
+    pub const fn needs(self) -> Capabilities {
+        match self {
+            Self::RoughGlass(_) => Capabilities::ROUGH_GLASS,
+            _ => Capabilities::empty(),
+        }
+    }
+
+    /// What all of `surfaces` need.
+    pub fn all_need(surfaces: &[Self]) -> Capabilities {
+        surfaces.iter().fold(Capabilities::empty(), |all, surface| all | surface.needs())
+    }
+
+    /// Whether light passes, so that samples may lie on either side, and viewers too.
+    pub fn lets_pass(self) -> bool {
+        lets_pass(&self.material().surface)
+    }
+
+    /// A random direction from which light may come to it, or where a viewer may be.
+    pub fn direction(self, stream: &mut Stream) -> DVec3 {
+        if self.lets_pass() { on_sphere(stream) } else { on_hemisphere(stream) }
     }
 
     /// Whether a core evaluates it as zero everywhere.
@@ -80,7 +131,25 @@ impl fmt::Display for SurfaceEntry {
             Self::Conductor(conductor) => {
                 write!(f, "a conductor of roughness {}", conductor.roughness)
             }
+            Self::RoughGlass(RoughGlassEntry { index, roughness, .. }) => {
+                write!(f, "glass of index {index} and roughness {roughness}")
+            }
         }
+    }
+}
+
+/// Whether light that is scattered to one side may come from the other.
+pub const fn lets_pass(surface: &Surface) -> bool {
+    matches!(surface, Surface::RoughGlass { .. })
+}
+
+/// The height at which f and its density may jump, seen from this angle: rough glass refracts by facets that face
+/// the side of the normal, and where the half vector has just turned over there are none.
+pub fn kink(surface: &Surface, angle: f64) -> Option<f64> {
+    match surface {
+        Surface::RoughGlass { index, .. } if angle.cos() > 0.0 => Some(-angle.cos() / index),
+        Surface::RoughGlass { index, .. } => Some(-angle.cos() * index),
+        _ => None,
     }
 }
 

@@ -174,6 +174,10 @@ const ADVICE: &[(Capabilities, &str)] = &[
         "honour settings.adaptive in render, and say FURNACE_ADAPTIVE_SAMPLING",
     ),
     (
+        Capabilities::ROUGH_GLASS,
+        "know materials of kind FURNACE_ROUGH_GLASS, and say FURNACE_KNOWS_ROUGH_GLASS",
+    ),
+    (
         Capabilities::CALLERS_RANDOMNESS,
         "draw with random.point and random.lobe alone, and say FURNACE_CALLERS_RANDOMNESS",
     ),

@@ -53,6 +53,7 @@ numbers! {
     MIRROR = 1,
     GLASS = 2,
     CONDUCTOR = 3,
+    ROUGH_GLASS = 4,
     POINT = 0,
     DIRECTIONAL = 1,
     CONSTANT_SKY = 2,
@@ -102,6 +103,8 @@ bitflags! {
         const DETERMINISTIC = 1 << 9;
         /// `FURNACE_SINGLE_PRECISION`
         const SINGLE_PRECISION = 1 << 10;
+        /// `FURNACE_KNOWS_ROUGH_GLASS`
+        const KNOWS_ROUGH_GLASS = 1 << 11;
     }
 }
 

@@ -51,6 +51,8 @@ bitflags! {
         const ROULETTE = 1 << 19;
         /// [`super::BuiltScene::render_codes`]: pictures of 8 bits, of a core that writes nothing else.
         const RENDER_CODES = 1 << 20;
+        /// [`crate::scene::Surface::RoughGlass`] among the materials.
+        const ROUGH_GLASS = 1 << 21;
         /// Sampling calls use the caller's random numbers, so they can be replayed.
         const CALLERS_RANDOMNESS = 1 << 32;
         /// The same settings and seed give the same bits.

@@ -7,11 +7,11 @@
 
 use super::{
     Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
-    BuildStats, BuiltScene, CodedFilm, Core, CoreError, CoreInfo, DirectionSample, Film, Hit,
-    IntegratorSettings, LightSample, Primitive, Randomness, Ray, RenderSettings, Result, Sampler,
-    TraversalStats,
+    BuildStats, BuiltScene, Capabilities, CodedFilm, Core, CoreError, CoreInfo, DirectionSample,
+    Film, Hit, IntegratorSettings, LightSample, Primitive, Randomness, Ray, RenderSettings, Result,
+    Sampler, TraversalStats,
 };
-use crate::scene::{Aabb, Camera, Material, SceneDescription};
+use crate::scene::{Aabb, Camera, Material, SceneDescription, Surface};
 use glam::{DVec2, DVec3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -33,6 +33,20 @@ impl<'a> Validated<'a> {
     /// Stands in front of `core`.
     pub fn new(core: &'a mut dyn Core) -> Self {
         Self { core }
+    }
+
+    /// Materials that are younger than the contract are not shown to cores that do not say that they know them.
+    ///
+    /// # Errors
+    /// If there is one that the core does not know.
+    fn knows<'m>(&self, materials: impl IntoIterator<Item = &'m Material>) -> Result<()> {
+        let is_rough_glass = |m: &Material| matches!(m.surface, Surface::RoughGlass { .. });
+        let needed = Capabilities::ROUGH_GLASS;
+        let is_young = materials.into_iter().any(is_rough_glass);
+        match is_young && !self.core.info().capabilities.contains(needed) {
+            true => Err(CoreError::Unsupported(needed)),
+            false => Ok(()),
+        }
     }
 }
 
@@ -117,6 +131,7 @@ impl Core for Validated<'_> {
         queries: &[BsdfQuery],
         values: &mut [BsdfValue],
     ) -> Result<()> {
+        self.knows([material])?;
         values.fill(BsdfValue { f: [UNTOUCHED; 3], pdf: UNTOUCHED });
         guarded("eval_bsdf", || self.core.eval_bsdf(material, queries, values))?;
         each(values, "value", |value| {
@@ -132,6 +147,7 @@ impl Core for Validated<'_> {
         random: Randomness<'_>,
         samples: &mut [BsdfSample],
     ) -> Result<()> {
+        self.knows([material])?;
         samples.fill(BsdfSample {
             wi: UNTOUCHED_VECTOR,
             f: [UNTOUCHED; 3],
@@ -171,6 +187,7 @@ impl Core for Validated<'_> {
         scene: &SceneDescription,
         acceleration: Acceleration,
     ) -> Result<Box<dyn BuiltScene + '_>> {
+        self.knows(&scene.materials)?;
         let primitives_of_shape = scene
             .meshes
             .iter()
@@ -460,6 +477,21 @@ mod tests {
             hits.fill(Hit { shading_normal: DVec3::Z * 2.0, ..GOOD });
         });
         assert!(long.contains("shading_normal has length 2, not 1"), "{long}");
+    }
+
+    #[test]
+    fn a_core_that_does_not_know_rough_glass_is_not_shown_any() {
+        let (reflectance, transmittance) = ([1.0; 3], [1.0; 3]);
+        let surface =
+            Surface::RoughGlass { index: 1.5, roughness: 0.3, reflectance, transmittance };
+        let material = Material { name: "frosted".into(), surface, emission: None };
+        let mut core = Answers(|_| panic!("shown"));
+        let mut core = Validated::new(&mut core);
+        let refusal = CoreError::Unsupported(Capabilities::ROUGH_GLASS);
+        assert_eq!(core.eval_bsdf(&material, &[], &mut []), Err(refusal.clone()));
+        let scene = SceneDescription { materials: vec![material], ..Default::default() };
+        let built = core.build_scene(&scene, Acceleration::BruteForce).map(|_| ());
+        assert_eq!(built, Err(refusal));
     }
 
     #[test]

@@ -68,10 +68,16 @@ fn write_material(
                 "illum 7\nKd 0 0 0\nKs {reflectance}\nTf {transmittance}\nNi {index}"
             );
         }
-        Surface::Conductor { .. } => {
-            let what =
-                format!("material `{}` is a rough metal, which MTL leaves to taste", material.name);
-            return Err(complaint.about(what));
+        Surface::Conductor { .. } | Surface::RoughGlass { .. } => {
+            let what = if matches!(material.surface, Surface::Conductor { .. }) {
+                "rough metal"
+            } else {
+                "rough glass"
+            };
+            let name = &material.name;
+            return Err(
+                complaint.about(format!("material `{name}` is {what}, which MTL leaves to taste"))
+            );
         }
     }
     if let Some(emission) = material.emission {

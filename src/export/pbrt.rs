@@ -148,7 +148,16 @@ impl Writer<'_> {
             Surface::Glass { index, reflectance: [1.0, 1.0, 1.0], transmittance: [1.0, 1.0, 1.0] } => {
                 Ok(format!("Material \"dielectric\" \"float eta\" [ {index} ]"))
             }
-            Surface::Glass { .. } => {
+            Surface::RoughGlass {
+                index,
+                roughness,
+                reflectance: [1.0, 1.0, 1.0],
+                transmittance: [1.0, 1.0, 1.0],
+            } => Ok(format!(
+                "Material \"dielectric\" \"float eta\" [ {index} ] \"float roughness\" [ {roughness} ] \
+                 \"bool remaproughness\" [ false ]"
+            )),
+            Surface::Glass { .. } | Surface::RoughGlass { .. } => {
                 Err(self.complaint.about(format!("glass `{name}` is tinted, and pbrt's is clear")))
             }
             Surface::Mirror { .. } | Surface::Conductor { .. } => Err(self.complaint.about(format!(

@@ -171,6 +171,34 @@ fn pbrt_gets_its_depth_its_seed_and_its_left_handed_camera() {
 }
 
 #[test]
+fn rough_glass_is_said_to_mitsuba_and_pbrt_and_to_nobody_else() {
+    let rough = |scene: &mut SceneDescription| {
+        scene.lights.clear();
+        for material in &mut scene.materials {
+            let (index, roughness, colour) = (1.5, 0.25, [1.0; 3]);
+            let (reflectance, transmittance) = (colour, colour);
+            material.surface = Surface::RoughGlass { index, roughness, reflectance, transmittance };
+            material.emission = None;
+        }
+    };
+    for (format, words) in [
+        (Format::Mitsuba, "<bsdf type=\"roughdielectric\">"),
+        (
+            Format::Pbrt,
+            "\"float eta\" [ 1.5 ] \"float roughness\" [ 0.25 ] \"bool remaproughness\" [ false ]",
+        ),
+    ] {
+        let (_folder, written) = written_after("point-light-plane", format, rough).unwrap();
+        let text = std::fs::read_to_string(&written.scene).unwrap();
+        assert!(text.contains(words), "`{words}` in\n{text}");
+    }
+    for format in [Format::Collada, Format::Obj] {
+        let message = written_after("point-light-plane", format, rough).unwrap_err();
+        assert!(message.contains("is rough glass"), "{message}");
+    }
+}
+
+#[test]
 fn the_course_has_no_rough_metal_and_nothing_that_glows_and_reflects() {
     let metal = |scene: &mut SceneDescription| {
         scene.materials[0].surface = Surface::Conductor { reflectance: [1.0; 3], roughness: 0.5 };

@@ -94,6 +94,10 @@ impl Content {
                 self.choice_of_colours(3, [reflectance]);
                 self.number(roughness);
             }
+            Surface::RoughGlass { index, roughness, reflectance, transmittance } => {
+                self.choice_of_colours(4, [reflectance, transmittance]);
+                self.numbers([index, roughness]);
+            }
         }
         self.choice(u8::from(material.emission.is_some()));
         if let Some(emission) = material.emission {
@@ -173,7 +177,11 @@ mod tests {
 
     #[test]
     fn everything_that_shows_counts() {
-        let changes: [fn(&mut SceneDescription); 16] = [
+        const fn frosted(roughness: f64, transmittance: f64) -> Surface {
+            let (index, reflectance, transmittance) = (1.5, [0.9; 3], [transmittance; 3]);
+            Surface::RoughGlass { index, roughness, reflectance, transmittance }
+        }
+        let changes: [fn(&mut SceneDescription); 19] = [
             |scene| scene.camera = None,
             |scene| scene.camera.as_mut().unwrap().position.x = 1e-6,
             |scene| scene.camera.as_mut().unwrap().horizontal_fov = 0.9,
@@ -191,6 +199,9 @@ mod tests {
                 scene.materials[1].surface =
                     Surface::Conductor { reflectance: [0.9; 3], roughness: 0.21 };
             },
+            |scene| scene.materials[1].surface = frosted(0.2, 0.9),
+            |scene| scene.materials[1].surface = frosted(0.21, 0.9),
+            |scene| scene.materials[1].surface = frosted(0.2, 0.8),
             |scene| scene.lights[0] = Light::ConstantSky { radiance: [1.0, 1.0, 1.1] },
             |scene| scene.lights.clear(),
         ];

@@ -46,6 +46,18 @@ pub enum Surface {
         /// The width parameter α of the distribution, in (0, 1].
         roughness: f64,
     },
+    /// GGX microfacets that are smooth interfaces each (Walter et al. 2007), by Fresnel's exact equations: outside
+    /// is vacuum, inside has `index`. Single scattering: what meets two facets is lost.
+    RoughGlass {
+        /// Index of refraction inside; not 1.
+        index: f64,
+        /// The width parameter α of the distribution, in (0, 1].
+        roughness: f64,
+        /// Multiplies the Fresnel reflectance.
+        reflectance: Rgb,
+        /// Multiplies the Fresnel transmittance.
+        transmittance: Rgb,
+    },
 }
 
 /// How a surface glows, from its front side only (the side of the geometric normal).

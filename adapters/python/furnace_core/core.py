@@ -20,7 +20,7 @@ class Core:
     precision = "double"
     # What no method can say: "brute-force", "split-rules", "hemisphere-sampling",
     # "isolated-bounces", "roulette", "adaptive-sampling", "traversal-stats", "callers-randomness",
-    # "deterministic".
+    # "rough-glass", "deterministic".
     traits = frozenset()
     # What the core has freely chosen, where it is not the usual: "point-light-falloff": "none",
     # "emission": "both", "smith-term": "height-correlated", "glass-fresnel": "schlick"

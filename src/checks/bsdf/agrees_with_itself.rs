@@ -33,7 +33,7 @@ impl Check for AgreesWithItself {
     const SUMMARY: &'static str = "sampled values and densities are those that are evaluated";
 
     fn needs(&self) -> Capabilities {
-        Capabilities::EVAL_BSDF | Capabilities::SAMPLE_BSDF
+        Capabilities::EVAL_BSDF | Capabilities::SAMPLE_BSDF | SurfaceEntry::all_need(&self.surface)
     }
 
     fn validate(&self) -> Result<(), String> {
@@ -75,11 +75,15 @@ struct Drawn {
     samples: Vec<BsdfSample>,
 }
 
-/// Directions of the upper hemisphere, among them straight on and grazing ones.
-fn views(stream: &mut Stream) -> Vec<DVec3> {
+/// Directions from which the surface is seen, among them straight on and grazing ones.
+fn views(surface: SurfaceEntry, stream: &mut Stream) -> Vec<DVec3> {
     let special = GRAZING.iter().map(|up| direction(FRAC_PI_2 - up, 1.0)).chain([DVec3::Z]);
     let mut views: Vec<_> = special.collect();
-    views.resize_with(VIEWS, || on_hemisphere(stream));
+    if surface.lets_pass() {
+        views.extend_from_within(..);
+        views.iter_mut().take(GRAZING.len() + 1).for_each(|view| *view = -*view);
+    }
+    views.resize_with(VIEWS, || surface.direction(stream));
     views
 }
 
@@ -88,7 +92,7 @@ impl Drawn {
         let seed = context.seed.child(surface);
         let mut stream = seed.stream();
         let each = |view: DVec3| std::iter::repeat_n(view, SAMPLES_PER_VIEW);
-        let views: Vec<_> = views(&mut stream).into_iter().flat_map(each).collect();
+        let views: Vec<_> = views(surface, &mut stream).into_iter().flat_map(each).collect();
         let numbers = Numbers::new(seed.child("numbers"), views.len());
         let mut samples = vec![BsdfSample::NONE; views.len()];
         let random = numbers.randomness();
@@ -114,16 +118,15 @@ impl Drawn {
         let is_cosine =
             Form::of(&shares).is_some_and(|f| f.is_like(Form { constant: 1.0, power: 1 }));
         let name = self.surface.to_string();
-        let measures = vec![
+        let mut measures = vec![
             worst_measure(format!("{name}: density of a sample"), &pdf),
             worst_measure(format!("{name}: value of a sample"), &f),
-            Measure::exact(
-                format!("{name}: directions below the horizon with a value"),
-                below,
-                0.0,
-                0.0,
-            ),
         ];
+        measures.extend(below.map(|below| {
+            let what = format!("{name}: directions below the horizon with a value");
+            Measure::exact(what, below, 0.0, 0.0)
+        }));
+        let below = below.unwrap_or(0.0);
         let complaint = if pdf.disagree > 0 {
             Some(format!(
                 "{} drawn with another density than evaluated",
@@ -187,13 +190,16 @@ impl Drawn {
         Ok(values)
     }
 
-    /// A surface that reflects only has no value below the horizon.
-    fn lit_below_horizon(&self, context: &mut Context<'_>) -> Result<f64, CheckError> {
+    /// A surface that reflects only has no value below the horizon. `None` where light passes.
+    fn lit_below_horizon(&self, context: &mut Context<'_>) -> Result<Option<f64>, CheckError> {
+        if self.surface.lets_pass() {
+            return Ok(None);
+        }
         let mut stream = context.seed.child("below").stream();
         let mut down = || at_height(-1.0 + 0.99 * uniform(&mut stream), TAU * uniform(&mut stream));
         let pairs: Vec<_> = self.views.iter().map(|view| (*view, down())).collect();
         let values = self.evaluated(context, pairs.into_iter())?;
-        Ok(values.iter().filter(|value| has_value(value)).count() as f64)
+        Ok(Some(values.iter().filter(|value| has_value(value)).count() as f64))
     }
 }
 

@@ -1,16 +1,16 @@
 //! The albedo of a surface: never above one, and what its parameters say it is.
 
+use super::albedo::Albedo;
 use super::metal;
+use super::rough_glass::RoughGlass;
 use crate::cause::{Cause, bsdf};
 use crate::checks::form::Form;
 use crate::checks::phrase::{figure, would_have_caught};
-use crate::checks::surface::{SurfaceEntry, seen_from};
+use crate::checks::surface::{SurfaceEntry, kink, seen_from};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{BsdfQuery, BsdfValue, Capabilities, SmithTerm};
-use crate::math::closed_form::microfacet::{self, Masking};
+use crate::contract::{BsdfQuery, BsdfValue, Capabilities};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
-use crate::math::sphere::on_hemisphere;
 use crate::scene::{Rgb, Surface};
 use crate::stats::{SphereCells, Tolerance, Verdict};
 use crate::text::Angle;
@@ -37,7 +37,7 @@ impl Check for ConservesEnergy {
     const SUMMARY: &'static str = "quadrature of f cos is the albedo, and never above one";
 
     fn needs(&self) -> Capabilities {
-        Capabilities::EVAL_BSDF
+        Capabilities::EVAL_BSDF | SurfaceEntry::all_need(&self.surface)
     }
 
     fn validate(&self) -> Result<(), String> {
@@ -54,7 +54,7 @@ impl Check for ConservesEnergy {
         let mut measures = Vec::new();
         for surface in &self.surface {
             for Angle(angle) in &self.seen_from {
-                measures.push(albedo_measure(context, *surface, *angle)?);
+                measures.extend(albedo_measures(context, *surface, *angle)?);
             }
         }
         let worst = measures.iter().find(|measure| measure.verdict != Verdict::Pass);
@@ -90,7 +90,7 @@ fn mistake_of(
     surface: SurfaceEntry,
 ) -> Result<Option<&'static Cause>, CheckError> {
     let mut stream = context.seed.child("form of a value").stream();
-    let mut direction = || on_hemisphere(&mut stream);
+    let mut direction = || surface.direction(&mut stream);
     let queries: Vec<_> =
         (0..DIRECTIONS).map(|_| BsdfQuery { wo: direction(), wi: direction() }).collect();
     let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
@@ -109,6 +109,16 @@ fn mistake_of(
         Surface::Conductor { reflectance, roughness } => {
             let smith = context.info.conventions.smith_term;
             metal::mistake_of_value((reflectance[1], roughness), smith, &queries, &values)
+        }
+        Surface::RoughGlass { index, roughness, reflectance, transmittance } => {
+            let conventions = context.info.conventions;
+            let white = |(query, value): (BsdfQuery, &BsdfValue)| {
+                let passes = query.wo.z * query.wi.z < 0.0;
+                let colour = if passes { transmittance } else { reflectance };
+                (query, value.f[1] / colour[1])
+            };
+            let pairs: Vec<_> = queries.into_iter().zip(&values).map(white).collect();
+            RoughGlass { index, roughness, conventions }.mistake_of_value(&pairs)
         }
         Surface::Mirror { .. } | Surface::Glass { .. } => None,
     })
@@ -143,19 +153,25 @@ fn complaint(measure: &Measure) -> String {
     format!("{} is {}{name} of what it should be", measure.name, figure(ratio))
 }
 
-/// The albedo of the green channel, by quadrature of the core's own values.
-fn albedo_measure(
+/// The albedo of the green channel, by quadrature of the core's own values; of what light passes, on either side.
+fn albedo_measures(
     context: &mut Context<'_>,
     surface: SurfaceEntry,
     angle: f64,
-) -> Result<Measure, CheckError> {
+) -> Result<Vec<Measure>, CheckError> {
     let relative = Tolerance::FORMULA.of(context.info.precision);
-    let expected = expected_albedo(surface, angle, context.info.conventions.smith_term);
-    let allowed = relative * expected;
+    let expected = Albedo::expected(surface, angle, context.info.conventions);
     let (material, wo) = (surface.material(), seen_from(angle));
-    let cells = SphereCells::sphere(CELLS.0, CELLS.1);
-    let diligence =
-        Diligence { tolerance: 0.1 * allowed / cells.len() as f64, ..Diligence::default() };
+    let cells =
+        SphereCells::sphere(CELLS.0, CELLS.1).with_kinks(kink(&material.surface, angle).as_slice());
+    let diligence = match expected {
+        Albedo::OfOneSide(albedo) => {
+            let tolerance = 0.1 * relative * albedo / cells.len() as f64;
+            Diligence { tolerance, ..Diligence::default() }
+        }
+        // Where total reflection begins, f has a kink along a curve.
+        Albedo::OfBothSides { .. } => Diligence::KINKED,
+    };
     let core = &mut *context.core;
     let integral = cells.probabilities(diligence, &mut |directions, values| {
         let queries: Vec<_> = directions.iter().map(|wi| BsdfQuery { wo, wi: *wi }).collect();
@@ -166,25 +182,20 @@ fn albedo_measure(
         }
         Ok::<_, CheckError>(())
     })?;
-    let error: f64 = integral.errors.iter().sum();
-    let name = format!("albedo of {surface} at {}°", figure(angle.to_degrees()));
-    Ok(Measure::exact(name, integral.mass, expected, allowed + error))
-}
-
-/// By the formula, independent of any core. Single scattering from GGX loses light, more of it with the
-/// separable Smith term.
-pub fn expected_albedo(surface: SurfaceEntry, angle: f64, smith: SmithTerm) -> f64 {
-    let masking = match smith {
-        SmithTerm::Separable => Masking::Separable,
-        SmithTerm::HeightCorrelated => Masking::HeightCorrelated,
+    let measure = |what: &str, expected: f64, belongs: &dyn Fn(f64) -> bool| {
+        let within = |cell: &usize| belongs(cells.bounds(*cell).0.iter().sum::<f64>() * wo.z);
+        let sum = |of: &[f64]| (0..cells.len()).filter(within).map(|cell| of[cell]).sum::<f64>();
+        let (found, error) = (sum(&integral.cells), sum(&integral.errors));
+        let name = format!("albedo of {surface} at {}°{what}", figure(angle.to_degrees()));
+        Measure::exact(name, found, expected, relative * expected + error)
     };
-    match surface.material().surface {
-        Surface::Diffuse { reflectance } => reflectance[1],
-        Surface::Conductor { reflectance, roughness } => {
-            reflectance[1] * microfacet::albedo(angle.cos(), roughness, masking)
-        }
-        Surface::Mirror { .. } | Surface::Glass { .. } => 0.0,
-    }
+    Ok(match expected {
+        Albedo::OfOneSide(expected) => vec![measure("", expected, &|_| true)],
+        Albedo::OfBothSides { reflected, refracted } => vec![
+            measure(", reflected", reflected, &|height| height > 0.0),
+            measure(", refracted", refracted, &|height| height < 0.0),
+        ],
+    })
 }
 
 #[cfg(test)]

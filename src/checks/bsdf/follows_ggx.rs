@@ -3,6 +3,7 @@
 //! That the facets cover the surface once (∫ D cos = 1), that no more of them is seen than there is (G ≤ 1), and
 //! which Smith term a core uses: all of it follows, and a wrong factor is named by where it is wrong.
 
+use super::albedo;
 use crate::cause::{Cause, bsdf as cause, convention};
 use crate::checks::phrase::{figure, percent, some_are, worst_measure};
 use crate::checks::surface::SurfaceEntry;
@@ -139,10 +140,7 @@ impl Tried {
         let Surface::Conductor { reflectance, roughness } = material.surface else {
             return Ok(None);
         };
-        let masking = match smith {
-            SmithTerm::Separable => Masking::Separable,
-            SmithTerm::HeightCorrelated => Masking::HeightCorrelated,
-        };
+        let masking = albedo::masking(smith);
         let mut stream = context.seed.child(surface).stream();
         let mut next = || (on_hemisphere(&mut stream), on_hemisphere(&mut stream));
         let pairs: Vec<_> = (0..PAIRS)
@@ -231,10 +229,7 @@ mod tests {
             let Surface::Conductor { reflectance, roughness } = material.surface else {
                 return Ok(());
             };
-            let masking = match self.smith_term {
-                SmithTerm::Separable => Masking::Separable,
-                SmithTerm::HeightCorrelated => Masking::HeightCorrelated,
-            };
+            let masking = albedo::masking(self.smith_term);
             for (query, value) in queries.iter().zip(values) {
                 let BsdfQuery { wo, wi } = *query;
                 let pair = Pair { wo, wi, reflectance, roughness, masking };

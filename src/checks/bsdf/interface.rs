@@ -191,7 +191,9 @@ impl Interface {
                     refracted: beyond.and_then(|wi| lobe(wi, transmittance, 1.0 - share, crossing)),
                 }
             }
-            Surface::Diffuse { .. } | Surface::Conductor { .. } => Lobes::default(),
+            Surface::Diffuse { .. } | Surface::Conductor { .. } | Surface::RoughGlass { .. } => {
+                Lobes::default()
+            }
         }
     }
 }

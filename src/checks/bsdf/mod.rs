@@ -1,6 +1,7 @@
 //! BSDFs, without any scene.
 
 mod agrees_with_itself;
+mod albedo;
 mod conserves_energy;
 #[cfg(test)]
 mod fake;
@@ -9,6 +10,7 @@ mod interface;
 pub(super) mod metal;
 mod reciprocal;
 mod reflects_and_refracts;
+pub(super) mod rough_glass;
 mod smooth_view;
 mod weights_make_the_albedo;
 

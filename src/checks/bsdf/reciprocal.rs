@@ -1,10 +1,10 @@
-//! f(a, b) = f(b, a), after Helmholtz. Densities need not be.
+//! f(a, b) = f(b, a), after Helmholtz; across an interface, of f over the index squared. Densities need not be.
 
 use crate::checks::phrase::{some_are, worst_measure, would_have_caught};
 use crate::checks::surface::SurfaceEntry;
 use crate::checks::{Check, CheckError, Context, Finding};
-use crate::contract::{BsdfQuery, BsdfValue, Capabilities};
-use crate::math::sphere::on_hemisphere;
+use crate::contract::{BsdfQuery, BsdfValue, Capabilities, GlassRadiance};
+use crate::scene::Rgb;
 use crate::stats::{Compared, Tolerance, judge_exact};
 use serde::Deserialize;
 
@@ -20,10 +20,10 @@ pub struct Reciprocal {
 
 impl Check for Reciprocal {
     const NAME: &'static str = "bsdf-reciprocal";
-    const SUMMARY: &'static str = "f(a, b) = f(b, a)";
+    const SUMMARY: &'static str = "f(a, b) = f(b, a), over the index squared";
 
     fn needs(&self) -> Capabilities {
-        Capabilities::EVAL_BSDF
+        Capabilities::EVAL_BSDF | SurfaceEntry::all_need(&self.surface)
     }
 
     fn validate(&self) -> Result<(), String> {
@@ -40,10 +40,10 @@ impl Check for Reciprocal {
         let mut complaints = Vec::new();
         for surface in &self.surface {
             let (there, back) = there_and_back(context, *surface)?;
-            let pairs = there.iter().zip(&back);
-            let report = judge_exact(pairs.flat_map(|(a, b)| {
-                (0..3).map(move |c| Compared::relative(a.f[c], b.f[c], allowed))
-            }));
+            let report =
+                judge_exact(there.iter().zip(&back).flat_map(|(a, b)| {
+                    (0..3).map(move |c| Compared::relative(a[c], b[c], allowed))
+                }));
             measures.push(worst_measure(format!("{surface}: f there and back"), &report));
             if report.disagree > 0 {
                 let some = some_are(report.disagree, report.compared, "values");
@@ -59,21 +59,42 @@ impl Check for Reciprocal {
     }
 }
 
+/// f at pairs of directions, and with light and eye exchanged, each over what exchanging changes.
 fn there_and_back(
     context: &mut Context<'_>,
     surface: SurfaceEntry,
-) -> Result<(Vec<BsdfValue>, Vec<BsdfValue>), CheckError> {
+) -> Result<(Vec<Rgb>, Vec<Rgb>), CheckError> {
     let mut stream = context.seed.child(surface).stream();
-    let there: Vec<_> = (0..PAIRS)
-        .map(|_| BsdfQuery { wo: on_hemisphere(&mut stream), wi: on_hemisphere(&mut stream) })
-        .collect();
+    let mut direction = || surface.direction(&mut stream);
+    let there: Vec<_> =
+        (0..PAIRS).map(|_| BsdfQuery { wo: direction(), wi: direction() }).collect();
     let back: Vec<_> = there.iter().map(|q| BsdfQuery { wo: q.wi, wi: q.wo }).collect();
+    let radiance = context.info.conventions.glass_radiance;
     let mut evaluated = |queries: &[BsdfQuery]| {
         let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
-        let result = context.core.eval_bsdf(&surface.material(), queries, &mut values);
-        result.map(|()| values)
+        context.core.eval_bsdf(&surface.material(), queries, &mut values)?;
+        let over_index = |(query, value): (&BsdfQuery, &BsdfValue)| {
+            let index = index_squared(surface, radiance, query);
+            value.f.map(|f| f / index)
+        };
+        Ok::<_, CheckError>(queries.iter().zip(&values).map(over_index).collect())
     };
     Ok((evaluated(&there)?, evaluated(&back)?))
+}
+
+/// What f across an interface is proportional to that is not the same both ways: the square of the index on the
+/// side of the eye where radiance is scaled by it, on the side of the light where it is not.
+fn index_squared(surface: SurfaceEntry, radiance: GlassRadiance, query: &BsdfQuery) -> f64 {
+    let side = match radiance {
+        GlassRadiance::Scaled => query.wo,
+        GlassRadiance::Unscaled => query.wi,
+    };
+    match surface {
+        SurfaceEntry::RoughGlass(glass) if query.wo.z * query.wi.z < 0.0 && side.z < 0.0 => {
+            glass.index * glass.index
+        }
+        _ => 1.0,
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The mean weight of samples, f cos / pdf, is the albedo: what a path tracer really multiplies by.
 
-use super::conserves_energy::expected_albedo;
+use super::albedo::Albedo;
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::{degrees, figure, mean_measure, would_have_caught};
 use crate::checks::surface::{SurfaceEntry, seen_from};
@@ -28,7 +28,7 @@ impl Check for WeightsMakeTheAlbedo {
     const SUMMARY: &'static str = "the mean of f cos / pdf over samples is the albedo";
 
     fn needs(&self) -> Capabilities {
-        Capabilities::SAMPLE_BSDF
+        Capabilities::SAMPLE_BSDF | SurfaceEntry::all_need(&self.surface)
     }
 
     fn validate(&self) -> Result<(), String> {
@@ -44,12 +44,13 @@ impl Check for WeightsMakeTheAlbedo {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let effort = context.effort(self.detects, self.at_most);
         let band = Band::math(context.info.precision);
-        let smith = context.info.conventions.smith_term;
+        let conventions = context.info.conventions;
         let mut measures = Vec::new();
         for surface in &self.surface {
             for Angle(angle) in &self.seen_from {
                 let seed = context.seed.child(surface).child(angle);
-                let claim = Claim::value(expected_albedo(*surface, *angle, smith), band);
+                let albedo = Albedo::expected(*surface, *angle, conventions).sum();
+                let claim = Claim::value(albedo, band);
                 let reports = judge_means(&[claim], &effort, &mut |draw| {
                     let samples = usize::try_from(draw.samples).unwrap_or(usize::MAX);
                     mean_weight(context.core, *surface, *angle, draw.seed(seed), samples)

@@ -3,8 +3,9 @@
 use super::distribution::Distribution;
 use crate::cause::{Cause, sampling};
 use crate::checks::bsdf::metal::{Facets, mistake_of_density};
+use crate::checks::bsdf::rough_glass::RoughGlass;
 use crate::checks::form::Form;
-use crate::contract::{Core, Result, Sampler};
+use crate::contract::{BsdfQuery, Conventions, Core, Result, Sampler};
 use crate::math::rng::Seed;
 use crate::math::sphere::on_hemisphere;
 use crate::scene::Surface;
@@ -23,6 +24,8 @@ enum Wanted {
     Either,
     /// Rough metal may draw by all its facets, or by those that are seen.
     Metal,
+    /// As may rough glass, and choose between its ways as it likes.
+    RoughGlass,
 }
 
 impl Wanted {
@@ -33,6 +36,7 @@ impl Wanted {
             Distribution::Bsdf { material, .. } => match material.surface {
                 Surface::Diffuse { .. } => Some(Self::Either),
                 Surface::Conductor { .. } => Some(Self::Metal),
+                Surface::RoughGlass { .. } => Some(Self::RoughGlass),
                 Surface::Mirror { .. } | Surface::Glass { .. } => None,
             },
         }
@@ -45,8 +49,8 @@ pub struct Density {
     wanted: Wanted,
     form: Option<Form>,
     is_dark_below: bool,
-    /// What is wrong with the density of rough metal, which has no such form.
-    of_metal: Option<&'static Cause>,
+    /// What is wrong with the density of microfacets, which has no such form.
+    of_facets: Option<&'static Cause>,
 }
 
 impl Density {
@@ -64,14 +68,22 @@ impl Density {
         distribution.pdf(core, &below, &mut pdf_below)?;
         let values: Vec<_> = pdf.iter().zip(&above).map(|(pdf, wi)| (*pdf, wi.z)).collect();
         let is_dark_below = pdf_below.iter().all(|pdf| *pdf == 0.0);
-        let of_metal = mistake_of_metal(distribution, &above, &pdf);
-        let form = if wanted == Wanted::Metal { None } else { Form::of(&values) };
-        Ok(Some(Self { wanted, form, is_dark_below, of_metal }))
+        let of_facets = match wanted {
+            Wanted::Metal => mistake_of_metal(distribution, &above, &pdf),
+            Wanted::RoughGlass => {
+                let all = above.iter().zip(&pdf).chain(below.iter().zip(&pdf_below));
+                mistake_of_rough_glass(distribution, all)
+            }
+            _ => None,
+        };
+        let is_of_facets = matches!(wanted, Wanted::Metal | Wanted::RoughGlass);
+        let form = if is_of_facets { None } else { Form::of(&values) };
+        Ok(Some(Self { wanted, form, is_dark_below, of_facets }))
     }
 
     /// The mistake that makes such a density, whatever is drawn.
     pub fn mistake(self) -> Option<&'static Cause> {
-        let Some(form) = self.form else { return self.of_metal };
+        let Some(form) = self.form else { return self.of_facets };
         let right = match (self.wanted, form.power) {
             (Wanted::Uniform, _) | (Wanted::Either, 0) => Form::UNIFORM,
             _ => Form::COSINE,
@@ -153,6 +165,17 @@ fn mistake_of_metal(
     let Surface::Conductor { roughness, .. } = material.surface else { return None };
     let facets = directions.iter().map(|wi| Facets::of(roughness, *wo, *wi));
     mistake_of_density(&facets.zip(pdf.iter().copied()).collect::<Vec<_>>())
+}
+
+fn mistake_of_rough_glass<'a>(
+    distribution: &Distribution,
+    densities: impl Iterator<Item = (&'a DVec3, &'a f64)>,
+) -> Option<&'static Cause> {
+    let Distribution::Bsdf { material, wo, .. } = distribution else { return None };
+    let Surface::RoughGlass { index, roughness, .. } = material.surface else { return None };
+    let glass = RoughGlass { index, roughness, conventions: Conventions::default() };
+    let pairs = densities.map(|(wi, pdf)| (BsdfQuery { wo: *wo, wi: *wi }, *pdf));
+    glass.mistake_of_density(&pairs.collect::<Vec<_>>())
 }
 
 /// The area of the map that draws θ uniformly: π² sin θ.

@@ -1,7 +1,7 @@
 //! Anything that draws directions with a density: the samplers of a course, and BSDFs seen from a direction.
 
 use crate::checks::numbers::Numbers;
-use crate::checks::surface::{SurfaceEntry, seen_from};
+use crate::checks::surface::{SurfaceEntry, kink, lets_pass, seen_from};
 use crate::contract::{
     BsdfQuery, BsdfSample, BsdfValue, Capabilities, Core, DirectionSample, Randomness, Result,
     Sampler,
@@ -76,9 +76,10 @@ impl DistributionEntry {
 
     /// What a core has to be able to do.
     pub fn needs(&self) -> Capabilities {
-        match self.sampler {
-            Some(_) => Capabilities::SAMPLE_DIRECTION,
-            None => Capabilities::SAMPLE_BSDF | Capabilities::EVAL_BSDF,
+        let of_bsdf = Capabilities::SAMPLE_BSDF | Capabilities::EVAL_BSDF;
+        match self.surface {
+            None => Capabilities::SAMPLE_DIRECTION,
+            Some(surface) => of_bsdf | surface.needs(),
         }
     }
 }
@@ -123,6 +124,19 @@ impl Distribution {
     /// Whether a sample may fail: samplers of the whole hemisphere may not.
     pub const fn may_fail(&self) -> bool {
         matches!(self, Self::Bsdf { .. })
+    }
+
+    /// Whether samples may lie anywhere on the sphere, and not above the horizon only.
+    pub const fn is_of_sphere(&self) -> bool {
+        matches!(self, Self::Bsdf { material, .. } if lets_pass(&material.surface))
+    }
+
+    /// The height at which the density may jump.
+    pub fn kink(&self) -> Option<f64> {
+        match self {
+            Self::Sampler(_) => None,
+            Self::Bsdf { material, angle, .. } => kink(&material.surface, angle.0),
+        }
     }
 
     /// The density at each direction, as evaluated.

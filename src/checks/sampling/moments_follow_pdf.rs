@@ -139,7 +139,8 @@ fn expected_moments(
 ) -> Result<[f64; COUNT], CheckError> {
     let mut expected = [0.0; COUNT];
     for (number, expected) in expected.iter_mut().enumerate() {
-        let cells = SphereCells::sphere(CELLS.0, CELLS.1);
+        let cells =
+            SphereCells::sphere(CELLS.0, CELLS.1).with_kinks(distribution.kink().as_slice());
         let integrals = cells.probabilities(QUADRATURE, &mut |directions, values| {
             distribution.pdf(core, directions, values)?;
             let weights = directions.iter().map(|direction| harmonics(turn * *direction)[number]);

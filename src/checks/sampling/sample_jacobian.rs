@@ -1,5 +1,8 @@
 //! A sampler's map and its density fit together at every point: |∂ω/∂u × ∂ω/∂v| · pdf = 1.
 //!
+//! Where a third number chooses between ways, each way has a map of its own, and the product is the chance of that
+//! way: the share of third numbers that choose it, which is found by halving.
+//!
 //! No statistics: wherever the map from the unit square is smooth, how much it stretches area is the reciprocal of
 //! the density (an idea seen in the tests of lajolla). Needs a core that samples with the caller's numbers.
 
@@ -22,6 +25,8 @@ const POINTS: usize = 2000;
 const FEWEST_POINTS: usize = POINTS / 10;
 /// Points lie on a grid of this step, so that single precision holds them and their neighbours.
 const GRID: f64 = 1.0 / 1_048_576.0;
+/// The chance of a way is found to 2⁻³⁰, and in single precision to a rounding.
+const HALVINGS: usize = 30;
 
 /// Density times Jacobian is 1.
 #[derive(Clone, Debug, Deserialize)]
@@ -46,7 +51,12 @@ impl Check for SampleJacobian {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut products = Vec::new();
         for distribution in self.distribution.distributions() {
-            products.push(Products::of(context, &distribution)?);
+            if distribution.is_of_sphere() {
+                products.push(Products::of(context, &distribution, Way::First)?);
+                products.push(Products::of(context, &distribution, Way::Last)?);
+            } else {
+                products.push(Products::of(context, &distribution, Way::Only)?);
+            }
         }
         let measures: Vec<_> = products.iter().flat_map(Products::measures).collect();
         let complaints: Vec<_> = products.iter().filter_map(Products::complaint).collect();
@@ -70,6 +80,81 @@ const fn step(precision: Precision) -> f64 {
     }
 }
 
+/// The third number of all points, by the way that it chooses.
+#[derive(Clone, Copy)]
+enum Way {
+    /// There is one.
+    Only,
+    /// That of the smallest numbers.
+    First,
+    /// That of the largest.
+    Last,
+}
+
+impl Way {
+    const fn lobe(self) -> f64 {
+        match self {
+            Self::Only => 0.5,
+            Self::First => 0.0,
+            Self::Last => 1.0 - 0.5 * f32::EPSILON as f64,
+        }
+    }
+
+    const fn opposite(self) -> Self {
+        match self {
+            Self::Only => Self::Only,
+            Self::First => Self::Last,
+            Self::Last => Self::First,
+        }
+    }
+
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Only => "",
+            Self::First => ", lobe 0",
+            Self::Last => ", lobe 1",
+        }
+    }
+
+    /// The chance of the way at each point.
+    fn chances(
+        self,
+        points: &[DVec2],
+        draw: &mut Draw<'_>,
+        centre: &[Drawn],
+    ) -> Result<Vec<f64>, CheckError> {
+        if matches!(self, Self::Only) {
+            return Ok(vec![1.0; points.len()]);
+        }
+        // Of each point: a number that goes this way, and one that goes the other.
+        let (end, away) = (self.lobe().round(), 1.0 - self.lobe().round());
+        let mut ends = vec![(self.lobe(), away); points.len()];
+        let elsewhere = draw(points, &vec![self.opposite().lobe(); points.len()])?;
+        for _ in 0..HALVINGS {
+            let middle: Vec<_> = ends.iter().map(|(here, there)| 0.5 * (here + there)).collect();
+            let drawn = draw(points, &middle)?;
+            for (i, end) in ends.iter_mut().enumerate() {
+                let goes_here = is_same_way(&centre[i], &drawn[i]);
+                *(if goes_here { &mut end.0 } else { &mut end.1 }) = middle[i];
+            }
+        }
+        let chance = |(i, (here, _)): (usize, &(f64, f64))| {
+            let is_sure = is_same_way(&centre[i], &elsewhere[i]);
+            if is_sure { 1.0 } else { (here - end).abs() }
+        };
+        Ok(ends.iter().enumerate().map(chance).collect())
+    }
+}
+
+/// One sample for each point and third number.
+type Draw<'a> = dyn FnMut(&[DVec2], &[f64]) -> Result<Vec<Drawn>, CheckError> + 'a;
+
+/// Whether two samples lie on the same side, or fail both.
+fn is_same_way(one: &Drawn, other: &Drawn) -> bool {
+    let side = |drawn: &Drawn| drawn.direction.map(|direction| direction.z > 0.0);
+    side(one) == side(other)
+}
+
 /// Density times Jacobian at many points.
 struct Products {
     name: String,
@@ -80,7 +165,11 @@ struct Products {
 }
 
 impl Products {
-    fn of(context: &mut Context<'_>, distribution: &Distribution) -> Result<Self, CheckError> {
+    fn of(
+        context: &mut Context<'_>,
+        distribution: &Distribution,
+        way: Way,
+    ) -> Result<Self, CheckError> {
         let precision = context.info.precision;
         let h = step(precision);
         let seed = context.seed.child(distribution.name());
@@ -88,26 +177,33 @@ impl Products {
         let on_grid = |u: f64| h + ((1.0 - 2.0 * h) * u / GRID).floor() * GRID;
         let points: Vec<_> =
             numbers.points.iter().map(|p| DVec2::new(on_grid(p.x), on_grid(p.y))).collect();
-        let lobes = vec![0.5; points.len()];
+        let core = &mut *context.core;
+        let mut draw = |points: &[DVec2], lobes: &[f64]| {
+            let random = Randomness { points, lobes, seed: seed.0 };
+            Ok(distribution.sample(core, random)?)
+        };
+        let lobes = vec![way.lobe(); points.len()];
         let mut at = |offset: DVec2| {
-            let points: Vec<_> = points.iter().map(|point| *point + offset).collect();
-            let random = Randomness { points: &points, lobes: &lobes, seed: seed.0 };
-            distribution.sample(context.core, random)
+            draw(&points.iter().map(|point| *point + offset).collect::<Vec<_>>(), &lobes)
         };
         let centre = at(DVec2::ZERO)?;
         let [right, left] = [at(DVec2::new(h, 0.0))?, at(DVec2::new(-h, 0.0))?];
         let [above, below] = [at(DVec2::new(0.0, h))?, at(DVec2::new(0.0, -h))?];
+        let chances = way.chances(&points, &mut draw, &centre)?;
         let product = |i: usize| {
+            let neighbours = [&right[i], &left[i], &above[i], &below[i]];
+            let goes_on = neighbours.iter().all(|drawn| is_same_way(drawn, &centre[i]));
             let along = |to: &[Drawn], from: &[Drawn]| {
                 Some((to[i].direction? - from[i].direction?) / (2.0 * h))
             };
             let jacobian = along(&right, &left)?.cross(along(&above, &below)?).length();
-            Some((centre[i].pdf * jacobian, centre[i].direction?.z))
+            let product = centre[i].pdf * jacobian / chances[i];
+            goes_on.then_some((product, centre[i].direction?.z))
         };
         let mut values: Vec<_> = (0..points.len()).filter_map(product).collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
         let density = Density::of(context.core, distribution)?;
-        Ok(Self { name: distribution.name(), values, precision, density })
+        Ok(Self { name: distribution.name() + way.words(), values, precision, density })
     }
 
     /// The error that this share of the points does not exceed.

@@ -16,7 +16,7 @@ use crate::text::{Count, Percent};
 use serde::Deserialize;
 use std::f64::consts::{FRAC_2_PI, TAU};
 
-/// Rings and sectors of the upper hemisphere; all below is one ring more.
+/// Rings and sectors of the upper hemisphere; all below is one ring more, or as many where samples belong there.
 const CELLS: (usize, usize) = (10, 20);
 /// Error of the integral over a cell that costs a test of millions of samples nothing.
 const QUADRATURE: Diligence = Diligence { tolerance: 1e-7, most_evaluations: 4_000_000 };
@@ -54,7 +54,7 @@ impl Check for SamplesFollowPdf {
             let core = &mut *context.core;
             let mut source = Source { core, distribution: &distribution, seed, cells: None };
             let report = judge_count_source(&effort, &mut source)?;
-            let cells = source.cells.unwrap_or_else(|| cells(0.0));
+            let cells = source.cells.unwrap_or_else(|| cells(&distribution, 0.0));
             let density = Density::of(context.core, &distribution)?;
             judged.push(Judged { name: distribution.name(), report, cells, density });
         }
@@ -62,8 +62,12 @@ impl Check for SamplesFollowPdf {
     }
 }
 
-fn cells(turn: f64) -> SphereCells {
-    SphereCells::hemisphere(CELLS.0, CELLS.1).turned_by(turn)
+fn cells(distribution: &Distribution, turn: f64) -> SphereCells {
+    let cells = match distribution.is_of_sphere() {
+        true => SphereCells::sphere(CELLS.0, CELLS.1),
+        false => SphereCells::hemisphere(CELLS.0, CELLS.1),
+    };
+    cells.with_kinks(distribution.kink().as_slice()).turned_by(turn)
 }
 
 /// A distribution of a core, in cells that are turned anew for each stage.
@@ -79,15 +83,17 @@ impl CountSource for Source<'_> {
 
     fn expected(&mut self, stage: Stage) -> Result<CellProbabilities, CheckError> {
         let turn = TAU * uniform(&mut self.seed.child(stage).child("turn").stream());
-        let cells = self.cells.insert(cells(turn));
-        let probabilities = cells.probabilities(QUADRATURE, &mut |directions, values| {
+        let cells = self.cells.insert(cells(self.distribution, turn));
+        let diligence =
+            if self.distribution.is_of_sphere() { Diligence::KINKED } else { QUADRATURE };
+        let probabilities = cells.probabilities(diligence, &mut |directions, values| {
             self.distribution.pdf(self.core, directions, values)
         })?;
         Ok(probabilities)
     }
 
     fn draw(&mut self, stage: Stage, samples: u64) -> Result<Counts, CheckError> {
-        let cells = self.cells.clone().unwrap_or_else(|| cells(0.0));
+        let cells = self.cells.clone().unwrap_or_else(|| cells(self.distribution, 0.0));
         let mut counts = cells.count([]);
         self.distribution.draw(
             self.core,
@@ -203,7 +209,7 @@ impl Judged {
     /// `θ = 42°, φ = 10°`: the middle of a cell.
     fn place(&self, cell: usize) -> String {
         let ([low, high], [from, to]) = self.cells.bounds(cell);
-        if low < 0.0 {
+        if low == -1.0 && high == 0.0 {
             return "the horizon and below".to_owned();
         }
         let theta = (0.5 * (low + high)).acos().to_degrees();
@@ -219,6 +225,9 @@ impl Judged {
 
     /// The well-known law that the samples follow instead, if there is one.
     fn law(&self) -> Option<&'static LawOfHeights> {
+        if self.cells.ring_count() > CELLS.0 + 1 {
+            return None;
+        }
         let sectors = self.cells.sector_count();
         let rings: Vec<u64> =
             self.report.observed.chunks(sectors).map(|ring| ring.iter().sum()).collect();

@@ -1,7 +1,7 @@
 //! Light that is scattered once between a light and the viewer of a vertex.
 
 use super::integrator::Integrator;
-use super::light::Light;
+use super::light::{Light, Reach};
 use super::scatter::rgb;
 use super::scatter::warp;
 use super::vertex::Vertex;
@@ -32,7 +32,7 @@ impl Integrator<'_> {
 
     fn gather_light_sample(&mut self, vertex: &Vertex<'_>, light: &Light) -> Vec3 {
         let (point, lobe) = (self.stream.point(), self.stream.unit());
-        let aim = light.aim_from_surface(vertex.position, vertex.normal, point, lobe);
+        let aim = light.aim_from_surface(vertex.position, vertex.light_reach(), point, lobe);
         let unoccluded = self.weigh(vertex, light, &aim.sample);
         if unoccluded == Vec3::ZERO {
             return Vec3::ZERO;
@@ -55,7 +55,7 @@ impl Integrator<'_> {
         }
         let (f, pdf) = vertex.bsdf.evaluate(vertex.wo, local);
         // In double precision, because nearby points on a sphere see each other at grazing angles.
-        let cosine = sample.wi.dot(vertex.normal).max(0.0);
+        let cosine = vertex.cosine(sample.wi);
         let share = if vertex.bsdf.is_glossy() && !light.is_delta() && self.combines() {
             power_heuristic(self.light_density(sample.pdf), f64::from(pdf))
         } else {
@@ -65,7 +65,7 @@ impl Integrator<'_> {
         f * rgb(irradiance)
     }
 
-    /// Uniform directions over the hemisphere, and what glows where they arrive.
+    /// Uniform directions over the hemisphere, or the sphere, and what glows where they arrive.
     fn gather_directions(&mut self, vertex: &Vertex<'_>) -> Vec3 {
         let reachable = self.eye.world.lights.iter().filter(|light| !light.is_delta()).count();
         let samples = (self.settings.samples_per_light * reachable as u32).max(1);
@@ -74,7 +74,12 @@ impl Integrator<'_> {
     }
 
     fn gather_direction(&mut self, vertex: &Vertex<'_>) -> Vec3 {
-        let local = warp::uniform_hemisphere(warp::narrow_point(self.stream.point()));
+        let above = warp::uniform_hemisphere(warp::narrow_point(self.stream.point()));
+        let (local, density) = match vertex.light_reach() {
+            Reach::Above(_) => (above, warp::UNIFORM_DENSITY),
+            Reach::Everywhere if self.stream.unit() < 0.5 => (above, 0.5 * warp::UNIFORM_DENSITY),
+            Reach::Everywhere => (-above, 0.5 * warp::UNIFORM_DENSITY),
+        };
         let wi = vertex.to_world(local);
         if !vertex.is_consistent(wi, local) {
             return Vec3::ZERO;
@@ -87,7 +92,7 @@ impl Integrator<'_> {
             Some(surface) => self.eye.world.emitted(&surface, -wi),
             None => self.eye.world.sky(wi),
         };
-        f * seen * (local.z / warp::UNIFORM_DENSITY)
+        f * seen * (local.z.abs() / density)
     }
 
     /// Whether light samples and directions of glossy surfaces are combined.
@@ -113,8 +118,8 @@ pub fn power_heuristic(own: f64, other: f64) -> f64 {
 pub struct GlossyDirection {
     /// The vertex that it left.
     pub from: DVec3,
-    /// The normal there.
-    pub normal: DVec3,
+    /// Where that takes light from.
+    pub reach: Reach,
     /// The density of the direction.
     pub pdf: f64,
 }

@@ -3,7 +3,7 @@
 //! Bounce k is light that was scattered k times. At a diffuse or rough vertex the next bounce is gathered by
 //! sampling lights (`direct.rs`), and the path goes on in a direction sampled from the BSDF; what glows where
 //! that arrives has been gathered already and is not added again. A mirror or glass cannot be gathered for, so
-//! what glows behind it is added when the path gets there. Directions of a rough conductor are combined with
+//! what glows behind it is added when the path gets there. Directions of rough metal and glass are combined with
 //! the light samples by the power heuristic, because either alone is noisy.
 
 use super::direct::{GlossyDirection, power_heuristic};
@@ -81,13 +81,13 @@ impl<'a> Integrator<'a> {
             (Sight::All, None) => world.sky(-wo),
             (Sight::Share(direction), Some(surface)) => {
                 let share = world.light_of(surface).map_or(1.0, |light| {
-                    let pdf = light.density(direction.from, direction.normal, -wo, Some(surface));
+                    let pdf = light.density(direction.from, direction.reach, -wo, Some(surface));
                     power_heuristic(direction.pdf, self.light_density(pdf))
                 });
                 world.emitted(surface, wo) * share as f32
             }
             (Sight::Share(direction), None) => {
-                let pdf = direction.normal.dot(-wo).max(0.0) * std::f64::consts::FRAC_1_PI;
+                let pdf = direction.reach.sky_density(-wo);
                 world.sky(-wo) * power_heuristic(direction.pdf, self.light_density(pdf)) as f32
             }
         }
@@ -113,8 +113,8 @@ impl<'a> Integrator<'a> {
         let sight = if vertex.bsdf.is_delta() {
             Sight::All
         } else if shares {
-            let (from, normal) = (vertex.position, vertex.normal);
-            Sight::Share(GlossyDirection { from, normal, pdf: f64::from(scattering.pdf) })
+            let (from, reach) = (vertex.position, vertex.light_reach());
+            Sight::Share(GlossyDirection { from, reach, pdf: f64::from(scattering.pdf) })
         } else {
             Sight::Nothing
         };

@@ -32,6 +32,25 @@ pub enum Light {
     Sphere(SphereLight),
 }
 
+/// Where a surface takes light from.
+#[derive(Clone, Copy, Debug)]
+pub enum Reach {
+    /// The hemisphere around this normal.
+    Above(DVec3),
+    /// Both sides.
+    Everywhere,
+}
+
+impl Reach {
+    /// The density of sky samples: with the cosine above a surface, else uniform.
+    pub fn sky_density(self, wi: DVec3) -> f64 {
+        match self {
+            Self::Above(normal) => normal.dot(wi).max(0.0) * FRAC_1_PI,
+            Self::Everywhere => FRAC_1_PI / 4.0,
+        }
+    }
+}
+
 /// A direction towards a light, and where a shadow ray towards it ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Aim {
@@ -103,9 +122,11 @@ impl Light {
         }
     }
 
-    /// A direction from a surface. Skies are sampled in proportion to the cosine with `normal`.
-    pub fn aim_from_surface(&self, from: DVec3, normal: DVec3, point: DVec2, lobe: f64) -> Aim {
-        let Self::Sky(sky) = self else { return self.aim(from, point, lobe) };
+    /// A direction from a surface. Skies are sampled in proportion to the cosine, where there is one side to it.
+    pub fn aim_from_surface(&self, from: DVec3, reach: Reach, point: DVec2, lobe: f64) -> Aim {
+        let (Self::Sky(sky), Reach::Above(normal)) = (self, reach) else {
+            return self.aim(from, point, lobe);
+        };
         let cosine = (1.0 - point.x).sqrt();
         let wi = around(normal, cosine, point.x.sqrt(), point.y);
         let radiance = sky.sky_radiance(wi);
@@ -114,9 +135,9 @@ impl Light {
 
     /// The density with which [`Self::aim_from_surface`] finds direction `wi`, which meets this light at `there`
     /// (`None`: in the sky).
-    pub fn density(&self, from: DVec3, normal: DVec3, wi: DVec3, there: Option<&Surface>) -> f64 {
+    pub fn density(&self, from: DVec3, reach: Reach, wi: DVec3, there: Option<&Surface>) -> f64 {
         match (self, there) {
-            (Self::Sky(_), None) => normal.dot(wi).max(0.0) * FRAC_1_PI,
+            (Self::Sky(_), None) => reach.sky_density(wi),
             (Self::Mesh(mesh), Some(there)) => area_density(mesh.area, from, wi, there),
             (Self::Sphere(sphere), Some(there)) => match sphere.visible_cone(from) {
                 Some(one_minus_cosine) => 1.0 / (TAU * one_minus_cosine),

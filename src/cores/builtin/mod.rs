@@ -63,6 +63,7 @@ const CAPABILITIES: Capabilities = Capabilities::GENERATE_RAYS
     .union(Capabilities::HEMISPHERE_SAMPLING)
     .union(Capabilities::ISOLATED_BOUNCES)
     .union(Capabilities::ROULETTE)
+    .union(Capabilities::ROUGH_GLASS)
     .union(Capabilities::CALLERS_RANDOMNESS)
     .union(Capabilities::DETERMINISTIC);
 

@@ -1,5 +1,6 @@
 //! A point where a path scatters: its surface seen from the side that the path came from.
 
+use super::light::Reach;
 use super::scatter::Bsdf;
 use super::trace::Surface;
 use crate::contract::Ray;
@@ -32,13 +33,18 @@ impl<'a> Vertex<'a> {
         // An interpolated normal may turn away from the viewer; the surface itself does not.
         let seen = if shading_normal.dot(wo) > 0.0 { shading_normal } else { geometric_normal };
         // Glass must know its inside; for the others the side of `wo` is up.
-        let normal = if matches!(bsdf, Bsdf::Glass(_)) { seen * side } else { seen };
+        let normal = if bsdf.is_interface() { seen * side } else { seen };
         let up = normal.as_vec3();
         let (first, second) = up.any_orthonormal_pair();
         let frame = [first, second, up];
         let wo = to_local(&frame, wo.as_vec3());
         let (position, clearance) = (surface.position, surface.clearance);
         Self { position, bsdf, wo, normal, frame, geometric_normal, clearance }
+    }
+
+    /// Where light comes from that it scatters to its viewer.
+    pub fn light_reach(&self) -> Reach {
+        if self.bsdf.is_interface() { Reach::Everywhere } else { Reach::Above(self.normal) }
     }
 
     /// A local direction in world space.
@@ -50,6 +56,12 @@ impl<'a> Vertex<'a> {
     /// A world direction in the local frame.
     pub fn to_local(&self, w: DVec3) -> Vec3 {
         to_local(&self.frame, w.as_vec3())
+    }
+
+    /// Cosine of a world direction with the normal; 0 for one that does not reach the surface.
+    pub fn cosine(&self, wi: DVec3) -> f64 {
+        let cosine = wi.dot(self.normal);
+        if self.bsdf.is_interface() { cosine.abs() } else { cosine.max(0.0) }
     }
 
     /// Whether `wi` leaves the surface on the side where the shading frame thinks it does. Interpolated normals

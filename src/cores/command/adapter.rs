@@ -169,6 +169,8 @@ pub enum Feature {
     TintedGlass,
     /// A rough metal.
     RoughMetal,
+    /// Rough glass.
+    RoughGlass,
     /// A point light.
     PointLight,
     /// A directional light.

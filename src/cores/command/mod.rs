@@ -41,7 +41,9 @@ impl Core for CommandCore {
         CoreInfo {
             name: adapter.name.clone(),
             version: adapter.version.clone(),
-            capabilities: has.fold(Capabilities::BUILD_SCENE, Capabilities::union),
+            // What a program lacks is said of the scene that has it.
+            capabilities: has
+                .fold(Capabilities::BUILD_SCENE | Capabilities::ROUGH_GLASS, Capabilities::union),
             precision: Precision::Single,
             conventions: adapter.conventions,
         }

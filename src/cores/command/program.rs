@@ -313,8 +313,13 @@ fn features(scene: &SceneDescription) -> Vec<(Feature, &'static str)> {
         match material.surface {
             Surface::Diffuse { .. } => {}
             Surface::Mirror { .. } => found.push((Feature::Mirror, "mirrors")),
-            Surface::Glass { reflectance, transmittance, .. } => {
-                found.push((Feature::Glass, "glass"));
+            Surface::Glass { reflectance, transmittance, .. }
+            | Surface::RoughGlass { reflectance, transmittance, .. } => {
+                let is_rough = matches!(material.surface, Surface::RoughGlass { .. });
+                found.push(match is_rough {
+                    true => (Feature::RoughGlass, "rough glass"),
+                    false => (Feature::Glass, "glass"),
+                });
                 if [reflectance, transmittance] != [[1.0; 3]; 2] {
                     found.push((Feature::TintedGlass, "tinted glass"));
                 }

@@ -69,6 +69,7 @@ pub fn capabilities(table: &abi::CoreTable) -> Capabilities {
         (integrates && has(Traits::ISOLATED_BOUNCES), Capabilities::ISOLATED_BOUNCES),
         (integrates && has(Traits::ROULETTE), Capabilities::ROULETTE),
         (renders && has(Traits::ADAPTIVE_SAMPLING), Capabilities::ADAPTIVE_SAMPLING),
+        (has(Traits::KNOWS_ROUGH_GLASS), Capabilities::ROUGH_GLASS),
         (has(Traits::CALLERS_RANDOMNESS), Capabilities::CALLERS_RANDOMNESS),
         (has(Traits::DETERMINISTIC), Capabilities::DETERMINISTIC),
     ]

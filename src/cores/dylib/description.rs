@@ -125,13 +125,15 @@ fn material(material: &Material, name: *const c_char) -> abi::Material {
         Surface::Mirror { reflectance } => (abi::MIRROR, reflectance),
         Surface::Glass { reflectance, .. } => (abi::GLASS, reflectance),
         Surface::Conductor { reflectance, .. } => (abi::CONDUCTOR, reflectance),
+        Surface::RoughGlass { reflectance, .. } => (abi::ROUGH_GLASS, reflectance),
     };
     let (index, transmittance) = match material.surface {
-        Surface::Glass { index, transmittance, .. } => (index, transmittance),
+        Surface::Glass { index, transmittance, .. }
+        | Surface::RoughGlass { index, transmittance, .. } => (index, transmittance),
         _ => (0.0, [0.0; 3]),
     };
     let roughness = match material.surface {
-        Surface::Conductor { roughness, .. } => roughness,
+        Surface::Conductor { roughness, .. } | Surface::RoughGlass { roughness, .. } => roughness,
         _ => 0.0,
     };
     let cap = material.emission.and_then(|emission| emission.cap);

@@ -2,10 +2,11 @@
 //!
 //! Diffuse, mirror and conductor surfaces are two-sided: seen from below, both directions are
 //! turned over first. Glass is not: which side is outside matters there. Not here: the formulas of
-//! `glass` and of `ggx`.
+//! `glass`, of `ggx` and of `rough_glass`.
 
 use super::change::Change;
 use super::glass::Glass;
+use super::rough_glass::RoughGlass;
 use super::{ggx, sampling};
 use crate::contract::{BsdfSample, BsdfValue};
 use crate::scene::{Rgb, Surface};
@@ -21,14 +22,29 @@ pub fn is_delta(surface: &Surface) -> bool {
     matches!(surface, Surface::Mirror { .. } | Surface::Glass { .. })
 }
 
-/// `f` and the density of [`sample`]. Zero for mirror and glass, and for directions on different
-/// sides.
+/// Whether light passes: it has an inside, and light from both sides is scattered towards `wo`.
+pub fn is_interface(surface: &Surface) -> bool {
+    matches!(surface, Surface::Glass { .. } | Surface::RoughGlass { .. })
+}
+
+/// `f` and the density of [`sample`]. Zero for mirror and smooth glass, and for directions on
+/// different sides of what light does not pass.
 pub fn evaluate(surface: &Surface, wo: DVec3, wi: DVec3, change: Change) -> BsdfValue {
+    if let Some(glass) = rough_glass(surface, change) {
+        return glass.evaluate(wo, wi);
+    }
     if wo.z < 0.0 {
         evaluate_from_above(surface, -wo, -wi, change)
     } else {
         evaluate_from_above(surface, wo, wi, change)
     }
+}
+
+fn rough_glass(surface: &Surface, change: Change) -> Option<RoughGlass> {
+    let Surface::RoughGlass { index, roughness, reflectance, transmittance } = *surface else {
+        return None;
+    };
+    Some(RoughGlass { index, roughness, reflectance, transmittance, change })
 }
 
 fn evaluate_from_above(surface: &Surface, wo: DVec3, wi: DVec3, change: Change) -> BsdfValue {
@@ -48,7 +64,7 @@ fn evaluate_from_above(surface: &Surface, wo: DVec3, wi: DVec3, change: Change) 
             ggx::evaluate(reflectance, roughness, wo, wi, change)
         }
         Surface::Conductor { .. } => NOTHING,
-        Surface::Mirror { .. } | Surface::Glass { .. } => NOTHING,
+        Surface::Mirror { .. } | Surface::Glass { .. } | Surface::RoughGlass { .. } => NOTHING,
     }
 }
 
@@ -64,6 +80,9 @@ pub fn sample(
     if let Surface::Glass { index, reflectance, transmittance } = *surface {
         let glass = Glass { index, reflectance, transmittance, change };
         return glass.sample(wo, lobe);
+    }
+    if let Some(glass) = rough_glass(surface, change) {
+        return glass.sample(wo, point, lobe);
     }
     if wo.z < 0.0 {
         let sample = sample_from_above(surface, -wo, point, change)?;
@@ -85,7 +104,7 @@ fn sample_from_above(
         Surface::Diffuse { .. } => sampling::cosine_hemisphere(point, change),
         Surface::Conductor { roughness, .. } => ggx::sample(roughness, wo, point, change),
         Surface::Mirror { reflectance } => return mirror(wo, reflectance, change),
-        Surface::Glass { .. } => return None,
+        Surface::Glass { .. } | Surface::RoughGlass { .. } => return None,
     };
     let BsdfValue { f, pdf } = evaluate_from_above(surface, wo, wi, change);
     let f = match change {

@@ -109,6 +109,10 @@ pub enum Change {
     MetalWithoutMasking,
     MetalPdfOfFacets,
     MetalWithoutFour,
+    RoughGlassJacobianWithoutIndex,
+    RoughGlassChanceForgotten,
+    RoughGlassHalfOfEntering,
+    RoughGlassFresnelOfSurface,
     // Part 3, lights.
     LightPdfByDistance,
     LightPdfWithoutCosine,

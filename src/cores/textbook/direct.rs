@@ -45,7 +45,7 @@ pub fn one_bounce(
 /// Whether light sampling alone would miss the narrow lobe of the surface. There it is combined
 /// with directions that the surface itself samples.
 fn is_glossy(surface: &Surface) -> bool {
-    matches!(surface, Surface::Conductor { .. })
+    matches!(surface, Surface::Conductor { .. } | Surface::RoughGlass { .. })
 }
 
 /// One point of one path, gathering light.
@@ -73,14 +73,24 @@ impl Scatter<'_> {
     }
 
     fn hemisphere_sample(&self, random: &mut Random) -> DVec3 {
-        let above = sampling::uniform_hemisphere(random.point(), self.change);
-        let wi = if self.vertex.wo.z < 0.0 { -above } else { above };
+        let (wi, pdf) = self.uniform_direction(random);
         let arriving = self.glow_along(wi);
-        let light = arriving * self.f_cosine(wi) / sampling::uniform_hemisphere_pdf(self.change);
+        let light = arriving * self.f_cosine(wi) / pdf;
         match self.change {
             Change::UniformPdfDoubledTwice => 2.0 * light,
             _ => light,
         }
+    }
+
+    /// From where the surface scatters light to the viewer: its side, or both where light passes.
+    fn uniform_direction(&self, random: &mut Random) -> (DVec3, f64) {
+        let point = random.point();
+        if bsdf::is_interface(self.vertex.surface) {
+            return (sampling::uniform_sphere(point), sampling::uniform_sphere_pdf());
+        }
+        let above = sampling::uniform_hemisphere(point, self.change);
+        let wi = if self.vertex.wo.z < 0.0 { -above } else { above };
+        (wi, sampling::uniform_hemisphere_pdf(self.change))
     }
 
     /// Radiance of the first thing in direction `wi` (local).

@@ -55,21 +55,21 @@ pub fn sample(roughness: f64, wo: DVec3, point: DVec2, change: Change) -> DVec3 
 /// D: area of facets with normal `h` per unit of surface and solid angle.
 ///
 /// Written with h.x² + h.y² in place of 1 − h.z², which would lose all digits for small roughness.
-fn facet_density(roughness: f64, h: DVec3) -> f64 {
+pub fn facet_density(roughness: f64, h: DVec3) -> f64 {
     let alpha_squared = roughness * roughness;
     let stretched = h.x * h.x + h.y * h.y + alpha_squared * h.z * h.z;
     alpha_squared * FRAC_1_PI / (stretched * stretched)
 }
 
 /// G₁(w)/cos θ with G₁ = 2/(1 + √(1 + α² tan² θ)): finite down to the horizon, where both are zero.
-fn masking_over_cosine(roughness: f64, w: DVec3) -> f64 {
+pub fn masking_over_cosine(roughness: f64, w: DVec3) -> f64 {
     let alpha_squared = roughness * roughness;
     let sine_squared = w.x * w.x + w.y * w.y;
     2.0 / (w.z + (w.z * w.z + alpha_squared * sine_squared).sqrt())
 }
 
 /// 1/(1 + Λ(wo) + Λ(wi)), with Λ = (√(1 + α² tan² θ) − 1)/2.
-fn height_correlated_masking(roughness: f64, wo: DVec3, wi: DVec3) -> f64 {
+pub fn height_correlated_masking(roughness: f64, wo: DVec3, wi: DVec3) -> f64 {
     let lambda = |w: DVec3| {
         let tangent_squared = (w.x * w.x + w.y * w.y) / (w.z * w.z);
         ((1.0 + roughness * roughness * tangent_squared).sqrt() - 1.0) / 2.0
@@ -79,7 +79,7 @@ fn height_correlated_masking(roughness: f64, wo: DVec3, wi: DVec3) -> f64 {
 
 /// Heitz 2018, listing 1: stretch to the unit hemisphere, sample its projected area as seen from
 /// `wo`, unstretch.
-fn visible_facet(roughness: f64, wo: DVec3, point: DVec2) -> DVec3 {
+pub fn visible_facet(roughness: f64, wo: DVec3, point: DVec2) -> DVec3 {
     let view = DVec3::new(roughness * wo.x, roughness * wo.y, wo.z).normalize();
     let across = DVec3::new(-view.y, view.x, 0.0).try_normalize().unwrap_or(DVec3::X);
     let along = view.cross(across);

@@ -73,7 +73,7 @@ impl Glass {
 }
 
 /// Cosine of the refracted direction by Snell's law; `None` if all light is reflected.
-fn refracted_cosine(cosine: f64, ratio: f64) -> Option<f64> {
+pub fn refracted_cosine(cosine: f64, ratio: f64) -> Option<f64> {
     let sine_squared = (1.0 - cosine * cosine) / (ratio * ratio);
     (sine_squared < 1.0).then(|| (1.0 - sine_squared).sqrt())
 }

@@ -16,7 +16,7 @@
 //! | 4 | paths of many bounces, roulette | `integrator` |
 //! | 5 | adaptive sampling | `adaptive` |
 //!
-//! Beyond the course: `glass` and `ggx` scatter as their names say; `world` is the scene as rays
+//! Beyond the course: `glass`, `ggx` and `rough_glass` scatter as their names say; `world` is the scene as rays
 //! see it, and `vertex` a point of a path in it; `random` gives every path its own stream, so that
 //! answers do not depend on threads.
 //!
@@ -41,6 +41,7 @@ mod intersect;
 mod light;
 mod random;
 mod render;
+mod rough_glass;
 mod sampling;
 mod single;
 mod slab;

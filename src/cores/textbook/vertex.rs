@@ -1,5 +1,6 @@
 //! Points of a path, and the rays that leave them.
 
+use super::bsdf;
 use super::bvh::Form;
 use super::change::Change;
 use super::frame::Frame;
@@ -85,11 +86,7 @@ pub fn clearance(form: &Form, ray: &Ray, t: f64, change: Change) -> f64 {
 /// geometric one about the side the ray is on, the latter is right.
 pub fn frame_normal(surface: &Surface, hit: &Hit, to_viewer: DVec3) -> DVec3 {
     let agree = hit.shading_normal.dot(to_viewer) * hit.geometric_normal.dot(to_viewer) > 0.0;
-    if matches!(surface, Surface::Glass { .. }) && !agree {
-        hit.geometric_normal
-    } else {
-        hit.shading_normal
-    }
+    if bsdf::is_interface(surface) && !agree { hit.geometric_normal } else { hit.shading_normal }
 }
 
 #[cfg(test)]

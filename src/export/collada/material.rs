@@ -71,6 +71,10 @@ fn write_effect(
                 "material `{name}` is a rough metal of one reflectance, and the course's has a Fresnel term"
             )));
         }
+        Surface::RoughGlass { .. } => {
+            return Err(complaint
+                .about(format!("material `{name}` is rough glass, and the course's is smooth")));
+        }
     }
     Ok(())
 }

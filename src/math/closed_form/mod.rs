@@ -13,6 +13,7 @@ pub mod delta_light;
 pub mod form_factor;
 pub mod fresnel;
 pub mod microfacet;
+pub mod rough_dielectric;
 pub mod roulette;
 
 #[cfg(test)]

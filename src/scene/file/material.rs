@@ -1,6 +1,6 @@
 //! `[material.<name>]`
 
-use super::value::{Direction, Positive, Power, Reflectance, Roughness};
+use super::value::{Bending, Direction, Positive, Power, Reflectance, Roughness};
 use super::{Context, exactly_one};
 use crate::scene::{Cap, Emission, Material, Surface};
 use crate::text::{Angle, Diagnostic, did_you_mean, listed};
@@ -18,6 +18,7 @@ pub(super) struct Entry {
     mirror: Option<Reflectance>,
     glass: Option<Glass>,
     conductor: Option<Conductor>,
+    rough_glass: Option<RoughGlass>,
     emission: Option<Power>,
     cap: Option<Spanned<CapEntry>>,
 }
@@ -35,6 +36,15 @@ struct Glass {
 struct Conductor {
     reflectance: Reflectance,
     roughness: Roughness,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct RoughGlass {
+    index: Bending,
+    roughness: Roughness,
+    reflectance: Option<Reflectance>,
+    transmittance: Option<Reflectance>,
 }
 
 #[derive(Deserialize)]
@@ -114,11 +124,18 @@ impl Entry {
             reflectance: conductor.reflectance.0,
             roughness: conductor.roughness.0,
         };
+        let rough_glass = |glass: &RoughGlass| Surface::RoughGlass {
+            index: glass.index.0,
+            roughness: glass.roughness.0,
+            reflectance: glass.reflectance.unwrap_or(white).0,
+            transmittance: glass.transmittance.unwrap_or(white).0,
+        };
         let kinds = [
             ("diffuse", self.diffuse.as_ref().map(diffuse)),
             ("mirror", self.mirror.as_ref().map(mirror)),
             ("glass", self.glass.as_ref().map(glass)),
             ("conductor", self.conductor.as_ref().map(conductor)),
+            ("rough-glass", self.rough_glass.as_ref().map(rough_glass)),
         ];
         exactly_one("a material", kinds)
     }

@@ -283,3 +283,23 @@ fn negative_or_infinite_light_is_refused() {
         assert!(message.contains("neither negative nor infinite"), "{message}");
     }
 }
+
+#[test]
+fn rough_glass_bends_light() {
+    let wall = "diffuse  = \"$albedo\"";
+    let glass = "rough-glass = { index = 1.5, roughness = \"$albedo\", transmittance = 0.8 }";
+    let scene = altered(wall, glass).unwrap();
+    assert_eq!(
+        scene.materials[0].surface,
+        Surface::RoughGlass {
+            index: 1.5,
+            roughness: 0.5,
+            reflectance: [1.0; 3],
+            transmittance: [0.8; 3]
+        }
+    );
+    let flat = glass.replace("1.5", "1");
+    assert!(complaint(wall, &flat).contains("an index of 1 bends no light"));
+    let wide = "rough-glass = { index = 1.5, roughness = 1.5, transmittance = \"$albedo\" }";
+    assert!(complaint(wall, wide).contains("roughness lies in (0, 1]"));
+}

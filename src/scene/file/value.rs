@@ -30,6 +30,11 @@ pub(super) struct Power(pub Rgb);
 #[serde(try_from = "f64")]
 pub(super) struct Positive(pub f64);
 
+/// An index of refraction that bends light: above zero, finite, not 1.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(try_from = "Positive")]
+pub(super) struct Bending(pub f64);
+
 /// The width parameter of a microfacet distribution, in (0, 1].
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "f64")]
@@ -86,6 +91,15 @@ impl TryFrom<f64> for Positive {
     fn try_from(number: f64) -> Result<Self, String> {
         let is_positive = number > 0.0 && number.is_finite();
         is_positive.then_some(Self(number)).ok_or_else(|| format!("{number} is not above zero"))
+    }
+}
+
+impl TryFrom<Positive> for Bending {
+    type Error = String;
+
+    fn try_from(Positive(index): Positive) -> Result<Self, String> {
+        let problem = "an index of 1 bends no light, and rough facets of it have no density";
+        (index != 1.0).then_some(Self(index)).ok_or_else(|| problem.to_owned())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::xml::Xml;
 use super::{Attachment, MitsubaError};
-use crate::scene::{Material, Mesh, Rectangle, SceneDescription, Sphere, Surface};
+use crate::scene::{Material, Mesh, Rectangle, Rgb, SceneDescription, Sphere, Surface};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// Writes every shape, and returns the meshes that got a file of their own.
@@ -85,7 +85,7 @@ fn ply(mesh: &Mesh) -> Vec<u8> {
 
 fn write_material(xml: &mut Xml, shape: &str, material: &Material) -> Result<(), MitsubaError> {
     match material.surface {
-        Surface::Glass { .. } => write_surface(xml, &material.surface),
+        Surface::Glass { .. } | Surface::RoughGlass { .. } => write_surface(xml, &material.surface),
         _ => {
             xml.open("bsdf", &[("type", "twosided")]);
             write_surface(xml, &material.surface);
@@ -115,10 +115,7 @@ fn write_surface(xml: &mut Xml, surface: &Surface) {
         }
         Surface::Glass { index, reflectance, transmittance } => {
             xml.open("bsdf", &[("type", "dielectric")]);
-            xml.float("int_ior", index);
-            xml.float("ext_ior", 1.0);
-            xml.rgb("specular_reflectance", reflectance);
-            xml.rgb("specular_transmittance", transmittance);
+            write_interface(xml, index, [reflectance, transmittance]);
         }
         Surface::Conductor { reflectance, roughness } => {
             xml.open("bsdf", &[("type", "roughconductor")]);
@@ -127,6 +124,19 @@ fn write_surface(xml: &mut Xml, surface: &Surface) {
             xml.float("alpha", roughness);
             xml.rgb("specular_reflectance", reflectance);
         }
+        Surface::RoughGlass { index, roughness, reflectance, transmittance } => {
+            xml.open("bsdf", &[("type", "roughdielectric")]);
+            xml.string("distribution", "ggx");
+            xml.float("alpha", roughness);
+            write_interface(xml, index, [reflectance, transmittance]);
+        }
     }
     xml.close();
+}
+
+fn write_interface(xml: &mut Xml, index: f64, [reflectance, transmittance]: [Rgb; 2]) {
+    xml.float("int_ior", index);
+    xml.float("ext_ior", 1.0);
+    xml.rgb("specular_reflectance", reflectance);
+    xml.rgb("specular_transmittance", transmittance);
 }

@@ -5,6 +5,7 @@
 
 use super::conductor::Conductor;
 use super::glass::Glass;
+use super::rough_glass::RoughGlass;
 use super::warp;
 use crate::scene::{Rgb, Surface};
 use glam::{Vec2, Vec3, vec3};
@@ -27,6 +28,8 @@ pub enum Bsdf {
     Glass(Glass),
     /// GGX microfacets.
     Conductor(Conductor),
+    /// GGX microfacets that light passes.
+    RoughGlass(RoughGlass),
 }
 
 /// A sampled direction.
@@ -57,6 +60,10 @@ impl Bsdf {
             Surface::Conductor { reflectance, roughness } => {
                 Self::Conductor(Conductor::new(rgb(reflectance), roughness as f32))
             }
+            Surface::RoughGlass { index, roughness, reflectance, transmittance } => {
+                let colours = [reflectance, transmittance].map(rgb);
+                Self::RoughGlass(RoughGlass::new(index, roughness, colours[0], colours[1]))
+            }
         }
     }
 
@@ -67,7 +74,12 @@ impl Bsdf {
 
     /// Whether directions sampled here are worth combining with light samples.
     pub const fn is_glossy(&self) -> bool {
-        matches!(self, Self::Conductor(_))
+        matches!(self, Self::Conductor(_) | Self::RoughGlass(_))
+    }
+
+    /// Whether it has an inside, to which light passes: the others are the same from both sides.
+    pub const fn is_interface(&self) -> bool {
+        matches!(self, Self::Glass(_) | Self::RoughGlass(_))
     }
 
     /// `f` (RGB, without the cosine) and the density of [`Self::sample`]. Delta lobes answer zero.
@@ -80,6 +92,7 @@ impl Bsdf {
             Self::Conductor(conductor) if is_same_side => {
                 conductor.evaluate(upward(wo, wo), upward(wi, wo))
             }
+            Self::RoughGlass(glass) => glass.evaluate(wo, wi),
             _ => (Vec3::ZERO, 0.0),
         }
     }
@@ -101,6 +114,7 @@ impl Bsdf {
             }
             Self::Conductor(conductor) => conductor.sample(upward(wo, wo), point)?,
             Self::Glass(glass) => return glass.sample(wo, lobe),
+            Self::RoughGlass(glass) => return glass.sample(wo, point, lobe),
         };
         Some(Scattering { wi: upward(scattering.wi, wo), ..scattering })
     }

@@ -1,84 +1,47 @@
-//! A rough conductor: GGX microfacets with separable Smith masking, and facets that reflect the same at every
-//! angle. Sampled by the visible normals (Heitz 2018, "Sampling the GGX distribution of visible normals").
+//! A rough conductor: GGX microfacets that reflect the same at every angle.
 //!
-//! With s(w) = cos θ + √(cos² θ + α² sin² θ), Smith's masking is G₁(w) = 2 cos θ / s(w). Written with s, the
-//! cosines of f = R D G₁ G₁ / (4 cos cos) and of the density G₁ D / (4 cos) cancel, also at grazing angles.
+//! Written with the masking sums of `facets`, f = R D G₁ G₁ / (4 cos cos) and its density G₁ D / (4 cos) have no
+//! cosines left.
 
 use super::bsdf::Scattering;
-use super::warp::sin_cos_of_turns;
-use glam::{Vec2, Vec3, vec3};
-use std::f32::consts::FRAC_1_PI;
+use super::facets::Facets;
+use glam::{Vec2, Vec3};
 
 /// A rough conductor seen from its upper side.
 #[derive(Clone, Debug)]
 pub struct Conductor {
     reflectance: Vec3,
-    roughness: f32,
+    facets: Facets,
 }
 
 impl Conductor {
     /// `reflectance` of a single facet, and the width α of the distribution.
     pub const fn new(reflectance: Vec3, roughness: f32) -> Self {
-        Self { reflectance, roughness }
+        Self { reflectance, facets: Facets::new(roughness) }
     }
 
     /// `f` and density for two directions of the upper side.
     pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
-        let distribution = self.distribution((wo + wi).normalize());
-        let (s_wo, s_wi) = (self.masking_sum(wo), self.masking_sum(wi));
+        let distribution = self.facets.distribution((wo + wi).normalize());
+        let (s_wo, s_wi) = (self.facets.masking_sum(wo), self.facets.masking_sum(wi));
         (self.reflectance * (distribution / (s_wo * s_wi)), distribution / (2.0 * s_wo))
     }
 
     /// A reflection on a facet that `wo` sees; `None` if it goes down into the surface.
     pub fn sample(&self, wo: Vec3, point: Vec2) -> Option<Scattering> {
-        let facet = self.visible_normal(wo, point);
+        let facet = self.facets.visible_normal(wo, point);
         let wi = (2.0 * wo.dot(facet) * facet - wo).normalize();
         (wi.z > 0.0).then(|| {
-            let weight = self.reflectance * (2.0 * wi.z / self.masking_sum(wi));
+            let weight = self.reflectance * (2.0 * wi.z / self.facets.masking_sum(wi));
             Scattering { wi, weight, pdf: self.evaluate(wo, wi).1 }
         })
-    }
-
-    /// D(h) = α² / (π (sin² θ + α² cos² θ)²), from the components, which near the normal are more exact than
-    /// the cosine.
-    fn distribution(&self, half: Vec3) -> f32 {
-        let alpha = self.roughness;
-        let sine_square = half.x * half.x + half.y * half.y;
-        let ratio = alpha / (sine_square + alpha * alpha * half.z * half.z);
-        ratio * ratio * FRAC_1_PI
-    }
-
-    /// s(w).
-    fn masking_sum(&self, w: Vec3) -> f32 {
-        let alpha = self.roughness;
-        w.z + (w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y)).sqrt()
-    }
-
-    /// Heitz 2018, listing 1: the hemisphere stretched to roughness 1, its projection sampled, and back.
-    fn visible_normal(&self, wo: Vec3, point: Vec2) -> Vec3 {
-        let alpha = self.roughness;
-        let stretched = vec3(alpha * wo.x, alpha * wo.y, wo.z).normalize();
-        let length = stretched.x.hypot(stretched.y);
-        let first = if length > 0.0 {
-            vec3(-stretched.y / length, stretched.x / length, 0.0)
-        } else {
-            Vec3::X
-        };
-        let second = stretched.cross(first);
-        let (sine, cosine) = sin_cos_of_turns(point.y);
-        let along_first = point.x.sqrt() * cosine;
-        let visible = 0.5 * (1.0 + stretched.z);
-        let along_second = (1.0 - visible) * (1.0 - along_first * along_first).max(0.0).sqrt()
-            + visible * point.x.sqrt() * sine;
-        let up = (1.0 - along_first * along_first - along_second * along_second).max(0.0).sqrt();
-        let normal = along_first * first + along_second * second + up * stretched;
-        vec3(alpha * normal.x, alpha * normal.y, normal.z.max(0.0)).normalize()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::vec3;
     use std::f64::consts::PI;
 
     fn towards(degrees: f32) -> Vec3 {

@@ -2,7 +2,9 @@
 
 mod bsdf;
 mod conductor;
+mod facets;
 mod glass;
+mod rough_glass;
 pub mod warp;
 
 pub use bsdf::{Bsdf, rgb};

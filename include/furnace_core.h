@@ -301,6 +301,10 @@ typedef struct furnace_render {
    uint32_t samples_per_pixel; /* the cap, if adaptive */
    const furnace_integrator *integrator;
    const furnace_adaptive   *adaptive; /* null: off */
+   /* Of a core with FURNACE_REPORTED_VARIANCE, else null: where it writes width * height RGB triples,
+    * top row first: the estimated variance of each value of the picture, that is of the mean written
+    * there and not of one sample, in radiance squared; 0 where one sample says nothing. */
+   float *variances;
 } furnace_render;
 
 /* ---- the core ------------------------------------------------------------------------------ */
@@ -317,7 +321,8 @@ enum { /* furnace_core.traits: what no function pointer can say */
    FURNACE_CALLERS_RANDOMNESS = 1u << 8,  /* sampling uses the caller's numbers: replayable */
    FURNACE_DETERMINISTIC = 1u << 9,       /* the same settings and seed give the same bits */
    FURNACE_SINGLE_PRECISION = 1u << 10,   /* computes in float: tolerances are wider */
-   FURNACE_KNOWS_ROUGH_GLASS = 1u << 11   /* knows FURNACE_ROUGH_GLASS: without it, it is not shown */
+   FURNACE_KNOWS_ROUGH_GLASS = 1u << 11,  /* knows FURNACE_ROUGH_GLASS: without it, it is not shown */
+   FURNACE_REPORTED_VARIANCE = 1u << 12   /* render fills furnace_render.variances */
 };
 
 enum { /* furnace_conventions; 0 is the default of every field */

@@ -35,7 +35,7 @@
 //                                       const furnace::Numbers &)
 //     furnace_rgb radiance(const furnace_ray &, const furnace_integrator &, size_t index)
 //     void render(const furnace_camera &, const furnace_render &, float *pixels,
-//                 uint32_t *sample_counts)
+//                 uint32_t *sample_counts)  // and furnace_render::variances, if the core says so
 //
 // Two more, where they help: `static furnace_conventions conventions()` declares what the core has
 // freely chosen, and `void seed(uint64_t)` is called before every batch that draws random numbers,

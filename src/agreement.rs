@@ -179,15 +179,10 @@ fn render(
     camera: Camera,
     settings: &RenderSettings,
 ) -> Result<Picture, CoreError> {
-    let pixels = settings.width as usize * settings.height as usize;
-    let mut film = Film {
-        width: settings.width,
-        height: settings.height,
-        pixels: vec![[f32::NAN; 3]; pixels],
-        sample_counts: vec![0; pixels],
-    };
     let hosted = Hosting::default().host(core);
     let mut hosted = hosted.map_err(|error| CoreError::Refused(error.to_string()))?;
+    let capabilities = hosted.core_mut().info().capabilities;
+    let mut film = Film::blank(settings.width, settings.height, capabilities);
     let mut built = hosted.core_mut().build_scene(scene, Acceleration::DEFAULT)?;
     built.render(&camera, settings, &mut film)?;
     drop(built);

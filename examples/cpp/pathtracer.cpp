@@ -29,7 +29,7 @@ Ray camera_ray(const furnace_camera &camera, furnace_vec2 film) {
    return {camera.position, camera.near_clip, direction, camera.far_clip};
 }
 
-// The course's stopping rule, over luminances as they come.
+// Values as they come: how noisy their mean is, and the course's stopping rule over luminances.
 struct Tally {
    uint32_t count = 0;
    double   sum = 0, squares = 0;
@@ -38,8 +38,10 @@ struct Tally {
    double mean() const { return sum / count; }
    bool   may_stop(const furnace_adaptive &rule) const {
       if (count % std::max(1u, rule.samples_per_batch) != 0) return false;
-      double variance = std::max(0.0, squares - sum * sum / count) / (count - 1.0);
-      return 1.96 * std::sqrt(variance / count) <= rule.max_tolerance * mean();
+      return 1.96 * std::sqrt(variance_of_mean()) <= rule.max_tolerance * mean();
+   }
+   double variance_of_mean() const {
+      return std::max(0.0, squares - sum * sum / count) / (count - 1.0) / count;
    }
 };
 
@@ -49,7 +51,7 @@ void Scene::render(const furnace_camera &camera, const furnace_render &settings,
    auto render_pixel = [&](uint32_t index) {
       uint32_t x = index % settings.width, y = index / settings.width;
       Rgb      sum{0, 0, 0};
-      Tally    tally;
+      Tally    tally, channels[3];
       while (tally.count < settings.samples_per_pixel) {
          Random  random(settings.integrator->seed, index, tally.count + 1);
          Numbers within_pixel = random.numbers();
@@ -58,12 +60,16 @@ void Scene::render(const furnace_camera &camera, const furnace_render &settings,
          Rgb radiance = trace(ray, *settings.integrator, random);
          sum = sum + radiance;
          tally.add(luminance(radiance));
+         channels[0].add(radiance.r), channels[1].add(radiance.g), channels[2].add(radiance.b);
          if (settings.adaptive && tally.may_stop(*settings.adaptive)) break;
       }
       Rgb mean = sum / tally.count;
       float *pixel = pixels + 3 * size_t(index);
       pixel[0] = float(mean.r), pixel[1] = float(mean.g), pixel[2] = float(mean.b);
       sample_counts[index] = tally.count;
+      for (size_t c = 0; settings.variances && c < 3; ++c)
+         settings.variances[3 * size_t(index) + c] =
+             tally.count < 2 ? 0.0f : float(channels[c].variance_of_mean());
    };
    uint32_t wanted = settings.integrator->threads;
    uint32_t count = wanted ? wanted : std::max(1u, std::thread::hardware_concurrency());
@@ -146,4 +152,5 @@ struct PathTracer {
 FURNACE_CORE(pathtracer::PathTracer, "pathtracer.cpp", "1.0",
              FURNACE_BRUTE_FORCE | FURNACE_SPLIT_RULES | FURNACE_HEMISPHERE_SAMPLING |
                  FURNACE_ISOLATED_BOUNCES | FURNACE_ROULETTE | FURNACE_ADAPTIVE_SAMPLING |
-                 FURNACE_COUNTS_TRAVERSAL | FURNACE_CALLERS_RANDOMNESS | FURNACE_DETERMINISTIC)
+                 FURNACE_REPORTED_VARIANCE | FURNACE_COUNTS_TRAVERSAL |
+                 FURNACE_CALLERS_RANDOMNESS | FURNACE_DETERMINISTIC)

@@ -20,6 +20,7 @@ pub mod seed;
 pub mod shape;
 pub mod slab;
 pub mod transport;
+pub mod variance;
 
 /// A mistake that people make in path tracers.
 #[derive(Debug, PartialEq, Eq)]
@@ -48,6 +49,7 @@ pub fn all() -> impl Iterator<Item = &'static Cause> {
         light::CAUSES,
         transport::CAUSES,
         adaptive::CAUSES,
+        variance::CAUSES,
         seed::CAUSES,
         answer::CAUSES,
         picture::CAUSES,

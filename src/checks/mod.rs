@@ -192,6 +192,7 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<robustness::RadianceIsFinite>(),
     CheckKind::of::<convergence::VarianceIsKnown>(),
     CheckKind::of::<convergence::ErrorFallsAsRootN>(),
+    CheckKind::of::<convergence::ReportsItsVariance>(),
     CheckKind::of::<picture::FirstHits>(),
     CheckKind::of::<picture::MatchesReference>(),
     CheckKind::of::<picture::MatchesAsPng>(),

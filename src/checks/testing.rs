@@ -24,12 +24,12 @@ pub fn check_of<C: Check>(text: &str) -> C {
     expect
 }
 
-/// Who a fake core is: it can do everything it is asked.
+/// Who a fake core is: it can do everything it is asked, and makes pictures without variances.
 pub fn info(precision: Precision) -> CoreInfo {
     CoreInfo {
         name: "fake".into(),
         version: "0".into(),
-        capabilities: Capabilities::all(),
+        capabilities: Capabilities::all() - Capabilities::REPORTED_VARIANCE,
         precision,
         conventions: Conventions::default(),
     }

@@ -178,6 +178,10 @@ const ADVICE: &[(Capabilities, &str)] = &[
         "know materials of kind FURNACE_ROUGH_GLASS, and say FURNACE_KNOWS_ROUGH_GLASS",
     ),
     (
+        Capabilities::REPORTED_VARIANCE,
+        "fill settings.variances in render, and say FURNACE_REPORTED_VARIANCE",
+    ),
+    (
         Capabilities::CALLERS_RANDOMNESS,
         "draw with random.point and random.lobe alone, and say FURNACE_CALLERS_RANDOMNESS",
     ),

@@ -105,6 +105,8 @@ bitflags! {
         const SINGLE_PRECISION = 1 << 10;
         /// `FURNACE_KNOWS_ROUGH_GLASS`
         const KNOWS_ROUGH_GLASS = 1 << 11;
+        /// `FURNACE_REPORTED_VARIANCE`
+        const REPORTED_VARIANCE = 1 << 12;
     }
 }
 
@@ -267,6 +269,7 @@ pub struct Render {
     pub samples_per_pixel: u32,
     pub integrator: *const Integrator,
     pub adaptive: *const Adaptive,
+    pub variances: *mut [f32; 3],
 }
 
 /// `furnace_randomness`
@@ -464,7 +467,7 @@ const _: () = {
     assert!(size_of::<Build>() == 24);
     assert!(size_of::<Integrator>() == 48);
     assert!(size_of::<Adaptive>() == 16);
-    assert!(size_of::<Render>() == 32);
+    assert!(size_of::<Render>() == 40);
     assert!(size_of::<Randomness>() == 24);
     assert!(size_of::<Stream>() == 16);
     assert!(size_of::<CoreTable>() == 208);

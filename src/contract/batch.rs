@@ -1,6 +1,6 @@
 //! The elements of batches: rays, hits, samples. Plain `repr(C)` data, the same in Rust and in C.
 
-use super::{CoreError, Result};
+use super::{Capabilities, CoreError, Result};
 use crate::image::encoding::Encoding;
 use crate::image::png;
 use bytemuck::{Pod, Zeroable};
@@ -221,7 +221,7 @@ impl LightSample {
 }
 
 /// Random numbers for one batch, all in [0, 1). `points[i]` and `lobes[i]` belong to element i; a core without
-/// [`super::Capabilities::CALLERS_RANDOMNESS`] ignores them and seeds itself.
+/// [`Capabilities::CALLERS_RANDOMNESS`] ignores them and seeds itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Randomness<'a> {
     /// Two numbers an element: the direction or the point on the light.
@@ -274,6 +274,25 @@ pub struct Film {
     pub pixels: Vec<[f32; 3]>,
     /// Camera samples spent on each pixel, `width · height` values.
     pub sample_counts: Vec<u32>,
+    /// Estimated variance of each value of `pixels`, in radiance squared: of the mean that is written there, not
+    /// of one sample; 0 where one sample says nothing. `width · height` values of a core with
+    /// [`Capabilities::REPORTED_VARIANCE`], none of others.
+    pub variances: Vec<[f32; 3]>,
+}
+
+impl Film {
+    /// A film that nothing has been written to, as a core with these capabilities is handed it.
+    pub fn blank(width: u32, height: u32, capabilities: Capabilities) -> Self {
+        let count = width as usize * height as usize;
+        let reports = capabilities.contains(Capabilities::REPORTED_VARIANCE);
+        Self {
+            width,
+            height,
+            pixels: vec![[f32::NAN; 3]; count],
+            sample_counts: vec![0; count],
+            variances: vec![[f32::NAN; 3]; if reports { count } else { 0 }],
+        }
+    }
 }
 
 /// A picture of 8 bits, and how its codes were made.

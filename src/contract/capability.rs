@@ -53,6 +53,8 @@ bitflags! {
         const RENDER_CODES = 1 << 20;
         /// [`crate::scene::Surface::RoughGlass`] among the materials.
         const ROUGH_GLASS = 1 << 21;
+        /// [`super::Film::variances`] of `render`.
+        const REPORTED_VARIANCE = 1 << 22;
         /// Sampling calls use the caller's random numbers, so they can be replayed.
         const CALLERS_RANDOMNESS = 1 << 32;
         /// The same settings and seed give the same bits.

@@ -53,6 +53,8 @@ impl<'a> Validated<'a> {
 /// A built scene whose answers have the contract's form, or else are errors.
 struct ValidatedScene<'a> {
     scene: Box<dyn BuiltScene + 'a>,
+    /// Whether pictures come with the variance of their pixels.
+    reports_variance: bool,
     /// Primitives of each shape, to tell hits that cannot be.
     primitives_of_shape: Vec<usize>,
 }
@@ -194,8 +196,10 @@ impl Core for Validated<'_> {
             .map(|mesh| mesh.indices.len())
             .chain(scene.spheres.iter().map(|_| 1))
             .collect();
+        let reports_variance =
+            self.core.info().capabilities.contains(Capabilities::REPORTED_VARIANCE);
         let scene = guarded("build_scene", || self.core.build_scene(scene, acceleration))?;
-        Ok(Box::new(ValidatedScene { scene, primitives_of_shape }))
+        Ok(Box::new(ValidatedScene { scene, reports_variance, primitives_of_shape }))
     }
 }
 
@@ -268,9 +272,14 @@ impl BuiltScene for ValidatedScene<'_> {
             height,
             pixels: vec![[UNTOUCHED_SINGLE; 3]; count],
             sample_counts: vec![UNTOUCHED_COUNT; count],
+            variances: vec![[UNTOUCHED_SINGLE; 3]; if self.reports_variance { count } else { 0 }],
         };
         guarded("render", || self.scene.render(camera, settings, film))?;
-        valid_film(film, width, height)
+        if !self.reports_variance {
+            film.variances.clear();
+        }
+        valid_film(film, width, height)?;
+        valid_variances(film, width, if self.reports_variance { count } else { 0 })
     }
 
     fn render_codes(&mut self, camera: &Camera, settings: &RenderSettings) -> Result<CodedFilm> {
@@ -344,20 +353,36 @@ fn valid_film(film: &Film, width: u32, height: u32) -> Result<()> {
             film.sample_counts.len(),
         )));
     }
-    for (index, pixel) in film.pixels.iter().enumerate() {
-        valid_pixel(*pixel).map_err(|complaint| {
-            let (x, y) = (index % width as usize, index / width as usize);
-            CoreError::BrokeContract(format!("pixel ({x}, {y}) from the top left: {complaint}"))
-        })?;
-    }
+    each_pixel(&film.pixels, width, "pixel", "radiance")?;
     each(&film.sample_counts, "sample count", |count| touched("it", *count))
 }
 
-fn valid_pixel(pixel: [f32; 3]) -> Complaint {
-    if pixel.iter().any(|value| value.to_bits() == UNTOUCHED_SINGLE.to_bits()) {
+/// Whether the variances of a film are `count` of the contract's form.
+fn valid_variances(film: &Film, width: u32, count: usize) -> Result<()> {
+    if film.variances.len() != count {
+        let found = film.variances.len();
+        let what = format!("the picture has {found} variances of {count} pixels");
+        return Err(CoreError::BrokeContract(what));
+    }
+    each_pixel(&film.variances, width, "variance of pixel", "it")
+}
+
+/// Whether every value of the pixels of a film is written, finite and not negative.
+fn each_pixel(values: &[[f32; 3]], width: u32, what: &str, name: &str) -> Result<()> {
+    for (index, value) in values.iter().enumerate() {
+        valid_pixel(name, *value).map_err(|complaint| {
+            let (x, y) = (index % width as usize, index / width as usize);
+            CoreError::BrokeContract(format!("{what} ({x}, {y}) from the top left: {complaint}"))
+        })?;
+    }
+    Ok(())
+}
+
+fn valid_pixel(name: &str, value: [f32; 3]) -> Complaint {
+    if value.iter().any(|value| value.to_bits() == UNTOUCHED_SINGLE.to_bits()) {
         return Err("left untouched".to_owned());
     }
-    colour("radiance", pixel.map(f64::from))
+    colour(name, value.map(f64::from))
 }
 
 fn colour(name: &str, value: [f64; 3]) -> Complaint {
@@ -499,6 +524,61 @@ mod tests {
         let crash = complaint_about(|_| panic!("index out of bounds"));
         assert!(crash.contains("crashed (panicked: index out of bounds)"), "{crash}");
         assert!(crash.contains("during intersect_primitive"), "{crash}");
+    }
+
+    /// A core that makes pictures of one pixel with these variances.
+    struct Reports(Vec<[f32; 3]>);
+
+    impl Core for Reports {
+        fn info(&self) -> CoreInfo {
+            let capabilities = Capabilities::REPORTED_VARIANCE;
+            CoreInfo { capabilities, ..Answers(|_| {}).info() }
+        }
+
+        fn build_scene(
+            &mut self,
+            _: &SceneDescription,
+            _: Acceleration,
+        ) -> Result<Box<dyn BuiltScene + '_>> {
+            Ok(Box::new(Reports(self.0.clone())))
+        }
+    }
+
+    impl BuiltScene for Reports {
+        fn stats(&self) -> BuildStats {
+            BuildStats::default()
+        }
+
+        fn render(&mut self, _: &Camera, _: &RenderSettings, film: &mut Film) -> Result<()> {
+            (film.pixels, film.sample_counts) = (vec![[1.0; 3]], vec![4]);
+            if !self.0.is_empty() {
+                film.variances = self.0.clone();
+            }
+            Ok(())
+        }
+    }
+
+    fn picture_with(variances: &[[f32; 3]]) -> Result<Film> {
+        let integrator = IntegratorSettings::default();
+        let (width, height, samples_per_pixel, adaptive) = (1, 1, 4, None);
+        let settings = RenderSettings { width, height, samples_per_pixel, integrator, adaptive };
+        let camera = Camera::look_at(DVec3::ZERO, DVec3::Z, DVec3::Y, 1.0, [1, 1]);
+        let (mut core, mut film) = (Reports(variances.to_vec()), Film::default());
+        Validated::new(&mut core)
+            .build_scene(&SceneDescription::default(), Acceleration::DEFAULT)?
+            .render(&camera, &settings, &mut film)?;
+        Ok(film)
+    }
+
+    #[test]
+    fn variances_are_there_finite_and_not_negative() {
+        assert_eq!(picture_with(&[[0.5, 0.0, 1.0]]).unwrap().variances, [[0.5, 0.0, 1.0]]);
+        let complaint = |variances: &[[f32; 3]]| picture_with(variances).unwrap_err().to_string();
+        let untouched = complaint(&[]);
+        assert!(untouched.contains("variance of pixel (0, 0) from the top left: left untouched"));
+        assert!(complaint(&[[-1.0, 0.0, 0.0]]).contains("it = -1 is negative (red)"));
+        assert!(complaint(&[[0.0, f32::NAN, 0.0]]).contains("it is NaN (green)"));
+        assert!(complaint(&[[0.0; 3]; 2]).contains("2 variances of 1 pixels"));
     }
 
     #[test]

@@ -467,7 +467,11 @@ impl BuiltScene for BuiltDylib<'_> {
         let camera = description::camera(camera);
         let integrator = description::integrator(&settings.integrator);
         let adaptive = settings.adaptive.map(description::adaptive);
-        let settings = description::render(settings, &integrator, adaptive.as_ref());
+        let mut settings = description::render(settings, &integrator, adaptive.as_ref());
+        if self.core.info.capabilities.contains(Capabilities::REPORTED_VARIANCE) {
+            lengths(pixel_count, [film.variances.len()]);
+            settings.variances = film.variances.as_mut_ptr();
+        }
         let (built, camera, settings) =
             (self.built.as_ptr(), &raw const camera, &raw const settings);
         let (pixels, sample_counts) = (film.pixels.as_mut_ptr(), film.sample_counts.as_mut_ptr());

@@ -24,6 +24,9 @@ impl Band {
     pub const SINGLE_MATH: Band = Band(2e-4);
     /// The variance of an estimator: two legitimate ways to write one differ by a few per cent.
     pub const VARIANCE: Band = Band(0.2);
+    /// The logarithm to base 2 of a ratio: twice and half are near enough for whoever decides by it
+    /// where to spend samples.
+    pub const FACTOR_OF_TWO: Band = Band(1.0);
 
     /// How far a picture may be displaced, pixels: what no eye and no float notices.
     pub const ALIGNMENT: Band = Band(0.01);

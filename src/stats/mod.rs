@@ -12,6 +12,7 @@
 //! - [`judge_exact`]: comparisons without noise, with their [`Tolerance`]s.
 //! - [`judge_share`], [`judge_slope`], [`judge_uncorrelated`]: shares, convergence, independence.
 //! - [`judge_rare`]: what must hardly ever happen.
+//! - [`ReportedVariance`]: the noise that a renderer says its pixels have, for [`judge_means`].
 //! - [`Leaf`], [`Ledger`]: what a run has spent of the probability of blaming a correct core.
 //! - [`Claim`]: what is true if the core is right, with the band that rounding may use up.
 //! - [`Effort`] and [`Budget`]: how small an error has to be seen, and how many samples that may
@@ -46,6 +47,7 @@ mod noise;
 mod proportion;
 mod quantile;
 mod rare;
+mod reported;
 mod screen;
 #[cfg(test)]
 mod screen_simulation;
@@ -94,6 +96,7 @@ pub use quantile::{
     normal_upper, student_upper,
 };
 pub use rare::{RARE_FALSE_ALARM, RareReport, Rarity, judge_rare};
+pub use reported::{ReportedVariance, TwoVariances};
 pub use screen::{
     IMAGE_FALSE_ALARM, ImageDraw, ImageEffort, Reference, judge_image, judge_image_pair,
 };

@@ -89,7 +89,7 @@ pub enum Request {
         /// How paths are traced.
         settings: IntegratorSettings,
     },
-    /// → `pixels`, `sample-counts`
+    /// → `pixels`, `sample-counts`, and `variances` of a core that reports them
     Render {
         /// From where.
         camera: Camera,

@@ -19,8 +19,8 @@ class Core:
     # "double" or "single": how wide tolerances are.
     precision = "double"
     # What no method can say: "brute-force", "split-rules", "hemisphere-sampling",
-    # "isolated-bounces", "roulette", "adaptive-sampling", "traversal-stats", "callers-randomness",
-    # "rough-glass", "deterministic".
+    # "isolated-bounces", "roulette", "adaptive-sampling", "rough-glass", "reported-variance",
+    # "traversal-stats", "callers-randomness", "deterministic".
     traits = frozenset()
     # What the core has freely chosen, where it is not the usual: "point-light-falloff": "none",
     # "emission": "both", "smith-term": "height-correlated", "glass-fresnel": "schlick"
@@ -100,7 +100,9 @@ class Built:
 
     def render(self, camera, settings):
         """camera, settings (width, height, samples_per_pixel, integrator, adaptive)
-        → pixels (height, width, 3), row 0 on top, and samples (height, width)"""
+        → pixels (height, width, 3), row 0 on top, and samples (height, width); with the trait
+        "reported-variance" also the variance of each value of pixels, that is of a mean and not
+        of one sample"""
         raise NotImplementedError
 
 

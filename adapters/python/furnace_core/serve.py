@@ -214,12 +214,16 @@ def batch(core, built, request, header, arrays):
         return [("radiance", "rgb", len(rays), built.radiance(rays, Table(header["settings"])))]
     if request == "render":
         settings = Table(header["settings"])
-        pixels, samples = built.render(camera_of(header["camera"]), settings)
+        pixels, samples, *rest = built.render(camera_of(header["camera"]), settings)
         count = settings.width * settings.height
-        return [
+        sent = [
             ("pixels", "rgb-f32", count, np.reshape(pixels, (count, 3))),
             ("sample-counts", "u32", count, np.reshape(samples, count)),
         ]
+        if "reported-variance" in core.traits:
+            [variances] = rest
+            sent.append(("variances", "rgb-f32", count, np.reshape(variances, (count, 3))))
+        return sent
     raise Unsupported(f"the request `{request}` is not known to this version of furnace_core")
 
 

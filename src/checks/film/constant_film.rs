@@ -239,7 +239,13 @@ mod tests {
     fn pixels_that_stop_early_are_told_from_counts_that_are_off_by_one() {
         let exposed = |samples: u32, count: u32| Exposed {
             samples,
-            film: Film { width: 1, height: 1, pixels: vec![[1.0; 3]], sample_counts: vec![count] },
+            film: Film {
+                width: 1,
+                height: 1,
+                pixels: vec![[1.0; 3]],
+                sample_counts: vec![count],
+                variances: Vec::new(),
+            },
         };
         assert_eq!(stops_early(&[exposed(1, 1), exposed(64, 32)]), Some(32));
         assert_eq!(stops_early(&[exposed(1, 0), exposed(64, 63)]), None);

@@ -155,7 +155,7 @@ mod tests {
         let film = |seed: u64| {
             let pixel = |pixel| [uniform(&mut Seed(stream(seed, pixel)).stream()) as f32; 3];
             let pixels = (0..WIDTH * 18).map(pixel).collect();
-            Film { width: WIDTH as u32, height: 18, pixels, sample_counts: Vec::new() }
+            Film { width: WIDTH as u32, height: 18, pixels, ..Film::default() }
         };
         (0..SEEDS).map(film).collect()
     }

@@ -127,7 +127,7 @@ mod tests {
                 [scale * ((1.0 - shared) * noise[i] + shared * noise[i.saturating_sub(1)]); 3]
             };
             let pixels = (0..noise.len()).map(pixel).collect();
-            Film { width: 48, height: 36, pixels, sample_counts: Vec::new() }
+            Film { width: 48, height: 36, pixels, ..Film::default() }
         };
         (0..32).map(|_| film()).collect()
     }

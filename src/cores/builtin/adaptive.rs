@@ -1,26 +1,34 @@
-//! When a pixel has enough samples: the course's rule, in double precision.
+//! How noisy a pixel is, and when it has enough samples by the course's rule; in double precision.
 
 use crate::contract::{AdaptiveMean, AdaptiveSettings};
 
 /// Half the width of a 95 % interval in standard errors.
 const HALF_WIDTH: f64 = 1.96;
 
-/// Running mean and variance of the luminances of one pixel (Welford 1962), which unlike sums of squares
+/// Running mean and variance of the samples of one pixel (Welford 1962), which unlike sums of squares
 /// gives exactly zero for a constant.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Luminances {
+pub struct Running {
     count: u32,
     mean: f64,
     squares: f64,
 }
 
-impl Luminances {
-    /// Takes one more sample in.
-    pub fn add(&mut self, luminance: f64) {
+impl Running {
+    /// Takes one more sample in: a luminance, or the light of a channel.
+    pub fn add(&mut self, value: f64) {
         self.count += 1;
-        let deviation = luminance - self.mean;
+        let deviation = value - self.mean;
         self.mean += deviation / f64::from(self.count);
-        self.squares += deviation * (luminance - self.mean);
+        self.squares += deviation * (value - self.mean);
+    }
+
+    /// Variance of the mean so far; 0 before the second sample, when nothing is known of it.
+    pub fn variance_of_mean(&self) -> f64 {
+        match self.count {
+            0 | 1 => 0.0,
+            _ => self.standard_error().powi(2),
+        }
     }
 
     /// Whether a batch is complete and 1.96 σ/√n ≤ tolerance · μ, with σ over n − 1.
@@ -31,9 +39,13 @@ impl Luminances {
 
     /// 1.96 standard errors of the mean; unknown (NaN) before the second sample.
     fn half_interval(&self) -> f64 {
+        HALF_WIDTH * self.standard_error()
+    }
+
+    /// Of the mean, by the variance of the samples over n − 1.
+    fn standard_error(&self) -> f64 {
         let count = f64::from(self.count);
-        let variance = self.squares / (count - 1.0);
-        HALF_WIDTH * (variance / count).sqrt()
+        (self.squares / (count - 1.0) / count).sqrt()
     }
 }
 
@@ -44,7 +56,7 @@ pub fn luminance([red, green, blue]: [f64; 3]) -> f64 {
 
 /// What the rule makes of one stream of luminances that ends at the sample cap.
 pub fn mean_of_stream(settings: AdaptiveSettings, stream: &[f64]) -> AdaptiveMean {
-    let mut luminances = Luminances::default();
+    let mut luminances = Running::default();
     let mut sum = 0.0;
     for &sample in stream {
         luminances.add(sample);

@@ -64,6 +64,7 @@ const CAPABILITIES: Capabilities = Capabilities::GENERATE_RAYS
     .union(Capabilities::ISOLATED_BOUNCES)
     .union(Capabilities::ROULETTE)
     .union(Capabilities::ROUGH_GLASS)
+    .union(Capabilities::REPORTED_VARIANCE)
     .union(Capabilities::CALLERS_RANDOMNESS)
     .union(Capabilities::DETERMINISTIC);
 

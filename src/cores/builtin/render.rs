@@ -1,7 +1,7 @@
 //! Pictures and lists of estimates, on as many threads as allowed. Every pixel and every ray has its own random
 //! numbers and its own sum, so the answer does not depend on the threads.
 
-use super::adaptive::{Luminances, luminance};
+use super::adaptive::{Running, luminance};
 use super::camera::Pinhole;
 use super::integrator::Integrator;
 use super::random::Stream;
@@ -36,26 +36,37 @@ pub fn render(
     film: &mut Film,
 ) -> Result<()> {
     let pinhole = Pinhole::new(camera);
-    let mut pixels = vec![([0.0; 3], 0); (settings.width * settings.height) as usize];
-    let develop = |integrator: &mut Integrator<'_>, index: usize, pixel: &mut ([f32; 3], u32)| {
+    let mut pixels = vec![Pixel::default(); (settings.width * settings.height) as usize];
+    let develop = |integrator: &mut Integrator<'_>, index: usize, pixel: &mut Pixel| {
         *pixel = develop_pixel(integrator, &pinhole, settings, index as u32);
     };
     for_each(world, &settings.integrator, &mut pixels, develop)?;
     (film.width, film.height) = (settings.width, settings.height);
-    (film.pixels, film.sample_counts) = pixels.into_iter().unzip();
+    film.pixels = pixels.iter().map(|pixel| pixel.mean).collect();
+    film.sample_counts = pixels.iter().map(|pixel| pixel.samples).collect();
+    film.variances = pixels.iter().map(|pixel| pixel.variance).collect();
     Ok(())
 }
 
-/// Mean radiance of a pixel, and the samples that it took.
+/// A pixel that is done.
+#[derive(Clone, Copy, Default)]
+struct Pixel {
+    mean: [f32; 3],
+    /// Of `mean`, as its samples tell it.
+    variance: [f32; 3],
+    samples: u32,
+}
+
 fn develop_pixel(
     integrator: &mut Integrator<'_>,
     pinhole: &Pinhole,
     settings: &RenderSettings,
     index: u32,
-) -> ([f32; 3], u32) {
+) -> Pixel {
     let size = [settings.width, settings.height];
     let place = [index % settings.width, index / settings.width];
-    let (mut sum, mut luminances, mut used) = ([0.0; 3], Luminances::default(), 0);
+    let (mut sum, mut luminances, mut used) = ([0.0; 3], Running::default(), 0);
+    let mut channels = [Running::default(); 3];
     while used < settings.samples_per_pixel {
         let mut stream =
             Stream::new(settings.integrator.seed, u64::from(index), 1 + u64::from(used));
@@ -63,13 +74,16 @@ fn develop_pixel(
         let sample = integrator.radiance(&ray, stream).as_dvec3().to_array();
         // Sums in double precision: the mean of equal samples is that sample, whatever their number.
         sum = std::array::from_fn(|channel| sum[channel] + sample[channel]);
+        channels.iter_mut().zip(sample).for_each(|(channel, value)| channel.add(value));
         used += 1;
         luminances.add(luminance(sample));
         if settings.adaptive.is_some_and(|adaptive| luminances.suffice(adaptive)) {
             break;
         }
     }
-    (sum.map(|channel| (channel / f64::from(used.max(1))) as f32), used)
+    let mean = sum.map(|channel| (channel / f64::from(used.max(1))) as f32);
+    let variance = channels.map(|channel| channel.variance_of_mean() as f32);
+    Pixel { mean, variance, samples: used }
 }
 
 /// Does `work` for each element, with its index, on the threads that `settings` allow.

@@ -70,6 +70,7 @@ pub fn capabilities(table: &abi::CoreTable) -> Capabilities {
         (integrates && has(Traits::ROULETTE), Capabilities::ROULETTE),
         (renders && has(Traits::ADAPTIVE_SAMPLING), Capabilities::ADAPTIVE_SAMPLING),
         (has(Traits::KNOWS_ROUGH_GLASS), Capabilities::ROUGH_GLASS),
+        (renders && has(Traits::REPORTED_VARIANCE), Capabilities::REPORTED_VARIANCE),
         (has(Traits::CALLERS_RANDOMNESS), Capabilities::CALLERS_RANDOMNESS),
         (has(Traits::DETERMINISTIC), Capabilities::DETERMINISTIC),
     ]

@@ -258,5 +258,6 @@ pub fn render(
         samples_per_pixel: settings.samples_per_pixel,
         integrator: ptr::from_ref(integrator),
         adaptive: adaptive.map_or(ptr::null(), ptr::from_ref),
+        variances: ptr::null_mut(),
     }
 }

@@ -2,8 +2,8 @@
 
 use super::{Remote, Step, done, numbers, out_of_place};
 use crate::contract::{
-    Acceleration, BuildStats, BuiltScene, Film, Hit, IntegratorSettings, LightSample, Randomness,
-    Ray, RenderSettings, Result, TraversalStats, read_flags,
+    Acceleration, BuildStats, BuiltScene, Capabilities, Film, Hit, IntegratorSettings, LightSample,
+    Randomness, Ray, RenderSettings, Result, TraversalStats, read_flags,
 };
 use crate::scene::{Camera, SceneDescription};
 use crate::worker::message::{Answer, Request, Sent, Wanted};
@@ -114,6 +114,10 @@ impl BuiltScene for RemoteScene<'_> {
         let request = Request::Render { camera: *camera, settings: settings.clone() };
         let pixels = Wanted::new("pixels", &mut film.pixels);
         let counts = Wanted::new("sample-counts", &mut film.sample_counts);
-        done(self.ask(&request, &[], &mut [pixels, counts]))
+        let variances = Wanted::new("variances", &mut film.variances);
+        let has = self.remote.worker.info().capabilities;
+        let mut wanted = vec![pixels, counts];
+        wanted.extend(has.contains(Capabilities::REPORTED_VARIANCE).then_some(variances));
+        done(self.ask(&request, &[], &mut wanted))
     }
 }

@@ -179,6 +179,12 @@ pub enum Change {
     CountsAreCap,
     CountWithoutLastBatch,
     AdaptiveAlways,
+    // Part 5, the reported variance.
+    VarianceOfSample,
+    VarianceDividedTwice,
+    DeviationReported,
+    SquaresReported,
+    SquaresInSingle,
     // Part 5, seeds.
     SeedIgnored,
     SeedOfClock,

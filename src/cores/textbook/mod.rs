@@ -14,7 +14,7 @@
 //! | 2 | box; dividing, building, walking the hierarchy | `slab`, `split`, `build`, `bvh` |
 //! | 3 | surfaces, hemisphere and light sampling | `bsdf`, `sampling`, `light`, `area_light`, `direct` |
 //! | 4 | paths of many bounces, roulette | `integrator` |
-//! | 5 | adaptive sampling | `adaptive` |
+//! | 5 | adaptive sampling, how noisy a pixel is | `adaptive`, `spread` |
 //!
 //! Beyond the course: `glass`, `ggx` and `rough_glass` scatter as their names say; `world` is the scene as rays
 //! see it, and `vertex` a point of a path in it; `random` gives every path its own stream, so that
@@ -46,6 +46,7 @@ mod sampling;
 mod single;
 mod slab;
 mod split;
+mod spread;
 mod vertex;
 mod world;
 

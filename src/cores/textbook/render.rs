@@ -8,6 +8,7 @@ use super::camera::{generate_ray, half_pixel};
 use super::change::Change;
 use super::integrator::Integrator;
 use super::random::{self, Random};
+use super::spread::Spread;
 use super::world::World;
 use crate::contract::{AdaptiveSettings, CoreError, Film, RenderSettings, Result};
 use crate::scene::Camera;
@@ -27,12 +28,11 @@ pub fn render(
     let integrator = Integrator::new(world, &settings.integrator);
     let change = world.change();
     let picture = Picture { integrator, camera, settings, change };
-    let mut pixels = vec![(DVec3::ZERO, 0); film.pixels.len()];
+    let mut pixels = vec![Pixel::default(); film.pixels.len()];
     fill(settings.integrator.threads, &mut pixels, |index| picture.pixel(index))?;
-    for (index, (radiance, samples)) in pixels.into_iter().enumerate() {
-        film.pixels[index] = radiance.as_vec3().to_array();
-        film.sample_counts[index] = samples;
-    }
+    film.pixels = pixels.iter().map(|pixel| pixel.mean.as_vec3().to_array()).collect();
+    film.sample_counts = pixels.iter().map(|pixel| pixel.samples).collect();
+    film.variances = pixels.iter().map(|pixel| pixel.variance.as_vec3().to_array()).collect();
     Ok(())
 }
 
@@ -58,6 +58,15 @@ const ADAPTIVE_DEFAULT: AdaptiveSettings =
 /// Steps that fill the unit square evenly (Roberts 2018, the R2 sequence).
 const EVEN_STEPS: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_2);
 
+/// What is written of a pixel.
+#[derive(Clone, Copy, Default)]
+struct Pixel {
+    mean: DVec3,
+    /// Of `mean`.
+    variance: DVec3,
+    samples: u32,
+}
+
 struct Picture<'a> {
     integrator: Integrator<'a>,
     camera: &'a Camera,
@@ -66,12 +75,13 @@ struct Picture<'a> {
 }
 
 impl Picture<'_> {
-    /// Mean radiance of pixel number `index`, and the samples it took.
-    fn pixel(&self, index: usize) -> (DVec3, u32) {
-        let mut total = DVec3::ZERO;
+    /// Pixel number `index`.
+    fn pixel(&self, index: usize) -> Pixel {
+        let (mut total, mut spread) = (DVec3::ZERO, Spread::default());
         let tally = self.spend_samples(|sample| {
             let radiance = self.sample(index, sample);
             total += radiance;
+            spread.add(radiance, self.change);
             luminance(radiance)
         });
         let cap = self.settings.samples_per_pixel;
@@ -80,7 +90,8 @@ impl Picture<'_> {
             _ => total / adaptive::divisor(tally.count(), cap, self.change),
         };
         let batch = self.settings.adaptive.map(|adaptive| adaptive.samples_per_batch);
-        (mean, adaptive::reported(tally.count(), cap, batch, self.change))
+        let samples = adaptive::reported(tally.count(), cap, batch, self.change);
+        Pixel { mean, variance: spread.variance_of_mean(self.change), samples }
     }
 
     fn spend_samples(&self, next: impl FnMut(u32) -> f64) -> Tally {
@@ -145,7 +156,7 @@ fn luminance(radiance: DVec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contract::{AdaptiveSettings, IntegratorSettings};
+    use crate::contract::{AdaptiveSettings, Capabilities, IntegratorSettings};
     use crate::cores::textbook::testing::{Stage, diffuse};
 
     const WIDTH: u32 = 20;
@@ -163,13 +174,7 @@ mod tests {
     }
 
     fn film(world: &World, settings: &RenderSettings) -> Film {
-        let count = (WIDTH * HEIGHT) as usize;
-        let mut film = Film {
-            width: WIDTH,
-            height: HEIGHT,
-            pixels: vec![[f32::NAN; 3]; count],
-            sample_counts: vec![0; count],
-        };
+        let mut film = Film::blank(WIDTH, HEIGHT, Capabilities::all());
         render(world, &camera(), settings, &mut film).expect("it renders");
         film
     }

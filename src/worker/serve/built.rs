@@ -2,8 +2,8 @@
 
 use super::{Arrays, Inbox, Incoming, Outbox};
 use crate::contract::{
-    Acceleration, BuiltScene, Core, Film, Hit, LightSample, Ray, Result as CoreResult,
-    TraversalStats,
+    Acceleration, BuiltScene, Capabilities, Core, Film, Hit, LightSample, Ray,
+    Result as CoreResult, TraversalStats,
 };
 use crate::scene::SceneDescription;
 use crate::worker::frame::FrameError;
@@ -20,6 +20,7 @@ pub fn serve_built(
     inbox: &mut Inbox,
     outbox: &mut Outbox,
 ) -> Result<(), FrameError> {
+    let capabilities = core.info().capabilities;
     let mut built = match core.build_scene(scene, acceleration) {
         Ok(built) => built,
         Err(error) => return outbox.fail(number, error),
@@ -30,13 +31,14 @@ pub fn serve_built(
             drop(built);
             return outbox.send(number, Answer::Done, &[]);
         }
-        answer(built.as_mut(), number, request, arrays, outbox)?;
+        answer(built.as_mut(), capabilities, number, request, arrays, outbox)?;
     }
     Ok(())
 }
 
 fn answer(
     built: &mut dyn BuiltScene,
+    capabilities: Capabilities,
     number: u64,
     request: Request,
     mut arrays: Arrays<'_>,
@@ -72,18 +74,17 @@ fn answer(
             })
         }
         Request::Render { camera, settings } => {
-            let count = settings.width as usize * settings.height as usize;
-            let mut film = Film {
-                width: settings.width,
-                height: settings.height,
-                pixels: vec![[f32::NAN; 3]; count],
-                sample_counts: vec![0; count],
-            };
+            let (width, height) = (settings.width, settings.height);
+            let mut film = Film::blank(width, height, capabilities);
             match built.render(&camera, &settings, &mut film) {
                 Ok(()) => {
                     let pixels = Sent::new("pixels", &film.pixels);
                     let counts = Sent::new("sample-counts", &film.sample_counts);
-                    outbox.send(number, Answer::Done, &[pixels, counts])
+                    let variances = Sent::new("variances", &film.variances);
+                    let mut arrays = vec![pixels, counts];
+                    let reports = capabilities.contains(Capabilities::REPORTED_VARIANCE);
+                    arrays.extend(reports.then_some(variances));
+                    outbox.send(number, Answer::Done, &arrays)
                 }
                 Err(error) => outbox.fail(number, error),
             }

@@ -1,9 +1,10 @@
 //! Part 5: adaptive sampling and random numbers.
 
 use super::Fault;
-use crate::cause::{adaptive, picture, seed};
+use crate::cause::{adaptive, picture, seed, variance};
 use crate::cores::textbook::change::Change;
 
+const NOISE: &str = "integrator/pixels-know-how-noisy-they-are";
 const STREAMS: &str = "sampling/streams-stop-where-the-rule-says";
 
 /// In the order of the lecture.
@@ -119,6 +120,46 @@ pub const FAULTS: &[Fault] = &[
         summary: "adaptive sampling is on by default",
         caught_by: "camera/equal-samples-make-equal-pixels",
         cause: &adaptive::ADAPTIVE_ALWAYS,
+    },
+    Fault {
+        change: Change::VarianceOfSample,
+        name: "variance-of-sample",
+        part: 5,
+        summary: "the variance beside the picture is over n − 1, and not over n again",
+        caught_by: NOISE,
+        cause: &variance::VARIANCE_OF_SAMPLE,
+    },
+    Fault {
+        change: Change::VarianceDividedTwice,
+        name: "variance-divided-twice",
+        part: 5,
+        summary: "the variance beside the picture is divided by n twice",
+        caught_by: NOISE,
+        cause: &variance::DIVIDED_TWICE,
+    },
+    Fault {
+        change: Change::DeviationReported,
+        name: "deviation-for-variance",
+        part: 5,
+        summary: "σ/√n stands beside the picture, its square belongs there",
+        caught_by: NOISE,
+        cause: &variance::DEVIATION_REPORTED,
+    },
+    Fault {
+        change: Change::SquaresReported,
+        name: "squares-not-divided",
+        part: 5,
+        summary: "Welford's M2 stands beside the picture as it is",
+        caught_by: NOISE,
+        cause: &variance::SQUARES_REPORTED,
+    },
+    Fault {
+        change: Change::SquaresInSingle,
+        name: "squares-in-single",
+        part: 5,
+        summary: "s1 and s2 of a pixel are floats",
+        caught_by: NOISE,
+        cause: &variance::SQUARES_CANCEL,
     },
     Fault {
         change: Change::SeedIgnored,

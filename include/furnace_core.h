@@ -305,6 +305,9 @@ typedef struct furnace_render {
     * top row first: the estimated variance of each value of the picture, that is of the mean written
     * there and not of one sample, in radiance squared; 0 where one sample says nothing. */
    float *variances;
+   /* 1, of a core with FURNACE_STRATIFIED_PIXELS: samples_per_pixel is k * k, and of a pixel's samples
+    * one lies in each cell of a grid of k by k. 0: they lie as the core likes. */
+   uint32_t stratified, reserved;
 } furnace_render;
 
 /* ---- the core ------------------------------------------------------------------------------ */
@@ -322,7 +325,8 @@ enum { /* furnace_core.traits: what no function pointer can say */
    FURNACE_DETERMINISTIC = 1u << 9,       /* the same settings and seed give the same bits */
    FURNACE_SINGLE_PRECISION = 1u << 10,   /* computes in float: tolerances are wider */
    FURNACE_KNOWS_ROUGH_GLASS = 1u << 11,  /* knows FURNACE_ROUGH_GLASS: without it, it is not shown */
-   FURNACE_REPORTED_VARIANCE = 1u << 12   /* render fills furnace_render.variances */
+   FURNACE_REPORTED_VARIANCE = 1u << 12,  /* render fills furnace_render.variances */
+   FURNACE_STRATIFIED_PIXELS = 1u << 13   /* render honours `stratified` */
 };
 
 enum { /* furnace_conventions; 0 is the default of every field */

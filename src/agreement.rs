@@ -170,7 +170,14 @@ fn settings(camera: Camera, reference: &Reference, effort: Effort, run: u32) -> 
     let seed = u64::from(run) + 1;
     let integrator =
         IntegratorSettings { bounces: first..=last, direct, seed, ..IntegratorSettings::default() };
-    RenderSettings { width, height, samples_per_pixel: effort.samples, integrator, adaptive: None }
+    RenderSettings {
+        width,
+        height,
+        samples_per_pixel: effort.samples,
+        integrator,
+        adaptive: None,
+        stratified: false,
+    }
 }
 
 fn render(

@@ -133,7 +133,7 @@ fn layouts() -> Vec<Layout> {
         layout!("furnace_adaptive", abi::Adaptive: struct_size, samples_per_batch, max_tolerance),
         layout!(
             "furnace_render", abi::Render: struct_size, width, height, samples_per_pixel,
-            integrator, adaptive, variances
+            integrator, adaptive, variances, stratified, reserved
         ),
         layout!(
             "furnace_conventions", abi::Conventions: point_light_falloff, emission, smith_term,

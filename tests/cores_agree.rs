@@ -26,6 +26,7 @@ fn render(core: &str, scene: &SceneDescription, seed: Seed) -> Image {
         samples_per_pixel: SAMPLES,
         integrator: IntegratorSettings { bounces: 0..=4, seed: seed.0, ..Default::default() },
         adaptive: None,
+        stratified: false,
     };
     let mut film = Film::default();
     let mut built = core.build_scene(scene, Acceleration::DEFAULT).unwrap();

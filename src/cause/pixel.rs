@@ -69,6 +69,41 @@ pub static ONE_AXIS_ONLY: Cause = Cause {
     remedy: "Draw two numbers for each sample, one for x and one for y.",
 };
 
+const STRATA: &str =
+    "the loop over a pixel's samples, where the number of a sample becomes a cell of the grid";
+
+/// See its headline.
+pub static STRATA_IGNORED: Cause = Cause {
+    name: "strata-ignored",
+    headline: "the samples of a pixel are not stratified at all",
+    look_at: STRATA,
+    remedy: "Of k · k samples number i belongs to column i mod k and row i / k of the grid.",
+};
+
+/// See its headline.
+pub static STRATA_UNEVEN: Cause = Cause {
+    name: "strata-uneven",
+    headline: "some cells of a pixel get several samples, and others none",
+    look_at: STRATA,
+    remedy: "Of k · k samples number i belongs to column i mod k and row i / k of the grid.",
+};
+
+/// See its headline.
+pub static STRATUM_CENTRE: Cause = Cause {
+    name: "stratum-centre",
+    headline: "every sample lies in the middle of its cell",
+    look_at: STRATA,
+    remedy: "Within its cell a sample is a random point: (cell + number in [0, 1)) / k in each direction.",
+};
+
+/// See its headline.
+pub static STRATUM_HALF: Cause = Cause {
+    name: "stratum-half",
+    headline: "samples fill only half the width of their cells",
+    look_at: STRATA,
+    remedy: "Within its cell a sample is a random point: (cell + number in [0, 1)) / k in each direction.",
+};
+
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &PIXEL_CENTRE,
@@ -79,4 +114,8 @@ pub static CAUSES: &[&Cause] = &[
     &JITTER_TOO_WIDE,
     &ONE_NUMBER_TWICE,
     &ONE_AXIS_ONLY,
+    &STRATA_IGNORED,
+    &STRATA_UNEVEN,
+    &STRATUM_CENTRE,
+    &STRATUM_HALF,
 ];

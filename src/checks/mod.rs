@@ -143,6 +143,7 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<film::ConstantFilm>(),
     CheckKind::of::<film::PictureOrientation>(),
     CheckKind::of::<film::PixelSamples>(),
+    CheckKind::of::<film::StratifiedSamples>(),
     CheckKind::of::<film::ViewCoverage>(),
     CheckKind::of::<shape::HitsPrimitive>(),
     CheckKind::of::<shape::AgreesWithExactArithmetic>(),

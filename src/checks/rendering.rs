@@ -40,8 +40,15 @@ impl Rendering {
                 ..Default::default()
             },
             adaptive: None,
+            stratified: false,
         };
         Self { camera, settings }
+    }
+
+    /// The same with one sample in each cell of a grid over the pixel.
+    pub fn stratified(mut self) -> Self {
+        self.settings.stratified = true;
+        self
     }
 
     /// The picture of a seed; `threads` as in [`IntegratorSettings::threads`].

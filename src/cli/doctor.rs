@@ -182,6 +182,10 @@ const ADVICE: &[(Capabilities, &str)] = &[
         "fill settings.variances in render, and say FURNACE_REPORTED_VARIANCE",
     ),
     (
+        Capabilities::STRATIFIED_PIXELS,
+        "honour settings.stratified in render, and say FURNACE_STRATIFIED_PIXELS",
+    ),
+    (
         Capabilities::CALLERS_RANDOMNESS,
         "draw with random.point and random.lobe alone, and say FURNACE_CALLERS_RANDOMNESS",
     ),

@@ -107,6 +107,8 @@ bitflags! {
         const KNOWS_ROUGH_GLASS = 1 << 11;
         /// `FURNACE_REPORTED_VARIANCE`
         const REPORTED_VARIANCE = 1 << 12;
+        /// `FURNACE_STRATIFIED_PIXELS`
+        const STRATIFIED_PIXELS = 1 << 13;
     }
 }
 
@@ -270,6 +272,8 @@ pub struct Render {
     pub integrator: *const Integrator,
     pub adaptive: *const Adaptive,
     pub variances: *mut [f32; 3],
+    pub stratified: u32,
+    pub reserved: u32,
 }
 
 /// `furnace_randomness`
@@ -467,7 +471,7 @@ const _: () = {
     assert!(size_of::<Build>() == 24);
     assert!(size_of::<Integrator>() == 48);
     assert!(size_of::<Adaptive>() == 16);
-    assert!(size_of::<Render>() == 40);
+    assert!(size_of::<Render>() == 48);
     assert!(size_of::<Randomness>() == 24);
     assert!(size_of::<Stream>() == 16);
     assert!(size_of::<CoreTable>() == 208);

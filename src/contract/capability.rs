@@ -55,6 +55,8 @@ bitflags! {
         const ROUGH_GLASS = 1 << 21;
         /// [`super::Film::variances`] of `render`.
         const REPORTED_VARIANCE = 1 << 22;
+        /// [`super::RenderSettings::stratified`] is honoured.
+        const STRATIFIED_PIXELS = 1 << 23;
         /// Sampling calls use the caller's random numbers, so they can be replayed.
         const CALLERS_RANDOMNESS = 1 << 32;
         /// The same settings and seed give the same bits.

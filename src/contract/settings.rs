@@ -124,6 +124,10 @@ pub struct RenderSettings {
     pub integrator: IntegratorSettings,
     /// Stop early where the noise allows.
     pub adaptive: Option<AdaptiveSettings>,
+    /// Of k · k samples of a pixel one lies in each cell of a grid of k by k. Asked of cores with
+    /// [`super::Capabilities::STRATIFIED_PIXELS`] alone; off, samples lie as the core likes.
+    #[serde(default)]
+    pub stratified: bool,
 }
 
 /// The course's adaptive rule: after every batch, with mean μ and sample standard deviation σ (n − 1) of the n

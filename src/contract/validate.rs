@@ -561,7 +561,14 @@ mod tests {
     fn picture_with(variances: &[[f32; 3]]) -> Result<Film> {
         let integrator = IntegratorSettings::default();
         let (width, height, samples_per_pixel, adaptive) = (1, 1, 4, None);
-        let settings = RenderSettings { width, height, samples_per_pixel, integrator, adaptive };
+        let settings = RenderSettings {
+            width,
+            height,
+            samples_per_pixel,
+            integrator,
+            adaptive,
+            stratified: false,
+        };
         let camera = Camera::look_at(DVec3::ZERO, DVec3::Z, DVec3::Y, 1.0, [1, 1]);
         let (mut core, mut film) = (Reports(variances.to_vec()), Film::default());
         Validated::new(&mut core)

@@ -65,6 +65,7 @@ impl Studio {
                     ..Default::default()
                 },
                 adaptive: None,
+                stratified: false,
             };
             let mut film = Film::default();
             built.render(camera, &settings, &mut film).unwrap();

@@ -20,7 +20,7 @@ class Core:
     precision = "double"
     # What no method can say: "brute-force", "split-rules", "hemisphere-sampling",
     # "isolated-bounces", "roulette", "adaptive-sampling", "rough-glass", "reported-variance",
-    # "traversal-stats", "callers-randomness", "deterministic".
+    # "stratified-pixels", "traversal-stats", "callers-randomness", "deterministic".
     traits = frozenset()
     # What the core has freely chosen, where it is not the usual: "point-light-falloff": "none",
     # "emission": "both", "smith-term": "height-correlated", "glass-fresnel": "schlick"
@@ -99,7 +99,7 @@ class Built:
         raise NotImplementedError
 
     def render(self, camera, settings):
-        """camera, settings (width, height, samples_per_pixel, integrator, adaptive)
+        """camera, settings (width, height, samples_per_pixel, integrator, adaptive, stratified)
         → pixels (height, width, 3), row 0 on top, and samples (height, width); with the trait
         "reported-variance" also the variance of each value of pixels, that is of a mean and not
         of one sample"""

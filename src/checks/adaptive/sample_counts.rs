@@ -91,6 +91,7 @@ impl SampleCounts {
                 samples_per_batch: self.batch,
                 max_tolerance: self.tolerance.0,
             }),
+            stratified: false,
         };
         let mut film = Film::default();
         scene.render(camera, &settings, &mut film)?;

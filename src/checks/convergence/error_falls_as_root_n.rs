@@ -128,6 +128,7 @@ impl ErrorFallsAsRootN {
                 ..Default::default()
             },
             adaptive: None,
+            stratified: false,
         };
         let mut film = Film::default();
         scene.render(camera, &settings, &mut film)?;

@@ -27,6 +27,8 @@ pub struct FakeFilm {
     pub radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send>,
     /// Where a sample with these random numbers lies, from the corner of its pixel.
     pub place: fn(DVec2) -> DVec2,
+    /// The random numbers of a sample, by its number in its pixel.
+    pub arrange: fn(u32, DVec2) -> DVec2,
     /// What becomes of the mean of a pixel.
     pub develop: fn([f64; 3], Place) -> [f64; 3],
     /// How many samples are taken where so many are asked for.
@@ -42,6 +44,7 @@ impl Default for FakeFilm {
         Self {
             radiance: Box::new(|_, _| [0.0; 3]),
             place: |numbers| numbers,
+            arrange: |_, numbers| numbers,
             develop: |mean, _| mean,
             samples_used: |asked| asked,
             index: |[x, y], [width, _]| (y * width + x) as usize,
@@ -60,8 +63,9 @@ impl FakeFilm {
         let corner = DVec2::from(place.at.map(f64::from));
         let size = DVec2::from(place.size.map(f64::from));
         let (mut sum, used) = ([0.0; 3], (self.samples_used)(place.samples));
-        for _ in 0..used {
+        for number in 0..used {
             let numbers = DVec2::new(uniform(stream), uniform(stream));
+            let numbers = (self.arrange)(number, numbers);
             let sample = (self.radiance)(corner + (self.place)(numbers), size);
             sum = std::array::from_fn(|c| sum[c] + sample[c]);
         }

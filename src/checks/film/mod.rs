@@ -7,11 +7,14 @@ mod orientation;
 mod pattern;
 mod pixel_laws;
 mod pixel_samples;
+mod strata_pattern;
+mod stratified_samples;
 mod view_coverage;
 
 pub use constant_film::ConstantFilm;
 pub use orientation::PictureOrientation;
 pub use pixel_samples::PixelSamples;
+pub use stratified_samples::StratifiedSamples;
 pub use view_coverage::ViewCoverage;
 
 #[cfg(test)]

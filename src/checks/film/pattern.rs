@@ -108,15 +108,20 @@ fn digits(sum: f64) -> Option<[u32; 10]> {
     is_readable.then(|| std::array::from_fn(|place| ((whole / digit(place)) % BASE) as u32))
 }
 
-/// The scene, seen by a camera that stands and looks in no special way.
-pub fn scene() -> SceneDescription {
-    let camera = Camera::look_at(
+/// A camera that stands and looks in no special way.
+pub fn view() -> Camera {
+    Camera::look_at(
         DVec3::new(1.3, -2.1, 0.7),
         DVec3::new(-0.4, 0.2, 1.9),
         DVec3::new(0.1, 0.2, 1.0),
         50f64.to_radians(),
         FILM,
-    );
+    )
+}
+
+/// The scene as [`view`] sees it.
+pub fn scene() -> SceneDescription {
+    let camera = view();
     let mut meshes = vec![background(&camera)];
     let mut materials = vec![glowing("background", BACKGROUND_RADIANCE)];
     for cell in (0..CELLS).flat_map(|row| (0..CELLS).map(move |column| [column, row])) {
@@ -135,7 +140,8 @@ pub fn scene() -> SceneDescription {
     scene.with_area_lights()
 }
 
-fn glowing(name: &str, radiance: [f64; 3]) -> Material {
+/// A black surface of this radiance.
+pub fn glowing(name: &str, radiance: [f64; 3]) -> Material {
     Material {
         name: name.to_owned(),
         surface: Surface::Diffuse { reflectance: [0.0; 3] },
@@ -151,7 +157,7 @@ fn seen_at(camera: &Camera, point: DVec2, depth: f64) -> DVec3 {
 }
 
 /// Quads between pairs of film points, at a depth, facing the camera.
-fn quads(camera: &Camera, corners: impl Iterator<Item = [DVec2; 2]>, depth: f64) -> Mesh {
+pub fn quads(camera: &Camera, corners: impl Iterator<Item = [DVec2; 2]>, depth: f64) -> Mesh {
     let mut mesh = Mesh::default();
     for [top_left, bottom_right] in corners {
         let first = u32::try_from(mesh.positions.len()).unwrap_or(u32::MAX);
@@ -165,7 +171,7 @@ fn quads(camera: &Camera, corners: impl Iterator<Item = [DVec2; 2]>, depth: f64)
 }
 
 /// Behind the cells, beyond the film on every side.
-fn background(camera: &Camera) -> Mesh {
+pub fn background(camera: &Camera) -> Mesh {
     let corners = [DVec2::splat(-4.0), DVec2::from(FILM.map(f64::from)) + 4.0];
     quads(camera, [corners].into_iter(), 1.01)
 }

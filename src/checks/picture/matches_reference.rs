@@ -199,6 +199,7 @@ impl Shot<'_> {
                 ..Default::default()
             },
             adaptive: None,
+            stratified: false,
         }
     }
 }

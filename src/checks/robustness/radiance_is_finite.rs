@@ -95,6 +95,7 @@ impl RadianceIsFinite {
                 ..Default::default()
             },
             adaptive: None,
+            stratified: false,
         }
     }
 }

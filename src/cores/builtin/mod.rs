@@ -65,6 +65,7 @@ const CAPABILITIES: Capabilities = Capabilities::GENERATE_RAYS
     .union(Capabilities::ROULETTE)
     .union(Capabilities::ROUGH_GLASS)
     .union(Capabilities::REPORTED_VARIANCE)
+    .union(Capabilities::STRATIFIED_PIXELS)
     .union(Capabilities::CALLERS_RANDOMNESS)
     .union(Capabilities::DETERMINISTIC);
 

@@ -8,6 +8,7 @@ use super::random::Stream;
 use super::world::World;
 use crate::contract::{CoreError, Film, IntegratorSettings, Ray, RenderSettings, Result};
 use crate::scene::Camera;
+use glam::DVec2;
 use rayon::prelude::*;
 
 /// Rays or pixels that one thread takes at a time.
@@ -70,7 +71,11 @@ fn develop_pixel(
     while used < settings.samples_per_pixel {
         let mut stream =
             Stream::new(settings.integrator.seed, u64::from(index), 1 + u64::from(used));
-        let ray = pinhole.ray_through_pixel(place, size, stream.point());
+        let within = match settings.stratified {
+            true => in_stratum(used, settings.samples_per_pixel, stream.point()),
+            false => stream.point(),
+        };
+        let ray = pinhole.ray_through_pixel(place, size, within);
         let sample = integrator.radiance(&ray, stream).as_dvec3().to_array();
         // Sums in double precision: the mean of equal samples is that sample, whatever their number.
         sum = std::array::from_fn(|channel| sum[channel] + sample[channel]);
@@ -84,6 +89,16 @@ fn develop_pixel(
     let mean = sum.map(|channel| (channel / f64::from(used.max(1))) as f32);
     let variance = channels.map(|channel| channel.variance_of_mean() as f32);
     Pixel { mean, variance, samples: used }
+}
+
+/// A point of one cell of the square grid of `count` cells over the unit square, the cells row by row; of the whole
+/// square if `count` is no square.
+fn in_stratum(number: u32, count: u32, jitter: DVec2) -> DVec2 {
+    let side = count.isqrt();
+    if side * side != count {
+        return jitter;
+    }
+    (DVec2::new(f64::from(number % side), f64::from(number / side)) + jitter) / f64::from(side)
 }
 
 /// Does `work` for each element, with its index, on the threads that `settings` allow.
@@ -120,4 +135,22 @@ fn for_each<T: Send>(
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_cell_gets_one_sample_and_stays_below_one() {
+        let almost_one = DVec2::splat(1.0 - f64::EPSILON);
+        let cell = |point: DVec2| (point * 3.0).floor().to_array().map(|c| c as u32);
+        let mut cells: Vec<_> =
+            (0..9).map(|number| cell(in_stratum(number, 9, almost_one * 0.999))).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        assert_eq!(cells.len(), 9);
+        assert!((0..9).all(|number| in_stratum(number, 9, almost_one).max_element() < 1.0));
+        assert_eq!(in_stratum(3, 8, DVec2::splat(0.25)), DVec2::splat(0.25));
+    }
 }

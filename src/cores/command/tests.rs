@@ -43,8 +43,14 @@ fn request(scene: &str, seed: u64) -> (Arc<SceneDescription>, Camera, RenderSett
     let camera =
         Camera { vertical_fov: scene.camera.unwrap().horizontal_fov, ..scene.camera.unwrap() };
     let integrator = IntegratorSettings { seed, ..IntegratorSettings::default() };
-    let settings =
-        RenderSettings { width: 1, height: 1, samples_per_pixel: 4, integrator, adaptive: None };
+    let settings = RenderSettings {
+        width: 1,
+        height: 1,
+        samples_per_pixel: 4,
+        integrator,
+        adaptive: None,
+        stratified: false,
+    };
     (scene, camera, settings)
 }
 

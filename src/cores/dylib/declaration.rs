@@ -71,6 +71,7 @@ pub fn capabilities(table: &abi::CoreTable) -> Capabilities {
         (renders && has(Traits::ADAPTIVE_SAMPLING), Capabilities::ADAPTIVE_SAMPLING),
         (has(Traits::KNOWS_ROUGH_GLASS), Capabilities::ROUGH_GLASS),
         (renders && has(Traits::REPORTED_VARIANCE), Capabilities::REPORTED_VARIANCE),
+        (renders && has(Traits::STRATIFIED_PIXELS), Capabilities::STRATIFIED_PIXELS),
         (has(Traits::CALLERS_RANDOMNESS), Capabilities::CALLERS_RANDOMNESS),
         (has(Traits::DETERMINISTIC), Capabilities::DETERMINISTIC),
     ]

@@ -259,5 +259,7 @@ pub fn render(
         integrator: ptr::from_ref(integrator),
         adaptive: adaptive.map_or(ptr::null(), ptr::from_ref),
         variances: ptr::null_mut(),
+        stratified: settings.stratified.into(),
+        reserved: 0,
     }
 }

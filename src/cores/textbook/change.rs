@@ -30,6 +30,11 @@ pub enum Change {
     HalfPixelBothWays,
     SamplesNotDivided,
     PictureUpsideDown,
+    // Part 1, strata of a pixel.
+    StrataIgnored,
+    StrataOnDiagonal,
+    StratumCentre,
+    StratumHalf,
     // Part 1, triangle.
     NormalsSwapped,
     NormalNotNormalised,

@@ -122,6 +122,10 @@ impl Picture<'_> {
     /// A uniform point of the unit square.
     fn within_pixel(&self, seed: u64, index: usize, sample: u32, random: &mut Random) -> DVec2 {
         let point = random.point();
+        let grid = f64::from(self.settings.samples_per_pixel).sqrt();
+        if self.settings.stratified && grid.fract() == 0.0 {
+            return stratum(sample, grid as u32, point, self.change);
+        }
         match self.change {
             Change::PixelCorner => DVec2::ZERO,
             Change::HalfPixelAdded => point + 0.5,
@@ -148,6 +152,21 @@ impl Picture<'_> {
     }
 }
 
+/// A point of cell number `sample` of a grid of `side` by `side` over the unit square.
+fn stratum(sample: u32, side: u32, jitter: DVec2, change: Change) -> DVec2 {
+    let (column, row) = match change {
+        Change::StrataOnDiagonal => (sample % side, sample % side),
+        _ => (sample % side, sample / side),
+    };
+    let within = match change {
+        Change::StratumCentre => DVec2::splat(0.5),
+        Change::StratumHalf => 0.5 * jitter,
+        Change::StrataIgnored => return jitter,
+        _ => jitter,
+    };
+    (DVec2::new(f64::from(column), f64::from(row)) + within) / f64::from(side)
+}
+
 /// Of linear sRGB (Rec. 709).
 fn luminance(radiance: DVec3) -> f64 {
     radiance.dot(DVec3::new(0.2126, 0.7152, 0.0722))
@@ -165,7 +184,7 @@ mod tests {
     fn settings(samples_per_pixel: u32) -> RenderSettings {
         let integrator = IntegratorSettings { bounces: 0..=2, seed: 4, ..Default::default() };
         let (width, height, adaptive) = (WIDTH, HEIGHT, None);
-        RenderSettings { width, height, samples_per_pixel, integrator, adaptive }
+        RenderSettings { width, height, samples_per_pixel, integrator, adaptive, stratified: false }
     }
 
     fn camera() -> Camera {

@@ -4,6 +4,7 @@ use super::Fault;
 use crate::cause::{camera, picture, pixel};
 use crate::cores::textbook::change::Change;
 
+const STRATA: &str = "camera/stratified-samples-lie-one-in-each-cell";
 const RAYS: &str = "camera/rays-leave-through-their-film-points";
 
 /// In the order of the lecture.
@@ -135,5 +136,37 @@ pub const FAULTS: &[Fault] = &[
         summary: "rows of the picture are counted from the bottom",
         caught_by: "camera/up-is-up-and-right-is-right",
         cause: &picture::UPSIDE_DOWN,
+    },
+    Fault {
+        change: Change::StrataIgnored,
+        name: "strata-ignored",
+        part: 1,
+        summary: "samples are called stratified, and each is a random point of the pixel",
+        caught_by: STRATA,
+        cause: &pixel::STRATA_IGNORED,
+    },
+    Fault {
+        change: Change::StrataOnDiagonal,
+        name: "strata-on-diagonal",
+        part: 1,
+        summary: "column and row of the cell are both i % k",
+        caught_by: STRATA,
+        cause: &pixel::STRATA_UNEVEN,
+    },
+    Fault {
+        change: Change::StratumCentre,
+        name: "stratum-centre",
+        part: 1,
+        summary: "the middle of the cell in place of a random point of it",
+        caught_by: STRATA,
+        cause: &pixel::STRATUM_CENTRE,
+    },
+    Fault {
+        change: Change::StratumHalf,
+        name: "stratum-half",
+        part: 1,
+        summary: "the jitter is divided by k twice: it covers half of the cell",
+        caught_by: STRATA,
+        cause: &pixel::STRATUM_HALF,
     },
 ];

@@ -1,0 +1,273 @@
+//! A core that says that its pixels are stratified puts one sample in each cell, anywhere in it, as
+//! a picture of a [`strata_pattern`](super::strata_pattern) shows.
+
+use super::pattern::FILM;
+use super::strata_pattern::{Reading, SAMPLES, STRATA, law, places, read, scene};
+use crate::cause::{Cause, pixel};
+use crate::checks::phrase::{percent, would_have_caught};
+use crate::checks::rendering::Rendering;
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Acceleration, BuiltScene, Capabilities};
+use crate::math::rng::Seed;
+use crate::stats::{CountReport, Counts, Verdict, follows_law, judge_counts};
+use crate::text::{Count, Percent};
+use serde::Deserialize;
+
+/// Pictures that are looked at before any are counted: where cells are uneven, that is enough.
+const FIRST_LOOK: u64 = 8;
+
+/// Four samples lie in the four quarters of each pixel, evenly spread within them.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct StratifiedSamples {
+    /// The smallest error of the density within a cell that must be seen, root mean square.
+    detects: Percent,
+    /// Past this the verdict is inconclusive, never a pass.
+    at_most: Count,
+}
+
+impl Check for StratifiedSamples {
+    const NAME: &'static str = "stratified-samples";
+    const SUMMARY: &'static str = "one sample in each cell of a pixel, and anywhere in it";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::RENDER | Capabilities::STRATIFIED_PIXELS
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let scene = scene();
+        let rendering = Rendering::of(&scene, FILM, [0, 0], SAMPLES)?.stratified();
+        let effort = context.effort(self.detects, self.at_most).in_steps_of(pixels_of_a_picture());
+        let seed = context.seed;
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let mut look = |seed: Seed, pictures: u64| -> Result<Tally, CheckError> {
+            let mut tally = Tally::default();
+            (0..pictures).try_for_each(|picture| {
+                take_picture(built.as_mut(), &rendering, seed.child(picture), &mut tally)
+            })?;
+            Ok(tally)
+        };
+        let mut all = look(seed.child("look"), FIRST_LOOK)?;
+        if all.is_uneven() {
+            return Ok(finding(&all, None));
+        }
+        let report = judge_counts(&law([0.0, 1.0]), &effort, &mut |stage, samples| {
+            let tally = look(seed.child(stage), samples / pixels_of_a_picture())?;
+            all.add(&tally);
+            Ok::<_, CheckError>(tally.counts)
+        })?;
+        Ok(finding(&all, Some(&report)))
+    }
+}
+
+fn pixels_of_a_picture() -> u64 {
+    u64::from(FILM[0]) * u64::from(FILM[1])
+}
+
+/// What pixels have shown.
+#[derive(Clone, Debug)]
+struct Tally {
+    pixels: u64,
+    /// Of them, those in which no cell has two samples.
+    even: u64,
+    /// Those that are no mean of four samples of the scene.
+    unreadable: u64,
+    /// The first pixel that can be read to its last sample, and whether all such are like it.
+    pattern: Option<[u32; STRATA]>,
+    one_pattern: bool,
+    /// Where in its cell one sample of each pixel lies.
+    counts: Counts,
+}
+
+impl Default for Tally {
+    fn default() -> Self {
+        let counts = Counts { cells: vec![0; 9], absorbed: 0 };
+        Self { pixels: 0, even: 0, unreadable: 0, pattern: None, one_pattern: true, counts }
+    }
+}
+
+impl Tally {
+    fn take(&mut self, reading: Option<Reading>) {
+        self.pixels += 1;
+        let Some(reading) = reading else {
+            self.unreadable += 1;
+            return;
+        };
+        self.even += u64::from(reading.is_even());
+        match reading.cell {
+            Some(cell) => self.counts.cells[cell] += 1,
+            None => self.counts.absorbed += 1,
+        }
+        if reading.is_whole() {
+            let pattern = *self.pattern.get_or_insert(reading.strata);
+            self.one_pattern &= pattern == reading.strata;
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.pixels += other.pixels;
+        self.even += other.even;
+        self.unreadable += other.unreadable;
+    }
+
+    fn uneven(&self) -> u64 {
+        self.pixels - self.even - self.unreadable
+    }
+
+    fn is_uneven(&self) -> bool {
+        self.even < self.pixels
+    }
+}
+
+fn take_picture(
+    scene: &mut dyn BuiltScene,
+    rendering: &Rendering,
+    seed: Seed,
+    tally: &mut Tally,
+) -> Result<(), CheckError> {
+    let film = rendering.film(scene, seed.0, 0)?;
+    for (at, pixel) in places().zip(&film.pixels) {
+        tally.take(read(at, *pixel));
+    }
+    Ok(())
+}
+
+fn finding(all: &Tally, report: Option<&CountReport>) -> Finding {
+    let none = |name: &str, found: u64| Measure::exact(name, found as f64, 0.0, 0.0);
+    let mut measures = vec![
+        none("pixels with two samples in one cell", all.uneven()),
+        none("pixels that are no mean of four samples", all.unreadable),
+    ];
+    measures.extend(report.map(spread_measure));
+    let resolution = match report {
+        Some(_) => would_have_caught(&measures) + " of the density within a cell",
+        None => "would have caught a single pixel with two samples in one cell".to_owned(),
+    };
+    let failed = measures.iter().any(|measure| measure.verdict == Verdict::Fail);
+    let finding = Finding::of(statement(all, failed), resolution, measures);
+    match failed.then(|| mistake(all, report)).flatten() {
+        Some((cause, evidence)) => finding.because(cause, evidence),
+        None => finding,
+    }
+}
+
+fn statement(all: &Tally, failed: bool) -> String {
+    let Tally { pixels, .. } = all;
+    if !failed {
+        return format!("{pixels} pixels have one sample in each cell, anywhere in it");
+    }
+    match (all.unreadable, all.uneven()) {
+        (0, 0) => "within their cells the samples of pixels are not evenly spread".to_owned(),
+        (0, uneven) => format!("{uneven} of {pixels} pixels have two samples in one of four cells"),
+        (unreadable, _) => format!("{unreadable} of {pixels} pixels are no mean of four samples"),
+    }
+}
+
+fn spread_measure(report: &CountReport) -> Measure {
+    let last = report.stages.last();
+    let per_freedom = |value: fn(&crate::stats::CountStage) -> f64| {
+        last.map_or(f64::NAN, |stage| value(stage) / stage.freedom.max(1.0))
+    };
+    let allowed = per_freedom(|stage| stage.critical) - 1.0;
+    let name = "χ² per degree of freedom, places within a cell";
+    Measure {
+        verdict: report.verdict,
+        resolution: Some(report.resolution),
+        leaf: Some(report.leaf()),
+        ..Measure::exact(name, per_freedom(|stage| stage.statistic), 1.0, allowed)
+    }
+}
+
+/// How far from what independent samples give the share of even pixels may be: five standard errors
+/// of the first look.
+const EXPLAINED: f64 = 0.035;
+
+/// The share of pixels in which four independent samples fall in four different cells: 4!/4⁴.
+const EVEN_BY_CHANCE: f64 = 24.0 / 256.0;
+
+/// The mistake that predicts what is seen, if there is one.
+fn mistake(all: &Tally, report: Option<&CountReport>) -> Option<(&'static Cause, String)> {
+    let Some(report) = report else { return uneven_mistake(all) };
+    let counts = Counts { cells: report.observed.clone(), absorbed: report.absorbed_observed };
+    if counts.cells[4] == counts.total() {
+        let evidence =
+            format!("all {} samples lie in the middle ninth of their cells", counts.total());
+        return Some((&pixel::STRATUM_CENTRE, evidence));
+    }
+    let halves = [[0.0, 0.5], [0.25, 0.75], [0.5, 1.0]];
+    let [from, to] = halves.into_iter().find(|half| follows_law(&law(*half), &counts))?;
+    let evidence = format!("from {from} to {to} of a cell predicts the counts of all its ninths");
+    Some((&pixel::STRATUM_HALF, evidence))
+}
+
+fn uneven_mistake(all: &Tally) -> Option<(&'static Cause, String)> {
+    if all.unreadable > 0 {
+        return None;
+    }
+    let even = all.even as f64 / all.pixels as f64;
+    if (even - EVEN_BY_CHANCE).abs() <= EXPLAINED {
+        let (chance, found) = (percent(EVEN_BY_CHANCE), percent(even));
+        let evidence = format!("{found} of the pixels are even, {chance} would be by chance");
+        return Some((&pixel::STRATA_IGNORED, evidence));
+    }
+    let pattern = all.pattern.filter(|_| all.one_pattern)?;
+    let evidence = format!("the four cells of every pixel have {pattern:?} samples");
+    Some((&pixel::STRATA_UNEVEN, evidence))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::FakeFilm;
+    use super::super::strata_pattern::radiance_at;
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use glam::DVec2;
+
+    /// Where sample number so-and-so lies in its pixel, with two uniform numbers.
+    type Arrange = fn(u32, DVec2) -> DVec2;
+
+    fn cell(number: u32, within: DVec2) -> DVec2 {
+        (DVec2::new(f64::from(number % 2), f64::from(number / 2)) + within) / 2.0
+    }
+
+    fn found(arrange: Arrange) -> Finding {
+        let check: StratifiedSamples = check_of("[expect]\ndetects = \"15 %\"\nat-most = \"50 k\"");
+        let radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send> =
+            Box::new(|at, _| radiance_at(at));
+        judge(&check, &mut FakeFilm { radiance, arrange, ..FakeFilm::default() })
+    }
+
+    #[test]
+    fn one_sample_in_each_cell_passes_in_any_order() {
+        assert_passes(&found(cell));
+        assert_passes(&found(|number, u| cell(3 - number, DVec2::new(1.0 - u.y, u.x))));
+    }
+
+    #[test]
+    fn every_mistake_fails_under_its_own_name() {
+        let mistakes: [(Arrange, &Cause); 6] = [
+            (|_, u| u, &pixel::STRATA_IGNORED),
+            (|number, u| cell(3 * (number % 2), u), &pixel::STRATA_UNEVEN),
+            (|number, u| cell(2 * (number % 2), u), &pixel::STRATA_UNEVEN),
+            (|number, _| cell(number, DVec2::splat(0.5)), &pixel::STRATUM_CENTRE),
+            (|number, u| cell(number, 0.5 * u), &pixel::STRATUM_HALF),
+            (|number, u| cell(number, 0.5 * u + 0.25), &pixel::STRATUM_HALF),
+        ];
+        for (arrange, cause) in mistakes {
+            let finding = found(arrange);
+            failure(&finding);
+            let causes: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
+            assert_eq!(causes, [cause.name], "{}", finding.statement);
+        }
+    }
+
+    #[test]
+    fn one_sample_in_a_thousand_in_another_cell_fails_without_a_name() {
+        let finding = found(|number, u| match u.x < 1e-3 {
+            true => cell(0, DVec2::splat(u.y)),
+            false => cell(number, u),
+        });
+        assert!(failure(&finding).contains("two samples in one of four cells"), "{finding:?}");
+        assert!(finding.clues.is_empty());
+    }
+}

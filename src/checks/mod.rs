@@ -167,6 +167,7 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<bvh::VisitsFewNodes>(),
     CheckKind::of::<bvh::StopsBehindHits>(),
     CheckKind::of::<bvh::DividesLongScenes>(),
+    CheckKind::of::<bvh::IsFaster>(),
     CheckKind::of::<light::LightSamplesReachLight>(),
     CheckKind::of::<light::LightNumbers>(),
     CheckKind::of::<light::OpenLightSamples>(),

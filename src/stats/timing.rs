@@ -3,6 +3,7 @@
 //! Times inform and never fail a core. Measure in interleaved pairs, so that a busy machine slows
 //! both.
 
+use super::{Verdict, binomial_at_least};
 use crate::math::rng::{Seed, Stream};
 use rand::Rng;
 use serde::{Deserialize, Serialize};
@@ -57,6 +58,33 @@ pub fn speed_up(pairs: &[(f64, f64)]) -> SpeedUp {
     }
 }
 
+/// Level of a sign test: 15 pairs that all agree are below it, 14 of 15 are not.
+const SIGN_LEVEL: f64 = 1e-4;
+
+/// Whether one of two things is so many times as fast as the other.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Faster {
+    /// How much faster the second is.
+    pub speed_up: SpeedUp,
+    /// Pairs in which it is by more than what was asked.
+    pub above: usize,
+    /// Probability of as many such pairs, were it so in half of them: the sign test, which knows no
+    /// law of times.
+    pub p_value: f64,
+    /// A pass, or inconclusive: times never fail a core.
+    pub verdict: Verdict,
+}
+
+/// Whether the second of each pair of times is more than `at_least` times as fast as the first.
+pub fn judge_faster(pairs: &[(f64, f64)], at_least: f64) -> Faster {
+    let is_above = |(first, second): &&(f64, f64)| first / second > at_least;
+    let above = pairs.iter().filter(is_above).count();
+    let p_value = binomial_at_least(above as u64, pairs.len() as u64, 0.5);
+    let shown = p_value < SIGN_LEVEL;
+    let verdict = if shown { Verdict::Pass } else { Verdict::Inconclusive };
+    Faster { speed_up: speed_up(pairs), above, p_value, verdict }
+}
+
 /// Percentile bootstrap of the median (Efron 1979).
 fn bootstrap_interval(values: &[f64]) -> [f64; 2] {
     if values.is_empty() {
@@ -100,6 +128,16 @@ mod tests {
             held += u32::from(found.interval[0] <= 3.0 && 3.0 <= found.interval[1]);
         }
         assert!((180..=199).contains(&held), "{held} of 200");
+    }
+
+    #[test]
+    fn all_of_fifteen_pairs_have_to_agree() {
+        let mut pairs = [(4.0, 1.0); 15];
+        assert_eq!(judge_faster(&pairs, 2.0).verdict, Verdict::Pass);
+        assert!((judge_faster(&pairs, 2.0).p_value - 0.5_f64.powi(15)).abs() < 1e-12);
+        pairs[3] = (1.0, 1.0);
+        assert_eq!(judge_faster(&pairs, 2.0).verdict, Verdict::Inconclusive);
+        assert_eq!(judge_faster(&[], 2.0).verdict, Verdict::Inconclusive);
     }
 
     #[test]

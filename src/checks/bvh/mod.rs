@@ -7,6 +7,7 @@ mod divides_long_scenes;
 mod explanation;
 #[cfg(test)]
 mod fake;
+mod is_faster;
 mod no_ray_leaks;
 mod order_does_not_matter;
 mod question;
@@ -19,6 +20,7 @@ mod visits_few_nodes;
 
 pub use builds_come_to_an_end::BuildsComeToAnEnd;
 pub use divides_long_scenes::DividesLongScenes;
+pub use is_faster::IsFaster;
 pub use no_ray_leaks::NoRayLeaks;
 pub use order_does_not_matter::OrderDoesNotMatter;
 pub use same_hits_as_brute_force::SameHitsAsBruteForce;

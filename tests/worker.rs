@@ -38,6 +38,7 @@ const EVERYTHING: &[&str] = &[
     "bvh/flat",
     "bvh/spheres-and",
     "sampling/streams",
+    "integrator/pixels-know",
     "sampling/the-cosine-map",
     "bsdf/samples-are",
     "lights/samples-of-a-ball",

@@ -45,6 +45,13 @@ struct Tally {
    }
 };
 
+// Where sample `number` lies in its pixel: anywhere, or anywhere in its own cell of a grid.
+furnace_vec2 within_pixel(const furnace_render &settings, uint32_t number, furnace_vec2 jitter) {
+   if (!settings.stratified) return jitter;
+   auto side = uint32_t(std::lround(std::sqrt(settings.samples_per_pixel)));
+   return {(number % side + jitter.x) / side, (number / side + jitter.y) / side};
+}
+
 void Scene::render(const furnace_camera &camera, const furnace_render &settings, float *pixels,
                    uint32_t *sample_counts) const {
    if (settings.samples_per_pixel == 0) throw std::invalid_argument("no samples a pixel");
@@ -54,9 +61,9 @@ void Scene::render(const furnace_camera &camera, const furnace_render &settings,
       Tally    tally, channels[3];
       while (tally.count < settings.samples_per_pixel) {
          Random  random(settings.integrator->seed, index, tally.count + 1);
-         Numbers within_pixel = random.numbers();
-         Ray     ray = camera_ray(camera, {(x + within_pixel.point.x) / settings.width,
-                                           1 - (y + within_pixel.point.y) / settings.height});
+         furnace_vec2 within = within_pixel(settings, tally.count, random.numbers().point);
+         Ray          ray = camera_ray(camera, {(x + within.x) / settings.width,
+                                                1 - (y + within.y) / settings.height});
          Rgb radiance = trace(ray, *settings.integrator, random);
          sum = sum + radiance;
          tally.add(luminance(radiance));
@@ -152,5 +159,5 @@ struct PathTracer {
 FURNACE_CORE(pathtracer::PathTracer, "pathtracer.cpp", "1.0",
              FURNACE_BRUTE_FORCE | FURNACE_SPLIT_RULES | FURNACE_HEMISPHERE_SAMPLING |
                  FURNACE_ISOLATED_BOUNCES | FURNACE_ROULETTE | FURNACE_ADAPTIVE_SAMPLING |
-                 FURNACE_REPORTED_VARIANCE | FURNACE_COUNTS_TRAVERSAL |
+                 FURNACE_REPORTED_VARIANCE | FURNACE_STRATIFIED_PIXELS | FURNACE_COUNTS_TRAVERSAL |
                  FURNACE_CALLERS_RANDOMNESS | FURNACE_DETERMINISTIC)

@@ -18,10 +18,12 @@ use furnace::contract::{
     BsdfQuery, BsdfSample, BsdfValue, Capabilities, Conventions, Core, CoreError, CoreInfo,
     Precision, Randomness, Result,
 };
+use furnace::cores::CoreSpec;
 use furnace::math::rng::Seed;
+use furnace::math::sphere::on_sphere;
 use furnace::project::Project;
 use furnace::run::{Outcome, Plan, Request, Status, attempt};
-use furnace::scene::Material;
+use furnace::scene::{Material, Surface};
 use furnace::stats::Budget;
 use glam::DVec3;
 use std::io::{Read, Write};
@@ -172,5 +174,44 @@ fn what_is_right_in_mitsuba_passes() {
     ];
     for (kind, normals, angle) in surfaces {
         assert_eq!(judged(kind, normals, angle).status(), Status::Pass, "{kind} {normals}");
+    }
+}
+
+/// Glass as Mitsuba's fixture has it: of the index that its plugin has by default.
+fn frosted() -> Material {
+    let (reflectance, transmittance) = ([1.0; 3], [1.0; 3]);
+    let index = 1.5046 / 1.000277;
+    let surface = Surface::RoughGlass { index, roughness: 0.5, reflectance, transmittance };
+    Material { name: "frosted".to_owned(), surface, emission: None }
+}
+
+#[test]
+#[ignore = "needs a Python that has Mitsuba"]
+fn rough_glass_is_that_of_mitsuba() {
+    let mut stream = Seed(1).stream();
+    let mut direction = || on_sphere(&mut stream);
+    let queries: Vec<_> =
+        (0..2000).map(|_| BsdfQuery { wo: direction(), wi: direction() }).collect();
+    let evaluated = |core: &mut dyn Core| {
+        let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
+        core.eval_bsdf(&frosted(), &queries, &mut values).unwrap();
+        values
+    };
+    let theirs = evaluated(&mut Mitsuba::new("roughdielectric", "ggx"));
+    for name in ["builtin", "textbook"] {
+        let mut core = name.parse::<CoreSpec>().unwrap().make().unwrap();
+        let ours = evaluated(&mut *core);
+        let pairs = || ours.iter().zip(&theirs);
+        let lit = pairs().filter(|(a, _)| a.pdf > 0.0).count();
+        assert!(pairs().all(|(a, b)| (a.pdf > 1e-6) == (b.pdf > 1e-6)), "{lit} pairs of light");
+        let mut errors: Vec<_> = pairs()
+            .filter(|(a, _)| a.pdf > 1e-6)
+            .map(|(a, b)| (a.pdf / b.pdf - 1.0).abs().max((a.f[1] / b.f[1] - 1.0).abs()))
+            .collect();
+        errors.sort_by(f64::total_cmp);
+        let (median, most) = (errors[errors.len() / 2], errors[errors.len() * 99 / 100]);
+        println!("{}: {lit} pairs, off by {median:e}, 99 of 100 by {most:e}", core.info().name);
+        // Mitsuba computes 1 - F in single precision, which cancels near the critical angle.
+        assert!(median < 2e-6 && most < 1e-3, "{median:e} {most:e}");
     }
 }

@@ -91,3 +91,47 @@ impl Core for FakeSampler {
         Ok(())
     }
 }
+
+/// Reflects and refracts with the cosine, whatever its material and the viewer, and claims `density`.
+pub struct FakeInterface {
+    /// The chance of a reflection.
+    pub reflected: f64,
+    /// Per steradian.
+    pub density: fn(DVec3) -> f64,
+}
+
+impl Core for FakeInterface {
+    fn info(&self) -> CoreInfo {
+        info(Precision::Double)
+    }
+
+    fn eval_bsdf(
+        &mut self,
+        _: &Material,
+        queries: &[BsdfQuery],
+        values: &mut [BsdfValue],
+    ) -> Result<()> {
+        for (query, value) in queries.iter().zip(values) {
+            let pdf = (self.density)(query.wi);
+            *value = BsdfValue { f: [pdf; 3], pdf };
+        }
+        Ok(())
+    }
+
+    fn sample_bsdf(
+        &mut self,
+        _: &Material,
+        _: &[DVec3],
+        random: Randomness<'_>,
+        samples: &mut [BsdfSample],
+    ) -> Result<()> {
+        let numbers = random.points.iter().zip(random.lobes);
+        for ((point, lobe), sample) in numbers.zip(samples) {
+            let up = at_height((1.0 - point.x).sqrt(), TAU * point.y);
+            let wi = if *lobe < self.reflected { up } else { -up };
+            let pdf = (self.density)(wi);
+            *sample = BsdfSample { wi, f: [pdf; 3], pdf, is_delta: 0, is_valid: 1 };
+        }
+        Ok(())
+    }
+}

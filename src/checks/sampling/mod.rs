@@ -13,6 +13,7 @@ mod pdf_integrates_to_one;
 pub(in crate::checks) mod replay;
 mod sample_jacobian;
 mod samples_follow_pdf;
+mod way;
 mod weights_integrate;
 
 pub use consecutive_samples::ConsecutiveSamples;

@@ -8,6 +8,7 @@
 
 use super::density::{Density, Law};
 use super::distribution::{Distribution, DistributionEntry, Drawn};
+use super::way::{Way, is_same_way};
 use crate::cause::Cause;
 use crate::checks::form::Form;
 use crate::checks::numbers::Numbers;
@@ -25,8 +26,6 @@ const POINTS: usize = 2000;
 const FEWEST_POINTS: usize = POINTS / 10;
 /// Points lie on a grid of this step, so that single precision holds them and their neighbours.
 const GRID: f64 = 1.0 / 1_048_576.0;
-/// The chance of a way is found to 2⁻³⁰, and in single precision to a rounding.
-const HALVINGS: usize = 30;
 
 /// Density times Jacobian is 1.
 #[derive(Clone, Debug, Deserialize)]
@@ -51,11 +50,8 @@ impl Check for SampleJacobian {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut products = Vec::new();
         for distribution in self.distribution.distributions() {
-            if distribution.is_of_sphere() {
-                products.push(Products::of(context, &distribution, Way::First)?);
-                products.push(Products::of(context, &distribution, Way::Last)?);
-            } else {
-                products.push(Products::of(context, &distribution, Way::Only)?);
+            for way in Way::of(&distribution) {
+                products.push(Products::of(context, &distribution, *way)?);
             }
         }
         let measures: Vec<_> = products.iter().flat_map(Products::measures).collect();
@@ -78,81 +74,6 @@ const fn step(precision: Precision) -> f64 {
         Precision::Double => GRID * 8.0,
         Precision::Single => GRID * 4096.0,
     }
-}
-
-/// The third number of all points, by the way that it chooses.
-#[derive(Clone, Copy)]
-enum Way {
-    /// There is one.
-    Only,
-    /// That of the smallest numbers.
-    First,
-    /// That of the largest.
-    Last,
-}
-
-impl Way {
-    const fn lobe(self) -> f64 {
-        match self {
-            Self::Only => 0.5,
-            Self::First => 0.0,
-            Self::Last => 1.0 - 0.5 * f32::EPSILON as f64,
-        }
-    }
-
-    const fn opposite(self) -> Self {
-        match self {
-            Self::Only => Self::Only,
-            Self::First => Self::Last,
-            Self::Last => Self::First,
-        }
-    }
-
-    const fn words(self) -> &'static str {
-        match self {
-            Self::Only => "",
-            Self::First => ", lobe 0",
-            Self::Last => ", lobe 1",
-        }
-    }
-
-    /// The chance of the way at each point.
-    fn chances(
-        self,
-        points: &[DVec2],
-        draw: &mut Draw<'_>,
-        centre: &[Drawn],
-    ) -> Result<Vec<f64>, CheckError> {
-        if matches!(self, Self::Only) {
-            return Ok(vec![1.0; points.len()]);
-        }
-        // Of each point: a number that goes this way, and one that goes the other.
-        let (end, away) = (self.lobe().round(), 1.0 - self.lobe().round());
-        let mut ends = vec![(self.lobe(), away); points.len()];
-        let elsewhere = draw(points, &vec![self.opposite().lobe(); points.len()])?;
-        for _ in 0..HALVINGS {
-            let middle: Vec<_> = ends.iter().map(|(here, there)| 0.5 * (here + there)).collect();
-            let drawn = draw(points, &middle)?;
-            for (i, end) in ends.iter_mut().enumerate() {
-                let goes_here = is_same_way(&centre[i], &drawn[i]);
-                *(if goes_here { &mut end.0 } else { &mut end.1 }) = middle[i];
-            }
-        }
-        let chance = |(i, (here, _)): (usize, &(f64, f64))| {
-            let is_sure = is_same_way(&centre[i], &elsewhere[i]);
-            if is_sure { 1.0 } else { (here - end).abs() }
-        };
-        Ok(ends.iter().enumerate().map(chance).collect())
-    }
-}
-
-/// One sample for each point and third number.
-type Draw<'a> = dyn FnMut(&[DVec2], &[f64]) -> Result<Vec<Drawn>, CheckError> + 'a;
-
-/// Whether two samples lie on the same side, or fail both.
-fn is_same_way(one: &Drawn, other: &Drawn) -> bool {
-    let side = |drawn: &Drawn| drawn.direction.map(|direction| direction.z > 0.0);
-    side(one) == side(other)
 }
 
 /// Density times Jacobian at many points.
@@ -283,7 +204,9 @@ fn named(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{FakeSampler, cosine, cosine_density, uniform, uniform_density};
+    use super::super::fake::{
+        FakeInterface, FakeSampler, cosine, cosine_density, uniform, uniform_density,
+    };
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::sphere::at_height;
@@ -339,6 +262,26 @@ mod tests {
     fn half_of_the_azimuths_is_a_factor_of_one_half() {
         let half = |p: DVec2| Some(at_height((1.0 - p.x).sqrt(), 0.5 * TAU * p.y));
         assert_named(named(half, cosine_density), "is 1/2 instead of 1", "half-of-azimuths");
+    }
+
+    fn of_both_ways(density: fn(DVec3) -> f64) -> Finding {
+        let check: SampleJacobian = check_of(
+            "[expect]\ndistribution = { surface = { rough-glass = { index = 1.5, roughness = 0.5 } }, \
+             seen-from = [\"30 deg\"] }",
+        );
+        judge(&check, &mut FakeInterface { reflected: 0.3, density })
+    }
+
+    #[test]
+    fn ways_that_are_chosen_by_their_chance_pass_and_others_are_off_by_it() {
+        assert_passes(&of_both_ways(|d| {
+            (if d.z > 0.0 { 0.3 } else { 0.7 }) * cosine_density(d.with_z(d.z.abs()))
+        }));
+        let finding = of_both_ways(|d| cosine_density(d.with_z(d.z.abs())));
+        assert!(
+            failure(&finding).contains("lobe 0: density times Jacobian is 3.33 instead"),
+            "{finding:?}"
+        );
     }
 
     #[test]

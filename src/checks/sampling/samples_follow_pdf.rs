@@ -288,7 +288,7 @@ fn follows(below: fn(f64) -> f64, rings: &[u64]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{FakeSampler, cosine, cosine_density, uniform};
+    use super::super::fake::{FakeInterface, FakeSampler, cosine, cosine_density, uniform};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::sphere::at_height;
@@ -340,6 +340,23 @@ mod tests {
             Some(if p.x < 0.01 { -up } else { up })
         });
         assert!(statement.contains("the horizon and below, where the density is 0"), "{statement}");
+    }
+
+    fn of_both_ways(reflected: f64) -> Finding {
+        let check: SamplesFollowPdf = check_of(
+            "[expect]\ndistribution = { surface = { rough-glass = { index = 1.5, roughness = 0.5 } }, \
+             seen-from = [\"30 deg\"] }\ndetects = \"5 %\"\nat-most = \"1 M samples\"",
+        );
+        let density =
+            |d: DVec3| (if d.z > 0.0 { 0.3 } else { 0.7 }) * cosine_density(d.with_z(d.z.abs()));
+        judge(&check, &mut FakeInterface { reflected, density })
+    }
+
+    #[test]
+    fn both_ways_are_counted_together() {
+        assert_passes(&of_both_ways(0.3));
+        let finding = of_both_ways(0.35);
+        assert!(failure(&finding).contains("samples do not follow the density"), "{finding:?}");
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Light that is scattered once between a light and the viewer of a vertex.
 
 use super::integrator::Integrator;
-use super::light::{Light, Reach};
+use super::light::Light;
+use super::reach::Reach;
 use super::scatter::rgb;
 use super::scatter::warp;
 use super::vertex::Vertex;

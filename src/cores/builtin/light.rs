@@ -1,6 +1,7 @@
 //! Points on lights and directions towards them, in double precision: the geometry of a light sample cancels,
 //! and surface points are double anyway.
 
+use super::reach::Reach;
 use super::trace::{Surface, clearance_of};
 use crate::contract::LightSample;
 use crate::scene::{self, Emission, Mesh, Rgb, SceneDescription, Shape, Sphere};
@@ -30,25 +31,6 @@ pub enum Light {
     Mesh(MeshLight),
     /// A sphere that glows.
     Sphere(SphereLight),
-}
-
-/// Where a surface takes light from.
-#[derive(Clone, Copy, Debug)]
-pub enum Reach {
-    /// The hemisphere around this normal.
-    Above(DVec3),
-    /// Both sides.
-    Everywhere,
-}
-
-impl Reach {
-    /// The density of sky samples: with the cosine above a surface, else uniform.
-    pub fn sky_density(self, wi: DVec3) -> f64 {
-        match self {
-            Self::Above(normal) => normal.dot(wi).max(0.0) * FRAC_1_PI,
-            Self::Everywhere => FRAC_1_PI / 4.0,
-        }
-    }
 }
 
 /// A direction towards a light, and where a shadow ray towards it ends.

@@ -20,6 +20,7 @@ mod direct;
 mod integrator;
 mod light;
 mod random;
+mod reach;
 mod render;
 mod scatter;
 mod scene;

@@ -1,6 +1,6 @@
 //! A point where a path scatters: its surface seen from the side that the path came from.
 
-use super::light::Reach;
+use super::reach::Reach;
 use super::scatter::Bsdf;
 use super::trace::Surface;
 use crate::contract::Ray;

@@ -1,0 +1,23 @@
+//! From where light comes that a surface scatters: above it, or both sides where light passes.
+
+use glam::DVec3;
+use std::f64::consts::FRAC_1_PI;
+
+/// Where a surface takes light from.
+#[derive(Clone, Copy, Debug)]
+pub enum Reach {
+    /// The hemisphere around this normal.
+    Above(DVec3),
+    /// Both sides.
+    Everywhere,
+}
+
+impl Reach {
+    /// The density of sky samples: with the cosine above a surface, else uniform.
+    pub fn sky_density(self, wi: DVec3) -> f64 {
+        match self {
+            Self::Above(normal) => normal.dot(wi).max(0.0) * FRAC_1_PI,
+            Self::Everywhere => FRAC_1_PI / 4.0,
+        }
+    }
+}

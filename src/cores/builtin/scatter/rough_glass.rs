@@ -51,8 +51,11 @@ impl RoughGlass {
     }
 
     fn evaluate_reflection(&self, wo: Vec3, wi: Vec3, index: f32) -> (Vec3, f32) {
-        let half = (wo + wi).normalize();
-        let facets = (1.0 - transmittance(wo.dot(half), index)) * self.facets.distribution(half);
+        let sum = wo + wi;
+        // Half the length is the cosine with the facet, and the same with light and eye exchanged.
+        let length = sum.length();
+        let reflected = 1.0 - transmittance(0.5 * length, index);
+        let facets = reflected * self.facets.distribution(sum / length);
         let (s_wo, s_wi) = (self.facets.masking_sum(wo), self.facets.masking_sum(wi));
         (self.reflectance * (facets / (s_wo * s_wi)), facets / (2.0 * s_wo))
     }

@@ -16,13 +16,19 @@ pub struct NextStep {
 
 /// What is worth most for each capability comes first; each step supposes those before it.
 pub fn next_steps(cases: &[Arc<Case>], has: Capabilities) -> Vec<NextStep> {
-    let needs = cases.iter().map(|case| (case.id.as_str(), case.prepared.needs()));
-    steps(&needs.collect::<Vec<_>>(), has)
+    let lacking = |has| {
+        let lacks = |case: &Arc<Case>| (case.id.clone(), case.prepared.missing(has));
+        cases.iter().map(lacks).collect()
+    };
+    steps(&lacking, has)
 }
 
-fn steps(needs: &[(&str, Capabilities)], mut has: Capabilities) -> Vec<NextStep> {
+/// Every case, and what a core lacks for it.
+type Lacking = Vec<(String, Capabilities)>;
+
+fn steps(lacking: &dyn Fn(Capabilities) -> Lacking, mut has: Capabilities) -> Vec<NextStep> {
     let mut steps = Vec::new();
-    while let Some(step) = best_step(needs, has) {
+    while let Some(step) = best_step(&lacking(has)) {
         has |= step.missing;
         steps.push(step);
     }
@@ -30,17 +36,14 @@ fn steps(needs: &[(&str, Capabilities)], mut has: Capabilities) -> Vec<NextStep>
 }
 
 /// The step that opens most cases for each capability; none where all are open.
-fn best_step(needs: &[(&str, Capabilities)], has: Capabilities) -> Option<NextStep> {
-    let lacks = |needs: &Capabilities| *needs - has;
-    let open: Vec<_> = needs.iter().filter(|(_, needs)| !lacks(needs).is_empty()).collect();
-    let distinct: BTreeMap<_, _> =
-        open.iter().map(|(_, needs)| (lacks(needs).bits(), lacks(needs))).collect();
+fn best_step(lacking: &[(String, Capabilities)]) -> Option<NextStep> {
+    let closed = || lacking.iter().filter(|(_, lacks)| !lacks.is_empty());
+    let distinct: BTreeMap<_, _> = closed().map(|(_, lacks)| (lacks.bits(), *lacks)).collect();
     let step = |missing: Capabilities| NextStep {
         missing,
-        cases: open
-            .iter()
-            .filter(|(_, needs)| missing.contains(lacks(needs)))
-            .map(|(case, _)| (*case).to_owned())
+        cases: closed()
+            .filter(|(_, lacks)| missing.contains(*lacks))
+            .map(|(case, _)| case.clone())
             .collect(),
     };
     // a / b against c / d, without dividing.
@@ -57,6 +60,11 @@ mod tests {
     use super::*;
     use Capabilities as Can;
 
+    /// What cases lack that need just this.
+    fn of<'a>(needs: &'a [(&str, Capabilities)]) -> impl Fn(Capabilities) -> Lacking + 'a {
+        |has| needs.iter().map(|(case, needs)| ((*case).to_owned(), *needs - has)).collect()
+    }
+
     #[test]
     fn what_opens_most_cases_for_each_function_comes_first() {
         let build = Can::BUILD_SCENE | Can::RADIANCE;
@@ -67,13 +75,24 @@ mod tests {
             ("bounces", build | Can::ISOLATED_BOUNCES),
             ("picture", build | Can::ISOLATED_BOUNCES | Can::RENDER),
         ];
-        let steps = steps(&needs, Can::GENERATE_RAYS);
+        let steps = steps(&of(&needs), Can::GENERATE_RAYS);
         let told: Vec<_> = steps.iter().map(|s| (s.missing, s.cases.len())).collect();
         assert_eq!(told, [(build, 2), (Can::ISOLATED_BOUNCES, 1), (Can::RENDER, 1)]);
     }
 
     #[test]
     fn a_core_that_can_do_everything_has_nothing_to_do_next() {
-        assert_eq!(steps(&[("camera", Can::GENERATE_RAYS)], Can::all()), []);
+        assert_eq!(steps(&of(&[("camera", Can::GENERATE_RAYS)]), Can::all()), []);
+    }
+
+    #[test]
+    fn what_is_open_another_way_is_no_step() {
+        let picture = |has: Capabilities| {
+            let codes = has.contains(Can::RENDER_CODES);
+            let lacks = if codes { Can::empty() } else { Can::RENDER - has };
+            vec![("picture".to_owned(), lacks)]
+        };
+        assert_eq!(steps(&picture, Can::RENDER_CODES), []);
+        assert_eq!(steps(&picture, Can::empty()).len(), 1);
     }
 }

@@ -261,8 +261,7 @@ fn bounces(seed: Seed, factor: f64) -> Vec<Measure> {
 }
 
 fn agreeing(seed: Seed) -> Finding {
-    let resolution = "an error of 1.4 % or more in any bounce would have been caught with \
-                      probability 0.999";
+    let resolution = "would have caught an error of 1.4 % in any bounce";
     Finding::of("every bounce agrees within 0.2 %", resolution, bounces(seed, 1.0))
 }
 
@@ -270,7 +269,7 @@ fn wrong_roulette() -> Outcome {
     let finding = Finding::of(
         "bounce 2 gives 70 % of what it should and bounce 3 gives 49 %: every bounce after the \
          first loses the same share in all three channels",
-        "an error of 1.4 % or more in any bounce would have been caught",
+        "would have caught an error of 1.4 % in any bounce",
         bounces(Seed::SUITE, 0.7),
     );
     Outcome::Judged { finding }
@@ -281,7 +280,7 @@ fn wrong_picture() -> Outcome {
     let tiles = Measure::exact("tiles that disagree", 887.0, 0.0, 0.0);
     let finding = Finding::of(
         "the picture is 9.5 % too dark, most of all on the ceiling; 887 of 900 tiles disagree",
-        "a whole picture 0.4 % off, or one 8 x 8 tile 11 % off, would have been caught",
+        "would have caught a whole picture 0.4 % off, or one 8 x 8 tile 11 % off",
         vec![whole, tiles],
     );
     Outcome::Judged { finding }

@@ -13,7 +13,7 @@ pub use style::{COLUMNS, Paint, Style, clean, mark, paint_of, wrap};
 use super::digest::{
     PartGroup, Tally, by_case, by_part, dearest_ledger, resolution_in_words, weakest_first,
 };
-use super::number::{count, duration, percent, probability};
+use super::number::{count, duration, probability};
 use super::tree::RunTree;
 use crate::contract::Precision;
 use crate::run::record::CoreRecord;
@@ -204,8 +204,8 @@ fn entries(ledger: &Ledger) -> String {
 fn weakest(tree: &RunTree) -> Vec<String> {
     let Some(weakest) = weakest_first(tree.graded()).into_iter().next() else { return Vec::new() };
     let (case, core) = (clean(&weakest.trial.case), clean(&weakest.trial.core));
-    let caught = percent(weakest.resolution);
-    let text = format!("weakest pass: {case} on {core} would have caught an error of {caught}");
+    let caught = clean(&resolution_in_words(weakest.trial));
+    let text = format!("weakest pass: {case} on {core} {caught}");
     wrap(&text, 2).into_iter().map(|line| format!("  {line}")).collect()
 }
 

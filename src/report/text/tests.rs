@@ -39,7 +39,8 @@ fn a_green_run_fits_on_a_screen() {
   24 trials in 71.3 s: 24 pass
   chance that a correct core fails any of them: at most 3.6e-8
   72 random claims: 72 means 3.6e-8; none suspected by its first stage
-  weakest pass: images/cornell-spheres on builtin would have caught an error of 1.4 %
+  weakest pass: images/cornell-spheres on builtin would have caught an error of 1.4 % in
+  any bounce
 ";
     assert_eq!(plain(Example::green()), expected);
 }

@@ -3,8 +3,8 @@
 use super::mistake::Mistake;
 use super::{LAST, SAMPLES, SCENE};
 use furnace::contract::{
-    Acceleration, BuildStats, BuiltScene, Core, CoreInfo, Film, IntegratorSettings, RenderSettings,
-    Result,
+    Acceleration, BuildStats, BuiltScene, Capabilities, Core, CoreInfo, Film, IntegratorSettings,
+    RenderSettings, Result,
 };
 use furnace::cores::CoreSpec;
 use furnace::image::Image;
@@ -175,8 +175,11 @@ pub struct Told<'a> {
 }
 
 impl Core for Teller<'_> {
+    /// Of its pictures nothing more is known than what they show.
     fn info(&self) -> CoreInfo {
-        self.info.clone()
+        let mut info = self.info.clone();
+        info.capabilities -= Capabilities::REPORTED_VARIANCE;
+        info
     }
 
     fn build_scene(

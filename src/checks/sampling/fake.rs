@@ -67,10 +67,7 @@ impl Core for FakeSampler {
         queries: &[BsdfQuery],
         values: &mut [BsdfValue],
     ) -> Result<()> {
-        for (query, value) in queries.iter().zip(values) {
-            let pdf = (self.density)(query.wi);
-            *value = BsdfValue { f: [pdf; 3], pdf };
-        }
+        evaluate(self.density, queries, values);
         Ok(())
     }
 
@@ -89,6 +86,14 @@ impl Core for FakeSampler {
             *sample = BsdfSample { wi, f: [pdf; 3], pdf, is_delta: 0, is_valid };
         }
         Ok(())
+    }
+}
+
+/// `f` is the density itself.
+fn evaluate(density: fn(DVec3) -> f64, queries: &[BsdfQuery], values: &mut [BsdfValue]) {
+    for (query, value) in queries.iter().zip(values) {
+        let pdf = density(query.wi);
+        *value = BsdfValue { f: [pdf; 3], pdf };
     }
 }
 
@@ -111,10 +116,7 @@ impl Core for FakeInterface {
         queries: &[BsdfQuery],
         values: &mut [BsdfValue],
     ) -> Result<()> {
-        for (query, value) in queries.iter().zip(values) {
-            let pdf = (self.density)(query.wi);
-            *value = BsdfValue { f: [pdf; 3], pdf };
-        }
+        evaluate(self.density, queries, values);
         Ok(())
     }
 

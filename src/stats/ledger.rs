@@ -84,7 +84,9 @@ impl TestKind {
         }
     }
 
-    /// The probability that the first of several stages suspects a correct core; none where there is one stage.
+    /// The probability that the first of several stages suspects a correct core; none where there is one stage. Of
+    /// pictures with noise more skewed than their reference tells it is exceeded, which costs runs and no verdict: see
+    /// `docs/simulations/screen-and-confirm.log` and the caustic in `false-alarms.log`.
     pub const fn suspicion(self) -> Option<f64> {
         match self {
             Self::Mean | Self::Share => Some(2.0 * STAGE_LEVEL),

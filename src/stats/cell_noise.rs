@@ -5,7 +5,9 @@
 //! Two things tell how noisy such a cell is:
 //!
 //! - The reference, from a hundred times the samples, has seen that light. Its standard errors show
-//!   which cells hold it; how much noisier the runs are is told by the cells around, taken together.
+//!   which cells hold it; how much noisier the runs are is told by the cells around, taken together,
+//!   and by those of them that the reference knows about as well: it spreads its samples evenly,
+//!   which helps it more with light from wide regions than with edges.
 //! - At an edge samples fall to either side by chance, and a reference that spreads its samples
 //!   evenly over the pixel knows nothing of that. A sample between a and b whose mean is m has a
 //!   variance of at most (m − a)(b − m) (Bhatia and Davis 2000); a and b are the darkest and the
@@ -21,6 +23,9 @@ use super::{normal_upper, student_upper};
 
 /// How far around a cell others tell of its noise, in cells.
 const REACH: usize = 4;
+
+/// By which factor the reference's standard errors of cells differ at most that it knows alike.
+const ALIKE: f64 = 2.0;
 
 /// The standard errors of the mean cells of some runs.
 pub(super) struct CellNoise<'a> {
@@ -65,30 +70,52 @@ struct Around {
     mean: f64,
     darkest: f64,
     brightest: f64,
+    all: Noisier,
+    alike: Noisier,
+}
+
+/// How much noisier the runs are than the reference in some cells.
+#[derive(Clone, Copy, Default)]
+struct Noisier {
     /// Summed squares of standard errors of the runs, and of the reference.
     seen: f64,
     stored: f64,
 }
 
+impl Noisier {
+    fn with(self, seen: f64, stored: f64) -> Self {
+        Self { seen: self.seen + seen.powi(2), stored: self.stored + stored.powi(2) }
+    }
+
+    /// Of standard errors; none where the reference is exact.
+    fn factor(self) -> f64 {
+        if self.stored > 0.0 { (self.seen / self.stored).sqrt() } else { 0.0 }
+    }
+}
+
 impl Around {
     /// Around the cell of this index, on the grid whose cells begin at `first`.
     fn of(spread: &Spread, target: &Target, grid: &Grid, first: usize, index: usize) -> Self {
-        let mean = target.expected[index];
-        let none = Self { mean, darkest: mean, brightest: mean, seen: 0.0, stored: 0.0 };
+        let (mean, error) = (target.expected[index], target.errors[index]);
+        let none = Noisier::default();
+        let mut taken = Self { mean, darkest: mean, brightest: mean, all: none, alike: none };
         let (cell, component) = ((index - first) / COMPONENTS, (index - first) % COMPONENTS);
-        let around = around((grid.columns, grid.rows), cell, REACH);
-        around.map(|cell| first + COMPONENTS * cell + component).fold(none, |sum, i| Self {
-            mean,
-            darkest: sum.darkest.min(target.expected[i]),
-            brightest: sum.brightest.max(target.expected[i]),
-            seen: sum.seen + spread.standard_error(i).powi(2),
-            stored: sum.stored + target.errors[i].powi(2),
-        })
+        for other in around((grid.columns, grid.rows), cell, REACH) {
+            let other = first + COMPONENTS * other + component;
+            let (seen, stored) = (spread.standard_error(other), target.errors[other]);
+            taken.darkest = taken.darkest.min(target.expected[other]);
+            taken.brightest = taken.brightest.max(target.expected[other]);
+            taken.all = taken.all.with(seen, stored);
+            if (error / ALIKE..=error * ALIKE).contains(&stored) {
+                taken.alike = taken.alike.with(seen, stored);
+            }
+        }
+        taken
     }
 
     /// From the reference's standard error of the cell.
     fn by_reference(&self, error: f64) -> f64 {
-        if error > 0.0 { error * (self.seen / self.stored).sqrt() } else { 0.0 }
+        error * self.all.factor().max(self.alike.factor())
     }
 
     /// The largest that so many samples have by falling to either side of an edge.

@@ -3,7 +3,8 @@
 //! Three stages with 1, 4 and 16 times the samples, each at [`STAGE_LEVEL`]; a sampler fails if all
 //! three reject. Cells in which fewer than [`FEWEST_EXPECTED`] samples are expected are pooled,
 //! because with starved cells the far tail of the statistic is ten times too fat. A sample where
-//! the density is zero fails without statistics.
+//! the density is zero fails without statistics: in a cell of probability 0, and where the density
+//! of the sample itself is 0 if that probability is an integral.
 //!
 //! Expectations come from quadrature and may be wrong by δ. The statistic is judged as if the error
 //! had done its worst: √X² is a length, so an error moves it by at most √Q with Q = N Σ δ²/p. A
@@ -40,6 +41,13 @@ pub trait CountSource {
     fn expected(&mut self, stage: Stage) -> Result<CellProbabilities, Self::Error>;
     /// `samples` fresh samples, counted in the cells of this stage.
     fn draw(&mut self, stage: Stage, samples: u64) -> Result<Counts, Self::Error>;
+    /// How many of the samples last drawn in a cell of probability 0 can be no chance. All, if the
+    /// law is known; quadrature may have missed a sliver of a density, so that whoever integrates
+    /// one has to look at the samples themselves.
+    fn forbidden(&self, cell: usize, samples: u64) -> u64 {
+        let _ = cell;
+        samples
+    }
 }
 
 /// Judges counts against probabilities that are the same in every stage.
@@ -54,7 +62,8 @@ pub fn judge_counts<E>(
 /// Whether counts may well be of this law: one χ² at [`STAGE_LEVEL`]. It gives a name to what has
 /// failed already, and is no verdict on its own.
 pub fn follows_law(law: &CellProbabilities, counts: &Counts) -> bool {
-    forbidden_samples(law, counts).is_none() && !score(Stage::Third, law, counts).rejects
+    let forbidden = forbidden_samples(law, counts, |_, samples| samples);
+    forbidden.is_none() && !score(Stage::Third, law, counts).rejects
 }
 
 struct Fixed<'a, E> {
@@ -96,8 +105,10 @@ pub fn judge_count_source<S: CountSource>(
         let scored = score(stage, &expected, &counts);
         stages.push(scored);
         let last = !scored.rejects || stage == Stage::Third;
-        if last || forbidden_samples(&expected, &counts).is_some() {
-            return Ok(report(stages, effort, &expected, counts));
+        let forbidden =
+            forbidden_samples(&expected, &counts, |cell, samples| source.forbidden(cell, samples));
+        if last || forbidden.is_some() {
+            return Ok(report(stages, effort, &expected, counts, forbidden));
         }
     }
 }
@@ -134,14 +145,14 @@ impl Pool {
     }
 }
 
-/// Populated cells and "absorbed", the starved ones pooled until each pool expects enough.
+/// Proper cells and "absorbed", the starved ones pooled until each pool expects enough.
 fn pooled(expected: &CellProbabilities, counts: &Counts) -> Vec<Pool> {
     assert_eq!(expected.cells.len(), counts.cells.len(), "one count for each probability");
     let total = counts.total() as f64;
     let absorbed = (expected.absorbed, counts.absorbed);
     let cells = expected.cells.iter().copied().zip(counts.cells.iter().copied());
     let mut cells: Vec<Pool> = cells
-        .filter(|(probability, _)| *probability > 0.0)
+        .filter(|(probability, _)| *probability >= 0.0)
         .chain([absorbed])
         .map(|(p, observed)| Pool { expected: p * total, observed: observed as f64 })
         .collect();
@@ -186,11 +197,18 @@ fn quadrature_error(expected: &CellProbabilities, samples: f64) -> f64 {
     cells.map(|(p, error)| (samples * error).powi(2) / (samples * p).max(FEWEST_EXPECTED)).sum()
 }
 
-/// Samples where the density is zero, which no chance explains.
-fn forbidden_samples(expected: &CellProbabilities, counts: &Counts) -> Option<ForbiddenSamples> {
+/// Samples where the density is zero, which no chance explains; `forbidden` tells how many of those
+/// in a cell of probability 0.
+fn forbidden_samples(
+    expected: &CellProbabilities,
+    counts: &Counts,
+    forbidden: impl Fn(usize, u64) -> u64,
+) -> Option<ForbiddenSamples> {
     let cells = expected.cells.iter().zip(&counts.cells).enumerate();
-    let hits = cells.filter(|(_, (p, hits))| **p == 0.0 && **hits > 0);
-    hits.map(|(cell, (_, &samples))| ForbiddenSamples { cell, samples }).max_by_key(|f| f.samples)
+    let empty = cells.filter(|(_, (p, samples))| **p == 0.0 && **samples > 0);
+    let hits = empty.map(|(cell, (_, samples))| (cell, forbidden(cell, *samples)));
+    let hits = hits.filter(|(_, samples)| *samples > 0);
+    hits.map(|(cell, samples)| ForbiddenSamples { cell, samples }).max_by_key(|f| f.samples)
 }
 
 /// What the stages say together.
@@ -217,10 +235,10 @@ fn report(
     effort: &Effort,
     expected: &CellProbabilities,
     counts: Counts,
+    forbidden: Option<ForbiddenSamples>,
 ) -> CountReport {
     let (first, detects) = (stages[0], effort.detects);
     let resolution = resolution(&first);
-    let forbidden = forbidden_samples(expected, &counts);
     let improper_cell = expected.cells.iter().position(|p| !(*p >= 0.0 && p.is_finite()));
     let all_reject = stages.len() == 3 && stages.iter().all(|stage| stage.rejects);
     let rejected = all_reject || forbidden.is_some() || improper_cell.is_some();

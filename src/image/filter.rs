@@ -9,25 +9,25 @@ const BLOCK: usize = 16;
 
 /// A row with its ends repeated on both sides, so that every pixel has all its neighbours.
 #[derive(Clone, Debug, Default)]
-pub(super) struct PaddedRow {
+pub(crate) struct PaddedRow {
     values: Vec<f32>,
     radius: usize,
 }
 
 impl PaddedRow {
     /// Room for a row of `width` pixels, `radius` more on either side.
-    pub(super) fn new(width: usize, radius: usize) -> Self {
+    pub(crate) fn new(width: usize, radius: usize) -> Self {
         Self { values: vec![0.0; width + 2 * radius], radius }
     }
 
     /// The row itself.
-    pub(super) fn inside_mut(&mut self) -> &mut [f32] {
+    pub(crate) fn inside_mut(&mut self) -> &mut [f32] {
         let width = self.values.len() - 2 * self.radius;
         &mut self.values[self.radius..][..width]
     }
 
     /// Repeats the first and the last pixel of the row beyond it.
-    pub(super) fn repeat_ends(&mut self) {
+    pub(crate) fn repeat_ends(&mut self) {
         let (radius, end) = (self.radius, self.values.len() - self.radius);
         let [first, last] = [self.values[radius], self.values[end - 1]];
         self.values[..radius].fill(first);
@@ -42,14 +42,14 @@ impl PaddedRow {
 }
 
 /// `out[x]` = Σ `weights[i]` · `rows[i][x]`: the rows above and below, from the top.
-pub(super) fn down(weights: &[f32], rows: &[&[f32]], out: &mut [f32]) {
+pub(crate) fn down(weights: &[f32], rows: &[&[f32]], out: &mut [f32]) {
     let terms = || weights.iter().copied().zip(rows.iter().copied());
     weighted_sums(out, terms);
 }
 
 /// `out[x]` = Σ `weights[i]` · `row[x + i − radius]`: the pixels left and right. The filter is no
 /// wider than the row's padding.
-pub(super) fn along(weights: &[f32], row: &PaddedRow, out: &mut [f32]) {
+pub(crate) fn along(weights: &[f32], row: &PaddedRow, out: &mut [f32]) {
     let source = row.for_filter(weights.len());
     let terms = || weights.iter().copied().enumerate().map(|(i, weight)| (weight, &source[i..]));
     weighted_sums(out, terms);
@@ -88,7 +88,7 @@ where
 }
 
 /// exp(−x² / 2σ²) at whole numbers from −`radius` to `radius`, summing to one.
-pub(super) fn gaussian(deviation: f64, radius: usize) -> Vec<f32> {
+pub(crate) fn gaussian(deviation: f64, radius: usize) -> Vec<f32> {
     let at = |i: usize| (-0.5 * ((i as f64 - radius as f64) / deviation).powi(2)).exp();
     let weights: Vec<f64> = (0..=2 * radius).map(at).collect();
     let sum: f64 = weights.iter().sum();

@@ -7,7 +7,7 @@ pub mod encoding;
 mod error;
 pub mod exr;
 pub mod file;
-mod filter;
+pub(crate) mod filter;
 pub mod flip;
 pub mod heatmap;
 mod mae;

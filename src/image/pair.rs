@@ -44,7 +44,7 @@ impl Plane {
             let pairs = upper.chunks_exact(2).zip(lower.chunks_exact(2));
             pairs.map(|(a, b)| 0.25 * (a[0] + a[1] + b[0] + b[1]))
         };
-        Self { width, height, values: (0..height).flat_map(row).collect() }
+        Self { width, height, values: (0..height).into_par_iter().flat_map_iter(row).collect() }
     }
 }
 

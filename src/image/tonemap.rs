@@ -3,6 +3,7 @@
 
 use super::encoding::{Curve, Encoding};
 use super::{Image, luminance, png::Picture};
+use rayon::prelude::*;
 
 /// The colour of a pixel that is not a number.
 pub const NOT_A_NUMBER: [u8; 3] = [255, 0, 255];
@@ -40,7 +41,7 @@ pub fn tonemap(image: &Image, stops: f32) -> Picture {
 /// Stops with which nearly all of a picture is bright and not clipped. Use that of the reference
 /// for both.
 pub fn exposure_of(image: &Image) -> f32 {
-    let mut values: Vec<f64> = image.pixels.iter().map(|pixel| luminance(*pixel)).collect();
+    let mut values: Vec<f64> = image.pixels.par_iter().map(|pixel| luminance(*pixel)).collect();
     values.retain(|value| value.is_finite() && *value > 0.0);
     if values.is_empty() {
         return 0.0;

@@ -93,7 +93,8 @@ impl<'a> Source<'a> {
     fn count_forbidden(&mut self, samples: &[DVec3]) -> Result<(), CheckError> {
         let mut pdf = vec![0.0; samples.len()];
         self.distribution.pdf(self.core, samples, &mut pdf)?;
-        for (direction, _) in samples.iter().zip(pdf).filter(|(_, pdf)| !(*pdf > 0.0)) {
+        for (direction, _) in samples.iter().zip(pdf).filter(|(_, pdf)| pdf.is_nan() || *pdf <= 0.0)
+        {
             self.forbidden[self.cells.cell_of(*direction)] += 1;
         }
         Ok(())

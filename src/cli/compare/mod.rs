@@ -5,11 +5,11 @@ mod side;
 mod words;
 
 use super::{Answer, ExitCode, Failure};
-use crate::image::ImageError;
 use crate::image::encoding::{Curve, Encoding, Rounding};
 use crate::image::mask::{Mask, Rectangle};
 use crate::image::metric::METRICS;
 use crate::image::pair::Pair;
+use crate::image::{Image, ImageError};
 use crate::stats::misfit::{Fit, Knowledge, explain};
 use crate::stats::{
     Deciphered, DifferenceReport, LightOfCodes, NoiseSource, Verdict, judge_difference,
@@ -17,6 +17,7 @@ use crate::stats::{
 use clap::Args;
 use serde::Serialize;
 use side::{Side, encoding};
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 /// What `furnace compare` understands.
@@ -116,42 +117,52 @@ fn measure(arguments: &CompareArguments) -> Result<Comparison, Failure> {
     let light =
         picture.light_against(&reference, arguments.encoding(), arguments.variance.is_some());
     let counted = counted(arguments, &picture, &reference, light.as_ref())?;
-    let sample = light.as_ref().map_or(picture.sample(), side::sample_of);
-    let difference = judge_difference(sample, reference.sample(), counted.as_deref());
     let is_encoded_otherwise = light.as_ref().is_some_and(|light| light.deciphered.is_another());
-    let verdict = if is_encoded_otherwise { Verdict::Fail } else { difference.verdict };
-    let mistakes = match difference.verdict {
-        Verdict::Fail if !is_encoded_otherwise => explain(
-            &picture.image,
-            &reference.image,
-            &Knowledge {
-                alpha: picture.alpha.as_ref(),
-                counted: counted.as_deref(),
-                standard_error: None,
-            },
-        ),
-        _ => Vec::new(),
+    let judged = || {
+        let sample = light.as_ref().map_or(picture.sample(), side::sample_of);
+        let difference = judge_difference(sample, reference.sample(), counted.as_deref());
+        let is_to_explain = difference.verdict == Verdict::Fail && !is_encoded_otherwise;
+        let knowledge = Knowledge {
+            alpha: picture.alpha.as_ref(),
+            counted: counted.as_deref(),
+            standard_error: None,
+        };
+        let explained = || explain(&picture.image, &reference.image, &knowledge);
+        let mistakes = is_to_explain.then(explained).unwrap_or_default();
+        (difference, mistakes)
     };
-    let mut shown = picture.image;
-    if let Some(counted) = &counted {
-        shown.paint_over(counted, &reference.image);
-    }
-    let pair = Pair::new(&shown, &reference.image).map_err(Failure::request)?;
-    let metrics = METRICS.iter().filter(|metric| !(arguments.no_flip && metric.is_slow()));
-    let metrics = metrics.map(|metric| {
-        let value = metric.measure(&pair);
-        Measured { name: metric.name(), value: (!value.is_nan()).then_some(value) }
-    });
+    let measured = || metrics(arguments, &picture.image, &reference.image, counted.as_deref());
+    let ((difference, mistakes), metrics) = rayon::join(judged, measured);
     Ok(Comparison {
-        verdict,
+        verdict: if is_encoded_otherwise { Verdict::Fail } else { difference.verdict },
         size,
         pixels: counted.map_or(size[0] * size[1], |all| all.iter().filter(|one| **one).count()),
-        metrics: metrics.collect(),
+        metrics: metrics?,
         difference,
         codes: light
             .map(|light| CodesCompared { deciphered: light.deciphered, noise: light.noise }),
         mistakes,
     })
+}
+
+/// The metrics that are asked for, of the pixels that count.
+fn metrics(
+    arguments: &CompareArguments,
+    picture: &Image,
+    reference: &Image,
+    counted: Option<&[bool]>,
+) -> Result<Vec<Measured>, Failure> {
+    let mut shown = Cow::Borrowed(picture);
+    if let Some(counted) = counted {
+        shown.to_mut().paint_over(counted, reference);
+    }
+    let pair = Pair::new(&shown, reference).map_err(Failure::request)?;
+    let asked = METRICS.iter().filter(|metric| !(arguments.no_flip && metric.is_slow()));
+    let measured = asked.map(|metric| {
+        let value = metric.measure(&pair);
+        Measured { name: metric.name(), value: (!value.is_nan()).then_some(value) }
+    });
+    Ok(measured.collect())
 }
 
 fn picture(arguments: &CompareArguments) -> Result<Side, Failure> {

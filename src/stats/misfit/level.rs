@@ -86,14 +86,15 @@ fn decoded(value: f32) -> f32 {
 /// The largest value of the picture, if pixels that should be brighter by far have just that.
 fn clip_level(question: &Question<'_>) -> Option<f32> {
     let counted = |i: usize| question.weights[i] > 0.0;
-    let pixels = (0..question.image.pixels.len()).filter(|i| counted(*i));
-    let level = pixels.flat_map(|i| question.image.pixels[i]).fold(f32::MIN, f32::max);
+    let pixels = || (0..question.image.pixels.len()).into_par_iter().filter(|i| counted(*i));
+    let brightest = |i: usize| question.image.pixels[i].into_iter().fold(f32::MIN, f32::max);
+    let level = pixels().map(brightest).reduce(|| f32::MIN, f32::max);
     let clipped = |i: &usize| {
         let (image, reference) = (question.image.pixels[*i], question.reference.pixels[*i]);
         let at_limit = |c: usize| image[c] > 0.999 * level && reference[c] > CLEARLY * level;
-        counted(*i) && (0..3).any(at_limit)
+        (0..3).any(at_limit)
     };
-    let found = (0..question.image.pixels.len()).filter(clipped).count();
+    let found = pixels().filter(clipped).count();
     (level > 0.0 && found >= FEWEST_CLIPPED).then_some(level)
 }
 

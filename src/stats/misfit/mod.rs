@@ -30,6 +30,7 @@ use crate::image::pair::Plane;
 use question::Question;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Mistakes that are looked for in one picture, each in what the ones before leave.
 const MOST_MISTAKES: usize = 3;
@@ -157,7 +158,6 @@ pub struct Knowledge<'a> {
 pub fn explain(image: &Image, reference: &Image, knowledge: &Knowledge<'_>) -> Vec<Fit> {
     assert!(image.same_size(reference), "two pictures of one size");
     let weights = question::weights(image, reference, knowledge);
-    let few = question::thinned(&weights, image.width);
     let (image, mut explained) = (finite(image), finite(reference));
     let mut fits = Vec::new();
     while fits.len() < MOST_MISTAKES {
@@ -166,7 +166,7 @@ pub fn explain(image: &Image, reference: &Image, knowledge: &Knowledge<'_>) -> V
             reference: &explained,
             knowledge,
             weights: &weights,
-            thinned: few.as_deref(),
+            every: 1,
         };
         let Some((fit, picture)) = best(&question) else { break };
         let kind = std::mem::discriminant(&fit.misfit);
@@ -175,15 +175,18 @@ pub fn explain(image: &Image, reference: &Image, knowledge: &Knowledge<'_>) -> V
             break;
         }
         fits.push(fit);
-        explained = picture;
+        explained = Cow::Owned(picture);
     }
     fits
 }
 
 /// Black where the picture is no number: such pixels do not count, and must not spoil others.
-fn finite(image: &Image) -> Image {
+fn finite(image: &Image) -> Cow<'_, Image> {
+    if image.pixels.par_iter().all(|pixel| pixel.iter().all(|value| value.is_finite())) {
+        return Cow::Borrowed(image);
+    }
     let finite = |pixel: &[f32; 3]| pixel.map(|value| if value.is_finite() { value } else { 0.0 });
-    Image { pixels: image.pixels.par_iter().map(finite).collect(), ..*image }
+    Cow::Owned(Image { pixels: image.pixels.par_iter().map(finite).collect(), ..*image })
 }
 
 /// The mistake that explains most of what differs, and what it makes of the reference. One with

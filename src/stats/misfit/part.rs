@@ -31,7 +31,7 @@ pub fn share_of_part(
 ) -> Option<Share> {
     assert!(image.same_size(reference) && image.same_size(part), "three pictures of one size");
     let weights = question::weights(image, reference, knowledge);
-    let question = Question { image, reference, knowledge, weights: &weights, thinned: None };
+    let question = Question { image, reference, knowledge, weights: &weights, every: 1 };
     // Sums over a unit first: there, noise is small against light.
     let units = question.fold_units([[0.0f64; 3]; 3], |sums, pixel| {
         let weight = f64::from(weights[pixel]);

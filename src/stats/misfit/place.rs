@@ -2,8 +2,9 @@
 
 use super::normal::{Sums, estimates, solve};
 use super::question::Question;
-use super::resample::{Axis, resampled, resampled_image};
+use super::resample::{Axis, Resampled, resampled};
 use super::{Misfit, question};
+use crate::image::filter::{PaddedRow, along, down};
 use crate::image::pair::Plane;
 use crate::image::{Image, luminance};
 use rayon::prelude::*;
@@ -50,17 +51,19 @@ pub(super) fn candidates(question: &Question<'_>, consider: &mut dyn FnMut((Misf
     let few = question.thin();
     let seen = Seen { question: &few, image: &image, reference: &reference };
     let Some((place, errors)) = seen.displaced(start) else { return };
+    let mut consider_moved = |misfit, place: Place| {
+        let moved = Resampled::new(question.reference, place.axes(size));
+        if question.is_worth_a_look(|pixel| moved.pixel(pixel)) {
+            consider((misfit, moved.image()));
+        }
+    };
     let [right, down] = estimates(place.displaced, errors, [ALLOWANCE; 2]);
-    let [across, upright] = place.axes(size);
-    let moved = resampled_image(question.reference, across, upright);
-    consider((Misfit::Displaced { right, down }, moved));
+    consider_moved(Misfit::Displaced { right, down }, place);
     let Some((place, errors)) = seen.magnified(place) else { return };
     let values = [place.displaced[0], place.displaced[1], place.magnified[0], place.magnified[1]];
     let allowance = [ALLOWANCE, ALLOWANCE, ALLOWANCE / size[0] as f64, ALLOWANCE / size[1] as f64];
     let [right, down, across, upright] = estimates(values, errors, allowance);
-    let [along_rows, along_columns] = place.axes(size);
-    let moved = resampled_image(question.reference, along_rows, along_columns);
-    consider((Misfit::Magnified { across, upright, right, down }, moved));
+    consider_moved(Misfit::Magnified { across, upright, right, down }, place);
 }
 
 fn grey(image: &Image) -> Plane {
@@ -73,22 +76,19 @@ fn grey(image: &Image) -> Plane {
 /// offset, and no interpolation makes one of the other.
 fn smoothed(plane: &Plane) -> Plane {
     const WEIGHTS: [f32; 5] = [0.0625, 0.25, 0.375, 0.25, 0.0625];
+    const RADIUS: usize = WEIGHTS.len() / 2;
     let (width, height) = (plane.width, plane.height);
-    let along = |values: &[f32], step: [usize; 2]| -> Vec<f32> {
-        let value = |i: usize| {
-            let (x, y) = (i % width, i / width);
-            let tap = |(tap, weight): (usize, &f32)| {
-                // Two before to two behind; the border goes on beyond it.
-                let at = |place: usize, step: usize, length: usize| {
-                    (place + step * tap).saturating_sub(2 * step).min(length - 1)
-                };
-                weight * values[at(y, step[1], height) * width + at(x, step[0], width)]
-            };
-            WEIGHTS.iter().enumerate().map(tap).sum()
-        };
-        (0..width * height).into_par_iter().map(value).collect()
-    };
-    let values = along(&along(&plane.values, [1, 0]), [0, 1]);
+    let mut values = vec![0.0; width * height];
+    values.par_chunks_mut(width).enumerate().for_each_init(
+        || PaddedRow::new(width, RADIUS),
+        |padded, (y, out)| {
+            // The border goes on beyond it.
+            let row = |tap: usize| plane.row((y + tap).saturating_sub(RADIUS).min(height - 1));
+            down(&WEIGHTS, &std::array::from_fn::<_, 5, _>(row), padded.inside_mut());
+            padded.repeat_ends();
+            along(&WEIGHTS, padded, out);
+        },
+    );
     Plane { width, height, values }
 }
 
@@ -194,6 +194,8 @@ fn whole_pixels(image: &Plane, reference: &Plane, weights: &[f32]) -> [isize; 2]
         let offsets = (-reach..=reach).flat_map(|y| (-reach..=reach).map(move |x| [x, y]));
         let tried: Vec<_> = offsets
             .map(|[x, y]| [doubled[0] + x, doubled[1] + y])
+            .collect::<Vec<_>>()
+            .into_par_iter()
             .map(|offset| (mismatch(image, reference, weights, offset), offset))
             .collect();
         let least = tried.iter().min_by(|a, b| a.0.total_cmp(&b.0));
@@ -202,11 +204,12 @@ fn whole_pixels(image: &Plane, reference: &Plane, weights: &[f32]) -> [isize; 2]
     best
 }
 
-/// The mean squared difference where both overlap.
+/// The mean squared difference where both overlap, in rows enough for a search.
 fn mismatch(image: &Plane, reference: &Plane, weights: &Plane, [right, down]: [isize; 2]) -> f64 {
     let (width, height) = (image.width as isize, image.height as isize);
     let (mut sum, mut count) = (0.0, 0.0);
-    for y in down.max(0)..(height + down).min(height) {
+    let every = (image.values.len() / question::ENOUGH).max(1);
+    for y in (down.max(0)..(height + down).min(height)).step_by(every) {
         let row = image.row(y as usize);
         let other = reference.row((y - down) as usize);
         let weights = weights.row(y as usize);

@@ -9,7 +9,7 @@ pub(super) const UNIT: usize = 8;
 /// No difference counts for more than this share of its pixel's light.
 const MOST: f32 = 1.0;
 /// Pixels that are enough for a search.
-const ENOUGH: usize = 1 << 17;
+pub(super) const ENOUGH: usize = 1 << 17;
 /// A candidate that leaves more than this of the difference in units enough for a search is none.
 const HOPELESS: f64 = 0.98;
 /// Pixels to each side whose brightness a weight goes by.
@@ -23,18 +23,8 @@ pub(super) struct Question<'a> {
     pub(super) knowledge: &'a Knowledge<'a>,
     /// What makes differences relative: one over brightness, 0 for pixels that do not count.
     pub(super) weights: &'a [f32],
-    /// The same with enough units for a search, and 0 in all others; none of small pictures.
-    pub(super) thinned: Option<&'a [f32]>,
-}
-
-/// The weights of every so many-th unit, along diagonals; none where all units are few enough.
-pub(super) fn thinned(weights: &[f32], width: usize) -> Option<Vec<f32>> {
-    let every = weights.len() / ENOUGH;
-    let kept = |(pixel, weight): (usize, &f32)| {
-        let (column, row) = (pixel % width / UNIT, pixel / width / UNIT);
-        if (column + 3 * row).is_multiple_of(every) { *weight } else { 0.0 }
-    };
-    (every > 1).then(|| weights.par_iter().enumerate().map(kept).collect())
+    /// Every so many-th unit is looked at, along diagonals: 1 for all.
+    pub(super) every: usize,
 }
 
 /// The weights of pixels: relative to the brightness of the reference around them. A pixel's own
@@ -72,15 +62,15 @@ impl Question<'_> {
 
     /// The same question of units enough for a search.
     pub(super) fn thin(&self) -> Question<'_> {
-        Question { weights: self.thinned.unwrap_or(self.weights), thinned: None, ..*self }
+        Question { every: (self.weights.len() / ENOUGH).max(1), ..*self }
     }
 
     /// Whether a candidate could explain something, judged by units enough for a search.
     pub(super) fn is_worth_a_look(&self, candidate: impl Fn(usize) -> [f32; 3] + Sync) -> bool {
-        if self.thinned.is_none() {
+        let few = self.thin();
+        if few.every == 1 {
             return true;
         }
-        let few = self.thin();
         let before: f64 = few.energies(few.reference).iter().sum();
         few.energies_of(candidate).iter().sum::<f64>() < HOPELESS * before
     }
@@ -118,24 +108,30 @@ impl Question<'_> {
         self.fold_units(0.0, |sum, pixel| *sum += value(pixel))
     }
 
-    /// What `add` makes of the pixels of every unit, row by row.
+    /// What `add` makes of the pixels of every unit that is looked at, row by row.
     pub(super) fn fold_units<T: Clone + Send + Sync>(
         &self,
         nothing: T,
         add: impl Fn(&mut T, usize) + Sync,
     ) -> Vec<T> {
         let (width, height) = (self.width(), self.height());
-        let of_row = |top: usize| {
-            let mut units = vec![nothing.clone(); width.div_ceil(UNIT)];
+        let columns = width.div_ceil(UNIT);
+        let is_looked_at = |unit: &usize| {
+            let (column, row) = (unit % columns, unit / columns);
+            (column + 3 * row).is_multiple_of(self.every)
+        };
+        let of_unit = |unit: usize| {
+            let (left, top) = (unit % columns * UNIT, unit / columns * UNIT);
+            let mut sum = nothing.clone();
             for y in top..(top + UNIT).min(height) {
-                for x in 0..width {
-                    add(&mut units[x / UNIT], y * width + x);
+                for x in left..(left + UNIT).min(width) {
+                    add(&mut sum, y * width + x);
                 }
             }
-            units
+            sum
         };
-        let tops: Vec<usize> = (0..height).step_by(UNIT).collect();
-        tops.into_par_iter().flat_map_iter(of_row).collect()
+        let units: Vec<usize> = (0..columns * height.div_ceil(UNIT)).filter(is_looked_at).collect();
+        units.into_par_iter().with_min_len(columns).map(of_unit).collect()
     }
 }
 
@@ -143,20 +139,23 @@ impl Question<'_> {
 fn around(levels: &[f64], width: usize) -> Vec<f64> {
     let height = levels.len() / width.max(1);
     let near = |at: usize, end: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(end);
-    let mean = |pixel: usize| {
-        let (x, y) = (pixel % width, pixel / width);
-        let (mut sum, mut count) = (0.0, 0.0);
+    let of_row = |y: usize| {
+        let mut columns = vec![(0.0, 0.0); width];
         for row in near(y, height) {
-            for level in &levels[row * width..][near(x, width)] {
+            for (column, level) in columns.iter_mut().zip(&levels[row * width..]) {
                 if level.is_finite() {
-                    sum += level;
-                    count += 1.0;
+                    *column = (column.0 + level, column.1 + 1.0);
                 }
             }
         }
-        if count > 0.0 { sum / count } else { 0.0 }
+        let mean = |x: usize| {
+            let add = |(sum, count), (more, many): &(f64, f64)| (sum + more, count + many);
+            let (sum, count) = columns[near(x, width)].iter().fold((0.0, 0.0), add);
+            if count > 0.0 { sum / count } else { 0.0 }
+        };
+        (0..width).map(mean).collect::<Vec<_>>()
     };
-    (0..levels.len()).into_par_iter().map(mean).collect()
+    (0..height).into_par_iter().flat_map_iter(of_row).collect()
 }
 
 /// The upper median of what is positive and finite; 1 of none.

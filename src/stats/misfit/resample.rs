@@ -4,6 +4,9 @@ use crate::image::Image;
 use crate::image::pair::Plane;
 use rayon::prelude::*;
 
+/// The first of four pixels around a place, and their weights.
+type Taps = (isize, [f32; 4]);
+
 /// Which place of the reference is seen at each pixel of an axis: `slope` · pixel + `start`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axis {
@@ -18,8 +21,7 @@ impl Axis {
         Self { start: middle - (middle + displaced) / magnified, slope: 1.0 / magnified }
     }
 
-    /// The first of four pixels around the place, and their weights.
-    fn taps(self, pixel: usize) -> (isize, [f32; 4]) {
+    fn taps(self, pixel: usize) -> Taps {
         let place = self.slope * pixel as f64 + self.start;
         let cell = place.floor();
         #[expect(clippy::cast_possible_truncation, reason = "places are near the picture")]
@@ -53,16 +55,42 @@ pub(super) fn resampled(plane: &Plane, across: Axis, down: Axis) -> Plane {
     Plane { width: plane.width, height: plane.height, values }
 }
 
-/// The same for the three channels of a picture.
-pub(super) fn resampled_image(image: &Image, across: Axis, down: Axis) -> Image {
-    let (width, height) = (image.width, image.height);
-    let channel = |c: usize| {
-        let values = image.pixels.iter().map(|pixel| pixel[c]).collect();
-        resampled(&Plane { width, height, values }, across, down).values
-    };
-    let [red, green, blue] = [channel(0), channel(1), channel(2)];
-    let pixels = (0..width * height).map(|i| [red[i], green[i], blue[i]]).collect();
-    Image { width, height, pixels }
+/// A picture as seen through both axes; its border goes on beyond it.
+pub(super) struct Resampled<'a> {
+    image: &'a Image,
+    across: Vec<Taps>,
+    down: Vec<Taps>,
+}
+
+impl<'a> Resampled<'a> {
+    pub(super) fn new(image: &'a Image, [across, down]: [Axis; 2]) -> Self {
+        let across = (0..image.width).map(|x| across.taps(x)).collect();
+        let down = (0..image.height).map(|y| down.taps(y)).collect();
+        Self { image, across, down }
+    }
+
+    /// What is seen at a pixel.
+    pub(super) fn pixel(&self, pixel: usize) -> [f32; 3] {
+        let (width, height) = (self.image.width, self.image.height);
+        let (left, across) = self.across[pixel % width];
+        let (top, down) = self.down[pixel / width];
+        let mut seen = [0.0; 3];
+        for (y, of_row) in (top..).zip(down) {
+            let row = &self.image.pixels[within(y, height) * width..][..width];
+            for (x, of_column) in (left..).zip(across) {
+                let weight = of_row * of_column;
+                let values = row[within(x, width)];
+                seen = std::array::from_fn(|c| seen[c] + weight * values[c]);
+            }
+        }
+        seen
+    }
+
+    /// All of it.
+    pub(super) fn image(&self) -> Image {
+        let pixels = (0..self.image.pixels.len()).into_par_iter();
+        Image { pixels: pixels.map(|pixel| self.pixel(pixel)).collect(), ..*self.image }
+    }
 }
 
 fn resample_rows(

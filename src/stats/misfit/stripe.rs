@@ -25,8 +25,10 @@ pub enum Lines {
 
 /// The stripe that stands out most, with its factor.
 pub(super) fn candidates(question: &Question<'_>, consider: &mut dyn FnMut((Misfit, Image))) {
-    for lines in [Lines::Columns, Lines::Rows] {
-        let light = light_of_lines(question, lines);
+    let [columns, rows] = [Lines::Columns, Lines::Rows];
+    let light =
+        rayon::join(|| light_of_lines(question, columns), || light_of_lines(question, rows));
+    for (lines, light) in [(columns, light.0), (rows, light.1)] {
         let Some([first, last]) = most_unlike(&light) else { continue };
         let stripe = &light[first..=last];
         let [image, reference] =

@@ -335,6 +335,7 @@ mod tests {
             name: "two".to_owned(),
             mean: Image { pixels: vec![[0.5; 3], [4.0; 3]], ..flat(0.0) },
             standard_error: flat(0.001),
+            layers: Default::default(),
             provenance: toml::from_str(&std::fs::read_to_string(provenance).unwrap()).unwrap(),
         };
         let picture = |value| Picture {

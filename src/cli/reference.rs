@@ -1,7 +1,9 @@
 //! `furnace reference`: makes, verifies and lists Mitsuba references.
 
 use super::{Answer, ExitCode, Failure, ProjectArguments};
-use crate::reference::{Made, MakeOptions, Progress, References, State, VerifyOptions};
+use crate::reference::{
+    LayersOptions, Made, MakeOptions, Progress, Reference, References, State, VerifyOptions,
+};
 use crate::scene::Library;
 use crate::stats::Verdict;
 use clap::{Args, Subcommand};
@@ -45,6 +47,14 @@ enum Verb {
         /// Samples a pixel in each pass, at most 256, instead of the recipe's.
         #[arg(long, value_name = "N")]
         samples_per_pass: Option<u32>,
+        #[command(flatten)]
+        mitsuba: MitsubaArguments,
+    },
+    /// Add to references what they hold beside their picture: each bounce alone, depth and normals.
+    Layers {
+        /// The references.
+        #[arg(required = true, value_name = "NAME")]
+        names: Vec<String>,
         #[command(flatten)]
         mitsuba: MitsubaArguments,
     },
@@ -98,6 +108,13 @@ pub fn reference(arguments: &ReferenceArguments) -> Answer {
             };
             make(&references, name, &options)
         }
+        Verb::Layers { names, mitsuba } => {
+            let options = LayersOptions {
+                create_environment: mitsuba.create_environment,
+                variant: mitsuba.variant.clone(),
+            };
+            names.iter().try_fold(ExitCode::Good, |_, name| layers(&references, name, &options))
+        }
         Verb::Verify { name, mitsuba } => {
             let options = VerifyOptions {
                 create_environment: mitsuba.create_environment,
@@ -125,6 +142,28 @@ fn make(references: &References, name: &str, options: &MakeOptions) -> Answer {
     Ok(ExitCode::Good)
 }
 
+fn layers(references: &References, name: &str, options: &LayersOptions) -> Answer {
+    let display = Display::new();
+    let layered = references.add_layers(name, options, &mut |progress| display.show(progress));
+    let reference = layered.map_err(Failure::broken)?;
+    let hint = match reference.layers.bounces.is_empty() {
+        true => "; bounces apart need Mitsuba's llvm_ad_rgb",
+        false => "",
+    };
+    println!("{name}: {}{hint}", content(&reference));
+    Ok(ExitCode::Good)
+}
+
+/// `bounces 0 to 6 apart, depth and normals`
+fn content(reference: &Reference) -> String {
+    let bounces = match reference.layers.bounces.len() {
+        0 => None,
+        count => Some(format!("bounces 0 to {} apart", count - 1)),
+    };
+    let seen = reference.layers.first_hits.is_some().then(|| "depth and normals".to_owned());
+    bounces.into_iter().chain(seen).collect::<Vec<_>>().join(", ")
+}
+
 fn verify(references: &References, name: &str, options: &VerifyOptions) -> Answer {
     let display = Display::new();
     let verified = references.verify(name, options, &mut |progress| display.show(progress));
@@ -148,9 +187,10 @@ fn list(references: &References) -> Answer {
     for entry in &listed {
         let state = match &entry.state {
             State::Good(reference) => format!(
-                "{:>6} samples a pixel, median relative standard error {:.2} %",
+                "{:>6} samples a pixel, median relative standard error {:.2} %  {}",
                 reference.provenance.samples_per_pixel(),
-                100.0 * reference.provenance.median_relative_error
+                100.0 * reference.provenance.median_relative_error,
+                content(reference)
             ),
             State::Bad(error) => {
                 all_good = false;

@@ -54,6 +54,13 @@ impl Image {
         Self { width, height, pixels: positions.map(|(x, y)| colour(x, y)).collect() }
     }
 
+    /// Adds the light of a picture of the same size.
+    pub fn add(&mut self, other: &Image) {
+        for (sum, pixel) in self.pixels.iter_mut().zip(&other.pixels) {
+            *sum = std::array::from_fn(|c| sum[c] + pixel[c]);
+        }
+    }
+
     /// Whether both have the same width and height.
     pub fn same_size(&self, other: &Image) -> bool {
         (self.width, self.height) == (other.width, other.height)

@@ -59,6 +59,17 @@ pub enum MakeError {
         /// Why they are not.
         problem: String,
     },
+    /// What was rendered bounce by bounce is not what the reference shows.
+    #[error(
+        "the bounces of `{name}` have {ratio:.4} of its light together\n\
+         hint: `furnace reference verify {name}` says whether Mitsuba still agrees with it"
+    )]
+    BouncesDoNotAddUp {
+        /// The reference.
+        name: String,
+        /// Their light over that of the picture.
+        ratio: f64,
+    },
     /// The reference to verify is not there.
     #[error(transparent)]
     Reference(#[from] ReferenceError),

@@ -49,6 +49,8 @@ pub(super) struct Job {
     pub film: [u32; 2],
     /// Samples a pixel in each pass.
     pub samples: u32,
+    /// The last bounce, if a pass holds each bounce alone, one below the other.
+    pub last_bounce: Option<u32>,
 }
 
 /// What Mitsuba said about itself.
@@ -61,6 +63,12 @@ pub(super) struct Spent {
 }
 
 impl Job {
+    /// The same with each bounce alone, one below the other: the film is so many times as high.
+    pub fn apart(&self, last_bounce: u32) -> Self {
+        let film = [self.film[0], self.film[1] * (last_bounce + 1)];
+        Self { film, last_bounce: Some(last_bounce), ..self.clone() }
+    }
+
     /// The pass of a seed, if it is there and whole.
     pub fn pass(&self, seed: u32) -> Option<Image> {
         let bytes = std::fs::read(self.pass_path(seed)).ok()?;
@@ -73,7 +81,8 @@ impl Job {
     }
 
     fn pass_path(&self, seed: u32) -> PathBuf {
-        self.folder.join(format!("pass-{seed}.f32"))
+        let content = if self.last_bounce.is_some() { "bounces" } else { "pass" };
+        self.folder.join(format!("{content}-{seed}.f32"))
     }
 }
 
@@ -122,6 +131,7 @@ impl Mitsuba {
         let mut command = Command::new(&self.python);
         command.arg("-").arg(job.folder.join("scene.xml")).arg(&self.variant.name);
         command.arg(samples.to_string()).arg(output);
+        command.arg(job.last_bounce.map_or("together".to_owned(), |last| last.to_string()));
         command.args(seeds.iter().map(u32::to_string));
         if let Some(library) = &self.variant.llvm {
             command.env("DRJIT_LIBLLVM_PATH", library);
@@ -175,7 +185,8 @@ mod tests {
 
     fn job() -> (tempfile::TempDir, Job) {
         let folder = tempfile::tempdir().unwrap();
-        let job = Job { folder: folder.path().to_owned(), film: [2, 1], samples: 4 };
+        let job =
+            Job { folder: folder.path().to_owned(), film: [2, 1], samples: 4, last_bounce: None };
         (folder, job)
     }
 
@@ -188,6 +199,16 @@ mod tests {
         assert_eq!(job.pass(3), None);
         std::fs::write(job.pass_path(3), &bytes).unwrap();
         assert_eq!(job.pass(3).unwrap().pixels, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    }
+
+    #[test]
+    fn bounces_apart_are_other_files_of_a_higher_film() {
+        let (_folder, job) = job();
+        let apart = job.apart(2);
+        assert_eq!(apart.film, [2, 3]);
+        assert_ne!(apart.pass_path(0), job.pass_path(0));
+        std::fs::write(apart.pass_path(0), [0; 4 * 3 * 6]).unwrap();
+        assert_eq!((job.pass(0), apart.pass(0).unwrap().height), (None, 3));
     }
 
     #[test]

@@ -15,6 +15,7 @@
 mod date;
 mod environment;
 mod error;
+mod layers;
 mod list;
 mod make;
 mod mitsuba;
@@ -27,6 +28,7 @@ mod verify;
 
 pub use crate::scene::reference::{Provenance, Reference, ReferenceError};
 pub use error::MakeError;
+pub use layers::LayersOptions;
 pub use list::{Listed, State};
 pub use make::{Made, MakeOptions};
 pub use recipe::Recipe;

@@ -95,12 +95,13 @@ impl Plan {
             command,
             date: today(),
             cpu_seconds: rounded(shard.cpu_seconds),
+            bounce_passes: 0,
             parameters: self.recipe.parameters.clone(),
         }
     }
 }
 
-fn write_provenance(path: &Path, provenance: &Provenance) -> Result<(), MakeError> {
+pub(super) fn write_provenance(path: &Path, provenance: &Provenance) -> Result<(), MakeError> {
     let beside = path.with_extension("toml.tmp");
     let body = toml::to_string(provenance).map_err(|problem| MakeError::file(path, &problem))?;
     let text = format!("# Written by `furnace reference make`; not for editing.\n{body}");

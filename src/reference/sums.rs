@@ -111,7 +111,12 @@ impl Sums {
 
     /// The mean, rounded to 16 bits of precision.
     pub fn mean(&self) -> Image {
-        self.image(|moments| rounded(self.mean_of(moments) as f32, MEAN_BITS))
+        self.mean_rounded(MEAN_BITS)
+    }
+
+    /// The mean, rounded to so many bits of precision.
+    pub fn mean_rounded(&self, bits: u32) -> Image {
+        self.image(|moments| rounded(self.mean_of(moments) as f32, bits))
     }
 
     /// The standard error of the mean as it is stored: that of the passes, and that of rounding.

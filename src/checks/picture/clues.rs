@@ -9,7 +9,7 @@ use crate::math::rng::Seed;
 use crate::scene::reference::Reference;
 use crate::stats::ImageReport;
 use crate::stats::misfit::{
-    Estimate, Fit, Knowledge, Misfit, Share, Symmetry, explain, share_of_part,
+    BouncesOff, Estimate, Fit, Knowledge, Misfit, Symmetry, bounces_off, explain,
 };
 
 /// Of what differs, the share that a mistake has to explain to be told as its cause.
@@ -51,14 +51,12 @@ pub(super) fn explained(
         ),
         None => finding,
     };
-    // A bounce that is missing also looks like a factor: what explains more is told.
-    let bounce = match shot.isolates {
-        true => missing_bounce(report, reference, &knowledge, shot, built, seed.child("bounce"))?,
-        false => None,
-    };
+    // A bounce that is off also looks like a factor: what explains more is told.
+    let bounces = Bounces::of(reference, shot, built, seed.child("bounce"))?;
+    let off = bounces_off(&report.mean, &reference.mean, &bounces.lights, &knowledge);
     let most = fits.iter().map(|fit| fit.explains).fold(EXPLAINS, f64::max);
-    if let Some((bounce, share)) = bounce.filter(|(_, share)| share.explains > most) {
-        return Ok(without_bounce(finding, bounce, &share));
+    if let Some(off) = off.filter(|off| off.share.explains > most) {
+        return Ok(with_bounces_off(finding, &off, bounces.by));
     }
     for fit in fits.iter().filter(|fit| fit.explains > EXPLAINS) {
         finding.statement += &format!("; the picture is {fit}");
@@ -69,14 +67,58 @@ pub(super) fn explained(
     Ok(finding)
 }
 
-fn without_bounce(mut finding: Finding, bounce: u32, share: &Share) -> Finding {
-    let Estimate { value, interval: [low, high] } = share.missing;
-    let words = format!(
-        "what is missing is bounce {bounce} as the core itself renders it alone, {value:.2} times \
-         ({low:.2} to {high:.2})"
-    );
+fn with_bounces_off(mut finding: Finding, off: &BouncesOff, by: &str) -> Finding {
+    let words = format!("{off} what {by} renders alone");
     finding.statement += &format!("; {words}");
-    finding.because(&transport::BOUNCE_MISSING, words)
+    match off {
+        BouncesOff { share, .. } if share.missing.value < 0.0 => finding,
+        // The last alone is one bounce short, which other cases tell.
+        BouncesOff { first: 2, last: 3.., .. } => finding.because(&transport::NO_INDIRECT, words),
+        _ => finding.because(&transport::BOUNCE_MISSING, words),
+    }
+}
+
+/// Bounces of a reference, each alone.
+struct Bounces {
+    lights: Vec<Image>,
+    /// Who rendered them.
+    by: &'static str,
+}
+
+impl Bounces {
+    /// By the reference, or else by the core if it can, from bounce 0 on: none of a core that cannot.
+    fn of(
+        reference: &Reference,
+        shot: &Shot<'_>,
+        built: &mut dyn BuiltScene,
+        seed: Seed,
+    ) -> Result<Self, CheckError> {
+        let stored = &reference.layers.bounces;
+        if !stored.is_empty() || !shot.isolates {
+            return Ok(Self { lights: stored.clone(), by: "Mitsuba" });
+        }
+        let [_, last] = shot.bounces();
+        let alone = |bounce| alone(bounce, shot, built, seed.child(bounce));
+        let lights = (0..=last).map(alone).collect::<Result<_, _>>()?;
+        Ok(Self { lights, by: "the core itself" })
+    }
+}
+
+/// The mean of some renders of one bounce.
+fn alone(
+    bounce: u32,
+    shot: &Shot<'_>,
+    built: &mut dyn BuiltScene,
+    seed: Seed,
+) -> Result<Image, CheckError> {
+    let shot = shot.of_bounce(bounce);
+    let mut light = shot.render(built, seed.child(0))?;
+    for run in 1..BOUNCE_RUNS {
+        light.add(&shot.render(built, seed.child(run))?);
+    }
+    let mean = |pixel: &mut [f32; 3]| *pixel = pixel.map(|sum| sum / BOUNCE_RUNS as f32);
+    light.pixels.iter_mut().for_each(mean);
+    Ok(light)
 }
 
 fn evidence(fit: &Fit) -> String {
@@ -150,38 +192,6 @@ fn shared_limit(singles: &[Image], mean: &Image, expected: &Image) -> Option<(f3
     let lamp_pixels = mean.pixels.iter().zip(&expected.pixels).filter(is_lamp_pixel).count();
     let is_limit = level > 0.0 && pixels >= FEWEST_AT_LIMIT && lamp_pixels < FEWEST_OF_LAMP;
     is_limit.then_some((level, pixels))
-}
-
-/// The bounce whose light is what the picture lacks, and how many times over; none if no bounce
-/// explains what differs by being missing once.
-fn missing_bounce(
-    report: &ImageReport,
-    reference: &Reference,
-    knowledge: &Knowledge<'_>,
-    shot: &Shot<'_>,
-    built: &mut dyn BuiltScene,
-    seed: Seed,
-) -> Result<Option<(u32, Share)>, CheckError> {
-    let [first, last] = shot.bounces();
-    let mut best: Option<(u32, Share)> = None;
-    for bounce in first..=last {
-        let alone = shot.of_bounce(bounce);
-        let mut light = Image::new(reference.mean.width, reference.mean.height, [0.0; 3]);
-        for run in 0..BOUNCE_RUNS {
-            let run = alone.render(built, seed.child(bounce).child(run))?;
-            for (sum, pixel) in light.pixels.iter_mut().zip(&run.pixels) {
-                *sum = std::array::from_fn(|c| sum[c] + pixel[c] / BOUNCE_RUNS as f32);
-            }
-        }
-        let share = share_of_part(&report.mean, &reference.mean, &light, knowledge);
-        // The bounce before, which looks much the same, is not missing once but in part.
-        let is_once = |share: &Share| share.missing.allows(1.0) && !share.missing.allows(0.5);
-        let is_better = |share: &Share| best.is_none_or(|(_, best)| share.explains > best.explains);
-        if let Some(share) = share.filter(|share| is_once(share) && is_better(share)) {
-            best = Some((bounce, share));
-        }
-    }
-    Ok(best)
 }
 
 fn largest(pixel: &[f32; 3]) -> f32 {

@@ -12,6 +12,7 @@ use crate::image::Image;
 use crate::scene::{Camera, SceneDescription, Shape};
 use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use serde::Deserialize;
 
 /// Pixels whose view changes within this much of their centre, in pixels, lie on an edge and are
@@ -90,6 +91,17 @@ impl FirstHits {
         context.show(PictureRole::Reference, "shading normals, in double precision", right);
         context.show(PictureRole::Render, "shading normals of the core", found);
     }
+}
+
+/// What stands at the centre of each pixel of the film, row by row from the top: distance from the
+/// camera and unit shading normal; infinity and 0 where nothing does.
+pub fn first_hits(scene: &SceneDescription, camera: &Camera) -> Vec<(f64, DVec3)> {
+    let view = View { scene, camera: *camera, size: camera.film };
+    let seen = |film: &DVec2| {
+        let met = nearest(scene, &view.ray(*film));
+        met.map_or((f64::INFINITY, DVec3::ZERO), |met| (met.answer.t, met.answer.shading_normal))
+    };
+    FirstHits { size: camera.film }.centres().par_iter().map(seen).collect()
 }
 
 /// A pixel: what the core finds at its centre, and what is there.

@@ -10,7 +10,7 @@ use crate::image::mask::{Mask, Rectangle};
 use crate::image::metric::METRICS;
 use crate::image::pair::Pair;
 use crate::image::{Image, ImageError};
-use crate::stats::misfit::{Fit, Knowledge, explain};
+use crate::stats::misfit::{BouncesOff, Fit, Knowledge, bounces_off, explain};
 use crate::stats::{
     Deciphered, DifferenceReport, LightOfCodes, NoiseSource, Verdict, judge_difference,
 };
@@ -65,6 +65,9 @@ struct Comparison {
     codes: Option<CodesCompared>,
     /// What turns the reference into the picture, the greatest mistake first.
     mistakes: Vec<Fit>,
+    /// Bounces that are missing or there too often, if the reference holds its bounces apart and that
+    /// explains more than any mistake.
+    bounces: Option<BouncesOff>,
     metrics: Vec<Measured>,
 }
 
@@ -127,12 +130,11 @@ fn measure(arguments: &CompareArguments) -> Result<Comparison, Failure> {
             counted: counted.as_deref(),
             standard_error: None,
         };
-        let explained = || explain(&picture.image, &reference.image, &knowledge);
-        let mistakes = is_to_explain.then(explained).unwrap_or_default();
-        (difference, mistakes)
+        let explained = || explanation(&picture.image, &reference, &knowledge);
+        (difference, is_to_explain.then(explained).unwrap_or_default())
     };
     let measured = || metrics(arguments, &picture.image, &reference.image, counted.as_deref());
-    let ((difference, mistakes), metrics) = rayon::join(judged, measured);
+    let ((difference, (mistakes, bounces)), metrics) = rayon::join(judged, measured);
     Ok(Comparison {
         verdict: if is_encoded_otherwise { Verdict::Fail } else { difference.verdict },
         size,
@@ -142,7 +144,23 @@ fn measure(arguments: &CompareArguments) -> Result<Comparison, Failure> {
         codes: light
             .map(|light| CodesCompared { deciphered: light.deciphered, noise: light.noise }),
         mistakes,
+        bounces,
     })
+}
+
+/// What turns the reference into the picture: mistakes, or bounces that explain more than they.
+fn explanation(
+    picture: &Image,
+    reference: &Side,
+    knowledge: &Knowledge<'_>,
+) -> (Vec<Fit>, Option<BouncesOff>) {
+    let mistakes = explain(picture, &reference.image, knowledge);
+    let most = mistakes.iter().map(|fit| fit.explains).fold(0.0, f64::max);
+    let off = bounces_off(picture, &reference.image, &reference.bounces, knowledge);
+    match off.filter(|off| off.share.explains > most) {
+        Some(off) => (Vec::new(), Some(off)),
+        None => (mistakes, None),
+    }
 }
 
 /// The metrics that are asked for, of the pixels that count.

@@ -6,7 +6,7 @@ use crate::image::encoding::{Curve, Encoding};
 use crate::image::file::{Loaded, load};
 use crate::image::pair::Plane;
 use crate::image::png::Picture as Codes;
-use crate::scene::reference::ERROR_PREFIX;
+use crate::scene::reference::{ERROR_PREFIX, Layers};
 use crate::stats::{CodeReference, LightOfCodes, Sample, light_of_codes};
 use std::path::{Path, PathBuf};
 
@@ -19,6 +19,8 @@ const FEWEST_RUNS: usize = 4;
 pub(super) struct Side {
     pub image: Image,
     pub alpha: Option<Plane>,
+    /// Each bounce alone, where the file holds them.
+    pub bounces: Vec<Image>,
     variance: Option<Image>,
     rounding: Option<Image>,
     /// Whether it came from a file of whole numbers.
@@ -49,10 +51,19 @@ impl Side {
     fn of(loaded: Loaded) -> Self {
         let rounding = loaded.codes.as_ref().map(|codes| rounding(&loaded, codes.largest));
         let codes = loaded.codes.and_then(|codes| codes.picture).into_iter().collect();
-        let errors = loaded.extra.and_then(|file| file.colours(ERROR_PREFIX).ok());
+        let errors = loaded.extra.as_ref().and_then(|file| file.colours(ERROR_PREFIX).ok());
+        let bounces = loaded.extra.map(|file| Layers::read(&file).bounces).unwrap_or_default();
         let variance = errors.map(|errors| each(&errors, |error| error * error));
         let is_coded = rounding.is_some();
-        Self { image: loaded.image, alpha: loaded.alpha, variance, rounding, is_coded, codes }
+        Self {
+            image: loaded.image,
+            alpha: loaded.alpha,
+            bounces,
+            variance,
+            rounding,
+            is_coded,
+            codes,
+        }
     }
 
     fn mean(runs: &[Loaded]) -> Result<Self, Failure> {
@@ -74,7 +85,9 @@ impl Side {
         let is_coded = runs.iter().any(|run| run.codes.is_some());
         let codes = runs.iter().map(|run| run.codes.as_ref()?.picture.clone());
         let codes = codes.collect::<Option<Vec<_>>>().unwrap_or_default();
-        Ok(Self { image, alpha: runs[0].alpha.clone(), variance, rounding: None, is_coded, codes })
+        let alpha = runs[0].alpha.clone();
+        let bounces = Vec::new();
+        Ok(Self { image, alpha, bounces, variance, rounding: None, is_coded, codes })
     }
 
     fn take_variance(&mut self, variance: Image, path: &Path) -> Result<(), Failure> {

@@ -4,7 +4,7 @@ use super::*;
 use crate::image::exr::{self, Exr, Storage};
 use crate::image::{Image, pfm, png};
 use crate::math::rng::{Seed, uniform};
-use crate::scene::reference::ERROR_PREFIX;
+use crate::scene::reference::{ERROR_PREFIX, Layers};
 use clap::Parser;
 use std::path::Path;
 
@@ -80,6 +80,30 @@ fn a_reference_brings_its_own_errors_and_several_renders_theirs() {
 }
 
 /// A reference with its errors, and a noisy picture of 8 bits of it, as files.
+#[test]
+fn a_reference_that_holds_its_bounces_apart_tells_which_is_missing_or_there_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let reference = root.join("references/cornell-six-bounces/reference.exr");
+    let stored = exr::read(&reference).unwrap();
+    let (mean, bounces) = (stored.image().unwrap(), Layers::read(&stored).bounces);
+    assert_eq!(bounces.len(), 7);
+    for (bounce, times, words) in [(3, -1.0, "is missing"), (2, 1.0, "is there too often")] {
+        let mut stream = Seed(bounce as u64).stream();
+        let picture = Image::from_fn(mean.width, mean.height, |x, y| {
+            let noise = 1.0 + 0.05 * (2.0 * uniform(&mut stream) - 1.0);
+            let i = y * mean.width + x;
+            let light = |c: usize| mean.pixels[i][c] + times * bounces[bounce].pixels[i][c];
+            [light(0), light(1), light(2)].map(|light| light.max(0.0) * noise as f32)
+        });
+        let picture = file(folder.path(), "picture.pfm", &picture);
+        let found = compared(&[&picture, reference.to_str().unwrap(), "--no-flip"]).unwrap();
+        let told = words::told(&found);
+        let expected = format!("bounce {bounce} {words}");
+        assert!(found.verdict == Verdict::Fail && told.contains(&expected), "{told}");
+    }
+}
+
 fn coded(folder: &Path, seed: u64, factor: f64, encoding: Encoding) -> [String; 2] {
     let reference = render(1, 0.005, 1.0);
     let errors = Image::from_fn(192, 128, |x, y| [(0.003 * scene(x, y)) as f32; 3]);

@@ -1,6 +1,7 @@
 //! A comparison as text.
 
 use super::{CodesCompared, Comparison};
+use crate::stats::misfit::BouncesOff;
 use crate::stats::{DifferenceReport, Impossible, NoiseSource, OddPixels, PatternReport, Verdict};
 use std::fmt::Write;
 
@@ -16,6 +17,7 @@ pub(super) fn told(comparison: &Comparison) -> String {
     difference.outliers.iter().for_each(|odd| line(outliers(odd)));
     difference.patterns.iter().filter(|found| found.rejects).for_each(|found| line(pattern(found)));
     comparison.mistakes.iter().for_each(|fit| line(format!("the picture is {fit}")));
+    comparison.bounces.iter().for_each(|off| line(bounces(off)));
     for metric in &comparison.metrics {
         match metric.value {
             Some(value) => line(format!("{:22} {value:.6}", metric.name)),
@@ -41,6 +43,11 @@ fn by_law(codes: &CodesCompared, comparison: &Comparison) -> String {
         "8-bit codes ({}) by their law, not decoded, in {share:.0} % of the pixels; {noise}",
         codes.deciphered.declared
     )
+}
+
+fn bounces(off: &BouncesOff) -> String {
+    let explains = 100.0 * off.share.explains;
+    format!("{off} what the reference holds alone: explains {explains:.1} % of the difference")
 }
 
 fn sentence(comparison: &Comparison) -> String {

@@ -11,7 +11,7 @@ use super::recipe::{self, Recipe};
 use super::seeds::Seeds;
 use super::shard::{About, Shard};
 use super::sums::Sums;
-use super::{Listener, MakeError, References, environment};
+use super::{LayersOptions, Listener, MakeError, References, environment};
 use crate::image::Image;
 use crate::scene::SceneDescription;
 use crate::scene::hash::content_hash;
@@ -64,7 +64,7 @@ impl References {
             let shard = self.render(&plan, wanted.collect(), options, progress)?;
             let reference = self.store(&plan, &shard, options.command(name))?;
             remove(&plan.job.folder)?;
-            return Ok(Made::Reference(Box::new(reference)));
+            return self.made(&reference, progress);
         }
         let (mut whole, before) = self.kept(name)?;
         let lacking: Vec<u32> = wanted.filter(|seed| !whole.seeds.contains(*seed)).collect();
@@ -81,7 +81,18 @@ impl References {
         let command = format!("{} && {}", before.command, options.command(name));
         let reference = self.store(&plan, &whole, command)?;
         remove(&plan.job.folder)?;
-        Ok(Made::Reference(Box::new(reference)))
+        self.made(&reference, progress)
+    }
+
+    /// A reference that Mitsuba has just rendered, with its layers.
+    fn made(&self, reference: &Reference, progress: Listener<'_>) -> Result<Made, MakeError> {
+        // The environment is there, and the back end that made the picture works.
+        let options = LayersOptions {
+            create_environment: false,
+            variant: Some(reference.provenance.variant.clone()),
+        };
+        let layered = self.add_layers(&reference.name, &options, progress)?;
+        Ok(Made::Reference(Box::new(layered)))
     }
 
     /// Renders the passes of some seeds, and leaves their sums in a file.
@@ -182,7 +193,7 @@ impl References {
             exported.write_to(&folder)
         };
         write().map_err(|problem| MakeError::file(&folder, &problem))?;
-        let job = Job { folder, film, samples };
+        let job = Job { folder, film, samples, last_bounce: None };
         Ok(Plan { name: name.to_owned(), recipe, scene, job })
     }
 }
@@ -230,7 +241,12 @@ impl Plan {
 
     /// The pass of one seed, which has been rendered.
     pub fn pass(&self, seed: u32) -> Result<Image, MakeError> {
-        let pass = self.job.pass(seed).ok_or_else(|| {
+        self.whole(self.job.pass(seed), seed)
+    }
+
+    /// What has been read of a pass, if it is there and can be light.
+    pub fn whole(&self, pass: Option<Image>, seed: u32) -> Result<Image, MakeError> {
+        let pass = pass.ok_or_else(|| {
             MakeError::file(&self.job.folder, &format!("pass {seed} is missing or cut off"))
         })?;
         let is_light = |value: &f32| *value >= 0.0 && value.is_finite();

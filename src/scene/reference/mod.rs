@@ -1,19 +1,22 @@
 //! What is true of a scene: a picture by Mitsuba, how well it is known, and where it comes from.
 //!
 //! `references/<name>/reference.exr` holds the mean in R, G, B and the standard error of that mean
-//! in se.R, se.G, se.B; `provenance.toml` beside it says how it came about. A reference is pinned
-//! to the content hash of its scene.
+//! in se.R, se.G, se.B, and what else is known in [`Layers`]; `provenance.toml` beside it says how it
+//! came about. A reference is pinned to the content hash of its scene.
 //!
 //! Only reading is here, on a layer that checks may name. What makes references is
 //! `crate::reference`, out of their reach: no test run writes into `references/`.
 
+mod layers;
 mod provenance;
 
+pub use layers::{FirstHits, Layers};
 pub use provenance::Provenance;
 
 use super::SceneDescription;
 use super::hash::content_hash;
-use crate::image::{Image, exr};
+use crate::image::Image;
+use crate::image::exr::{self, Exr};
 use crate::text::Source;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -30,6 +33,8 @@ pub struct Reference {
     pub mean: Image,
     /// Standard error of that mean.
     pub standard_error: Image,
+    /// What is known beside the picture.
+    pub layers: Layers,
     /// How it came about.
     pub provenance: Provenance,
 }
@@ -108,8 +113,10 @@ pub fn load(
         return Err(wrong(ReferenceProblem::OtherScene { scene }));
     }
     let film = scene.camera.as_ref().map_or([0, 0], |camera| camera.film.map(|n| n as usize));
-    let (mean, standard_error) = read_picture(folder, name, &provenance, film).map_err(wrong)?;
-    Ok(Reference { name: name.to_owned(), mean, standard_error, provenance })
+    let file = read_picture(folder, name, &provenance, film).map_err(wrong)?;
+    let (mean, standard_error) = mean_and_error(&file).map_err(wrong)?;
+    let layers = Layers::read(&file);
+    Ok(Reference { name: name.to_owned(), mean, standard_error, layers, provenance })
 }
 
 /// The provenance of reference `name`, whatever its scene has become.
@@ -128,7 +135,7 @@ fn read_picture(
     name: &str,
     provenance: &Provenance,
     film: [usize; 2],
-) -> Result<(Image, Image), ReferenceProblem> {
+) -> Result<Exr, ReferenceProblem> {
     let path = picture_path(folder, name);
     if !path.is_file() {
         return Err(ReferenceProblem::Missing(path));
@@ -143,6 +150,11 @@ fn read_picture(
     if fingerprint(&content) != provenance.picture_hash {
         return Err(damaged(&"the picture is not the one its provenance speaks of"));
     }
+    Ok(file)
+}
+
+fn mean_and_error(file: &Exr) -> Result<(Image, Image), ReferenceProblem> {
+    let damaged = |problem: &dyn std::fmt::Display| ReferenceProblem::Damaged(problem.to_string());
     let mean = file.image().map_err(|problem| damaged(&problem))?;
     let standard_error = file.colours(ERROR_PREFIX).map_err(|problem| damaged(&problem))?;
     let values = mean.pixels.iter().chain(&standard_error.pixels).flatten();

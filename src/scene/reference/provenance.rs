@@ -42,9 +42,18 @@ pub struct Provenance {
     pub date: String,
     /// Processor seconds it took, less those of attempts that were cut off.
     pub cpu_seconds: f64,
+    /// Passes that each bounce alone is the mean of, with the first of the seeds; 0 if the reference
+    /// does not hold them.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub bounce_passes: u32,
     /// Values that were given to parameters of the scene.
     #[serde(default, skip_serializing_if = "Overrides::is_empty")]
     pub parameters: Overrides,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands a reference")]
+fn is_zero(number: &u32) -> bool {
+    *number == 0
 }
 
 impl Provenance {

@@ -37,6 +37,7 @@ fn written(width: usize, height: usize, mean: f32) -> TempDir {
         command: "furnace reference make room".to_owned(),
         date: "2026-01-31".to_owned(),
         cpu_seconds: 1.5,
+        bounce_passes: 0,
         parameters: Default::default(),
     };
     let text = toml::to_string(&provenance).unwrap();

@@ -21,7 +21,7 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-pub use part::{Share, share_of_part};
+pub use part::{BouncesOff, Share, bounces_off};
 pub use stripe::Lines;
 pub use symmetry::Symmetry;
 

@@ -4,17 +4,70 @@ use super::normal::{Sums, estimates, solve};
 use super::question::{self, Question};
 use super::{Estimate, Knowledge};
 use crate::image::Image;
+use serde::{Deserialize, Serialize};
 
 /// What the noise of the part itself may shift the share by.
 const ALLOWANCE: f64 = 0.1;
 
 /// How often a part has to be taken from the reference to make it the picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Share {
     /// 1 if the part is missing once, negative if it is there once too often.
     pub missing: Estimate,
     /// The share of the difference that this explains, from 0 to 1, without known noise.
     pub explains: f64,
+}
+
+impl Share {
+    /// Whether the part is missing once, or there once too often: and not a part of it, for what
+    /// looks much the same is off in part.
+    fn is_whole(&self) -> bool {
+        let is = |times: f64| self.missing.allows(times) && !self.missing.allows(0.5 * times);
+        is(1.0) || is(-1.0)
+    }
+}
+
+/// Bounces whose light is what a picture lacks, or has once too often.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BouncesOff {
+    /// 0 is what the camera sees glowing.
+    pub first: usize,
+    /// The last of them.
+    pub last: usize,
+    /// How often they are missing.
+    pub share: Share,
+}
+
+/// The bounce, or all bounces from one on, whose light is what the picture lacks or has once too
+/// often; none if nothing that differs is explained by that. `bounces` shows each alone, from
+/// bounce 0.
+///
+/// # Panics
+///
+/// If the pictures differ in size.
+pub fn bounces_off(
+    image: &Image,
+    reference: &Image,
+    bounces: &[Image],
+    knowledge: &Knowledge<'_>,
+) -> Option<BouncesOff> {
+    let mut best: Option<BouncesOff> = None;
+    let mut consider = |first, last, light: &Image| {
+        let share = share_of_part(image, reference, light, knowledge).filter(Share::is_whole);
+        let explains = best.map_or(f64::NEG_INFINITY, |best| best.share.explains);
+        if let Some(share) = share.filter(|share| share.explains > explains) {
+            best = Some(BouncesOff { first, last, share });
+        }
+    };
+    let mut from_here = Image::new(image.width, image.height, [0.0; 3]);
+    for (bounce, light) in bounces.iter().enumerate().rev() {
+        consider(bounce, bounce, light);
+        from_here.add(light);
+        if bounce + 1 < bounces.len() {
+            consider(bounce, bounces.len() - 1, &from_here);
+        }
+    }
+    best
 }
 
 /// By least squares over units of 8 by 8 pixels, each weighted against the brightness around it; none if
@@ -23,7 +76,7 @@ pub struct Share {
 /// # Panics
 ///
 /// If the pictures differ in size.
-pub fn share_of_part(
+fn share_of_part(
     image: &Image,
     reference: &Image,
     part: &Image,
@@ -72,6 +125,28 @@ mod tests {
             let noise = 1.0 + 0.1 * (2.0 * uniform(&mut stream) - 1.0);
             [(noise * value(x as f64, y as f64)) as f32; 3]
         })
+    }
+
+    #[test]
+    fn the_bounce_that_is_off_is_told_from_the_others() {
+        let lights: [fn(f64, f64) -> f64; 3] = [
+            |x, _| if x < 20.0 { 1.0 } else { 0.5 },
+            |x, _| 0.05 + 0.001 * x,
+            |_, y| 0.1 * (0.1 * y).sin().powi(2),
+        ];
+        let reference = picture(|x, y| lights.iter().map(|light| light(x, y)).sum(), 1);
+        let bounces: Vec<Image> = (3..).zip(lights).map(|(s, light)| picture(light, s)).collect();
+        for (first, last, times) in [(1, 1, 0.0), (2, 2, 0.0), (1, 1, 2.0), (1, 2, 0.0)] {
+            let shown = |x, y| {
+                let factor = |i| if (first..=last).contains(&i) { times } else { 1.0 };
+                (0..3).map(|i| factor(i) * lights[i](x, y)).sum()
+            };
+            let image = picture(shown, 2);
+            let off = bounces_off(&image, &reference, &bounces, &Knowledge::default()).unwrap();
+            assert_eq!([off.first, off.last], [first, last], "{off:?}");
+            let share = off.share;
+            assert!(share.missing.allows(1.0 - times) && share.explains > 0.5, "{share:?}");
+        }
     }
 
     #[test]

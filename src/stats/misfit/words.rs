@@ -1,6 +1,6 @@
 //! What was found, as sentences.
 
-use super::{Fit, Lines, Misfit, Symmetry};
+use super::{BouncesOff, Fit, Lines, Misfit, Symmetry};
 use std::fmt;
 
 impl fmt::Display for Symmetry {
@@ -75,6 +75,25 @@ fn displaced(f: &mut fmt::Formatter<'_>, [right, down]: [f64; 2]) -> fmt::Result
     let upright = if down < 0.0 { "up" } else { "down" };
     write!(f, "displaced by {:.2} pixels to the {across}", right.abs())?;
     write!(f, " and {:.2} {upright}", down.abs())
+}
+
+impl fmt::Display for BouncesOff {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let are = match self.first == self.last {
+            true => format!("bounce {} is", self.first),
+            false => format!("bounces {} to {} are", self.first, self.last),
+        };
+        let missing = self.share.missing;
+        let [low, high] = missing.interval;
+        match missing.value > 0.0 {
+            true => write!(f, "{are} missing, {:.2} times ({low:.2} to {high:.2})", missing.value),
+            false => write!(
+                f,
+                "{are} there too often, by {:.2} times ({:.2} to {:.2})",
+                -missing.value, -high, -low
+            ),
+        }
+    }
 }
 
 impl fmt::Display for Fit {

@@ -1,0 +1,127 @@
+//! Adds to a reference what it can hold beside its picture: each bounce alone by Mitsuba, and what
+//! stands at the centre of each pixel by brute force in double precision.
+
+use super::make::{Plan, remove};
+use super::store::write_provenance;
+use super::sums::Sums;
+use super::{Listener, MakeError, References, environment, recipe};
+use crate::checks::picture::first_hits;
+use crate::image::exr::{self, Exr, Storage};
+use crate::image::pair::Plane;
+use crate::image::{Image, luminance};
+use crate::scene::SceneDescription;
+use crate::scene::reference::{
+    ERROR_PREFIX, FirstHits, Layers, Reference, fingerprint, load, picture_path, provenance_path,
+};
+
+/// Passes of each bounce, with the first seeds of the reference: enough to say which is missing.
+const PASSES: u32 = 16;
+/// How far the light of all bounces may be from that of the picture, which has more passes.
+const ADDS_UP: f64 = 0.01;
+/// Precision of a stored bounce: its noise is larger than 1 in 64.
+const BOUNCE_BITS: u32 = 6;
+
+/// How to add layers.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LayersOptions {
+    /// Install Mitsuba into `references/.venv` if it is not there.
+    pub create_environment: bool,
+    /// Mitsuba's back end, instead of the fastest that works. Scalar ones cannot part bounces.
+    pub variant: Option<String>,
+}
+
+impl References {
+    /// Adds layers to the reference `name`, whose picture stays what it is. Without a back end that
+    /// renders the same paths at every depth, which LLVM's does, only what is seen first.
+    ///
+    /// # Errors
+    /// If there is no such reference, or Mitsuba fails.
+    pub fn add_layers(
+        &self,
+        name: &str,
+        options: &LayersOptions,
+        progress: Listener<'_>,
+    ) -> Result<Reference, MakeError> {
+        let mut recipe = recipe::read(&self.folder, name)?;
+        let scene = self.scenes.load(&recipe.scene, &recipe.parameters)?;
+        let mut stored = load(&self.folder, name, &scene)?;
+        recipe.bounces = stored.provenance.bounces[1];
+        recipe.samples_per_pass = stored.provenance.samples_per_pass;
+        let plan = self.plan(name, recipe, "layers")?;
+        let bounces = self.bounces(&plan, options, progress)?;
+        remove(&plan.job.folder)?;
+        check_sum(name, &bounces, &stored.mean)?;
+        stored.provenance.bounce_passes = if bounces.is_empty() { 0 } else { PASSES };
+        stored.layers = Layers { bounces, first_hits: first_hits_of(&scene) };
+        self.write_again(&mut stored)?;
+        Ok(load(&self.folder, name, &scene)?)
+    }
+
+    /// The mean of each bounce alone: paths of one seed are the same whatever the last bounce is, so
+    /// that the difference of two pictures is one bounce.
+    fn bounces(
+        &self,
+        plan: &Plan,
+        options: &LayersOptions,
+        progress: Listener<'_>,
+    ) -> Result<Vec<Image>, MakeError> {
+        let python = environment::python(&self.folder, options.create_environment, progress)?;
+        let asked = options.variant.as_deref();
+        let mitsuba = environment::mitsuba(python, asked, &plan.job, progress)?;
+        if !mitsuba.variant.name.starts_with("llvm") {
+            return Ok(Vec::new());
+        }
+        let job = plan.job.apart(plan.recipe.bounces);
+        let seeds: Vec<u32> = (0..PASSES).collect();
+        mitsuba.render(&job, &seeds, progress)?;
+        let [width, height] = job.film.map(|pixels| pixels as usize);
+        let mut sums = Sums::new(width, height);
+        for seed in seeds {
+            sums.push(&plan.whole(job.pass(seed), seed)?);
+        }
+        let below_each_other = sums.mean_rounded(BOUNCE_BITS);
+        let height = plan.job.film[1] as usize;
+        let bounces = below_each_other.pixels.chunks(width * height);
+        Ok(bounces.map(|pixels| Image { width, height, pixels: pixels.to_vec() }).collect())
+    }
+
+    /// Writes a reference with the layers that it has now.
+    fn write_again(&self, reference: &mut Reference) -> Result<(), MakeError> {
+        let path = picture_path(&self.folder, &reference.name);
+        let beside = path.with_extension("exr.tmp");
+        let file = Exr::from_image(&reference.mean)
+            .with_colours(ERROR_PREFIX, &reference.standard_error, Storage::Half)
+            .with_attribute("furnace", reference.provenance.header());
+        exr::write(&beside, &reference.layers.added_to(file))?;
+        let content =
+            std::fs::read(&beside).map_err(|problem| MakeError::file(&beside, &problem))?;
+        reference.provenance.picture_hash = fingerprint(&content);
+        let provenance = provenance_path(&self.folder, &reference.name);
+        write_provenance(&provenance, &reference.provenance)?;
+        std::fs::rename(&beside, &path).map_err(|problem| MakeError::file(&path, &problem))
+    }
+}
+
+/// That the bounces are those of the picture.
+fn check_sum(name: &str, bounces: &[Image], mean: &Image) -> Result<(), MakeError> {
+    let light = |image: &Image| image.pixels.iter().map(|pixel| luminance(*pixel)).sum::<f64>();
+    let ratio = bounces.iter().map(light).sum::<f64>() / light(mean);
+    if bounces.is_empty() || (ratio - 1.0).abs() <= ADDS_UP {
+        Ok(())
+    } else {
+        Err(MakeError::BouncesDoNotAddUp { name: name.to_owned(), ratio })
+    }
+}
+
+fn first_hits_of(scene: &SceneDescription) -> Option<FirstHits> {
+    let camera = scene.camera.as_ref()?;
+    let [width, height] = camera.film.map(|pixels| pixels as usize);
+    let (depth, normals) = first_hits(scene, camera).into_iter().map(single_precision).unzip();
+    let depth = Plane { width, height, values: depth };
+    Some(FirstHits { depth, normal: Image { width, height, pixels: normals } })
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "as precise as the file")]
+fn single_precision((depth, normal): (f64, glam::DVec3)) -> (f32, [f32; 3]) {
+    (depth as f32, normal.as_vec3().to_array())
+}

@@ -5,6 +5,7 @@ use crate::reference::{
     LayersOptions, Made, MakeOptions, Progress, Reference, References, State, VerifyOptions,
 };
 use crate::scene::Library;
+use crate::scene::reference::Layers;
 use crate::stats::Verdict;
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -130,10 +131,17 @@ fn make(references: &References, name: &str, options: &MakeOptions) -> Answer {
     let display = Display::new();
     let made = references.make(name, options, &mut |progress| display.show(progress));
     match made.map_err(Failure::broken)? {
-        Made::Reference(made) => println!(
-            "made {name}: median relative standard error {:.2} %; look at references/{name}, then commit it",
-            100.0 * made.provenance.median_relative_error
-        ),
+        Made::Reference(made) => {
+            println!(
+                "made {name}: median relative standard error {:.2} %; look at references/{name}, then commit it",
+                100.0 * made.provenance.median_relative_error
+            );
+            if made.layers == Layers::default() {
+                println!(
+                    "hint: `furnace reference layers {name}` adds its bounces, depth and normals"
+                );
+            }
+        }
         Made::Part(path) => println!(
             "made a part of {name}; `furnace reference make {name} --merge {}` adds it",
             path.display()

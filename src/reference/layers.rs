@@ -86,7 +86,7 @@ impl References {
     }
 
     /// Writes a reference with the layers that it has now.
-    fn write_again(&self, reference: &mut Reference) -> Result<(), MakeError> {
+    pub(super) fn write_again(&self, reference: &mut Reference) -> Result<(), MakeError> {
         let path = picture_path(&self.folder, &reference.name);
         let beside = path.with_extension("exr.tmp");
         let file = Exr::from_image(&reference.mean)

@@ -16,7 +16,7 @@ use crate::image::Image;
 use crate::scene::SceneDescription;
 use crate::scene::hash::content_hash;
 use crate::scene::mitsuba::{SAMPLER, export};
-use crate::scene::reference::{Reference, fingerprint, provenance_path};
+use crate::scene::reference::{Reference, fingerprint, load, provenance_path};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -150,7 +150,14 @@ impl References {
         let Some(whole) = whole else {
             return Err(MakeError::Options("--merge needs files of sums".to_owned()));
         };
-        let reference = self.store(&plan, &whole, command + &options.command(name))?;
+        // The layers are of the same scene, whatever the passes.
+        let before = load(&self.folder, name, &plan.scene).ok();
+        let mut reference = self.store(&plan, &whole, command + &options.command(name))?;
+        if let Some(before) = before {
+            reference.layers = before.layers;
+            reference.provenance.bounce_passes = before.provenance.bounce_passes;
+            self.write_again(&mut reference)?;
+        }
         Ok(Made::Reference(Box::new(reference)))
     }
 

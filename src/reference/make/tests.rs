@@ -136,6 +136,18 @@ fn parts_merge_to_the_bytes_of_the_whole_and_a_seed_counts_once() {
 }
 
 #[test]
+fn a_merge_keeps_the_layers() {
+    let (_folder, references) = workshop("[64, 32]");
+    let (plan, shard) = shard(&references, 0..16);
+    let mut reference = references.store(&plan, &shard, String::new()).unwrap();
+    reference.layers.bounces = vec![Image::new(64, 32, [0.25; 3]); 2];
+    references.write_again(&mut reference).unwrap();
+    references.make("void", &merging(&references, 16..32), &mut |_| ()).unwrap();
+    let merged = load(&references.folder, "void", &plan.scene).unwrap();
+    assert_eq!((merged.provenance.passes, &merged.layers), (32, &reference.layers));
+}
+
+#[test]
 fn what_cannot_be_extended_says_why() {
     let (_folder, references) = workshop("[64, 32]");
     let extend = MakeOptions { extend: true, ..MakeOptions::default() };

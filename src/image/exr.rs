@@ -77,14 +77,22 @@ impl Exr {
 
     /// The picture in the channels `prefix` R, G and B.
     pub fn colours(&self, prefix: &str) -> Result<Image, ImageError> {
-        let mut image = Image::new(self.width, self.height, [0.0; 3]);
-        for (i, colour) in COLOURS.into_iter().enumerate() {
-            let channel = self.channel(&format!("{prefix}{colour}"))?;
-            for (pixel, value) in image.pixels.iter_mut().zip(&channel.values) {
-                pixel[i] = *value;
+        let [red, green, blue] = COLOURS.map(|colour| self.whole(&format!("{prefix}{colour}")));
+        let colours = red?.iter().zip(green?).zip(blue?);
+        let pixels = colours.map(|((red, green), blue)| [*red, *green, *blue]).collect();
+        Ok(Image { width: self.width, height: self.height, pixels })
+    }
+
+    /// The values of a channel that has one for each pixel: a file may have fewer.
+    fn whole(&self, name: &str) -> Result<&[f32], ImageError> {
+        let values = &self.channel(name)?.values;
+        let (count, pixels) = (values.len(), self.width * self.height);
+        match count == pixels {
+            true => Ok(values),
+            false => {
+                Err(ImageError::WrongLength { channel: name.to_owned(), values: count, pixels })
             }
         }
-        Ok(image)
     }
 
     /// The channel of this name.
@@ -140,7 +148,10 @@ pub fn read(path: &Path) -> Result<Exr, ImageError> {
             openexr::FlatSamples::F16(_) => Storage::Half,
             _ => Storage::Single,
         },
-        values: channel.sample_data.values_as_f32().collect(),
+        values: match channel.sample_data {
+            openexr::FlatSamples::F32(values) => values,
+            others => others.values_as_f32().collect(),
+        },
     });
     Ok(Exr {
         width: layer.size.width(),

@@ -156,8 +156,9 @@ fn power_sums(question: &Question<'_>, power: f64) -> Vec<Sums<1>> {
         let (image, reference) = (question.image.pixels[pixel], question.reference.pixels[pixel]);
         for c in 0..3 {
             if weight > 0.0 && reference[c] > 0.0 {
-                let raised = reference[c].powf(power as f32);
-                let slope = f64::from(weight * raised * reference[c].ln());
+                let logarithm = reference[c].ln();
+                let raised = (power as f32 * logarithm).exp();
+                let slope = f64::from(weight * raised * logarithm);
                 sums.add([slope], f64::from(question.difference(pixel, image[c], raised)));
             }
         }

@@ -2,17 +2,13 @@
 //! stands at the centre of each pixel by brute force in double precision.
 
 use super::make::{Plan, remove};
-use super::store::write_provenance;
 use super::sums::Sums;
 use super::{Listener, MakeError, References, environment, recipe};
 use crate::checks::picture::first_hits;
-use crate::image::exr::{self, Exr, Storage};
 use crate::image::pair::Plane;
 use crate::image::{Image, luminance};
 use crate::scene::SceneDescription;
-use crate::scene::reference::{
-    ERROR_PREFIX, FirstHits, Layers, Reference, fingerprint, load, picture_path, provenance_path,
-};
+use crate::scene::reference::{FirstHits, Layers, Reference, load};
 
 /// Passes of each bounce, with the first seeds of the reference: enough to say which is missing.
 const PASSES: u32 = 16;
@@ -53,7 +49,7 @@ impl References {
         check_sum(name, &bounces, &stored.mean)?;
         stored.provenance.bounce_passes = if bounces.is_empty() { 0 } else { PASSES };
         stored.layers = Layers { bounces, first_hits: first_hits_of(&scene) };
-        self.write_again(&mut stored)?;
+        self.write(&mut stored)?;
         Ok(load(&self.folder, name, &scene)?)
     }
 
@@ -83,22 +79,6 @@ impl References {
         let height = plan.job.film[1] as usize;
         let bounces = below_each_other.pixels.chunks(width * height);
         Ok(bounces.map(|pixels| Image { width, height, pixels: pixels.to_vec() }).collect())
-    }
-
-    /// Writes a reference with the layers that it has now.
-    pub(super) fn write_again(&self, reference: &mut Reference) -> Result<(), MakeError> {
-        let path = picture_path(&self.folder, &reference.name);
-        let beside = path.with_extension("exr.tmp");
-        let file = Exr::from_image(&reference.mean)
-            .with_colours(ERROR_PREFIX, &reference.standard_error, Storage::Half)
-            .with_attribute("furnace", reference.provenance.header());
-        exr::write(&beside, &reference.layers.added_to(file))?;
-        let content =
-            std::fs::read(&beside).map_err(|problem| MakeError::file(&beside, &problem))?;
-        reference.provenance.picture_hash = fingerprint(&content);
-        let provenance = provenance_path(&self.folder, &reference.name);
-        write_provenance(&provenance, &reference.provenance)?;
-        std::fs::rename(&beside, &path).map_err(|problem| MakeError::file(&path, &problem))
     }
 }
 

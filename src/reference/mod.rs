@@ -5,9 +5,9 @@
 //! own, each with its own seed and into its own file, so that a run which is killed goes on where
 //! it was; then it adds the passes and their squares up, exactly, and takes mean and variance. The
 //! sums stay in `references/.work`: by them a reference is extended by more passes, or merged from
-//! parts that several machines have rendered. Why passes: Mitsuba
-//! adds up in single precision, which drifts beyond 2⁸ samples, and its own second moments are of
-//! another colour space.
+//! parts that several machines have rendered. Each bounce alone, depth and normals are added beside
+//! the picture. Why passes: Mitsuba adds up in single precision, which drifts beyond 2⁸ samples, and
+//! its own second moments are of another colour space.
 //!
 //! Not here: reading a reference in order to compare with it (`scene::reference`), and printing:
 //! whoever asks hears of [`Progress`].

@@ -7,7 +7,7 @@ use super::sums::Rank;
 use super::{MakeError, References};
 use crate::image::exr::{self, Exr, Storage};
 use crate::scene::reference::{
-    ERROR_PREFIX, Provenance, Reference, fingerprint, load, picture_path, provenance_path,
+    ERROR_PREFIX, Layers, Provenance, Reference, fingerprint, load, picture_path, provenance_path,
     read_provenance,
 };
 use std::path::{Path, PathBuf};
@@ -48,28 +48,35 @@ impl References {
         let mut recipe = plan.recipe.clone();
         recipe.passes = shard.seeds.count();
         recipe.check().map_err(MakeError::Options)?;
-        self.write(plan, shard, command)?;
+        self.write(&mut Reference {
+            name: plan.name.clone(),
+            mean: shard.sums.mean(),
+            standard_error: shard.sums.standard_error(),
+            layers: Layers::default(),
+            provenance: plan.provenance(shard, command),
+        })?;
         shard.write(&self.sums_path(&plan.name))?;
         Ok(load(&self.folder, &plan.name, &plan.scene)?)
     }
 
-    fn write(&self, plan: &Plan, shard: &Shard, command: String) -> Result<(), MakeError> {
-        let mut provenance = plan.provenance(shard, command);
-        let picture = picture_path(&self.folder, &plan.name);
-        let beside = picture.with_extension("exr.tmp");
-        let folder = self.folder.join(&plan.name);
+    /// Writes a reference with the layers that it has, and its fingerprint into its provenance.
+    pub(super) fn write(&self, reference: &mut Reference) -> Result<(), MakeError> {
+        let path = picture_path(&self.folder, &reference.name);
+        let beside = path.with_extension("exr.tmp");
+        let folder = self.folder.join(&reference.name);
         std::fs::create_dir_all(&folder).map_err(|problem| MakeError::file(&folder, &problem))?;
         // One attribute only: the encoder writes several in any order, and the bytes would not be
         // the same twice.
-        let file = Exr::from_image(&shard.sums.mean())
-            .with_colours(ERROR_PREFIX, &shard.sums.standard_error(), Storage::Half)
-            .with_attribute("furnace", provenance.header());
-        exr::write(&beside, &file)?;
+        let file = Exr::from_image(&reference.mean)
+            .with_colours(ERROR_PREFIX, &reference.standard_error, Storage::Half)
+            .with_attribute("furnace", reference.provenance.header());
+        exr::write(&beside, &reference.layers.added_to(file))?;
         let content =
             std::fs::read(&beside).map_err(|problem| MakeError::file(&beside, &problem))?;
-        provenance.picture_hash = fingerprint(&content);
-        write_provenance(&provenance_path(&self.folder, &plan.name), &provenance)?;
-        std::fs::rename(&beside, &picture).map_err(|problem| MakeError::file(&picture, &problem))
+        reference.provenance.picture_hash = fingerprint(&content);
+        let provenance = provenance_path(&self.folder, &reference.name);
+        write_provenance(&provenance, &reference.provenance)?;
+        std::fs::rename(&beside, &path).map_err(|problem| MakeError::file(&path, &problem))
     }
 }
 
@@ -101,7 +108,7 @@ impl Plan {
     }
 }
 
-pub(super) fn write_provenance(path: &Path, provenance: &Provenance) -> Result<(), MakeError> {
+fn write_provenance(path: &Path, provenance: &Provenance) -> Result<(), MakeError> {
     let beside = path.with_extension("toml.tmp");
     let body = toml::to_string(provenance).map_err(|problem| MakeError::file(path, &problem))?;
     let text = format!("# Written by `furnace reference make`; not for editing.\n{body}");

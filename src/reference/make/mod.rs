@@ -156,7 +156,7 @@ impl References {
         if let Some(before) = before {
             reference.layers = before.layers;
             reference.provenance.bounce_passes = before.provenance.bounce_passes;
-            self.write_again(&mut reference)?;
+            self.write(&mut reference)?;
         }
         Ok(Made::Reference(Box::new(reference)))
     }

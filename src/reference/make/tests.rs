@@ -141,7 +141,7 @@ fn a_merge_keeps_the_layers() {
     let (plan, shard) = shard(&references, 0..16);
     let mut reference = references.store(&plan, &shard, String::new()).unwrap();
     reference.layers.bounces = vec![Image::new(64, 32, [0.25; 3]); 2];
-    references.write_again(&mut reference).unwrap();
+    references.write(&mut reference).unwrap();
     references.make("void", &merging(&references, 16..32), &mut |_| ()).unwrap();
     let merged = load(&references.folder, "void", &plan.scene).unwrap();
     assert_eq!((merged.provenance.passes, &merged.layers), (32, &reference.layers));

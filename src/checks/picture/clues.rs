@@ -72,7 +72,7 @@ fn with_bounces_off(mut finding: Finding, off: &BouncesOff, by: &str) -> Finding
     finding.statement += &format!("; {words}");
     match off {
         BouncesOff { share, .. } if share.missing.value < 0.0 => finding,
-        // The last alone is one bounce short, which other cases tell.
+        // All from the second on, if that is more than the last.
         BouncesOff { first: 2, last: 3.., .. } => finding.because(&transport::NO_INDIRECT, words),
         _ => finding.because(&transport::BOUNCE_MISSING, words),
     }

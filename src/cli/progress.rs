@@ -6,7 +6,7 @@ use crate::report::number::{count, duration};
 use crate::report::text::{Paint, Style, clean, paint_of};
 use crate::run::{Event, RunRecord, Status, TrialRecord};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::time::Duration;
@@ -24,6 +24,8 @@ pub struct Progress {
     ended: usize,
     planned: usize,
     longest_core: usize,
+    /// Cores that do not come up: they are told of once.
+    absent: BTreeSet<String>,
 }
 
 enum Display {
@@ -56,7 +58,8 @@ impl Progress {
     }
 
     fn on(display: Display) -> Self {
-        Self { display, tally: BTreeMap::new(), ended: 0, planned: 0, longest_core: 0 }
+        let (tally, absent) = (BTreeMap::new(), BTreeSet::new());
+        Self { display, tally, ended: 0, planned: 0, longest_core: 0, absent }
     }
 
     /// Shows what happened.
@@ -76,10 +79,19 @@ impl Progress {
         self.planned = run.trials;
         self.ended = already_done;
         self.longest_core = run.cores.iter().map(|core| core.spec.len()).max().unwrap_or(0);
+        let absent = run.cores.iter().map(|core| &core.spec).filter(|core| run.is_absent(core));
+        self.absent = absent.cloned().collect();
+        let told = self.absent.iter().map(|core| format!("{} does not come up", clean(core)));
         match &mut self.display {
             Display::Quiet => {}
-            Display::Lines(out) => print(out, &opening(run, folder, already_done)),
-            Display::Live(live) => live.plan(run.trials, already_done),
+            Display::Lines(out) => {
+                print(out, &opening(run, folder, already_done));
+                told.for_each(|line| print(out, &line));
+            }
+            Display::Live(live) => {
+                live.plan(run.trials, already_done);
+                told.for_each(|line| live.whole.println(format!("  {line}")));
+            }
         }
         self.close_at_the_end();
     }
@@ -89,12 +101,16 @@ impl Progress {
         *self.tally.entry(trial.outcome.status()).or_default() += 1;
         let place =
             format!("{:>width$}/{}", self.ended, self.planned, width = digits(self.planned));
+        let is_told = self.absent.contains(&trial.core);
         match &mut self.display {
+            Display::Lines(_) if is_told => {}
             Display::Quiet => {}
             Display::Lines(out) => {
                 print(out, &format!("{place}  {}", line(trial, self.longest_core, Style::PLAIN)));
             }
-            Display::Live(live) => live.end(trial, words(&self.tally), self.longest_core),
+            Display::Live(live) => {
+                live.end(trial, words(&self.tally), self.longest_core, is_told);
+            }
         }
         self.close_at_the_end();
     }
@@ -134,12 +150,12 @@ impl Live {
     }
 
     /// What did not pass stays on the screen.
-    fn end(&mut self, trial: &TrialRecord, tally: String, longest_core: usize) {
+    fn end(&mut self, trial: &TrialRecord, tally: String, longest_core: usize, is_told: bool) {
         if let Some(bar) = self.running.remove(&(trial.core.clone(), trial.case.clone())) {
             bar.finish_and_clear();
             self.screen.remove(&bar);
         }
-        if trial.outcome.status() != Status::Pass {
+        if trial.outcome.status() != Status::Pass && !is_told {
             self.whole.println(format!("  {}", line(trial, longest_core, self.style)));
         }
         self.whole.inc(1);
@@ -255,6 +271,15 @@ mod tests {
         let failed: Vec<_> = lines.iter().filter(|line| line.contains("  fail  ")).collect();
         assert_eq!(failed.len(), 3);
         assert!(failed.iter().all(|line| line.contains(": ")), "{failed:?}");
+    }
+
+    #[test]
+    fn a_core_that_does_not_come_up_is_told_of_once() {
+        let mut example = Example::mixed();
+        example.run.cores[1].problem = Some("the core crashed during hello".to_owned());
+        let lines = lines(&example, 0);
+        let of_it = lines.iter().filter(|line| line.contains("textbook"));
+        assert_eq!(of_it.collect::<Vec<_>>(), [&lines[0], "textbook does not come up"]);
     }
 
     #[test]

@@ -52,6 +52,13 @@ pub struct RunRecord {
     pub timing: RunTiming,
 }
 
+impl RunRecord {
+    /// Whether this core was asked for and does not come up.
+    pub fn is_absent(&self, spec: &str) -> bool {
+        self.cores.iter().any(|core| core.spec == spec && core.problem.is_some())
+    }
+}
+
 /// When a run was, and how long it took.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -23,8 +23,13 @@ pub const INDENT: usize = 8;
 
 /// Every block.
 pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
+    let absent = tree.run.cores.iter().filter_map(|core| Some((core, core.problem.as_deref()?)));
+    let mut lines: Vec<_> =
+        absent.flat_map(|(core, problem)| absent_block(tree, &core.spec, problem, style)).collect();
+    // One cause: no trial of theirs says anything more.
+    let tree = &of_present_cores(tree);
     let diagnoses = tree.diagnoses();
-    let mut lines = headlines::all(&diagnoses, style);
+    lines.extend(headlines::all(&diagnoses, style));
     let (explained, alone): (Vec<_>, Vec<_>) =
         failures(tree).into_iter().partition(|trial| is_explained(&diagnoses, trial));
     lines.extend(explained.iter().flat_map(|trial| brief_block(trial, style)));
@@ -38,6 +43,30 @@ pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
     }
     lines.extend(grouped(tree, Status::Blocked, style));
     lines.extend(grouped(tree, Status::Skipped, style));
+    lines
+}
+
+fn of_present_cores(tree: &RunTree) -> RunTree {
+    let mut tree = tree.clone();
+    let absent = |trial: &TrialRecord| tree.run.is_absent(&trial.core);
+    tree.trials = tree.trials.iter().filter(|trial| !absent(trial)).cloned().collect();
+    tree
+}
+
+/// A core that does not come up: why, and how to try that alone.
+fn absent_block(tree: &RunTree, core: &str, problem: &str, style: Style) -> Vec<String> {
+    let trials = || tree.trials.iter().filter(|trial| trial.core == core);
+    let Some(first) = trials().find(|trial| trial.outcome.status().is_failure()) else {
+        return Vec::new();
+    };
+    let status = first.outcome.status();
+    let word = style.paint(paint_of(status), &status.word().to_uppercase());
+    let head = format!("  {word}  {} does not come up: no trial could be made", clean(core));
+    let mut lines = vec![String::new(), head];
+    lines.extend(indented(problem));
+    lines.extend(last_words(first));
+    let quoted = shell_words::quote(core);
+    lines.push(format!("{:INDENT$}try     cargo furnace doctor --core {}", "", clean(&quoted)));
     lines
 }
 

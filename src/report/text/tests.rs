@@ -101,6 +101,20 @@ fn what_was_found_stands_below_the_word_fail() {
 }
 
 #[test]
+fn a_core_that_does_not_come_up_is_one_block() {
+    let mut example = Example::mixed();
+    example.run.cores[1].problem = Some("the core crashed during hello".to_owned());
+    let text = plain(example);
+    let expected = "textbook does not come up: no trial could be made
+        the core crashed during hello
+";
+    assert!(text.contains(expected), "{text}");
+    assert!(text.contains("try     cargo furnace doctor --core textbook\n"), "{text}");
+    assert!(!text.contains("a-flat-box-is-hit on textbook"), "{text}");
+    assert!(text.contains("FAIL  images/cornell-spheres on builtin"), "{text}");
+}
+
+#[test]
 fn nan_is_shown_as_nan() {
     let text = plain(Example::mixed());
     assert!(text.contains("x t        NaN   1.0000000   ±1.0e-6      NaN"), "{text}");

@@ -1,9 +1,7 @@
 //! `furnace reference`: makes, verifies and lists Mitsuba references.
 
 use super::{Answer, ExitCode, Failure, ProjectArguments};
-use crate::reference::{
-    LayersOptions, Made, MakeOptions, Progress, Reference, References, State, VerifyOptions,
-};
+use crate::reference::{Made, MakeOptions, MitsubaOptions, Progress, Reference, References, State};
 use crate::scene::Library;
 use crate::scene::reference::Layers;
 use crate::stats::Verdict;
@@ -80,6 +78,15 @@ struct MitsubaArguments {
     variant: Option<String>,
 }
 
+impl MitsubaArguments {
+    fn options(&self) -> MitsubaOptions {
+        MitsubaOptions {
+            create_environment: self.create_environment,
+            variant: self.variant.clone(),
+        }
+    }
+}
+
 /// Does what was asked.
 pub fn reference(arguments: &ReferenceArguments) -> Answer {
     let project = arguments.project.find()?;
@@ -102,27 +109,17 @@ pub fn reference(arguments: &ReferenceArguments) -> Answer {
                 seeds: seeds.clone(),
                 merge: merge.clone(),
                 samples: *spp,
-                create_environment: mitsuba.create_environment,
+                mitsuba: mitsuba.options(),
                 passes: *passes,
                 samples_per_pass: *samples_per_pass,
-                variant: mitsuba.variant.clone(),
             };
             make(&references, name, &options)
         }
         Verb::Layers { names, mitsuba } => {
-            let options = LayersOptions {
-                create_environment: mitsuba.create_environment,
-                variant: mitsuba.variant.clone(),
-            };
+            let options = mitsuba.options();
             names.iter().try_fold(ExitCode::Good, |_, name| layers(&references, name, &options))
         }
-        Verb::Verify { name, mitsuba } => {
-            let options = VerifyOptions {
-                create_environment: mitsuba.create_environment,
-                variant: mitsuba.variant.clone(),
-            };
-            verify(&references, name, &options)
-        }
+        Verb::Verify { name, mitsuba } => verify(&references, name, &mitsuba.options()),
         Verb::List => list(&references),
     }
 }
@@ -150,7 +147,7 @@ fn make(references: &References, name: &str, options: &MakeOptions) -> Answer {
     Ok(ExitCode::Good)
 }
 
-fn layers(references: &References, name: &str, options: &LayersOptions) -> Answer {
+fn layers(references: &References, name: &str, options: &MitsubaOptions) -> Answer {
     let display = Display::new();
     let layered = references.add_layers(name, options, &mut |progress| display.show(progress));
     let reference = layered.map_err(Failure::broken)?;
@@ -172,7 +169,7 @@ fn content(reference: &Reference) -> String {
     bounces.into_iter().chain(seen).collect::<Vec<_>>().join(", ")
 }
 
-fn verify(references: &References, name: &str, options: &VerifyOptions) -> Answer {
+fn verify(references: &References, name: &str, options: &MitsubaOptions) -> Answer {
     let display = Display::new();
     let verified = references.verify(name, options, &mut |progress| display.show(progress));
     let report = verified.map_err(Failure::broken)?.report;

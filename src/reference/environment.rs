@@ -21,12 +21,17 @@ const LLVM_FOLDERS: [&str; 7] = [
     "/usr/local/opt/llvm/lib",
 ];
 
+/// How to get Mitsuba.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MitsubaOptions {
+    /// Install it into `references/.venv` if it is not there.
+    pub create_environment: bool,
+    /// Its back end, instead of the fastest that works.
+    pub variant: Option<String>,
+}
+
 /// The Python of the references' own environment. Installs one if `create`.
-pub(super) fn python(
-    references: &Path,
-    create: bool,
-    progress: Listener<'_>,
-) -> Result<PathBuf, MakeError> {
+fn python(references: &Path, create: bool, progress: Listener<'_>) -> Result<PathBuf, MakeError> {
     let folder = references.join(".venv");
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     if python.is_file() && run(Command::new(&python).args(["-c", "import mitsuba"])).is_ok() {
@@ -46,15 +51,17 @@ pub(super) fn python(
     Ok(python)
 }
 
-/// Mitsuba with a back end that renders `job` here: the fastest that does, or the one asked for.
+/// Mitsuba from the environment of the folder of references, with a back end that renders `job`
+/// here: the fastest that does, or the one asked for.
 pub(super) fn mitsuba(
-    python: PathBuf,
-    asked: Option<&str>,
+    references: &Path,
+    options: &MitsubaOptions,
     job: &Job,
     progress: Listener<'_>,
 ) -> Result<Mitsuba, MakeError> {
+    let python = python(references, options.create_environment, progress)?;
     let mut failure = None;
-    for variant in candidates(asked) {
+    for variant in candidates(options.variant.as_deref()) {
         progress(Progress::TryingVariant { variant: variant.to_string() });
         let mut mitsuba = Mitsuba { python: python.clone(), variant, version: String::new() };
         // In a process of its own: an LLVM that is too old aborts.

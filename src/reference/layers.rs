@@ -3,7 +3,7 @@
 
 use super::make::{Plan, remove};
 use super::sums::Sums;
-use super::{Listener, MakeError, References, environment, recipe};
+use super::{Listener, MakeError, MitsubaOptions, References, environment};
 use crate::checks::picture::first_hits;
 use crate::image::pair::Plane;
 use crate::image::{Image, luminance};
@@ -14,17 +14,8 @@ use crate::scene::reference::{FirstHits, Layers, Reference, load};
 const PASSES: u32 = 16;
 /// How far the light of all bounces may be from that of the picture, which has more passes.
 const ADDS_UP: f64 = 0.01;
-/// Precision of a stored bounce: its noise is larger than 1 in 64.
+/// Precision of a stored bounce: 1 in 64, where a share of it is known to a tenth at best.
 const BOUNCE_BITS: u32 = 6;
-
-/// How to add layers.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct LayersOptions {
-    /// Install Mitsuba into `references/.venv` if it is not there.
-    pub create_environment: bool,
-    /// Mitsuba's back end, instead of the fastest that works. Scalar ones cannot part bounces.
-    pub variant: Option<String>,
-}
 
 impl References {
     /// Adds layers to the reference `name`, whose picture stays what it is. Without a back end that
@@ -35,22 +26,17 @@ impl References {
     pub fn add_layers(
         &self,
         name: &str,
-        options: &LayersOptions,
+        options: &MitsubaOptions,
         progress: Listener<'_>,
     ) -> Result<Reference, MakeError> {
-        let mut recipe = recipe::read(&self.folder, name)?;
-        let scene = self.scenes.load(&recipe.scene, &recipe.parameters)?;
-        let mut stored = load(&self.folder, name, &scene)?;
-        recipe.bounces = stored.provenance.bounces[1];
-        recipe.samples_per_pass = stored.provenance.samples_per_pass;
-        let plan = self.plan(name, recipe, "layers")?;
+        let (mut stored, plan) = self.stored(name, "layers")?;
         let bounces = self.bounces(&plan, options, progress)?;
         remove(&plan.job.folder)?;
         check_sum(name, &bounces, &stored.mean)?;
         stored.provenance.bounce_passes = if bounces.is_empty() { 0 } else { PASSES };
-        stored.layers = Layers { bounces, first_hits: first_hits_of(&scene) };
+        stored.layers = Layers { bounces, first_hits: first_hits_of(&plan.scene) };
         self.write(&mut stored)?;
-        Ok(load(&self.folder, name, &scene)?)
+        Ok(load(&self.folder, name, &plan.scene)?)
     }
 
     /// The mean of each bounce alone: paths of one seed are the same whatever the last bounce is, so
@@ -58,12 +44,10 @@ impl References {
     fn bounces(
         &self,
         plan: &Plan,
-        options: &LayersOptions,
+        options: &MitsubaOptions,
         progress: Listener<'_>,
     ) -> Result<Vec<Image>, MakeError> {
-        let python = environment::python(&self.folder, options.create_environment, progress)?;
-        let asked = options.variant.as_deref();
-        let mitsuba = environment::mitsuba(python, asked, &plan.job, progress)?;
+        let mitsuba = environment::mitsuba(&self.folder, options, &plan.job, progress)?;
         if !mitsuba.variant.name.starts_with("llvm") {
             return Ok(Vec::new());
         }

@@ -27,12 +27,12 @@ mod sums;
 mod verify;
 
 pub use crate::scene::reference::{Provenance, Reference, ReferenceError};
+pub use environment::MitsubaOptions;
 pub use error::MakeError;
-pub use layers::LayersOptions;
 pub use list::{Listed, State};
 pub use make::{Made, MakeOptions};
 pub use recipe::Recipe;
-pub use verify::{Verification, VerifyOptions};
+pub use verify::Verification;
 
 use crate::scene::Library;
 use std::path::PathBuf;

@@ -1,18 +1,8 @@
 //! Whether Mitsuba still says what a reference says.
 
 use super::make::remove;
-use super::{Listener, MakeError, References, environment, recipe};
-use crate::scene::reference::load;
+use super::{Listener, MakeError, MitsubaOptions, References, environment};
 use crate::stats::{self, ImageDraw, ImageEffort, ImageReport, Stage, judge_image};
-
-/// How to verify a reference.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct VerifyOptions {
-    /// Install Mitsuba into `references/.venv` if it is not there.
-    pub create_environment: bool,
-    /// Mitsuba's back end, instead of the fastest that works.
-    pub variant: Option<String>,
-}
 
 /// What came out.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,17 +26,11 @@ impl References {
     pub fn verify(
         &self,
         name: &str,
-        options: &VerifyOptions,
+        options: &MitsubaOptions,
         progress: Listener<'_>,
     ) -> Result<Verification, MakeError> {
-        let mut recipe = recipe::read(&self.folder, name)?;
-        let scene = self.scenes.load(&recipe.scene, &recipe.parameters)?;
-        let stored = load(&self.folder, name, &scene)?;
-        recipe.bounces = stored.provenance.bounces[1];
-        let plan = self.plan(name, recipe, "verify")?;
-        let python = environment::python(&self.folder, options.create_environment, progress)?;
-        let asked = options.variant.as_deref();
-        let mitsuba = environment::mitsuba(python, asked, &plan.job, progress)?;
+        let (stored, plan) = self.stored(name, "verify")?;
+        let mitsuba = environment::mitsuba(&self.folder, options, &plan.job, progress)?;
         let effort = ImageEffort::new(DETECTS, plan.job.samples);
         let mut draw = |request: ImageDraw| {
             let seeds = seeds_of(request.stage, &effort);

@@ -11,7 +11,7 @@ use super::recipe::{self, Recipe};
 use super::seeds::Seeds;
 use super::shard::{About, Shard};
 use super::sums::Sums;
-use super::{LayersOptions, Listener, MakeError, References, environment};
+use super::{Listener, MakeError, MitsubaOptions, References, environment};
 use crate::image::Image;
 use crate::scene::SceneDescription;
 use crate::scene::hash::content_hash;
@@ -87,7 +87,7 @@ impl References {
     /// A reference that Mitsuba has just rendered, with its layers.
     fn made(&self, reference: &Reference, progress: Listener<'_>) -> Result<Made, MakeError> {
         // The environment is there, and the back end that made the picture works.
-        let options = LayersOptions {
+        let options = MitsubaOptions {
             create_environment: false,
             variant: Some(reference.provenance.variant.clone()),
         };
@@ -150,8 +150,9 @@ impl References {
         let Some(whole) = whole else {
             return Err(MakeError::Options("--merge needs files of sums".to_owned()));
         };
-        // The layers are of the same scene, whatever the passes.
-        let before = load(&self.folder, name, &plan.scene).ok();
+        // The layers are of the same scene and the same bounces, whatever the passes.
+        let is_same = |before: &Reference| before.provenance.bounces == plan.about().bounces;
+        let before = load(&self.folder, name, &plan.scene).ok().filter(is_same);
         let mut reference = self.store(&plan, &whole, command + &options.command(name))?;
         if let Some(before) = before {
             reference.layers = before.layers;
@@ -169,11 +170,19 @@ impl References {
         options: &MakeOptions,
         progress: Listener<'_>,
     ) -> Result<Shard, MakeError> {
-        let python = environment::python(&self.folder, options.create_environment, progress)?;
-        let asked = options.variant.as_deref();
-        let mitsuba = environment::mitsuba(python, asked, &plan.job, progress)?;
+        let mitsuba = environment::mitsuba(&self.folder, &options.mitsuba, &plan.job, progress)?;
         let spent = mitsuba.render(&plan.job, &seeds, progress)?;
         plan.shard(&seeds, &mitsuba, &spent)
+    }
+
+    /// A reference that is there, and a plan to render what it shows.
+    pub(super) fn stored(&self, name: &str, purpose: &str) -> Result<(Reference, Plan), MakeError> {
+        let mut recipe = recipe::read(&self.folder, name)?;
+        let scene = self.scenes.load(&recipe.scene, &recipe.parameters)?;
+        let stored = load(&self.folder, name, &scene)?;
+        recipe.bounces = stored.provenance.bounces[1];
+        recipe.samples_per_pass = stored.provenance.samples_per_pass;
+        Ok((stored, self.plan(name, recipe, purpose)?))
     }
 
     /// Writes a scene for Mitsuba into a working folder of its own, or finds it there from an

@@ -1,7 +1,7 @@
 //! How a reference is made where the recipe does not say, or says otherwise.
 
-use super::MakeError;
 use super::recipe::Recipe;
+use super::{MakeError, MitsubaOptions};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -16,16 +16,14 @@ pub struct MakeOptions {
     pub seeds: Option<Range<u32>>,
     /// Files of sums: render nothing, and add these up, with those of the reference there is.
     pub merge: Vec<PathBuf>,
-    /// Install Mitsuba into `references/.venv` if it is not there.
-    pub create_environment: bool,
+    /// How to get Mitsuba.
+    pub mitsuba: MitsubaOptions,
     /// Passes, instead of the recipe's.
     pub passes: Option<u32>,
     /// Samples a pixel in all passes together, instead of the recipe's, rounded up to whole passes.
     pub samples: Option<u32>,
     /// Samples a pixel in each pass, instead of the recipe's.
     pub samples_per_pass: Option<u32>,
-    /// Mitsuba's back end, instead of the fastest that works.
-    pub variant: Option<String>,
 }
 
 impl MakeOptions {
@@ -58,7 +56,7 @@ impl MakeOptions {
                 command += &format!(" --{flag} {number}");
             }
         }
-        if let Some(variant) = &self.variant {
+        if let Some(variant) = &self.mitsuba.variant {
             command += &format!(" --variant {variant}");
         }
         command

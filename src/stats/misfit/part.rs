@@ -51,9 +51,12 @@ pub fn bounces_off(
     bounces: &[Image],
     knowledge: &Knowledge<'_>,
 ) -> Option<BouncesOff> {
+    assert!(image.same_size(reference), "two pictures of one size");
+    let weights = question::weights(image, reference, knowledge);
+    let question = Question { image, reference, knowledge, weights: &weights, every: 1 };
     let mut best: Option<BouncesOff> = None;
     let mut consider = |first, last, light: &Image| {
-        let share = share_of_part(image, reference, light, knowledge).filter(Share::is_whole);
+        let share = share_of_part(&question, light).filter(Share::is_whole);
         let explains = best.map_or(f64::NEG_INFINITY, |best| best.share.explains);
         if let Some(share) = share.filter(|share| share.explains > explains) {
             best = Some(BouncesOff { first, last, share });
@@ -72,19 +75,9 @@ pub fn bounces_off(
 
 /// By least squares over units of 8 by 8 pixels, each weighted against the brightness around it; none if
 /// the part is black.
-///
-/// # Panics
-///
-/// If the pictures differ in size.
-fn share_of_part(
-    image: &Image,
-    reference: &Image,
-    part: &Image,
-    knowledge: &Knowledge<'_>,
-) -> Option<Share> {
-    assert!(image.same_size(reference) && image.same_size(part), "three pictures of one size");
-    let weights = question::weights(image, reference, knowledge);
-    let question = Question { image, reference, knowledge, weights: &weights, every: 1 };
+fn share_of_part(question: &Question<'_>, part: &Image) -> Option<Share> {
+    assert!(part.same_size(question.image), "three pictures of one size");
+    let Question { image, reference, knowledge, weights, .. } = question;
     // Sums over a unit first: there, noise is small against light.
     let units = question.fold_units([[0.0f64; 3]; 3], |sums, pixel| {
         let weight = f64::from(weights[pixel]);
@@ -156,13 +149,17 @@ mod tests {
         let whole = |x: f64, y: f64| 1.0 + part(x, y) + other(x, y);
         let reference = picture(whole, 1);
         let image = picture(|x, y| whole(x, y) - part(x, y), 2);
-        let share =
-            |part: &Image| share_of_part(&image, &reference, part, &Knowledge::default()).unwrap();
+        let knowledge = Knowledge::default();
+        let weights = question::weights(&image, &reference, &knowledge);
+        let (image, reference) = (&image, &reference);
+        let question =
+            Question { image, reference, knowledge: &knowledge, weights: &weights, every: 1 };
+        let share = |part: &Image| share_of_part(&question, part).unwrap();
         let right = share(&picture(part, 3));
         assert!(right.missing.allows(1.0) && right.explains > 0.5, "{right:?}");
         let wrong = share(&picture(other, 4));
         assert!(!wrong.missing.allows(1.0) || wrong.explains < right.explains, "{wrong:?}");
         let black = Image::new(96, 64, [0.0; 3]);
-        assert_eq!(share_of_part(&image, &reference, &black, &Knowledge::default()), None);
+        assert_eq!(share_of_part(&question, &black), None);
     }
 }

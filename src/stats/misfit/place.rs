@@ -84,7 +84,11 @@ fn smoothed(plane: &Plane) -> Plane {
         |padded, (y, out)| {
             // The border goes on beyond it.
             let row = |tap: usize| plane.row((y + tap).saturating_sub(RADIUS).min(height - 1));
-            down(&WEIGHTS, &std::array::from_fn::<_, 5, _>(row), padded.inside_mut());
+            down(
+                &WEIGHTS,
+                &std::array::from_fn::<_, { WEIGHTS.len() }, _>(row),
+                padded.inside_mut(),
+            );
             padded.repeat_ends();
             along(&WEIGHTS, padded, out);
         },

@@ -44,8 +44,7 @@ pub trait CountSource {
     /// How many of the samples last drawn in a cell of probability 0 can be no chance. All, if the
     /// law is known; quadrature may have missed a sliver of a density, so that whoever integrates
     /// one has to look at the samples themselves.
-    fn forbidden(&self, cell: usize, samples: u64) -> u64 {
-        let _ = cell;
+    fn forbidden(&self, _cell: usize, samples: u64) -> u64 {
         samples
     }
 }

@@ -47,10 +47,12 @@ pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
 }
 
 fn of_present_cores(tree: &RunTree) -> RunTree {
-    let mut tree = tree.clone();
-    let absent = |trial: &TrialRecord| tree.run.is_absent(&trial.core);
-    tree.trials = tree.trials.iter().filter(|trial| !absent(trial)).cloned().collect();
-    tree
+    let present = tree.trials.iter().filter(|trial| !tree.run.is_absent(&trial.core));
+    RunTree {
+        run: tree.run.clone(),
+        trials: present.cloned().collect(),
+        folder: tree.folder.clone(),
+    }
 }
 
 /// A core that does not come up: why, and how to try that alone.

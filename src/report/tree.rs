@@ -26,6 +26,24 @@ pub struct RunTree {
     pub folder: PathBuf,
 }
 
+/// A core that was asked for and did not come up.
+#[derive(Clone, Copy, Debug)]
+pub struct AbsentCore<'a> {
+    /// What the user typed after `--core`.
+    pub spec: &'a str,
+    /// Why.
+    pub problem: &'a str,
+    /// A trial that shows it, with what the core printed.
+    pub witness: &'a TrialRecord,
+}
+
+impl AbsentCore<'_> {
+    /// What tries to bring it up, and nothing else.
+    pub fn command(&self) -> String {
+        format!("cargo furnace doctor --core {}", shell_words::quote(self.spec))
+    }
+}
+
 /// Why a folder could not be read as a run.
 #[derive(Debug, thiserror::Error)]
 pub enum TreeError {
@@ -101,6 +119,26 @@ impl RunTree {
     pub fn diagnoses(&self) -> Vec<(&str, Diagnosis)> {
         let of = |core: &'_ CoreRecord| run::diagnose(core, &self.trials);
         self.run.cores.iter().map(|core| (core.spec.as_str(), of(core))).collect()
+    }
+
+    /// The cores that did not come up, in the order they were asked.
+    pub fn absent_cores(&self) -> impl Iterator<Item = AbsentCore<'_>> {
+        self.run.cores.iter().filter_map(|core| {
+            let is_witness = |trial: &&TrialRecord| {
+                trial.core == core.spec && trial.outcome.status().is_failure()
+            };
+            let witness = self.trials.iter().find(is_witness)?;
+            Some(AbsentCore { spec: &core.spec, problem: core.problem.as_deref()?, witness })
+        })
+    }
+
+    /// The same run without cores that did not come up: that is one cause, and no trial of theirs says anything more.
+    pub fn of_present_cores(&self) -> Self {
+        let (mut run, mut trials) = (self.run.clone(), self.trials.clone());
+        trials.retain(|trial| !self.run.is_absent(&trial.core));
+        run.cores.retain(|core| core.problem.is_none());
+        run.trials -= self.trials.len() - trials.len();
+        Self { run, trials, folder: self.folder.clone() }
     }
 
     /// How many planned trials have no result.

@@ -112,7 +112,7 @@ impl CoreRecord {
     pub fn unknown(spec: &str, problem: String) -> Self {
         Self {
             spec: spec.to_owned(),
-            name: "(unknown)".to_owned(),
+            name: spec.to_owned(),
             version: String::new(),
             precision: Precision::Double,
             capabilities: Vec::new(),

@@ -39,7 +39,7 @@ impl Page for Ledger {
 /// Every core is judged for itself: a book a core.
 fn sums(view: &View<'_>) -> Markup {
     html! {
-        div.card {
+        div.card.wide {
             p {
                 "A check that draws random numbers can fail a correct core by chance. The chances "
                 "below add up to a bound for the whole run, whatever the trials have in common; "

@@ -144,7 +144,10 @@ fn grid(view: &View<'_>) -> Markup {
                                 (group.title)
                             }
                             @for core in cores {
-                                td data-label=(core.name) { (cells(&group, &core.spec)) }
+                                td data-label=(core.name) {
+                                    @if core.problem.is_some() { "–" }
+                                    @else { (cells(&group, &core.spec)) }
+                                }
                             }
                         }
                     }

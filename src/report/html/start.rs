@@ -9,6 +9,7 @@ use crate::diagnosis::Headline;
 use crate::report::digest::{Tally, failures, slowest_first, weakest_first};
 use crate::report::measure::worst_first;
 use crate::report::number::{duration, percent};
+use crate::report::tree::AbsentCore;
 use crate::run::{Status, TrialRecord};
 use maud::{Markup, html};
 
@@ -38,15 +39,42 @@ impl Page for Start {
     }
 
     fn body(&self, view: &View<'_>) -> Option<Markup> {
-        let tally = Tally::of(view.tree.graded());
-        let causes = causes(view);
-        match failures(view.tree).split_first() {
-            Some(_) if causes.is_some() => causes,
-            Some((first, others)) => Some(failed(first, others)),
-            None if tally.total() == 0 => causes,
-            None => Some(
-                html! { (not_failed(view, &tally)) @if let Some(causes) = causes { (causes) } },
-            ),
+        let absent: Vec<_> = view.tree.absent_cores().collect();
+        if absent.is_empty() {
+            return of_trials(view);
+        }
+        let present = View { tree: &view.tree.of_present_cores(), folder: view.folder };
+        Some(html! {
+            @for core in absent { (does_not_come_up(core)) }
+            @if failures(present.tree).is_empty() { @if let Some(causes) = causes(&present) { (causes) } }
+            @else if let Some(card) = of_trials(&present) { (card) }
+        })
+    }
+}
+
+/// What to look at first in the answers of cores.
+fn of_trials(view: &View<'_>) -> Option<Markup> {
+    let tally = Tally::of(view.tree.graded());
+    let causes = causes(view);
+    match failures(view.tree).split_first() {
+        Some(_) if causes.is_some() => causes,
+        Some((first, others)) => Some(failed(first, others)),
+        None if tally.total() == 0 => causes,
+        None => {
+            Some(html! { (not_failed(view, &tally)) @if let Some(causes) = causes { (causes) } })
+        }
+    }
+}
+
+/// One cause for every trial of a core: why, what it printed, and how to try that alone.
+fn does_not_come_up(core: AbsentCore<'_>) -> Markup {
+    html! {
+        div.card.first {
+            p.kicker { b { "Start here. " } (badge(core.witness.outcome.status())) }
+            h3.said { (core.spec) " does not come up: no trial could be made." }
+            p { (core.problem) }
+            @if !core.witness.printed.is_empty() { pre { (core.witness.printed) } }
+            (command(&core.command()))
         }
     }
 }

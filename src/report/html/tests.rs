@@ -77,6 +77,19 @@ fn the_earliest_failure_is_where_to_start() {
 }
 
 #[test]
+fn a_core_that_does_not_come_up_is_one_card() {
+    let mut example = Example::mixed();
+    example.run.cores[1].problem = Some("the core crashed during hello".to_owned());
+    let page = page(example);
+    let start = page.split("id=\"start\"").nth(1).unwrap().split("<section").next().unwrap();
+    assert!(start.contains("textbook does not come up: no trial could be made."), "{start}");
+    assert!(start.contains("the core crashed during hello"), "{start}");
+    assert!(start.contains("cargo furnace doctor --core textbook"), "{start}");
+    assert!(start.contains("on <b>builtin</b>"), "{start}");
+    assert!(!start.contains("@textbook"), "none of its trials says more: {start}");
+}
+
+#[test]
 fn a_green_run_shows_what_is_weakest_and_slowest() {
     let page = page(Example::green());
     assert!(page.contains("All good: every trial passes."));

@@ -7,7 +7,7 @@ use crate::checks::{Finding, Measure};
 use crate::diagnosis::Diagnosis;
 use crate::report::digest::{failures, in_order_of_parts, ungraded_failures};
 use crate::report::measure::{MeasureWords, worst_first};
-use crate::report::tree::RunTree;
+use crate::report::tree::{AbsentCore, RunTree};
 use crate::run::{Outcome, Status, TrialRecord};
 use crate::stats::Verdict;
 use std::collections::BTreeMap;
@@ -21,15 +21,10 @@ const LAST_WORDS: usize = 3;
 /// Where the text of a block begins.
 pub const INDENT: usize = 8;
 
-/// Every block.
+/// Every block about trials.
 pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
-    let absent = tree.run.cores.iter().filter_map(|core| Some((core, core.problem.as_deref()?)));
-    let mut lines: Vec<_> =
-        absent.flat_map(|(core, problem)| absent_block(tree, &core.spec, problem, style)).collect();
-    // One cause: no trial of theirs says anything more.
-    let tree = &of_present_cores(tree);
     let diagnoses = tree.diagnoses();
-    lines.extend(headlines::all(&diagnoses, style));
+    let mut lines = headlines::all(&diagnoses, style);
     let (explained, alone): (Vec<_>, Vec<_>) =
         failures(tree).into_iter().partition(|trial| is_explained(&diagnoses, trial));
     lines.extend(explained.iter().flat_map(|trial| brief_block(trial, style)));
@@ -46,29 +41,15 @@ pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
     lines
 }
 
-fn of_present_cores(tree: &RunTree) -> RunTree {
-    let present = tree.trials.iter().filter(|trial| !tree.run.is_absent(&trial.core));
-    RunTree {
-        run: tree.run.clone(),
-        trials: present.cloned().collect(),
-        folder: tree.folder.clone(),
-    }
-}
-
 /// A core that does not come up: why, and how to try that alone.
-fn absent_block(tree: &RunTree, core: &str, problem: &str, style: Style) -> Vec<String> {
-    let trials = || tree.trials.iter().filter(|trial| trial.core == core);
-    let Some(first) = trials().find(|trial| trial.outcome.status().is_failure()) else {
-        return Vec::new();
-    };
-    let status = first.outcome.status();
+pub fn absent(core: AbsentCore<'_>, style: Style) -> Vec<String> {
+    let status = core.witness.outcome.status();
     let word = style.paint(paint_of(status), &status.word().to_uppercase());
-    let head = format!("  {word}  {} does not come up: no trial could be made", clean(core));
+    let head = format!("  {word}  {} does not come up: no trial could be made", clean(core.spec));
     let mut lines = vec![String::new(), head];
-    lines.extend(indented(problem));
-    lines.extend(last_words(first));
-    let quoted = shell_words::quote(core);
-    lines.push(format!("{:INDENT$}try     cargo furnace doctor --core {}", "", clean(&quoted)));
+    lines.extend(indented(core.problem));
+    lines.extend(last_words(core.witness));
+    lines.push(format!("{:INDENT$}try     {}", "", clean(&core.command())));
     lines
 }
 

@@ -28,12 +28,14 @@ const LONGEST_BAR: usize = 30;
 /// knows whether a page was written.
 pub fn summary(tree: &RunTree, style: Style) -> String {
     let mut lines = vec![String::new(), header(tree, style)];
-    for core in &tree.run.cores {
+    let present = &tree.of_present_cores();
+    for core in &present.run.cores {
         lines.push(String::new());
-        lines.extend(core_lines(tree, core, style));
+        lines.extend(core_lines(present, core, style));
     }
-    lines.extend(legend(tree, style));
-    lines.extend(blocks::all(tree, style));
+    lines.extend(legend(present, style));
+    lines.extend(tree.absent_cores().flat_map(|core| blocks::absent(core, style)));
+    lines.extend(blocks::all(present, style));
     if style.verbose {
         lines.extend(resolutions(tree, style));
     }

@@ -111,6 +111,7 @@ fn a_core_that_does_not_come_up_is_one_block() {
     assert!(text.contains(expected), "{text}");
     assert!(text.contains("try     cargo furnace doctor --core textbook\n"), "{text}");
     assert!(!text.contains("a-flat-box-is-hit on textbook"), "{text}");
+    assert!(!text.contains("crashed  "), "no bars of trials that could not be made: {text}");
     assert!(text.contains("FAIL  images/cornell-spheres on builtin"), "{text}");
 }
 

@@ -115,6 +115,14 @@ pub static LAST_BATCH_NOT_COUNTED: Cause = Cause {
 };
 
 /// See its headline.
+pub static VARIANCE_BELOW_ZERO: Cause = Cause {
+    name: "variance-below-zero",
+    headline: "the variance of equal samples rounds to less than 0, and its root is no number",
+    look_at: "where σ² is made of the two sums",
+    remedy: "Keep the sums in double precision, and take max(σ², 0).",
+};
+
+/// See its headline.
 pub static ADAPTIVE_ALWAYS: Cause = Cause {
     name: "adaptive-always",
     headline: "pixels stop early though adaptive sampling is off",
@@ -138,5 +146,6 @@ pub static CAUSES: &[&Cause] = &[
     &REST_OF_BATCH_DROPPED,
     &COUNTS_ARE_CAP,
     &LAST_BATCH_NOT_COUNTED,
+    &VARIANCE_BELOW_ZERO,
     &ADAPTIVE_ALWAYS,
 ];

@@ -151,8 +151,8 @@ type Answered<'a> = (&'a StreamEntry, AdaptiveMean);
 fn judge(answered: &[Answered<'_>], tolerance: f64) -> Finding {
     let measures = answered.iter().flat_map(|answered| measures(answered, tolerance)).collect();
     let complaints: Vec<_> = answered.iter().filter_map(|a| complaint(a, tolerance)).collect();
-    let causes = match complaints.is_empty() {
-        true => Vec::new(),
+    let (causes, evidence) = match complaints.is_empty() {
+        true => (Vec::new(), String::new()),
         false => explanations(answered, tolerance),
     };
     let headlines: Vec<_> = causes.iter().map(|cause| cause.headline).collect();
@@ -161,7 +161,6 @@ fn judge(answered: &[Answered<'_>], tolerance: f64) -> Finding {
         (false, true) => complaints.join("; "),
         (false, false) => format!("{}: {}", complaints.join("; "), headlines.join(", or ")),
     };
-    let evidence = format!("predicts where {} streams stop, and their means", answered.len());
     Finding::of(statement, "would have caught a count that is off by one batch", measures)
         .because_each(causes, &evidence)
 }
@@ -176,8 +175,8 @@ fn measures((stream, answer): &Answered<'_>, tolerance: f64) -> [Measure; 2] {
     ]
 }
 
-/// The mistakes that predict the answers for every stream.
-fn explanations(answered: &[Answered<'_>], tolerance: f64) -> Vec<&'static Cause> {
+/// The mistakes that predict the answers for every stream, and what speaks for them.
+fn explanations(answered: &[Answered<'_>], tolerance: f64) -> (Vec<&'static Cause>, String) {
     let predicts = |answers: &dyn Fn(&StreamEntry) -> Answer| {
         answered.iter().all(|(stream, answer)| {
             let (used, mean) = answers(stream);
@@ -186,7 +185,24 @@ fn explanations(answered: &[Answered<'_>], tolerance: f64) -> Vec<&'static Cause
     };
     let in_rule = WRONG_RULES.iter().filter(|(_, rule)| predicts(&|stream| by(stream, *rule)));
     let elsewhere = MISTAKES.iter().filter(|mistake| predicts(&mistake.answers));
-    in_rule.map(|(cause, _)| *cause).chain(elsewhere.map(|mistake| mistake.cause)).collect()
+    let causes: Vec<_> =
+        in_rule.map(|(cause, _)| *cause).chain(elsewhere.map(|mistake| mistake.cause)).collect();
+    if causes.is_empty() && equal_samples_alone_are_late(answered, tolerance) {
+        let evidence = "every stream stops where it should but those of equal samples";
+        return (vec![&adaptive::VARIANCE_BELOW_ZERO], evidence.to_owned());
+    }
+    (causes, format!("predicts where {} streams stop, and their means", answered.len()))
+}
+
+/// Equal samples take more batches than one, and all else is right. How many depends on every rounding.
+fn equal_samples_alone_are_late(answered: &[Answered<'_>], tolerance: f64) -> bool {
+    answered.iter().filter(|answered| complaint(answered, tolerance).is_some()).all(
+        |(stream, answer)| {
+            stream.repeats.iter().all(|value| *value == stream.repeats[0])
+                && answer.used > stream.stops_at
+                && answer.used.is_multiple_of(stream.batch)
+        },
+    )
 }
 
 fn ask<'a>(context: &mut Context<'_>, stream: &'a StreamEntry) -> Result<Answered<'a>, CheckError> {
@@ -274,6 +290,21 @@ mod tests {
         for mistake in MISTAKES {
             assert_told(mistake.cause, found(mistake.answers));
         }
+    }
+
+    #[test]
+    fn equal_samples_that_stop_late_have_a_variance_below_zero() {
+        let told = |late: u32| {
+            let finding =
+                found(move |stream| match stream.repeats[..32].iter().all(|x| *x == 0.7) {
+                    true => stream.prefix(late),
+                    false => by(stream, stops),
+                });
+            failure(&finding);
+            finding.clues.first().map(|clue| clue.cause.clone())
+        };
+        assert_eq!(told(128).as_deref(), Some("variance-below-zero"));
+        assert_eq!(told(33), None);
     }
 
     #[test]

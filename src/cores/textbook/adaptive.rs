@@ -15,6 +15,8 @@ pub struct Tally {
     count: u32,
     sum: f64,
     sum_of_squares: f64,
+    /// Both, as a careless core keeps them.
+    in_single: [f32; 2],
 }
 
 impl Tally {
@@ -23,6 +25,8 @@ impl Tally {
         self.count += 1;
         self.sum += luminance;
         self.sum_of_squares += luminance * luminance;
+        self.in_single[0] += luminance as f32;
+        self.in_single[1] += (luminance * luminance) as f32;
     }
 
     /// Samples so far.
@@ -40,6 +44,10 @@ impl Tally {
         let n = f64::from(self.count);
         if change == Change::CountOneShort {
             return (self.sum_of_squares - self.sum * self.sum / (n - 1.0)) / (n - 2.0);
+        }
+        if change == Change::SumsInSingle {
+            let [sum, sum_of_squares] = self.in_single;
+            return f64::from(sum_of_squares - sum * sum / self.count as f32) / (n - 1.0);
         }
         let squared_deviations = (self.sum_of_squares - self.sum * self.sum / n).max(0.0);
         match change {

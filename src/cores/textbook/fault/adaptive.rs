@@ -18,6 +18,14 @@ pub const FAULTS: &[Fault] = &[
         cause: &adaptive::POPULATION_VARIANCE,
     },
     Fault {
+        change: Change::SumsInSingle,
+        name: "sums-in-single",
+        part: 5,
+        summary: "s1 and s2 are floats, and σ² may be below 0",
+        caught_by: STREAMS,
+        cause: &adaptive::VARIANCE_BELOW_ZERO,
+    },
+    Fault {
         change: Change::SigmaOverN,
         name: "sigma-over-n",
         part: 5,

@@ -11,6 +11,14 @@ pub static PLANES_NOT_SWAPPED: Cause = Cause {
 };
 
 /// See its headline.
+pub static PARALLEL_AXES_SKIPPED: Cause = Cause {
+    name: "parallel-axes-skipped",
+    headline: "an axis that the ray does not move along is skipped, wherever the ray is on it",
+    look_at: "the box test, where a component of the direction is 0",
+    remedy: "A ray that runs beside the two planes of an axis misses the box.",
+};
+
+/// See its headline.
 pub static BOX_SEGMENT_IGNORED: Cause = Cause {
     name: "box-segment-ignored",
     headline: "the box test does not look at t_min and t_max",
@@ -85,6 +93,7 @@ pub static BOX_WITHOUT_X: Cause = Cause {
 /// Every cause of this part.
 pub static CAUSES: &[&Cause] = &[
     &PLANES_NOT_SWAPPED,
+    &PARALLEL_AXES_SKIPPED,
     &BOX_SEGMENT_IGNORED,
     &BOX_START_IGNORED,
     &BOX_END_IGNORED,

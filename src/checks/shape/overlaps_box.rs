@@ -5,8 +5,7 @@
 //! correct programs differ there: such rows are marked `robustness`, shown, and not graded. A false
 //! hit only costs time; a false miss loses what is in the box.
 
-use super::slabs::mistake_that_predicts;
-use crate::cause::Cause;
+use super::slabs::{Wrong, because, words, wrong_as};
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BoxHit, Capabilities, Ray};
@@ -121,16 +120,17 @@ impl OverlapsBox {
             measures.extend(of_row);
         }
         let graded = self.ray.iter().filter(|row| !row.robustness).count();
-        let cause = if complaints.is_empty() { None } else { self.cause(answers) };
+        let wrong = if complaints.is_empty() { None } else { self.wrong_as(answers) };
         let statement = if complaints.is_empty() {
             self.passing_statement(graded, answers)
         } else {
-            let wrong = some_are(complaints.len(), graded, "rays");
-            let why = cause.map_or_else(String::new, |cause| format!(": {}", cause.headline));
-            format!("{wrong} wrong{why}; {}", complaints.join("; "))
+            let some = some_are(complaints.len(), graded, "rays");
+            let why =
+                wrong.as_ref().map_or_else(String::new, |wrong| format!(": {}", words(wrong)));
+            format!("{some} wrong{why}; {}", complaints.join("; "))
         };
-        Finding::of(statement, "would have caught one wrong ray", measures)
-            .because_each(cause, &format!("predicts which of {graded} rays hit"))
+        let finding = Finding::of(statement, "would have caught one wrong ray", measures);
+        because(finding, wrong.as_ref(), &format!("which of {graded} rays hit"))
     }
 
     fn row_measures(
@@ -169,13 +169,13 @@ impl OverlapsBox {
     }
 
     /// The wrong implementation that gives every graded answer of the core.
-    fn cause(&self, answers: &[BoxHit]) -> Option<&'static Cause> {
+    fn wrong_as(&self, answers: &[BoxHit]) -> Option<Wrong> {
         let graded = || self.ray.iter().zip(answers).filter(|(row, _)| !row.robustness);
         if graded().all(|(row, answer)| row.hits == (answer.hit == 1)) {
             return None;
         }
         let answered = graded().map(|(row, answer)| (self.bounds(row), row.ray(), answer.hit == 1));
-        mistake_that_predicts(&answered.collect::<Vec<_>>())
+        wrong_as(&answered.collect::<Vec<_>>())
     }
 }
 
@@ -235,8 +235,9 @@ impl Overlap {
 
 #[cfg(test)]
 mod tests {
-    use super::super::slabs::{Boxes, MISTAKES, Slabs};
+    use super::super::slabs::{Boxes, Slabs, pairs_of_mistakes, single_mistakes};
     use super::*;
+    use crate::cause::slab;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     const CASES: [&str; 3] = [
@@ -245,25 +246,49 @@ mod tests {
         include_str!("../../../cases/bvh/rays-along-a-face-are-in-the-box.toml"),
     ];
 
-    fn found(case: usize, hits: fn(&Slabs, &Ray) -> bool) -> Finding {
+    fn found(case: usize, hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static) -> Finding {
         judge(&check_of::<OverlapsBox>(CASES[case]), &mut Boxes(hits))
     }
 
     #[test]
     fn the_right_test_passes_every_case() {
-        (0..CASES.len()).for_each(|case| assert_passes(&found(case, Slabs::hits)));
+        for case in 0..CASES.len() {
+            assert_passes(&found(case, |slabs, ray| slabs.hits(ray)));
+        }
     }
 
     #[test]
     fn every_mistake_is_caught_and_named_by_one_of_the_cases() {
-        for mistake in MISTAKES {
+        for number in 0..single_mistakes().count() {
+            let mistake = || single_mistakes().nth(number).unwrap();
             let named = (0..CASES.len()).any(|case| {
-                let finding = found(case, mistake.hits);
+                let wrong = mistake();
+                let finding = found(case, move |slabs, ray| wrong.hits(slabs, ray));
                 finding.verdict == Verdict::Fail
-                    && finding.clues.iter().any(|clue| clue.cause == mistake.cause.name)
+                    && finding.clues.iter().any(|clue| clue.cause == mistake().cause.name)
             });
-            assert!(named, "{}", mistake.cause.name);
+            assert!(named, "{}", mistake().cause.name);
         }
+    }
+
+    #[test]
+    fn two_mistakes_are_told_together() {
+        let wrong = pairs_of_mistakes().find(|wrong| {
+            wrong.cause == &slab::BOX_SEGMENT_IGNORED
+                && wrong.besides == Some(&slab::PARALLEL_AXES_SKIPPED)
+        });
+        let finding = found(0, {
+            let wrong = wrong.unwrap();
+            move |slabs, ray| wrong.hits(slabs, ray)
+        });
+        let statement = failure(&finding);
+        assert!(
+            statement.starts_with(
+                "7 of 18 rays are wrong: the box test does not look at t_min and t_max, and an axis"
+            ),
+            "{statement}"
+        );
+        assert_eq!(finding.clues[0].cause, "box-segment-ignored");
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! overlap is graded only where it is thousands of times as long. Not here: flat boxes and rays
 //! along a face, which need exact arithmetic ([`super::OverlapsBox`]).
 
-use super::slabs::mistake_that_predicts;
+use super::slabs::{because, wrong_as};
 use crate::checks::phrase::{figure, percent, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BoxHit, Capabilities, Ray};
@@ -205,22 +205,23 @@ impl Tally {
             figure((self.met as f64 / 6.9).floor()),
             figure(margin)
         );
-        let cause = mistake_that_predicts(&self.answers).filter(|_| self.missed > 0);
-        let evidence = format!("predicts which of {} segments hit", self.answers.len());
-        Finding::of(statement, resolution, measures).because_each(cause, &evidence)
+        let wrong = if self.missed > 0 { wrong_as(&self.answers) } else { None };
+        let finding = Finding::of(statement, resolution, measures);
+        because(finding, wrong.as_ref(), &format!("which of {} segments hit", self.answers.len()))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::overlaps_box::Overlap;
-    use super::super::slabs::{Boxes, MISTAKES, Slabs};
+    use super::super::slabs::{Boxes, Slabs, single_mistakes};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::stats::Verdict;
 
-    fn found(hits: fn(&Slabs, &Ray) -> bool) -> Finding {
-        judge(&check_of::<BoxesAreNeverMissed>("[expect]\nrays = \"50 k\""), &mut Boxes(hits))
+    fn found(hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static) -> Finding {
+        let check = check_of::<BoxesAreNeverMissed>("[expect]\nrays = \"50 k\"");
+        judge(&check, &mut Boxes(hits))
     }
 
     #[test]
@@ -242,7 +243,7 @@ mod tests {
 
     #[test]
     fn the_right_test_passes() {
-        let finding = found(Slabs::hits);
+        let finding = found(|slabs, ray| slabs.hits(ray));
         assert_passes(&finding);
         assert!(finding.statement.ends_with("none is hit for nothing"), "{}", finding.statement);
     }
@@ -250,11 +251,12 @@ mod tests {
     #[test]
     fn every_mistake_that_loses_boxes_fails_under_its_name() {
         let mut failed = 0;
-        for mistake in MISTAKES {
-            let finding = found(mistake.hits);
+        for mistake in single_mistakes() {
+            let name = mistake.cause.name;
+            let finding = found(move |slabs, ray| mistake.hits(slabs, ray));
             if finding.verdict == Verdict::Fail {
                 failed += 1;
-                assert_eq!(finding.clues[0].cause, mistake.cause.name);
+                assert_eq!(finding.clues[0].cause, name);
             }
         }
         assert_eq!(failed, 3, "not swapped, from inside, ends inside");

@@ -1,6 +1,7 @@
 //! The slab test of the textbook, and the ways in which people write it wrongly.
 
 use crate::cause::{Cause, slab};
+use crate::checks::Finding;
 use crate::contract::Ray;
 #[cfg(test)]
 use crate::contract::{BoxHit, Core, CoreInfo, Precision, Result};
@@ -34,76 +35,172 @@ impl Slabs {
 
     /// The right test, where no 0/0 occurs.
     pub fn hits(&self, ray: &Ray) -> bool {
-        self.enters() <= self.exits() && self.exits() >= ray.t_min && self.enters() <= ray.t_max
+        self.overlap() && self.exits() >= ray.t_min && self.enters() <= ray.t_max
+    }
+
+    /// Whether the line crosses the box.
+    fn overlap(&self) -> bool {
+        self.enters() <= self.exits()
+    }
+
+    /// Entry by the lower planes, exit by the upper ones, whichever the line crosses first.
+    fn not_swapped(mut self) -> Self {
+        let (enters, exits) = (self.lower.max_element(), self.upper.min_element());
+        if enters > exits {
+            return Self::missed();
+        }
+        (self.lower, self.upper) = (DVec3::splat(enters), DVec3::splat(exits));
+        self
+    }
+
+    /// What no line crosses.
+    fn missed() -> Self {
+        Self { lower: DVec3::new(1.0, 3.0, 1.0), upper: DVec3::new(2.0, 4.0, 2.0) }
+    }
+
+    /// The box has no end along `axis`.
+    fn without_axis(mut self, axis: usize) -> Self {
+        (self.lower[axis], self.upper[axis]) = (f64::NEG_INFINITY, f64::INFINITY);
+        self
+    }
+
+    /// An axis that the line does not move along has no say.
+    fn without_parallel_axes(self) -> Self {
+        let crossings = self.lower;
+        (0..3).filter(|axis| !crossings[*axis].is_finite()).fold(self, Self::without_axis)
     }
 }
 
-/// An implementation that people write instead.
-pub struct Mistake {
-    /// In the glossary.
-    pub cause: &'static Cause,
-    /// Whether it hits.
-    pub hits: fn(&Slabs, &Ray) -> bool,
+/// A wrong way to put the crossings of the planes together.
+struct Crossing {
+    cause: &'static Cause,
+    slabs: fn(Slabs) -> Slabs,
 }
 
-/// The rows and the random rays tell each from the rest.
-pub const MISTAKES: &[Mistake] = &[
-    Mistake {
-        cause: &slab::PLANES_NOT_SWAPPED,
-        hits: |slabs, ray| {
-            let (enters, exits) = (slabs.lower.max_element(), slabs.upper.min_element());
-            enters <= exits && exits >= ray.t_min && enters <= ray.t_max
-        },
-    },
-    Mistake { cause: &slab::BOX_SEGMENT_IGNORED, hits: |slabs, _| slabs.enters() <= slabs.exits() },
-    Mistake {
+/// A wrong conclusion from them.
+struct Conclusion {
+    cause: &'static Cause,
+    hits: fn(&Slabs, &Ray) -> bool,
+}
+
+const CROSSINGS: &[Crossing] = &[
+    Crossing { cause: &slab::PLANES_NOT_SWAPPED, slabs: Slabs::not_swapped },
+    Crossing { cause: &slab::PARALLEL_AXES_SKIPPED, slabs: Slabs::without_parallel_axes },
+    Crossing { cause: &slab::BOX_WITHOUT_Z, slabs: |slabs| slabs.without_axis(2) },
+    Crossing { cause: &slab::BOX_WITHOUT_Y, slabs: |slabs| slabs.without_axis(1) },
+    Crossing { cause: &slab::BOX_WITHOUT_X, slabs: |slabs| slabs.without_axis(0) },
+];
+
+const CONCLUSIONS: &[Conclusion] = &[
+    Conclusion { cause: &slab::BOX_SEGMENT_IGNORED, hits: |slabs, _| slabs.overlap() },
+    Conclusion {
         cause: &slab::BOX_START_IGNORED,
-        hits: |slabs, ray| slabs.enters() <= slabs.exits() && slabs.enters() <= ray.t_max,
+        hits: |slabs, ray| slabs.overlap() && slabs.enters() <= ray.t_max,
     },
-    Mistake {
+    Conclusion {
         cause: &slab::BOX_END_IGNORED,
-        hits: |slabs, ray| slabs.enters() <= slabs.exits() && slabs.exits() >= ray.t_min,
+        hits: |slabs, ray| slabs.overlap() && slabs.exits() >= ray.t_min,
     },
-    Mistake {
+    Conclusion {
         cause: &slab::BOX_MISSED_FROM_INSIDE,
         hits: |slabs, ray| slabs.hits(ray) && slabs.enters() >= ray.t_min,
     },
-    Mistake {
+    Conclusion {
         cause: &slab::BOX_MISSED_BY_END_INSIDE,
         hits: |slabs, ray| slabs.hits(ray) && slabs.exits() <= ray.t_max,
     },
-    Mistake {
+    Conclusion {
         cause: &slab::FLAT_BOX_MISSED,
         hits: |slabs, ray| slabs.hits(ray) && slabs.enters() < slabs.exits(),
     },
-    Mistake { cause: &slab::BOX_WITHOUT_Z, hits: |slabs, ray| without_axis(slabs, 2).hits(ray) },
-    Mistake { cause: &slab::BOX_WITHOUT_Y, hits: |slabs, ray| without_axis(slabs, 1).hits(ray) },
-    Mistake { cause: &slab::BOX_WITHOUT_X, hits: |slabs, ray| without_axis(slabs, 0).hits(ray) },
 ];
 
-/// An axis in which the box has no end.
-fn without_axis(slabs: &Slabs, axis: usize) -> Slabs {
-    let (mut lower, mut upper) = (slabs.lower, slabs.upper);
-    (lower[axis], upper[axis]) = (f64::NEG_INFINITY, f64::INFINITY);
-    Slabs { lower, upper }
+/// An implementation that people write instead: one mistake, or one of each kind.
+pub struct Wrong {
+    slabs: fn(Slabs) -> Slabs,
+    hits: fn(&Slabs, &Ray) -> bool,
+    /// What is wrong with it, in the glossary.
+    pub cause: &'static Cause,
+    /// What is wrong besides.
+    pub besides: Option<&'static Cause>,
 }
 
-/// The mistake that hits the boxes which a core hits, and no others.
-pub fn mistake_that_predicts(answers: &[(Aabb, Ray, bool)]) -> Option<&'static Cause> {
-    let predicts = |mistake: &&Mistake| {
-        answers
-            .iter()
-            .all(|(bounds, ray, hit)| (mistake.hits)(&Slabs::new(bounds, ray), ray) == *hit)
+impl Wrong {
+    /// Whether it hits.
+    pub fn hits(&self, slabs: Slabs, ray: &Ray) -> bool {
+        (self.hits)(&(self.slabs)(slabs), ray)
+    }
+}
+
+/// Every single mistake.
+pub fn single_mistakes() -> impl Iterator<Item = Wrong> {
+    let crossings = CROSSINGS.iter().map(|crossing| Wrong {
+        slabs: crossing.slabs,
+        hits: Slabs::hits,
+        cause: crossing.cause,
+        besides: None,
+    });
+    let conclusions = CONCLUSIONS.iter().map(|conclusion| Wrong {
+        slabs: |slabs| slabs,
+        hits: conclusion.hits,
+        cause: conclusion.cause,
+        besides: None,
+    });
+    crossings.chain(conclusions)
+}
+
+/// Every mistake of one kind with every one of the other.
+pub fn pairs_of_mistakes() -> impl Iterator<Item = Wrong> {
+    let with = |conclusion: &'static Conclusion| {
+        CROSSINGS.iter().map(|crossing| Wrong {
+            slabs: crossing.slabs,
+            hits: conclusion.hits,
+            cause: conclusion.cause,
+            besides: Some(crossing.cause),
+        })
     };
-    MISTAKES.iter().find(predicts).map(|mistake| mistake.cause)
+    CONCLUSIONS.iter().flat_map(with)
+}
+
+/// The one implementation that hits the boxes which a core hits, and no others; of one mistake if there is such. None
+/// where several do: too little was asked to tell them apart.
+pub fn wrong_as(answers: &[(Aabb, Ray, bool)]) -> Option<Wrong> {
+    let predicts = |wrong: &Wrong| {
+        answers.iter().all(|(bounds, ray, hit)| wrong.hits(Slabs::new(bounds, ray), ray) == *hit)
+    };
+    let single: Vec<_> = single_mistakes().filter(predicts).collect();
+    let possible =
+        if single.is_empty() { pairs_of_mistakes().filter(predicts).collect() } else { single };
+    <[Wrong; 1]>::try_from(possible).ok().map(|[wrong]| wrong)
+}
+
+/// `finding`, with the mistake that predicts so many answers.
+pub fn because(finding: Finding, wrong: Option<&Wrong>, predicted: &str) -> Finding {
+    match wrong {
+        None => finding,
+        Some(Wrong { cause, besides: None, .. }) => {
+            finding.because(cause, format!("predicts {predicted}"))
+        }
+        Some(Wrong { cause, besides: Some(other), .. }) => {
+            finding.because(cause, format!("predicts {predicted}, if also {}", other.headline))
+        }
+    }
+}
+
+/// The mistakes in words.
+pub fn words(wrong: &Wrong) -> String {
+    match wrong.besides {
+        None => wrong.cause.headline.to_owned(),
+        Some(other) => format!("{}, and {}", wrong.cause.headline, other.headline),
+    }
 }
 
 /// A core that hits boxes by a rule of its own, for tests.
 #[cfg(test)]
-pub struct Boxes(pub fn(&Slabs, &Ray) -> bool);
+pub struct Boxes<Hits>(pub Hits);
 
 #[cfg(test)]
-impl Core for Boxes {
+impl<Hits: Fn(Slabs, &Ray) -> bool + Send> Core for Boxes<Hits> {
     fn info(&self) -> CoreInfo {
         crate::checks::testing::info(Precision::Double)
     }
@@ -112,7 +209,7 @@ impl Core for Boxes {
         for (ray, hit) in rays.iter().zip(hits) {
             let slabs = Slabs::new(bounds, ray);
             let (t_enter, t_exit) = (slabs.enters(), slabs.exits());
-            *hit = BoxHit { t_enter, t_exit, hit: (self.0)(&slabs, ray).into(), reserved: 0 };
+            *hit = BoxHit { t_enter, t_exit, hit: (self.0)(slabs, ray).into(), reserved: 0 };
         }
         Ok(())
     }

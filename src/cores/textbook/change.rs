@@ -62,6 +62,7 @@ pub enum Change {
     BoxMissedFromInside,
     BoxMissedByEndInside,
     FlatBoxMissed,
+    ParallelAxesSkipped,
     BoxWithoutZ,
     // Part 2, build.
     NodeBoxOfCentroids,
@@ -170,6 +171,7 @@ pub enum Change {
 
     // Part 5, the rule.
     PopulationVariance,
+    SumsInSingle,
     SigmaOverN,
     Without196,
     VarianceForSigma,

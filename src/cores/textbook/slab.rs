@@ -32,7 +32,7 @@ fn intersect_slab(bounds: &Aabb, ray: &Ray, axis: usize, change: Change) -> Opti
     let (low, high) = (bounds.min[axis], bounds.max[axis]);
     let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
     if direction == 0.0 {
-        let inside = low <= origin && origin <= high;
+        let inside = low <= origin && origin <= high || change == Change::ParallelAxesSkipped;
         return inside.then_some((f64::NEG_INFINITY, f64::INFINITY));
     }
     let (at_low, at_high) = ((low - origin) / direction, (high - origin) / direction);

@@ -56,6 +56,14 @@ pub const FAULTS: &[Fault] = &[
         cause: &slab::FLAT_BOX_MISSED,
     },
     Fault {
+        change: Change::ParallelAxesSkipped,
+        name: "parallel-axes-skipped",
+        part: 2,
+        summary: "an axis on which the direction is 0 is not looked at",
+        caught_by: BOX,
+        cause: &slab::PARALLEL_AXES_SKIPPED,
+    },
+    Fault {
         change: Change::BoxWithoutZ,
         name: "box-without-z",
         part: 2,

@@ -20,10 +20,14 @@ pub enum Foundation {
     Camera,
     /// A ray meets a triangle where it should.
     Triangles,
+    /// Normals are interpolated between the vertices of a smooth mesh.
+    ShadingNormals,
     /// A ray meets a sphere where it should.
     Spheres,
-    /// A ray meets a box or does not.
+    /// No box is missed: what is in it would be lost.
     Boxes,
+    /// No box is hit for nothing: that loses time alone.
+    TightBoxes,
     /// The hierarchy finds the hits that a loop over all primitives finds.
     Hits,
     /// Uniform directions of the hemisphere, and their density.
@@ -65,8 +69,10 @@ impl Foundation {
             Self::Seeds => "random numbers",
             Self::Camera => "camera rays",
             Self::Triangles => "triangles",
+            Self::ShadingNormals => "shading normals",
             Self::Spheres => "spheres",
             Self::Boxes => "boxes",
+            Self::TightBoxes => "boxes that a ray passes by",
             Self::Hits => "hits in the hierarchy",
             Self::UniformDirections => "uniform directions",
             Self::CosineDirections => "cosine-distributed directions",
@@ -111,10 +117,17 @@ pub fn foundations(case: &Case, scene: Option<&SceneDescription>) -> BTreeSet<Fo
 fn seen_in(scene: &SceneDescription) -> BTreeSet<Foundation> {
     let mut found = BTreeSet::new();
     for number in 0..scene.shape_count() as u32 {
-        found.insert(match scene.shape(number) {
-            Shape::Mesh(_) => Foundation::Triangles,
-            Shape::Sphere(_) => Foundation::Spheres,
-        });
+        match scene.shape(number) {
+            Shape::Mesh(mesh) => {
+                found.insert(Foundation::Triangles);
+                if !mesh.normals.is_empty() {
+                    found.insert(Foundation::ShadingNormals);
+                }
+            }
+            Shape::Sphere(_) => {
+                found.insert(Foundation::Spheres);
+            }
+        }
         found.insert(match scene.material_of(number).surface {
             Surface::Diffuse { .. } => Foundation::Diffuse,
             Surface::Mirror { .. } => Foundation::Mirror,
@@ -206,6 +219,14 @@ mod tests {
         let found = of("lights/a-slanted-light-over-a-slanted-floor");
         assert!(found.contains(&Foundation::Diffuse) && found.contains(&Foundation::Triangles));
         assert!(found.iter().all(|foundation| *foundation < Foundation::DirectLight));
+    }
+
+    #[test]
+    fn only_smooth_meshes_rest_on_shading_normals() {
+        assert!(of("images/teapot-matches-mitsuba").contains(&Foundation::ShadingNormals));
+        let flat = of("images/cornell-diffuse-spheres-matches-mitsuba");
+        assert!(flat.contains(&Foundation::Triangles));
+        assert!(!flat.contains(&Foundation::ShadingNormals));
     }
 
     #[test]

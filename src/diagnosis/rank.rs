@@ -165,8 +165,7 @@ fn headline(
     let (may_follow, others) =
         std::mem::take(orphans).into_iter().partition(|case| Part::position(case) >= earliest);
     *orphans = others;
-    let told: Vec<String> = explains.iter().chain(&may_follow).cloned().collect();
-    let blocked = evidence.blocked_by(&told);
+    let blocked = evidence.blocked_by(&explains);
     let command = quickest(evidence, &explains);
     let Candidate { cause, evidence: mut sentences, mut ruled_out, .. } = candidate;
     sentences.dedup();

@@ -77,7 +77,7 @@ pub struct Differences {
     pub farther: usize,
     /// The hierarchy hits where brute force misses, or before what is nearest.
     pub invented: usize,
-    /// Outside the segment that was asked for.
+    /// Outside the segment that was asked for. Its very ends are a core's own affair: brute force says what they are.
     pub outside: usize,
     /// At the right t, but another primitive, which is not there.
     pub misnamed: usize,
@@ -118,7 +118,7 @@ impl Differences {
     fn take_hit(&mut self, ray: &Ray, found: &Hit, right: &Hit, is_tie: bool) {
         if !found.is_hit() {
             self.lost += usize::from(right.is_hit());
-        } else if !(ray.t_min < found.t && found.t < ray.t_max) {
+        } else if !(ray.t_min <= found.t && found.t <= ray.t_max) {
             self.outside += 1;
         } else if right.is_hit() && found.t > right.t {
             self.farther += 1;
@@ -179,6 +179,8 @@ mod tests {
         assert_eq!(differs(hit(1.0, 2), hit(2.0, 1)).invented, 1);
         assert_eq!(differs(hit(1.0, 2), Hit::MISS).invented, 1);
         assert_eq!(differs(hit(11.0, 2), Hit::MISS).outside, 1);
+        assert_eq!(differs(hit(10.0, 1), hit(10.0, 1)).total(), 0);
+        assert_eq!(differs(hit(f64::NAN, 1), hit(1.0, 1)).outside, 1);
         assert_eq!(differs(hit(2.0, 2), hit(2.0, 1)).misnamed, 1);
     }
 

@@ -317,7 +317,7 @@ struct Nothing : Stage {
    bool intersect(const Ray &, Intersection *) const override { return false; }
 };
 
-// An even sky: a glowing sphere far away that casts no shadow.
+// An even sky: a glowing sphere far away, which `SkyLamp` ends before.
 struct Sky : Stage {
    static constexpr double radius = 1e4;
    mutable Surface         surface;
@@ -373,7 +373,8 @@ struct SkyLamp : SceneLight {
    bool     is_delta_light() const override { return false; }
    Vector3D sample_L(const Vector3D, Vector3D *wi, double *distance, double *pdf) const override {
       *wi = CGL::UniformSphereSampler3D().get_sample();
-      *distance = INF_D;
+      // Short of the glowing sphere: shadow rays that ask for the nearest hit meet it otherwise.
+      *distance = 0.5 * Sky::radius;
       *pdf = 1 / (4 * pi);
       return radiance;
    }

@@ -554,11 +554,13 @@ struct Built {
    PathTracer                               tracer;
    Counts                                   counts;
    bool                                     accelerated;
+   // What keeps light from being asked for, if anything does; shapes can be met all the same.
+   std::string unlit;
 
    Built(const furnace_scene &given, const furnace_build &settings)
        : accelerated(settings.accelerate) {
       for (uint32_t i = 0; i < given.material_count; ++i)
-         materials.emplace_back(new Material(given.materials[i]));
+         materials.emplace_back(material_or_black(given.materials[i]));
       for (uint32_t i = 0; i < given.mesh_count; ++i) add_mesh(given.meshes[i], i);
       for (uint32_t i = 0; i < given.sphere_count; ++i)
          add(new SphereFacet(facet(given.mesh_count + i, 0, given.spheres[i].material),
@@ -684,9 +686,21 @@ struct Built {
          add(static_cast<Primitive *>(new Sky(radiance)));
          break;
       case FURNACE_AREA: lamps.emplace_back(area_lamp(given, light.shape)); break;
-      default: throw furnace::Unsupported("skies that are brighter above");
+      default: unlit = "skies that are brighter above"; return;
       }
       lights.push_back(lamps.back().get());
+   }
+
+   Material *material_or_black(const furnace_material &material) {
+      try {
+         return new Material(material);
+      } catch (const furnace::Unsupported &missing) {
+         unlit = missing.what();
+         furnace_material black = material;
+         black.kind = FURNACE_DIFFUSE;
+         black.reflectance = furnace_rgb{};
+         return new Material(black);
+      }
    }
 
    SceneLight *area_lamp(const furnace_scene &given, uint32_t shape) {
@@ -718,6 +732,7 @@ struct Built {
    }
 
    void configure(const furnace_integrator &settings) {
+      if (!unlit.empty()) throw furnace::Unsupported(unlit);
       const auto is_delta = [](const SceneLight *light) { return light->is_delta_light(); };
       if (settings.by_hemisphere && std::any_of(lights.begin(), lights.end(), is_delta))
          throw furnace::Unsupported("point lights where light is gathered by the hemisphere");

@@ -6,6 +6,7 @@ use crate::cores::textbook::change::Change;
 
 const INTERPOLATION: &str = "intersection/normals-are-interpolated-between-vertices";
 const TRIANGLE: &str = "intersection/rays-meet-a-triangle-where-they-should";
+const IN_PLANE: &str = "intersection/a-ray-in-the-plane-of-a-triangle-misses-it";
 const RANDOM: &str = "intersection/random-triangles-agree-with-exact-arithmetic";
 const SEGMENT: &str = "intersection/only-the-segment-of-a-ray-counts";
 const SPHERE: &str = "intersection/rays-meet-a-sphere-at-the-nearer-root-ahead";
@@ -81,7 +82,7 @@ pub const FAULTS: &[Fault] = &[
         name: "nan-hit-accepted",
         part: 1,
         summary: "no test for parallel rays, and comparisons that reject: NaN is a hit",
-        caught_by: TRIANGLE,
+        caught_by: IN_PLANE,
         cause: &shape::NAN_HIT_ACCEPTED,
     },
     Fault {

@@ -95,7 +95,8 @@ pub static LAMP_SHADOWS_ITSELF: Cause = Cause {
     name: "lamp-shadows-itself",
     headline: "the lamp shadows itself",
     look_at: "direct lighting, where the shadow ray ends",
-    remedy: "End the shadow ray a little short of the sampled point: t_max = distance − ε.",
+    remedy: "End the shadow ray a little short of the sampled point: t_max = distance − ε, and twice that if it also \
+             starts ε ahead.",
 };
 
 /// See its headline.

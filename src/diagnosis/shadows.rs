@@ -1,8 +1,11 @@
 //! What blocks light and what does not, where light that is not blocked is right.
 
-use super::readings::{CHANNELS, channels};
+use super::evidence::measure;
+use super::readings::{CHANNELS, channels, written};
 use super::{Evidence, Suspicion};
 use crate::cause::light;
+use crate::checks::{Finding, Measure};
+use crate::stats::Verdict;
 
 /// Direct light that nothing blocks.
 const OPEN: &str = "lights/a-rectangle-overhead-matches-its-form-factor";
@@ -15,9 +18,74 @@ const FOUND: [&str; 2] = [
     "lights/a-slanted-light-is-found-by-the-hemisphere",
 ];
 
-/// Shadows that are missing, and rays that are too short.
+/// The variance of one light sample under [`OPEN`].
+const NOISE: &str = "lights/sampling-a-lamp-is-hardly-noisy";
+/// Light that no shadow ray of a lamp takes part in.
+const WITHOUT_LAMPS: [&str; 2] = [
+    "lights/a-rectangle-overhead-is-found-by-the-hemisphere",
+    "lights/a-point-light-weakens-with-the-square-of-distance",
+];
+/// Relative error forgiven of a variance beyond its interval: the lamp's own share of it is known to the map alone.
+const VARIANCE_SLACK: f64 = 0.02;
+
+/// Shadows that are missing, rays that are too short, and shadows of the lamps themselves.
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
-    no_shadows(evidence).into_iter().chain(range_kept(evidence)).collect()
+    let rules = [no_shadows, range_kept, shadowed_at_times];
+    rules.into_iter().filter_map(|rule| rule(evidence)).collect()
+}
+
+/// Light samples arrive whole or not at all, whichever they are: rounding decides whether their shadow rays meet the
+/// lamp. Where a share p of them arrives, the mean is p L and the variance of one sample p σ² + p (1 − p) L².
+fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
+    let (open, noise) = (evidence.failed_finding(OPEN)?, evidence.failed_finding(NOISE)?);
+    if !WITHOUT_LAMPS.iter().all(|case| evidence.has_passed(case)) {
+        return None;
+    }
+    let channels = CHANNELS.map(|channel| {
+        let mean = measure(open, &format!("bounce 1, {channel}"))?;
+        let variance = measure(noise, &format!("one point, {channel}"))?;
+        some_arrive(mean, variance).then_some((mean, variance))
+    });
+    let [(mean, variance), ..] = channels.into_iter().collect::<Option<Vec<_>>>()?[..] else {
+        return None;
+    };
+    let is_dark = |finding: &Finding| {
+        let mut wrong = finding.measures.iter().filter(|m| m.verdict == Verdict::Fail).peekable();
+        wrong.peek().is_some() && wrong.all(|m| m.measured < m.expected)
+    };
+    let dark = evidence.failures().filter(|seen| seen.finding.is_some_and(is_dark));
+    let dark = dark.map(|seen| seen.case).filter(|case| case.starts_with("lights/"));
+    Some(Suspicion {
+        cause: &light::LAMP_SHADOWS_ITSELF,
+        cases: dark.chain([NOISE]).map(str::to_owned).collect(),
+        evidence: vec![format!(
+            "{} of the light of a lamp arrives, and the variance of a sample is {:.2e}, as where so many of them arrive \
+             whole and the others not at all",
+            written(mean.measured / mean.expected),
+            variance.measured
+        )],
+        ruled_out: vec![
+            "a wrong density or cosine (samples would be too dark, not missing)".to_owned(),
+            "the lamp's own light (the hemisphere finds all of it)".to_owned(),
+        ],
+        weight: 1.0,
+    })
+}
+
+/// Whether a mean and the variance of one sample are those of samples of which some are lost.
+fn some_arrive(mean: &Measure, variance: &Measure) -> bool {
+    let (Some(means), Some([least, most])) = (mean.interval, variance.interval) else {
+        return false;
+    };
+    let predicted = |mean_found: f64| {
+        let share = mean_found / mean.expected;
+        share * variance.expected + share * (1.0 - share) * mean.expected.powi(2)
+    };
+    let [a, b] = means.map(predicted);
+    let is_between = means.iter().all(|found| 0.0 < *found && *found < mean.expected);
+    is_between
+        && a.min(b) <= most * (1.0 + VARIANCE_SLACK)
+        && a.max(b) >= least * (1.0 - VARIANCE_SLACK)
 }
 
 /// Open light is right, and nothing hides a light.
@@ -63,7 +131,6 @@ fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::{Finding, Measure};
     use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, mean, means, passing};
 
@@ -78,6 +145,24 @@ mod tests {
         let made = || Made::new().with(WALL, lit()).with(BLOCKER, bright());
         assert_eq!(first(&made().with(OPEN, passing())), Some(light::NO_SHADOWS.name));
         assert_eq!(first(&made()), None);
+    }
+
+    #[test]
+    fn lamps_that_lose_whole_samples_shadow_themselves() {
+        // What a submission of 2025 comes to: 0.388 of the light, and 27 times the variance.
+        let [lit, noise] = [[0.218083, 0.187433, 0.167393], [4.187e-4, 3.093e-4, 2.467e-4]];
+        let finding = |row: &str, expected: [f64; 3], ratio: f64| {
+            let pairs = CHANNELS.into_iter().zip(expected);
+            means(pairs.map(|(c, e)| mean(&format!("{row}, {c}"), e, ratio, 0.01)).collect())
+        };
+        let made = |variance: f64| {
+            let made = Made::new()
+                .with(OPEN, finding("bounce 1", lit, 0.3878))
+                .with(NOISE, finding("one point", noise, variance));
+            WITHOUT_LAMPS.into_iter().fold(made, |made, case| made.with(case, passing()))
+        };
+        assert_eq!(first(&made(27.25)), Some(light::LAMP_SHADOWS_ITSELF.name));
+        assert_eq!(first(&made(0.3878 * 0.3878)), None, "all samples too dark alike");
     }
 
     #[test]

@@ -138,6 +138,7 @@ pub enum Change {
     WorldCosine,
     LightTimesPdf,
     LampShadowsItself,
+    LampShadowsItselfAtTimes,
     NoShadows,
     ShadowWithoutEnd,
     ShadowAcne,

@@ -63,10 +63,15 @@ impl Vertex<'_> {
     pub fn shadow_ray(&self, wi: DVec3, distance: f64) -> Ray {
         let stop_short = match self.change {
             Change::LampShadowsItself => -self.clearance,
+            Change::LampShadowsItselfAtTimes => self.clearance,
             _ => self.clearance.max(CLEARANCE * distance),
         };
+        let origin = match self.change {
+            Change::LampShadowsItselfAtTimes => self.point + self.clearance * wi,
+            _ => self.point,
+        };
         let t_max = if distance.is_finite() { distance - stop_short } else { distance };
-        Ray { origin: self.point, t_min: self.clearance, direction: wi, t_max }
+        Ray { origin, t_min: self.clearance, direction: wi, t_max }
     }
 }
 

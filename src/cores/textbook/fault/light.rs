@@ -145,6 +145,14 @@ pub const FAULTS: &[Fault] = &[
         cause: &light::LAMP_SHADOWS_ITSELF,
     },
     Fault {
+        change: Change::LampShadowsItselfAtTimes,
+        name: "lamp-shadows-itself-at-times",
+        part: 3,
+        summary: "the shadow ray starts EPS ahead and ends EPS before the lamp: rounding decides",
+        caught_by: "lights/a-rectangle-overhead-matches-its-form-factor",
+        cause: &light::LAMP_SHADOWS_ITSELF,
+    },
+    Fault {
         change: Change::NoShadows,
         name: "no-shadows",
         part: 3,

@@ -253,7 +253,7 @@ mod tests {
     #[test]
     fn the_right_test_passes_every_case() {
         for case in 0..CASES.len() {
-            assert_passes(&found(case, |slabs, ray| slabs.hits(ray)));
+            assert_passes(&found(case, |slabs, ray| slabs.span().hits(ray)));
         }
     }
 
@@ -293,7 +293,8 @@ mod tests {
 
     #[test]
     fn the_wrong_ray_is_named_with_its_reason() {
-        let finding = found(0, |slabs, ray| slabs.hits(ray) && slabs.enters() >= ray.t_min);
+        let finding =
+            found(0, |slabs, ray| slabs.span().hits(ray) && slabs.span().enters >= ray.t_min);
         let statement = failure(&finding);
         assert!(statement.contains("(from inside) misses, and should hit"), "{statement}");
     }

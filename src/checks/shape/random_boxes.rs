@@ -243,7 +243,7 @@ mod tests {
 
     #[test]
     fn the_right_test_passes() {
-        let finding = found(|slabs, ray| slabs.hits(ray));
+        let finding = found(|slabs, ray| slabs.span().hits(ray));
         assert_passes(&finding);
         assert!(finding.statement.ends_with("none is hit for nothing"), "{}", finding.statement);
     }
@@ -265,7 +265,8 @@ mod tests {
     #[test]
     fn a_test_that_shrinks_boxes_a_little_is_seen_and_has_no_name() {
         let finding = found(|slabs, ray| {
-            slabs.hits(ray) && slabs.exits() - slabs.enters() > 1e-4 * slabs.exits().abs()
+            let span = slabs.span();
+            span.hits(ray) && span.exits - span.enters > 1e-4 * span.exits.abs()
         });
         assert!(failure(&finding).contains("missed; for example "), "{finding:?}");
         assert!(finding.clues.is_empty());

@@ -23,39 +23,17 @@ impl Slabs {
         }
     }
 
-    /// Where the line enters the box.
-    pub fn enters(&self) -> f64 {
-        self.lower.min(self.upper).max_element()
-    }
-
-    /// Where it leaves.
-    pub fn exits(&self) -> f64 {
-        self.lower.max(self.upper).min_element()
-    }
-
-    /// The right test, where no 0/0 occurs.
-    pub fn hits(&self, ray: &Ray) -> bool {
-        self.overlap() && self.exits() >= ray.t_min && self.enters() <= ray.t_max
-    }
-
-    /// Whether the line crosses the box.
-    fn overlap(&self) -> bool {
-        self.enters() <= self.exits()
-    }
-
-    /// Entry by the lower planes, exit by the upper ones, whichever the line crosses first.
-    fn not_swapped(mut self) -> Self {
-        let (enters, exits) = (self.lower.max_element(), self.upper.min_element());
-        if enters > exits {
-            return Self::missed();
+    /// What the line has of the box.
+    pub fn span(&self) -> Span {
+        Span {
+            enters: self.lower.min(self.upper).max_element(),
+            exits: self.lower.max(self.upper).min_element(),
         }
-        (self.lower, self.upper) = (DVec3::splat(enters), DVec3::splat(exits));
-        self
     }
 
-    /// What no line crosses.
-    fn missed() -> Self {
-        Self { lower: DVec3::new(1.0, 3.0, 1.0), upper: DVec3::new(2.0, 4.0, 2.0) }
+    /// Entry by the lower planes and exit by the upper ones, whichever the line crosses first.
+    fn span_not_swapped(&self) -> Span {
+        Span { enters: self.lower.max_element(), exits: self.upper.min_element() }
     }
 
     /// The box has no end along `axis`.
@@ -71,54 +49,78 @@ impl Slabs {
     }
 }
 
+/// Where a line enters a box and where it leaves, in lengths of the ray's direction; the wrong way round where it
+/// passes by.
+#[derive(Clone, Copy)]
+pub struct Span {
+    /// The largest of the entries.
+    pub enters: f64,
+    /// The smallest of the exits.
+    pub exits: f64,
+}
+
+impl Span {
+    /// The right test, where no 0/0 occurs.
+    pub fn hits(self, ray: &Ray) -> bool {
+        self.is_proper() && self.exits >= ray.t_min && self.enters <= ray.t_max
+    }
+
+    fn is_proper(self) -> bool {
+        self.enters <= self.exits
+    }
+}
+
 /// A wrong way to put the crossings of the planes together.
 struct Crossing {
     cause: &'static Cause,
-    slabs: fn(Slabs) -> Slabs,
+    span: fn(Slabs) -> Span,
 }
 
 /// A wrong conclusion from them.
 struct Conclusion {
     cause: &'static Cause,
-    hits: fn(&Slabs, &Ray) -> bool,
+    hits: fn(Span, &Ray) -> bool,
 }
 
 const CROSSINGS: &[Crossing] = &[
-    Crossing { cause: &slab::PLANES_NOT_SWAPPED, slabs: Slabs::not_swapped },
-    Crossing { cause: &slab::PARALLEL_AXES_SKIPPED, slabs: Slabs::without_parallel_axes },
-    Crossing { cause: &slab::BOX_WITHOUT_Z, slabs: |slabs| slabs.without_axis(2) },
-    Crossing { cause: &slab::BOX_WITHOUT_Y, slabs: |slabs| slabs.without_axis(1) },
-    Crossing { cause: &slab::BOX_WITHOUT_X, slabs: |slabs| slabs.without_axis(0) },
+    Crossing { cause: &slab::PLANES_NOT_SWAPPED, span: |slabs| slabs.span_not_swapped() },
+    Crossing {
+        cause: &slab::PARALLEL_AXES_SKIPPED,
+        span: |slabs| slabs.without_parallel_axes().span(),
+    },
+    Crossing { cause: &slab::BOX_WITHOUT_Z, span: |slabs| slabs.without_axis(2).span() },
+    Crossing { cause: &slab::BOX_WITHOUT_Y, span: |slabs| slabs.without_axis(1).span() },
+    Crossing { cause: &slab::BOX_WITHOUT_X, span: |slabs| slabs.without_axis(0).span() },
 ];
 
 const CONCLUSIONS: &[Conclusion] = &[
-    Conclusion { cause: &slab::BOX_SEGMENT_IGNORED, hits: |slabs, _| slabs.overlap() },
+    Conclusion { cause: &slab::BOX_SEGMENT_IGNORED, hits: |span, _| span.is_proper() },
     Conclusion {
         cause: &slab::BOX_START_IGNORED,
-        hits: |slabs, ray| slabs.overlap() && slabs.enters() <= ray.t_max,
+        hits: |span, ray| span.is_proper() && span.enters <= ray.t_max,
     },
     Conclusion {
         cause: &slab::BOX_END_IGNORED,
-        hits: |slabs, ray| slabs.overlap() && slabs.exits() >= ray.t_min,
+        hits: |span, ray| span.is_proper() && span.exits >= ray.t_min,
     },
     Conclusion {
         cause: &slab::BOX_MISSED_FROM_INSIDE,
-        hits: |slabs, ray| slabs.hits(ray) && slabs.enters() >= ray.t_min,
+        hits: |span, ray| span.hits(ray) && span.enters >= ray.t_min,
     },
     Conclusion {
         cause: &slab::BOX_MISSED_BY_END_INSIDE,
-        hits: |slabs, ray| slabs.hits(ray) && slabs.exits() <= ray.t_max,
+        hits: |span, ray| span.hits(ray) && span.exits <= ray.t_max,
     },
     Conclusion {
         cause: &slab::FLAT_BOX_MISSED,
-        hits: |slabs, ray| slabs.hits(ray) && slabs.enters() < slabs.exits(),
+        hits: |span, ray| span.hits(ray) && span.enters < span.exits,
     },
 ];
 
 /// An implementation that people write instead: one mistake, or one of each kind.
 pub struct Wrong {
-    slabs: fn(Slabs) -> Slabs,
-    hits: fn(&Slabs, &Ray) -> bool,
+    span: fn(Slabs) -> Span,
+    hits: fn(Span, &Ray) -> bool,
     /// What is wrong with it, in the glossary.
     pub cause: &'static Cause,
     /// What is wrong besides.
@@ -128,20 +130,20 @@ pub struct Wrong {
 impl Wrong {
     /// Whether it hits.
     pub fn hits(&self, slabs: Slabs, ray: &Ray) -> bool {
-        (self.hits)(&(self.slabs)(slabs), ray)
+        (self.hits)((self.span)(slabs), ray)
     }
 }
 
 /// Every single mistake.
 pub fn single_mistakes() -> impl Iterator<Item = Wrong> {
     let crossings = CROSSINGS.iter().map(|crossing| Wrong {
-        slabs: crossing.slabs,
-        hits: Slabs::hits,
+        span: crossing.span,
+        hits: Span::hits,
         cause: crossing.cause,
         besides: None,
     });
     let conclusions = CONCLUSIONS.iter().map(|conclusion| Wrong {
-        slabs: |slabs| slabs,
+        span: |slabs| slabs.span(),
         hits: conclusion.hits,
         cause: conclusion.cause,
         besides: None,
@@ -153,7 +155,7 @@ pub fn single_mistakes() -> impl Iterator<Item = Wrong> {
 pub fn pairs_of_mistakes() -> impl Iterator<Item = Wrong> {
     let with = |conclusion: &'static Conclusion| {
         CROSSINGS.iter().map(|crossing| Wrong {
-            slabs: crossing.slabs,
+            span: crossing.span,
             hits: conclusion.hits,
             cause: conclusion.cause,
             besides: Some(crossing.cause),
@@ -208,7 +210,7 @@ impl<Hits: Fn(Slabs, &Ray) -> bool + Send> Core for Boxes<Hits> {
     fn intersect_box(&mut self, bounds: &Aabb, rays: &[Ray], hits: &mut [BoxHit]) -> Result<()> {
         for (ray, hit) in rays.iter().zip(hits) {
             let slabs = Slabs::new(bounds, ray);
-            let (t_enter, t_exit) = (slabs.enters(), slabs.exits());
+            let Span { enters: t_enter, exits: t_exit } = slabs.span();
             *hit = BoxHit { t_enter, t_exit, hit: (self.0)(slabs, ray).into(), reserved: 0 };
         }
         Ok(())

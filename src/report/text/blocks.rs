@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 
 /// Failures that are told in full. A core that fails everything is not helped by pages of numbers.
 const FULL_BLOCKS: usize = 5;
+/// Failures of a cause that is told already which are told in a sentence each.
+const BRIEF_BLOCKS: usize = 6;
 /// Measures shown of a failure, the worst first.
 const MEASURES: usize = 4;
 /// Lines shown of what a core printed before it crashed.
@@ -27,7 +29,9 @@ pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
     let mut lines = headlines::all(&diagnoses, style);
     let (explained, alone): (Vec<_>, Vec<_>) =
         failures(tree).into_iter().partition(|trial| is_explained(&diagnoses, trial));
-    lines.extend(explained.iter().flat_map(|trial| brief_block(trial, style)));
+    let (shown, others) = explained.split_at(explained.len().min(BRIEF_BLOCKS));
+    lines.extend(shown.iter().flat_map(|trial| brief_block(trial, style)));
+    lines.extend(of_the_same_causes(others, style));
     let (full, brief) = alone.split_at(alone.len().min(FULL_BLOCKS));
     lines.extend(full.iter().flat_map(|trial| full_block(trial, style)));
     lines.extend(brief.iter().flat_map(|trial| brief_block(trial, style)));
@@ -72,6 +76,21 @@ fn full_block(trial: &TrialRecord, style: Style) -> Vec<String> {
     lines.extend(labelled("recall", &trial.teaches));
     lines.push(next(trial));
     lines
+}
+
+/// Failures of causes that are told already, by their names.
+fn of_the_same_causes(trials: &[&TrialRecord], style: Style) -> Vec<String> {
+    let mut of_cores: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for trial in trials {
+        of_cores.entry(&trial.core).or_default().push(&trial.case);
+    }
+    let paragraph = |(core, cases): (&str, Vec<&str>)| {
+        let word = style.paint(Paint::Bad, "FAIL");
+        let head = format!("  {word}  {} more of these causes on {}", cases.len(), clean(core));
+        let names = indented(&clean(&cases.join(", ")));
+        [String::new(), head].into_iter().chain(names).collect::<Vec<_>>()
+    };
+    of_cores.into_iter().flat_map(paragraph).collect()
 }
 
 /// Verdict and size: `grep FAIL -A1` finds both.

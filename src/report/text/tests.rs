@@ -1,6 +1,8 @@
 //! The summary as people see it.
 
 use super::*;
+use crate::cause::bvh;
+use crate::checks::Finding;
 use crate::report::example::{Example, FAILING, trial};
 use crate::run::Outcome;
 
@@ -193,6 +195,22 @@ fn a_core_that_fails_everything_is_told_at_length_only_of_the_first() {
     let text = plain(example);
     assert_eq!(text.matches("CRASHED").count(), 12);
     assert_eq!(text.matches("        try ").count(), 5);
+}
+
+#[test]
+fn failures_of_a_cause_that_is_told_are_named_beyond_the_first_few() {
+    let mut example = Example::green();
+    let cases: Vec<_> = example.trials.iter().map(|trial| trial.case.clone()).collect();
+    for case in &cases[..9] {
+        let finding = Finding::failure("every triangle is tested".to_owned())
+            .because(&bvh::HIERARCHY_NOT_USED, "counts".to_owned());
+        example.set("builtin", case, Outcome::Judged { finding });
+    }
+    let text = plain(example);
+    assert!(text.contains("  FAIL  one cause explains 9 failures on builtin"), "{text}");
+    assert_eq!(text.matches("        every triangle is tested\n").count(), 6, "{text}");
+    let (_, names) = text.split_once("  FAIL  3 more of these causes on builtin\n").unwrap();
+    assert!(cases[..9].iter().filter(|case| names.contains(*case)).count() >= 3, "{text}");
 }
 
 #[test]

@@ -114,20 +114,24 @@ impl Matrix {
         self.with_cases(|case| case.part().is_some_and(|part| core.parts.contains(&part.number)))
     }
 
-    /// Puts a fault to the case named for it, and if that alone does not tell its cause, to those beside it.
+    /// Puts a fault to the case named for it, and if that alone does not tell its cause, to those beside it: first of the
+    /// same check, then of the whole folder.
     pub fn try_fault_briefly(&self, fault: &Fault) -> Tried {
         let alone = self.with_cases(|case| case.id == fault.caught_by).try_fault(fault);
-        if alone.is_good() || !alone.caught { alone } else { self.around(fault).try_fault(fault) }
-    }
-
-    /// The cases of the same folder and the same check as the one named for the fault.
-    fn around(&self, fault: &Fault) -> Self {
-        let folder = |case: &str| case.split('/').next().map(str::to_owned);
+        if alone.is_good() || !alone.caught {
+            return alone;
+        }
+        let folder = self.folder_of(fault);
         let named = self.cases.iter().find(|case| case.id == fault.caught_by);
         let check = named.map(|case| case.check.name);
-        self.with_cases(|case| {
-            Some(case.check.name) == check && folder(&case.id) == folder(fault.caught_by)
-        })
+        let alike = folder.with_cases(|case| Some(case.check.name) == check).try_fault(fault);
+        if alike.is_good() { alike } else { folder.try_fault(fault) }
+    }
+
+    /// The cases of the same folder as the one named for the fault.
+    fn folder_of(&self, fault: &Fault) -> Self {
+        let folder = |case: &str| case.split('/').next().map(str::to_owned);
+        self.with_cases(|case| folder(&case.id) == folder(fault.caught_by))
     }
 
     /// Puts a fault to the cases.

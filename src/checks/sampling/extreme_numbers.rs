@@ -7,7 +7,7 @@ use crate::contract::{Capabilities, Randomness};
 use crate::stats::Tolerance;
 use serde::Deserialize;
 
-/// Every pair of extreme numbers gives a direction where samples belong, with its density.
+/// Every pair of extreme numbers gives a direction above the horizon, with its density.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ExtremeNumbers {
@@ -49,8 +49,7 @@ fn extremes_of(
         }
         Ok((drawn, pdf[0]))
     };
-    let range = if distribution.is_of_sphere() { Range::Sphere } else { Range::Hemisphere };
-    Ok(Extremes::of(distribution.name(), range, allowed, ask)?)
+    Ok(Extremes::of(distribution.name(), Range::Hemisphere, allowed, ask)?)
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ pub struct Headline {
     pub ruled_out: Vec<String>,
     /// The failing cases that it explains, the earliest part first.
     pub explains: Vec<String>,
-    /// Failing cases of the same and later parts that nothing else explains: they may follow from it.
+    /// Failing cases of the same and later parts that nothing explains: they may follow from it.
     pub may_follow: Vec<String>,
     /// Cases that were not tried because of these.
     pub blocked: usize,
@@ -62,22 +62,21 @@ pub fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagnosis {
     let mut candidates = gather(suspicions);
     let case = |seen: &Observation<'_>| seen.case.to_owned();
     let suspected = |case: &String| candidates.iter().any(|c| c.cases.contains_key(case));
-    let (mut left, mut orphans): (Vec<_>, Vec<_>) =
-        evidence.failures().map(case).partition(suspected);
+    let (mut left, orphans): (Vec<_>, Vec<_>) = evidence.failures().map(case).partition(suspected);
     let mut beside: Vec<_> = evidence.failures_of_robustness().map(case).collect();
     let mut headlines = Vec::new();
     while let Some(best) = best_of(&candidates, &left) {
         let mut candidate = candidates.swap_remove(best);
         absorb_the_vague(&mut candidate, &mut candidates);
         beside.retain(|case| !candidate.cases.contains_key(case));
-        headlines.push(headline(evidence, Tier::Graded, candidate, &mut left, &mut orphans));
+        headlines.push(headline(evidence, Tier::Graded, candidate, &mut left));
     }
+    let unexplained = attribute(orphans, &mut headlines);
     while let Some(best) = best_of(&candidates, &beside) {
         let candidate = candidates.swap_remove(best);
-        let tier = Tier::Robustness;
-        headlines.push(headline(evidence, tier, candidate, &mut beside, &mut Vec::new()));
+        headlines.push(headline(evidence, Tier::Robustness, candidate, &mut beside));
     }
-    Diagnosis { headlines, unexplained: orphans }
+    Diagnosis { headlines, unexplained }
 }
 
 fn gather(suspicions: Vec<Suspicion>) -> Vec<Candidate> {
@@ -156,15 +155,10 @@ fn headline(
     tier: Tier,
     candidate: Candidate,
     left: &mut Vec<String>,
-    orphans: &mut Vec<String>,
 ) -> Headline {
     let explains: Vec<String> =
         left.iter().filter(|case| candidate.cases.contains_key(*case)).cloned().collect();
     left.retain(|case| !explains.contains(case));
-    let earliest = explains.first().map_or(usize::MAX, |case| Part::position(case));
-    let (may_follow, others) =
-        std::mem::take(orphans).into_iter().partition(|case| Part::position(case) >= earliest);
-    *orphans = others;
     let blocked = evidence.blocked_by(&explains);
     let command = quickest(evidence, &explains);
     let Candidate { cause, evidence: mut sentences, mut ruled_out, .. } = candidate;
@@ -172,7 +166,25 @@ fn headline(
     sentences.truncate(EVIDENCE);
     ruled_out.dedup();
     ruled_out.truncate(EVIDENCE);
+    let may_follow = Vec::new();
     Headline { cause, tier, evidence: sentences, ruled_out, explains, may_follow, blocked, command }
+}
+
+/// What no cause explains may follow from the one that explains the most, of those that show no later than it; of equals
+/// from the first. Answers what is left.
+fn attribute(orphans: Vec<String>, headlines: &mut [Headline]) -> Vec<String> {
+    let mut unexplained = Vec::new();
+    for case in orphans {
+        let shows_before = |headline: &&mut Headline| {
+            headline.explains.iter().any(|other| Part::position(other) <= Part::position(&case))
+        };
+        let likely = headlines.iter_mut().rev().filter(shows_before);
+        match likely.max_by_key(|headline| headline.explains.len()) {
+            Some(headline) => headline.may_follow.push(case),
+            None => unexplained.push(case),
+        }
+    }
+    unexplained
 }
 
 fn quickest(evidence: &Evidence<'_>, cases: &[String]) -> String {
@@ -213,6 +225,22 @@ mod tests {
         assert_eq!(first.blocked, 1);
         assert_eq!(second.cause.name, transport::ROULETTE_NOT_DIVIDED.name);
         assert_eq!(diagnosis.unexplained, ["camera/d"]);
+    }
+
+    #[test]
+    fn what_nothing_explains_may_follow_from_what_explains_the_most() {
+        let made = Made::new()
+            .with("intersection/a", failing("a").because(&shape::SPHERE_CANCELLATION, "x"))
+            .with("lights/b", failing("b").because(&bsdf::WITHOUT_PI, "y"))
+            .with("lights/c", failing("c").because(&bsdf::WITHOUT_PI, "y"))
+            .with("integrator/d", failing("who knows"))
+            .with("bvh/e", failing("who knows"));
+        let diagnosis = diagnose(&made.evidence());
+        let [first, second] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
+        assert_eq!(
+            (&first.may_follow[..], &second.may_follow[..]),
+            (&["bvh/e".to_owned()][..], &["integrator/d".to_owned()][..])
+        );
     }
 
     #[test]

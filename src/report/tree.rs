@@ -137,7 +137,7 @@ impl RunTree {
         let (mut run, mut trials) = (self.run.clone(), self.trials.clone());
         trials.retain(|trial| !self.run.is_absent(&trial.core));
         run.cores.retain(|core| core.problem.is_none());
-        run.trials -= self.trials.len() - trials.len();
+        run.trials = run.trials.saturating_sub(self.trials.len() - trials.len());
         Self { run, trials, folder: self.folder.clone() }
     }
 

@@ -5,7 +5,7 @@
 //! correct programs differ there: such rows are marked `robustness`, shown, and not graded. A false
 //! hit only costs time; a false miss loses what is in the box.
 
-use super::slabs::{Wrong, because, words, wrong_as};
+use super::slabs::{Wrong, because, wrong_as};
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BoxHit, Capabilities, Ray};
@@ -126,7 +126,7 @@ impl OverlapsBox {
         } else {
             let some = some_are(complaints.len(), graded, "rays");
             let why =
-                wrong.as_ref().map_or_else(String::new, |wrong| format!(": {}", words(wrong)));
+                wrong.as_ref().map_or_else(String::new, |wrong| format!(": {}", wrong.words()));
             format!("{some} wrong{why}; {}", complaints.join("; "))
         };
         let finding = Finding::of(statement, "would have caught one wrong ray", measures);

@@ -132,6 +132,22 @@ impl Wrong {
     pub fn hits(&self, slabs: Slabs, ray: &Ray) -> bool {
         (self.hits)((self.span)(slabs), ray)
     }
+
+    /// Its mistakes in words.
+    pub fn words(&self) -> String {
+        match self.besides {
+            None => self.cause.headline.to_owned(),
+            Some(other) => format!("{}, and {}", self.cause.headline, other.headline),
+        }
+    }
+
+    /// What speaks for it, where it predicts so many answers.
+    fn evidence(&self, predicted: &str) -> String {
+        match self.besides {
+            None => format!("predicts {predicted}"),
+            Some(other) => format!("predicts {predicted}, if also {}", other.headline),
+        }
+    }
 }
 
 /// Every single mistake.
@@ -180,20 +196,7 @@ pub fn wrong_as(answers: &[(Aabb, Ray, bool)]) -> Option<Wrong> {
 pub fn because(finding: Finding, wrong: Option<&Wrong>, predicted: &str) -> Finding {
     match wrong {
         None => finding,
-        Some(Wrong { cause, besides: None, .. }) => {
-            finding.because(cause, format!("predicts {predicted}"))
-        }
-        Some(Wrong { cause, besides: Some(other), .. }) => {
-            finding.because(cause, format!("predicts {predicted}, if also {}", other.headline))
-        }
-    }
-}
-
-/// The mistakes in words.
-pub fn words(wrong: &Wrong) -> String {
-    match wrong.besides {
-        None => wrong.cause.headline.to_owned(),
-        Some(other) => format!("{}, and {}", wrong.cause.headline, other.headline),
+        Some(wrong) => finding.because(wrong.cause, wrong.evidence(predicted)),
     }
 }
 

@@ -145,7 +145,7 @@ fn grid(view: &View<'_>) -> Markup {
                             }
                             @for core in cores {
                                 td data-label=(core.name) {
-                                    @if core.problem.is_some() { "–" }
+                                    @if core.problem.is_some() { "no trial" }
                                     @else { (cells(&group, &core.spec)) }
                                 }
                             }

@@ -105,6 +105,27 @@ const IMPRISONED_PROGRAMS: &[(&str, Ending)] = &[
     ("connect", (Status::Fail, "PermissionError: Operation not permitted")),
 ];
 
+/// A picture that is asked for.
+const PICTURE: &str = "images/point-light-plane-matches";
+
+/// What each program that makes pictures comes to.
+const RENDERERS: &[(&str, Ending)] = &[
+    ("behave", (Status::Fail, "")),
+    ("crash", (Status::Crashed, "SIGABRT")),
+    ("exit", (Status::Fail, "it ended well and wrote no picture.pfm")),
+    ("hang", (Status::TimedOut, "no answer in 2 s")),
+    ("hoard", (Status::Crashed, "MemoryError")),
+    ("multiply", (Status::Crashed, "it had started")),
+];
+
+/// What those come to that only a shut-in worker stops.
+const IMPRISONED_RENDERERS: &[(&str, Ending)] = &[
+    ("read", (Status::Crashed, "PermissionError: [Errno 13]")),
+    ("write", (Status::Crashed, "PermissionError: [Errno 13]")),
+    ("connect", (Status::Crashed, "PermissionError: [Errno 1]")),
+    ("escape", (Status::Crashed, "PermissionError: [Errno 1]")),
+];
+
 /// A folder with hostile cores, and with what they are to attack.
 struct Lair {
     folder: TempDir,
@@ -153,6 +174,45 @@ impl Lair {
         format!("exec: '{python}' '{}' {deed} '{}'", script.display(), script.display())
     }
 
+    /// A file that says how a renderer is called.
+    fn renderer(&self, deed: &str) -> String {
+        fs::copy(fixture("renderer.py"), self.den().join("renderer.py")).unwrap();
+        let secret = self.project.references().join("recipes.toml");
+        let text = format!(
+            r#"
+            name = "{deed}"
+            version = "1"
+            about = "Does what it should not"
+            scene = "mitsuba"
+            program = {{ variable = "FURNACE_HOSTILE_PYTHON", default = '{}', needs = "a Python" }}
+            arguments = ["{{adapter}}/renderer.py", "{{output}}", '{}', '{}', "{deed}"]
+            environment = {{ SEED = "{{seed}}" }}
+            output = {{ file = "picture.pfm", encoding = "linear" }}
+            time-limit = 2
+            runs = {{ seed-bits = 31 }}
+            "#,
+            python().expect("every test asks for it first"),
+            secret.display(),
+            self.result().display(),
+        );
+        let path = self.den().join(format!("{deed}.toml"));
+        fs::write(&path, text).unwrap();
+        path.to_string_lossy().into_owned()
+    }
+
+    fn assert_renderers_end(&self, renderers: &[(&str, Ending)]) {
+        let cores: Vec<_> = renderers.iter().map(|(deed, _)| self.renderer(deed)).collect();
+        let trials = self.run(&cores, &[PICTURE]).unwrap();
+        for (core, (deed, (status, words))) in cores.iter().zip(renderers) {
+            let trial = trials.iter().find(|trial| trial.core == *core).unwrap();
+            let statement = trial.outcome.statement();
+            assert_eq!(trial.outcome.status(), *status, "{deed}: {statement}\n{}", trial.printed);
+            assert!(statement.contains(words), "{deed}: `{words}` is not in: {statement}");
+        }
+        assert_eq!(fs::read_to_string(self.result()).unwrap(), "as it was");
+        assert_nobody_is_left(self);
+    }
+
     fn plan(&self, cores: &[String], filters: &[&str]) -> Plan {
         let cases = case::load_all(&self.project.cases()).unwrap();
         let request = Request {
@@ -164,7 +224,7 @@ impl Lair {
             fail_fast: false,
         };
         let limits =
-            Limits { seconds: 2.0, memory: Some(512 << 20), file: 16 << 20, processes: 16 };
+            Limits { seconds: Some(2.0), memory: Some(512 << 20), file: 16 << 20, processes: 16 };
         Plan::new(self.project.clone(), request, &cases).hosted(Hosting {
             program: env!("CARGO_BIN_EXE_furnace").into(),
             limits,
@@ -314,6 +374,22 @@ fn a_program_reaches_neither_secrets_nor_the_network() {
     let cores: Vec<_> =
         IMPRISONED_PROGRAMS.iter().map(|(deed, ending)| (lair.program(deed), *ending)).collect();
     assert_endings(&lair, &cores);
+}
+
+#[test]
+fn a_renderer_can_harm_nothing_but_its_own_trial() {
+    let _alone = ALONE.lock();
+    if python().is_some() {
+        Lair::new().assert_renderers_end(RENDERERS);
+    }
+}
+
+#[test]
+fn a_renderer_reaches_neither_secrets_nor_results_nor_anybody_else() {
+    let _alone = ALONE.lock();
+    if python().is_some() && is_shut_in() {
+        Lair::new().assert_renderers_end(IMPRISONED_RENDERERS);
+    }
 }
 
 #[test]

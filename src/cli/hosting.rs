@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 /// Where cores live and what they may use up.
 #[derive(Clone, Debug, Args)]
 pub struct HostingArguments {
-    /// Seconds to wait for a core in one trial [default: 120].
+    /// Seconds to wait for a core in one trial [default: 120]; for an adapter's program, its file
+    /// says how long a picture may take.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     time_limit: Option<f64>,
     /// Memory of a core's process: 512M, 4G, or `none` [default: 4G].
@@ -33,7 +34,7 @@ impl HostingArguments {
     /// How cores are hosted, out of sight of the results in `runs`.
     pub fn hosting(&self, runs: &Path) -> Hosting {
         let mut limits = Limits::default();
-        limits.seconds = self.time_limit.unwrap_or(limits.seconds);
+        limits.seconds = self.time_limit.or(limits.seconds);
         limits.memory = self.memory_limit.map_or(limits.memory, |limit| limit.0);
         Hosting {
             limits,

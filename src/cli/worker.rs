@@ -4,6 +4,7 @@ use super::{Answer, ExitCode, Failure};
 use crate::contract::Core;
 use crate::contract::validate::Validated;
 use crate::cores::CoreSpec;
+use crate::cores::command::{CommandCore, Program};
 use crate::cores::dylib::{self, Dylib};
 use crate::worker::{self, Errand, Guest, child};
 use clap::Args;
@@ -36,6 +37,10 @@ pub fn worker(arguments: &WorkerArguments) -> Answer {
 fn load(errand: &Errand) -> Result<Box<dyn Core>, String> {
     if let Guest::Library(path) = &errand.guest {
         return Ok(Box::new(Dylib::load(path).map_err(|error| error.to_string())?));
+    }
+    if let Guest::Renderer { adapter, .. } = &errand.guest {
+        let program = Program::load(adapter).map_err(|error| error.to_string())?;
+        return Ok(Box::new(CommandCore(program.within_a_worker())));
     }
     let spec: CoreSpec = errand.spec.parse().map_err(|error| format!("{error}"))?;
     spec.make().map_err(|error| error.to_string())

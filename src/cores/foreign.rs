@@ -1,6 +1,7 @@
 //! Cores that somebody else has written, as they are named after `--core`: a shared library by its
-//! path, a program by `exec:` and its command.
+//! path, a program by `exec:` and its command, one that makes pictures by its adapter's file.
 
+use super::command::Program;
 use crate::text::listed;
 use crate::worker::Guest;
 use std::env;
@@ -8,6 +9,9 @@ use std::path::{Path, PathBuf};
 
 /// What shared libraries are called.
 const LIBRARIES: &[&str] = &["so", "dylib", "dll"];
+
+/// What adapters' files are called.
+const ADAPTER: &str = "toml";
 
 /// How a program is named.
 const PROGRAM: &str = "exec:";
@@ -22,12 +26,22 @@ pub fn guest(word: &str) -> Option<Result<Guest, String>> {
     }
     let path = Path::new(word);
     let extension = path.extension()?.to_str()?;
+    if extension == ADAPTER {
+        return Some(renderer(path));
+    }
     LIBRARIES.contains(&extension).then(|| library(path))
 }
 
 fn library(path: &Path) -> Result<Guest, String> {
     let found = path.canonicalize();
     found.map(Guest::Library).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+fn renderer(path: &Path) -> Result<Guest, String> {
+    let program = Program::load(path).map_err(|error| error.to_string())?;
+    let adapter = std::path::absolute(path).map_err(|error| error.to_string())?;
+    let variable = program.adapter().program.variable.clone();
+    Ok(Guest::Renderer { adapter, variable, words: program.words() })
 }
 
 /// The words of a command; the program and files among them by their whole paths, since a worker
@@ -46,7 +60,7 @@ fn program(command: &str) -> Result<Guest, String> {
 }
 
 /// Where a program is. Links are not followed: a program may ask by which name it was called.
-fn found(program: &str) -> Option<PathBuf> {
+pub fn found(program: &str) -> Option<PathBuf> {
     if Path::new(program).components().count() > 1 {
         return std::path::absolute(program).ok().filter(|path| path.is_file());
     }

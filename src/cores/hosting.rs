@@ -69,9 +69,7 @@ impl Hosting {
     /// # Errors
     /// If it does not come up.
     pub fn host(&self, spec: &CoreSpec) -> Result<Hosted, HostError> {
-        // A program that makes pictures is a process already, and a worker may start none.
-        let is_here = !self.isolates_own || spec.program().is_some();
-        if *spec.guest() == Guest::Resident && is_here {
+        if *spec.guest() == Guest::Resident && !self.isolates_own {
             return Ok(Hosted::Here(spec.make()?));
         }
         Ok(Hosted::Away(Box::new(Remote::start(&self.launch(spec))?)))
@@ -79,16 +77,25 @@ impl Hosting {
 
     /// How the workers of a core are started.
     pub fn launch(&self, spec: &CoreSpec) -> Launch {
+        let (limits, variables) = match spec.guest() {
+            // Its file says how long each picture may take.
+            Guest::Renderer { variable, words, .. } => (
+                Limits { seconds: None, ..self.limits },
+                words.first().map(|program| (variable.clone(), program.clone())),
+            ),
+            _ => (self.limits, None),
+        };
         // What does not exist yet has no real path, but a place.
         let real = |path: &PathBuf| path.canonicalize().or_else(|_| std::path::absolute(path)).ok();
         Launch {
             program: self.program.clone(),
             spec: spec.to_string(),
             guest: spec.guest().clone(),
-            limits: self.limits,
+            limits,
             hidden: self.hidden.iter().filter_map(real).collect(),
             readable: self.readable.iter().filter_map(real).collect(),
             confined: self.confined,
+            variables: variables.into_iter().collect(),
         }
     }
 }

@@ -15,7 +15,7 @@ pub use hosting::{HostError, Hosted, Hosting};
 use crate::contract::Core;
 use crate::text::did_you_mean;
 use crate::worker::Guest;
-use command::{AdapterError, CommandCore, Program};
+use command::{AdapterError, Program};
 use dylib::{Dylib, LoadError};
 use std::fmt;
 use std::path::Path;
@@ -71,7 +71,9 @@ impl CoreSpec {
         match &self.guest {
             Guest::Resident => Ok(self.resident()),
             Guest::Library(path) => Ok(Box::new(Dylib::load(path)?)),
-            Guest::Program(_) => Err(LoadError::IsProgram(self.word.clone())),
+            Guest::Program(_) | Guest::Renderer { .. } => {
+                Err(LoadError::IsProgram(self.word.clone()))
+            }
         }
     }
 
@@ -79,9 +81,6 @@ impl CoreSpec {
     fn resident(&self) -> Box<dyn Core> {
         if let Some(change) = self.change() {
             return textbook::with_change(change).expect("checked when it was read");
-        }
-        if let Some(program) = self.program() {
-            return Box::new(CommandCore(program.expect("checked when it was read")));
         }
         let kind = CORES.iter().find(|kind| kind.name == self.word);
         (kind.expect("checked when it was read").make)()
@@ -121,14 +120,6 @@ impl FromStr for CoreSpec {
         }
         if let Some(change) = word.strip_prefix(CHANGED) {
             return changed(word, change);
-        }
-        let resident = Self { word: word.to_owned(), guest: Guest::Resident };
-        match resident.program() {
-            Some(Ok(_)) => return Ok(resident),
-            Some(Err(error)) => {
-                return Err(UnknownCore { word: word.to_owned(), hint: error.to_string() });
-            }
-            None => {}
         }
         let names: Vec<_> = CORES.iter().map(|kind| format!("`{}`", kind.name)).collect();
         let forms = "or path/to/lib.so, or an adapter's .toml, or 'exec: COMMAND'";

@@ -1,7 +1,7 @@
 //! How a trial ended. Absence of evidence is never success: each way of not being judged has its own name.
 
 use crate::checks::{CheckError, Finding, breach};
-use crate::contract::CoreError;
+use crate::contract::{Capabilities, CoreError};
 use crate::stats::Verdict;
 use serde::{Deserialize, Serialize};
 
@@ -147,7 +147,11 @@ impl Outcome {
     pub fn statement(&self) -> String {
         match self {
             Self::Judged { finding } => finding.statement.clone(),
-            Self::Skipped { missing } => format!("the core has no {}", missing.join(", ")),
+            Self::Skipped { missing } => match Capabilities::from_names(missing) {
+                Ok(_) => format!("the core has no {}", missing.join(", ")),
+                // In its own words.
+                Err(_) => format!("beyond the core: {}", missing.join(", ")),
+            },
             Self::Blocked { by } => format!("{by} failed, and this rests on it"),
             Self::Crashed { how, during } => format!("the core crashed ({how}) during {during}"),
             Self::TimedOut { limit, during } => format!("no answer in {limit} s during {during}"),
@@ -167,7 +171,6 @@ impl Outcome {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contract::Capabilities;
 
     #[test]
     fn a_broken_contract_is_a_failure_of_the_core() {
@@ -189,5 +192,6 @@ mod tests {
         let error = CoreError::Beyond("a sky".to_owned());
         let skipped = Outcome::Skipped { missing: vec!["a sky".to_owned()] };
         assert_eq!(Outcome::of(Err(error.into())), skipped);
+        assert_eq!(skipped.statement(), "beyond the core: a sky");
     }
 }

@@ -43,6 +43,22 @@ pub enum Guest {
     Library(PathBuf),
     /// A program that speaks the protocol itself: its words.
     Program(Vec<String>),
+    /// A program that makes pictures, started by the worker for each.
+    Renderer {
+        /// The file that says how.
+        adapter: PathBuf,
+        /// The variable that names the program, which is the first word.
+        variable: String,
+        /// What it is started with, as far as that is known before there is a scene.
+        words: Vec<String>,
+    },
+}
+
+impl Guest {
+    /// Whether it may start processes.
+    pub const fn starts_processes(&self) -> bool {
+        matches!(self, Self::Program(_) | Self::Renderer { .. })
+    }
 }
 
 /// Why a worker did not get as far as its core.

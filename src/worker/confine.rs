@@ -4,9 +4,12 @@
 //! network; it can neither look up what is expected of it nor touch what is written about it. Where
 //! a system cannot enforce that, the report says so.
 
-use super::child::{Errand, Guest};
+use super::child::Errand;
+#[cfg(target_os = "linux")]
+use super::child::Guest;
 use super::process::Limits;
 use serde::{Deserialize, Serialize};
+#[cfg(target_os = "linux")]
 use std::path::{Path, PathBuf};
 
 /// What holds of a worker, and what does not, one sentence each.
@@ -110,6 +113,7 @@ fn limit(_: &Limits, confinement: &mut Confinement) {
 }
 
 /// `4 GiB`, `64 MiB`, `17 bytes`
+#[cfg(unix)]
 fn in_bytes(bytes: u64) -> String {
     match bytes {
         b if b >= 1 << 30 && b % (1 << 30) == 0 => format!("{} GiB", b >> 30),
@@ -132,6 +136,10 @@ pub fn readable(errand: &Errand) -> Vec<PathBuf> {
         Guest::Resident => {}
         Guest::Library(library) => paths.extend(with_folder(library, hidden)),
         Guest::Program(words) => paths.extend(of_program(words, hidden)),
+        Guest::Renderer { adapter, words, .. } => {
+            paths.extend(with_folder(adapter, hidden));
+            paths.extend(of_program(words, hidden));
+        }
     }
     paths.retain(|path| path.exists());
     paths.dedup();

@@ -41,9 +41,9 @@ pub fn shut_in(errand: &Errand, confinement: &mut Confinement) {
     match shut_calls(&errand.guest) {
         Ok(()) => {
             in_force.push("no network (seccomp)".to_owned());
-            in_force.push(match errand.guest {
-                Guest::Program(_) => "no process leaves its group (seccomp)".to_owned(),
-                _ => "no processes (seccomp)".to_owned(),
+            in_force.push(match errand.guest.starts_processes() {
+                true => "no process leaves its group (seccomp)".to_owned(),
+                false => "no processes (seccomp)".to_owned(),
             });
         }
         Err(error) => {
@@ -144,7 +144,7 @@ fn shut_calls(guest: &Guest) -> Result<(), seccompiler::Error> {
     // Reading a limit and setting it are one call; setting one hands over something.
     let sets_a_limit = condition(2, Length::Qword, Compare::Ne, 0)?;
     rules.insert(libc::SYS_prlimit64, vec![SeccompRule::new(vec![sets_a_limit])?]);
-    if !matches!(guest, Guest::Program(_)) {
+    if !guest.starts_processes() {
         rules.extend(unconditional(STARTING).chain(unconditional(STARTING_HERE)));
         rules.extend(rules_of_a_single_process()?);
         // Its flags lie in memory, where no filter looks; libraries then fall back on `clone`.

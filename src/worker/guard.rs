@@ -58,6 +58,7 @@ pub struct Usage {
     pub would_compute: bool,
 }
 
+#[cfg(target_os = "linux")]
 impl Usage {
     /// Of two processes together.
     pub fn and(self, other: Self) -> Self {

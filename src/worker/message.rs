@@ -10,12 +10,14 @@ use crate::contract::{
     BuildStats, Capabilities, Conventions, CoreError, CoreInfo, DirectionSample, Hit,
     IntegratorSettings, LightSample, Precision, Ray, RenderSettings, Sampler, TraversalStats,
 };
+use crate::image::encoding::Encoding;
 use crate::scene::{Camera, Light, Material};
 use bytemuck::Pod;
 use glam::{DVec2, DVec3};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
+use std::time::Duration;
 
 /// What a core is asked. The comments say which arrays go along, and which come back.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -96,6 +98,13 @@ pub enum Request {
         /// How.
         settings: RenderSettings,
     },
+    /// → `codes`, [`Answer::Coded`]
+    RenderCodes {
+        /// From where.
+        camera: Camera,
+        /// How.
+        settings: RenderSettings,
+    },
 }
 
 impl Request {
@@ -119,6 +128,7 @@ impl Request {
             Self::SampleLight { .. } => "sample-light",
             Self::Radiance { .. } => "radiance",
             Self::Render { .. } => "render",
+            Self::RenderCodes { .. } => "render-codes",
         }
     }
 }
@@ -185,6 +195,11 @@ pub enum Answer {
         /// What the traversal did.
         stats: TraversalStats,
     },
+    /// To [`Request::RenderCodes`].
+    Coded {
+        /// From radiance to codes.
+        encoding: Encoding,
+    },
     /// [`CoreError::Unsupported`]
     Unsupported {
         /// Names of what is missing.
@@ -212,6 +227,13 @@ pub enum Answer {
         /// The request it was answering.
         during: String,
     },
+    /// [`CoreError::TimedOut`], where the worker itself has waited: for a program that it had started.
+    TimedOut {
+        /// How long.
+        limit: Duration,
+        /// For what.
+        during: String,
+    },
 }
 
 impl Answer {
@@ -223,7 +245,7 @@ impl Answer {
             CoreError::Refused(why) => Self::Refused { why },
             CoreError::BrokeContract(why) => Self::BrokeContract { why },
             CoreError::Crashed { how, during } => Self::Crashed { how, during },
-            CoreError::TimedOut { .. } => Self::Refused { why: error.to_string() },
+            CoreError::TimedOut { limit, during } => Self::TimedOut { limit, during },
         }
     }
 
@@ -241,6 +263,7 @@ impl Answer {
             Self::Refused { why } => CoreError::Refused(why),
             Self::BrokeContract { why } => CoreError::BrokeContract(why),
             Self::Crashed { how, during } => CoreError::Crashed { how, during },
+            Self::TimedOut { limit, during } => CoreError::TimedOut { limit, during },
             other => return Ok(other),
         })
     }
@@ -355,6 +378,7 @@ elements! {
     "vec3": DVec3,
     "rgb": [f64; 3],
     "rgb-f32": [f32; 3],
+    "rgb-u8": [u8; 3],
     "triangle": [u32; 3],
     "sphere": [f64; 4],
     "sphere-kind": [u32; 2],

@@ -22,8 +22,9 @@ const PATIENCE: Duration = Duration::from_millis(200);
 /// What one worker may use up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
-    /// Seconds that the bench waits for it in one trial, all its answers together.
-    pub seconds: f64,
+    /// Seconds that the bench waits for it in one trial, all its answers together, or as long as it
+    /// takes.
+    pub seconds: Option<f64>,
     /// Bytes of memory a process, or as many as it likes.
     pub memory: Option<u64>,
     /// Bytes of one file.
@@ -34,14 +35,15 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { seconds: 120.0, memory: Some(4 << 30), file: 256 << 20, processes: 64 }
+        Self { seconds: Some(120.0), memory: Some(4 << 30), file: 256 << 20, processes: 64 }
     }
 }
 
 impl Limits {
     /// [`Self::seconds`] as the standard library has it.
     pub fn time(&self) -> Duration {
-        Duration::try_from_secs_f64(self.seconds).unwrap_or(Duration::MAX)
+        let seconds = self.seconds.unwrap_or(f64::INFINITY);
+        Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
     }
 }
 
@@ -62,6 +64,8 @@ pub struct Launch {
     pub readable: Vec<PathBuf>,
     /// Whether it is shut in at all.
     pub confined: bool,
+    /// For its environment, besides what every worker keeps.
+    pub variables: Vec<(String, String)>,
 }
 
 /// Why there is no worker.
@@ -132,7 +136,7 @@ impl Worker {
         command.stderr(writer.try_clone().map_err(failed)?);
         let Started { child, channel, hang_up } =
             start_with_channel(command, writer).map_err(failed)?;
-        let is_program = matches!(launch.guest, Guest::Program(_));
+        let is_program = launch.guest.starts_processes();
         let guard = Guard::new(child, launch.limits, is_program, hang_up);
         let mut worker = Self {
             client: Client::new(channel),
@@ -156,7 +160,10 @@ impl Worker {
         if let Answer::Confined { confinement } = first {
             self.confinement = confinement;
         }
-        self.confinement.in_force.push(format!("time: {} s a trial", limits.seconds));
+        self.confinement.in_force.push(match limits.seconds {
+            Some(seconds) => format!("time: {seconds} s a trial"),
+            None => "time: what its adapter's file allows for a picture".to_owned(),
+        });
         let nonsense = |what| CoreError::BrokeContract(format!("when it was greeted: {what}"));
         match self.ask(&Request::Hello, &[], &mut [])? {
             Answer::Core { core } => self.info = core.info().map_err(nonsense)?,
@@ -255,6 +262,7 @@ impl Launch {
         command.arg("worker").arg(serde_json::to_string(&errand)?).env_clear();
         command
             .envs(KEPT_VARIABLES.iter().filter_map(|name| Some((name, std::env::var_os(name)?))));
+        command.envs(self.variables.iter().map(|(name, value)| (name, value)));
         // What a core writes at home or for a while goes to the folder that it may write.
         command.envs(["HOME", "TMPDIR", "TMP", "TEMP"].map(|name| (name, &scratch)));
         command.env("PYTHONDONTWRITEBYTECODE", "1").env("PYTHONUNBUFFERED", "1");

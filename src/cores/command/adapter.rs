@@ -241,7 +241,8 @@ impl Adapter {
                 return Some(Complaint { word, message });
             }
         }
-        let has = |word: &str| self.arguments.iter().any(|argument| argument.contains(word));
+        let templates = || self.arguments.iter().chain(self.environment.values());
+        let has = |word: &str| templates().any(|template| template.contains(word));
         let complain = |word: &str, message: &str| {
             Some(Complaint { word: word.to_owned(), message: message.to_owned() })
         };

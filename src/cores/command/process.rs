@@ -4,13 +4,14 @@ use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::sync::mpsc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How much of the end of what a program said is shown.
 const LAST_WORDS: u64 = 2_000;
 /// How much of what a program said is read at all.
 const LONGEST_LOG: u64 = 1 << 22;
+/// How often it is looked whether a program has ended.
+const GLANCE: Duration = Duration::from_millis(2);
 
 /// How a program ended.
 #[derive(Debug)]
@@ -19,6 +20,15 @@ pub enum Ended {
     Exited(ExitStatus),
     /// It was killed, with all it had started.
     OutOfTime,
+}
+
+/// Whom the processes of a program belong to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// To a group of their own, which is ended with the program.
+    Own,
+    /// To that of the worker they are in, which may found no other and is ended as a whole.
+    Workers,
 }
 
 /// What a program said, kept in files while it runs: however much it is, it blocks nobody.
@@ -64,69 +74,79 @@ pub fn run<'a>(
     command: &mut Command,
     folder: &'a Path,
     limit: Duration,
+    group: Group,
 ) -> std::io::Result<(Ended, Words<'a>)> {
     command.stdin(Stdio::null()).current_dir(folder);
     command.stdout(File::create(folder.join(STDOUT))?);
     command.stderr(File::create(folder.join(STDERR))?);
     #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(command, 0);
+    if group == Group::Own {
+        std::os::unix::process::CommandExt::process_group(command, 0);
+    }
     let child = command.spawn()?;
-    Ok((wait(child, limit)?, Words { folder }))
+    Ok((wait(child, limit, group)?, Words { folder }))
 }
 
-/// Waits in a thread of its own, so that there can be an end to waiting.
-fn wait(mut child: Child, limit: Duration) -> std::io::Result<Ended> {
-    let (sender, receiver) = mpsc::channel();
-    let group = child.id();
-    let waiter = std::thread::spawn(move || {
-        until_exit(&child);
-        // Not yet reaped: the number of its group is still its own.
-        kill_group(group);
-        let _ = sender.send(());
-        child.wait()
-    });
-    let in_time = receiver.recv_timeout(limit).is_ok();
-    if !in_time {
-        kill_group(group);
-    }
-    let status =
-        waiter.join().map_err(|_| std::io::Error::other("the waiting thread panicked"))??;
+/// Waits until it ends, and ends it if that takes too long; with what it has left behind.
+fn wait(mut child: Child, limit: Duration, group: Group) -> std::io::Result<Ended> {
+    let begun = Instant::now();
+    let in_time = loop {
+        if has_ended(&mut child)? {
+            break true;
+        }
+        if begun.elapsed() > limit {
+            break false;
+        }
+        std::thread::sleep(GLANCE);
+    };
+    // Not yet reaped: the number of its group is still its own.
+    kill(&mut child, group);
+    let status = child.wait()?;
     Ok(if in_time { Ended::Exited(status) } else { Ended::OutOfTime })
 }
 
-/// Waits for the end of a child that is still to be reaped.
+/// Whether it has ended; it is still to be reaped.
 #[cfg(unix)]
-fn until_exit(child: &Child) {
+fn has_ended(child: &mut Child) -> std::io::Result<bool> {
     use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
-    let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT;
-    while let Err(rustix::io::Errno::INTR) = waitid(WaitId::Pid(Pid::from_child(child)), options) {}
+    let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT | WaitIdOptions::NOHANG;
+    match waitid(WaitId::Pid(Pid::from_child(child)), options) {
+        Err(rustix::io::Errno::INTR) => Ok(false),
+        ended => Ok(ended?.is_some()),
+    }
 }
 
 #[cfg(not(unix))]
-fn until_exit(_child: &Child) {}
+fn has_ended(child: &mut Child) -> std::io::Result<bool> {
+    Ok(child.try_wait()?.is_some())
+}
 
-/// Kills a group of processes, if it is there.
+/// Ends a process, with its group if that is its own. Nobody left to end is as good.
 #[cfg(unix)]
-fn kill_group(group: u32) {
-    use rustix::process::{Pid, Signal, kill_process_group};
-    let group = i32::try_from(group).ok().and_then(Pid::from_raw);
-    // Nobody left to kill is as good.
-    let _ = group.map(|group| kill_process_group(group, Signal::KILL));
+fn kill(child: &mut Child, group: Group) {
+    use rustix::process::{Pid, Signal, kill_process, kill_process_group};
+    let leader = Pid::from_child(child);
+    let _ = match group {
+        Group::Own => kill_process_group(leader, Signal::KILL),
+        Group::Workers => kill_process(leader, Signal::KILL),
+    };
 }
 
+/// Ends a process; what it has started goes on. Nobody left to end is as good.
 #[cfg(not(unix))]
-fn kill_group(_group: u32) {}
+fn kill(child: &mut Child, _group: Group) {
+    let _ = child.kill();
+}
 
 #[cfg(test)]
 #[cfg(unix)]
 mod tests {
     use super::*;
-    use std::time::Instant;
 
     fn shell(script: &str, limit: Duration) -> (Ended, String) {
         let folder = tempfile::tempdir().unwrap();
         let (ended, words) =
-            run(Command::new("sh").args(["-c", script]), folder.path(), limit).unwrap();
+            run(Command::new("sh").args(["-c", script]), folder.path(), limit, Group::Own).unwrap();
         (ended, words.last())
     }
 
@@ -146,8 +166,13 @@ mod tests {
         let script = "sleep 97 & echo $! > child; wait";
         let clock = Instant::now();
         let mut command = Command::new("sh");
-        let (ended, _) =
-            run(command.args(["-c", script]), folder.path(), Duration::from_millis(800)).unwrap();
+        let (ended, _) = run(
+            command.args(["-c", script]),
+            folder.path(),
+            Duration::from_millis(800),
+            Group::Own,
+        )
+        .unwrap();
         assert!(matches!(ended, Ended::OutOfTime));
         assert!(clock.elapsed() < Duration::from_secs(20));
         assert!(is_gone(&folder.path().join("child")));
@@ -159,7 +184,8 @@ mod tests {
         let script = "sleep 98 & echo $! > child";
         let mut command = Command::new("sh");
         let (ended, _) =
-            run(command.args(["-c", script]), folder.path(), Duration::from_secs(20)).unwrap();
+            run(command.args(["-c", script]), folder.path(), Duration::from_secs(20), Group::Own)
+                .unwrap();
         assert!(matches!(ended, Ended::Exited(_)));
         assert!(is_gone(&folder.path().join("child")));
     }

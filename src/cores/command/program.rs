@@ -2,8 +2,9 @@
 
 use super::adapter::{Adapter, Encoding, Feature, LogPatterns, Pattern, Runs};
 use super::picture::{self, Picture};
-use super::process::{self, Ended, Words};
+use super::process::{self, Ended, Group, Words};
 use crate::contract::{CoreError, DirectSampling, RenderSettings, Result};
+use crate::cores::foreign::found;
 use crate::export::{self, ExportError, Request, Written};
 use crate::scene::{Camera, Light, SceneDescription, Shape, Surface};
 use crate::text::{Diagnostic, Source};
@@ -19,6 +20,8 @@ pub struct Program {
     adapter: Adapter,
     /// Where the adapter's file is.
     folder: PathBuf,
+    /// Whom what it starts belongs to.
+    group: Group,
     /// The number of each seed, where runs are told apart by their samples.
     runs: Mutex<HashMap<u64, u32>>,
 }
@@ -71,7 +74,20 @@ impl Program {
             Adapter::parse(&source).map_err(|error| AdapterError::Wrong(Box::new(error)))?;
         let folder = path.parent().unwrap_or(Path::new("."));
         let folder = std::path::absolute(folder).map_err(unreadable)?;
-        Ok(Self { adapter, folder, runs: Mutex::default() })
+        Ok(Self { adapter, folder, group: Group::Own, runs: Mutex::default() })
+    }
+
+    /// The same in a worker, which is ended with all that it has started.
+    pub fn within_a_worker(self) -> Self {
+        Self { group: Group::Workers, ..self }
+    }
+
+    /// The program, and what it is started with as far as that is known before there is a scene.
+    pub fn words(&self) -> Vec<String> {
+        let folder = self.folder.display().to_string();
+        let arguments = self.adapter.arguments.iter();
+        let arguments = arguments.map(|argument| argument.replace("{adapter}", &folder));
+        [self.executable()].into_iter().chain(arguments).collect()
     }
 
     /// What its file says.
@@ -120,15 +136,16 @@ impl Program {
         let mut command = self.command(words, folder);
         let during = format!("`{}`", self.adapter.name);
         let limit = Duration::from_secs(u64::from(self.adapter.time_limit));
-        let (ended, said) = process::run(&mut command, folder, limit).map_err(|error| {
-            let executable = &self.adapter.program;
-            CoreError::Refused(format!(
-                "`{}` cannot be started ({error}); set {} to {}",
-                command.get_program().display(),
-                executable.variable,
-                executable.needs
-            ))
-        })?;
+        let (ended, said) =
+            process::run(&mut command, folder, limit, self.group).map_err(|error| {
+                let executable = &self.adapter.program;
+                CoreError::Refused(format!(
+                    "`{}` cannot be started ({error}); set {} to {}",
+                    command.get_program().display(),
+                    executable.variable,
+                    executable.needs
+                ))
+            })?;
         match ended {
             Ended::Exited(status) if status.success() => {}
             Ended::Exited(status) => {
@@ -165,9 +182,11 @@ impl Program {
         command
     }
 
+    /// By its whole path, since it runs in a folder of its own; as it was named, if it is nowhere.
     fn executable(&self) -> String {
         let Adapter { program, .. } = &self.adapter;
-        std::env::var(&program.variable).unwrap_or_else(|_| program.default.clone())
+        let named = std::env::var(&program.variable).unwrap_or_else(|_| program.default.clone());
+        found(&named).map_or(named, |path| path.display().to_string())
     }
 
     fn read(&self, folder: &Path, film: [u32; 2]) -> Result<Picture> {

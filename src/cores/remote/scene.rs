@@ -2,9 +2,10 @@
 
 use super::{Remote, Step, done, numbers, out_of_place};
 use crate::contract::{
-    Acceleration, BuildStats, BuiltScene, Capabilities, Film, Hit, IntegratorSettings, LightSample,
-    Randomness, Ray, RenderSettings, Result, TraversalStats, read_flags,
+    Acceleration, BuildStats, BuiltScene, Capabilities, CodedFilm, Film, Hit, IntegratorSettings,
+    LightSample, Randomness, Ray, RenderSettings, Result, TraversalStats, read_flags,
 };
+use crate::image::png::Picture;
 use crate::scene::{Camera, SceneDescription};
 use crate::worker::message::{Answer, Request, Sent, Wanted};
 use crate::worker::{SceneArrays, scene_header};
@@ -119,5 +120,15 @@ impl BuiltScene for RemoteScene<'_> {
         let mut wanted = vec![pixels, counts];
         wanted.extend(has.contains(Capabilities::REPORTED_VARIANCE).then_some(variances));
         done(self.ask(&request, &[], &mut wanted))
+    }
+
+    fn render_codes(&mut self, camera: &Camera, settings: &RenderSettings) -> Result<CodedFilm> {
+        let [width, height] = [settings.width, settings.height].map(|pixels| pixels as usize);
+        let mut codes = Picture { width, height, pixels: vec![[0; 3]; width * height] };
+        let request = Request::RenderCodes { camera: *camera, settings: settings.clone() };
+        match self.ask(&request, &[], &mut [Wanted::new("codes", &mut codes.pixels)])? {
+            Answer::Coded { encoding } => Ok(CodedFilm { encoding, codes }),
+            other => Err(out_of_place(&other)),
+        }
     }
 }

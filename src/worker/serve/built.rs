@@ -2,7 +2,7 @@
 
 use super::{Arrays, Inbox, Incoming, Outbox};
 use crate::contract::{
-    Acceleration, BuiltScene, Capabilities, Core, Film, Hit, LightSample, Ray,
+    Acceleration, BuiltScene, Capabilities, CodedFilm, Core, Film, Hit, LightSample, Ray,
     Result as CoreResult, TraversalStats,
 };
 use crate::scene::SceneDescription;
@@ -89,6 +89,13 @@ fn answer(
                 Err(error) => outbox.fail(number, error),
             }
         }
+        Request::RenderCodes { camera, settings } => match built.render_codes(&camera, &settings) {
+            Ok(CodedFilm { encoding, codes }) => {
+                let codes = Sent::new("codes", &codes.pixels);
+                outbox.send(number, Answer::Coded { encoding }, &[codes])
+            }
+            Err(error) => outbox.fail(number, error),
+        },
         other => Err(FrameError::Malformed(format!("`{}` within a scene", other.name()))),
     }
 }

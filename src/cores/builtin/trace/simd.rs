@@ -1,6 +1,9 @@
-#![expect(
-    unsafe_code,
-    reason = "vector loads and stores, and calls of functions compiled for AVX2"
+#![cfg_attr(
+    target_arch = "x86_64",
+    expect(
+        unsafe_code,
+        reason = "vector loads and stores, and calls of functions compiled for AVX2"
+    )
 )]
 //! The kernel for x86-64 processors with AVX2 and FMA. The only file of the core with `unsafe`.
 //!

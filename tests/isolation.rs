@@ -110,7 +110,8 @@ const PICTURE: &str = "images/point-light-plane-matches";
 
 /// What each program that makes pictures comes to.
 const RENDERERS: &[(&str, Ending)] = &[
-    ("behave", (Status::Fail, "")),
+    ("behave", (Status::Fail, "the picture has 0.0000 of the light")),
+    ("behave.png", (Status::Fail, "in codes (sRGB, rounded): the picture has 0.0000 of")),
     ("crash", (Status::Crashed, "SIGABRT")),
     ("exit", (Status::Fail, "it ended well and wrote no picture.pfm")),
     ("hang", (Status::TimedOut, "no answer in 2 s")),
@@ -178,6 +179,10 @@ impl Lair {
     fn renderer(&self, deed: &str) -> String {
         fs::copy(fixture("renderer.py"), self.den().join("renderer.py")).unwrap();
         let secret = self.project.references().join("recipes.toml");
+        let (deed, ending, encoding) = match deed.strip_suffix(".png") {
+            Some(deed) => (deed, "png", "srgb"),
+            None => (deed, "pfm", "linear"),
+        };
         let text = format!(
             r#"
             name = "{deed}"
@@ -187,7 +192,7 @@ impl Lair {
             program = {{ variable = "FURNACE_HOSTILE_PYTHON", default = '{}', needs = "a Python" }}
             arguments = ["{{adapter}}/renderer.py", "{{output}}", '{}', '{}', "{deed}"]
             environment = {{ SEED = "{{seed}}" }}
-            output = {{ file = "picture.pfm", encoding = "linear" }}
+            output = {{ file = "picture.{ending}", encoding = "{encoding}" }}
             time-limit = 2
             runs = {{ seed-bits = 31 }}
             "#,
@@ -195,7 +200,7 @@ impl Lair {
             secret.display(),
             self.result().display(),
         );
-        let path = self.den().join(format!("{deed}.toml"));
+        let path = self.den().join(format!("{deed}-{ending}.toml"));
         fs::write(&path, text).unwrap();
         path.to_string_lossy().into_owned()
     }

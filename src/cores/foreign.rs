@@ -40,8 +40,7 @@ fn library(path: &Path) -> Result<Guest, String> {
 fn renderer(path: &Path) -> Result<Guest, String> {
     let program = Program::load(path).map_err(|error| error.to_string())?;
     let adapter = std::path::absolute(path).map_err(|error| error.to_string())?;
-    let variable = program.adapter().program.variable.clone();
-    Ok(Guest::Renderer { adapter, variable, words: program.words() })
+    Ok(Guest::Renderer { adapter, words: program.words() })
 }
 
 /// The words of a command; the program and files among them by their whole paths, since a worker

@@ -77,25 +77,20 @@ impl Hosting {
 
     /// How the workers of a core are started.
     pub fn launch(&self, spec: &CoreSpec) -> Launch {
-        let (limits, variables) = match spec.guest() {
-            // Its file says how long each picture may take.
-            Guest::Renderer { variable, words, .. } => (
-                Limits { seconds: None, ..self.limits },
-                words.first().map(|program| (variable.clone(), program.clone())),
-            ),
-            _ => (self.limits, None),
-        };
+        let renderer = spec.program().and_then(Result::ok);
+        // Its file says how long each picture may take.
+        let seconds = if renderer.is_some() { None } else { self.limits.seconds };
         // What does not exist yet has no real path, but a place.
         let real = |path: &PathBuf| path.canonicalize().or_else(|_| std::path::absolute(path)).ok();
         Launch {
             program: self.program.clone(),
             spec: spec.to_string(),
             guest: spec.guest().clone(),
-            limits,
+            limits: Limits { seconds, ..self.limits },
             hidden: self.hidden.iter().filter_map(real).collect(),
             readable: self.readable.iter().filter_map(real).collect(),
             confined: self.confined,
-            variables: variables.into_iter().collect(),
+            variables: renderer.map(|program| program.variables()).unwrap_or_default(),
         }
     }
 }

@@ -47,8 +47,6 @@ pub enum Guest {
     Renderer {
         /// The file that says how.
         adapter: PathBuf,
-        /// The variable that names the program, which is the first word.
-        variable: String,
         /// What it is started with, as far as that is known before there is a scene.
         words: Vec<String>,
     },

@@ -67,7 +67,8 @@ impl Client {
             let (number, asked) = (opening.number, self.number);
             return Err(nonsense(format!("it answered request {number}, and was asked {asked}")));
         }
-        let has_arrays = matches!(header.message, Answer::Done | Answer::Traced { .. });
+        let has_arrays =
+            matches!(header.message, Answer::Done | Answer::Traced { .. } | Answer::Coded { .. });
         let wanted = if has_arrays { wanted } else { &mut [] };
         fits(&header.arrays, opening.body, wanted)?;
         for array in wanted {

@@ -136,7 +136,7 @@ pub fn readable(errand: &Errand) -> Vec<PathBuf> {
         Guest::Resident => {}
         Guest::Library(library) => paths.extend(with_folder(library, hidden)),
         Guest::Program(words) => paths.extend(of_program(words, hidden)),
-        Guest::Renderer { adapter, words, .. } => {
+        Guest::Renderer { adapter, words } => {
             paths.extend(with_folder(adapter, hidden));
             paths.extend(of_program(words, hidden));
         }

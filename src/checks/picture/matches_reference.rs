@@ -306,7 +306,10 @@ fn brightness(report: &ImageReport) -> String {
     let whole = report.ratios.iter().find(|ratio| ratio.component == Component::Luminance);
     match whole {
         None => "the picture is black".to_owned(),
-        Some(whole) => format!("the picture has {:.4} of the light it should have", whole.ratio),
+        // Of codes it is an extrapolation, which black ones carry below nothing.
+        Some(whole) => {
+            format!("the picture has {:.4} of the light it should have", whole.ratio.max(0.0))
+        }
     }
 }
 

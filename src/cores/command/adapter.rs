@@ -51,6 +51,9 @@ pub struct Adapter {
     /// For the environment of the program.
     #[serde(default)]
     pub environment: BTreeMap<String, String>,
+    /// Variables of the user's environment that the program gets to see; others but a few it does not.
+    #[serde(default)]
+    pub keeps: Vec<String>,
     /// What `{depth}` adds to the last bounce.
     #[serde(default)]
     pub depth_offset: u32,

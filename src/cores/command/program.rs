@@ -90,6 +90,14 @@ impl Program {
         [self.executable()].into_iter().chain(arguments).collect()
     }
 
+    /// Of the user's environment, what the program gets to see.
+    pub fn variables(&self) -> Vec<(String, String)> {
+        let kept = self.adapter.keeps.iter();
+        let kept = kept.filter_map(|name| Some((name.clone(), std::env::var(name).ok()?)));
+        let program = (self.adapter.program.variable.clone(), self.executable());
+        [program].into_iter().chain(kept).collect()
+    }
+
     /// What its file says.
     pub fn adapter(&self) -> &Adapter {
         &self.adapter

@@ -32,7 +32,8 @@ const LAYERS: &[(&str, u32)] = &[
 ];
 
 /// `unsafe` stands in these files alone.
-const UNSAFE_FILES: &[&str] = &["src/cores/builtin/trace/simd.rs", "src/cores/dylib.rs"];
+const UNSAFE_FILES: &[&str] =
+    &["src/cores/builtin/trace/simd.rs", "src/cores/dylib.rs", "src/worker/confine_linux.rs"];
 
 fn source_files() -> Vec<PathBuf> {
     fn collect(folder: &Path, files: &mut Vec<PathBuf>) {

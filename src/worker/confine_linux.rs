@@ -14,7 +14,9 @@ use seccompiler::{
     SeccompCondition, SeccompFilter, SeccompRule,
 };
 use std::collections::BTreeMap;
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Duration;
 
 /// The newest version of Landlock that this was written for; older kernels do what they can.
@@ -197,6 +199,14 @@ pub fn adopt_orphans() {
     let _ = rustix::process::set_child_subreaper(Some(getpid()));
 }
 
+/// Lets a program end with whoever starts it: a worker that is killed leaves no renderer behind.
+#[expect(unsafe_code, reason = "a system call between fork and exec")]
+pub fn end_with_us(command: &mut Command) {
+    let leash = || Ok(rustix::process::set_parent_process_death_signal(Some(Signal::KILL))?);
+    // SAFETY: it is one system call, which takes neither locks nor memory.
+    unsafe { command.pre_exec(leash) };
+}
+
 /// What a worker and all it has started use at the moment.
 pub fn usage(group: Pid, is_program: bool) -> Usage {
     let leader = group.as_raw_nonzero().get().unsigned_abs();
@@ -243,8 +253,6 @@ fn stat(path: &Path) -> Option<Vec<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::os::unix::process::CommandExt;
-    use std::process::Command;
 
     #[test]
     fn a_group_is_measured() {

@@ -26,6 +26,8 @@ mod serve;
 pub use child::{Errand, Guest};
 pub use client::{Client, Silence};
 pub use confine::Confinement;
+#[cfg(target_os = "linux")]
+pub use confine_linux::end_with_us;
 pub use process::{Launch, Limits, StartError, Worker};
 pub use scene::{SceneArrays, header as scene_header};
 pub use serve::{refuse, serve};

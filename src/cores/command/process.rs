@@ -83,6 +83,8 @@ pub fn run<'a>(
     if group == Group::Own {
         std::os::unix::process::CommandExt::process_group(command, 0);
     }
+    #[cfg(target_os = "linux")]
+    crate::worker::end_with_us(command);
     let child = command.spawn()?;
     Ok((wait(child, limit, group)?, Words { folder }))
 }

@@ -144,6 +144,7 @@ pub fn smooth_normals(mesh: &Mesh) -> Vec<DVec3> {
 fn load_obj(path: &Path) -> Result<Mesh, MeshError> {
     let options = tobj::LoadOptions { triangulate: true, single_index: true, ..Default::default() };
     let without_materials = |_: &Path| Ok(Default::default());
+    check_references(&std::fs::read(path)?)?;
     let mut reader = BufReader::new(File::open(path)?);
     let (models, _) = tobj::load_obj_buf(&mut reader, &options, without_materials)
         .map_err(|problem| malformed("OBJ", &problem))?;
@@ -156,6 +157,39 @@ fn load_obj(path: &Path) -> Result<Mesh, MeshError> {
         mesh.indices.extend(triangles.iter().map(|corners| corners.map(|i| first + i)));
     }
     Ok(mesh)
+}
+
+/// That the faces of an OBJ file name vertices and normals that it has: tobj 4.0.5 counts back beyond the
+/// first normal, and overflows or takes another one.
+fn check_references(bytes: &[u8]) -> Result<(), MeshError> {
+    const LISTS: [(&str, &str); 3] =
+        [("v", "vertex"), ("vt", "texture coordinate"), ("vn", "normal")];
+    let text = String::from_utf8_lossy(bytes);
+    let words = || text.lines().map(str::split_whitespace);
+    let total =
+        LISTS.map(|(key, _)| words().filter(|words| words.clone().next() == Some(key)).count());
+    let mut so_far = [0; 3];
+    for (line, mut words) in words().enumerate() {
+        let key = words.next().unwrap_or_default();
+        if let Some(list) = LISTS.iter().position(|(word, _)| *word == key) {
+            so_far[list] += 1;
+        }
+        if !["f", "l", "p"].contains(&key) {
+            continue;
+        }
+        let named = words.flat_map(|corner| corner.split('/').zip(0..LISTS.len()));
+        for (word, list) in named {
+            // What is no number is told by tobj, and what no list has is not looked up.
+            let Ok(index) = word.parse::<i64>() else { continue };
+            let known = if index > 0 { total[list] } else { so_far[list] };
+            if total[list] > 0 && index.unsigned_abs() > known as u64 {
+                let name = LISTS[list].1;
+                let what = format!("line {} names {name} {index}, and there are {known}", line + 1);
+                return Err(malformed("OBJ", &what));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn points(coordinates: &[f32]) -> impl Iterator<Item = DVec3> {
@@ -289,7 +323,12 @@ mod tests {
         let message = loaded(text, Format::Ply).unwrap_err();
         assert_eq!(message, "triangle 0 refers to vertex 7, but there are only 3 vertices");
         let message = loaded("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", Format::Obj).unwrap_err();
-        assert!(message.contains("not a valid OBJ file"), "{message}");
+        assert!(message.ends_with("line 4 names vertex 9, and there are 3"), "{message}");
+        // Counted back from the last normal; a list that is not there is not looked into.
+        let corners = |face| format!("v 0 0 0\nv 1 0 0\nvn 0 0 1\nv 1 1 0\nf {face}\n");
+        assert!(loaded(&corners("1/5/-1 2/5/-1 -1/5/1"), Format::Obj).is_ok());
+        let message = loaded(&corners("1//1 2//1 3//-9"), Format::Obj).unwrap_err();
+        assert!(message.ends_with("line 5 names normal -9, and there are 1"), "{message}");
     }
 
     #[test]

@@ -121,6 +121,7 @@ impl Entered {
 /// The channel is a socket that stands as standard input.
 #[cfg(unix)]
 mod inherited {
+    use super::super::eager::Eager;
     use super::{CHANNEL_VARIABLE, Channel};
     use rustix::io::{FdFlags, fcntl_dupfd_cloexec, fcntl_setfd};
     use std::fs::File;
@@ -141,7 +142,7 @@ mod inherited {
 
     impl Inherited {
         pub fn into_channel(self) -> io::Result<Channel> {
-            Ok(Channel { input: Box::new(self.0.try_clone()?), output: Box::new(self.0) })
+            Ok(Channel { input: Box::new(Eager(self.0.try_clone()?)), output: Box::new(self.0) })
         }
 
         pub fn hand_to(self, mut command: Command) -> io::Result<i32> {

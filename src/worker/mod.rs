@@ -14,6 +14,8 @@ mod client;
 mod confine;
 #[cfg(target_os = "linux")]
 mod confine_linux;
+#[cfg(unix)]
+mod eager;
 pub mod frame;
 mod guard;
 pub mod message;

@@ -281,6 +281,7 @@ struct Started {
 /// The channel is a socket that the worker finds as its standard input, and moves away from there.
 #[cfg(unix)]
 fn start_with_channel(mut command: Command, printed: io::PipeWriter) -> io::Result<Started> {
+    use super::eager::Eager;
     use std::net::Shutdown;
     use std::os::fd::OwnedFd;
     use std::os::unix::net::UnixStream;
@@ -292,7 +293,7 @@ fn start_with_channel(mut command: Command, printed: io::PipeWriter) -> io::Resu
     let child = command.process_group(0).stdin(OwnedFd::from(theirs)).stdout(printed).spawn()?;
     let (reader, handle) = (ours.try_clone()?, ours.try_clone()?);
     let hang_up = Box::new(move || drop(handle.shutdown(Shutdown::Both)));
-    let channel = Channel { input: Box::new(reader), output: Box::new(ours) };
+    let channel = Channel { input: Box::new(Eager(reader)), output: Box::new(ours) };
     Ok(Started { child, channel, hang_up })
 }
 

@@ -50,7 +50,7 @@ impl Mistake {
             Self::HalfPixel => cause == "half-a-pixel-off",
             Self::GammaTwice => cause == "gamma-in-film",
             Self::MissingBounce => {
-                cause == "bounce-missing" && statement.contains("what is missing is bounce 6")
+                cause == "bounce-missing" && statement.contains("bounce 6 is missing, ")
             }
             Self::Clamped => cause == "samples-clamped",
         }

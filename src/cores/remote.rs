@@ -71,7 +71,10 @@ impl Remote {
     ) -> Option<String> {
         let count = wanted.first()?.count();
         let of_batch: Vec<_> = sent.iter().filter(|array| !array.is_shared()).collect();
-        let is_batch = !of_batch.is_empty() && of_batch.iter().all(|array| array.count() == count);
+        // A picture has no elements that could be asked for alone.
+        let is_batch = count > 0
+            && !of_batch.is_empty()
+            && of_batch.iter().all(|array| array.count() == count);
         if !is_batch {
             return None;
         }

@@ -1,8 +1,8 @@
 //! A core that is any program which turns a scene into a picture, described by a file of
 //! `adapters/command/`.
 //!
-//! The program is started anew for every picture, in a folder of its own and in a group of processes of its own,
-//! and gets the scene in one of the formats of [`crate::export`]. It can be asked for pictures only. One that
+//! It lives in a worker, which starts the program anew for every picture, in a folder of its own. The program gets
+//! the scene in one of the formats of [`crate::export`]. It can be asked for pictures only. One that
 //! writes 8 bits is asked for its codes, which are judged by their law and never decoded: what 8 bits cut off is
 //! not to be held against a renderer.
 //!

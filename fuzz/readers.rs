@@ -6,8 +6,9 @@
 use furnace::case;
 use furnace::contract::{Capabilities, Conventions, Core, CoreInfo, Hit, Precision, Ray};
 use furnace::image::exr;
+use furnace::scene::format::collada;
 use furnace::scene::mesh::{self, Format};
-use furnace::scene::{self, Overrides, collada};
+use furnace::scene::{self, Overrides};
 use furnace::worker::message::{Request, Wanted};
 use furnace::worker::{Channel, Client, serve};
 use std::cell::OnceCell;

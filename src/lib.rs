@@ -8,7 +8,6 @@ pub mod cli;
 pub mod contract;
 pub mod cores;
 pub mod diagnosis;
-pub mod export;
 pub mod faults;
 pub mod image;
 pub mod math;

@@ -17,7 +17,6 @@ const LAYERS: &[(&str, u32)] = &[
     ("stats", 2),
     ("scene", 3),
     ("contract", 4),
-    ("export", 4),
     ("worker", 5),
     ("cores", 6),
     ("checks", 6),

@@ -1,7 +1,7 @@
 //! `furnace export`: a scene in another program's words.
 
 use super::{Answer, ExitCode, Failure, ProjectArguments};
-use crate::export::{self, ExportError, Format, Request};
+use crate::scene::format::{self, ExportError, Format, Request};
 use crate::scene::{Library, Overrides};
 use clap::Args;
 use std::path::PathBuf;
@@ -40,10 +40,10 @@ pub fn export(arguments: &ExportArguments) -> Answer {
     })?;
     let request =
         Request { last_bounce: arguments.bounces, samples: arguments.spp, seed: arguments.seed };
-    let written = export::write(&scene, arguments.format, request, &arguments.output);
+    let written = format::write(&scene, arguments.format, request, &arguments.output);
     let written = written.map_err(|error| match error {
         ExportError::Io { .. } => Failure::broken(error),
-        ExportError::CannotHold { .. } | ExportError::Mitsuba(_) => Failure::request(error),
+        ExportError::CannotHold { .. } => Failure::request(error),
     })?;
     println!("{}", written.scene.display());
     if let Some(camera) = written.camera {

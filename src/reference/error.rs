@@ -2,7 +2,7 @@
 
 use crate::image::ImageError;
 use crate::scene::SceneError;
-use crate::scene::mitsuba::MitsubaError;
+use crate::scene::format::ExportError;
 use crate::scene::reference::ReferenceError;
 use crate::text::Diagnostic;
 use std::path::{Path, PathBuf};
@@ -27,9 +27,9 @@ pub enum MakeError {
     /// The scene cannot be had.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The scene cannot be said in Mitsuba's words.
+    /// The scene cannot be said in Mitsuba's words, or not be written.
     #[error(transparent)]
-    Mitsuba(#[from] MitsubaError),
+    Export(#[from] ExportError),
     /// Sequences of random numbers would overlap.
     #[error(
         "the film of `{scene}` is {film:?} pixels: a reference needs multiples of 32, \

@@ -1,7 +1,8 @@
 //! The scenes of a folder, each read once.
 
 use super::file::{self, Overrides};
-use super::{SceneDescription, SceneError, collada};
+use super::format::collada;
+use super::{SceneDescription, SceneError};
 use crate::text::{Source, did_you_mean, listed};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

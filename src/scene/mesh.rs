@@ -4,12 +4,9 @@
 //! Not here: where a mesh stands in the scene, and what it is made of.
 
 use super::Mesh;
+use super::format::{obj, ply, stl};
 use glam::DVec3;
-use ply_rs_bw::parser::Parser;
-use ply_rs_bw::ply::{DefaultElement, Property};
 use serde::Deserialize;
-use std::fs::File;
-use std::io::BufReader;
 use std::path::Path;
 
 /// Why a mesh is not one. A lowercase fragment that fits after the name of the file.
@@ -55,6 +52,12 @@ pub enum MeshError {
     Empty,
 }
 
+impl MeshError {
+    pub(super) fn malformed(format: &'static str, problem: &dyn std::fmt::Display) -> Self {
+        Self::Malformed { format, problem: problem.to_string() }
+    }
+}
+
 /// The file formats that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -90,9 +93,9 @@ impl Shading {
 /// them.
 pub fn load(path: &Path, format: Format) -> Result<Mesh, MeshError> {
     let mut mesh = match format {
-        Format::Obj => load_obj(path),
-        Format::Ply => load_ply(path),
-        Format::Stl => load_stl(path),
+        Format::Obj => obj::read(path),
+        Format::Ply => ply::read(path),
+        Format::Stl => stl::read(path),
     }?;
     check(&mesh)?;
     mesh.normals.iter_mut().for_each(|normal| *normal = normal.normalize());
@@ -139,127 +142,6 @@ pub fn smooth_normals(mesh: &Mesh) -> Vec<DVec3> {
     // A vertex without triangles, or between two that face each other, is never shaded by its own
     // normal.
     normals.into_iter().map(|normal| normal.normalize_or(DVec3::Y)).collect()
-}
-
-fn load_obj(path: &Path) -> Result<Mesh, MeshError> {
-    let options = tobj::LoadOptions { triangulate: true, single_index: true, ..Default::default() };
-    let without_materials = |_: &Path| Ok(Default::default());
-    check_references(&std::fs::read(path)?)?;
-    let mut reader = BufReader::new(File::open(path)?);
-    let (models, _) = tobj::load_obj_buf(&mut reader, &options, without_materials)
-        .map_err(|problem| malformed("OBJ", &problem))?;
-    let mut mesh = Mesh::default();
-    for model in models {
-        let first = mesh.positions.len() as u32;
-        mesh.positions.extend(points(&model.mesh.positions));
-        mesh.normals.extend(points(&model.mesh.normals));
-        let (triangles, _) = model.mesh.indices.as_chunks::<3>();
-        mesh.indices.extend(triangles.iter().map(|corners| corners.map(|i| first + i)));
-    }
-    Ok(mesh)
-}
-
-/// That the faces of an OBJ file name vertices and normals that it has: tobj 4.0.5 counts back beyond the
-/// first normal, and overflows or takes another one.
-fn check_references(bytes: &[u8]) -> Result<(), MeshError> {
-    const LISTS: [(&str, &str); 3] =
-        [("v", "vertex"), ("vt", "texture coordinate"), ("vn", "normal")];
-    let text = String::from_utf8_lossy(bytes);
-    let words = || text.lines().map(str::split_whitespace);
-    let total =
-        LISTS.map(|(key, _)| words().filter(|words| words.clone().next() == Some(key)).count());
-    let mut so_far = [0; 3];
-    for (line, mut words) in words().enumerate() {
-        let key = words.next().unwrap_or_default();
-        if let Some(list) = LISTS.iter().position(|(word, _)| *word == key) {
-            so_far[list] += 1;
-        }
-        if !["f", "l", "p"].contains(&key) {
-            continue;
-        }
-        let named = words.flat_map(|corner| corner.split('/').zip(0..LISTS.len()));
-        for (word, list) in named {
-            // What is no number is told by tobj, and what no list has is not looked up.
-            let Ok(index) = word.parse::<i64>() else { continue };
-            let known = if index > 0 { total[list] } else { so_far[list] };
-            if total[list] > 0 && index.unsigned_abs() > known as u64 {
-                let name = LISTS[list].1;
-                let what = format!("line {} names {name} {index}, and there are {known}", line + 1);
-                return Err(malformed("OBJ", &what));
-            }
-        }
-    }
-    Ok(())
-}
-
-fn points(coordinates: &[f32]) -> impl Iterator<Item = DVec3> {
-    let (points, _) = coordinates.as_chunks::<3>();
-    points.iter().map(|point| DVec3::from_array(point.map(f64::from)))
-}
-
-fn load_stl(path: &Path) -> Result<Mesh, MeshError> {
-    let mut reader = BufReader::new(File::open(path)?);
-    let stl = stl_io::read_stl(&mut reader).map_err(|problem| malformed("STL", &problem))?;
-    let index = |vertex: usize| {
-        u32::try_from(vertex).map_err(|_| malformed("STL", &"more vertices than 2³²"))
-    };
-    let triangle = |face: &stl_io::IndexedTriangle| {
-        let [a, b, c] = face.vertices;
-        Ok([index(a)?, index(b)?, index(c)?])
-    };
-    Ok(Mesh {
-        positions: stl.vertices.iter().map(|v| DVec3::from_array(v.0.map(f64::from))).collect(),
-        indices: stl.faces.iter().map(triangle).collect::<Result<_, MeshError>>()?,
-        ..Mesh::default()
-    })
-}
-
-fn load_ply(path: &Path) -> Result<Mesh, MeshError> {
-    let ply = Parser::<DefaultElement>::new()
-        .read_ply(&mut File::open(path)?)
-        .map_err(|problem| malformed("PLY", &problem))?;
-    let elements = |name: &'static str| {
-        ply.payload.get(name).ok_or_else(|| malformed("PLY", &format!("it has no `{name}`")))
-    };
-    let vertices = elements("vertex")?;
-    let has_normals = vertices.first().is_some_and(|vertex| vertex.contains_key("nx"));
-    let mut mesh = Mesh::default();
-    for vertex in vertices {
-        mesh.positions.push(ply_vector(vertex, ["x", "y", "z"])?);
-        if has_normals {
-            mesh.normals.push(ply_vector(vertex, ["nx", "ny", "nz"])?);
-        }
-    }
-    for face in elements("face")? {
-        let corners = ply_corners(face)?;
-        let fan = corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]);
-        mesh.indices.extend(fan);
-    }
-    Ok(mesh)
-}
-
-fn ply_vector(element: &DefaultElement, names: [&str; 3]) -> Result<DVec3, MeshError> {
-    let number = |name: &str| match element.get(name) {
-        Some(Property::Double(number)) => Some(*number),
-        Some(property) => property.to_f32_lossy().map(f64::from),
-        None => None,
-    };
-    let missing = |name| malformed("PLY", &format!("a vertex has no number `{name}`"));
-    let mut vector = DVec3::ZERO;
-    for (axis, name) in names.into_iter().enumerate() {
-        vector[axis] = number(name).ok_or_else(|| missing(name))?;
-    }
-    Ok(vector)
-}
-
-fn ply_corners(face: &DefaultElement) -> Result<Vec<u32>, MeshError> {
-    let list = face.get("vertex_indices").or_else(|| face.get("vertex_index"));
-    list.and_then(Property::to_u32_list)
-        .ok_or_else(|| malformed("PLY", &"a face has no valid list `vertex_indices`"))
-}
-
-fn malformed(format: &'static str, problem: &impl std::fmt::Display) -> MeshError {
-    MeshError::Malformed { format, problem: problem.to_string() }
 }
 
 #[cfg(test)]

@@ -6,15 +6,14 @@
 //! - Diffuse, mirror and conductor surfaces scatter on both sides; emission leaves the front side only.
 
 mod camera;
-pub mod collada;
 mod error;
 mod file;
+pub mod format;
 pub mod hash;
 mod library;
 mod light;
 mod material;
 pub mod mesh;
-pub mod mitsuba;
 pub mod procedural;
 pub mod reference;
 mod shape;

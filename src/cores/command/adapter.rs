@@ -1,8 +1,8 @@
 //! `adapters/command/<name>.toml`: how a program is called, what it writes, and what it is known to do otherwise.
 
 use crate::contract::Conventions;
-use crate::export::Format;
 use crate::image;
+use crate::scene::format::Format;
 use crate::text::{Diagnostic, Source};
 use regex::Regex;
 use serde::Deserialize;

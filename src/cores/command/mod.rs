@@ -2,7 +2,7 @@
 //! `adapters/command/`.
 //!
 //! It lives in a worker, which starts the program anew for every picture, in a folder of its own. The program gets
-//! the scene in one of the formats of [`crate::export`]. It can be asked for pictures only. One that
+//! the scene in one of the formats of [`crate::scene::format`]. It can be asked for pictures only. One that
 //! writes 8 bits is asked for its codes, which are judged by their law and never decoded: what 8 bits cut off is
 //! not to be held against a renderer.
 //!

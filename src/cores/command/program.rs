@@ -5,7 +5,7 @@ use super::picture::{self, Picture};
 use super::process::{self, Ended, Group, Words};
 use crate::contract::{CoreError, DirectSampling, RenderSettings, Result};
 use crate::cores::foreign::found;
-use crate::export::{self, ExportError, Request, Written};
+use crate::scene::format::{self, ExportError, Request, Written};
 use crate::scene::{Camera, Light, SceneDescription, Shape, Surface};
 use crate::text::{Diagnostic, Source};
 use std::collections::HashMap;
@@ -127,12 +127,10 @@ impl Program {
         let scene = SceneDescription { camera: Some(Camera { film, ..*camera }), ..scene.clone() };
         let run = self.run_of(settings);
         let written =
-            export::write(&scene, self.adapter.scene, run.request(settings), folder.path());
+            format::write(&scene, self.adapter.scene, run.request(settings), folder.path());
         let written = written.map_err(|error| match error {
             ExportError::Io { .. } => refused(&error),
-            ExportError::CannotHold { .. } | ExportError::Mitsuba(_) => {
-                CoreError::Beyond(error.to_string())
-            }
+            ExportError::CannotHold { .. } => CoreError::Beyond(error.to_string()),
         })?;
         let words = Vocabulary { program: self, scene: &scene, camera, settings, run, written };
         let log = self.execute(&words, folder.path())?;

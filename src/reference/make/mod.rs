@@ -14,8 +14,8 @@ use super::sums::Sums;
 use super::{Listener, MakeError, MitsubaOptions, References, environment};
 use crate::image::Image;
 use crate::scene::SceneDescription;
+use crate::scene::format::mitsuba::{SAMPLER, export};
 use crate::scene::hash::content_hash;
-use crate::scene::mitsuba::{SAMPLER, export};
 use crate::scene::reference::{Reference, fingerprint, load, provenance_path};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -204,11 +204,8 @@ impl References {
         let key = format!("{} {} {samples}", content_hash(&scene), recipe.bounces);
         let key = &fingerprint(key.as_bytes())[..12];
         let folder = self.folder.join(".work").join(format!("{purpose}-{name}-{key}"));
-        let write = || {
-            std::fs::create_dir_all(&folder)?;
-            exported.write_to(&folder)
-        };
-        write().map_err(|problem| MakeError::file(&folder, &problem))?;
+        std::fs::create_dir_all(&folder).map_err(|problem| MakeError::file(&folder, &problem))?;
+        exported.write_to(&folder)?;
         let job = Job { folder, film, samples, last_bounce: None };
         Ok(Plan { name: name.to_owned(), recipe, scene, job })
     }

@@ -1,21 +1,27 @@
-//! Scenes in the words of other programs, so that these answer the question that a core is asked.
+//! Scenes and meshes in the words of other programs, each format in a place of its own with what reads it and
+//! what writes it.
 //!
 //! Every writer is strict: what its format cannot say is refused in words that name it, never left out or
-//! approximated. Mitsuba's format is written in [`crate::scene::mitsuba`], next to the references that are
-//! made with it.
+//! approximated, so that the other program answers the question that a core is asked.
+//!
+//! Not here: the scene files of this project (`file`), and pictures ([`crate::image`]).
 
-mod collada;
-mod obj;
+pub mod collada;
+pub mod mitsuba;
+pub(super) mod obj;
 mod pbrt;
+pub(super) mod ply;
+pub(super) mod stl;
 
-use crate::scene::SceneDescription;
-use crate::scene::mitsuba::{self, MitsubaError};
+use super::{Camera, SceneDescription};
+use crate::image::{Image, exr};
+use glam::DAffine3;
 use serde::Deserialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// What can be written.
+/// What a whole scene can be written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Format {
@@ -86,9 +92,6 @@ pub enum ExportError {
         /// Which thing of it, and why not.
         what: String,
     },
-    /// As above, by the writer of Mitsuba's format.
-    #[error(transparent)]
-    Mitsuba(#[from] MitsubaError),
     /// A file cannot be written.
     #[error("cannot write {path}: {error}")]
     Io {
@@ -118,37 +121,62 @@ pub fn write(
     request: Request,
     folder: &Path,
 ) -> Result<Written, ExportError> {
-    match format {
-        Format::Mitsuba => {
-            mitsuba::export(scene, request.last_bounce)?
-                .write_to(folder)
-                .map_err(|error| ExportError::Io { path: folder.to_owned(), error })?;
-            Ok(Written { scene: folder.join("scene.xml"), camera: None })
-        }
-        Format::Collada => collada::export(scene)?.write_to(folder),
-        Format::Pbrt => pbrt::export(scene, request)?.write_to(folder),
-        Format::Obj => obj::export(scene)?.write_to(folder),
-    }
+    let exported = match format {
+        Format::Mitsuba => mitsuba::export(scene, request.last_bounce),
+        Format::Collada => collada::export(scene),
+        Format::Pbrt => pbrt::export(scene, request),
+        Format::Obj => obj::export(scene),
+    }?;
+    exported.write_to(folder)
 }
 
-/// Text files; the first one is what a program is given.
+/// The files of a scene; the first one is what a program is given.
 #[derive(Debug)]
-struct Exported {
-    files: Vec<(&'static str, String)>,
+pub struct Exported {
+    files: Vec<(String, Content)>,
     /// The file of the camera.
     camera: Option<&'static str>,
 }
 
+/// What is in a file.
+#[derive(Debug)]
+enum Content {
+    Text(String),
+    Bytes(Vec<u8>),
+    Picture(Image),
+}
+
 impl Exported {
-    fn write_to(&self, folder: &Path) -> Result<Written, ExportError> {
-        for (name, text) in &self.files {
+    fn of_texts<const N: usize>(files: [(&str, String); N]) -> Self {
+        let files = files.map(|(name, text)| (name.to_owned(), Content::Text(text)));
+        Self { files: files.into(), camera: None }
+    }
+
+    /// Writes the files into `folder`, which exists.
+    ///
+    /// # Errors
+    /// If one cannot be written.
+    pub fn write_to(&self, folder: &Path) -> Result<Written, ExportError> {
+        for (name, content) in &self.files {
             let path = folder.join(name);
-            std::fs::write(&path, text).map_err(|error| ExportError::Io { path, error })?;
+            content.write(&path).map_err(|error| ExportError::Io { path, error })?;
         }
         Ok(Written {
-            scene: folder.join(self.files[0].0),
+            scene: folder.join(&self.files[0].0),
             camera: self.camera.map(|name| folder.join(name)),
         })
+    }
+}
+
+impl Content {
+    fn write(&self, path: &Path) -> std::io::Result<()> {
+        match self {
+            Self::Text(text) => std::fs::write(path, text),
+            Self::Bytes(bytes) => std::fs::write(path, bytes),
+            Self::Picture(picture) => {
+                exr::write_image(path, picture).map_err(std::io::Error::other)
+            }
+        }
     }
 }
 
@@ -159,10 +187,27 @@ struct Complaint<'a> {
     scene: &'a SceneDescription,
 }
 
-impl Complaint<'_> {
+impl<'a> Complaint<'a> {
     fn about(self, what: impl Into<String>) -> ExportError {
         let scene = self.scene.name.clone();
         ExportError::CannotHold { format: self.format, scene, what: what.into() }
+    }
+
+    /// The scene's camera, without which most formats make no picture.
+    fn camera(self) -> Result<&'a Camera, ExportError> {
+        self.scene.camera.as_ref().ok_or_else(|| self.about("it has no camera"))
+    }
+
+    /// The same for a program that knows square pixels only.
+    fn square_camera(self) -> Result<&'a Camera, ExportError> {
+        let camera = self.camera()?;
+        match camera.has_square_pixels() {
+            true => Ok(camera),
+            false => {
+                let format = self.format;
+                Err(self.about(format!("its camera's pixels are not square, and {format}'s are")))
+            }
+        }
     }
 }
 
@@ -170,6 +215,15 @@ impl Complaint<'_> {
 fn numbers(values: impl IntoIterator<Item = f64>) -> String {
     let words: Vec<_> = values.into_iter().map(|value| value.to_string()).collect();
     words.join(" ")
+}
+
+/// Three rows of a transform, as [`numbers`], and the fourth.
+fn matrix(transform: DAffine3) -> String {
+    let row = |row: usize| {
+        let [x, y, z] = transform.matrix3.row(row).to_array();
+        numbers([x, y, z, transform.translation[row]])
+    };
+    format!("{} {} {} 0 0 0 1", row(0), row(1), row(2))
 }
 
 #[cfg(test)]

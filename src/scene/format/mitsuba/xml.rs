@@ -1,5 +1,6 @@
 //! The values that Mitsuba's elements hold.
 
+use super::super::{matrix, numbers};
 use crate::scene::Rgb;
 use crate::text::XmlWriter;
 use glam::{DAffine3, DVec3};
@@ -41,7 +42,7 @@ impl Xml {
     }
 
     pub fn rgb(&mut self, name: &str, value: Rgb) {
-        self.leaf("rgb", &[("name", name), ("value", &numbers(value, " "))]);
+        self.leaf("rgb", &[("name", name), ("value", &numbers(value))]);
     }
 
     pub fn point(&mut self, name: &str, value: DVec3) {
@@ -53,19 +54,15 @@ impl Xml {
     }
 
     pub fn look_at(&mut self, origin: DVec3, target: DVec3, up: DVec3) {
-        let [origin, target, up] = [origin, target, up].map(|v| numbers(v.to_array(), ", "));
+        let [origin, target, up] =
+            [origin, target, up].map(|v| numbers(v.to_array()).replace(' ', ", "));
         self.leaf("lookat", &[("origin", &origin), ("target", &target), ("up", &up)]);
     }
 
     /// The transform `to_world`, row by row.
     pub fn transform(&mut self, transform: DAffine3) {
-        let rows = [0, 1, 2].map(|row| {
-            let [x, y, z] = transform.matrix3.row(row).to_array();
-            numbers([x, y, z, transform.translation[row]], " ")
-        });
-        let value = format!("{} {} {} 0 0 0 1", rows[0], rows[1], rows[2]);
         self.open("transform", &[("name", "to_world")]);
-        self.leaf("matrix", &[("value", &value)]);
+        self.leaf("matrix", &[("value", &matrix(transform))]);
         self.close();
     }
 
@@ -77,9 +74,4 @@ impl Xml {
         let [x, y, z] = value.to_array().map(|coordinate| coordinate.to_string());
         self.leaf(element, &[("name", name), ("x", &x), ("y", &y), ("z", &z)]);
     }
-}
-
-/// Numbers with as many digits as it takes to read them back unchanged.
-fn numbers<const N: usize>(values: [f64; N], separator: &str) -> String {
-    values.map(|value| value.to_string()).join(separator)
 }

@@ -43,11 +43,7 @@ fn the_camera_comes_back_from_the_course_to_the_last_bit() {
         let [meant, read] = [scene.camera.unwrap(), back.camera.unwrap()];
         // The vertical angle is seldom one of degrees: it may come back a last bit away.
         let fov = read.vertical_fov;
-        assert_eq!(
-            crate::scene::Camera { vertical_fov: meant.vertical_fov, ..read },
-            meant,
-            "{name}"
-        );
+        assert_eq!(Camera { vertical_fov: meant.vertical_fov, ..read }, meant, "{name}");
         let neighbours = [meant.vertical_fov.next_down(), meant.vertical_fov.next_up()];
         assert!(neighbours[0] <= fov && fov <= neighbours[1], "{name}");
     }

@@ -1,6 +1,6 @@
 //! Lights that are not shapes. Area lights go with their shapes.
 
-use super::Attachment;
+use super::super::Content;
 use super::xml::Xml;
 use crate::image::Image;
 use crate::scene::{Light, SceneDescription};
@@ -15,7 +15,7 @@ const SKY_ROWS: usize = 1025;
 const SKY_FILE: &str = "sky.exr";
 
 /// Writes every light, and returns the picture of the sky if there is one.
-pub(super) fn write_all(xml: &mut Xml, scene: &SceneDescription) -> Option<(String, Attachment)> {
+pub(super) fn write_all(xml: &mut Xml, scene: &SceneDescription) -> Option<(String, Content)> {
     let mut sky = None;
     for light in &scene.lights {
         match *light {
@@ -37,7 +37,7 @@ pub(super) fn write_all(xml: &mut Xml, scene: &SceneDescription) -> Option<(Stri
                 xml.open("emitter", &[("type", "envmap")]);
                 xml.string("filename", SKY_FILE);
                 xml.transform(DAffine3::from_quat(DQuat::from_rotation_arc(DVec3::Y, up)));
-                sky = Some((SKY_FILE.to_owned(), Attachment::Picture(sky_picture(light, up))));
+                sky = Some((SKY_FILE.to_owned(), Content::Picture(sky_picture(light, up))));
             }
             Light::Area { .. } => continue,
         }

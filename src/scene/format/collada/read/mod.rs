@@ -29,10 +29,11 @@ mod normals;
 mod settings;
 mod xml;
 
-pub use normals::vertex_normals;
-pub use settings::{degrees_for, load_camera};
+pub(super) use normals::vertex_normals;
+pub(super) use settings::degrees_for;
+pub use settings::load_camera;
 
-use super::{SceneDescription, SceneError};
+use crate::scene::{SceneDescription, SceneError};
 use crate::text::Source;
 use std::path::Path;
 

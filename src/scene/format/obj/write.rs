@@ -1,11 +1,11 @@
-//! Wavefront OBJ and MTL: every triangle, with its normals and what it is made of. Nothing else has a place there.
+//! Every triangle, with its normals and what it is made of. Nothing else has a place there.
 
-use super::{Complaint, ExportError, Exported, Format, numbers};
+use super::super::{Complaint, ExportError, Exported, Format, numbers};
 use crate::scene::{Light, Material, Mesh, SceneDescription, Surface};
 use std::fmt::Write;
 
 /// `scene.obj` and `scene.mtl`. The camera is not in them.
-pub(super) fn export(scene: &SceneDescription) -> Result<Exported, ExportError> {
+pub fn export(scene: &SceneDescription) -> Result<Exported, ExportError> {
     let complaint = Complaint { format: Format::Obj, scene };
     if let Some(sphere) = scene.spheres.first() {
         let what = format!("`{}` is a sphere, and OBJ has triangles only", sphere.name);
@@ -28,7 +28,7 @@ pub(super) fn export(scene: &SceneDescription) -> Result<Exported, ExportError> 
         positions += mesh.positions.len();
         normals += mesh.normals.len();
     }
-    Ok(Exported { files: vec![("scene.obj", text), ("scene.mtl", library)], camera: None })
+    Ok(Exported::of_texts([("scene.obj", text), ("scene.mtl", library)]))
 }
 
 fn write_mesh(text: &mut String, mesh: &Mesh, [position, normal]: [usize; 2]) {

@@ -1,6 +1,6 @@
 //! Materials in the CGL profile.
 
-use super::super::{Complaint, ExportError, numbers};
+use super::super::super::{Complaint, ExportError, numbers};
 use crate::scene::{Material, SceneDescription, Surface};
 use crate::text::XmlWriter;
 

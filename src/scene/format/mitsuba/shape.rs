@@ -1,15 +1,16 @@
 //! Shapes with their materials and emission.
 
+use super::super::{Complaint, Content, ExportError, ply};
 use super::xml::Xml;
-use super::{Attachment, MitsubaError};
-use crate::scene::{Material, Mesh, Rectangle, Rgb, SceneDescription, Sphere, Surface};
-use glam::{DAffine3, DMat3, DVec3};
+use crate::scene::{Material, Rectangle, Rgb, Sphere, Surface};
+use glam::{DAffine3, DMat3};
 
 /// Writes every shape, and returns the meshes that got a file of their own.
 pub(super) fn write_all(
     xml: &mut Xml,
-    scene: &SceneDescription,
-) -> Result<Vec<(String, Attachment)>, MitsubaError> {
+    complaint: Complaint<'_>,
+) -> Result<Vec<(String, Content)>, ExportError> {
+    let scene = complaint.scene;
     let mut attachments = Vec::new();
     for (number, mesh) in scene.meshes.iter().enumerate() {
         match mesh.as_rectangle() {
@@ -22,15 +23,15 @@ pub(super) fn write_all(
                 xml.open("shape", &[("type", "ply"), ("id", &mesh.name)]);
                 xml.string("filename", &file);
                 xml.boolean("face_normals", mesh.normals.is_empty());
-                attachments.push((file, Attachment::Mesh(ply(mesh))));
+                attachments.push((file, Content::Bytes(ply::written(mesh))));
             }
         }
-        write_material(xml, &mesh.name, &scene.materials[mesh.material as usize])?;
+        write_material(xml, &mesh.name, &scene.materials[mesh.material as usize], complaint)?;
         xml.close();
     }
     for sphere in &scene.spheres {
         write_sphere(xml, sphere);
-        write_material(xml, &sphere.name, &scene.materials[sphere.material as usize])?;
+        write_material(xml, &sphere.name, &scene.materials[sphere.material as usize], complaint)?;
         xml.close();
     }
     Ok(attachments)
@@ -53,37 +54,12 @@ fn to_world(rectangle: Rectangle) -> DAffine3 {
     }
 }
 
-/// A binary PLY file; Mitsuba computes in single precision anyway.
-fn ply(mesh: &Mesh) -> Vec<u8> {
-    let normals = match mesh.normals.is_empty() {
-        true => "",
-        false => "property float nx\nproperty float ny\nproperty float nz\n",
-    };
-    let mut file = format!(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\n\
-         property float y\nproperty float z\n{normals}element face {}\n\
-         property list uchar uint vertex_indices\nend_header\n",
-        mesh.positions.len(),
-        mesh.indices.len()
-    )
-    .into_bytes();
-    let mut put = |vector: DVec3| {
-        file.extend(vector.as_vec3().to_array().iter().flat_map(|number| number.to_le_bytes()));
-    };
-    for (vertex, position) in mesh.positions.iter().enumerate() {
-        put(*position);
-        if let Some(normal) = mesh.normals.get(vertex) {
-            put(*normal);
-        }
-    }
-    for triangle in &mesh.indices {
-        file.push(3);
-        file.extend(triangle.iter().flat_map(|index| index.to_le_bytes()));
-    }
-    file
-}
-
-fn write_material(xml: &mut Xml, shape: &str, material: &Material) -> Result<(), MitsubaError> {
+fn write_material(
+    xml: &mut Xml,
+    shape: &str,
+    material: &Material,
+    complaint: Complaint<'_>,
+) -> Result<(), ExportError> {
     match material.surface {
         Surface::Glass { .. } | Surface::RoughGlass { .. } => write_surface(xml, &material.surface),
         _ => {
@@ -94,7 +70,9 @@ fn write_material(xml: &mut Xml, shape: &str, material: &Material) -> Result<(),
     }
     let Some(emission) = material.emission else { return Ok(()) };
     if emission.cap.is_some() {
-        return Err(MitsubaError::Cap(shape.to_owned()));
+        return Err(complaint.about(format!(
+            "`{shape}` glows on a cap only: there is no such light; its closed form is its reference"
+        )));
     }
     xml.open("emitter", &[("type", "area")]);
     xml.rgb("radiance", emission.radiance);

@@ -1,9 +1,10 @@
 //! The camera: in the scene's file as COLLADA has it, of which the course takes only the direction, and in
 //! the file for its `-c`, which is taken as it is.
 
-use super::super::numbers;
+use super::super::super::numbers;
+use super::super::read::degrees_for;
 use super::Node;
-use crate::scene::{Camera, collada};
+use crate::scene::Camera;
 use crate::text::XmlWriter;
 use glam::DAffine3;
 
@@ -34,7 +35,7 @@ pub(super) fn settings(camera: &Camera) -> String {
     let [width, height] = camera.film.map(f64::from);
     let backward = camera.camera_to_world.z_axis;
     let distance = height / (2.0 * (camera.vertical_fov / 2.0).tan());
-    let fovs = [camera.horizontal_fov, camera.vertical_fov].map(collada::degrees_for);
+    let fovs = [camera.horizontal_fov, camera.vertical_fov].map(degrees_for);
     let rows = (0..3).flat_map(|row| camera.camera_to_world.row(row).to_array());
     let angles = [backward.y.acos(), backward.x.atan2(backward.z)];
     [

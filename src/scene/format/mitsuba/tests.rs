@@ -5,9 +5,17 @@ use crate::scene::procedural::parallelogram;
 use crate::scene::{Library, Light, Material, Mesh, Overrides, Surface};
 use glam::DVec3;
 
-fn exported(name: &str) -> Result<MitsubaScene, MitsubaError> {
+fn exported(name: &str) -> Result<Exported, ExportError> {
     let library = Library::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"));
     export(&library.load(name, &Overrides::new()).unwrap(), 5)
+}
+
+/// The text of `scene.xml`.
+fn xml(scene: &Exported) -> &str {
+    match &scene.files[0].1 {
+        Content::Text(xml) => xml,
+        other => panic!("{other:?} is no text"),
+    }
 }
 
 #[test]
@@ -63,13 +71,14 @@ fn a_whole_scene_is_written_as_mitsuba_reads_it() {
     </emitter>
 </scene>
 "#;
-    assert_eq!(scene.xml, expected);
-    assert!(scene.attachments.is_empty());
+    assert_eq!(xml(&scene), expected);
+    assert_eq!(scene.files.len(), 1);
 }
 
 #[test]
 fn glass_is_in_vacuum_and_not_two_sided() {
-    let xml = exported("glass-ball-in-sky").unwrap().xml;
+    let scene = exported("glass-ball-in-sky").unwrap();
+    let xml = xml(&scene);
     assert!(xml.contains(r#"<float name="int_ior" value="1.5"/>"#), "{xml}");
     assert!(xml.contains(r#"<float name="ext_ior" value="1"/>"#), "{xml}");
     assert!(!xml.contains("twosided"), "{xml}");
@@ -78,7 +87,8 @@ fn glass_is_in_vacuum_and_not_two_sided() {
 
 #[test]
 fn metals_are_single_scattering_and_two_sided() {
-    let xml = exported("veach-plates").unwrap().xml;
+    let scene = exported("veach-plates").unwrap();
+    let xml = xml(&scene);
     assert!(xml.contains(r#"<bsdf type="roughconductor">"#));
     assert!(xml.contains(r#"<string name="distribution" value="ggx"/>"#));
     assert!(xml.contains(r#"<float name="alpha" value="0.15"/>"#));
@@ -87,7 +97,8 @@ fn metals_are_single_scattering_and_two_sided() {
 
 #[test]
 fn a_room_looks_inwards() {
-    let xml = exported("sphere-furnace").unwrap().xml;
+    let scene = exported("sphere-furnace").unwrap();
+    let xml = xml(&scene);
     assert!(xml.contains(r#"<boolean name="flip_normals" value="true"/>"#), "{xml}");
     assert!(xml.contains(r#"<emitter type="area">"#), "{xml}");
 }
@@ -95,18 +106,18 @@ fn a_room_looks_inwards() {
 #[test]
 fn flat_meshes_stay_flat_and_smooth_ones_smooth() {
     let flat = exported("soup").unwrap();
-    assert!(flat.xml.contains(r#"<boolean name="face_normals" value="true"/>"#));
-    assert_eq!(flat.attachments[0].0, "mesh-0.ply");
+    assert!(xml(&flat).contains(r#"<boolean name="face_normals" value="true"/>"#));
+    assert_eq!(flat.files[1].0, "mesh-0.ply");
     assert!(!ply_header(&flat).contains("float nx"));
     let smooth = exported("teapot").unwrap();
-    assert!(smooth.xml.contains(r#"<boolean name="face_normals" value="false"/>"#));
+    assert!(xml(&smooth).contains(r#"<boolean name="face_normals" value="false"/>"#));
     assert!(ply_header(&smooth).contains("float nx"));
 }
 
-fn ply_header(scene: &MitsubaScene) -> String {
-    match &scene.attachments[0].1 {
-        Attachment::Mesh(bytes) => String::from_utf8_lossy(&bytes[..250]).into_owned(),
-        Attachment::Picture(_) => panic!("not a mesh"),
+fn ply_header(scene: &Exported) -> String {
+    match &scene.files[1].1 {
+        Content::Bytes(bytes) => String::from_utf8_lossy(&bytes[..250]).into_owned(),
+        other => panic!("{other:?} is no mesh"),
     }
 }
 
@@ -128,7 +139,7 @@ fn meshes_come_back_from_their_files() {
 #[test]
 fn a_gradient_sky_is_a_picture_with_its_zenith_on_top() {
     let scene = exported("gradient-sky").unwrap();
-    let (name, Attachment::Picture(picture)) = &scene.attachments[0] else { panic!("no picture") };
+    let (name, Content::Picture(picture)) = &scene.files[1] else { panic!("no picture") };
     assert_eq!(name, "sky.exr");
     let row = |row: usize| picture.pixels[picture.width * row][0];
     assert!((row(0) - 1.3).abs() < 1e-6, "zenith");
@@ -141,10 +152,8 @@ fn a_gradient_sky_is_a_picture_with_its_zenith_on_top() {
 fn what_mitsuba_cannot_do_is_said() {
     let message = exported("cap-cavity").unwrap_err().to_string();
     assert!(message.contains("its closed form is its reference"), "{message}");
-    assert_eq!(
-        exported("sphere-in-view").unwrap_err(),
-        MitsubaError::PixelsNotSquare("sphere-in-view".to_owned())
-    );
-    let nowhere = SceneDescription::default();
-    assert!(matches!(export(&nowhere, 1), Err(MitsubaError::NoCamera(_))));
+    let message = exported("sphere-in-view").unwrap_err().to_string();
+    assert!(message.contains("pixels are not square, and Mitsuba's are"), "{message}");
+    let message = export(&SceneDescription::default(), 1).unwrap_err().to_string();
+    assert!(message.ends_with("it has no camera"), "{message}");
 }

@@ -9,9 +9,9 @@ use std::fmt::Write;
 /// `scene.pbrt`, which renders to `picture.exr`.
 pub(super) fn export(scene: &SceneDescription, request: Request) -> Result<Exported, ExportError> {
     let complaint = Complaint { format: Format::Pbrt, scene };
-    let camera = scene.camera.as_ref().ok_or_else(|| complaint.about("it has no camera"))?;
+    let camera = complaint.square_camera()?;
     let mut writer = Writer { text: String::new(), scene, complaint };
-    writer.options(camera, request)?;
+    writer.options(camera, request);
     for light in &scene.lights {
         writer.light(light)?;
     }
@@ -21,7 +21,7 @@ pub(super) fn export(scene: &SceneDescription, request: Request) -> Result<Expor
     for sphere in &scene.spheres {
         writer.sphere(sphere)?;
     }
-    Ok(Exported { files: vec![("scene.pbrt", writer.text)], camera: None })
+    Ok(Exported::of_texts([("scene.pbrt", writer.text)]))
 }
 
 struct Writer<'a> {
@@ -35,15 +35,10 @@ impl Writer<'_> {
         let _ = writeln!(self.text, "{line}");
     }
 
-    fn options(&mut self, camera: &Camera, request: Request) -> Result<(), ExportError> {
+    fn options(&mut self, camera: &Camera, request: Request) {
         let [width, height] = camera.film;
         // The field of view is that of the shorter side.
         let fov = if width < height { camera.horizontal_fov } else { camera.vertical_fov };
-        let tangents = [camera.horizontal_fov, camera.vertical_fov].map(|fov| (fov / 2.0).tan());
-        let stretch = tangents[1] / tangents[0] * f64::from(width) / f64::from(height);
-        if (stretch - 1.0).abs() > 1e-9 {
-            return Err(self.complaint.about("its pixels are not square, and pbrt's are"));
-        }
         let Request { last_bounce, samples, seed } = request;
         let seed = seed % (1 << 31);
         let target = camera.position - camera.camera_to_world.z_axis;
@@ -63,7 +58,6 @@ impl Writer<'_> {
         self.line(&format!("LookAt {}", numbers(look_at.iter().flat_map(|v| v.to_array()))));
         self.line(&format!("Camera \"perspective\" \"float fov\" [ {} ]", fov.to_degrees()));
         self.line("WorldBegin");
-        Ok(())
     }
 
     /// The one value of a grey.

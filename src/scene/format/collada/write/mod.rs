@@ -9,8 +9,9 @@
 mod camera;
 mod material;
 
-use super::{Complaint, ExportError, Exported, Format, numbers};
-use crate::scene::{Light, Mesh, SceneDescription, Shape, Sphere, collada};
+use super::super::{Complaint, ExportError, Exported, Format, matrix, numbers};
+use super::read::vertex_normals;
+use crate::scene::{Light, Mesh, SceneDescription, Shape, Sphere};
 use crate::text::XmlWriter;
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -18,9 +19,9 @@ use glam::{DAffine3, DMat3, DVec3};
 const SAME_NORMAL: f64 = 1e-3;
 
 /// `scene.dae` and `camera.txt`.
-pub(super) fn export(scene: &SceneDescription) -> Result<Exported, ExportError> {
+pub fn export(scene: &SceneDescription) -> Result<Exported, ExportError> {
     let complaint = Complaint { format: Format::Collada, scene };
-    let camera = scene.camera.as_ref().ok_or_else(|| complaint.about("it has no camera"))?;
+    let camera = complaint.camera()?;
     let writer = Writer { scene, complaint };
     let mut xml = XmlWriter::default();
     let schema = "http://www.collada.org/2005/11/COLLADASchema";
@@ -37,8 +38,8 @@ pub(super) fn export(scene: &SceneDescription) -> Result<Exported, ExportError> 
     xml.close();
     xml.open("scene", &[]);
     xml.leaf("instance_visual_scene", &[("url", "#Scene")]);
-    let files = vec![("scene.dae", xml.finish()), ("camera.txt", camera::settings(camera))];
-    Ok(Exported { files, camera: Some("camera.txt") })
+    let files = [("scene.dae", xml.finish()), ("camera.txt", camera::settings(camera))];
+    Ok(Exported { camera: Some("camera.txt"), ..Exported::of_texts(files) })
 }
 
 /// What stands in the scene.
@@ -70,14 +71,6 @@ impl Node {
         }
         xml.close();
     }
-}
-
-fn matrix(transform: DAffine3) -> String {
-    let row = |row: usize| {
-        let [x, y, z] = transform.matrix3.row(row).to_array();
-        numbers([x, y, z, transform.translation[row]])
-    };
-    format!("{} {} {} 0 0 0 1", row(0), row(1), row(2))
 }
 
 struct Writer<'a> {
@@ -219,7 +212,7 @@ impl Writer<'_> {
         let name = &mesh.name;
         let read: Vec<_> = mesh.positions.iter().map(|p| p.as_vec3().as_dvec3()).collect();
         let polygons: Vec<_> = mesh.indices.iter().map(|corners| corners.to_vec()).collect();
-        let normals = collada::vertex_normals(&read, &polygons)
+        let normals = vertex_normals(&read, &polygons)
             .map_err(|why| self.complaint.about(format!("smooth mesh `{name}` {why}")))?;
         let differs = |(made, meant): (&DVec3, &DVec3)| made.distance(*meant) > SAME_NORMAL;
         match normals.iter().zip(&mesh.normals).position(differs) {

@@ -5,7 +5,7 @@ use super::*;
 use crate::scene::{Camera, Emission, Light, Surface};
 use glam::DVec3;
 
-const ROOM: &str = include_str!("../../../tests/fixtures/collada/room.dae");
+const ROOM: &str = include_str!("../../../../../tests/fixtures/collada/room.dae");
 
 fn read(text: &str) -> Result<Reading, SceneError> {
     parse("room", &Source::new("room.dae", text), FILM)

@@ -1,0 +1,7 @@
+//! The course's COLLADA: files with its CGL profile, as the course's own program understands them.
+
+mod read;
+mod write;
+
+pub use read::{FILM, Reading, load, load_camera, parse};
+pub(super) use write::export;

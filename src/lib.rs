@@ -8,6 +8,7 @@ pub mod cli;
 pub mod contract;
 pub mod cores;
 pub mod diagnosis;
+pub mod disk;
 pub mod faults;
 pub mod image;
 pub mod math;

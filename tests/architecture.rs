@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 /// The layer of each module of the library. A new module belongs here before anything can name it.
 const LAYERS: &[(&str, u32)] = &[
     ("math", 0),
+    ("disk", 0),
     ("cause", 1),
     ("image", 1),
     ("text", 1),

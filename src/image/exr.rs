@@ -6,10 +6,12 @@
 //! every viewer reads.
 
 use super::{Image, ImageError};
+use crate::disk;
 use ::exr::prelude as openexr;
 use ::exr::prelude::{ReadChannels, ReadLayers, WritableImage};
 use half::f16;
 use std::collections::BTreeMap;
+use std::io::Cursor;
 use std::path::Path;
 
 /// The channels of a colour, in the order of a pixel.
@@ -168,6 +170,11 @@ pub fn read_image(path: &Path) -> Result<Image, ImageError> {
 
 /// Writes a file.
 pub fn write(path: &Path, file: &Exr) -> Result<(), ImageError> {
+    disk::replace(path, &encode(path, file)?).map_err(|error| ImageError::unwritable(path, error))
+}
+
+/// The bytes of a file that is to stand at `path`.
+pub fn encode(path: &Path, file: &Exr) -> Result<Vec<u8>, ImageError> {
     let pixels = file.width * file.height;
     if let Some(wrong) = file.channels.iter().find(|channel| channel.values.len() != pixels) {
         let (channel, values) = (wrong.name.clone(), wrong.values.len());
@@ -186,7 +193,10 @@ pub fn write(path: &Path, file: &Exr) -> Result<(), ImageError> {
         openexr::AnyChannels::sort(channels),
     );
     let image = openexr::Image::from_layer(layer);
-    image.write().non_parallel().to_file(path).map_err(|error| ImageError::unwritable(path, error))
+    let mut bytes = Cursor::new(Vec::new());
+    let written = image.write().non_parallel().to_buffered(&mut bytes);
+    written.map_err(|error| ImageError::unwritable(path, error))?;
+    Ok(bytes.into_inner())
 }
 
 /// Writes the colours of a picture.

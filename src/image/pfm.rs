@@ -2,6 +2,7 @@
 //! stand from the bottom up.
 
 use super::{Image, ImageError};
+use crate::disk;
 use std::path::Path;
 
 /// Reads a file.
@@ -22,7 +23,7 @@ pub fn write(path: &Path, image: &Image) -> Result<(), ImageError> {
     for row in image.pixels.chunks(image.width.max(1)).rev() {
         bytes.extend(row.as_flattened().iter().flat_map(|value| value.to_le_bytes()));
     }
-    std::fs::write(path, bytes).map_err(|error| ImageError::unwritable(path, error))
+    disk::replace(path, &bytes).map_err(|error| ImageError::unwritable(path, error))
 }
 
 fn decode(bytes: &[u8]) -> Result<Image, String> {

@@ -2,6 +2,7 @@
 //! undone.
 
 use super::ImageError;
+use crate::disk;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use std::path::Path;
@@ -41,7 +42,7 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
 /// Writes a PNG file.
 pub fn write(path: &Path, picture: &Picture) -> Result<(), ImageError> {
     let bytes = encode(picture).map_err(|error| ImageError::unwritable(path, error))?;
-    std::fs::write(path, bytes).map_err(|error| ImageError::unwritable(path, error))
+    disk::replace(path, &bytes).map_err(|error| ImageError::unwritable(path, error))
 }
 
 #[cfg(test)]

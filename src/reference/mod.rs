@@ -12,7 +12,6 @@
 //! Not here: reading a reference in order to compare with it (`scene::reference`), and printing:
 //! whoever asks hears of [`Progress`].
 
-mod date;
 mod environment;
 mod error;
 mod layers;

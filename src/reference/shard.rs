@@ -6,6 +6,7 @@
 use super::MakeError;
 use super::seeds::Seeds;
 use super::sums::Sums;
+use crate::disk;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -73,9 +74,7 @@ impl Shard {
         let head = toml::to_string(&head).map_err(|problem| failed(&problem))?;
         let content =
             [FIRST_LINE.as_bytes(), head.as_bytes(), LAST_LINE.as_bytes(), self.sums.bytes()];
-        let beside = path.with_extension("sums.tmp");
-        std::fs::write(&beside, content.concat()).map_err(|problem| failed(&problem))?;
-        std::fs::rename(&beside, path).map_err(|problem| failed(&problem))
+        disk::replace(path, &content.concat()).map_err(|problem| failed(&problem))
     }
 
     /// Reads a file that [`Shard::write`] wrote.

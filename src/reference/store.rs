@@ -1,16 +1,17 @@
 //! From sums of passes to a reference on disk.
 
-use super::date::today;
 use super::make::Plan;
 use super::shard::Shard;
 use super::sums::Rank;
 use super::{MakeError, References};
+use crate::disk;
 use crate::image::exr::{self, Exr, Storage};
 use crate::scene::reference::{
     ERROR_PREFIX, Layers, Provenance, Reference, fingerprint, load, picture_path, provenance_path,
     read_provenance,
 };
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 impl References {
     /// Where the sums of reference `name` are kept.
@@ -62,21 +63,16 @@ impl References {
     /// Writes a reference with the layers that it has, and its fingerprint into its provenance.
     pub(super) fn write(&self, reference: &mut Reference) -> Result<(), MakeError> {
         let path = picture_path(&self.folder, &reference.name);
-        let beside = path.with_extension("exr.tmp");
-        let folder = self.folder.join(&reference.name);
-        std::fs::create_dir_all(&folder).map_err(|problem| MakeError::file(&folder, &problem))?;
         // One attribute only: the encoder writes several in any order, and the bytes would not be
         // the same twice.
         let file = Exr::from_image(&reference.mean)
             .with_colours(ERROR_PREFIX, &reference.standard_error, Storage::Half)
             .with_attribute("furnace", reference.provenance.header());
-        exr::write(&beside, &reference.layers.added_to(file))?;
-        let content =
-            std::fs::read(&beside).map_err(|problem| MakeError::file(&beside, &problem))?;
+        let content = exr::encode(&path, &reference.layers.added_to(file))?;
         reference.provenance.picture_hash = fingerprint(&content);
         let provenance = provenance_path(&self.folder, &reference.name);
         write_provenance(&provenance, &reference.provenance)?;
-        std::fs::rename(&beside, &path).map_err(|problem| MakeError::file(&path, &problem))
+        disk::replace(&path, &content).map_err(|problem| MakeError::file(&path, &problem))
     }
 }
 
@@ -109,14 +105,16 @@ impl Plan {
 }
 
 fn write_provenance(path: &Path, provenance: &Provenance) -> Result<(), MakeError> {
-    let beside = path.with_extension("toml.tmp");
     let body = toml::to_string(provenance).map_err(|problem| MakeError::file(path, &problem))?;
     let text = format!("# Written by `furnace reference make`; not for editing.\n{body}");
-    let write = || {
-        std::fs::write(&beside, text)?;
-        std::fs::rename(&beside, path)
-    };
-    write().map_err(|problem| MakeError::file(path, &problem))
+    disk::replace(path, text.as_bytes()).map_err(|problem| MakeError::file(path, &problem))
+}
+
+/// Today in UTC, as 2026-01-31.
+fn today() -> String {
+    let mut stamp = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+    stamp.truncate(10);
+    stamp
 }
 
 /// Three significant digits.

@@ -313,10 +313,6 @@ pub fn run_in_memory(plan: &Plan) -> Vec<TrialRecord> {
 fn write_trial(folder: &Path, ended: Ended) -> Result<TrialRecord, RecordError> {
     let Ended { mut record, pictures } = ended;
     let sidecar = record::sidecar_path(folder, &record.core, &record.case);
-    if let Some(parent) = sidecar.parent() {
-        std::fs::create_dir_all(parent)
-            .map_err(|error| RecordError::Io { path: parent.to_owned(), error })?;
-    }
     for (number, picture) in pictures.into_iter().enumerate() {
         let path = sidecar.with_extension(format!("{number}.exr"));
         exr::write_image(&path, &picture.image).map_err(|error| RecordError::Malformed {

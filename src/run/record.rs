@@ -6,19 +6,18 @@
 //!                   /<core>/<folder>/<claim>.0.exr  its pictures
 //! ```
 //!
-//! A file is written beside its place and renamed, so that a reader sees all of it or nothing. A reader that meets a
-//! version or a word it does not know stops with an error. The same run twice gives the same sidecars but for
+//! A reader sees all of a file or nothing ([`disk::replace`]). One that meets a version or a word it does not know stops with an error. The same run twice gives the same sidecars but for
 //! `timing`.
 
 use super::outcome::{Outcome, Status};
 use crate::case::Tier;
 use crate::checks::PictureRole;
 use crate::contract::{Conventions, CoreInfo, Precision};
+use crate::disk;
 use crate::stats::Budget;
 use crate::worker::Confinement;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The version of both files. It changes when something existing does.
@@ -273,20 +272,15 @@ pub fn sidecar_path(run: &Path, core: &str, case: &str) -> PathBuf {
     run.join(folder_of_core(core)).join(format!("{case}.json"))
 }
 
-/// Writes `value` as JSON beside `path` and renames it into place.
+/// Writes `value` as JSON, whole or not at all.
 ///
 /// # Errors
 /// If the file system says no.
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), RecordError> {
     let failed = |error: std::io::Error| RecordError::Io { path: path.to_owned(), error };
-    let folder = path.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(failed)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    serde_json::to_writer_pretty(&mut file, value).map_err(|error| failed(error.into()))?;
-    file.write_all(b"\n").map_err(failed)?;
-    file.as_file().sync_all().map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
+    let mut bytes = serde_json::to_vec_pretty(value).map_err(|error| failed(error.into()))?;
+    bytes.push(b'\n');
+    disk::replace(path, &bytes).map_err(failed)
 }
 
 /// Reads a JSON file of this version.

@@ -21,6 +21,7 @@ mod trials;
 use super::ReportError;
 use super::digest::Tally;
 use super::tree::RunTree;
+use crate::disk;
 use crate::run::Status;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::path::{Path, PathBuf};
@@ -62,19 +63,16 @@ const SCRIPT: &str = include_str!("assets/report.js");
 const EARLY_SCRIPT: &str = "{const root=document.documentElement;root.classList.add('js');\
     try{const t=localStorage.getItem('furnace-theme');if(t)root.dataset.theme=t}catch{}}";
 
-/// Writes `index.html` into `folder`: beside its place, then renamed, so that a reader sees all of
-/// it or nothing.
+/// Writes `index.html` into `folder`, whole or not at all.
 ///
 /// # Errors
 /// If the file system says no.
 pub fn write(tree: &RunTree, folder: &Path) -> Result<PathBuf, ReportError> {
     let path = folder.join("index.html");
-    let beside = folder.join(format!(".index.html.{}", std::process::id()));
-    let failed = |error| ReportError::Io { path: path.clone(), error };
-    std::fs::create_dir_all(folder).map_err(failed)?;
-    std::fs::write(&beside, render(tree, folder)).map_err(failed)?;
-    std::fs::rename(&beside, &path).map_err(failed)?;
-    Ok(path)
+    match disk::replace(&path, render(tree, folder).as_bytes()) {
+        Ok(()) => Ok(path),
+        Err(error) => Err(ReportError::Io { path, error }),
+    }
 }
 
 /// The text of the page that is to stand in `folder`.

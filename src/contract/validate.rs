@@ -11,6 +11,7 @@ use super::{
     Film, Hit, IntegratorSettings, LightSample, Primitive, Randomness, Ray, RenderSettings, Result,
     Sampler, TraversalStats,
 };
+use crate::image::CHANNELS;
 use crate::scene::{Aabb, Camera, Material, SceneDescription, Surface};
 use glam::{DVec2, DVec3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -386,7 +387,7 @@ fn valid_pixel(name: &str, value: [f32; 3]) -> Complaint {
 }
 
 fn colour(name: &str, value: [f64; 3]) -> Complaint {
-    value.iter().zip(["red", "green", "blue"]).try_for_each(|(value, channel)| {
+    value.iter().zip(CHANNELS).try_for_each(|(value, channel)| {
         not_negative(name, *value).map_err(|complaint| format!("{complaint} ({channel})"))
     })
 }

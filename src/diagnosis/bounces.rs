@@ -6,10 +6,11 @@
 
 use super::bounce_laws::{Channel, LAWS, Law, indirect};
 use super::evidence::measure;
-use super::readings::{CHANNELS, Reading, channels, written};
+use super::readings::{Reading, channels, written};
 use super::{Evidence, Suspicion};
 use crate::cause::transport;
 use crate::checks::Finding;
+use crate::image::CHANNELS;
 use crate::math::ratios::names_of;
 
 /// The furnaces whose bounces are told one by one.

@@ -2,10 +2,11 @@
 //! in what it says of itself, and is told so.
 
 use super::evidence::measure;
-use super::readings::{CHANNELS, Reading, channels, written};
+use super::readings::{Reading, channels, written};
 use super::{Evidence, Suspicion};
 use crate::cause::{Cause, convention};
 use crate::contract::{EmissionSides, Falloff, GlassRadiance};
+use crate::image::CHANNELS;
 
 /// Point lights at several distances, and the squared distance of each row.
 const POINT_LIGHT: &str = "lights/a-point-light-weakens-with-the-square-of-distance";

@@ -162,12 +162,13 @@ mod tests {
     use super::*;
     use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, mean, means};
+    use crate::image::CHANNELS;
     use glam::DVec3;
 
     fn pair(cases: &[&str; 2], ratios: [f64; 2]) -> Made {
         let finding = |ratio| {
             means(
-                ["red", "green", "blue"]
+                CHANNELS
                     .map(|channel| mean(&format!("{ROW}, {channel}"), 0.05, ratio, 0.004))
                     .into(),
             )

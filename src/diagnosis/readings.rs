@@ -1,10 +1,8 @@
 //! Measured over expected, with the interval that comparisons are made in.
 
 use crate::checks::{Finding, Measure};
+use crate::image::CHANNELS;
 use crate::stats::Band;
-
-/// The names of the three channels, as measures end with them.
-pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// Relative error that a comparison forgives on top of an interval: what is forgiven of a radiance, once for what was
 /// measured and once for what a rule predicts from the radiance of another question.

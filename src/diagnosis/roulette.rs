@@ -1,10 +1,11 @@
 //! Means under Russian roulette: what is forgotten at the roulette predicts a mean for each stopping probability.
 
 use super::evidence::measure;
-use super::readings::{CHANNELS, Reading, channels, written};
+use super::readings::{Reading, channels, written};
 use super::{Evidence, Suspicion};
 use crate::cause::{Cause, transport};
 use crate::checks::Finding;
+use crate::image::CHANNELS;
 
 /// The furnace at four roulettes.
 const CASE: &str = "integrator/roulette-does-not-change-the-mean";

@@ -1,10 +1,11 @@
 //! What blocks light and what does not, where light that is not blocked is right.
 
 use super::evidence::measure;
-use super::readings::{CHANNELS, channels, written};
+use super::readings::{channels, written};
 use super::{Evidence, Suspicion};
 use crate::cause::light;
 use crate::checks::{Finding, Measure};
+use crate::image::CHANNELS;
 use crate::stats::Verdict;
 
 /// Direct light that nothing blocks.

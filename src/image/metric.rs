@@ -1,47 +1,45 @@
 //! Numbers that say how far apart two pictures are. They inform and never grade: a metric has no
 //! null hypothesis.
 
-use super::flip::{Flip, HighDynamicRangeFlip};
-use super::mae::MeanAbsolute;
-use super::ms_ssim::MultiScaleSimilarity;
 use super::pair::Pair;
-use super::psnr::PeakSignalToNoise;
-use super::relmse::{RelativeMeanSquare, TrimmedRelativeMeanSquare};
-use super::rmse::RootMeanSquare;
-use super::smape::SymmetricRelative;
-use super::ssim::StructuralSimilarity;
+use super::{flip, ms_ssim, pixel_error, ssim};
 
 /// A distance between a picture and its reference, or a likeness.
-pub trait Metric: Sync {
+pub struct Metric {
     /// As written in reports.
-    fn name(&self) -> &'static str;
-    /// What a larger or smaller number means, in a sentence.
-    fn meaning(&self) -> &'static str;
+    pub name: &'static str,
     /// The number for two equal pictures.
-    fn of_equals(&self) -> f64 {
-        0.0
-    }
+    pub of_equals: f64,
     /// Whether it takes much longer than to read the pictures.
-    fn is_slow(&self) -> bool {
-        false
-    }
-    /// The number. A pixel that is no number makes it NaN, or counts as the largest error there is.
-    fn measure(&self, pair: &Pair<'_>) -> f64;
+    pub is_slow: bool,
+    measure: fn(&Pair<'_>) -> f64,
 }
 
 /// Every metric.
-pub static METRICS: &[&dyn Metric] = &[
-    &RootMeanSquare,
-    &MeanAbsolute,
-    &RelativeMeanSquare,
-    &TrimmedRelativeMeanSquare,
-    &SymmetricRelative,
-    &PeakSignalToNoise,
-    &StructuralSimilarity,
-    &MultiScaleSimilarity,
-    &Flip,
-    &HighDynamicRangeFlip,
+pub static METRICS: &[Metric] = &[
+    Metric::error("RMSE", pixel_error::root_mean_square),
+    Metric::error("MAE", pixel_error::mean_absolute),
+    Metric::error("relMSE", pixel_error::relative_mean_square),
+    Metric::error("relMSE, trimmed", pixel_error::trimmed_relative_mean_square),
+    Metric::error("SMAPE", pixel_error::symmetric_relative),
+    Metric { of_equals: f64::INFINITY, ..Metric::error("PSNR", pixel_error::peak_signal_to_noise) },
+    Metric { of_equals: 1.0, ..Metric::error("SSIM", ssim::structural_similarity) },
+    Metric { of_equals: 1.0, ..Metric::error("MS-SSIM", ms_ssim::multi_scale_similarity) },
+    Metric { is_slow: true, ..Metric::error("FLIP", flip::mean_flip) },
+    Metric { is_slow: true, ..Metric::error("HDR-FLIP", flip::mean_high_dynamic_range_flip) },
 ];
+
+impl Metric {
+    /// One that is zero for equal pictures.
+    const fn error(name: &'static str, measure: fn(&Pair<'_>) -> f64) -> Self {
+        Self { name, of_equals: 0.0, is_slow: false, measure }
+    }
+
+    /// The number. A pixel that is no number makes it NaN, or counts as the largest error there is.
+    pub fn measure(&self, pair: &Pair<'_>) -> f64 {
+        (self.measure)(pair)
+    }
+}
 
 #[cfg(test)]
 mod tests {
@@ -56,18 +54,18 @@ mod tests {
         broken.pixels[700][1] = f32::NAN;
         for metric in METRICS {
             let measure = |image, reference| metric.measure(&Pair::new(image, reference).unwrap());
-            let equals = metric.of_equals();
+            let equals = metric.of_equals;
             let found = measure(&image, &image);
-            assert!(found == equals || (found - equals).abs() < 1e-6, "{}", metric.name());
+            assert!(found == equals || (found - equals).abs() < 1e-6, "{}", metric.name);
             for found in [measure(&broken, &image), measure(&image, &broken)] {
-                assert!(found.is_nan() || found != equals, "{}: {found}", metric.name());
+                assert!(found.is_nan() || found != equals, "{}: {found}", metric.name);
             }
         }
     }
 
     #[test]
     fn names_are_unique() {
-        let names: BTreeSet<_> = METRICS.iter().map(|metric| metric.name()).collect();
+        let names: BTreeSet<_> = METRICS.iter().map(|metric| metric.name).collect();
         assert_eq!(names.len(), METRICS.len());
     }
 }

@@ -10,22 +10,21 @@ pub mod file;
 pub(crate) mod filter;
 pub mod flip;
 pub mod heatmap;
-mod mae;
 pub mod mask;
 pub mod metric;
 mod ms_ssim;
 pub mod pair;
 pub mod pfm;
+mod pixel_error;
 pub mod png;
-mod psnr;
-mod relmse;
-mod rmse;
 mod shrink;
-mod smape;
 mod ssim;
 pub mod tonemap;
 
 pub use error::ImageError;
+
+/// The channels of a colour, in the order of a pixel.
+pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// A picture of linear RGB radiance, row-major from the top left.
 #[derive(Clone, Debug, Default, PartialEq)]

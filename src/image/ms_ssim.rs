@@ -2,34 +2,17 @@
 //! Similarity for Image Quality Assessment", 2003): contrast and pattern at every size, brightness
 //! at the coarsest.
 
-use super::metric::Metric;
 use super::pair::{Pair, Plane};
 use super::ssim::{RADIUS, similarity};
 
 /// Weights of the sizes, from the finest to the coarsest: table 1 of the paper.
 const WEIGHTS: [f64; 5] = [0.0448, 0.2856, 0.3001, 0.2363, 0.1333];
 
-/// The weighted geometric mean over five sizes, each half of the one before; over fewer, where the
-/// picture has no room for five.
-pub(super) struct MultiScaleSimilarity;
-
-impl Metric for MultiScaleSimilarity {
-    fn name(&self) -> &'static str {
-        "MS-SSIM"
-    }
-
-    fn meaning(&self) -> &'static str {
-        "SSIM at five sizes, each half of the one before, as seen from farther away; 1 if equal"
-    }
-
-    fn of_equals(&self) -> f64 {
-        1.0
-    }
-
-    fn measure(&self, pair: &Pair<'_>) -> f64 {
-        let [image, reference] = pair.grey();
-        multi_scale(image.clone(), reference.clone())
-    }
+/// SSIM as seen from farther and farther away: the weighted geometric mean over five sizes, each half of the one
+/// before; over fewer, where the picture has no room for five.
+pub(super) fn multi_scale_similarity(pair: &Pair<'_>) -> f64 {
+    let [image, reference] = pair.grey();
+    multi_scale(image.clone(), reference.clone())
 }
 
 fn multi_scale(mut image: Plane, mut reference: Plane) -> f64 {

@@ -2,7 +2,6 @@
 //! Structural Similarity", 2004): windows are alike if brightness, contrast and pattern are.
 
 use super::filter::{PaddedRow, along, down, gaussian};
-use super::metric::Metric;
 use super::pair::{Pair, Plane};
 use rayon::prelude::*;
 
@@ -15,26 +14,10 @@ const STABILISERS: [f64; 2] = [1e-4, 9e-4];
 /// Taken off every value: variances of numbers around zero lose fewer digits in single precision.
 const MIDDLE: f32 = 0.5;
 
-/// The mean over windows of how alike both are, as a screen shows them in grey.
-pub(super) struct StructuralSimilarity;
-
-impl Metric for StructuralSimilarity {
-    fn name(&self) -> &'static str {
-        "SSIM"
-    }
-
-    fn meaning(&self) -> &'static str {
-        "likeness of brightness, contrast and pattern as a screen shows both; 1 if equal"
-    }
-
-    fn of_equals(&self) -> f64 {
-        1.0
-    }
-
-    fn measure(&self, pair: &Pair<'_>) -> f64 {
-        let [image, reference] = pair.grey();
-        similarity(image, reference).whole
-    }
+/// The mean over windows of how alike both are in brightness, contrast and pattern, as a screen shows them in grey.
+pub(super) fn structural_similarity(pair: &Pair<'_>) -> f64 {
+    let [image, reference] = pair.grey();
+    similarity(image, reference).whole
 }
 
 /// How alike two pictures are, the mean over windows.

@@ -60,13 +60,13 @@ pub fn table(tallies: &[Tally], times: usize, told: usize, share: f64) -> String
          metrics see the mean of the 16 runs of the screen.\n\n| mistake | furnace | named | Mitsuba |",
         100.0 * share
     );
-    METRICS.iter().for_each(|metric| write!(text, " {} |", metric.name()).unwrap());
+    METRICS.iter().for_each(|metric| write!(text, " {} |", metric.name).unwrap());
     writeln!(text, "\n|---|---|---|---|{}", "---|".repeat(METRICS.len())).unwrap();
     for (mistake, tally) in Mistake::ALL.iter().zip(tallies) {
         let Tally { fails, named, mitsuba, metrics } = tally;
         write!(text, "| {} | {fails} | {named} | {mitsuba} |", mistake.words()).unwrap();
         for ((wrong, right), metric) in metrics.iter().zip(&tallies[0].metrics).zip(METRICS) {
-            write!(text, " {} |", worse(wrong, right, metric.of_equals() == 0.0)).unwrap();
+            write!(text, " {} |", worse(wrong, right, metric.of_equals == 0.0)).unwrap();
         }
         text.push('\n');
     }

@@ -7,6 +7,7 @@ use crate::contract::{
     Acceleration, AdaptiveSettings, BuiltScene, Capabilities, Film, IntegratorSettings,
     RenderSettings,
 };
+use crate::image::CHANNELS;
 use crate::image::Image;
 use crate::scene::Camera;
 use crate::text::{Colour, Percent};
@@ -124,7 +125,7 @@ fn passes(measure: &Measure) -> bool {
 fn pixels_equal(film: &Film, radiance: [f64; 3]) -> Vec<Measure> {
     let channel = |c: usize| film.pixels.iter().map(move |pixel| f64::from(pixel[c]));
     let exact = |name: &str, value: f64, c: usize| {
-        let name = format!("{name} pixel, {}", ["red", "green", "blue"][c]);
+        let name = format!("{name} pixel, {}", CHANNELS[c]);
         Measure::exact(name, value, radiance[c], EXACT_PIXEL * radiance[c])
     };
     (0..3)

@@ -7,9 +7,9 @@
 use crate::cause::{Cause, variance};
 use crate::checks::phrase::figure;
 use crate::checks::rendering::Rendering;
-use crate::checks::transport::CHANNELS;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities};
+use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::stats::{
     Band, Claim, Effort, MeanReport, ReportedVariance, TwoVariances, Verdict, judge_means,

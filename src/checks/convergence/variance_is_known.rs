@@ -5,10 +5,11 @@
 
 use crate::checks::phrase::{figure, mean_measure, would_have_caught};
 use crate::checks::transport::{
-    CHANNELS, MistakeEntry, RayEntry, RouletteEntry, draw_estimates, needs, settings,
+    MistakeEntry, RayEntry, RouletteEntry, draw_estimates, needs, settings,
 };
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings};
+use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, Effort, Moments, Sides, Verdict, judge_means};
 use crate::text::{Colour, Count, Percent};

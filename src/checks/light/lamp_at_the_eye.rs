@@ -5,9 +5,10 @@
 
 use crate::cause::{Cause, bsdf, light as cause};
 use crate::checks::phrase::{figure, percent, some_are, worst_measure};
-use crate::checks::transport::{CHANNELS, settings};
+use crate::checks::transport::settings;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
 use crate::contract::{Acceleration, Capabilities, DirectSampling, Falloff, Hit, Ray};
+use crate::image::CHANNELS;
 use crate::math::rng::{Seed, uniform};
 use crate::scene::{Light, Rgb, SceneDescription, Surface};
 use crate::stats::{Compared, RareReport, Rarity, Tolerance, Verdict, judge_exact, judge_rare};

@@ -1,9 +1,10 @@
 //! What is accumulated over some bounces is the sum of those bounces, isolated.
 
-use super::estimate::{CHANNELS, RayEntry, estimate, needs, settings};
+use super::estimate::{RayEntry, estimate, needs, settings};
 use crate::checks::phrase::{mean_measure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
+use crate::image::CHANNELS;
 use crate::stats::{Band, Claim, Verdict, judge_means};
 use crate::text::{Count, Percent};
 use serde::Deserialize;

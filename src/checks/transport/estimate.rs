@@ -7,9 +7,6 @@ use crate::math::rng::{Seed, Stream, uniform};
 use glam::DVec3;
 use serde::Deserialize;
 
-/// Names of the channels, in their order.
-pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];
-
 /// Rays asked in one call: enough to keep threads busy, little enough for any memory.
 const RAYS_PER_CALL: u64 = 1 << 16;
 

@@ -1,11 +1,12 @@
 //! Two ways to estimate the same radiance have the same mean, whatever that is: no reference is needed.
 
-use super::estimate::{CHANNELS, RayEntry, estimate, needs, settings};
+use super::estimate::{RayEntry, estimate, needs, settings};
 use crate::checks::phrase::{mean_measure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray,
 };
+use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, Verdict, judge_means};
 use crate::text::{Count, Percent};

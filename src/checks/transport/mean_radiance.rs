@@ -1,9 +1,7 @@
 //! Mean radiance along a ray against a number that is known.
 
 use super::by_convention::ConventionEntry;
-use super::estimate::{
-    Aim, CHANNELS, PatchEntry, RayEntry, RouletteEntry, estimate, needs, settings,
-};
+use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, estimate, needs, settings};
 use super::foretold::MistakeEntry;
 use crate::cause::{answer, light};
 use crate::checks::phrase::{figure, mean_measure, percent, would_have_caught};
@@ -12,6 +10,7 @@ use crate::contract::{
     Acceleration, BuiltScene, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
     IntegratorSettings, Ray,
 };
+use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
 use crate::stats::{Band, Claim, Effort, Support, Tolerance, Verdict, judge_means};

@@ -12,7 +12,7 @@ mod radiance_is_linear;
 mod roulette_stops_paths;
 
 pub use bounces_add_up::BouncesAddUp;
-pub use estimate::{CHANNELS, RayEntry, RouletteEntry, draw_estimates, needs, settings};
+pub use estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
 pub use estimators_agree::EstimatorsAgree;
 pub use foretold::MistakeEntry;
 pub use mean_radiance::MeanRadiance;

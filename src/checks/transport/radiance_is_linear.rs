@@ -1,11 +1,12 @@
 //! Light adds up: twice the light gives twice the radiance, two lights give the sum of each, and the size of the
 //! scene does not matter.
 
-use super::estimate::{CHANNELS, RayEntry, estimate, needs, settings};
+use super::estimate::{RayEntry, estimate, needs, settings};
 use crate::cause::{Cause, light};
 use crate::checks::phrase::{mean_measure, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Core, DirectSampling, IntegratorSettings, Ray};
+use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::scene::{Light, SceneDescription};
 use crate::stats::{Band, Claim, Effort, MeanReport, Verdict, judge_means};

@@ -175,10 +175,10 @@ fn metrics(
         shown.to_mut().paint_over(counted, reference);
     }
     let pair = Pair::new(&shown, reference).map_err(Failure::request)?;
-    let asked = METRICS.iter().filter(|metric| !(arguments.no_flip && metric.is_slow()));
+    let asked = METRICS.iter().filter(|metric| !(arguments.no_flip && metric.is_slow));
     let measured = asked.map(|metric| {
         let value = metric.measure(&pair);
-        Measured { name: metric.name(), value: (!value.is_nan()).then_some(value) }
+        Measured { name: metric.name, value: (!value.is_nan()).then_some(value) }
     });
     Ok(measured.collect())
 }

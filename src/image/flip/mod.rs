@@ -17,50 +17,17 @@ mod weights;
 #[cfg(test)]
 mod tests;
 
-use super::metric::Metric;
 use super::pair::{Pair, Plane};
 
-/// Mean FLIP of the pictures clipped to [0, 1].
-pub(super) struct Flip;
-
-/// Mean FLIP at the exposures from the one that shows the brightest to the one that shows half of
-/// the reference, the worst of them for every pixel.
-pub(super) struct HighDynamicRangeFlip;
-
-impl Metric for Flip {
-    fn name(&self) -> &'static str {
-        "FLIP"
-    }
-
-    fn meaning(&self) -> &'static str {
-        "what the eye sees flipping between both, clipped at 1; from 0 to 1, NaN counts as 1"
-    }
-
-    fn is_slow(&self) -> bool {
-        true
-    }
-
-    fn measure(&self, pair: &Pair<'_>) -> f64 {
-        mean(&flip(pair))
-    }
+/// Mean FLIP of the pictures clipped to [0, 1]; from 0 to 1.
+pub(super) fn mean_flip(pair: &Pair<'_>) -> f64 {
+    mean(&flip(pair))
 }
 
-impl Metric for HighDynamicRangeFlip {
-    fn name(&self) -> &'static str {
-        "HDR-FLIP"
-    }
-
-    fn meaning(&self) -> &'static str {
-        "the worst FLIP over exposures from highlights to shadows; from 0 to 1, NaN counts as 1"
-    }
-
-    fn is_slow(&self) -> bool {
-        true
-    }
-
-    fn measure(&self, pair: &Pair<'_>) -> f64 {
-        mean(&high_dynamic_range_flip(pair))
-    }
+/// Mean FLIP at the exposures from the one that shows the brightest to the one that shows half of
+/// the reference, the worst of them for every pixel; from 0 to 1.
+pub(super) fn mean_high_dynamic_range_flip(pair: &Pair<'_>) -> f64 {
+    mean(&high_dynamic_range_flip(pair))
 }
 
 /// FLIP of every pixel, the pictures clipped to [0, 1].

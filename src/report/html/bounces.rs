@@ -3,6 +3,7 @@
 
 use crate::checks::Finding;
 use crate::diagnosis::Headline;
+use crate::image::CHANNELS;
 use crate::report::tree::RunTree;
 use maud::{Markup, html};
 
@@ -10,7 +11,6 @@ const WIDTH: f64 = 460.0;
 const HEIGHT: f64 = 170.0;
 const LEFT: f64 = 46.0;
 const BOTTOM: f64 = 30.0;
-const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// A point of the plot.
 struct Point {

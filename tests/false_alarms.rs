@@ -58,7 +58,7 @@ fn leaves(record: &TrialRecord) -> Vec<(String, (TestKind, bool))> {
     let measures = record.outcome.finding().map_or(&[][..], |finding| &finding.measures);
     let named = measures.iter().enumerate().filter_map(|(number, measure)| {
         let name = format!("{} on {}: {number}, {}", record.case, record.core, measure.name);
-        measure.leaf.map(|leaf| (name, (leaf.kind, leaf.suspected)))
+        measure.hypothesis.map(|one| (name, (one.kind, one.suspected)))
     });
     named.collect()
 }

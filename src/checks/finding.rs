@@ -1,7 +1,7 @@
 //! What a check has to say: a verdict, a sentence, and the numbers behind it.
 
 use crate::cause::Cause;
-use crate::stats::{Leaf, Verdict};
+use crate::stats::{Hypothesis, Report, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// The result of one check on one core.
@@ -57,8 +57,8 @@ pub struct Measure {
     pub verdict: Verdict,
     /// What the ledger enters for it; none where chance has no part in it, or where another measure
     /// stands for the same test.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub leaf: Option<Leaf>,
+    #[serde(rename = "leaf", default, skip_serializing_if = "Option::is_none")]
+    pub hypothesis: Option<Hypothesis>,
 }
 
 impl Measure {
@@ -74,13 +74,24 @@ impl Measure {
             interval: None,
             resolution: (expected != 0.0).then(|| allowed / expected.abs()),
             verdict: if passes { Verdict::Pass } else { Verdict::Fail },
-            leaf: None,
+            hypothesis: None,
         }
     }
 
-    /// The same, judged by a test that can fail by chance.
-    pub fn judged_by(self, leaf: Leaf) -> Self {
-        Self { leaf: Some(leaf), ..self }
+    /// What a test says of the number it judged.
+    pub fn of(name: impl Into<String>, report: &impl Report) -> Self {
+        let judgement = report.judgement();
+        Self {
+            name: name.into(),
+            unit: String::new(),
+            measured: judgement.measured,
+            expected: judgement.expected,
+            allowed: judgement.allowed,
+            interval: judgement.interval,
+            resolution: judgement.smallest_detectable_error,
+            verdict: judgement.verdict,
+            hypothesis: judgement.hypothesis,
+        }
     }
 
     /// The same with a unit.
@@ -134,13 +145,13 @@ impl Finding {
     }
 
     /// The tests that could have failed by chance.
-    pub fn leaves(&self) -> impl Iterator<Item = Leaf> {
-        self.measures.iter().filter_map(|measure| measure.leaf)
+    pub fn hypotheses(&self) -> impl Iterator<Item = Hypothesis> {
+        self.measures.iter().filter_map(|measure| measure.hypothesis)
     }
 
     /// The probability that a correct core fails it, at most.
     pub fn false_alarm(&self) -> f64 {
-        self.leaves().map(|leaf| leaf.false_alarm).sum()
+        self.hypotheses().map(|hypothesis| hypothesis.false_alarm).sum()
     }
 
     /// The measures that did not pass.

@@ -2,7 +2,7 @@
 //! written, and how a report of [`crate::stats`] becomes a row of a finding.
 
 use super::Measure;
-use crate::stats::{ExactReport, MeanReport, Verdict};
+use crate::stats::{ExactReport, Verdict};
 
 /// `12 of 53 rays are`, `1 of 53 rays is`: the beginning of most failing statements.
 pub fn some_are(some: usize, all: usize, noun: &str) -> String {
@@ -40,18 +40,11 @@ pub fn figure(value: f64) -> String {
 /// The worst element of a comparison as a measure. Of many, the name says which it was, counted from 1.
 pub fn worst_measure(name: impl Into<String>, report: &ExactReport) -> Measure {
     let name = name.into();
-    let Some(worst) = report.worst else {
-        return Measure { verdict: report.verdict, ..Measure::exact(name, f64::NAN, 0.0, 0.0) };
+    let name = match (report.compared, report.worst) {
+        (all @ 2.., Some(worst)) => format!("{name}, worst of {all} (number {})", worst.index + 1),
+        _ => name,
     };
-    let compared = worst.compared;
-    let name = match report.compared {
-        1 => name,
-        all => format!("{name}, worst of {all} (number {})", worst.index + 1),
-    };
-    Measure {
-        verdict: report.verdict,
-        ..Measure::exact(name, compared.found, compared.expected, compared.allowed)
-    }
+    Measure::of(name, report)
 }
 
 /// A measure without noise that only has to stay below a limit. NaN fails.
@@ -61,17 +54,6 @@ pub fn at_most(name: impl Into<String>, measured: f64, limit: f64) -> Measure {
         verdict: Verdict::pass_if(measured <= limit),
         resolution: None,
         ..Measure::exact(name, measured, limit, 0.0)
-    }
-}
-
-/// A mean that went up the ladder as a measure.
-pub fn mean_measure(name: impl Into<String>, report: &MeanReport) -> Measure {
-    Measure {
-        interval: Some(report.interval),
-        resolution: Some(report.resolution).filter(|resolution| resolution.is_finite()),
-        verdict: report.verdict,
-        leaf: Some(report.leaf()),
-        ..Measure::exact(name, report.mean, report.expected, report.band)
     }
 }
 

@@ -155,11 +155,11 @@ pub fn ungraded_failures(tree: &RunTree) -> Vec<&TrialRecord> {
     tree.trials.iter().filter(failing).collect()
 }
 
-/// What these trials spent of the probability of failing a correct core, leaf by leaf. What is not
+/// What these trials spent of the probability of failing a correct core, hypothesis by hypothesis. What is not
 /// graded cannot.
 pub fn ledger<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Ledger {
     let graded = trials.into_iter().filter(|trial| trial.tier.is_graded());
-    graded.filter_map(|trial| trial.outcome.finding()).flat_map(Finding::leaves).collect()
+    graded.filter_map(|trial| trial.outcome.finding()).flat_map(Finding::hypotheses).collect()
 }
 
 /// The [`ledger`] of the core that has spent most: every core is judged for itself.
@@ -169,15 +169,15 @@ pub fn dearest_ledger(tree: &RunTree) -> Ledger {
     ledgers.max_by(|a, b| a.spent().total_cmp(&b.spent())).unwrap_or_default()
 }
 
-/// The largest relative error that any leaf of a kind would have let through: what a ledger cannot
-/// know. None where no leaf of the kind states one.
+/// The largest relative error that any hypothesis of a kind would have let through: what a ledger cannot
+/// know. None where no hypothesis of the kind states one.
 pub fn worst_resolution<'a>(
     trials: impl IntoIterator<Item = &'a TrialRecord>,
     kind: TestKind,
 ) -> Option<f64> {
     let findings = trials.into_iter().filter_map(|trial| trial.outcome.finding());
     let measures = findings.flat_map(|finding| &finding.measures);
-    let of_kind = measures.filter(|measure| measure.leaf.is_some_and(|leaf| leaf.kind == kind));
+    let of_kind = measures.filter(|measure| measure.hypothesis.is_some_and(|one| one.kind == kind));
     of_kind.filter_map(|measure| measure.resolution).max_by(f64::total_cmp)
 }
 
@@ -291,7 +291,7 @@ mod tests {
         let both = ledger(&tree.trials);
         assert!(builtin.spent() > textbook.spent() && textbook.spent() > 0.0);
         assert!((both.spent() - builtin.spent() - textbook.spent()).abs() < 1e-18);
-        assert_eq!(both.leaves(), builtin.leaves() + textbook.leaves());
+        assert_eq!(both.hypotheses(), builtin.hypotheses() + textbook.hypotheses());
         assert_eq!(dearest_ledger(&tree), builtin);
         let worst = worst_resolution(&tree.trials, TestKind::Mean).unwrap();
         assert!((0.012..0.016).contains(&worst), "{worst}");

@@ -11,7 +11,7 @@ use crate::run::record::{
     write_json,
 };
 use crate::run::{Outcome, RunRecord, TrialRecord};
-use crate::stats::{Budget, Leaf, TestKind, Verdict};
+use crate::stats::{Budget, Hypothesis, TestKind, Verdict};
 use std::path::Path;
 
 /// A case that fails on `builtin` in [`Example::mixed`].
@@ -244,7 +244,7 @@ fn noisy(name: &str, expected: f64, factor: f64, seed: Seed) -> Measure {
         interval: Some([measured - half, measured + half]),
         resolution: Some(0.012 + error.abs()),
         verdict: if is_wrong { Verdict::Fail } else { Verdict::Pass },
-        leaf: Some(Leaf::new(TestKind::Mean, is_wrong)),
+        hypothesis: Some(Hypothesis::new(TestKind::Mean, is_wrong)),
         ..Measure::exact(name, measured, expected, 0.001 * expected)
     }
 }

@@ -58,7 +58,7 @@ pub enum Sides {
     AtMost,
 }
 
-/// One leaf of the suite: a mean and what it has to be.
+/// One hypothesis of the suite: a mean and what it has to be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
     /// The true mean, in the unit of what is drawn.

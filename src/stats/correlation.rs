@@ -1,6 +1,6 @@
 //! Whether two series have nothing to do with each other.
 
-use super::{Leaf, TestKind, Verdict};
+use super::{Hypothesis, Judgement, Report, TestKind, Verdict};
 
 /// Standard errors that chance is given.
 const SIGMAS: f64 = 7.0;
@@ -19,10 +19,17 @@ pub struct CorrelationReport {
     pub limit: f64,
 }
 
-impl CorrelationReport {
-    /// What the ledger enters.
-    pub fn leaf(&self) -> Leaf {
-        Leaf::new(TestKind::Correlation, false)
+impl Report for CorrelationReport {
+    fn judgement(&self) -> Judgement {
+        Judgement {
+            verdict: self.verdict,
+            measured: self.coefficient,
+            expected: 0.0,
+            allowed: self.limit,
+            interval: None,
+            smallest_detectable_error: None,
+            hypothesis: Some(Hypothesis::new(TestKind::Correlation, false)),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What counting samples found out about a sampler.
 
-use super::{Leaf, Stage, TestKind, Verdict};
+use super::{Hypothesis, Judgement, Report, Stage, TestKind, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// One stage of counting.
@@ -79,9 +79,22 @@ pub struct CountReport {
     pub mass: f64,
 }
 
-impl CountReport {
-    /// What the ledger enters.
-    pub fn leaf(&self) -> Leaf {
-        Leaf::new(TestKind::Counts, self.stages.first().is_some_and(|stage| stage.rejects))
+impl Report for CountReport {
+    /// X² per degree of freedom, of the last stage.
+    fn judgement(&self) -> Judgement {
+        let last = self.stages.last();
+        let per_freedom = |value: fn(&CountStage) -> f64| {
+            last.map_or(f64::NAN, |s| value(s) / s.freedom.max(1.0))
+        };
+        let suspected = self.stages.first().is_some_and(|stage| stage.rejects);
+        Judgement {
+            verdict: self.verdict,
+            measured: per_freedom(|stage| stage.statistic),
+            expected: 1.0,
+            allowed: per_freedom(|stage| stage.critical) - 1.0,
+            interval: None,
+            smallest_detectable_error: Some(self.resolution),
+            hypothesis: Some(Hypothesis::new(TestKind::Counts, suspected)),
+        }
     }
 }

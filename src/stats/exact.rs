@@ -5,7 +5,7 @@
 //! rounding errors with room for another order of operations, not room for another formula: the
 //! mistakes they tell apart are orders of magnitude larger.
 
-use super::Verdict;
+use super::{Judgement, Report, Verdict};
 use crate::math::Precision;
 use serde::{Deserialize, Serialize};
 
@@ -116,6 +116,23 @@ pub struct ExactReport {
     pub disagree: usize,
     /// The element furthest beyond what is allowed, or nearest to it.
     pub worst: Option<Worst>,
+}
+
+impl Report for ExactReport {
+    /// The worst element; NaN if nothing was compared.
+    fn judgement(&self) -> Judgement {
+        let nothing = Compared::within(f64::NAN, 0.0, 0.0);
+        let Compared { found, expected, allowed } = self.worst.map_or(nothing, |w| w.compared);
+        Judgement {
+            verdict: self.verdict,
+            measured: found,
+            expected,
+            allowed,
+            interval: None,
+            smallest_detectable_error: (expected != 0.0).then(|| allowed / expected.abs()),
+            hypothesis: None,
+        }
+    }
 }
 
 /// Judges elements one by one: all have to agree.

@@ -1,7 +1,7 @@
 //! What screen-and-confirm found out about a picture.
 
 use super::cells::{Component, Extent, Scale};
-use super::{Leaf, Stage, TestKind, Verdict};
+use super::{Hypothesis, Judgement, Report, Stage, TestKind, Verdict};
 use crate::image::Image;
 use serde::{Deserialize, Serialize};
 
@@ -152,9 +152,24 @@ pub struct ImageReport {
 }
 
 impl ImageReport {
-    /// What the ledger enters.
-    pub fn leaf(&self) -> Leaf {
-        let confirmed = self.scales.iter().any(|scale| scale.confirmations.is_some());
-        Leaf::new(TestKind::Picture, confirmed)
+    /// Whether the screen suspected it, so that there were confirmations.
+    pub(super) fn suspected(&self) -> bool {
+        self.scales.iter().any(|scale| scale.confirmations.is_some())
+    }
+}
+
+impl Report for ImageReport {
+    /// The luminance of the whole picture, over that of the reference; NaN of an impossible picture.
+    fn judgement(&self) -> Judgement {
+        let luminance = self.ratios.iter().find(|ratio| ratio.component == Component::Luminance);
+        Judgement {
+            verdict: self.verdict,
+            measured: luminance.map_or(f64::NAN, |luminance| luminance.ratio),
+            expected: 1.0,
+            allowed: 0.0,
+            interval: luminance.map(|luminance| luminance.interval),
+            smallest_detectable_error: Some(self.resolution),
+            hypothesis: Some(Hypothesis::new(TestKind::Picture, self.suspected())),
+        }
     }
 }

@@ -17,7 +17,7 @@
 //! A run that stops at its first failure does not want to know by how much: there, runs are first
 //! fed to bets ([`betting`](super::betting)), which end the matter if the error is gross.
 //!
-//! Not here: what the samples are, and how many leaves the suite has (`ledger`).
+//! Not here: what the samples are, and how many hypotheses the suite has (`ledger`).
 
 use super::trail::Trail;
 use super::{Claim, Effort, MeanReport, Moments};
@@ -29,7 +29,7 @@ pub const STAGE_LEVEL: f64 = 5e-4;
 
 /// Probability that a correct core fails one claim: two sides, three stages, and twice that because
 /// the ladder may repeat one stage whose variance came out wrong.
-pub const LEAF_FALSE_ALARM: f64 = 2.0 * 2.0 * STAGE_LEVEL * STAGE_LEVEL * STAGE_LEVEL;
+pub const MEAN_FALSE_ALARM: f64 = 2.0 * 2.0 * STAGE_LEVEL * STAGE_LEVEL * STAGE_LEVEL;
 
 /// Effect sizes, in standard errors, that the first stage is planned for: 3.45 to reject (Student,
 /// 63 degrees of freedom), 3.09 so that it does with probability 0.999, and the rest for bugs that
@@ -263,7 +263,7 @@ impl<E> Ladder<'_, E> {
     }
 
     /// The size at which a stage is drawn again because its variance is not what the stages before
-    /// it said. Once a ladder; the level in [`LEAF_FALSE_ALARM`] has been paid for it.
+    /// it said. Once a ladder; the level in [`MEAN_FALSE_ALARM`] has been paid for it.
     fn repeat_with(&self, stage: Stage, moments: &[Moments], samples: u64) -> Option<u64> {
         let most = self.effort.most_samples.saturating_mul(match stage {
             Stage::Third => 64,

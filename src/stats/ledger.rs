@@ -1,14 +1,14 @@
 //! What a run has spent of the probability of blaming a correct core.
 //!
-//! Every test that can fail by chance is a leaf and says what that may cost. The sum bounds the
-//! probability that a correct core fails anything at all, however the leaves hang together (union
-//! bound). Whether the bound is true can be seen long before anything fails: first stages have to
+//! Every test that can fail by chance rejects a hypothesis and says what that may cost. The sum bounds
+//! the probability that a correct core fails anything at all, however the hypotheses depend on each
+//! other (union bound). Whether the bound is true can be seen long before anything fails: first stages have to
 //! suspect correct cores just as often as their level says.
 
 use super::chi_square::COUNTS_FALSE_ALARM;
 use super::codes::CODES_FALSE_ALARM;
 use super::correlation::CORRELATION_FALSE_ALARM;
-use super::ladder::{LEAF_FALSE_ALARM, STAGE_LEVEL};
+use super::ladder::{MEAN_FALSE_ALARM, STAGE_LEVEL};
 use super::proportion::SHARE_FALSE_ALARM;
 use super::rare::RARE_FALSE_ALARM;
 use super::screen::{IMAGE_FALSE_ALARM, SCREEN_LEVEL};
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 /// What a whole suite may spend.
 pub const SUITE_FALSE_ALARM: f64 = 1e-6;
 
-/// How a leaf is judged.
+/// How a hypothesis is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TestKind {
@@ -70,10 +70,10 @@ impl TestKind {
         }
     }
 
-    /// The probability that a correct core fails one such leaf.
+    /// The probability that a correct core fails one such hypothesis.
     pub const fn false_alarm(self) -> f64 {
         match self {
-            Self::Mean => LEAF_FALSE_ALARM,
+            Self::Mean => MEAN_FALSE_ALARM,
             Self::Counts => COUNTS_FALSE_ALARM,
             Self::Share => SHARE_FALSE_ALARM,
             Self::Picture => IMAGE_FALSE_ALARM,
@@ -97,10 +97,10 @@ impl TestKind {
     }
 }
 
-/// A test that can fail by chance.
+/// What a test that can fail by chance may reject.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Leaf {
+pub struct Hypothesis {
     /// How it is judged.
     pub kind: TestKind,
     /// The probability that a correct core fails it.
@@ -110,18 +110,18 @@ pub struct Leaf {
     pub suspected: bool,
 }
 
-impl Leaf {
-    /// A leaf of this kind at its usual price.
+impl Hypothesis {
+    /// A hypothesis of this kind at its usual price.
     pub const fn new(kind: TestKind, suspected: bool) -> Self {
         Self { kind, false_alarm: kind.false_alarm(), suspected }
     }
 }
 
-/// All leaves of one kind.
+/// All hypotheses of one kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LedgerEntry {
     /// How many.
-    pub leaves: usize,
+    pub hypotheses: usize,
     /// What they may cost together.
     pub false_alarm: f64,
     /// How many a first stage suspected.
@@ -129,10 +129,10 @@ pub struct LedgerEntry {
 }
 
 impl LedgerEntry {
-    fn enter(&mut self, leaf: Leaf) {
-        self.leaves += 1;
-        self.false_alarm += leaf.false_alarm;
-        self.suspected += usize::from(leaf.suspected);
+    fn enter(&mut self, hypothesis: Hypothesis) {
+        self.hypotheses += 1;
+        self.false_alarm += hypothesis.false_alarm;
+        self.suspected += usize::from(hypothesis.suspected);
     }
 }
 
@@ -146,12 +146,12 @@ impl Ledger {
         self.0.iter().map(|(kind, entry)| (*kind, *entry))
     }
 
-    /// How many leaves there are.
-    pub fn leaves(&self) -> usize {
-        self.0.values().map(|entry| entry.leaves).sum()
+    /// How many hypotheses there are.
+    pub fn hypotheses(&self) -> usize {
+        self.0.values().map(|entry| entry.hypotheses).sum()
     }
 
-    /// How many leaves a first stage suspected.
+    /// How many hypotheses a first stage suspected.
     pub fn suspected(&self) -> usize {
         self.0.values().map(|entry| entry.suspected).sum()
     }
@@ -167,16 +167,18 @@ impl Ledger {
     }
 }
 
-impl Extend<Leaf> for Ledger {
-    fn extend<T: IntoIterator<Item = Leaf>>(&mut self, leaves: T) {
-        leaves.into_iter().for_each(|leaf| self.0.entry(leaf.kind).or_default().enter(leaf));
+impl Extend<Hypothesis> for Ledger {
+    fn extend<T: IntoIterator<Item = Hypothesis>>(&mut self, hypotheses: T) {
+        hypotheses
+            .into_iter()
+            .for_each(|hypothesis| self.0.entry(hypothesis.kind).or_default().enter(hypothesis));
     }
 }
 
-impl FromIterator<Leaf> for Ledger {
-    fn from_iter<T: IntoIterator<Item = Leaf>>(leaves: T) -> Self {
+impl FromIterator<Hypothesis> for Ledger {
+    fn from_iter<T: IntoIterator<Item = Hypothesis>>(hypotheses: T) -> Self {
         let mut ledger = Self::default();
-        ledger.extend(leaves);
+        ledger.extend(hypotheses);
         ledger
     }
 }
@@ -185,24 +187,26 @@ impl FromIterator<Leaf> for Ledger {
 mod tests {
     use super::*;
 
-    fn of(kind: TestKind, leaves: usize) -> Ledger {
-        std::iter::repeat_n(Leaf::new(kind, false), leaves).collect()
+    fn of(kind: TestKind, count: usize) -> Ledger {
+        std::iter::repeat_n(Hypothesis::new(kind, false), count).collect()
     }
 
     #[test]
     fn a_suite_of_a_thousand_means_and_twelve_pictures_is_within_its_budget() {
         let mut ledger = of(TestKind::Mean, 1000);
-        ledger.extend([Leaf::new(TestKind::Picture, true); 12]);
+        ledger.extend([Hypothesis::new(TestKind::Picture, true); 12]);
         assert!(ledger.is_within_budget(), "{ledger:?}");
-        assert_eq!((ledger.leaves(), ledger.suspected()), (1012, 12));
-        let kinds: Vec<_> = ledger.entries().map(|(kind, entry)| (kind, entry.leaves)).collect();
+        assert_eq!((ledger.hypotheses(), ledger.suspected()), (1012, 12));
+        let kinds: Vec<_> =
+            ledger.entries().map(|(kind, entry)| (kind, entry.hypotheses)).collect();
         assert_eq!(kinds, [(TestKind::Mean, 1000), (TestKind::Picture, 12)]);
     }
 
     #[test]
     fn more_is_not_and_nonsense_is_never() {
         assert!(!of(TestKind::Mean, 10_000).is_within_budget());
-        let nonsense = Leaf { false_alarm: f64::NAN, ..Leaf::new(TestKind::Mean, false) };
+        let nonsense =
+            Hypothesis { false_alarm: f64::NAN, ..Hypothesis::new(TestKind::Mean, false) };
         assert!(!Ledger::from_iter([nonsense]).is_within_budget());
     }
 }

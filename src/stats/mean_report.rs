@@ -1,6 +1,6 @@
 //! What the ladder found out about one claim.
 
-use super::{Leaf, Stage, TestKind, Verdict};
+use super::{Hypothesis, Judgement, Report, Stage, TestKind, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// One stage of the ladder, seen by one claim.
@@ -70,14 +70,24 @@ pub struct MeanReport {
 }
 
 impl MeanReport {
-    /// What the ledger enters.
-    pub fn leaf(&self) -> Leaf {
-        let suspected = self.stages.first().is_some_and(|stage| stage.rejects);
-        Leaf { false_alarm: self.false_alarm, ..Leaf::new(TestKind::Mean, suspected) }
-    }
-
     /// Measured over expected; none for the mean of a difference.
     pub fn mean_ratio(&self) -> Option<f64> {
         (self.expected != 0.0).then(|| self.mean / self.expected)
+    }
+}
+
+impl Report for MeanReport {
+    fn judgement(&self) -> Judgement {
+        let suspected = self.stages.first().is_some_and(|stage| stage.rejects);
+        let hypothesis = Hypothesis::new(TestKind::Mean, suspected);
+        Judgement {
+            verdict: self.verdict,
+            measured: self.mean,
+            expected: self.expected,
+            allowed: self.band,
+            interval: Some(self.interval),
+            smallest_detectable_error: Some(self.resolution).filter(|error| error.is_finite()),
+            hypothesis: Some(Hypothesis { false_alarm: self.false_alarm, ..hypothesis }),
+        }
     }
 }

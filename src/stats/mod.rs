@@ -12,8 +12,9 @@
 //! - [`judge_exact`]: comparisons without noise, with their [`Tolerance`]s.
 //! - [`judge_share`], [`judge_slope`], [`judge_uncorrelated`]: shares, convergence, independence.
 //! - [`judge_rare`]: what must hardly ever happen.
+//! - [`Report`]: what each of them answers, whatever it tested.
 //! - [`ReportedVariance`]: the noise that a renderer says its pixels have, for [`judge_means`].
-//! - [`Leaf`], [`Ledger`]: what a run has spent of the probability of blaming a correct core.
+//! - [`Hypothesis`], [`Ledger`]: what a run has spent of the probability of blaming a correct core.
 //! - [`Claim`]: what is true if the core is right, with the band that rounding may use up.
 //! - [`Effort`] and [`Budget`]: how small an error has to be seen, and how many samples that may
 //!   cost.
@@ -47,6 +48,7 @@ mod noise;
 mod proportion;
 mod quantile;
 mod rare;
+mod report;
 mod reported;
 mod screen;
 #[cfg(test)]
@@ -83,8 +85,8 @@ pub use image_report::{
     CellScore, Confirmation, GlobalRatio, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
     TileMap,
 };
-pub use ladder::{Draw, DrawMeans, LEAF_FALSE_ALARM, STAGE_LEVEL, Stage, judge_means};
-pub use ledger::{Leaf, Ledger, LedgerEntry, SUITE_FALSE_ALARM, TestKind};
+pub use ladder::{Draw, DrawMeans, MEAN_FALSE_ALARM, STAGE_LEVEL, Stage, judge_means};
+pub use ledger::{Hypothesis, Ledger, LedgerEntry, SUITE_FALSE_ALARM, TestKind};
 pub use mean_report::{MeanReport, StageScore};
 pub use moments::Moments;
 pub use proportion::{
@@ -96,6 +98,7 @@ pub use quantile::{
     normal_upper, student_upper,
 };
 pub use rare::{RARE_FALSE_ALARM, RareReport, Rarity, judge_rare};
+pub use report::{Judgement, Report};
 pub use reported::{ReportedVariance, TwoVariances};
 pub use screen::{
     IMAGE_FALSE_ALARM, ImageDraw, ImageEffort, Reference, judge_image, judge_image_pair,

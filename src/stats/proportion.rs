@@ -5,7 +5,7 @@
 //! core, so no variance has to be estimated and no limit theorem believed.
 
 use super::ladder::STAGE_LEVEL;
-use super::{Band, Effort, Leaf, Stage, TestKind, Verdict, normal_upper};
+use super::{Band, Effort, Hypothesis, Judgement, Report, Stage, TestKind, Verdict, normal_upper};
 use serde::{Deserialize, Serialize};
 use statrs::function::beta::{beta_reg, inv_beta_reg};
 
@@ -82,10 +82,18 @@ pub struct ShareReport {
     pub samples_missing: Option<u64>,
 }
 
-impl ShareReport {
-    /// What the ledger enters.
-    pub fn leaf(&self) -> Leaf {
-        Leaf::new(TestKind::Share, self.stages.first().is_some_and(|stage| stage.rejects))
+impl Report for ShareReport {
+    fn judgement(&self) -> Judgement {
+        let suspected = self.stages.first().is_some_and(|stage| stage.rejects);
+        Judgement {
+            verdict: self.verdict,
+            measured: self.share,
+            expected: self.expected,
+            allowed: 0.0,
+            interval: Some(self.interval),
+            smallest_detectable_error: Some(self.resolution),
+            hypothesis: Some(Hypothesis::new(TestKind::Share, suspected)),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 //! allowed.
 
 use super::proportion::{binomial_at_least, share_interval};
-use super::{Leaf, TestKind, Verdict};
+use super::{Hypothesis, Judgement, Report, TestKind, Verdict};
 use crate::math::Precision;
 use serde::{Deserialize, Serialize};
 
@@ -54,10 +54,17 @@ pub struct RareReport {
     pub resolution: f64,
 }
 
-impl RareReport {
-    /// What the ledger enters.
-    pub const fn leaf(&self) -> Leaf {
-        Leaf::new(TestKind::Rare, false)
+impl Report for RareReport {
+    fn judgement(&self) -> Judgement {
+        Judgement {
+            verdict: self.verdict,
+            measured: self.hits as f64 / self.trials as f64,
+            expected: 0.0,
+            allowed: self.allowed,
+            interval: Some(self.interval),
+            smallest_detectable_error: None,
+            hypothesis: Some(Hypothesis::new(TestKind::Rare, false)),
+        }
     }
 }
 

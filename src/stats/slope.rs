@@ -4,7 +4,7 @@
 //! Independent samples have slope −1/2. An error that stops falling is a bias; one that does not
 //! fall at all says that the samples are always the same. A core that stratifies may fall faster.
 
-use super::{Leaf, Moments, TestKind, Verdict};
+use super::{Hypothesis, Judgement, Moments, Report, TestKind, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// The slope of independent samples.
@@ -14,6 +14,8 @@ const INDEPENDENT: f64 = -0.5;
 const BAND: f64 = 0.02;
 /// Standard errors that chance is given: beyond 7 it has a probability below 1e-11.
 const SIGMAS: f64 = 7.0;
+/// Standard errors on each side of a 99.9 % interval.
+const THREE_NINES: f64 = 3.29;
 /// Standard errors more with which an error is seen with probability 0.999.
 const SIGMAS_TO_SEE: f64 = 3.09;
 /// Probability that a correct core fails: two sides of 7 standard errors, with room for a t of 60
@@ -95,10 +97,18 @@ pub struct SlopeReport {
     pub points: Vec<ErrorPoint>,
 }
 
-impl SlopeReport {
-    /// What the ledger enters.
-    pub fn leaf(&self) -> Leaf {
-        Leaf::new(TestKind::Slope, false)
+impl Report for SlopeReport {
+    fn judgement(&self) -> Judgement {
+        let end = |side: f64| self.slope + side * THREE_NINES * self.standard_error;
+        Judgement {
+            verdict: self.verdict,
+            measured: self.slope,
+            expected: INDEPENDENT,
+            allowed: 0.0,
+            interval: Some([end(-1.0), end(1.0)]),
+            smallest_detectable_error: Some(self.resolution / INDEPENDENT.abs()),
+            hypothesis: Some(Hypothesis::new(TestKind::Slope, false)),
+        }
     }
 }
 

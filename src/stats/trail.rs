@@ -2,7 +2,7 @@
 
 use super::betting::{EARLY_FALSE_ALARM, Wager};
 use super::ladder::{
-    FEWEST_EFFECTIVE, LEAF_FALSE_ALARM, MISS_LEVEL, PILOT_EFFECTIVE, PLAN_MARGIN, PLANNED_SIGMAS,
+    FEWEST_EFFECTIVE, MEAN_FALSE_ALARM, MISS_LEVEL, PILOT_EFFECTIVE, PLAN_MARGIN, PLANNED_SIGMAS,
     Pace, VARIANCE_GUARD,
 };
 use super::noise::{Noise, sample_variance};
@@ -309,7 +309,7 @@ impl Trail {
             effective_samples,
             samples_missing: self.missing(verdict, effort, first_samples),
             decided_early: false,
-            false_alarm: LEAF_FALSE_ALARM,
+            false_alarm: MEAN_FALSE_ALARM,
         }
     }
 

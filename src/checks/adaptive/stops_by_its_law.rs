@@ -5,7 +5,7 @@
 
 use super::rule::{Rule, Sums, WRONG_RULES, stops};
 use crate::cause::{Cause, adaptive};
-use crate::checks::phrase::{figure, mean_measure, percent, would_have_caught};
+use crate::checks::phrase::{figure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{AdaptiveMean, AdaptiveSettings, Capabilities, Core, Precision};
 use crate::math::rng::{Seed, uniform};
@@ -251,17 +251,13 @@ fn passing_statement(judged: &[Judged]) -> String {
 impl Judged {
     fn measures(&self) -> [Measure; 2] {
         let counts = Measure {
-            verdict: self.counts.verdict,
-            resolution: Some(self.counts.resolution),
-            ..Measure::exact(
-                format!("{}: samples used", self.name),
-                self.mean_count(),
-                self.law.expected_count(),
-                0.0,
-            )
+            measured: self.mean_count(),
+            expected: self.law.expected_count(),
+            allowed: 0.0,
+            ..Measure::of(format!("{}: samples used", self.name), &self.counts)
         };
-        let mean = mean_measure(format!("{}: mean returned", self.name), &self.mean);
-        [counts.judged_by(self.counts.leaf()), mean]
+        let mean = Measure::of(format!("{}: mean returned", self.name), &self.mean);
+        [counts, mean]
     }
 
     /// Samples used on average, in the last stage drawn.

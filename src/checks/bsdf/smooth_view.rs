@@ -144,13 +144,8 @@ impl SmoothView {
                 |(what, report)| worst_measure(named(&format!("{} {what}", way.name)), report);
             measures.extend(rows.iter().map(|(what, report)| row((*what, report))));
         }
-        measures.extend(self.chance.as_ref().map(|report| Measure {
-            interval: Some(report.interval),
-            resolution: Some(report.resolution),
-            verdict: report.verdict,
-            leaf: Some(report.leaf()),
-            ..Measure::exact(named("samples reflected"), report.share, report.expected, 0.0)
-        }));
+        let chance = self.chance.as_ref();
+        measures.extend(chance.map(|report| Measure::of(named("samples reflected"), report)));
         measures
     }
 

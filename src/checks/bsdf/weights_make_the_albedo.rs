@@ -2,9 +2,9 @@
 
 use super::albedo::Albedo;
 use crate::checks::numbers::Numbers;
-use crate::checks::phrase::{degrees, figure, mean_measure, would_have_caught};
+use crate::checks::phrase::{degrees, figure, would_have_caught};
 use crate::checks::surface::{SurfaceEntry, seen_from};
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BsdfSample, Capabilities, Core};
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, Verdict, judge_means};
@@ -56,7 +56,7 @@ impl Check for WeightsMakeTheAlbedo {
                     mean_weight(context.core, *surface, *angle, draw.seed(seed), samples)
                 })?;
                 let name = format!("weight of {surface} at {}", degrees(*angle));
-                measures.extend(reports.iter().map(|report| mean_measure(name.clone(), report)));
+                measures.extend(reports.iter().map(|report| Measure::of(name.clone(), report)));
             }
         }
         let failed = measures.iter().find(|measure| measure.verdict == Verdict::Fail);

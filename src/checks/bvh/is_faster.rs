@@ -111,6 +111,6 @@ mod tests {
         assert!(told(30.0).statement.starts_with("30 times as fast"), "{:?}", told(30.0));
         assert_eq!(told(1.0).verdict, Verdict::Inconclusive);
         assert_eq!(told(f64::NAN).verdict, Verdict::Inconclusive);
-        assert!(told(30.0).leaves().next().is_none(), "nothing is entered in the ledger");
+        assert!(told(30.0).hypotheses().next().is_none(), "nothing is entered in the ledger");
     }
 }

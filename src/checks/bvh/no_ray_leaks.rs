@@ -136,12 +136,7 @@ fn finding(report: &RareReport, at_vertices: f64, causes: Vec<(&Cause, String)>)
         ),
     };
     let measures = vec![
-        Measure {
-            interval: Some(report.interval),
-            verdict: report.verdict,
-            leaf: Some(report.leaf()),
-            ..Measure::exact("share of rays that leak", share, 0.0, report.allowed)
-        },
+        Measure::of("share of rays that leak", report),
         Measure {
             verdict: Verdict::Pass,
             ..Measure::exact(

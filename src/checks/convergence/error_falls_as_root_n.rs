@@ -137,15 +137,7 @@ impl ErrorFallsAsRootN {
 }
 
 fn finding(report: &SlopeReport) -> Finding {
-    let slope = Measure {
-        interval: Some(
-            [-1.0, 1.0].map(|side| report.slope + side * THREE_NINES * report.standard_error),
-        ),
-        resolution: Some(report.resolution / 0.5),
-        verdict: report.verdict,
-        leaf: Some(report.leaf()),
-        ..Measure::exact("slope of log error on log samples", report.slope, -0.5, 0.0)
-    };
+    let slope = Measure::of("slope of log error on log samples", report);
     let statement = match report.verdict {
         Verdict::Fail => format!(
             "error falls as n^{:.3}, not n^-0.5; a bias of {:.2e} would explain its plateau",
@@ -162,8 +154,6 @@ fn finding(report: &SlopeReport) -> Finding {
 
 /// A slope that is none: samples that repeat, or a bias that nothing averages out.
 const NO_SLOPE: f64 = 0.05;
-/// Standard errors on each side of a 99.9 % interval of a normal mean.
-const THREE_NINES: f64 = 3.29;
 
 #[cfg(test)]
 mod tests {

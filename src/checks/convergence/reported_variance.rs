@@ -168,12 +168,10 @@ fn measure(channel: &str, report: &MeanReport, variances: &TwoVariances) -> Meas
     let silent = variances.measured == 0.0 && report.verdict == Verdict::Pass;
     let name = format!("reported over real variance, {channel}");
     Measure {
-        interval: Some(report.interval),
         resolution: Some(report.resolution.exp2() - 1.0)
             .filter(|resolution| resolution.is_finite()),
         verdict: if silent { Verdict::Inconclusive } else { report.verdict },
-        leaf: Some(report.leaf()),
-        ..Measure::exact(name, report.mean, 0.0, report.band).in_unit("powers of two")
+        ..Measure::of(name, report).in_unit("powers of two")
     }
 }
 

@@ -3,7 +3,7 @@
 //! What is judged is the mean of the unbiased sample variances of independent runs, a mean like any other; the ratio
 //! of two variances would need a normal law that radiance does not have.
 
-use crate::checks::phrase::{figure, mean_measure, would_have_caught};
+use crate::checks::phrase::{figure, would_have_caught};
 use crate::checks::transport::{
     MistakeEntry, RayEntry, RouletteEntry, draw_estimates, needs, settings,
 };
@@ -120,7 +120,7 @@ impl VarianceIsKnown {
             Ok::<_, CheckError>(moments.iter().map(Moments::variance).collect())
         })?;
         let label = |channel: usize| format!("{}, {}", row.name, CHANNELS[channel]);
-        let measure = |(c, report)| (c, mean_measure(label(c), report));
+        let measure = |(c, report)| (c, Measure::of(label(c), report));
         Ok(reports.iter().enumerate().map(measure).collect())
     }
 }

@@ -6,7 +6,7 @@
 
 use super::pattern::{CELLS, FILM, SAMPLES, lit_pixels, scene, share};
 use super::pixel_laws::{MISTAKES, Tally};
-use crate::checks::phrase::{mean_measure, percent, would_have_caught};
+use crate::checks::phrase::{percent, would_have_caught};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities};
@@ -84,7 +84,7 @@ fn finding(reports: &[MeanReport], all: &Tally) -> Finding {
         .enumerate()
         .map(|(number, report)| {
             let line = format!("share of {} {}", LINES[number / CELLS], number % CELLS + 1);
-            mean_measure(line, report)
+            Measure::of(line, report)
         })
         .collect();
     let resolution = would_have_caught(&measures) + " of the share of a fifth of the pixel";

@@ -138,7 +138,8 @@ fn finding(all: &Tally, report: Option<&CountReport>) -> Finding {
         none("pixels with two samples in one cell", all.uneven()),
         none("pixels that are no mean of four samples", all.unreadable),
     ];
-    measures.extend(report.map(spread_measure));
+    let name = "χ² per degree of freedom, places within a cell";
+    measures.extend(report.map(|report| Measure::of(name, report)));
     let resolution = match report {
         Some(_) => would_have_caught(&measures) + " of the density within a cell",
         None => "would have caught a single pixel with two samples in one cell".to_owned(),
@@ -160,21 +161,6 @@ fn statement(all: &Tally, failed: bool) -> String {
         (0, 0) => "within their cells the samples of pixels are not evenly spread".to_owned(),
         (0, uneven) => format!("{uneven} of {pixels} pixels have two samples in one of four cells"),
         (unreadable, _) => format!("{unreadable} of {pixels} pixels are no mean of four samples"),
-    }
-}
-
-fn spread_measure(report: &CountReport) -> Measure {
-    let last = report.stages.last();
-    let per_freedom = |value: fn(&crate::stats::CountStage) -> f64| {
-        last.map_or(f64::NAN, |stage| value(stage) / stage.freedom.max(1.0))
-    };
-    let allowed = per_freedom(|stage| stage.critical) - 1.0;
-    let name = "χ² per degree of freedom, places within a cell";
-    Measure {
-        verdict: report.verdict,
-        resolution: Some(report.resolution),
-        leaf: Some(report.leaf()),
-        ..Measure::exact(name, per_freedom(|stage| stage.statistic), 1.0, allowed)
     }
 }
 

@@ -2,9 +2,9 @@
 //! shading.
 
 use crate::cause::picture;
-use crate::checks::phrase::{figure, mean_measure, percent, would_have_caught};
+use crate::checks::phrase::{figure, percent, would_have_caught};
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
 use crate::stats::{Band, Claim, MeanReport, Verdict, judge_means};
 use crate::text::{Count, Percent};
@@ -97,7 +97,7 @@ impl ViewCoverage {
     fn finding(&self, reports: &[MeanReport]) -> Finding {
         let names = ["share of the picture", "share times film x", "share times film y"];
         let measures: Vec<_> =
-            names.into_iter().zip(reports).map(|(n, r)| mean_measure(n, r)).collect();
+            names.into_iter().zip(reports).map(|(n, r)| Measure::of(n, r)).collect();
         let share = reports[0].mean;
         let centroid = [reports[1].mean / share, reports[2].mean / share];
         let failed = measures.iter().any(|measure| measure.verdict == Verdict::Fail);

@@ -11,7 +11,7 @@ use crate::contract::{Acceleration, Capabilities, DirectSampling, Falloff, Hit, 
 use crate::image::CHANNELS;
 use crate::math::rng::{Seed, uniform};
 use crate::scene::{Light, Rgb, SceneDescription, Surface};
-use crate::stats::{Compared, RareReport, Rarity, Tolerance, Verdict, judge_exact, judge_rare};
+use crate::stats::{Compared, Rarity, Tolerance, Verdict, judge_exact, judge_rare};
 use crate::text::Count;
 use glam::DVec2;
 use serde::Deserialize;
@@ -212,7 +212,7 @@ fn finding(seen: &[Seen<'_>], tolerance: f64, allowed: f64) -> Finding {
     let all = || seen.iter().flat_map(|one| &one.points);
     let (points, dark) = (all().count(), all().filter(|point| point.is_dark()).count());
     let rare = judge_rare(dark as u64, points as u64, allowed);
-    let mut measures = vec![of_darkness(&rare)];
+    let mut measures = vec![Measure::of("share of points in their own shadow", &rare)];
     measures.extend(seen.iter().flat_map(|one| one.measures(tolerance)));
     let resolution = format!(
         "would have caught {} of dark points, and an error of {}",
@@ -239,17 +239,6 @@ fn finding(seen: &[Seen<'_>], tolerance: f64, allowed: f64) -> Finding {
     let made = MISTAKES.iter().filter(|(_, mistake)| all().all(|p| p.is_by(*mistake, tolerance)));
     let evidence = format!("predicts the radiance of {points} points");
     finding.because_each(made.map(|(cause, _)| *cause), &evidence)
-}
-
-/// The share of points that lie in a shadow of their own.
-fn of_darkness(rare: &RareReport) -> Measure {
-    let share = rare.hits as f64 / rare.trials as f64;
-    Measure {
-        interval: Some(rare.interval),
-        verdict: rare.verdict,
-        leaf: Some(rare.leaf()),
-        ..Measure::exact("share of points in their own shadow", share, 0.0, rare.allowed)
-    }
 }
 
 #[cfg(test)]

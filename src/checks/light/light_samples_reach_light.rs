@@ -6,7 +6,7 @@
 use super::density::{self, Geometry, area_of};
 use crate::cause;
 use crate::checks::numbers::Numbers;
-use crate::checks::phrase::{mean_measure, some_are, worst_measure, would_have_caught};
+use crate::checks::phrase::{some_are, worst_measure, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, Hit, LightSample, Ray};
 use crate::math::ratios::names_of;
@@ -88,7 +88,7 @@ impl Check for LightSamplesReachLight {
                 point.means(built.as_mut(), light.0, run, draw.samples)
             })?;
             for ((name, _), report) in claims.iter().zip(&reports) {
-                measures.push(mean_measure(format!("{label}: {name}"), report));
+                measures.push(Measure::of(format!("{label}: {name}"), report));
                 complaints.extend(complaint(&label, name, report));
             }
         }

@@ -3,7 +3,7 @@
 
 use crate::cause::{Cause, convention, light as cause};
 use crate::checks::numbers::Numbers;
-use crate::checks::phrase::{figure, mean_measure, worst_measure, would_have_caught};
+use crate::checks::phrase::{figure, worst_measure, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, Falloff, LightSample};
 use crate::math::ratios::names_of;
@@ -236,7 +236,7 @@ impl Sky {
             .is_some_and(|named| named.value == 0.5);
         Ok(Judged {
             name: "the sky".to_owned(),
-            measures: vec![mean_measure("mean of radiance over density", &reports[0])],
+            measures: vec![Measure::of("mean of radiance over density", &reports[0])],
             cause: is_half.then_some(&cause::SKY_PDF_OF_HEMISPHERE),
         })
     }

@@ -7,7 +7,7 @@ use crate::image::Image;
 use crate::image::encoding::{Encoding, WHITE};
 use crate::image::png::Picture as Codes;
 use crate::stats::{
-    CodeReference, CodeReport, CodeSettings, Deciphered, ImageDraw, Verdict, judge_codes,
+    CodeReference, CodeReport, CodeSettings, Deciphered, ImageDraw, Report, Verdict, judge_codes,
 };
 
 /// A finding, and what it was made of.
@@ -72,7 +72,7 @@ fn as_light(codes: &Image, encoding: Encoding) -> Image {
 
 fn found(report: &CodeReport) -> Finding {
     let Some(image) = &report.image else { return mismatch(report) };
-    let mut finding = finding(image, report.leaf());
+    let mut finding = finding(image, report.judgement().hypothesis);
     finding.verdict = report.verdict;
     let compared = 100.0 * report.compared;
     finding.statement = format!("in codes ({}): {}", report.deciphered.declared, finding.statement);
@@ -112,10 +112,7 @@ fn mismatch(report: &CodeReport) -> Finding {
     );
     let cause = cause_of(deciphered);
     let statement = format!("encoding mismatch, nothing is said of the light: {evidence}");
-    let measure = Measure {
-        verdict: Verdict::Fail,
-        ..Measure::exact("encodings other than declared", 1.0, 0.0, 0.0).judged_by(report.leaf())
-    };
+    let measure = Measure::of("encodings other than declared", report);
     Finding::of(statement, "", vec![measure]).because(cause, evidence)
 }
 

@@ -11,8 +11,8 @@ use crate::math::rng::Seed;
 use crate::scene::reference::{self, Reference};
 use crate::scene::{Camera, SceneDescription};
 use crate::stats::{
-    self, Component, GlobalRatio, ImageEffort, ImageReport, Impossible, Leaf, Scale, ScaleReport,
-    Verdict, judge_image,
+    self, Component, GlobalRatio, Hypothesis, ImageEffort, ImageReport, Impossible, Report, Scale,
+    ScaleReport, Verdict, judge_image,
 };
 use crate::text::Percent;
 use serde::Deserialize;
@@ -114,7 +114,7 @@ impl MatchesReference {
             Verdict::Fail if report.impossible.is_none() => {
                 let seed = seed.child("clues");
                 clues::explained(
-                    finding(&report, report.leaf()),
+                    finding(&report, report.judgement().hypothesis),
                     &report,
                     &reference,
                     &shot,
@@ -122,7 +122,7 @@ impl MatchesReference {
                     seed,
                 )?
             }
-            _ => finding(&report, report.leaf()),
+            _ => finding(&report, report.judgement().hypothesis),
         };
         drop(built);
         let caption = format!("mean of {} runs of {} samples per pixel", report.runs, shot.samples);
@@ -217,10 +217,10 @@ pub(super) fn error_picture(report: &ImageReport, mean: &Image, standard_error: 
     })
 }
 
-/// What a report says in words and numbers; `leaf` is what the ledger enters.
-pub(super) fn finding(report: &ImageReport, leaf: Leaf) -> Finding {
+/// What a report says in words and numbers; `hypothesis` is what the ledger enters.
+pub(super) fn finding(report: &ImageReport, hypothesis: Option<Hypothesis>) -> Finding {
     let mut measures: Vec<_> =
-        report.ratios.iter().map(|ratio| ratio_measure(ratio, report, leaf)).collect();
+        report.ratios.iter().map(|ratio| ratio_measure(ratio, report, hypothesis)).collect();
     measures.extend(report.scales.iter().map(scale_measure));
     let mut finding = Finding::of(
         statement(report),
@@ -236,14 +236,18 @@ pub(super) fn finding(report: &ImageReport, leaf: Leaf) -> Finding {
 
 /// How bright the whole picture is: what people ask first. Luminance stands for the test of the
 /// picture.
-fn ratio_measure(ratio: &GlobalRatio, report: &ImageReport, leaf: Leaf) -> Measure {
+fn ratio_measure(
+    ratio: &GlobalRatio,
+    report: &ImageReport,
+    hypothesis: Option<Hypothesis>,
+) -> Measure {
     let name = format!("brightness of the whole picture, {}", component_name(ratio.component));
     let is_luminance = ratio.component == Component::Luminance;
     Measure {
         interval: Some(ratio.interval),
         resolution: is_luminance.then_some(report.resolution),
         verdict: report.verdict,
-        leaf: is_luminance.then_some(leaf),
+        hypothesis: hypothesis.filter(|_| is_luminance),
         ..Measure::exact(name, ratio.ratio, 1.0, 0.0).in_unit("of the reference")
     }
 }

@@ -102,12 +102,7 @@ impl Shift {
     }
 
     fn measure(&self) -> Measure {
-        let name = format!("correlation with the next seed, {}", self.words);
-        Measure {
-            verdict: self.report.verdict,
-            leaf: Some(self.report.leaf()),
-            ..Measure::exact(name, self.report.coefficient, 0.0, self.report.limit)
-        }
+        Measure::of(format!("correlation with the next seed, {}", self.words), &self.report)
     }
 
     /// The same numbers, a pixel further.

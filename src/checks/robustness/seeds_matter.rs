@@ -93,9 +93,7 @@ fn neighbours(films: &[Film], step: [usize; 2]) -> Measure {
     let pairs: Vec<_> = films.chunks_exact(2).flat_map(|two| sign_pairs(two, step)).collect();
     let report = judge_uncorrelated(&pairs);
     let direction = if step[0] > 0 { "side by side" } else { "above each other" };
-    let name = format!("correlation of pixels {direction}");
-    let measure = Measure::exact(name, report.coefficient, 0.0, report.limit);
-    Measure { verdict: report.verdict, ..measure }.judged_by(report.leaf())
+    Measure::of(format!("correlation of pixels {direction}"), &report)
 }
 
 /// Signs of the noise of each pixel and of the one `step` further, where both have any.

@@ -103,24 +103,6 @@ fn count_pairs(
     Ok(counts)
 }
 
-fn measure(name: &str, report: &CountReport) -> Measure {
-    let stage = report.stages.last();
-    let per_freedom = |value: f64| stage.map_or(f64::NAN, |s| value / s.freedom.max(1.0));
-    let found = per_freedom(stage.map_or(f64::NAN, |stage| stage.statistic));
-    let critical = per_freedom(stage.map_or(f64::NAN, |stage| stage.critical));
-    Measure {
-        verdict: report.verdict,
-        resolution: Some(report.resolution),
-        leaf: Some(report.leaf()),
-        ..Measure::exact(
-            format!("χ² per degree of freedom, pairs of {name}"),
-            found,
-            1.0,
-            critical - 1.0,
-        )
-    }
-}
-
 /// Pearson's coefficient of two of the three numbers, from the counts.
 fn correlation(report: &CountReport, [a, b]: [usize; 2]) -> f64 {
     let place = |cell: usize| [cell / (PARTS * PARTS), cell / PARTS % PARTS, cell % PARTS];
@@ -181,7 +163,10 @@ fn cause(report: &CountReport) -> Option<(&'static Cause, String)> {
 }
 
 fn finding(judged: &[(String, CountReport)]) -> Finding {
-    let measures: Vec<_> = judged.iter().map(|(name, report)| measure(name, report)).collect();
+    let measure = |(name, report): &(String, CountReport)| {
+        Measure::of(format!("χ² per degree of freedom, pairs of {name}"), report)
+    };
+    let measures: Vec<_> = judged.iter().map(measure).collect();
     let complaints: Vec<_> =
         judged.iter().filter_map(|(name, report)| complaint(name, report)).collect();
     let statement = match complaints.is_empty() {

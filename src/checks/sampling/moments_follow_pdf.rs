@@ -4,7 +4,7 @@
 
 use super::distribution::{Distribution, DistributionEntry, Drawn};
 use crate::cause::{Cause, sampling};
-use crate::checks::phrase::{degrees, figure, mean_measure, would_have_caught};
+use crate::checks::phrase::{degrees, figure, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Core};
 use crate::math::harmonics::{COUNT, NAMES, harmonics};
@@ -84,7 +84,7 @@ impl Judged {
 
     fn measures(&self) -> impl Iterator<Item = Measure> {
         self.reports.iter().zip(NAMES).map(|(report, harmonic)| {
-            mean_measure(format!("{}: mean of {harmonic}", self.name), report)
+            Measure::of(format!("{}: mean of {harmonic}", self.name), report)
         })
     }
 

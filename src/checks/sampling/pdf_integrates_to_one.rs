@@ -111,17 +111,10 @@ impl Mass {
         match &self.accepted {
             None => vec![Measure::exact(name, self.value, 1.0, self.allowed + self.error)],
             Some(report) => vec![Measure {
-                interval: Some(report.interval),
-                resolution: Some(report.resolution),
-                leaf: Some(report.leaf()),
-                verdict: report.verdict,
+                measured: self.value,
+                expected,
                 allowed: report.resolution * expected,
-                ..Measure::exact(
-                    name + ", against the share of samples that succeed",
-                    self.value,
-                    expected,
-                    0.0,
-                )
+                ..Measure::of(name + ", against the share of samples that succeed", report)
             }],
         }
     }

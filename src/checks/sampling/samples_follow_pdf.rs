@@ -167,17 +167,7 @@ fn finding(judged: &[Judged]) -> Finding {
 impl Judged {
     /// X² per degree of freedom of the last stage.
     fn measure(&self) -> Measure {
-        let stage = self.report.stages.last();
-        let per_freedom = |value: f64| stage.map_or(f64::NAN, |s| value / s.freedom.max(1.0));
-        let found = per_freedom(stage.map_or(f64::NAN, |stage| stage.statistic));
-        let critical = per_freedom(stage.map_or(f64::NAN, |stage| stage.critical));
-        let name = format!("χ² per degree of freedom, {}", self.name);
-        Measure {
-            verdict: self.report.verdict,
-            resolution: Some(self.report.resolution),
-            leaf: Some(self.report.leaf()),
-            ..Measure::exact(name, found, 1.0, critical - 1.0)
-        }
+        Measure::of(format!("χ² per degree of freedom, {}", self.name), &self.report)
     }
 
     fn complaint(&self) -> Option<String> {
@@ -343,7 +333,7 @@ mod tests {
     fn samples_that_follow_their_density_pass_and_spend_of_the_budget() {
         let finding = found(SAMPLER, cosine);
         assert_passes(&finding);
-        assert!(finding.leaves().count() > 0);
+        assert!(finding.hypotheses().count() > 0);
         assert_passes(&found(SURFACE, cosine));
     }
 

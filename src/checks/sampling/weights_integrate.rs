@@ -7,8 +7,8 @@
 use super::density::{Density, Law};
 use super::distribution::{Distribution, DistributionEntry, Drawn};
 use crate::cause::Cause;
-use crate::checks::phrase::{figure, mean_measure, would_have_caught};
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::phrase::{figure, would_have_caught};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::Capabilities;
 use crate::math::ratios::names_of;
 use crate::math::rng::Seed;
@@ -146,7 +146,7 @@ fn finding(judged: &[Judged]) -> Finding {
         .iter()
         .flat_map(|judged| {
             judged.reports.iter().zip(POWERS).map(|(report, power)| {
-                mean_measure(format!("{}: mean of cos^{power}/pdf", judged.name), report)
+                Measure::of(format!("{}: mean of cos^{power}/pdf", judged.name), report)
             })
         })
         .collect();

@@ -1,8 +1,8 @@
 //! What is accumulated over some bounces is the sum of those bounces, isolated.
 
 use super::estimate::{RayEntry, estimate, needs, settings};
-use crate::checks::phrase::{mean_measure, percent, would_have_caught};
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::phrase::{percent, would_have_caught};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
 use crate::image::CHANNELS;
 use crate::stats::{Band, Claim, Verdict, judge_means};
@@ -63,7 +63,7 @@ impl Check for BouncesAddUp {
             Ok::<_, CheckError>(difference.to_vec())
         })?;
         let measures: Vec<_> = (0..3)
-            .map(|c| mean_measure(format!("accumulated minus sum, {}", CHANNELS[c]), &reports[c]))
+            .map(|c| Measure::of(format!("accumulated minus sum, {}", CHANNELS[c]), &reports[c]))
             .collect();
         let share = |c: usize| (measures[c].measured / scale[c]).abs();
         let worst = (0..3).map(share).fold(0.0, f64::max);

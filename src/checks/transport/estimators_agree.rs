@@ -1,7 +1,7 @@
 //! Two ways to estimate the same radiance have the same mean, whatever that is: no reference is needed.
 
 use super::estimate::{RayEntry, estimate, needs, settings};
-use crate::checks::phrase::{mean_measure, percent, would_have_caught};
+use crate::checks::phrase::{percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray,
@@ -123,7 +123,7 @@ impl Comparison<'_> {
         let measures = reports.iter().enumerate();
         let labelled = |c: usize| format!("{name}, {}", CHANNELS[c]);
         Ok(measures
-            .map(|(c, report)| relative(mean_measure(labelled(c), report), scale[c]))
+            .map(|(c, report)| relative(Measure::of(labelled(c), report), scale[c]))
             .collect())
     }
 }

@@ -4,7 +4,7 @@ use super::by_convention::ConventionEntry;
 use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, estimate, needs, settings};
 use super::foretold::MistakeEntry;
 use crate::cause::{answer, light};
-use crate::checks::phrase::{figure, mean_measure, percent, would_have_caught};
+use crate::checks::phrase::{figure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, breach};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
@@ -221,7 +221,7 @@ impl Question {
             Ok::<_, CheckError>(channels.iter().map(|channel| run.mean[*channel]).collect())
         })?;
         let measures = channels.iter().zip(&reports);
-        Ok(measures.map(|(c, report)| (*c, mean_measure(self.label(*c), report))).collect())
+        Ok(measures.map(|(c, report)| (*c, Measure::of(self.label(*c), report))).collect())
     }
 
     /// Radiance is not negative, and sometimes more is known.

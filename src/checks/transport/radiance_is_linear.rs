@@ -3,7 +3,7 @@
 
 use super::estimate::{RayEntry, estimate, needs, settings};
 use crate::cause::{Cause, light};
-use crate::checks::phrase::{mean_measure, would_have_caught};
+use crate::checks::phrase::would_have_caught;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Core, DirectSampling, IntegratorSettings, Ray};
 use crate::image::CHANNELS;
@@ -196,7 +196,7 @@ impl Trial {
 
 fn measures(name: &str, reports: &[MeanReport]) -> Vec<Measure> {
     let named = reports.iter().zip(CHANNELS);
-    named.map(|(report, channel)| mean_measure(format!("{name}, {channel}"), report)).collect()
+    named.map(|(report, channel)| Measure::of(format!("{name}, {channel}"), report)).collect()
 }
 
 /// The scene with every light [`BRIGHTER`].

@@ -172,13 +172,7 @@ impl Share {
     }
 
     fn measure(&self) -> Measure {
-        Measure {
-            interval: Some(self.report.interval),
-            resolution: Some(self.report.resolution),
-            verdict: self.report.verdict,
-            leaf: Some(self.report.leaf()),
-            ..Measure::exact(self.name(), self.report.share, self.report.expected, 0.0)
-        }
+        Measure::of(self.name(), &self.report)
     }
 
     fn complaint(&self) -> String {

@@ -76,7 +76,7 @@ fn book(view: &View<'_>, core: &str) -> Markup {
             tr {
                 th scope="row" { (core) }
                 td { b { "all" } }
-                td.number { b { (ledger.leaves()) } }
+                td.number { b { (ledger.hypotheses()) } }
                 td.number { b { (ledger.suspected()) } }
                 td {}
                 td {}
@@ -87,13 +87,13 @@ fn book(view: &View<'_>, core: &str) -> Markup {
 }
 
 fn entry_row(view: &View<'_>, core: &str, kind: TestKind, entry: LedgerEntry) -> Markup {
-    let expected = kind.suspicion().map(|share| share * entry.leaves as f64);
+    let expected = kind.suspicion().map(|share| share * entry.hypotheses as f64);
     let resolution = worst_resolution(view.tree.trials_of(core), kind);
     html! {
         tr {
             th scope="row" { (core) }
             td { (kind.plural()) }
-            td.number { (entry.leaves) }
+            td.number { (entry.hypotheses) }
             td.number { @if expected.is_some() { (entry.suspected) } @else { "no stages" } }
             td.number { @if let Some(expected) = expected { (significant(expected, 2)) } }
             td.number { @if let Some(resolution) = resolution { (percent(resolution)) } }

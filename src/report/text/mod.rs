@@ -181,7 +181,7 @@ fn chance(tree: &RunTree) -> Vec<String> {
              that a suite may spend"
         ),
     };
-    if ledger.leaves() > 0 {
+    if ledger.hypotheses() > 0 {
         text += &format!("\n{}", entries(&ledger));
     }
     wrap(&text, 2).into_iter().map(|line| format!("  {line}")).collect()
@@ -190,11 +190,11 @@ fn chance(tree: &RunTree) -> Vec<String> {
 /// `40 random claims: 38 means 1.9e-8, 2 pictures 1e-8; 1 suspected by its first stage`
 fn entries(ledger: &Ledger) -> String {
     let entry = |(kind, entry): (TestKind, LedgerEntry)| {
-        let name = if entry.leaves == 1 { kind.singular() } else { kind.plural() };
-        format!("{} {name} {}", entry.leaves, probability(entry.false_alarm))
+        let name = if entry.hypotheses == 1 { kind.singular() } else { kind.plural() };
+        format!("{} {name} {}", entry.hypotheses, probability(entry.false_alarm))
     };
     let entries: Vec<_> = ledger.entries().map(entry).collect();
-    let claims = count(ledger.leaves(), "random claim");
+    let claims = count(ledger.hypotheses(), "random claim");
     let suspected = match ledger.suspected() {
         0 => "none".to_owned(),
         some => some.to_string(),

@@ -37,7 +37,10 @@ pub use light::{LightOfCodes, NoiseSource, light_of_codes};
 use super::screen::{CONFIRM_LEVEL, IMAGE_FALSE_ALARM, Levels};
 use super::screening::Screening;
 use super::spread::Spread;
-use super::{ImageDraw, ImageEffort, ImageReport, Leaf, Stage, TestKind, Verdict};
+use super::{
+    Compared, Hypothesis, ImageDraw, ImageEffort, ImageReport, Judgement, Report, Stage, TestKind,
+    Verdict, judge_exact,
+};
 use crate::image::Image;
 use crate::image::encoding::Encoding;
 use crate::image::png::Picture as Codes;
@@ -106,11 +109,18 @@ pub struct CodeReport {
     pub expected: Image,
 }
 
-impl CodeReport {
-    /// What the ledger enters.
-    pub fn leaf(&self) -> Leaf {
-        let suspected = self.image.as_ref().is_some_and(|image| image.leaf().suspected);
-        Leaf::new(TestKind::Codes, suspected)
+impl Report for CodeReport {
+    /// The luminance of the whole picture, as far as codes tell it; where they are encoded otherwise
+    /// than declared, that this is so once and not never.
+    fn judgement(&self) -> Judgement {
+        let suspected = self.image.as_ref().is_some_and(ImageReport::suspected);
+        let hypothesis = Some(Hypothesis::new(TestKind::Codes, suspected));
+        let mismatch = Compared::within(1.0, 0.0, 0.0);
+        let judgement = match &self.image {
+            Some(image) => image.judgement(),
+            None => judge_exact([mismatch]).judgement(),
+        };
+        Judgement { verdict: self.verdict, hypothesis, ..judgement }
     }
 }
 

@@ -75,7 +75,7 @@ fn right_codes_fail_no_oftener_than_the_levels_say() {
             let rejects: Vec<_> = pairs.map(|pair| pair[0].rejects && pair[1].rejects).collect();
             let clips = report.clipping.is_some_and(|clipping| clipping.rejects);
             (
-                report.leaf().suspected,
+                report.image.as_ref().is_some_and(ImageReport::suspected),
                 rejects,
                 clips,
                 report.deciphered.is_another(),

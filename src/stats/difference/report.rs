@@ -1,7 +1,7 @@
 //! What the comparison of two single pictures found out.
 
 use super::Pattern;
-use crate::stats::{Extent, Impossible, Verdict};
+use crate::stats::{Extent, Impossible, Judgement, Report, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// Pixels that are wrong on their own.
@@ -68,6 +68,22 @@ impl DifferenceReport {
             patterns: Vec::new(),
             ratio: 1.0,
             resolution: 0.0,
+        }
+    }
+}
+
+impl Report for DifferenceReport {
+    /// The luminance of the whole picture, over that of the reference. No ledger: nothing is told
+    /// apart but two files.
+    fn judgement(&self) -> Judgement {
+        Judgement {
+            verdict: self.verdict,
+            measured: self.ratio,
+            expected: 1.0,
+            allowed: 0.0,
+            interval: None,
+            smallest_detectable_error: Some(self.resolution).filter(|error| error.is_finite()),
+            hypothesis: None,
         }
     }
 }

@@ -186,7 +186,7 @@ impl Matrix {
 }
 
 fn is_of_pictures(part: &'static Part) -> bool {
-    part.folders.contains(&"images")
+    part.folders.contains(&"image")
 }
 
 /// # Panics

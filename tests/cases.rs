@@ -1,7 +1,7 @@
 //! Every case on every core, one trial each, through the same path as `furnace run`.
 //!
 //! `FURNACE_CORE=NAME|path/to/lib.so|'exec: COMMAND'` grades that core alone, `FURNACE_BUDGET=quick|default|strict` says how small an error is
-//! looked for. Names are paths: `cargo test --test cases builtin::bvh`, `-- --exact textbook::lights/claim`.
+//! looked for. Names are paths: `cargo test --test cases builtin::bvh`, `-- --exact textbook::light/claim`.
 
 use furnace::case::{self, Case};
 use furnace::cores::{CORES, CoreSpec, Hosting};

@@ -38,7 +38,7 @@ fn case(red: f64) -> String {
 /// A project of four cases; the second expects what no right core gives.
 fn project() -> (TempDir, Project) {
     let folder = tempfile::tempdir().unwrap();
-    let cases = folder.path().join("cases").join("lights");
+    let cases = folder.path().join("cases").join("light");
     std::fs::create_dir_all(&cases).unwrap();
     for (name, red) in [("a", 0.2180828882), ("b", 0.7), ("c", 0.2180828882), ("d", 0.2180828882)] {
         std::fs::write(cases.join(format!("{name}.toml")), case(red)).unwrap();

@@ -5,7 +5,7 @@
 //! FURNACE_SEEDS=200 cargo test --test false_alarms -- --ignored --nocapture
 //! FURNACE_SHARD=1/4 ...                      # the first of four parts, for other machines
 //! FURNACE_PICTURES=20 ...                    # so many of the seeds also draw pictures
-//! FURNACE_CASES=bvh/,intersection/ ...        # only these
+//! FURNACE_CASES=bvh/,shape/ ...        # only these
 //! ```
 //!
 //! Results are kept below `target/tmp`, by program and seed: what was cut off goes on where it was, and the same
@@ -145,7 +145,7 @@ fn shard() -> (u32, u32) {
 fn filters(with_pictures: bool) -> Vec<String> {
     let asked = std::env::var("FURNACE_CASES").unwrap_or_default();
     let asked = asked.split(',').filter(|filter| !filter.is_empty()).map(str::to_owned);
-    let without = (!with_pictures).then(|| "!images/".to_owned());
+    let without = (!with_pictures).then(|| "!image/".to_owned());
     asked.chain(without).collect()
 }
 

@@ -230,7 +230,7 @@ fn frames() -> Vec<Vec<u8>> {
     let random = [Sent::new("points", &points), Sent::new("lobes", &lobes)];
     push(Request::SampleDirection { sampler: Sampler::CosineHemisphere, seed: 7 }, &random);
     let scenes = Library::new(Project::at(env!("CARGO_MANIFEST_DIR")).scenes());
-    for scene in ["cornell-diffuse-spheres", "gradient-sky", "rough-metal-in-sky"] {
+    for scene in ["cornell-diffuse-spheres", "gradient-sky", "rough-conductor-in-sky"] {
         let scene = scenes.load(scene, &Overrides::new()).unwrap();
         let arrays = SceneArrays::new(&scene);
         let acceleration = Acceleration::DEFAULT;

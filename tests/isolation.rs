@@ -24,8 +24,8 @@ use support::{compile_core, cpp_compiler};
 use tempfile::TempDir;
 
 /// Where a hostile core strikes, and where it behaves.
-const STRUCK: &str = "intersection/rays-meet-a-triangle-where-they-should";
-const SPARED: &str = "camera/rays-leave-through-their-film-points";
+const STRUCK: &str = "shape/ray-triangle-hits-are-right";
+const SPARED: &str = "camera/rays-pass-through-their-film-points";
 
 /// One at a time: each test looks for processes that are left.
 static ALONE: Mutex<()> = Mutex::new(());
@@ -106,7 +106,7 @@ const IMPRISONED_PROGRAMS: &[(&str, Ending)] = &[
 ];
 
 /// A picture that is asked for.
-const PICTURE: &str = "images/point-light-plane-matches";
+const PICTURE: &str = "image/point-light-plane-matches";
 
 /// What each program that makes pictures comes to.
 const RENDERERS: &[(&str, Ending)] = &[
@@ -482,7 +482,7 @@ fn a_core_that_ignores_the_seed_is_found_out() {
     let _alone = ALONE.lock();
     let Some(library) = compiled("stubborn") else { return };
     let lair = Lair::new();
-    let filters = ["integrator/different-seeds"];
+    let filters = ["integrator/seeds-and-pixels"];
     let trials = lair.run(&[lair.core_of(&library, "stubborn")], &filters).unwrap();
     assert_eq!(trials[0].outcome.status(), Status::Fail, "{:?}", trials[0].outcome);
 }
@@ -492,7 +492,7 @@ fn a_core_that_knows_published_answers_by_heart_is_found_out() {
     let _alone = ALONE.lock();
     let Some(library) = compiled("crib") else { return };
     let lair = Lair::new();
-    let filters = ["lights/a-rectangle-overhead-matches", "lights/a-rectangle-to-the-side"];
+    let filters = ["light/rectangle-light-overhead-matches", "light/rectangle-light-off-axis"];
     let trials = lair.run(&[lair.core_of(&library, "crib")], &filters).unwrap();
     assert_eq!(trials.len(), 2);
     for trial in trials {

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use walkdir::WalkDir;
 
 /// A few cases of each kind: deterministic, statistical, with pictures.
-const FILTERS: &[&str] = &["intersection/", "lights/a-point-light", "sampling/"];
+const FILTERS: &[&str] = &["shape/", "light/point-light-", "adaptive/"];
 
 fn furnace(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_furnace"));

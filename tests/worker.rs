@@ -34,16 +34,16 @@ fn run(core: &str, filters: &[&str], isolates_own: bool) -> Vec<TrialRecord> {
 /// Every kind of request: rays, shapes, boxes, samplers, surfaces, streams, scenes, light, pictures.
 const EVERYTHING: &[&str] = &[
     "camera/",
-    "intersection/rays",
+    "shape/ray",
     "bvh/flat",
     "bvh/spheres-and",
-    "sampling/streams",
-    "integrator/pixels-know",
-    "sampling/the-cosine-map",
-    "bsdf/samples-are",
-    "lights/samples-of-a-ball",
-    "lights/a-point-light",
-    "images/point-light",
+    "adaptive/known-streams",
+    "integrator/reported-variance",
+    "sampling/cosine-pdf",
+    "bsdf/sampling-agrees",
+    "light/sphere-light-samples",
+    "light/point-light-f",
+    "image/point-light",
 ];
 
 #[test]
@@ -74,7 +74,7 @@ fn the_cpp_example_is_right() {
     compile_core(&compiler, &source, &library);
     let core = library.to_string_lossy();
     // Pictures take long; `cargo furnace --core` tries them too.
-    assert_nothing_fails(&run(&core, &["!images/"], false), 60);
+    assert_nothing_fails(&run(&core, &["!image/"], false), 60);
 }
 
 #[test]
@@ -89,5 +89,5 @@ fn the_numpy_example_is_right() {
     }
     let script = root().join("examples/python/numpy_core.py");
     let core = format!("exec: {python} '{}'", script.display());
-    assert_nothing_fails(&run(&core, &["camera/", "intersection/", "bvh/"], false), 15);
+    assert_nothing_fails(&run(&core, &["camera/", "shape/", "bvh/"], false), 15);
 }

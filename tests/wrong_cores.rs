@@ -141,7 +141,7 @@ fn outcomes(wrong: Wrong, name: &str, filters: &[&str]) -> Vec<(String, Outcome)
 
 /// Cases whose estimates have little noise, so that one in a hundred shows at the default budget.
 const LOW_NOISE: &[&str] =
-    &["lights/a-point-light", "lights/a-directional", "integrator/a-furnace"];
+    &["light/point-light-follows", "light/directional-light-follows", "integrator/furnace"];
 
 #[test]
 fn one_per_cent_of_energy_is_seen_in_either_core() {
@@ -155,7 +155,7 @@ fn one_per_cent_of_energy_is_seen_in_either_core() {
 
 #[test]
 fn a_nan_pixel_fails_and_is_named() {
-    for (_, outcome) in outcomes(Wrong::NanPixel, "builtin", &["images/point-light-plane"]) {
+    for (_, outcome) in outcomes(Wrong::NanPixel, "builtin", &["image/point-light-plane"]) {
         assert_eq!(outcome.status(), Status::Fail);
         assert!(outcome.statement().contains("is NaN"), "{}", outcome.statement());
         assert!(outcome.statement().contains("pixel ("), "{}", outcome.statement());
@@ -164,7 +164,7 @@ fn a_nan_pixel_fails_and_is_named() {
 
 #[test]
 fn an_untouched_pixel_is_told_from_a_nan() {
-    for (_, outcome) in outcomes(Wrong::UntouchedPixel, "builtin", &["images/point-light-plane"]) {
+    for (_, outcome) in outcomes(Wrong::UntouchedPixel, "builtin", &["image/point-light-plane"]) {
         assert_eq!(outcome.status(), Status::Fail);
         assert!(outcome.statement().contains("left untouched"), "{}", outcome.statement());
     }
@@ -172,8 +172,8 @@ fn an_untouched_pixel_is_told_from_a_nan() {
 
 #[test]
 fn a_light_density_without_the_square_is_seen_in_the_solid_angle() {
-    let area_lights =
-        ["ball", "rectangle", "triangle"].map(|l| format!("lights/samples-of-a-{l}-reach-it"));
+    let area_lights = ["sphere", "rectangle", "triangle"]
+        .map(|l| format!("light/{l}-light-samples-reach-the-light"));
     let area_lights = area_lights.each_ref().map(String::as_str);
     for (id, outcome) in outcomes(Wrong::LightPdfByDistance, "textbook", &area_lights) {
         assert_eq!(outcome.status(), Status::Fail, "{id}");

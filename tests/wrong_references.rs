@@ -12,7 +12,7 @@ use std::fs;
 use std::path::Path;
 
 const NAME: &str = "point-light-plane";
-const CASE: &str = "images/point-light-plane-matches-mitsuba";
+const CASE: &str = "image/point-light-plane-matches-mitsuba";
 
 /// The outcome of the case with the committed reference, changed by `spoil` in a folder of its own.
 fn outcome_after(spoil: impl Fn(&Path)) -> Outcome {

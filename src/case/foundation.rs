@@ -150,11 +150,11 @@ fn beneath(case: &Case, scene: Option<&SceneDescription>) -> BTreeSet<Foundation
         return found;
     }
     let folder = case.id.split('/').next().unwrap_or_default();
-    if matches!(folder, "integrator" | "images") {
+    if matches!(folder, "integrator" | "image") {
         found.extend([Foundation::Emission, Foundation::DirectLight]);
         found.extend(scene.into_iter().flat_map(lights_of));
     }
-    if folder == "images" {
+    if folder == "image" {
         found.insert(Foundation::Bounces);
     }
     found
@@ -197,41 +197,41 @@ mod tests {
         use Foundation::{Diffuse, DirectLight, Emission, Hits, Seeds, SphereLight, Spheres};
         let expected =
             [Seeds, Spheres, Hits, Diffuse, UniformDirections, Emission, DirectLight, SphereLight];
-        let found = of("integrator/rough-metal-under-an-even-sky-shows-its-albedo");
+        let found = of("integrator/rough-conductor-in-constant-environment-shows-its-albedo");
         assert!(found.contains(&Foundation::Metal) && !found.contains(&Foundation::Camera));
-        assert!(!of("integrator/isolated-bounces-add-up").contains(&Foundation::Bounces));
-        let hemisphere = of("integrator/a-furnace-by-the-hemisphere-glows-the-same");
+        assert!(!of("integrator/isolated-bounces-sum-to-the-image").contains(&Foundation::Bounces));
+        let hemisphere = of("integrator/furnace-by-hemisphere-sampling-matches-geometric-series");
         assert_eq!(hemisphere, expected.into());
         assert_eq!(
-            of("integrator/a-furnace-glows-by-its-series"),
+            of("integrator/furnace-matches-geometric-series"),
             expected[..4].iter().copied().collect()
         );
     }
 
     #[test]
     fn questions_about_one_function_rest_on_nothing_they_do_not_name() {
-        assert!(of("intersection/rays-meet-a-triangle-where-they-should").is_empty());
-        assert!(of("samplers/uniform-samples-follow-their-density").is_empty());
+        assert!(of("shape/ray-triangle-hits-are-right").is_empty());
+        assert!(of("sampling/uniform-samples-match-their-pdf").is_empty());
     }
 
     #[test]
     fn what_proves_a_foundation_rests_on_earlier_ones_only() {
-        let found = of("lights/a-slanted-light-over-a-slanted-floor");
+        let found = of("light/rectangle-light-slanted-matches-closed-form");
         assert!(found.contains(&Foundation::Diffuse) && found.contains(&Foundation::Triangles));
         assert!(found.iter().all(|foundation| *foundation < Foundation::DirectLight));
     }
 
     #[test]
     fn only_smooth_meshes_rest_on_shading_normals() {
-        assert!(of("images/teapot-matches-mitsuba").contains(&Foundation::ShadingNormals));
-        let flat = of("images/cornell-diffuse-spheres-matches-mitsuba");
+        assert!(of("image/teapot-matches-mitsuba").contains(&Foundation::ShadingNormals));
+        let flat = of("image/cornell-diffuse-spheres-matches-mitsuba");
         assert!(flat.contains(&Foundation::Triangles));
         assert!(!flat.contains(&Foundation::ShadingNormals));
     }
 
     #[test]
     fn pictures_rest_on_everything_else() {
-        let found = of("images/cornell-mirror-glass-matches-mitsuba");
+        let found = of("image/cornell-mirror-glass-matches-mitsuba");
         for foundation in [Foundation::Camera, Foundation::Glass, Foundation::Bounces] {
             assert!(found.contains(&foundation), "{foundation:?}");
         }

@@ -7,6 +7,7 @@ mod filter;
 mod foundation;
 mod next_step;
 mod part;
+mod renamed;
 mod tier;
 
 pub use catalog::{CatalogError, load_all, load_one};
@@ -14,6 +15,7 @@ pub use filter::Filter;
 pub use foundation::{Foundation, foundations};
 pub use next_step::{NextStep, next_steps};
 pub use part::{PARTS, Part};
+pub use renamed::renamed;
 pub use tier::Tier;
 
 use crate::checks::{CheckKind, Prepared};
@@ -22,7 +24,7 @@ use std::path::PathBuf;
 
 /// A claim, ready to be tried on a core.
 pub struct Case {
-    /// Folder and claim: `intersection/rays-meet-a-triangle`.
+    /// Folder and claim: `shape/rays-meet-a-triangle`.
     pub id: String,
     /// The claim in words.
     pub title: String,

@@ -13,12 +13,12 @@ pub struct Part {
 
 /// Every part, in the order in which one rests on another.
 pub static PARTS: &[Part] = &[
-    Part { number: 1, title: "rays and intersections", folders: &["camera", "intersection"] },
-    Part { number: 2, title: "bounding volumes", folders: &["bvh"] },
-    Part { number: 3, title: "direct light", folders: &["samplers", "bsdf", "lights"] },
+    Part { number: 1, title: "rays and intersections", folders: &["camera", "shape"] },
+    Part { number: 2, title: "BVH", folders: &["bvh"] },
+    Part { number: 3, title: "direct light", folders: &["sampling", "bsdf", "light"] },
     Part { number: 4, title: "global illumination", folders: &["integrator"] },
-    Part { number: 5, title: "adaptive sampling", folders: &["sampling"] },
-    Part { number: 6, title: "pictures against Mitsuba", folders: &["images"] },
+    Part { number: 5, title: "adaptive sampling", folders: &["adaptive"] },
+    Part { number: 6, title: "images against Mitsuba", folders: &["image"] },
 ];
 
 impl Part {
@@ -57,6 +57,6 @@ mod tests {
 
     #[test]
     fn intersections_come_before_pictures() {
-        assert!(Part::position("intersection/a") < Part::position("images/a"));
+        assert!(Part::position("shape/a") < Part::position("image/a"));
     }
 }

@@ -15,8 +15,8 @@ use crate::math::ratios::names_of;
 
 /// The furnaces whose bounces are told one by one.
 pub const FURNACES: [&str; 2] = [
-    "integrator/a-furnace-glows-by-its-series",
-    "integrator/a-furnace-by-the-hemisphere-glows-the-same",
+    "integrator/furnace-matches-geometric-series",
+    "integrator/furnace-by-hemisphere-sampling-matches-geometric-series",
 ];
 /// How much less a mistake weighs if it is not the only one that fits.
 const SHARED: f64 = 0.6;
@@ -50,7 +50,7 @@ fn direct_light(evidence: &Evidence<'_>, law: &Law) -> Vec<String> {
         let mut wrong = finding.failed_measures().filter_map(Reading::of).peekable();
         law.direct != 1.0 && wrong.peek().is_some() && wrong.all(|r| r.admits(law.direct))
     };
-    let failures = evidence.failures().filter(|seen| seen.case.starts_with("lights/"));
+    let failures = evidence.failures().filter(|seen| seen.case.starts_with("light/"));
     let explained = failures.filter(|seen| seen.finding.is_some_and(explains));
     explained.map(|seen| seen.case.to_owned()).collect()
 }

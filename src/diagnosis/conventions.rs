@@ -9,13 +9,13 @@ use crate::contract::{EmissionSides, Falloff, GlassRadiance};
 use crate::image::CHANNELS;
 
 /// Point lights at several distances, and the squared distance of each row.
-const POINT_LIGHT: &str = "lights/a-point-light-weakens-with-the-square-of-distance";
+const POINT_LIGHT: &str = "light/point-light-follows-the-inverse-square-law";
 const SQUARED_DISTANCES: [(&str, f64); 3] =
     [("below and beside", 3.06), ("nearly below", 2.27), ("far away", 12.91)];
 /// Lights seen from both sides.
-const SEEN_LIGHT: &str = "lights/a-light-that-is-seen-has-its-own-radiance";
+const SEEN_LIGHT: &str = "light/visible-light-has-its-emission";
 /// A lamp in glass of index 1.5.
-const LAMP_IN_GLASS: &str = "integrator/a-lamp-in-glass-looks-dimmer";
+const LAMP_IN_GLASS: &str = "integrator/light-inside-glass-scales-by-index-squared";
 const INDEX_SQUARED: f64 = 2.25;
 
 /// Every choice that another choice would explain.
@@ -141,9 +141,8 @@ mod tests {
 
     #[test]
     fn the_distances_are_those_of_the_case() {
-        let text = include_str!(
-            "../../cases/lights/a-point-light-weakens-with-the-square-of-distance.toml"
-        );
+        let text =
+            include_str!("../../cases/light/point-light-follows-the-inverse-square-law.toml");
         let light = glam::DVec3::new(0.9, 0.0, 1.5);
         let points = [(0.0, 0.0), (0.8, 0.1), (-2.0, 1.5)];
         for ((row, squared), (x, y)) in SQUARED_DISTANCES.iter().zip(points) {

@@ -7,9 +7,9 @@ use super::{Evidence, Suspicion};
 use crate::cause::transport;
 
 /// The cavity that sees directions, which a furnace cannot.
-const CAVITY: &str = "integrator/a-glowing-cap-lights-its-cavity-evenly";
+const CAVITY: &str = "integrator/emissive-cap-matches-closed-form";
 /// A wall that faces sideways.
-const SIDE: &str = "integrator/a-room-is-lit-from-its-middle-at-its-sides-too";
+const SIDE: &str = "integrator/radiosity-is-the-same-at-every-orientation";
 /// Directions of bounces, and the cosine they are weighted with.
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     wrong_directions(evidence).into_iter().chain(world_cosine(evidence)).collect()

@@ -9,12 +9,14 @@ use crate::cause::{Cause, bsdf, light, sampling};
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 /// The two scenes, by light sampling with 7 and 5 samples.
-const BY_LIGHTS: [&str; 2] =
-    ["lights/a-tilted-light-over-a-tilted-floor", "lights/a-slanted-light-over-a-slanted-floor"];
+const BY_LIGHTS: [&str; 2] = [
+    "light/rectangle-light-tilted-matches-closed-form",
+    "light/rectangle-light-slanted-matches-closed-form",
+];
 /// The same by the hemisphere.
 const BY_HEMISPHERE: [&str; 2] = [
-    "lights/a-tilted-light-is-found-by-the-hemisphere",
-    "lights/a-slanted-light-is-found-by-the-hemisphere",
+    "light/rectangle-light-tilted-by-hemisphere-sampling-matches-closed-form",
+    "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
 ];
 /// The row of all four.
 const ROW: &str = "bounce 1";

@@ -5,8 +5,8 @@ use super::{Evidence, Suspicion};
 use crate::cause::transport;
 use crate::checks::Finding;
 
-const MIRRORS: &str = "integrator/three-mirrors-reflect-three-times";
-const FURNACE: &str = "integrator/a-furnace-glows-by-its-series";
+const MIRRORS: &str = "integrator/three-mirrors-multiply-their-reflectance";
+const FURNACE: &str = "integrator/furnace-matches-geometric-series";
 
 /// Mirrors and glass are dark, and the furnace is right.
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {

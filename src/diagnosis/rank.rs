@@ -213,15 +213,15 @@ mod tests {
         let made = Made::new()
             .with("integrator/z", failing("z").because(&transport::ROULETTE_NOT_DIVIDED, "0.7"))
             .with("bsdf/a", without_pi("a"))
-            .with("lights/b", without_pi("b"))
-            .with("lights/c", failing("who knows"))
+            .with("light/b", without_pi("b"))
+            .with("light/c", failing("who knows"))
             .with("camera/d", failing("who knows"))
-            .blocked("images/e", "bsdf/a");
+            .blocked("image/e", "bsdf/a");
         let diagnosis = diagnose(&made.evidence());
         let [first, second] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
         assert_eq!(first.cause.name, bsdf::WITHOUT_PI.name);
-        assert_eq!(first.explains, ["bsdf/a", "lights/b"]);
-        assert_eq!(first.may_follow, ["lights/c"], "an earlier failure does not follow from it");
+        assert_eq!(first.explains, ["bsdf/a", "light/b"]);
+        assert_eq!(first.may_follow, ["light/c"], "an earlier failure does not follow from it");
         assert_eq!(first.blocked, 1);
         assert_eq!(second.cause.name, transport::ROULETTE_NOT_DIVIDED.name);
         assert_eq!(diagnosis.unexplained, ["camera/d"]);
@@ -230,9 +230,9 @@ mod tests {
     #[test]
     fn what_nothing_explains_may_follow_from_what_explains_the_most() {
         let made = Made::new()
-            .with("intersection/a", failing("a").because(&shape::SPHERE_CANCELLATION, "x"))
-            .with("lights/b", failing("b").because(&bsdf::WITHOUT_PI, "y"))
-            .with("lights/c", failing("c").because(&bsdf::WITHOUT_PI, "y"))
+            .with("shape/a", failing("a").because(&shape::SPHERE_CANCELLATION, "x"))
+            .with("light/b", failing("b").because(&bsdf::WITHOUT_PI, "y"))
+            .with("light/c", failing("c").because(&bsdf::WITHOUT_PI, "y"))
             .with("integrator/d", failing("who knows"))
             .with("bvh/e", failing("who knows"));
         let diagnosis = diagnose(&made.evidence());
@@ -246,22 +246,22 @@ mod tests {
     #[test]
     fn what_counts_nothing_is_told_last_and_once() {
         let made = Made::new()
-            .with("intersection/a", failing("a").because(&shape::SPHERE_CANCELLATION, "3 digits"))
-            .beside_the_grade("intersection/a")
-            .with("lights/b", failing("b").because(&bsdf::WITHOUT_PI, "y"))
-            .with("lights/c", failing("c").because(&bsdf::WITHOUT_PI, "z"))
-            .beside_the_grade("lights/c");
+            .with("shape/a", failing("a").because(&shape::SPHERE_CANCELLATION, "3 digits"))
+            .beside_the_grade("shape/a")
+            .with("light/b", failing("b").because(&bsdf::WITHOUT_PI, "y"))
+            .with("light/c", failing("c").because(&bsdf::WITHOUT_PI, "z"))
+            .beside_the_grade("light/c");
         let diagnosis = diagnose(&made.evidence());
         let [first, second] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
         assert_eq!((first.cause.name, first.tier), (bsdf::WITHOUT_PI.name, Tier::Graded));
         assert_eq!(second.cause.name, shape::SPHERE_CANCELLATION.name);
-        assert_eq!((second.tier, &second.command[..]), (Tier::Robustness, "intersection/a"));
+        assert_eq!((second.tier, &second.command[..]), (Tier::Robustness, "shape/a"));
     }
 
     #[test]
     fn a_mistake_of_the_hierarchy_that_has_a_name_explains_the_leaks_of_part_one() {
         let made = Made::new()
-            .with("intersection/a", failing("a").because(&bvh::HITS_LOST, "the loop meets them"))
+            .with("shape/a", failing("a").because(&bvh::HITS_LOST, "the loop meets them"))
             .with("bvh/b", failing("b").because(&bvh::RANGE_OVERWRITTEN, "y"));
         let diagnosis = diagnose(&made.evidence());
         let [only] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn leaks_that_nothing_else_explains_are_the_hierarchys() {
         let made = Made::new()
-            .with("intersection/a", failing("a").because(&bvh::HITS_LOST, "the loop meets them"))
+            .with("shape/a", failing("a").because(&bvh::HITS_LOST, "the loop meets them"))
             .with("bvh/b", failing("b"));
         let diagnosis = diagnose(&made.evidence());
         assert_eq!(diagnosis.first().map(|cause| cause.name), Some(bvh::HITS_LOST.name));
@@ -282,10 +282,10 @@ mod tests {
     fn a_cause_that_explains_two_failures_wins_over_two_that_explain_one_each() {
         let made = Made::new()
             .with(
-                "lights/a",
+                "light/a",
                 failing("a").because(&light::WORLD_COSINE, "x").because(&bsdf::WITHOUT_PI, "y"),
             )
-            .with("lights/b", failing("b").because(&bsdf::WITHOUT_PI, "z"));
+            .with("light/b", failing("b").because(&bsdf::WITHOUT_PI, "z"));
         let diagnosis = diagnose(&made.evidence());
         assert_eq!(diagnosis.first().map(|cause| cause.name), Some(bsdf::WITHOUT_PI.name));
         assert_eq!(diagnosis.headlines.len(), 1);

@@ -8,7 +8,7 @@ use crate::checks::Finding;
 use crate::image::CHANNELS;
 
 /// The furnace at four roulettes.
-const CASE: &str = "integrator/roulette-does-not-change-the-mean";
+const CASE: &str = "integrator/russian-roulette-leaves-the-mean-unchanged";
 /// Bounces that a prediction adds up; what is beyond is below 1e-12 of the whole.
 const LAST: i32 = 40;
 
@@ -170,7 +170,8 @@ mod tests {
 
     #[test]
     fn the_emission_is_that_of_the_case() {
-        let text = include_str!("../../cases/integrator/roulette-does-not-change-the-mean.toml");
+        let text =
+            include_str!("../../cases/integrator/russian-roulette-leaves-the-mean-unchanged.toml");
         assert!(text.contains("emission = [0.7, 0.5, 0.9]"));
     }
 }

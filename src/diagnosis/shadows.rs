@@ -9,22 +9,22 @@ use crate::image::CHANNELS;
 use crate::stats::Verdict;
 
 /// Direct light that nothing blocks.
-const OPEN: &str = "lights/a-rectangle-overhead-matches-its-form-factor";
+const OPEN: &str = "light/rectangle-light-overhead-matches-closed-form";
 /// Light behind something.
-const BLOCKER: &str = "lights/a-blocker-hides-what-is-behind-it";
-const WALL: &str = "lights/a-light-behind-a-wall-gives-nothing";
+const BLOCKER: &str = "light/occluder-hides-just-what-is-behind-it";
+const WALL: &str = "light/occluded-light-adds-nothing";
 /// Lights found by the hemisphere, looked at from far and from near.
 const FOUND: [&str; 2] = [
-    "lights/a-tilted-light-is-found-by-the-hemisphere",
-    "lights/a-slanted-light-is-found-by-the-hemisphere",
+    "light/rectangle-light-tilted-by-hemisphere-sampling-matches-closed-form",
+    "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
 ];
 
 /// The variance of one light sample under [`OPEN`].
-const NOISE: &str = "lights/sampling-a-lamp-is-hardly-noisy";
+const NOISE: &str = "light/light-sampling-variance-is-bounded";
 /// Light that no shadow ray of a lamp takes part in.
 const WITHOUT_LAMPS: [&str; 2] = [
-    "lights/a-rectangle-overhead-is-found-by-the-hemisphere",
-    "lights/a-point-light-weakens-with-the-square-of-distance",
+    "light/rectangle-light-overhead-by-hemisphere-sampling-matches-closed-form",
+    "light/point-light-follows-the-inverse-square-law",
 ];
 /// Relative error forgiven of a variance beyond its interval: σ² is 0.9 % of L² for uniform points on the lamp, and less
 /// for better maps.
@@ -56,7 +56,7 @@ fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
         wrong.peek().is_some() && wrong.all(|m| m.measured < m.expected)
     };
     let dark = evidence.failures().filter(|seen| seen.finding.is_some_and(is_dark));
-    let dark = dark.map(|seen| seen.case).filter(|case| case.starts_with("lights/"));
+    let dark = dark.map(|seen| seen.case).filter(|case| case.starts_with("light/"));
     Some(Suspicion {
         cause: &light::LAMP_SHADOWS_ITSELF,
         cases: dark.chain([NOISE]).map(str::to_owned).collect(),

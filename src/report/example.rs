@@ -22,21 +22,21 @@ pub const HOSTILE: &str = "<script>alert('pass')</script> & \x1b[2J";
 /// Folder, claim, title, whether it draws random numbers.
 const CASES: [(&str, &str, bool); 12] = [
     ("camera/rays-go-through-their-film-points", "Rays go through their film points", false),
-    ("intersection/rays-in-the-plane-miss", "Rays in the plane of a triangle miss it", false),
-    ("intersection/the-nearer-root-wins", "Of two roots of a sphere the nearer wins", false),
+    ("shape/rays-in-the-plane-miss", "Rays in the plane of a triangle miss it", false),
+    ("shape/the-nearer-root-wins", "Of two roots of a sphere the nearer wins", false),
     ("bvh/same-hits-as-brute-force", "The hierarchy finds what brute force finds", false),
     ("bvh/a-flat-box-is-hit", "A box without thickness is hit", false),
     ("bsdf/cosine-samples-follow-their-density", "Samples follow their density", true),
-    ("lights/a-rectangle-lights-a-plane", "A rectangle lights a plane as the formula says", true),
-    ("lights/delta-lights-are-sampled-once", "A point light costs one shadow ray", false),
+    ("light/a-rectangle-lights-a-plane", "A rectangle lights a plane as the formula says", true),
+    ("light/delta-lights-are-sampled-once", "A point light costs one shadow ray", false),
     (
         "integrator/furnace-bounce-by-bounce",
         "Each bounce of a furnace is albedo times the last",
         true,
     ),
     (FAILING, "Roulette leaves every mean as it is", true),
-    ("sampling/adaptive-counts-are-true", "Adaptive sampling says how many samples it took", true),
-    ("images/cornell-spheres", "The Cornell box agrees with Mitsuba", true),
+    ("adaptive/adaptive-counts-are-true", "Adaptive sampling says how many samples it took", true),
+    ("image/cornell-spheres", "The Cornell box agrees with Mitsuba", true),
 ];
 
 /// A run that is not yet on disk.
@@ -65,7 +65,7 @@ impl Example {
         };
         let pictures =
             ["cornell-glass", "point-light", "area-light", "veach-plates", "closed-furnace"];
-        let pictures = pictures.map(|name| format!("images/{name}"));
+        let pictures = pictures.map(|name| format!("image/{name}"));
         Self::of_cases((0..5).flat_map(numbered).chain(pictures))
     }
 
@@ -73,7 +73,7 @@ impl Example {
     pub fn mixed() -> Self {
         let mut example = Self::green();
         example.set("builtin", FAILING, wrong_roulette());
-        example.set("builtin", "images/cornell-spheres", wrong_picture());
+        example.set("builtin", "image/cornell-spheres", wrong_picture());
         example.set(
             "textbook",
             "bvh/a-flat-box-is-hit",
@@ -95,12 +95,12 @@ impl Example {
         example.set("textbook", "integrator/furnace-bounce-by-bounce", undecided());
         example.set(
             "textbook",
-            "sampling/adaptive-counts-are-true",
+            "adaptive/adaptive-counts-are-true",
             Outcome::Skipped { missing: vec!["adaptive-sampling".to_owned()] },
         );
         example.set(
             "textbook",
-            "images/cornell-spheres",
+            "image/cornell-spheres",
             Outcome::Broken {
                 why: "references/cornell-spheres/mean.exr is missing\n\
                   hint: furnace reference make cornell-spheres"
@@ -109,7 +109,7 @@ impl Example {
         );
         example.set(
             "textbook",
-            "intersection/the-nearer-root-wins",
+            "shape/the-nearer-root-wins",
             Outcome::Judged {
                 finding: Finding::of(
                     HOSTILE,
@@ -214,7 +214,7 @@ pub fn trial(core: &str, case: &str) -> TrialRecord {
         budget: Budget::Default,
         seed: seed.0,
         outcome: Outcome::Judged { finding: if is_random { agreeing(seed) } else { exact(seed) } },
-        pictures: if case.starts_with("images/") { pictures(name) } else { Vec::new() },
+        pictures: if case.starts_with("image/") { pictures(name) } else { Vec::new() },
         printed: String::new(),
         rerun: format!("cargo furnace run {case} --core {core}"),
         timing: TrialTiming { seconds: uniform(&mut seed.child("time").stream()).powi(3) * 8.0 },

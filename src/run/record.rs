@@ -151,7 +151,7 @@ impl Machine {
 pub struct TrialRecord {
     /// [`VERSION`]
     pub version: u32,
-    /// Folder and claim: `intersection/rays-meet-a-triangle`.
+    /// Folder and claim: `shape/rays-meet-a-triangle`.
     pub case: String,
     /// The core's specification, as in [`CoreRecord::spec`].
     pub core: String,

@@ -150,9 +150,9 @@ mod tests {
     use crate::run::Request;
     use crate::stats::Budget;
 
-    const TRIANGLE: &str = "intersection/rays-meet-a-triangle-where-they-should";
-    const SPHERE: &str = "intersection/rays-meet-a-sphere-at-the-nearer-root-ahead";
-    const FURNACE: &str = "integrator/a-furnace-glows-by-its-series";
+    const TRIANGLE: &str = "shape/ray-triangle-hits-are-right";
+    const SPHERE: &str = "shape/ray-sphere-hit-is-the-nearest-root-ahead";
+    const FURNACE: &str = "integrator/furnace-matches-geometric-series";
 
     fn plan(filters: &[&str]) -> Plan {
         let project = Project::at(std::path::Path::new(env!("CARGO_MANIFEST_DIR")));

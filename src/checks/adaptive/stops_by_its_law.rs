@@ -296,7 +296,7 @@ mod tests {
     use crate::contract::{CoreInfo, Result};
 
     const CASE: &str =
-        include_str!("../../../cases/sampling/random-streams-stop-by-the-law-of-the-rule.toml");
+        include_str!("../../../cases/adaptive/stop-counts-follow-their-distribution.toml");
 
     /// Stops by a rule that it asks every so many samples, and multiplies what it says.
     struct Stopping {

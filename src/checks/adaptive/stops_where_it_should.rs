@@ -268,7 +268,8 @@ mod tests {
     }
 
     fn found(answers: impl Fn(&StreamEntry) -> Answer + Send + 'static) -> Finding {
-        let case = include_str!("../../../cases/sampling/streams-stop-where-the-rule-says.toml");
+        let case =
+            include_str!("../../../cases/adaptive/known-streams-stop-where-the-rule-says.toml");
         judge(&check_of::<StopsWhereItShould>(case), &mut Answering(Box::new(answers)))
     }
 

@@ -206,7 +206,7 @@ mod tests {
     use crate::contract::{Conventions, Core, CoreInfo, Precision, Result};
     use crate::scene::Material;
 
-    const CASE: &str = include_str!("../../../cases/bsdf/rough-metal-follows-its-formula.toml");
+    const CASE: &str = include_str!("../../../cases/bsdf/rough-conductor-matches-ggx.toml");
 
     /// The formula times the share of a mistake.
     struct Rough {

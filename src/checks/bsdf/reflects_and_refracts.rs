@@ -190,8 +190,8 @@ mod tests {
         Conventions, CoreInfo, GlassFresnel, GlassRadiance, Precision, Randomness, Result,
     };
 
-    const GLASS: &str = include_str!("../../../cases/bsdf/glass-reflects-and-refracts.toml");
-    const MIRROR: &str = include_str!("../../../cases/bsdf/a-mirror-reflects-its-share.toml");
+    const GLASS: &str = include_str!("../../../cases/bsdf/glass-follows-snell-and-fresnel.toml");
+    const MIRROR: &str = include_str!("../../../cases/bsdf/mirror-reflects-its-reflectance.toml");
 
     /// Chooses between the lobes of an interface by their probability.
     #[derive(Clone, Copy)]

@@ -244,7 +244,7 @@ mod tests {
     }
 
     fn shipped() -> RaysThroughFilm {
-        check_of(include_str!("../../../cases/camera/rays-leave-through-their-film-points.toml"))
+        check_of(include_str!("../../../cases/camera/rays-pass-through-their-film-points.toml"))
     }
 
     fn found(formula: Formula) -> Finding {

@@ -212,7 +212,9 @@ mod tests {
     use crate::scene::SceneDescription;
 
     fn check() -> ConstantFilm {
-        check_of(include_str!("../../../cases/camera/equal-samples-make-equal-pixels.toml"))
+        check_of(include_str!(
+            "../../../cases/camera/constant-radiance-gives-a-constant-image.toml"
+        ))
     }
 
     fn found(core: FakeFilm) -> Finding {

@@ -177,7 +177,7 @@ mod tests {
     use glam::DVec2;
 
     fn check() -> PictureOrientation {
-        check_of(include_str!("../../../cases/camera/up-is-up-and-right-is-right.toml"))
+        check_of(include_str!("../../../cases/camera/image-is-upright-and-not-mirrored.toml"))
     }
 
     fn found(core: FakeFilm) -> Finding {

@@ -255,12 +255,10 @@ mod tests {
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     const CASES: [&str; 4] = [
-        include_str!("../../../cases/intersection/rays-meet-a-triangle-where-they-should.toml"),
-        include_str!("../../../cases/intersection/only-the-segment-of-a-ray-counts.toml"),
-        include_str!("../../../cases/intersection/normals-are-interpolated-between-vertices.toml"),
-        include_str!(
-            "../../../cases/intersection/rays-meet-a-sphere-at-the-nearer-root-ahead.toml"
-        ),
+        include_str!("../../../cases/shape/ray-triangle-hits-are-right.toml"),
+        include_str!("../../../cases/shape/hits-lie-between-t-min-and-t-max.toml"),
+        include_str!("../../../cases/shape/shading-normals-are-interpolated.toml"),
+        include_str!("../../../cases/shape/ray-sphere-hit-is-the-nearest-root-ahead.toml"),
     ];
 
     fn found(case: usize, formula: Formula) -> Finding {

@@ -241,9 +241,9 @@ mod tests {
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     const CASES: [&str; 3] = [
-        include_str!("../../../cases/bvh/a-segment-meets-a-box-or-does-not.toml"),
-        include_str!("../../../cases/bvh/flat-boxes-are-boxes.toml"),
-        include_str!("../../../cases/bvh/rays-along-a-face-are-in-the-box.toml"),
+        include_str!("../../../cases/bvh/ray-box-overlap-is-right.toml"),
+        include_str!("../../../cases/bvh/flat-boxes-are-hit.toml"),
+        include_str!("../../../cases/bvh/rays-in-a-face-hit-the-box.toml"),
     ];
 
     fn found(case: usize, hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static) -> Finding {

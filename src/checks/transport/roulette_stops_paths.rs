@@ -193,7 +193,7 @@ mod tests {
     use crate::scene::SceneDescription;
 
     const CASE: &str =
-        include_str!("../../../cases/integrator/roulette-stops-paths-by-its-law.toml");
+        include_str!("../../../cases/integrator/russian-roulette-path-lengths-are-geometric.toml");
 
     /// Paths bring light at a bounce with the probability of a law.
     fn stopping(law: Law) -> impl Fn(&mut Stream, &IntegratorSettings) -> f64 + Copy + Send {

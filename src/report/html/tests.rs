@@ -72,8 +72,8 @@ fn the_earliest_failure_is_where_to_start() {
     let page = page(Example::mixed());
     let card = page.split("Start here. ").nth(1).unwrap();
     let first = values(card, "href")[0];
-    assert_eq!(first, "#intersection/the-nearer-root-wins@textbook");
-    assert!(card.contains("cargo furnace run intersection/the-nearer-root-wins --core textbook"));
+    assert_eq!(first, "#shape/the-nearer-root-wins@textbook");
+    assert!(card.contains("cargo furnace run shape/the-nearer-root-wins --core textbook"));
 }
 
 #[test]

@@ -24,24 +24,24 @@ fn a_green_run_fits_on_a_screen() {
 
   builtin 0.1.0 (f32)
     1 rays and intersections    ###       3 of 3 pass     0.4 s
-    2 bounding volumes          ##        2 of 2 pass     4.0 s
+    2 BVH                       ##        2 of 2 pass     4.0 s
     3 direct light              ###       3 of 3 pass     4.2 s
     4 global illumination       ##        2 of 2 pass     9.8 s
     5 adaptive sampling         #         1 of 1 pass     6.7 s
-    6 pictures against Mitsuba  #         1 of 1 pass     3.6 s
+    6 images against Mitsuba    #         1 of 1 pass     3.6 s
 
   textbook 0.1.0 (f64)
     1 rays and intersections    ###       3 of 3 pass     2.8 s
-    2 bounding volumes          ##        2 of 2 pass     0.1 s
+    2 BVH                       ##        2 of 2 pass     0.1 s
     3 direct light              ###       3 of 3 pass     6.9 s
     4 global illumination       ##        2 of 2 pass    10.3 s
     5 adaptive sampling         #         1 of 1 pass      0 ms
-    6 pictures against Mitsuba  #         1 of 1 pass     3.4 s
+    6 images against Mitsuba    #         1 of 1 pass     3.4 s
 
   24 trials in 71.3 s: 24 pass
   chance that a correct core fails any of them: at most 3.6e-8
   72 random claims: 72 means 3.6e-8; none suspected by its first stage
-  weakest pass: images/cornell-spheres on builtin would have caught an error of 1.4 % in
+  weakest pass: image/cornell-spheres on builtin would have caught an error of 1.4 % in
   any bounce
 ";
     assert_eq!(plain(Example::green()), expected);
@@ -76,11 +76,11 @@ fn every_way_to_end_is_named_with_its_trial() {
                   * broken\n";
     assert!(text.contains(legend), "{text}");
     for head in [
-        "  FAIL  images/cornell-spheres on builtin\n",
+        "  FAIL  image/cornell-spheres on builtin\n",
         "  CRASHED  bvh/a-flat-box-is-hit on textbook\n",
         "  TIMED OUT  bvh/same-hits-as-brute-force on textbook\n",
         "  INCONCLUSIVE  integrator/furnace-bounce-by-bounce on textbook\n",
-        "  BROKEN  images/cornell-spheres on textbook\n        references/cornell-spheres/mean.exr \
+        "  BROKEN  image/cornell-spheres on textbook\n        references/cornell-spheres/mean.exr \
          is missing\n",
         "  BLOCKED  1 on textbook: integrator/furnace-bounce-by-bounce failed, and these rest on\n\
          \x20       it\n",
@@ -114,7 +114,7 @@ fn a_core_that_does_not_come_up_is_one_block() {
     assert!(text.contains("try     cargo furnace doctor --core textbook\n"), "{text}");
     assert!(!text.contains("a-flat-box-is-hit on textbook"), "{text}");
     assert!(!text.contains("crashed  "), "no bars of trials that could not be made: {text}");
-    assert!(text.contains("FAIL  images/cornell-spheres on builtin"), "{text}");
+    assert!(text.contains("FAIL  image/cornell-spheres on builtin"), "{text}");
 }
 
 #[test]
@@ -219,7 +219,7 @@ fn a_long_part_goes_on_below_itself() {
     example.trials = (0..40).map(|number| trial("builtin", &format!("bvh/{number:02}"))).collect();
     let text = plain(example);
     let bar = "#".repeat(30);
-    let expected = format!("2 bounding volumes          {bar}     40 of 40 pass");
+    let expected = format!("2 BVH                       {bar}     40 of 40 pass");
     assert!(text.contains(&expected), "{text}");
     assert!(text.contains(&format!("\n{:32}##########\n", "")), "{text}");
 }

@@ -4,8 +4,8 @@ use super::Fault;
 use crate::cause::{adaptive, picture, seed, variance};
 use crate::cores::textbook::change::Change;
 
-const NOISE: &str = "integrator/pixels-know-how-noisy-they-are";
-const STREAMS: &str = "sampling/streams-stop-where-the-rule-says";
+const NOISE: &str = "integrator/reported-variance-matches-the-noise";
+const STREAMS: &str = "adaptive/known-streams-stop-where-the-rule-says";
 
 /// In the order of the lecture.
 pub const FAULTS: &[Fault] = &[
@@ -126,7 +126,7 @@ pub const FAULTS: &[Fault] = &[
         name: "adaptive-always",
         part: 5,
         summary: "adaptive sampling is on by default",
-        caught_by: "camera/equal-samples-make-equal-pixels",
+        caught_by: "camera/constant-radiance-gives-a-constant-image",
         cause: &adaptive::ADAPTIVE_ALWAYS,
     },
     Fault {
@@ -174,7 +174,7 @@ pub const FAULTS: &[Fault] = &[
         name: "seed-ignored",
         part: 5,
         summary: "the generator has a fixed seed",
-        caught_by: "integrator/different-seeds-give-different-noise",
+        caught_by: "integrator/seeds-and-pixels-have-different-noise",
         cause: &seed::SEED_IGNORED,
     },
     Fault {
@@ -182,7 +182,7 @@ pub const FAULTS: &[Fault] = &[
         name: "seed-of-clock",
         part: 5,
         summary: "the generator is seeded by the clock",
-        caught_by: "integrator/the-same-seed-gives-the-same-picture",
+        caught_by: "integrator/same-seed-gives-the-same-image",
         cause: &seed::NOT_REPRODUCIBLE,
     },
     Fault {
@@ -190,7 +190,7 @@ pub const FAULTS: &[Fault] = &[
         name: "same-pixel-noise",
         part: 5,
         summary: "every pixel seeds the same stream",
-        caught_by: "integrator/different-seeds-give-different-noise",
+        caught_by: "integrator/seeds-and-pixels-have-different-noise",
         cause: &seed::PIXELS_SHARE_NOISE,
     },
     Fault {
@@ -198,7 +198,7 @@ pub const FAULTS: &[Fault] = &[
         name: "sample-repeated",
         part: 5,
         summary: "every sample of a pixel seeds the same stream",
-        caught_by: "integrator/error-falls-as-one-over-the-root-of-samples",
+        caught_by: "integrator/error-falls-as-one-over-root-n",
         cause: &seed::SAMPLES_REPEAT,
     },
 ];

@@ -4,8 +4,8 @@ use super::Fault;
 use crate::cause::{camera, picture, pixel};
 use crate::cores::textbook::change::Change;
 
-const STRATA: &str = "camera/stratified-samples-lie-one-in-each-cell";
-const RAYS: &str = "camera/rays-leave-through-their-film-points";
+const STRATA: &str = "camera/stratified-samples-fill-every-stratum";
+const RAYS: &str = "camera/rays-pass-through-their-film-points";
 
 /// In the order of the lecture.
 pub const FAULTS: &[Fault] = &[
@@ -102,7 +102,7 @@ pub const FAULTS: &[Fault] = &[
         name: "pixel-corner",
         part: 1,
         summary: "the corner of the pixel in place of a random point of it",
-        caught_by: "camera/samples-lie-evenly-in-their-pixel",
+        caught_by: "camera/pixel-samples-are-uniform",
         cause: &pixel::PIXEL_CORNER,
     },
     Fault {
@@ -110,7 +110,7 @@ pub const FAULTS: &[Fault] = &[
         name: "half-pixel-added",
         part: 1,
         summary: "half a pixel is added to points that are random in it already",
-        caught_by: "camera/samples-lie-evenly-in-their-pixel",
+        caught_by: "camera/pixel-samples-are-uniform",
         cause: &pixel::HALF_A_PIXEL,
     },
     Fault {
@@ -126,7 +126,7 @@ pub const FAULTS: &[Fault] = &[
         name: "samples-not-divided",
         part: 1,
         summary: "the sum of a pixel's samples is not divided by their number",
-        caught_by: "camera/equal-samples-make-equal-pixels",
+        caught_by: "camera/constant-radiance-gives-a-constant-image",
         cause: &picture::NOT_DIVIDED,
     },
     Fault {
@@ -134,7 +134,7 @@ pub const FAULTS: &[Fault] = &[
         name: "picture-upside-down",
         part: 1,
         summary: "rows of the picture are counted from the bottom",
-        caught_by: "camera/up-is-up-and-right-is-right",
+        caught_by: "camera/image-is-upright-and-not-mirrored",
         cause: &picture::UPSIDE_DOWN,
     },
     Fault {

@@ -4,14 +4,14 @@ use super::Fault;
 use crate::cause::{bvh, slab};
 use crate::cores::textbook::change::Change;
 
-const BOX: &str = "bvh/a-segment-meets-a-box-or-does-not";
-const FLAT_BOX: &str = "bvh/flat-boxes-are-boxes";
-const SOUP: &str = "bvh/a-soup-is-hit-where-brute-force-hits-it";
-const BUILDS: &str = "bvh/builds-come-to-an-end-whatever-the-triangles";
-const LONG: &str = "bvh/long-scenes-are-divided-along-their-length";
-const TESTS: &str = "bvh/tests-grow-slowly-with-the-size-of-a-soup";
-const CLOSED: &str = "bvh/a-closed-surface-is-hit-where-brute-force-hits-it";
-const LAYERS: &str = "bvh/what-lies-behind-a-hit-is-not-tested";
+const BOX: &str = "bvh/ray-box-overlap-is-right";
+const FLAT_BOX: &str = "bvh/flat-boxes-are-hit";
+const SOUP: &str = "bvh/triangle-soup-hits-match-brute-force";
+const BUILDS: &str = "bvh/builds-terminate-on-any-triangles";
+const LONG: &str = "bvh/splits-follow-the-longest-axis";
+const TESTS: &str = "bvh/triangle-soup-tests-per-ray-grow-slowly";
+const CLOSED: &str = "bvh/closed-mesh-hits-match-brute-force";
+const LAYERS: &str = "bvh/nodes-behind-a-hit-are-skipped";
 
 /// In the order of the lecture.
 pub const FAULTS: &[Fault] = &[

@@ -4,7 +4,7 @@ use super::Fault;
 use crate::cause::{convention, light};
 use crate::cores::textbook::change::Change;
 
-const RECTANGLE: &str = "lights/samples-of-a-rectangle-reach-it";
+const RECTANGLE: &str = "light/rectangle-light-samples-reach-the-light";
 
 /// In the order of the lecture.
 pub const FAULTS: &[Fault] = &[
@@ -61,7 +61,7 @@ pub const FAULTS: &[Fault] = &[
         name: "light-points-uneven",
         part: 3,
         summary: "u in place of √u for points of a triangle",
-        caught_by: "lights/samples-of-a-triangle-reach-it",
+        caught_by: "light/triangle-light-samples-reach-the-light",
         cause: &light::LIGHT_POINTS_UNEVEN,
     },
     Fault {
@@ -69,7 +69,7 @@ pub const FAULTS: &[Fault] = &[
         name: "point-light-unweakened",
         part: 3,
         summary: "a point light is as bright at every distance, while its falloff is declared",
-        caught_by: "lights/a-point-light-weakens-with-the-square-of-distance",
+        caught_by: "light/point-light-follows-the-inverse-square-law",
         cause: &convention::NO_FALLOFF,
     },
     Fault {
@@ -77,7 +77,7 @@ pub const FAULTS: &[Fault] = &[
         name: "directional-flipped",
         part: 3,
         summary: "wi is the direction in which the light travels",
-        caught_by: "lights/samples-of-the-sun-lead-to-it",
+        caught_by: "light/directional-light-samples-lead-to-the-light",
         cause: &light::DIRECTIONAL_FLIPPED,
     },
     Fault {
@@ -85,7 +85,7 @@ pub const FAULTS: &[Fault] = &[
         name: "sky-pdf-of-hemisphere",
         part: 3,
         summary: "1/2π for directions of the whole sphere",
-        caught_by: "lights/samples-of-a-sky-cover-it",
+        caught_by: "light/environment-samples-cover-the-sphere",
         cause: &light::SKY_PDF_OF_HEMISPHERE,
     },
     Fault {
@@ -93,7 +93,7 @@ pub const FAULTS: &[Fault] = &[
         name: "hemisphere-not-divided",
         part: 3,
         summary: "the sum is not divided by num_samples",
-        caught_by: "lights/a-slanted-light-is-found-by-the-hemisphere",
+        caught_by: "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
         cause: &light::NOT_DIVIDED_BY_SAMPLES,
     },
     Fault {
@@ -101,7 +101,7 @@ pub const FAULTS: &[Fault] = &[
         name: "hemisphere-in-world",
         part: 3,
         summary: "w_in is traced without o2w",
-        caught_by: "lights/a-slanted-light-is-found-by-the-hemisphere",
+        caught_by: "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
         cause: &light::HEMISPHERE_IN_WORLD,
     },
     Fault {
@@ -109,7 +109,7 @@ pub const FAULTS: &[Fault] = &[
         name: "hemisphere-ignored",
         part: 3,
         summary: "light is always sampled: -H has no effect",
-        caught_by: "lights/noise-is-as-theory-says",
+        caught_by: "light/hemisphere-sampling-variance-matches-closed-form",
         cause: &light::HEMISPHERE_IGNORED,
     },
     Fault {
@@ -117,7 +117,7 @@ pub const FAULTS: &[Fault] = &[
         name: "hemisphere-without-lights",
         part: 3,
         summary: "0/0 where there is no light",
-        caught_by: "lights/a-scene-without-lights-is-black",
+        caught_by: "light/scene-without-lights-is-black",
         cause: &light::DIVIDED_BY_ZERO_LIGHTS,
     },
     Fault {
@@ -125,7 +125,7 @@ pub const FAULTS: &[Fault] = &[
         name: "world-cosine",
         part: 3,
         summary: "wi.z for cos θ, in the world",
-        caught_by: "lights/a-slanted-light-over-a-slanted-floor",
+        caught_by: "light/rectangle-light-slanted-matches-closed-form",
         cause: &light::WORLD_COSINE,
     },
     Fault {
@@ -133,7 +133,7 @@ pub const FAULTS: &[Fault] = &[
         name: "light-times-pdf",
         part: 3,
         summary: "× pdf in place of / pdf",
-        caught_by: "lights/a-slanted-light-over-a-slanted-floor",
+        caught_by: "light/rectangle-light-slanted-matches-closed-form",
         cause: &light::TIMES_PDF,
     },
     Fault {
@@ -141,7 +141,7 @@ pub const FAULTS: &[Fault] = &[
         name: "lamp-shadows-itself",
         part: 3,
         summary: "the shadow ray ends at the lamp, and meets it",
-        caught_by: "lights/a-slanted-light-over-a-slanted-floor",
+        caught_by: "light/rectangle-light-slanted-matches-closed-form",
         cause: &light::LAMP_SHADOWS_ITSELF,
     },
     Fault {
@@ -149,7 +149,7 @@ pub const FAULTS: &[Fault] = &[
         name: "lamp-shadows-itself-at-times",
         part: 3,
         summary: "the shadow ray starts EPS ahead and ends EPS before the lamp: rounding decides",
-        caught_by: "lights/a-rectangle-overhead-matches-its-form-factor",
+        caught_by: "light/rectangle-light-overhead-matches-closed-form",
         cause: &light::LAMP_SHADOWS_ITSELF,
     },
     Fault {
@@ -157,7 +157,7 @@ pub const FAULTS: &[Fault] = &[
         name: "no-shadows",
         part: 3,
         summary: "Ray(o, d, EPS, distance): max_t is EPS, and nothing is ever in the way",
-        caught_by: "lights/a-blocker-hides-what-is-behind-it",
+        caught_by: "light/occluder-hides-just-what-is-behind-it",
         cause: &light::NO_SHADOWS,
     },
     Fault {
@@ -165,7 +165,7 @@ pub const FAULTS: &[Fault] = &[
         name: "shadow-without-end",
         part: 3,
         summary: "the shadow ray to a point light has no max_t",
-        caught_by: "lights/what-is-behind-a-light-casts-no-shadow",
+        caught_by: "light/surfaces-behind-a-light-cast-no-shadow",
         cause: &light::SHADOW_BEYOND_LIGHT,
     },
     Fault {
@@ -173,7 +173,7 @@ pub const FAULTS: &[Fault] = &[
         name: "shadow-acne",
         part: 3,
         summary: "rays that leave a surface have no min_t",
-        caught_by: "lights/a-lamp-at-the-eye-sees-no-shadows",
+        caught_by: "light/point-light-at-the-camera-sees-no-shadows",
         cause: &light::ACNE,
     },
     Fault {
@@ -181,7 +181,7 @@ pub const FAULTS: &[Fault] = &[
         name: "divided-in-loop",
         part: 3,
         summary: "`L_out /= n` inside the loop over lights",
-        caught_by: "lights/each-light-has-its-own-samples",
+        caught_by: "light/every-light-is-divided-by-its-own-samples",
         cause: &light::DIVIDED_IN_LOOP,
     },
     Fault {
@@ -189,7 +189,7 @@ pub const FAULTS: &[Fault] = &[
         name: "divided-by-lights",
         part: 3,
         summary: "the sum is divided by the number of lights",
-        caught_by: "lights/light-adds-up",
+        caught_by: "light/radiance-is-linear-in-emission",
         cause: &light::DIVIDED_BY_LIGHTS,
     },
     Fault {
@@ -197,7 +197,7 @@ pub const FAULTS: &[Fault] = &[
         name: "delta-light-divided",
         part: 3,
         summary: "a point light is sampled once and divided by -l",
-        caught_by: "lights/a-point-light-does-not-fade-with-samples",
+        caught_by: "light/point-light-does-not-depend-on-sample-count",
         cause: &light::DELTA_DIVIDED,
     },
     Fault {
@@ -205,7 +205,7 @@ pub const FAULTS: &[Fault] = &[
         name: "last-light-only",
         part: 3,
         summary: "an inner variable hides the sum",
-        caught_by: "lights/light-adds-up",
+        caught_by: "light/radiance-is-linear-in-emission",
         cause: &light::LAST_LIGHT_ONLY,
     },
     Fault {
@@ -213,7 +213,7 @@ pub const FAULTS: &[Fault] = &[
         name: "bounce-range-kept",
         part: 3,
         summary: "max_t of the new ray is the length of the ray before",
-        caught_by: "lights/a-slanted-light-is-found-by-the-hemisphere",
+        caught_by: "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
         cause: &light::RANGE_KEPT,
     },
 ];

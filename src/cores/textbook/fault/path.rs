@@ -4,8 +4,8 @@ use super::Fault;
 use crate::cause::transport;
 use crate::cores::textbook::change::Change;
 
-const FURNACE: &str = "integrator/a-furnace-glows-by-its-series";
-const ROULETTE: &str = "integrator/roulette-does-not-change-the-mean";
+const FURNACE: &str = "integrator/furnace-matches-geometric-series";
+const ROULETTE: &str = "integrator/russian-roulette-leaves-the-mean-unchanged";
 
 /// In the order of the lecture.
 pub const FAULTS: &[Fault] = &[
@@ -62,7 +62,7 @@ pub const FAULTS: &[Fault] = &[
         name: "mirror-shows-no-light",
         part: 4,
         summary: "what glows is not added after a mirror",
-        caught_by: "integrator/three-mirrors-reflect-three-times",
+        caught_by: "integrator/three-mirrors-multiply-their-reflectance",
         cause: &transport::MIRROR_SHOWS_NO_LIGHT,
     },
     Fault {
@@ -78,7 +78,7 @@ pub const FAULTS: &[Fault] = &[
         name: "direct-only-with-bounce",
         part: 4,
         summary: "direct light is added only if the bounce hits something",
-        caught_by: "integrator/a-floor-alone-has-one-bounce",
+        caught_by: "integrator/plane-under-environment-has-one-bounce",
         cause: &transport::DIRECT_ONLY_WITH_BOUNCE,
     },
     Fault {
@@ -118,7 +118,7 @@ pub const FAULTS: &[Fault] = &[
         name: "bounce-world-cosine",
         part: 4,
         summary: "the cosine of a bounce is wi.z in the world",
-        caught_by: "integrator/a-room-is-lit-from-its-middle-at-its-sides-too",
+        caught_by: "integrator/radiosity-is-the-same-at-every-orientation",
         cause: &transport::BOUNCE_WORLD_COSINE,
     },
     Fault {
@@ -126,7 +126,7 @@ pub const FAULTS: &[Fault] = &[
         name: "bounce-local-direction",
         part: 4,
         summary: "the bounce is traced in its local direction: o2w is forgotten",
-        caught_by: "integrator/a-glowing-cap-lights-its-cavity-evenly",
+        caught_by: "integrator/emissive-cap-matches-closed-form",
         cause: &transport::BOUNCE_DIRECTIONS,
     },
     Fault {

@@ -4,12 +4,12 @@ use super::Fault;
 use crate::cause::shape;
 use crate::cores::textbook::change::Change;
 
-const INTERPOLATION: &str = "intersection/normals-are-interpolated-between-vertices";
-const TRIANGLE: &str = "intersection/rays-meet-a-triangle-where-they-should";
-const IN_PLANE: &str = "intersection/a-ray-in-the-plane-of-a-triangle-misses-it";
-const RANDOM: &str = "intersection/random-triangles-agree-with-exact-arithmetic";
-const SEGMENT: &str = "intersection/only-the-segment-of-a-ray-counts";
-const SPHERE: &str = "intersection/rays-meet-a-sphere-at-the-nearer-root-ahead";
+const INTERPOLATION: &str = "shape/shading-normals-are-interpolated";
+const TRIANGLE: &str = "shape/ray-triangle-hits-are-right";
+const IN_PLANE: &str = "shape/rays-in-the-plane-of-a-triangle-miss";
+const RANDOM: &str = "shape/random-triangles-match-exact-arithmetic";
+const SEGMENT: &str = "shape/hits-lie-between-t-min-and-t-max";
+const SPHERE: &str = "shape/ray-sphere-hit-is-the-nearest-root-ahead";
 
 /// In the order of the lecture.
 pub const FAULTS: &[Fault] = &[
@@ -58,7 +58,7 @@ pub const FAULTS: &[Fault] = &[
         name: "strict-edges",
         part: 1,
         summary: "u > 0, v > 0, u + v < 1: edges belong to no triangle",
-        caught_by: "intersection/rays-at-a-shared-edge-meet-one-of-its-triangles",
+        caught_by: "shape/rays-at-a-shared-edge-hit-one-triangle",
         cause: &shape::EDGES_EXCLUDED,
     },
     Fault {
@@ -146,7 +146,7 @@ pub const FAULTS: &[Fault] = &[
         name: "sphere-cancellation",
         part: 1,
         summary: "b² − 4ac as it stands: far spheres lose their digits",
-        caught_by: "intersection/far-spheres-keep-their-digits",
+        caught_by: "shape/distant-spheres-do-not-cancel",
         cause: &shape::SPHERE_CANCELLATION,
     },
     Fault {

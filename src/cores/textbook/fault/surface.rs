@@ -4,13 +4,13 @@ use super::Fault;
 use crate::cause::{bsdf, convention, sampling};
 use crate::cores::textbook::change::Change;
 
-const UNIFORM_MAP: &str = "samplers/the-uniform-map-fits-its-density";
-const COSINE_MAP: &str = "samplers/the-cosine-map-fits-its-density";
-const UNIFORM_DENSITY: &str = "samplers/the-uniform-density-integrates-to-one";
-const COSINE_DENSITY: &str = "samplers/the-cosine-density-integrates-to-one";
-const ALBEDO: &str = "bsdf/a-diffuse-surface-reflects-its-albedo";
-const ITSELF: &str = "bsdf/samples-are-what-is-evaluated";
-const DIFFUSE: &str = "bsdf/diffuse-samples-follow-their-density";
+const UNIFORM_MAP: &str = "sampling/uniform-pdf-matches-the-jacobian";
+const COSINE_MAP: &str = "sampling/cosine-pdf-matches-the-jacobian";
+const UNIFORM_DENSITY: &str = "sampling/uniform-pdf-integrates-to-one";
+const COSINE_DENSITY: &str = "sampling/cosine-pdf-integrates-to-one";
+const ALBEDO: &str = "bsdf/diffuse-conserves-energy";
+const ITSELF: &str = "bsdf/sampling-agrees-with-evaluation";
+const DIFFUSE: &str = "bsdf/diffuse-samples-match-their-pdf";
 
 /// In the order of the lecture.
 pub const FAULTS: &[Fault] = &[
@@ -155,7 +155,7 @@ pub const FAULTS: &[Fault] = &[
         name: "mirror-without-cosine",
         part: 3,
         summary: "f of the mirror is R, not R/cos θ",
-        caught_by: "bsdf/a-mirror-reflects-its-share",
+        caught_by: "bsdf/mirror-reflects-its-reflectance",
         cause: &bsdf::DELTA_COSINE_FORGOTTEN,
     },
     Fault {
@@ -163,7 +163,7 @@ pub const FAULTS: &[Fault] = &[
         name: "mirror-turns-back",
         part: 3,
         summary: "wi = wo",
-        caught_by: "bsdf/a-mirror-reflects-its-share",
+        caught_by: "bsdf/mirror-reflects-its-reflectance",
         cause: &bsdf::MIRROR_RETURNS_VIEW,
     },
     Fault {
@@ -179,7 +179,7 @@ pub const FAULTS: &[Fault] = &[
         name: "glass-indices-swapped",
         part: 3,
         summary: "entering is taken for leaving",
-        caught_by: "bsdf/glass-reflects-and-refracts",
+        caught_by: "bsdf/glass-follows-snell-and-fresnel",
         cause: &bsdf::GLASS_SIDES_SWAPPED,
     },
     Fault {
@@ -187,7 +187,7 @@ pub const FAULTS: &[Fault] = &[
         name: "glass-without-total-reflection",
         part: 3,
         summary: "beyond the critical angle nothing is sampled",
-        caught_by: "bsdf/glass-reflects-and-refracts",
+        caught_by: "bsdf/glass-follows-snell-and-fresnel",
         cause: &bsdf::TOTAL_REFLECTION_FORGOTTEN,
     },
     Fault {
@@ -195,7 +195,7 @@ pub const FAULTS: &[Fault] = &[
         name: "glass-weight-without-fresnel",
         part: 3,
         summary: "f is not multiplied by the share that its probability is",
-        caught_by: "bsdf/glass-reflects-and-refracts",
+        caught_by: "bsdf/glass-follows-snell-and-fresnel",
         cause: &bsdf::GLASS_WEIGHT_WITHOUT_FRESNEL,
     },
     Fault {
@@ -203,7 +203,7 @@ pub const FAULTS: &[Fault] = &[
         name: "glass-coin-toss",
         part: 3,
         summary: "each way is taken half of the time, whatever its probability",
-        caught_by: "bsdf/glass-reflects-and-refracts",
+        caught_by: "bsdf/glass-follows-snell-and-fresnel",
         cause: &bsdf::GLASS_OTHER_CHANCE,
     },
     Fault {
@@ -211,7 +211,7 @@ pub const FAULTS: &[Fault] = &[
         name: "glass-schlick-undeclared",
         part: 3,
         summary: "Schlick's approximation, while Fresnel's equations are declared",
-        caught_by: "bsdf/glass-reflects-and-refracts",
+        caught_by: "bsdf/glass-follows-snell-and-fresnel",
         cause: &bsdf::SCHLICK_UNDECLARED,
     },
     Fault {
@@ -219,7 +219,7 @@ pub const FAULTS: &[Fault] = &[
         name: "glass-unscaled-undeclared",
         part: 3,
         summary: "radiance is not scaled by the index squared, while that is declared",
-        caught_by: "bsdf/glass-reflects-and-refracts",
+        caught_by: "bsdf/glass-follows-snell-and-fresnel",
         cause: &convention::UNSCALED_RADIANCE,
     },
     Fault {
@@ -227,7 +227,7 @@ pub const FAULTS: &[Fault] = &[
         name: "metal-roughness-squared",
         part: 3,
         summary: "α = roughness², while α is given",
-        caught_by: "bsdf/a-rough-metal-reflects-its-albedo",
+        caught_by: "bsdf/rough-conductor-conserves-energy",
         cause: &bsdf::ROUGHNESS_SQUARED,
     },
     Fault {
@@ -235,7 +235,7 @@ pub const FAULTS: &[Fault] = &[
         name: "metal-without-masking",
         part: 3,
         summary: "G = 1",
-        caught_by: "bsdf/a-rough-metal-reflects-its-albedo",
+        caught_by: "bsdf/rough-conductor-conserves-energy",
         cause: &bsdf::MASKING_FORGOTTEN,
     },
     Fault {
@@ -243,7 +243,7 @@ pub const FAULTS: &[Fault] = &[
         name: "metal-pdf-of-facets",
         part: 3,
         summary: "the density of the half vector, without 1/(4 wo·h)",
-        caught_by: "bsdf/the-map-of-a-rough-metal-fits-its-density",
+        caught_by: "bsdf/rough-conductor-pdf-matches-the-jacobian",
         cause: &bsdf::PDF_OF_FACETS,
     },
     Fault {
@@ -251,7 +251,7 @@ pub const FAULTS: &[Fault] = &[
         name: "metal-without-four",
         part: 3,
         summary: "the 4 in the denominator of f is missing",
-        caught_by: "bsdf/a-rough-metal-reflects-its-albedo",
+        caught_by: "bsdf/rough-conductor-conserves-energy",
         cause: &bsdf::FOUR_FORGOTTEN,
     },
     Fault {
@@ -259,7 +259,7 @@ pub const FAULTS: &[Fault] = &[
         name: "rough-glass-jacobian-without-index",
         part: 3,
         summary: "the Jacobian of refraction lacks η²",
-        caught_by: "bsdf/the-map-of-rough-glass-fits-its-density",
+        caught_by: "bsdf/rough-glass-pdf-matches-the-jacobian",
         cause: &bsdf::REFRACTION_JACOBIAN_WITHOUT_INDEX,
     },
     Fault {
@@ -267,7 +267,7 @@ pub const FAULTS: &[Fault] = &[
         name: "rough-glass-chance-forgotten",
         part: 3,
         summary: "Fresnel's share is in f, and not in the pdf",
-        caught_by: "bsdf/the-density-of-rough-glass-integrates-to-what-is-accepted",
+        caught_by: "bsdf/rough-glass-pdf-integrates-to-its-valid-samples",
         cause: &bsdf::LOBE_CHANCE_FORGOTTEN,
     },
     Fault {
@@ -275,7 +275,7 @@ pub const FAULTS: &[Fault] = &[
         name: "rough-glass-half-of-entering",
         part: 3,
         summary: "the half vector of refraction has the index of entering when light leaves",
-        caught_by: "bsdf/rough-glass-keeps-its-shares",
+        caught_by: "bsdf/rough-glass-conserves-energy",
         cause: &bsdf::HALF_WITH_INDEX_OF_ENTERING,
     },
     Fault {
@@ -283,7 +283,7 @@ pub const FAULTS: &[Fault] = &[
         name: "rough-glass-fresnel-of-surface",
         part: 3,
         summary: "Fresnel's share is that of the surface's cosine, not of the facet's",
-        caught_by: "bsdf/rough-glass-keeps-its-shares",
+        caught_by: "bsdf/rough-glass-conserves-energy",
         cause: &bsdf::FRESNEL_OF_SURFACE,
     },
 ];

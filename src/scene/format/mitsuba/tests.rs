@@ -77,7 +77,7 @@ fn a_whole_scene_is_written_as_mitsuba_reads_it() {
 
 #[test]
 fn glass_is_in_vacuum_and_not_two_sided() {
-    let scene = exported("glass-ball-in-sky").unwrap();
+    let scene = exported("glass-sphere-in-sky").unwrap();
     let xml = xml(&scene);
     assert!(xml.contains(r#"<float name="int_ior" value="1.5"/>"#), "{xml}");
     assert!(xml.contains(r#"<float name="ext_ior" value="1"/>"#), "{xml}");

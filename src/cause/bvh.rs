@@ -1,178 +1,126 @@
-//! Part 2: building and walking the hierarchy.
+//! Part 2: ray-box tests, building and traversing the BVH.
 
-use super::Cause;
+use super::{Cause, causes};
 
-/// See its headline.
-pub static SECOND_CHILD_SKIPPED: Cause = Cause {
-    name: "second-child-skipped",
-    headline: "the second child is not visited once the first was hit",
-    look_at: "the traversal, where the children of a node are visited",
-    remedy: "Visit both children and keep the nearer hit; `a || b` skips b.",
-};
-
-/// See its headline.
-pub static HIERARCHY_NOT_USED: Cause = Cause {
-    name: "hierarchy-not-used",
-    headline: "every triangle is tested: the hierarchy is not used",
-    look_at: "the traversal and the leaves",
-    remedy: "Test the box of a node first, and only the primitives of the leaves that are reached.",
-};
-
-/// See its headline.
-pub static SHADOWS_SEARCH_ON: Cause = Cause {
-    name: "shadows-search-on",
-    headline: "shadow rays go on after something is hit",
-    look_at: "the any-hit query",
-    remedy: "Return as soon as anything is hit: `a || b` is right here.",
-};
-
-/// See its headline.
-pub static SEGMENT_NOT_SHORTENED: Cause = Cause {
-    name: "segment-not-shortened",
-    headline: "boxes are visited though a nearer hit is known",
-    look_at: "the traversal, where the children of a node are visited",
-    remedy: "Shorten the ray's t_max to the nearest hit so far before the next box is tested.",
-};
-
-/// See its headline.
-pub static CHILDREN_UNORDERED: Cause = Cause {
-    name: "children-unordered",
-    headline: "the farther child is visited first as often as the nearer one",
-    look_at: "the traversal, where the children of a node are visited",
-    remedy: "Visit the child first whose box the ray enters first.",
-};
-
-/// See its headline.
-pub static COUNTS_NOT_REAL: Cause = Cause {
-    name: "counts-not-real",
-    headline: "the core counts fewer primitive tests than it has hits",
-    look_at: "the traversal, where tests are counted",
-    remedy: "Count every call of a primitive's intersection test.",
-};
-
-/// See its headline.
-pub static BOX_OF_CENTROIDS: Cause = Cause {
-    name: "box-of-centroids",
-    headline: "the boxes of nodes hold the centroids of their primitives, not the primitives",
-    look_at: "the build, where the box of a node is made",
-    remedy: "Unite the boxes of the primitives; the centroids are only for the split.",
-};
-
-/// See its headline.
-pub static PRIMITIVES_LOST: Cause = Cause {
-    name: "primitives-lost",
-    headline: "some primitives are in no leaf: a range ends one short",
-    look_at: "the build, where a range is handed to the children",
-    remedy: "A range [begin, end) is cut into [begin, middle) and [middle, end).",
-};
-
-/// See its headline.
-pub static SPLIT_REPEATED: Cause = Cause {
-    name: "split-repeated",
-    headline: "a split that separates nothing is made again and again",
-    look_at: "the build, where a node is divided",
-    remedy: "If one side is empty, cut the range in half, or make a leaf.",
-};
-
-/// See its headline.
-pub static Z_NEVER_SPLIT: Cause = Cause {
-    name: "z-never-split",
-    headline: "nodes are never divided along z",
-    look_at: "the build, where a node is divided",
-    remedy: "Compare the extents of all three axes.",
-};
-
-/// See its headline.
-pub static SHORTEST_AXIS: Cause = Cause {
-    name: "shortest-axis",
-    headline: "nodes are divided along their shortest axis",
-    look_at: "the build, where a node is divided",
-    remedy: "Divide along the axis on which the centroids reach furthest.",
-};
-
-/// See its headline.
-pub static RANGE_OVERWRITTEN: Cause = Cause {
-    name: "range-overwritten",
-    headline: "the box test overwrites the segment of the ray",
-    look_at: "the traversal, where the box of a node is tested",
-    remedy: "Hand copies of t_min and t_max to the box test; it writes where the ray enters and leaves.",
-};
-
-/// See its headline.
-pub static HIT_OVERWRITTEN: Cause = Cause {
-    name: "hit-overwritten",
-    headline: "a farther hit overwrites a nearer one",
-    look_at: "the loop over the primitives of a leaf",
-    remedy: "Shorten t_max to each hit, or keep a hit only if it is nearer than the best so far.",
-};
-
-/// See its headline.
-pub static LEAF_ORDER_NUMBERS: Cause = Cause {
-    name: "leaf-order-numbers",
-    headline: "hits carry the number of a primitive in the order of the leaves, not in the scene",
-    look_at: "the hit, where the primitive is named",
-    remedy: "Carry the primitive's own number through the build.",
-};
-
-/// See its headline.
-pub static SHADOW_SECOND_CHILD_SKIPPED: Cause = Cause {
-    name: "shadow-second-child-skipped",
-    headline: "shadow rays look into one child of a node only",
-    look_at: "the any-hit query, where the children of a node are visited",
-    remedy: "A miss in the first child says nothing about the second: `a || b`.",
-};
-
-/// See its headline.
-pub static SHADOW_END_IGNORED: Cause = Cause {
-    name: "shadow-end-ignored",
-    headline: "shadow rays do not end: what lies behind t_max stops them too",
-    look_at: "the any-hit query, where the children of a node are visited",
-    remedy: "Only what lies inside (t_min, t_max) occludes.",
-};
-
-/// See its headline.
-pub static SHADOWS_HIT_BOXES: Cause = Cause {
-    name: "shadows-hit-boxes",
-    headline: "shadow rays are stopped by boxes, whether or not a primitive is hit",
-    look_at: "the any-hit query, where the children of a node are visited",
-    remedy: "A box only says that something may be hit: test the primitives of the leaf.",
-};
-
-/// See its headline.
-pub static HITS_LOST: Cause = Cause {
-    name: "hierarchy-loses-hits",
-    headline: "the hierarchy misses what the loop over all triangles hits",
-    look_at: "the boxes of nodes, the test against them, and what is skipped because of it",
-    remedy: "A node's box encloses everything below it; a box may be missed only if all of it is.",
-};
-
-/// See its headline.
-pub static UNBALANCED: Cause = Cause {
-    name: "hierarchy-unbalanced",
-    headline: "the hierarchy is as deep as a list: the boxes that are tested grow with the number of triangles",
-    look_at: "the build, where a node is divided",
-    remedy: "Divide so that both sides get a share of the primitives; the middle of the sorted centroids always does.",
-};
-
-/// Every cause of this part.
-pub static CAUSES: &[&Cause] = &[
-    &SECOND_CHILD_SKIPPED,
-    &HIERARCHY_NOT_USED,
-    &SHADOWS_SEARCH_ON,
-    &SEGMENT_NOT_SHORTENED,
-    &CHILDREN_UNORDERED,
-    &COUNTS_NOT_REAL,
-    &BOX_OF_CENTROIDS,
-    &PRIMITIVES_LOST,
-    &SPLIT_REPEATED,
-    &Z_NEVER_SPLIT,
-    &SHORTEST_AXIS,
-    &RANGE_OVERWRITTEN,
-    &HIT_OVERWRITTEN,
-    &LEAF_ORDER_NUMBERS,
-    &SHADOW_SECOND_CHILD_SKIPPED,
-    &SHADOW_END_IGNORED,
-    &SHADOWS_HIT_BOXES,
-    &HITS_LOST,
-    &UNBALANCED,
-];
+causes! {
+    PLANES_NOT_SWAPPED = "planes-not-swapped":
+        "the two planes of an axis are not swapped where the direction is negative",
+        at "the box test, where the crossings of the slabs are put together",
+        fix "The smaller of an axis' two crossings is the entry, the larger the exit.";
+    PARALLEL_AXES_SKIPPED = "parallel-axes-skipped":
+        "an axis that the ray does not move along is skipped, wherever the ray is on it",
+        at "the box test, where a component of the direction is 0",
+        fix "A ray that runs beside the two planes of an axis misses the box.";
+    BOX_SEGMENT_IGNORED = "box-segment-ignored":
+        "the box test does not look at t_min and t_max",
+        at "the box test, where the crossings of the slabs are put together",
+        fix "Hit if max(entries) ≤ min(exits), the exit is not before t_min and the entry not after t_max.";
+    BOX_START_IGNORED = "box-start-ignored":
+        "the box test does not look at t_min",
+        at "the box test, where the crossings of the slabs are put together",
+        fix "Hit if max(entries) ≤ min(exits), the exit is not before t_min and the entry not after t_max.";
+    BOX_END_IGNORED = "box-end-ignored":
+        "the box test does not look at t_max",
+        at "the box test, where the crossings of the slabs are put together",
+        fix "Hit if max(entries) ≤ min(exits), the exit is not before t_min and the entry not after t_max.";
+    BOX_MISSED_FROM_INSIDE = "box-missed-from-inside":
+        "the entry has to lie behind t_min, so that rays from inside miss",
+        at "the box test, where the crossings of the slabs are put together",
+        fix "Hit if max(entries) ≤ min(exits), the exit is not before t_min and the entry not after t_max.";
+    BOX_MISSED_BY_END_INSIDE = "box-missed-by-end-inside":
+        "the exit has to lie before t_max, so that segments which end inside miss",
+        at "the box test, where the crossings of the slabs are put together",
+        fix "Hit if max(entries) ≤ min(exits), the exit is not before t_min and the entry not after t_max.";
+    FLAT_BOX_MISSED = "flat-box-missed":
+        "entry < exit is asked for, so that flat boxes are never hit",
+        at "the box test, where the crossings of the slabs are put together",
+        fix "Compare with ≤: a flat box is entered and left at the same t.";
+    BOX_WITHOUT_Z = "box-without-z":
+        "the box test does not look at the z axis",
+        at "the box test, where the crossings of the slabs are put together",
+        fix "Intersect the intervals of all three axes.";
+    BOX_WITHOUT_Y = "box-without-y":
+        "the box test does not look at the y axis",
+        at "the box test, where the crossings of the slabs are put together",
+        fix "Intersect the intervals of all three axes.";
+    BOX_WITHOUT_X = "box-without-x":
+        "the box test does not look at the x axis",
+        at "the box test, where the crossings of the slabs are put together",
+        fix "Intersect the intervals of all three axes.";
+    SECOND_CHILD_SKIPPED = "second-child-skipped":
+        "the second child is not visited once the first was hit",
+        at "the traversal, where the children of a node are visited",
+        fix "Visit both children and keep the nearer hit; `a || b` skips b.";
+    HIERARCHY_NOT_USED = "hierarchy-not-used":
+        "every triangle is tested: the hierarchy is not used",
+        at "the traversal and the leaves",
+        fix "Test the box of a node first, and only the primitives of the leaves that are reached.";
+    SHADOWS_SEARCH_ON = "shadows-search-on":
+        "shadow rays go on after something is hit",
+        at "the any-hit query",
+        fix "Return as soon as anything is hit: `a || b` is right here.";
+    SEGMENT_NOT_SHORTENED = "segment-not-shortened":
+        "boxes are visited though a nearer hit is known",
+        at "the traversal, where the children of a node are visited",
+        fix "Shorten the ray's t_max to the nearest hit so far before the next box is tested.";
+    CHILDREN_UNORDERED = "children-unordered":
+        "the farther child is visited first as often as the nearer one",
+        at "the traversal, where the children of a node are visited",
+        fix "Visit the child first whose box the ray enters first.";
+    COUNTS_NOT_REAL = "counts-not-real":
+        "the core counts fewer primitive tests than it has hits",
+        at "the traversal, where tests are counted",
+        fix "Count every call of a primitive's intersection test.";
+    BOX_OF_CENTROIDS = "box-of-centroids":
+        "the boxes of nodes hold the centroids of their primitives, not the primitives",
+        at "the build, where the box of a node is made",
+        fix "Unite the boxes of the primitives; the centroids are only for the split.";
+    PRIMITIVES_LOST = "primitives-lost":
+        "some primitives are in no leaf: a range ends one short",
+        at "the build, where a range is handed to the children",
+        fix "A range [begin, end) is cut into [begin, middle) and [middle, end).";
+    SPLIT_REPEATED = "split-repeated":
+        "a split that separates nothing is made again and again",
+        at "the build, where a node is divided",
+        fix "If one side is empty, cut the range in half, or make a leaf.";
+    Z_NEVER_SPLIT = "z-never-split":
+        "nodes are never divided along z",
+        at "the build, where a node is divided",
+        fix "Compare the extents of all three axes.";
+    SHORTEST_AXIS = "shortest-axis":
+        "nodes are divided along their shortest axis",
+        at "the build, where a node is divided",
+        fix "Divide along the axis on which the centroids reach furthest.";
+    RANGE_OVERWRITTEN = "range-overwritten":
+        "the box test overwrites the segment of the ray",
+        at "the traversal, where the box of a node is tested",
+        fix "Hand copies of t_min and t_max to the box test; it writes where the ray enters and leaves.";
+    HIT_OVERWRITTEN = "hit-overwritten":
+        "a farther hit overwrites a nearer one",
+        at "the loop over the primitives of a leaf",
+        fix "Shorten t_max to each hit, or keep a hit only if it is nearer than the best so far.";
+    LEAF_ORDER_NUMBERS = "leaf-order-numbers":
+        "hits carry the number of a primitive in the order of the leaves, not in the scene",
+        at "the hit, where the primitive is named",
+        fix "Carry the primitive's own number through the build.";
+    SHADOW_SECOND_CHILD_SKIPPED = "shadow-second-child-skipped":
+        "shadow rays look into one child of a node only",
+        at "the any-hit query, where the children of a node are visited",
+        fix "A miss in the first child says nothing about the second: `a || b`.";
+    SHADOW_END_IGNORED = "shadow-end-ignored":
+        "shadow rays do not end: what lies behind t_max stops them too",
+        at "the any-hit query, where the children of a node are visited",
+        fix "Only what lies inside (t_min, t_max) occludes.";
+    SHADOWS_HIT_BOXES = "shadows-hit-boxes":
+        "shadow rays are stopped by boxes, whether or not a primitive is hit",
+        at "the any-hit query, where the children of a node are visited",
+        fix "A box only says that something may be hit: test the primitives of the leaf.";
+    HITS_LOST = "hierarchy-loses-hits":
+        "the hierarchy misses what the loop over all triangles hits",
+        at "the boxes of nodes, the test against them, and what is skipped because of it",
+        fix "A node's box encloses everything below it; a box may be missed only if all of it is.";
+    UNBALANCED = "hierarchy-unbalanced":
+        "the hierarchy is as deep as a list: the boxes that are tested grow with the number of triangles",
+        at "the build, where a node is divided",
+        fix "Divide so that both sides get a share of the primitives; the middle of the sorted centroids always does.";
+}

@@ -4,23 +4,19 @@
 //! causes; a planted fault says which cause must be told of it. All three name the same entry of this glossary, so
 //! that a mistake is called the same everywhere.
 //!
-//! To add one: a `static` in the file of its part, and its line in that file's `CAUSES`.
+//! To add one: an entry in the table of its subject.
 
 pub mod adaptive;
-pub mod answer;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
+pub mod contract;
 pub mod convention;
+pub mod image;
+pub mod integrator;
 pub mod light;
-pub mod picture;
-pub mod pixel;
 pub mod sampling;
-pub mod seed;
 pub mod shape;
-pub mod slab;
-pub mod transport;
-pub mod variance;
 
 /// A mistake that people make in path tracers.
 #[derive(Debug, PartialEq, Eq)]
@@ -31,35 +27,46 @@ pub struct Cause {
     pub headline: &'static str,
     /// The function and the step in it where the mistake is made.
     pub look_at: &'static str,
-    /// What belongs there instead, as one sentence.
-    pub remedy: &'static str,
+    /// What belongs there, as one sentence.
+    pub fix: &'static str,
 }
 
-/// Every cause, part by part, in the order in which one part rests on another.
+/// A table of causes: `NAME = "slug": "headline", at "where to look", fix "what belongs there";`.
+macro_rules! causes {
+    ($($name:ident = $slug:literal: $headline:literal, at $look_at:expr, fix $fix:expr;)*) => {
+        $(
+            #[doc = $headline]
+            pub static $name: Cause =
+                Cause { name: $slug, headline: $headline, look_at: $look_at, fix: $fix };
+        )*
+
+        /// Every cause of this subject.
+        pub static CAUSES: &[&Cause] = &[$(&$name),*];
+    };
+}
+use causes;
+
+/// Every cause, subject by subject, in the order in which one part rests on another.
 pub fn all() -> impl Iterator<Item = &'static Cause> {
-    let parts = [
+    let subjects = [
         convention::CAUSES,
         camera::CAUSES,
-        pixel::CAUSES,
         shape::CAUSES,
-        slab::CAUSES,
         bvh::CAUSES,
         sampling::CAUSES,
         bsdf::CAUSES,
         light::CAUSES,
-        transport::CAUSES,
+        integrator::CAUSES,
         adaptive::CAUSES,
-        variance::CAUSES,
-        seed::CAUSES,
-        answer::CAUSES,
-        picture::CAUSES,
+        contract::CAUSES,
+        image::CAUSES,
     ];
-    parts.into_iter().flatten().copied()
+    subjects.into_iter().flatten().copied()
 }
 
 /// Whether the mistake is one of the hierarchy: closed surfaces leak by it, though every triangle is hit.
 pub fn is_of_hierarchy(cause: &Cause) -> bool {
-    slab::CAUSES.iter().chain(bvh::CAUSES).any(|known| *known == cause)
+    bvh::CAUSES.contains(&cause)
 }
 
 /// Whether the cause says what is lost and not why: any other of its kind explains more.
@@ -90,7 +97,7 @@ mod tests {
     #[test]
     fn every_cause_says_what_where_and_what_instead() {
         for cause in all() {
-            for words in [cause.headline, cause.look_at, cause.remedy] {
+            for words in [cause.headline, cause.look_at, cause.fix] {
                 assert!(words.len() > 10, "{}: `{words}`", cause.name);
             }
             assert!(!cause.headline.ends_with('.'), "{}", cause.name);

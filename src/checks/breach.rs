@@ -1,17 +1,17 @@
 //! Which mistake an answer in the wrong form is, from the words of [`crate::contract::validate`].
 
-use crate::cause::{Cause, answer, camera, shape};
+use crate::cause::{Cause, camera, contract, shape};
 
 /// Words of a complaint, and what they tell. The first that is found counts.
 const WORDS: &[(&[&str], &Cause)] = &[
     (&["ray ", ": direction has length"], &camera::DIRECTION_NOT_UNIT),
     (&["normal has length"], &shape::NORMAL_NOT_UNIT),
     (&["hit ", ": t is NaN"], &shape::NAN_HIT_ACCEPTED),
-    (&["left untouched"], &answer::UNTOUCHED),
-    (&["has length"], &answer::NOT_UNIT),
-    (&["NaN"], &answer::NOT_A_NUMBER),
-    (&["inf"], &answer::INFINITE),
-    (&["negative"], &answer::NEGATIVE),
+    (&["left untouched"], &contract::UNTOUCHED),
+    (&["has length"], &contract::NOT_UNIT),
+    (&["NaN"], &contract::NOT_A_NUMBER),
+    (&["inf"], &contract::INFINITE),
+    (&["negative"], &contract::NEGATIVE),
 ];
 
 /// The mistake that a breach of the contract is, if its words say so.

@@ -11,23 +11,20 @@ pub mod bsdf;
 pub mod bvh;
 pub mod camera;
 mod context;
-pub mod convergence;
-pub mod film;
 mod finding;
 mod form;
+pub mod image;
+pub mod integrator;
 pub mod light;
 mod numbers;
 mod oracle;
 mod phrase;
-pub mod picture;
 mod rendering;
-pub mod robustness;
 pub mod sampling;
 pub mod shape;
 mod surface;
 #[cfg(test)]
 mod testing;
-pub mod transport;
 
 pub use context::{CheckError, Context, Picture, PictureRole, camera_of};
 pub use finding::{Clue, Finding, Measure, number};
@@ -140,19 +137,19 @@ fn prepare<C: Check>(text: &str) -> Result<Box<dyn Prepared>, PrepareError> {
 /// Every check there is, in the order of the parts of a path tracer.
 pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<camera::RaysThroughFilm>(),
-    CheckKind::of::<film::ConstantFilm>(),
-    CheckKind::of::<film::PictureOrientation>(),
-    CheckKind::of::<film::PixelSamples>(),
-    CheckKind::of::<film::StratifiedSamples>(),
-    CheckKind::of::<film::ViewCoverage>(),
+    CheckKind::of::<camera::ConstantFilm>(),
+    CheckKind::of::<camera::PictureOrientation>(),
+    CheckKind::of::<camera::PixelSamples>(),
+    CheckKind::of::<camera::StratifiedSamples>(),
+    CheckKind::of::<camera::ViewCoverage>(),
     CheckKind::of::<shape::HitsPrimitive>(),
     CheckKind::of::<shape::AgreesWithExactArithmetic>(),
     CheckKind::of::<shape::FarSpheres>(),
     CheckKind::of::<shape::DegenerateTriangles>(),
     CheckKind::of::<shape::LeavesItsSurface>(),
-    CheckKind::of::<shape::OverlapsBox>(),
+    CheckKind::of::<bvh::OverlapsBox>(),
     CheckKind::of::<shape::SharedEdges>(),
-    CheckKind::of::<shape::BoxesAreNeverMissed>(),
+    CheckKind::of::<bvh::BoxesAreNeverMissed>(),
     CheckKind::of::<bsdf::AgreesWithItself>(),
     CheckKind::of::<bsdf::Reciprocal>(),
     CheckKind::of::<bsdf::ConservesEnergy>(),
@@ -161,7 +158,7 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<bsdf::ReflectsAndRefracts>(),
     CheckKind::of::<bvh::SameHitsAsBruteForce>(),
     CheckKind::of::<bvh::OrderDoesNotMatter>(),
-    CheckKind::of::<bvh::NoRayLeaks>(),
+    CheckKind::of::<shape::NoRayLeaks>(),
     CheckKind::of::<bvh::SizesAddUp>(),
     CheckKind::of::<bvh::BuildsComeToAnEnd>(),
     CheckKind::of::<bvh::VisitsFewNodes>(),
@@ -180,24 +177,24 @@ pub static CHECKS: &[CheckKind] = &[
     CheckKind::of::<sampling::MomentsFollowPdf>(),
     CheckKind::of::<sampling::WeightsIntegrate>(),
     CheckKind::of::<sampling::ConsecutiveSamples>(),
-    CheckKind::of::<transport::MeanRadiance>(),
-    CheckKind::of::<transport::EstimatorsAgree>(),
-    CheckKind::of::<transport::RadianceIsLinear>(),
-    CheckKind::of::<transport::BouncesAddUp>(),
-    CheckKind::of::<transport::RouletteStopsPaths>(),
+    CheckKind::of::<integrator::MeanRadiance>(),
+    CheckKind::of::<integrator::EstimatorsAgree>(),
+    CheckKind::of::<integrator::RadianceIsLinear>(),
+    CheckKind::of::<integrator::BouncesAddUp>(),
+    CheckKind::of::<integrator::RouletteStopsPaths>(),
     CheckKind::of::<adaptive::StopsWhereItShould>(),
     CheckKind::of::<adaptive::StopsByItsLaw>(),
     CheckKind::of::<adaptive::SampleCounts>(),
-    CheckKind::of::<robustness::SameSeedSamePicture>(),
-    CheckKind::of::<robustness::SeedsMatter>(),
-    CheckKind::of::<robustness::NeighbouringSeeds>(),
-    CheckKind::of::<robustness::RadianceIsFinite>(),
-    CheckKind::of::<convergence::VarianceIsKnown>(),
-    CheckKind::of::<convergence::ErrorFallsAsRootN>(),
-    CheckKind::of::<convergence::ReportsItsVariance>(),
-    CheckKind::of::<picture::FirstHits>(),
-    CheckKind::of::<picture::MatchesReference>(),
-    CheckKind::of::<picture::MatchesAsPng>(),
+    CheckKind::of::<integrator::SameSeedSamePicture>(),
+    CheckKind::of::<integrator::SeedsMatter>(),
+    CheckKind::of::<integrator::NeighbouringSeeds>(),
+    CheckKind::of::<integrator::RadianceIsFinite>(),
+    CheckKind::of::<integrator::VarianceIsKnown>(),
+    CheckKind::of::<integrator::ErrorFallsAsRootN>(),
+    CheckKind::of::<integrator::ReportsItsVariance>(),
+    CheckKind::of::<shape::FirstHits>(),
+    CheckKind::of::<image::MatchesReference>(),
+    CheckKind::of::<image::MatchesAsPng>(),
 ];
 
 /// The check called `name`.

@@ -1,6 +1,6 @@
 //! What mistakes make of the energy of bounces in a furnace, where bounce k is emission · albedo^k.
 
-use crate::cause::{Cause, transport};
+use crate::cause::{Cause, integrator};
 use std::f64::consts::PI;
 
 /// The last bounce that rows of a furnace ask for.
@@ -72,7 +72,7 @@ const TIMES_PDF: f64 = 1.0 / (2.0 * PI * PI);
 /// Every law.
 pub static LAWS: &[Law] = &[
     Law::new(
-        &transport::ONE_BOUNCE_SHORT,
+        &integrator::ONE_BOUNCE_SHORT,
         "bounce k holds what belongs to bounce k − 1, and sums end one bounce early",
         |c, [first, last]| match (first, last) {
             (0, last) => c.sum([0, last.saturating_sub(1)], |_| 1.0),
@@ -81,7 +81,7 @@ pub static LAWS: &[Law] = &[
     )
     .with_direct(0.0),
     Law::new(
-        &transport::ONE_BOUNCE_SHORT,
+        &integrator::ONE_BOUNCE_SHORT,
         "the last bounce asked for is missing, from the second on",
         |c, [first, last]| match last {
             0 | 1 => c.sum([first, last], |_| 1.0),
@@ -89,7 +89,7 @@ pub static LAWS: &[Law] = &[
         },
     ),
     Law::new(
-        &transport::ONE_BOUNCE_SHORT,
+        &integrator::ONE_BOUNCE_SHORT,
         "the last bounce asked for is missing",
         |c, [first, last]| match last {
             0 => c.bounce(0),
@@ -98,7 +98,7 @@ pub static LAWS: &[Law] = &[
     )
     .with_direct(0.0),
     Law::new(
-        &transport::ONE_BOUNCE_LONG,
+        &integrator::ONE_BOUNCE_LONG,
         "bounce k holds what belongs to bounce k + 1",
         |c, [first, last]| match (first, last) {
             (0, 0) => c.bounce(0),
@@ -107,19 +107,19 @@ pub static LAWS: &[Law] = &[
         },
     ),
     Law::new(
-        &transport::ONE_BOUNCE_LONG,
+        &integrator::ONE_BOUNCE_LONG,
         "every sum holds one bounce more than was asked for",
         |c, [first, last]| {
             if last == 0 { c.bounce(0) } else { c.sum([first, last + 1], |_| 1.0) }
         },
     ),
     Law::new(
-        &transport::DEPTH_IGNORED,
+        &integrator::DEPTH_IGNORED,
         "whatever bounce is the last asked for, all later ones are there too",
         |c, [first, _]| c.sum([first, LAST], |_| 1.0),
     ),
     Law::new(
-        &transport::ZERO_DEPTH_LIT,
+        &integrator::ZERO_DEPTH_LIT,
         "bounce 0 holds bounce 1 too, and bounce 1 alone is empty",
         |c, bounces| match bounces {
             [0, last] => c.sum([0, last.max(1)], |_| 1.0),
@@ -128,82 +128,82 @@ pub static LAWS: &[Law] = &[
         },
     )
     .with_direct(0.0),
-    Law::new(&transport::ZERO_DEPTH_LIT, "bounce 0 holds bounce 1 too", |c, [first, last]| {
+    Law::new(&integrator::ZERO_DEPTH_LIT, "bounce 0 holds bounce 1 too", |c, [first, last]| {
         c.sum([first, if first == 0 { last.max(1) } else { last }], |_| 1.0)
     }),
     Law::new(
-        &transport::ISOLATION_IGNORED,
+        &integrator::ISOLATION_IGNORED,
         "bounce k holds all bounces up to k",
         |c, [_, last]| c.sum([0, last], |_| 1.0),
     ),
     Law::new(
-        &transport::ISOLATION_IGNORED,
+        &integrator::ISOLATION_IGNORED,
         "bounce k holds all bounces from 1 to k",
         |c, [first, last]| c.sum([first.min(1), last], |_| 1.0),
     ),
     Law::new(
-        &transport::ALBEDO_TWICE,
+        &integrator::ALBEDO_TWICE,
         "indirect bounce k is albedo^(k−1) of what it should be, in the colours of the surface",
         |c, rows| c.sum(rows, |bounce| c.albedo.powi(indirect(bounce))),
     ),
     Law::new(
-        &transport::ALBEDO_FORGOTTEN,
+        &integrator::ALBEDO_FORGOTTEN,
         "indirect bounce k is 1/albedo^(k−1) of what it should be, in the colours of the surface",
         |c, rows| c.sum(rows, |bounce| c.albedo.powi(-indirect(bounce))),
     ),
     Law::new(
-        &transport::WEIGHT_REPLACED,
+        &integrator::WEIGHT_REPLACED,
         "from bounce 3 on there is albedo² of what glows",
         |c, rows| c.sum(rows, |bounce| c.albedo.powi(-indirect(bounce.saturating_sub(1)))),
     ),
     Law::new(
-        &transport::GREY_THROUGHPUT,
+        &integrator::GREY_THROUGHPUT,
         "indirect bounce k is (luminance/albedo)^(k−1) of what it should be",
         |c, rows| c.sum(rows, |bounce| (c.luminance / c.albedo).powi(indirect(bounce))),
     ),
     Law::new(
-        &transport::GREY_THROUGHPUT,
+        &integrator::GREY_THROUGHPUT,
         "indirect bounce k is (mean albedo/albedo)^(k−1) of what it should be",
         |c, rows| c.sum(rows, |bounce| (c.mean / c.albedo).powi(indirect(bounce))),
     ),
-    Law::new(&transport::EMISSION_AGAIN, "every bounce is there twice", |c, rows| {
+    Law::new(&integrator::EMISSION_AGAIN, "every bounce is there twice", |c, rows| {
         c.sum(rows, |bounce| if bounce == 0 { 1.0 } else { 2.0 })
     })
     .with_direct(2.0),
     Law::new(
-        &transport::EMISSION_AGAIN,
+        &integrator::EMISSION_AGAIN,
         "every bounce from the second on is there twice",
         |c, rows| c.sum(rows, |bounce| if bounce < 2 { 1.0 } else { 2.0 }),
     ),
     Law::new(
-        &transport::EMISSION_AGAIN,
+        &integrator::EMISSION_AGAIN,
         "every bounce but the last of a sum is there twice",
         |c, [first, last]| {
             c.sum([first, last], |bounce| if bounce == 0 || bounce == last { 1.0 } else { 2.0 })
         },
     ),
-    Law::new(&transport::NO_INDIRECT, "from bounce 2 on there is nothing", |c, rows| {
+    Law::new(&integrator::NO_INDIRECT, "from bounce 2 on there is nothing", |c, rows| {
         c.sum(rows, |bounce| if bounce < 2 { 1.0 } else { 0.0 })
     }),
     Law::new(
-        &transport::INDIRECT_FOUR_THIRDS,
+        &integrator::INDIRECT_FOUR_THIRDS,
         "indirect bounce k is (4/3)^(k−1) of what it should be",
         |c, rows| c.sum(rows, |bounce| (4.0_f64 / 3.0).powi(indirect(bounce))),
     ),
     Law::new(
-        &transport::BOUNCE_TIMES_PDF,
+        &integrator::BOUNCE_TIMES_PDF,
         "indirect bounce k is (1/2π²)^(k−1) of what it should be",
         |c, rows| c.sum(rows, |bounce| TIMES_PDF.powi(indirect(bounce))),
     ),
     Law::new(
-        &transport::BOUNCE_WITHOUT_COSINE,
+        &integrator::BOUNCE_WITHOUT_COSINE,
         "indirect bounce k is 2^(k−1) of what it should be",
         |c, rows| c.sum(rows, |bounce| 2.0_f64.powi(indirect(bounce))),
     ),
-    Law::new(&transport::EMISSION_LOST, "sums lack bounce 0", |c, [first, last]| {
+    Law::new(&integrator::EMISSION_LOST, "sums lack bounce 0", |c, [first, last]| {
         if first == last { c.bounce(first) } else { c.sum([first.max(1), last], |_| 1.0) }
     }),
-    Law::new(&transport::LAST_BOUNCE_ONLY, "sums are their last bounce alone", |c, [_, last]| {
+    Law::new(&integrator::LAST_BOUNCE_ONLY, "sums are their last bounce alone", |c, [_, last]| {
         c.bounce(last)
     }),
 ];

@@ -8,7 +8,7 @@ use super::bounce_laws::{Channel, LAWS, Law, indirect};
 use super::evidence::measure;
 use super::readings::{Reading, channels, written};
 use super::{Evidence, Suspicion};
-use crate::cause::transport;
+use crate::cause::integrator;
 use crate::checks::Finding;
 use crate::image::CHANNELS;
 use crate::math::ratios::names_of;
@@ -167,7 +167,7 @@ impl Furnace {
         let mut indirect = isolated().filter(|row| row.bounces[0] > 1).peekable();
         let grey = indirect.peek().is_some() && indirect.all(|row| is_grey(&row.readings));
         (right && grey).then(|| Suspicion {
-            cause: &transport::BOUNCE_DIRECTIONS,
+            cause: &integrator::BOUNCE_DIRECTIONS,
             cases: vec![case.to_owned()],
             evidence: vec![self.table(), "the same in all colours, and no power of k".to_owned()],
             ruled_out: vec!["a wrong weight of bounces (it would be a power of k)".to_owned()],
@@ -182,8 +182,11 @@ impl Furnace {
         let named = names_of([low, high], &[]);
         let name = named.first().map(|name| format!("the factor a bounce is {}", name.name));
         let below_one = factor < 1.0 && name.is_none();
-        let cause =
-            if below_one { &transport::ROULETTE_NOT_DIVIDED } else { &transport::INDIRECT_FACTOR };
+        let cause = if below_one {
+            &integrator::ROULETTE_NOT_DIVIDED
+        } else {
+            &integrator::INDIRECT_FACTOR
+        };
         let mut evidence = vec![self.table(), fit];
         evidence.extend(name);
         Suspicion {
@@ -278,7 +281,7 @@ mod tests {
         let made = Made::new().with(FURNACES[0], furnace(rr));
         let diagnosis = diagnose(&made.evidence());
         let headline = &diagnosis.headlines[0];
-        assert_eq!(headline.cause.name, transport::ROULETTE_NOT_DIVIDED.name);
+        assert_eq!(headline.cause.name, integrator::ROULETTE_NOT_DIVIDED.name);
         assert!(headline.evidence[1].starts_with("bounce k is 0.700"), "{:?}", headline.evidence);
         assert!(headline.ruled_out[0].contains("coloured"));
     }
@@ -288,7 +291,7 @@ mod tests {
         let half = |c: &Channel, rows: [u32; 2]| c.sum(rows, |k| 0.5_f64.powi(indirect(k)));
         let diagnosis = diagnose(&Made::new().with(FURNACES[0], furnace(half)).evidence());
         let headline = &diagnosis.headlines[0];
-        assert_eq!(headline.cause.name, transport::INDIRECT_FACTOR.name);
+        assert_eq!(headline.cause.name, integrator::INDIRECT_FACTOR.name);
         assert!(headline.evidence.iter().any(|s| s.ends_with("is 1/2")), "{headline:?}");
     }
 

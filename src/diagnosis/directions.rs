@@ -4,7 +4,7 @@
 use super::bounces::{FURNACES, rows};
 use super::readings::channels;
 use super::{Evidence, Suspicion};
-use crate::cause::transport;
+use crate::cause::integrator;
 
 /// The cavity that sees directions, which a furnace cannot.
 const CAVITY: &str = "integrator/emissive-cap-matches-closed-form";
@@ -29,7 +29,7 @@ fn wrong_directions(evidence: &Evidence<'_>) -> Option<Suspicion> {
             .all(|reading| reading.admits(1.0))
     };
     (admits_one(1) && !admits_one(2)).then(|| Suspicion {
-        cause: &transport::BOUNCE_DIRECTIONS,
+        cause: &integrator::BOUNCE_DIRECTIONS,
         cases: vec![CAVITY.to_owned()],
         evidence: vec![
             "bounce 1 of the cavity is right and bounce 2 is not".to_owned(),
@@ -50,7 +50,7 @@ fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
     };
     let averages = [FURNACES[0], CAVITY].iter().all(|case| evidence.has_withstood(case));
     (averages && admits_one(1) && !admits_one(2)).then(|| Suspicion {
-        cause: &transport::BOUNCE_WORLD_COSINE,
+        cause: &integrator::BOUNCE_WORLD_COSINE,
         cases: std::iter::once(SIDE.to_owned()).chain(delta_cases(evidence)).collect(),
         evidence: vec![
             "at a wall that faces sideways bounce 1 is right and bounce 2 is not".to_owned(),
@@ -93,7 +93,7 @@ mod tests {
                 .with(SIDE, means(side.to_vec()))
         };
         let name = |made: Made| diagnose(&made.evidence()).first().map(|cause| cause.name);
-        assert_eq!(name(made(passing())), Some(transport::BOUNCE_WORLD_COSINE.name));
+        assert_eq!(name(made(passing())), Some(integrator::BOUNCE_WORLD_COSINE.name));
         assert_eq!(name(made(crate::diagnosis::testing::failing("too"))), None);
     }
 
@@ -103,6 +103,6 @@ mod tests {
         let measures = rows.map(|(row, ratio)| mean(&format!("{row}, red"), 0.2, ratio, 0.004));
         let made = Made::new().with(FURNACES[0], passing()).with(CAVITY, means(measures.into()));
         let name = diagnose(&made.evidence()).first().map(|cause| cause.name);
-        assert_eq!(name, Some(transport::BOUNCE_DIRECTIONS.name));
+        assert_eq!(name, Some(integrator::BOUNCE_DIRECTIONS.name));
     }
 }

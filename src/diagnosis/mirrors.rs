@@ -2,7 +2,7 @@
 
 use super::readings::Reading;
 use super::{Evidence, Suspicion};
-use crate::cause::transport;
+use crate::cause::integrator;
 use crate::checks::Finding;
 
 const MIRRORS: &str = "integrator/three-mirrors-multiply-their-reflectance";
@@ -26,7 +26,7 @@ pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
         return Vec::new();
     }
     vec![Suspicion {
-        cause: &transport::MIRROR_SHOWS_NO_LIGHT,
+        cause: &integrator::MIRROR_SHOWS_NO_LIGHT,
         cases,
         evidence: vec!["what glows is 0 of what it should be behind mirrors".to_owned()],
         ruled_out: vec!["a bounce short (the furnace is right)".to_owned()],
@@ -45,7 +45,7 @@ mod tests {
         let dark = || means(vec![mean("bounce 3, red", 0.5, 0.0, 1e-4)]);
         let made = Made::new().with(MIRRORS, dark()).with(FURNACE, passing());
         let found = diagnose(&made.evidence());
-        assert_eq!(found.first().map(|c| c.name), Some(transport::MIRROR_SHOWS_NO_LIGHT.name));
+        assert_eq!(found.first().map(|c| c.name), Some(integrator::MIRROR_SHOWS_NO_LIGHT.name));
         let dim = means(vec![mean("bounce 3, red", 0.5, 0.7, 1e-4)]);
         let made = Made::new().with(MIRRORS, dim).with(FURNACE, passing());
         assert_eq!(diagnose(&made.evidence()).first(), None);

@@ -197,7 +197,7 @@ fn quickest(evidence: &Evidence<'_>, cases: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use crate::case::Tier;
-    use crate::cause::{bsdf, bvh, light, shape, transport};
+    use crate::cause::{bsdf, bvh, integrator, light, shape};
     use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, failing, passing};
 
@@ -211,7 +211,7 @@ mod tests {
     fn failures_of_one_cause_are_one_headline_and_the_earliest_part_comes_first() {
         let without_pi = |name| failing(name).because(&bsdf::WITHOUT_PI, "3.142 times too bright");
         let made = Made::new()
-            .with("integrator/z", failing("z").because(&transport::ROULETTE_NOT_DIVIDED, "0.7"))
+            .with("integrator/z", failing("z").because(&integrator::ROULETTE_NOT_DIVIDED, "0.7"))
             .with("bsdf/a", without_pi("a"))
             .with("light/b", without_pi("b"))
             .with("light/c", failing("who knows"))
@@ -223,7 +223,7 @@ mod tests {
         assert_eq!(first.explains, ["bsdf/a", "light/b"]);
         assert_eq!(first.may_follow, ["light/c"], "an earlier failure does not follow from it");
         assert_eq!(first.blocked, 1);
-        assert_eq!(second.cause.name, transport::ROULETTE_NOT_DIVIDED.name);
+        assert_eq!(second.cause.name, integrator::ROULETTE_NOT_DIVIDED.name);
         assert_eq!(diagnosis.unexplained, ["camera/d"]);
     }
 

@@ -3,7 +3,7 @@
 use super::evidence::measure;
 use super::readings::{Reading, channels, written};
 use super::{Evidence, Suspicion};
-use crate::cause::{Cause, transport};
+use crate::cause::{Cause, integrator};
 use crate::checks::Finding;
 use crate::image::CHANNELS;
 
@@ -46,22 +46,22 @@ struct Law {
 
 static LAWS: &[Law] = &[
     Law {
-        cause: &transport::ROULETTE_NOT_DIVIDED,
+        cause: &integrator::ROULETTE_NOT_DIVIDED,
         words: "what survives n roulettes is survival^n of what it should be",
         factor: |play, bounce| (1.0 - play.stop).powi(play.played(bounce)),
     },
     Law {
-        cause: &transport::ROULETTE_DIVIDED_BY_STOP,
+        cause: &integrator::ROULETTE_DIVIDED_BY_STOP,
         words: "what survives n roulettes is (survival/stop)^n of what it should be",
         factor: |play, bounce| ((1.0 - play.stop) / play.stop).powi(play.played(bounce)),
     },
     Law {
-        cause: &transport::ROULETTE_DIVIDED_WHEN_GUARANTEED,
+        cause: &integrator::ROULETTE_DIVIDED_WHEN_GUARANTEED,
         words: "guaranteed bounces are 1/survival of what they should be",
         factor: |play, bounce| (1.0 - play.stop).powi(-play.spared(bounce)),
     },
     Law {
-        cause: &transport::ROULETTE_STOPS_DIRECT,
+        cause: &integrator::ROULETTE_STOPS_DIRECT,
         words: "the light of each bounce is survival of what it should be where roulette was played at its vertex",
         factor: |play, bounce| {
             let at_vertex = bounce > play.guaranteed;

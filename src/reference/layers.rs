@@ -4,7 +4,7 @@
 use super::make::{Plan, remove};
 use super::sums::Sums;
 use super::{Listener, MakeError, MitsubaOptions, References, environment};
-use crate::checks::picture::first_hits;
+use crate::checks::shape::first_hits;
 use crate::image::pair::Plane;
 use crate::image::{Image, luminance};
 use crate::scene::SceneDescription;

@@ -1,7 +1,7 @@
 //! The stopping rule on streams whose count is known, without any picture.
 
 use super::rule::{Rule, Sums, WRONG_RULES, stops};
-use crate::cause::{Cause, adaptive, picture};
+use crate::cause::{Cause, adaptive, image};
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{AdaptiveMean, AdaptiveSettings, Capabilities};
@@ -75,14 +75,14 @@ const MISTAKES: &[Mistake] = &[
         answers: |stream| scaled(stream, |used, cap| used / cap),
     },
     Mistake {
-        cause: &picture::DIVIDED_BY_ONE_MORE,
+        cause: &image::DIVIDED_BY_ONE_MORE,
         answers: |stream| scaled(stream, |used, _| used / (used + 1.0)),
     },
     Mistake {
         cause: &adaptive::DIVIDED_BY_ONE_LESS,
         answers: |stream| scaled(stream, |used, _| used / (used - 1.0)),
     },
-    Mistake { cause: &picture::NOT_DIVIDED, answers: |stream| scaled(stream, |used, _| used) },
+    Mistake { cause: &image::NOT_DIVIDED, answers: |stream| scaled(stream, |used, _| used) },
     Mistake { cause: &adaptive::COUNTS_ARE_CAP, answers: |stream| reported(stream, stream.cap) },
     Mistake {
         cause: &adaptive::LAST_BATCH_NOT_COUNTED,

@@ -4,8 +4,8 @@
 //! is seen has to have the radiance that its distance and its angle say. A dark one lies in its own shadow.
 
 use crate::cause::{Cause, bsdf, light as cause};
+use crate::checks::integrator::settings;
 use crate::checks::phrase::{figure, percent, some_are, worst_measure};
-use crate::checks::transport::settings;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
 use crate::contract::{Acceleration, Capabilities, DirectSampling, Falloff, Hit, Ray};
 use crate::image::CHANNELS;

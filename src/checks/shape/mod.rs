@@ -1,4 +1,4 @@
-//! Rays against single primitives and boxes.
+//! Rays against single primitives, and what a camera ray hits first.
 
 mod agrees_with_exact_arithmetic;
 mod degenerate_triangles;
@@ -7,20 +7,19 @@ mod exact_triangle;
 #[cfg(test)]
 mod fake;
 mod far_spheres;
+mod first_hits;
 mod hits_primitive;
 mod imitation;
 mod leaves_its_surface;
-mod overlaps_box;
-mod random_boxes;
+mod no_ray_leaks;
 mod shared_edges;
-mod slabs;
 
 pub use agrees_with_exact_arithmetic::AgreesWithExactArithmetic;
 pub use degenerate_triangles::DegenerateTriangles;
 pub use far_spheres::FarSpheres;
+pub use first_hits::{FirstHits, first_hits};
 pub use hits_primitive::HitsPrimitive;
 pub(in crate::checks) use imitation::{Answer, intersection};
 pub use leaves_its_surface::LeavesItsSurface;
-pub use overlaps_box::OverlapsBox;
-pub use random_boxes::BoxesAreNeverMissed;
+pub use no_ray_leaks::NoRayLeaks;
 pub use shared_edges::SharedEdges;

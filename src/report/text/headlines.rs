@@ -43,7 +43,7 @@ fn block(core: &str, headline: &Headline, style: Style) -> Vec<String> {
         lines.extend(labelled("not", ruled_out));
     }
     lines.extend(labelled("where", headline.cause.look_at));
-    lines.extend(labelled("instead", headline.cause.remedy));
+    lines.extend(labelled("instead", headline.cause.fix));
     lines.push(format!("{:INDENT$}try     {}", "", clean(&headline.command)));
     lines
 }

@@ -1,7 +1,7 @@
 //! Part 5: adaptive sampling and random numbers.
 
 use super::Fault;
-use crate::cause::{adaptive, picture, seed, variance};
+use crate::cause::{adaptive, image, integrator};
 use crate::cores::textbook::change::Change;
 
 const NOISE: &str = "integrator/reported-variance-matches-the-noise";
@@ -103,7 +103,7 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "the loop's counter is one past the samples",
         caught_by: STREAMS,
-        cause: &picture::DIVIDED_BY_ONE_MORE,
+        cause: &image::DIVIDED_BY_ONE_MORE,
     },
     Fault {
         change: Change::CountsAreCap,
@@ -135,7 +135,7 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "the variance beside the picture is over n − 1, and not over n again",
         caught_by: NOISE,
-        cause: &variance::VARIANCE_OF_SAMPLE,
+        cause: &adaptive::VARIANCE_OF_SAMPLE,
     },
     Fault {
         change: Change::VarianceDividedTwice,
@@ -143,7 +143,7 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "the variance beside the picture is divided by n twice",
         caught_by: NOISE,
-        cause: &variance::DIVIDED_TWICE,
+        cause: &adaptive::DIVIDED_TWICE,
     },
     Fault {
         change: Change::DeviationReported,
@@ -151,7 +151,7 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "σ/√n stands beside the picture, its square belongs there",
         caught_by: NOISE,
-        cause: &variance::DEVIATION_REPORTED,
+        cause: &adaptive::DEVIATION_REPORTED,
     },
     Fault {
         change: Change::SquaresReported,
@@ -159,7 +159,7 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "Welford's M2 stands beside the picture as it is",
         caught_by: NOISE,
-        cause: &variance::SQUARES_REPORTED,
+        cause: &adaptive::SQUARES_REPORTED,
     },
     Fault {
         change: Change::SquaresInSingle,
@@ -167,7 +167,7 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "s1 and s2 of a pixel are floats",
         caught_by: NOISE,
-        cause: &variance::SQUARES_CANCEL,
+        cause: &adaptive::SQUARES_CANCEL,
     },
     Fault {
         change: Change::SeedIgnored,
@@ -175,7 +175,7 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "the generator has a fixed seed",
         caught_by: "integrator/seeds-and-pixels-have-different-noise",
-        cause: &seed::SEED_IGNORED,
+        cause: &integrator::SEED_IGNORED,
     },
     Fault {
         change: Change::SeedOfClock,
@@ -183,7 +183,7 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "the generator is seeded by the clock",
         caught_by: "integrator/same-seed-gives-the-same-image",
-        cause: &seed::NOT_REPRODUCIBLE,
+        cause: &integrator::NOT_REPRODUCIBLE,
     },
     Fault {
         change: Change::SamePixelNoise,
@@ -191,7 +191,7 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "every pixel seeds the same stream",
         caught_by: "integrator/seeds-and-pixels-have-different-noise",
-        cause: &seed::PIXELS_SHARE_NOISE,
+        cause: &integrator::PIXELS_SHARE_NOISE,
     },
     Fault {
         change: Change::SampleRepeated,
@@ -199,6 +199,6 @@ pub const FAULTS: &[Fault] = &[
         part: 5,
         summary: "every sample of a pixel seeds the same stream",
         caught_by: "integrator/error-falls-as-one-over-root-n",
-        cause: &seed::SAMPLES_REPEAT,
+        cause: &integrator::SAMPLES_REPEAT,
     },
 ];

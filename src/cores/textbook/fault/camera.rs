@@ -1,7 +1,7 @@
 //! Part 1: camera rays and the samples of a pixel.
 
 use super::Fault;
-use crate::cause::{camera, picture, pixel};
+use crate::cause::{camera, image};
 use crate::cores::textbook::change::Change;
 
 const STRATA: &str = "camera/stratified-samples-fill-every-stratum";
@@ -103,7 +103,7 @@ pub const FAULTS: &[Fault] = &[
         part: 1,
         summary: "the corner of the pixel in place of a random point of it",
         caught_by: "camera/pixel-samples-are-uniform",
-        cause: &pixel::PIXEL_CORNER,
+        cause: &camera::PIXEL_CORNER,
     },
     Fault {
         change: Change::HalfPixelAdded,
@@ -111,7 +111,7 @@ pub const FAULTS: &[Fault] = &[
         part: 1,
         summary: "half a pixel is added to points that are random in it already",
         caught_by: "camera/pixel-samples-are-uniform",
-        cause: &pixel::HALF_A_PIXEL,
+        cause: &camera::HALF_A_PIXEL,
     },
     Fault {
         change: Change::HalfPixelBothWays,
@@ -127,7 +127,7 @@ pub const FAULTS: &[Fault] = &[
         part: 1,
         summary: "the sum of a pixel's samples is not divided by their number",
         caught_by: "camera/constant-radiance-gives-a-constant-image",
-        cause: &picture::NOT_DIVIDED,
+        cause: &image::NOT_DIVIDED,
     },
     Fault {
         change: Change::PictureUpsideDown,
@@ -135,7 +135,7 @@ pub const FAULTS: &[Fault] = &[
         part: 1,
         summary: "rows of the picture are counted from the bottom",
         caught_by: "camera/image-is-upright-and-not-mirrored",
-        cause: &picture::UPSIDE_DOWN,
+        cause: &image::UPSIDE_DOWN,
     },
     Fault {
         change: Change::StrataIgnored,
@@ -143,7 +143,7 @@ pub const FAULTS: &[Fault] = &[
         part: 1,
         summary: "samples are called stratified, and each is a random point of the pixel",
         caught_by: STRATA,
-        cause: &pixel::STRATA_IGNORED,
+        cause: &camera::STRATA_IGNORED,
     },
     Fault {
         change: Change::StrataOnDiagonal,
@@ -151,7 +151,7 @@ pub const FAULTS: &[Fault] = &[
         part: 1,
         summary: "column and row of the cell are both i % k",
         caught_by: STRATA,
-        cause: &pixel::STRATA_UNEVEN,
+        cause: &camera::STRATA_UNEVEN,
     },
     Fault {
         change: Change::StratumCentre,
@@ -159,7 +159,7 @@ pub const FAULTS: &[Fault] = &[
         part: 1,
         summary: "the middle of the cell in place of a random point of it",
         caught_by: STRATA,
-        cause: &pixel::STRATUM_CENTRE,
+        cause: &camera::STRATUM_CENTRE,
     },
     Fault {
         change: Change::StratumHalf,
@@ -167,6 +167,6 @@ pub const FAULTS: &[Fault] = &[
         part: 1,
         summary: "the jitter is divided by k twice: it covers half of the cell",
         caught_by: STRATA,
-        cause: &pixel::STRATUM_HALF,
+        cause: &camera::STRATUM_HALF,
     },
 ];

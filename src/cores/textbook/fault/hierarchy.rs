@@ -1,7 +1,7 @@
 //! Part 2: box, build, traversal.
 
 use super::Fault;
-use crate::cause::{bvh, slab};
+use crate::cause::bvh;
 use crate::cores::textbook::change::Change;
 
 const BOX: &str = "bvh/ray-box-overlap-is-right";
@@ -21,7 +21,7 @@ pub const FAULTS: &[Fault] = &[
         part: 2,
         summary: "t0 and t1 are not swapped for negative directions",
         caught_by: BOX,
-        cause: &slab::PLANES_NOT_SWAPPED,
+        cause: &bvh::PLANES_NOT_SWAPPED,
     },
     Fault {
         change: Change::BoxSegmentIgnored,
@@ -29,7 +29,7 @@ pub const FAULTS: &[Fault] = &[
         part: 2,
         summary: "min_t and max_t are not looked at",
         caught_by: BOX,
-        cause: &slab::BOX_SEGMENT_IGNORED,
+        cause: &bvh::BOX_SEGMENT_IGNORED,
     },
     Fault {
         change: Change::BoxMissedFromInside,
@@ -37,7 +37,7 @@ pub const FAULTS: &[Fault] = &[
         part: 2,
         summary: "t0 < min_t is rejected: a ray from inside misses",
         caught_by: BOX,
-        cause: &slab::BOX_MISSED_FROM_INSIDE,
+        cause: &bvh::BOX_MISSED_FROM_INSIDE,
     },
     Fault {
         change: Change::BoxMissedByEndInside,
@@ -45,7 +45,7 @@ pub const FAULTS: &[Fault] = &[
         part: 2,
         summary: "t1 > max_t is rejected: a ray that ends inside misses",
         caught_by: BOX,
-        cause: &slab::BOX_MISSED_BY_END_INSIDE,
+        cause: &bvh::BOX_MISSED_BY_END_INSIDE,
     },
     Fault {
         change: Change::FlatBoxMissed,
@@ -53,7 +53,7 @@ pub const FAULTS: &[Fault] = &[
         part: 2,
         summary: "t0 < t1 is asked for: flat boxes are missed",
         caught_by: FLAT_BOX,
-        cause: &slab::FLAT_BOX_MISSED,
+        cause: &bvh::FLAT_BOX_MISSED,
     },
     Fault {
         change: Change::ParallelAxesSkipped,
@@ -61,7 +61,7 @@ pub const FAULTS: &[Fault] = &[
         part: 2,
         summary: "an axis on which the direction is 0 is not looked at",
         caught_by: BOX,
-        cause: &slab::PARALLEL_AXES_SKIPPED,
+        cause: &bvh::PARALLEL_AXES_SKIPPED,
     },
     Fault {
         change: Change::BoxWithoutZ,
@@ -69,7 +69,7 @@ pub const FAULTS: &[Fault] = &[
         part: 2,
         summary: "the z axis is left out",
         caught_by: BOX,
-        cause: &slab::BOX_WITHOUT_Z,
+        cause: &bvh::BOX_WITHOUT_Z,
     },
     Fault {
         change: Change::NodeBoxOfCentroids,

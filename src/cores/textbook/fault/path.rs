@@ -1,7 +1,7 @@
 //! Part 4: paths of many bounces.
 
 use super::Fault;
-use crate::cause::transport;
+use crate::cause::integrator;
 use crate::cores::textbook::change::Change;
 
 const FURNACE: &str = "integrator/furnace-matches-geometric-series";
@@ -15,7 +15,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "-m N shows N − 1 bounces",
         caught_by: FURNACE,
-        cause: &transport::ONE_BOUNCE_SHORT,
+        cause: &integrator::ONE_BOUNCE_SHORT,
     },
     Fault {
         change: Change::DepthIgnored,
@@ -23,7 +23,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "`depth − 1` of an unsigned 0: the limit is never met (24 bounces here)",
         caught_by: FURNACE,
-        cause: &transport::DEPTH_IGNORED,
+        cause: &integrator::DEPTH_IGNORED,
     },
     Fault {
         change: Change::FirstBounceOnly,
@@ -31,7 +31,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "est_radiance calls one_bounce only",
         caught_by: FURNACE,
-        cause: &transport::NO_INDIRECT,
+        cause: &integrator::NO_INDIRECT,
     },
     Fault {
         change: Change::ZeroDepthLit,
@@ -39,7 +39,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "-m 0 shows direct light",
         caught_by: FURNACE,
-        cause: &transport::ZERO_DEPTH_LIT,
+        cause: &integrator::ZERO_DEPTH_LIT,
     },
     Fault {
         change: Change::EmissionForgotten,
@@ -47,7 +47,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "with bounces, what glows by itself is left out",
         caught_by: FURNACE,
-        cause: &transport::EMISSION_LOST,
+        cause: &integrator::EMISSION_LOST,
     },
     Fault {
         change: Change::EmissionEveryBounce,
@@ -55,7 +55,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "zero_bounce in the recursion, on top of light sampling",
         caught_by: FURNACE,
-        cause: &transport::EMISSION_AGAIN,
+        cause: &integrator::EMISSION_AGAIN,
     },
     Fault {
         change: Change::EmissionMissedInMirror,
@@ -63,7 +63,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "what glows is not added after a mirror",
         caught_by: "integrator/three-mirrors-multiply-their-reflectance",
-        cause: &transport::MIRROR_SHOWS_NO_LIGHT,
+        cause: &integrator::MIRROR_SHOWS_NO_LIGHT,
     },
     Fault {
         change: Change::IsolationIgnored,
@@ -71,7 +71,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "-o 0 has no effect: bounces before the one asked for remain",
         caught_by: FURNACE,
-        cause: &transport::ISOLATION_IGNORED,
+        cause: &integrator::ISOLATION_IGNORED,
     },
     Fault {
         change: Change::DirectOnlyWithBounce,
@@ -79,7 +79,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "direct light is added only if the bounce hits something",
         caught_by: "integrator/plane-under-environment-has-one-bounce",
-        cause: &transport::DIRECT_ONLY_WITH_BOUNCE,
+        cause: &integrator::DIRECT_ONLY_WITH_BOUNCE,
     },
     Fault {
         change: Change::ThroughputReplaced,
@@ -87,7 +87,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "throughput = weight, not *=",
         caught_by: FURNACE,
-        cause: &transport::WEIGHT_REPLACED,
+        cause: &integrator::WEIGHT_REPLACED,
     },
     Fault {
         change: Change::ThroughputGrey,
@@ -95,7 +95,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "the weight of a bounce is averaged over the channels",
         caught_by: FURNACE,
-        cause: &transport::GREY_THROUGHPUT,
+        cause: &integrator::GREY_THROUGHPUT,
     },
     Fault {
         change: Change::BounceTimesPdf,
@@ -103,7 +103,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "a bounce is weighted with f cos θ · pdf",
         caught_by: FURNACE,
-        cause: &transport::BOUNCE_TIMES_PDF,
+        cause: &integrator::BOUNCE_TIMES_PDF,
     },
     Fault {
         change: Change::BounceWithoutCosine,
@@ -111,7 +111,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "a bounce is weighted with f/pdf",
         caught_by: FURNACE,
-        cause: &transport::BOUNCE_WITHOUT_COSINE,
+        cause: &integrator::BOUNCE_WITHOUT_COSINE,
     },
     Fault {
         change: Change::BounceWorldCosine,
@@ -119,7 +119,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "the cosine of a bounce is wi.z in the world",
         caught_by: "integrator/radiosity-is-the-same-at-every-orientation",
-        cause: &transport::BOUNCE_WORLD_COSINE,
+        cause: &integrator::BOUNCE_WORLD_COSINE,
     },
     Fault {
         change: Change::BounceLocalDirection,
@@ -127,7 +127,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "the bounce is traced in its local direction: o2w is forgotten",
         caught_by: "integrator/emissive-cap-matches-closed-form",
-        cause: &transport::BOUNCE_DIRECTIONS,
+        cause: &integrator::BOUNCE_DIRECTIONS,
     },
     Fault {
         change: Change::RouletteNotDivided,
@@ -135,7 +135,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "who survives roulette is not divided by the probability",
         caught_by: ROULETTE,
-        cause: &transport::ROULETTE_NOT_DIVIDED,
+        cause: &integrator::ROULETTE_NOT_DIVIDED,
     },
     Fault {
         change: Change::RouletteDividedByStop,
@@ -143,7 +143,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "who survives is divided by the probability of stopping",
         caught_by: ROULETTE,
-        cause: &transport::ROULETTE_DIVIDED_BY_STOP,
+        cause: &integrator::ROULETTE_DIVIDED_BY_STOP,
     },
     Fault {
         change: Change::RouletteDividedAlways,
@@ -151,7 +151,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "the forced first bounce is divided too",
         caught_by: ROULETTE,
-        cause: &transport::ROULETTE_DIVIDED_WHEN_GUARANTEED,
+        cause: &integrator::ROULETTE_DIVIDED_WHEN_GUARANTEED,
     },
     Fault {
         change: Change::RouletteStopsDirect,
@@ -159,6 +159,6 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "roulette is played before direct light is added",
         caught_by: ROULETTE,
-        cause: &transport::ROULETTE_STOPS_DIRECT,
+        cause: &integrator::ROULETTE_STOPS_DIRECT,
     },
 ];

@@ -1,6 +1,6 @@
 //! The slab test of the textbook, and the ways in which people write it wrongly.
 
-use crate::cause::{Cause, slab};
+use crate::cause::{Cause, bvh};
 use crate::checks::Finding;
 use crate::contract::Ray;
 #[cfg(test)]
@@ -83,36 +83,36 @@ struct Conclusion {
 }
 
 const CROSSINGS: &[Crossing] = &[
-    Crossing { cause: &slab::PLANES_NOT_SWAPPED, span: |slabs| slabs.span_not_swapped() },
+    Crossing { cause: &bvh::PLANES_NOT_SWAPPED, span: |slabs| slabs.span_not_swapped() },
     Crossing {
-        cause: &slab::PARALLEL_AXES_SKIPPED,
+        cause: &bvh::PARALLEL_AXES_SKIPPED,
         span: |slabs| slabs.without_parallel_axes().span(),
     },
-    Crossing { cause: &slab::BOX_WITHOUT_Z, span: |slabs| slabs.without_axis(2).span() },
-    Crossing { cause: &slab::BOX_WITHOUT_Y, span: |slabs| slabs.without_axis(1).span() },
-    Crossing { cause: &slab::BOX_WITHOUT_X, span: |slabs| slabs.without_axis(0).span() },
+    Crossing { cause: &bvh::BOX_WITHOUT_Z, span: |slabs| slabs.without_axis(2).span() },
+    Crossing { cause: &bvh::BOX_WITHOUT_Y, span: |slabs| slabs.without_axis(1).span() },
+    Crossing { cause: &bvh::BOX_WITHOUT_X, span: |slabs| slabs.without_axis(0).span() },
 ];
 
 const CONCLUSIONS: &[Conclusion] = &[
-    Conclusion { cause: &slab::BOX_SEGMENT_IGNORED, hits: |span, _| span.is_proper() },
+    Conclusion { cause: &bvh::BOX_SEGMENT_IGNORED, hits: |span, _| span.is_proper() },
     Conclusion {
-        cause: &slab::BOX_START_IGNORED,
+        cause: &bvh::BOX_START_IGNORED,
         hits: |span, ray| span.is_proper() && span.enters <= ray.t_max,
     },
     Conclusion {
-        cause: &slab::BOX_END_IGNORED,
+        cause: &bvh::BOX_END_IGNORED,
         hits: |span, ray| span.is_proper() && span.exits >= ray.t_min,
     },
     Conclusion {
-        cause: &slab::BOX_MISSED_FROM_INSIDE,
+        cause: &bvh::BOX_MISSED_FROM_INSIDE,
         hits: |span, ray| span.hits(ray) && span.enters >= ray.t_min,
     },
     Conclusion {
-        cause: &slab::BOX_MISSED_BY_END_INSIDE,
+        cause: &bvh::BOX_MISSED_BY_END_INSIDE,
         hits: |span, ray| span.hits(ray) && span.exits <= ray.t_max,
     },
     Conclusion {
-        cause: &slab::FLAT_BOX_MISSED,
+        cause: &bvh::FLAT_BOX_MISSED,
         hits: |span, ray| span.hits(ray) && span.enters < span.exits,
     },
 ];

@@ -237,7 +237,7 @@ impl Overlap {
 mod tests {
     use super::super::slabs::{Boxes, Slabs, pairs_of_mistakes, single_mistakes};
     use super::*;
-    use crate::cause::slab;
+    use crate::cause::bvh;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     const CASES: [&str; 3] = [
@@ -274,8 +274,8 @@ mod tests {
     #[test]
     fn two_mistakes_are_told_together() {
         let wrong = pairs_of_mistakes().find(|wrong| {
-            wrong.cause == &slab::BOX_SEGMENT_IGNORED
-                && wrong.besides == Some(&slab::PARALLEL_AXES_SKIPPED)
+            wrong.cause == &bvh::BOX_SEGMENT_IGNORED
+                && wrong.besides == Some(&bvh::PARALLEL_AXES_SKIPPED)
         });
         let finding = found(0, {
             let wrong = wrong.unwrap();

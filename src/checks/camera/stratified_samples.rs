@@ -3,7 +3,7 @@
 
 use super::pattern::FILM;
 use super::strata_pattern::{Reading, SAMPLES, STRATA, law, places, read, scene};
-use crate::cause::{Cause, pixel};
+use crate::cause::{Cause, camera};
 use crate::checks::phrase::{percent, would_have_caught};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -178,12 +178,12 @@ fn mistake(all: &Tally, report: Option<&CountReport>) -> Option<(&'static Cause,
     if counts.cells[4] == counts.total() {
         let evidence =
             format!("all {} samples lie in the middle ninth of their cells", counts.total());
-        return Some((&pixel::STRATUM_CENTRE, evidence));
+        return Some((&camera::STRATUM_CENTRE, evidence));
     }
     let halves = [[0.0, 0.5], [0.25, 0.75], [0.5, 1.0]];
     let [from, to] = halves.into_iter().find(|half| follows_law(&law(*half), &counts))?;
     let evidence = format!("from {from} to {to} of a cell predicts the counts of all its ninths");
-    Some((&pixel::STRATUM_HALF, evidence))
+    Some((&camera::STRATUM_HALF, evidence))
 }
 
 fn uneven_mistake(all: &Tally) -> Option<(&'static Cause, String)> {
@@ -194,11 +194,11 @@ fn uneven_mistake(all: &Tally) -> Option<(&'static Cause, String)> {
     if (even - EVEN_BY_CHANCE).abs() <= EXPLAINED {
         let (chance, found) = (percent(EVEN_BY_CHANCE), percent(even));
         let evidence = format!("{found} of the pixels are even, {chance} would be by chance");
-        return Some((&pixel::STRATA_IGNORED, evidence));
+        return Some((&camera::STRATA_IGNORED, evidence));
     }
     let pattern = all.pattern.filter(|_| all.one_pattern)?;
     let evidence = format!("the four cells of every pixel have {pattern:?} samples");
-    Some((&pixel::STRATA_UNEVEN, evidence))
+    Some((&camera::STRATA_UNEVEN, evidence))
 }
 
 #[cfg(test)]
@@ -232,12 +232,12 @@ mod tests {
     #[test]
     fn every_mistake_fails_under_its_own_name() {
         let mistakes: [(Arrange, &Cause); 6] = [
-            (|_, u| u, &pixel::STRATA_IGNORED),
-            (|number, u| cell(3 * (number % 2), u), &pixel::STRATA_UNEVEN),
-            (|number, u| cell(2 * (number % 2), u), &pixel::STRATA_UNEVEN),
-            (|number, _| cell(number, DVec2::splat(0.5)), &pixel::STRATUM_CENTRE),
-            (|number, u| cell(number, 0.5 * u), &pixel::STRATUM_HALF),
-            (|number, u| cell(number, 0.5 * u + 0.25), &pixel::STRATUM_HALF),
+            (|_, u| u, &camera::STRATA_IGNORED),
+            (|number, u| cell(3 * (number % 2), u), &camera::STRATA_UNEVEN),
+            (|number, u| cell(2 * (number % 2), u), &camera::STRATA_UNEVEN),
+            (|number, _| cell(number, DVec2::splat(0.5)), &camera::STRATUM_CENTRE),
+            (|number, u| cell(number, 0.5 * u), &camera::STRATUM_HALF),
+            (|number, u| cell(number, 0.5 * u + 0.25), &camera::STRATUM_HALF),
         ];
         for (arrange, cause) in mistakes {
             let finding = found(arrange);

@@ -1,7 +1,7 @@
 //! A picture of four colours, one in each quarter: where they come out says which way the picture
 //! is stored.
 
-use crate::cause::{Cause, picture};
+use crate::cause::{Cause, image};
 use crate::checks::phrase::{figure, some_are, worst_measure};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding};
@@ -124,7 +124,7 @@ impl PictureOrientation {
         };
         if self.clear_pixels().all(swapped) {
             let evidence = "predicts the colour of every pixel";
-            finding = finding.because(&picture::CHANNELS_SWAPPED, evidence);
+            finding = finding.because(&image::CHANNELS_SWAPPED, evidence);
         }
         finding
     }
@@ -138,18 +138,15 @@ struct Displacement {
 }
 
 const DISPLACEMENTS: &[Displacement] = &[
+    Displacement { cause: &image::UPSIDE_DOWN, source: |[x, y], [_, height]| [x, height - 1 - y] },
+    Displacement { cause: &image::MIRRORED, source: |[x, y], [width, _]| [width - 1 - x, y] },
     Displacement {
-        cause: &picture::UPSIDE_DOWN,
-        source: |[x, y], [_, height]| [x, height - 1 - y],
-    },
-    Displacement { cause: &picture::MIRRORED, source: |[x, y], [width, _]| [width - 1 - x, y] },
-    Displacement {
-        cause: &picture::TURNED,
+        cause: &image::TURNED,
         source: |[x, y], [width, height]| [width - 1 - x, height - 1 - y],
     },
     // Stored at x · height + y.
     Displacement {
-        cause: &picture::TRANSPOSED,
+        cause: &image::TRANSPOSED,
         source: |[x, y], [width, height]| {
             let index = y * width + x;
             [index / height, index % height]
@@ -157,13 +154,13 @@ const DISPLACEMENTS: &[Displacement] = &[
     },
     // Seen through (y, x) of the film: from its bottom left, and from its top left.
     Displacement {
-        cause: &picture::TRANSPOSED,
+        cause: &image::TRANSPOSED,
         source: |[x, y], [width, height]| {
             [(height - 1 - y) * width / height, (width - 1 - x) * height / width]
         },
     },
     Displacement {
-        cause: &picture::TRANSPOSED,
+        cause: &image::TRANSPOSED,
         source: |[x, y], [width, height]| [y * width / height, x * height / width],
     },
 ];

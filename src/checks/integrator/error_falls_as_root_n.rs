@@ -147,7 +147,7 @@ fn finding(report: &SlopeReport) -> Finding {
     };
     let resolution = format!("would have caught a slope that is off by {:.3}", report.resolution);
     let repeats = report.verdict == Verdict::Fail && report.slope.abs() <= NO_SLOPE;
-    let cause = repeats.then_some(&cause::seed::SAMPLES_REPEAT);
+    let cause = repeats.then_some(&cause::integrator::SAMPLES_REPEAT);
     let evidence = format!("more samples change nothing: the slope is {:.3}", report.slope);
     Finding::of(statement, resolution, vec![slope]).because_each(cause, &evidence)
 }
@@ -158,7 +158,7 @@ const NO_SLOPE: f64 = 0.05;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::film::fake::FakeFilm;
+    use crate::checks::camera::fake::FakeFilm;
     use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
     use crate::scene::SceneDescription;
     use crate::stats::Budget;
@@ -202,7 +202,7 @@ mod tests {
     #[test]
     fn samples_that_change_nothing_are_named() {
         let first = FakeFilm { samples_used: |_| 1, ..FakeFilm::default() };
-        assert_eq!(found(first).clues[0].cause, cause::seed::SAMPLES_REPEAT.name);
+        assert_eq!(found(first).clues[0].cause, cause::integrator::SAMPLES_REPEAT.name);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! shows of that.
 
 use super::pattern::{CELLS, Decoded, FILM, SAMPLES, cell_at, decode, is_lit};
-use crate::cause::{Cause, pixel};
+use crate::cause::{Cause, camera};
 use glam::DVec2;
 
 /// Where a sample with two uniform numbers lies, in pixels from the top left corner of its own.
@@ -22,25 +22,25 @@ const fn mistake(cause: &'static Cause, law: Law) -> PixelMistake {
 
 /// Each shows another pattern than the rest.
 pub const MISTAKES: &[PixelMistake] = &[
-    mistake(&pixel::PIXEL_CENTRE, |_| DVec2::splat(0.5)),
-    mistake(&pixel::PIXEL_CORNER, |_| DVec2::ZERO),
-    mistake(&pixel::HALF_A_PIXEL, |u| u + 0.5),
-    mistake(&pixel::HALF_A_PIXEL, |u| u - 0.5),
-    mistake(&pixel::HALF_A_PIXEL, |u| u + DVec2::new(0.5, -0.5)),
-    mistake(&pixel::HALF_A_PIXEL, |u| u + DVec2::new(-0.5, 0.5)),
-    mistake(&pixel::WHOLE_PIXEL, |u| u + DVec2::X),
-    mistake(&pixel::WHOLE_PIXEL, |u| u - DVec2::X),
-    mistake(&pixel::WHOLE_PIXEL, |u| u + DVec2::Y),
-    mistake(&pixel::WHOLE_PIXEL, |u| u - DVec2::Y),
-    mistake(&pixel::JITTER_TOO_NARROW, |u| 0.5 * u),
-    mistake(&pixel::JITTER_TOO_NARROW, |u| 0.5 * u + 0.25),
-    mistake(&pixel::JITTER_TOO_WIDE, |u| 2.0 * u),
-    mistake(&pixel::JITTER_TOO_WIDE, |u| 2.0 * u - 0.5),
-    mistake(&pixel::JITTER_TOO_WIDE, |u| 2.0 * u - 1.0),
-    mistake(&pixel::JITTER_TOO_WIDE, |u| DVec2::new(tent(u.x), tent(u.y))),
-    mistake(&pixel::ONE_NUMBER_TWICE, |u| DVec2::splat(u.x)),
-    mistake(&pixel::ONE_AXIS_ONLY, |u| DVec2::new(u.x, 0.5)),
-    mistake(&pixel::ONE_AXIS_ONLY, |u| DVec2::new(0.5, u.y)),
+    mistake(&camera::PIXEL_CENTRE, |_| DVec2::splat(0.5)),
+    mistake(&camera::PIXEL_CORNER, |_| DVec2::ZERO),
+    mistake(&camera::HALF_A_PIXEL, |u| u + 0.5),
+    mistake(&camera::HALF_A_PIXEL, |u| u - 0.5),
+    mistake(&camera::HALF_A_PIXEL, |u| u + DVec2::new(0.5, -0.5)),
+    mistake(&camera::HALF_A_PIXEL, |u| u + DVec2::new(-0.5, 0.5)),
+    mistake(&camera::WHOLE_PIXEL, |u| u + DVec2::X),
+    mistake(&camera::WHOLE_PIXEL, |u| u - DVec2::X),
+    mistake(&camera::WHOLE_PIXEL, |u| u + DVec2::Y),
+    mistake(&camera::WHOLE_PIXEL, |u| u - DVec2::Y),
+    mistake(&camera::JITTER_TOO_NARROW, |u| 0.5 * u),
+    mistake(&camera::JITTER_TOO_NARROW, |u| 0.5 * u + 0.25),
+    mistake(&camera::JITTER_TOO_WIDE, |u| 2.0 * u),
+    mistake(&camera::JITTER_TOO_WIDE, |u| 2.0 * u - 0.5),
+    mistake(&camera::JITTER_TOO_WIDE, |u| 2.0 * u - 1.0),
+    mistake(&camera::JITTER_TOO_WIDE, |u| DVec2::new(tent(u.x), tent(u.y))),
+    mistake(&camera::ONE_NUMBER_TWICE, |u| DVec2::splat(u.x)),
+    mistake(&camera::ONE_AXIS_ONLY, |u| DVec2::new(u.x, 0.5)),
+    mistake(&camera::ONE_AXIS_ONLY, |u| DVec2::new(0.5, u.y)),
 ];
 
 /// The tent filter of smallpt: of two pixels' width, around the middle.

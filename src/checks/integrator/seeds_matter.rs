@@ -61,9 +61,9 @@ fn cause(measures: &[Measure], pictures: usize) -> Option<&'static Cause> {
     let is_shared =
         |measure: &Measure| measure.verdict == Verdict::Fail && measure.measured >= SHARED;
     if equal.verdict == Verdict::Fail && equal.measured as usize == pictures - 1 {
-        Some(&cause::seed::SEED_IGNORED)
+        Some(&cause::integrator::SEED_IGNORED)
     } else if is_shared(beside) && is_shared(above) {
-        Some(&cause::seed::PIXELS_SHARE_NOISE)
+        Some(&cause::integrator::PIXELS_SHARE_NOISE)
     } else {
         None
     }
@@ -161,8 +161,8 @@ mod tests {
             [Measure::exact("equal", equal, 0.0, 0.0), correlated.clone(), correlated]
         };
         assert_eq!(cause(&measures(0.0, 0.01), 8), None);
-        assert_eq!(cause(&measures(7.0, 0.01), 8), Some(&cause::seed::SEED_IGNORED));
-        assert_eq!(cause(&measures(0.0, 0.97), 8), Some(&cause::seed::PIXELS_SHARE_NOISE));
+        assert_eq!(cause(&measures(7.0, 0.01), 8), Some(&cause::integrator::SEED_IGNORED));
+        assert_eq!(cause(&measures(0.0, 0.97), 8), Some(&cause::integrator::PIXELS_SHARE_NOISE));
         assert_eq!(cause(&measures(1.0, 0.2), 8), None);
     }
 }

@@ -3,7 +3,7 @@
 use super::by_convention::ConventionEntry;
 use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, estimate, needs, settings};
 use super::foretold::MistakeEntry;
-use crate::cause::{answer, light};
+use crate::cause::{contract, light};
 use crate::checks::phrase::{figure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, breach};
 use crate::contract::{
@@ -133,7 +133,7 @@ impl Check for MeanRadiance {
 const NO_LIGHTS: &str = "radiance is not a number in a scene that has no light";
 
 fn divides_by_no_lights(scene: &SceneDescription, error: &CoreError) -> bool {
-    scene.lights.is_empty() && breach::cause_of(&error.to_string()) == Some(&answer::NOT_A_NUMBER)
+    scene.lights.is_empty() && breach::cause_of(&error.to_string()) == Some(&contract::NOT_A_NUMBER)
 }
 
 impl MeanRadiance {

@@ -1,7 +1,7 @@
 //! How much of a picture a lamp covers, and where: field of view, aspect and position, without any
 //! shading.
 
-use crate::cause::picture;
+use crate::cause::image;
 use crate::checks::phrase::{figure, percent, would_have_caught};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -128,10 +128,10 @@ impl ViewCoverage {
         };
         let [x, y] = self.centroid;
         let tried = [
-            (&picture::UPSIDE_DOWN, [x, 1.0 - y]),
-            (&picture::MIRRORED, [1.0 - x, y]),
-            (&picture::TURNED, [1.0 - x, 1.0 - y]),
-            (&picture::TRANSPOSED, [y, x]),
+            (&image::UPSIDE_DOWN, [x, 1.0 - y]),
+            (&image::MIRRORED, [1.0 - x, y]),
+            (&image::TURNED, [1.0 - x, 1.0 - y]),
+            (&image::TRANSPOSED, [y, x]),
         ];
         let found = tried.into_iter().find(|(_, [x, y])| holds(1, *x) && holds(2, *y));
         match found {

@@ -4,7 +4,7 @@
 //! a group, pixel by pixel, is what the reported one should be. No theory of the estimator is
 //! needed, so that any core that reports variances can be asked.
 
-use crate::cause::{Cause, variance};
+use crate::cause::{Cause, adaptive};
 use crate::checks::phrase::figure;
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -123,16 +123,16 @@ impl ReportsItsVariance {
             variances.iter().all(close)
         };
         let candidates: [(&'static Cause, &dyn Fn(f64) -> f64); 4] = [
-            (&variance::VARIANCE_OF_SAMPLE, &|real| n * real),
-            (&variance::DIVIDED_TWICE, &|real| real / n),
-            (&variance::SQUARES_REPORTED, &|real| n * (n - 1.0) * real),
-            (&variance::DEVIATION_REPORTED, &f64::sqrt),
+            (&adaptive::VARIANCE_OF_SAMPLE, &|real| n * real),
+            (&adaptive::DIVIDED_TWICE, &|real| real / n),
+            (&adaptive::SQUARES_REPORTED, &|real| n * (n - 1.0) * real),
+            (&adaptive::DEVIATION_REPORTED, &f64::sqrt),
         ];
         let found = candidates.into_iter().find(|(_, prediction)| predicts(prediction));
         let cancels = || variances.iter().all(|v| is_right(v) != drowns(v, n));
         match found {
             Some((cause, _)) => Some((cause, every_channel(variances))),
-            None => cancels().then(|| (&variance::SQUARES_CANCEL, bright_channels(variances))),
+            None => cancels().then(|| (&adaptive::SQUARES_CANCEL, bright_channels(variances))),
         }
     }
 }
@@ -201,7 +201,7 @@ fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::film::fake::FakeFilm;
+    use crate::checks::camera::fake::FakeFilm;
     use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
     use crate::contract::{BuildStats, Core, CoreInfo, Film, Precision, RenderSettings, Result};
     use crate::math::rng::uniform;
@@ -288,11 +288,11 @@ mod tests {
     #[test]
     fn every_mistake_fails_under_its_own_name() {
         let mistakes: [(Report, &Cause); 5] = [
-            (|samples| 8.0 * right(samples), &variance::VARIANCE_OF_SAMPLE),
-            (|samples| right(samples) / 8.0, &variance::DIVIDED_TWICE),
-            (squares, &variance::SQUARES_REPORTED),
-            (|samples| right(samples).sqrt(), &variance::DEVIATION_REPORTED),
-            (in_single, &variance::SQUARES_CANCEL),
+            (|samples| 8.0 * right(samples), &adaptive::VARIANCE_OF_SAMPLE),
+            (|samples| right(samples) / 8.0, &adaptive::DIVIDED_TWICE),
+            (squares, &adaptive::SQUARES_REPORTED),
+            (|samples| right(samples).sqrt(), &adaptive::DEVIATION_REPORTED),
+            (in_single, &adaptive::SQUARES_CANCEL),
         ];
         for (report, cause) in mistakes {
             let finding = found(report, 1000.0);

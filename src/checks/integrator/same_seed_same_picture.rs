@@ -59,8 +59,8 @@ impl Check for SameSeedSamePicture {
 fn cause(measures: &[Measure]) -> Option<&'static Cause> {
     let differs = |name: &str| measures.iter().any(|m| m.name == name && m.measured > 0.0);
     match (differs("rendered again"), differs("on one thread")) {
-        (true, _) => Some(&cause::seed::NOT_REPRODUCIBLE),
-        (false, true) => Some(&cause::seed::THREADS_MATTER),
+        (true, _) => Some(&cause::integrator::NOT_REPRODUCIBLE),
+        (false, true) => Some(&cause::integrator::THREADS_MATTER),
         (false, false) => None,
     }
 }

@@ -4,8 +4,8 @@
 //! hierarchy whose boxes are a hair too small loses them anywhere: cracks that let light through
 //! walls.
 
-use super::comparison::closest_hits;
 use crate::cause::{Cause, bvh, shape};
+use crate::checks::bvh::comparison::closest_hits;
 use crate::checks::oracle::{self, Met};
 use crate::checks::phrase::{figure, percent};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -238,9 +238,9 @@ fn missing_triangles(met: &[Met]) -> Option<(&'static Cause, String)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{FakeCore, Slip};
-    use super::super::question::scene_of;
     use super::*;
+    use crate::checks::bvh::fake::{FakeCore, Slip};
+    use crate::checks::bvh::question::scene_of;
     use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
     use crate::scene::procedural::bumpy_sphere;
 

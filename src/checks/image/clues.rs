@@ -1,7 +1,7 @@
 //! Which mistake turns the reference into the picture: told where a fit explains what differs.
 
 use super::matches_reference::Shot;
-use crate::cause::{Cause, picture, pixel, transport};
+use crate::cause::{Cause, camera, image, integrator};
 use crate::checks::{CheckError, Finding};
 use crate::contract::BuiltScene;
 use crate::image::Image;
@@ -43,7 +43,7 @@ pub(super) fn explained(
     let limit = limit(report, reference, shot, built, seed.child("limit"))?;
     let mut finding = match limit {
         Some((level, pixels)) => finding.because(
-            &picture::SAMPLES_CLAMPED,
+            &image::SAMPLES_CLAMPED,
             format!(
                 "{pixels} pixels of {LIMIT_RUNS} pictures of one sample a pixel have exactly the value \
                  {level}, and none is brighter"
@@ -73,8 +73,8 @@ fn with_bounces_off(mut finding: Finding, off: &BouncesOff, by: &str) -> Finding
     match off {
         BouncesOff { share, .. } if share.missing.value < 0.0 => finding,
         // All from the second on, if that is more than the last.
-        BouncesOff { first: 2, last: 3.., .. } => finding.because(&transport::NO_INDIRECT, words),
-        _ => finding.because(&transport::BOUNCE_MISSING, words),
+        BouncesOff { first: 2, last: 3.., .. } => finding.because(&integrator::NO_INDIRECT, words),
+        _ => finding.because(&integrator::BOUNCE_MISSING, words),
     }
 }
 
@@ -128,17 +128,17 @@ fn evidence(fit: &Fit) -> String {
 /// The cause that a fit stands for.
 fn cause_of(misfit: &Misfit) -> Option<&'static Cause> {
     Some(match misfit {
-        Misfit::Turned(Symmetry::LeftRight) => &picture::MIRRORED,
-        Misfit::Turned(Symmetry::UpsideDown) => &picture::UPSIDE_DOWN,
-        Misfit::Turned(Symmetry::Transposed | Symmetry::AntiTransposed) => &picture::TRANSPOSED,
-        Misfit::Turned(_) => &picture::TURNED,
-        Misfit::EncodedTwice => &picture::GAMMA_TWICE,
-        Misfit::Power(power) if power.value < 1.0 => &picture::GAMMA_TWICE,
-        Misfit::Clipped { .. } => &picture::CLAMPED,
+        Misfit::Turned(Symmetry::LeftRight) => &image::MIRRORED,
+        Misfit::Turned(Symmetry::UpsideDown) => &image::UPSIDE_DOWN,
+        Misfit::Turned(Symmetry::Transposed | Symmetry::AntiTransposed) => &image::TRANSPOSED,
+        Misfit::Turned(_) => &image::TURNED,
+        Misfit::EncodedTwice => &image::GAMMA_TWICE,
+        Misfit::Power(power) if power.value < 1.0 => &image::GAMMA_TWICE,
+        Misfit::Clipped { .. } => &image::CLAMPED,
         Misfit::Displaced { right, down } => displaced([right, down]),
-        Misfit::Magnified { .. } => &picture::MAGNIFIED,
-        Misfit::Brighter(_) => &picture::FACTOR,
-        Misfit::Stripe { .. } => &picture::STRIPE,
+        Misfit::Magnified { .. } => &image::MAGNIFIED,
+        Misfit::Brighter(_) => &image::FACTOR,
+        Misfit::Stripe { .. } => &image::STRIPE,
         _ => return None,
     })
 }
@@ -152,9 +152,9 @@ fn displaced(offsets: [&Estimate; 2]) -> &'static Cause {
             && offsets.iter().any(|offset| fits(offset))
     };
     match () {
-        () if is(0.5) => &pixel::HALF_A_PIXEL,
-        () if is(1.0) => &pixel::WHOLE_PIXEL,
-        () => &picture::DISPLACED,
+        () if is(0.5) => &camera::HALF_A_PIXEL,
+        () if is(1.0) => &camera::WHOLE_PIXEL,
+        () => &image::DISPLACED,
     }
 }
 
@@ -213,17 +213,17 @@ mod tests {
 
     #[test]
     fn half_a_pixel_and_a_whole_one_have_causes_of_their_own() {
-        assert_eq!(told(0.5, 0.0), pixel::HALF_A_PIXEL.name);
-        assert_eq!(told(-0.49, 0.51), pixel::HALF_A_PIXEL.name);
-        assert_eq!(told(0.0, 1.0), pixel::WHOLE_PIXEL.name);
-        assert_eq!(told(0.3, 0.0), picture::DISPLACED.name);
-        assert_eq!(told(0.5, 1.0), picture::DISPLACED.name);
+        assert_eq!(told(0.5, 0.0), camera::HALF_A_PIXEL.name);
+        assert_eq!(told(-0.49, 0.51), camera::HALF_A_PIXEL.name);
+        assert_eq!(told(0.0, 1.0), camera::WHOLE_PIXEL.name);
+        assert_eq!(told(0.3, 0.0), image::DISPLACED.name);
+        assert_eq!(told(0.5, 1.0), image::DISPLACED.name);
     }
 
     #[test]
     fn a_brighter_power_is_gamma_applied_twice_and_a_darker_one_has_no_name() {
         let cause = |power| cause_of(&Misfit::Power(about(power))).map(|cause| cause.name);
-        assert_eq!(cause(0.45), Some(picture::GAMMA_TWICE.name));
+        assert_eq!(cause(0.45), Some(image::GAMMA_TWICE.name));
         assert_eq!(cause(2.2), None);
     }
 

@@ -1,6 +1,6 @@
 //! What becomes of a constant radiance in a film that is developed wrongly.
 
-use crate::cause::{Cause, picture};
+use crate::cause::{Cause, image};
 
 /// A pixel of a film that should hold the same radiance everywhere.
 #[derive(Clone, Copy, Debug)]
@@ -39,32 +39,32 @@ fn only(radiance: [f64; 3], is_inside: bool) -> [f64; 3] {
 
 /// Every mistake but those with a size of their own ([`TILES`]).
 pub const MISTAKES: &[FilmMistake] = &[
-    mistake(&picture::NOT_DIVIDED, |radiance, place| scaled(radiance, f64::from(place.samples))),
-    mistake(&picture::DIVIDED_TWICE, |radiance, place| {
+    mistake(&image::NOT_DIVIDED, |radiance, place| scaled(radiance, f64::from(place.samples))),
+    mistake(&image::DIVIDED_TWICE, |radiance, place| {
         scaled(radiance, f64::from(place.samples).recip())
     }),
-    mistake(&picture::DIVIDED_BY_ONE_MORE, |radiance, place| {
+    mistake(&image::DIVIDED_BY_ONE_MORE, |radiance, place| {
         let n = f64::from(place.samples);
         scaled(radiance, n / (n + 1.0))
     }),
-    mistake(&picture::DIVIDED_BY_ONE_MORE, |radiance, place| {
+    mistake(&image::DIVIDED_BY_ONE_MORE, |radiance, place| {
         let n = f64::from(place.samples);
         scaled(radiance, (n - 1.0) / n)
     }),
-    mistake(&picture::ONE_SAMPLE_TOO_MANY, |radiance, place| {
+    mistake(&image::ONE_SAMPLE_TOO_MANY, |radiance, place| {
         let n = f64::from(place.samples);
         scaled(radiance, (n + 1.0) / n)
     }),
-    mistake(&picture::CLAMPED, |radiance, _| radiance.map(|value| value.min(1.0))),
-    mistake(&picture::GAMMA_TWICE, |radiance, _| radiance.map(|value| value.powf(1.0 / 2.2))),
-    mistake(&picture::GAMMA_TWICE, |radiance, _| {
+    mistake(&image::CLAMPED, |radiance, _| radiance.map(|value| value.min(1.0))),
+    mistake(&image::GAMMA_TWICE, |radiance, _| radiance.map(|value| value.powf(1.0 / 2.2))),
+    mistake(&image::GAMMA_TWICE, |radiance, _| {
         radiance.map(|value| value.min(1.0).powf(1.0 / 2.2))
     }),
-    mistake(&picture::CHANNELS_SWAPPED, |[red, green, blue], _| [blue, green, red]),
-    mistake(&picture::BORDER_LEFT_OUT, |radiance, Place { at, size, .. }| {
+    mistake(&image::CHANNELS_SWAPPED, |[red, green, blue], _| [blue, green, red]),
+    mistake(&image::BORDER_LEFT_OUT, |radiance, Place { at, size, .. }| {
         only(radiance, at[0] + 1 < size[0] && at[1] + 1 < size[1])
     }),
-    mistake(&picture::BORDER_LEFT_OUT, |radiance, Place { at, .. }| {
+    mistake(&image::BORDER_LEFT_OUT, |radiance, Place { at, .. }| {
         only(radiance, at[0] > 0 && at[1] > 0)
     }),
 ];

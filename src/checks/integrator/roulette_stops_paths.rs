@@ -4,7 +4,7 @@
 //! been stopped. What the survivors are worth is not looked at here: means say that.
 
 use super::estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
-use crate::cause::{Cause, transport as cause};
+use crate::cause::{Cause, integrator as cause};
 use crate::checks::phrase::{figure, percent, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{
@@ -186,8 +186,8 @@ impl Share {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::checks::integrator::fake::Draws;
     use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
-    use crate::checks::transport::fake::Draws;
     use crate::contract::IntegratorSettings;
     use crate::math::rng::{Stream, uniform};
     use crate::scene::SceneDescription;

@@ -2,7 +2,7 @@
 //! samples.
 
 use super::film_mistakes::{MISTAKES, Place, TILES, whole_tiles_only};
-use crate::cause::{Cause, adaptive, picture};
+use crate::cause::{Cause, adaptive, image};
 use crate::checks::phrase::{figure, some_are, worst_measure};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -157,7 +157,7 @@ impl ConstantFilm {
             };
             if films.iter().all(is_off) {
                 let evidence = format!("all {all} counts are {step:+} off");
-                finding = finding.because(&picture::COUNTS_OFF_BY_ONE, evidence);
+                finding = finding.because(&image::COUNTS_OFF_BY_ONE, evidence);
             }
         }
         match stops_early(films).filter(|_| !pixels_wrong) {
@@ -183,7 +183,7 @@ impl ConstantFilm {
             .iter()
             .find(|tile| predicts(&|radiance, place| whole_tiles_only(radiance, place, **tile)));
         let tile = tile
-            .map(|tile| (&picture::PARTIAL_TILES_LEFT_OUT, format!("a tile of {tile} × {tile} ")));
+            .map(|tile| (&image::PARTIAL_TILES_LEFT_OUT, format!("a tile of {tile} × {tile} ")));
         plain.map(|mistake| (mistake.cause, String::new())).chain(tile).collect()
     }
 }

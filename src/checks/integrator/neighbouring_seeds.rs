@@ -1,7 +1,7 @@
 //! Neighbouring seeds are as unrelated as any: a core that adds the seed to the number of a pixel
 //! shows the same noise again, one pixel further.
 
-use crate::cause::{Cause, seed};
+use crate::cause::{Cause, integrator};
 use crate::checks::phrase::figure;
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -114,7 +114,7 @@ impl Shift {
                 self.words
             )
         };
-        (self.report.coefficient >= REPEATED).then(|| (&seed::SEED_PLUS_PIXEL, evidence()))
+        (self.report.coefficient >= REPEATED).then(|| (&integrator::SEED_PLUS_PIXEL, evidence()))
     }
 }
 

@@ -3,10 +3,10 @@
 //! What is judged is the mean of the unbiased sample variances of independent runs, a mean like any other; the ratio
 //! of two variances would need a normal law that radiance does not have.
 
-use crate::checks::phrase::{figure, would_have_caught};
-use crate::checks::transport::{
+use crate::checks::integrator::{
     MistakeEntry, RayEntry, RouletteEntry, draw_estimates, needs, settings,
 };
+use crate::checks::phrase::{figure, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings};
 use crate::image::CHANNELS;
@@ -146,8 +146,8 @@ fn statement(measures: &[Measure]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::checks::integrator::fake::Draws;
     use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
-    use crate::checks::transport::fake::Draws;
     use crate::contract::IntegratorSettings;
     use crate::math::rng::{Stream, uniform};
     use crate::scene::SceneDescription;

@@ -1,7 +1,7 @@
 //! Pictures of 8 bits against a reference: what the law of their codes says.
 
 use super::matches_reference::{Setup, error_picture, finding};
-use crate::cause::picture;
+use crate::cause::image;
 use crate::checks::{CheckError, Context, Finding, Measure, PictureRole};
 use crate::image::Image;
 use crate::image::encoding::{Encoding, WHITE};
@@ -118,8 +118,8 @@ fn mismatch(report: &CodeReport) -> Finding {
 
 fn cause_of(deciphered: &Deciphered) -> &'static crate::cause::Cause {
     match deciphered.is_rounded_otherwise() {
-        true => &picture::ROUNDED_OTHERWISE,
-        false => &picture::ENCODED_OTHERWISE,
+        true => &image::ROUNDED_OTHERWISE,
+        false => &image::ENCODED_OTHERWISE,
     }
 }
 

@@ -4,7 +4,7 @@ use crate::contract::Conventions;
 use crate::image;
 use crate::scene::format::Format;
 use crate::text::{Diagnostic, Source};
-use regex::Regex;
+use regex_lite::Regex;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error};
 use std::collections::BTreeMap;

@@ -108,7 +108,7 @@ pub fn compare(
     let broken = |error: &dyn fmt::Display| AgreementError::Reference(error.to_string());
     let path = project.references().join(name).join("provenance.toml");
     let text = std::fs::read_to_string(&path).map_err(|error| broken(&error))?;
-    let provenance: Provenance = toml::from_str(&text).map_err(|error| broken(&error))?;
+    let provenance: Provenance = crate::text::read_toml(&text).map_err(|error| broken(&error))?;
     let library = Library::new(project.scenes());
     let scene =
         library.load(&provenance.scene, &provenance.parameters).map_err(|error| broken(&error))?;
@@ -336,7 +336,8 @@ mod tests {
             mean: Image { pixels: vec![[0.5; 3], [4.0; 3]], ..flat(0.0) },
             standard_error: flat(0.001),
             layers: Default::default(),
-            provenance: toml::from_str(&std::fs::read_to_string(provenance).unwrap()).unwrap(),
+            provenance: crate::text::read_toml(&std::fs::read_to_string(provenance).unwrap())
+                .unwrap(),
         };
         let picture = |value| Picture {
             image: Image { pixels: vec![[value; 3], [0.7; 3]], ..flat(0.0) },

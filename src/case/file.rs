@@ -3,11 +3,10 @@
 
 use super::{Case, Foundation, SceneChoice, Tier};
 use crate::checks::{self, CHECKS, PrepareError};
-use crate::text::{Diagnostic, Source, did_you_mean, listed};
+use crate::text::{Diagnostic, Source, Spanned, did_you_mean, listed};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::path::Path;
-use toml::Spanned;
 
 /// What every case says, whatever its check.
 #[derive(Deserialize)]
@@ -50,7 +49,7 @@ pub fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diagnostic>
     }
     let check = find_check(source, &head.check)?;
     let prepared = (check.prepare)(&source.text).map_err(|error| match error {
-        PrepareError::Toml(error) => source.toml_diagnostic(&error),
+        PrepareError::Toml(error) => source.toml_diagnostic(error),
         PrepareError::Invalid(message) => source.diagnostic(expect_span(&source.text), message),
     })?;
     Ok(Case {

@@ -30,7 +30,7 @@ pub use context::{CheckError, Context, Picture, PictureRole, camera_of};
 pub use finding::{Clue, Finding, Measure, number};
 
 use crate::contract::Capabilities;
-use serde::Deserialize;
+use crate::text::{TomlError, read_key};
 use serde::de::DeserializeOwned;
 
 /// A way to judge a core. The struct that implements it is the `[expect]` of its cases.
@@ -99,7 +99,7 @@ impl<C: Check> Prepared for C {
 #[derive(Debug)]
 pub enum PrepareError {
     /// The `[expect]` table is not what the check wants; carries the place in the text.
-    Toml(toml::de::Error),
+    Toml(TomlError),
     /// The values make no sense together.
     Invalid(String),
 }
@@ -121,17 +121,10 @@ impl CheckKind {
     }
 }
 
-/// The part of a case file that belongs to the check.
-#[derive(Deserialize)]
-struct Expectation<C> {
-    expect: C,
-}
-
 fn prepare<C: Check>(text: &str) -> Result<Box<dyn Prepared>, PrepareError> {
-    let Expectation { expect } =
-        toml::from_str::<Expectation<C>>(text).map_err(PrepareError::Toml)?;
-    expect.validate().map_err(PrepareError::Invalid)?;
-    Ok(Box::new(expect))
+    let check: C = read_key(text, "expect").map_err(PrepareError::Toml)?;
+    check.validate().map_err(PrepareError::Invalid)?;
+    Ok(Box::new(check))
 }
 
 /// Every check there is, in the order of the parts of a path tracer.

@@ -6,7 +6,7 @@ use crate::contract::{Capabilities, Conventions, Core, CoreInfo, Precision};
 use crate::math::rng::Seed;
 use crate::scene::{Library, SceneDescription};
 use crate::stats::{Budget, Verdict};
-use serde::Deserialize;
+use crate::text::read_key;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -15,11 +15,7 @@ use std::sync::Arc;
 /// # Panics
 /// If the text is not what the check wants.
 pub fn check_of<C: Check>(text: &str) -> C {
-    #[derive(Deserialize)]
-    struct Case<C> {
-        expect: C,
-    }
-    let Case { expect }: Case<C> = toml::from_str(text).unwrap();
+    let expect: C = read_key(text, "expect").unwrap();
     expect.validate().unwrap();
     expect
 }

@@ -2,11 +2,10 @@
 
 use super::MakeError;
 use crate::scene::Overrides;
-use crate::text::{Diagnostic, Source, did_you_mean, listed};
+use crate::text::{Diagnostic, Source, Spanned, did_you_mean, listed};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
-use toml::Spanned;
 
 /// How to make a reference.
 #[derive(Clone, Debug, PartialEq)]

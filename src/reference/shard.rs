@@ -88,7 +88,7 @@ impl Shard {
         let rest = content.strip_prefix(FIRST_LINE.as_bytes())?;
         let end = LAST_LINE.len();
         let at = rest.windows(end).position(|bytes| bytes == LAST_LINE.as_bytes())?;
-        let head: Head = toml::from_str(std::str::from_utf8(&rest[..at]).ok()?).ok()?;
+        let head: Head = crate::text::read_toml(std::str::from_utf8(&rest[..at]).ok()?).ok()?;
         let seeds = Seeds::from_ranges(&head.seeds)?;
         let film = head.about.film.map(|pixels| pixels as usize);
         let sums = Sums::from_bytes(film, seeds.count(), &rest[at + end..])?;

@@ -1,5 +1,6 @@
 //! A message that points into a file: what is wrong, where, and what would have been right.
 
+use super::document::{TomlError, read_toml};
 use super::suggestion::{did_you_mean, quoted_words};
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use serde::de::DeserializeOwned;
@@ -36,11 +37,12 @@ impl Source {
     /// The text as TOML of a given shape. Unknown keys and variants come back with the word that
     /// was probably meant.
     pub fn parse_toml<T: DeserializeOwned>(&self) -> Result<T, Diagnostic> {
-        toml::from_str(&self.text).map_err(|error| self.toml_diagnostic(&error))
+        read_toml(&self.text).map_err(|error| self.toml_diagnostic(error))
     }
 
     /// What the TOML parser or a deserialiser says, pointing at the place it speaks of.
-    pub fn toml_diagnostic(&self, error: &toml::de::Error) -> Diagnostic {
+    pub fn toml_diagnostic(&self, error: impl Into<TomlError>) -> Diagnostic {
+        let error = error.into();
         let message = error.message();
         let hint =
             message.starts_with("unknown ").then(|| quoted_words(message)).and_then(|words| {

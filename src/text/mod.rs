@@ -4,11 +4,14 @@
 //! Not here: what any key of a file means. Scenes and cases keep their own vocabulary.
 
 mod diagnostic;
+mod document;
 mod suggestion;
 mod units;
 mod xml;
 
 pub use diagnostic::{Diagnostic, Source};
+pub(crate) use document::read_table;
+pub use document::{Spanned, TomlError, read_key, read_toml};
 pub use suggestion::{did_you_mean, listed};
 pub use units::{Angle, Colour, Count, Percent};
 pub use xml::XmlWriter;

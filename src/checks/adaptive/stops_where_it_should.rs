@@ -319,7 +319,7 @@ mod tests {
     fn a_case_with_a_wrong_count_is_refused() {
         let wrong = "stream = [{ name = \"five values\", repeats = [1, 3, 0.5, 1, 1], batch = 2, \
                      tolerance = \"50 %\", cap = 64, stops-at = 8 }]";
-        let check: StopsWhereItShould = toml::from_str(wrong).unwrap();
+        let check: StopsWhereItShould = crate::text::read_toml(wrong).unwrap();
         assert!(check.validate().unwrap_err().contains("stops at 10"));
     }
 }

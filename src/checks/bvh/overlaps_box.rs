@@ -303,7 +303,7 @@ mod tests {
     fn a_row_that_is_not_true_is_the_cases_fault() {
         let text = "box = { min = [0, 0, 0], max = [1, 1, 1] }\n\
                     [[ray]]\nfrom = [-1, 0.5, 0.5]\ntoward = [1, 0, 0]\nhits = false\n";
-        let error = toml::from_str::<OverlapsBox>(text).unwrap().validate().unwrap_err();
+        let error = crate::text::read_toml::<OverlapsBox>(text).unwrap().validate().unwrap_err();
         assert_eq!(error, "ray 1: exact arithmetic says that hits = true");
     }
 

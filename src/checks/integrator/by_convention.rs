@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     fn entry(text: &str) -> ConventionEntry {
-        toml::from_str(text).unwrap()
+        crate::text::read_toml(text).unwrap()
     }
 
     #[test]

@@ -328,7 +328,7 @@ mod tests {
     fn a_row_that_contradicts_its_own_geometry_is_the_cases_fault() {
         let text = "sphere = { centre = [0, 0, 0], radius = 1 }\n\
                     [[ray]]\nfrom = [3, 0, 0]\ntoward = [-1, 0, 0]\nhits = true\nt = 2.5\n";
-        let error = toml::from_str::<HitsPrimitive>(text).unwrap().validate().unwrap_err();
+        let error = crate::text::read_toml::<HitsPrimitive>(text).unwrap().validate().unwrap_err();
         assert!(error.starts_with("ray 1 is not what the geometry gives"), "{error}");
     }
 }

@@ -3,11 +3,10 @@
 use super::Context;
 use super::value::{Between, Direction, Positive, Vector};
 use crate::scene::Camera;
-use crate::text::{Angle, Diagnostic};
+use crate::text::{Angle, Diagnostic, Spanned};
 use glam::DVec3;
 use serde::Deserialize;
 use std::f64::consts::PI;
-use toml::Spanned;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]

@@ -7,10 +7,9 @@ use crate::math::rng::Seed;
 use crate::scene::mesh::{self, Format, MeshError};
 use crate::scene::procedural::{self, Layout};
 use crate::scene::{Mesh, Sphere};
-use crate::text::Diagnostic;
+use crate::text::{Diagnostic, Spanned};
 use glam::DVec3;
 use serde::Deserialize;
-use toml::Spanned;
 
 /// Triangles or spheres, not yet placed and without name or material.
 pub(super) enum Geometry {

@@ -3,9 +3,8 @@
 use super::value::{Direction, Power, Vector};
 use super::{Context, exactly_one};
 use crate::scene::Light;
-use crate::text::Diagnostic;
+use crate::text::{Diagnostic, Spanned};
 use serde::Deserialize;
-use toml::Spanned;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]

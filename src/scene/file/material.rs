@@ -3,13 +3,12 @@
 use super::value::{Bending, Direction, Positive, Power, Reflectance, Roughness};
 use super::{Context, exactly_one};
 use crate::scene::{Cap, Emission, Material, Surface};
-use crate::text::{Angle, Diagnostic, did_you_mean, listed};
+use crate::text::{Angle, Diagnostic, Spanned, did_you_mean, listed};
 use serde::Deserialize;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::ops::Range;
-use toml::Spanned;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]

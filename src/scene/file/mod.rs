@@ -35,13 +35,12 @@ mod shape;
 mod value;
 
 use super::{SceneDescription, SceneError};
-use crate::text::{Diagnostic, Source, listed};
+use crate::text::{Diagnostic, Source, Spanned, listed, read_table};
 use parameter::Parameters;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
-use toml::Spanned;
 use toml::de::DeTable;
 
 /// Values that a case gives to parameters of a scene, by name.
@@ -95,12 +94,12 @@ fn read(
     source: &Source,
     overrides: &Overrides,
 ) -> Result<(SceneFile, Parameters), SceneError> {
-    let complain = |error: toml::de::Error| source.toml_diagnostic(&error);
     let parameters = Parameters::read(name, source, overrides)?;
-    let mut document = DeTable::parse(&source.text).map_err(complain)?;
+    let mut document =
+        DeTable::parse(&source.text).map_err(|error| source.toml_diagnostic(error))?;
     parameters.substitute(source, document.get_mut())?;
-    let file = SceneFile::deserialize(toml::Deserializer::from(document))
-        .map_err(|error| parameters.explain(complain(error)))?;
+    let file =
+        read_table(&document).map_err(|error| parameters.explain(source.toml_diagnostic(error)))?;
     Ok((file, parameters))
 }
 

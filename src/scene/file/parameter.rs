@@ -124,7 +124,7 @@ const KEY: &str = "parameters";
 
 fn declared(source: &Source) -> Result<BTreeMap<String, Parameter>, Diagnostic> {
     let document = DeTable::parse(&source.text);
-    let mut document = document.map_err(|error| source.toml_diagnostic(&error))?;
+    let mut document = document.map_err(|error| source.toml_diagnostic(error))?;
     let Some(table) = document.get_mut().remove(KEY) else { return Ok(BTreeMap::new()) };
     let DeValue::Table(table) = table.get_ref() else {
         let problem = "`parameters` is a table of names and values";

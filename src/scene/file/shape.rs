@@ -9,12 +9,11 @@ use super::value::{Direction, Positive, Vector};
 use super::{Context, exactly_one};
 use crate::scene::mesh::{Format, Shading};
 use crate::scene::{Material, Mesh, SceneDescription, Sphere};
-use crate::text::{Angle, Diagnostic};
+use crate::text::{Angle, Diagnostic, Spanned};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use serde::Deserialize;
 use std::collections::HashSet;
 use std::ops::Range;
-use toml::Spanned;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]

@@ -8,65 +8,65 @@ const REMEDY: &str =
 
 causes! {
     DIVIDED_BY_CAP = "divided-by-cap":
-        "the sum is divided by the most samples allowed, not by those taken",
+        "the pixel's sum is divided by the maximum number of samples, not by those taken",
         at "adaptive sampling, where the mean of the pixel is written",
-        fix "Divide by the number of samples that were really taken.";
+        fix "Divide by the number of samples actually taken.";
     POPULATION_VARIANCE = "population-variance":
-        "the variance is divided by n, not n − 1",
-        at "adaptive sampling, where the interval's half width is computed",
-        fix "1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
+        "the sample variance is divided by n, not n − 1 (Bessel's correction)",
+        at "adaptive sampling, where the half width of the confidence interval is computed",
+        fix "The confidence interval's half width is 1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
     SIGMA_OVER_N = "sigma-over-n":
-        "σ is divided by n, not by its root",
-        at "adaptive sampling, where the interval's half width is computed",
-        fix "1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
+        "the half width uses σ/n, not σ/√n",
+        at "adaptive sampling, where the half width of the confidence interval is computed",
+        fix "The confidence interval's half width is 1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
     WITHOUT_1_96 = "without-1-96":
-        "the factor 1.96 is missing",
-        at "adaptive sampling, where the interval's half width is computed",
-        fix "1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
+        "the half width lacks the factor 1.96 of a 95 % confidence interval",
+        at "adaptive sampling, where the half width of the confidence interval is computed",
+        fix "The confidence interval's half width is 1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
     VARIANCE_FOR_SIGMA = "variance-for-sigma":
-        "the variance stands where σ should",
-        at "adaptive sampling, where the interval's half width is computed",
-        fix "1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
+        "the half width uses the variance, not the standard deviation",
+        at "adaptive sampling, where the half width of the confidence interval is computed",
+        fix "The confidence interval's half width is 1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
     TOLERANCE_ABSOLUTE = "tolerance-absolute":
-        "the tolerance is not multiplied by the mean",
-        at "adaptive sampling, where the half width is compared",
-        fix "1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
+        "the tolerance is absolute: it is not multiplied by the mean",
+        at "adaptive sampling, where the half width is compared with the tolerance",
+        fix "The confidence interval's half width is 1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
     NEVER_STOPS = "never-stops":
-        "it never stops before the cap",
+        "adaptive sampling never stops before the maximum number of samples",
         at "adaptive sampling, the loop over samples",
-        fix "Stop once the half width is small enough, at the end of a batch.";
+        fix "Stop at the end of a batch once the confidence interval is narrow enough.";
     LOOKS_AFTER_EVERY_SAMPLE = "looks-after-every-sample":
-        "it looks after every sample, not after every batch",
+        "convergence is tested after every sample, not after every batch",
         at "adaptive sampling, the loop over samples",
-        fix "Look only when the number of samples is a multiple of the batch.";
+        fix "Test only when the number of samples is a multiple of the batch size.";
     DIVIDED_BY_ONE_LESS = "divided-by-one-less":
-        "the sum is divided by one sample less than were taken",
+        "the pixel's sum is divided by one sample less than was taken",
         at "adaptive sampling, where the mean of the pixel is written",
-        fix "Divide by the number of samples that were really taken.";
+        fix "Divide by the number of samples actually taken.";
     COUNT_ONE_SHORT = "count-one-short":
-        "n is one short of the samples in the sums",
+        "the sample count n is one less than the number of samples in the sums",
         at "adaptive sampling, where the variance is computed",
         fix "Count a sample when it is added to the sums.";
     BATCH_IGNORED = "batch-ignored":
-        "the rule looks after 32 samples, whatever batch is asked for",
+        "convergence is tested every 32 samples, whatever batch size is requested",
         at "adaptive sampling, the loop over samples",
-        fix "Look whenever the number of samples is a multiple of the batch that is asked for.";
+        fix "Test whenever the number of samples is a multiple of the requested batch size.";
     REST_OF_BATCH_DROPPED = "rest-of-batch-dropped":
-        "samples beyond the last whole batch are not taken",
+        "samples beyond the last full batch are not taken",
         at "adaptive sampling, the loop over samples",
-        fix "Go on to the cap, also where it is no multiple of the batch.";
+        fix "Continue to the maximum number of samples, even if it is no multiple of the batch size.";
     COUNTS_ARE_CAP = "counts-are-cap":
-        "the picture of counts says the most that was allowed, not what was taken",
+        "the sample counts hold the maximum number of samples, not the number taken",
         at "the buffer of sample counts",
-        fix "Write the number of samples that were really taken.";
+        fix "Write the number of samples actually taken.";
     LAST_BATCH_NOT_COUNTED = "last-batch-not-counted":
-        "the picture of counts lacks the last batch",
+        "the sample counts lack the last batch",
         at "the buffer of sample counts",
-        fix "Write the number of samples that were really taken.";
+        fix "Write the number of samples actually taken.";
     VARIANCE_BELOW_ZERO = "variance-below-zero":
-        "the variance of equal samples rounds to less than 0, and its root is no number",
-        at "where σ² is made of the two sums",
-        fix "Keep the sums in double precision, and take max(σ², 0).";
+        "the variance of equal samples rounds to a negative number, and its square root is NaN",
+        at "where σ² is computed from the two sums",
+        fix "Keep the sums in double precision, and clamp: max(σ², 0).";
     ADAPTIVE_ALWAYS = "adaptive-always":
         "pixels stop early though adaptive sampling is off",
         at "the choice between adaptive and fixed sampling",
@@ -80,7 +80,7 @@ causes! {
         at LOOK_AT,
         fix REMEDY;
     DEVIATION_REPORTED = "deviation-for-variance":
-        "the standard deviation is reported in place of the variance",
+        "the standard deviation is reported, not the variance",
         at LOOK_AT,
         fix REMEDY;
     SQUARES_REPORTED = "squares-not-divided":
@@ -88,7 +88,7 @@ causes! {
         at LOOK_AT,
         fix REMEDY;
     SQUARES_CANCEL = "squares-cancel":
-        "the variance is the difference of two nearly equal sums in single precision, and drowns in their rounding",
+        "catastrophic cancellation: the variance is the difference of two nearly equal single-precision sums",
         at "the sums of samples and of their squares that a pixel keeps",
-        fix "Keep the sums in double precision, or the running mean and deviations of Welford (1962).";
+        fix "Keep the sums in double precision, or use Welford's running mean and variance (1962).";
 }

@@ -1,4 +1,4 @@
-//! The glossary of causes: every mistake that furnace can name, in plain words, with where to look.
+//! The glossary of causes: every mistake that furnace can name, in the words of the field, with where to look.
 //!
 //! A check that recognises a mistake leaves a clue with its name; the diagnosis weighs clues and numbers into
 //! causes; a planted fault says which cause must be told of it. All three name the same entry of this glossary, so
@@ -15,6 +15,7 @@ pub mod convention;
 pub mod image;
 pub mod integrator;
 pub mod light;
+mod renamed;
 pub mod sampling;
 pub mod shape;
 
@@ -23,7 +24,7 @@ pub mod shape;
 pub struct Cause {
     /// Kebab-case, unique: what files and tests call it.
     pub name: &'static str,
-    /// The mistake as one sentence without full stop, in the user's words: `the film's y axis points down`.
+    /// The mistake as one sentence without full stop, in the field's words: `the film's y axis points down`.
     pub headline: &'static str,
     /// The function and the step in it where the mistake is made.
     pub look_at: &'static str,
@@ -74,8 +75,9 @@ pub fn is_vague(cause: &Cause) -> bool {
     *cause == bvh::HITS_LOST
 }
 
-/// The cause called `name`.
+/// The cause called `name`, today or before it was renamed.
 pub fn find(name: &str) -> Option<&'static Cause> {
+    let name = renamed::current(name);
     all().find(|cause| cause.name == name)
 }
 

@@ -47,12 +47,12 @@ static OF_BOTH: &[Signature] = &[
 
 /// Mistakes of light sampling.
 static OF_LIGHTS: &[Signature] = &[
-    signature(&light::LAMP_SHADOWS_ITSELF, 0.0, 0.0),
+    signature(&light::EMITTER_SHADOWS_ITSELF, 0.0, 0.0),
     signature(&light::WORLD_COSINE, 0.87589, 0.83780),
     signature(&light::LIGHT_COSINE_FORGOTTEN, 1.11544, 1.92193),
     signature(&light::LIGHT_DISTANCE_NOT_SQUARED, 1.65690, 1.54050),
     signature(&light::LIGHT_DISTANCE_FORGOTTEN, 2.75220, 2.38790),
-    signature(&light::LIGHT_DENSITY_PER_AREA, 3.08548, 4.64660),
+    signature(&light::LIGHT_PDF_PER_AREA, 3.08548, 4.64660),
     signature(&light::LIGHT_AREA_FORGOTTEN, 3.17460, 4.0),
     signature(&light::TIMES_PDF, 98.1978, 365.0396),
     signature(&light::PDF_FORGOTTEN, 9.79518, 18.5864),
@@ -62,8 +62,8 @@ static OF_LIGHTS: &[Signature] = &[
 static OF_HEMISPHERE: &[Signature] = &[
     // Local directions taken for world ones have their cosine with +z, and the light in view.
     signature(&light::HEMISPHERE_IN_WORLD, 0.87589, 0.83780),
-    signature(&sampling::COSINE_DENSITY_FOR_UNIFORM, 0.55537, 0.89747),
-    signature(&sampling::UNIFORM_DENSITY_FOR_COSINE, 1.80423, 1.12401),
+    signature(&sampling::COSINE_PDF_FOR_UNIFORM, 0.55537, 0.89747),
+    signature(&sampling::UNIFORM_PDF_FOR_COSINE, 1.80423, 1.12401),
     signature(&light::PDF_FORGOTTEN, 1.0 / TAU, 1.0 / TAU),
     signature(&light::TIMES_PDF, 1.0 / (TAU * TAU), 1.0 / (TAU * TAU)),
 ];
@@ -248,7 +248,7 @@ mod tests {
             (&light::LIGHT_COSINE_FORGOTTEN, |c, _, d2, a, _| c * a / d2),
             (&light::LIGHT_DISTANCE_NOT_SQUARED, |c, l, d2, a, _| c * l * a / d2.sqrt()),
             (&light::LIGHT_DISTANCE_FORGOTTEN, |c, l, _, a, _| c * l * a),
-            (&light::LIGHT_DENSITY_PER_AREA, |c, _, _, a, _| c * a),
+            (&light::LIGHT_PDF_PER_AREA, |c, _, _, a, _| c * a),
             (&light::LIGHT_AREA_FORGOTTEN, |c, l, d2, _, _| c * l / d2),
             (&light::TIMES_PDF, |c, l, d2, a, _| c * d2 / (l * a)),
         ];

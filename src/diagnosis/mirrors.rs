@@ -26,7 +26,7 @@ pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
         return Vec::new();
     }
     vec![Suspicion {
-        cause: &integrator::MIRROR_SHOWS_NO_LIGHT,
+        cause: &integrator::NO_EMISSION_AFTER_SPECULAR,
         cases,
         evidence: vec!["what glows is 0 of what it should be behind mirrors".to_owned()],
         ruled_out: vec!["a bounce short (the furnace is right)".to_owned()],
@@ -45,7 +45,10 @@ mod tests {
         let dark = || means(vec![mean("bounce 3, red", 0.5, 0.0, 1e-4)]);
         let made = Made::new().with(MIRRORS, dark()).with(FURNACE, passing());
         let found = diagnose(&made.evidence());
-        assert_eq!(found.first().map(|c| c.name), Some(integrator::MIRROR_SHOWS_NO_LIGHT.name));
+        assert_eq!(
+            found.first().map(|c| c.name),
+            Some(integrator::NO_EMISSION_AFTER_SPECULAR.name)
+        );
         let dim = means(vec![mean("bounce 3, red", 0.5, 0.7, 1e-4)]);
         let made = Made::new().with(MIRRORS, dim).with(FURNACE, passing());
         assert_eq!(diagnose(&made.evidence()).first(), None);

@@ -58,7 +58,7 @@ fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let dark = evidence.failures().filter(|seen| seen.finding.is_some_and(is_dark));
     let dark = dark.map(|seen| seen.case).filter(|case| case.starts_with("light/"));
     Some(Suspicion {
-        cause: &light::LAMP_SHADOWS_ITSELF,
+        cause: &light::EMITTER_SHADOWS_ITSELF,
         cases: dark.chain([NOISE]).map(str::to_owned).collect(),
         evidence: vec![format!(
             "{} of the light of a lamp arrives, and the variance of a sample is {:.2e}, as where so many of them arrive \
@@ -119,7 +119,7 @@ fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
     };
     let cases: Vec<_> = FOUND.iter().filter(|c| is_dark(c)).map(|&c| c.to_owned()).collect();
     (!cases.is_empty()).then(|| Suspicion {
-        cause: &light::RANGE_KEPT,
+        cause: &light::T_MAX_NOT_RESET,
         cases,
         evidence: vec![
             "a light 1.6 units away is found by rays of an eye 2.3 away, and not of one 0.6 away"
@@ -163,7 +163,7 @@ mod tests {
                 .with(NOISE, finding("one point", noise, variance));
             WITHOUT_LAMPS.into_iter().fold(made, |made, case| made.with(case, passing()))
         };
-        assert_eq!(first(&made(27.25)), Some(light::LAMP_SHADOWS_ITSELF.name));
+        assert_eq!(first(&made(27.25)), Some(light::EMITTER_SHADOWS_ITSELF.name));
         assert_eq!(first(&made(0.3878 * 0.3878)), None, "all samples too dark alike");
     }
 
@@ -176,7 +176,10 @@ mod tests {
             };
             means(rows.into_iter().flat_map(row).collect())
         };
-        assert_eq!(first(&Made::new().with(FOUND[0], finding(0.0))), Some(light::RANGE_KEPT.name));
+        assert_eq!(
+            first(&Made::new().with(FOUND[0], finding(0.0))),
+            Some(light::T_MAX_NOT_RESET.name)
+        );
         assert_eq!(first(&Made::new().with(FOUND[0], finding(0.5))), None);
     }
 }

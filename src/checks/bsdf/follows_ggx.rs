@@ -105,8 +105,8 @@ const MISTAKES: &[(&Cause, Mistake)] = &[
     (&cause::ROUGHNESS_SQUARED, |pair| {
         Pair { roughness: pair.roughness.powi(2), ..*pair }.right() / pair.right()
     }),
-    (&cause::FACETS_WITHOUT_PI, |_| PI),
-    (&cause::BECKMANN_FACETS, |pair| {
+    (&cause::D_WITHOUT_PI, |_| PI),
+    (&cause::BECKMANN_FOR_GGX, |pair| {
         beckmann(pair.half().z, pair.roughness) / distribution(pair.half().z, pair.roughness)
     }),
     (&cause::HALF_NOT_NORMALISED, |pair| {

@@ -79,7 +79,7 @@ pub struct Mistake {
 /// The mistakes that can be told apart by what they predict.
 pub static MISTAKES: &[Mistake] = &[
     Mistake {
-        cause: &cause::GLASS_SIDES_SWAPPED,
+        cause: &cause::ETA_SWAPPED,
         change: |w| {
             w.bends_by = f64::recip;
             w.reflectance = |cosine, ratio| fresnel::reflectance(cosine, ratio.recip());

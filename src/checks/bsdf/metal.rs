@@ -84,7 +84,7 @@ pub fn mistake_of_density(facets: &[(Facets, f64)]) -> Option<&'static Cause> {
         let same = |(f, pdf): &(Facets, f64)| (pdf / formula(f) - 1.0).abs() <= SAME;
         !facets.is_empty() && facets.iter().all(same)
     };
-    of_facets.iter().any(predicts).then_some(&bsdf::PDF_OF_FACETS)
+    of_facets.iter().any(predicts).then_some(&bsdf::PDF_OF_HALF_VECTOR)
 }
 
 #[cfg(test)]
@@ -126,7 +126,7 @@ mod tests {
             let facets = queries().into_iter().map(|q| Facets::of(0.3, q.wo, q.wi));
             mistake_of_density(&facets.map(|f| (f, density(&f))).collect::<Vec<_>>())
         };
-        assert_eq!(of(Facets::visible), Some(&bsdf::PDF_OF_FACETS));
+        assert_eq!(of(Facets::visible), Some(&bsdf::PDF_OF_HALF_VECTOR));
         assert_eq!(of(|f| f.visible() / (4.0 * f.cos_d)), None);
     }
 }

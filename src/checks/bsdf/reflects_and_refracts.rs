@@ -172,7 +172,7 @@ fn chance_clue(views: &[SmoothView]) -> Option<(&'static Cause, String)> {
     let (stated, share) = views.iter().find_map(SmoothView::other_chance)?;
     let (stated, share) = (percent(stated), percent(share));
     let evidence = format!("{share} of samples are reflections where pdf says {stated}");
-    Some((&cause::GLASS_OTHER_CHANCE, evidence))
+    Some((&cause::LOBE_PROBABILITY_MISMATCH, evidence))
 }
 
 /// Right samples that no view has marked.

@@ -147,7 +147,7 @@ const DENSITIES: &[(&Cause, Factor)] = &[
     (&bsdf::REFRACTION_JACOBIAN_WITHOUT_INDEX, |f| {
         if f.passes { (f.ratio * f.ratio).recip() } else { 1.0 }
     }),
-    (&bsdf::LOBE_CHANCE_FORGOTTEN, |f| f.chance(f.o_m).recip()),
+    (&bsdf::LOBE_PROBABILITY_FORGOTTEN, |f| f.chance(f.o_m).recip()),
 ];
 
 impl RoughGlass {

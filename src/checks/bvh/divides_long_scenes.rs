@@ -154,7 +154,7 @@ mod tests {
         assert_eq!(told([10.0, 12.0, 9.0]), None);
         assert_eq!(told([10.0, 12.0, 90.0]).as_deref(), Some("z-never-split"));
         assert_eq!(told([80.0, 90.0, 90.0]).as_deref(), Some("shortest-axis"));
-        assert_eq!(told([2048.0; 3]).as_deref(), Some("hierarchy-not-used"));
-        assert_eq!(told([1196.0, 1321.0, 1249.0]).as_deref(), Some("hierarchy-not-used"));
+        assert_eq!(told([2048.0; 3]).as_deref(), Some("bvh-not-used"));
+        assert_eq!(told([1196.0, 1321.0, 1249.0]).as_deref(), Some("bvh-not-used"));
     }
 }

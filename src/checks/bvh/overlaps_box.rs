@@ -284,7 +284,7 @@ mod tests {
         let statement = failure(&finding);
         assert!(
             statement.starts_with(
-                "7 of 18 rays are wrong: the box test does not look at t_min and t_max, and an axis"
+                "7 of 18 rays are wrong: the slab test ignores t_min and t_max, and the slab test"
             ),
             "{statement}"
         );

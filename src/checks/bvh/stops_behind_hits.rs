@@ -151,9 +151,9 @@ mod tests {
     #[test]
     fn walks_that_test_what_is_hidden_fail_and_are_named() {
         for (slip, cause) in [
-            (Slip::NeverShortens, "segment-not-shortened"),
+            (Slip::NeverShortens, "t-max-not-shortened"),
             (Slip::NeverOrders, "children-unordered"),
-            (Slip::TestsEverything, "hierarchy-not-used"),
+            (Slip::TestsEverything, "bvh-not-used"),
         ] {
             let finding = found(slip);
             assert!(failure(&finding).contains("layers"), "{finding:?}");

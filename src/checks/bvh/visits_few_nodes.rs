@@ -255,14 +255,14 @@ mod tests {
         let finding = found(Slip::TestsEverything, "bumpy-sphere");
         let statement = failure(&finding);
         assert!(statement.ends_with("the hierarchy is not used"), "{statement}");
-        assert_eq!(finding.clues[0].cause, "hierarchy-not-used");
+        assert_eq!(finding.clues[0].cause, "bvh-not-used");
     }
 
     #[test]
     fn a_list_is_unbalanced_though_it_tests_few_triangles() {
         let finding = found(Slip::IsAList, "bumpy-sphere");
         failure(&finding);
-        assert_eq!(finding.clues[0].cause, "hierarchy-unbalanced");
+        assert_eq!(finding.clues[0].cause, "bvh-unbalanced");
     }
 
     #[test]
@@ -270,7 +270,7 @@ mod tests {
         let finding = found(Slip::NeverShortens, "soup");
         assert_passes(&finding);
         assert!(
-            finding.statement.ends_with("boxes are visited though a nearer hit is known"),
+            finding.statement.ends_with(bvh::SEGMENT_NOT_SHORTENED.headline),
             "{}",
             finding.statement
         );
@@ -280,7 +280,7 @@ mod tests {
     fn shadow_rays_that_search_on_fail() {
         let finding = found(Slip::SearchesShadows, "soup");
         let statement = failure(&finding);
-        assert!(statement.ends_with("shadow rays go on after something is hit"), "{statement}");
+        assert!(statement.ends_with(bvh::SHADOWS_SEARCH_ON.headline), "{statement}");
         assert_eq!(finding.clues[0].cause, "shadows-search-on");
     }
 

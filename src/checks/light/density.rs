@@ -29,11 +29,11 @@ fn right(g: &Geometry) -> f64 {
 const MISTAKES: &[(&Cause, Formula)] = &[
     (&light::LIGHT_COSINE_FORGOTTEN, |g| right(g) * g.cosine),
     (&light::LIGHT_DISTANCE_FORGOTTEN, |g| 1.0 / (g.cosine * g.area)),
-    (&light::LIGHT_DENSITY_PER_AREA, |g| 1.0 / g.area),
+    (&light::LIGHT_PDF_PER_AREA, |g| 1.0 / g.area),
     (&light::LIGHT_DISTANCE_NOT_SQUARED, |g| right(g) / g.distance),
     (&light::LIGHT_AREA_FORGOTTEN, |g| right(g) * g.area),
     (&light::LIGHT_AREA_MULTIPLIED, |g| right(g) * g.area * g.area),
-    (&light::LIGHT_DENSITY_INVERTED, |g| 1.0 / right(g)),
+    (&light::LIGHT_PDF_INVERTED, |g| 1.0 / right(g)),
     (&light::LIGHT_SURFACE_COSINE, |g| right(g) * g.cosine / g.cosine_at_surface),
 ];
 

@@ -234,7 +234,7 @@ fn finding(seen: &[Seen<'_>], tolerance: f64, allowed: f64) -> Finding {
     }
     if rare.verdict == Verdict::Fail {
         let evidence = format!("{} of {points} points that a lamp at the eye has to light", dark);
-        return finding.because(&cause::ACNE, evidence);
+        return finding.because(&cause::SHADOW_ACNE, evidence);
     }
     let made = MISTAKES.iter().filter(|(_, mistake)| all().all(|p| p.is_by(*mistake, tolerance)));
     let evidence = format!("predicts the radiance of {points} points");
@@ -274,7 +274,7 @@ mod tests {
     fn points_in_their_own_shadow_are_counted_and_named() {
         let finding = seen(|_| 1.0, 7);
         assert!(failure(&finding).contains("7 of 100 points that the eye sees are dark"));
-        assert_eq!(finding.clues[0].cause, cause::ACNE.name);
+        assert_eq!(finding.clues[0].cause, cause::SHADOW_ACNE.name);
     }
 
     #[test]

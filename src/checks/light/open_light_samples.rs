@@ -237,7 +237,7 @@ impl Sky {
         Ok(Judged {
             name: "the sky".to_owned(),
             measures: vec![Measure::of("mean of radiance over density", &reports[0])],
-            cause: is_half.then_some(&cause::SKY_PDF_OF_HEMISPHERE),
+            cause: is_half.then_some(&cause::ENVIRONMENT_PDF_OF_HEMISPHERE),
         })
     }
 }

@@ -90,19 +90,19 @@ impl Density {
         };
         let is = |factor| form.is_times(factor, right);
         if form.is_like(right) {
-            (!self.is_dark_below).then_some(&sampling::DENSITY_BELOW_HORIZON)
+            (!self.is_dark_below).then_some(&sampling::PDF_BELOW_HORIZON)
         } else if is(PI) {
-            Some(&sampling::DENSITY_WITHOUT_PI)
+            Some(&sampling::PDF_WITHOUT_PI)
         } else if is(0.5) {
-            Some(&sampling::DENSITY_HALVED)
+            Some(&sampling::PDF_HALVED)
         } else if is(2.0) {
-            Some(&sampling::DENSITY_DOUBLED)
+            Some(&sampling::PDF_DOUBLED)
         } else if is(TAU * TAU) || is(PI * PI) {
-            Some(&sampling::DENSITY_INVERTED)
+            Some(&sampling::PDF_INVERTED)
         } else if form.is_like(Form::UNIFORM) {
-            Some(&sampling::UNIFORM_DENSITY_FOR_COSINE)
+            Some(&sampling::UNIFORM_PDF_FOR_COSINE)
         } else if form.is_like(Form::COSINE) {
-            Some(&sampling::COSINE_DENSITY_FOR_UNIFORM)
+            Some(&sampling::COSINE_PDF_FOR_UNIFORM)
         } else {
             None
         }
@@ -118,11 +118,9 @@ impl Density {
             (Law::Uniform, Wanted::Cosine) => Some(&sampling::UNIFORM_FOR_COSINE),
             (Law::Cosine, Wanted::Uniform) => Some(&sampling::COSINE_FOR_UNIFORM),
             (Law::Uniform, Wanted::Either) if !is_uniform => {
-                Some(&sampling::COSINE_DENSITY_FOR_UNIFORM)
+                Some(&sampling::COSINE_PDF_FOR_UNIFORM)
             }
-            (Law::Cosine, Wanted::Either) if is_uniform => {
-                Some(&sampling::UNIFORM_DENSITY_FOR_COSINE)
-            }
+            (Law::Cosine, Wanted::Either) if is_uniform => Some(&sampling::UNIFORM_PDF_FOR_COSINE),
             _ => None,
         }
     }

@@ -239,13 +239,13 @@ mod tests {
 
     #[test]
     fn a_missing_one_over_pi_is_a_constant_factor() {
-        assert_named(named(cosine, |d| d.z.max(0.0)), "is π instead of 1", "density-without-pi");
+        assert_named(named(cosine, |d| d.z.max(0.0)), "is π instead of 1", "pdf-without-pi");
     }
 
     #[test]
     fn the_wrong_density_for_the_map_is_a_cosine() {
         let wrong_density = named(cosine, uniform_density);
-        assert_named(wrong_density, "is 1/2 / cos θ instead of 1", "uniform-density-for-cosine");
+        assert_named(wrong_density, "is 1/2 / cos θ instead of 1", "uniform-pdf-for-cosine");
         let wrong_map = named(uniform, cosine_density);
         assert_named(wrong_map, "is 2 cos θ instead of 1", "uniform-for-cosine");
     }

@@ -341,7 +341,7 @@ mod tests {
     fn other_laws_are_named() {
         assert!(statement(uniform).ends_with("they are uniform over the hemisphere"));
         assert_eq!(found(SAMPLER, uniform).clues[0].cause, "uniform-for-cosine");
-        assert_eq!(found(SURFACE, uniform).clues[0].cause, "cosine-density-for-uniform");
+        assert_eq!(found(SURFACE, uniform).clues[0].cause, "cosine-pdf-for-uniform");
         let theta = |p: DVec2| Some(crate::math::frame::direction(0.25 * TAU * p.x, TAU * p.y));
         assert!(statement(theta).contains("uniform in the angle θ"), "{}", statement(theta));
         let half = |p: DVec2| Some(at_height((1.0 - p.x).sqrt(), 0.5 * TAU * p.y));

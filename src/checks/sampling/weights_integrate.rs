@@ -191,10 +191,10 @@ mod tests {
     fn constants_are_named() {
         let finding = found("cosine-hemisphere", cosine, |d| d.z.max(0.0));
         assert!(failure(&finding).ends_with("means of g/pdf are 1/π of the integrals of g"));
-        assert_eq!(cause(&finding), "density-without-pi");
+        assert_eq!(cause(&finding), "pdf-without-pi");
         let finding = found("uniform-hemisphere", uniform, |d| 0.5 * uniform_density(d));
         assert!(failure(&finding).contains("are 2 of"), "{}", finding.statement);
-        assert_eq!(cause(&finding), "density-halved");
+        assert_eq!(cause(&finding), "pdf-halved");
     }
 
     #[test]
@@ -203,7 +203,7 @@ mod tests {
         let statement = failure(&finding);
         assert!(statement.contains("cos³/pdf is 0.66"), "{statement}");
         assert!(statement.contains("cos⁴/pdf 0.62"), "{statement}");
-        assert_eq!(cause(&finding), "cosine-density-for-uniform");
+        assert_eq!(cause(&finding), "cosine-pdf-for-uniform");
         let finding = found("cosine-hemisphere", uniform, cosine_density);
         assert_eq!(cause(&finding), "uniform-for-cosine");
         let finding = found("uniform-hemisphere", cosine, uniform_density);

@@ -289,11 +289,11 @@ const MISTAKES: &[Mistake] = &[
             first(p, ray, |m| m.is_inside() && is_on(ray, m.t) && faces(m))
         },
     },
-    Mistake { cause: &shape::WEIGHTS_SWAPPED, formula: |p, ray| shaded(p, ray, [0, 2, 1]) },
+    Mistake { cause: &shape::BARYCENTRICS_SWAPPED, formula: |p, ray| shaded(p, ray, [0, 2, 1]) },
     Mistake { cause: &shape::NORMALS_SWAPPED, formula: |p, ray| shaded_alone(p, ray, [0, 2, 1]) },
-    Mistake { cause: &shape::WEIGHTS_MOVED_ON, formula: |p, ray| shaded(p, ray, [1, 2, 0]) },
+    Mistake { cause: &shape::BARYCENTRICS_MOVED_ON, formula: |p, ray| shaded(p, ray, [1, 2, 0]) },
     Mistake { cause: &shape::NORMALS_MOVED_ON, formula: |p, ray| shaded_alone(p, ray, [1, 2, 0]) },
-    Mistake { cause: &shape::WEIGHTS_MOVED_BACK, formula: |p, ray| shaded(p, ray, [2, 0, 1]) },
+    Mistake { cause: &shape::BARYCENTRICS_MOVED_BACK, formula: |p, ray| shaded(p, ray, [2, 0, 1]) },
     Mistake {
         cause: &shape::NORMALS_MOVED_BACK,
         formula: |p, ray| shaded_alone(p, ray, [2, 0, 1]),

@@ -267,7 +267,7 @@ mod tests {
     #[test]
     fn every_kind_of_leak_has_its_name() {
         assert_eq!(cause(Slip::ShrinksTriangles), "edges-excluded");
-        assert_eq!(cause(Slip::ShrinksBoxes), "hierarchy-loses-hits");
+        assert_eq!(cause(Slip::ShrinksBoxes), "bvh-loses-hits");
         assert_eq!(cause(Slip::CullsBack), "back-culled");
         assert_eq!(cause(Slip::LosesTheLast), "primitives-lost");
     }

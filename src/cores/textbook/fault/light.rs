@@ -30,7 +30,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "1/area, as if it were a density over directions",
         caught_by: RECTANGLE,
-        cause: &light::LIGHT_DENSITY_PER_AREA,
+        cause: &light::LIGHT_PDF_PER_AREA,
     },
     Fault {
         change: Change::LightAreaForgotten,
@@ -86,7 +86,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "1/2π for directions of the whole sphere",
         caught_by: "light/environment-samples-cover-the-sphere",
-        cause: &light::SKY_PDF_OF_HEMISPHERE,
+        cause: &light::ENVIRONMENT_PDF_OF_HEMISPHERE,
     },
     Fault {
         change: Change::HemisphereNotDivided,
@@ -142,7 +142,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "the shadow ray ends at the lamp, and meets it",
         caught_by: "light/rectangle-light-slanted-matches-closed-form",
-        cause: &light::LAMP_SHADOWS_ITSELF,
+        cause: &light::EMITTER_SHADOWS_ITSELF,
     },
     Fault {
         change: Change::LampShadowsItselfAtTimes,
@@ -150,7 +150,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "the shadow ray starts EPS ahead and ends EPS before the lamp: rounding decides",
         caught_by: "light/rectangle-light-overhead-matches-closed-form",
-        cause: &light::LAMP_SHADOWS_ITSELF,
+        cause: &light::EMITTER_SHADOWS_ITSELF,
     },
     Fault {
         change: Change::NoShadows,
@@ -174,7 +174,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "rays that leave a surface have no min_t",
         caught_by: "light/point-light-at-the-camera-sees-no-shadows",
-        cause: &light::ACNE,
+        cause: &light::SHADOW_ACNE,
     },
     Fault {
         change: Change::DividedInLoop,
@@ -214,6 +214,6 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "max_t of the new ray is the length of the ray before",
         caught_by: "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
-        cause: &light::RANGE_KEPT,
+        cause: &light::T_MAX_NOT_RESET,
     },
 ];

@@ -63,7 +63,7 @@ pub const FAULTS: &[Fault] = &[
         part: 4,
         summary: "what glows is not added after a mirror",
         caught_by: "integrator/three-mirrors-multiply-their-reflectance",
-        cause: &integrator::MIRROR_SHOWS_NO_LIGHT,
+        cause: &integrator::NO_EMISSION_AFTER_SPECULAR,
     },
     Fault {
         change: Change::IsolationIgnored,

@@ -52,7 +52,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "density 1/π for the uniform hemisphere",
         caught_by: UNIFORM_DENSITY,
-        cause: &sampling::DENSITY_DOUBLED,
+        cause: &sampling::PDF_DOUBLED,
     },
     Fault {
         change: Change::UniformPdfDoubledTwice,
@@ -60,7 +60,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "density 1/π, and a factor 2 in the estimator: the picture is right",
         caught_by: UNIFORM_DENSITY,
-        cause: &sampling::DENSITY_DOUBLED,
+        cause: &sampling::PDF_DOUBLED,
     },
     Fault {
         change: Change::CosinePdfWithoutPi,
@@ -68,7 +68,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "density cos θ for the cosine hemisphere",
         caught_by: COSINE_DENSITY,
-        cause: &sampling::DENSITY_WITHOUT_PI,
+        cause: &sampling::PDF_WITHOUT_PI,
     },
     Fault {
         change: Change::CosinePdfUniform,
@@ -76,7 +76,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "cosine samples with density 1/2π",
         caught_by: COSINE_MAP,
-        cause: &sampling::UNIFORM_DENSITY_FOR_COSINE,
+        cause: &sampling::UNIFORM_PDF_FOR_COSINE,
     },
     Fault {
         change: Change::PdfBelowHorizon,
@@ -84,7 +84,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "the density is |cos θ|/π below the horizon too",
         caught_by: COSINE_DENSITY,
-        cause: &sampling::DENSITY_BELOW_HORIZON,
+        cause: &sampling::PDF_BELOW_HORIZON,
     },
     Fault {
         change: Change::BrdfWithoutPi,
@@ -140,7 +140,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "cosine samples of the diffuse surface, density 1/2π",
         caught_by: DIFFUSE,
-        cause: &sampling::UNIFORM_DENSITY_FOR_COSINE,
+        cause: &sampling::UNIFORM_PDF_FOR_COSINE,
     },
     Fault {
         change: Change::AlbedoAveraged,
@@ -180,7 +180,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "entering is taken for leaving",
         caught_by: "bsdf/glass-follows-snell-and-fresnel",
-        cause: &bsdf::GLASS_SIDES_SWAPPED,
+        cause: &bsdf::ETA_SWAPPED,
     },
     Fault {
         change: Change::GlassWithoutTotalReflection,
@@ -204,7 +204,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "each way is taken half of the time, whatever its probability",
         caught_by: "bsdf/glass-follows-snell-and-fresnel",
-        cause: &bsdf::GLASS_OTHER_CHANCE,
+        cause: &bsdf::LOBE_PROBABILITY_MISMATCH,
     },
     Fault {
         change: Change::GlassSchlickUndeclared,
@@ -244,7 +244,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "the density of the half vector, without 1/(4 wo·h)",
         caught_by: "bsdf/rough-conductor-pdf-matches-the-jacobian",
-        cause: &bsdf::PDF_OF_FACETS,
+        cause: &bsdf::PDF_OF_HALF_VECTOR,
     },
     Fault {
         change: Change::MetalWithoutFour,
@@ -268,7 +268,7 @@ pub const FAULTS: &[Fault] = &[
         part: 3,
         summary: "Fresnel's share is in f, and not in the pdf",
         caught_by: "bsdf/rough-glass-pdf-integrates-to-its-valid-samples",
-        cause: &bsdf::LOBE_CHANCE_FORGOTTEN,
+        cause: &bsdf::LOBE_PROBABILITY_FORGOTTEN,
     },
     Fault {
         change: Change::RoughGlassHalfOfEntering,

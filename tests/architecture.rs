@@ -11,9 +11,9 @@ use std::path::{Path, PathBuf};
 const LAYERS: &[(&str, u32)] = &[
     ("math", 0),
     ("disk", 0),
+    ("text", 0),
     ("cause", 1),
     ("image", 1),
-    ("text", 1),
     ("project", 1),
     ("stats", 2),
     ("scene", 3),

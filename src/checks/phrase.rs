@@ -1,39 +1,22 @@
-//! What statements and measures of different checks have in common: how a share, an angle or a figure is
-//! written, and how a report of [`crate::stats`] becomes a row of a finding.
+//! What statements and measures of different checks have in common.
 
 use super::Measure;
 use crate::stats::{ExactReport, Verdict};
+use crate::text::number::{ratio, with_interval};
+
+pub use crate::text::number::{degrees, figure, percent};
 
 /// `12 of 53 rays are`, `1 of 53 rays is`: the beginning of most failing statements.
 pub fn some_are(some: usize, all: usize, noun: &str) -> String {
     format!("{some} of {all} {noun} {}", if some == 1 { "is" } else { "are" })
 }
 
-/// `7.1°`
-pub fn degrees(radians: f64) -> String {
-    format!("{}°", figure(radians.to_degrees()))
-}
-
-/// `0.42 %`
-pub fn percent(share: f64) -> String {
-    format!("{} %", figure(share * 100.0))
-}
-
-/// A number with three significant digits, as people write it.
-pub fn figure(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    if !(1e-4..1e6).contains(&size) {
-        return format!("{value:.2e}").replace(".00e", "e");
-    }
-    let decimals = (2 - size.log10().floor() as i32).clamp(0, 6);
-    let written = format!("{value:.*}", usize::try_from(decimals).unwrap_or(0));
-    if written.contains('.') {
-        written.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        written
+/// `0.318 (99.9 % CI 0.316 to 0.320)`: what was measured over what it should be.
+pub fn ratio_of(measure: &Measure) -> String {
+    let over = |value: f64| value / measure.expected;
+    match measure.interval {
+        Some(ends) => with_interval(over(measure.measured), ends.map(over)),
+        None => ratio(over(measure.measured)),
     }
 }
 
@@ -67,19 +50,6 @@ pub fn would_have_caught(measures: &[Measure]) -> String {
 mod tests {
     use super::*;
     use crate::stats::{Compared, judge_exact};
-
-    #[test]
-    fn figures_have_three_digits_and_no_idle_zeros() {
-        let written = |value: f64| figure(value);
-        assert_eq!(written(7.0999), "7.1");
-        assert_eq!(written(0.042), "0.042");
-        assert_eq!(written(1234.4), "1234");
-        assert_eq!(written(100.0), "100");
-        assert_eq!(written(2e-9), "2e-9");
-        assert_eq!(written(-1.5), "-1.5");
-        assert_eq!(written(0.0), "0");
-        assert_eq!(written(f64::INFINITY), "inf");
-    }
 
     #[test]
     fn one_is_and_two_are() {

@@ -9,6 +9,7 @@ use crate::project::Project;
 use crate::report::text::wrap;
 use crate::run::{Outcome, Plan, Request, run_trial};
 use crate::stats::Budget;
+use crate::text::number::{duration, probability};
 use clap::Args;
 use std::sync::Arc;
 
@@ -106,15 +107,20 @@ fn sees(project: &Project, case: &Arc<Case>) -> Result<Vec<String>, Failure> {
         return Ok(vec![labelled("sees", &record.outcome.statement())]);
     };
     let blame = if finding.false_alarm() > 0.0 {
-        format!("a correct core fails it with probability {:.1e} at most", finding.false_alarm())
+        format!(
+            "a correct core fails it with probability {} at most",
+            probability(finding.false_alarm())
+        )
     } else {
         "nothing is left to chance: a correct core never fails it".to_owned()
     };
-    let seconds = record.timing.seconds;
     Ok(vec![
         labelled("sees", &format!("on textbook it {}", finding.resolution)),
         labelled("error rate", &blame),
-        labelled("takes", &format!("{seconds:.1} s, {} numbers", finding.measures.len())),
+        labelled(
+            "takes",
+            &format!("{}, {} numbers", duration(record.timing.seconds), finding.measures.len()),
+        ),
     ])
 }
 

@@ -2,9 +2,9 @@
 //! trial elsewhere, nothing if the user wants quiet. Results go to standard output, and not from
 //! here.
 
-use crate::report::number::{count, duration};
 use crate::report::text::{Paint, Style, clean, paint_of};
 use crate::run::{Event, RunRecord, Status, TrialRecord};
+use crate::text::number::{count, duration};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{IsTerminal, Write};

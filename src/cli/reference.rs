@@ -5,6 +5,7 @@ use crate::reference::{Made, MakeOptions, MitsubaOptions, Progress, Reference, R
 use crate::scene::Library;
 use crate::scene::reference::Layers;
 use crate::stats::Verdict;
+use crate::text::number::percent;
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::Range;
@@ -130,8 +131,8 @@ fn make(references: &References, name: &str, options: &MakeOptions) -> Answer {
     match made.map_err(Failure::broken)? {
         Made::Reference(made) => {
             println!(
-                "made {name}: median relative standard error {:.2} %; look at references/{name}, then commit it",
-                100.0 * made.provenance.median_relative_error
+                "made {name}: median relative standard error {}; look at references/{name}, then commit it",
+                percent(made.provenance.median_relative_error)
             );
             if made.layers == Layers::default() {
                 println!(
@@ -174,10 +175,10 @@ fn verify(references: &References, name: &str, options: &MitsubaOptions) -> Answ
     let verified = references.verify(name, options, &mut |progress| display.show(progress));
     let report = verified.map_err(Failure::broken)?.report;
     println!(
-        "{name}: {} after {} runs; would have caught an error of {:.2} % of the whole picture",
+        "{name}: {} after {} runs; would have caught an error of {} of the whole picture",
         report.verdict,
         report.runs,
-        100.0 * report.resolution
+        percent(report.resolution)
     );
     Ok(match report.verdict {
         Verdict::Pass => ExitCode::Good,
@@ -192,9 +193,9 @@ fn list(references: &References) -> Answer {
     for entry in &listed {
         let state = match &entry.state {
             State::Good(reference) => format!(
-                "{:>6} samples a pixel, median relative standard error {:.2} %  {}",
+                "{:>6} samples a pixel, median relative standard error {}  {}",
                 reference.provenance.samples_per_pixel(),
-                100.0 * reference.provenance.median_relative_error,
+                percent(reference.provenance.median_relative_error),
                 content(reference)
             ),
             State::Bad(error) => {

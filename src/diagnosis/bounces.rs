@@ -6,12 +6,13 @@
 
 use super::bounce_laws::{Channel, LAWS, Law, indirect};
 use super::evidence::measure;
-use super::readings::{Reading, channels, written};
+use super::readings::{Reading, channels};
 use super::{Evidence, Suspicion};
 use crate::cause::integrator;
 use crate::checks::Finding;
 use crate::image::CHANNELS;
 use crate::math::ratios::names_of;
+use crate::text::number::{figure, plus_minus};
 
 /// The furnaces whose bounces are told one by one.
 pub const FURNACES: [&str; 2] = [
@@ -102,7 +103,7 @@ impl Furnace {
         let cells: Vec<_> = isolated
             .filter_map(|row| {
                 let ratios: Vec<_> =
-                    row.readings.iter().flatten().map(|reading| written(reading.ratio)).collect();
+                    row.readings.iter().flatten().map(|reading| figure(reading.ratio)).collect();
                 (!ratios.is_empty()).then(|| format!("{}: {}", row.bounces[0], ratios.join(" ")))
             })
             .collect();
@@ -127,8 +128,8 @@ impl Furnace {
             Some(format!(
                 "{} ({what} would be {}, not {})",
                 rival.cause.headline,
-                written(predicted),
-                written(reading.ratio)
+                figure(predicted),
+                figure(reading.ratio)
             ))
         });
         refuted.take(2).collect()
@@ -178,7 +179,10 @@ impl Furnace {
     fn of_factor(&self, case: &str, [low, high]: [f64; 2]) -> Suspicion {
         let factor = 0.5 * (low + high);
         let half = 0.5 * (high - low);
-        let fit = format!("bounce k is {factor:.4}^(k−1) ± {half:.4} of what it should be, grey");
+        let fit = format!(
+            "bounce k is f^(k−1) of what it should be, grey, with f = {}",
+            plus_minus(factor, half)
+        );
         let named = names_of([low, high], &[]);
         let name = named.first().map(|name| format!("the factor a bounce is {}", name.name));
         let below_one = factor < 1.0 && name.is_none();
@@ -282,7 +286,11 @@ mod tests {
         let diagnosis = diagnose(&made.evidence());
         let headline = &diagnosis.headlines[0];
         assert_eq!(headline.cause.name, integrator::ROULETTE_NOT_DIVIDED.name);
-        assert!(headline.evidence[1].starts_with("bounce k is 0.700"), "{:?}", headline.evidence);
+        assert!(
+            headline.evidence[1].ends_with("with f = 0.7000 ± 0.0009"),
+            "{:?}",
+            headline.evidence
+        );
         assert!(headline.ruled_out[0].contains("coloured"));
     }
 

@@ -2,11 +2,12 @@
 //! in what it says of itself, and is told so.
 
 use super::evidence::measure;
-use super::readings::{Reading, channels, written};
+use super::readings::{Reading, channels};
 use super::{Evidence, Suspicion};
 use crate::cause::{Cause, convention};
 use crate::contract::{EmissionSides, Falloff, GlassRadiance};
 use crate::image::CHANNELS;
+use crate::text::number::figure;
 
 /// Point lights at several distances, and the squared distance of each row.
 const POINT_LIGHT: &str = "light/point-light-follows-the-inverse-square-law";
@@ -49,7 +50,7 @@ fn falloff(evidence: &Evidence<'_>) -> Option<Suspicion> {
         if !readings.iter().all(|reading| reading.admits(predicted)) {
             return None;
         }
-        seen.push(format!("{} at distance {:.3}", written(reading.ratio), squared.sqrt()));
+        seen.push(format!("{} at distance {}", figure(reading.ratio), figure(squared.sqrt())));
     }
     let sentence = format!("over what it should be: {}: distance squared", seen.join(", "));
     Some(suspicion(cause, POINT_LIGHT, sentence))
@@ -86,7 +87,7 @@ fn glass(evidence: &Evidence<'_>) -> Option<Suspicion> {
     all.then(|| {
         let sentence = format!(
             "the lamp in glass is {} of what it should be: 1.5² = 2.25",
-            written(readings[0].ratio)
+            figure(readings[0].ratio)
         );
         suspicion(&convention::UNSCALED_RADIANCE, LAMP_IN_GLASS, sentence)
     })

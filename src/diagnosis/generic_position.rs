@@ -3,9 +3,10 @@
 //! One scene alone confuses a forgotten cosine with a forgotten cosine at the light (1.111 and 1.115); the other
 //! tells them apart (1.795 and 1.922). The predictions are integrals over the light, checked by this file's test.
 
-use super::readings::{Reading, channels, written};
+use super::readings::{Reading, channels};
 use super::{Evidence, Suspicion};
 use crate::cause::{Cause, bsdf, light, sampling};
+use crate::text::number::figure;
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 /// The two scenes, by light sampling with 7 and 5 samples.
@@ -127,15 +128,7 @@ fn best(readings: &[Reading]) -> Reading {
 }
 
 fn sentence(signature: &Signature, readings: &[Vec<Reading>; 2]) -> String {
-    let one = |number: usize| {
-        let reading = best(&readings[number]);
-        format!(
-            "{} ± {} (predicted {})",
-            written(reading.ratio),
-            written(reading.half_width()),
-            written(signature.ratios[number])
-        )
-    };
+    let one = |number: usize| best(&readings[number]).beside(signature.ratios[number]);
     format!(
         "direct light over what it should be in two scenes in general position: {} and {}",
         one(0),
@@ -153,7 +146,7 @@ fn nearest_misses(others: &[&Signature], readings: &[Vec<Reading>; 2]) -> Vec<St
     let mut sorted = others.to_vec();
     sorted.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
     let words = |signature: &&Signature| {
-        let [first, second] = signature.ratios.map(written);
+        let [first, second] = signature.ratios.map(figure);
         format!("{} (would give {first} and {second})", signature.cause.headline)
     };
     sorted.iter().take(2).map(words).collect()
@@ -204,7 +197,7 @@ mod tests {
         let diagnosis = diagnose(&pair(&BY_LIGHTS, [1.11073, 1.79493]).evidence());
         let ruled_out = diagnosis.headlines[0].ruled_out.join("; ");
         assert!(ruled_out.contains("the cosine at the light"), "{ruled_out}");
-        assert!(ruled_out.contains("1.115 and 1.922"), "{ruled_out}");
+        assert!(ruled_out.contains("1.12 and 1.92"), "{ruled_out}");
     }
 
     /// Floor normal, light centre and edges of the two scenes.

@@ -3,6 +3,7 @@
 use crate::checks::{Finding, Measure};
 use crate::image::CHANNELS;
 use crate::stats::Band;
+use crate::text::number::{figure, plus_minus};
 
 /// Relative error that a comparison forgives on top of an interval: what is forgiven of a radiance, once for what was
 /// measured and once for what a rule predicts from the radiance of another question.
@@ -45,6 +46,12 @@ impl Reading {
     pub fn half_width(&self) -> f64 {
         0.5 * (self.interval[1] - self.interval[0])
     }
+
+    /// With its uncertainty, and what a rule predicts.
+    pub fn beside(&self, predicted: f64) -> String {
+        let measured = plus_minus(self.ratio, self.half_width());
+        format!("{measured} (predicted {})", figure(predicted))
+    }
 }
 
 /// The readings of a row of a finding, channel by channel; `None` for a channel that expects nothing.
@@ -53,9 +60,4 @@ pub fn channels(finding: &Finding, row: &str) -> [Option<Reading>; 3] {
         let name = format!("{row}, {channel}");
         finding.measures.iter().find(|measure| measure.name == name).and_then(Reading::of)
     })
-}
-
-/// A ratio as people write it.
-pub fn written(ratio: f64) -> String {
-    if ratio == 0.0 { "0".to_owned() } else { format!("{ratio:.3}") }
 }

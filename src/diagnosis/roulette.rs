@@ -1,7 +1,7 @@
 //! Means under Russian roulette: what is forgotten at the roulette predicts a mean for each stopping probability.
 
 use super::evidence::measure;
-use super::readings::{Reading, channels, written};
+use super::readings::{Reading, channels};
 use super::{Evidence, Suspicion};
 use crate::cause::{Cause, integrator};
 use crate::checks::Finding;
@@ -108,12 +108,10 @@ impl Row {
     fn words(&self, law: &Law) -> Option<String> {
         let reading = self.readings[0]?;
         Some(format!(
-            "stop {}, {} guaranteed: {} ± {} (predicted {})",
+            "stop {}, {} guaranteed: {}",
             self.play.stop,
             self.play.guaranteed,
-            written(reading.ratio),
-            written(reading.half_width()),
-            written(law.ratio(self.play, 0, self.totals[0]))
+            reading.beside(law.ratio(self.play, 0, self.totals[0]))
         ))
     }
 }

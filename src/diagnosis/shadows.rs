@@ -1,12 +1,13 @@
 //! What blocks light and what does not, where light that is not blocked is right.
 
 use super::evidence::measure;
-use super::readings::{channels, written};
+use super::readings::channels;
 use super::{Evidence, Suspicion};
 use crate::cause::light;
 use crate::checks::{Finding, Measure};
 use crate::image::CHANNELS;
 use crate::stats::Verdict;
+use crate::text::number::figure;
 
 /// Direct light that nothing blocks.
 const OPEN: &str = "light/rectangle-light-overhead-matches-closed-form";
@@ -61,10 +62,10 @@ fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
         cause: &light::EMITTER_SHADOWS_ITSELF,
         cases: dark.chain([NOISE]).map(str::to_owned).collect(),
         evidence: vec![format!(
-            "{} of the light of a lamp arrives, and the variance of a sample is {:.2e}, as where so many of them arrive \
+            "{} of the light of a lamp arrives, and the variance of a sample is {}, as where so many of them arrive \
              whole and the others not at all",
-            written(mean.measured / mean.expected),
-            variance.measured
+            figure(mean.measured / mean.expected),
+            figure(variance.measured)
         )],
         ruled_out: vec![
             "a wrong density or cosine (samples would be too dark, not missing)".to_owned(),
@@ -99,7 +100,8 @@ fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
         cause: &light::NO_SHADOWS,
         cases: vec![BLOCKER.to_owned(), WALL.to_owned()],
         evidence: vec![format!(
-            "behind a wall there is light ({light:.3}), behind a blocker too much, and without one it is right"
+            "behind a wall there is light ({}), behind a blocker too much, and without one it is right",
+            figure(light)
         )],
         ruled_out: vec!["a wrong strength of lights (open light is right)".to_owned()],
         weight: 1.0,

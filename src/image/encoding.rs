@@ -3,6 +3,7 @@
 
 use super::Image;
 use super::png::Picture;
+use crate::text::number::figure;
 use serde::{Deserialize, Serialize};
 
 /// The largest code.
@@ -185,7 +186,7 @@ impl std::fmt::Display for Encoding {
         if self.exposure == 1.0 {
             Ok(())
         } else {
-            write!(f, ", exposed {:.3} times", self.exposure)
+            write!(f, ", exposed {} times", figure(self.exposure))
         }
     }
 }

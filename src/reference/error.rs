@@ -4,7 +4,7 @@ use crate::image::ImageError;
 use crate::scene::SceneError;
 use crate::scene::format::ExportError;
 use crate::scene::reference::ReferenceError;
-use crate::text::Diagnostic;
+use crate::text::{Diagnostic, number};
 use std::path::{Path, PathBuf};
 
 /// Why a reference could not be made or verified.
@@ -61,8 +61,9 @@ pub enum MakeError {
     },
     /// What was rendered bounce by bounce is not what the reference shows.
     #[error(
-        "the bounces of `{name}` have {ratio:.4} of its light together\n\
-         hint: `furnace reference verify {name}` says whether Mitsuba still agrees with it"
+        "the bounces of `{name}` have {} of its light together\n\
+         hint: `furnace reference verify {name}` says whether Mitsuba still agrees with it",
+        number::ratio(*.ratio)
     )]
     BouncesDoNotAddUp {
         /// The reference.

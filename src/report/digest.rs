@@ -1,13 +1,13 @@
 //! What every report says first of a run: how many of what, part by part, what failed, what was
 //! spent, and how large an error could still hide.
 
-use super::number::count;
 use super::tree::RunTree;
 use crate::case::{PARTS, Part, Tier};
 use crate::checks::Finding;
 use crate::run::record::CoreRecord;
 use crate::run::{Status, TrialRecord};
 use crate::stats::{Ledger, TestKind};
+use crate::text::number::count;
 use std::collections::BTreeMap;
 
 /// How many trials ended in which way.

@@ -1,8 +1,8 @@
 //! A measure in words: every number with the digits that its tolerance makes meaningful.
 
-use super::number::{percent, signed_percent, significant, to_step};
 use crate::checks::Measure;
 use crate::stats::Verdict;
+use crate::text::number::{percent, signed_percent, to_step};
 
 /// The numbers of a [`Measure`], ready to be shown side by side.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ impl MeasureWords {
             },
             measured: number(measure.measured),
             expected: number(measure.expected),
-            allowed: format!("±{}", significant(measure.allowed, 2)),
+            allowed: format!("±{}", to_step(measure.allowed, measure.allowed)),
             interval: measure
                 .interval
                 .map(|[low, high]| format!("[{}, {}]", number(low), number(high)))
@@ -117,7 +117,7 @@ mod tests {
         assert_eq!(words.expected, "0.3700");
         assert_eq!(words.allowed, "±0.0010");
         assert_eq!(words.ratio, "0.9795");
-        assert_eq!(words.off_by, "-2.1 %");
+        assert_eq!(words.off_by, "-2.05 %");
     }
 
     #[test]

@@ -9,7 +9,6 @@ pub mod digest;
 pub(crate) mod example;
 pub mod html;
 pub mod measure;
-pub mod number;
 pub mod text;
 pub mod tree;
 

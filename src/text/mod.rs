@@ -1,10 +1,11 @@
 //! What people write, and what they are told about it: messages that point into a file, and the
-//! values with units that scene files and case files share; and how XML is written.
+//! values with units that scene files and case files share; how numbers are written for people, and how XML is.
 //!
 //! Not here: what any key of a file means. Scenes and cases keep their own vocabulary.
 
 mod diagnostic;
 mod document;
+pub mod number;
 mod suggestion;
 mod units;
 mod xml;

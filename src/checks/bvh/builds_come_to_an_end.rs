@@ -13,6 +13,7 @@ use crate::math::rng::Seed;
 use crate::scene::procedural::{Layout, pathological, soup};
 use crate::scene::{Mesh, SceneDescription};
 use crate::text::Count;
+use crate::text::number::figure;
 use serde::Deserialize;
 
 /// Every hierarchy over every arrangement is finite, shallow and right.
@@ -142,12 +143,12 @@ impl Outcome {
             return None;
         }
         Some(format!(
-            "{}: {} is {} nodes deep for {} triangles, more than {:.0}",
+            "{}: {} is {} nodes deep for {} triangles, more than {}",
             self.name,
             deepest.build.name(),
             self.depth(),
             self.triangles,
-            self.deepest_allowed()
+            figure(self.deepest_allowed().floor())
         ))
     }
 }
@@ -209,7 +210,7 @@ mod tests {
         let finding = found(Slip::IsAList);
         let statement = failure(&finding);
         assert!(
-            statement.contains("is 1000 nodes deep for 1000 triangles, more than 84"),
+            statement.contains("is 1000 nodes deep for 1000 triangles, more than 83"),
             "{statement}"
         );
         assert!(finding.clues.is_empty(), "grids can be separated");

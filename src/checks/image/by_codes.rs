@@ -9,6 +9,7 @@ use crate::image::png::Picture as Codes;
 use crate::stats::{
     CodeReference, CodeReport, CodeSettings, Deciphered, ImageDraw, Report, Verdict, judge_codes,
 };
+use crate::text::number::{figure, percent};
 
 /// A finding, and what it was made of.
 pub(super) struct Judged {
@@ -74,21 +75,21 @@ fn found(report: &CodeReport) -> Finding {
     let Some(image) = &report.image else { return mismatch(report) };
     let mut finding = finding(image, report.judgement().hypothesis);
     finding.verdict = report.verdict;
-    let compared = 100.0 * report.compared;
+    let compared = percent(report.compared);
     finding.statement = format!("in codes ({}): {}", report.deciphered.declared, finding.statement);
     if image.verdict != report.verdict && report.verdict == Verdict::Inconclusive {
         finding.statement = format!(
-            "only {compared:.0} % of the channels can be compared; the others are clipped or too noisy"
+            "only {compared} of the channels can be compared; the others are clipped or too noisy"
         );
     }
-    finding.resolution += &format!(", by the codes of {compared:.0} % of the channels");
+    finding.resolution += &format!(", by the codes of {compared} of the channels");
     if let Some(clipping) = report.clipping {
         if clipping.rejects {
             finding.statement += &format!(
-                "; of {} channels that are brighter than white, {:.1} % are clipped and not {:.1} %",
+                "; of {} channels that are brighter than white, {} are clipped and not {}",
                 clipping.channels,
-                100.0 * clipping.share,
-                100.0 * clipping.expected
+                percent(clipping.share),
+                percent(clipping.expected)
             );
         }
         finding.measures.push(Measure {
@@ -124,5 +125,5 @@ fn cause_of(deciphered: &Deciphered) -> &'static crate::cause::Cause {
 }
 
 fn number(words: &str, value: Option<f64>) -> String {
-    value.map_or(String::new(), |value| format!("{words} {value:.2}"))
+    value.map_or(String::new(), |value| format!("{words} {}", figure(value)))
 }

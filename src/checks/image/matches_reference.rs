@@ -15,6 +15,7 @@ use crate::stats::{
     ScaleReport, Verdict, judge_image,
 };
 use crate::text::Percent;
+use crate::text::number::{apart, percent, with_interval};
 use serde::Deserialize;
 use std::sync::Arc;
 
@@ -225,8 +226,8 @@ pub(super) fn finding(report: &ImageReport, hypothesis: Option<Hypothesis>) -> F
     let mut finding = Finding::of(
         statement(report),
         format!(
-            "would have caught an error of {:.2} % of the whole picture",
-            100.0 * report.resolution
+            "would have caught an error of {} of the whole picture",
+            percent(report.resolution)
         ),
         measures,
     );
@@ -298,9 +299,9 @@ fn statement(report: &ImageReport) -> String {
             format!("agrees with the reference; {}", brightness(report))
         }
         None => format!(
-            "not yet known to agree: an error of {:.2} % could hide, {:.2} % has to be seen",
-            100.0 * report.resolution,
-            100.0 * report.detects
+            "not yet known to agree: an error of {} could hide, {} has to be seen",
+            percent(report.resolution),
+            percent(report.detects)
         ),
     }
 }
@@ -312,7 +313,8 @@ fn brightness(report: &ImageReport) -> String {
         None => "the picture is black".to_owned(),
         // Of codes it is an extrapolation, which black ones carry below nothing.
         Some(whole) => {
-            format!("the picture has {:.4} of the light it should have", whole.ratio.max(0.0))
+            let share = with_interval(whole.ratio.max(0.0), whole.interval.map(|end| end.max(0.0)));
+            format!("the picture has {share} of the light it should have")
         }
     }
 }
@@ -322,15 +324,16 @@ fn confirmed(report: &ImageReport, scale: Scale) -> String {
     let cell = report.scales.iter().find(|s| s.scale == scale).and_then(|s| s.worst.first());
     match cell {
         None => format!("confirmed at the scale of a {}", scale_name(scale)),
-        Some(cell) => format!(
-            "confirmed at the scale of a {}: {} is {:.4} instead of {:.4} around pixel ({}, {})",
-            scale_name(scale),
-            component_name(cell.component),
-            cell.mean,
-            cell.expected,
-            cell.extent.x,
-            cell.extent.y,
-        ),
+        Some(cell) => {
+            let [mean, expected] = apart([cell.mean, cell.expected]);
+            format!(
+                "confirmed at the scale of a {}: {} is {mean} instead of {expected} around pixel ({}, {})",
+                scale_name(scale),
+                component_name(cell.component),
+                cell.extent.x,
+                cell.extent.y,
+            )
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use crate::image::luminance;
 use crate::math::rng::Seed;
 use crate::scene::Camera;
 use crate::stats::{Allowance, ErrorLevel, Sampling, SlopeReport, Verdict, judge_slope};
+use crate::text::number::figure;
 use crate::text::{Colour, Count, Percent};
 use serde::Deserialize;
 
@@ -140,15 +141,17 @@ fn finding(report: &SlopeReport) -> Finding {
     let slope = Measure::of("slope of log error on log samples", report);
     let statement = match report.verdict {
         Verdict::Fail => format!(
-            "error falls as n^{:.3}, not n^-0.5; a bias of {:.2e} would explain its plateau",
-            report.slope, report.plateau_bias
+            "error falls as n^{}, not n^-0.5; a bias of {} would explain its plateau",
+            figure(report.slope),
+            figure(report.plateau_bias)
         ),
-        _ => format!("error falls as n^{:.3}", report.slope),
+        _ => format!("error falls as n^{}", figure(report.slope)),
     };
-    let resolution = format!("would have caught a slope that is off by {:.3}", report.resolution);
+    let resolution =
+        format!("would have caught a slope that is off by {}", figure(report.resolution));
     let repeats = report.verdict == Verdict::Fail && report.slope.abs() <= NO_SLOPE;
     let cause = repeats.then_some(&cause::integrator::SAMPLES_REPEAT);
-    let evidence = format!("more samples change nothing: the slope is {:.3}", report.slope);
+    let evidence = format!("more samples change nothing: the slope is {}", figure(report.slope));
     Finding::of(statement, resolution, vec![slope]).because_each(cause, &evidence)
 }
 
@@ -195,7 +198,7 @@ mod tests {
         let biased = FakeFilm { develop: |mean, _| mean.map(|v| v + 0.1), ..FakeFilm::default() };
         let finding = found(biased);
         let told = failure(&finding);
-        assert!(told.contains("a bias of 1.0") || told.contains("a bias of 9.9"), "{told}");
+        assert!(told.contains("a bias of 0.1") || told.contains("a bias of 0.099"), "{told}");
         assert!(finding.clues.is_empty());
     }
 

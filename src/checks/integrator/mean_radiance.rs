@@ -4,7 +4,7 @@ use super::by_convention::ConventionEntry;
 use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, estimate, needs, settings};
 use super::foretold::MistakeEntry;
 use crate::cause::{contract, light};
-use crate::checks::phrase::{figure, percent, would_have_caught};
+use crate::checks::phrase::{figure, percent, ratio_of, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, breach};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
@@ -14,6 +14,7 @@ use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
 use crate::stats::{Band, Claim, Effort, Support, Tolerance, Verdict, judge_means};
+use crate::text::number::apart;
 use crate::text::{Colour, Count, Percent};
 use serde::Deserialize;
 
@@ -277,19 +278,14 @@ fn statement(measures: &[Measure]) -> String {
     match worst {
         None => format!("all {} mean radiances are what they should be", measures.len()),
         Some(worst) if worst.expected == 0.0 => {
-            format!("{}: radiance {:.3e} where there is no light", worst.name, worst.measured)
+            format!("{}: radiance {} where there is no light", worst.name, figure(worst.measured))
         }
         Some(worst) => {
-            let ratio = worst.measured / worst.expected;
-            let between = worst.interval.map_or_else(String::new, |[low, high]| {
-                let [low, high] = [low, high].map(|end| figure(end / worst.expected));
-                format!(" (between {low} and {high})")
-            });
+            let [measured, expected] = apart([worst.measured, worst.expected]);
             format!(
-                "{}: {ratio:.4}{between} of what it should be ({:.6} instead of {:.6}), off by {}",
+                "{}: {} of what it should be ({measured} instead of {expected}), off by {}",
                 worst.name,
-                worst.measured,
-                worst.expected,
+                ratio_of(worst),
                 percent(departure(worst)),
             )
         }

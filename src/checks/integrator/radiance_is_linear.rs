@@ -10,6 +10,7 @@ use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::scene::{Light, SceneDescription};
 use crate::stats::{Band, Claim, Effort, MeanReport, Verdict, judge_means};
+use crate::text::number::apart;
 use crate::text::{Count, Percent};
 use serde::Deserialize;
 
@@ -68,10 +69,13 @@ impl Check for RadianceIsLinear {
         let failed = measures.iter().find(|measure| measure.verdict == Verdict::Fail);
         let statement = match failed {
             None => "light adds up".to_owned(),
-            Some(measure) => format!(
-                "light does not add up: {} is {:.6} instead of {:.6}",
-                measure.name, measure.measured, measure.expected
-            ),
+            Some(measure) => {
+                let [measured, expected] = apart([measure.measured, measure.expected]);
+                format!(
+                    "light does not add up: {} is {measured} instead of {expected}",
+                    measure.name
+                )
+            }
         };
         let resolution = would_have_caught(&measures);
         Ok(Finding::of(statement, resolution, measures)

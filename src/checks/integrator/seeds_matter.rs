@@ -6,6 +6,7 @@ use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
 use crate::image::luminance;
 use crate::stats::{Verdict, judge_uncorrelated};
+use crate::text::number::figure;
 use serde::Deserialize;
 
 /// Renders a noisy picture with many seeds.
@@ -44,11 +45,15 @@ impl Check for SeedsMatter {
         let statement = match measures.iter().find(|m| m.verdict == Verdict::Fail) {
             None => format!("{} seeds give {} different pictures", self.seeds, self.seeds),
             Some(measure) => {
-                format!("the noise is not independent: {} is {:.3}", measure.name, measure.measured)
+                format!(
+                    "the noise is not independent: {} is {}",
+                    measure.name,
+                    figure(measure.measured)
+                )
             }
         };
         let limit = measures[1].allowed;
-        let resolution = format!("would have caught a correlation of {:.3}", 2.0 * limit);
+        let resolution = format!("would have caught a correlation of {}", figure(2.0 * limit));
         let cause = cause(&measures, films.len());
         let evidence = statement.clone();
         Ok(Finding::of(statement, resolution, measures).because_each(cause, &evidence))

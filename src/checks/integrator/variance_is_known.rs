@@ -6,7 +6,7 @@
 use crate::checks::integrator::{
     MistakeEntry, RayEntry, RouletteEntry, draw_estimates, needs, settings,
 };
-use crate::checks::phrase::{figure, would_have_caught};
+use crate::checks::phrase::{figure, ratio_of, would_have_caught};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings};
 use crate::image::CHANNELS;
@@ -130,14 +130,10 @@ fn statement(measures: &[Measure]) -> String {
     let Some(measure) = failed else {
         return format!("{} variances are what they should be", measures.len());
     };
-    let ratio = |value: f64| figure(value / measure.expected);
-    let between = measure.interval.map_or_else(String::new, |[low, high]| {
-        format!(" (between {} and {})", ratio(low), ratio(high))
-    });
     format!(
-        "{}: the variance is {}{between} of what it should be: {} instead of {}",
+        "{}: the variance is {} of what it should be: {} instead of {}",
         measure.name,
-        ratio(measure.measured),
+        ratio_of(measure),
         figure(measure.measured),
         figure(measure.expected),
     )

@@ -15,6 +15,7 @@ use crate::scene::{Light, SceneDescription};
 use crate::stats::{
     Band, Claim, Compared, MeanReport, Support, Tolerance, Verdict, judge_exact, judge_means,
 };
+use crate::text::number::with_interval;
 use crate::text::{Count, Percent};
 use glam::DVec3;
 use serde::Deserialize;
@@ -244,6 +245,6 @@ fn complaint(label: &str, name: &str, report: &MeanReport) -> Option<String> {
     let ratio = report.ratio?;
     let named = names_of(ratio, &[]);
     let word = named.first().map_or_else(String::new, |ratio| format!(" ({})", ratio.name));
-    let factor = report.mean / report.expected;
-    Some(format!("{label}: {name} is {factor:.4}{word} of what it should be"))
+    let factor = with_interval(report.mean / report.expected, ratio);
+    Some(format!("{label}: {name} is {factor}{word} of what it should be"))
 }

@@ -9,6 +9,7 @@ use crate::contract::{
 use crate::math::rng::Seed;
 use crate::scene::Material;
 use crate::text::Angle;
+use crate::text::number::degrees;
 use glam::DVec3;
 use serde::Deserialize;
 
@@ -116,7 +117,7 @@ impl Distribution {
             Self::Sampler(Sampler::UniformHemisphere) => "the uniform hemisphere".to_owned(),
             Self::Sampler(Sampler::CosineHemisphere) => "the cosine hemisphere".to_owned(),
             Self::Bsdf { material, angle, .. } => {
-                format!("{} seen from {:.0}°", material.name, angle.0.to_degrees())
+                format!("{} seen from {}", material.name, degrees(angle.0))
             }
         }
     }

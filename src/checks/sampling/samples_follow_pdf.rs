@@ -235,7 +235,7 @@ impl Judged {
         }
         let theta = (0.5 * (low + high)).acos().to_degrees();
         let phi = (0.5 * (from + to)).to_degrees().rem_euclid(360.0);
-        format!("θ = {theta:.0}°, φ = {phi:.0}°")
+        format!("θ = {}°, φ = {}°", figure(theta), figure(phi))
     }
 
     fn worst_cell(&self) -> String {

@@ -2,9 +2,9 @@
 //! next and what is worth a word.
 
 use crate::report::measure::{MeasureWords, worst_first};
-use crate::report::number::{count, duration};
 use crate::report::text::clean;
 use crate::run::{Trial, TrialRecord};
+use crate::text::number::{count, duration};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Ends of a trial that are shown, the last on the right.

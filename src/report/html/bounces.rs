@@ -5,6 +5,7 @@ use crate::checks::Finding;
 use crate::diagnosis::Headline;
 use crate::image::CHANNELS;
 use crate::report::tree::RunTree;
+use crate::text::number::ratio;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 460.0;
@@ -50,7 +51,8 @@ fn draw(lines: &[Vec<Point>; 3]) -> Markup {
     let top = all().map(|point| point.ratio).fold(1.0, f64::max) * 1.08;
     let x = |bounce: u32| LEFT + 12.0 + (WIDTH - LEFT - 24.0) * f64::from(bounce) / f64::from(last);
     let y = |ratio: f64| (HEIGHT - BOTTOM) * (1.0 - ratio.clamp(0.0, top) / top) + 6.0;
-    let words: Vec<_> = lines[0].iter().map(|p| format!("{}: {:.3}", p.bounce, p.ratio)).collect();
+    let words: Vec<_> =
+        lines[0].iter().map(|p| format!("{}: {}", p.bounce, ratio(p.ratio))).collect();
     let label = format!("each bounce over what it should be, red: {}", words.join(", "));
     html! {
         figure.bounces {
@@ -67,7 +69,7 @@ fn draw(lines: &[Vec<Point>; 3]) -> Markup {
                         line class=(channel) x1=(x(point.bounce)) x2=(x(point.bounce))
                             y1=(y(point.interval[0])) y2=(y(point.interval[1])) {}
                         circle class=(channel) cx=(x(point.bounce)) cy=(y(point.ratio)) r="3" {
-                            title { (format!("bounce {}, {channel}: {:.4}", point.bounce, point.ratio)) }
+                            title { (format!("bounce {}, {channel}: {}", point.bounce, ratio(point.ratio))) }
                         }
                     }
                 }

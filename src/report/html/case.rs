@@ -8,9 +8,9 @@ use crate::case::Part;
 use crate::checks::{Finding, Measure};
 use crate::report::digest::{CaseGroup, by_case};
 use crate::report::measure::{MeasureWords, worst_first};
-use crate::report::number::duration;
 use crate::run::{Status, TrialRecord};
 use crate::stats::Verdict;
+use crate::text::number::duration;
 use maud::{Markup, html};
 
 /// Measures shown before the rest is folded away.

@@ -7,9 +7,9 @@ use super::parts::escaped;
 use crate::checks::PictureRole;
 use crate::image::{Image, exr};
 use crate::report::digest::CaseGroup;
-use crate::report::number::count;
 use crate::run::TrialRecord;
 use crate::run::record::PictureFile;
+use crate::text::number::count;
 use maud::{Markup, html};
 use std::path::Path;
 

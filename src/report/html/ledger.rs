@@ -4,9 +4,9 @@
 use super::parts::link;
 use super::{Page, View};
 use crate::report::digest::{by_case, ledger, resolution_in_words, worst_resolution};
-use crate::report::number::{percent, probability, significant};
 use crate::run::TrialRecord;
 use crate::stats::{LedgerEntry, SUITE_FALSE_ALARM, TestKind};
+use crate::text::number::{percent, probability, significant};
 use maud::{Markup, html};
 
 /// Error budget and resolution.

@@ -4,8 +4,8 @@
 use super::parts::{badge, cell, command, link};
 use super::{Page, View};
 use crate::report::digest::{PartGroup, Tally, by_part, dearest_ledger, weakest_first};
-use crate::report::number::{count, duration, percent, probability};
 use crate::run::{Status, TrialRecord};
+use crate::text::number::{count, duration, percent, probability};
 use maud::{Markup, html};
 use std::time::{Duration, UNIX_EPOCH};
 

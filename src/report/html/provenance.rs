@@ -3,9 +3,9 @@
 use super::overview::date;
 use super::{Page, View};
 use crate::contract::{Conventions, Precision};
-use crate::report::number::duration;
 use crate::run::RunRecord;
 use crate::run::record::CoreRecord;
+use crate::text::number::duration;
 use crate::worker::Confinement;
 use maud::{Markup, html};
 

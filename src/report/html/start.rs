@@ -8,9 +8,9 @@ use crate::case::Part;
 use crate::diagnosis::Headline;
 use crate::report::digest::{Tally, failures, slowest_first, weakest_first};
 use crate::report::measure::worst_first;
-use crate::report::number::{duration, percent};
 use crate::report::tree::AbsentCore;
 use crate::run::{Status, TrialRecord};
+use crate::text::number::{duration, percent};
 use maud::{Markup, html};
 
 /// Measures in the card; the case has them all.

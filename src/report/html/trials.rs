@@ -3,8 +3,8 @@
 use super::parts::{badge, class, glyph, link};
 use super::{Page, View};
 use crate::report::digest::{Tally, by_case};
-use crate::report::number::duration;
 use crate::run::TrialRecord;
+use crate::text::number::duration;
 use maud::{Markup, html};
 
 /// Every trial in a line.

@@ -13,12 +13,12 @@ pub use style::{COLUMNS, Paint, Style, clean, mark, paint_of, wrap};
 use super::digest::{
     PartGroup, Tally, by_case, by_part, dearest_ledger, resolution_in_words, weakest_first,
 };
-use super::number::{count, duration, probability};
 use super::tree::RunTree;
 use crate::contract::Precision;
 use crate::run::record::CoreRecord;
 use crate::run::{Status, TrialRecord};
 use crate::stats::{Ledger, LedgerEntry, SUITE_FALSE_ALARM, TestKind};
+use crate::text::number::{count, duration, probability};
 use std::collections::BTreeSet;
 
 /// The longest bar of cells in one line; longer ones go on below.

@@ -55,11 +55,11 @@ fn a_failure_says_verdict_size_numbers_place_and_next_command() {
         bounce 2 gives 70 % of what it should and bounce 3 gives 49 %: every bounce
         after the first loses the same share in all three channels
 
-                            measured   expected    allowed   off by
-        x bounce 3, green    0.05086    0.10421   ±0.00010    -51 %
-        x bounce 3, red     0.017324   0.035457    ±3.5e-5    -51 %
-        x bounce 3, blue     0.12298    0.25054   ±0.00025    -51 %
-        x bounce 2, red     0.066899   0.095830    ±9.6e-5    -30 %
+                            measured   expected    allowed    off by
+        x bounce 3, green    0.05086    0.10421   ±0.00010   -51.2 %
+        x bounce 3, red     0.017324   0.035457    ±3.5e-5   -51.1 %
+        x bounce 3, blue     0.12298    0.25054   ±0.00025   -50.9 %
+        x bounce 2, red     0.066899   0.095830    ±9.6e-5   -30.2 %
           and 8 more, 2 of them wrong
 
         claim   Roulette leaves every mean as it is (global illumination)

@@ -35,8 +35,6 @@ pub struct Effort {
 /// One reference and one renderer.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// The reference.
-    pub reference: String,
     /// Relative difference of the whole picture, red, green and blue.
     pub whole: [Difference; 3],
     /// Root mean square of the blocks' differences in standard errors. With few runs it is above one by
@@ -220,7 +218,6 @@ fn row(reference: &Reference, shots: &Shots) -> Row {
     let squares: f64 = blocks.iter().map(|block| block.sigmas().powi(2)).sum();
     let seconds = shots.seconds.iter().sum::<f64>() / shots.seconds.len() as f64;
     Row {
-        reference: reference.name.clone(),
         whole,
         blocks: (squares / blocks.len() as f64).sqrt(),
         worst: blocks.iter().map(|block| block.mean).fold(0.0, larger),

@@ -50,11 +50,6 @@ impl<'a> Evidence<'a> {
         Self { observations, conventions }
     }
 
-    /// Every case.
-    pub fn observations(&self) -> &[Observation<'a>] {
-        &self.observations
-    }
-
     /// Graded cases that failed, the earliest part first.
     pub fn failures(&self) -> impl Iterator<Item = &Observation<'a>> {
         self.observations

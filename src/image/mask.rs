@@ -1,27 +1,10 @@
 //! Pixels that do not count, because somebody has declared so: where a renderer is known to differ
 //! on purpose, or a picture shows something else.
 
-use super::file::load;
 use super::{Image, ImageError};
-use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
 
 /// A rectangle of pixels: first column, first row from the top, columns, rows.
 pub type Rectangle = [usize; 4];
-
-/// What a case or the provenance of a reference says of pixels that do not count.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct DeclaredMask {
-    /// Why they do not count.
-    pub because: String,
-    /// Rectangles of pixels that do not count.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub rectangles: Vec<Rectangle>,
-    /// A picture that is black where pixels do not count, beside the reference.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub picture: Option<PathBuf>,
-}
 
 /// Pixels that do not count.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -42,19 +25,6 @@ impl Mask {
         let counted = image.pixels.iter().map(|pixel| *pixel != [0.0; 3]).collect();
         let picture = Some(([image.width, image.height], counted));
         Self { rectangles: Vec::new(), picture }
-    }
-
-    /// As declared; the picture is looked for in `folder`.
-    ///
-    /// # Errors
-    /// If the picture cannot be read.
-    pub fn read(declared: &DeclaredMask, folder: &Path) -> Result<Self, ImageError> {
-        let mut mask = match &declared.picture {
-            None => Self::default(),
-            Some(path) => Self::from_picture(&load(&folder.join(path), None)?.image),
-        };
-        mask.rectangles.clone_from(&declared.rectangles);
-        Ok(mask)
     }
 
     /// Which pixels of a picture of this size count, row by row.
@@ -115,14 +85,5 @@ mod tests {
         let mut image = Image::new(2, 1, [f32::NAN; 3]);
         image.paint_over(&[false, false], &Image::new(2, 1, [0.5; 3]));
         assert_eq!(image, Image::new(2, 1, [0.5; 3]));
-    }
-
-    #[test]
-    fn a_mask_is_declared_with_its_reason() {
-        let text = "because = \"the lamp is drawn\"\nrectangles = [[0, 0, 1, 1]]";
-        let declared: DeclaredMask = toml::from_str(text).unwrap();
-        let mask = Mask::read(&declared, Path::new(".")).unwrap();
-        assert_eq!(mask.counted([2, 1]).unwrap(), [false, true]);
-        assert!(toml::from_str::<DeclaredMask>("rectangles = []").is_err());
     }
 }

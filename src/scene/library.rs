@@ -22,11 +22,6 @@ impl Library {
         Self { folder: folder.into(), read: Mutex::default() }
     }
 
-    /// The folder itself.
-    pub fn folder(&self) -> &Path {
-        &self.folder
-    }
-
     /// The scene `name` with its parameters as they stand in its file, but for `overrides`. A name that ends
     /// in `.toml` or `.dae` is a path of its own.
     pub fn load(

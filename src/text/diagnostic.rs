@@ -81,12 +81,6 @@ impl Diagnostic {
         self
     }
 
-    /// The line the complaint points at, counted from 1.
-    pub fn line(&self) -> usize {
-        let start = self.visible_span().start;
-        self.source.text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count() + 1
-    }
-
     /// The span, moved inside the text and cut at the end of its first line: a caret under ten
     /// lines of an array says less than one under its first.
     fn visible_span(&self) -> Range<usize> {
@@ -174,6 +168,5 @@ error: unknown field `lok-at`, expected `look-at`
     fn only_the_first_line_of_a_long_span_is_underlined() {
         let diagnostic = Source::new("a", "x = [\n1,\n2]\n").diagnostic(4..12, "too long");
         assert_eq!(diagnostic.visible_span(), 4..5);
-        assert_eq!(diagnostic.line(), 1);
     }
 }

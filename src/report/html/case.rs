@@ -17,31 +17,17 @@ use maud::{Markup, html};
 const MEASURES: usize = 16;
 
 /// A section a case.
-pub struct Cases;
+pub(super) static PAGE: Page = Page { id: "cases", title: "Cases", body };
 
-impl Page for Cases {
-    fn id(&self) -> &'static str {
-        "cases"
-    }
-
-    fn title(&self) -> &'static str {
-        "Cases"
-    }
-
-    fn summary(&self) -> &'static str {
-        "a section a case: claim, source, measures, pictures, and the command that repeats it"
-    }
-
-    fn body(&self, view: &View<'_>) -> Option<Markup> {
-        let cases = by_case(view.tree);
-        let part = |case: &CaseGroup<'_>| Part::of_case(&case.first().case);
-        Some(html! {
-            @for same_part in cases.chunk_by(|a, b| part(a) == part(b)) {
-                h3.part { (part(&same_part[0]).map_or("other cases", |part| part.title)) }
-                @for case in same_part { (section(view, case)) }
-            }
-        })
-    }
+fn body(view: &View<'_>) -> Option<Markup> {
+    let cases = by_case(view.tree);
+    let part = |case: &CaseGroup<'_>| Part::of_case(&case.first().case);
+    Some(html! {
+        @for same_part in cases.chunk_by(|a, b| part(a) == part(b)) {
+            h3.part { (part(&same_part[0]).map_or("other cases", |part| part.title)) }
+            @for case in same_part { (section(view, case)) }
+        }
+    })
 }
 
 /// Folded away unless something failed.

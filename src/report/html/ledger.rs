@@ -10,30 +10,16 @@ use crate::text::number::{percent, probability, significant};
 use maud::{Markup, html};
 
 /// Error budget and resolution.
-pub struct Ledger;
+pub(super) static PAGE: Page = Page { id: "ledger", title: "Error rates and resolution", body };
 
-impl Page for Ledger {
-    fn id(&self) -> &'static str {
-        "ledger"
-    }
-
-    fn title(&self) -> &'static str {
-        "Error rates and resolution"
-    }
-
-    fn summary(&self) -> &'static str {
-        "what every trial has spent of the error budget, and what it would have caught"
-    }
-
-    fn body(&self, view: &View<'_>) -> Option<Markup> {
-        Some(html! {
-            (sums(view))
-            details.card.wide {
-                summary { "trial by trial" }
-                (table(view))
-            }
-        })
-    }
+fn body(view: &View<'_>) -> Option<Markup> {
+    Some(html! {
+        (sums(view))
+        details.card.wide {
+            summary { "trial by trial" }
+            (table(view))
+        }
+    })
 }
 
 /// Every core is judged for itself: a book a core.

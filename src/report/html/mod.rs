@@ -2,7 +2,7 @@
 //! without scripts.
 //!
 //! The first screen answers what is wrong and what to do next; everything below is evidence. A
-//! section is a [`Page`] in a file of its own and a line in [`PAGES`]. Text from cores and cases is
+//! section is a `Page` in a file of its own and a line in `PAGES`. Text from cores and cases is
 //! escaped by the templates; only our own style sheet and script are not.
 
 mod bounces;
@@ -27,26 +27,18 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::path::{Path, PathBuf};
 
 /// A section of the page.
-pub trait Page: Sync {
-    /// The anchor of the section.
-    fn id(&self) -> &'static str;
+struct Page {
+    /// Its anchor.
+    id: &'static str,
     /// Its heading.
-    fn title(&self) -> &'static str;
-    /// One line for `furnace list pages`.
-    fn summary(&self) -> &'static str;
+    title: &'static str,
     /// What stands below the heading; none where the run has nothing to show there.
-    fn body(&self, view: &View<'_>) -> Option<Markup>;
+    body: fn(&View<'_>) -> Option<Markup>,
 }
 
 /// Every section, in the order of the page.
-pub static PAGES: &[&dyn Page] = &[
-    &overview::Overview,
-    &start::Start,
-    &trials::Trials,
-    &case::Cases,
-    &ledger::Ledger,
-    &provenance::Provenance,
-];
+static PAGES: &[&Page] =
+    &[&overview::PAGE, &start::PAGE, &trials::PAGE, &case::PAGE, &ledger::PAGE, &provenance::PAGE];
 
 /// What a section is made of.
 #[derive(Clone, Copy, Debug)]
@@ -96,7 +88,7 @@ pub fn render(tree: &RunTree, folder: &Path) -> String {
             body {
                 a.skip href="#trials" { "Skip to the results" }
                 (overview::header(&view, &headline(tree, &tally)))
-                main { @for page in PAGES { (section(*page, &view)) } }
+                main { @for page in PAGES { (section(page, &view)) } }
                 script { (PreEscaped(SCRIPT)) }
             }
         }
@@ -105,12 +97,12 @@ pub fn render(tree: &RunTree, folder: &Path) -> String {
     page.into_string().replace(|c: char| c.is_control() && !matches!(c, '\n' | '\t'), "\u{fffd}")
 }
 
-fn section(page: &dyn Page, view: &View<'_>) -> Markup {
-    let heading = format!("{}-heading", page.id());
+fn section(page: &Page, view: &View<'_>) -> Markup {
+    let heading = format!("{}-heading", page.id);
     html! {
-        @if let Some(body) = page.body(view) {
-            section id=(page.id()) aria-labelledby=(heading) {
-                h2 id=(heading) { (page.title()) }
+        @if let Some(body) = (page.body)(view) {
+            section id=(page.id) aria-labelledby=(heading) {
+                h2 id=(heading) { (page.title) }
                 (body)
             }
         }

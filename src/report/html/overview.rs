@@ -10,30 +10,16 @@ use maud::{Markup, html};
 use std::time::{Duration, UNIX_EPOCH};
 
 /// What passed, by part and core.
-pub struct Overview;
+pub(super) static PAGE: Page = Page { id: "overview", title: "Overview", body };
 
-impl Page for Overview {
-    fn id(&self) -> &'static str {
-        "overview"
-    }
-
-    fn title(&self) -> &'static str {
-        "Overview"
-    }
-
-    fn summary(&self) -> &'static str {
-        "how many trials ended in which way, and one cell a trial, part by part and core by core"
-    }
-
-    fn body(&self, view: &View<'_>) -> Option<Markup> {
-        Some(html! {
-            (unfinished(view))
-            div.top {
-                (score(view))
-                (grid(view))
-            }
-        })
-    }
+fn body(view: &View<'_>) -> Option<Markup> {
+    Some(html! {
+        (unfinished(view))
+        div.top {
+            (score(view))
+            (grid(view))
+        }
+    })
 }
 
 /// The result, and who was asked what, when, on what.

@@ -10,44 +10,30 @@ use crate::worker::Confinement;
 use maud::{Markup, html};
 
 /// The run itself.
-pub struct Provenance;
+pub(super) static PAGE: Page = Page { id: "run", title: "This run", body };
 
-impl Page for Provenance {
-    fn id(&self) -> &'static str {
-        "run"
-    }
-
-    fn title(&self) -> &'static str {
-        "This run"
-    }
-
-    fn summary(&self) -> &'static str {
-        "cores with their conventions and capabilities, seed, budget, versions, machine"
-    }
-
-    fn body(&self, view: &View<'_>) -> Option<Markup> {
-        let run = &view.tree.run;
-        Some(html! {
-            div.card {
-                dl.about {
-                    dt { "furnace" } dd { (run.furnace) }
-                    dt { "selected" } dd {
-                        @if run.filters.is_empty() { "every case" }
-                        @else { code { (run.filters.join(" ")) } }
-                    }
-                    dt { "budget" } dd { (run.budget) }
-                    dt { "seed" } dd { (run.seed) }
-                    dt { "started" } dd { (date(run.timing.started)) }
-                    dt { "took" } dd { (took(run)) }
-                    dt { "machine" } dd {
-                        (run.machine.system) ", " (run.machine.architecture) ", "
-                        (run.machine.threads) " hardware threads"
-                    }
-                    @for core in &run.cores { (about(core)) }
+fn body(view: &View<'_>) -> Option<Markup> {
+    let run = &view.tree.run;
+    Some(html! {
+        div.card {
+            dl.about {
+                dt { "furnace" } dd { (run.furnace) }
+                dt { "selected" } dd {
+                    @if run.filters.is_empty() { "every case" }
+                    @else { code { (run.filters.join(" ")) } }
                 }
+                dt { "budget" } dd { (run.budget) }
+                dt { "seed" } dd { (run.seed) }
+                dt { "started" } dd { (date(run.timing.started)) }
+                dt { "took" } dd { (took(run)) }
+                dt { "machine" } dd {
+                    (run.machine.system) ", " (run.machine.architecture) ", "
+                    (run.machine.threads) " hardware threads"
+                }
+                @for core in &run.cores { (about(core)) }
             }
-        })
-    }
+        }
+    })
 }
 
 fn took(run: &RunRecord) -> String {

@@ -23,33 +23,19 @@ const FURTHER: usize = 6;
 const ROWS: usize = 5;
 
 /// What to look at first.
-pub struct Start;
+pub(super) static PAGE: Page = Page { id: "start", title: "Start here", body };
 
-impl Page for Start {
-    fn id(&self) -> &'static str {
-        "start"
+fn body(view: &View<'_>) -> Option<Markup> {
+    let absent: Vec<_> = view.tree.absent_cores().collect();
+    if absent.is_empty() {
+        return of_trials(view);
     }
-
-    fn title(&self) -> &'static str {
-        "Start here"
-    }
-
-    fn summary(&self) -> &'static str {
-        "the earliest failure with evidence and command; of a green run what is slow and weak"
-    }
-
-    fn body(&self, view: &View<'_>) -> Option<Markup> {
-        let absent: Vec<_> = view.tree.absent_cores().collect();
-        if absent.is_empty() {
-            return of_trials(view);
-        }
-        let present = View { tree: &view.tree.of_present_cores(), folder: view.folder };
-        Some(html! {
-            @for core in absent { (does_not_come_up(core)) }
-            @if failures(present.tree).is_empty() { @if let Some(causes) = causes(&present) { (causes) } }
-            @else if let Some(card) = of_trials(&present) { (card) }
-        })
-    }
+    let present = View { tree: &view.tree.of_present_cores(), folder: view.folder };
+    Some(html! {
+        @for core in absent { (does_not_come_up(core)) }
+        @if failures(present.tree).is_empty() { @if let Some(causes) = causes(&present) { (causes) } }
+        @else if let Some(card) = of_trials(&present) { (card) }
+    })
 }
 
 /// What to look at first in the answers of cores.

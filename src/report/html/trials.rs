@@ -8,40 +8,26 @@ use crate::text::number::duration;
 use maud::{Markup, html};
 
 /// Every trial in a line.
-pub struct Trials;
+pub(super) static PAGE: Page = Page { id: "trials", title: "All trials", body };
 
-impl Page for Trials {
-    fn id(&self) -> &'static str {
-        "trials"
-    }
-
-    fn title(&self) -> &'static str {
-        "All trials"
-    }
-
-    fn summary(&self) -> &'static str {
-        "every trial in a line, searchable by words and by outcome"
-    }
-
-    fn body(&self, view: &View<'_>) -> Option<Markup> {
-        let cases = by_case(view.tree);
-        let trials = cases.iter().flat_map(|case| &case.trials);
-        Some(html! {
-            (filter(&Tally::of(&view.tree.trials)))
-            div.card.wide {
-                table #all-trials {
-                    thead { tr {
-                        th scope="col" { "outcome" }
-                        th scope="col" { "case" }
-                        th scope="col" { "core" }
-                        th scope="col" { "what was found" }
-                        th.number scope="col" { "time" }
-                    } }
-                    tbody { @for trial in trials { (row(trial)) } }
-                }
+fn body(view: &View<'_>) -> Option<Markup> {
+    let cases = by_case(view.tree);
+    let trials = cases.iter().flat_map(|case| &case.trials);
+    Some(html! {
+        (filter(&Tally::of(&view.tree.trials)))
+        div.card.wide {
+            table #all-trials {
+                thead { tr {
+                    th scope="col" { "outcome" }
+                    th scope="col" { "case" }
+                    th scope="col" { "core" }
+                    th scope="col" { "what was found" }
+                    th.number scope="col" { "time" }
+                } }
+                tbody { @for trial in trials { (row(trial)) } }
             }
-        })
-    }
+        }
+    })
 }
 
 /// Shown only where scripts run: without them it would do nothing.

@@ -3,6 +3,7 @@
 use super::{CodesCompared, Comparison};
 use crate::stats::misfit::BouncesOff;
 use crate::stats::{DifferenceReport, Impossible, NoiseSource, OddPixels, PatternReport, Verdict};
+use crate::text::number::{figure, percent, ratio, signed_percent, significant};
 use std::fmt::Write;
 
 /// What is printed.
@@ -20,7 +21,7 @@ pub(super) fn told(comparison: &Comparison) -> String {
     comparison.bounces.iter().for_each(|off| line(bounces(off)));
     for metric in &comparison.metrics {
         match metric.value {
-            Some(value) => line(format!("{:22} {value:.6}", metric.name)),
+            Some(value) => line(format!("{:22} {}", metric.name, significant(value, 6))),
             None => line(format!("{:22} no number", metric.name)),
         }
     }
@@ -30,7 +31,7 @@ pub(super) fn told(comparison: &Comparison) -> String {
 /// How an 8-bit picture was compared, and what is not known of its noise.
 fn by_law(codes: &CodesCompared, comparison: &Comparison) -> String {
     let [width, height] = comparison.size;
-    let share = 100.0 * comparison.pixels as f64 / (width * height) as f64;
+    let share = percent(comparison.pixels as f64 / (width * height) as f64);
     let noise = match codes.noise {
         NoiseSource::Runs => "the noise is that between the pictures",
         NoiseSource::Variance => "the noise is that of the picture of the variance",
@@ -40,14 +41,14 @@ fn by_law(codes: &CodesCompared, comparison: &Comparison) -> String {
         }
     };
     format!(
-        "8-bit codes ({}) by their law, not decoded, in {share:.0} % of the pixels; {noise}",
+        "8-bit codes ({}) by their law, not decoded, in {share} of the pixels; {noise}",
         codes.deciphered.declared
     )
 }
 
 fn bounces(off: &BouncesOff) -> String {
-    let explains = 100.0 * off.share.explains;
-    format!("{off} what the reference holds alone: explains {explains:.1} % of the difference")
+    let explains = percent(off.share.explains);
+    format!("{off} what the reference holds alone: explains {explains} of the difference")
 }
 
 fn sentence(comparison: &Comparison) -> String {
@@ -70,16 +71,16 @@ fn sentence(comparison: &Comparison) -> String {
             format!("{width} × {height} pixels are too few to prove anything")
         }
         Verdict::Pass => format!(
-            "nothing but noise tells them apart; an error of {:.2} % of the whole picture would \
+            "nothing but noise tells them apart; an error of {} of the whole picture would \
              have been seen",
-            100.0 * difference.resolution
+            percent(difference.resolution)
         ),
         Verdict::Fail => brightness(difference),
     }
 }
 
 fn brightness(difference: &DifferenceReport) -> String {
-    format!("the picture has {:.4} of the light of the reference", difference.ratio)
+    format!("the picture has {} of the light of the reference", ratio(difference.ratio))
 }
 
 fn impossible(odd: &OddPixels) -> String {
@@ -96,11 +97,11 @@ fn impossible(odd: &OddPixels) -> String {
 
 fn outliers(odd: &OddPixels) -> String {
     format!(
-        "{} pixels are darker than noise makes them; the farthest, at ({}, {}), by {:.1} standard errors",
+        "{} pixels are darker than noise makes them; the farthest, at ({}, {}), by {} standard errors",
         odd.pixels,
         odd.x,
         odd.y,
-        odd.sigmas.unwrap_or(0.0).abs()
+        figure(odd.sigmas.unwrap_or(0.0).abs())
     )
 }
 
@@ -112,14 +113,14 @@ fn pattern(found: &PatternReport) -> String {
         )
     });
     format!(
-        "{} differ{}: {:.1} and {:.1} standard errors in two confirmations{place}",
+        "{} differ{}: {} and {} standard errors in two confirmations{place}",
         found.pattern,
         if found.difference.is_finite() {
-            format!(" by {:+.2} %", 100.0 * found.difference)
+            format!(" by {}", signed_percent(found.difference))
         } else {
             String::new()
         },
-        found.t[0],
-        found.t[1]
+        figure(found.t[0]),
+        figure(found.t[1])
     )
 }

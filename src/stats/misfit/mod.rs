@@ -64,6 +64,15 @@ impl Estimate {
         Self { value, interval: [value - half_width, value + half_width] }
     }
 
+    /// The same of the number without its sign.
+    fn length(self) -> Self {
+        let [low, high] = self.interval;
+        match self.value < 0.0 {
+            true => Self { value: -self.value, interval: [-high, -low] },
+            false => self,
+        }
+    }
+
     /// Whether a number is in the interval.
     pub fn allows(&self, value: f64) -> bool {
         self.interval[0] <= value && value <= self.interval[1]

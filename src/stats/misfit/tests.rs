@@ -231,11 +231,11 @@ fn sentences_say_how_far_which_way() {
     let said = Fit { misfit, explains: 0.995, certainty: 40.0 }.to_string();
     assert_eq!(
         said,
-        "displaced by 0.50 pixels to the right and 1.00 up, ± 0.010 and 0.010: explains 99.5 % of \
+        "displaced by 0.50 ± 0.01 pixels to the right and 1.00 ± 0.01 up: explains 99.5 % of \
          the difference"
     );
     let alike = Misfit::Brighter([1.01, 1.012, 1.011].map(estimate)).to_string();
-    assert_eq!(alike, "1.0110 ± 0.0100 times as bright, alike in all channels");
+    assert_eq!(alike, "1.01 ± 0.01 times as bright, alike in all channels");
 }
 
 #[test]

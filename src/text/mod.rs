@@ -1,5 +1,5 @@
 //! What people write, and what they are told about it: messages that point into a file, and the
-//! values with units that scene files and case files share; how numbers are written for people, and how XML is.
+//! values with units that scene files and case files share; and how numbers are written for people.
 //!
 //! Not here: what any key of a file means. Scenes and cases keep their own vocabulary.
 
@@ -8,11 +8,9 @@ mod document;
 pub mod number;
 mod suggestion;
 mod units;
-mod xml;
 
 pub use diagnostic::{Diagnostic, Source};
 pub(crate) use document::read_table;
 pub use document::{Spanned, TomlError, read_key, read_toml};
 pub use suggestion::{did_you_mean, listed};
 pub use units::{Angle, Colour, Count, Percent};
-pub use xml::XmlWriter;

@@ -12,6 +12,7 @@ pub(super) mod obj;
 mod pbrt;
 pub(super) mod ply;
 pub(super) mod stl;
+mod xml;
 
 use super::{Camera, SceneDescription};
 use crate::image::{Image, exr};

@@ -3,5 +3,5 @@
 mod read;
 mod write;
 
-pub use read::{FILM, Reading, load, load_camera, parse};
+pub use read::{FILM, Reading, load, load_camera};
 pub(super) use write::export;

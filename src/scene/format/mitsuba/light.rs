@@ -1,8 +1,8 @@
 //! Lights that are not shapes. Area lights go with their shapes.
 
-use super::super::Content;
 use super::xml::Xml;
 use crate::image::Image;
+use crate::scene::format::Content;
 use crate::scene::{Light, SceneDescription};
 use glam::{DAffine3, DQuat, DVec3};
 use std::f64::consts::PI;

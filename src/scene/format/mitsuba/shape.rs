@@ -1,7 +1,7 @@
 //! Shapes with their materials and emission.
 
-use super::super::{Complaint, Content, ExportError, ply};
 use super::xml::Xml;
+use crate::scene::format::{Complaint, Content, ExportError, ply};
 use crate::scene::{Material, Rectangle, Rgb, Sphere, Surface};
 use glam::{DAffine3, DMat3};
 

@@ -1,8 +1,8 @@
 //! The values that Mitsuba's elements hold.
 
-use super::super::{matrix, numbers};
 use crate::scene::Rgb;
-use crate::text::XmlWriter;
+use crate::scene::format::xml::XmlWriter;
+use crate::scene::format::{matrix, numbers};
 use glam::{DAffine3, DVec3};
 
 /// A document in the making.

@@ -1,6 +1,6 @@
 //! Every triangle, with its normals and what it is made of. Nothing else has a place there.
 
-use super::super::{Complaint, ExportError, Exported, Format, numbers};
+use crate::scene::format::{Complaint, ExportError, Exported, Format, numbers};
 use crate::scene::{Light, Material, Mesh, SceneDescription, Surface};
 use std::fmt::Write;
 

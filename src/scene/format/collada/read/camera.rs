@@ -42,8 +42,7 @@ impl Lens {
         camera: Element<'a>,
         transform: &DMat4,
     ) -> Result<Self> {
-        reader.attribute(camera, "id")?;
-        reader.attribute(camera, "name")?;
+        reader.name_of(camera)?;
         let perspective = reader.need(camera, "optics/technique_common/perspective")?;
         let number = |name, otherwise| match reader.find(perspective, name)? {
             Some(element) => reader.narrowed(element),

@@ -29,8 +29,7 @@ pub(super) fn read_mesh<'a>(
     geometry: Element<'a>,
     transform: &DMat4,
 ) -> Result<ReadMesh> {
-    reader.attribute(geometry, "id")?;
-    reader.attribute(geometry, "name")?;
+    reader.name_of(geometry)?;
     let element = reader.need(geometry, "mesh")?;
     let vertices = reader.need(element, "vertices")?;
     let positions = read_positions(reader, element, vertices, transform)?;
@@ -209,8 +208,7 @@ pub(super) fn read_sphere<'a>(
     geometry: Element<'a>,
     transform: &DMat4,
 ) -> Result<Sphere> {
-    reader.attribute(geometry, "id")?;
-    reader.attribute(geometry, "name")?;
+    reader.name_of(geometry)?;
     let technique = reader.technique(geometry, "CGL").ok_or_else(|| {
         reader.wrong(geometry, "is neither a mesh nor a sphere of the CGL profile")
     })?;

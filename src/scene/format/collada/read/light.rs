@@ -41,8 +41,7 @@ pub(super) fn read<'a>(
     light: Element<'a>,
     transform: &DMat4,
 ) -> Result<Lamp> {
-    reader.attribute(light, "id")?;
-    reader.attribute(light, "name")?;
+    reader.name_of(light)?;
     let technique = reader
         .technique(light, "CGL")
         .or_else(|| reader.common_technique(light))

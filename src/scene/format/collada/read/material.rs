@@ -18,8 +18,7 @@ type Look = (Surface, Option<Emission>);
 
 /// Reads a `material`.
 pub(super) fn read<'a>(reader: &Reader<'a>, material: Element<'a>) -> Result<Material> {
-    reader.attribute(material, "id")?;
-    let name = reader.attribute(material, "name")?.to_owned();
+    let name = reader.name_of(material)?.to_owned();
     let effect = reader.need(material, "instance_effect")?;
     let (surface, emission) = match reader.technique(effect, "CGL") {
         Some(technique) => from_profile(reader, technique)?,

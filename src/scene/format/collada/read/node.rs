@@ -63,8 +63,7 @@ fn up_axis(reader: &Reader<'_>) -> Result<DMat4> {
 impl<'a> Walk<'_, 'a> {
     fn visit(&mut self, node: Element<'a>, parent: &DMat4, depth: usize) -> Result<()> {
         let reader = self.reader;
-        reader.attribute(node, "id")?;
-        let name = reader.attribute(node, "name")?;
+        let name = reader.name_of(node)?;
         if depth == DEEPEST {
             return Err(reader.wrong(node, "nodes are nested too deeply"));
         }

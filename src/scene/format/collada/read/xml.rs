@@ -82,6 +82,12 @@ impl<'a> Reader<'a> {
         })
     }
 
+    /// The name of an element that the course's program looks up by its id.
+    pub(super) fn name_of(&self, element: Element<'a>) -> Result<&'a str> {
+        self.attribute(element, "id")?;
+        self.attribute(element, "name")
+    }
+
     /// An attribute that counts something.
     pub(super) fn count(&self, element: Element<'a>, name: &str) -> Result<usize> {
         let text = self.attribute(element, name)?;

@@ -1,11 +1,11 @@
 //! The camera: in the scene's file as COLLADA has it, of which the course takes only the direction, and in
 //! the file for its `-c`, which is taken as it is.
 
-use super::super::super::numbers;
 use super::super::read::degrees_for;
 use super::Node;
 use crate::scene::Camera;
-use crate::text::XmlWriter;
+use crate::scene::format::numbers;
+use crate::scene::format::xml::XmlWriter;
 use glam::DAffine3;
 
 /// Writes the library of cameras.

@@ -1,8 +1,8 @@
 //! Materials in the CGL profile.
 
-use super::super::super::{Complaint, ExportError, numbers};
+use crate::scene::format::xml::XmlWriter;
+use crate::scene::format::{Complaint, ExportError, numbers};
 use crate::scene::{Material, SceneDescription, Surface};
-use crate::text::XmlWriter;
 
 /// Writes effects and materials, and returns the ids of the materials.
 pub(super) fn write_all(

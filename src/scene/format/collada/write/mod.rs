@@ -9,10 +9,10 @@
 mod camera;
 mod material;
 
-use super::super::{Complaint, ExportError, Exported, Format, matrix, numbers};
 use super::read::vertex_normals;
+use crate::scene::format::xml::XmlWriter;
+use crate::scene::format::{Complaint, ExportError, Exported, Format, matrix, numbers};
 use crate::scene::{Light, Mesh, SceneDescription, Shape, Sphere};
-use crate::text::XmlWriter;
 use glam::{DAffine3, DMat3, DVec3};
 
 /// How far the normals that the course makes of a smooth mesh may be from those of the scene.

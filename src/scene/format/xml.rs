@@ -7,7 +7,7 @@ use quick_xml::events::{BytesEnd, BytesStart, BytesText, Event};
 const INDENT: usize = 4;
 
 /// A document in the making.
-pub struct XmlWriter {
+pub(super) struct XmlWriter {
     writer: Writer<Vec<u8>>,
     open: Vec<&'static str>,
 }

@@ -1,11 +1,10 @@
 //! Cores that somebody else has written, as they are named after `--core`: a shared library by its
 //! path, a program by `exec:` and its command, one that makes pictures by its adapter's file.
 
-use super::command::Program;
+use super::command::{Program, found};
 use crate::text::listed;
 use crate::worker::Guest;
-use std::env;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// What shared libraries are called.
 const LIBRARIES: &[&str] = &["so", "dylib", "dll"];
@@ -58,18 +57,6 @@ fn program(command: &str) -> Result<Guest, String> {
     Ok(Guest::Program(words))
 }
 
-/// Where a program is. Links are not followed: a program may ask by which name it was called.
-pub fn found(program: &str) -> Option<PathBuf> {
-    if Path::new(program).components().count() > 1 {
-        return std::path::absolute(program).ok().filter(|path| path.is_file());
-    }
-    let folders = env::var_os("PATH")?;
-    let suffix = env::consts::EXE_SUFFIX;
-    let candidates = env::split_paths(&folders)
-        .flat_map(|folder| [folder.join(program), folder.join(format!("{program}{suffix}"))]);
-    candidates.filter_map(|path| std::path::absolute(path).ok()).find(|path| path.is_file())
-}
-
 fn absolute(word: &str) -> String {
     let path = Path::new(word);
     let absolute = path.exists().then(|| std::path::absolute(path).ok()).flatten();
@@ -79,6 +66,7 @@ fn absolute(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::env;
 
     #[test]
     fn names_of_our_own_are_nobody_elses() {

@@ -2,6 +2,8 @@
 //!
 //! Only here cores and checks meet. Not here: what is printed, and what a failure means for an exit code.
 
+mod attempt;
+mod bench;
 mod diagnose;
 pub mod event;
 pub mod executor;
@@ -10,9 +12,11 @@ pub mod plan;
 pub mod record;
 mod schedule;
 
+pub use attempt::{Attempt, Ended, attempt, run_trial};
+pub use bench::Bench;
 pub use diagnose::diagnose;
 pub use event::Event;
-pub use executor::{Attempt, Bench, Ended, attempt, run_in_memory, run_trial};
+pub use executor::run_in_memory;
 pub use outcome::{Outcome, Status};
 pub use plan::{Plan, Request, Trial};
 pub use record::{RecordError, RunRecord, TrialRecord};

@@ -1,5 +1,6 @@
 //! What is to be run: cases × cores, in the order in which one part rests on another.
 
+use super::bench::Bench;
 use crate::case::{Case, Filter};
 use crate::cores::{CoreSpec, Hosting};
 use crate::math::rng::Seed;
@@ -71,8 +72,8 @@ impl Plan {
 
 impl Plan {
     /// What every trial shares.
-    pub fn bench(&self) -> super::Bench {
-        super::Bench {
+    pub fn bench(&self) -> Bench {
+        Bench {
             scenes: Arc::new(crate::scene::Library::new(self.project.scenes())),
             references: self.project.references(),
             allowance: Allowance {

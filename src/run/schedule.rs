@@ -1,8 +1,9 @@
 //! Which trial is next: the first, in the order of the plan, whose foundations have been tried. A trial whose
 //! foundation was found broken is not tried at all: it is blocked.
 
+use super::bench::Bench;
+use super::outcome::Status;
 use super::plan::{Plan, Trial};
-use super::{Bench, Status};
 use crate::case::{Case, Foundation, foundations};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};

@@ -4,59 +4,11 @@
 //! Not here: where a mesh stands in the scene, and what it is made of.
 
 use super::Mesh;
+pub use super::error::MeshError;
 use super::format::{obj, ply, stl};
 use glam::DVec3;
 use serde::Deserialize;
 use std::path::Path;
-
-/// Why a mesh is not one. A lowercase fragment that fits after the name of the file.
-#[derive(Debug, thiserror::Error)]
-pub enum MeshError {
-    /// The file is not there, or may not be read.
-    #[error("cannot be read: {0}")]
-    Unreadable(#[from] std::io::Error),
-    /// The library does not understand the file.
-    #[error("is not a valid {format} file: {problem}")]
-    Malformed {
-        /// OBJ, PLY or STL.
-        format: &'static str,
-        /// In the library's words.
-        problem: String,
-    },
-    /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} refers to vertex {index}, but there are only {vertices} vertices")]
-    NoSuchVertex {
-        /// Counted from 0.
-        triangle: usize,
-        /// What it says.
-        index: u32,
-        /// How many there are.
-        vertices: usize,
-    },
-    /// A coordinate is NaN or infinite.
-    #[error("vertex {0} has a coordinate that is not a finite number")]
-    NotFinite(usize),
-    /// A normal is NaN, infinite, or has no direction.
-    #[error("the normal of vertex {0} has no direction")]
-    NoDirection(usize),
-    /// Some vertices have normals and some have none.
-    #[error("there are {normals} normals for {vertices} vertices")]
-    NormalCount {
-        /// How many normals.
-        normals: usize,
-        /// How many vertices.
-        vertices: usize,
-    },
-    /// No triangles at all.
-    #[error("has no triangles")]
-    Empty,
-}
-
-impl MeshError {
-    pub(super) fn malformed(format: &'static str, problem: &dyn std::fmt::Display) -> Self {
-        Self::Malformed { format, problem: problem.to_string() }
-    }
-}
 
 /// The file formats that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,12 +2,13 @@
 
 use super::integrator::Integrator;
 use super::light::Light;
+use super::mis::power_heuristic;
 use super::reach::Reach;
 use super::scatter::rgb;
 use super::scatter::warp;
 use super::vertex::Vertex;
 use crate::contract::{DirectSampling, LightSample};
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 impl Integrator<'_> {
     /// An estimate of the radiance that the vertex scatters towards its viewer from all lights, without what
@@ -104,35 +105,5 @@ impl Integrator<'_> {
     /// Density of all samples that a light gets together.
     pub(super) fn light_density(&self, pdf: f64) -> f64 {
         pdf * f64::from(self.settings.samples_per_light)
-    }
-}
-
-/// The share of a sample drawn with density `own` where another technique draws with density `other` (Veach and
-/// Guibas 1995, β = 2). Both may be infinite or zero, not both.
-pub fn power_heuristic(own: f64, other: f64) -> f64 {
-    let ratio = other / own;
-    1.0 / (1.0 + ratio * ratio)
-}
-
-/// Where a direction of a glossy surface came from, for the share that its find gets.
-#[derive(Clone, Copy)]
-pub struct GlossyDirection {
-    /// The vertex that it left.
-    pub from: DVec3,
-    /// Where that takes light from.
-    pub reach: Reach,
-    /// The density of the direction.
-    pub pdf: f64,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shares_of_both_techniques_add_up_to_one() {
-        for (own, other) in [(1.0, 1.0), (3.0, 0.2), (1e30, 1e-30), (2.0, 0.0)] {
-            assert_eq!(power_heuristic(own, other) + power_heuristic(other, own), 1.0);
-        }
     }
 }

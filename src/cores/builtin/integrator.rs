@@ -6,7 +6,7 @@
 //! what glows behind it is added when the path gets there. Directions of rough metal and glass are combined with
 //! the light samples by the power heuristic, because either alone is noisy.
 
-use super::direct::{GlossyDirection, power_heuristic};
+use super::mis::{GlossyDirection, power_heuristic};
 use super::random::Stream;
 use super::scatter::warp;
 use super::trace::Surface;

@@ -19,6 +19,7 @@ mod camera;
 mod direct;
 mod integrator;
 mod light;
+mod mis;
 mod random;
 mod reach;
 mod render;

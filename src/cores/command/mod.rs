@@ -15,6 +15,7 @@ mod program;
 
 pub use adapter::Adapter;
 pub use picture::Picture;
+pub use process::found;
 pub use program::{AdapterError, Log, Program, Rendered};
 
 use crate::contract::{

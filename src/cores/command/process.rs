@@ -1,8 +1,9 @@
 //! A program run to its end or to the end of its time, with everything it has started.
 
+use std::env;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
@@ -138,6 +139,18 @@ fn kill(child: &mut Child, group: Group) {
 #[cfg(not(unix))]
 fn kill(child: &mut Child, _group: Group) {
     let _ = child.kill();
+}
+
+/// Where a program is. Links are not followed: a program may ask by which name it was called.
+pub fn found(program: &str) -> Option<PathBuf> {
+    if Path::new(program).components().count() > 1 {
+        return std::path::absolute(program).ok().filter(|path| path.is_file());
+    }
+    let folders = env::var_os("PATH")?;
+    let suffix = env::consts::EXE_SUFFIX;
+    let candidates = env::split_paths(&folders)
+        .flat_map(|folder| [folder.join(program), folder.join(format!("{program}{suffix}"))]);
+    candidates.filter_map(|path| std::path::absolute(path).ok()).find(|path| path.is_file())
 }
 
 #[cfg(test)]

@@ -2,9 +2,8 @@
 
 use super::adapter::{Adapter, Encoding, Feature, LogPatterns, Pattern, Runs};
 use super::picture::{self, Picture};
-use super::process::{self, Ended, Group, Words};
+use super::process::{self, Ended, Group, Words, found};
 use crate::contract::{CoreError, DirectSampling, RenderSettings, Result};
-use crate::cores::foreign::found;
 use crate::scene::format::{self, ExportError, Request, Written};
 use crate::scene::{Camera, Light, SceneDescription, Shape, Surface};
 use crate::text::{Diagnostic, Source};

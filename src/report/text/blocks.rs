@@ -1,6 +1,7 @@
 //! What did not pass, one block each: first what counts against a core, then what is not known.
 
 use super::headlines;
+use super::layout::{INDENT, indented, labelled};
 use super::style::{Paint, Style, clean, cut, paint_of, wrap};
 use crate::case::Part;
 use crate::checks::{Finding, Measure};
@@ -20,8 +21,6 @@ const BRIEF_BLOCKS: usize = 6;
 const MEASURES: usize = 4;
 /// Lines shown of what a core printed before it crashed.
 const LAST_WORDS: usize = 3;
-/// Where the text of a block begins.
-pub const INDENT: usize = 8;
 
 /// Every block about trials.
 pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
@@ -146,17 +145,6 @@ fn claim(trial: &TrialRecord) -> String {
 
 fn next(trial: &TrialRecord) -> String {
     format!("{:INDENT$}try     {}", "", clean(&trial.rerun))
-}
-
-pub fn indented(text: &str) -> Vec<String> {
-    wrap(text, INDENT).into_iter().map(|line| format!("{:INDENT$}{line}", "")).collect()
-}
-
-/// A label and a text that goes on below itself.
-pub fn labelled(label: &str, text: &str) -> Vec<String> {
-    let label_of = |number| if number == 0 { label } else { "" };
-    let lines = wrap(text, INDENT + 8).into_iter().enumerate();
-    lines.map(|(number, line)| format!("{:INDENT$}{:<8}{line}", "", label_of(number))).collect()
 }
 
 /// The worst measures as a table, and how many there are besides.

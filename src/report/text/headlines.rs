@@ -1,7 +1,7 @@
 //! Causes before symptoms: what is wrong in one sentence, what speaks for it, what was ruled out, where to look, and
 //! one command.
 
-use super::blocks::{INDENT, indented, labelled};
+use super::layout::{INDENT, indented, labelled};
 use super::style::{Paint, Style, clean};
 use crate::diagnosis::{Diagnosis, Headline};
 

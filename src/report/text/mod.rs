@@ -6,6 +6,7 @@
 
 mod blocks;
 mod headlines;
+mod layout;
 mod style;
 
 pub use style::{COLUMNS, Paint, Style, clean, mark, paint_of, wrap};

@@ -1,7 +1,7 @@
 //! The Stanford format.
 
 use crate::scene::Mesh;
-use crate::scene::mesh::MeshError;
+use crate::scene::error::MeshError;
 use glam::DVec3;
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property};

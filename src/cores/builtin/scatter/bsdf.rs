@@ -6,6 +6,7 @@
 use super::conductor::Conductor;
 use super::glass::Glass;
 use super::rough_glass::RoughGlass;
+use super::scattering::Scattering;
 use super::warp;
 use crate::scene::{Rgb, Surface};
 use glam::{Vec2, Vec3, vec3};
@@ -30,17 +31,6 @@ pub enum Bsdf {
     Conductor(Conductor),
     /// GGX microfacets that light passes.
     RoughGlass(RoughGlass),
-}
-
-/// A sampled direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scattering {
-    /// Towards the light, local frame, unit.
-    pub wi: Vec3,
-    /// `f · |cos θi| / pdf`, RGB.
-    pub weight: Vec3,
-    /// Density per steradian; for a delta lobe the probability of having chosen it.
-    pub pdf: f32,
 }
 
 /// Linear RGB in single precision.

@@ -3,8 +3,8 @@
 //! Written with the masking sums of `facets`, f = R D G₁ G₁ / (4 cos cos) and its density G₁ D / (4 cos) have no
 //! cosines left.
 
-use super::bsdf::Scattering;
 use super::facets::Facets;
+use super::scattering::Scattering;
 use glam::{Vec2, Vec3};
 
 /// A rough conductor seen from its upper side.

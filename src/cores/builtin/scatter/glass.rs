@@ -1,7 +1,7 @@
 //! A smooth interface between vacuum (the side of the normal) and glass, with the exact Fresnel equations.
 //! Radiance over index squared is conserved, so radiance itself changes when it crosses.
 
-use super::bsdf::Scattering;
+use super::scattering::Scattering;
 use glam::{Vec3, vec3};
 
 /// A smooth interface.

@@ -5,6 +5,7 @@ mod conductor;
 mod facets;
 mod glass;
 mod rough_glass;
+mod scattering;
 pub mod warp;
 
 pub use bsdf::{Bsdf, rgb};

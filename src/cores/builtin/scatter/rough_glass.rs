@@ -8,8 +8,8 @@
 //! reflected: f = F D / (s s), density F D / (2 s);
 //! refracted: f = (1 − F) D 4 |wo·h wi·h| / (s s |wo + η wi|²), density (1 − F) D 2 |wo·h| η² |wi·h| / (s |wo + η wi|²).
 
-use super::bsdf::Scattering;
 use super::facets::Facets;
+use super::scattering::Scattering;
 use glam::{Vec2, Vec3, vec3};
 
 /// A rough interface.

@@ -4,33 +4,14 @@
 //! divided into equal counts, so every build ends, and its depth is bounded.
 
 use super::bounds::Bounds;
+use super::item::{Item, Summary};
 use super::surface_area;
 use crate::contract::Split;
-use glam::Vec3A;
 
 /// Below this depth every rule gives way to the median, which needs at most 32 more levels.
 const RULED_DEPTH: usize = 64;
 /// Subtrees at least this large are built in parallel.
 const PARALLEL_SIZE: usize = 4096;
-
-/// What is sorted into the hierarchy.
-#[derive(Clone, Copy, Debug)]
-pub struct Item {
-    /// Around the primitive.
-    pub bounds: Bounds,
-    /// Its number in the scene.
-    pub number: u32,
-    /// Triangles and spheres do not share leaves.
-    pub is_ball: bool,
-}
-
-impl Item {
-    /// Where the item counts as being.
-    #[inline]
-    pub fn centroid(&self) -> Vec3A {
-        self.bounds.centre()
-    }
-}
 
 /// A node of the binary hierarchy. Its first child, if any, is the next node.
 #[derive(Clone, Copy, Debug)]
@@ -141,32 +122,6 @@ impl Plan {
                 Some(partition(items, |item| item.centroid()[axis] < middle))
             }
         }
-    }
-}
-
-/// What is to be known of a list of items before it is divided.
-pub struct Summary {
-    /// Around the items.
-    pub bounds: Bounds,
-    /// Around their centroids.
-    pub centroids: Bounds,
-    balls: usize,
-    count: usize,
-}
-
-impl Summary {
-    fn of(items: &[Item]) -> Self {
-        let empty = Self { bounds: Bounds::EMPTY, centroids: Bounds::EMPTY, balls: 0, count: 0 };
-        items.iter().fold(empty, |summary, item| Self {
-            bounds: summary.bounds.union(item.bounds),
-            centroids: summary.centroids.with(item.centroid()),
-            balls: summary.balls + usize::from(item.is_ball),
-            count: summary.count + 1,
-        })
-    }
-
-    fn is_mixed(&self) -> bool {
-        self.balls != 0 && self.balls != self.count
     }
 }
 

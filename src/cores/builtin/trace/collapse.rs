@@ -1,8 +1,9 @@
 //! From a binary hierarchy to nodes of eight children: the child of largest area is opened until there are
 //! eight (as Embree does), and leaves are packed into blocks.
 
-use super::build::{BinaryNode, Content, Item, Plan};
+use super::build::{BinaryNode, Content, Plan};
 use super::geometry::Geometry;
+use super::item::Item;
 use super::tree::{Ball, Child, LANES, Tree, TriangleBlock, WIDTH, WideNode};
 
 /// Builds the tree over everything solid in `geometry`.

@@ -4,7 +4,7 @@
 //! double precision, on the primitive itself: light is gathered at points that lie on their surfaces.
 
 use super::bounds::Bounds;
-use super::build::Item;
+use super::item::Item;
 use super::segment::Segment;
 use super::sphere;
 use super::traverse::Candidate;

@@ -5,7 +5,7 @@
 //! its blocks of four triangles, because those are tested together.
 
 use super::bounds::Bounds;
-use super::build::{Item, Summary};
+use super::item::{Item, Summary};
 use super::tree::LANES;
 
 const MOST_BINS: usize = 16;

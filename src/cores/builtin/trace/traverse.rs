@@ -4,7 +4,6 @@
 //! same to the last bit in all kernels (no fused multiplication), so a hit does not depend on the processor.
 
 use super::segment::{Segment, Shear, Slabs};
-use super::simd;
 use super::sphere;
 use super::tree::{Ball, Child, LANES, Target, Tree, TriangleBlock, WIDTH, WideNode};
 use crate::contract::TraversalStats;
@@ -47,53 +46,13 @@ impl Candidate {
     }
 }
 
-/// Walks one tree, ray after ray, and counts.
-pub struct Tracer<'a> {
-    tree: &'a Tree,
-    stack: Stack,
-    has_simd: bool,
-    /// Tests so far.
-    pub stats: TraversalStats,
-}
-
-impl<'a> Tracer<'a> {
-    /// With the best kernel of this processor.
-    pub fn new(tree: &'a Tree) -> Self {
-        Self { has_simd: simd::is_available(), ..Self::portable(tree) }
-    }
-
-    /// With the kernel that runs everywhere.
-    pub fn portable(tree: &'a Tree) -> Self {
-        Self { tree, stack: Stack::new(), has_simd: false, stats: TraversalStats::default() }
-    }
-
-    /// The nearest primitive on the segment.
-    pub fn nearest(&mut self, segment: &Segment) -> Option<Candidate> {
-        let (tree, stack, stats) = (self.tree, &mut self.stack, &mut self.stats);
-        if self.has_simd {
-            simd::walk::<false>(tree, segment, stack, stats)
-        } else {
-            walk::<Portable, false>(tree, segment, stack, stats)
-        }
-    }
-
-    /// Whether there is any primitive on the segment.
-    pub fn is_blocked(&mut self, segment: &Segment) -> bool {
-        let (tree, stack, stats) = (self.tree, &mut self.stack, &mut self.stats);
-        if self.has_simd {
-            simd::walk::<true>(tree, segment, stack, stats).is_some()
-        } else {
-            walk::<Portable, true>(tree, segment, stack, stats).is_some()
-        }
-    }
-}
-
 /// Children still to be visited, with the `t` where the ray enters them. Lives as long as its tracer, because
 /// clearing it for each ray would cost more than the walk.
 pub struct Stack(Box<[Entry; CAPACITY]>);
 
 impl Stack {
-    fn new() -> Self {
+    /// Nothing to visit.
+    pub fn new() -> Self {
         Self(Box::new([Entry(0); CAPACITY]))
     }
 }

@@ -1,7 +1,7 @@
 //! All parts of a file as one mesh.
 
 use crate::scene::Mesh;
-use crate::scene::mesh::MeshError;
+use crate::scene::error::MeshError;
 use glam::DVec3;
 use std::fs::File;
 use std::io::BufReader;

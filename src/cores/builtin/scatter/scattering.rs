@@ -1,0 +1,14 @@
+//! What sampling a surface answers.
+
+use glam::Vec3;
+
+/// A sampled direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scattering {
+    /// Towards the light, local frame, unit.
+    pub wi: Vec3,
+    /// `f · |cos θi| / pdf`, RGB.
+    pub weight: Vec3,
+    /// Density per steradian; for a delta lobe the probability of having chosen it.
+    pub pdf: f32,
+}

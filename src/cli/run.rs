@@ -30,7 +30,7 @@ pub struct RunArguments {
     /// Trials at the same time [default: one a hardware thread].
     #[arg(short, long, default_value_t = 0, hide_default_value = true)]
     jobs: usize,
-    /// Stop at the first failure; gross errors end their trial after a few thousand samples.
+    /// Stop at the first failure.
     #[arg(long)]
     fail_fast: bool,
     /// Try again whenever a case, a scene or the core's file changes, what failed last first; ctrl-c ends.

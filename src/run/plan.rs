@@ -22,8 +22,7 @@ pub struct Request {
     pub seed: Seed,
     /// Trials at the same time; 0 means one a hardware thread.
     pub jobs: usize,
-    /// Stop at the first graded failure, and let bets decide what they can before ladders are
-    /// climbed.
+    /// Stop at the first graded failure.
     pub fail_fast: bool,
 }
 
@@ -78,7 +77,7 @@ impl Plan {
             references: self.project.references(),
             allowance: Allowance {
                 budget: self.request.budget,
-                decides_early: self.request.fail_fast,
+                stops_at_failure: self.request.fail_fast,
             },
             seed: self.request.seed,
             hosting: self.hosting(),

@@ -13,7 +13,7 @@ use crate::contract::{
 use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
-use crate::stats::{Band, Claim, Effort, Support, Tolerance, Verdict, judge_means};
+use crate::stats::{Band, Claim, Effort, Tolerance, Verdict, judge_means};
 use crate::text::number::apart;
 use crate::text::{Colour, Count, Percent};
 use serde::Deserialize;
@@ -59,9 +59,6 @@ struct Row {
     by_convention: Vec<ConventionEntry>,
     direct: Option<DirectSampling>,
     roulette: Option<RouletteEntry>,
-    /// What no sample exceeds, however a core keeps its word; only where `source` says why. A run
-    /// in a hurry can then show that light is missing, too.
-    largest: Option<Colour>,
     /// The scene leaves nothing to chance: judged to rounding, on a few samples.
     #[serde(default)]
     exact: bool,
@@ -111,7 +108,7 @@ impl Check for MeanRadiance {
             };
             let failed = measures.iter().any(|(_, measure)| measure.verdict == Verdict::Fail);
             rows.push(measures);
-            if failed && effort.decides_early {
+            if failed && context.budget.stops_at_failure {
                 break;
             }
         }
@@ -154,7 +151,6 @@ impl MeanRadiance {
             aim: row.over.map(Aim::Patch).or_else(ray).unwrap_or(straight_up),
             settings: self.settings(row),
             expected: row.expected(&info.conventions),
-            largest: row.largest.map(|largest| largest.0),
             exact: row.exact.then_some(Tolerance::RADIANCE.of(info.precision)),
             seed,
         }
@@ -183,7 +179,6 @@ struct Question {
     aim: Aim,
     settings: IntegratorSettings,
     expected: [f64; 3],
-    largest: Option<[f64; 3]>,
     /// Relative error allowed where nothing is left to chance.
     exact: Option<f64>,
     seed: Seed,
@@ -205,7 +200,7 @@ impl Question {
         Ok(measures)
     }
 
-    /// The means of channels with light, by the ladder.
+    /// The means of channels with light.
     fn judge_lit(
         &self,
         scene: &mut dyn BuiltScene,
@@ -215,7 +210,8 @@ impl Question {
         if channels.is_empty() {
             return Ok(Vec::new());
         }
-        let claims: Vec<_> = channels.iter().map(|channel| self.claim(*channel)).collect();
+        let claim = |channel: &usize| Claim::value(self.expected[*channel], Band::RADIANCE);
+        let claims: Vec<_> = channels.iter().map(claim).collect();
         let reports = judge_means(&claims, effort, &mut |draw| {
             let seed = draw.seed(self.seed);
             let run = estimate(scene, self.aim, &self.settings, seed, draw.samples)?;
@@ -223,15 +219,6 @@ impl Question {
         })?;
         let measures = channels.iter().zip(&reports);
         Ok(measures.map(|(c, report)| (*c, Measure::of(self.label(*c), report))).collect())
-    }
-
-    /// Radiance is not negative, and sometimes more is known.
-    fn claim(&self, channel: usize) -> Claim {
-        let claim = Claim::value(self.expected[channel], Band::RADIANCE);
-        match self.largest {
-            Some(largest) => claim.with_samples_up_to(largest[channel]),
-            None => claim.with_support(Support::NotNegative),
-        }
     }
 
     /// No light at all: not one sample may carry any.

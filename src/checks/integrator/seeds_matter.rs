@@ -5,7 +5,7 @@ use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
 use crate::image::luminance;
-use crate::stats::{Verdict, judge_uncorrelated};
+use crate::stats::{CorrelationReport, Verdict, judge_uncorrelated};
 use crate::text::number::figure;
 use serde::Deserialize;
 
@@ -40,10 +40,17 @@ impl Check for SeedsMatter {
         let films = (0..self.seeds)
             .map(|run| rendering.film(built.as_mut(), seed.child(run).0, 0))
             .collect::<Result<Vec<_>, _>>()?;
-        let measures =
-            vec![equal_pictures(&films), neighbours(&films, [1, 0]), neighbours(&films, [0, 1])];
+        let directions = [("side by side", [1, 0]), ("above each other", [0, 1])];
+        let reports = directions.map(|(_, step)| neighbours(&films, step));
+        let mut measures = vec![equal_pictures(&films)];
+        measures.extend(directions.iter().zip(&reports).map(|((direction, _), report)| {
+            Measure::of(format!("correlation of pixels {direction}"), report)
+        }));
+        let doubt = reports.iter().find_map(CorrelationReport::doubt);
         let statement = match measures.iter().find(|m| m.verdict == Verdict::Fail) {
-            None => format!("{} seeds give {} different pictures", self.seeds, self.seeds),
+            None => doubt.unwrap_or_else(|| {
+                format!("{} seeds give {} different pictures", self.seeds, self.seeds)
+            }),
             Some(measure) => {
                 format!(
                     "the noise is not independent: {} is {}",
@@ -94,11 +101,9 @@ const SHARED: f64 = 0.5;
 /// Correlation of the signs of the noise of pixels that are `step` apart. Differences of two seeds have no picture
 /// left in them, and signs count every pixel alike: the few at the edge of a lamp, a hundred times as noisy as the
 /// rest, would otherwise decide alone, and the standard error would not be 1/√n.
-fn neighbours(films: &[Film], step: [usize; 2]) -> Measure {
+fn neighbours(films: &[Film], step: [usize; 2]) -> CorrelationReport {
     let pairs: Vec<_> = films.chunks_exact(2).flat_map(|two| sign_pairs(two, step)).collect();
-    let report = judge_uncorrelated(&pairs);
-    let direction = if step[0] > 0 { "side by side" } else { "above each other" };
-    Measure::of(format!("correlation of pixels {direction}"), &report)
+    judge_uncorrelated(&pairs)
 }
 
 /// Signs of the noise of each pixel and of the one `step` further, where both have any.

@@ -13,7 +13,7 @@ use crate::math::ratios::names_of;
 use crate::math::rng::Seed;
 use crate::scene::{Light, SceneDescription};
 use crate::stats::{
-    Band, Claim, Compared, MeanReport, Support, Tolerance, Verdict, judge_exact, judge_means,
+    Band, Claim, Compared, MeanReport, Tolerance, Verdict, judge_exact, judge_means,
 };
 use crate::text::number::with_interval;
 use crate::text::{Count, Percent};
@@ -133,8 +133,7 @@ impl Point {
         let solid_angle =
             self.solid_angle.map(|value| ("mean of 1/pdf", Claim::value(value, band)));
         let factor = ("mean of cos/pdf", Claim::value(PI * self.form_factor, band));
-        let claims = solid_angle.into_iter().chain([factor]);
-        claims.map(|(name, claim)| (name, claim.with_support(Support::NotNegative))).collect()
+        solid_angle.into_iter().chain([factor]).collect()
     }
 
     /// Means over one run, in the order of the claims. A sample that sees no light counts as zero.

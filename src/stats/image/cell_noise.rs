@@ -1,0 +1,124 @@
+//! The noise of a picture's cells: what its runs showed, and what is known without them.
+//!
+//! Light that few samples find is easily missed by all runs of a screen. Then a cell is too dark and
+//! hardly varies: by its own spread alone every picture with rare light in it would be suspected.
+//! Two things tell how noisy such a cell is:
+//!
+//! - The reference, from a hundred times the samples, has seen that light. Its standard errors show
+//!   which cells hold it; how much noisier the runs are is told by the cells around, taken together,
+//!   and by those of them that the reference knows about as well: it spreads its samples evenly,
+//!   which helps it more with light from wide regions than with edges.
+//! - At an edge samples fall to either side by chance, and a reference that spreads its samples
+//!   evenly over the pixel knows nothing of that. A sample between a and b whose mean is m has a
+//!   variance of at most (m − a)(b − m) (Bhatia and Davis 2000); a and b are the darkest and the
+//!   brightest of the pixels around, for a sliver of a lamp may fill no pixel but at its end.
+//!
+//! What is known needs no more sigmas than a normal variable, Student's t many more: each counts
+//! with its own, and the larger decides.
+
+use super::cells::{COMPONENTS, Grid, Scale, around};
+use super::target::Target;
+use crate::stats::law::{Spread, normal_upper, student_upper};
+
+/// How far around a cell others tell of its noise, in cells.
+const REACH: usize = 4;
+
+/// By which factor the reference's standard errors of cells differ at most that it knows alike.
+const ALIKE: f64 = 2.0;
+
+/// The standard errors of the mean cells of some runs.
+pub(super) struct CellNoise<'a> {
+    pub(super) spread: &'a Spread,
+    /// How many standard errors of its own a cell of each scale is suspected at.
+    pub(super) critical: [f64; Scale::ALL.len()],
+    /// The least standard errors of all cells, in the sigmas of their own.
+    known: Vec<f64>,
+}
+
+impl<'a> CellNoise<'a> {
+    /// Of runs of so many samples a pixel, of which any cell is suspected without cause with
+    /// probability `level`.
+    pub(super) fn of(spread: &'a Spread, target: &Target, samples: u32, level: f64) -> Self {
+        let mut critical = [0.0; Scale::ALL.len()];
+        let mut known = Vec::with_capacity(spread.len());
+        let samples = f64::from(samples) * (spread.freedom() + 1.0);
+        for (scale, grid) in target.cells.grids.iter().enumerate() {
+            let cells = COMPONENTS * grid.len();
+            let level = level / (2 * Scale::ALL.len() * cells) as f64;
+            critical[scale] = student_upper(level, spread.freedom());
+            let fewer_sigmas = normal_upper(level) / critical[scale];
+            let start = known.len();
+            known.extend((start..start + cells).map(|index| {
+                let around = Around::of(spread, target, grid, start, index);
+                let by_edges =
+                    if grid.scale == Scale::Pixel { around.by_edges(samples) } else { 0.0 };
+                fewer_sigmas * around.by_reference(target.errors[index]).max(by_edges)
+            }));
+        }
+        Self { spread, critical, known }
+    }
+
+    /// Of a cell's mean, in the sigmas of [`CellNoise::critical`].
+    pub(super) fn standard_error(&self, index: usize) -> f64 {
+        self.spread.standard_error(index).max(self.known[index])
+    }
+}
+
+/// What a component of the cells around one should be, and is.
+struct Around {
+    mean: f64,
+    darkest: f64,
+    brightest: f64,
+    all: Noisier,
+    alike: Noisier,
+}
+
+/// How much noisier the runs are than the reference in some cells.
+#[derive(Clone, Copy, Default)]
+struct Noisier {
+    /// Summed squares of standard errors of the runs, and of the reference.
+    seen: f64,
+    stored: f64,
+}
+
+impl Noisier {
+    fn with(self, seen: f64, stored: f64) -> Self {
+        Self { seen: self.seen + seen.powi(2), stored: self.stored + stored.powi(2) }
+    }
+
+    /// Of standard errors; none where the reference is exact.
+    fn factor(self) -> f64 {
+        if self.stored > 0.0 { (self.seen / self.stored).sqrt() } else { 0.0 }
+    }
+}
+
+impl Around {
+    /// Around the cell of this index, on the grid whose cells begin at `first`.
+    fn of(spread: &Spread, target: &Target, grid: &Grid, first: usize, index: usize) -> Self {
+        let (mean, error) = (target.expected[index], target.errors[index]);
+        let none = Noisier::default();
+        let mut taken = Self { mean, darkest: mean, brightest: mean, all: none, alike: none };
+        let (cell, component) = ((index - first) / COMPONENTS, (index - first) % COMPONENTS);
+        for other in around((grid.columns, grid.rows), cell, REACH) {
+            let other = first + COMPONENTS * other + component;
+            let (seen, stored) = (spread.standard_error(other), target.errors[other]);
+            taken.darkest = taken.darkest.min(target.expected[other]);
+            taken.brightest = taken.brightest.max(target.expected[other]);
+            taken.all = taken.all.with(seen, stored);
+            if (error / ALIKE..=error * ALIKE).contains(&stored) {
+                taken.alike = taken.alike.with(seen, stored);
+            }
+        }
+        taken
+    }
+
+    /// From the reference's standard error of the cell.
+    fn by_reference(&self, error: f64) -> f64 {
+        error * self.all.factor().max(self.alike.factor())
+    }
+
+    /// The largest that so many samples have by falling to either side of an edge.
+    fn by_edges(&self, samples: f64) -> f64 {
+        ((self.mean - self.darkest) * (self.brightest - self.mean) / samples).sqrt()
+    }
+}

@@ -1,0 +1,139 @@
+//! Whether two pictures differ, when each was rendered once: no seeds, no further runs.
+//!
+//! What takes the place of runs is the picture itself. It is cut into units of 8 by 8 pixels, and
+//! the units are dealt to three stages along diagonals. The first stage chooses what to look at:
+//! the cells of four sizes that stand out, and whether the picture follows the slopes of the
+//! reference, which is what a displacement does. The other two confirm it, each with the spread of
+//! its own units, studentised. A difference is proven if both do: the price of having looked at
+//! thousands of cells is paid by that split, as in [`super::judge_image`].
+//!
+//! The noise of both pictures is in the spread, so neither has to be known. What has to be true is
+//! that the noise of units is independent, also between the two pictures: pictures rendered with
+//! one random sequence for every pixel, or denoised over more than a few pixels, break that. An
+//! error that is smooth over units only widens the spread that it is held against, so a test that
+//! does not know how smooth it is errs towards silence.
+//!
+//! Where the variance of both pictures is known, it is a second key: a difference has to stand out
+//! of the known noise too; and then single pixels can be judged. Two pictures of the same thing are
+//! told apart with probability 4e-10 for each pattern, and 1e-9 for the pixels.
+
+mod pattern;
+mod pixel;
+mod report;
+mod unit;
+
+#[cfg(test)]
+mod tests;
+
+pub use pattern::Pattern;
+pub use report::{DifferenceReport, OddPixels, PatternReport};
+
+use super::screen::CONFIRM_LEVEL;
+use crate::image::Image;
+use crate::stats::plan::MISS_LEVEL;
+use crate::stats::{Verdict, student_upper};
+use pattern::{Score, confirm};
+use unit::{COMPONENTS, Units};
+
+/// Stages that units are dealt to: one to choose, two to confirm.
+const STAGES: usize = 3;
+
+/// One picture, and how well it is known.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<'a> {
+    /// The picture.
+    pub image: &'a Image,
+    /// The variance of each value of `image`, if it is known.
+    pub variance: Option<&'a Image>,
+    /// Half a step of each value, where the file holds whole numbers.
+    pub rounding: Option<&'a Image>,
+}
+
+impl<'a> Sample<'a> {
+    /// A picture of which nothing more is known.
+    pub fn of(image: &'a Image) -> Self {
+        Self { image, variance: None, rounding: None }
+    }
+}
+
+/// Judges whether `picture` shows what `reference` shows. `counted` says which pixels do; all, if
+/// none.
+///
+/// # Panics
+///
+/// If the pictures differ in size.
+pub fn judge_difference(
+    picture: Sample<'_>,
+    reference: Sample<'_>,
+    counted: Option<&[bool]>,
+) -> DifferenceReport {
+    judge_at(picture, reference, counted, CONFIRM_LEVEL)
+}
+
+/// The same with another level for each confirmation, so that tests can count false alarms.
+fn judge_at(
+    picture: Sample<'_>,
+    reference: Sample<'_>,
+    counted: Option<&[bool]>,
+    level: f64,
+) -> DifferenceReport {
+    assert!(picture.image.same_size(reference.image), "two pictures of one size");
+    let odd = pixel::impossible(picture.image, counted);
+    if odd.is_none() && picture.image == reference.image {
+        return DifferenceReport::of_equals();
+    }
+    let units = Units::new(picture, reference, counted);
+    let patterns = Pattern::ALL.map(|pattern| judge_pattern(pattern, &units, level)).to_vec();
+    let outliers = pixel::outliers(picture, reference, counted);
+    let rejected = odd.is_some() || outliers.is_some() || patterns.iter().any(|p| p.rejects);
+    let resolution = resolution(&units, level);
+    let verdict = match (rejected, resolution.is_finite()) {
+        (true, _) => Verdict::Fail,
+        (false, true) => Verdict::Pass,
+        (false, false) => Verdict::Inconclusive,
+    };
+    DifferenceReport {
+        verdict,
+        equal: false,
+        impossible: odd,
+        outliers,
+        patterns,
+        ratio: units.ratio(),
+        resolution,
+    }
+}
+
+/// Chooses by the first stage, and confirms by the other two.
+fn judge_pattern(pattern: Pattern, units: &Units, level: f64) -> PatternReport {
+    let cells = pattern.cells(units);
+    let choices = pattern.choices(&cells);
+    let scores = [1, 2].map(|stage| confirm(&cells, &choices, stage));
+    let rejects = |score: &Score| score.t > student_upper(level, score.freedom);
+    let worst = choices.first();
+    PatternReport {
+        pattern,
+        cells: cells.len(),
+        worst: worst.map(|choice| cells[choice.cell].extent()),
+        difference: worst.map_or(0.0, |choice| cells[choice.cell].relative(choice)),
+        t: scores.map(|score| score.t.clamp(-1e9, 1e9)),
+        rejects: !choices.is_empty() && scores.iter().all(rejects),
+    }
+}
+
+/// The relative error of the whole picture's luminance that both confirmations would have seen with
+/// probability 1 − [`MISS_LEVEL`]; infinity where there are too few units to see anything.
+fn resolution(units: &Units, level: f64) -> f64 {
+    let luminance = COMPONENTS - 1;
+    let cells = Pattern::Whole.cells(units);
+    let Some(whole) = cells.first() else { return f64::INFINITY };
+    let seen = |stage: usize| {
+        let moments = whole.moments(stage, luminance);
+        let error = moments.standard_error().max(whole.known_error(stage, luminance));
+        let freedom = moments.count() as f64 - 1.0;
+        let critical = student_upper(level, freedom);
+        let spread = (1.0 + 0.5 * critical * critical / freedom).sqrt();
+        let sigmas = critical + student_upper(MISS_LEVEL, freedom) * spread;
+        (whole.band(stage, luminance) + sigmas * error) / whole.scale(stage, luminance)
+    };
+    seen(1).max(seen(2))
+}

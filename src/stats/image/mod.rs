@@ -1,0 +1,34 @@
+//! Whether pictures show the same: by the law of their noise, their 8-bit codes, or against each other; and
+//! which mistake turns one into the other.
+
+mod brightness;
+mod cell_noise;
+mod cells;
+mod codes;
+mod dead_pixels;
+mod difference;
+pub mod misfit;
+mod report;
+mod screen;
+mod screening;
+#[cfg(test)]
+mod simulation;
+mod target;
+
+pub use cells::{Component, Extent, Scale};
+pub(super) use codes::CODES_FALSE_ALARM;
+pub use codes::{
+    ClippingReport, CodeLaw, CodeReference, CodeReport, CodeSettings,
+    Deciphered, LightOfCodes, NoiseSource, judge_codes, light_of_codes,
+};
+pub use difference::{
+    DifferenceReport, OddPixels, Pattern, PatternReport, Sample,
+    judge_difference,
+};
+pub use report::{
+    GlobalRatio, ImageReport, Impossible, ScaleReport,
+};
+pub(super) use screen::{IMAGE_FALSE_ALARM, SCREEN_LEVEL};
+pub use screen::{
+    ImageDraw, ImageEffort, Reference, judge_image, judge_image_pair,
+};

@@ -1,0 +1,175 @@
+//! What screen-and-confirm found out about a picture.
+
+use super::cells::{Component, Extent, Scale};
+use crate::image::Image;
+use crate::stats::plan::{Hypothesis, Judgement, Report, Stage, TestKind, Verdict};
+use serde::{Deserialize, Serialize};
+
+/// A value that no picture has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Impossible {
+    /// Neither large nor small.
+    NotANumber,
+    /// Beyond all numbers.
+    Infinite,
+    /// Below darkness.
+    Negative,
+}
+
+impl Impossible {
+    /// What is wrong with a value, if anything is.
+    pub(super) fn of(value: f32) -> Option<Self> {
+        match value {
+            v if v.is_nan() => Some(Self::NotANumber),
+            v if v.is_infinite() => Some(Self::Infinite),
+            v if v < 0.0 => Some(Self::Negative),
+            _ => None,
+        }
+    }
+}
+
+/// Pixels that are impossible in some run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ImpossiblePixels {
+    /// What is wrong with the first.
+    pub kind: Impossible,
+    /// Its column.
+    pub x: usize,
+    /// Its row, from the top.
+    pub y: usize,
+    /// How many there are in that run.
+    pub pixels: usize,
+    /// The stage of that run.
+    pub stage: Stage,
+    /// Its number in the stage.
+    pub run: u32,
+}
+
+/// A cell, as the screen sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CellScore {
+    /// Size of the cell.
+    pub scale: Scale,
+    /// Red, green, blue or luminance.
+    pub component: Component,
+    /// Its pixels.
+    pub extent: Extent,
+    /// Measured.
+    pub mean: f64,
+    /// Of the reference; 0 for the difference of two renders.
+    pub expected: f64,
+    /// How far a correct core may be from `expected`: rounding, and the noise of the reference.
+    pub band: f64,
+    /// How far outside the band the mean is, in standard errors of the screen's runs.
+    pub t: f64,
+}
+
+/// A confirmation on fresh runs of the cells frozen at one scale.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Confirmation {
+    /// How far the frozen combination of cells lies outside its band, in standard errors of these
+    /// runs or of the other confirmation's, whichever are larger.
+    pub t: f64,
+    /// Whether that is too far.
+    pub rejects: bool,
+}
+
+/// What one scale says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScaleReport {
+    /// Size of the cells.
+    pub scale: Scale,
+    /// How many, times components.
+    pub cells: usize,
+    /// The most extreme first; none inside its band.
+    pub worst: Vec<CellScore>,
+    /// What |t| of a cell had to exceed to be suspected.
+    pub critical: f64,
+    /// Both confirmations, if anything was suspected at any scale and this one has cells outside
+    /// their bands.
+    pub confirmations: Option<[Confirmation; 2]>,
+    /// Whether both reject.
+    pub rejects: bool,
+}
+
+/// Measured over expected, over the whole picture, with 99.9 % confidence. The noise of the
+/// reference is in it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GlobalRatio {
+    /// Red, green, blue or luminance.
+    pub component: Component,
+    /// Measured over expected.
+    pub ratio: f64,
+    /// Ends of its interval.
+    pub interval: [f64; 2],
+}
+
+/// How far each 8 by 8 tile is off, in standard errors of core and reference together; no band. For
+/// pictures.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TileMap {
+    /// Tiles in a row.
+    pub columns: usize,
+    /// Row-major from the top left; luminance.
+    pub z: Vec<f64>,
+}
+
+/// The judgement of a picture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ImageReport {
+    /// Pass, fail or inconclusive.
+    pub verdict: Verdict,
+    /// NaN, infinity or negative light: fails without statistics.
+    pub impossible: Option<ImpossiblePixels>,
+    /// Column and row of pixels that stay black in every run while pixels like them do not; at most
+    /// 64.
+    pub dead_pixels: Vec<[usize; 2]>,
+    /// From the finest to the coarsest.
+    pub scales: Vec<ScaleReport>,
+    /// The scale that rejects most strongly.
+    pub worst_scale: Option<Scale>,
+    /// How much too bright or too dark the picture is, for each component.
+    pub ratios: Vec<GlobalRatio>,
+    /// The smallest relative error of the whole picture's luminance that would have been caught
+    /// with probability 0.999.
+    pub resolution: f64,
+    /// The error that had to be.
+    pub detects: f64,
+    /// By how much the samples of every run have to be multiplied, if inconclusive and that would
+    /// help. If it would not, the reference is too noisy.
+    pub samples_factor: Option<f64>,
+    /// Runs drawn.
+    pub runs: u32,
+    /// How far each tile is off.
+    pub tiles: TileMap,
+    /// Mean of all runs.
+    #[serde(skip)]
+    pub mean: Image,
+    /// Standard error of `mean`.
+    #[serde(skip)]
+    pub standard_error: Image,
+}
+
+impl ImageReport {
+    /// Whether the screen suspected it, so that there were confirmations.
+    pub(super) fn suspected(&self) -> bool {
+        self.scales.iter().any(|scale| scale.confirmations.is_some())
+    }
+}
+
+impl Report for ImageReport {
+    /// The luminance of the whole picture, over that of the reference; NaN of an impossible picture.
+    fn judgement(&self) -> Judgement {
+        let luminance = self.ratios.iter().find(|ratio| ratio.component == Component::Luminance);
+        Judgement {
+            verdict: self.verdict,
+            measured: luminance.map_or(f64::NAN, |luminance| luminance.ratio),
+            expected: 1.0,
+            allowed: 0.0,
+            interval: luminance.map(|luminance| luminance.interval),
+            smallest_detectable_error: Some(self.resolution),
+            hypothesis: Some(Hypothesis::new(TestKind::Picture, self.suspected())),
+        }
+    }
+}

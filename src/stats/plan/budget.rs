@@ -1,0 +1,175 @@
+//! How small an error has to be seen, and what it may cost. The one place that says what a budget
+//! means.
+
+use serde::{Deserialize, Serialize};
+
+/// What a claim is worth: the error it promises to catch, and the samples it may spend on that.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Effort {
+    /// The relative error that must be seen: a claim passes only if this would have been caught
+    /// with probability 0.999.
+    pub detects: f64,
+    /// The most samples of the first stage, over all its runs.
+    pub most_samples: u64,
+    /// Independent runs of the core in each stage: the units of replication, at least 32.
+    pub runs: u32,
+    /// The samples of a run come in multiples of this (the pixels of a film, say).
+    pub grain: u64,
+    /// Whether means are tested for gross errors before they are tested for `detects`: what fails
+    /// there is known soon, and less precisely.
+    pub coarse_first: bool,
+}
+
+impl Effort {
+    /// Errors beyond this are gross: nobody who stops at the first failure wants to know them better.
+    const GROSS: f64 = 0.25;
+    /// Fewer runs leave the standard error itself uncertain by more than 13 %.
+    pub const FEWEST_RUNS: u32 = 32;
+
+    /// The effort that sees an error of `detects`, relative to the scale of the claim.
+    pub fn new(detects: f64) -> Self {
+        Self { detects, most_samples: 4_000_000, runs: 64, grain: 1, coarse_first: false }
+    }
+
+    /// The effort that sees gross errors alone, if those are to be looked for first.
+    pub(in crate::stats) fn coarse(self) -> Option<Self> {
+        let worthwhile = self.coarse_first && 2.0 * self.detects <= Self::GROSS;
+        worthwhile.then_some(Self { detects: Self::GROSS, ..self })
+    }
+
+    /// The same with another cap on the first stage's samples.
+    pub fn with_most_samples(self, most_samples: u64) -> Self {
+        Self { most_samples, ..self }
+    }
+
+    /// The same with another number of runs a stage; never fewer than [`Effort::FEWEST_RUNS`].
+    pub fn with_runs(self, runs: u32) -> Self {
+        Self { runs: runs.max(Self::FEWEST_RUNS), ..self }
+    }
+
+    /// The same with samples in multiples of `grain`.
+    pub fn in_steps_of(self, grain: u64) -> Self {
+        Self { grain: grain.max(1), ..self }
+    }
+}
+
+/// What a trial may spend: a budget, and whether its first failure ends it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Allowance {
+    /// How small an error is looked for.
+    pub budget: Budget,
+    /// Whether one failure is enough: `--fail-fast`.
+    pub stops_at_failure: bool,
+}
+
+impl Allowance {
+    /// What `effort` becomes under this allowance.
+    pub fn scale(self, effort: Effort) -> Effort {
+        Effort { coarse_first: self.stops_at_failure, ..self.budget.scale(effort) }
+    }
+
+    /// [`Budget::samples`]
+    pub fn samples(self, default: u64) -> u64 {
+        self.budget.samples(default)
+    }
+
+    /// [`Budget::coarseness`]
+    pub const fn coarseness(self) -> f64 {
+        self.budget.coarseness()
+    }
+}
+
+impl From<Budget> for Allowance {
+    fn from(budget: Budget) -> Self {
+        Self { budget, stops_at_failure: false }
+    }
+}
+
+/// How thorough a run of the suite is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Budget {
+    /// While you work: errors of 5 % where the default sees 2 %.
+    Quick,
+    /// What a case promises.
+    #[default]
+    Default,
+    /// For a release: errors of 0.5 % where the default sees 2 %.
+    Strict,
+}
+
+impl Budget {
+    /// By how much the smallest error that must be seen is multiplied.
+    pub const fn coarseness(self) -> f64 {
+        match self {
+            Budget::Quick => 2.5,
+            Budget::Default => 1.0,
+            Budget::Strict => 0.25,
+        }
+    }
+
+    /// By how much a number of samples is multiplied: an error half as large takes four times as
+    /// many.
+    pub const fn samples_factor(self) -> f64 {
+        1.0 / (self.coarseness() * self.coarseness())
+    }
+
+    /// What `effort` becomes under this budget.
+    pub fn scale(self, effort: Effort) -> Effort {
+        Effort {
+            detects: effort.detects * self.coarseness(),
+            most_samples: self.samples(effort.most_samples),
+            ..effort
+        }
+    }
+
+    /// What a number of samples meant for the default budget becomes under this one.
+    pub fn samples(self, default: u64) -> u64 {
+        (default as f64 * self.samples_factor()).ceil() as u64
+    }
+}
+
+impl std::fmt::Display for Budget {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Budget::Quick => "quick",
+            Budget::Default => "default",
+            Budget::Strict => "strict",
+        })
+    }
+}
+
+impl std::str::FromStr for Budget {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<Self, String> {
+        [Budget::Quick, Budget::Default, Budget::Strict]
+            .into_iter()
+            .find(|budget| budget.to_string() == word)
+            .ok_or_else(|| format!("`{word}` is no budget; write `quick`, `default` or `strict`"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_three_budgets_see_five_two_and_half_a_per_cent() {
+        let sees = |budget: Budget| budget.scale(Effort::new(0.02)).detects;
+        assert!((sees(Budget::Quick) - 0.05).abs() < 1e-15);
+        assert!((sees(Budget::Default) - 0.02).abs() < 1e-15);
+        assert!((sees(Budget::Strict) - 0.005).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_quarter_of_the_error_costs_sixteen_times_the_samples() {
+        assert_eq!(Budget::Strict.samples(1000), 16_000);
+        assert_eq!(Budget::Quick.samples(1000), 160);
+    }
+
+    #[test]
+    fn nobody_can_ask_for_too_few_runs() {
+        assert_eq!(Effort::new(0.02).with_runs(4).runs, Effort::FEWEST_RUNS);
+    }
+}

@@ -1,0 +1,166 @@
+//! Suspect on a few samples, confirm on many: the plan that every test in stages follows.
+//!
+//! A first stage tests at [`STAGE_LEVEL`]. What it rejects is tested again on fresh samples, 4 and
+//! then 16 times as many; only what all three reject fails. A single test at the same overall level
+//! would rest on tails of 10⁻⁹, where the central limit theorem is wrong by factors of thousands for
+//! the skewed sums that renderers make; a product of three moderate tails stays right, and a correct
+//! core pays for the first stage only.
+//!
+//! Not here: what a stage tests (`test`, `image`).
+
+use super::{Hypothesis, TestKind};
+use crate::math::rng::Seed;
+use serde::{Deserialize, Serialize};
+
+/// Level of one stage on one side.
+pub const STAGE_LEVEL: f64 = 5e-4;
+/// Probability that three stages reject a true hypothesis, on one side.
+pub const ESCALATION_FALSE_ALARM: f64 = STAGE_LEVEL * STAGE_LEVEL * STAGE_LEVEL;
+
+/// A step of a test. Each has its own random numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stage {
+    /// Measures the noise, decides nothing.
+    Pilot,
+    /// Suspects.
+    First,
+    /// Confirms on 4 times the samples.
+    Second,
+    /// Confirms on 16 times the samples.
+    Third,
+}
+
+impl Stage {
+    /// The stages that decide, in their order.
+    pub const DECIDING: [Self; 3] = [Self::First, Self::Second, Self::Third];
+
+    /// Samples for each sample of the first stage.
+    pub const fn factor(self) -> u64 {
+        match self {
+            Self::Second => 4,
+            Self::Third => 16,
+            _ => 1,
+        }
+    }
+
+    /// Its place among those that decide.
+    pub(in crate::stats) fn index(self) -> usize {
+        Self::DECIDING.iter().position(|stage| *stage == self).unwrap_or(0)
+    }
+
+    /// The seed of this stage below the seed of its check.
+    pub fn seed(self, check: Seed) -> Seed {
+        check.child(self)
+    }
+}
+
+impl std::fmt::Display for Stage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Stage::Pilot => "pilot",
+            Stage::First => "stage 1",
+            Stage::Second => "stage 2",
+            Stage::Third => "stage 3",
+        })
+    }
+}
+
+/// What one stage found.
+pub trait Scored {
+    /// Whether it rejects.
+    fn rejects(&self) -> bool;
+}
+
+/// The stages of one test that were drawn, in their order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Escalation<S>(Vec<S>);
+
+impl<S> Default for Escalation<S> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<S> std::ops::Deref for Escalation<S> {
+    type Target = [S];
+
+    fn deref(&self) -> &[S] {
+        &self.0
+    }
+}
+
+impl<S: Scored> Escalation<S> {
+    /// The stage to be drawn: the first, or the next after one that rejects. None when all is said.
+    pub fn next(&self) -> Option<Stage> {
+        let goes_on = self.0.last().is_none_or(Scored::rejects);
+        Stage::DECIDING.get(self.0.len()).copied().filter(|_| goes_on)
+    }
+
+    /// Takes in the stage that was to be drawn.
+    pub fn push(&mut self, score: S) {
+        self.0.push(score);
+    }
+
+    /// Whether the first stage rejects, so that there has to be a second.
+    pub fn suspects(&self) -> bool {
+        self.0.first().is_some_and(Scored::rejects)
+    }
+
+    /// Whether all three reject.
+    pub fn rejects(&self) -> bool {
+        self.0.len() == Stage::DECIDING.len() && self.0.iter().all(Scored::rejects)
+    }
+
+    /// What the ledger enters.
+    pub fn hypothesis(&self, kind: TestKind) -> Hypothesis {
+        Hypothesis::new(kind, self.suspects())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    impl Scored for bool {
+        fn rejects(&self) -> bool {
+            *self
+        }
+    }
+
+    fn after(scores: &[bool]) -> Escalation<bool> {
+        let mut stages = Escalation::default();
+        for score in scores {
+            assert!(stages.next().is_some());
+            stages.push(*score);
+        }
+        stages
+    }
+
+    #[test]
+    fn a_stage_follows_one_that_rejects_and_three_are_enough() {
+        assert_eq!(after(&[]).next(), Some(Stage::First));
+        assert_eq!(after(&[true]).next(), Some(Stage::Second));
+        assert_eq!(after(&[true, true]).next(), Some(Stage::Third));
+        for ended in [&[false][..], &[true, false], &[true, true, true]] {
+            assert_eq!(after(ended).next(), None);
+        }
+    }
+
+    #[test]
+    fn only_three_rejections_reject() {
+        assert!(after(&[true, true, true]).rejects());
+        for cleared in [&[][..], &[true], &[true, true], &[true, true, false]] {
+            assert!(!after(cleared).rejects());
+        }
+        assert!(after(&[true, false]).suspects() && !after(&[false]).suspects());
+    }
+
+    #[test]
+    fn the_names_of_stages_are_part_of_their_seeds() {
+        let seed = Seed(5);
+        assert_eq!(Stage::Pilot.seed(seed), seed.child("pilot"));
+        assert_eq!(Stage::DECIDING.map(|s| s.seed(seed)), [1, 2, 3].map(|n| seed.child(format!("stage {n}"))));
+    }
+}

@@ -1,0 +1,107 @@
+//! Whether two series have nothing to do with each other.
+
+use crate::stats::plan::{Hypothesis, Judgement, Report, TestKind, Verdict};
+
+/// Standard errors that chance is given.
+const SIGMAS: f64 = 7.0;
+/// Of fewer pairs chance explains even a coefficient of 1.
+const FEWEST_PAIRS: usize = 50;
+/// Probability that unrelated series are called related: two sides of 7 standard errors of a
+/// normal, with room.
+pub(in crate::stats) const CORRELATION_FALSE_ALARM: f64 = 1e-10;
+
+/// What came of comparing two series.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CorrelationReport {
+    /// Fail if they are related.
+    pub verdict: Verdict,
+    /// Pearson's coefficient, in [-1, 1].
+    pub coefficient: f64,
+    /// The largest that chance explains.
+    pub limit: f64,
+    /// How many pairs were compared.
+    pub pairs: usize,
+}
+
+impl CorrelationReport {
+    /// Why nothing can be said, if that is so.
+    pub fn doubt(&self) -> Option<String> {
+        let doubt = || match self.limit < 1.0 {
+            true => "there is no noise to compare".to_owned(),
+            false => format!("{} pairs prove nothing, {FEWEST_PAIRS} might", self.pairs),
+        };
+        (self.verdict == Verdict::Inconclusive).then(doubt)
+    }
+}
+
+impl Report for CorrelationReport {
+    fn judgement(&self) -> Judgement {
+        Judgement {
+            verdict: self.verdict,
+            measured: self.coefficient,
+            expected: 0.0,
+            allowed: self.limit,
+            interval: None,
+            smallest_detectable_error: None,
+            hypothesis: Some(Hypothesis::new(TestKind::Correlation, false)),
+        }
+    }
+}
+
+/// Judges pairs of numbers: Pearson's coefficient of n unrelated pairs has standard error 1/√n.
+/// Series without any variance are inconclusive, and so are those that could not fail, because chance
+/// explains even equal ones.
+pub fn judge_uncorrelated(pairs: &[[f64; 2]]) -> CorrelationReport {
+    let n = pairs.len() as f64;
+    let mean = |side: usize| pairs.iter().map(|pair| pair[side]).sum::<f64>() / n;
+    let means = [mean(0), mean(1)];
+    let product = |a: usize, b: usize| {
+        pairs.iter().map(|pair| (pair[a] - means[a]) * (pair[b] - means[b])).sum::<f64>()
+    };
+    let spread = (product(0, 0) * product(1, 1)).sqrt();
+    let coefficient = product(0, 1) / spread;
+    let limit = SIGMAS / n.sqrt();
+    let verdict = match spread > 0.0 && pairs.len() >= FEWEST_PAIRS {
+        false => Verdict::Inconclusive,
+        true => Verdict::pass_if(coefficient.abs() <= limit),
+    };
+    CorrelationReport { verdict, coefficient, limit, pairs: pairs.len() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rng::{Seed, uniform};
+
+    fn pairs(shared: f64) -> Vec<[f64; 2]> {
+        let mut stream = Seed(5).stream();
+        let mut pair = || {
+            let (a, b) = (uniform(&mut stream), uniform(&mut stream));
+            [a, shared * a + (1.0 - shared) * b]
+        };
+        (0..4000).map(|_| pair()).collect()
+    }
+
+    #[test]
+    fn unrelated_series_pass_and_related_ones_fail() {
+        assert_eq!(judge_uncorrelated(&pairs(0.0)).verdict, Verdict::Pass);
+        assert_eq!(judge_uncorrelated(&pairs(0.2)).verdict, Verdict::Fail);
+        assert_eq!(judge_uncorrelated(&pairs(1.0)).verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn the_same_series_twice_fail_or_are_too_short_but_never_pass() {
+        let twice = |n: usize| judge_uncorrelated(&pairs(1.0)[..n]);
+        for n in 0..FEWEST_PAIRS {
+            assert_eq!(twice(n).verdict, Verdict::Inconclusive, "{n}");
+            assert!(twice(n).doubt().is_some_and(|doubt| doubt.contains("50")));
+        }
+        assert_eq!(twice(FEWEST_PAIRS).verdict, Verdict::Fail);
+        assert_eq!(twice(FEWEST_PAIRS).doubt(), None);
+    }
+
+    #[test]
+    fn constant_series_say_nothing() {
+        assert_eq!(judge_uncorrelated(&[[1.0, 2.0]; 9]).verdict, Verdict::Inconclusive);
+    }
+}

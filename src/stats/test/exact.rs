@@ -1,0 +1,201 @@
+//! Comparisons without noise: how far rounding may take a correct core, and where the worst element
+//! is.
+//!
+//! Every tolerance of a deterministic check stands here, by name and for both precisions. They are
+//! rounding errors with room for another order of operations, not room for another formula: the
+//! mistakes they tell apart are orders of magnitude larger.
+
+use crate::stats::plan::{Judgement, Report, Verdict};
+use crate::math::Precision;
+use serde::{Deserialize, Serialize};
+
+/// The error allowed to a correct core, relative to the size and the condition of what is compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    double: f64,
+    single: f64,
+}
+
+impl Tolerance {
+    /// Nothing: the same bits, or a number that every precision holds exactly.
+    pub const EXACT: Self = Self { double: 0.0, single: 0.0 };
+    /// Components of a unit direction after a handful of operations (camera rays, normals, mirror
+    /// directions).
+    pub const DIRECTION: Self = Self { double: 1e-12, single: 2e-6 };
+    /// Ray parameters of intersections, relative, before their condition number.
+    pub const INTERSECTION: Self = Self { double: 1e-9, single: 1e-4 };
+    /// Some sixteen roundings of numbers whose size is known; what is compared says which.
+    pub const ROUNDINGS: Self = Self { double: 16.0 * f64::EPSILON, single: 16.0 * 1.2e-7 };
+    /// By how much two ways around a box may differ that do not touch: a box test rounds each
+    /// crossing twice.
+    pub const SLAB: Self = Self { double: 1e-12, single: 1e-6 };
+    /// A density or a BSDF evaluated twice for the same directions, relative.
+    pub const SAME_VALUE: Self = Self { double: 1e-6, single: 1e-4 };
+    /// A density or a BSDF against its formula, relative: cancellation near grazing costs single
+    /// precision digits.
+    pub const FORMULA: Self = Self { double: 1e-6, single: 1e-3 };
+    /// An integral over the sphere, by quadrature of the core's own values.
+    pub const INTEGRAL: Self = Self { double: 1e-6, single: 1e-5 };
+    /// Density times Jacobian of a sampler by central differences, half the points.
+    pub const JACOBIAN_MEDIAN: Self = Self { double: 1e-6, single: 1e-2 };
+    /// The same, 99 points of 100.
+    pub const JACOBIAN_TAIL: Self = Self { double: 1e-3, single: 1e-1 };
+    /// Radiance without noise: delta lights, furnaces without variance. Relative. In both
+    /// precisions a shadow ray starts and ends a little off its surfaces.
+    pub const RADIANCE: Self = Self { double: 1e-5, single: 1e-5 };
+
+    /// A pixel that is the mean of equal samples, relative: films are single precision in every
+    /// core, and weights of 1/n round once a sample.
+    pub const PIXEL: Self = Self { double: 1e-6, single: 1e-6 };
+
+    /// The relative error allowed in this precision.
+    pub const fn of(self, precision: Precision) -> f64 {
+        match precision {
+            Precision::Double => self.double,
+            Precision::Single => self.single,
+        }
+    }
+}
+
+/// A number that was asked for, and the one that is right.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Compared {
+    /// What the core answered.
+    pub found: f64,
+    /// What is right.
+    pub expected: f64,
+    /// How far apart they may be, absolute.
+    pub allowed: f64,
+}
+
+impl Compared {
+    /// Allows an absolute error.
+    pub fn within(found: f64, expected: f64, allowed: f64) -> Self {
+        Self { found, expected, allowed }
+    }
+
+    /// Allows an error relative to what is expected.
+    pub fn relative(found: f64, expected: f64, allowed: f64) -> Self {
+        Self { found, expected, allowed: allowed * expected.abs() }
+    }
+
+    /// How far apart they are; 0 for equal infinities.
+    pub fn error(&self) -> f64 {
+        if self.found == self.expected { 0.0 } else { (self.found - self.expected).abs() }
+    }
+
+    /// Whether that is allowed. NaN is not.
+    pub fn agrees(&self) -> bool {
+        self.error() <= self.allowed
+    }
+
+    /// The error as a multiple of what is allowed; infinite for NaN.
+    fn excess(&self) -> f64 {
+        let excess = if self.error() == 0.0 { 0.0 } else { self.error() / self.allowed };
+        if excess.is_nan() { f64::INFINITY } else { excess }
+    }
+}
+
+/// The worst element of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Worst {
+    /// Its number in the order compared.
+    pub index: usize,
+    /// What was compared.
+    pub compared: Compared,
+}
+
+/// The judgement of a comparison without noise.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExactReport {
+    /// Pass or fail; inconclusive if nothing was compared.
+    pub verdict: Verdict,
+    /// Elements compared.
+    pub compared: usize,
+    /// Elements that do not agree.
+    pub disagree: usize,
+    /// The element furthest beyond what is allowed, or nearest to it.
+    pub worst: Option<Worst>,
+}
+
+impl Report for ExactReport {
+    /// The worst element; NaN if nothing was compared.
+    fn judgement(&self) -> Judgement {
+        let nothing = Compared::within(f64::NAN, 0.0, 0.0);
+        let Compared { found, expected, allowed } = self.worst.map_or(nothing, |w| w.compared);
+        Judgement {
+            verdict: self.verdict,
+            measured: found,
+            expected,
+            allowed,
+            interval: None,
+            smallest_detectable_error: (expected != 0.0).then(|| allowed / expected.abs()),
+            hypothesis: None,
+        }
+    }
+}
+
+/// Judges elements one by one: all have to agree.
+pub fn judge_exact(elements: impl IntoIterator<Item = Compared>) -> ExactReport {
+    let mut report =
+        ExactReport { verdict: Verdict::Inconclusive, compared: 0, disagree: 0, worst: None };
+    for (index, compared) in elements.into_iter().enumerate() {
+        report.compared += 1;
+        report.disagree += usize::from(!compared.agrees());
+        if report.worst.is_none_or(|worst| compared.excess() > worst.compared.excess()) {
+            report.worst = Some(Worst { index, compared });
+        }
+    }
+    if report.compared > 0 {
+        report.verdict = Verdict::pass_if(report.disagree == 0);
+    }
+    report
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_have_to_agree_and_the_worst_is_named() {
+        let report = judge_exact([
+            Compared::within(1.0, 1.0, 0.1),
+            Compared::within(1.3, 1.0, 0.1),
+            Compared::within(1.2, 1.0, 0.1),
+        ]);
+        assert_eq!(report.verdict, Verdict::Fail);
+        assert_eq!((report.compared, report.disagree), (3, 2));
+        assert_eq!(report.worst.map(|worst| worst.index), Some(1));
+    }
+
+    #[test]
+    fn nan_disagrees_and_is_the_worst() {
+        let report = judge_exact([
+            Compared::within(9.0, 1.0, 0.1),
+            Compared::within(f64::NAN, 1.0, 0.1),
+            Compared::within(1.0, 1.0, f64::NAN),
+        ]);
+        assert_eq!(report.verdict, Verdict::Fail);
+        assert_eq!(report.disagree, 3);
+        assert_eq!(report.worst.map(|worst| worst.index), Some(1));
+    }
+
+    #[test]
+    fn equal_infinities_agree_and_different_ones_do_not() {
+        assert!(Compared::within(f64::INFINITY, f64::INFINITY, 0.0).agrees());
+        assert!(!Compared::within(f64::INFINITY, f64::NEG_INFINITY, 1.0).agrees());
+        assert!(!Compared::within(f64::INFINITY, 1.0, 1.0).agrees());
+    }
+
+    #[test]
+    fn nothing_compared_is_not_a_pass() {
+        assert_eq!(judge_exact([]).verdict, Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn single_precision_is_allowed_more() {
+        for tolerance in [Tolerance::DIRECTION, Tolerance::INTERSECTION, Tolerance::FORMULA] {
+            assert!(tolerance.of(Precision::Single) > tolerance.of(Precision::Double));
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! What a test of means found out about one claim.
+
+use crate::stats::plan::{Escalation, Judgement, Scored};
+use crate::stats::{Hypothesis, Report, Stage, TestKind, Verdict};
+use serde::{Deserialize, Serialize};
+
+/// One stage, seen by one claim.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StageScore {
+    /// Which stage.
+    pub stage: Stage,
+    /// Samples over all its runs.
+    pub samples: u64,
+    /// Mean over its runs.
+    pub mean: f64,
+    /// Standard error of that mean, from the spread of this stage's own runs.
+    pub standard_error: f64,
+    /// How far outside the band the mean is, in standard errors of this stage (the first key).
+    pub t: f64,
+    /// The same in standard errors known from theory or from the other stages (the second key).
+    pub u: f64,
+    /// Whether both keys turned, on the side the first stage chose.
+    pub rejects: bool,
+}
+
+impl StageScore {
+    /// The weaker of the two keys: what the stage's decision rests on.
+    pub fn z(&self) -> f64 {
+        if self.t.abs() < self.u.abs() { self.t } else { self.u }
+    }
+}
+
+impl Scored for StageScore {
+    fn rejects(&self) -> bool {
+        self.rejects
+    }
+}
+
+/// The judgement of one claim. `mean`, `standard_error` and the intervals are those of the last
+/// stage drawn: the earlier ones chose whether it would be, the last one is fresh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeanReport {
+    /// Pass, fail or inconclusive.
+    pub verdict: Verdict,
+    /// The true mean, as claimed.
+    pub expected: f64,
+    /// What relative errors are relative to.
+    pub scale: f64,
+    /// Half width of the null hypothesis, in the unit of the mean.
+    pub band: f64,
+    /// Measured.
+    pub mean: f64,
+    /// Of `mean`, from the spread of independent runs.
+    pub standard_error: f64,
+    /// Holds the mean of the core with 99.9 % confidence.
+    pub interval: [f64; 2],
+    /// `interval` divided by what was expected; none for the mean of a difference.
+    pub ratio: Option<[f64; 2]>,
+    /// Every stage drawn; a clean claim has one.
+    pub stages: Escalation<StageScore>,
+    /// The smallest relative error that would have been caught with probability 0.999.
+    pub resolution: f64,
+    /// The relative error that had to be.
+    pub detects: f64,
+    /// Samples drawn in all, pilot and repeated stages included.
+    pub samples: u64,
+    /// Samples of the first stage that carry the mean: n μ² / (σ² + μ²), hits for a light that is
+    /// rarely hit.
+    pub effective_samples: f64,
+    /// What the first stage lacks, if inconclusive and more samples would help.
+    pub samples_missing: Option<u64>,
+    /// Probability that a correct core fails this claim, as entered in the ledger.
+    pub false_alarm: f64,
+}
+
+impl MeanReport {
+    /// Measured over expected; none for the mean of a difference.
+    pub fn mean_ratio(&self) -> Option<f64> {
+        (self.expected != 0.0).then(|| self.mean / self.expected)
+    }
+}
+
+impl MeanReport {
+    /// The same after a test for gross errors and one for errors of `detects`, or after the first alone,
+    /// which passes nothing.
+    pub(super) fn of_two_tests(self, detects: f64) -> Self {
+        let passes = self.verdict == Verdict::Pass && self.detects > detects;
+        let verdict = if passes { Verdict::Inconclusive } else { self.verdict };
+        Self { verdict, detects, false_alarm: 2.0 * self.false_alarm, ..self }
+    }
+}
+
+impl Report for MeanReport {
+    fn judgement(&self) -> Judgement {
+        Judgement {
+            verdict: self.verdict,
+            measured: self.mean,
+            expected: self.expected,
+            allowed: self.band,
+            interval: Some(self.interval),
+            smallest_detectable_error: Some(self.resolution).filter(|error| error.is_finite()),
+            hypothesis: Some(Hypothesis {
+                false_alarm: self.false_alarm,
+                ..self.stages.hypothesis(TestKind::Mean)
+            }),
+        }
+    }
+}

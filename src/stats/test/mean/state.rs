@@ -1,0 +1,279 @@
+//! What the test of a mean knows of one claim between its stages.
+
+use super::noise::{Noise, sample_variance};
+use super::{MEAN_FALSE_ALARM, MeanReport, StageScore};
+use crate::stats::plan::{Escalation, INTERVAL_LEVEL, MISS_LEVEL};
+use crate::stats::{Claim, Effort, Moments, Stage, Verdict, normal_upper, student_upper};
+
+/// Standard errors that the first stage is planned for: 3.45 to reject (Student, 63 degrees of
+/// freedom), 3.09 so that it does with probability 0.999, and the rest for bugs that also add
+/// variance.
+const PLANNED_SIGMAS: f64 = 7.0;
+/// The deviation comes from a pilot that knows it to 9 %, and is judged by a stage that knows it to
+/// 9 %.
+const PLAN_MARGIN: f64 = 1.2;
+/// Runs whose variance is below this share of the expected one have not seen the tail.
+const VARIANCE_GUARD: f64 = 0.25;
+/// A mean that rests on fewer samples is not normal enough for any key.
+pub(super) const FEWEST_EFFECTIVE: f64 = 200.0;
+/// Events that a pilot must have seen to size the first stage by it.
+const PILOT_EFFECTIVE: f64 = 50.0;
+/// Standard errors outside the band that make a pilot suspicious.
+const PILOT_SIGMAS: f64 = 3.0;
+/// Fewest samples of a first stage after a suspicious pilot. What looks like a wrong constant may
+/// be a rare event that has not happened; 4 and 16 times as many samples confirm.
+const FEWEST_TO_SUSPECT: f64 = 16_384.0;
+
+/// How far out a suspected mean is, which says on how many samples it is confirmed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Suspicion {
+    /// Grossly too much: no event that has not happened can lower a mean of radiances.
+    GrosslyHigh,
+    /// Grossly too little, unless rare events have not happened yet.
+    GrosslyLow,
+    /// Neither.
+    Slight,
+}
+
+impl Suspicion {
+    /// How many times the samples of the first stage confirm it, and how many at least.
+    ///
+    /// A pilot and a first stage that are both constant may have missed an event that happens once in
+    /// 10⁴ samples; the fewest samples of the later stages miss it with probability 1e-3 and 4e-12.
+    /// Where the first stage was grossly low, together with its own they miss an event that happens
+    /// once in 5000 samples with probability 1e-9.
+    pub(super) const fn confirmed_on(self, stage: Stage) -> (u64, u64) {
+        match (self, stage) {
+            (Self::GrosslyHigh, _) => (1, 0),
+            (Self::GrosslyLow, Stage::Third) => (4, 65_536),
+            (Self::GrosslyLow, _) => (2, 16_384),
+            (Self::Slight, Stage::Third) => (stage.factor(), 262_144),
+            (Self::Slight, _) => (stage.factor(), 65_536),
+        }
+    }
+}
+
+/// A claim and what its stages have said.
+pub(super) struct MeanTest {
+    claim: Claim,
+    /// Of one stage, on one side.
+    level: f64,
+    /// Whether the pilot was outside the band by more than its noise.
+    is_expected_to_depart: bool,
+    noise: Noise,
+    stages: Escalation<StageScore>,
+    /// Whether no run has answered NaN or infinity.
+    is_finite: bool,
+}
+
+impl MeanTest {
+    pub(super) fn new(claim: Claim, level: f64) -> Self {
+        Self {
+            claim,
+            level,
+            is_expected_to_depart: false,
+            noise: Noise::default(),
+            stages: Escalation::default(),
+            is_finite: true,
+        }
+    }
+
+    pub(super) fn takes_part_in(&self, stage: Stage) -> bool {
+        self.is_finite && self.stages.next() == Some(stage)
+    }
+
+    /// Whether a pilot has seen enough to size the first stage. A constant that disagrees with the
+    /// claim may be a rare event that has not happened yet.
+    pub(super) fn learns_from(&self, pilot: &Moments, samples: u64) -> bool {
+        let variance = sample_variance(pilot, samples);
+        if !variance.is_finite() {
+            return true;
+        }
+        if variance == 0.0 {
+            return self.claim.departure(pilot.mean()) == 0.0;
+        }
+        self.effective(variance, samples) >= PILOT_EFFECTIVE
+    }
+
+    /// Learns from the last pilot.
+    pub(super) fn take_pilot(&mut self, pilot: &Moments, samples: u64) {
+        let departure = self.claim.departure(pilot.mean()).abs();
+        self.is_expected_to_depart = departure > PILOT_SIGMAS * pilot.standard_error();
+        self.take_noise(pilot, samples);
+    }
+
+    /// Learns the noise of one more stage, for the second key of the stages that follow.
+    pub(super) fn take_noise(&mut self, moments: &Moments, samples: u64) {
+        if moments.variance().is_finite() {
+            self.noise.take(moments, samples);
+        } else {
+            self.is_finite = false;
+        }
+    }
+
+    /// Samples of a first stage that would see an error of `detects`.
+    pub(super) fn needed_samples(&self, detects: f64) -> f64 {
+        let variance = self.variance();
+        let room = detects * self.claim.scale - self.claim.band_width();
+        let for_noise = if room > 0.0 {
+            (PLANNED_SIGMAS * PLAN_MARGIN / room).powi(2) * variance
+        } else {
+            f64::INFINITY
+        };
+        let for_normality =
+            FEWEST_EFFECTIVE * PLAN_MARGIN.powi(2) * (1.0 + variance / self.claim.scale.powi(2));
+        let to_be_sure = if self.is_expected_to_depart { FEWEST_TO_SUSPECT } else { 0.0 };
+        for_noise.max(for_normality).max(to_be_sure)
+    }
+
+    /// The size a stage should have had, if its spread is not what was expected: too small to have
+    /// seen the tail, or too large to see the error promised.
+    pub(super) fn wants_repeat(
+        &self,
+        stage: Stage,
+        moments: &Moments,
+        samples: u64,
+        effort: &Effort,
+    ) -> Option<u64> {
+        let seen = sample_variance(moments, samples);
+        if seen < VARIANCE_GUARD * self.null_variance() {
+            return Some(4 * samples);
+        }
+        let score = self.scored(stage, moments, samples);
+        let mut wiser = Self { noise: self.noise, ..Self::new(self.claim, self.level) };
+        wiser.stages.push(score);
+        wiser.noise.take(moments, samples);
+        let resolution = wiser.resolution();
+        let blind = stage == Stage::First && !score.rejects && resolution > effort.detects;
+        // The spread of the stage itself may be what is large, which the plan does not know.
+        let band = self.claim.band_width() / self.claim.scale;
+        let short = PLAN_MARGIN * (resolution - band) / (effort.detects - band);
+        let needed = wiser.needed_samples(effort.detects).max(short.powi(2) * samples as f64);
+        // Past 2⁵³ the cast saturates, and the cap is far below.
+        blind.then_some(needed as u64)
+    }
+
+    /// How far out the claim is, if it is suspected. Where a mean of differences is judged, both
+    /// signs may be an event that has not happened.
+    pub(super) fn suspicion(&self) -> Option<Suspicion> {
+        self.stages.next().filter(|_| self.is_finite)?;
+        let (first, last) = (self.stages.first()?, self.stages.last()?);
+        let is_gross = first.t.abs().min(first.u.abs()) >= 2.0 * PLANNED_SIGMAS;
+        Some(match (is_gross, last.t > 0.0 && self.claim.expected > 0.0) {
+            (true, true) => Suspicion::GrosslyHigh,
+            (true, false) => Suspicion::GrosslyLow,
+            (false, _) => Suspicion::Slight,
+        })
+    }
+
+    /// Takes the decision of a stage.
+    pub(super) fn score(&mut self, stage: Stage, moments: &Moments, samples: u64) {
+        let score = self.scored(stage, moments, samples);
+        self.is_finite &= score.mean.is_finite();
+        self.stages.push(score);
+    }
+
+    fn scored(&self, stage: Stage, moments: &Moments, samples: u64) -> StageScore {
+        let departure = self.claim.departure(moments.mean());
+        let standard_error = moments.standard_error();
+        let t = in_units(departure, standard_error);
+        let u = in_units(departure, (self.null_variance() / samples as f64).sqrt());
+        let same_side = self.stages.last().is_none_or(|last| t * last.t > 0.0);
+        let first_key = t.abs() > student_upper(self.level, (moments.count() - 1) as f64);
+        let second_key = u.abs() > self.second_critical();
+        let rejects = first_key && second_key && same_side;
+        StageScore { stage, samples, mean: moments.mean(), standard_error, t, u, rejects }
+    }
+
+    fn second_critical(&self) -> f64 {
+        match self.claim.null_deviation {
+            Some(_) => normal_upper(self.level),
+            None => student_upper(self.level, self.noise.freedom),
+        }
+    }
+
+    /// The variance of one sample known from elsewhere: from theory, or from the stages before.
+    fn null_variance(&self) -> f64 {
+        self.claim
+            .null_deviation
+            .map_or_else(|| self.noise.variance(), |deviation| deviation.powi(2))
+    }
+
+    /// The larger of what was measured and what theory says.
+    fn variance(&self) -> f64 {
+        self.noise.variance().max(self.null_variance())
+    }
+
+    fn effective(&self, variance: f64, samples: u64) -> f64 {
+        samples as f64 / (1.0 + variance / self.claim.scale.powi(2))
+    }
+
+    /// The smallest relative error that the first stage, which every error has to get past, would
+    /// have rejected with probability 1 − [`MISS_LEVEL`].
+    fn resolution(&self) -> f64 {
+        let Some(first) = self.stages.first() else {
+            return f64::INFINITY;
+        };
+        let elsewhere = (self.variance() / first.samples as f64).sqrt();
+        let error = first.standard_error.max(elsewhere);
+        let sigmas = self.second_critical() + normal_upper(MISS_LEVEL);
+        (self.claim.band_width() + sigmas * error) / self.claim.scale
+    }
+
+    /// What came out.
+    pub(super) fn report(&self, effort: &Effort, drawn: u64) -> MeanReport {
+        let last = self.stages.last();
+        let first_samples = self.stages.first().map_or(0, |score| score.samples);
+        let mean = last.map_or(f64::NAN, |score| score.mean);
+        let standard_error = last.map_or(f64::NAN, |score| score.standard_error);
+        let half_width = student_upper(INTERVAL_LEVEL, f64::from(effort.runs - 1)) * standard_error;
+        let interval = [mean - half_width, mean + half_width];
+        let resolution = self.resolution();
+        let effective_samples = self.effective(self.variance(), first_samples);
+        let sees = resolution <= effort.detects && effective_samples >= FEWEST_EFFECTIVE;
+        let verdict = match self.stages.rejects() || !self.is_finite {
+            true => Verdict::Fail,
+            false if sees => Verdict::Pass,
+            false => Verdict::Inconclusive,
+        };
+        MeanReport {
+            verdict,
+            expected: self.claim.expected,
+            scale: self.claim.scale,
+            band: self.claim.band_width(),
+            mean,
+            standard_error,
+            interval,
+            ratio: self.ratio(interval),
+            stages: self.stages.clone(),
+            resolution,
+            detects: effort.detects,
+            samples: drawn,
+            effective_samples,
+            samples_missing: self.missing(verdict, effort, first_samples),
+            false_alarm: MEAN_FALSE_ALARM,
+        }
+    }
+
+    fn ratio(&self, interval: [f64; 2]) -> Option<[f64; 2]> {
+        let expected = self.claim.expected;
+        let mut ratio = interval.map(|end| end / expected);
+        if expected < 0.0 {
+            ratio.reverse();
+        }
+        (expected != 0.0).then_some(ratio)
+    }
+
+    fn missing(&self, verdict: Verdict, effort: &Effort, first_samples: u64) -> Option<u64> {
+        let needed = self.needed_samples(effort.detects);
+        let worth_asking = verdict == Verdict::Inconclusive && needed.is_finite();
+        worth_asking.then(|| (needed as u64).saturating_sub(first_samples).max(1))
+    }
+}
+
+/// A departure in standard errors. Nothing is never significant, however small the error; anything
+/// is, where there is no error at all. Capped, because infinity does not survive JSON.
+fn in_units(departure: f64, standard_error: f64) -> f64 {
+    const LARGEST: f64 = 1e9;
+    if departure == 0.0 { 0.0 } else { (departure / standard_error).clamp(-LARGEST, LARGEST) }
+}

@@ -1,0 +1,194 @@
+//! Shares of yes-or-no samples: exact binomial tails, in three stages ([`Escalation`]).
+//!
+//! For samples that the harness draws itself, one by one, through a core's `sample` functions: the
+//! share of reflections of glass, the share of samples accepted. The law is then binomial for every
+//! core, so no variance has to be estimated and no limit theorem believed.
+
+use crate::stats::law::{binomial_at_least, binomial_at_most, normal_upper, share_interval};
+use crate::stats::plan::{
+    Band, Effort, Escalation, Judgement, MISS_LEVEL, Report, STAGE_LEVEL, Scored, Stage, TestKind,
+    Verdict,
+};
+use serde::{Deserialize, Serialize};
+
+/// Samples of the smallest first stage.
+const FEWEST_SAMPLES: f64 = 1000.0;
+
+/// One stage of counting hits.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShareStage {
+    /// Which stage.
+    pub stage: Stage,
+    /// Samples drawn.
+    pub trials: u64,
+    /// Those that were "yes".
+    pub hits: u64,
+    /// The smaller tail, were the share at the near end of its band.
+    pub p_value: f64,
+    /// Whether that is too small, on the side the first stage chose.
+    pub rejects: bool,
+}
+
+impl Scored for ShareStage {
+    fn rejects(&self) -> bool {
+        self.rejects
+    }
+}
+
+/// The judgement of a share. Its interval is that of the last stage drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShareReport {
+    /// Pass, fail or inconclusive.
+    pub verdict: Verdict,
+    /// The true share.
+    pub expected: f64,
+    /// Measured.
+    pub share: f64,
+    /// Holds the share of the core with 99.9 % confidence.
+    pub interval: [f64; 2],
+    /// Every stage drawn.
+    pub stages: Escalation<ShareStage>,
+    /// The smallest relative error that would have been caught with probability 0.999.
+    pub resolution: f64,
+    /// The relative error that had to be.
+    pub detects: f64,
+    /// Samples of all stages.
+    pub samples: u64,
+    /// What the first stage lacks, if inconclusive.
+    pub samples_missing: Option<u64>,
+}
+
+impl Report for ShareReport {
+    fn judgement(&self) -> Judgement {
+        Judgement {
+            verdict: self.verdict,
+            measured: self.share,
+            expected: self.expected,
+            allowed: 0.0,
+            interval: Some(self.interval),
+            smallest_detectable_error: Some(self.resolution),
+            hypothesis: Some(self.stages.hypothesis(TestKind::Share)),
+        }
+    }
+}
+
+/// Judges whether `draw`, asked for a number of samples, answers "yes" with probability `expected`.
+/// Shares of exactly 0 or 1 have no chance in them: one sample on the wrong side fails.
+pub fn judge_share<E>(
+    expected: f64,
+    band: Band,
+    effort: &Effort,
+    draw: &mut dyn FnMut(Stage, u64) -> Result<u64, E>,
+) -> Result<ShareReport, E> {
+    let planned = planned_samples(expected, band, effort.detects);
+    let first = planned.min(effort.most_samples as f64) as u64;
+    let mut stages: Escalation<ShareStage> = Escalation::default();
+    while let Some(stage) = stages.next() {
+        let trials = stage.factor() * first;
+        let hits = draw(stage, trials)?;
+        let suspected_high = stages.first().map(|first| is_high(first, expected));
+        stages.push(score(stage, hits, trials, expected, band, suspected_high));
+    }
+    Ok(report(expected, band, effort, stages))
+}
+
+fn is_high(stage: &ShareStage, expected: f64) -> bool {
+    stage.hits as f64 > expected * stage.trials as f64
+}
+
+fn score(
+    stage: Stage,
+    hits: u64,
+    trials: u64,
+    expected: f64,
+    band: Band,
+    suspected_high: Option<bool>,
+) -> ShareStage {
+    let width = band.relative() * expected;
+    let too_high = binomial_at_least(hits, trials, (expected + width).min(1.0));
+    let too_low = binomial_at_most(hits, trials, (expected - width).max(0.0));
+    let p_value = match suspected_high {
+        Some(true) => too_high,
+        Some(false) => too_low,
+        None => too_high.min(too_low),
+    };
+    ShareStage { stage, trials, hits, p_value, rejects: p_value < STAGE_LEVEL }
+}
+
+/// Standard errors between the band and an error that is seen.
+fn sigmas() -> f64 {
+    normal_upper(STAGE_LEVEL) + normal_upper(MISS_LEVEL)
+}
+
+/// Samples of the first stage that see a relative error of `detects`, on the side where the share
+/// varies more.
+fn planned_samples(expected: f64, band: Band, detects: f64) -> f64 {
+    let wrong = (expected * (1.0 + detects)).min(0.5f64.max(expected));
+    let variance = (wrong * (1.0 - wrong)).max(expected * (1.0 - expected));
+    let room = (detects - band.relative()) * expected;
+    let needed = if room > 0.0 { (sigmas() / room).powi(2) * variance } else { f64::INFINITY };
+    needed.max(FEWEST_SAMPLES).ceil()
+}
+
+fn report(expected: f64, band: Band, effort: &Effort, stages: Escalation<ShareStage>) -> ShareReport {
+    let (first, last) = (stages[0], stages[stages.len() - 1]);
+    let deviation = (expected * (1.0 - expected) / first.trials as f64).sqrt();
+    let resolution = band.relative() + sigmas() * deviation / expected;
+    let verdict = if stages.rejects() {
+        Verdict::Fail
+    } else if resolution <= effort.detects {
+        Verdict::Pass
+    } else {
+        Verdict::Inconclusive
+    };
+    let needed = planned_samples(expected, band, effort.detects);
+    let missing = (needed - first.trials as f64).max(1.0);
+    let worth_asking = verdict == Verdict::Inconclusive && missing.is_finite();
+    ShareReport {
+        verdict,
+        expected,
+        share: last.hits as f64 / last.trials as f64,
+        interval: share_interval(last.hits, last.trials, STAGE_LEVEL),
+        resolution,
+        detects: effort.detects,
+        samples: stages.iter().map(|stage| stage.trials).sum(),
+        samples_missing: worth_asking.then_some(missing as u64),
+        stages,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rng::{Seed, uniform};
+    use std::convert::Infallible;
+
+    fn judge(truth: f64, expected: f64, detects: f64) -> ShareReport {
+        let mut draw = |stage: Stage, trials: u64| {
+            let mut stream = Seed(8).child(stage).stream();
+            let hits = (0..trials).filter(|_| uniform(&mut stream) < truth).count();
+            Ok::<_, Infallible>(hits as u64)
+        };
+        let Ok(report) = judge_share(expected, Band::NONE, &Effort::new(detects), &mut draw);
+        report
+    }
+
+    #[test]
+    fn the_right_share_passes_and_a_share_off_by_the_promise_fails() {
+        let fresnel_at_60_degrees = 0.089_186_7;
+        let right = judge(fresnel_at_60_degrees, fresnel_at_60_degrees, 0.03);
+        assert_eq!(right.verdict, Verdict::Pass);
+        assert!(right.resolution <= 0.03);
+        for gain in [0.97, 1.03] {
+            let wrong = judge(gain * fresnel_at_60_degrees, fresnel_at_60_degrees, 0.03);
+            assert_eq!(wrong.verdict, Verdict::Fail);
+            assert!(wrong.interval[0] < wrong.share && wrong.share < wrong.interval[1]);
+        }
+    }
+
+    #[test]
+    fn one_lost_sample_in_a_thousand_is_seen_where_none_may_be_lost() {
+        assert_eq!(judge(1.0, 1.0, 0.01).verdict, Verdict::Pass);
+        assert_eq!(judge(0.99, 1.0, 0.01).verdict, Verdict::Fail);
+    }
+}

@@ -1,0 +1,233 @@
+//! How the error falls with the number of samples: the slope of log error on log samples, and the
+//! plateau.
+//!
+//! Independent samples have slope −1/2. An error that stops falling is a bias; one that does not
+//! fall at all says that the samples are always the same. A core that stratifies may fall faster.
+
+use crate::stats::plan::{Hypothesis, Judgement, Report, TestKind, Verdict};
+use crate::stats::Moments;
+use serde::{Deserialize, Serialize};
+
+/// The slope of independent samples.
+const INDEPENDENT: f64 = -0.5;
+/// How far a correct core's slope may be from that: rounding, and a band of its own bias at the far
+/// end.
+const BAND: f64 = 0.02;
+/// Standard errors that chance is given: beyond 7 it has a probability below 1e-11.
+const SIGMAS: f64 = 7.0;
+/// Standard errors on each side of a 99.9 % interval.
+const THREE_NINES: f64 = 3.29;
+/// Standard errors more with which an error is seen with probability 0.999.
+const SIGMAS_TO_SEE: f64 = 3.09;
+/// Probability that a correct core fails: two sides of 7 standard errors, with room for a t of 60
+/// degrees of freedom.
+pub(in crate::stats) const SLOPE_FALSE_ALARM: f64 = 1e-8;
+
+/// The errors at one number of samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ErrorLevel {
+    /// Samples per pixel.
+    pub samples: u64,
+    /// Of each run, the mean over pixels of the squared difference to the truth.
+    pub squared_errors: Vec<f64>,
+    /// Mean over pixels of the variance between runs.
+    pub variance: f64,
+}
+
+impl ErrorLevel {
+    /// From the pixels of several runs and the true values.
+    pub fn from_runs(samples: u64, runs: &[Vec<f64>], truth: &[f64]) -> Self {
+        let squared = |run: &Vec<f64>| {
+            let squares: f64 = run.iter().zip(truth).map(|(x, mu)| (x - mu).powi(2)).sum();
+            squares / truth.len() as f64
+        };
+        let variance =
+            |pixel: usize| runs.iter().map(|run| run[pixel]).collect::<Moments>().variance();
+        let variances: f64 = (0..truth.len()).map(variance).sum();
+        Self {
+            samples,
+            squared_errors: runs.iter().map(squared).collect(),
+            variance: variances / truth.len() as f64,
+        }
+    }
+
+    fn error(&self) -> Moments {
+        self.squared_errors.iter().copied().collect()
+    }
+}
+
+/// What slope is right.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sampling {
+    /// Slope −1/2.
+    #[default]
+    Independent,
+    /// Slope −1/2 or steeper.
+    Stratified,
+}
+
+/// One point of the plot.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErrorPoint {
+    /// Samples per pixel.
+    pub samples: u64,
+    /// Root mean square error over pixels and runs.
+    pub error: f64,
+    /// Standard error of its natural logarithm.
+    pub log_error: f64,
+}
+
+/// The judgement of a series of errors.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SlopeReport {
+    /// Pass, fail or inconclusive.
+    pub verdict: Verdict,
+    /// Of log error on log samples.
+    pub slope: f64,
+    /// Of `slope`.
+    pub standard_error: f64,
+    /// The smallest deviation of the slope that would have been caught with probability 0.999.
+    pub resolution: f64,
+    /// The deviation that had to be.
+    pub detects: f64,
+    /// The bias that would explain what the last level's error exceeds its own noise by; 0 if
+    /// nothing.
+    pub plateau_bias: f64,
+    /// Measured.
+    pub points: Vec<ErrorPoint>,
+}
+
+impl Report for SlopeReport {
+    fn judgement(&self) -> Judgement {
+        let end = |side: f64| self.slope + side * THREE_NINES * self.standard_error;
+        Judgement {
+            verdict: self.verdict,
+            measured: self.slope,
+            expected: INDEPENDENT,
+            allowed: 0.0,
+            interval: Some([end(-1.0), end(1.0)]),
+            smallest_detectable_error: Some(self.resolution / INDEPENDENT.abs()),
+            hypothesis: Some(Hypothesis::new(TestKind::Slope, false)),
+        }
+    }
+}
+
+/// Judges the slope of the errors; it must be seen if it is off by `detects`.
+pub fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f64) -> SlopeReport {
+    let points: Vec<ErrorPoint> = levels.iter().map(point).collect();
+    let (slope, standard_error) = fit(&points);
+    let off = match sampling {
+        Sampling::Independent => (slope - INDEPENDENT).abs(),
+        Sampling::Stratified => slope - INDEPENDENT,
+    };
+    let resolution = BAND + (SIGMAS + SIGMAS_TO_SEE) * standard_error;
+    let verdict = if off > BAND + SIGMAS * standard_error || slope.is_nan() {
+        Verdict::Fail
+    } else if resolution <= detects {
+        Verdict::Pass
+    } else {
+        Verdict::Inconclusive
+    };
+    SlopeReport {
+        verdict,
+        slope,
+        standard_error,
+        resolution,
+        detects,
+        plateau_bias: levels.last().map_or(0.0, plateau_bias),
+        points,
+    }
+}
+
+fn point(level: &ErrorLevel) -> ErrorPoint {
+    let squared = level.error();
+    ErrorPoint {
+        samples: level.samples,
+        error: squared.mean().sqrt(),
+        // d ln √m = dm / 2m
+        log_error: 0.5 * squared.standard_error() / squared.mean(),
+    }
+}
+
+/// Weighted least squares of ln error on ln samples: slope and standard error. NaN of fewer than
+/// two levels.
+fn fit(points: &[ErrorPoint]) -> (f64, f64) {
+    let weight = |point: &ErrorPoint| point.log_error.powi(2).max(f64::MIN_POSITIVE).recip();
+    let x = |point: &ErrorPoint| (point.samples as f64).ln();
+    let total: f64 = points.iter().map(weight).sum();
+    let centre = points.iter().map(|p| weight(p) * x(p)).sum::<f64>() / total;
+    let squares: f64 = points.iter().map(|p| weight(p) * (x(p) - centre).powi(2)).sum();
+    let products: f64 = points.iter().map(|p| weight(p) * (x(p) - centre) * p.error.ln()).sum();
+    (products / squares, squares.recip().sqrt())
+}
+
+/// E[(x − μ)²] = bias² + variance.
+fn plateau_bias(level: &ErrorLevel) -> f64 {
+    (level.error().mean() - level.variance).max(0.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rng::{Seed, uniform};
+
+    /// 32 runs of 256 pixels of value 1, whose samples are exponential; `distort` is the core's
+    /// mistake.
+    fn levels(distort: impl Fn(f64, f64) -> f64) -> Vec<ErrorLevel> {
+        let mut stream = Seed(12).stream();
+        let truth = vec![1.0; 256];
+        [4u64, 16, 64, 256]
+            .map(|samples| {
+                let n = samples as f64;
+                let mut pixel = || {
+                    let sum: f64 = (0..samples).map(|_| -(1.0 - uniform(&mut stream)).ln()).sum();
+                    distort(sum / n, n)
+                };
+                let runs: Vec<Vec<f64>> =
+                    (0..32).map(|_| (0..256).map(|_| pixel()).collect()).collect();
+                ErrorLevel::from_runs(samples, &runs, &truth)
+            })
+            .into()
+    }
+
+    #[test]
+    fn independent_samples_fall_with_slope_one_half() {
+        let report = judge_slope(&levels(|mean, _| mean), Sampling::Independent, 0.1);
+        assert_eq!(report.verdict, Verdict::Pass, "{report:?}");
+        assert!((report.slope + 0.5).abs() < 4.0 * report.standard_error + 0.005);
+        assert!(report.plateau_bias < 0.02);
+    }
+
+    #[test]
+    fn a_bias_makes_a_plateau_and_is_measured() {
+        let report = judge_slope(&levels(|mean, _| mean + 0.1), Sampling::Independent, 0.1);
+        assert_eq!(report.verdict, Verdict::Fail);
+        assert!((report.plateau_bias - 0.1).abs() < 0.01, "{}", report.plateau_bias);
+    }
+
+    #[test]
+    fn noise_that_does_not_fall_fails() {
+        let stuck = |mean: f64, n: f64| 1.0 + (mean - 1.0) * n.sqrt();
+        let report = judge_slope(&levels(stuck), Sampling::Independent, 0.1);
+        assert_eq!(report.verdict, Verdict::Fail);
+        assert!(report.slope.abs() < 0.05);
+    }
+
+    #[test]
+    fn a_steeper_slope_is_right_only_where_samples_are_stratified() {
+        let steeper = |mean: f64, n: f64| 1.0 + (mean - 1.0) * n.powf(-0.25);
+        let levels = levels(steeper);
+        assert_eq!(judge_slope(&levels, Sampling::Independent, 0.1).verdict, Verdict::Fail);
+        assert_eq!(judge_slope(&levels, Sampling::Stratified, 0.1).verdict, Verdict::Pass);
+    }
+
+    #[test]
+    fn one_level_or_a_nan_is_no_pass() {
+        let mut few = levels(|mean, _| mean);
+        few.truncate(1);
+        assert_ne!(judge_slope(&few, Sampling::Independent, 0.1).verdict, Verdict::Pass);
+        let nan = levels(|_, _| f64::NAN);
+        assert_eq!(judge_slope(&nan, Sampling::Independent, 0.1).verdict, Verdict::Fail);
+    }
+}

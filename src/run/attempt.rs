@@ -159,8 +159,8 @@ fn judge(
     result
 }
 
-/// The command that tries this again, at full length: bets that decide early say that something is
-/// wrong, the ladder says by how much.
+/// The command that tries this again, at full length: a run that stops at the first failure measures
+/// gross errors less precisely.
 fn rerun_command(bench: &Bench, trial: &Trial) -> String {
     let core = shell_words::quote(trial.core.as_str());
     let mut command = format!("cargo furnace run {} --core {core}", trial.case.id);

@@ -23,14 +23,15 @@ mod test;
 
 pub use image::misfit;
 pub use image::{
-    ClippingReport, CodeLaw, CodeReference, CodeReport, CodeSettings, Component, Deciphered,
-    DifferenceReport, GlobalRatio, ImageDraw, ImageEffort, ImageReport, Impossible, LightOfCodes,
-    NoiseSource, OddPixels, Pattern, PatternReport, Reference, Sample, Scale, ScaleReport,
-    judge_codes, judge_difference, judge_image, judge_image_pair, light_of_codes,
+    CodeReference, CodeReport, CodeSettings, CodesCompared, Comparison, Component, Deciphered,
+    DifferenceReport, GlobalRatio, ImageDraw, ImageEffort, ImageReport, Impossible, NoiseSource,
+    OddPixels, Pattern, PatternReport, Question, Reference, Sample, Scale, ScaleReport, Side,
+    compare, judge_codes, judge_image, judge_image_pair,
 };
+use law::student_upper;
 pub use law::{
     CellProbabilities, Counts, Moments, SphereCells, StoppingLaw, TwoValues, binomial_at_least,
-    chi_square_upper, normal_upper, share_interval, student_upper,
+    chi_square_upper, normal_upper, share_interval,
 };
 pub use plan::{
     Allowance, Band, Budget, Claim, Effort, Hypothesis, Ledger, LedgerEntry, Report,
@@ -38,9 +39,8 @@ pub use plan::{
 };
 pub use test::timing;
 pub use test::{
-    Compared, CorrelationReport, CountDoubt, CountReport, CountSource, CountStage, Draw,
-    ErrorLevel, ExactReport, MeanReport, RareReport, Rarity, ReportedVariance, Sampling,
-    ShareReport, SlopeReport, Tolerance, TwoVariances, follows_law, judge_count_source,
-    judge_counts, judge_exact, judge_means, judge_rare, judge_share, judge_slope,
-    judge_uncorrelated,
+    Compared, CorrelationReport, CountDoubt, CountReport, CountSource, Draw, ErrorLevel,
+    ExactReport, MeanReport, RareReport, Rarity, ReportedVariance, Sampling, ShareReport,
+    SlopeReport, Tolerance, TwoVariances, follows_law, judge_count_source, judge_counts,
+    judge_exact, judge_means, judge_rare, judge_share, judge_slope, judge_uncorrelated,
 };

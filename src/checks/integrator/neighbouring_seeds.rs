@@ -123,8 +123,9 @@ fn finding(shifts: &[Shift]) -> Finding {
     let worst = shifts.iter().find(|shift| shift.report.verdict == Verdict::Fail);
     let doubt = shifts.iter().find_map(|shift| shift.report.doubt());
     let statement = match worst {
-        None => doubt
-            .unwrap_or_else(|| format!("the noise of {SEEDS} consecutive seeds is unrelated")),
+        None => {
+            doubt.unwrap_or_else(|| format!("the noise of {SEEDS} consecutive seeds is unrelated"))
+        }
         Some(shift) => format!(
             "the noise of a seed is that of the one before, {}: correlation {}",
             shift.words,

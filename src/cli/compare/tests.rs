@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::image::exr::{self, Exr, Storage};
+use crate::image::metric::METRICS;
 use crate::image::{Image, pfm, png};
 use crate::math::rng::{Seed, uniform};
 use crate::scene::reference::{ERROR_PREFIX, Layers};

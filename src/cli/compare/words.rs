@@ -1,8 +1,10 @@
 //! A comparison as text.
 
-use super::{CodesCompared, Comparison};
 use crate::stats::misfit::BouncesOff;
-use crate::stats::{DifferenceReport, Impossible, NoiseSource, OddPixels, PatternReport, Verdict};
+use crate::stats::{
+    CodesCompared, Comparison, DifferenceReport, Impossible, NoiseSource, OddPixels, PatternReport,
+    Verdict,
+};
 use crate::text::number::{figure, percent, ratio, signed_percent, significant};
 use std::fmt::Write;
 

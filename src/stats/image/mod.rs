@@ -5,6 +5,7 @@ mod brightness;
 mod cell_noise;
 mod cells;
 mod codes;
+mod comparison;
 mod dead_pixels;
 mod difference;
 pub mod misfit;
@@ -17,18 +18,9 @@ mod target;
 
 pub use cells::{Component, Extent, Scale};
 pub(super) use codes::CODES_FALSE_ALARM;
-pub use codes::{
-    ClippingReport, CodeLaw, CodeReference, CodeReport, CodeSettings,
-    Deciphered, LightOfCodes, NoiseSource, judge_codes, light_of_codes,
-};
-pub use difference::{
-    DifferenceReport, OddPixels, Pattern, PatternReport, Sample,
-    judge_difference,
-};
-pub use report::{
-    GlobalRatio, ImageReport, Impossible, ScaleReport,
-};
+pub use codes::{CodeReference, CodeReport, CodeSettings, Deciphered, NoiseSource, judge_codes};
+pub use comparison::{CodesCompared, Comparison, Question, Side, compare};
+pub use difference::{DifferenceReport, OddPixels, Pattern, PatternReport, Sample};
+pub use report::{GlobalRatio, ImageReport, Impossible, ScaleReport};
 pub(super) use screen::{IMAGE_FALSE_ALARM, SCREEN_LEVEL};
-pub use screen::{
-    ImageDraw, ImageEffort, Reference, judge_image, judge_image_pair,
-};
+pub use screen::{ImageDraw, ImageEffort, Reference, judge_image, judge_image_pair};

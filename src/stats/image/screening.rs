@@ -9,10 +9,10 @@ use super::report::{
 };
 use super::screen::{ImageDraw, ImageEffort, Levels};
 use super::target::{Frozen, Target};
+use crate::image::Image;
 use crate::stats::law::Spread;
 use crate::stats::plan::MISS_LEVEL;
 use crate::stats::{Moments, Stage, Verdict, normal_upper, student_upper};
-use crate::image::Image;
 
 /// Cells of a scale that are confirmed together.
 const MOST_FROZEN: usize = 64;

@@ -7,9 +7,9 @@
 //! ```
 
 use super::screen::{Levels, judge_image_at};
-use crate::stats::{ImageDraw, ImageEffort, ImageReport, Reference, Verdict, share_interval};
 use crate::image::Image;
 use crate::math::rng::{Seed, Stream, uniform};
+use crate::stats::{ImageDraw, ImageEffort, ImageReport, Reference, Verdict, share_interval};
 use rayon::prelude::*;
 use std::convert::Infallible;
 

@@ -12,8 +12,7 @@ pub use binomial::{binomial_at_least, binomial_at_most, share_interval};
 pub use histogram::{CellProbabilities, Counts, SphereCells};
 pub use moments::Moments;
 pub use quantile::{
-    chi_square_tail, chi_square_upper, detectable_noncentrality,
-    normal_upper, student_upper,
+    chi_square_tail, chi_square_upper, detectable_noncentrality, normal_upper, student_upper,
 };
 pub(super) use spread::Spread;
 pub use stopping::{StoppingLaw, TwoValues};

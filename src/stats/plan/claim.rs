@@ -78,13 +78,7 @@ pub struct Claim {
 impl Claim {
     /// The mean is `expected`, which is not 0.
     pub fn value(expected: f64, band: Band) -> Self {
-        Self {
-            expected,
-            scale: expected.abs(),
-            band,
-            null_deviation: None,
-            sides: Sides::Both,
-        }
+        Self { expected, scale: expected.abs(), band, null_deviation: None, sides: Sides::Both }
     }
 
     /// The mean of a difference is 0. `scale` is the size of the things subtracted.

@@ -161,6 +161,9 @@ mod tests {
     fn the_names_of_stages_are_part_of_their_seeds() {
         let seed = Seed(5);
         assert_eq!(Stage::Pilot.seed(seed), seed.child("pilot"));
-        assert_eq!(Stage::DECIDING.map(|s| s.seed(seed)), [1, 2, 3].map(|n| seed.child(format!("stage {n}"))));
+        assert_eq!(
+            Stage::DECIDING.map(|s| s.seed(seed)),
+            [1, 2, 3].map(|n| seed.child(format!("stage {n}")))
+        );
     }
 }

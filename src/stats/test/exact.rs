@@ -5,8 +5,8 @@
 //! rounding errors with room for another order of operations, not room for another formula: the
 //! mistakes they tell apart are orders of magnitude larger.
 
-use crate::stats::plan::{Judgement, Report, Verdict};
 use crate::math::Precision;
+use crate::stats::plan::{Judgement, Report, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// The error allowed to a correct core, relative to the size and the condition of what is compared.

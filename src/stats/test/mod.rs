@@ -14,7 +14,7 @@ pub mod timing;
 pub(super) use correlation::CORRELATION_FALSE_ALARM;
 pub use correlation::{CorrelationReport, judge_uncorrelated};
 pub use counts::{
-    CountDoubt, CountReport, CountSource, CountStage, follows_law, judge_count_source, judge_counts,
+    CountDoubt, CountReport, CountSource, follows_law, judge_count_source, judge_counts,
 };
 pub use exact::{Compared, ExactReport, Tolerance, judge_exact};
 pub(super) use mean::MEAN_FALSE_ALARM;

@@ -1,9 +1,9 @@
 //! What must hardly ever happen: counted, and judged at once by the exact tail of the rate that is
 //! allowed.
 
+use crate::math::Precision;
 use crate::stats::law::{binomial_at_least, share_interval};
 use crate::stats::plan::{Hypothesis, Judgement, MISS_LEVEL, Report, TestKind, Verdict};
-use crate::math::Precision;
 use serde::{Deserialize, Serialize};
 
 /// Probability that a correct core fails: the level of the tail where some are allowed. Where none

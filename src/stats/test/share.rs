@@ -130,7 +130,12 @@ fn planned_samples(expected: f64, band: Band, detects: f64) -> f64 {
     needed.max(FEWEST_SAMPLES).ceil()
 }
 
-fn report(expected: f64, band: Band, effort: &Effort, stages: Escalation<ShareStage>) -> ShareReport {
+fn report(
+    expected: f64,
+    band: Band,
+    effort: &Effort,
+    stages: Escalation<ShareStage>,
+) -> ShareReport {
     let (first, last) = (stages[0], stages[stages.len() - 1]);
     let deviation = (expected * (1.0 - expected) / first.trials as f64).sqrt();
     let resolution = band.relative() + sigmas() * deviation / expected;

@@ -4,8 +4,8 @@
 //! Independent samples have slope −1/2. An error that stops falling is a bias; one that does not
 //! fall at all says that the samples are always the same. A core that stratifies may fall faster.
 
-use crate::stats::plan::{Hypothesis, Judgement, Report, TestKind, Verdict};
 use crate::stats::Moments;
+use crate::stats::plan::{Hypothesis, Judgement, Report, TestKind, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// The slope of independent samples.

@@ -3,8 +3,8 @@
 //! Times inform and never fail a core. Measure in interleaved pairs, so that a busy machine slows
 //! both.
 
-use crate::stats::{Verdict, binomial_at_least};
 use crate::math::rng::{Seed, Stream};
+use crate::stats::{Verdict, binomial_at_least};
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 

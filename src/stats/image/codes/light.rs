@@ -13,6 +13,7 @@ use super::{CodeReference, Codes};
 use crate::image::Image;
 use crate::image::encoding::{Encoding, WHITE};
 use crate::stats::Moments;
+use crate::stats::image::Sample;
 use crate::stats::law::Spread;
 use serde::{Deserialize, Serialize};
 
@@ -52,6 +53,14 @@ pub struct LightOfCodes {
     pub slack: Image,
     /// Which pixels say anything: neither clipped in most pictures nor lost in noise.
     pub compared: Vec<bool>,
+}
+
+impl LightOfCodes {
+    /// As the test of a difference takes it.
+    pub(in crate::stats) fn sample(&self) -> Sample<'_> {
+        let (variance, rounding) = (self.variance.as_ref(), Some(&self.slack));
+        Sample { image: &self.image, variance, rounding }
+    }
 }
 
 /// Reads the light off the codes of pictures of one thing. `variance` is that of every value of

@@ -31,7 +31,6 @@ mod tests;
 
 pub use clipping::ClippingReport;
 pub use decipher::Deciphered;
-pub use law::{CodeLaw, PixelLaw};
 pub use light::{LightOfCodes, NoiseSource, light_of_codes};
 
 use super::screen::{CONFIRM_LEVEL, IMAGE_FALSE_ALARM, Levels};

@@ -5,8 +5,8 @@
 //! ones are ignored by default and repeat the simulations that the design rests on.
 
 use super::*;
-use crate::stats::{Band, Verdict};
 use crate::math::rng::{Seed, Stream, uniform};
+use crate::stats::{Band, Verdict};
 use std::convert::Infallible;
 use std::f64::consts::TAU;
 

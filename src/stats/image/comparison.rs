@@ -1,0 +1,304 @@
+//! Two pictures compared with all that their files say of their noise: whether they show the same,
+//! which mistake turns one into the other, and how far apart the metrics see them.
+
+use super::codes::{CodeReference, Deciphered, LightOfCodes, NoiseSource, light_of_codes};
+use super::difference::{DifferenceReport, Sample, judge_difference};
+use super::misfit::{BouncesOff, Fit, Knowledge, bounces_off, explain};
+use crate::image::encoding::Encoding;
+use crate::image::file::Loaded;
+use crate::image::metric::METRICS;
+use crate::image::pair::{Pair, Plane};
+use crate::image::png::Picture as Codes;
+use crate::image::{Image, ImageError};
+use crate::stats::{Moments, Verdict};
+use serde::Serialize;
+use std::borrow::Cow;
+
+/// Of white, what a pixel may have so that hardly any noise clips it.
+const SAFE_FROM_CLIPPING: f32 = 0.5;
+/// Fewer renders say too little of their variance.
+const FEWEST_RUNS: usize = 4;
+
+/// A picture and how well it is known.
+pub struct Side {
+    image: Image,
+    alpha: Option<Plane>,
+    /// Each bounce alone, where the file holds them.
+    bounces: Vec<Image>,
+    variance: Option<Image>,
+    /// Whether the variance is that of a picture of its own.
+    is_variance_given: bool,
+    rounding: Option<Image>,
+    /// Whether it came from a file of whole numbers.
+    is_coded: bool,
+    /// The codes of every file, if all hold 8 bits.
+    codes: Vec<Codes>,
+}
+
+impl Side {
+    /// A file, with the standard errors and the isolated bounces that it holds.
+    pub fn of(loaded: Loaded, standard_error: Option<&Image>, bounces: Vec<Image>) -> Self {
+        let rounding = loaded.codes.as_ref().map(|codes| rounding(&loaded, codes.largest));
+        Self {
+            is_coded: rounding.is_some(),
+            codes: loaded.codes.and_then(|codes| codes.picture).into_iter().collect(),
+            image: loaded.image,
+            alpha: loaded.alpha,
+            bounces,
+            variance: standard_error.map(|errors| each(errors, |error| error * error)),
+            is_variance_given: false,
+            rounding,
+        }
+    }
+
+    /// The mean of several renders of one picture.
+    ///
+    /// # Errors
+    /// [`ImageError::DifferentSizes`]
+    pub fn mean_of(runs: &[Loaded]) -> Result<Self, ImageError> {
+        let [width, height] = runs.first().map_or([0; 2], |run| size(&run.image));
+        if let Some(other) = runs.iter().map(|run| size(&run.image)).find(|s| *s != [width, height])
+        {
+            return Err(ImageError::DifferentSizes { sizes: [[width, height], other] });
+        }
+        let picture = |value: fn(&Moments) -> f64| {
+            Image::from_fn(width, height, |x, y| {
+                [0, 1, 2].map(|c| {
+                    let runs = runs.iter().map(|run| f64::from(run.image.pixels[y * width + x][c]));
+                    value(&runs.collect()) as f32
+                })
+            })
+        };
+        let codes = runs.iter().map(|run| run.codes.as_ref()?.picture.clone());
+        Ok(Self {
+            image: picture(Moments::mean),
+            alpha: runs.first().and_then(|run| run.alpha.clone()),
+            bounces: Vec::new(),
+            variance: (runs.len() >= FEWEST_RUNS)
+                .then(|| picture(|moments| moments.standard_error().powi(2))),
+            is_variance_given: false,
+            rounding: None,
+            is_coded: runs.iter().any(|run| run.codes.is_some()),
+            codes: codes.collect::<Option<_>>().unwrap_or_default(),
+        })
+    }
+
+    /// The same with a picture of the variance of every value; none if it has another size or is negative.
+    pub fn with_variance(self, variance: Image) -> Option<Self> {
+        let is_variance = |value: &f32| *value >= 0.0 && value.is_finite();
+        let fits = size(&variance) == size(&self.image);
+        let is_one = fits && variance.pixels.as_flattened().iter().all(is_variance);
+        is_one.then(|| Self { variance: Some(variance), is_variance_given: true, ..self })
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> [usize; 2] {
+        size(&self.image)
+    }
+
+    /// The light behind the codes of this side, if it has no more than 8 bits and the other is
+    /// radiance that is known with its errors: decoded, noise would look like darkness.
+    fn light_against(&self, reference: &Self, encoding: Encoding) -> Option<LightOfCodes> {
+        let errors = reference.variance.as_ref().filter(|_| !reference.is_coded)?;
+        let standard_error = each(errors, f32::sqrt);
+        let known = CodeReference {
+            mean: &reference.image,
+            standard_error: &standard_error,
+            samples: None,
+        };
+        let codes: Vec<&Codes> = self.codes.iter().collect();
+        let variance = self.variance.as_ref().filter(|_| self.is_variance_given);
+        (!codes.is_empty()).then(|| light_of_codes(known, &codes, variance, encoding))
+    }
+
+    /// As the test takes it.
+    fn sample(&self) -> Sample<'_> {
+        Sample {
+            image: &self.image,
+            variance: self.variance.as_ref(),
+            rounding: self.rounding.as_ref(),
+        }
+    }
+}
+
+/// All that a comparison found out.
+#[derive(Debug, Serialize)]
+pub struct Comparison {
+    /// Whether the pictures show the same.
+    pub verdict: Verdict,
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// Pixels that count.
+    pub pixels: usize,
+    /// By what they differ.
+    pub difference: DifferenceReport,
+    /// How the codes of an 8-bit picture were compared, if it could be done by their law.
+    pub codes: Option<CodesCompared>,
+    /// What turns the reference into the picture, the greatest mistake first.
+    pub mistakes: Vec<Fit>,
+    /// Bounces that are missing or there too often, if the reference holds its bounces apart and that
+    /// explains more than any mistake.
+    pub bounces: Option<BouncesOff>,
+    /// How far apart they are.
+    pub metrics: Vec<Measured>,
+}
+
+/// What was done with codes.
+#[derive(Debug, Serialize)]
+pub struct CodesCompared {
+    /// What the codes say of their own encoding.
+    pub deciphered: Deciphered,
+    /// Where the noise of the picture is known from.
+    pub noise: NoiseSource,
+}
+
+/// A metric of the pixels that count.
+#[derive(Debug, Serialize)]
+pub struct Measured {
+    /// The metric.
+    pub name: &'static str,
+    /// None where a pixel is no number.
+    pub value: Option<f64>,
+}
+
+/// What is asked of a comparison, besides its pictures.
+pub struct Question {
+    /// How the codes of 8-bit pictures are said to be made.
+    pub encoding: Encoding,
+    /// Whether each pixel counts, row by row.
+    pub counted: Vec<bool>,
+    /// Whether metrics are measured that take long.
+    pub slow_metrics: bool,
+}
+
+/// Compares a picture with its reference.
+///
+/// # Errors
+/// [`ImageError::DifferentSizes`], of the pictures or of what counts.
+pub fn compare(
+    picture: &Side,
+    reference: &Side,
+    question: Question,
+) -> Result<Comparison, ImageError> {
+    let size = reference.size();
+    if picture.size() != size {
+        return Err(ImageError::DifferentSizes { sizes: [picture.size(), size] });
+    }
+    let light = picture.light_against(reference, question.encoding);
+    let counted = counted(question.counted, picture, reference, light.as_ref());
+    let counted = counted.contains(&false).then_some(counted);
+    let judged = || judged(picture, reference, light.as_ref(), counted.as_deref());
+    let measured =
+        || metrics(&picture.image, &reference.image, counted.as_deref(), question.slow_metrics);
+    let ((difference, mistakes, bounces), metrics) = rayon::join(judged, measured);
+    Ok(Comparison {
+        verdict: if is_encoded_otherwise(light.as_ref()) {
+            Verdict::Fail
+        } else {
+            difference.verdict
+        },
+        size,
+        pixels: counted.map_or(size[0] * size[1], |all| all.iter().filter(|one| **one).count()),
+        metrics: metrics?,
+        difference,
+        codes: light
+            .map(|light| CodesCompared { deciphered: light.deciphered, noise: light.noise }),
+        mistakes,
+        bounces,
+    })
+}
+
+fn is_encoded_otherwise(light: Option<&LightOfCodes>) -> bool {
+    light.is_some_and(|light| light.deciphered.is_another())
+}
+
+/// The difference, and what explains it.
+fn judged(
+    picture: &Side,
+    reference: &Side,
+    light: Option<&LightOfCodes>,
+    counted: Option<&[bool]>,
+) -> (DifferenceReport, Vec<Fit>, Option<BouncesOff>) {
+    let sample = light.map_or(picture.sample(), LightOfCodes::sample);
+    let difference = judge_difference(sample, reference.sample(), counted);
+    if difference.verdict != Verdict::Fail || is_encoded_otherwise(light) {
+        return (difference, Vec::new(), None);
+    }
+    let knowledge = Knowledge { alpha: picture.alpha.as_ref(), counted, standard_error: None };
+    let (mistakes, bounces) = explanation(&picture.image, reference, &knowledge);
+    (difference, mistakes, bounces)
+}
+
+/// What turns the reference into the picture: mistakes, or bounces that explain more than they.
+fn explanation(
+    picture: &Image,
+    reference: &Side,
+    knowledge: &Knowledge<'_>,
+) -> (Vec<Fit>, Option<BouncesOff>) {
+    let mistakes = explain(picture, &reference.image, knowledge);
+    let most = mistakes.iter().map(|fit| fit.explains).fold(0.0, f64::max);
+    let off = bounces_off(picture, &reference.image, &reference.bounces, knowledge);
+    match off.filter(|off| off.share.explains > most) {
+        Some(off) => (Vec::new(), Some(off)),
+        None => (mistakes, None),
+    }
+}
+
+/// The metrics of the pixels that count.
+fn metrics(
+    picture: &Image,
+    reference: &Image,
+    counted: Option<&[bool]>,
+    slow: bool,
+) -> Result<Vec<Measured>, ImageError> {
+    let mut shown = Cow::Borrowed(picture);
+    if let Some(counted) = counted {
+        shown.to_mut().paint_over(counted, reference);
+    }
+    let pair = Pair::new(&shown, reference)?;
+    let asked = METRICS.iter().filter(|metric| slow || !metric.is_slow);
+    let measured = asked.map(|metric| {
+        let value = metric.measure(&pair);
+        Measured { name: metric.name, value: (!value.is_nan()).then_some(value) }
+    });
+    Ok(measured.collect())
+}
+
+/// Of files of codes, pixels that noise may clip do not count: what is lost above white is no mistake.
+/// The law of codes says which those are, where it is known.
+fn counted(
+    mut counted: Vec<bool>,
+    picture: &Side,
+    reference: &Side,
+    light: Option<&LightOfCodes>,
+) -> Vec<bool> {
+    if let Some(light) = light {
+        counted.iter_mut().zip(&light.compared).for_each(|(counted, says)| *counted &= says);
+    } else if picture.is_coded || reference.is_coded {
+        let is_safe = |level: &[f32; 3]| level.iter().all(|value| *value < SAFE_FROM_CLIPPING);
+        let levels = reference.image.pixels.iter().zip(&mut counted);
+        levels.for_each(|(level, counted)| *counted &= is_safe(level));
+    }
+    counted
+}
+
+/// Half a step of the codes, as light, at every value.
+fn rounding(loaded: &Loaded, largest: u32) -> Image {
+    let half = 0.5 / f64::from(largest);
+    each(&loaded.image, |value| {
+        let share = loaded.encoding.encode(f64::from(value));
+        let light = |share: f64| loaded.encoding.decode(share.clamp(0.0, 1.0));
+        #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
+        let step = (light(share + half) - light(share - half)) as f32;
+        0.5 * step
+    })
+}
+
+fn each(image: &Image, value: impl Fn(f32) -> f32) -> Image {
+    let pixels = image.pixels.iter().map(|pixel| pixel.map(&value)).collect();
+    Image { pixels, ..*image }
+}
+
+fn size(image: &Image) -> [usize; 2] {
+    [image.width, image.height]
+}

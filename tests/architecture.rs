@@ -3,9 +3,11 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use std::collections::BTreeMap;
+use proc_macro2::{TokenStream, TokenTree};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use syn::visit::{self, Visit};
 
 /// The layer of each module of the library. A new module belongs here before anything can name it.
 const LAYERS: &[(&str, u32)] = &[
@@ -35,21 +37,14 @@ const LAYERS: &[(&str, u32)] = &[
 const UNSAFE_FILES: &[&str] =
     &["src/cores/builtin/trace/simd.rs", "src/cores/dylib.rs", "src/worker/confine_linux.rs"];
 
+/// A module by its path below the crate: `["checks", "bvh", "trial"]`.
+type Module = Vec<String>;
+
 fn source_files() -> Vec<PathBuf> {
-    fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                collect(&path, files);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                files.push(path);
-            }
-        }
-    }
-    let mut files = Vec::new();
-    collect(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
-    files.sort();
-    files
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let entries = walkdir::WalkDir::new(source).sort_by_file_name();
+    let paths = entries.into_iter().map(|entry| entry.unwrap().into_path());
+    paths.filter(|path| path.extension().is_some_and(|extension| extension == "rs")).collect()
 }
 
 /// Path below the project, with forward slashes.
@@ -58,21 +53,115 @@ fn label(path: &Path) -> String {
     inside.to_string_lossy().replace('\\', "/")
 }
 
-/// The module of the library that a file belongs to; none for `lib.rs` and `main.rs`.
-fn module_of(path: &Path) -> Option<String> {
-    let label = label(path);
-    let inside = label.strip_prefix("src/").unwrap();
-    let first = inside.split('/').next().unwrap().trim_end_matches(".rs");
-    (!["lib", "main"].contains(&first)).then(|| first.to_owned())
+/// The module that a file is; empty for `lib.rs` and `main.rs`.
+fn module_of(label: &str) -> Module {
+    let inside = label.trim_start_matches("src/").trim_end_matches(".rs");
+    let parts = inside.split('/').filter(|part| !["mod", "lib", "main"].contains(part));
+    parts.map(str::to_owned).collect()
 }
 
-/// Every module that `crate::…` names in a text, comments aside.
-fn named_modules(text: &str) -> Vec<String> {
-    let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-    code.flat_map(|line| line.split("crate::").skip(1))
-        .map(|rest| rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect())
-        .filter(|name: &String| !name.is_empty())
-        .collect()
+/// Collects the modules that a file names by `crate::…` and `super::…`, in groups and in macros too.
+struct Names {
+    /// Where the reader stands.
+    here: Module,
+    found: BTreeSet<Module>,
+}
+
+impl Names {
+    fn of(label: &str, text: &str) -> BTreeSet<Module> {
+        let mut names = Self { here: module_of(label), found: BTreeSet::new() };
+        names.visit_file(&syn::parse_file(text).unwrap());
+        names.found
+    }
+
+    /// Keeps a path if it leads anywhere in this crate.
+    fn keep(&mut self, path: &[String]) {
+        let Some(first) = path.first() else { return };
+        if !["crate", "self", "super"].contains(&first.as_str()) {
+            return;
+        }
+        let mut full = self.here.clone();
+        for part in path {
+            match part.as_str() {
+                "crate" => full.clear(),
+                "self" => {}
+                "super" => drop(full.pop()),
+                name => full.push(name.to_owned()),
+            }
+        }
+        self.found.insert(full);
+    }
+
+    fn keep_tree(&mut self, before: &mut Vec<String>, tree: &syn::UseTree) {
+        let depth = before.len();
+        match tree {
+            syn::UseTree::Path(path) => {
+                before.push(path.ident.to_string());
+                self.keep_tree(before, &path.tree);
+            }
+            syn::UseTree::Group(group) => {
+                group.items.iter().for_each(|tree| self.keep_tree(before, tree));
+            }
+            syn::UseTree::Name(syn::UseName { ident })
+            | syn::UseTree::Rename(syn::UseRename { ident, .. }) => {
+                before.push(ident.to_string());
+                self.keep(before);
+            }
+            syn::UseTree::Glob(_) => self.keep(before),
+        }
+        before.truncate(depth);
+    }
+}
+
+impl<'ast> Visit<'ast> for Names {
+    fn visit_item_use(&mut self, item: &'ast syn::ItemUse) {
+        self.keep_tree(&mut Vec::new(), &item.tree);
+    }
+
+    fn visit_path(&mut self, path: &'ast syn::Path) {
+        let parts: Vec<_> = path.segments.iter().map(|part| part.ident.to_string()).collect();
+        self.keep(&parts);
+        visit::visit_path(self, path);
+    }
+
+    /// `mod tests { … }` is one step further in: its `super` is the file.
+    fn visit_item_mod(&mut self, module: &'ast syn::ItemMod) {
+        self.here.push(module.ident.to_string());
+        visit::visit_item_mod(self, module);
+        self.here.pop();
+    }
+
+    fn visit_macro(&mut self, called: &'ast syn::Macro) {
+        for path in paths_in(called.tokens.clone()) {
+            self.keep(&path);
+        }
+        visit::visit_macro(self, called);
+    }
+}
+
+/// Every `a::b::c` among tokens that nobody has parsed.
+fn paths_in(tokens: TokenStream) -> Vec<Vec<String>> {
+    let mut paths = vec![Vec::new()];
+    let mut colons = 0;
+    for token in tokens {
+        match token {
+            TokenTree::Punct(mark) if mark.as_char() == ':' => colons += 1,
+            TokenTree::Ident(name) => {
+                if colons != 2 {
+                    paths.push(Vec::new());
+                }
+                paths.last_mut().unwrap().push(name.to_string());
+                colons = 0;
+            }
+            TokenTree::Group(group) => {
+                paths.extend(paths_in(group.stream()));
+                paths.push(Vec::new());
+                colons = 0;
+            }
+            _ => colons = 3,
+        }
+    }
+    paths
 }
 
 #[test]
@@ -80,20 +169,19 @@ fn modules_name_only_lower_layers() {
     let layers: BTreeMap<_, _> = LAYERS.iter().copied().collect();
     let mut breaches = Vec::new();
     for path in source_files() {
-        let Some(module) = module_of(&path) else { continue };
+        let label = label(&path);
+        let Some(module) = module_of(&label).into_iter().next() else { continue };
         let layer = *layers.get(module.as_str()).unwrap_or_else(|| {
             panic!("module `{module}` has no layer; add it to LAYERS in tests/architecture.rs")
         });
-        for named in named_modules(&fs::read_to_string(&path).unwrap()) {
-            let Some(other) = layers.get(named.as_str()) else {
-                breaches.push(format!("{}: `crate::{named}` has no layer", label(&path)));
-                continue;
-            };
-            if named != module && *other >= layer {
-                breaches.push(format!(
-                    "{}: {module} (layer {layer}) names {named} (layer {other})",
-                    label(&path)
-                ));
+        for named in Names::of(&label, &fs::read_to_string(&path).unwrap()) {
+            let Some(named) = named.first().filter(|named| **named != module) else { continue };
+            match layers.get(named.as_str()) {
+                Some(other) if *other < layer => {}
+                Some(other) => breaches.push(format!(
+                    "{label}: {module} (layer {layer}) names {named} (layer {other})"
+                )),
+                None => breaches.push(format!("{label}: `crate::{named}` has no layer")),
             }
         }
     }
@@ -104,10 +192,11 @@ fn modules_name_only_lower_layers() {
 fn the_two_cores_do_not_know_each_other() {
     for path in source_files() {
         let label = label(&path);
-        let text = fs::read_to_string(&path).unwrap();
+        let names = Names::of(&label, &fs::read_to_string(&path).unwrap());
         for (core, other) in [("builtin", "textbook"), ("textbook", "builtin")] {
             if label.starts_with(&format!("src/cores/{core}/")) {
-                assert!(!text.contains(&format!("{other}::")), "{label} names {other}");
+                let knows = names.iter().any(|name| name.get(1).is_some_and(|n| n == other));
+                assert!(!knows, "{label} names {other}");
             }
         }
     }
@@ -139,14 +228,36 @@ fn unsafe_stands_where_it_is_allowed() {
 fn lints_are_expected_with_a_reason_and_never_allowed() {
     for path in source_files() {
         let text = fs::read_to_string(&path).unwrap();
-        assert!(!text.contains("#[allow("), "{} allows a lint", label(&path));
+        let allows = ["#[allow(", "#![allow("].iter().any(|words| text.contains(words));
+        assert!(!allows, "{} allows a lint", label(&path));
     }
 }
 
 #[test]
 fn the_test_finds_what_it_looks_for() {
-    let text = "use crate::run::Plan;\n// crate::cli is only mentioned\nlet x = crate::math::rng::Seed(1);";
-    assert_eq!(named_modules(text), ["run", "math"]);
+    let text = "
+        use crate::{run::{Plan, record as r}, math};
+        use super::finding::Finding;
+        // crate::cli is only mentioned
+        fn f() { let x = crate::image::Image::new(); println!(\"{}\", crate::report::NAME); }
+        mod tests { use super::*; use super::super::context; }
+    ";
+    let names = Names::of("src/checks/bvh/trial.rs", text);
+    let names: Vec<_> = names.iter().map(|name| name.join("::")).collect();
+    let expected = [
+        "checks::bvh::finding::Finding",
+        "checks::bvh::trial",
+        "checks::bvh::context",
+        "image::Image::new",
+        "math",
+        "report::NAME",
+        "run::Plan",
+        "run::record",
+    ];
+    for name in expected {
+        assert!(names.contains(&name.to_owned()), "{name} is missing of {names:?}");
+    }
+    assert!(!names.iter().any(|name| name.starts_with("cli")));
     assert!(has_unsafe("let x = unsafe { *pointer };"));
     assert!(has_unsafe("unsafe impl Send for Core {}"));
     assert!(!has_unsafe("type Entry = unsafe extern \"C\" fn(u32);"));

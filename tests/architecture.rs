@@ -202,6 +202,24 @@ fn the_two_cores_do_not_know_each_other() {
     }
 }
 
+/// Where `textbook` speaks of what is done otherwise; all its other files are the lesson.
+const BESIDE_THE_LESSON: [&str; 4] = ["fault/", "different.rs", "variant.rs", "steps.rs"];
+
+#[test]
+fn the_lesson_knows_of_no_fault() {
+    for path in source_files() {
+        let label = label(&path);
+        let Some(file) = label.strip_prefix("src/cores/textbook/") else { continue };
+        if BESIDE_THE_LESSON.iter().any(|beside| file.starts_with(beside)) {
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        for word in ["fault::", "different::", "variant::", "..LESSON", "Change"] {
+            assert!(!text.contains(word), "{label} says `{word}`");
+        }
+    }
+}
+
 /// Whether a text has `unsafe` code. The type of a C function, `unsafe extern "C" fn(…)`, is none: only calling one is.
 fn has_unsafe(text: &str) -> bool {
     let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));

@@ -20,6 +20,7 @@ use dylib::{Dylib, LoadError};
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
+use textbook::variant::{self, NoVariant};
 
 /// A line of [`CORES`].
 pub struct CoreKind {
@@ -80,7 +81,7 @@ impl CoreSpec {
     /// One of our own.
     fn resident(&self) -> Box<dyn Core> {
         if let Some(change) = self.change() {
-            return textbook::with_change(change).expect("checked when it was read");
+            return variant::core(change).expect("checked when it was read");
         }
         let kind = CORES.iter().find(|kind| kind.name == self.word);
         (kind.expect("checked when it was read").make)()
@@ -132,13 +133,14 @@ impl FromStr for CoreSpec {
     }
 }
 
-/// A copy of the plain core, if there is such a change.
-fn changed(word: &str, change: &str) -> Result<CoreSpec, UnknownCore> {
-    if textbook::change_names().any(|name| name == change) {
-        return Ok(CoreSpec { word: word.to_owned(), guest: Guest::Resident });
-    }
-    let hint = did_you_mean(change, textbook::change_names())
-        .unwrap_or_else(|| "`furnace list faults` shows every fault".to_owned());
+/// A copy of the plain core, if there is one with these changes.
+fn changed(word: &str, changes: &str) -> Result<CoreSpec, UnknownCore> {
+    let hint = match variant::core(changes) {
+        Ok(_) => return Ok(CoreSpec { word: word.to_owned(), guest: Guest::Resident }),
+        Err(NoVariant::Unknown(name)) => did_you_mean(name, variant::names())
+            .unwrap_or_else(|| "`furnace list faults` shows every fault".to_owned()),
+        Err(clash) => format!("{clash}: only one of them can be on"),
+    };
     Err(UnknownCore { word: word.to_owned(), hint })
 }
 

@@ -1,10 +1,10 @@
 //! Part 5: how many samples a pixel needs.
 
-use super::change::Change;
+use super::steps::Steps;
 use crate::contract::{AdaptiveMean, AdaptiveSettings};
 
 /// Half width of the 95 % interval of a normal variable, in standard deviations.
-const Z_95: f64 = 1.96;
+pub const Z_95: f64 = 1.96;
 
 /// The sums a pixel keeps: s₁ and s₂ of the course.
 ///
@@ -12,140 +12,119 @@ const Z_95: f64 = 1.96;
 /// σ with a few percent of μ cannot notice.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
-    count: u32,
-    sum: f64,
-    sum_of_squares: f64,
-    /// Both, as a careless core keeps them.
-    in_single: [f32; 2],
+    /// Samples so far.
+    pub count: u32,
+    /// s₁, of their luminances.
+    pub sum: f64,
+    /// s₂.
+    pub sum_of_squares: f64,
 }
 
-impl Tally {
-    /// Adds one sample's luminance.
-    pub fn add(&mut self, luminance: f64) {
-        self.count += 1;
-        self.sum += luminance;
-        self.sum_of_squares += luminance * luminance;
-        self.in_single[0] += luminance as f32;
-        self.in_single[1] += (luminance * luminance) as f32;
-    }
+/// Adds one sample's luminance.
+pub fn count_in(tally: &mut Tally, luminance: f64) {
+    tally.count += 1;
+    tally.sum += luminance;
+    tally.sum_of_squares += luminance * luminance;
+}
 
-    /// Samples so far.
-    pub fn count(&self) -> u32 {
-        self.count
-    }
+/// Sample variance: over n − 1, not a number for a single sample.
+pub fn variance(tally: &Tally) -> f64 {
+    let n = f64::from(tally.count);
+    squared_deviations(tally) / (n - 1.0)
+}
 
-    /// Mean of the samples so far.
-    pub fn mean(&self) -> f64 {
-        self.sum / f64::from(self.count)
-    }
+/// From the mean.
+pub fn squared_deviations(tally: &Tally) -> f64 {
+    (tally.sum_of_squares - tally.sum * tally.sum / f64::from(tally.count)).max(0.0)
+}
 
-    /// Sample variance: over n − 1, not a number for a single sample.
-    fn variance(&self, change: Change) -> f64 {
-        let n = f64::from(self.count);
-        if change == Change::CountOneShort {
-            return (self.sum_of_squares - self.sum * self.sum / (n - 1.0)) / (n - 2.0);
-        }
-        if change == Change::SumsInSingle {
-            let [sum, sum_of_squares] = self.in_single;
-            return f64::from(sum_of_squares - sum * sum / self.count as f32) / (n - 1.0);
-        }
-        let squared_deviations = (self.sum_of_squares - self.sum * self.sum / n).max(0.0);
-        match change {
-            Change::PopulationVariance => squared_deviations / n,
-            _ => squared_deviations / (n - 1.0),
-        }
-    }
+/// Half width of the 95 % interval of the mean of `n` samples.
+pub fn half_width(variance: f64, n: f64) -> f64 {
+    Z_95 * (variance / n).sqrt()
+}
 
-    /// Half width of the 95 % interval of the mean.
-    fn half_width(&self, change: Change) -> f64 {
-        let (n, variance) = (f64::from(self.count), self.variance(change));
-        match change {
-            Change::SigmaOverN => Z_95 * variance.sqrt() / n,
-            Change::Without196 => (variance / n).sqrt(),
-            Change::VarianceForSigma => Z_95 * variance / n.sqrt(),
-            _ => Z_95 * (variance / n).sqrt(),
-        }
-    }
+/// How wide that may be.
+pub fn tolerance(max_tolerance: f64, mean: f64) -> f64 {
+    max_tolerance * mean
+}
 
-    /// Whether the mean is known well enough. A black pixel is; a pixel that is not a number never
-    /// is.
-    fn has_converged(&self, max_tolerance: f64, change: Change) -> bool {
-        let half_width = self.half_width(change);
-        match change {
-            Change::ToleranceAbsolute => half_width <= max_tolerance,
-            _ => half_width <= max_tolerance * self.mean(),
-        }
-    }
+/// Whether the mean is known well enough. A black pixel is; a pixel that is not a number never
+/// is.
+fn has_converged(tally: &Tally, max_tolerance: f64, steps: &Steps) -> bool {
+    let n = f64::from(tally.count);
+    let half_width = steps.half_width(steps.variance(tally), n);
+    half_width <= steps.tolerance(max_tolerance, tally.sum / n)
 }
 
 /// Draws luminances from `next` until the rule says stop, at most `cap` of them.
 pub fn sample_until_converged(
     settings: AdaptiveSettings,
     cap: u32,
-    change: Change,
+    steps: &Steps,
     mut next: impl FnMut(u32) -> f64,
 ) -> Tally {
-    let batch = match change {
-        Change::LooksAfterEverySample => 1,
-        Change::BatchIgnored => 32,
-        _ => settings.samples_per_batch.max(1),
-    };
-    let cap = match change {
-        Change::RestOfBatchDropped => (cap - cap % batch).max(1),
-        _ => cap,
-    };
+    let batch = steps.batch_size(settings);
+    let limit = steps.sample_limit(cap, batch);
     let mut tally = Tally::default();
-    while tally.count() < cap {
-        tally.add(next(tally.count()));
-        let ends_batch = tally.count().is_multiple_of(batch);
-        if ends_batch && tally.has_converged(settings.max_tolerance, change) {
+    while tally.count < limit {
+        let luminance = next(tally.count);
+        steps.count_in(&mut tally, luminance);
+        let ends_batch = tally.count.is_multiple_of(batch);
+        if ends_batch && has_converged(&tally, settings.max_tolerance, steps) {
             break;
         }
     }
     tally
 }
 
+/// The rule is applied after so many samples, and so many more.
+pub fn batch_size(settings: AdaptiveSettings) -> u32 {
+    settings.samples_per_batch.max(1)
+}
+
+/// All samples of the cap may be drawn; the last batch may be a part of one.
+pub fn sample_limit(cap: u32, _batch: u32) -> u32 {
+    cap
+}
+
 /// Draws all `cap` luminances: what adaptive sampling is compared with.
-pub fn sample_all(cap: u32, next: impl FnMut(u32) -> f64) -> Tally {
+pub fn sample_all(cap: u32, steps: &Steps, next: impl FnMut(u32) -> f64) -> Tally {
     let mut tally = Tally::default();
-    (0..cap).map(next).for_each(|luminance| tally.add(luminance));
+    (0..cap).map(next).for_each(|luminance| steps.count_in(&mut tally, luminance));
     tally
 }
 
 /// What the sum of `count` samples is divided by.
-pub fn divisor(count: u32, cap: u32, change: Change) -> f64 {
-    f64::from(match change {
-        Change::DividedByCap => cap,
-        Change::DividedByOneMore => count + 1,
-        _ => count,
-    })
+pub fn divisor(count: u32, _cap: u32) -> f64 {
+    f64::from(count)
 }
 
 /// How many samples a pixel says it has taken. Without a batch it has taken them all.
-pub fn reported(count: u32, cap: u32, batch: Option<u32>, change: Change) -> u32 {
-    match (change, batch) {
-        (Change::CountsAreCap, _) => cap,
-        (Change::CountWithoutLastBatch, Some(batch)) => count.saturating_sub(batch),
-        _ => count,
-    }
+pub fn reported_count(count: u32, _cap: u32, _batch: Option<u32>) -> u32 {
+    count
 }
 
 /// What the rule makes of a given stream, which is as long as the cap.
-pub fn mean_of_stream(settings: AdaptiveSettings, stream: &[f64], change: Change) -> AdaptiveMean {
+pub fn mean_of_stream(settings: AdaptiveSettings, stream: &[f64], steps: &Steps) -> AdaptiveMean {
     let cap = u32::try_from(stream.len()).unwrap_or(u32::MAX);
-    let tally = sample_until_converged(settings, cap, change, |index| stream[index as usize]);
-    let mean = tally.sum / divisor(tally.count(), cap, change);
-    let used = reported(tally.count(), cap, Some(settings.samples_per_batch), change);
+    let mut total = 0.0;
+    let tally = sample_until_converged(settings, cap, steps, |index| {
+        total += stream[index as usize];
+        stream[index as usize]
+    });
+    let mean = total / steps.divisor(tally.count, cap);
+    let used = steps.reported_count(tally.count, cap, Some(settings.samples_per_batch));
     AdaptiveMean { mean, used, reserved: 0 }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cores::textbook::steps::LESSON;
 
     fn run(period: &[f64], samples_per_batch: u32, max_tolerance: f64) -> AdaptiveMean {
         let stream: Vec<f64> = period.iter().copied().cycle().take(2048).collect();
-        mean_of_stream(AdaptiveSettings { samples_per_batch, max_tolerance }, &stream, Change::None)
+        mean_of_stream(AdaptiveSettings { samples_per_batch, max_tolerance }, &stream, &LESSON)
     }
 
     /// Variants of the rule stop elsewhere: population variance at 8, σ/n at 4, no 1.96 at 2,
@@ -176,12 +155,12 @@ mod tests {
     #[test]
     fn the_last_batch_is_cut_off_at_the_cap() {
         let settings = AdaptiveSettings { samples_per_batch: 4, max_tolerance: 0.0 };
-        assert_eq!(mean_of_stream(settings, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], Change::None).used, 6);
+        assert_eq!(mean_of_stream(settings, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], &LESSON).used, 6);
     }
 
     #[test]
     fn a_single_sample_is_no_interval() {
         let settings = AdaptiveSettings { samples_per_batch: 1, max_tolerance: 0.05 };
-        assert_eq!(mean_of_stream(settings, &[1.0; 8], Change::None).used, 2);
+        assert_eq!(mean_of_stream(settings, &[1.0; 8], &LESSON).used, 2);
     }
 }

@@ -1,18 +1,18 @@
-//! Part 3: shapes that glow, as lights.
+//! Part 3: shapes that emit, as lights.
 //!
 //! A mesh, and a sphere that is not seen whole, are sampled uniformly over their area; a ball seen
 //! from outside uniformly over the cone that it fills.
 
-use super::change::Change;
 use super::frame::Frame;
 use super::intersect::{Ball, Triangle};
 use super::light::towards;
+use super::steps::Steps;
 use crate::contract::LightSample;
 use crate::scene::{Emission, Mesh, Rgb, Sphere};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// A mesh that glows.
+/// A mesh that emits.
 #[derive(Clone, Debug)]
 pub struct MeshLight {
     /// Those of its triangles that have area.
@@ -21,12 +21,11 @@ pub struct MeshLight {
     cumulative_area: Vec<f64>,
     /// From the front.
     radiance: Rgb,
-    change: Change,
 }
 
 impl MeshLight {
-    /// Prepares a mesh that glows with `radiance`.
-    pub fn new(mesh: &Mesh, radiance: Rgb, change: Change) -> Self {
+    /// Prepares a mesh that emits `radiance`.
+    pub fn new(mesh: &Mesh, radiance: Rgb) -> Self {
         let corners = (0..mesh.indices.len()).map(|triangle| mesh.corners(triangle));
         let triangles: Vec<Triangle> = corners.filter_map(Triangle::new).collect();
         let mut total = 0.0;
@@ -37,7 +36,7 @@ impl MeshLight {
                 total
             })
             .collect();
-        Self { triangles, cumulative_area, radiance, change }
+        Self { triangles, cumulative_area, radiance }
     }
 
     fn area(&self) -> f64 {
@@ -45,17 +44,17 @@ impl MeshLight {
     }
 
     /// Uniform over the area of the mesh: a triangle in proportion to its area, then a point of it.
-    pub fn sample(&self, from: DVec3, point: DVec2, lobe: f64) -> Option<LightSample> {
+    pub fn sample(
+        &self,
+        from: DVec3,
+        point: DVec2,
+        lobe: f64,
+        steps: &Steps,
+    ) -> Option<LightSample> {
         let triangle = self.choose_triangle(lobe)?;
-        let at = triangle.point(uniform_triangle(point, self.change));
-        let pdf = self.pdf(from, at, triangle.normal());
-        let radiance = match self.change {
-            Change::LightCosineMoved => {
-                let cosine = (from - at).normalize().dot(triangle.normal());
-                self.radiance.map(|radiance| radiance * cosine.max(0.0))
-            }
-            _ => self.radiance,
-        };
+        let at = triangle.point(steps.triangle_point(point));
+        let pdf = self.pdf(from, at, triangle.normal(), steps);
+        let radiance = steps.mesh_radiance(self.radiance, at - from, triangle.normal());
         towards(from, at, radiance, pdf)
     }
 
@@ -67,79 +66,82 @@ impl MeshLight {
     }
 
     /// The density of the direction from `from` to the point `at` with this normal.
-    pub fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3) -> f64 {
-        match self.change {
-            Change::LightAreaForgotten => per_steradian(from, at, normal, self.change),
-            _ => per_steradian(from, at, normal, self.change) / self.area(),
-        }
+    pub fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
+        steps.mesh_pdf(per_steradian(from, at, normal, steps), self.area())
     }
 }
 
 /// Weights of vertices 1 and 2 of a uniform point of a triangle (Turk 1990).
-fn uniform_triangle(point: DVec2, change: Change) -> DVec2 {
-    let root = match change {
-        Change::LightPointsUneven => point.x,
-        _ => point.x.sqrt(),
-    };
+pub fn triangle_point(point: DVec2) -> DVec2 {
+    let root = point.x.sqrt();
     DVec2::new(root * (1.0 - point.y), root * point.y)
 }
 
-/// Area per steradian as seen from `from`: distance² / cos θ at the light; 0 from behind.
-fn per_steradian(from: DVec3, at: DVec3, normal: DVec3, change: Change) -> f64 {
+/// Per steradian, of points that are uniform over the area.
+pub fn mesh_pdf(area_per_steradian: f64, area: f64) -> f64 {
+    area_per_steradian / area
+}
+
+/// The same in all directions to the front.
+pub fn mesh_radiance(radiance: Rgb, _to_light: DVec3, _normal: DVec3) -> Rgb {
+    radiance
+}
+
+/// Area per steradian as seen from `from`; 0 from behind.
+fn per_steradian(from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
     let to_light = at - from;
-    let distance_squared = to_light.length_squared();
-    let cosine = -to_light.dot(normal) / distance_squared.sqrt();
-    let cosine = match change {
-        Change::LightShinesBackwards => cosine.abs(),
-        _ => cosine,
-    };
+    let cosine = steps.cosine_at_light(to_light, normal);
     if cosine <= 0.0 {
         return 0.0;
     }
-    match change {
-        Change::LightPdfByDistance => distance_squared.sqrt() / cosine,
-        Change::LightPdfWithoutCosine | Change::LightCosineMoved => distance_squared,
-        Change::LightPdfPerArea => 1.0,
-        _ => distance_squared / cosine,
-    }
+    steps.area_per_steradian(to_light.length_squared(), cosine)
 }
 
-/// A sphere that glows.
+/// Positive in front of the light.
+pub fn cosine_at_light(to_light: DVec3, normal: DVec3) -> f64 {
+    -to_light.dot(normal) / to_light.length()
+}
+
+/// What is twice as far away, or slanted to half its width, takes more area to fill a direction.
+pub fn area_per_steradian(distance_squared: f64, cosine: f64) -> f64 {
+    distance_squared / cosine
+}
+
+/// A sphere that emits.
 #[derive(Clone, Debug)]
 pub struct BallLight {
     ball: Ball,
     /// Whether it shines towards its centre.
     inward: bool,
     emission: Emission,
-    change: Change,
 }
 
 impl BallLight {
     /// Prepares a sphere.
-    pub fn new(sphere: &Sphere, emission: Emission, change: Change) -> Self {
+    pub fn new(sphere: &Sphere, emission: Emission) -> Self {
         let Sphere { centre, radius, inward, .. } = *sphere;
-        Self { ball: Ball { centre, radius }, inward, emission, change }
+        Self { ball: Ball { centre, radius }, inward, emission }
     }
 
-    /// A direction from `from` towards a glowing point.
-    pub fn sample(&self, from: DVec3, point: DVec2) -> Option<LightSample> {
+    /// A direction from `from` towards an emitting point.
+    pub fn sample(&self, from: DVec3, point: DVec2, steps: &Steps) -> Option<LightSample> {
         if self.fills_cone(from) {
             self.sample_cone(from, point)
         } else {
-            self.sample_glowing_part(from, point)
+            self.sample_emitting_part(from, point, steps)
         }
     }
 
-    /// The density of the direction from `from` to the glowing point `at` with this normal.
-    pub fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3) -> f64 {
+    /// The density of the direction from `from` to the emitting point `at` with this normal.
+    pub fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
         if self.fills_cone(from) {
             self.cone_pdf(from)
         } else {
-            per_steradian(from, at, normal, self.change) / self.glowing_area()
+            per_steradian(from, at, normal, steps) / self.emitting_area()
         }
     }
 
-    /// Whether all that `from` sees of the sphere glows.
+    /// Whether all that `from` sees of the sphere emits.
     fn fills_cone(&self, from: DVec3) -> bool {
         let radius_squared = self.ball.radius * self.ball.radius;
         let is_outside = from.distance_squared(self.ball.centre) > radius_squared;
@@ -176,24 +178,29 @@ impl BallLight {
         to_centre.length() * (1.0 - height) - half_chord_squared.max(0.0).sqrt()
     }
 
-    /// Uniform over the part of the sphere that glows: for rooms, for caps, and from inside.
-    fn sample_glowing_part(&self, from: DVec3, point: DVec2) -> Option<LightSample> {
+    /// Uniform over the part of the sphere that emits: for rooms, for caps, and from inside.
+    fn sample_emitting_part(
+        &self,
+        from: DVec3,
+        point: DVec2,
+        steps: &Steps,
+    ) -> Option<LightSample> {
         let axis = self.emission.cap.map_or(DVec3::Z, |cap| cap.axis);
-        let local = direction_below_tip(point.x * self.glowing_height(), point.y);
+        let local = direction_below_tip(point.x * self.emitting_height(), point.y);
         let outward = Frame::around(axis).to_world(local);
         let normal = if self.inward { -outward } else { outward };
         let at = self.ball.centre + self.ball.radius * outward;
-        towards(from, at, self.emission.radiance, self.pdf(from, at, normal))
+        towards(from, at, self.emission.radiance, self.pdf(from, at, normal, steps))
     }
 
-    /// Height of the glowing part of a unit sphere, from the tip of its axis down.
-    fn glowing_height(&self) -> f64 {
+    /// Height of the emitting part of a unit sphere, from the tip of its axis down.
+    fn emitting_height(&self) -> f64 {
         self.emission.cap.map_or(2.0, |cap| 1.0 - cap.half_angle.cos())
     }
 
     /// Archimedes: a zone's area is 2πR times its height.
-    fn glowing_area(&self) -> f64 {
-        2.0 * PI * self.ball.radius * self.ball.radius * self.glowing_height()
+    fn emitting_area(&self) -> f64 {
+        2.0 * PI * self.ball.radius * self.ball.radius * self.emitting_height()
     }
 }
 

@@ -4,11 +4,11 @@
 //! turned over first. Glass is not: which side is outside matters there. Not here: the formulas of
 //! `glass`, of `ggx` and of `rough_glass`.
 
-use super::change::Change;
 use super::glass::Glass;
 use super::rough_glass::RoughGlass;
+use super::steps::Steps;
 use super::{ggx, sampling};
-use crate::contract::{BsdfSample, BsdfValue};
+use crate::contract::{BsdfSample, BsdfValue, Sampler};
 use crate::scene::{Rgb, Surface};
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_1_PI;
@@ -29,43 +29,58 @@ pub fn is_interface(surface: &Surface) -> bool {
 
 /// `f` and the density of [`sample`]. Zero for mirror and smooth glass, and for directions on
 /// different sides of what light does not pass.
-pub fn evaluate(surface: &Surface, wo: DVec3, wi: DVec3, change: Change) -> BsdfValue {
-    if let Some(glass) = rough_glass(surface, change) {
-        return glass.evaluate(wo, wi);
+pub fn evaluate(surface: &Surface, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
+    if let Some(glass) = rough_glass(surface) {
+        return glass.evaluate(wo, wi, steps);
     }
     if wo.z < 0.0 {
-        evaluate_from_above(surface, -wo, -wi, change)
+        evaluate_from_above(surface, -wo, -wi, steps)
     } else {
-        evaluate_from_above(surface, wo, wi, change)
+        evaluate_from_above(surface, wo, wi, steps)
     }
 }
 
-fn rough_glass(surface: &Surface, change: Change) -> Option<RoughGlass> {
+fn rough_glass(surface: &Surface) -> Option<RoughGlass> {
     let Surface::RoughGlass { index, roughness, reflectance, transmittance } = *surface else {
         return None;
     };
-    Some(RoughGlass { index, roughness, reflectance, transmittance, change })
+    Some(RoughGlass { index, roughness, reflectance, transmittance })
 }
 
-fn evaluate_from_above(surface: &Surface, wo: DVec3, wi: DVec3, change: Change) -> BsdfValue {
-    let is_backlit = wi.z <= 0.0 && change != Change::BacklitSurface;
-    if wo.z <= 0.0 || is_backlit {
+fn evaluate_from_above(surface: &Surface, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
+    if wo.z <= 0.0 {
         return NOTHING;
     }
     match *surface {
-        Surface::Diffuse { reflectance } => {
-            let pdf = match change {
-                Change::DiffusePdfUniform | Change::UniformBounces => 0.5 * FRAC_1_PI,
-                _ => sampling::cosine_hemisphere_pdf(wi, change),
-            };
-            BsdfValue { f: diffuse(reflectance, wi, change), pdf: pdf.max(0.0) }
-        }
+        Surface::Diffuse { reflectance } if steps.scatters_light_from(wi) => BsdfValue {
+            f: steps.diffuse(reflectance, wi),
+            pdf: sampling::pdf(steps.diffuse_density(), wi, steps),
+        },
         Surface::Conductor { reflectance, roughness } if wi.z > 0.0 => {
-            ggx::evaluate(reflectance, roughness, wo, wi, change)
+            ggx::evaluate(reflectance, roughness, wo, wi, steps)
         }
-        Surface::Conductor { .. } => NOTHING,
-        Surface::Mirror { .. } | Surface::Glass { .. } | Surface::RoughGlass { .. } => NOTHING,
+        _ => NOTHING,
     }
+}
+
+/// Seen from above, a diffuse surface scatters light from above.
+pub fn scatters_light_from(wi: DVec3) -> bool {
+    wi.z > 0.0
+}
+
+/// Lambert's law: f = reflectance/π.
+pub fn diffuse(reflectance: Rgb, _wi: DVec3) -> Rgb {
+    reflectance.map(|reflectance| reflectance * FRAC_1_PI)
+}
+
+/// How the directions of a diffuse surface are drawn: in proportion to f cos θ.
+pub fn diffuse_sampler() -> Sampler {
+    Sampler::CosineHemisphere
+}
+
+/// The sampler whose density those directions have.
+pub fn diffuse_density() -> Sampler {
+    Sampler::CosineHemisphere
 }
 
 /// One incident direction for `wo`; `point` chooses the direction, `lobe` between reflection and
@@ -75,76 +90,50 @@ pub fn sample(
     wo: DVec3,
     point: DVec2,
     lobe: f64,
-    change: Change,
+    steps: &Steps,
 ) -> Option<BsdfSample> {
     if let Surface::Glass { index, reflectance, transmittance } = *surface {
-        let glass = Glass { index, reflectance, transmittance, change };
-        return glass.sample(wo, lobe);
+        return Glass { index, reflectance, transmittance }.sample(wo, lobe, steps);
     }
-    if let Some(glass) = rough_glass(surface, change) {
-        return glass.sample(wo, point, lobe);
+    if let Some(glass) = rough_glass(surface) {
+        return glass.sample(wo, point, lobe, steps);
     }
     if wo.z < 0.0 {
-        let sample = sample_from_above(surface, -wo, point, change)?;
+        let sample = sample_from_above(surface, -wo, point, steps)?;
         return Some(BsdfSample { wi: -sample.wi, ..sample });
     }
-    sample_from_above(surface, wo, point, change)
+    sample_from_above(surface, wo, point, steps)
 }
 
 fn sample_from_above(
     surface: &Surface,
     wo: DVec3,
     point: DVec2,
-    change: Change,
+    steps: &Steps,
 ) -> Option<BsdfSample> {
     let wi = match *surface {
-        Surface::Diffuse { .. } if change == Change::UniformBounces => {
-            sampling::uniform_hemisphere(point, change)
-        }
-        Surface::Diffuse { .. } => sampling::cosine_hemisphere(point, change),
-        Surface::Conductor { roughness, .. } => ggx::sample(roughness, wo, point, change),
-        Surface::Mirror { reflectance } => return mirror(wo, reflectance, change),
+        Surface::Diffuse { .. } => sampling::direction(steps.diffuse_sampler(), point, steps),
+        Surface::Conductor { roughness, .. } => ggx::sample(roughness, wo, point, steps),
+        Surface::Mirror { reflectance } => return steps.mirror(wo, reflectance),
         Surface::Glass { .. } | Surface::RoughGlass { .. } => return None,
     };
-    let BsdfValue { f, pdf } = evaluate_from_above(surface, wo, wi, change);
-    let f = match change {
-        Change::CosineInSampledF => f.map(|f| f * wi.z),
-        _ => f,
-    };
-    (pdf > 0.0).then_some(BsdfSample { wi, f, pdf, is_delta: 0, is_valid: 1 })
+    let value = evaluate_from_above(surface, wo, wi, steps);
+    (value.pdf > 0.0).then(|| steps.sampled(wi, value))
 }
 
-/// Lambert's law: f = reflectance/π.
-fn diffuse(reflectance: Rgb, wi: DVec3, change: Change) -> Rgb {
-    let mean = reflectance.iter().sum::<f64>() / 3.0;
-    reflectance.map(|reflectance| match change {
-        Change::BrdfWithoutPi | Change::PiDividedLater => reflectance,
-        Change::BrdfHalved => reflectance * FRAC_1_PI / 2.0,
-        Change::CosineInBrdf => reflectance * FRAC_1_PI * wi.z,
-        Change::AlbedoAveraged => mean * FRAC_1_PI,
-        _ => reflectance * FRAC_1_PI,
-    })
+/// A sample says of its direction what evaluation says.
+pub fn sampled(wi: DVec3, BsdfValue { f, pdf }: BsdfValue) -> BsdfSample {
+    BsdfSample { wi, f, pdf, is_delta: 0, is_valid: 1 }
 }
 
-/// f as whoever sums up light wants it: [`Change::PiDividedLater`] makes good there what is missing
-/// here.
-pub fn corrected(surface: &Surface, f: Rgb, change: Change) -> DVec3 {
-    match (surface, change) {
-        (Surface::Diffuse { .. }, Change::PiDividedLater) => DVec3::from(f) * FRAC_1_PI,
-        _ => DVec3::from(f),
-    }
+/// The f that is multiplied with light is the f of the surface.
+pub fn scattered(_surface: &Surface, f: Rgb) -> DVec3 {
+    f.into()
 }
 
-fn mirror(wo: DVec3, reflectance: Rgb, change: Change) -> Option<BsdfSample> {
-    let sample = match change {
-        Change::MirrorTurnsBack => delta(wo, reflectance, 1.0)?,
-        _ => delta(reflect(wo), reflectance, 1.0)?,
-    };
-    Some(match change {
-        Change::MirrorWithoutCosine => BsdfSample { f: reflectance, ..sample },
-        Change::MirrorNotDelta => BsdfSample { is_delta: 0, ..sample },
-        _ => sample,
-    })
+/// All that is reflected comes from the mirrored direction.
+pub fn mirror(wo: DVec3, reflectance: Rgb) -> Option<BsdfSample> {
+    delta(reflect(wo), reflectance, 1.0)
 }
 
 /// `w` mirrored about the normal.
@@ -167,9 +156,9 @@ pub fn delta(wi: DVec3, weight: Rgb, probability: f64) -> Option<BsdfSample> {
 mod tests {
     use super::*;
     use crate::cores::textbook::random::Random;
+    use crate::cores::textbook::steps::LESSON;
     use crate::cores::textbook::testing::grey;
 
-    const NONE: Change = Change::None;
     const ROUGHNESSES: [f64; 4] = [1e-4, 0.1, 0.3, 1.0];
 
     fn smooth_and_rough() -> Vec<Surface> {
@@ -178,7 +167,7 @@ mod tests {
         [Surface::Diffuse { reflectance: grey(0.6) }].into_iter().chain(metal).collect()
     }
 
-    fn direction(random: &mut Random) -> DVec3 {
+    fn direction(random: &mut Random<'_>) -> DVec3 {
         sampling::uniform_sphere(random.point())
     }
 
@@ -188,11 +177,11 @@ mod tests {
         for surface in smooth_and_rough() {
             for _ in 0..2000 {
                 let wo = direction(&mut random);
-                let Some(sample) = sample(&surface, wo, random.point(), random.number(), NONE)
+                let Some(sample) = sample(&surface, wo, random.point(), random.number(), &LESSON)
                 else {
                     continue;
                 };
-                let value = evaluate(&surface, wo, sample.wi, NONE);
+                let value = evaluate(&surface, wo, sample.wi, &LESSON);
                 assert_eq!((sample.f, sample.pdf), (value.f, value.pdf), "{surface:?} {wo}");
                 assert!(wo.z * sample.wi.z > 0.0 && sample.is_delta == 0, "{sample:?}");
                 assert!((sample.wi.length() - 1.0).abs() < 1e-12, "{sample:?}");
@@ -206,8 +195,10 @@ mod tests {
         for surface in smooth_and_rough() {
             for _ in 0..2000 {
                 let (a, b) = (direction(&mut random), direction(&mut random));
-                let (there, back) =
-                    (evaluate(&surface, a, b, NONE).f[0], evaluate(&surface, b, a, NONE).f[0]);
+                let (there, back) = (
+                    evaluate(&surface, a, b, &LESSON).f[0],
+                    evaluate(&surface, b, a, &LESSON).f[0],
+                );
                 assert!((there - back).abs() <= 1e-12 * there, "{surface:?}: {there} {back}");
             }
         }
@@ -219,9 +210,12 @@ mod tests {
         for surface in smooth_and_rough() {
             for _ in 0..1000 {
                 let (wo, wi) = (direction(&mut random), direction(&mut random));
-                assert_eq!(evaluate(&surface, wo, wi, NONE), evaluate(&surface, -wo, -wi, NONE));
+                assert_eq!(
+                    evaluate(&surface, wo, wi, &LESSON),
+                    evaluate(&surface, -wo, -wi, &LESSON)
+                );
                 if wo.z * wi.z < 0.0 {
-                    assert_eq!(evaluate(&surface, wo, wi, NONE), NOTHING);
+                    assert_eq!(evaluate(&surface, wo, wi, &LESSON), NOTHING);
                 }
             }
         }
@@ -235,7 +229,7 @@ mod tests {
         for surface in smooth_and_rough() {
             for wo in views {
                 for (x, y) in points.iter().flat_map(|x| points.map(|y| (*x, y))) {
-                    let Some(sample) = sample(&surface, wo, DVec2::new(x, y), 0.5, NONE) else {
+                    let Some(sample) = sample(&surface, wo, DVec2::new(x, y), 0.5, &LESSON) else {
                         continue;
                     };
                     let weight = sample.f[0] * sample.wi.z / sample.pdf;
@@ -250,11 +244,11 @@ mod tests {
         let mirror = Surface::Mirror { reflectance: grey(0.83) };
         for z in [0.8, -0.8] {
             let wo = DVec3::new(0.6, 0.0, z);
-            let sample = sample(&mirror, wo, DVec2::splat(0.5), 0.5, NONE).expect("it reflects");
+            let sample = sample(&mirror, wo, DVec2::splat(0.5), 0.5, &LESSON).expect("it reflects");
             assert_eq!((sample.wi, sample.is_delta), (DVec3::new(-0.6, 0.0, z), 1));
             let weight = sample.f[0] * sample.wi.z.abs() / sample.pdf;
             assert!((weight - 0.83).abs() < 1e-15, "{weight}");
-            assert_eq!(evaluate(&mirror, wo, sample.wi, NONE), NOTHING);
+            assert_eq!(evaluate(&mirror, wo, sample.wi, &LESSON), NOTHING);
         }
     }
 
@@ -263,7 +257,7 @@ mod tests {
         // Cosine samples make every weight the albedo.
         let surface = Surface::Diffuse { reflectance: [0.2, 0.5, 0.8] };
         let sample =
-            sample(&surface, DVec3::Z, DVec2::new(0.3, 0.7), 0.0, NONE).expect("it reflects");
+            sample(&surface, DVec3::Z, DVec2::new(0.3, 0.7), 0.0, &LESSON).expect("it reflects");
         let weight = DVec3::from(sample.f) * sample.wi.z / sample.pdf;
         assert!(weight.abs_diff_eq(DVec3::new(0.2, 0.5, 0.8), 1e-15), "{weight}");
     }

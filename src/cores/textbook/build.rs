@@ -3,8 +3,8 @@
 //! The rule that divides a node comes from `split`; that the build ends, and how deep it gets, is
 //! decided here.
 
-use super::change::Change;
 use super::split::{self, Item};
+use super::steps::Steps;
 use crate::contract::Split;
 use crate::scene::Aabb;
 use std::ops::Range;
@@ -33,15 +33,15 @@ pub fn build(
     boxes: impl Iterator<Item = Aabb>,
     split: Split,
     max_leaf_size: u32,
-    change: Change,
+    steps: &Steps,
 ) -> (Vec<Node>, Vec<usize>) {
     let mut items: Vec<Item> = boxes.enumerate().map(item).collect();
     let mut builder = Builder {
         split,
-        change,
         max_leaf_size: max_leaf_size.max(1) as usize,
         max_rule_depth: max_rule_depth(items.len()),
         nodes: Vec::new(),
+        steps,
     };
     if !items.is_empty() {
         builder.node(&mut items, 0, 0);
@@ -65,36 +65,26 @@ fn max_rule_depth(primitives: usize) -> usize {
     32 + primitives.max(1).ilog2() as usize
 }
 
-/// Levels after which [`Change::SplitRepeated`] gives up.
-const SPLIT_REPEATED: usize = 500;
-
-struct Builder {
-    split: Split,
-    change: Change,
-    max_leaf_size: usize,
+/// A hierarchy under construction.
+pub struct Builder<'a> {
+    /// The rule that is asked for.
+    pub split: Split,
+    /// No leaf holds more.
+    pub max_leaf_size: usize,
     max_rule_depth: usize,
     nodes: Vec<Node>,
+    /// The lesson's.
+    pub steps: &'a Steps,
 }
 
-impl Builder {
+impl Builder<'_> {
     /// Builds the node over `items`, the first of which stands at `first` in the order of leaves.
     /// Answers its number.
     fn node(&mut self, items: &mut [Item], first: usize, depth: usize) -> usize {
-        let bounds = match self.change {
-            Change::NodeBoxOfCentroids => split::centroid_bounds(items),
-            _ => split::union(items.iter().map(|item| item.bounds)),
-        };
         let number = self.nodes.len();
-        let end = match self.change {
-            Change::LastPrimitiveLost if items.len() > 1 => first + items.len() - 1,
-            _ => first + items.len(),
-        };
-        self.nodes.push(Node { bounds, content: Content::Leaf(first..end) });
-        if items.len() > self.max_leaf_size {
-            let left_count = self.divide(items, depth);
-            if left_count == 0 || left_count == items.len() {
-                return self.node_without_end(number, items, first, depth);
-            }
+        let content = Content::Leaf(self.steps.leaf(first, items.len()));
+        self.nodes.push(Node { bounds: self.steps.node_bounds(items), content });
+        if let Some(left_count) = self.steps.divide(self, items, depth) {
             let (left, right) = items.split_at_mut(left_count);
             let left = self.node(left, first, depth + 1);
             let right = self.node(right, first + left_count, depth + 1);
@@ -102,38 +92,29 @@ impl Builder {
         }
         number
     }
+}
 
-    /// [`Change::SplitRepeated`]: an empty child, and everything in the other, again and again.
-    /// Here it comes to an end, so that the process lives to tell.
-    fn node_without_end(
-        &mut self,
-        number: usize,
-        items: &mut [Item],
-        first: usize,
-        depth: usize,
-    ) -> usize {
-        if depth < SPLIT_REPEATED {
-            let Node { bounds, .. } = self.nodes[number];
-            let empty = self.nodes.len();
-            self.nodes.push(Node { bounds, content: Content::Leaf(first..first) });
-            let all = self.node(items, first, depth + 1);
-            self.nodes[number].content = Content::Inner([empty, all]);
-        }
-        number
+/// The box of a node holds the boxes of all its items.
+pub fn node_bounds(items: &[Item]) -> Aabb {
+    split::union(items.iter().map(|item| item.bounds))
+}
+
+/// The places of a leaf's items in the order of leaves.
+pub fn leaf(first: usize, count: usize) -> Range<usize> {
+    first..first + count
+}
+
+/// How many items go left: at least one, and not all. `None` where they are few enough for a leaf.
+pub fn divide(builder: &Builder<'_>, items: &mut [Item], depth: usize) -> Option<usize> {
+    if items.len() <= builder.max_leaf_size {
+        return None;
     }
-
-    /// How many items go left: at least one, and not all.
-    fn divide(&self, items: &mut [Item], depth: usize) -> usize {
-        if self.change == Change::SplitRepeated {
-            return split::partition(self.split, items, self.change);
-        }
-        if depth >= self.max_rule_depth {
-            return split::halve(items, self.change);
-        }
-        match split::partition(self.split, items, self.change) {
-            0 => split::halve(items, self.change),
-            all if all == items.len() => split::halve(items, self.change),
-            left_count => left_count,
-        }
+    if depth >= builder.max_rule_depth {
+        return Some(split::halve(items, builder.steps));
+    }
+    match split::partition(builder.split, items, builder.steps) {
+        0 => Some(split::halve(items, builder.steps)),
+        all if all == items.len() => Some(split::halve(items, builder.steps)),
+        left_count => Some(left_count),
     }
 }

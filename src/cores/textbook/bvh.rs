@@ -5,9 +5,9 @@
 //! force.
 
 use super::build::{Content, Node, build};
-use super::change::Change;
 use super::intersect::{Ball, Crossing, Triangle};
 use super::slab::intersect_box;
+use super::steps::Steps;
 use crate::contract::{Acceleration, BuildStats, Ray, TraversalStats};
 use crate::scene::Aabb;
 use glam::DVec3;
@@ -23,10 +23,10 @@ pub enum Form {
 }
 
 impl Form {
-    fn intersect(&self, ray: &Ray, change: Change) -> Option<Crossing> {
+    fn intersect(&self, ray: &Ray, steps: &Steps) -> Option<Crossing> {
         match self {
-            Self::Triangle(triangle) => triangle.intersect(ray, change),
-            Self::Ball(ball) => ball.intersect(ray, change),
+            Self::Triangle(triangle) => triangle.intersect(ray, steps),
+            Self::Ball(ball) => ball.intersect(ray, steps),
         }
     }
 
@@ -57,27 +57,23 @@ pub struct Primitive {
 
 /// All primitives of a scene, with or without a hierarchy over them.
 #[derive(Debug)]
-pub struct Bvh {
+pub struct Bvh<'a> {
     /// The root first, each left child right after its parent. None at all for brute force.
     nodes: Vec<Node>,
     /// In the order of the leaves.
     primitives: Vec<Primitive>,
-    change: Change,
+    steps: &'a Steps,
 }
 
-impl Bvh {
+impl<'a> Bvh<'a> {
     /// Takes the primitives in.
-    pub fn new(primitives: Vec<Primitive>, acceleration: Acceleration, change: Change) -> Self {
+    pub fn new(primitives: Vec<Primitive>, acceleration: Acceleration, steps: &'a Steps) -> Self {
         let Acceleration::Bvh { split, max_leaf_size } = acceleration else {
-            return Self { nodes: Vec::new(), primitives, change };
+            return Self { nodes: Vec::new(), primitives, steps };
         };
         let boxes = primitives.iter().map(|primitive| primitive.form.bounds());
-        let (nodes, order) = build(boxes, split, max_leaf_size, change);
-        let mut primitives: Vec<_> = order.into_iter().map(|index| primitives[index]).collect();
-        if change == Change::LeafOrderNumbers {
-            (0..).zip(&mut primitives).for_each(|(place, primitive)| primitive.number = place);
-        }
-        Self { nodes, primitives, change }
+        let (nodes, order) = build(boxes, split, max_leaf_size, steps);
+        Self { nodes, primitives: steps.in_leaf_order(&primitives, &order), steps }
     }
 
     /// The primitive with number `index` in the order of the leaves.
@@ -88,10 +84,9 @@ impl Bvh {
     /// The nearest crossing of `ray`, and the index of its primitive.
     pub fn closest(&self, ray: &Ray, stats: &mut TraversalStats) -> Option<(usize, Crossing)> {
         stats.rays += 1;
-        let mut search =
-            Search { ray: *ray, segment: *ray, found: None, stats, change: self.change };
+        let mut search = Search { ray, segment: *ray, found: None, stats, steps: self.steps };
         match self.nodes.first() {
-            None => self.closest_among(0..self.primitives.len(), &mut search),
+            None => self.steps.closest_among(self, 0..self.primitives.len(), &mut search),
             Some(root) => {
                 if search.enters(&root.bounds).is_some() {
                     self.closest_below(root, &mut search);
@@ -105,15 +100,13 @@ impl Bvh {
     /// then.
     fn closest_below(&self, node: &Node, search: &mut Search<'_>) {
         match &node.content {
-            Content::Leaf(range) => self.closest_among(self.tested(range), search),
+            Content::Leaf(leaf) => {
+                let tested = self.steps.tested_for_leaf(leaf, self.primitives.len());
+                self.steps.closest_among(self, tested, search);
+            }
             Content::Inner(children) => {
                 for (enter, child) in self.near_to_far(*children, search).into_iter().flatten() {
-                    let is_wanted = match self.change {
-                        Change::SecondChildSkipped => search.found.is_none(),
-                        Change::SegmentNotShortened => true,
-                        _ => enter <= search.segment.t_max,
-                    };
-                    if is_wanted {
+                    if self.steps.is_worth_a_visit(search, enter) {
                         self.closest_below(child, search);
                     }
                 }
@@ -131,84 +124,45 @@ impl Bvh {
             let node = &self.nodes[child];
             search.enters(&node.bounds).map(|enter| (enter, node))
         });
-        match (left, right) {
-            _ if self.is_unordered() => [left, right],
-            (Some((left_enter, _)), Some((right_enter, _))) if right_enter < left_enter => {
-                [right, left]
-            }
-            _ => [left, right],
+        let entered = |child: Option<(f64, _)>| child.map(|(enter, _)| enter);
+        match self.steps.right_is_nearer(entered(left), entered(right)) {
+            true => [right, left],
+            false => [left, right],
         }
     }
 
-    /// Without order the nearest is not the first that is found: who stops there is wrong.
-    fn is_unordered(&self) -> bool {
-        matches!(self.change, Change::ChildrenUnordered | Change::SecondChildSkipped)
-    }
-
-    /// The primitives that are tested for a leaf.
-    fn tested(&self, leaf: &Range<usize>) -> Range<usize> {
-        match self.change {
-            Change::LeafTestsAll => 0..self.primitives.len(),
-            _ => leaf.clone(),
-        }
-    }
-
-    /// Tests every primitive of a range; each one found shortens the segment for those after it.
-    fn closest_among(&self, range: Range<usize>, search: &mut Search<'_>) {
-        for place in range.clone() {
-            let index = match self.change {
-                Change::ReversedLeaves => range.start + range.end - 1 - place,
-                _ => place,
-            };
-            let primitive = &self.primitives[index];
-            search.stats.primitive_tests += 1;
-            if let Some(crossing) = primitive.form.intersect(&search.segment, self.change) {
-                if self.change != Change::HitOverwritten {
-                    search.segment.t_max = crossing.t;
-                }
-                search.found = Some((index, crossing));
-            }
+    /// Tests one primitive against what is left of the segment.
+    pub fn test(&self, primitive: usize, search: &mut Search<'_>) {
+        search.stats.primitive_tests += 1;
+        let form = &self.primitives[primitive].form;
+        if let Some(crossing) = form.intersect(&search.segment, self.steps) {
+            self.steps.keep(search, primitive, crossing);
         }
     }
 
     /// Whether anything lies on the segment; stops at the first that does.
     pub fn any(&self, ray: &Ray, stats: &mut TraversalStats) -> bool {
         stats.rays += 1;
-        let ray = &match self.change {
-            Change::ShadowEndIgnored => Ray { t_max: f64::INFINITY, ..*ray },
-            _ => *ray,
-        };
-        match self.nodes.first() {
-            None => self.any_among(0..self.primitives.len(), ray, stats),
-            Some(root) => self.any_below(root, ray, stats),
-        }
+        self.steps.any(self, ray, stats)
     }
 
-    fn any_below(&self, node: &Node, ray: &Ray, stats: &mut TraversalStats) -> bool {
+    /// The same, among what is below the node of this number.
+    pub fn any_below(&self, node: usize, ray: &Ray, stats: &mut TraversalStats) -> bool {
+        let node = &self.nodes[node];
         stats.box_tests += 1;
-        if intersect_box(&node.bounds, ray, self.change).is_none() {
+        if intersect_box(&node.bounds, ray, self.steps).is_none() {
             return false;
         }
         match &node.content {
-            Content::Leaf(_) if self.change == Change::ShadowsHitBoxes => true,
-            Content::Leaf(range) => self.any_among(self.tested(range), ray, stats),
-            Content::Inner(children) => {
-                let [left, right] = children.map(|child| &self.nodes[child]);
-                match self.change {
-                    Change::ShadowSecondChildSkipped => self.any_below(left, ray, stats),
-                    Change::ShadowsSearchOn => {
-                        self.any_below(left, ray, stats) | self.any_below(right, ray, stats)
-                    }
-                    _ => self.any_below(left, ray, stats) || self.any_below(right, ray, stats),
-                }
-            }
+            Content::Leaf(leaf) => self.steps.any_in_leaf(self, leaf, ray, stats),
+            Content::Inner(children) => self.steps.any_below_children(self, *children, ray, stats),
         }
     }
 
     fn any_among(&self, range: Range<usize>, ray: &Ray, stats: &mut TraversalStats) -> bool {
         self.primitives[range].iter().any(|primitive| {
             stats.primitive_tests += 1;
-            primitive.form.intersect(ray, self.change).is_some()
+            primitive.form.intersect(ray, self.steps).is_some()
         })
     }
 
@@ -234,31 +188,91 @@ impl Bvh {
     }
 }
 
+/// The primitives as the leaves name them, each with its own number.
+pub fn in_leaf_order(primitives: &[Primitive], order: &[usize]) -> Vec<Primitive> {
+    order.iter().map(|index| primitives[*index]).collect()
+}
+
 /// One closest-hit query under way.
-struct Search<'a> {
-    /// The whole ray.
-    ray: Ray,
+pub struct Search<'a> {
+    /// The ray as it was asked for.
+    pub ray: &'a Ray,
     /// The ray, up to the nearest crossing so far.
-    segment: Ray,
-    found: Option<(usize, Crossing)>,
+    pub segment: Ray,
+    /// The nearest crossing so far, and the index of its primitive.
+    pub found: Option<(usize, Crossing)>,
     stats: &'a mut TraversalStats,
-    change: Change,
+    /// The lesson's.
+    pub steps: &'a Steps,
 }
 
 impl Search<'_> {
     /// Where the segment enters the box, if it does.
     fn enters(&mut self, bounds: &Aabb) -> Option<f64> {
         self.stats.box_tests += 1;
-        let segment = match self.change {
-            Change::SegmentNotShortened => &self.ray,
-            _ => &self.segment,
-        };
-        let (enter, exit) = intersect_box(bounds, segment, self.change)?;
-        if self.change == Change::RangeOverwritten {
-            (self.segment.t_min, self.segment.t_max) = (enter, exit);
-        }
-        Some(enter)
+        self.steps.enter(self, bounds)
     }
+}
+
+/// Where the segment enters the box, if it does.
+pub fn enter(search: &mut Search<'_>, bounds: &Aabb) -> Option<f64> {
+    intersect_box(bounds, &search.segment, search.steps).map(|(enter, _)| enter)
+}
+
+/// Whether the right child is to be visited first. For a child that is missed there is no entry.
+pub fn right_is_nearer(left: Option<f64>, right: Option<f64>) -> bool {
+    matches!((left, right), (Some(left), Some(right)) if right < left)
+}
+
+/// A child that begins behind what was found has nothing nearer.
+pub fn is_worth_a_visit(search: &Search<'_>, enter: f64) -> bool {
+    enter <= search.segment.t_max
+}
+
+/// The primitives that are tested for a leaf are its own.
+pub fn tested_for_leaf(leaf: &Range<usize>, _primitives: usize) -> Range<usize> {
+    leaf.clone()
+}
+
+/// Tests every primitive of a range; each one found shortens the segment for those after it.
+pub fn closest_among(bvh: &Bvh<'_>, range: Range<usize>, search: &mut Search<'_>) {
+    for primitive in range {
+        bvh.test(primitive, search);
+    }
+}
+
+/// Keeps a crossing, and what is left of the segment before it.
+pub fn keep(search: &mut Search<'_>, primitive: usize, crossing: Crossing) {
+    search.segment.t_max = crossing.t;
+    search.found = Some((primitive, crossing));
+}
+
+/// Whether anything lies on the segment.
+pub fn any(bvh: &Bvh<'_>, ray: &Ray, stats: &mut TraversalStats) -> bool {
+    match bvh.nodes.is_empty() {
+        true => bvh.any_among(0..bvh.primitives.len(), ray, stats),
+        false => bvh.any_below(0, ray, stats),
+    }
+}
+
+/// Whether any primitive of a leaf lies on the segment.
+pub fn any_in_leaf(
+    bvh: &Bvh<'_>,
+    leaf: &Range<usize>,
+    ray: &Ray,
+    stats: &mut TraversalStats,
+) -> bool {
+    bvh.any_among(bvh.steps.tested_for_leaf(leaf, bvh.primitives.len()), ray, stats)
+}
+
+/// One hit is enough: below the right child nobody looks if there is one below the left.
+pub fn any_below_children(
+    bvh: &Bvh<'_>,
+    [left, right]: [usize; 2],
+    ray: &Ray,
+    stats: &mut TraversalStats,
+) -> bool {
+    bvh.any_below(left, ray, stats) || bvh.any_below(right, ray, stats)
 }
 
 #[cfg(test)]
@@ -266,15 +280,16 @@ mod tests {
     use super::*;
     use crate::contract::Split;
     use crate::cores::textbook::random::Random;
+    use crate::cores::textbook::steps::LESSON;
 
     const RULES: [Split; 4] =
         [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea];
 
-    fn bvh(primitives: &[Primitive], split: Split, max_leaf_size: u32) -> Bvh {
-        Bvh::new(primitives.to_vec(), Acceleration::Bvh { split, max_leaf_size }, Change::None)
+    fn bvh(primitives: &[Primitive], split: Split, max_leaf_size: u32) -> Bvh<'static> {
+        Bvh::new(primitives.to_vec(), Acceleration::Bvh { split, max_leaf_size }, &LESSON)
     }
 
-    fn vector(random: &mut Random) -> DVec3 {
+    fn vector(random: &mut Random<'_>) -> DVec3 {
         let x = random.point().extend(random.number());
         2.0 * x - 1.0
     }
@@ -345,7 +360,7 @@ mod tests {
         let rays = rays(1500);
         let mut stats = TraversalStats::default();
         for primitives in scenes {
-            let brute = Bvh::new(primitives.clone(), Acceleration::BruteForce, Change::None);
+            let brute = Bvh::new(primitives.clone(), Acceleration::BruteForce, &LESSON);
             for split in RULES {
                 for max_leaf_size in [1, 4] {
                     let bvh = bvh(&primitives, split, max_leaf_size);
@@ -362,7 +377,7 @@ mod tests {
 
     #[test]
     fn brute_force_counts_every_primitive_and_no_box() {
-        let brute = Bvh::new(soup(100), Acceleration::BruteForce, Change::None);
+        let brute = Bvh::new(soup(100), Acceleration::BruteForce, &LESSON);
         let mut stats = TraversalStats::default();
         let rays = rays(10);
         rays.iter().for_each(|ray| _ = brute.closest(ray, &mut stats));

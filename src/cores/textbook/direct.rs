@@ -1,37 +1,34 @@
 //! Part 3: light that is scattered once, at a point that is given.
 //!
-//! Two estimators of one integral: uniform directions over the hemisphere, and points on the
-//! lights. Not here: paths (`integrator`). Mirror and glass gather nothing here: what they show is
-//! met by following the path.
+//! Two estimators of one integral: uniform hemisphere sampling, and light sampling (next event
+//! estimation). Not here: paths (`integrator`). Mirror and glass gather nothing here: what they
+//! show is met by following the path.
 
 use super::bsdf;
-use super::change::Change;
+use super::frame::Frame;
 use super::light::Lamp;
 use super::random::Random;
 use super::sampling;
+use super::steps::Steps;
 use super::vertex::{Vertex, View};
 use super::world::World;
-use crate::contract::{DirectSampling, IntegratorSettings, LightSample, Ray, TraversalStats};
+use crate::contract::{DirectSampling, IntegratorSettings, LightSample, Sampler, TraversalStats};
 use crate::scene::Surface;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// Radiance that leaves `vertex` along the path after being scattered there, and only there.
 pub fn one_bounce(
-    world: &World,
+    world: &World<'_>,
     settings: &IntegratorSettings,
     vertex: &Vertex<'_>,
-    random: &mut Random,
+    random: &mut Random<'_>,
 ) -> DVec3 {
     if bsdf::is_delta(vertex.surface) {
         return DVec3::ZERO;
     }
-    let change = world.change();
-    let scatter = Scatter { world, samples: settings.samples_per_light.max(1), vertex, change };
-    let direct = match change {
-        Change::HemisphereIgnored => DirectSampling::Lights,
-        _ => settings.direct,
-    };
-    match direct {
+    let steps = world.steps();
+    let scatter = Scatter { world, samples: settings.samples_per_light.max(1), vertex, steps };
+    match steps.direct_sampling(settings) {
         DirectSampling::Hemisphere => {
             scatter.by_hemisphere(random) + scatter.by_lights(random, Lamp::is_delta)
         }
@@ -42,6 +39,11 @@ pub fn one_bounce(
     }
 }
 
+/// Which of the two estimators is asked for.
+pub fn direct_sampling(settings: &IntegratorSettings) -> DirectSampling {
+    settings.direct
+}
+
 /// Whether light sampling alone would miss the narrow lobe of the surface. There it is combined
 /// with directions that the surface itself samples.
 fn is_glossy(surface: &Surface) -> bool {
@@ -50,56 +52,37 @@ fn is_glossy(surface: &Surface) -> bool {
 
 /// One point of one path, gathering light.
 struct Scatter<'a> {
-    world: &'a World,
+    world: &'a World<'a>,
     /// Samples of each light that is not a delta light.
     samples: u32,
     vertex: &'a Vertex<'a>,
-    change: Change,
+    steps: &'a Steps,
 }
 
 impl Scatter<'_> {
-    /// Mean over uniform directions of what glows where they arrive.
-    fn by_hemisphere(&self, random: &mut Random) -> DVec3 {
+    /// Mean over uniform directions of what is emitted where they arrive.
+    fn by_hemisphere(&self, random: &mut Random<'_>) -> DVec3 {
         let lights = self.world.lights().iter().filter(|light| !light.is_delta()).count() as u32;
-        let samples = match self.change {
-            Change::HemisphereWithoutLights => self.samples * lights,
-            _ => (self.samples * lights).max(1),
-        };
-        let total: DVec3 = (0..samples).map(|_| self.hemisphere_sample(random)).sum();
-        match self.change {
-            Change::HemisphereNotDivided => total,
-            _ => total / f64::from(samples),
-        }
+        let samples = self.steps.hemisphere_samples(self.samples, lights);
+        let total = (0..samples).map(|_| self.hemisphere_sample(random)).sum();
+        self.steps.hemisphere_mean(total, samples)
     }
 
-    fn hemisphere_sample(&self, random: &mut Random) -> DVec3 {
-        let (wi, pdf) = self.uniform_direction(random);
-        let arriving = self.glow_along(wi);
-        let light = arriving * self.f_cosine(wi) / pdf;
-        match self.change {
-            Change::UniformPdfDoubledTwice => 2.0 * light,
-            _ => light,
-        }
+    fn hemisphere_sample(&self, random: &mut Random<'_>) -> DVec3 {
+        let (wi, pdf) = self.uniform_direction(random.point());
+        let direction = self.steps.hemisphere_direction(&self.vertex.frame, wi);
+        let seen = self.world.look(&self.steps.ray_from(self.vertex, direction));
+        self.steps.hemisphere_estimate(zero_bounce(self.world, &seen) * self.f_cosine(wi), pdf)
     }
 
     /// From where the surface scatters light to the viewer: its side, or both where light passes.
-    fn uniform_direction(&self, random: &mut Random) -> (DVec3, f64) {
-        let point = random.point();
+    fn uniform_direction(&self, point: DVec2) -> (DVec3, f64) {
         if bsdf::is_interface(self.vertex.surface) {
             return (sampling::uniform_sphere(point), sampling::uniform_sphere_pdf());
         }
-        let above = sampling::uniform_hemisphere(point, self.change);
+        let above = sampling::direction(Sampler::UniformHemisphere, point, self.steps);
         let wi = if self.vertex.wo.z < 0.0 { -above } else { above };
-        (wi, sampling::uniform_hemisphere_pdf(self.change))
-    }
-
-    /// Radiance of the first thing in direction `wi` (local).
-    fn glow_along(&self, wi: DVec3) -> DVec3 {
-        let ray = match self.change {
-            Change::HemisphereWorldDirection => Ray { direction: wi, ..self.vertex.ray(wi) },
-            _ => self.vertex.ray(wi),
-        };
-        zero_bounce(self.world, &self.world.look(&ray))
+        (wi, self.steps.uniform_hemisphere_pdf())
     }
 
     /// f · |cos θ| for the local direction `wi`.
@@ -109,70 +92,41 @@ impl Scatter<'_> {
 
     /// For the local direction `wi`.
     fn f(&self, wi: DVec3) -> DVec3 {
-        let value = bsdf::evaluate(self.vertex.surface, self.vertex.wo, wi, self.change);
-        bsdf::corrected(self.vertex.surface, value.f, self.change)
+        let Vertex { surface, wo, .. } = *self.vertex;
+        self.steps.scattered(surface, bsdf::evaluate(surface, wo, wi, self.steps).f)
     }
 
     /// Sum over the `wanted` lights of the mean over samples of each.
-    fn by_lights(&self, random: &mut Random, wanted: impl Fn(&Lamp) -> bool) -> DVec3 {
+    fn by_lights(&self, random: &mut Random<'_>, wanted: impl Fn(&Lamp) -> bool) -> DVec3 {
         let lights = self.world.lights().iter().filter(|light| wanted(light));
-        let count = lights.clone().count() as f64;
-        let radiances = lights.map(|light| self.by_light(light, random));
-        match self.change {
-            Change::DividedInLoop => radiances
-                .fold(DVec3::ZERO, |total, radiance| total / f64::from(self.samples) + radiance),
-            Change::DividedByLights => radiances.sum::<DVec3>() / count.max(1.0),
-            Change::LastLightOnly => radiances.last().unwrap_or(DVec3::ZERO),
-            _ => radiances.sum(),
-        }
+        let mut radiances = lights.map(|light| self.by_light(light, random));
+        self.steps.sum_over_lights(&mut radiances, self.samples)
     }
 
     /// A delta light is one direction: it needs no second sample.
-    fn by_light(&self, light: &Lamp, random: &mut Random) -> DVec3 {
+    fn by_light(&self, light: &Lamp, random: &mut Random<'_>) -> DVec3 {
         let samples = if light.is_delta() { 1 } else { self.samples };
-        let total: DVec3 =
-            (0..samples).map(|number| self.light_sample(light, number, samples, random)).sum();
-        match self.change {
-            Change::DeltaDivided => total / f64::from(self.samples),
-            _ => total / f64::from(samples),
-        }
+        let sample = |number| self.light_sample(light, number, samples, random);
+        self.steps.light_mean((0..samples).map(sample).sum(), samples, self.samples)
     }
 
     /// Sample number `number` of so many of a light.
-    fn light_sample(&self, light: &Lamp, number: u32, of: u32, random: &mut Random) -> DVec3 {
-        let (point, lobe) = (random.point(), random.number());
-        let point = match self.change {
-            Change::StratifiedLights => point.with_x((f64::from(number) + point.x) / f64::from(of)),
-            _ => point,
-        };
-        let Some(sample) = light.sample(self.vertex.point, point, lobe, self.change) else {
+    fn light_sample(&self, light: &Lamp, number: u32, of: u32, random: &mut Random<'_>) -> DVec3 {
+        let (point, lobe) = (self.steps.light_point(random, number, of), random.number());
+        let Some(sample) = light.sample(self.vertex.point, point, lobe, self.steps) else {
             return DVec3::ZERO;
         };
         let wi = self.vertex.frame.to_local(sample.wi);
-        let f_cosine = match self.change {
-            Change::WorldCosine => self.f(wi) * sample.wi.z.abs(),
-            _ => self.f_cosine(wi),
-        };
+        let f_cosine = self.f(wi) * self.steps.light_cosine(wi, sample.wi);
         if f_cosine == DVec3::ZERO || self.is_shadowed(&sample) {
             return DVec3::ZERO;
         }
-        let weight = self.light_weight(&sample);
-        let light = weight * DVec3::from(sample.radiance) * f_cosine;
-        match self.change {
-            Change::LightTimesPdf => light * sample.pdf,
-            _ => light / sample.pdf,
-        }
+        let light = self.light_weight(&sample) * DVec3::from(sample.radiance) * f_cosine;
+        self.steps.light_estimate(light, sample.pdf)
     }
 
     fn is_shadowed(&self, sample: &LightSample) -> bool {
-        if self.change == Change::NoShadows {
-            return false;
-        }
-        let ray = self.vertex.shadow_ray(sample.wi, sample.distance);
-        let ray = match self.change {
-            Change::ShadowWithoutEnd if sample.is_delta == 1 => Ray { t_max: f64::INFINITY, ..ray },
-            _ => ray,
-        };
+        let ray = self.steps.shadow_ray(self.vertex, sample);
         self.world.any_hit(&ray, &mut TraversalStats::default())
     }
 
@@ -182,23 +136,24 @@ impl Scatter<'_> {
             return 1.0;
         }
         let wi = self.vertex.frame.to_local(sample.wi);
-        let value = bsdf::evaluate(self.vertex.surface, self.vertex.wo, wi, self.change);
+        let value = bsdf::evaluate(self.vertex.surface, self.vertex.wo, wi, self.steps);
         power_heuristic(sample.pdf, value.pdf)
     }
 
     /// The rest of the light on a glossy surface: along directions that the surface samples.
-    fn by_surface(&self, random: &mut Random) -> DVec3 {
+    fn by_surface(&self, random: &mut Random<'_>) -> DVec3 {
         let total: DVec3 = (0..self.samples).map(|_| self.surface_sample(random)).sum();
         total / f64::from(self.samples)
     }
 
-    fn surface_sample(&self, random: &mut Random) -> DVec3 {
+    fn surface_sample(&self, random: &mut Random<'_>) -> DVec3 {
         let (point, lobe) = (random.point(), random.number());
-        let (surface, wo) = (self.vertex.surface, self.vertex.wo);
-        let Some(sample) = bsdf::sample(surface, wo, point, lobe, self.change) else {
+        let Vertex { surface, wo, frame, .. } = *self.vertex;
+        let Some(sample) = bsdf::sample(surface, wo, point, lobe, self.steps) else {
             return DVec3::ZERO;
         };
-        let arriving = match self.world.look(&self.vertex.ray(sample.wi)) {
+        let ray = self.steps.ray_from(self.vertex, frame.to_world(sample.wi));
+        let arriving = match self.world.look(&ray) {
             View::Surface(seen) => self.weighted_emission(&seen, sample.pdf),
             View::Sky(direction) => self.weighted_sky(direction, sample.pdf),
         };
@@ -206,19 +161,64 @@ impl Scatter<'_> {
     }
 
     fn weighted_emission(&self, seen: &Vertex<'_>, surface_pdf: f64) -> DVec3 {
-        let light_pdf = seen
-            .light
-            .map_or(0.0, |light| light.area_pdf(self.vertex.point, seen.point, seen.normal));
-        power_heuristic(surface_pdf, light_pdf) * seen.emitted
+        let pdf_of =
+            |light: &Lamp| light.area_pdf(self.vertex.point, seen.point, seen.normal, self.steps);
+        power_heuristic(surface_pdf, seen.light.map_or(0.0, pdf_of)) * seen.emitted
     }
 
     fn weighted_sky(&self, direction: DVec3, surface_pdf: f64) -> DVec3 {
         let of_light = |light: &Lamp| {
-            power_heuristic(surface_pdf, light.sky_pdf(self.change))
+            power_heuristic(surface_pdf, light.sky_pdf(self.steps))
                 * DVec3::from(light.sky_radiance(direction))
         };
         self.world.lights().iter().map(of_light).sum()
     }
+}
+
+/// As many directions as light sampling would draw points.
+pub fn hemisphere_samples(per_light: u32, lights: u32) -> u32 {
+    (per_light * lights).max(1)
+}
+
+/// Out in the world.
+pub fn hemisphere_direction(frame: &Frame, wi: DVec3) -> DVec3 {
+    frame.to_world(wi)
+}
+
+/// `light` is what arrives, times f · |cos θ|.
+pub fn hemisphere_estimate(light: DVec3, pdf: f64) -> DVec3 {
+    light / pdf
+}
+
+/// Over the directions.
+pub fn hemisphere_mean(total: DVec3, samples: u32) -> DVec3 {
+    total / f64::from(samples)
+}
+
+/// The numbers for sample `number` of so many of one light.
+pub fn light_point(random: &mut Random<'_>, _number: u32, _of: u32) -> DVec2 {
+    random.point()
+}
+
+/// |cos θ| at the surface, of a direction that is known in both frames.
+pub fn light_cosine(local: DVec3, _world: DVec3) -> f64 {
+    local.z.abs()
+}
+
+/// `light` is the light's radiance, times f · |cos θ|.
+pub fn light_estimate(light: DVec3, pdf: f64) -> DVec3 {
+    light / pdf
+}
+
+/// Over the samples of one light that were drawn; of a delta light that is one, whatever was asked
+/// for.
+pub fn light_mean(total: DVec3, drawn: u32, _asked_for: u32) -> DVec3 {
+    total / f64::from(drawn)
+}
+
+/// Light adds up. `each` are the means of the lights, of so many samples.
+pub fn sum_over_lights(each: &mut dyn Iterator<Item = DVec3>, _samples: u32) -> DVec3 {
+    each.sum()
 }
 
 /// Weight of a sample drawn with density `own` where another technique with as many samples has
@@ -227,8 +227,8 @@ fn power_heuristic(own: f64, other: f64) -> f64 {
     own * own / (own * own + other * other)
 }
 
-/// Radiance that a view shows without any scattering: what glows, or the sky.
-pub fn zero_bounce(world: &World, view: &View<'_>) -> DVec3 {
+/// Radiance that a view shows without any scattering: what is emitted there, or the sky.
+pub fn zero_bounce(world: &World<'_>, view: &View<'_>) -> DVec3 {
     match view {
         View::Surface(vertex) => vertex.emitted,
         View::Sky(direction) => world.sky_radiance(*direction),

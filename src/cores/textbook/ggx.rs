@@ -3,52 +3,66 @@
 //! Formulas: Walter et al. 2007 (distribution, masking); Heitz 2018, "Sampling the GGX distribution
 //! of visible normals". All directions have z > 0 here.
 
-use super::change::Change;
+use super::steps::Steps;
 use crate::contract::BsdfValue;
 use crate::scene::Rgb;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// f = R D(h) G₁(wo) G₁(wi) / (4 cos θo cos θi), and the density of visible normals G₁(wo) D(h)
-/// max(0, wo·h) / cos θo over the Jacobian 4 wo·h of the reflection.
+/// What f and density of a pair of directions are made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Facets {
+    /// α.
+    pub roughness: f64,
+    /// Towards the viewer.
+    pub wo: DVec3,
+    /// Towards the light.
+    pub wi: DVec3,
+    /// The normal h of the facets that reflect one into the other.
+    pub normal: DVec3,
+    /// D(h).
+    pub density: f64,
+    /// G₁(wo)/cos θo and G₁(wi)/cos θi.
+    pub masking_over_cosine: [f64; 2],
+}
+
+/// `f` and the density of [`sample`].
 pub fn evaluate(
     reflectance: Rgb,
     roughness: f64,
     wo: DVec3,
     wi: DVec3,
-    change: Change,
+    steps: &Steps,
 ) -> BsdfValue {
-    let roughness = alpha(roughness, change);
-    let facet = (wo + wi).normalize();
-    let density = facet_density(roughness, facet);
-    let masked_wo = masking_over_cosine(roughness, wo);
-    let masked_wi = masking_over_cosine(roughness, wi);
-    let value = match change {
-        Change::MetalWithoutMasking => density / (4.0 * wo.z * wi.z),
-        Change::MetalWithoutFour => density * masked_wo * masked_wi,
-        Change::CorrelatedSmith => {
-            density * height_correlated_masking(roughness, wo, wi) / (4.0 * wo.z * wi.z)
-        }
-        _ => density * masked_wo * masked_wi / 4.0,
-    };
-    let pdf = match change {
-        Change::MetalPdfOfFacets => density * masked_wo * wo.dot(facet).max(0.0),
-        _ => density * masked_wo / 4.0,
-    };
-    BsdfValue { f: reflectance.map(|r| r * value), pdf }
+    let roughness = steps.alpha(roughness);
+    let normal = (wo + wi).normalize();
+    let density = facet_density(roughness, normal);
+    let masking_over_cosine = [wo, wi].map(|w| masking_over_cosine(roughness, w));
+    let facets = Facets { roughness, wo, wi, normal, density, masking_over_cosine };
+    let value = steps.metal_f(&facets);
+    BsdfValue { f: reflectance.map(|r| r * value), pdf: steps.metal_pdf(&facets) }
 }
 
 /// The width of the lobe is the roughness itself.
-fn alpha(roughness: f64, change: Change) -> f64 {
-    match change {
-        Change::MetalRoughnessSquared => roughness * roughness,
-        _ => roughness,
-    }
+pub fn alpha(roughness: f64) -> f64 {
+    roughness
+}
+
+/// f/R = D(h) G₁(wo) G₁(wi) / (4 cos θo cos θi).
+pub fn metal_f(facets: &Facets) -> f64 {
+    let [masking_wo, masking_wi] = facets.masking_over_cosine;
+    facets.density * masking_wo * masking_wi / 4.0
+}
+
+/// The density of visible normals, G₁(wo) D(h) max(0, wo·h) / cos θo, over the Jacobian 4 wo·h of
+/// the reflection.
+pub fn metal_pdf(facets: &Facets) -> f64 {
+    facets.density * facets.masking_over_cosine[0] / 4.0
 }
 
 /// A direction reflected from a visible facet; it may point below the horizon, where `f` is zero.
-pub fn sample(roughness: f64, wo: DVec3, point: DVec2, change: Change) -> DVec3 {
-    let facet = visible_facet(alpha(roughness, change), wo, point);
+pub fn sample(roughness: f64, wo: DVec3, point: DVec2, steps: &Steps) -> DVec3 {
+    let facet = visible_facet(steps.alpha(roughness), wo, point);
     2.0 * wo.dot(facet) * facet - wo
 }
 
@@ -66,15 +80,6 @@ pub fn masking_over_cosine(roughness: f64, w: DVec3) -> f64 {
     let alpha_squared = roughness * roughness;
     let sine_squared = w.x * w.x + w.y * w.y;
     2.0 / (w.z + (w.z * w.z + alpha_squared * sine_squared).sqrt())
-}
-
-/// 1/(1 + Λ(wo) + Λ(wi)), with Λ = (√(1 + α² tan² θ) − 1)/2.
-pub fn height_correlated_masking(roughness: f64, wo: DVec3, wi: DVec3) -> f64 {
-    let lambda = |w: DVec3| {
-        let tangent_squared = (w.x * w.x + w.y * w.y) / (w.z * w.z);
-        ((1.0 + roughness * roughness * tangent_squared).sqrt() - 1.0) / 2.0
-    };
-    1.0 / (1.0 + lambda(wo) + lambda(wi))
 }
 
 /// Heitz 2018, listing 1: stretch to the unit hemisphere, sample its projected area as seen from
@@ -103,6 +108,7 @@ fn visible_disk_point(view: DVec3, point: DVec2) -> DVec2 {
 mod tests {
     use super::*;
     use crate::cores::textbook::sampling::direction_at;
+    use crate::cores::textbook::steps::LESSON;
 
     fn view(degrees: f64) -> DVec3 {
         let (sine, cosine) = degrees.to_radians().sin_cos();
@@ -133,7 +139,7 @@ mod tests {
             }
             let facets_per_point = 2.0 * point.x / (facet_density(roughness, facet) * facet.z);
             let directions_per_facet = 4.0 * wo.dot(facet);
-            let value = evaluate([1.0; 3], roughness, wo, wi, Change::None);
+            let value = evaluate([1.0; 3], roughness, wo, wi, &LESSON);
             integrand(wi, &value) * directions_per_facet * facets_per_point
         };
         grid(SIDE).map(of_point).sum::<f64>() / f64::from(SIDE * SIDE)
@@ -189,7 +195,7 @@ mod tests {
         for (roughness, degrees, _) in ALBEDOS.into_iter().step_by(3) {
             let wo = view(degrees);
             for (number, moment) in moments.into_iter().enumerate() {
-                let sampled = grid(SIDE).map(|point| sample(roughness, wo, point, Change::None));
+                let sampled = grid(SIDE).map(|point| sample(roughness, wo, point, &LESSON));
                 let sampled: f64 = sampled.filter(|wi| wi.z > 0.0).map(moment).sum();
                 let sampled = sampled / f64::from(SIDE * SIDE);
                 let claimed = integrate(roughness, wo, |wi, value| value.pdf * moment(wi));

@@ -1,7 +1,7 @@
 //! A smooth interface between vacuum (the side of the normal) and glass.
 
 use super::bsdf;
-use super::change::Change;
+use super::steps::Steps;
 use crate::contract::BsdfSample;
 use crate::scene::Rgb;
 use glam::DVec3;
@@ -15,61 +15,35 @@ pub struct Glass {
     pub reflectance: Rgb,
     /// Multiplies what is let through.
     pub transmittance: Rgb,
-    /// What this copy of the core does otherwise.
-    pub change: Change,
 }
 
 impl Glass {
     /// Reflects with the probability of Fresnel's reflectance, refracts otherwise.
-    pub fn sample(&self, wo: DVec3, lobe: f64) -> Option<BsdfSample> {
-        let ratio = self.index_ratio(wo);
-        let fresnel = self.fresnel(wo.z.abs(), ratio);
-        let reflects = match self.change {
-            Change::GlassCoinToss => lobe < 0.5 && fresnel > 0.0,
-            _ => lobe < fresnel,
-        };
-        let (reflected, passed) = match self.change {
-            Change::GlassFresnelForgotten => (1.0, 1.0),
-            _ => (fresnel, 1.0 - fresnel),
-        };
-        if reflects {
+    pub fn sample(&self, wo: DVec3, lobe: f64, steps: &Steps) -> Option<BsdfSample> {
+        let ratio = steps.relative_index(self.index, wo);
+        let fresnel = steps.fresnel(wo.z.abs(), ratio);
+        let (reflected, transmitted) = steps.shares(fresnel);
+        if steps.reflects(lobe, fresnel) {
             let weight = self.reflectance.map(|r| r * reflected);
             return bsdf::delta(bsdf::reflect(wo), weight, fresnel);
         }
-        let weight = self.transmittance.map(|t| t * passed * self.radiance_scale(ratio));
+        let scale = steps.radiance_scale(ratio);
+        let weight = self.transmittance.map(|t| t * transmitted * scale);
         bsdf::delta(refract(wo, ratio)?, weight, 1.0 - fresnel)
     }
+}
 
-    /// Index of refraction on the far side over that on the side of `wo`.
-    fn index_ratio(&self, wo: DVec3) -> f64 {
-        let enters = match self.change {
-            Change::GlassIndicesSwapped => wo.z < 0.0,
-            _ => wo.z > 0.0,
-        };
-        if enters { self.index } else { 1.0 / self.index }
-    }
+/// Index of refraction on the far side over that on the side of `wo`.
+pub fn relative_index(index: f64, wo: DVec3) -> f64 {
+    if wo.z > 0.0 { index } else { 1.0 / index }
+}
 
-    /// Share of light that is reflected.
-    fn fresnel(&self, cosine: f64, ratio: f64) -> f64 {
-        match self.change {
-            Change::SchlickGlass => schlick_reflectance(cosine, cosine, ratio),
-            Change::GlassSchlickUndeclared | Change::SchlickGlassOutside => {
-                let beyond = refracted_cosine(cosine, ratio).unwrap_or(cosine);
-                schlick_reflectance(cosine, if ratio < 1.0 { beyond } else { cosine }, ratio)
-            }
-            Change::GlassWithoutTotalReflection if refracted_cosine(cosine, ratio).is_none() => 0.0,
-            _ => fresnel_reflectance(cosine, ratio),
-        }
-    }
-
-    /// Radiance over index squared is what crosses an interface unchanged: light that comes to the
-    /// side of `wo` out of the denser medium is spread over a wider cone.
-    fn radiance_scale(&self, ratio: f64) -> f64 {
-        match self.change {
-            Change::GlassUnscaledUndeclared | Change::UnscaledGlass => 1.0,
-            _ => 1.0 / (ratio * ratio),
-        }
-    }
+/// The unpolarised reflectance of Fresnel's equations for light that arrives at `cosine` > 0.
+pub fn fresnel(cosine: f64, ratio: f64) -> f64 {
+    let Some(refracted) = refracted_cosine(cosine, ratio) else { return 1.0 };
+    let perpendicular = (cosine - ratio * refracted) / (cosine + ratio * refracted);
+    let parallel = (ratio * cosine - refracted) / (ratio * cosine + refracted);
+    (perpendicular * perpendicular + parallel * parallel) / 2.0
 }
 
 /// Cosine of the refracted direction by Snell's law; `None` if all light is reflected.
@@ -78,22 +52,20 @@ pub fn refracted_cosine(cosine: f64, ratio: f64) -> Option<f64> {
     (sine_squared < 1.0).then(|| (1.0 - sine_squared).sqrt())
 }
 
-/// The unpolarised reflectance of Fresnel's equations for light that arrives at `cosine` > 0.
-pub fn fresnel_reflectance(cosine: f64, ratio: f64) -> f64 {
-    let Some(refracted) = refracted_cosine(cosine, ratio) else { return 1.0 };
-    let perpendicular = (cosine - ratio * refracted) / (cosine + ratio * refracted);
-    let parallel = (ratio * cosine - refracted) / (ratio * cosine + refracted);
-    (perpendicular * perpendicular + parallel * parallel) / 2.0
+/// The number of the lobe decides: reflection has the probability `fresnel`.
+pub fn reflects(lobe: f64, fresnel: f64) -> bool {
+    lobe < fresnel
 }
 
-/// Schlick's approximation of some cosine, for light that arrives at `cosine`; total reflection stays
-/// total.
-fn schlick_reflectance(cosine: f64, of: f64, ratio: f64) -> f64 {
-    if refracted_cosine(cosine, ratio).is_none() {
-        return 1.0;
-    }
-    let at_normal = ((1.0 - ratio) / (1.0 + ratio)).powi(2);
-    at_normal + (1.0 - at_normal) * (1.0 - of).powi(5)
+/// The shares of light that are reflected and transmitted.
+pub fn shares(fresnel: f64) -> (f64, f64) {
+    (fresnel, 1.0 - fresnel)
+}
+
+/// Radiance over index squared is what crosses an interface unchanged: light that comes to the
+/// side of `wo` out of the denser medium is spread over a wider cone.
+pub fn radiance_scale(ratio: f64) -> f64 {
+    1.0 / (ratio * ratio)
 }
 
 /// The direction on the far side from which light is bent towards `wo`.
@@ -105,9 +77,10 @@ fn refract(wo: DVec3, ratio: f64) -> Option<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cores::textbook::steps::LESSON;
 
     fn clear() -> Glass {
-        Glass { index: 1.5, reflectance: [1.0; 3], transmittance: [1.0; 3], change: Change::None }
+        Glass { index: 1.5, reflectance: [1.0; 3], transmittance: [1.0; 3] }
     }
 
     fn from_degrees(degrees: f64) -> DVec3 {
@@ -117,7 +90,7 @@ mod tests {
 
     fn refracted(wo: DVec3) -> BsdfSample {
         let almost_one = 1.0 - f64::EPSILON;
-        clear().sample(wo, almost_one).expect("light passes")
+        clear().sample(wo, almost_one, &LESSON).expect("light passes")
     }
 
     /// Mean over the hemisphere with cosine weight: ∫ 2c F(c) dc.
@@ -125,15 +98,15 @@ mod tests {
         let steps = 200_000;
         (0..steps)
             .map(|i| (f64::from(i) + 0.5) / f64::from(steps))
-            .map(|cosine| 2.0 * cosine * fresnel_reflectance(cosine, ratio) / f64::from(steps))
+            .map(|cosine| 2.0 * cosine * fresnel(cosine, ratio) / f64::from(steps))
             .sum()
     }
 
     #[test]
     fn reflectance_has_the_known_values() {
         let at_60 = 60.0_f64.to_radians().cos();
-        assert!((fresnel_reflectance(1.0, 1.5) - 0.04).abs() < 1e-15);
-        assert!((fresnel_reflectance(at_60, 1.5) - 0.089_186_712_8).abs() < 1e-10);
+        assert!((fresnel(1.0, 1.5) - 0.04).abs() < 1e-15);
+        assert!((fresnel(at_60, 1.5) - 0.089_186_712_8).abs() < 1e-10);
         // Walsh's closed forms, S25.
         assert!((mean_reflectance(1.5) - 0.091_777_959_34).abs() < 1e-8);
         assert!((mean_reflectance(1.0 / 1.5) - 0.596_345_759_7).abs() < 1e-7);
@@ -152,7 +125,7 @@ mod tests {
         let critical = (1.0_f64 / 1.5).asin().to_degrees();
         let below = |degrees| -from_degrees(degrees);
         assert!(refracted(below(critical - 0.01)).wi.z > 0.0);
-        let reflected = clear().sample(below(critical + 0.01), 0.999);
+        let reflected = clear().sample(below(critical + 0.01), 0.999, &LESSON);
         let reflected = reflected.expect("light comes back");
         assert!(reflected.wi.z < 0.0 && reflected.pdf == 1.0, "{reflected:?}");
     }
@@ -168,6 +141,6 @@ mod tests {
 
     #[test]
     fn light_along_the_surface_is_a_failed_sample_and_not_a_number_game() {
-        assert_eq!(clear().sample(DVec3::X, 0.3), None);
+        assert_eq!(clear().sample(DVec3::X, 0.3, &LESSON), None);
     }
 }

@@ -4,7 +4,7 @@
 //! spheres are hit strictly inside the segment (t_min, t_max). Not here: normals that are
 //! interpolated, and which shape a primitive belongs to (`world`).
 
-use super::change::Change;
+use super::steps::Steps;
 use crate::contract::Ray;
 use crate::scene::Aabb;
 use glam::{DVec2, DVec3};
@@ -70,70 +70,55 @@ impl Triangle {
 
     /// Möller and Trumbore 1997: solve origin + t·direction = (1 − u − v)·a + u·b + v·c by Cramer's
     /// rule. Both sides are hit, and edges belong to the triangle.
-    pub fn intersect(&self, ray: &Ray, change: Change) -> Option<Crossing> {
+    pub fn intersect(&self, ray: &Ray, steps: &Steps) -> Option<Crossing> {
         let [edge1, edge2] = self.edges;
         let p = ray.direction.cross(edge2);
         let determinant = edge1.dot(p);
-        if change == Change::NanAccepted {
-            return self.intersect_by_rejection(ray);
-        }
-        if change == Change::DeterminantThreshold && determinant.abs() < 1e-5
-            || change == Change::BackCulled && determinant < 0.0
-        {
-            return None;
-        }
         let from_corner = ray.origin - self.corner;
         let u = from_corner.dot(p) / determinant;
-        if !(-MOST_FORGIVEN..=1.0 + MOST_FORGIVEN).contains(&u) {
+        // Most rays are far off, and need no more work. What is not a number is told below.
+        if u < -MOST_FORGIVEN || u > 1.0 + MOST_FORGIVEN {
             return None;
         }
         let q = from_corner.cross(edge1);
         let v = ray.direction.dot(q) / determinant;
         let t = edge2.dot(q) / determinant;
-        let is_on_segment = match change {
-            Change::TriangleEndIgnored => t > ray.t_min,
-            _ => contains(ray, t),
-        };
-        if !is_on_segment {
+        if !steps.triangle_reached(ray, t) {
             return None;
         }
-        let error = self.weight_error(ray, from_corner, determinant)?;
-        let inside = match change {
-            Change::StrictEdges => u > 0.0 && v > 0.0 && u + v < 1.0,
-            Change::Parallelogram => u >= -error && v >= -error && v <= 1.0 + error,
-            _ => u >= -error && v >= -error && u + v <= 1.0 + error,
-        };
-        inside.then_some(Crossing { t, uv: DVec2::new(u, v) })
+        let error = steps.weight_error(self, ray, from_corner, determinant)?;
+        steps.triangle_holds(u, v, error).then_some(Crossing { t, uv: DVec2::new(u, v) })
     }
+}
 
-    /// [`Change::NanAccepted`]: no test for parallel rays, and comparisons that reject. A ray in the
-    /// plane divides 0 by 0, and what is not a number is not rejected.
-    fn intersect_by_rejection(&self, ray: &Ray) -> Option<Crossing> {
-        let [edge1, edge2] = self.edges;
-        let p = ray.direction.cross(edge2);
-        let from_corner = ray.origin - self.corner;
-        let q = from_corner.cross(edge1);
-        let [u, v, t] = [from_corner.dot(p), ray.direction.dot(q), edge2.dot(q)]
-            .map(|numerator| numerator / edge1.dot(p));
-        let is_outside = u < 0.0 || v < 0.0 || u + v > 1.0;
-        let is_rejected = is_outside || t <= ray.t_min || t >= ray.t_max;
-        (!is_rejected).then_some(Crossing { t, uv: DVec2::new(u, v) })
-    }
+/// Whether the plane of a triangle is met on the segment.
+pub fn triangle_reached(ray: &Ray, t: f64) -> bool {
+    contains(ray, t)
+}
 
-    /// How far rounding can put u and v off; `None` if the determinant is nothing but rounding,
-    /// because the ray is parallel to the triangle.
-    ///
-    /// Two triangles that share an edge compute on which side of it a ray passes in different ways.
-    /// Were there no room for rounding, a ray through the edge could miss both: a crack along the
-    /// diagonal of every floor. The room is relative to all lengths involved, so that neither small
-    /// nor far triangles vanish or grow.
-    fn weight_error(&self, ray: &Ray, from_corner: DVec3, determinant: f64) -> Option<f64> {
-        let speed = ray.direction.length();
-        let error_by_distance = ROUNDING * speed * self.longest_edge / determinant.abs();
-        let error = error_by_distance * (from_corner.length() + self.longest_edge);
-        let is_crossed = error_by_distance * self.longest_edge < 1.0;
-        is_crossed.then_some(error.min(MOST_FORGIVEN))
-    }
+/// How far rounding can put u and v off; `None` if the determinant is nothing but rounding,
+/// because the ray is parallel to the triangle.
+///
+/// Two triangles that share an edge compute on which side of it a ray passes in different ways.
+/// Were there no room for rounding, a ray through the edge could miss both: a crack along the
+/// diagonal of every floor. The room is relative to all lengths involved, so that neither small
+/// nor far triangles vanish or grow.
+pub fn weight_error(
+    triangle: &Triangle,
+    ray: &Ray,
+    from_corner: DVec3,
+    determinant: f64,
+) -> Option<f64> {
+    let speed = ray.direction.length();
+    let error_by_distance = ROUNDING * speed * triangle.longest_edge / determinant.abs();
+    let error = error_by_distance * (from_corner.length() + triangle.longest_edge);
+    let is_crossed = error_by_distance * triangle.longest_edge < 1.0;
+    is_crossed.then_some(error.min(MOST_FORGIVEN))
+}
+
+/// Whether the point with these weights lies in the triangle, edges included.
+pub fn triangle_holds(u: f64, v: f64, error: f64) -> bool {
+    u >= -error && v >= -error && u + v <= 1.0 + error
 }
 
 /// A sphere without a side.
@@ -143,6 +128,19 @@ pub struct Ball {
     pub centre: DVec3,
     /// Scene units, positive.
     pub radius: f64,
+}
+
+/// a t² + b t + c = 0 for the points that a ray and a sphere share.
+#[derive(Clone, Copy, Debug)]
+pub struct Quadratic {
+    /// The direction's length, squared.
+    pub a: f64,
+    /// b/2.
+    pub half_b: f64,
+    /// Positive outside the sphere.
+    pub c: f64,
+    /// (b/2)² − ac, computed so that it keeps its digits.
+    pub discriminant: f64,
 }
 
 impl Ball {
@@ -156,62 +154,51 @@ impl Ball {
         Aabb { min: self.centre - self.radius, max: self.centre + self.radius }
     }
 
-    /// Unit, away from the centre.
-    pub fn outward_normal(&self, point: DVec3, change: Change) -> DVec3 {
-        match change {
-            Change::SphereNormalNotUnit => point - self.centre,
-            _ => (point - self.centre).normalize(),
-        }
-    }
-
     /// The nearer crossing inside the segment; from inside the ball that is the far one.
-    pub fn intersect(&self, ray: &Ray, change: Change) -> Option<Crossing> {
-        let (near, far) = self.roots(ray, change)?;
-        let t = match change {
-            Change::NearRootOnly => contains(ray, near).then_some(near),
-            Change::BothRootsRequired => {
-                (contains(ray, near) && contains(ray, far)).then_some(near)
-            }
-            Change::FirstRootUnchecked => {
-                (contains(ray, near) || contains(ray, far)).then_some(near)
-            }
-            Change::FarRootTaken => contains(ray, far).then_some(far),
-            Change::SphereBehindHit => [near, far].into_iter().find(|t| *t < ray.t_max),
-            _ => [near, far].into_iter().find(|t| contains(ray, *t)),
-        }?;
-        Some(Crossing { t, uv: DVec2::ZERO })
+    pub fn intersect(&self, ray: &Ray, steps: &Steps) -> Option<Crossing> {
+        let quadratic = self.quadratic(ray);
+        if quadratic.discriminant < 0.0 {
+            return None;
+        }
+        let (first, second) = steps.roots(quadratic);
+        let (near, far) = if first <= second { (first, second) } else { (second, first) };
+        steps.nearer_root(ray, near, far).map(|t| Crossing { t, uv: DVec2::ZERO })
     }
 
-    /// Both solutions of |origin + t·direction − centre|² = radius², in order.
+    /// |origin + t·direction − centre|² = radius².
     ///
-    /// The discriminant comes from the distance between centre and line, and the smaller root from
-    /// the product of both: neither subtracts large equal numbers when the ball is small and far
-    /// away (Haines et al., Ray Tracing Gems, chapter 7).
-    fn roots(&self, ray: &Ray, change: Change) -> Option<(f64, f64)> {
+    /// The discriminant comes from the distance between centre and line: no large equal numbers are
+    /// subtracted when the ball is small and far away (Haines et al., Ray Tracing Gems, chapter 7).
+    fn quadratic(&self, ray: &Ray) -> Quadratic {
         let from_centre = ray.origin - self.centre;
         let a = ray.direction.length_squared();
         let half_b = from_centre.dot(ray.direction);
         let c = from_centre.length_squared() - self.radius * self.radius;
         let nearest = from_centre - half_b / a * ray.direction;
         let discriminant = a * (self.radius * self.radius - nearest.length_squared());
-        if discriminant < 0.0 {
-            return None;
-        }
-        let q = -(half_b + discriminant.sqrt().copysign(half_b));
-        let (first, second) = match change {
-            Change::QuadraticPrecedence => (c / q * a * a, q * a),
-            Change::SphereCancellation => {
-                let root = (half_b * half_b - a * c).max(0.0).sqrt();
-                ((-half_b - root) / a, (-half_b + root) / a)
-            }
-            _ => (c / q, q / a),
-        };
-        Some(if first <= second { (first, second) } else { (second, first) })
+        Quadratic { a, half_b, c, discriminant }
     }
 }
 
+/// Both solutions, in any order. The smaller one comes from the product of both, c/a: the usual
+/// formula would subtract nearly equal numbers.
+pub fn roots(Quadratic { a, half_b, c, discriminant }: Quadratic) -> (f64, f64) {
+    let q = -(half_b + discriminant.sqrt().copysign(half_b));
+    (c / q, q / a)
+}
+
+/// The first of the two that lies on the segment.
+pub fn nearer_root(ray: &Ray, near: f64, far: f64) -> Option<f64> {
+    [near, far].into_iter().find(|t| contains(ray, *t))
+}
+
+/// Unit, away from the centre.
+pub fn outward_normal(ball: &Ball, point: DVec3) -> DVec3 {
+    (point - ball.centre).normalize()
+}
+
 /// Whether `t` lies strictly inside the ray's segment. Not a number lies nowhere.
-fn contains(ray: &Ray, t: f64) -> bool {
+pub fn contains(ray: &Ray, t: f64) -> bool {
     ray.t_min < t && t < ray.t_max
 }
 
@@ -219,15 +206,16 @@ fn contains(ray: &Ray, t: f64) -> bool {
 mod tests {
     use super::*;
     use crate::cores::textbook::random::Random;
+    use crate::cores::textbook::steps::LESSON;
 
     /// A vector with components between −1 and 1.
-    fn vector(random: &mut Random) -> DVec3 {
+    fn vector(random: &mut Random<'_>) -> DVec3 {
         let DVec2 { x, y } = random.point();
         2.0 * DVec3::new(x, y, random.number()) - 1.0
     }
 
     /// A triangle of size 1e-3 to 1e3, a ray through its point with weights `uv` at parameter `t`.
-    fn aimed(random: &mut Random, uv: DVec2, t: f64) -> (Triangle, Ray) {
+    fn aimed(random: &mut Random<'_>, uv: DVec2, t: f64) -> (Triangle, Ray) {
         let scale = 10.0_f64.powf(6.0 * random.number() - 3.0);
         let triangle = loop {
             let corners = [(); 3].map(|()| scale * vector(random));
@@ -253,7 +241,7 @@ mod tests {
             let uv =
                 DVec2::new(u, (1.0 - u) * random.number()).clamp(DVec2::splat(1e-9), DVec2::ONE);
             let (triangle, ray) = aimed(&mut random, uv * (1.0 - 1e-8), t);
-            let crossing = triangle.intersect(&ray, Change::None).expect("aimed inside");
+            let crossing = triangle.intersect(&ray, &LESSON).expect("aimed inside");
             assert!((crossing.t - t).abs() < 1e-11, "{crossing:?} {t}");
             assert!(crossing.uv.abs_diff_eq(uv * (1.0 - 1e-8), 1e-11), "{crossing:?} {uv}");
         }
@@ -265,7 +253,7 @@ mod tests {
         let beside = [[-1e-9, 0.5], [0.5, -1e-9], [0.5, 0.5 + 1e-9], [1.7, -0.3], [-0.4, 1.1]];
         for uv in beside.into_iter().cycle().take(20_000) {
             let (triangle, ray) = aimed(&mut random, DVec2::from(uv), 1.0);
-            assert_eq!(triangle.intersect(&ray, Change::None), None, "{uv:?}");
+            assert_eq!(triangle.intersect(&ray, &LESSON), None, "{uv:?}");
         }
     }
 
@@ -278,7 +266,7 @@ mod tests {
         for z in [1.0, -1.0] {
             for at in [[0.25, 0.25], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.5], [0.0, 0.3]] {
                 let ray = Ray::new(DVec3::new(at[0], at[1], z), DVec3::new(0.0, 0.0, -z));
-                let crossing = unit_triangle().intersect(&ray, Change::None);
+                let crossing = unit_triangle().intersect(&ray, &LESSON);
                 assert_eq!(crossing, Some(Crossing { t: 1.0, uv: DVec2::from(at) }), "{z} {at:?}");
             }
         }
@@ -296,11 +284,8 @@ mod tests {
             let distance = 10.0_f64.powf(6.0 * random.number() - 3.0);
             let direction = vector(&mut random);
             let ray = Ray::new(target - distance * direction, direction);
-            let hits = halves
-                .iter()
-                .flatten()
-                .filter_map(|half| half.intersect(&ray, Change::None))
-                .count();
+            let hits =
+                halves.iter().flatten().filter_map(|half| half.intersect(&ray, &LESSON)).count();
             assert!(hits > 0, "{ray:?} {halves:?}");
         }
     }
@@ -313,10 +298,8 @@ mod tests {
             [(0.0, 3.0, true), (2.0, 3.0, false), (0.0, 2.0, false), (1.999, 2.001, true)]
         {
             let segment = Ray { t_min, t_max, ..ray };
-            let hits = (
-                unit_triangle().intersect(&segment, Change::None),
-                ball.intersect(&segment, Change::None),
-            );
+            let hits =
+                (unit_triangle().intersect(&segment, &LESSON), ball.intersect(&segment, &LESSON));
             assert_eq!((hits.0.is_some(), hits.1.is_some()), (is_hit, is_hit), "{segment:?}");
         }
     }
@@ -333,7 +316,7 @@ mod tests {
             let (triangle, _) = aimed(&mut random, DVec2::splat(0.3), 1.0);
             let in_plane = triangle.edges[0] + random.number() * triangle.edges[1];
             let ray = Ray::new(triangle.point(DVec2::splat(0.3)) - 2.0 * in_plane, in_plane);
-            assert_eq!(triangle.intersect(&ray, Change::None), None, "{triangle:?}");
+            assert_eq!(triangle.intersect(&ray, &LESSON), None, "{triangle:?}");
         }
     }
 
@@ -342,7 +325,7 @@ mod tests {
         let ball = Ball { centre: DVec3::new(1.0, 2.0, 3.0), radius: 0.5 };
         let t_from = |z: f64, speed: f64| {
             let ray = Ray::new(ball.centre + DVec3::Z * z, DVec3::NEG_Z * speed);
-            ball.intersect(&ray, Change::None).map(|crossing| crossing.t)
+            ball.intersect(&ray, &LESSON).map(|crossing| crossing.t)
         };
         assert_eq!(t_from(2.0, 1.0), Some(1.5));
         assert_eq!(t_from(2.0, 0.25), Some(6.0));
@@ -357,7 +340,7 @@ mod tests {
         for distance in [1e2, 1e4, 1e6] {
             let (offset, direction) = (DVec3::new(0.6, 0.0, 0.0), DVec3::new(0.0, 0.6, -0.8));
             let ray = Ray::new(offset - distance * direction, direction);
-            let t = ball.intersect(&ray, Change::None).expect("aimed at it").t;
+            let t = ball.intersect(&ray, &LESSON).expect("aimed at it").t;
             let allowed = 16.0 * f64::EPSILON * distance * distance;
             assert!((t - (distance - 0.8)).abs() <= allowed, "{distance}: {t}");
         }
@@ -372,7 +355,7 @@ mod tests {
             let direction = (normal + 0.999 * vector(&mut random).normalize()).normalize();
             let point = ball.centre + ball.radius * normal;
             let ray = Ray { t_min: 1e-9, ..Ray::new(point, direction) };
-            assert_eq!(ball.intersect(&ray, Change::None), None, "{ray:?}");
+            assert_eq!(ball.intersect(&ray, &LESSON), None, "{ray:?}");
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Part 3: where light comes from, and directions towards it.
 //!
 //! Every density is per steradian as seen from the point that asks. Area lights shine from their
-//! front alone. Not here: whether anything stands in between (`direct`), and how shapes that glow
+//! front alone. Not here: whether anything stands in between (`direct`), and how shapes that emit
 //! are sampled (`area_light`).
 
 use super::area_light::{BallLight, MeshLight};
-use super::change::Change;
 use super::sampling;
+use super::steps::Steps;
 use crate::contract::LightSample;
 use crate::scene::{Light, Rgb, SceneDescription, Shape};
 use glam::{DVec2, DVec3};
@@ -16,22 +16,22 @@ use glam::{DVec2, DVec3};
 pub enum Lamp {
     /// Point, directional or sky: nothing to prepare.
     Simple(Light),
-    /// A mesh that glows.
+    /// A mesh that emits.
     Mesh(MeshLight),
-    /// A sphere that glows.
+    /// A sphere that emits.
     Ball(BallLight),
-    /// A shape that was declared a light but does not glow.
+    /// A shape that was declared a light but does not emit.
     Dark,
 }
 
 impl Lamp {
     /// Prepares `light` of `scene`.
-    pub fn new(light: &Light, scene: &SceneDescription, change: Change) -> Self {
+    pub fn new(light: &Light, scene: &SceneDescription) -> Self {
         let Light::Area { shape } = *light else { return Self::Simple(*light) };
         let Some(emission) = scene.material_of(shape).emission else { return Self::Dark };
         match scene.shape(shape) {
-            Shape::Mesh(mesh) => Self::Mesh(MeshLight::new(mesh, emission.radiance, change)),
-            Shape::Sphere(sphere) => Self::Ball(BallLight::new(sphere, emission, change)),
+            Shape::Mesh(mesh) => Self::Mesh(MeshLight::new(mesh, emission.radiance)),
+            Shape::Sphere(sphere) => Self::Ball(BallLight::new(sphere, emission)),
         }
     }
 
@@ -54,68 +54,61 @@ impl Lamp {
         from: DVec3,
         point: DVec2,
         lobe: f64,
-        change: Change,
+        steps: &Steps,
     ) -> Option<LightSample> {
         match self {
-            Self::Simple(light) => sample_simple(light, from, point, change),
-            Self::Mesh(mesh) => mesh.sample(from, point, lobe),
-            Self::Ball(ball) => ball.sample(from, point),
+            Self::Simple(light) => sample_simple(light, from, point, steps),
+            Self::Mesh(mesh) => mesh.sample(from, point, lobe, steps),
+            Self::Ball(ball) => ball.sample(from, point, steps),
             Self::Dark => None,
         }
     }
 
-    /// The density with which [`Self::sample`] draws the direction from `from` to `at`, a glowing
+    /// The density with which [`Self::sample`] draws the direction from `from` to `at`, an emitting
     /// point of the light with unit `normal` on its front.
-    pub fn area_pdf(&self, from: DVec3, at: DVec3, normal: DVec3) -> f64 {
+    pub fn area_pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
         match self {
-            Self::Mesh(mesh) => mesh.pdf(from, at, normal),
-            Self::Ball(ball) => ball.pdf(from, at, normal),
+            Self::Mesh(mesh) => mesh.pdf(from, at, normal, steps),
+            Self::Ball(ball) => ball.pdf(from, at, normal, steps),
             Self::Simple(_) | Self::Dark => 0.0,
         }
     }
 
     /// The density with which [`Self::sample`] draws a direction into the sky; zero for other
     /// lights.
-    pub fn sky_pdf(&self, change: Change) -> f64 {
+    pub fn sky_pdf(&self, steps: &Steps) -> f64 {
         match self {
-            Self::Simple(Light::ConstantSky { .. } | Light::GradientSky { .. }) => {
-                uniform_sky_pdf(change)
-            }
+            Self::Simple(Light::ConstantSky { .. } | Light::GradientSky { .. }) => steps.sky_pdf(),
             _ => 0.0,
         }
     }
 }
 
-fn sample_simple(light: &Light, from: DVec3, point: DVec2, change: Change) -> Option<LightSample> {
+fn sample_simple(light: &Light, from: DVec3, point: DVec2, steps: &Steps) -> Option<LightSample> {
     match *light {
         Light::Point { position, intensity } => {
-            sample_point_light(position, intensity, from, change)
+            let wi = (position - from).try_normalize()?;
+            let distance = (position - from).length();
+            Some(delta(wi, distance, steps.point_light_radiance(intensity, distance)))
         }
         Light::Directional { direction, irradiance } => {
-            let wi = if change == Change::DirectionalFlipped { direction } else { -direction };
-            Some(delta(wi, f64::INFINITY, irradiance))
+            Some(delta(steps.towards_directional(direction), f64::INFINITY, irradiance))
         }
         Light::ConstantSky { .. } | Light::GradientSky { .. } => {
-            Some(sample_sky(light, point, change))
+            Some(sample_sky(light, point, steps))
         }
         Light::Area { .. } => None,
     }
 }
 
 /// Intensity over distance squared.
-fn sample_point_light(
-    position: DVec3,
-    intensity: Rgb,
-    from: DVec3,
-    change: Change,
-) -> Option<LightSample> {
-    let wi = (position - from).try_normalize()?;
-    let distance = (position - from).length();
-    let radiance = match change {
-        Change::PointLightUnweakened | Change::NoFalloff => intensity,
-        _ => intensity.map(|i| i / (distance * distance)),
-    };
-    Some(delta(wi, distance, radiance))
+pub fn point_light_radiance(intensity: Rgb, distance: f64) -> Rgb {
+    intensity.map(|i| i / (distance * distance))
+}
+
+/// Against the way its light travels.
+pub fn towards_directional(direction: DVec3) -> DVec3 {
+    -direction
 }
 
 fn delta(wi: DVec3, distance: f64, radiance: Rgb) -> LightSample {
@@ -131,24 +124,21 @@ pub fn towards(from: DVec3, at: DVec3, radiance: Rgb, pdf: f64) -> Option<LightS
     (pdf > 0.0).then_some(sample)
 }
 
-/// Uniform over all directions: the point that asks has no normal to prefer some.
-fn sample_sky(light: &Light, point: DVec2, change: Change) -> LightSample {
+fn sample_sky(light: &Light, point: DVec2, steps: &Steps) -> LightSample {
     let wi = sampling::uniform_sphere(point);
     LightSample {
         wi,
         distance: f64::INFINITY,
         radiance: light.sky_radiance(wi),
-        pdf: uniform_sky_pdf(change),
+        pdf: steps.sky_pdf(),
         is_delta: 0,
         is_valid: 1,
     }
 }
 
-fn uniform_sky_pdf(change: Change) -> f64 {
-    match change {
-        Change::SkyPdfOfHemisphere => 2.0 * sampling::uniform_sphere_pdf(),
-        _ => sampling::uniform_sphere_pdf(),
-    }
+/// Uniform over all directions: the point that asks has no normal to prefer some.
+pub fn sky_pdf() -> f64 {
+    sampling::uniform_sphere_pdf()
 }
 
 #[cfg(test)]
@@ -156,13 +146,14 @@ mod tests {
     use super::*;
     use crate::contract::Ray;
     use crate::cores::textbook::random::Random;
+    use crate::cores::textbook::steps::LESSON;
     use crate::cores::textbook::testing::{Stage, diffuse, grey};
     use std::f64::consts::PI;
 
     /// The last light of a stage.
     fn lamp(stage: Stage) -> Lamp {
         let scene = stage.scene();
-        Lamp::new(scene.lights.last().expect("something glows"), &scene, Change::None)
+        Lamp::new(scene.lights.last().expect("something glows"), &scene)
     }
 
     fn rectangle(x: f64, y: f64, z: f64) -> Lamp {
@@ -172,9 +163,7 @@ mod tests {
 
     fn samples(lamp: &Lamp, from: DVec3, count: usize) -> Vec<Option<LightSample>> {
         let mut random = Random::for_ray(5, 0);
-        (0..count)
-            .map(|_| lamp.sample(from, random.point(), random.number(), Change::None))
-            .collect()
+        (0..count).map(|_| lamp.sample(from, random.point(), random.number(), &LESSON)).collect()
     }
 
     /// Mean of 1/pdf with its standard error.
@@ -239,7 +228,7 @@ mod tests {
                 let ray = Ray::new(from, sample.wi);
                 let hit = world.closest_hit(&ray, &mut Default::default()).expect("it is there");
                 assert!((hit.t / sample.distance - 1.0).abs() < 1e-6, "{hit:?} {sample:?}");
-                let pdf = lamp.area_pdf(from, ray.at(hit.t), hit.geometric_normal);
+                let pdf = lamp.area_pdf(from, ray.at(hit.t), hit.geometric_normal, &LESSON);
                 assert!((pdf / sample.pdf - 1.0).abs() < 1e-6, "{pdf} {sample:?}");
             }
         }
@@ -266,9 +255,8 @@ mod tests {
         };
         let lamp = lamp(Stage::empty().mesh(mesh, diffuse(0.0).glowing(1.0)));
         for lobe in [0.0, 0.49, 0.5, 1.0 - f64::EPSILON / 2.0] {
-            let sample = lamp
-                .sample(DVec3::Z, DVec2::splat(0.5), lobe, Change::None)
-                .expect("it is in front");
+            let sample =
+                lamp.sample(DVec3::Z, DVec2::splat(0.5), lobe, &LESSON).expect("it is in front");
             assert!(sample.pdf.is_finite() && sample.pdf > 0.0, "{sample:?}");
             let at = DVec3::Z + sample.distance * sample.wi;
             assert_eq!(at.x > at.y, lobe < 0.5, "{lobe}: {at}");
@@ -278,6 +266,6 @@ mod tests {
     #[test]
     fn a_light_in_the_point_that_asks_is_a_failed_sample() {
         let light = Light::Point { position: DVec3::ONE, intensity: grey(1.0) };
-        assert_eq!(Lamp::Simple(light).sample(DVec3::ONE, DVec2::ZERO, 0.0, Change::None), None);
+        assert_eq!(Lamp::Simple(light).sample(DVec3::ONE, DVec2::ZERO, 0.0, &LESSON), None);
     }
 }

@@ -3,10 +3,10 @@
 //!
 //! It is the second witness for the fast core, the model to read before writing an adapter, and the
 //! ground on which students' mistakes are planted. So it prefers the formula of the lecture to the
-//! faster one, and each place where a student goes wrong is a function or a line of its own.
+//! faster one, and each place where a student goes wrong is a function of its own, a *step*.
 //! Nothing here is shared with other cores.
 //!
-//! Read it in the order of the course:
+//! Read it in the order of the course, each file from the top:
 //!
 //! | part | task | file |
 //! |---|---|---|
@@ -20,8 +20,11 @@
 //! see it, and `vertex` a point of a path in it; `random` gives every path its own stream, so that
 //! answers do not depend on threads.
 //!
-//! A copy of this core may have one change: a mistake that students make (`fault`), or a choice that
-//! is as right (`different`). The right line stands last where a `match change` offers others.
+//! Where the lesson says `steps.half_size(angle)` it means the function `half_size` below; `steps`
+//! is the table of them all. A copy of this core has other functions in some places: mistakes that
+//! students make (`fault`), or choices that are as right (`different`); `variant` makes the copies.
+//! Of those three the lesson knows nothing. An argument that a step does not look at, `_number`, is
+//! what somebody else's version of it needs.
 
 mod adaptive;
 mod area_light;
@@ -29,7 +32,6 @@ mod bsdf;
 mod build;
 mod bvh;
 mod camera;
-mod change;
 pub mod different;
 mod direct;
 pub mod fault;
@@ -47,6 +49,8 @@ mod single;
 mod slab;
 mod split;
 mod spread;
+mod steps;
+pub mod variant;
 mod vertex;
 mod world;
 
@@ -57,71 +61,51 @@ mod testing;
 
 use crate::contract::{
     Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
-    BuildStats, BuiltScene, Core, CoreError, CoreInfo, DirectionSample, Film, Hit,
-    IntegratorSettings, LightSample, Primitive, Randomness, Ray, RenderSettings, Result, Sampler,
-    TraversalStats,
+    BuildStats, BuiltScene, Capabilities, Conventions, Core, CoreError, CoreInfo, DirectionSample,
+    Film, Hit, IntegratorSettings, LightSample, Precision, Primitive, Randomness, Ray,
+    RenderSettings, Result, Sampler, TraversalStats,
 };
 use crate::scene::{Aabb, Camera, Material, SceneDescription};
-use change::Change;
 use glam::{DVec2, DVec3};
 use integrator::Integrator;
 use random::Random;
+use steps::{LESSON, Steps};
 use world::World;
 
-/// The plain core, or a copy of it with one change.
-#[derive(Clone, Copy, Debug, Default)]
+/// The plain core, or a copy of it.
+#[derive(Clone, Debug)]
 pub struct Textbook {
-    change: Change,
+    steps: Steps,
+    info: CoreInfo,
 }
 
 impl Textbook {
     /// The plain core, ready to be asked.
-    pub const fn new() -> Self {
-        Self { change: Change::None }
-    }
-
-    /// The name of its change.
-    fn name(&self) -> String {
-        let fault = fault::all().find(|fault| fault.change == self.change).map(|f| f.name);
-        let different = different::DIFFERENT.iter().find(|core| core.change == self.change);
-        match fault.or(different.map(|core| core.name)) {
-            Some(name) => format!("textbook:{name}"),
-            None => "textbook".to_owned(),
-        }
+    pub fn new() -> Self {
+        let info = CoreInfo {
+            name: "textbook".to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            capabilities: Capabilities::all(),
+            precision: Precision::Double,
+            conventions: Conventions::default(),
+        };
+        Self { steps: LESSON, info }
     }
 }
 
-/// The names of all changes: the words that may follow `textbook:`.
-pub fn change_names() -> impl Iterator<Item = &'static str> {
-    let different = different::DIFFERENT.iter().map(|core| core.name);
-    fault::all().map(|fault| fault.name).chain(different)
-}
-
-/// A copy of the core with the change of this name.
-pub fn with_change(name: &str) -> Option<Box<dyn Core>> {
-    let fault = fault::all().find(|fault| fault.name == name).map(|fault| fault.change);
-    let different = different::DIFFERENT.iter().find(|core| core.name == name);
-    let change = fault.or(different.map(|core| core.change))?;
-    let core = Textbook { change };
-    Some(match change {
-        Change::SinglePrecision => Box::new(single::Single(core)),
-        _ => Box::new(core),
-    })
+impl Default for Textbook {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl Core for Textbook {
     fn info(&self) -> CoreInfo {
-        CoreInfo {
-            name: self.name(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            capabilities: different::capabilities(self.change),
-            precision: different::precision(self.change),
-            conventions: different::conventions(self.change),
-        }
+        self.info.clone()
     }
 
     fn generate_rays(&mut self, camera: &Camera, film: &[DVec2], rays: &mut [Ray]) -> Result<()> {
-        answer(film, rays, |point| camera::generate_ray(camera, *point, self.change));
+        answer(film, rays, |point| camera::generate_ray(camera, *point, &self.steps));
         Ok(())
     }
 
@@ -132,13 +116,13 @@ impl Core for Textbook {
         hits: &mut [Hit],
     ) -> Result<()> {
         answer(rays, hits, |ray| {
-            world::hit_alone(primitive, ray, self.change).unwrap_or(Hit::MISS)
+            world::hit_alone(primitive, ray, &self.steps).unwrap_or(Hit::MISS)
         });
         Ok(())
     }
 
     fn intersect_box(&mut self, bounds: &Aabb, rays: &[Ray], hits: &mut [BoxHit]) -> Result<()> {
-        answer(rays, hits, |ray| box_hit(slab::intersect_box(bounds, ray, self.change)));
+        answer(rays, hits, |ray| box_hit(slab::intersect_box(bounds, ray, &self.steps)));
         Ok(())
     }
 
@@ -148,9 +132,9 @@ impl Core for Textbook {
         random: Randomness<'_>,
         samples: &mut [DirectionSample],
     ) -> Result<()> {
-        let numbers = Numbers::of(random, self.change);
         for (index, sample) in samples.iter_mut().enumerate() {
-            *sample = sampling::sample(sampler, numbers.at(index).0, self.change);
+            let (point, _) = self.steps.callers_numbers(&random, index);
+            *sample = sampling::sample(sampler, point, &self.steps);
         }
         Ok(())
     }
@@ -161,7 +145,7 @@ impl Core for Textbook {
         directions: &[DVec3],
         pdf: &mut [f64],
     ) -> Result<()> {
-        answer(directions, pdf, |direction| sampling::pdf(sampler, *direction, self.change));
+        answer(directions, pdf, |direction| sampling::pdf(sampler, *direction, &self.steps));
         Ok(())
     }
 
@@ -172,7 +156,7 @@ impl Core for Textbook {
         values: &mut [BsdfValue],
     ) -> Result<()> {
         answer(queries, values, |query| {
-            bsdf::evaluate(&material.surface, query.wo, query.wi, self.change)
+            bsdf::evaluate(&material.surface, query.wo, query.wi, &self.steps)
         });
         Ok(())
     }
@@ -184,10 +168,9 @@ impl Core for Textbook {
         random: Randomness<'_>,
         samples: &mut [BsdfSample],
     ) -> Result<()> {
-        let numbers = Numbers::of(random, self.change);
         for (index, (wo, sample)) in wo.iter().zip(samples).enumerate() {
-            let (point, lobe) = numbers.at(index);
-            let drawn = bsdf::sample(&material.surface, *wo, point, lobe, self.change);
+            let (point, lobe) = self.steps.callers_numbers(&random, index);
+            let drawn = bsdf::sample(&material.surface, *wo, point, lobe, &self.steps);
             *sample = drawn.unwrap_or(BsdfSample::NONE);
         }
         Ok(())
@@ -199,7 +182,7 @@ impl Core for Textbook {
         streams: &[&[f64]],
         means: &mut [AdaptiveMean],
     ) -> Result<()> {
-        answer(streams, means, |stream| adaptive::mean_of_stream(settings, stream, self.change));
+        answer(streams, means, |stream| adaptive::mean_of_stream(settings, stream, &self.steps));
         Ok(())
     }
 
@@ -208,16 +191,16 @@ impl Core for Textbook {
         scene: &SceneDescription,
         acceleration: Acceleration,
     ) -> Result<Box<dyn BuiltScene + '_>> {
-        Ok(Box::new(BuiltWorld { world: World::new(scene, acceleration, self.change) }))
+        Ok(Box::new(BuiltWorld { world: World::new(scene, acceleration, &self.steps) }))
     }
 }
 
 /// A scene the core has taken in.
-struct BuiltWorld {
-    world: World,
+struct BuiltWorld<'a> {
+    world: World<'a>,
 }
 
-impl BuiltScene for BuiltWorld {
+impl BuiltScene for BuiltWorld<'_> {
     fn stats(&self) -> BuildStats {
         self.world.build_stats()
     }
@@ -245,11 +228,10 @@ impl BuiltScene for BuiltWorld {
         let light = lights.get(light as usize).ok_or_else(|| {
             CoreError::Refused(format!("there is no light {light}, the scene has {}", lights.len()))
         })?;
-        let change = self.world.change();
-        let numbers = Numbers::of(random, change);
+        let steps = self.world.steps();
         for (index, (from, sample)) in from.iter().zip(samples).enumerate() {
-            let (point, lobe) = numbers.at(index);
-            *sample = light.sample(*from, point, lobe, change).unwrap_or(LightSample::NONE);
+            let (point, lobe) = steps.callers_numbers(&random, index);
+            *sample = light.sample(*from, point, lobe, steps).unwrap_or(LightSample::NONE);
         }
         Ok(())
     }
@@ -261,10 +243,10 @@ impl BuiltScene for BuiltWorld {
         radiance: &mut [[f64; 3]],
     ) -> Result<()> {
         let integrator = Integrator::new(&self.world, settings);
-        let change = self.world.change();
-        let seed = random::seed(settings.seed, change);
+        let steps = self.world.steps();
+        let seed = steps.seed(settings.seed);
         render::fill(settings.threads, radiance, |index| {
-            let mut random = Random::for_ray(seed, index).changed(change);
+            let mut random = Random::for_ray(seed, index).drawn_by(steps);
             integrator.radiance(&rays[index], &mut random).to_array()
         })
     }
@@ -276,26 +258,6 @@ impl BuiltScene for BuiltWorld {
         film: &mut Film,
     ) -> Result<()> {
         render::render(&self.world, camera, settings, film)
-    }
-}
-
-/// The caller's numbers, or the core's own.
-struct Numbers<'a> {
-    random: Randomness<'a>,
-    change: Change,
-}
-
-impl<'a> Numbers<'a> {
-    fn of(random: Randomness<'a>, change: Change) -> Self {
-        Self { random, change }
-    }
-
-    fn at(&self, index: usize) -> (DVec2, f64) {
-        if self.change == Change::OwnNumbers {
-            let mut own = Random::for_ray(self.random.seed, index);
-            return (own.point(), own.number());
-        }
-        (self.random.points[index], self.random.lobes[index])
     }
 }
 

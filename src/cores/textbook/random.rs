@@ -1,22 +1,23 @@
 //! Random numbers: every path has its own stream, named by what it is for and never by which thread
 //! draws it.
 
-use super::change::Change;
+use super::steps::{LESSON, Steps};
+use crate::contract::Randomness;
 use crate::math::rng::{Stream, uniform};
 use glam::DVec2;
 use rand::SeedableRng;
-use std::time::SystemTime;
 
 /// The random numbers of one path.
-#[derive(Debug)]
-pub struct Random {
-    stream: Stream,
-    /// [`Change::OtherGenerator`].
-    counter: u64,
-    change: Change,
+#[derive(Clone, Debug)]
+pub struct Random<'a> {
+    /// What the stream starts from.
+    pub name: u64,
+    /// The generator.
+    pub stream: Stream,
+    steps: &'a Steps,
 }
 
-impl Random {
+impl<'a> Random<'a> {
     /// For ray number `ray` of one call.
     pub fn for_ray(seed: u64, ray: usize) -> Self {
         Self::named(&[seed, ray as u64])
@@ -29,27 +30,17 @@ impl Random {
 
     fn named(labels: &[u64]) -> Self {
         let name = labels.iter().fold(0, |name, label| scramble(name ^ label));
-        Self { stream: Stream::seed_from_u64(name), counter: name, change: Change::None }
+        Self { name, stream: Stream::seed_from_u64(name), steps: &LESSON }
     }
 
-    /// Draws as `change` does.
-    pub fn changed(self, change: Change) -> Self {
-        Self { change, ..self }
+    /// The same stream, drawn from as these steps say.
+    pub fn drawn_by(self, steps: &Steps) -> Random<'_> {
+        Random { name: self.name, stream: self.stream, steps }
     }
 
     /// A number in [0, 1).
     pub fn number(&mut self) -> f64 {
-        match self.change {
-            Change::OtherGenerator => {
-                self.counter = self.counter.wrapping_add(1);
-                (scramble(self.counter) >> 11) as f64 * 0.5 * f64::EPSILON
-            }
-            Change::ExtraDimensions => {
-                uniform(&mut self.stream);
-                uniform(&mut self.stream)
-            }
-            _ => uniform(&mut self.stream),
-        }
+        self.steps.number(self)
     }
 
     /// A point of the unit square.
@@ -59,21 +50,29 @@ impl Random {
     }
 }
 
-/// The seed that numbers are drawn by.
-pub fn seed(seed: u64, change: Change) -> u64 {
-    match change {
-        Change::SeedIgnored => 0,
-        Change::SeedOfClock => {
-            let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
-            now.map_or(0, |now| now.as_nanos() as u64)
-        }
-        _ => seed,
-    }
+/// A number in [0, 1): the next of the stream.
+pub fn number(random: &mut Random<'_>) -> f64 {
+    uniform(&mut random.stream)
+}
+
+/// The stream of one sample of one pixel.
+pub fn sample_stream(seed: u64, pixel: usize, sample: u32) -> Random<'static> {
+    Random::for_sample(seed, pixel, sample)
+}
+
+/// The seed that numbers are drawn by is the one that was given.
+pub fn seed(given: u64) -> u64 {
+    given
+}
+
+/// Sampling uses the caller's numbers: a point of the unit square, and one to choose a lobe.
+pub fn callers_numbers(random: &Randomness<'_>, index: usize) -> (DVec2, f64) {
+    (random.points[index], random.lobes[index])
 }
 
 /// One step of SplitMix64 (Steele, Lea and Flood 2014): a bijection that leaves no trace of the
 /// order of labels, so that neighbouring seeds and neighbouring pixels are unrelated.
-fn scramble(label: u64) -> u64 {
+pub fn scramble(label: u64) -> u64 {
     let mut z = label.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

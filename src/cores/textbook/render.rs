@@ -4,11 +4,11 @@
 //! are shared out among threads.
 
 use super::adaptive::{self, Tally};
-use super::camera::{generate_ray, half_pixel};
-use super::change::Change;
+use super::camera::generate_ray;
 use super::integrator::Integrator;
-use super::random::{self, Random};
+use super::random::Random;
 use super::spread::Spread;
+use super::steps::Steps;
 use super::world::World;
 use crate::contract::{AdaptiveSettings, CoreError, Film, RenderSettings, Result};
 use crate::scene::Camera;
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 /// Renders `world` into `film`.
 pub fn render(
-    world: &World,
+    world: &World<'_>,
     camera: &Camera,
     settings: &RenderSettings,
     film: &mut Film,
@@ -26,8 +26,7 @@ pub fn render(
         return Err(CoreError::Refused("samples_per_pixel is 0: nothing to average".to_owned()));
     }
     let integrator = Integrator::new(world, &settings.integrator);
-    let change = world.change();
-    let picture = Picture { integrator, camera, settings, change };
+    let picture = Picture { integrator, camera, settings, steps: world.steps() };
     let mut pixels = vec![Pixel::default(); film.pixels.len()];
     fill(settings.integrator.threads, &mut pixels, |index| picture.pixel(index))?;
     film.pixels = pixels.iter().map(|pixel| pixel.mean.as_vec3().to_array()).collect();
@@ -51,13 +50,6 @@ pub fn fill<T: Send>(threads: u32, out: &mut [T], value: impl Fn(usize) -> T + S
     Ok(())
 }
 
-/// What [`Change::AdaptiveAlways`] does where it is not asked for.
-const ADAPTIVE_DEFAULT: AdaptiveSettings =
-    AdaptiveSettings { samples_per_batch: 32, max_tolerance: 0.05 };
-
-/// Steps that fill the unit square evenly (Roberts 2018, the R2 sequence).
-const EVEN_STEPS: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_2);
-
 /// What is written of a pixel.
 #[derive(Clone, Copy, Default)]
 struct Pixel {
@@ -71,7 +63,7 @@ struct Picture<'a> {
     integrator: Integrator<'a>,
     camera: &'a Camera,
     settings: &'a RenderSettings,
-    change: Change,
+    steps: &'a Steps,
 }
 
 impl Picture<'_> {
@@ -81,90 +73,78 @@ impl Picture<'_> {
         let tally = self.spend_samples(|sample| {
             let radiance = self.sample(index, sample);
             total += radiance;
-            spread.add(radiance, self.change);
+            self.steps.add(&mut spread, radiance);
             luminance(radiance)
         });
         let cap = self.settings.samples_per_pixel;
-        let mean = match self.change {
-            Change::SamplesNotDivided => total,
-            _ => total / adaptive::divisor(tally.count(), cap, self.change),
-        };
         let batch = self.settings.adaptive.map(|adaptive| adaptive.samples_per_batch);
-        let samples = adaptive::reported(tally.count(), cap, batch, self.change);
-        Pixel { mean, variance: spread.variance_of_mean(self.change), samples }
+        Pixel {
+            mean: self.steps.pixel_mean(total, self.steps.divisor(tally.count, cap)),
+            variance: spread.variance_of_mean(self.steps),
+            samples: self.steps.reported_count(tally.count, cap, batch),
+        }
     }
 
     fn spend_samples(&self, next: impl FnMut(u32) -> f64) -> Tally {
         let cap = self.settings.samples_per_pixel;
-        let adaptive = match self.change {
-            Change::AdaptiveAlways => Some(self.settings.adaptive.unwrap_or(ADAPTIVE_DEFAULT)),
-            _ => self.settings.adaptive,
-        };
-        match adaptive {
-            Some(adaptive) => adaptive::sample_until_converged(adaptive, cap, self.change, next),
-            None => adaptive::sample_all(cap, next),
+        match self.steps.adaptive_settings(self.settings) {
+            Some(adaptive) => adaptive::sample_until_converged(adaptive, cap, self.steps, next),
+            None => adaptive::sample_all(cap, self.steps, next),
         }
     }
 
     /// Radiance along one ray through a uniform point of the pixel.
     fn sample(&self, index: usize, sample: u32) -> DVec3 {
-        let seed = random::seed(self.settings.integrator.seed, self.change);
-        let mut random = match self.change {
-            Change::SamePixelNoise => Random::for_sample(seed, 0, sample),
-            Change::SampleRepeated => Random::for_sample(seed, index, 0),
-            _ => Random::for_sample(seed, index, sample),
-        }
-        .changed(self.change);
-        let film = self.film_point(index, self.within_pixel(seed, index, sample, &mut random));
-        self.integrator.radiance(&generate_ray(self.camera, film, self.change), &mut random)
+        let seed = self.steps.seed(self.settings.integrator.seed);
+        let mut random = self.steps.sample_stream(seed, index, sample).drawn_by(self.steps);
+        let within = self.within_pixel(&mut random, seed, index, sample);
+        let film = self.steps.film_point(self.settings, index, within);
+        self.integrator.radiance(&generate_ray(self.camera, film, self.steps), &mut random)
     }
 
-    /// A uniform point of the unit square.
-    fn within_pixel(&self, seed: u64, index: usize, sample: u32, random: &mut Random) -> DVec2 {
-        let point = random.point();
+    /// A uniform point of the unit square, or of the sample's own cell of it.
+    fn within_pixel(&self, random: &mut Random<'_>, seed: u64, index: usize, sample: u32) -> DVec2 {
         let grid = f64::from(self.settings.samples_per_pixel).sqrt();
         if self.settings.stratified && grid.fract() == 0.0 {
-            return stratum(sample, grid as u32, point, self.change);
+            return self.steps.stratum(sample, grid as u32, random.point());
         }
-        match self.change {
-            Change::PixelCorner => DVec2::ZERO,
-            Change::HalfPixelAdded => point + 0.5,
-            Change::StratifiedPixels => {
-                let start = Random::for_sample(seed, index, u32::MAX).point();
-                (start + f64::from(sample) * EVEN_STEPS).fract()
-            }
-            _ => point,
-        }
-    }
-
-    /// Where on the film a point of the pixel lies. Rows run down the picture, the film runs up.
-    fn film_point(&self, index: usize, within: DVec2) -> DVec2 {
-        let width = self.settings.width as usize;
-        let corner = DVec2::new((index % width) as f64, (index / width) as f64);
-        let size = DVec2::new(f64::from(self.settings.width), f64::from(self.settings.height));
-        let from_top = (corner + within) / size;
-        let film = DVec2::new(from_top.x, 1.0 - from_top.y);
-        match self.change {
-            Change::PictureUpsideDown => from_top,
-            Change::HalfPixelBothWays => film - half_pixel(self.camera.film),
-            _ => film,
-        }
+        self.steps.pixel_point(random, seed, index, sample)
     }
 }
 
+/// The sum of the samples, divided by their number.
+pub fn pixel_mean(total: DVec3, samples: f64) -> DVec3 {
+    total / samples
+}
+
+/// Samples are adaptive where that is asked for.
+pub fn adaptive_settings(settings: &RenderSettings) -> Option<AdaptiveSettings> {
+    settings.adaptive
+}
+
+/// Where in the unit square sample number `sample` of a pixel lies.
+pub fn pixel_point(random: &mut Random<'_>, _seed: u64, _pixel: usize, _sample: u32) -> DVec2 {
+    random.point()
+}
+
 /// A point of cell number `sample` of a grid of `side` by `side` over the unit square.
-fn stratum(sample: u32, side: u32, jitter: DVec2, change: Change) -> DVec2 {
-    let (column, row) = match change {
-        Change::StrataOnDiagonal => (sample % side, sample % side),
-        _ => (sample % side, sample / side),
-    };
-    let within = match change {
-        Change::StratumCentre => DVec2::splat(0.5),
-        Change::StratumHalf => 0.5 * jitter,
-        Change::StrataIgnored => return jitter,
-        _ => jitter,
-    };
-    (DVec2::new(f64::from(column), f64::from(row)) + within) / f64::from(side)
+pub fn stratum(sample: u32, side: u32, jitter: DVec2) -> DVec2 {
+    let (column, row) = (sample % side, sample / side);
+    (DVec2::new(f64::from(column), f64::from(row)) + jitter) / f64::from(side)
+}
+
+/// Where on the film a point of a pixel lies. Rows run down the picture, the film runs up.
+pub fn film_point(settings: &RenderSettings, pixel: usize, within: DVec2) -> DVec2 {
+    let from_top = from_top(settings, pixel, within);
+    DVec2::new(from_top.x, 1.0 - from_top.y)
+}
+
+/// Where in the picture a point of a pixel lies: (0, 0) top left, (1, 1) bottom right.
+pub fn from_top(settings: &RenderSettings, pixel: usize, within: DVec2) -> DVec2 {
+    let width = settings.width as usize;
+    let corner = DVec2::new((pixel % width) as f64, (pixel / width) as f64);
+    let size = DVec2::new(f64::from(settings.width), f64::from(settings.height));
+    (corner + within) / size
 }
 
 /// Of linear sRGB (Rec. 709).
@@ -192,7 +172,7 @@ mod tests {
         Camera::look_at(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, fov, [WIDTH, HEIGHT])
     }
 
-    fn film(world: &World, settings: &RenderSettings) -> Film {
+    fn film(world: &World<'_>, settings: &RenderSettings) -> Film {
         let mut film = Film::blank(WIDTH, HEIGHT, Capabilities::all());
         render(world, &camera(), settings, &mut film).expect("it renders");
         film
@@ -230,7 +210,7 @@ mod tests {
     }
 
     /// A lit scene with noise in every pixel.
-    fn noisy() -> World {
+    fn noisy() -> World<'static> {
         glowing_rectangle([-0.5, 0.5], [-0.3, 0.8])
             .room(6.0, diffuse(0.5))
             .ball(DVec3::new(0.3, -0.4, -3.0), 0.4, diffuse(0.7))

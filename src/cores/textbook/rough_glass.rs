@@ -4,10 +4,10 @@
 //! Formulas: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", with
 //! i = wi, o = wo and m = the facet's normal, which has z > 0 here whichever side light comes from.
 
-use super::bsdf::NOTHING;
-use super::change::Change;
+use super::bsdf::{self, NOTHING};
 use super::ggx;
-use super::glass::{fresnel_reflectance, refracted_cosine};
+use super::glass;
+use super::steps::Steps;
 use crate::contract::{BsdfSample, BsdfValue};
 use crate::scene::Rgb;
 use glam::{DVec2, DVec3};
@@ -23,113 +23,83 @@ pub struct RoughGlass {
     pub reflectance: Rgb,
     /// Multiplies what is let through.
     pub transmittance: Rgb,
-    /// What this copy of the core does otherwise.
-    pub change: Change,
 }
 
 impl RoughGlass {
     /// `f` and the density of [`Self::sample`].
-    pub fn evaluate(&self, wo: DVec3, wi: DVec3) -> BsdfValue {
+    pub fn evaluate(&self, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
         if wo.z * wi.z > 0.0 {
-            self.reflection(wo, wi)
+            self.reflection(wo, wi, steps)
         } else if wo.z * wi.z < 0.0 {
-            self.refraction(wo, wi)
+            self.refraction(wo, wi, steps)
         } else {
             NOTHING
         }
     }
 
     /// Walter's equation 20, F D G / (4 |cos θi| |cos θo|), and 14 for the Jacobian 1 / (4 |o·m|).
-    fn reflection(&self, wo: DVec3, wi: DVec3) -> BsdfValue {
+    fn reflection(&self, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
         let facet = upward((wo + wi).normalize());
         let cosine = wo.dot(facet).abs();
-        let reflected = self.fresnel(wo, facet);
-        let value = reflected * self.facets_over_cosines(wo, wi, facet) / 4.0;
+        let reflected = self.fresnel(wo, facet, steps);
+        let value = reflected * self.facets_over_cosines(wo, wi, facet, steps) / 4.0;
         let jacobian = 1.0 / (4.0 * cosine);
-        let pdf = self.chance(reflected) * self.visible_density(wo, facet) * jacobian;
+        let pdf = steps.lobe_probability(reflected) * self.visible_density(wo, facet) * jacobian;
         BsdfValue { f: self.reflectance.map(|r| r * value), pdf }
     }
 
     /// Walter's equation 21, with the indices divided by the one on the side of `wo`, and 17 for
     /// the Jacobian.
-    fn refraction(&self, wo: DVec3, wi: DVec3) -> BsdfValue {
+    fn refraction(&self, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
         let ratio = self.ratio(wo);
-        let index_of_half = match self.change {
-            Change::RoughGlassHalfOfEntering => self.index,
-            _ => ratio,
-        };
-        let facet = upward((-(wo + index_of_half * wi)).normalize());
+        let facet = steps.refraction_facet(self, wo, wi);
         let (o_m, i_m) = (wo.dot(facet), wi.dot(facet));
         if o_m * wo.z <= 0.0 || i_m * wi.z <= 0.0 {
             return NOTHING;
         }
-        let passed = 1.0 - self.fresnel(wo, facet);
+        let passed = 1.0 - self.fresnel(wo, facet, steps);
         let denominator = (o_m + ratio * i_m).powi(2);
-        let jacobian = match self.change {
-            Change::RoughGlassJacobianWithoutIndex => i_m.abs() / denominator,
-            _ => ratio * ratio * i_m.abs() / denominator,
-        };
-        let pdf = self.chance(passed) * self.visible_density(wo, facet) * jacobian;
-        let value = passed * self.facets_over_cosines(wo, wi, facet) * (o_m * i_m).abs()
+        let jacobian = steps.refraction_jacobian(ratio, i_m, denominator);
+        let pdf = steps.lobe_probability(passed) * self.visible_density(wo, facet) * jacobian;
+        let value = passed * self.facets_over_cosines(wo, wi, facet, steps) * (o_m * i_m).abs()
             / denominator
-            * self.radiance_scale(ratio);
+            * steps.rough_radiance_scale(ratio);
         BsdfValue { f: self.transmittance.map(|t| t * value), pdf }
     }
 
     /// One incident direction for `wo`: a facet that is seen, which reflects with the probability
     /// of Fresnel's reflectance and refracts otherwise. What comes out on the wrong side of the
     /// surface is lost.
-    pub fn sample(&self, wo: DVec3, point: DVec2, lobe: f64) -> Option<BsdfSample> {
+    pub fn sample(&self, wo: DVec3, point: DVec2, lobe: f64, steps: &Steps) -> Option<BsdfSample> {
         let side = wo.z.signum();
         let towards_wo = side * ggx::visible_facet(self.roughness, side * wo, point);
         let (cosine, ratio) = (wo.dot(towards_wo), self.ratio(wo));
-        let reflects = lobe < self.fresnel(wo, towards_wo);
+        let reflects = lobe < self.fresnel(wo, towards_wo, steps);
         let wi = if reflects {
             2.0 * cosine * towards_wo - wo
         } else {
-            let beyond = refracted_cosine(cosine, ratio)?;
+            let beyond = glass::refracted_cosine(cosine, ratio)?;
             ((cosine / ratio - beyond) * towards_wo - wo / ratio).normalize()
         };
         let is_lost = (wi.z * wo.z > 0.0) != reflects;
-        let BsdfValue { f, pdf } = self.evaluate(wo, wi);
-        let is_valid = pdf > 0.0 && !is_lost;
-        is_valid.then_some(BsdfSample { wi, f, pdf, is_delta: 0, is_valid: 1 })
+        let value = self.evaluate(wo, wi, steps);
+        (value.pdf > 0.0 && !is_lost).then(|| bsdf::sampled(wi, value))
     }
 
     /// Index of refraction on the far side over that on the side of `wo`.
-    fn ratio(&self, wo: DVec3) -> f64 {
-        if wo.z > 0.0 { self.index } else { 1.0 / self.index }
+    pub fn ratio(&self, wo: DVec3) -> f64 {
+        glass::relative_index(self.index, wo)
     }
 
     /// Share of light that the facet reflects.
-    fn fresnel(&self, wo: DVec3, facet: DVec3) -> f64 {
-        let cosine = match self.change {
-            Change::RoughGlassFresnelOfSurface => wo.z.abs(),
-            _ => wo.dot(facet).abs(),
-        };
-        fresnel_reflectance(cosine, self.ratio(wo))
-    }
-
-    /// The probability that a sample goes a way that has this share of the light.
-    fn chance(&self, share: f64) -> f64 {
-        match self.change {
-            Change::RoughGlassChanceForgotten => 1.0,
-            _ => share,
-        }
+    fn fresnel(&self, wo: DVec3, facet: DVec3, steps: &Steps) -> f64 {
+        glass::fresnel(steps.fresnel_cosine(wo, facet), self.ratio(wo))
     }
 
     /// D G / (|cos θi| |cos θo|).
-    fn facets_over_cosines(&self, wo: DVec3, wi: DVec3, facet: DVec3) -> f64 {
+    fn facets_over_cosines(&self, wo: DVec3, wi: DVec3, facet: DVec3, steps: &Steps) -> f64 {
         let (wo, wi) = (wo.with_z(wo.z.abs()), wi.with_z(wi.z.abs()));
-        let masking_over_cosines = match self.change {
-            Change::CorrelatedSmith => {
-                ggx::height_correlated_masking(self.roughness, wo, wi) / (wo.z * wi.z)
-            }
-            _ => {
-                ggx::masking_over_cosine(self.roughness, wo)
-                    * ggx::masking_over_cosine(self.roughness, wi)
-            }
-        };
+        let masking_over_cosines = steps.masking_over_cosines(self.roughness, wo, wi);
         ggx::facet_density(self.roughness, facet) * masking_over_cosines
     }
 
@@ -138,18 +108,40 @@ impl RoughGlass {
         let masked = ggx::masking_over_cosine(self.roughness, wo.with_z(wo.z.abs()));
         masked * ggx::facet_density(self.roughness, facet) * wo.dot(facet).abs()
     }
+}
 
-    /// Equation 21 is of radiance that is scaled by the index squared where it crosses.
-    fn radiance_scale(&self, ratio: f64) -> f64 {
-        match self.change {
-            Change::GlassUnscaledUndeclared | Change::UnscaledGlass => ratio * ratio,
-            _ => 1.0,
-        }
-    }
+/// The cosine that Fresnel's equations take: light meets the facet, not the surface.
+pub fn fresnel_cosine(wo: DVec3, facet: DVec3) -> f64 {
+    wo.dot(facet).abs()
+}
+
+/// The facet that refracts `wi` towards `wo`: Walter's equation 16.
+pub fn refraction_facet(glass: &RoughGlass, wo: DVec3, wi: DVec3) -> DVec3 {
+    upward((-(wo + glass.ratio(wo) * wi)).normalize())
+}
+
+/// Solid angle of facets per solid angle of refracted directions: Walter's equation 17.
+pub fn refraction_jacobian(ratio: f64, i_m: f64, denominator: f64) -> f64 {
+    ratio * ratio * i_m.abs() / denominator
+}
+
+/// A sample goes each way with the probability of that way's share of the light.
+pub fn lobe_probability(share: f64) -> f64 {
+    share
+}
+
+/// G / (cos θo cos θi), with separable masking.
+pub fn masking_over_cosines(roughness: f64, wo: DVec3, wi: DVec3) -> f64 {
+    ggx::masking_over_cosine(roughness, wo) * ggx::masking_over_cosine(roughness, wi)
+}
+
+/// Equation 21 is of radiance that is scaled by the index squared where it crosses.
+pub fn rough_radiance_scale(_ratio: f64) -> f64 {
+    1.0
 }
 
 /// The normal of a facet, which points out of the glass.
-fn upward(facet: DVec3) -> DVec3 {
+pub fn upward(facet: DVec3) -> DVec3 {
     if facet.z < 0.0 { -facet } else { facet }
 }
 
@@ -159,11 +151,12 @@ mod tests {
     use crate::cores::textbook::glass::Glass;
     use crate::cores::textbook::random::Random;
     use crate::cores::textbook::sampling;
+    use crate::cores::textbook::steps::LESSON;
 
     const WHITE: Rgb = [1.0; 3];
 
-    fn frosted(roughness: f64, change: Change) -> RoughGlass {
-        RoughGlass { index: 1.5, roughness, reflectance: WHITE, transmittance: WHITE, change }
+    fn frosted(roughness: f64) -> RoughGlass {
+        RoughGlass { index: 1.5, roughness, reflectance: WHITE, transmittance: WHITE }
     }
 
     fn view(degrees: f64) -> DVec3 {
@@ -189,11 +182,11 @@ mod tests {
         let side = 400;
         let middle = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
         for (degrees, roughness, reflected, refracted) in SHARES {
-            let (wo, glass) = (view(degrees), frosted(roughness, Change::None));
+            let (wo, glass) = (view(degrees), frosted(roughness));
             let mut shares = [0.0, 0.0];
             for point in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
                 let wi = sampling::uniform_sphere(DVec2::new(middle(point.0), middle(point.1)));
-                let share = glass.evaluate(wo, wi).f[0] * wi.z.abs();
+                let share = glass.evaluate(wo, wi, &LESSON).f[0] * wi.z.abs();
                 shares[usize::from(wi.z * wo.z < 0.0)] += share;
             }
             let mean = f64::from(side * side) * sampling::uniform_sphere_pdf();
@@ -203,32 +196,14 @@ mod tests {
     }
 
     #[test]
-    fn radiance_that_is_not_scaled_is_the_index_squared_brighter() {
-        let mut random = Random::for_ray(1, 0);
-        for _ in 0..1000 {
-            let mut direction = || sampling::uniform_sphere(random.point());
-            let (wo, wi) = (direction(), direction());
-            let value = |change| frosted(0.5, change).evaluate(wo, wi).f[0];
-            let scale = match (wo.z * wi.z < 0.0, wo.z > 0.0) {
-                (false, _) => 1.0,
-                (true, true) => 2.25,
-                (true, false) => 1.0 / 2.25,
-            };
-            let (plain, unscaled) = (value(Change::None), value(Change::UnscaledGlass));
-            assert!((unscaled - scale * plain).abs() <= 1e-12 * unscaled, "{wo} {wi}");
-        }
-    }
-
-    #[test]
     fn nearly_smooth_glass_is_smooth_glass() {
-        let smooth =
-            Glass { index: 1.5, reflectance: WHITE, transmittance: WHITE, change: Change::None };
+        let smooth = Glass { index: 1.5, reflectance: WHITE, transmittance: WHITE };
         for wo in [view(30.0), view(70.0), view(160.0), view(120.0)] {
             for lobe in [0.0, 0.9999] {
-                let rough = frosted(1e-4, Change::None).sample(wo, DVec2::new(0.2, 0.7), lobe);
+                let rough = frosted(1e-4).sample(wo, DVec2::new(0.2, 0.7), lobe, &LESSON);
                 let (rough, smooth) = (
                     rough.expect("light goes on"),
-                    smooth.sample(wo, lobe).expect("light goes on"),
+                    smooth.sample(wo, lobe, &LESSON).expect("light goes on"),
                 );
                 assert!(rough.wi.abs_diff_eq(smooth.wi, 1e-3), "{wo}: {rough:?} {smooth:?}");
                 assert!((weight(&rough) / weight(&smooth) - 1.0).abs() < 1e-3, "{wo}");
@@ -241,13 +216,14 @@ mod tests {
         let mut random = Random::for_ray(2, 0);
         let mut passed = 0;
         for roughness in [1e-3, 0.1, 0.5, 1.0] {
-            let glass = frosted(roughness, Change::None);
+            let glass = frosted(roughness);
             for _ in 0..2000 {
                 let wo = sampling::uniform_sphere(random.point());
-                let Some(sample) = glass.sample(wo, random.point(), random.number()) else {
+                let Some(sample) = glass.sample(wo, random.point(), random.number(), &LESSON)
+                else {
                     continue;
                 };
-                let value = glass.evaluate(wo, sample.wi);
+                let value = glass.evaluate(wo, sample.wi, &LESSON);
                 assert_eq!((sample.f, sample.pdf), (value.f, value.pdf), "{roughness} {wo}");
                 assert!((sample.wi.length() - 1.0).abs() < 1e-12 && weight(&sample) < 2.2501);
                 passed += usize::from(sample.wi.z * wo.z < 0.0);

@@ -3,74 +3,65 @@
 //! Both are smooth maps of the unit square, so that a harness can check |∂ω/∂u| · pdf = 1 at every
 //! point.
 
-use super::change::Change;
+use super::steps::Steps;
 use crate::contract::{DirectionSample, Sampler};
 use glam::{DVec2, DVec3};
-use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_1_PI, PI};
 
 /// One direction of `sampler`, with its density per steradian.
-pub fn sample(sampler: Sampler, point: DVec2, change: Change) -> DirectionSample {
-    let direction = match sampler {
-        Sampler::UniformHemisphere => uniform_hemisphere(point, change),
-        Sampler::CosineHemisphere => cosine_hemisphere(point, change),
+pub fn sample(sampler: Sampler, point: DVec2, steps: &Steps) -> DirectionSample {
+    let direction = direction(sampler, point, steps);
+    DirectionSample { direction, pdf: pdf(sampler, direction, steps) }
+}
+
+/// One direction of `sampler`.
+pub fn direction(sampler: Sampler, point: DVec2, steps: &Steps) -> DVec3 {
+    let height = match sampler {
+        Sampler::UniformHemisphere => steps.uniform_height(point.x),
+        Sampler::CosineHemisphere => steps.cosine_height(point.x),
     };
-    DirectionSample { direction, pdf: pdf(sampler, direction, change) }
+    direction_at(height, steps.turn(point))
 }
 
 /// The density per steradian with which `sampler` draws `direction`; 0 below the horizon.
-pub fn pdf(sampler: Sampler, direction: DVec3, change: Change) -> f64 {
-    if direction.z <= 0.0 && change != Change::PdfBelowHorizon {
+pub fn pdf(sampler: Sampler, direction: DVec3, steps: &Steps) -> f64 {
+    if steps.is_below_horizon(direction) {
         return 0.0;
     }
     match sampler {
-        Sampler::UniformHemisphere => uniform_hemisphere_pdf(change),
-        Sampler::CosineHemisphere => cosine_hemisphere_pdf(direction, change),
+        Sampler::UniformHemisphere => steps.uniform_hemisphere_pdf(),
+        Sampler::CosineHemisphere => steps.cosine_hemisphere_pdf(direction),
     }
+}
+
+/// Where no sampler draws a direction.
+pub fn is_below_horizon(direction: DVec3) -> bool {
+    direction.z <= 0.0
 }
 
 /// Archimedes: the height of a uniform point of the sphere is itself uniform. 1 − u is never 0.
-pub fn uniform_hemisphere(point: DVec2, change: Change) -> DVec3 {
-    let height = match change {
-        Change::ThetaUniform => (FRAC_PI_2 * point.x).cos(),
-        _ => 1.0 - point.x,
-    };
-    direction_at(height, turn(point, change))
-}
-
-/// Share of a full turn.
-fn turn(point: DVec2, change: Change) -> f64 {
-    match change {
-        Change::HalfAzimuths => point.y / 2.0,
-        Change::NumberTwice => point.x,
-        _ => point.y,
-    }
+pub fn uniform_height(u: f64) -> f64 {
+    1.0 - u
 }
 
 /// 1/2π.
-pub fn uniform_hemisphere_pdf(change: Change) -> f64 {
-    match change {
-        Change::UniformPdfDoubled | Change::UniformPdfDoubledTwice => FRAC_1_PI,
-        _ => FRAC_1_PI / 2.0,
-    }
+pub fn uniform_hemisphere_pdf() -> f64 {
+    FRAC_1_PI / 2.0
 }
 
 /// Malley: a uniform point of the disk, lifted to the hemisphere.
-pub fn cosine_hemisphere(point: DVec2, change: Change) -> DVec3 {
-    let height = match change {
-        Change::CosineWithoutRoot => 1.0 - point.x,
-        _ => (1.0 - point.x).sqrt(),
-    };
-    direction_at(height, turn(point, change))
+pub fn cosine_height(u: f64) -> f64 {
+    (1.0 - u).sqrt()
 }
 
 /// cos θ/π.
-pub fn cosine_hemisphere_pdf(direction: DVec3, change: Change) -> f64 {
-    match change {
-        Change::CosinePdfWithoutPi => direction.z,
-        Change::CosinePdfUniform => FRAC_1_PI / 2.0,
-        Change::PdfBelowHorizon => direction.z.abs() * FRAC_1_PI,
-        _ => direction.z * FRAC_1_PI,
-    }
+pub fn cosine_hemisphere_pdf(direction: DVec3) -> f64 {
+    direction.z * FRAC_1_PI
+}
+
+/// Share of a full turn.
+pub fn turn(point: DVec2) -> f64 {
+    point.y
 }
 
 /// Uniform over the whole sphere.
@@ -93,6 +84,7 @@ pub fn direction_at(cosine: f64, turn: f64) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cores::textbook::steps::LESSON;
 
     const SAMPLERS: [Sampler; 2] = [Sampler::UniformHemisphere, Sampler::CosineHemisphere];
 
@@ -101,11 +93,11 @@ mod tests {
         let h = 1e-5;
         for sampler in SAMPLERS {
             for (u, v) in [(0.2, 0.3), (0.5, 0.9), (0.83, 0.61)] {
-                let at = |x, y| sample(sampler, DVec2::new(x, y), Change::None).direction;
+                let at = |x, y| sample(sampler, DVec2::new(x, y), &LESSON).direction;
                 let along_u = (at(u + h, v) - at(u - h, v)) / (2.0 * h);
                 let along_v = (at(u, v + h) - at(u, v - h)) / (2.0 * h);
                 let jacobian = along_u.cross(along_v).length();
-                let product = jacobian * sample(sampler, DVec2::new(u, v), Change::None).pdf;
+                let product = jacobian * sample(sampler, DVec2::new(u, v), &LESSON).pdf;
                 assert!((product - 1.0).abs() < 1e-7, "{sampler:?} at {u}, {v}: {product}");
             }
         }
@@ -118,7 +110,7 @@ mod tests {
             for u in [0.0, f64::MIN_POSITIVE / 4.0, 0.5, almost_one] {
                 for v in [0.0, almost_one] {
                     let DirectionSample { direction, pdf } =
-                        sample(sampler, DVec2::new(u, v), Change::None);
+                        sample(sampler, DVec2::new(u, v), &LESSON);
                     assert!((direction.length() - 1.0).abs() < 1e-15, "{sampler:?} {u} {v}");
                     assert!(direction.z > 0.0 && pdf > 0.0, "{sampler:?} {u} {v}: {pdf}");
                 }
@@ -134,7 +126,7 @@ mod tests {
             let total: f64 = (0..heights)
                 .map(|i| (f64::from(i) + 0.5) / f64::from(heights))
                 .map(|z| {
-                    pdf(sampler, direction_at(z, 0.4), Change::None) * 2.0 * PI / f64::from(heights)
+                    pdf(sampler, direction_at(z, 0.4), &LESSON) * 2.0 * PI / f64::from(heights)
                 })
                 .sum();
             assert!((total - 1.0).abs() < 1e-12, "{sampler:?}: {total}");

@@ -1,4 +1,4 @@
-//! [`super::change::Change::SinglePrecision`]: the answers of a core, rounded to f32.
+//! The answers of a core, rounded to f32.
 
 use crate::contract::{
     Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,

@@ -1,48 +1,43 @@
 //! Part 2: one ray against one box, by its three pairs of planes.
 
-use super::change::Change;
+use super::steps::Steps;
 use crate::contract::Ray;
 use crate::scene::Aabb;
 
 /// Where the line of `ray` enters and leaves the closed box, if the box meets the closed segment.
-pub fn intersect_box(bounds: &Aabb, ray: &Ray, change: Change) -> Option<(f64, f64)> {
-    let (x_enter, x_exit) = intersect_slab(bounds, ray, 0, change)?;
-    let (y_enter, y_exit) = intersect_slab(bounds, ray, 1, change)?;
-    let (z_enter, z_exit) = match change {
-        Change::BoxWithoutZ => (f64::NEG_INFINITY, f64::INFINITY),
-        _ => intersect_slab(bounds, ray, 2, change)?,
-    };
+pub fn intersect_box(bounds: &Aabb, ray: &Ray, steps: &Steps) -> Option<(f64, f64)> {
+    let (x_enter, x_exit) = steps.slab(bounds, ray, 0)?;
+    let (y_enter, y_exit) = steps.slab(bounds, ray, 1)?;
+    let (z_enter, z_exit) = steps.slab(bounds, ray, 2)?;
     let enter = x_enter.max(y_enter).max(z_enter);
     let exit = x_exit.min(y_exit).min(z_exit);
-    let overlaps = match change {
-        Change::BoxSegmentIgnored => enter <= exit,
-        Change::BoxMissedFromInside => enter <= exit && enter <= ray.t_max && enter >= ray.t_min,
-        Change::BoxMissedByEndInside => enter <= exit && exit <= ray.t_max && exit >= ray.t_min,
-        Change::FlatBoxMissed => enter < exit && enter <= ray.t_max && exit >= ray.t_min,
-        _ => enter <= exit && enter <= ray.t_max && exit >= ray.t_min,
-    };
-    overlaps.then_some((enter, exit))
+    steps.slabs_overlap(enter, exit, ray).then_some((enter, exit))
 }
 
 /// Where the line lies between the two planes of one axis.
 ///
 /// A ray along the planes is inside for ever or never; dividing by its zero would give 0/0 on a
 /// plane, and the wrong infinity for a direction of −0.
-fn intersect_slab(bounds: &Aabb, ray: &Ray, axis: usize, change: Change) -> Option<(f64, f64)> {
+pub fn slab(bounds: &Aabb, ray: &Ray, axis: usize) -> Option<(f64, f64)> {
     let (low, high) = (bounds.min[axis], bounds.max[axis]);
     let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
     if direction == 0.0 {
-        let inside = low <= origin && origin <= high || change == Change::ParallelAxesSkipped;
+        let inside = low <= origin && origin <= high;
         return inside.then_some((f64::NEG_INFINITY, f64::INFINITY));
     }
     let (at_low, at_high) = ((low - origin) / direction, (high - origin) / direction);
-    let in_order = direction > 0.0 || change == Change::PlanesNotSwapped;
-    Some(if in_order { (at_low, at_high) } else { (at_high, at_low) })
+    Some(if direction > 0.0 { (at_low, at_high) } else { (at_high, at_low) })
+}
+
+/// Whether the three slabs have a common stretch, and the segment a part in it.
+pub fn slabs_overlap(enter: f64, exit: f64, ray: &Ray) -> bool {
+    enter <= exit && enter <= ray.t_max && exit >= ray.t_min
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cores::textbook::steps::LESSON;
     use glam::DVec3;
 
     const INF: f64 = f64::INFINITY;
@@ -91,7 +86,7 @@ mod tests {
         for (name, [min, max], origin, direction, [t_min, t_max], expected) in BOX_ROWS {
             let bounds = Aabb { min: min.into(), max: max.into() };
             let ray = Ray { origin: origin.into(), t_min, direction: direction.into(), t_max };
-            assert_eq!(intersect_box(&bounds, &ray, Change::None).is_some(), expected, "{name}");
+            assert_eq!(intersect_box(&bounds, &ray, &LESSON).is_some(), expected, "{name}");
         }
     }
 
@@ -99,8 +94,8 @@ mod tests {
     fn a_box_is_entered_and_left_where_its_planes_are() {
         let bounds = Aabb { min: DVec3::ZERO, max: DVec3::new(1.0, 2.0, 3.0) };
         let through = Ray::new(DVec3::new(-1.0, 1.0, 1.0), DVec3::new(0.5, 0.0, 0.0));
-        assert_eq!(intersect_box(&bounds, &through, Change::None), Some((2.0, 4.0)));
+        assert_eq!(intersect_box(&bounds, &through, &LESSON), Some((2.0, 4.0)));
         let from_inside = Ray::new(DVec3::splat(0.5), DVec3::new(0.0, 0.0, -1.0));
-        assert_eq!(intersect_box(&bounds, &from_inside, Change::None), Some((-2.5, 0.5)));
+        assert_eq!(intersect_box(&bounds, &from_inside, &LESSON), Some((-2.5, 0.5)));
     }
 }

@@ -4,10 +4,11 @@
 //! separate anything (all centroids in one place): then it answers 0 or all of them, and the
 //! builder halves the node instead.
 
-use super::change::Change;
+use super::steps::Steps;
 use crate::contract::Split;
 use crate::scene::Aabb;
 use glam::DVec3;
+use std::ops::Range;
 
 /// A primitive as the builder sees it.
 #[derive(Clone, Copy, Debug)]
@@ -23,32 +24,41 @@ pub struct Item {
 /// Bins of the surface area heuristic.
 const BINS: usize = 16;
 
-/// Reorders `items` by `rule`, and answers how many of them go left.
-pub fn partition(rule: Split, items: &mut [Item], change: Change) -> usize {
-    match rule {
-        _ if change == Change::MedianSplit => halve(items, change),
-        Split::Median => halve(items, change),
+/// Reorders `items` by the rule that was `asked` for, and answers how many of them go left.
+pub fn partition(asked: Split, items: &mut [Item], steps: &Steps) -> usize {
+    match steps.rule(asked) {
+        Split::Median => halve(items, steps),
         Split::MeanOfCentroids => {
             let mean = items.iter().map(|item| item.centroid).sum::<DVec3>() / items.len() as f64;
-            let axis = longest_axis(&centroid_bounds(items), change);
+            let axis = steps.longest_axis(extent(&centroid_bounds(items)));
             partition_by(items, |item| item.centroid[axis] < mean[axis])
         }
         Split::Midpoint => {
             let bounds = centroid_bounds(items);
-            let axis = longest_axis(&bounds, change);
+            let axis = steps.longest_axis(extent(&bounds));
             let middle = (bounds.min[axis] + bounds.max[axis]) / 2.0;
             partition_by(items, |item| item.centroid[axis] < middle)
         }
-        Split::SurfaceArea | Split::CoresChoice => partition_by_surface_area(items, change),
+        Split::SurfaceArea | Split::CoresChoice => partition_by_surface_area(items, steps),
     }
 }
 
+/// The rule that divides nodes is the one that was asked for.
+pub fn rule(asked: Split) -> Split {
+    asked
+}
+
 /// Equal counts along the longest axis: always separates.
-pub fn halve(items: &mut [Item], change: Change) -> usize {
-    let axis = longest_axis(&centroid_bounds(items), change);
+pub fn halve(items: &mut [Item], steps: &Steps) -> usize {
+    let axis = steps.longest_axis(extent(&centroid_bounds(items)));
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |a, b| a.centroid[axis].total_cmp(&b.centroid[axis]));
     middle
+}
+
+/// The axis along which a box is longest.
+pub fn longest_axis(extent: DVec3) -> usize {
+    extent.max_position()
 }
 
 /// The box around all boxes.
@@ -64,13 +74,8 @@ pub fn centroid_bounds(items: &[Item]) -> Aabb {
     union(items.iter().map(|item| Aabb { min: item.centroid, max: item.centroid }))
 }
 
-fn longest_axis(bounds: &Aabb, change: Change) -> usize {
-    let extent = bounds.max - bounds.min;
-    match change {
-        Change::NeverSplitsZ => extent.truncate().max_position(),
-        Change::ShortestAxis => extent.min_position(),
-        _ => extent.max_position(),
-    }
+fn extent(bounds: &Aabb) -> DVec3 {
+    bounds.max - bounds.min
 }
 
 /// Moves the items for which `goes_left` to the front, and counts them.
@@ -87,21 +92,19 @@ fn partition_by(items: &mut [Item], goes_left: impl Fn(&Item) -> bool) -> usize 
 
 /// The division whose children cost a random ray least: sum of count times surface area (MacDonald
 /// and Booth 1990), with planes between equal bins of each axis (Wald 2007).
-fn partition_by_surface_area(items: &mut [Item], change: Change) -> usize {
+fn partition_by_surface_area(items: &mut [Item], steps: &Steps) -> usize {
     let bounds = centroid_bounds(items);
-    let axes = match change {
-        Change::NeverSplitsZ => 0..2,
-        Change::ShortestAxis => {
-            let axis = longest_axis(&bounds, change);
-            axis..axis + 1
-        }
-        _ => 0..3,
-    };
+    let axes = steps.compared_axes(extent(&bounds));
     let planes = axes.flat_map(|axis| axis_planes(items, &bounds, axis));
     let best = planes.min_by(|a, b| a.cost.total_cmp(&b.cost));
     best.map_or(0, |plane| {
         partition_by(items, |item| bin(item, &bounds, plane.axis) < plane.first_right_bin)
     })
+}
+
+/// The axes across which the surface area heuristic looks for a plane: all of them.
+pub fn compared_axes(_extent: DVec3) -> Range<usize> {
+    0..3
 }
 
 /// A plane between two bins.
@@ -144,14 +147,14 @@ fn has_items(bins: &[(u32, Aabb)]) -> bool {
 
 fn child_cost(bins: &[(u32, Aabb)]) -> f64 {
     let count: u32 = bins.iter().map(|(count, _)| count).sum();
-    let size = union(bins.iter().map(|(_, bounds)| *bounds));
-    let extent = size.max - size.min;
+    let extent = extent(&union(bins.iter().map(|(_, bounds)| *bounds)));
     f64::from(count) * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cores::textbook::steps::LESSON;
 
     const RULES: [Split; 4] =
         [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea];
@@ -168,15 +171,14 @@ mod tests {
     #[test]
     fn each_rule_divides_where_its_name_says() {
         let places = [9.0, 0.0, 1.0, 2.0, 3.0, 10.0, 10.1, 10.2];
-        let left = RULES.map(|rule| partition(rule, &mut items_at(&places), Change::None));
+        let left = RULES.map(|rule| partition(rule, &mut items_at(&places), &LESSON));
         // Mean 5.66 and middle 5.1 both separate the four that lie low; so does the emptiest gap.
         assert_eq!(left, [4, 4, 4, 4]);
         let skewed = [0.0, 1.0, 2.0, 3.0, 4.0, 100.0];
-        let left = RULES.map(|rule| partition(rule, &mut items_at(&skewed), Change::None));
+        let left = RULES.map(|rule| partition(rule, &mut items_at(&skewed), &LESSON));
         assert_eq!(left, [3, 5, 5, 5]);
         let mean_is_not_middle = [0.0, 1.0, 4.0, 9.0];
-        let left =
-            RULES.map(|rule| partition(rule, &mut items_at(&mean_is_not_middle), Change::None));
+        let left = RULES.map(|rule| partition(rule, &mut items_at(&mean_is_not_middle), &LESSON));
         assert_eq!(left[1..3], [2, 3]);
     }
 
@@ -184,7 +186,7 @@ mod tests {
     fn what_goes_left_lies_left() {
         for rule in RULES {
             let mut items = items_at(&[5.0, 3.0, 8.0, 1.0, 9.0, 2.0, 7.0]);
-            let left = partition(rule, &mut items, Change::None);
+            let left = partition(rule, &mut items, &LESSON);
             let (low, high) = items.split_at(left);
             let largest = low.iter().map(|item| item.centroid.y).fold(f64::MIN, f64::max);
             assert!(high.iter().all(|item| item.centroid.y >= largest), "{rule:?}");
@@ -194,9 +196,9 @@ mod tests {
     #[test]
     fn centroids_in_one_place_are_not_separated_but_halved() {
         for rule in [Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea] {
-            let left = partition(rule, &mut items_at(&[4.0; 10]), Change::None);
+            let left = partition(rule, &mut items_at(&[4.0; 10]), &LESSON);
             assert!(left == 0 || left == 10, "{rule:?}: {left}");
         }
-        assert_eq!(halve(&mut items_at(&[4.0; 10]), Change::None), 5);
+        assert_eq!(halve(&mut items_at(&[4.0; 10]), &LESSON), 5);
     }
 }

@@ -1,6 +1,6 @@
 //! How noisy a pixel is: the variance that goes with its mean.
 
-use super::change::Change;
+use super::steps::Steps;
 use glam::DVec3;
 
 /// The sums of a pixel's samples and of their squares, channel by channel.
@@ -9,49 +9,45 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spread {
     count: u32,
-    sum: DVec3,
-    sum_of_squares: DVec3,
+    /// Of the samples.
+    pub sum: DVec3,
+    /// Of each channel.
+    pub sum_of_squares: DVec3,
+}
+
+/// Takes one more sample in.
+pub fn add(spread: &mut Spread, radiance: DVec3) {
+    spread.count += 1;
+    spread.sum += radiance;
+    spread.sum_of_squares += radiance * radiance;
 }
 
 impl Spread {
-    /// Takes one more sample in.
-    pub fn add(&mut self, radiance: DVec3, change: Change) {
-        self.count += 1;
-        self.sum += radiance;
-        self.sum_of_squares += radiance * radiance;
-        if change == Change::SquaresInSingle {
-            self.sum = self.sum.as_vec3().as_dvec3();
-            self.sum_of_squares = self.sum_of_squares.as_vec3().as_dvec3();
-        }
-    }
-
-    /// Variance of the mean of the samples: that of one sample, over n − 1, divided by n. Of a
-    /// single sample nothing is known: 0.
-    pub fn variance_of_mean(&self, change: Change) -> DVec3 {
+    /// Variance of the mean of the samples. Of a single sample nothing is known: 0.
+    pub fn variance_of_mean(&self, steps: &Steps) -> DVec3 {
         if self.count < 2 {
             return DVec3::ZERO;
         }
         let n = f64::from(self.count);
         let squared_deviations = self.sum_of_squares - self.sum * self.sum / n;
-        let of_a_sample = squared_deviations.max(DVec3::ZERO) / (n - 1.0);
-        match change {
-            Change::VarianceOfSample => of_a_sample,
-            Change::VarianceDividedTwice => of_a_sample / n / n,
-            Change::DeviationReported => (of_a_sample / n).map(f64::sqrt),
-            Change::SquaresReported => squared_deviations.max(DVec3::ZERO),
-            _ => of_a_sample / n,
-        }
+        steps.variance_of_mean(squared_deviations.max(DVec3::ZERO), n)
     }
+}
+
+/// That of one sample, over n − 1, divided by n.
+pub fn variance_of_mean(squared_deviations: DVec3, n: f64) -> DVec3 {
+    squared_deviations / (n - 1.0) / n
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cores::textbook::steps::LESSON;
 
     fn spread_of(values: &[f64]) -> DVec3 {
         let mut spread = Spread::default();
-        values.iter().for_each(|value| spread.add(DVec3::new(*value, 0.5, 0.0), Change::None));
-        spread.variance_of_mean(Change::None)
+        values.iter().for_each(|value| add(&mut spread, DVec3::new(*value, 0.5, 0.0)));
+        spread.variance_of_mean(&LESSON)
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Scenes of a few lines and means with their errors, for the tests of this core.
 
-use super::change::Change;
 use super::integrator::Integrator;
 use super::random::Random;
+use super::steps::LESSON;
 use super::world::World;
 use crate::contract::{Acceleration, IntegratorSettings, Ray};
 use crate::scene::{Cap, Emission, Light, Material, Mesh, Rgb, SceneDescription, Sphere, Surface};
@@ -74,8 +74,8 @@ impl Stage {
     }
 
     /// The scene as rays see it.
-    pub fn world(self) -> World {
-        World::new(&self.scene(), Acceleration::DEFAULT, Change::None)
+    pub fn world(self) -> World<'static> {
+        World::new(&self.scene(), Acceleration::DEFAULT, &LESSON)
     }
 }
 
@@ -135,7 +135,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// Traces `paths` paths along `ray`.
-    pub fn of(world: &World, ray: &Ray, settings: &IntegratorSettings, paths: usize) -> Self {
+    pub fn of(world: &World<'_>, ray: &Ray, settings: &IntegratorSettings, paths: usize) -> Self {
         let integrator = Integrator::new(world, settings);
         let mut mean = 0.0;
         let mut squared_deviations = 0.0;

@@ -1,11 +1,9 @@
 //! Points of a path, and the rays that leave them.
 
 use super::bsdf;
-use super::bvh::Form;
-use super::change::Change;
 use super::frame::Frame;
 use super::light::Lamp;
-use crate::contract::{Hit, Ray};
+use crate::contract::{Hit, LightSample, Ray};
 use crate::scene::Surface;
 use glam::DVec3;
 
@@ -23,7 +21,7 @@ pub enum View<'a> {
 pub struct Vertex<'a> {
     /// World space.
     pub point: DVec3,
-    /// Geometric, unit, on the side that glows.
+    /// Geometric, unit, on the side that emits.
     pub normal: DVec3,
     /// The shading frame.
     pub frame: Frame,
@@ -39,52 +37,30 @@ pub struct Vertex<'a> {
     pub clearance: f64,
     /// How far the path came from the point before.
     pub travelled: f64,
-    /// What this copy of the core does otherwise.
-    pub change: Change,
 }
 
 /// Share of the largest length involved by which rays keep clear of the surface they leave: far
 /// above the rounding of f64, far below anything that is seen.
-const CLEARANCE: f64 = 1e-10;
+pub const CLEARANCE: f64 = 1e-10;
 
-impl Vertex<'_> {
-    /// The ray from here in the local direction `wi`.
-    pub fn ray(&self, wi: DVec3) -> Ray {
-        let direction = self.frame.to_world(wi);
-        let ray = Ray { t_min: self.clearance, ..Ray::new(self.point, direction) };
-        match self.change {
-            Change::BounceRangeKept => Ray { t_max: self.travelled, ..ray },
-            _ => ray,
-        }
-    }
-
-    /// The ray to a point of a light `distance` away along the world direction `wi`. It stops short
-    /// of the light, which would shadow itself.
-    pub fn shadow_ray(&self, wi: DVec3, distance: f64) -> Ray {
-        let stop_short = match self.change {
-            Change::LampShadowsItself => -self.clearance,
-            Change::LampShadowsItselfAtTimes => self.clearance,
-            _ => self.clearance.max(CLEARANCE * distance),
-        };
-        let origin = match self.change {
-            Change::LampShadowsItselfAtTimes => self.point + self.clearance * wi,
-            _ => self.point,
-        };
-        let t_max = if distance.is_finite() { distance - stop_short } else { distance };
-        Ray { origin, t_min: self.clearance, direction: wi, t_max }
-    }
+/// The ray from a vertex in a direction of the world: as long as it finds nothing, without end.
+pub fn ray_from(vertex: &Vertex<'_>, direction: DVec3) -> Ray {
+    Ray { t_min: vertex.clearance, ..Ray::new(vertex.point, direction) }
 }
 
-/// How far rays must keep clear of the point at `t`: its error grows with where the ray began, how
-/// far it came, and the coordinates of what it hit.
-pub fn clearance(form: &Form, ray: &Ray, t: f64, change: Change) -> f64 {
-    let travelled = t * ray.direction;
-    let longest = ray.origin.abs().max(travelled.abs()).max(form.reach());
-    match change {
-        Change::ShadowAcne => 0.0,
-        Change::LargerOffset => 1e4 * CLEARANCE * longest.max_element(),
-        _ => CLEARANCE * longest.max_element(),
-    }
+/// The ray to the point of a light that was sampled. It stops short of the light, which would
+/// shadow itself.
+pub fn shadow_ray(vertex: &Vertex<'_>, sample: &LightSample) -> Ray {
+    let distance = sample.distance;
+    let stop_short = vertex.clearance.max(CLEARANCE * distance);
+    let t_max = if distance.is_finite() { distance - stop_short } else { distance };
+    Ray { origin: vertex.point, t_min: vertex.clearance, direction: sample.wi, t_max }
+}
+
+/// How far rays must keep clear of a point: its error grows with the `longest` of where the ray
+/// began, how far it came, and the coordinates of what it hit.
+pub fn clearance(longest: f64) -> f64 {
+    CLEARANCE * longest
 }
 
 /// The shading normal; but glass has an inside, and where the shading normal disagrees with the
@@ -97,9 +73,10 @@ pub fn frame_normal(surface: &Surface, hit: &Hit, to_viewer: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contract::TraversalStats;
+    use crate::contract::{Sampler, TraversalStats};
     use crate::cores::textbook::random::Random;
     use crate::cores::textbook::sampling;
+    use crate::cores::textbook::steps::LESSON;
     use crate::cores::textbook::testing::{Stage, clear_glass, diffuse};
     use crate::scene::Mesh;
 
@@ -119,8 +96,9 @@ mod tests {
             let View::Surface(vertex) = world.look(&Ray::new(origin, target - origin)) else {
                 continue;
             };
-            let wi = sampling::uniform_hemisphere(random.point(), Change::None);
-            let ray = vertex.ray(if vertex.wo.z < 0.0 { -wi } else { wi });
+            let wi = sampling::direction(Sampler::UniformHemisphere, random.point(), &LESSON);
+            let wi = if vertex.wo.z < 0.0 { -wi } else { wi };
+            let ray = ray_from(&vertex, vertex.frame.to_world(wi));
             let again = world.closest_hit(&ray, &mut TraversalStats::default());
             assert!(again.is_none_or(|hit| hit.t > 1e-6), "{ray:?} {again:?}");
         }

@@ -1,22 +1,22 @@
 //! The scene as rays see it: primitives to hit, materials at the hits, lights.
 
 use super::bvh::{Bvh, Form, Primitive};
-use super::change::Change;
 use super::frame::Frame;
-use super::intersect::{Ball, Crossing, Triangle};
+use super::intersect::{Ball, Crossing, Triangle, outward_normal};
 use super::light::Lamp;
-use super::vertex::{Vertex, View, clearance, frame_normal};
+use super::steps::Steps;
+use super::vertex::{Vertex, View, frame_normal};
 use crate::contract::{self, Acceleration, BuildStats, Hit, Ray, TraversalStats};
 use crate::scene::{self, Emission, Light, Rgb, SceneDescription, Surface};
 use glam::{DVec2, DVec3};
 
 /// A scene the core has taken in.
 #[derive(Debug)]
-pub struct World {
-    bvh: Bvh,
+pub struct World<'a> {
+    bvh: Bvh<'a>,
     shapes: Vec<Shape>,
     lights: Vec<Lamp>,
-    change: Change,
+    steps: &'a Steps,
 }
 
 /// What all primitives of a shape share.
@@ -34,21 +34,20 @@ struct Shape {
     light: Option<usize>,
 }
 
-impl World {
+impl<'a> World<'a> {
     /// Takes the scene in.
-    pub fn new(scene: &SceneDescription, acceleration: Acceleration, change: Change) -> Self {
-        let lamp = |light| Lamp::new(light, scene, change);
+    pub fn new(scene: &SceneDescription, acceleration: Acceleration, steps: &'a Steps) -> Self {
         Self {
-            bvh: Bvh::new(primitives(scene), acceleration, change),
+            bvh: Bvh::new(primitives(scene), acceleration, steps),
             shapes: (0..scene.shape_count() as u32).map(|n| Shape::new(scene, n)).collect(),
-            lights: scene.lights.iter().map(lamp).collect(),
-            change,
+            lights: scene.lights.iter().map(|light| Lamp::new(light, scene)).collect(),
+            steps,
         }
     }
 
-    /// What this copy of the core does otherwise.
-    pub fn change(&self) -> Change {
-        self.change
+    /// The steps of the lesson, as this scene is asked.
+    pub fn steps(&self) -> &'a Steps {
+        self.steps
     }
 
     /// The lights, by number.
@@ -95,36 +94,34 @@ impl World {
         let normal = match &primitive.form {
             Form::Triangle(triangle) => triangle.normal(),
             Form::Ball(ball) if shape.inward => {
-                -ball.outward_normal(ray.at(crossing.t), self.change)
+                -self.steps.outward_normal(ball, ray.at(crossing.t))
             }
-            Form::Ball(ball) => ball.outward_normal(ray.at(crossing.t), self.change),
+            Form::Ball(ball) => self.steps.outward_normal(ball, ray.at(crossing.t)),
         };
-        let interpolated = shape.shading_normal(primitive.number, crossing.uv, self.change);
-        let hit = Hit {
-            t: crossing.t,
-            shape: primitive.shape,
-            primitive: primitive.number,
-            geometric_normal: normal,
-            shading_normal: interpolated.unwrap_or(normal),
-            uv: crossing.uv,
-        };
-        turned(hit, ray, self.change)
+        let interpolated = shape.shading_normal(primitive.number, crossing.uv, self.steps);
+        let numbers = [primitive.shape, primitive.number];
+        self.steps.hit(ray, crossing, numbers, [normal, interpolated.unwrap_or(normal)])
     }
 
     fn vertex(&self, primitive: &Primitive, ray: &Ray, hit: Hit, to_viewer: DVec3) -> Vertex<'_> {
         let shape = &self.shapes[primitive.shape as usize];
         let frame = Frame::around(frame_normal(&shape.surface, &hit, to_viewer));
+        let is_front = self.steps.emits_towards(hit.geometric_normal, to_viewer);
+        let travelled = hit.t * ray.direction;
+        let longest = ray.origin.abs().max(travelled.abs()).max(primitive.form.reach());
         Vertex {
             point: ray.at(hit.t),
             normal: hit.geometric_normal,
             wo: frame.to_local(to_viewer),
             frame,
             surface: &shape.surface,
-            emitted: shape.emitted(&primitive.form, &hit, ray, to_viewer, self.change),
+            emitted: match &shape.emission {
+                Some(emission) if is_front => emitted_at(emission, &primitive.form, ray.at(hit.t)),
+                _ => DVec3::ZERO,
+            },
             light: shape.light.map(|light| &self.lights[light]),
-            clearance: clearance(&primitive.form, ray, hit.t, self.change),
+            clearance: self.steps.clearance(longest.max_element()),
             travelled: hit.t,
-            change: self.change,
         }
     }
 }
@@ -150,85 +147,53 @@ impl Shape {
 
     /// The normals of the vertices, weighted like their positions; `None` for flat faces and
     /// spheres.
-    fn shading_normal(&self, triangle: u32, uv: DVec2, change: Change) -> Option<DVec3> {
+    fn shading_normal(&self, triangle: u32, uv: DVec2, steps: &Steps) -> Option<DVec3> {
         let corners = self.indices.get(triangle as usize)?;
-        interpolate_normal(corners.map(|corner| self.normals[corner as usize]), uv, change)
-    }
-
-    /// Radiance that leaves the hit towards the viewer: from the front alone.
-    fn emitted(
-        &self,
-        form: &Form,
-        hit: &Hit,
-        ray: &Ray,
-        to_viewer: DVec3,
-        change: Change,
-    ) -> DVec3 {
-        let is_lit =
-            is_front(hit.geometric_normal, to_viewer) || change == Change::TwoSidedEmission;
-        match &self.emission {
-            Some(emission) if is_lit => emitted_at(emission, form, ray.at(hit.t)).into(),
-            _ => DVec3::ZERO,
-        }
+        steps.interpolated_normal(corners.map(|corner| self.normals[corner as usize]), uv)
     }
 }
 
-fn is_front(normal: DVec3, to_viewer: DVec3) -> bool {
+/// Surfaces emit from their front alone.
+pub fn emits_towards(normal: DVec3, to_viewer: DVec3) -> bool {
     normal.dot(to_viewer) > 0.0
 }
 
-fn emitted_at(emission: &Emission, form: &Form, point: DVec3) -> Rgb {
-    match form {
-        Form::Ball(ball) => emission.at_sphere_point(ball.outward_normal(point, Change::None)),
+fn emitted_at(emission: &Emission, form: &Form, point: DVec3) -> DVec3 {
+    let radiance: Rgb = match form {
+        Form::Ball(ball) => emission.at_sphere_point(outward_normal(ball, point)),
         Form::Triangle(_) => emission.radiance,
-    }
+    };
+    radiance.into()
 }
 
 /// Barycentric interpolation: `uv` are the weights of vertices 1 and 2.
-fn interpolate_normal([n0, n1, n2]: [DVec3; 3], uv: DVec2, change: Change) -> Option<DVec3> {
-    let normal = match change {
-        Change::NormalsSwapped => (1.0 - uv.x - uv.y) * n0 + uv.y * n1 + uv.x * n2,
-        _ => (1.0 - uv.x - uv.y) * n0 + uv.x * n1 + uv.y * n2,
-    };
-    match change {
-        Change::FlatShading => None,
-        Change::NormalNotNormalised => Some(normal),
-        _ => normal.try_normalize(),
-    }
+pub fn interpolated_normal([n0, n1, n2]: [DVec3; 3], uv: DVec2) -> Option<DVec3> {
+    ((1.0 - uv.x - uv.y) * n0 + uv.x * n1 + uv.y * n2).try_normalize()
 }
 
-/// Normals stay on their side, wherever the ray comes from.
-fn turned(hit: Hit, ray: &Ray, change: Change) -> Hit {
-    let is_from_behind = hit.geometric_normal.dot(ray.direction) > 0.0;
-    if change != Change::NormalsFaceRay || !is_from_behind {
-        return hit;
-    }
-    Hit { geometric_normal: -hit.geometric_normal, shading_normal: -hit.shading_normal, ..hit }
+/// What is said of a hit of this shape and primitive; normals, geometric and for shading, stay on
+/// their side, wherever the ray comes from.
+pub fn hit(_ray: &Ray, crossing: Crossing, numbers: [u32; 2], normals: [DVec3; 2]) -> Hit {
+    let ([shape, primitive], [geometric_normal, shading_normal]) = (numbers, normals);
+    let Crossing { t, uv } = crossing;
+    Hit { t, shape, primitive, geometric_normal, shading_normal, uv }
 }
 
 /// The hit of `ray` with a single primitive that belongs to no scene.
-pub fn hit_alone(primitive: &contract::Primitive, ray: &Ray, change: Change) -> Option<Hit> {
-    let (crossing, normal, shading_normal) = match *primitive {
+pub fn hit_alone(primitive: &contract::Primitive, ray: &Ray, steps: &Steps) -> Option<Hit> {
+    let (crossing, normal, interpolated) = match *primitive {
         contract::Primitive::Triangle { positions, normals } => {
             let triangle = Triangle::new(positions)?;
-            let crossing = triangle.intersect(ray, change)?;
-            (crossing, triangle.normal(), interpolate_normal(normals, crossing.uv, change))
+            let crossing = triangle.intersect(ray, steps)?;
+            (crossing, triangle.normal(), steps.interpolated_normal(normals, crossing.uv))
         }
         contract::Primitive::Sphere { centre, radius } => {
             let ball = Ball::new(centre, radius)?;
-            let crossing = ball.intersect(ray, change)?;
-            (crossing, ball.outward_normal(ray.at(crossing.t), change), None)
+            let crossing = ball.intersect(ray, steps)?;
+            (crossing, steps.outward_normal(&ball, ray.at(crossing.t)), None)
         }
     };
-    let hit = Hit {
-        t: crossing.t,
-        shape: 0,
-        primitive: 0,
-        geometric_normal: normal,
-        shading_normal: shading_normal.unwrap_or(normal),
-        uv: crossing.uv,
-    };
-    Some(turned(hit, ray, change))
+    Some(steps.hit(ray, crossing, [0, 0], [normal, interpolated.unwrap_or(normal)]))
 }
 
 /// Everything that can be hit, each with its number in its shape.
@@ -255,10 +220,11 @@ fn forms(shape: scene::Shape<'_>) -> Vec<Option<Form>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cores::textbook::steps::LESSON;
     use crate::cores::textbook::testing::{Stage, diffuse};
     use crate::scene::Mesh;
 
-    fn hit(world: &World, from: DVec3, direction: DVec3) -> Hit {
+    fn hit_from(world: &World<'_>, from: DVec3, direction: DVec3) -> Hit {
         let ray = Ray::new(from, direction);
         world.closest_hit(&ray, &mut TraversalStats::default()).expect("aimed at it")
     }
@@ -278,7 +244,7 @@ mod tests {
     fn shading_normals_are_weighted_like_positions_and_unit() {
         let mesh = smooth_triangle();
         let world = Stage::empty().mesh(mesh.clone(), diffuse(0.5)).world();
-        let hit = hit(&world, DVec3::new(0.2, 0.3, 1.0), DVec3::NEG_Z);
+        let hit = hit_from(&world, DVec3::new(0.2, 0.3, 1.0), DVec3::NEG_Z);
         let expected = 0.5 * mesh.normals[0] + 0.2 * mesh.normals[1] + 0.3 * mesh.normals[2];
         assert!(hit.shading_normal.abs_diff_eq(expected.normalize(), 1e-15), "{hit:?}");
         assert_eq!(hit.geometric_normal, DVec3::Z);
@@ -287,7 +253,7 @@ mod tests {
             normals: [mesh.normals[0], mesh.normals[1], mesh.normals[2]],
         };
         let ray = Ray::new(DVec3::new(0.2, 0.3, 1.0), DVec3::NEG_Z);
-        let alone = hit_alone(&alone, &ray, Change::None).expect("aimed at it");
+        let alone = hit_alone(&alone, &ray, &LESSON).expect("aimed at it");
         assert_eq!(alone.shading_normal, hit.shading_normal);
     }
 
@@ -302,7 +268,7 @@ mod tests {
             .ball(DVec3::X * -5.0, 1.0, diffuse(0.5))
             .world();
         let number = |x: f64, y: f64| {
-            let hit = hit(&world, DVec3::new(x, y, 3.0), DVec3::NEG_Z);
+            let hit = hit_from(&world, DVec3::new(x, y, 3.0), DVec3::NEG_Z);
             (hit.shape, hit.primitive)
         };
         // The triangle without area keeps its number; the floor's second triangle is beyond its
@@ -315,8 +281,8 @@ mod tests {
     #[test]
     fn a_room_has_its_normals_inside_wherever_it_is_seen_from() {
         let world = Stage::empty().room(1.0, diffuse(0.5)).world();
-        assert_eq!(hit(&world, DVec3::ZERO, DVec3::X).geometric_normal, DVec3::NEG_X);
-        assert_eq!(hit(&world, DVec3::X * 3.0, DVec3::NEG_X).geometric_normal, DVec3::NEG_X);
+        assert_eq!(hit_from(&world, DVec3::ZERO, DVec3::X).geometric_normal, DVec3::NEG_X);
+        assert_eq!(hit_from(&world, DVec3::X * 3.0, DVec3::NEG_X).geometric_normal, DVec3::NEG_X);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Light scattered many times: furnaces, cavities, mirrors and glass.
 
 use crate::contract::{DirectSampling, IntegratorSettings, Ray, Roulette};
-use crate::cores::textbook::change::Change;
+use crate::cores::textbook::steps::LESSON;
 use crate::cores::textbook::testing::{Estimate, Stage, clear_glass, diffuse, grey, looks};
 use crate::cores::textbook::world::World;
 use crate::scene::{Light, Surface};
@@ -15,7 +15,7 @@ fn settings(bounces: RangeInclusive<u32>, direct: DirectSampling) -> IntegratorS
     IntegratorSettings { bounces, direct, seed: 2, ..IntegratorSettings::default() }
 }
 
-fn by_lights(world: &World, ray: &Ray, bounces: RangeInclusive<u32>, paths: usize) -> Estimate {
+fn by_lights(world: &World<'_>, ray: &Ray, bounces: RangeInclusive<u32>, paths: usize) -> Estimate {
     Estimate::of(world, ray, &settings(bounces, DirectSampling::Lights), paths)
 }
 
@@ -23,7 +23,7 @@ fn somewhere() -> Ray {
     Ray::new(DVec3::ZERO, DVec3::new(0.3, 0.2, 0.9).normalize())
 }
 
-fn furnace(glow: f64, reflectance: f64) -> World {
+fn furnace(glow: f64, reflectance: f64) -> World<'static> {
     Stage::empty().room(1.0, diffuse(reflectance).glowing(glow)).world()
 }
 
@@ -152,7 +152,7 @@ fn s20_each_mirror_takes_its_share_and_is_one_bounce() {
 
 /// A closed slab of glass between z = 0 and z = .1, far wider than light strays in it, over a
 /// glowing floor.
-fn slab_over_a_lamp() -> World {
+fn slab_over_a_lamp() -> World<'static> {
     let face = |z: f64, size: f64| {
         [(-size, -size), (size, -size), (size, size), (-size, size)]
             .map(|(x, y)| DVec3::new(x, y, z))
@@ -234,7 +234,7 @@ fn colours_keep_to_their_channels() {
     let mut scene = Stage::empty().room(1.0, diffuse(0.0).glowing(0.0)).scene();
     scene.materials[0].surface = Surface::Diffuse { reflectance };
     scene.materials[0].emission.as_mut().expect("it glows").radiance = [0.7, 0.5, 0.3];
-    let world = World::new(&scene, crate::contract::Acceleration::DEFAULT, Change::None);
+    let world = World::new(&scene, crate::contract::Acceleration::DEFAULT, &LESSON);
     let settings = settings(2..=2, BOTH[0]);
     let integrator = crate::cores::textbook::integrator::Integrator::new(&world, &settings);
     let mut random = crate::cores::textbook::random::Random::for_ray(0, 0);

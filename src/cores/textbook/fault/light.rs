@@ -1,219 +1,127 @@
 //! Part 3: lights and direct light.
 
-use super::Fault;
+use super::faults;
 use crate::cause::{convention, light};
-use crate::cores::textbook::change::Change;
+use crate::contract::{DirectSampling, Ray};
+use crate::cores::textbook as lesson;
+use glam::{DVec2, DVec3};
+use lesson::vertex::shadow_ray;
 
 const RECTANGLE: &str = "light/rectangle-light-samples-reach-the-light";
 
-/// In the order of the lecture.
-pub const FAULTS: &[Fault] = &[
-    Fault {
-        change: Change::LightPdfByDistance,
-        name: "light-pdf-by-distance",
-        part: 3,
-        summary: "the density of a light sample lacks a factor of the distance, as in the course's base code",
-        caught_by: RECTANGLE,
-        cause: &light::LIGHT_DISTANCE_NOT_SQUARED,
-    },
-    Fault {
-        change: Change::LightPdfWithoutCosine,
-        name: "light-pdf-without-cosine",
-        part: 3,
-        summary: "distance²/area, without the cosine at the light",
-        caught_by: RECTANGLE,
-        cause: &light::LIGHT_COSINE_FORGOTTEN,
-    },
-    Fault {
-        change: Change::LightPdfPerArea,
-        name: "light-pdf-per-area",
-        part: 3,
-        summary: "1/area, as if it were a density over directions",
-        caught_by: RECTANGLE,
-        cause: &light::LIGHT_PDF_PER_AREA,
-    },
-    Fault {
-        change: Change::LightAreaForgotten,
-        name: "light-area-forgotten",
-        part: 3,
-        summary: "distance²/cos θ, without the area",
-        caught_by: RECTANGLE,
-        cause: &light::LIGHT_AREA_FORGOTTEN,
-    },
-    Fault {
-        change: Change::LightCosineMoved,
-        name: "light-cosine-moved",
-        part: 3,
-        summary: "the cosine at the light in the radiance, not in the density: the picture is right",
-        caught_by: RECTANGLE,
-        cause: &light::LIGHT_COSINE_FORGOTTEN,
-    },
-    Fault {
-        change: Change::LightShinesBackwards,
-        name: "light-shines-backwards",
-        part: 3,
-        summary: "|cos θ| at the light: it shines to its back too",
-        caught_by: RECTANGLE,
-        cause: &light::LIGHT_SHINES_BACKWARDS,
-    },
-    Fault {
-        change: Change::LightPointsUneven,
-        name: "light-points-uneven",
-        part: 3,
-        summary: "u in place of √u for points of a triangle",
-        caught_by: "light/triangle-light-samples-reach-the-light",
-        cause: &light::LIGHT_POINTS_UNEVEN,
-    },
-    Fault {
-        change: Change::PointLightUnweakened,
-        name: "point-light-unweakened",
-        part: 3,
-        summary: "a point light is as bright at every distance, while its falloff is declared",
-        caught_by: "light/point-light-follows-the-inverse-square-law",
-        cause: &convention::NO_FALLOFF,
-    },
-    Fault {
-        change: Change::DirectionalFlipped,
-        name: "directional-flipped",
-        part: 3,
-        summary: "wi is the direction in which the light travels",
-        caught_by: "light/directional-light-samples-lead-to-the-light",
-        cause: &light::DIRECTIONAL_FLIPPED,
-    },
-    Fault {
-        change: Change::SkyPdfOfHemisphere,
-        name: "sky-pdf-of-hemisphere",
-        part: 3,
-        summary: "1/2π for directions of the whole sphere",
-        caught_by: "light/environment-samples-cover-the-sphere",
-        cause: &light::ENVIRONMENT_PDF_OF_HEMISPHERE,
-    },
-    Fault {
-        change: Change::HemisphereNotDivided,
-        name: "hemisphere-not-divided",
-        part: 3,
-        summary: "the sum is not divided by num_samples",
-        caught_by: "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
-        cause: &light::NOT_DIVIDED_BY_SAMPLES,
-    },
-    Fault {
-        change: Change::HemisphereWorldDirection,
-        name: "hemisphere-in-world",
-        part: 3,
-        summary: "w_in is traced without o2w",
-        caught_by: "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
-        cause: &light::HEMISPHERE_IN_WORLD,
-    },
-    Fault {
-        change: Change::HemisphereIgnored,
-        name: "hemisphere-ignored",
-        part: 3,
-        summary: "light is always sampled: -H has no effect",
-        caught_by: "light/hemisphere-sampling-variance-matches-closed-form",
-        cause: &light::HEMISPHERE_IGNORED,
-    },
-    Fault {
-        change: Change::HemisphereWithoutLights,
-        name: "hemisphere-without-lights",
-        part: 3,
-        summary: "0/0 where there is no light",
-        caught_by: "light/scene-without-lights-is-black",
-        cause: &light::DIVIDED_BY_ZERO_LIGHTS,
-    },
-    Fault {
-        change: Change::WorldCosine,
-        name: "world-cosine",
-        part: 3,
-        summary: "wi.z for cos θ, in the world",
-        caught_by: "light/rectangle-light-slanted-matches-closed-form",
-        cause: &light::WORLD_COSINE,
-    },
-    Fault {
-        change: Change::LightTimesPdf,
-        name: "light-times-pdf",
-        part: 3,
-        summary: "× pdf in place of / pdf",
-        caught_by: "light/rectangle-light-slanted-matches-closed-form",
-        cause: &light::TIMES_PDF,
-    },
-    Fault {
-        change: Change::LampShadowsItself,
-        name: "lamp-shadows-itself",
-        part: 3,
-        summary: "the shadow ray ends at the lamp, and meets it",
-        caught_by: "light/rectangle-light-slanted-matches-closed-form",
-        cause: &light::EMITTER_SHADOWS_ITSELF,
-    },
-    Fault {
-        change: Change::LampShadowsItselfAtTimes,
-        name: "lamp-shadows-itself-at-times",
-        part: 3,
-        summary: "the shadow ray starts EPS ahead and ends EPS before the lamp: rounding decides",
-        caught_by: "light/rectangle-light-overhead-matches-closed-form",
-        cause: &light::EMITTER_SHADOWS_ITSELF,
-    },
-    Fault {
-        change: Change::NoShadows,
-        name: "no-shadows",
-        part: 3,
-        summary: "Ray(o, d, EPS, distance): max_t is EPS, and nothing is ever in the way",
-        caught_by: "light/occluder-hides-just-what-is-behind-it",
-        cause: &light::NO_SHADOWS,
-    },
-    Fault {
-        change: Change::ShadowWithoutEnd,
-        name: "shadow-without-end",
-        part: 3,
-        summary: "the shadow ray to a point light has no max_t",
-        caught_by: "light/surfaces-behind-a-light-cast-no-shadow",
-        cause: &light::SHADOW_BEYOND_LIGHT,
-    },
-    Fault {
-        change: Change::ShadowAcne,
-        name: "shadow-acne",
-        part: 3,
-        summary: "rays that leave a surface have no min_t",
-        caught_by: "light/point-light-at-the-camera-sees-no-shadows",
-        cause: &light::SHADOW_ACNE,
-    },
-    Fault {
-        change: Change::DividedInLoop,
-        name: "divided-in-loop",
-        part: 3,
-        summary: "`L_out /= n` inside the loop over lights",
-        caught_by: "light/every-light-is-divided-by-its-own-samples",
-        cause: &light::DIVIDED_IN_LOOP,
-    },
-    Fault {
-        change: Change::DividedByLights,
-        name: "divided-by-lights",
-        part: 3,
-        summary: "the sum is divided by the number of lights",
-        caught_by: "light/radiance-is-linear-in-emission",
-        cause: &light::DIVIDED_BY_LIGHTS,
-    },
-    Fault {
-        change: Change::DeltaDivided,
-        name: "delta-light-divided",
-        part: 3,
-        summary: "a point light is sampled once and divided by -l",
-        caught_by: "light/point-light-does-not-depend-on-sample-count",
-        cause: &light::DELTA_DIVIDED,
-    },
-    Fault {
-        change: Change::LastLightOnly,
-        name: "last-light-only",
-        part: 3,
-        summary: "an inner variable hides the sum",
-        caught_by: "light/radiance-is-linear-in-emission",
-        cause: &light::LAST_LIGHT_ONLY,
-    },
-    Fault {
-        change: Change::BounceRangeKept,
-        name: "bounce-range-kept",
-        part: 3,
-        summary: "max_t of the new ray is the length of the ray before",
-        caught_by: "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
-        cause: &light::T_MAX_NOT_RESET,
-    },
-];
+faults! { part 3;
+    "light-pdf-by-distance":
+        "the density of a light sample lacks a factor of the distance, as in the course's base code",
+        fails RECTANGLE, told light::LIGHT_DISTANCE_NOT_SQUARED,
+        area_per_steradian = |distance_squared, cosine| distance_squared.sqrt() / cosine;
+    "light-pdf-without-cosine": "distance²/area, without the cosine at the light",
+        fails RECTANGLE, told light::LIGHT_COSINE_FORGOTTEN,
+        area_per_steradian = |distance_squared, _| distance_squared;
+    "light-pdf-per-area": "1/area, as if it were a density over directions",
+        fails RECTANGLE, told light::LIGHT_PDF_PER_AREA,
+        area_per_steradian = |_, _| 1.0;
+    "light-area-forgotten": "distance²/cos θ, without the area",
+        fails RECTANGLE, told light::LIGHT_AREA_FORGOTTEN,
+        mesh_pdf = |area_per_steradian, _| area_per_steradian;
+    "light-cosine-moved":
+        "the cosine at the light in the radiance, not in the density: the picture is right",
+        fails RECTANGLE, told light::LIGHT_COSINE_FORGOTTEN,
+        area_per_steradian = |distance_squared, _| distance_squared,
+        mesh_radiance = |radiance, to_light, normal| {
+            let cosine = (-to_light).normalize().dot(normal);
+            radiance.map(|radiance| radiance * cosine.max(0.0))
+        };
+    "light-shines-backwards": "|cos θ| at the light: it shines to its back too",
+        fails RECTANGLE, told light::LIGHT_SHINES_BACKWARDS,
+        cosine_at_light = |to_light, normal| {
+            lesson::area_light::cosine_at_light(to_light, normal).abs()
+        };
+    "light-points-uneven": "u in place of √u for points of a triangle",
+        fails "light/triangle-light-samples-reach-the-light", told light::LIGHT_POINTS_UNEVEN,
+        triangle_point = |point| DVec2::new(point.x * (1.0 - point.y), point.x * point.y);
+    "point-light-unweakened":
+        "a point light is as bright at every distance, while its falloff is declared",
+        fails "light/point-light-follows-the-inverse-square-law", told convention::NO_FALLOFF,
+        point_light_radiance = |intensity, _| intensity;
+    "directional-flipped": "wi is the direction in which the light travels",
+        fails "light/directional-light-samples-lead-to-the-light", told light::DIRECTIONAL_FLIPPED,
+        towards_directional = |direction| direction;
+    "sky-pdf-of-hemisphere": "1/2π for directions of the whole sphere",
+        fails "light/environment-samples-cover-the-sphere", told light::ENVIRONMENT_PDF_OF_HEMISPHERE,
+        sky_pdf = || 2.0 * lesson::light::sky_pdf();
+    "hemisphere-not-divided": "the sum is not divided by num_samples",
+        fails "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
+        told light::NOT_DIVIDED_BY_SAMPLES,
+        hemisphere_mean = |total, _| total;
+    "hemisphere-in-world": "w_in is traced without o2w",
+        fails "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
+        told light::HEMISPHERE_IN_WORLD,
+        hemisphere_direction = |_, wi| wi;
+    "hemisphere-ignored": "light is always sampled: -H has no effect",
+        fails "light/hemisphere-sampling-variance-matches-closed-form",
+        told light::HEMISPHERE_IGNORED,
+        direct_sampling = |_| DirectSampling::Lights;
+    "hemisphere-without-lights": "0/0 where there is no light",
+        fails "light/scene-without-lights-is-black", told light::DIVIDED_BY_ZERO_LIGHTS,
+        hemisphere_samples = |per_light, lights| per_light * lights;
+    "world-cosine": "wi.z for cos θ, in the world",
+        fails "light/rectangle-light-slanted-matches-closed-form", told light::WORLD_COSINE,
+        light_cosine = |_, world| world.z.abs();
+    "light-times-pdf": "× pdf in place of / pdf",
+        fails "light/rectangle-light-slanted-matches-closed-form", told light::TIMES_PDF,
+        light_estimate = |light, pdf| light * pdf;
+    "lamp-shadows-itself": "the shadow ray ends at the lamp, and meets it",
+        fails "light/rectangle-light-slanted-matches-closed-form", told light::EMITTER_SHADOWS_ITSELF,
+        shadow_ray = |vertex, sample| {
+            let t_max = sample.distance + vertex.clearance;
+            Ray { t_max, ..shadow_ray(vertex, sample) }
+        };
+    "lamp-shadows-itself-at-times":
+        "the shadow ray starts EPS ahead and ends EPS before the lamp: rounding decides",
+        fails "light/rectangle-light-overhead-matches-closed-form", told light::EMITTER_SHADOWS_ITSELF,
+        shadow_ray = |vertex, sample| {
+            let origin = vertex.point + vertex.clearance * sample.wi;
+            let t_max = sample.distance - vertex.clearance;
+            Ray { origin, t_max, ..shadow_ray(vertex, sample) }
+        };
+    "no-shadows": "Ray(o, d, EPS, distance): max_t is EPS, and nothing is ever in the way",
+        fails "light/occluder-hides-just-what-is-behind-it", told light::NO_SHADOWS,
+        shadow_ray = |vertex, sample| Ray {
+            t_max: vertex.clearance,
+            ..shadow_ray(vertex, sample)
+        };
+    "shadow-without-end": "the shadow ray to a point light has no max_t",
+        fails "light/surfaces-behind-a-light-cast-no-shadow", told light::SHADOW_BEYOND_LIGHT,
+        shadow_ray = |vertex, sample| match sample.is_delta {
+            1 => Ray { t_max: f64::INFINITY, ..shadow_ray(vertex, sample) },
+            _ => shadow_ray(vertex, sample),
+        };
+    "shadow-acne": "rays that leave a surface have no min_t",
+        fails "light/point-light-at-the-camera-sees-no-shadows", told light::SHADOW_ACNE,
+        clearance = |_| 0.0;
+    "divided-in-loop": "`L_out /= n` inside the loop over lights",
+        fails "light/every-light-is-divided-by-its-own-samples", told light::DIVIDED_IN_LOOP,
+        sum_over_lights = |each, samples| {
+            each.fold(DVec3::ZERO, |total, radiance| total / f64::from(samples) + radiance)
+        };
+    "divided-by-lights": "the sum is divided by the number of lights",
+        fails "light/radiance-is-linear-in-emission", told light::DIVIDED_BY_LIGHTS,
+        sum_over_lights = |each, _| {
+            let mut lights = 0.0_f64;
+            let total: DVec3 = each.inspect(|_| lights += 1.0).sum();
+            total / lights.max(1.0)
+        };
+    "delta-light-divided": "a point light is sampled once and divided by -l",
+        fails "light/point-light-does-not-depend-on-sample-count", told light::DELTA_DIVIDED,
+        light_mean = |total, _, asked_for| total / f64::from(asked_for);
+    "last-light-only": "an inner variable hides the sum",
+        fails "light/radiance-is-linear-in-emission", told light::LAST_LIGHT_ONLY,
+        sum_over_lights = |each, _| each.last().unwrap_or(DVec3::ZERO);
+    "bounce-range-kept": "max_t of the new ray is the length of the ray before",
+        fails "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
+        told light::T_MAX_NOT_RESET,
+        ray_from = |vertex, direction| Ray {
+            t_max: vertex.travelled,
+            ..lesson::vertex::ray_from(vertex, direction)
+        };
+}

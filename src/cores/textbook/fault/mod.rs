@@ -1,27 +1,27 @@
-//! Mistakes that students make, each planted at the line of this core where they make it.
+//! Mistakes that students make, each beside the step of the lesson that it replaces.
 //!
-//! A fault says which case has to catch it and which cause the diagnosis has to name. Faults that no
-//! question to the core can tell apart share a cause. Bounded here are those that would not come
+//! A fault says which case has to catch it and which cause the diagnosis has to name. Faults that
+//! no question to the core can tell apart share a cause. Bounded here are those that would not come
 //! back: a recursion without end is answered as one that is far too deep.
 //!
-//! To plant one: a variant of `Change`, the wrong line beside the right one, and an entry in the
-//! table of its part.
+//! To plant one, add an entry to the table of its subject. What goes wrong is a step, or a few: if
+//! there is none yet, make the line a function of the lesson and add its row to `steps`.
 
 mod adaptive;
+mod bsdf;
+mod bvh;
 mod camera;
-mod hierarchy;
+mod integrator;
 mod light;
-mod path;
+mod sampling;
 mod shape;
-mod surface;
 
-use super::change::Change;
+use super::steps::{LESSON, Steps};
 use crate::cause::Cause;
 
 /// One mistake of one or two lines.
 #[derive(Debug)]
 pub struct Fault {
-    pub(super) change: Change,
     /// Kebab-case, unique: `textbook:NAME` is the core that makes it.
     pub name: &'static str,
     /// Of the course, 1 to 5.
@@ -32,41 +32,48 @@ pub struct Fault {
     pub caught_by: &'static str,
     /// What the diagnosis has to name first.
     pub cause: &'static Cause,
+    /// What it puts in place of steps of the lesson.
+    pub(super) steps: Steps,
 }
+
+/// A table of faults: `"name": "what the student wrote", fails CASE, told CAUSE, STEP = what stands
+/// in its place;`.
+macro_rules! faults {
+    (part $part:literal; $(
+        $name:literal: $summary:literal, fails $caught_by:expr, told $cause:expr,
+        $($step:ident = $wrong:expr),+;
+    )*) => {
+        /// In the order of the lecture.
+        pub const FAULTS: &[super::Fault] = &[$(super::Fault {
+            name: $name,
+            part: $part,
+            summary: $summary,
+            caught_by: $caught_by,
+            cause: &$cause,
+            steps: super::Steps { $($step: Some($wrong),)+ ..super::LESSON },
+        }),*];
+    };
+}
+use faults;
 
 /// Every fault, part by part.
 pub fn all() -> impl Iterator<Item = &'static Fault> {
-    let parts = [
+    let subjects = [
         camera::FAULTS,
         shape::FAULTS,
-        hierarchy::FAULTS,
-        surface::FAULTS,
+        bvh::FAULTS,
+        sampling::FAULTS,
+        bsdf::FAULTS,
         light::FAULTS,
-        path::FAULTS,
+        integrator::FAULTS,
         adaptive::FAULTS,
     ];
-    parts.into_iter().flatten()
+    subjects.into_iter().flatten()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::different;
     use super::*;
-    use std::collections::BTreeSet;
-
-    #[test]
-    fn every_change_has_one_name_and_every_name_one_change() {
-        let mut names = BTreeSet::new();
-        let mut changes = BTreeSet::new();
-        let faults = all().map(|fault| (fault.name, fault.change));
-        let different = different::DIFFERENT.iter().map(|core| (core.name, core.change));
-        for (name, change) in faults.chain(different) {
-            assert!(names.insert(name), "{name} stands there twice");
-            assert!(changes.insert(format!("{change:?}")), "{change:?} stands there twice");
-            let proper = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-            assert!(name.chars().all(proper), "{name}");
-        }
-    }
 
     #[test]
     fn every_part_of_the_course_has_a_dozen() {

@@ -1,8 +1,9 @@
 //! Part 1: triangle and sphere.
 
-use super::Fault;
+use super::faults;
 use crate::cause::shape;
-use crate::cores::textbook::change::Change;
+use crate::cores::textbook as lesson;
+use lesson::intersect::{Quadratic, contains, weight_error};
 
 const INTERPOLATION: &str = "shape/shading-normals-are-interpolated";
 const TRIANGLE: &str = "shape/ray-triangle-hits-are-right";
@@ -11,150 +12,91 @@ const RANDOM: &str = "shape/random-triangles-match-exact-arithmetic";
 const SEGMENT: &str = "shape/hits-lie-between-t-min-and-t-max";
 const SPHERE: &str = "shape/ray-sphere-hit-is-the-nearest-root-ahead";
 
-/// In the order of the lecture.
-pub const FAULTS: &[Fault] = &[
-    Fault {
-        change: Change::NormalsSwapped,
-        name: "vertex-normals-swapped",
-        part: 1,
-        summary: "barycentric weights multiply the wrong vertex normals",
-        caught_by: INTERPOLATION,
-        cause: &shape::NORMALS_SWAPPED,
-    },
-    Fault {
-        change: Change::NormalNotNormalised,
-        name: "interpolated-normal-not-unit",
-        part: 1,
-        summary: "the interpolated normal is not normalised",
-        caught_by: INTERPOLATION,
-        cause: &shape::NORMAL_NOT_UNIT,
-    },
-    Fault {
-        change: Change::FlatShading,
-        name: "flat-shading",
-        part: 1,
-        summary: "the geometric normal is used for shading",
-        caught_by: INTERPOLATION,
-        cause: &shape::FLAT_SHADING_NORMAL,
-    },
-    Fault {
-        change: Change::NormalsFaceRay,
-        name: "normals-face-ray",
-        part: 1,
-        summary: "normals are turned towards the ray",
-        caught_by: TRIANGLE,
-        cause: &shape::NORMALS_FACE_RAY,
-    },
-    Fault {
-        change: Change::DeterminantThreshold,
-        name: "determinant-threshold",
-        part: 1,
-        summary: "a determinant below 1e-5 counts as parallel",
-        caught_by: RANDOM,
-        cause: &shape::DETERMINANT_THRESHOLD,
-    },
-    Fault {
-        change: Change::StrictEdges,
-        name: "strict-edges",
-        part: 1,
-        summary: "u > 0, v > 0, u + v < 1: edges belong to no triangle",
-        caught_by: "shape/rays-at-a-shared-edge-hit-one-triangle",
-        cause: &shape::EDGES_EXCLUDED,
-    },
-    Fault {
-        change: Change::Parallelogram,
-        name: "triangle-is-a-parallelogram",
-        part: 1,
-        summary: "v ≤ 1 in place of u + v ≤ 1",
-        caught_by: TRIANGLE,
-        cause: &shape::PARALLELOGRAM,
-    },
-    Fault {
-        change: Change::BackCulled,
-        name: "back-faces-culled",
-        part: 1,
-        summary: "determinant < 0 counts as a miss",
-        caught_by: TRIANGLE,
-        cause: &shape::BACK_CULLED,
-    },
-    Fault {
-        change: Change::NanAccepted,
-        name: "nan-hit-accepted",
-        part: 1,
-        summary: "no test for parallel rays, and comparisons that reject: NaN is a hit",
-        caught_by: IN_PLANE,
-        cause: &shape::NAN_HIT_ACCEPTED,
-    },
-    Fault {
-        change: Change::TriangleEndIgnored,
-        name: "triangle-ignores-t-max",
-        part: 1,
-        summary: "the triangle's t is compared with min_t only",
-        caught_by: SEGMENT,
-        cause: &shape::SEGMENT_END_IGNORED,
-    },
-    Fault {
-        change: Change::NearRootOnly,
-        name: "sphere-near-root-only",
-        part: 1,
-        summary: "only the nearer root is considered",
-        caught_by: SPHERE,
-        cause: &shape::NEAR_ROOT_ONLY,
-    },
-    Fault {
-        change: Change::BothRootsRequired,
-        name: "sphere-both-roots-required",
-        part: 1,
-        summary: "a sphere is hit only if both roots lie in the range",
-        caught_by: SPHERE,
-        cause: &shape::BOTH_ROOTS_REQUIRED,
-    },
-    Fault {
-        change: Change::FirstRootUnchecked,
-        name: "sphere-first-root-unchecked",
-        part: 1,
-        summary: "t1 is reported although only t2 is valid",
-        caught_by: SPHERE,
-        cause: &shape::FIRST_ROOT_UNCHECKED,
-    },
-    Fault {
-        change: Change::FarRootTaken,
-        name: "sphere-far-root",
-        part: 1,
-        summary: "the swap is the wrong way round: the far root is used",
-        caught_by: SPHERE,
-        cause: &shape::FAR_ROOT_TAKEN,
-    },
-    Fault {
-        change: Change::SphereBehindHit,
-        name: "sphere-behind-hit",
-        part: 1,
-        summary: "roots are not compared with min_t",
-        caught_by: SPHERE,
-        cause: &shape::HITS_BEHIND_ORIGIN,
-    },
-    Fault {
-        change: Change::QuadraticPrecedence,
-        name: "quadratic-precedence",
-        part: 1,
-        summary: "`/ 2 * a` in place of `/ (2 * a)`",
-        caught_by: SPHERE,
-        cause: &shape::QUADRATIC_PRECEDENCE,
-    },
-    Fault {
-        change: Change::SphereCancellation,
-        name: "sphere-cancellation",
-        part: 1,
-        summary: "b² − 4ac as it stands: far spheres lose their digits",
-        caught_by: "shape/distant-spheres-do-not-cancel",
-        cause: &shape::SPHERE_CANCELLATION,
-    },
-    Fault {
-        change: Change::SphereNormalNotUnit,
-        name: "sphere-normal-not-unit",
-        part: 1,
-        summary: "the normal of a sphere has the length of its radius",
-        caught_by: SPHERE,
-        cause: &shape::NORMAL_NOT_UNIT,
-    },
-];
+faults! { part 1;
+    "vertex-normals-swapped": "barycentric weights multiply the wrong vertex normals",
+        fails INTERPOLATION, told shape::NORMALS_SWAPPED,
+        interpolated_normal = |[n0, n1, n2], uv| {
+            ((1.0 - uv.x - uv.y) * n0 + uv.y * n1 + uv.x * n2).try_normalize()
+        };
+    "interpolated-normal-not-unit": "the interpolated normal is not normalised",
+        fails INTERPOLATION, told shape::NORMAL_NOT_UNIT,
+        interpolated_normal = |[n0, n1, n2], uv| {
+            Some((1.0 - uv.x - uv.y) * n0 + uv.x * n1 + uv.y * n2)
+        };
+    "flat-shading": "the geometric normal is used for shading",
+        fails INTERPOLATION, told shape::FLAT_SHADING_NORMAL,
+        interpolated_normal = |_, _| None;
+    "normals-face-ray": "normals are turned towards the ray",
+        fails TRIANGLE, told shape::NORMALS_FACE_RAY,
+        hit = |ray, crossing, numbers, normals| {
+            let is_from_behind = normals[0].dot(ray.direction) > 0.0;
+            let facing = normals.map(|normal| if is_from_behind { -normal } else { normal });
+            lesson::world::hit(ray, crossing, numbers, facing)
+        };
+    "determinant-threshold": "a determinant below 1e-5 counts as parallel",
+        fails RANDOM, told shape::DETERMINANT_THRESHOLD,
+        weight_error = |triangle, ray, from_corner, determinant| {
+            let is_parallel = determinant.abs() < 1e-5;
+            if is_parallel {
+                None
+            } else {
+                weight_error(triangle, ray, from_corner, determinant)
+            }
+        };
+    "strict-edges": "u > 0, v > 0, u + v < 1: edges belong to no triangle",
+        fails "shape/rays-at-a-shared-edge-hit-one-triangle", told shape::EDGES_EXCLUDED,
+        triangle_holds = |u, v, _| u > 0.0 && v > 0.0 && u + v < 1.0;
+    "triangle-is-a-parallelogram": "v ≤ 1 in place of u + v ≤ 1",
+        fails TRIANGLE, told shape::PARALLELOGRAM,
+        triangle_holds = |u, v, error| u >= -error && v >= -error && v <= 1.0 + error;
+    "back-faces-culled": "determinant < 0 counts as a miss",
+        fails TRIANGLE, told shape::BACK_CULLED,
+        weight_error = |triangle, ray, from_corner, determinant| {
+            let is_behind = determinant < 0.0;
+            if is_behind { None } else { weight_error(triangle, ray, from_corner, determinant) }
+        };
+    "nan-hit-accepted": "no test for parallel rays, and comparisons that reject: NaN is a hit",
+        fails IN_PLANE, told shape::NAN_HIT_ACCEPTED,
+        weight_error = |_, _, _, _| Some(0.0),
+        triangle_reached = |ray, t| {
+            let is_off = t <= ray.t_min || t >= ray.t_max;
+            !is_off
+        },
+        triangle_holds = |u, v, _| {
+            let is_outside = u < 0.0 || v < 0.0 || u + v > 1.0;
+            !is_outside
+        };
+    "triangle-ignores-t-max": "the triangle's t is compared with min_t only",
+        fails SEGMENT, told shape::SEGMENT_END_IGNORED,
+        triangle_reached = |ray, t| t > ray.t_min;
+    "sphere-near-root-only": "only the nearer root is considered",
+        fails SPHERE, told shape::NEAR_ROOT_ONLY,
+        nearer_root = |ray, near, _| contains(ray, near).then_some(near);
+    "sphere-both-roots-required": "a sphere is hit only if both roots lie in the range",
+        fails SPHERE, told shape::BOTH_ROOTS_REQUIRED,
+        nearer_root = |ray, near, far| (contains(ray, near) && contains(ray, far)).then_some(near);
+    "sphere-first-root-unchecked": "t1 is reported although only t2 is valid",
+        fails SPHERE, told shape::FIRST_ROOT_UNCHECKED,
+        nearer_root = |ray, near, far| (contains(ray, near) || contains(ray, far)).then_some(near);
+    "sphere-far-root": "the swap is the wrong way round: the far root is used",
+        fails SPHERE, told shape::FAR_ROOT_TAKEN,
+        nearer_root = |ray, _, far| contains(ray, far).then_some(far);
+    "sphere-behind-hit": "roots are not compared with min_t",
+        fails SPHERE, told shape::HITS_BEHIND_ORIGIN,
+        nearer_root = |ray, near, far| [near, far].into_iter().find(|t| *t < ray.t_max);
+    "quadratic-precedence": "`/ 2 * a` in place of `/ (2 * a)`",
+        fails SPHERE, told shape::QUADRATIC_PRECEDENCE,
+        roots = |Quadratic { a, half_b, c, discriminant }| {
+            let q = -(half_b + discriminant.sqrt().copysign(half_b));
+            (c / q * a * a, q * a)
+        };
+    "sphere-cancellation": "b² − 4ac as it stands: far spheres lose their digits",
+        fails "shape/distant-spheres-do-not-cancel", told shape::SPHERE_CANCELLATION,
+        roots = |Quadratic { a, half_b, c, .. }| {
+            let root = (half_b * half_b - a * c).max(0.0).sqrt();
+            ((-half_b - root) / a, (-half_b + root) / a)
+        };
+    "sphere-normal-not-unit": "the normal of a sphere has the length of its radius",
+        fails SPHERE, told shape::NORMAL_NOT_UNIT,
+        outward_normal = |ball, point| point - ball.centre;
+}

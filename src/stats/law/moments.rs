@@ -19,20 +19,6 @@ impl Moments {
         self.squares += before * (value - self.mean);
     }
 
-    /// The moments of both streams together.
-    pub fn merge(self, other: Self) -> Self {
-        if self.count == 0 || other.count == 0 {
-            return if self.count == 0 { other } else { self };
-        }
-        let (a, b) = (self.count as f64, other.count as f64);
-        let shift = other.mean - self.mean;
-        Self {
-            count: self.count + other.count,
-            mean: self.mean + shift * b / (a + b),
-            squares: self.squares + other.squares + shift * shift * a * b / (a + b),
-        }
-    }
-
     /// How many values.
     pub fn count(&self) -> u64 {
         self.count
@@ -79,18 +65,6 @@ mod tests {
         assert_eq!(moments.mean(), 1e9 + 10.0);
         assert_eq!(moments.variance(), 30.0);
         assert_eq!(moments.standard_error(), 7.5f64.sqrt());
-    }
-
-    #[test]
-    fn two_halves_merged_are_the_whole() {
-        let values: Vec<f64> = (0..100).map(|i| (f64::from(i) * 0.37).sin()).collect();
-        let whole: Moments = values.iter().copied().collect();
-        let left: Moments = values[..31].iter().copied().collect();
-        let right: Moments = values[31..].iter().copied().collect();
-        let merged = left.merge(right);
-        assert_eq!(merged.count(), 100);
-        assert!((merged.mean() - whole.mean()).abs() < 1e-15);
-        assert!((merged.variance() - whole.variance()).abs() < 1e-14);
     }
 
     #[test]

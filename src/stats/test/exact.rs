@@ -17,8 +17,6 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// Nothing: the same bits, or a number that every precision holds exactly.
-    pub const EXACT: Self = Self { double: 0.0, single: 0.0 };
     /// Components of a unit direction after a handful of operations (camera rays, normals, mirror
     /// directions).
     pub const DIRECTION: Self = Self { double: 1e-12, single: 2e-6 };

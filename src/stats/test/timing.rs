@@ -12,8 +12,6 @@ use serde::{Deserialize, Serialize};
 const RESAMPLES: usize = 2000;
 /// Confidence of the interval.
 const CONFIDENCE: f64 = 0.95;
-/// Makes the median absolute deviation of normal noise its standard deviation (1/Φ⁻¹(3/4)).
-const NORMAL_CONSISTENCY: f64 = 1.482_602_218_505_6;
 
 /// How much faster one of two things is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,13 +36,6 @@ pub fn median(values: &[f64]) -> f64 {
         n if n % 2 == 1 => sorted[middle],
         _ => 0.5 * (sorted[middle - 1] + sorted[middle]),
     }
-}
-
-/// The median distance to the median, scaled so that of normal noise it is the standard deviation.
-pub fn median_absolute_deviation(values: &[f64]) -> f64 {
-    let centre = median(values);
-    let distances: Vec<f64> = values.iter().map(|value| (value - centre).abs()).collect();
-    NORMAL_CONSISTENCY * median(&distances)
 }
 
 /// How much faster the second of each pair of times is. Deterministic for equal times.
@@ -114,7 +105,6 @@ mod tests {
         assert_eq!(median(&[3.0, 1.0, 1e9]), 3.0);
         assert_eq!(median(&[4.0, 1.0, 2.0, 3.0]), 2.5);
         assert!(median(&[]).is_nan());
-        assert!((median_absolute_deviation(&[1.0, 2.0, 3.0, 4.0, 900.0]) - 1.4826).abs() < 1e-4);
     }
 
     #[test]

@@ -23,13 +23,6 @@ pub struct StageScore {
     pub rejects: bool,
 }
 
-impl StageScore {
-    /// The weaker of the two keys: what the stage's decision rests on.
-    pub fn z(&self) -> f64 {
-        if self.t.abs() < self.u.abs() { self.t } else { self.u }
-    }
-}
-
 impl Scored for StageScore {
     fn rejects(&self) -> bool {
         self.rejects
@@ -71,13 +64,6 @@ pub struct MeanReport {
     pub samples_missing: Option<u64>,
     /// Probability that a correct core fails this claim, as entered in the ledger.
     pub false_alarm: f64,
-}
-
-impl MeanReport {
-    /// Measured over expected; none for the mean of a difference.
-    pub fn mean_ratio(&self) -> Option<f64> {
-        (self.expected != 0.0).then(|| self.mean / self.expected)
-    }
 }
 
 impl MeanReport {

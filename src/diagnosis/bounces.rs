@@ -135,7 +135,7 @@ impl Furnace {
         refuted.take(2).collect()
     }
 
-    /// One grey factor for every indirect bounce, if all isolated bounces agree on it.
+    /// One grey factor for every indirect bounce, if all isolated bounces agree on it and it is not 1.
     fn constant_factor(&self, case: &str) -> Option<Suspicion> {
         let mut interval = [f64::NEG_INFINITY, f64::INFINITY];
         let mut most = 0;
@@ -155,7 +155,9 @@ impl Furnace {
             }
         }
         let [low, high] = interval;
-        (most > 2 && low <= high && high.is_finite()).then(|| self.of_factor(case, interval))
+        let is_wrong = high < 1.0 || 1.0 < low;
+        (most > 2 && low <= high && high.is_finite() && is_wrong)
+            .then(|| self.of_factor(case, interval))
     }
 
     /// Direct light is right, and indirect light is off by other grey factors at each bounce: it does not come
@@ -165,9 +167,11 @@ impl Furnace {
         let mut direct = isolated().filter(|row| row.bounces[0] == 1).peekable();
         let right = direct.peek().is_some()
             && direct.all(|row| row.readings.iter().flatten().all(|r| r.admits(1.0)));
-        let mut indirect = isolated().filter(|row| row.bounces[0] > 1).peekable();
-        let grey = indirect.peek().is_some() && indirect.all(|row| is_grey(&row.readings));
-        (right && grey).then(|| Suspicion {
+        let indirect = || isolated().filter(|row| row.bounces[0] > 1);
+        let wrong =
+            indirect().flat_map(|row| row.readings.iter().flatten()).any(|r| !r.admits(1.0));
+        let grey = indirect().all(|row| is_grey(&row.readings));
+        (right && wrong && grey).then(|| Suspicion {
             cause: &integrator::BOUNCE_DIRECTIONS,
             cases: vec![case.to_owned()],
             evidence: vec![self.table(), "the same in all colours, and no power of k".to_owned()],
@@ -301,6 +305,15 @@ mod tests {
         let headline = &diagnosis.headlines[0];
         assert_eq!(headline.cause.name, integrator::INDIRECT_FACTOR.name);
         assert!(headline.evidence.iter().any(|s| s.ends_with("is 1/2")), "{headline:?}");
+    }
+
+    #[test]
+    fn a_factor_that_may_be_one_is_no_mistake() {
+        let sums_only = |c: &Channel, rows: [u32; 2]| {
+            c.sum(rows, |_| 1.0) * if rows[0] == rows[1] { 1.0 } else { 0.9 }
+        };
+        let diagnosis = diagnose(&Made::new().with(FURNACES[0], furnace(sums_only)).evidence());
+        assert_eq!(diagnosis.first(), None, "{diagnosis:?}");
     }
 
     #[test]

@@ -6,7 +6,6 @@ use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2, PI, SQRT_2, TAU};
 /// Ratios that mistakes make, as they are written.
 const NAMED: &[(f64, &str)] = &[
     (0.0, "0"),
-    (1.0, "1"),
     (PI, "π"),
     (FRAC_1_PI, "1/π"),
     (2.0, "2"),
@@ -42,7 +41,7 @@ pub struct NamedRatio {
 }
 
 /// The named ratios inside an interval, the nearest to its middle first. None if the interval is so
-/// wide that a name would mean nothing. `also` adds names that only this measurement has, such as
+/// wide that a name would mean nothing, or holds 1, which is no mistake. `also` adds names that only this measurement has, such as
 /// the number of light samples.
 pub fn names_of(interval: [f64; 2], also: &[(f64, &str)]) -> Vec<NamedRatio> {
     let [low, high] = interval;
@@ -51,7 +50,8 @@ pub fn names_of(interval: [f64; 2], also: &[(f64, &str)]) -> Vec<NamedRatio> {
         return Vec::new();
     }
     let middle = 0.5 * (low + high);
-    let inside = NAMED.iter().chain(also).filter(|(value, _)| (low..=high).contains(value));
+    let named = if (low..=high).contains(&1.0) { &[] } else { NAMED };
+    let inside = named.iter().chain(also).filter(|(value, _)| (low..=high).contains(value));
     let mut named: Vec<NamedRatio> =
         inside.map(|&(value, name)| NamedRatio { value, name: name.to_owned() }).collect();
     named.sort_by(|a, b| (a.value - middle).abs().total_cmp(&(b.value - middle).abs()));
@@ -76,6 +76,12 @@ mod tests {
     #[test]
     fn a_ratio_without_a_name_gets_none() {
         assert!(names(0.86, 0.89).is_empty());
+    }
+
+    #[test]
+    fn what_may_be_right_gets_no_name() {
+        assert!(names(0.99, 1.01).is_empty());
+        assert!(names(1.0, 1.0).is_empty());
     }
 
     #[test]

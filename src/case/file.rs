@@ -1,9 +1,9 @@
 //! TOML → [`Case`]. The head is read first, then the check reads its own `[expect]` out of the whole text, so that
 //! every complaint knows its line.
 
-use super::{Case, Foundation, SceneChoice, Tier};
+use super::{Case, Foundation, PARTS, SceneChoice, Tier};
 use crate::checks::{self, CHECKS, PrepareError};
-use crate::text::{Diagnostic, Source, Spanned, did_you_mean, listed};
+use crate::text::{Diagnostic, Source, Spanned, Words, did_you_mean, listed};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -12,11 +12,11 @@ use std::path::Path;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Head {
-    title: Spanned<String>,
-    teaches: String,
-    source: String,
+    title: Words,
+    teaches: Words,
+    source: Words,
     #[serde(default)]
-    tags: Vec<String>,
+    tags: Vec<Spanned<Words>>,
     #[serde(default)]
     tier: Tier,
     #[serde(default)]
@@ -44,9 +44,7 @@ enum SceneEntry {
 /// A diagnostic that points at the line at fault.
 pub fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diagnostic> {
     let head: Head = source.parse_toml()?;
-    if head.title.get_ref().trim().is_empty() {
-        return Err(source.diagnostic(head.title.span(), "the title is empty"));
-    }
+    refuse_unknown_parts(source, &head.tags)?;
     let check = find_check(source, &head.check)?;
     let prepared = (check.prepare)(&source.text).map_err(|error| match error {
         PrepareError::Toml(error) => source.toml_diagnostic(error),
@@ -54,10 +52,10 @@ pub fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diagnostic>
     })?;
     Ok(Case {
         id: id.to_owned(),
-        title: head.title.into_inner(),
-        teaches: head.teaches,
-        source: head.source,
-        tags: head.tags,
+        title: head.title.0,
+        teaches: head.teaches.0,
+        source: head.source.0,
+        tags: head.tags.into_iter().map(|tag| tag.into_inner().0).collect(),
         tier: head.tier,
         proves: head.proves,
         rests_on: head.rests_on,
@@ -67,6 +65,21 @@ pub fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diagnostic>
         path: path.to_owned(),
         hash: hash(&source.text),
     })
+}
+
+/// A tag `part-2` selects by a part that there is.
+fn refuse_unknown_parts(source: &Source, tags: &[Spanned<Words>]) -> Result<(), Diagnostic> {
+    let is_part = |number: &str| PARTS.iter().any(|part| part.number.to_string() == number);
+    let is_unknown =
+        |tag: &&Spanned<Words>| tag.get_ref().0.strip_prefix("part-").is_some_and(|n| !is_part(n));
+    match tags.iter().find(is_unknown) {
+        None => Ok(()),
+        Some(tag) => {
+            let problem = format!("there is no `{}`", tag.get_ref().0);
+            let hint = format!("the parts are 1 to {}", PARTS.len());
+            Err(source.diagnostic(tag.span(), problem).with_hint(hint))
+        }
+    }
 }
 
 fn find_check(
@@ -86,9 +99,13 @@ fn find_check(
 fn scene_choice(source: &Source, entry: Spanned<SceneEntry>) -> Result<SceneChoice, Diagnostic> {
     let span = entry.span();
     match entry.into_inner() {
-        SceneEntry::Name(name) => Ok(SceneChoice { name, parameters: toml::Table::new() }),
+        SceneEntry::Name(name) => {
+            Ok(SceneChoice { name, parameters: toml::Table::new(), source: source.clone() })
+        }
         SceneEntry::Changed(mut parameters) => match parameters.remove("name") {
-            Some(toml::Value::String(name)) => Ok(SceneChoice { name, parameters }),
+            Some(toml::Value::String(name)) => {
+                Ok(SceneChoice { name, parameters, source: source.clone() })
+            }
             _ => Err(source
                 .diagnostic(span, "the scene has no name")
                 .with_hint("write `scene = { name = \"…\", parameter = value }`")),
@@ -104,4 +121,49 @@ fn expect_span(text: &str) -> std::ops::Range<usize> {
 
 fn hash(text: &str) -> String {
     Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CASE: &str = r#"title = "x"
+teaches = "x"
+source = "x"
+tags = ["part-4"]
+check = "mean-radiance"
+scene = "sphere-furnace"
+[expect]
+ray = { from = [0, 0, 0], toward = [0, 0, 1] }
+samples-per-light = 1
+detects = "1 %"
+at-most = "1 k paths"
+row = [{ bounces = [0, 5], radiance = [1, 1, 1] }]
+"#;
+
+    /// The line of the complaint about the case with `right` replaced.
+    fn line_of_complaint(right: &str, wrong: &str) -> usize {
+        assert!(CASE.contains(right));
+        let source = Source::new("cases/integrator/x.toml", CASE.replace(right, wrong));
+        match parse("integrator/x", Path::new("x"), &source) {
+            Ok(_) => panic!("`{wrong}` is taken for right"),
+            Err(diagnostic) => diagnostic.line(),
+        }
+    }
+
+    #[test]
+    fn a_value_out_of_range_is_told_where_it_stands() {
+        assert_eq!(line_of_complaint("source = \"x\"", "source = \" \""), 3);
+        assert_eq!(line_of_complaint("part-4", "part-9"), 4);
+        assert_eq!(line_of_complaint("toward = [0, 0, 1]", "toward = [0, 0, 0]"), 8);
+        assert_eq!(line_of_complaint("from = [0, 0, 0]", "from = [nan, 0, 0]"), 8);
+        assert_eq!(line_of_complaint("samples-per-light = 1", "samples-per-light = 0"), 9);
+        assert_eq!(line_of_complaint("\"1 %\"", "\"0 %\""), 10);
+        assert_eq!(line_of_complaint("\"1 %\"", "\"500 %\""), 10);
+        assert_eq!(line_of_complaint("1 k paths", "0 paths"), 11);
+        assert_eq!(line_of_complaint("[0, 5]", "[5, 0]"), 12);
+        assert_eq!(line_of_complaint("[1, 1, 1]", "[nan, 1, 1]"), 12);
+        assert_eq!(line_of_complaint("[1, 1, 1]", "-1"), 12);
+        assert_eq!(line_of_complaint("[{ bounces = [0, 5], radiance = [1, 1, 1] }]", "[]"), 12);
+    }
 }

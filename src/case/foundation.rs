@@ -184,10 +184,7 @@ mod tests {
         let project = Project::at(Path::new(env!("CARGO_MANIFEST_DIR")));
         let case = super::super::load_one(&project.cases(), id).unwrap();
         let library = Library::new(project.scenes());
-        let scene = case
-            .scene
-            .as_ref()
-            .map(|choice| library.load(&choice.name, &choice.parameters).unwrap());
+        let scene = case.scene.as_ref().map(|choice| choice.load(&library).unwrap());
         foundations(&case, scene.as_deref())
     }
 

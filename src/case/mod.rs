@@ -8,6 +8,7 @@ mod foundation;
 mod next_step;
 mod part;
 mod renamed;
+mod scene_choice;
 mod tier;
 
 pub use catalog::{CatalogError, load_all, load_one};
@@ -16,6 +17,7 @@ pub use foundation::{Foundation, foundations};
 pub use next_step::{NextStep, next_steps};
 pub use part::{PARTS, Part};
 pub use renamed::renamed;
+pub use scene_choice::SceneChoice;
 pub use tier::Tier;
 
 use crate::checks::{CheckKind, Prepared};
@@ -50,15 +52,6 @@ pub struct Case {
     pub path: PathBuf,
     /// SHA-256 of the file's text, hex.
     pub hash: String,
-}
-
-/// A scene and the parameters that a case changes in it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneChoice {
-    /// File name without `.toml`.
-    pub name: String,
-    /// Values instead of those in the scene's `[parameters]`.
-    pub parameters: toml::Table,
 }
 
 impl Case {

@@ -56,6 +56,11 @@ pub trait Check: DeserializeOwned + Send + Sync + 'static {
         Ok(())
     }
 
+    /// Scenes that the settings name, beside that of the case.
+    fn scenes(&self) -> &[String] {
+        &[]
+    }
+
     /// Asks the core and judges.
     ///
     /// # Errors
@@ -70,6 +75,9 @@ pub trait Prepared: Send + Sync {
 
     /// What of that it cannot do, if it has these capabilities; nothing where others do as well.
     fn missing(&self, has: Capabilities) -> Capabilities;
+
+    /// Scenes that the settings name, beside that of the case.
+    fn scenes(&self) -> &[String];
 
     /// Asks the core and judges.
     ///
@@ -88,6 +96,10 @@ impl<C: Check> Prepared for C {
             Some(instead) if has.contains(instead) => Capabilities::empty(),
             _ => Check::needs(self) - has,
         }
+    }
+
+    fn scenes(&self) -> &[String] {
+        Check::scenes(self)
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {

@@ -6,7 +6,7 @@ use crate::contract::Capabilities;
 use crate::math::rng::Stream;
 use crate::math::sphere::{on_hemisphere, on_sphere};
 use crate::scene::{Material, Surface};
-use crate::text::Colour;
+use crate::text::{Bending, Positive, Reflectance, Roughness};
 use glam::DVec3;
 use serde::Deserialize;
 use std::fmt;
@@ -16,9 +16,9 @@ use std::fmt;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum SurfaceEntry {
     /// Reflectance.
-    Diffuse(Colour),
+    Diffuse(Reflectance),
     /// Reflectance.
-    Mirror(Colour),
+    Mirror(Reflectance),
     /// A smooth interface.
     Glass(GlassEntry),
     /// GGX microfacets.
@@ -32,13 +32,13 @@ pub enum SurfaceEntry {
 #[serde(deny_unknown_fields)]
 pub struct GlassEntry {
     /// Inside; outside is vacuum.
-    pub index: f64,
+    pub index: Positive,
     /// Multiplies what is reflected.
     #[serde(default = "white")]
-    pub reflectance: Colour,
+    pub reflectance: Reflectance,
     /// Multiplies what is let through.
     #[serde(default = "white")]
-    pub transmittance: Colour,
+    pub transmittance: Reflectance,
 }
 
 /// `{ reflectance = 1, roughness = 0.3 }`
@@ -46,9 +46,9 @@ pub struct GlassEntry {
 #[serde(deny_unknown_fields)]
 pub struct ConductorEntry {
     /// Of a single facet.
-    pub reflectance: Colour,
+    pub reflectance: Reflectance,
     /// The width parameter α.
-    pub roughness: f64,
+    pub roughness: Roughness,
 }
 
 /// `{ index = 1.5, roughness = 0.3, reflectance = 0.8, transmittance = 0.9 }`
@@ -56,36 +56,37 @@ pub struct ConductorEntry {
 #[serde(deny_unknown_fields)]
 pub struct RoughGlassEntry {
     /// Inside; outside is vacuum.
-    pub index: f64,
+    pub index: Bending,
     /// The width parameter α.
-    pub roughness: f64,
+    pub roughness: Roughness,
     /// Multiplies what is reflected.
     #[serde(default = "white")]
-    pub reflectance: Colour,
+    pub reflectance: Reflectance,
     /// Multiplies what is let through.
     #[serde(default = "white")]
-    pub transmittance: Colour,
+    pub transmittance: Reflectance,
 }
 
-const fn white() -> Colour {
-    Colour([1.0; 3])
+const fn white() -> Reflectance {
+    Reflectance([1.0; 3])
 }
 
 impl SurfaceEntry {
     /// As a core is asked for it.
     pub fn material(self) -> Material {
         let surface = match self {
-            Self::Diffuse(Colour(reflectance)) => Surface::Diffuse { reflectance },
-            Self::Mirror(Colour(reflectance)) => Surface::Mirror { reflectance },
+            Self::Diffuse(Reflectance(reflectance)) => Surface::Diffuse { reflectance },
+            Self::Mirror(Reflectance(reflectance)) => Surface::Mirror { reflectance },
             Self::Glass(GlassEntry { index, reflectance, transmittance }) => {
-                Surface::Glass { index, reflectance: reflectance.0, transmittance: transmittance.0 }
+                let (reflectance, transmittance) = (reflectance.0, transmittance.0);
+                Surface::Glass { index: index.0, reflectance, transmittance }
             }
             Self::Conductor(ConductorEntry { reflectance, roughness }) => {
-                Surface::Conductor { reflectance: reflectance.0, roughness }
+                Surface::Conductor { reflectance: reflectance.0, roughness: roughness.0 }
             }
             Self::RoughGlass(glass) => Surface::RoughGlass {
-                index: glass.index,
-                roughness: glass.roughness,
+                index: glass.index.0,
+                roughness: glass.roughness.0,
                 reflectance: glass.reflectance.0,
                 transmittance: glass.transmittance.0,
             },
@@ -127,12 +128,12 @@ impl fmt::Display for SurfaceEntry {
         match self {
             Self::Diffuse(_) => f.write_str("a diffuse surface"),
             Self::Mirror(_) => f.write_str("a mirror"),
-            Self::Glass(glass) => write!(f, "glass of index {}", glass.index),
+            Self::Glass(glass) => write!(f, "glass of index {}", glass.index.0),
             Self::Conductor(conductor) => {
-                write!(f, "a conductor of roughness {}", conductor.roughness)
+                write!(f, "a conductor of roughness {}", conductor.roughness.0)
             }
             Self::RoughGlass(RoughGlassEntry { index, roughness, .. }) => {
-                write!(f, "glass of index {index} and roughness {roughness}")
+                write!(f, "glass of index {} and roughness {}", index.0, roughness.0)
             }
         }
     }

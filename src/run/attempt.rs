@@ -118,7 +118,7 @@ pub fn attempt(bench: &Bench, case: &Case, core: &mut dyn Core) -> Attempt {
 
 fn load_scene(bench: &Bench, case: &Case) -> Result<Option<Arc<SceneDescription>>, CheckError> {
     let Some(scene) = &case.scene else { return Ok(None) };
-    let loaded = bench.scenes.load(&scene.name, &scene.parameters);
+    let loaded = scene.load(&bench.scenes);
     loaded.map(Some).map_err(|error| CheckError::Broken(error.to_string()))
 }
 

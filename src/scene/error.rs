@@ -27,6 +27,16 @@ pub enum SceneError {
         parameter: String,
         /// What there is.
         known: String,
+        /// The name that was probably meant.
+        hint: Option<String>,
+    },
+    /// A value that a case gives to a parameter is wrong where the scene uses it.
+    #[error("{diagnostic}")]
+    WrongParameter {
+        /// Which.
+        parameter: String,
+        /// Where it is used, and what is wrong there.
+        diagnostic: Box<Diagnostic>,
     },
     /// The file or the folder cannot be read.
     #[error("cannot read `{path}`: {problem}")]

@@ -113,8 +113,9 @@ fn load_collada(path: &Path, overrides: &Overrides) -> Result<SceneDescription, 
         };
         known.ok_or_else(|| SceneError::NoSuchParameter {
             scene: path.display().to_string(),
-            parameter: format!("{parameter} = {value}"),
+            parameter: parameter.clone(),
             known: "`film`, such as [480, 360], and `camera`, such as \"camera.txt\"".to_owned(),
+            hint: None,
         })?;
     }
     let mut scene = collada::load(path, film)?.scene;
@@ -187,6 +188,6 @@ mod tests {
         assert_eq!(film(""), Ok(collada::FILM));
         assert_eq!(film("film = [48, 36]"), Ok([48, 36]));
         let message = film("albedo = 0.5").unwrap_err();
-        assert!(message.contains("has no parameter `albedo = 0.5`, only `film`"), "{message}");
+        assert!(message.contains("has no parameter `albedo`, only `film`"), "{message}");
     }
 }

@@ -81,6 +81,12 @@ impl Diagnostic {
         self
     }
 
+    /// The line the complaint points at, counted from 1.
+    pub fn line(&self) -> usize {
+        let start = self.visible_span().start;
+        self.source.text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count() + 1
+    }
+
     /// The span, moved inside the text and cut at the end of its first line: a caret under ten
     /// lines of an array says less than one under its first.
     fn visible_span(&self) -> Range<usize> {

@@ -5,12 +5,20 @@
 
 mod diagnostic;
 mod document;
+
 pub mod number;
+
+mod range;
+
 mod suggestion;
 mod units;
 
 pub use diagnostic::{Diagnostic, Source};
 pub(crate) use document::read_table;
 pub use document::{Spanned, TomlError, read_key, read_toml};
+pub use range::{
+    Arrow, Bending, Between, Bounces, Chance, Direction, Factor, Lit, Polar, Positive, Reflectance,
+    Roughness, Several, Size, Vector, Words,
+};
 pub use suggestion::{did_you_mean, listed};
 pub use units::{Angle, Colour, Count, Percent};

@@ -10,15 +10,15 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Angle(pub f64);
 
-/// A share of one. Written `"1 %"`.
+/// A share of one, more than nothing and less than all. Written `"1 %"`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Percent(pub f64);
 
-/// How many. Written `4096`, `"400 k"` or `"2 M paths"`.
+/// How many, from 1 to [`Count::MOST`]. Written `4096`, `"400 k"` or `"2 M paths"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Count(pub u64);
 
-/// Linear RGB. Written as one number for grey, or as three.
+/// Linear RGB, not negative and finite. Written as one number for grey, or as three.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colour(pub [f64; 3]);
 
@@ -51,7 +51,9 @@ impl FromStr for Percent {
 
     fn from_str(text: &str) -> Result<Self, String> {
         match number_and_words(text) {
-            Some((number, words)) if words == ["%"] => Ok(Self(number / 100.0)),
+            Some((number, words)) if words == ["%"] && number > 0.0 && number < 100.0 => {
+                Ok(Self(number / 100.0))
+            }
             _ => Err(format!("`{text}` is not {}", Self::EXPECTED)),
         }
     }
@@ -77,9 +79,14 @@ impl FromStr for Count {
     }
 }
 
-/// `value` as a whole number; beyond 2⁵³ neighbours cannot be told apart.
+impl Count {
+    /// More would not fit into any memory.
+    pub const MOST: u64 = 100_000_000;
+}
+
+/// `value` as something that can be counted.
 fn whole_number(value: f64) -> Option<u64> {
-    let countable = (0.0..=9_007_199_254_740_992.0).contains(&value) && value.fract() == 0.0;
+    let countable = (1.0..=Count::MOST as f64).contains(&value) && value.fract() == 0.0;
     #[expect(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "checked above")]
     countable.then_some(value as u64)
 }
@@ -100,11 +107,12 @@ impl Written for Angle {
 }
 
 impl Written for Percent {
-    const EXPECTED: &'static str = "a percentage, such as \"1 %\"";
+    const EXPECTED: &'static str = "a percentage above 0 and below 100, such as \"1 %\"";
 }
 
 impl Written for Count {
-    const EXPECTED: &'static str = "a whole number, such as 4096, \"400 k\" or \"2 M\"";
+    const EXPECTED: &'static str =
+        "a whole number from 1 to 100 million, such as 4096, \"400 k\" or \"2 M\"";
 
     fn from_number(number: f64) -> Option<Self> {
         whole_number(number).map(Self)
@@ -170,7 +178,7 @@ impl<'de> Visitor<'de> for ColourVisitor {
     }
 
     fn visit_f64<E: de::Error>(self, grey: f64) -> Result<Colour, E> {
-        Ok(Colour([grey; 3]))
+        checked([grey; 3])
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut channels: A) -> Result<Colour, A::Error> {
@@ -181,9 +189,18 @@ impl<'de> Visitor<'de> for ColourVisitor {
                 .ok_or_else(|| de::Error::invalid_length(position, &self))?;
         }
         match channels.next_element::<f64>()? {
-            None => Ok(Colour(colour)),
+            None => checked(colour),
             Some(_) => Err(de::Error::invalid_length(4, &self)),
         }
+    }
+}
+
+fn checked<E: de::Error>(colour: [f64; 3]) -> Result<Colour, E> {
+    match colour.iter().find(|channel| !(0.0..=f64::MAX).contains(*channel)) {
+        None => Ok(Colour(colour)),
+        Some(wrong) => Err(E::custom(format!(
+            "a colour is made of finite numbers from 0 up, and {wrong} is none"
+        ))),
     }
 }
 
@@ -224,7 +241,9 @@ mod tests {
     fn percentages_are_shares_of_one() {
         assert_eq!(read("x = '1 %'"), Ok(Percent(0.01)));
         assert_eq!(read("x = '0.5%'"), Ok(Percent(0.005)));
-        assert!(read::<Percent>("x = 0.01").unwrap_err().contains("1 %"));
+        for wrong in ["x = 0.01", "x = '0 %'", "x = '-1 %'", "x = '100 %'", "x = '500 %'"] {
+            assert!(read::<Percent>(wrong).unwrap_err().contains("1 %"), "{wrong}");
+        }
     }
 
     #[test]
@@ -238,6 +257,8 @@ mod tests {
     #[test]
     fn a_count_is_whole_positive_and_counts_something_known() {
         assert!(read::<Count>("x = -1").is_err());
+        assert!(read::<Count>("x = '0 paths'").is_err());
+        assert!(read::<Count>("x = '101 M rays'").is_err());
         assert!(read::<Count>("x = 1.5").is_err());
         assert!(read::<Count>("x = '0.0001 k'").is_err());
         assert!(read::<Count>("x = '4 thousand'").unwrap_err().contains("`thousand`"));
@@ -249,6 +270,9 @@ mod tests {
         assert_eq!(read("x = [0.1, 0, 3]"), Ok(Colour([0.1, 0.0, 3.0])));
         for wrong in ["x = [1, 2]", "x = [1, 2, 3, 4]", "x = 'red'"] {
             assert!(read::<Colour>(wrong).unwrap_err().contains("red, green, blue"), "{wrong}");
+        }
+        for wrong in ["x = -1", "x = [nan, 0, 0]", "x = [0, inf, 0]"] {
+            assert!(read::<Colour>(wrong).unwrap_err().contains("from 0 up"), "{wrong}");
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::contract::{
 use crate::image::CHANNELS;
 use crate::image::Image;
 use crate::scene::Camera;
-use crate::text::{Colour, Percent};
+use crate::text::{Bounces, Lit, Percent, Size};
 use serde::Deserialize;
 
 /// Relative error of a pixel whose samples are all alike: rounding of a sum of some thousand terms.
@@ -20,8 +20,8 @@ const EXACT_PIXEL: f64 = 1e-5;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct SampleCounts {
-    size: [u32; 2],
-    bounces: [u32; 2],
+    size: Size,
+    bounces: Bounces,
     /// The most samples a pixel may take.
     cap: u32,
     /// Samples between two looks.
@@ -29,7 +29,7 @@ pub struct SampleCounts {
     /// Half width of the interval that is good enough.
     tolerance: Percent,
     /// The scene has no noise: every pixel stops at the first look, and has this radiance.
-    radiance: Option<Colour>,
+    radiance: Option<Lit>,
 }
 
 impl Check for SampleCounts {
@@ -53,7 +53,7 @@ impl Check for SampleCounts {
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let film = self.render(built.as_mut(), &camera, context.seed.0)?;
         let mut measures = vec![self.out_of_range(&film)];
-        if let Some(Colour(radiance)) = self.radiance {
+        if let Some(Lit(radiance)) = self.radiance {
             measures.push(self.beyond_first_look(&film));
             measures.extend(pixels_equal(&film, radiance));
         } else {
@@ -80,11 +80,11 @@ impl SampleCounts {
         seed: u64,
     ) -> Result<Film, CheckError> {
         let settings = RenderSettings {
-            width: self.size[0],
-            height: self.size[1],
+            width: self.size.0[0],
+            height: self.size.0[1],
             samples_per_pixel: self.cap,
             integrator: IntegratorSettings {
-                bounces: self.bounces[0]..=self.bounces[1],
+                bounces: self.bounces.0[0]..=self.bounces.0[1],
                 seed,
                 ..Default::default()
             },

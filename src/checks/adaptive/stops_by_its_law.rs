@@ -13,7 +13,7 @@ use crate::stats::{
     Band, CellProbabilities, Claim, CountReport, Counts, Effort, MeanReport, StoppingLaw,
     TwoValues, Verdict, follows_law, judge_counts, judge_means,
 };
-use crate::text::{Count, Percent};
+use crate::text::{Count, Percent, Several};
 use serde::Deserialize;
 
 /// Streams handed over in one call.
@@ -31,7 +31,7 @@ pub struct StopsByItsLaw {
     mean_detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.
     at_most: Count,
-    stream: Vec<StreamEntry>,
+    stream: Several<StreamEntry>,
 }
 
 /// Independent samples that are either low or high, and the settings they are watched with.
@@ -56,9 +56,6 @@ impl Check for StopsByItsLaw {
     }
 
     fn validate(&self) -> Result<(), String> {
-        if self.stream.is_empty() {
-            return Err("there are no streams".to_owned());
-        }
         self.stream.iter().try_for_each(StreamEntry::validate)
     }
 
@@ -79,10 +76,10 @@ impl Check for StopsByItsLaw {
 impl StreamEntry {
     fn validate(&self) -> Result<(), String> {
         let is_sound = self.batch >= 2 && self.cap >= self.batch;
-        let is_random = self.chance.0 > 0.0 && self.chance.0 < 1.0 && self.low != self.high;
+        let is_random = self.low.is_finite() && self.high.is_finite() && self.low != self.high;
         match is_sound && is_random {
             true => Ok(()),
-            false => Err("a stream needs two values, a chance between them, a batch of 2 or more \
+            false => Err("a stream needs two values, a batch of 2 or more \
                           and a cap not below it"
                 .to_owned()),
         }
@@ -346,7 +343,7 @@ mod tests {
     /// Streams that stop early cost little: the third kind of the case.
     fn found(mut core: Stopping) -> Finding {
         let mut check = check_of::<StopsByItsLaw>(CASE);
-        check.stream = vec![check.stream[2].clone()];
+        check.stream = vec![check.stream[2].clone()].try_into().unwrap();
         judge(&check, &mut core)
     }
 

@@ -6,14 +6,14 @@ use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{AdaptiveMean, AdaptiveSettings, Capabilities};
 use crate::stats::Tolerance;
-use crate::text::Percent;
+use crate::text::{Percent, Several};
 use serde::Deserialize;
 
 /// Each stream stops after a given number of samples, with the mean of just those.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct StopsWhereItShould {
-    stream: Vec<StreamEntry>,
+    stream: Several<StreamEntry>,
 }
 
 /// A stream of luminances that repeats, and where it has to stop.
@@ -21,7 +21,7 @@ pub struct StopsWhereItShould {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct StreamEntry {
     name: String,
-    repeats: Vec<f64>,
+    repeats: Several<f64>,
     batch: u32,
     tolerance: Percent,
     cap: u32,
@@ -122,8 +122,11 @@ impl Check for StopsWhereItShould {
     }
 
     fn validate(&self) -> Result<(), String> {
-        for stream in &self.stream {
-            if stream.repeats.is_empty() || stream.batch < 2 || stream.cap < stream.batch {
+        for stream in self.stream.iter() {
+            if stream.repeats.iter().any(|value| !value.is_finite())
+                || stream.batch < 2
+                || stream.cap < stream.batch
+            {
                 return Err(format!(
                     "stream `{}` needs values, a batch of 2 or more and a cap not below it",
                     stream.name
@@ -134,7 +137,7 @@ impl Check for StopsWhereItShould {
                 return Err(format!("stream `{}` stops at {right} by the rule", stream.name));
             }
         }
-        if self.stream.is_empty() { Err("there are no streams".to_owned()) } else { Ok(()) }
+        Ok(())
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -253,7 +256,7 @@ mod tests {
             for (stream, answer) in streams.iter().zip(means) {
                 let mut entry = StreamEntry {
                     name: String::new(),
-                    repeats: stream.to_vec(),
+                    repeats: stream.to_vec().try_into().unwrap(),
                     batch: settings.samples_per_batch,
                     tolerance: Percent(settings.max_tolerance),
                     cap: u32::try_from(stream.len()).unwrap(),

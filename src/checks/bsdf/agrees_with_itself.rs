@@ -11,6 +11,7 @@ use crate::math::frame::direction;
 use crate::math::rng::{Stream, uniform};
 use crate::math::sphere::{at_height, on_hemisphere};
 use crate::stats::{Compared, Tolerance, judge_exact};
+use crate::text::Several;
 use glam::DVec3;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -25,7 +26,7 @@ const GRAZING: [f64; 4] = [1e-2, 1e-4, 1e-8, 1e-12];
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct AgreesWithItself {
-    surface: Vec<SurfaceEntry>,
+    surface: Several<SurfaceEntry>,
 }
 
 impl Check for AgreesWithItself {
@@ -36,15 +37,11 @@ impl Check for AgreesWithItself {
         Capabilities::EVAL_BSDF | Capabilities::SAMPLE_BSDF | SurfaceEntry::all_need(&self.surface)
     }
 
-    fn validate(&self) -> Result<(), String> {
-        if self.surface.is_empty() { Err("there are no surfaces".to_owned()) } else { Ok(()) }
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut measures = Vec::new();
         let mut complaints = Vec::new();
         let mut causes = Vec::new();
-        for surface in &self.surface {
+        for surface in self.surface.iter() {
             let drawn = Drawn::new(context, *surface)?;
             let Judged { measures: more, complaint, cause } = drawn.judge(context)?;
             measures.extend(more);

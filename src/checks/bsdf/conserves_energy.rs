@@ -13,7 +13,7 @@ use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
 use crate::scene::{Rgb, Surface};
 use crate::stats::{SphereCells, Tolerance, Verdict};
-use crate::text::Angle;
+use crate::text::{Polar, Several};
 use serde::Deserialize;
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -28,8 +28,8 @@ const CELLS: (usize, usize) = (4, 8);
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ConservesEnergy {
-    surface: Vec<SurfaceEntry>,
-    seen_from: Vec<Angle>,
+    surface: Several<SurfaceEntry>,
+    seen_from: Several<Polar>,
 }
 
 impl Check for ConservesEnergy {
@@ -43,17 +43,14 @@ impl Check for ConservesEnergy {
     fn validate(&self) -> Result<(), String> {
         match self.surface.iter().find(|surface| surface.is_delta()) {
             Some(delta) => Err(format!("{delta} is zero wherever it is evaluated")),
-            None if self.surface.is_empty() || self.seen_from.is_empty() => {
-                Err("give at least one `surface` and one angle in `seen-from`".to_owned())
-            }
             None => Ok(()),
         }
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut measures = Vec::new();
-        for surface in &self.surface {
-            for Angle(angle) in &self.seen_from {
+        for surface in self.surface.iter() {
+            for Polar(angle) in self.seen_from.iter() {
                 measures.extend(albedo_measures(context, *surface, *angle)?);
             }
         }
@@ -76,7 +73,7 @@ impl ConservesEnergy {
     /// What is wrong with the surfaces, if it is the same with all of them that something is wrong with.
     fn mistakes(&self, context: &mut Context<'_>) -> Result<Vec<&'static Cause>, CheckError> {
         let mut causes = Vec::new();
-        for surface in &self.surface {
+        for surface in self.surface.iter() {
             causes.extend(mistake_of(context, *surface)?);
         }
         causes.dedup();

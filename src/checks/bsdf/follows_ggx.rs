@@ -13,6 +13,7 @@ use crate::math::closed_form::microfacet::{Masking, distribution, masking, maski
 use crate::math::sphere::on_hemisphere;
 use crate::scene::{Rgb, Surface};
 use crate::stats::{Compared, ExactReport, Tolerance, judge_exact};
+use crate::text::Several;
 use glam::DVec3;
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -28,7 +29,7 @@ const LIKENESS: f64 = 100.0;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FollowsGgx {
-    surface: Vec<SurfaceEntry>,
+    surface: Several<SurfaceEntry>,
 }
 
 impl Check for FollowsGgx {
@@ -43,7 +44,6 @@ impl Check for FollowsGgx {
         let other = self.surface.iter().find(|s| !matches!(s, SurfaceEntry::Conductor(_)));
         match other {
             Some(other) => Err(format!("{other} has no facets; give conductors")),
-            None if self.surface.is_empty() => Err("there are no surfaces".to_owned()),
             None => Ok(()),
         }
     }
@@ -51,7 +51,7 @@ impl Check for FollowsGgx {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let smith = context.info.conventions.smith_term;
         let mut tried = Vec::new();
-        for surface in &self.surface {
+        for surface in self.surface.iter() {
             tried.extend(Tried::of(context, *surface, smith)?);
         }
         Ok(finding(&tried, Tolerance::FORMULA.of(context.info.precision)))

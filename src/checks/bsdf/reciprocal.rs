@@ -6,6 +6,7 @@ use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{BsdfQuery, BsdfValue, Capabilities, GlassRadiance};
 use crate::scene::Rgb;
 use crate::stats::{Compared, Tolerance, judge_exact};
+use crate::text::Several;
 use serde::Deserialize;
 
 /// Pairs of directions for each surface.
@@ -17,7 +18,7 @@ const GRAZING: f64 = 1e-3;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Reciprocal {
-    surface: Vec<SurfaceEntry>,
+    surface: Several<SurfaceEntry>,
 }
 
 impl Check for Reciprocal {
@@ -31,7 +32,6 @@ impl Check for Reciprocal {
     fn validate(&self) -> Result<(), String> {
         match self.surface.iter().find(|surface| surface.is_delta()) {
             Some(delta) => Err(format!("{delta} is zero wherever it is evaluated")),
-            None if self.surface.is_empty() => Err("there are no surfaces".to_owned()),
             None => Ok(()),
         }
     }
@@ -40,7 +40,7 @@ impl Check for Reciprocal {
         let allowed = Tolerance::FORMULA.of(context.info.precision);
         let mut measures = Vec::new();
         let mut complaints = Vec::new();
-        for surface in &self.surface {
+        for surface in self.surface.iter() {
             let (there, back) = there_and_back(context, *surface)?;
             let report =
                 judge_exact(there.iter().zip(&back).flat_map(|(a, b)| {
@@ -89,7 +89,7 @@ fn there_and_back(
 /// Whether light is refracted along the facet that takes it from `wi` to `wo`, where f vanishes.
 fn grazes_its_facet(surface: SurfaceEntry, BsdfQuery { wo, wi }: &BsdfQuery) -> bool {
     let SurfaceEntry::RoughGlass(glass) = surface else { return false };
-    let ratio = if wo.z > 0.0 { glass.index } else { glass.index.recip() };
+    let ratio = if wo.z > 0.0 { glass.index.0 } else { glass.index.0.recip() };
     let facet = (*wo + ratio * *wi).normalize();
     wo.z * wi.z < 0.0 && wo.dot(facet).abs().min(wi.dot(facet).abs()) < GRAZING
 }
@@ -103,7 +103,7 @@ fn index_squared(surface: SurfaceEntry, radiance: GlassRadiance, query: &BsdfQue
     };
     match surface {
         SurfaceEntry::RoughGlass(glass) if query.wo.z * query.wi.z < 0.0 && side.z < 0.0 => {
-            glass.index * glass.index
+            glass.index.0 * glass.index.0
         }
         _ => 1.0,
     }

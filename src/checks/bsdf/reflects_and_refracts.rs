@@ -14,7 +14,7 @@ use crate::contract::{BsdfSample, Capabilities, Core};
 use crate::math::rng::Seed;
 use crate::scene::Material;
 use crate::stats::{Band, Effort, ShareReport, Tolerance, Verdict, judge_share};
-use crate::text::{Angle, Count, Percent};
+use crate::text::{Count, Percent, Polar, Several};
 use glam::DVec3;
 use serde::Deserialize;
 
@@ -28,7 +28,7 @@ const BATCH: u64 = 1 << 16;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ReflectsAndRefracts {
     surface: SurfaceEntry,
-    seen_from: Vec<Angle>,
+    seen_from: Several<Polar>,
     /// The smallest error of the share of samples reflected.
     detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.
@@ -45,10 +45,10 @@ impl Check for ReflectsAndRefracts {
     }
 
     fn validate(&self) -> Result<(), String> {
-        if !self.surface.is_delta() {
-            return Err(format!("{} scatters; give a mirror or glass", self.surface));
+        match self.surface.is_delta() {
+            true => Ok(()),
+            false => Err(format!("{} scatters; give a mirror or glass", self.surface)),
         }
-        if self.seen_from.is_empty() { Err("there are no views".to_owned()) } else { Ok(()) }
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -65,7 +65,7 @@ impl Check for ReflectsAndRefracts {
             band: Band::math(precision),
         };
         let seed = context.seed;
-        let view = |Angle(angle): &Angle| trial.view(context.core, *angle, seed.child(angle));
+        let view = |Polar(angle): &Polar| trial.view(context.core, *angle, seed.child(angle));
         let views = self.seen_from.iter().map(view).collect::<Result<Vec<_>, _>>()?;
         Ok(trial.explained(trial.finding(self.surface, &views), &views))
     }

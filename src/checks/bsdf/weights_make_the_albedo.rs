@@ -8,15 +8,15 @@ use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BsdfSample, Capabilities, Core};
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, Verdict, judge_means};
-use crate::text::{Angle, Count, Percent};
+use crate::text::{Count, Percent, Polar, Several};
 use serde::Deserialize;
 
 /// Means over the samples of each surface from each view.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct WeightsMakeTheAlbedo {
-    surface: Vec<SurfaceEntry>,
-    seen_from: Vec<Angle>,
+    surface: Several<SurfaceEntry>,
+    seen_from: Several<Polar>,
     /// The smallest error of a mean that must be seen.
     detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.
@@ -34,9 +34,6 @@ impl Check for WeightsMakeTheAlbedo {
     fn validate(&self) -> Result<(), String> {
         match self.surface.iter().find(|surface| surface.is_delta()) {
             Some(delta) => Err(format!("{delta} has weights of its own: `reflects-and-refracts`")),
-            None if self.surface.is_empty() || self.seen_from.is_empty() => {
-                Err("give at least one `surface` and one angle in `seen-from`".to_owned())
-            }
             None => Ok(()),
         }
     }
@@ -46,8 +43,8 @@ impl Check for WeightsMakeTheAlbedo {
         let band = Band::math(context.info.precision);
         let conventions = context.info.conventions;
         let mut measures = Vec::new();
-        for surface in &self.surface {
-            for Angle(angle) in &self.seen_from {
+        for surface in self.surface.iter() {
+            for Polar(angle) in self.seen_from.iter() {
                 let seed = context.seed.child(surface).child(angle);
                 let albedo = Albedo::expected(*surface, *angle, conventions).sum();
                 let claim = Claim::value(albedo, band);

@@ -3,7 +3,7 @@
 //! A build that recurses for ever takes its process with it, which is the runner's to notice. Not here: how long a
 //! build takes.
 
-use super::question::{Build, scene_of};
+use super::question::{Build, LeafSizes, scene_of};
 use super::trial::{NEEDS, Trial, Tried};
 use crate::cause;
 use crate::checks::phrase::at_most;
@@ -25,7 +25,7 @@ pub struct BuildsComeToAnEnd {
     /// Rays by which each hierarchy is compared with brute force.
     rays: Count,
     /// Each split rule is tried with each of these.
-    leaf_sizes: Vec<u32>,
+    leaf_sizes: LeafSizes,
 }
 
 const LAYOUTS: [(Layout, &str); 5] = [
@@ -47,10 +47,6 @@ impl Check for BuildsComeToAnEnd {
 
     fn needs(&self) -> Capabilities {
         NEEDS
-    }
-
-    fn validate(&self) -> Result<(), String> {
-        if self.leaf_sizes.is_empty() { Err("there is no leaf size".to_owned()) } else { Ok(()) }
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {

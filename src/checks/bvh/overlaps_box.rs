@@ -11,7 +11,7 @@ use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BoxHit, Capabilities, Ray};
 use crate::scene::Aabb;
 use crate::stats::{Tolerance, Verdict};
-use glam::DVec3;
+use crate::text::{Arrow, Several, Vector};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 use serde::Deserialize;
@@ -22,14 +22,14 @@ use serde::Deserialize;
 pub struct OverlapsBox {
     /// For the rows that have no box of their own.
     r#box: BoxEntry,
-    ray: Vec<RayRow>,
+    ray: Several<RayRow>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct BoxEntry {
-    min: DVec3,
-    max: DVec3,
+    min: Vector,
+    max: Vector,
 }
 
 /// A ray segment, and whether it meets the closed box.
@@ -37,8 +37,8 @@ struct BoxEntry {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct RayRow {
     r#box: Option<BoxEntry>,
-    from: DVec3,
-    toward: DVec3,
+    from: Vector,
+    toward: Arrow,
     #[serde(default)]
     after: f64,
     #[serde(default = "infinity")]
@@ -57,7 +57,8 @@ const fn infinity() -> f64 {
 
 impl RayRow {
     fn ray(&self) -> Ray {
-        Ray { origin: self.from, t_min: self.after, direction: self.toward, t_max: self.up_to }
+        let (origin, direction) = (self.from.0, self.toward.0);
+        Ray { origin, t_min: self.after, direction, t_max: self.up_to }
     }
 
     fn label(&self, number: usize) -> String {
@@ -71,7 +72,7 @@ impl RayRow {
 impl OverlapsBox {
     fn bounds(&self, row: &RayRow) -> Aabb {
         let BoxEntry { min, max } = row.r#box.unwrap_or(self.r#box);
-        Aabb { min, max }
+        Aabb { min: min.0, max: max.0 }
     }
 }
 
@@ -87,6 +88,10 @@ impl Check for OverlapsBox {
         for (number, row) in self.ray.iter().enumerate() {
             let truth = Overlap::exact(&self.bounds(row), &row.ray());
             let truth = truth.ok_or_else(|| format!("ray {} is not finite", number + 1))?;
+            let bounds = self.bounds(row);
+            if !bounds.min.cmple(bounds.max).all() {
+                return Err(format!("{}: the box ends before it begins", row.label(number)));
+            }
             if truth.hits != row.hits {
                 let row = row.label(number);
                 return Err(format!("{row}: exact arithmetic says that hits = {}", truth.hits));
@@ -97,7 +102,7 @@ impl Check for OverlapsBox {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut answers = Vec::new();
-        for row in &self.ray {
+        for row in self.ray.iter() {
             let mut hit = [BoxHit { t_enter: 0.0, t_exit: 0.0, hit: 0, reserved: 0 }];
             context.core.intersect_box(&self.bounds(row), &[row.ray()], &mut hit)?;
             answers.push(hit[0]);
@@ -239,6 +244,7 @@ mod tests {
     use super::*;
     use crate::cause::bvh;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use glam::DVec3;
 
     const CASES: [&str; 3] = [
         include_str!("../../../cases/bvh/ray-box-overlap-is-right.toml"),

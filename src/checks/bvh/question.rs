@@ -4,11 +4,15 @@ use crate::contract::{Acceleration, Capabilities, Hit, Ray, Split};
 use crate::math::rng::{Stream, uniform};
 use crate::math::sphere::on_sphere;
 use crate::scene::{Aabb, Material, Mesh, SceneDescription, Surface};
+use crate::text::{Between, Several};
 use glam::DVec3;
 
 /// Every split rule that can be asked for.
 const RULES: [Split; 4] =
     [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea];
+
+/// The most primitives a leaf may have, each tried alone.
+pub type LeafSizes = Several<Between<1, 65535>>;
 
 /// A way to build, and its name in statements.
 #[derive(Clone, Copy, Debug)]
@@ -19,12 +23,12 @@ pub struct Build {
 
 impl Build {
     /// Every split rule that the core can be asked for, with each leaf size.
-    pub fn all(capabilities: Capabilities, leaf_sizes: &[u32]) -> Vec<Self> {
+    pub fn all(capabilities: Capabilities, leaf_sizes: &LeafSizes) -> Vec<Self> {
         let rules = if capabilities.contains(Capabilities::SPLIT_RULES) { &RULES[..] } else { &[] };
         let splits = [Split::CoresChoice].into_iter().chain(rules.iter().copied());
         splits
             .flat_map(|split| {
-                leaf_sizes.iter().map(move |&max_leaf_size| Self { split, max_leaf_size })
+                leaf_sizes.iter().map(move |size| Self { split, max_leaf_size: size.0 })
             })
             .collect()
     }
@@ -148,8 +152,9 @@ mod tests {
 
     #[test]
     fn rules_are_asked_for_only_where_they_can_be() {
-        assert_eq!(Build::all(Capabilities::empty(), &[1, 4]).len(), 2);
-        assert_eq!(Build::all(Capabilities::SPLIT_RULES, &[1, 4]).len(), 10);
+        let sizes = vec![Between(1), Between(4)].try_into().unwrap();
+        assert_eq!(Build::all(Capabilities::empty(), &sizes).len(), 2);
+        assert_eq!(Build::all(Capabilities::SPLIT_RULES, &sizes).len(), 10);
     }
 
     #[test]

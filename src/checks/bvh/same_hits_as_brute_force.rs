@@ -1,7 +1,7 @@
 //! With a hierarchy and without one, a core meets the same things at the same places.
 
 use super::explanation::shared;
-use super::question::Build;
+use super::question::{Build, LeafSizes};
 use super::trial::{NEEDS, Trial, Tried};
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
@@ -17,7 +17,7 @@ pub struct SameHitsAsBruteForce {
     /// Rays, and as many segments.
     rays: Count,
     /// Each split rule is tried with each of these.
-    leaf_sizes: Vec<u32>,
+    leaf_sizes: LeafSizes,
 }
 
 impl Check for SameHitsAsBruteForce {
@@ -26,10 +26,6 @@ impl Check for SameHitsAsBruteForce {
 
     fn needs(&self) -> Capabilities {
         NEEDS
-    }
-
-    fn validate(&self) -> Result<(), String> {
-        if self.leaf_sizes.is_empty() { Err("there is no leaf size".to_owned()) } else { Ok(()) }
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {

@@ -1,7 +1,7 @@
 //! The size of a hierarchy, as the core tells it: leaves for all primitives, nodes for all leaves,
 //! a depth that both allow.
 
-use super::question::Build;
+use super::question::{Build, LeafSizes};
 use crate::checks::phrase::{at_most, figure};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BuildStats, Capabilities, CoreError};
@@ -16,7 +16,7 @@ const WIDEST: f64 = 16.0;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct SizesAddUp {
     /// Each split rule is tried with each of these.
-    leaf_sizes: Vec<u32>,
+    leaf_sizes: LeafSizes,
 }
 
 impl Check for SizesAddUp {
@@ -25,13 +25,6 @@ impl Check for SizesAddUp {
 
     fn needs(&self) -> Capabilities {
         Capabilities::BUILD_SCENE
-    }
-
-    fn validate(&self) -> Result<(), String> {
-        match self.leaf_sizes.iter().all(|size| *size > 0) && !self.leaf_sizes.is_empty() {
-            true => Ok(()),
-            false => Err("`leaf-sizes` needs numbers above 0".to_owned()),
-        }
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {

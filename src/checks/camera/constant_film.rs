@@ -8,7 +8,7 @@ use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
 use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
-use crate::text::Colour;
+use crate::text::{Between, Lit, Several, Size};
 use serde::Deserialize;
 
 /// How far a pixel may be from what a mistake writes, relative: different mistakes are several
@@ -20,10 +20,10 @@ const EXPLAINED: f64 = 1e-3;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ConstantFilm {
     /// What every ray brings home: different in every channel, none of them 0.
-    radiance: Colour,
+    radiance: Lit,
     /// Columns and rows.
-    sizes: Vec<[u32; 2]>,
-    samples_per_pixel: Vec<u32>,
+    sizes: Several<Size>,
+    samples_per_pixel: Several<Between<1, 65536>>,
 }
 
 impl Check for ConstantFilm {
@@ -32,18 +32,6 @@ impl Check for ConstantFilm {
 
     fn needs(&self) -> Capabilities {
         Capabilities::BUILD_SCENE | Capabilities::RENDER
-    }
-
-    fn validate(&self) -> Result<(), String> {
-        let Colour(radiance) = self.radiance;
-        let empty = self.sizes.is_empty() || self.samples_per_pixel.is_empty();
-        if empty || self.sizes.iter().flatten().chain(&self.samples_per_pixel).any(|n| *n == 0) {
-            return Err("`sizes` and `samples-per-pixel` need numbers above 0".to_owned());
-        }
-        if radiance.contains(&0.0) {
-            return Err("`radiance` must not be 0: a black film could not be told apart".to_owned());
-        }
-        Ok(())
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -82,8 +70,8 @@ impl Exposed {
 
 impl ConstantFilm {
     fn exposures(&self) -> impl Iterator<Item = ([u32; 2], u32)> {
-        let samples = || self.samples_per_pixel.iter().copied();
-        self.sizes.iter().flat_map(move |size| samples().map(|samples| (*size, samples)))
+        let samples = || self.samples_per_pixel.iter().map(|samples| samples.0);
+        self.sizes.iter().flat_map(move |size| samples().map(|samples| (size.0, samples)))
     }
 
     fn judge(&self, films: &[Exposed], allowed: f64) -> Finding {
@@ -107,7 +95,7 @@ impl ConstantFilm {
         exposed: &'a Exposed,
         allowed: f64,
     ) -> impl Iterator<Item = Compared> + 'a {
-        let Colour(radiance) = self.radiance;
+        let Lit(radiance) = self.radiance;
         exposed.pixels().flat_map(move |(_, pixel)| {
             (0..3).map(move |c| Compared::relative(pixel[c], radiance[c], allowed))
         })
@@ -120,7 +108,7 @@ impl ConstantFilm {
 
     /// The film with most wrong pixels, and the first of them.
     fn complaint(&self, films: &[Exposed], allowed: f64) -> String {
-        let Colour(radiance) = self.radiance;
+        let Lit(radiance) = self.radiance;
         let is_wrong = |pixel: &[f64; 3]| {
             (0..3).any(|c| !Compared::relative(pixel[c], radiance[c], allowed).agrees())
         };
@@ -171,7 +159,7 @@ impl ConstantFilm {
 
     /// The mistakes that write just these pixels.
     fn causes(&self, films: &[Exposed]) -> Vec<(&'static Cause, String)> {
-        let Colour(radiance) = self.radiance;
+        let Lit(radiance) = self.radiance;
         let predicts = |develop: &dyn Fn([f64; 3], Place) -> [f64; 3]| {
             films.iter().flat_map(Exposed::pixels).all(|(place, pixel)| {
                 let made = develop(radiance, place);
@@ -218,7 +206,7 @@ mod tests {
     }
 
     fn found(core: FakeFilm) -> Finding {
-        let Colour(radiance) = check().radiance;
+        let Lit(radiance) = check().radiance;
         let mut core = FakeFilm { radiance: Box::new(move |_, _| radiance), ..core };
         let scene = SceneDescription { camera: Some(FakeFilm::camera()), ..Default::default() };
         try_judge(&check(), &mut core, Some(scene)).unwrap()

@@ -7,7 +7,7 @@ use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{Acceleration, Capabilities, Film};
 use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
-use crate::text::Colour;
+use crate::text::{Lit, Size};
 use serde::Deserialize;
 
 /// Four colours stand in their quarters of the picture.
@@ -15,11 +15,11 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PictureOrientation {
     /// Columns and rows: different, so that they cannot be mistaken for each other.
-    size: [u32; 2],
-    top_left: Colour,
-    top_right: Colour,
-    bottom_left: Colour,
-    bottom_right: Colour,
+    size: Size,
+    top_left: Lit,
+    top_right: Lit,
+    bottom_left: Lit,
+    bottom_right: Lit,
 }
 
 impl Check for PictureOrientation {
@@ -31,7 +31,7 @@ impl Check for PictureOrientation {
     }
 
     fn validate(&self) -> Result<(), String> {
-        let [width, height] = self.size;
+        let Size([width, height]) = self.size;
         if width == height || width.min(height) < 4 {
             return Err("`size` needs two different numbers above 3".to_owned());
         }
@@ -40,7 +40,7 @@ impl Check for PictureOrientation {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let rendering = Rendering::of(&scene, self.size, [0, 0], 1)?;
+        let rendering = Rendering::of(&scene, self.size.0, [0, 0], 1)?;
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let film = rendering.film(built.as_mut(), seed.0, 0)?;
@@ -52,19 +52,19 @@ impl Check for PictureOrientation {
 impl PictureOrientation {
     /// Pixels that lie wholly in one quarter, with room for a sample that is a pixel off.
     fn clear_pixels(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
-        let [width, height] = self.size;
+        let Size([width, height]) = self.size;
         let all = (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]));
         all.filter(|at| self.is_clear(*at))
     }
 
     fn is_clear(&self, at: [u32; 2]) -> bool {
-        (0..2).all(|axis| (2 * at[axis] + 1).abs_diff(self.size[axis]) >= 3)
+        (0..2).all(|axis| (2 * at[axis] + 1).abs_diff(self.size.0[axis]) >= 3)
     }
 
     fn colour_at(&self, [x, y]: [u32; 2]) -> [f64; 3] {
-        let is_right = 2 * x >= self.size[0];
-        let is_low = 2 * y >= self.size[1];
-        let Colour(colour) = match (is_right, is_low) {
+        let is_right = 2 * x >= self.size.0[0];
+        let is_low = 2 * y >= self.size.0[1];
+        let Lit(colour) = match (is_right, is_low) {
             (false, false) => self.top_left,
             (true, false) => self.top_right,
             (false, true) => self.bottom_left,
@@ -111,7 +111,7 @@ impl PictureOrientation {
             (0..3).all(|c| Compared::relative(found[c], expected[c], allowed).agrees())
         };
         let moved = |mistake: &&Displacement| {
-            let comes_from = |at| (mistake.source)(at, self.size);
+            let comes_from = |at| (mistake.source)(at, self.size.0);
             let told = self.clear_pixels().filter(|at| self.is_clear(comes_from(*at)));
             told.into_iter().all(|at| is_like(at, self.colour_at(comes_from(at))))
         };

@@ -11,9 +11,10 @@ use crate::math::rng::{Seed, uniform};
 use crate::math::sphere::angle_between;
 use crate::scene::Camera;
 use crate::stats::{Compared, ExactReport, Tolerance, Verdict, judge_exact};
-use crate::text::Angle;
+use crate::text::{Arrow, Polar, Positive, Several, Vector};
 use glam::{DVec2, DVec3};
 use serde::Deserialize;
+use std::f64::consts::PI;
 
 /// Film points in general position, beside the four corners and the centre.
 const GENERIC_POINTS: usize = 48;
@@ -23,20 +24,20 @@ const GENERIC_POINTS: usize = 48;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RaysThroughFilm {
     /// Cameras in general position: no angle, axis or coordinate that hides a mistake.
-    camera: Vec<CameraRow>,
+    camera: Several<CameraRow>,
 }
 
 /// A camera as a case writes it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct CameraRow {
-    position: DVec3,
-    target: DVec3,
-    up: DVec3,
-    horizontal_fov: Angle,
-    vertical_fov: Angle,
-    near: f64,
-    far: f64,
+    position: Vector,
+    target: Vector,
+    up: Arrow,
+    horizontal_fov: Polar,
+    vertical_fov: Polar,
+    near: Positive,
+    far: Positive,
 }
 
 impl CameraRow {
@@ -44,9 +45,15 @@ impl CameraRow {
         let film = [480, 360];
         Camera {
             vertical_fov: self.vertical_fov.0,
-            near: self.near,
-            far: self.far,
-            ..Camera::look_at(self.position, self.target, self.up, self.horizontal_fov.0, film)
+            near: self.near.0,
+            far: self.far.0,
+            ..Camera::look_at(
+                self.position.0,
+                self.target.0,
+                self.up.0,
+                self.horizontal_fov.0,
+                film,
+            )
         }
     }
 }
@@ -60,13 +67,28 @@ impl Check for RaysThroughFilm {
     }
 
     fn validate(&self) -> Result<(), String> {
-        if self.camera.is_empty() { Err("there is no camera".to_owned()) } else { Ok(()) }
+        let is_camera = |row: &CameraRow| {
+            let view = row.target.0 - row.position.0;
+            let opens = |angle: Polar| 0.0 < angle.0 && angle.0 < PI;
+            view.cross(row.up.0).try_normalize().is_some()
+                && opens(row.horizontal_fov)
+                && opens(row.vertical_fov)
+                && row.near.0 < row.far.0
+        };
+        match self.camera.iter().position(|row| !is_camera(row)) {
+            None => Ok(()),
+            Some(number) => Err(format!(
+                "camera {} needs a target beside its `up`, fields of view between 0 and 180 deg, \
+                 and `near` before `far`",
+                number + 1
+            )),
+        }
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let film = film_points(context.seed);
         let mut shots = Vec::new();
-        for row in &self.camera {
+        for row in self.camera.iter() {
             let camera = row.camera();
             let mut rays = vec![Ray::new(DVec3::ZERO, DVec3::ZERO); film.len()];
             context.core.generate_rays(&camera, &film, &mut rays)?;

@@ -7,7 +7,7 @@ use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
 use crate::stats::{Band, Claim, MeanReport, Verdict, judge_means};
-use crate::text::{Count, Percent};
+use crate::text::{Count, Percent, Size};
 use serde::Deserialize;
 
 /// Samples of a pixel in each run; more than one, since some cores send a lone sample through the
@@ -20,7 +20,7 @@ const SAMPLES: u32 = 4;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ViewCoverage {
     /// Columns and rows. Pixels stand for their centres, so that they should be small.
-    size: [u32; 2],
+    size: Size,
     /// Of the picture.
     share: f64,
     /// In film coordinates, (0, 0) bottom left.
@@ -42,7 +42,7 @@ impl Check for ViewCoverage {
     fn validate(&self) -> Result<(), String> {
         let is_inside = |share: &f64| 0.0 < *share && *share < 1.0;
         let numbers = [self.share, self.centroid[0], self.centroid[1]];
-        if numbers.iter().all(is_inside) && self.size.iter().all(|n| *n > 0) {
+        if numbers.iter().all(is_inside) {
             Ok(())
         } else {
             Err("`share` and `centroid` lie between 0 and 1".to_owned())
@@ -51,8 +51,8 @@ impl Check for ViewCoverage {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let rendering = Rendering::of(&scene, self.size, [0, 0], SAMPLES)?;
-        let of_a_film = u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(SAMPLES);
+        let rendering = Rendering::of(&scene, self.size.0, [0, 0], SAMPLES)?;
+        let of_a_film = u64::from(self.size.0[0]) * u64::from(self.size.0[1]) * u64::from(SAMPLES);
         let effort =
             context.effort(self.detects, self.at_most).with_runs(32).in_steps_of(of_a_film);
         let seed = context.seed;

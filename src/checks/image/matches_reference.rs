@@ -14,8 +14,8 @@ use crate::stats::{
     self, Component, GlobalRatio, Hypothesis, ImageEffort, ImageReport, Impossible, Report, Scale,
     ScaleReport, Verdict, judge_image,
 };
-use crate::text::Percent;
 use crate::text::number::{apart, percent, with_interval};
+use crate::text::{Between, Bounces, Percent};
 use serde::Deserialize;
 use std::sync::Arc;
 
@@ -28,11 +28,11 @@ const ERROR_SCALE: f32 = 6.0;
 pub struct MatchesReference {
     /// The folder below `references/`.
     reference: String,
-    bounces: [u32; 2],
+    bounces: Bounces,
     #[serde(default)]
     direct: DirectSampling,
     /// Of each run, at the default budget.
-    samples_per_pixel: u32,
+    samples_per_pixel: Between<1, 65536>,
     /// The error of the whole picture that must be seen.
     detects: Percent,
 }
@@ -63,7 +63,7 @@ impl MatchesReference {
         if self.direct == DirectSampling::Hemisphere {
             needs |= Capabilities::HEMISPHERE_SAMPLING;
         }
-        if self.bounces[0] > 0 {
+        if self.bounces.0[0] > 0 {
             needs |= Capabilities::ISOLATED_BOUNCES;
         }
         needs
@@ -75,16 +75,16 @@ impl MatchesReference {
         let camera = camera_of(&scene)?;
         let reference = reference::load(context.references, &self.reference, &scene)
             .map_err(|error| CheckError::Broken(error.to_string()))?;
-        if reference.provenance.bounces != self.bounces {
+        if reference.provenance.bounces != self.bounces.0 {
             return Err(CheckError::Broken(format!(
                 "reference `{}` holds bounces {:?}, the case asks for {:?}",
-                self.reference, reference.provenance.bounces, self.bounces
+                self.reference, reference.provenance.bounces, self.bounces.0
             )));
         }
-        let samples = context.budget.samples(u64::from(self.samples_per_pixel));
+        let samples = context.budget.samples(u64::from(self.samples_per_pixel.0));
         let samples = samples.try_into().unwrap_or(u32::MAX);
         let isolates = context.info.capabilities.contains(Capabilities::ISOLATED_BOUNCES);
-        let shot = Shot { check: self, camera, bounces: self.bounces, samples, isolates };
+        let shot = Shot { check: self, camera, bounces: self.bounces.0, samples, isolates };
         let effort = ImageEffort::new(self.detects.0 * context.budget.coarseness(), samples);
         Ok(Setup { scene, reference, shot, effort })
     }

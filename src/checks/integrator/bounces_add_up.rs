@@ -6,7 +6,7 @@ use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
 use crate::image::CHANNELS;
 use crate::stats::{Band, Claim, Verdict, judge_means};
-use crate::text::{Count, Percent};
+use crate::text::{Between, Count, Percent};
 use serde::Deserialize;
 
 /// Samples of the estimate that relative errors are relative to.
@@ -18,7 +18,7 @@ const SCALE_SAMPLES: u64 = 65_536;
 pub struct BouncesAddUp {
     ray: RayEntry,
     /// The last bounce.
-    last: u32,
+    last: Between<1, 1000>,
     #[serde(default)]
     direct: DirectSampling,
     /// The smallest difference that must be seen.
@@ -32,11 +32,7 @@ impl Check for BouncesAddUp {
     const SUMMARY: &'static str = "isolated bounces sum to the accumulated radiance";
 
     fn needs(&self) -> Capabilities {
-        needs(&settings([self.last, self.last], self.direct))
-    }
-
-    fn validate(&self) -> Result<(), String> {
-        self.ray.validate()
+        needs(&settings([self.last.0; 2], self.direct))
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -44,9 +40,9 @@ impl Check for BouncesAddUp {
         let (seed, ray) = (context.seed, self.ray.ray());
         let effort = context.effort(self.detects, self.at_most);
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let accumulated = settings([0, self.last], self.direct);
+        let accumulated = settings([0, self.last.0], self.direct);
         let isolated: Vec<_> =
-            (0..=self.last).map(|bounce| settings([bounce, bounce], self.direct)).collect();
+            (0..=self.last.0).map(|bounce| settings([bounce, bounce], self.direct)).collect();
         let scale =
             estimate(built.as_mut(), ray, &accumulated, seed.child("scale"), SCALE_SAMPLES)?.mean;
         let claims = scale.map(|scale| Claim::difference(scale, Band::RADIANCE));
@@ -73,7 +69,7 @@ impl Check for BouncesAddUp {
                 percent(worst)
             )
         } else {
-            format!("bounces 0 to {} add up", self.last)
+            format!("bounces 0 to {} add up", self.last.0)
         };
         let resolution = would_have_caught(&measures);
         Ok(Finding::of(statement, resolution, measures))

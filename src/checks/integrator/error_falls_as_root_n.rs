@@ -11,25 +11,25 @@ use crate::math::rng::Seed;
 use crate::scene::Camera;
 use crate::stats::{Allowance, ErrorLevel, Sampling, SlopeReport, Verdict, judge_slope};
 use crate::text::number::figure;
-use crate::text::{Colour, Count, Percent};
+use crate::text::{Between, Bounces, Count, Lit, Percent, Size};
 use serde::Deserialize;
 
 /// Renders small pictures of which every pixel has the same known radiance, at growing sample counts.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ErrorFallsAsRootN {
-    size: [u32; 2],
-    bounces: [u32; 2],
+    size: Size,
+    bounces: Bounces,
     #[serde(default)]
     direct: DirectSampling,
     /// Samples per pixel, growing; each at least twice the one before.
-    samples: Vec<u32>,
-    /// Pictures at each count.
-    runs: u32,
+    samples: Vec<Between<1, 65536>>,
+    /// Pictures at each count; of fewer the noise of the error is unknown.
+    runs: Between<8, 4096>,
     /// Samples of all pictures at one count: pictures of more samples have fewer rows, down to one.
     at_most: Count,
     /// What every pixel is.
-    radiance: Colour,
+    radiance: Lit,
     /// The deviation of the slope from −1/2 that must be seen, as a share of 1.
     detects: Percent,
 }
@@ -47,13 +47,8 @@ impl Check for ErrorFallsAsRootN {
     }
 
     fn validate(&self) -> Result<(), String> {
-        if self.samples.len() < 3 || self.samples.windows(2).any(|pair| pair[1] < 2 * pair[0]) {
+        if self.samples.len() < 3 || self.samples.windows(2).any(|pair| pair[1].0 < 2 * pair[0].0) {
             return Err("`samples` needs three counts or more, each twice the last".to_owned());
-        }
-        if self.runs < 8 {
-            return Err(
-                "`runs` must be at least 8, or the noise of the error is unknown".to_owned()
-            );
         }
         Ok(())
     }
@@ -85,12 +80,13 @@ impl ErrorFallsAsRootN {
     /// The counts that a budget can afford: the first three, and those of which it can pay a row.
     fn levels(&self, budget: Allowance) -> Vec<Level> {
         let most = budget.samples(self.at_most.0);
-        let [width, height] = self.size;
+        let Size([width, height]) = self.size;
         let rows = |samples: u32| {
-            let row = u64::from(samples) * u64::from(self.runs) * u64::from(width);
+            let row = u64::from(samples) * u64::from(self.runs.0) * u64::from(width);
             u32::try_from(most / row).unwrap_or(u32::MAX).min(height)
         };
-        let levels = self.samples.iter().map(|&samples| Level { samples, rows: rows(samples) });
+        let levels =
+            self.samples.iter().map(|&Between(samples)| Level { samples, rows: rows(samples) });
         let affordable = levels.enumerate().filter(|(number, level)| *number < 3 || level.rows > 0);
         affordable.map(|(_, level)| Level { rows: level.rows.max(1), ..level }).collect()
     }
@@ -104,7 +100,7 @@ impl ErrorFallsAsRootN {
         seed: Seed,
     ) -> Result<ErrorLevel, CheckError> {
         let seed = seed.child(level.samples);
-        let runs = (0..self.runs)
+        let runs = (0..self.runs.0)
             .map(|run| self.luminances(scene, camera, level, seed.child(run)))
             .collect::<Result<Vec<_>, _>>()?;
         let truth = vec![luminance(self.radiance.0.map(|value| value as f32)); runs[0].len()];
@@ -119,11 +115,11 @@ impl ErrorFallsAsRootN {
         seed: Seed,
     ) -> Result<Vec<f64>, CheckError> {
         let settings = RenderSettings {
-            width: self.size[0],
+            width: self.size.0[0],
             height: level.rows,
             samples_per_pixel: level.samples,
             integrator: IntegratorSettings {
-                bounces: self.bounces[0]..=self.bounces[1],
+                bounces: self.bounces.0[0]..=self.bounces.0[1],
                 direct: self.direct,
                 seed: seed.0,
                 ..Default::default()

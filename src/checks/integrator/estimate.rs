@@ -4,7 +4,7 @@ use crate::contract::{
     BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray, Result, Roulette,
 };
 use crate::math::rng::{Seed, Stream, uniform};
-use glam::DVec3;
+use crate::text::{Arrow, Chance, Vector};
 use serde::Deserialize;
 
 /// Rays asked in one call: enough to keep threads busy, little enough for any memory.
@@ -14,23 +14,14 @@ const RAYS_PER_CALL: u64 = 1 << 16;
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RayEntry {
-    from: [f64; 3],
-    toward: [f64; 3],
+    from: Vector,
+    toward: Arrow,
 }
 
 impl RayEntry {
     /// The ray, with a unit direction.
     pub fn ray(self) -> Ray {
-        Ray::new(DVec3::from_array(self.from), DVec3::from_array(self.toward).normalize())
-    }
-
-    /// What is wrong with it.
-    pub fn validate(self) -> std::result::Result<(), String> {
-        if DVec3::from_array(self.toward).length() > 0.0 {
-            Ok(())
-        } else {
-            Err("`toward` has no length; it is a direction".to_owned())
-        }
+        Ray::new(self.from.0, self.toward.0.normalize())
     }
 }
 
@@ -39,16 +30,16 @@ impl RayEntry {
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PatchEntry {
-    from: [f64; 3],
-    corner: [f64; 3],
-    edges: [[f64; 3]; 2],
+    from: Vector,
+    corner: Vector,
+    edges: [Arrow; 2],
 }
 
 impl PatchEntry {
     fn ray(self, stream: &mut Stream) -> Ray {
-        let [u, v] = self.edges.map(|edge| uniform(stream) * DVec3::from_array(edge));
-        let from = DVec3::from_array(self.from);
-        Ray::new(from, (DVec3::from_array(self.corner) + u + v - from).normalize())
+        let [u, v] = self.edges.map(|edge| uniform(stream) * edge.0);
+        let from = self.from.0;
+        Ray::new(from, (self.corner.0 + u + v - from).normalize())
     }
 }
 
@@ -84,7 +75,7 @@ impl Aim {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RouletteEntry {
     /// Probability of stopping at each bounce.
-    pub stop: f64,
+    pub stop: Chance,
     /// Bounces that are always traced.
     #[serde(default)]
     pub guaranteed: u32,
@@ -92,7 +83,7 @@ pub struct RouletteEntry {
 
 impl From<RouletteEntry> for Roulette {
     fn from(entry: RouletteEntry) -> Self {
-        Self { stop: entry.stop, guaranteed: entry.guaranteed }
+        Self { stop: entry.stop.0, guaranteed: entry.guaranteed }
     }
 }
 
@@ -176,13 +167,14 @@ pub fn estimate(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
 
     #[test]
     fn rays_over_a_patch_meet_all_of_it_alike() {
         let patch = PatchEntry {
-            from: [2.0, 0.5, 3.0],
-            corner: [0.0, 0.0, 1.0],
-            edges: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            from: Vector(DVec3::new(2.0, 0.5, 3.0)),
+            corner: Vector(DVec3::Z),
+            edges: [Arrow(DVec3::X), Arrow(DVec3::Y)],
         };
         let mut quarters = [0; 4];
         for ray in Aim::Patch(patch).rays(Seed(1), 4000) {

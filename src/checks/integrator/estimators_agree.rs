@@ -9,7 +9,7 @@ use crate::contract::{
 use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, Verdict, judge_means};
-use crate::text::{Count, Percent};
+use crate::text::{Between, Bounces, Count, Percent, Several};
 use serde::Deserialize;
 
 /// Samples of the estimate that relative errors are relative to.
@@ -20,8 +20,8 @@ const SCALE_SAMPLES: u64 = 65_536;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct EstimatorsAgree {
     /// The rays to compare along.
-    ray: Vec<RayEntry>,
-    bounces: [u32; 2],
+    ray: Several<RayEntry>,
+    bounces: Bounces,
     /// At least two; the first is what the others are compared with.
     estimator: Vec<Estimator>,
     /// The smallest difference that must be seen.
@@ -35,13 +35,13 @@ pub struct EstimatorsAgree {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Estimator {
     direct: DirectSampling,
-    samples_per_light: u32,
+    samples_per_light: Between<1, 4096>,
 }
 
 impl Estimator {
     fn settings(self, bounces: [u32; 2]) -> IntegratorSettings {
         IntegratorSettings {
-            samples_per_light: self.samples_per_light,
+            samples_per_light: self.samples_per_light.0,
             ..settings(bounces, self.direct)
         }
     }
@@ -51,7 +51,7 @@ impl Estimator {
             DirectSampling::Hemisphere => "hemisphere",
             DirectSampling::Lights => "lights",
         };
-        format!("{direct} x {}", self.samples_per_light)
+        format!("{direct} x {}", self.samples_per_light.0)
     }
 }
 
@@ -62,14 +62,14 @@ impl Check for EstimatorsAgree {
     fn needs(&self) -> Capabilities {
         self.estimator
             .iter()
-            .fold(Capabilities::empty(), |all, e| all | needs(&e.settings(self.bounces)))
+            .fold(Capabilities::empty(), |all, e| all | needs(&e.settings(self.bounces.0)))
     }
 
     fn validate(&self) -> Result<(), String> {
         if self.estimator.len() < 2 {
             return Err("two estimators at least are needed to agree".to_owned());
         }
-        self.ray.iter().try_for_each(|ray| ray.validate())
+        Ok(())
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -109,7 +109,7 @@ impl Comparison<'_> {
     ) -> Result<Vec<Measure>, CheckError> {
         let first = self.check.estimator[0];
         let (ours, theirs) =
-            (self.other.settings(self.check.bounces), first.settings(self.check.bounces));
+            (self.other.settings(self.check.bounces.0), first.settings(self.check.bounces.0));
         let scale =
             estimate(scene, self.ray, &theirs, self.seed.child("scale"), SCALE_SAMPLES)?.mean;
         let claims = scale.map(|scale| Claim::difference(scale, Band::RADIANCE));

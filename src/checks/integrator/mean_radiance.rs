@@ -15,7 +15,7 @@ use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
 use crate::stats::{Band, Claim, Effort, Tolerance, Verdict, judge_means};
 use crate::text::number::apart;
-use crate::text::{Colour, Count, Percent};
+use crate::text::{Between, Bounces, Colour, Count, Percent, Several};
 use serde::Deserialize;
 
 /// Samples of a row that has no variance.
@@ -32,12 +32,12 @@ pub struct MeanRadiance {
     #[serde(default)]
     direct: DirectSampling,
     #[serde(default = "one")]
-    samples_per_light: u32,
+    samples_per_light: Between<1, 4096>,
     /// The smallest error that must be seen.
     detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.
     at_most: Count,
-    row: Vec<Row>,
+    row: Several<Row>,
     /// What known mistakes would give.
     #[serde(default)]
     mistake: Vec<MistakeEntry>,
@@ -52,7 +52,7 @@ struct Row {
     ray: Option<RayEntry>,
     /// The mean over a surface, instead of a ray.
     over: Option<PatchEntry>,
-    bounces: [u32; 2],
+    bounces: Bounces,
     radiance: Colour,
     /// What it is for cores that have chosen otherwise.
     #[serde(default)]
@@ -64,8 +64,8 @@ struct Row {
     exact: bool,
 }
 
-const fn one() -> u32 {
-    1
+const fn one() -> Between<1, 4096> {
+    Between(1)
 }
 
 impl Check for MeanRadiance {
@@ -77,14 +77,11 @@ impl Check for MeanRadiance {
     }
 
     fn validate(&self) -> Result<(), String> {
-        if self.row.is_empty() {
-            return Err("there are no rows; add `[[expect.row]]`".to_owned());
-        }
         self.mistake.iter().try_for_each(|mistake| mistake.validate(self.row.len()))?;
         self.row.iter().try_for_each(|row| {
             row.by_convention.iter().try_for_each(ConventionEntry::validate)?;
             match row.ray.or(self.ray) {
-                Some(ray) => ray.validate(),
+                Some(_) => Ok(()),
                 None if row.over.is_some() => Ok(()),
                 None => Err("a row has no `ray`, and neither has `[expect]`".to_owned()),
             }
@@ -137,9 +134,9 @@ fn divides_by_no_lights(scene: &SceneDescription, error: &CoreError) -> bool {
 impl MeanRadiance {
     fn settings(&self, row: &Row) -> IntegratorSettings {
         IntegratorSettings {
-            samples_per_light: self.samples_per_light,
+            samples_per_light: self.samples_per_light.0,
             roulette: row.roulette.map(Into::into),
-            ..settings(row.bounces, row.direct.unwrap_or(self.direct))
+            ..settings(row.bounces.0, row.direct.unwrap_or(self.direct))
         }
     }
 
@@ -166,7 +163,7 @@ impl Row {
     }
 
     fn name(&self) -> String {
-        self.name.clone().unwrap_or_else(|| match self.bounces {
+        self.name.clone().unwrap_or_else(|| match self.bounces.0 {
             [first, last] if first == last => format!("bounce {first}"),
             [first, last] => format!("bounces {first} to {last}"),
         })

@@ -8,6 +8,7 @@ use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
 use crate::image::luminance;
 use crate::stats::{CorrelationReport, Verdict, judge_uncorrelated};
+use crate::text::{Between, Bounces, Size};
 use serde::Deserialize;
 
 /// Seeds that follow each other.
@@ -19,9 +20,9 @@ const REPEATED: f64 = 0.3;
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct NeighbouringSeeds {
-    size: [u32; 2],
-    bounces: [u32; 2],
-    samples_per_pixel: u32,
+    size: Size,
+    bounces: Bounces,
+    samples_per_pixel: Between<1, 65536>,
 }
 
 impl Check for NeighbouringSeeds {
@@ -34,7 +35,8 @@ impl Check for NeighbouringSeeds {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let rendering = Rendering::of(&scene, self.size, self.bounces, self.samples_per_pixel)?;
+        let rendering =
+            Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
         // Far from the largest seed, so that none of them wraps around.
         let first = context.seed.0 / 2;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
@@ -50,7 +52,7 @@ impl Check for NeighbouringSeeds {
 impl NeighbouringSeeds {
     /// By how many pixels the noise of the next seed may have moved.
     fn shifts(&self) -> [(isize, &'static str); 4] {
-        let row = isize::try_from(self.size[0]).unwrap_or(isize::MAX);
+        let row = isize::try_from(self.size.0[0]).unwrap_or(isize::MAX);
         [
             (-1, "one pixel to the left"),
             (1, "one pixel to the right"),
@@ -159,8 +161,11 @@ mod tests {
     }
 
     fn found(stream: fn(u64, u64) -> u64) -> Finding {
-        let check =
-            NeighbouringSeeds { size: [WIDTH as u32, 18], bounces: [0, 1], samples_per_pixel: 1 };
+        let check = NeighbouringSeeds {
+            size: Size([WIDTH as u32, 18]),
+            bounces: Bounces([0, 1]),
+            samples_per_pixel: Between(1),
+        };
         let noise = Noise::of(&films(stream));
         finding(&check.shifts().map(|(pixels, words)| Shift::of(&noise, pixels, words)))
     }

@@ -8,16 +8,17 @@ use crate::contract::{
     Acceleration, Capabilities, CoreError, DirectSampling, Film, IntegratorSettings, RenderSettings,
 };
 use crate::scene::SceneDescription;
+use crate::text::{Between, Bounces, Several, Size};
 use serde::Deserialize;
 
 /// Renders each scene with light sampling and, where the core has it, hemisphere sampling.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RadianceIsFinite {
-    scenes: Vec<String>,
-    size: [u32; 2],
-    samples_per_pixel: u32,
-    bounces: [u32; 2],
+    scenes: Several<String>,
+    size: Size,
+    samples_per_pixel: Between<1, 65536>,
+    bounces: Bounces,
 }
 
 impl Check for RadianceIsFinite {
@@ -28,14 +29,14 @@ impl Check for RadianceIsFinite {
         Capabilities::BUILD_SCENE | Capabilities::RENDER
     }
 
-    fn validate(&self) -> Result<(), String> {
-        if self.scenes.is_empty() { Err("there are no scenes".to_owned()) } else { Ok(()) }
+    fn scenes(&self) -> &[String] {
+        &self.scenes
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut measures = Vec::new();
         let mut complaints = Vec::new();
-        for name in &self.scenes {
+        for name in self.scenes.iter() {
             let scene = context
                 .scenes
                 .load(name, &toml::Table::new())
@@ -85,11 +86,11 @@ impl RadianceIsFinite {
 
     fn settings(&self, direct: DirectSampling, seed: u64) -> RenderSettings {
         RenderSettings {
-            width: self.size[0],
-            height: self.size[1],
-            samples_per_pixel: self.samples_per_pixel,
+            width: self.size.0[0],
+            height: self.size.0[1],
+            samples_per_pixel: self.samples_per_pixel.0,
             integrator: IntegratorSettings {
-                bounces: self.bounces[0]..=self.bounces[1],
+                bounces: self.bounces.0[0]..=self.bounces.0[1],
                 direct,
                 seed,
                 ..Default::default()

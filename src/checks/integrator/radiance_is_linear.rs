@@ -11,7 +11,7 @@ use crate::math::rng::Seed;
 use crate::scene::{Light, SceneDescription};
 use crate::stats::{Band, Claim, Effort, MeanReport, Verdict, judge_means};
 use crate::text::number::apart;
-use crate::text::{Count, Percent};
+use crate::text::{Bounces, Count, Percent};
 use serde::Deserialize;
 
 /// Samples of an estimate that relative errors are relative to, and of the bitwise comparison.
@@ -27,7 +27,7 @@ const LARGER: f64 = 2.0;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RadianceIsLinear {
     ray: RayEntry,
-    bounces: [u32; 2],
+    bounces: Bounces,
     #[serde(default)]
     direct: DirectSampling,
     /// The smallest difference that must be seen.
@@ -41,17 +41,13 @@ impl Check for RadianceIsLinear {
     const SUMMARY: &'static str = "twice the light, the sum of two lights, a scene twice as large";
 
     fn needs(&self) -> Capabilities {
-        needs(&settings(self.bounces, self.direct))
-    }
-
-    fn validate(&self) -> Result<(), String> {
-        self.ray.validate()
+        needs(&settings(self.bounces.0, self.direct))
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let trial = Trial {
-            settings: settings(self.bounces, self.direct),
+            settings: settings(self.bounces.0, self.direct),
             effort: context.effort(self.detects, self.at_most),
             ray: self.ray.ray(),
             seed: context.seed,

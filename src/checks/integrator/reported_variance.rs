@@ -14,7 +14,7 @@ use crate::math::rng::Seed;
 use crate::stats::{
     Band, Claim, Effort, MeanReport, ReportedVariance, TwoVariances, Verdict, judge_means,
 };
-use crate::text::Count;
+use crate::text::{Between, Bounces, Count, Factor, Size};
 use serde::Deserialize;
 
 /// Pictures whose pixels are compared with each other.
@@ -24,11 +24,12 @@ const PICTURES: u32 = 8;
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ReportsItsVariance {
-    size: [u32; 2],
-    bounces: [u32; 2],
-    samples_per_pixel: u32,
+    size: Size,
+    bounces: Bounces,
+    /// Fewer than 4 hardly know their variance.
+    samples_per_pixel: Between<4, 65536>,
     /// The smallest factor, either way, that must be seen.
-    detects: f64,
+    detects: Factor,
     /// Past this the verdict is inconclusive, never a pass.
     at_most: Count,
 }
@@ -43,10 +44,7 @@ impl Check for ReportsItsVariance {
     }
 
     fn validate(&self) -> Result<(), String> {
-        if self.samples_per_pixel < 4 {
-            return Err("`samples-per-pixel` must be at least 4: fewer hardly know".to_owned());
-        }
-        if self.detects.log2() > Band::FACTOR_OF_TWO.relative() {
+        if self.detects.0.log2() > Band::FACTOR_OF_TWO.relative() {
             return Ok(());
         }
         Err("`detects` must be above the factor of two that is forgiven".to_owned())
@@ -54,7 +52,8 @@ impl Check for ReportsItsVariance {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let rendering = Rendering::of(&scene, self.size, self.bounces, self.samples_per_pixel)?;
+        let rendering =
+            Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
         let (seed, effort) = (context.seed, self.effort(context));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut groups = Vec::new();
@@ -75,14 +74,14 @@ impl Check for ReportsItsVariance {
 
 impl ReportsItsVariance {
     fn samples_of_a_group(&self) -> u64 {
-        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]);
-        u64::from(PICTURES) * u64::from(self.samples_per_pixel) * pixels
+        let pixels = u64::from(self.size.0[0]) * u64::from(self.size.0[1]);
+        u64::from(PICTURES) * u64::from(self.samples_per_pixel.0) * pixels
     }
 
     /// What is beyond the band has to be seen; the band itself is the same in every budget.
     fn effort(&self, context: &Context<'_>) -> Effort {
         let band = Band::FACTOR_OF_TWO.relative();
-        let beyond = (self.detects.log2() - band) * context.budget.coarseness();
+        let beyond = (self.detects.0.log2() - band) * context.budget.coarseness();
         let most = context.budget.samples(self.at_most.0);
         let effort = Effort { detects: band + beyond, ..context.budget.scale(Effort::new(band)) };
         effort.with_most_samples(most).with_runs(32).in_steps_of(self.samples_of_a_group())
@@ -116,7 +115,7 @@ impl ReportsItsVariance {
 
     /// The one mistake that predicts the three channels, if there is one.
     fn mistake(&self, variances: &[TwoVariances; 3]) -> Option<(&'static Cause, String)> {
-        let n = f64::from(self.samples_per_pixel);
+        let n = f64::from(self.samples_per_pixel.0);
         let predicts = |prediction: &dyn Fn(f64) -> f64| {
             let close =
                 |v: &TwoVariances| (v.reported / prediction(v.measured)).log2().abs() < NEAR;

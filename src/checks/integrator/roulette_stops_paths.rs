@@ -12,7 +12,7 @@ use crate::contract::{
 };
 use crate::math::rng::Seed;
 use crate::stats::{Band, Effort, ShareReport, Verdict, judge_share};
-use crate::text::{Count, Percent};
+use crate::text::{Between, Count, Percent, Several};
 use serde::Deserialize;
 
 /// The share of paths that bring light at each isolated bounce, under each roulette.
@@ -21,8 +21,9 @@ use serde::Deserialize;
 pub struct RouletteStopsPaths {
     ray: RayEntry,
     /// The last bounce that is looked at; the first is 1.
-    last: u32,
-    roulette: Vec<RouletteEntry>,
+    /// Below 3 no law can be told from another.
+    last: Between<3, 1000>,
+    roulette: Several<RouletteEntry>,
     /// The smallest error of a share that must be seen.
     detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.
@@ -75,23 +76,13 @@ impl Check for RouletteStopsPaths {
         needs(&IntegratorSettings { roulette: one.map(Into::into), ..self.settings(1) })
     }
 
-    fn validate(&self) -> Result<(), String> {
-        if self.last < 3 {
-            return Err("`last` must be 3 or more, or no law can be told from another".to_owned());
-        }
-        if self.roulette.iter().any(|roulette| !(0.0..1.0).contains(&roulette.stop)) {
-            return Err("`stop` is a probability below 1".to_owned());
-        }
-        if self.roulette.is_empty() { Err("there is no roulette".to_owned()) } else { Ok(()) }
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut shares = Vec::new();
         for (number, entry) in self.roulette.iter().enumerate() {
-            for bounce in 1..=self.last {
+            for bounce in 1..=self.last.0 {
                 let seed = seed.child(number).child(bounce);
                 shares.push(self.share(built.as_mut(), (*entry).into(), bounce, seed, &effort)?);
             }

@@ -4,15 +4,16 @@ use crate::cause::{self, Cause};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
+use crate::text::{Between, Bounces, Size};
 use serde::Deserialize;
 
 /// Renders a picture again, and again on one thread.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct SameSeedSamePicture {
-    size: [u32; 2],
-    bounces: [u32; 2],
-    samples_per_pixel: u32,
+    size: Size,
+    bounces: Bounces,
+    samples_per_pixel: Between<1, 65536>,
 }
 
 impl Check for SameSeedSamePicture {
@@ -26,7 +27,8 @@ impl Check for SameSeedSamePicture {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let seed = context.seed.0;
-        let rendering = Rendering::of(&scene, self.size, self.bounces, self.samples_per_pixel)?;
+        let rendering =
+            Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let first = rendering.film(built.as_mut(), seed, 0)?;
         let again = rendering.film(built.as_mut(), seed, 0)?;

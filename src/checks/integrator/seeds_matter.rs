@@ -7,17 +7,18 @@ use crate::contract::{Acceleration, Capabilities, Film};
 use crate::image::luminance;
 use crate::stats::{CorrelationReport, Verdict, judge_uncorrelated};
 use crate::text::number::figure;
+use crate::text::{Between, Bounces, Size};
 use serde::Deserialize;
 
 /// Renders a noisy picture with many seeds.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct SeedsMatter {
-    size: [u32; 2],
-    bounces: [u32; 2],
-    samples_per_pixel: u32,
+    size: Size,
+    bounces: Bounces,
+    samples_per_pixel: Between<1, 65536>,
     /// How many; differences are taken in pairs.
-    seeds: u32,
+    seeds: Between<4, 4096>,
 }
 
 impl Check for SeedsMatter {
@@ -28,16 +29,13 @@ impl Check for SeedsMatter {
         Capabilities::BUILD_SCENE | Capabilities::RENDER
     }
 
-    fn validate(&self) -> Result<(), String> {
-        if self.seeds >= 4 { Ok(()) } else { Err("`seeds` must be 4 or more".to_owned()) }
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let rendering = Rendering::of(&scene, self.size, self.bounces, self.samples_per_pixel)?;
+        let rendering =
+            Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let films = (0..self.seeds)
+        let films = (0..self.seeds.0)
             .map(|run| rendering.film(built.as_mut(), seed.child(run).0, 0))
             .collect::<Result<Vec<_>, _>>()?;
         let directions = [("side by side", [1, 0]), ("above each other", [0, 1])];
@@ -49,7 +47,7 @@ impl Check for SeedsMatter {
         let doubt = reports.iter().find_map(CorrelationReport::doubt);
         let statement = match measures.iter().find(|m| m.verdict == Verdict::Fail) {
             None => doubt.unwrap_or_else(|| {
-                format!("{} seeds give {} different pictures", self.seeds, self.seeds)
+                format!("{} seeds give {} different pictures", self.seeds.0, self.seeds.0)
             }),
             Some(measure) => {
                 format!(

@@ -12,7 +12,7 @@ use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling, In
 use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, Effort, Moments, Sides, Verdict, judge_means};
-use crate::text::{Colour, Count, Percent};
+use crate::text::{Between, Bounces, Count, Lit, Percent, Several};
 use serde::Deserialize;
 
 /// Each row: the variance of one estimate along a ray is a given number.
@@ -20,7 +20,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct VarianceIsKnown {
     ray: RayEntry,
-    bounces: [u32; 2],
+    bounces: Bounces,
     #[serde(default)]
     direct: DirectSampling,
     /// `at-most` where a core may know better ways.
@@ -30,7 +30,7 @@ pub struct VarianceIsKnown {
     detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.
     at_most: Count,
-    row: Vec<Row>,
+    row: Several<Row>,
     /// What known mistakes would give.
     #[serde(default)]
     mistake: Vec<MistakeEntry>,
@@ -42,14 +42,14 @@ pub struct VarianceIsKnown {
 struct Row {
     name: String,
     #[serde(default = "one")]
-    samples_per_light: u32,
+    samples_per_light: Between<1, 4096>,
     roulette: Option<RouletteEntry>,
     /// Of one estimate.
-    variance: Colour,
+    variance: Lit,
 }
 
-const fn one() -> u32 {
-    1
+const fn one() -> Between<1, 4096> {
+    Between(1)
 }
 
 impl Check for VarianceIsKnown {
@@ -65,11 +65,7 @@ impl Check for VarianceIsKnown {
             let band = 100.0 * Band::VARIANCE.relative();
             return Err(format!("`detects` must be above the {band} % that are forgiven"));
         }
-        if self.row.is_empty() {
-            return Err("there are no rows; add `[[expect.row]]`".to_owned());
-        }
-        self.mistake.iter().try_for_each(|mistake| mistake.validate(self.row.len()))?;
-        self.ray.validate()
+        self.mistake.iter().try_for_each(|mistake| mistake.validate(self.row.len()))
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -92,9 +88,9 @@ impl Check for VarianceIsKnown {
 impl VarianceIsKnown {
     fn settings(&self, row: &Row) -> IntegratorSettings {
         IntegratorSettings {
-            samples_per_light: row.samples_per_light,
+            samples_per_light: row.samples_per_light.0,
             roulette: row.roulette.map(Into::into),
-            ..settings(self.bounces, self.direct)
+            ..settings(self.bounces.0, self.direct)
         }
     }
 

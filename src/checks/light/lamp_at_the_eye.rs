@@ -12,7 +12,7 @@ use crate::image::CHANNELS;
 use crate::math::rng::{Seed, uniform};
 use crate::scene::{Light, Rgb, SceneDescription, Surface};
 use crate::stats::{Compared, Rarity, Tolerance, Verdict, judge_exact, judge_rare};
-use crate::text::Count;
+use crate::text::{Count, Several};
 use glam::DVec2;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -28,7 +28,7 @@ const LIKENESS: f64 = 100.0;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LampAtTheEye {
-    scenes: Vec<String>,
+    scenes: Several<String>,
     /// Rays through the film of each scene.
     rays: Count,
 }
@@ -45,13 +45,13 @@ impl Check for LampAtTheEye {
             | Capabilities::RADIANCE
     }
 
-    fn validate(&self) -> Result<(), String> {
-        if self.scenes.is_empty() { Err("there are no scenes".to_owned()) } else { Ok(()) }
+    fn scenes(&self) -> &[String] {
+        &self.scenes
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut seen = Vec::new();
-        for name in &self.scenes {
+        for name in self.scenes.iter() {
             let scene = context
                 .scenes
                 .load(name, &toml::Table::new())

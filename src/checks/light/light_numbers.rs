@@ -9,6 +9,7 @@ use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, CoreError, LightSample, Result};
 use crate::math::rng::Seed;
 use crate::scene::Light;
+use crate::text::{Several, Vector};
 use glam::DVec3;
 use serde::Deserialize;
 
@@ -19,7 +20,7 @@ const SAME: f64 = 0.0;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LightNumbers {
-    from: Vec<[f64; 3]>,
+    from: Several<Vector>,
 }
 
 impl Check for LightNumbers {
@@ -29,10 +30,6 @@ impl Check for LightNumbers {
 
     fn needs(&self) -> Capabilities {
         Capabilities::BUILD_SCENE | Capabilities::SAMPLE_LIGHT | Capabilities::CALLERS_RANDOMNESS
-    }
-
-    fn validate(&self) -> std::result::Result<(), String> {
-        if self.from.is_empty() { Err("there are no points".to_owned()) } else { Ok(()) }
     }
 
     fn run(&self, context: &mut Context<'_>) -> std::result::Result<Finding, CheckError> {
@@ -45,7 +42,7 @@ impl Check for LightNumbers {
         for (light, _) in area {
             for (number, from) in self.from.iter().enumerate() {
                 let name = format!("light {} from point {}", light + 1, number + 1);
-                let mut asked = Asked { scene: built.as_mut(), light, from: (*from).into() };
+                let mut asked = Asked { scene: built.as_mut(), light, from: from.0 };
                 let ask = &mut |numbers: &Numbers| asked.samples(numbers);
                 replayed.push(Replayed::of(name.clone(), &numbers, ask)?);
                 let ask = &mut |numbers| asked.sample(numbers);

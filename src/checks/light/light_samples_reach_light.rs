@@ -16,8 +16,7 @@ use crate::stats::{
     Band, Claim, Compared, MeanReport, Tolerance, Verdict, judge_exact, judge_means,
 };
 use crate::text::number::with_interval;
-use crate::text::{Count, Percent};
-use glam::DVec3;
+use crate::text::{Chance, Count, Direction, Percent, Positive, Several, Vector};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -34,20 +33,20 @@ pub struct LightSamplesReachLight {
     detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.
     at_most: Count,
-    point: Vec<Point>,
+    point: Several<Point>,
 }
 
 /// Where the light is sampled from, and how large it looks there.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Point {
-    from: [f64; 3],
+    from: Vector,
     /// Of the surface there, unit.
-    normal: [f64; 3],
+    normal: Direction,
     /// Steradians. None where only a part of the light faces the point.
-    solid_angle: Option<f64>,
+    solid_angle: Option<Positive>,
     /// Of the light as seen by the surface; 0 where the light looks away.
-    form_factor: f64,
+    form_factor: Chance,
 }
 
 impl Check for LightSamplesReachLight {
@@ -56,10 +55,6 @@ impl Check for LightSamplesReachLight {
 
     fn needs(&self) -> Capabilities {
         Capabilities::BUILD_SCENE | Capabilities::SAMPLE_LIGHT | Capabilities::INTERSECT
-    }
-
-    fn validate(&self) -> Result<(), String> {
-        if self.point.is_empty() { Err("there are no points".to_owned()) } else { Ok(()) }
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -76,7 +71,7 @@ impl Check for LightSamplesReachLight {
             let label = format!("point {}", number + 1);
             let traced = Traced::new(built.as_mut(), point, light, seed)?;
             measures.push(traced.reached(&label, Tolerance::INTERSECTION.of(precision)));
-            if point.form_factor == 0.0 {
+            if point.form_factor.0 == 0.0 {
                 measures.push(traced.dark(&label));
                 shines_backwards |= !traced.samples.is_empty();
                 continue;
@@ -124,15 +119,11 @@ fn the_area_light(scene: &SceneDescription) -> Result<(u32, u32), CheckError> {
 }
 
 impl Point {
-    fn from(&self) -> DVec3 {
-        DVec3::from_array(self.from)
-    }
-
     /// The means that are known at this point, by name.
     fn claims(&self, band: Band) -> Vec<(&'static str, Claim)> {
         let solid_angle =
-            self.solid_angle.map(|value| ("mean of 1/pdf", Claim::value(value, band)));
-        let factor = ("mean of cos/pdf", Claim::value(PI * self.form_factor, band));
+            self.solid_angle.map(|value| ("mean of 1/pdf", Claim::value(value.0, band)));
+        let factor = ("mean of cos/pdf", Claim::value(PI * self.form_factor.0, band));
         solid_angle.into_iter().chain([factor]).collect()
     }
 
@@ -146,7 +137,7 @@ impl Point {
     ) -> Result<Vec<f64>, CheckError> {
         let samples =
             self.samples(scene, light, seed, usize::try_from(count).unwrap_or(usize::MAX))?;
-        let normal = DVec3::from_array(self.normal);
+        let normal = self.normal.0;
         let lit = || samples.iter().filter(|sample| is_lit(sample));
         let inverse: f64 = lit().map(|sample| sample.pdf.recip()).sum();
         let cosine: f64 = lit().map(|s| s.wi.dot(normal).max(0.0) / s.pdf).sum();
@@ -163,7 +154,7 @@ impl Point {
     ) -> Result<Vec<LightSample>, CheckError> {
         let numbers = Numbers::new(seed, count);
         let mut samples = vec![LightSample::NONE; count];
-        let from = vec![self.from(); count];
+        let from = vec![self.from.0; count];
         scene.sample_light(light, &from, numbers.randomness(), &mut samples)?;
         Ok(samples)
     }
@@ -192,7 +183,7 @@ impl Traced {
         // From close before the light: what lies in between is the business of shadow rays.
         let ray = |sample: &LightSample| {
             let start = (1.0 - SLACK) * sample.distance;
-            Ray { t_min: start, ..Ray::new(point.from(), sample.wi) }
+            Ray { t_min: start, ..Ray::new(point.from.0, sample.wi) }
         };
         let rays: Vec<_> = samples.iter().map(ray).collect();
         let mut hits = vec![Hit::MISS; rays.len()];
@@ -226,7 +217,7 @@ impl Traced {
 
     /// Of the samples that met the light.
     fn geometry(&self, area: f64, point: &Point) -> Vec<(Geometry, f64)> {
-        let normal = DVec3::from_array(point.normal);
+        let normal = point.normal.0;
         Geometry::of(area, normal, &self.samples, &self.hits)
     }
 

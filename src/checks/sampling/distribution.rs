@@ -8,7 +8,7 @@ use crate::contract::{
 };
 use crate::math::rng::Seed;
 use crate::scene::Material;
-use crate::text::Angle;
+use crate::text::Polar;
 use crate::text::number::degrees;
 use glam::DVec3;
 use serde::Deserialize;
@@ -23,7 +23,7 @@ pub struct DistributionEntry {
     sampler: Option<SamplerEntry>,
     surface: Option<SurfaceEntry>,
     #[serde(default)]
-    seen_from: Vec<Angle>,
+    seen_from: Vec<Polar>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -97,7 +97,7 @@ pub enum Distribution {
         /// Towards the viewer, local frame.
         wo: DVec3,
         /// Of `wo` from the normal.
-        angle: Angle,
+        angle: Polar,
     },
 }
 

@@ -6,7 +6,7 @@ use crate::checks::phrase::{figure, some_are, worst_measure};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, CoreError, Hit, Precision};
 use crate::stats::{Compared, Verdict, judge_exact};
-use crate::text::Count;
+use crate::text::{Count, Several};
 use glam::DVec3;
 use serde::Deserialize;
 
@@ -15,7 +15,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FarSpheres {
     /// From the origin of the rays to the centre, in radii; 0 is inside.
-    distances: Vec<f64>,
+    distances: Several<f64>,
     /// At each distance.
     rays: Count,
     /// Whose roundings are allowed.
@@ -32,7 +32,7 @@ impl Check for FarSpheres {
 
     fn validate(&self) -> Result<(), String> {
         let is_distance = |distance: &f64| (0.0..=1e6).contains(distance);
-        if !self.distances.is_empty() && self.distances.iter().all(is_distance) {
+        if self.distances.iter().all(is_distance) {
             Ok(())
         } else {
             Err("`distances` needs numbers of radii from 0 to a million".to_owned())
@@ -41,7 +41,7 @@ impl Check for FarSpheres {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut ranges = Vec::new();
-        for distance in &self.distances {
+        for distance in self.distances.iter() {
             let stream = &mut context.seed.child(distance).stream();
             let mut answers = Vec::new();
             for _ in 0..self.rays.0 {

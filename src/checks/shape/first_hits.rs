@@ -11,6 +11,7 @@ use crate::contract::{Acceleration, Capabilities, Hit, Precision, Ray};
 use crate::image::Image;
 use crate::scene::{Camera, SceneDescription, Shape};
 use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
+use crate::text::Size;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -26,7 +27,7 @@ const FEWEST: f64 = 0.25;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FirstHits {
     /// Columns and rows.
-    size: [u32; 2],
+    size: Size,
 }
 
 impl Check for FirstHits {
@@ -35,13 +36,6 @@ impl Check for FirstHits {
 
     fn needs(&self) -> Capabilities {
         Capabilities::BUILD_SCENE | Capabilities::INTERSECT | Capabilities::GENERATE_RAYS
-    }
-
-    fn validate(&self) -> Result<(), String> {
-        match self.size.iter().all(|n| *n > 0) {
-            true => Ok(()),
-            false => Err("`size` needs numbers above 0".to_owned()),
-        }
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -54,7 +48,7 @@ impl Check for FirstHits {
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         built.intersect(&rays, &mut hits)?;
         drop(built);
-        let view = View { scene: &scene, camera, size: self.size };
+        let view = View { scene: &scene, camera, size: self.size.0 };
         let pixels: Vec<_> =
             film.iter().zip(hits).map(|(point, hit)| view.pixel(*point, hit)).collect();
         self.show(context, &pixels);
@@ -65,7 +59,7 @@ impl Check for FirstHits {
 impl FirstHits {
     /// Of all pixels, row by row from the top, in film coordinates.
     fn centres(&self) -> Vec<DVec2> {
-        let [width, height] = self.size;
+        let [width, height] = self.size.0;
         let centre = |x: u32, y: u32| {
             let from_top = (f64::from(y) + 0.5) / f64::from(height);
             DVec2::new((f64::from(x) + 0.5) / f64::from(width), 1.0 - from_top)
@@ -75,7 +69,7 @@ impl FirstHits {
 
     /// Normals as colours.
     fn show(&self, context: &mut Context<'_>, pixels: &[Pixel]) {
-        let [width, height] = self.size.map(|n| n as usize);
+        let [width, height] = self.size.0.map(|n| n as usize);
         let colour = |normal: Option<DVec3>| {
             normal.map_or([0.0; 3], |normal| (0.5 * (normal + 1.0)).as_vec3().to_array())
         };
@@ -101,7 +95,7 @@ pub fn first_hits(scene: &SceneDescription, camera: &Camera) -> Vec<(f64, DVec3)
         let met = nearest(scene, &view.ray(*film));
         met.map_or((f64::INFINITY, DVec3::ZERO), |met| (met.answer.t, met.answer.shading_normal))
     };
-    FirstHits { size: camera.film }.centres().par_iter().map(seen).collect()
+    FirstHits { size: Size(camera.film) }.centres().par_iter().map(seen).collect()
 }
 
 /// A pixel: what the core finds at its centre, and what is there.

@@ -6,6 +6,7 @@ use crate::checks::phrase::{figure, percent, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Hit, Precision, Primitive, Ray};
 use crate::stats::{Tolerance, Verdict};
+use crate::text::{Arrow, Positive, Vector};
 use glam::DVec3;
 use serde::Deserialize;
 
@@ -27,23 +28,23 @@ pub struct HitsPrimitive {
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TriangleEntry {
-    vertices: [DVec3; 3],
-    normals: Option<[DVec3; 3]>,
+    vertices: [Vector; 3],
+    normals: Option<[Arrow; 3]>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SphereEntry {
-    centre: DVec3,
-    radius: f64,
+    centre: Vector,
+    radius: Positive,
 }
 
 /// A ray segment and what has to come out of it. What a row does not say is known from the geometry.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct RayRow {
-    from: DVec3,
-    toward: DVec3,
+    from: Vector,
+    toward: Arrow,
     #[serde(default)]
     after: f64,
     #[serde(default = "infinity")]
@@ -66,7 +67,8 @@ const fn infinity() -> f64 {
 
 impl RayRow {
     fn ray(&self) -> Ray {
-        Ray { origin: self.from, t_min: self.after, direction: self.toward, t_max: self.up_to }
+        let (origin, direction) = (self.from.0, self.toward.0);
+        Ray { origin, t_min: self.after, direction, t_max: self.up_to }
     }
 
     /// Whether the row says what the geometry says.
@@ -98,14 +100,15 @@ impl HitsPrimitive {
     fn primitive(&self) -> Option<Primitive> {
         match (self.triangle, self.sphere) {
             (Some(TriangleEntry { vertices: positions, normals }), None) => {
+                let positions = positions.map(|position| position.0);
                 let [a, b, c] = positions;
                 let flat = (b - a).cross(c - a).normalize_or_zero();
-                let normals =
-                    normals.map_or([flat; 3], |typed| typed.map(DVec3::normalize_or_zero));
+                let normals = normals
+                    .map_or([flat; 3], |typed| typed.map(|normal| normal.0.normalize_or_zero()));
                 Some(Primitive::Triangle { positions, normals })
             }
             (None, Some(SphereEntry { centre, radius })) => {
-                Some(Primitive::Sphere { centre, radius })
+                Some(Primitive::Sphere { centre: centre.0, radius: radius.0 })
             }
             _ => None,
         }
@@ -126,10 +129,13 @@ impl Check for HitsPrimitive {
             return Err("no ray is graded".to_owned());
         }
         for (number, row) in self.ray.iter().enumerate().filter(|(_, row)| !row.robustness) {
+            if row.after.is_nan() || row.up_to.is_nan() {
+                return Err(format!("{}: a segment ends at numbers", row.label(number)));
+            }
             let answer = intersection(&primitive, &row.ray());
             if !row.is_true_of(answer.as_ref()) {
-                let row = row.label(number);
-                return Err(format!("{row} is not what the geometry gives: {answer:?}"));
+                let truth = answer.map_or_else(|| "a miss".to_owned(), |answer| answer.in_words());
+                return Err(format!("{}: the geometry gives {truth}", row.label(number)));
             }
         }
         Ok(())
@@ -329,6 +335,9 @@ mod tests {
         let text = "sphere = { centre = [0, 0, 0], radius = 1 }\n\
                     [[ray]]\nfrom = [3, 0, 0]\ntoward = [-1, 0, 0]\nhits = true\nt = 2.5\n";
         let error = crate::text::read_toml::<HitsPrimitive>(text).unwrap().validate().unwrap_err();
-        assert!(error.starts_with("ray 1 is not what the geometry gives"), "{error}");
+        assert!(
+            error.starts_with("ray 1: the geometry gives t = 2, normal = [1, 0, 0]"),
+            "{error}"
+        );
     }
 }

@@ -3,6 +3,7 @@
 //! A mistake is named only if it predicts every answer of a core, the right ones among them.
 
 use crate::cause::{Cause, shape};
+use crate::checks::phrase::figure;
 use crate::contract::{Hit, Primitive, Ray};
 use glam::DVec3;
 
@@ -20,6 +21,17 @@ pub struct Answer {
 }
 
 impl Answer {
+    /// As a case would write it: `t = 1, normal = [0, 0, 1], shading-normal = [0, 0, 1]`.
+    pub fn in_words(&self) -> String {
+        let [normal, shading] = [self.geometric_normal, self.shading_normal]
+            .map(|n| n.to_array().map(figure).join(", "));
+        let known = format!("t = {}, normal = [{normal}], shading-normal = [{shading}]", self.t);
+        self.weights.map_or_else(
+            || known.clone(),
+            |weights| format!("{known}, barycentric = [{}]", weights.map(figure).join(", ")),
+        )
+    }
+
     /// Whether a core gave this answer, to within `allowed` (relative for t).
     pub fn is_like(&self, hit: &Hit, allowed: f64) -> bool {
         let weights = self.weights.is_none_or(|[_, v, w]| {

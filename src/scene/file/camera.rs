@@ -1,9 +1,8 @@
 //! `[camera]`
 
 use super::Context;
-use super::value::{Between, Direction, Positive, Vector};
 use crate::scene::Camera;
-use crate::text::{Angle, Diagnostic, Spanned};
+use crate::text::{Angle, Between, Diagnostic, Direction, Positive, Spanned, Vector};
 use glam::DVec3;
 use serde::Deserialize;
 use std::f64::consts::PI;

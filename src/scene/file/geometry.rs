@@ -2,12 +2,11 @@
 
 use super::Context;
 use super::exactly_one;
-use super::value::{Between, Direction, Positive, Vector};
 use crate::math::rng::Seed;
 use crate::scene::mesh::{self, Format, MeshError};
 use crate::scene::procedural::{self, Layout};
 use crate::scene::{Mesh, Sphere};
-use crate::text::{Diagnostic, Spanned};
+use crate::text::{Between, Diagnostic, Direction, Positive, Spanned, Vector};
 use glam::DVec3;
 use serde::Deserialize;
 

@@ -1,9 +1,8 @@
 //! `[[light]]`: the lights that are not shapes.
 
-use super::value::{Direction, Power, Vector};
 use super::{Context, exactly_one};
 use crate::scene::Light;
-use crate::text::{Diagnostic, Spanned};
+use crate::text::{Colour, Diagnostic, Direction, Spanned, Vector};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -19,28 +18,28 @@ pub(super) struct Entry {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Point {
     position: Vector,
-    intensity: Power,
+    intensity: Colour,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Directional {
     direction: Direction,
-    irradiance: Power,
+    irradiance: Colour,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct ConstantSky {
-    radiance: Power,
+    radiance: Colour,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct GradientSky {
     up: Direction,
-    horizon: Power,
-    zenith: Power,
+    horizon: Colour,
+    zenith: Colour,
 }
 
 pub(super) fn resolve_all(

@@ -1,9 +1,11 @@
 //! `[material.<name>]`
 
-use super::value::{Bending, Direction, Positive, Power, Reflectance, Roughness};
 use super::{Context, exactly_one};
 use crate::scene::{Cap, Emission, Material, Surface};
-use crate::text::{Angle, Diagnostic, Spanned, did_you_mean, listed};
+use crate::text::{
+    Angle, Bending, Colour, Diagnostic, Direction, Positive, Reflectance, Roughness, Spanned,
+    did_you_mean, listed,
+};
 use serde::Deserialize;
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -18,7 +20,7 @@ pub(super) struct Entry {
     glass: Option<Glass>,
     conductor: Option<Conductor>,
     rough_glass: Option<RoughGlass>,
-    emission: Option<Power>,
+    emission: Option<Colour>,
     cap: Option<Spanned<CapEntry>>,
 }
 

@@ -1,7 +1,7 @@
 //! `scenes/<name>.toml` → [`SceneDescription`].
 //!
-//! One file a part of the vocabulary: `camera`, `material`, `shape`, `light`. `value` has the
-//! numbers that are checked as they are read, `parameter` puts values in for `"$name"`.
+//! One file a part of the vocabulary: `camera`, `material`, `shape`, `light`. `parameter`
+//! puts values in for `"$name"`.
 //!
 //! ```toml
 //! title  = "A sphere that glows inside"
@@ -32,7 +32,6 @@ mod light;
 mod material;
 mod parameter;
 mod shape;
-mod value;
 
 use super::{SceneDescription, SceneError};
 use crate::text::{Diagnostic, Source, Spanned, listed, read_table};
@@ -86,7 +85,7 @@ pub(super) fn parse(
 ) -> Result<SceneDescription, SceneError> {
     let (file, parameters) = read(name, source, overrides)?;
     let context = Context { source, folder };
-    resolve(name, file, &context).map_err(|diagnostic| parameters.explain(diagnostic).into())
+    resolve(name, file, &context).map_err(|diagnostic| parameters.explain(diagnostic))
 }
 
 fn read(

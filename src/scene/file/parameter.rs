@@ -22,6 +22,8 @@ struct Parameter {
     /// Where the file declares it.
     span: Range<usize>,
     is_used: Cell<bool>,
+    /// Whether its value is not the scene's own.
+    is_overridden: bool,
 }
 
 impl Parameters {
@@ -30,7 +32,10 @@ impl Parameters {
         let mut parameters = Self(declared(source)?);
         for (name, value) in overrides {
             match parameters.0.get_mut(name) {
-                Some(parameter) => parameter.text = value.to_string(),
+                Some(parameter) => {
+                    parameter.text = value.to_string();
+                    parameter.is_overridden = true;
+                }
                 None => return Err(parameters.unknown(scene, name)),
             }
         }
@@ -57,13 +62,21 @@ impl Parameters {
         }
     }
 
-    /// Adds what a parameter stands for to a complaint about a place where one is used.
-    pub fn explain(&self, diagnostic: Diagnostic) -> Diagnostic {
+    /// Adds what a parameter stands for to a complaint about a place where one is used. A value from elsewhere is at
+    /// fault itself.
+    pub fn explain(&self, diagnostic: Diagnostic) -> SceneError {
         let place = diagnostic.source.text.get(diagnostic.span.clone()).unwrap_or_default();
         let is_there = |name: &str| place.contains(&format!("\"${name}\""));
         let used = self.0.iter().find(|(name, _)| is_there(name));
-        let hint = used.map(|(name, parameter)| format!("here `${name}` is {}", parameter.text));
-        diagnostic.with_hint_if_any(hint)
+        let Some((name, parameter)) = used else { return diagnostic.into() };
+        let diagnostic = diagnostic.with_hint(format!("here `${name}` is {}", parameter.text));
+        match parameter.is_overridden {
+            false => diagnostic.into(),
+            true => SceneError::WrongParameter {
+                parameter: name.clone(),
+                diagnostic: Box::new(diagnostic),
+            },
+        }
     }
 
     fn substitute_in<'a>(
@@ -116,6 +129,7 @@ impl Parameters {
             scene: scene.to_owned(),
             parameter: name.to_owned(),
             known: self.names(),
+            hint: did_you_mean(name, self.0.keys().map(String::as_str)),
         }
     }
 }
@@ -133,7 +147,10 @@ fn declared(source: &Source) -> Result<BTreeMap<String, Parameter>, Diagnostic> 
     let declare = |(name, value): (&Spanned<_>, &Spanned<DeValue<'_>>)| {
         let text = source.text[value.span()].to_owned();
         let name_text: &str = std::borrow::Borrow::borrow(name);
-        (name_text.to_owned(), Parameter { text, span: name.span(), is_used: Cell::new(false) })
+        (
+            name_text.to_owned(),
+            Parameter { text, span: name.span(), is_used: Cell::new(false), is_overridden: false },
+        )
     };
     Ok(table.iter().map(declare).collect())
 }

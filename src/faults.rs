@@ -3,7 +3,7 @@
 //!
 //! Pictures against references are left out: a mistake that only a picture shows is one that nobody is told of.
 
-use crate::case::{Case, Part};
+use crate::case::{Case, NothingSelected, Part};
 use crate::cores::CoreSpec;
 use crate::cores::textbook::different::{DIFFERENT, Different};
 use crate::cores::textbook::fault::{self, Fault};
@@ -76,23 +76,34 @@ impl Spared {
     }
 }
 
-/// The faults whose names contain one of the words, or whose part is one of them; all without words.
-pub fn select_faults(words: &[String]) -> Vec<&'static Fault> {
-    let is_wanted = |fault: &&Fault| selects(words, fault.name, Some(fault.part));
-    fault::all().filter(is_wanted).collect()
-}
-
-/// The right but different cores whose names contain one of the words; all without words.
-pub fn select_different(words: &[String]) -> Vec<&'static Different> {
-    DIFFERENT.iter().filter(|core| selects(words, core.name, None)).collect()
-}
-
-fn selects(words: &[String], name: &str, part: Option<u32>) -> bool {
-    let is_meant = |word: &String| match word.parse() {
-        Ok(number) => part == Some(number),
-        Err(_) => name.contains(word.as_str()),
+/// The faults, and the cores that are right but different, whose names contain one of the words, or the faults whose
+/// part is one of them; all without words.
+///
+/// # Errors
+/// If a word selects nothing.
+pub fn select(
+    words: &[String],
+) -> Result<(Vec<&'static Fault>, Vec<&'static Different>), NothingSelected> {
+    let faults: Vec<_> = fault::all().collect();
+    let is_fault = |word: &String, fault: &Fault| match word.parse::<u32>() {
+        Ok(number) => fault.part == number,
+        Err(_) => fault.name.contains(word.as_str()),
     };
-    words.is_empty() || words.iter().any(is_meant)
+    let is_different = |word: &String, core: &Different| core.name.contains(word.as_str());
+    let is_known = |word: &&String| {
+        faults.iter().any(|fault| is_fault(word, fault))
+            || DIFFERENT.iter().any(|core| is_different(word, core))
+    };
+    if let Some(unknown) = words.iter().find(|word| !is_known(word)) {
+        let names = faults.iter().map(|fault| fault.name);
+        let names = names.chain(DIFFERENT.iter().map(|core| core.name));
+        return Err(NothingSelected::by(unknown, names));
+    }
+    let any = |meant: &dyn Fn(&String) -> bool| words.is_empty() || words.iter().any(meant);
+    Ok((
+        faults.into_iter().filter(|fault| any(&|word| is_fault(word, fault))).collect(),
+        DIFFERENT.iter().filter(|core| any(&|word| is_different(word, core))).collect(),
+    ))
 }
 
 impl Matrix {
@@ -116,16 +127,19 @@ impl Matrix {
 
     /// Puts a fault to the case named for it, and if that alone does not tell its cause, to those beside it: first of the
     /// same check, then of the whole folder.
-    pub fn try_fault_briefly(&self, fault: &Fault) -> Tried {
-        let alone = self.with_cases(|case| case.id == fault.caught_by).try_fault(fault);
+    ///
+    /// # Errors
+    /// If the case named for it is not there.
+    pub fn try_fault_briefly(&self, fault: &Fault) -> Result<Tried, NothingSelected> {
+        let alone = self.with_cases(|case| case.id == fault.caught_by).try_fault(fault)?;
         if alone.is_good() || !alone.caught {
-            return alone;
+            return Ok(alone);
         }
         let folder = self.folder_of(fault);
         let named = self.cases.iter().find(|case| case.id == fault.caught_by);
         let check = named.map(|case| case.check.name);
-        let alike = folder.with_cases(|case| Some(case.check.name) == check).try_fault(fault);
-        if alike.is_good() { alike } else { folder.try_fault(fault) }
+        let alike = folder.with_cases(|case| Some(case.check.name) == check).try_fault(fault)?;
+        if alike.is_good() { Ok(alike) } else { folder.try_fault(fault) }
     }
 
     /// The cases of the same folder as the one named for the fault.
@@ -135,13 +149,16 @@ impl Matrix {
     }
 
     /// Puts a fault to the cases.
-    pub fn try_fault(&self, fault: &Fault) -> Tried {
+    ///
+    /// # Errors
+    /// If there are none.
+    pub fn try_fault(&self, fault: &Fault) -> Result<Tried, NothingSelected> {
         let clock = Instant::now();
-        let records = self.records(fault.name);
+        let records = self.records(fault.name)?;
         let mut by: Vec<_> = failures(&records).map(|record| record.case.clone()).collect();
         by.sort_by_key(|case| case != fault.caught_by);
         let told = self.diagnosis(fault.name, &records).first();
-        Tried {
+        Ok(Tried {
             name: fault.name,
             part: fault.part,
             caught: by.iter().any(|case| case == fault.caught_by),
@@ -149,24 +166,27 @@ impl Matrix {
             by,
             told: told.map(|cause| cause.name),
             seconds: clock.elapsed().as_secs_f64(),
-        }
+        })
     }
 
     /// Puts a core that is right to the cases.
-    pub fn try_different(&self, core: &Different) -> Spared {
+    ///
+    /// # Errors
+    /// If there are none.
+    pub fn try_different(&self, core: &Different) -> Result<Spared, NothingSelected> {
         let clock = Instant::now();
-        let records = self.records(core.name);
+        let records = self.records(core.name)?;
         let against = || records.iter().filter(|record| !is_content(&record.outcome));
         let statement = |r: &TrialRecord| format!("{}: {}", r.case, r.outcome.statement());
-        Spared {
+        Ok(Spared {
             name: core.name,
             by: against().map(|record| record.case.clone()).collect(),
             statements: against().map(statement).collect(),
             seconds: clock.elapsed().as_secs_f64(),
-        }
+        })
     }
 
-    fn records(&self, change: &str) -> Vec<TrialRecord> {
+    fn records(&self, change: &str) -> Result<Vec<TrialRecord>, NothingSelected> {
         let request = Request {
             cores: vec![core(change)],
             filters: Vec::new(),
@@ -175,7 +195,7 @@ impl Matrix {
             jobs: self.jobs,
             fail_fast: false,
         };
-        run_in_memory(&Plan::new(self.project.clone(), request, &self.cases))
+        Plan::new(self.project.clone(), request, &self.cases).map(|plan| run_in_memory(&plan))
     }
 
     fn diagnosis(&self, change: &str, records: &[TrialRecord]) -> Diagnosis {
@@ -209,19 +229,33 @@ fn is_content(outcome: &Outcome) -> bool {
 mod tests {
     use super::*;
 
-    fn words(words: &[&str]) -> Vec<String> {
-        words.iter().map(ToString::to_string).collect()
+    fn names(words: &[&str]) -> Result<Vec<&'static str>, String> {
+        let words: Vec<_> = words.iter().map(ToString::to_string).collect();
+        let (faults, different) = select(&words).map_err(|error| error.to_string())?;
+        let names = faults.iter().map(|fault| fault.name);
+        Ok(names.chain(different.iter().map(|core| core.name)).collect())
     }
 
     #[test]
     fn faults_are_selected_by_part_of_their_name_and_by_part_of_the_course() {
-        let names = |given: &[&str]| -> Vec<_> {
-            select_faults(&words(given)).iter().map(|fault| fault.name).collect()
-        };
-        assert_eq!(names(&["brdf-without-pi"]), ["brdf-without-pi"]);
-        assert!(names(&["2"]).contains(&"second-child-skipped"));
-        assert!(!names(&["2"]).contains(&"brdf-without-pi"));
-        assert!(names(&[]).len() > 75);
-        assert!(select_different(&words(&["falloff"])).len() == 1);
+        assert_eq!(names(&["brdf-without-pi"]), Ok(vec!["brdf-without-pi"]));
+        let second = names(&["2"]).unwrap();
+        assert!(second.contains(&"second-child-skipped") && !second.contains(&"brdf-without-pi"));
+        assert!(names(&[]).unwrap().len() > 75);
+        assert_eq!(names(&["falloff"]).unwrap().len(), 1);
+    }
+
+    #[test]
+    fn a_word_that_selects_no_fault_is_an_error_whatever_the_others_select() {
+        let message = names(&["falloff", "brdf-without-pie"]).unwrap_err();
+        assert!(message.contains("did you mean `brdf-without-pi`?"), "{message}");
+    }
+
+    #[test]
+    fn a_core_that_no_case_was_tried_on_is_not_spared() {
+        let project = Project::at(std::path::Path::new(env!("CARGO_MANIFEST_DIR")));
+        let matrix = Matrix::new(project, &[], Budget::Quick, 1);
+        assert!(matrix.try_different(&DIFFERENT[0]).is_err());
+        assert!(matrix.try_fault_briefly(fault::all().next().unwrap()).is_err());
     }
 }

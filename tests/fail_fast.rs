@@ -60,7 +60,7 @@ fn plan(project: &Project, fail_fast: bool) -> Plan {
         jobs: 1,
         fail_fast,
     };
-    Plan::new(project.clone(), request, &cases)
+    Plan::new(project.clone(), request, &cases).unwrap()
 }
 
 fn statuses(records: &[TrialRecord]) -> Vec<Status> {

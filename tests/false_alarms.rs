@@ -161,7 +161,7 @@ fn draw(seed: u32, with_pictures: bool) -> Drawn {
         jobs: 0,
         fail_fast: false,
     };
-    let records = run_in_memory(&Plan::new(project, request, &cases));
+    let records = run_in_memory(&Plan::new(project, request, &cases).unwrap());
     Drawn::of(&records, clock.elapsed().as_secs_f64())
 }
 

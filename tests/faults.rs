@@ -4,8 +4,8 @@
 //! Budgets are quick, and each fault is put to the case named for it first: this is the part of the matrix that a test
 //! run can afford. `cargo furnace faults` without `--brief` puts each fault to the whole suite.
 
-use furnace::case;
-use furnace::faults::{Matrix, select_different, select_faults};
+use furnace::case::{self, NothingSelected};
+use furnace::faults::{Matrix, select};
 use furnace::project::Project;
 use furnace::stats::Budget;
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -26,14 +26,21 @@ fn main() -> ExitCode {
         }
     };
     let matrix = Arc::new(Matrix::new(project, &cases, Budget::Quick, 1));
-    libtest_mimic::run(&arguments, trials(&matrix)).exit_code()
+    match trials(&matrix) {
+        Ok(trials) => libtest_mimic::run(&arguments, trials).exit_code(),
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(2)
+        }
+    }
 }
 
-fn trials(matrix: &Arc<Matrix>) -> Vec<Trial> {
-    let faults = select_faults(&[]).into_iter().map(|fault| {
+fn trials(matrix: &Arc<Matrix>) -> Result<Vec<Trial>, NothingSelected> {
+    let (faults, different) = select(&[])?;
+    let faults = faults.into_iter().map(|fault| {
         let matrix = Arc::clone(matrix);
         Trial::test(format!("fault::{}", fault.name), move || {
-            let tried = matrix.try_fault_briefly(fault);
+            let tried = matrix.try_fault_briefly(fault)?;
             match (tried.caught, tried.named) {
                 (true, true) => Ok(()),
                 (false, _) => Err(Failed::from(format!("not caught by {}", fault.caught_by))),
@@ -46,10 +53,10 @@ fn trials(matrix: &Arc<Matrix>) -> Vec<Trial> {
         })
         .with_ignored_flag(OPEN.contains(&fault.name))
     });
-    let different = select_different(&[]).into_iter().map(|core| {
+    let different = different.into_iter().map(|core| {
         let matrix = Arc::clone(matrix);
         Trial::test(format!("different::{}", core.name), move || {
-            let spared = matrix.touched_by(core).try_different(core);
+            let spared = matrix.touched_by(core).try_different(core)?;
             match spared.is_good() {
                 true => Ok(()),
                 false => Err(Failed::from(spared.statements.join("; "))),
@@ -57,5 +64,5 @@ fn trials(matrix: &Arc<Matrix>) -> Vec<Trial> {
         })
         .with_ignored_flag(OPEN.contains(&core.name))
     });
-    faults.chain(different).collect()
+    Ok(faults.chain(different).collect())
 }

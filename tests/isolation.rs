@@ -230,7 +230,7 @@ impl Lair {
         };
         let limits =
             Limits { seconds: Some(2.0), memory: Some(512 << 20), file: 16 << 20, processes: 16 };
-        Plan::new(self.project.clone(), request, &cases).hosted(Hosting {
+        Plan::new(self.project.clone(), request, &cases).unwrap().hosted(Hosting {
             program: env!("CARGO_BIN_EXE_furnace").into(),
             limits,
             hidden: vec![self.runs()],

@@ -28,6 +28,7 @@ use furnace::stats::Budget;
 use glam::DVec3;
 use std::io::{Read, Write};
 use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
 
 /// A Python process that holds one BSDF. Whatever material is asked about, it answers for that one.
 struct Mitsuba {
@@ -148,7 +149,8 @@ fn judged(kind: &str, normals: &str, angle: &str) -> Outcome {
         jobs: 1,
         fail_fast: false,
     };
-    let bench = Plan::new(Project::at(folder.path()), request, &[]).bench();
+    let plan = Plan::new(Project::at(folder.path()), request, &[Arc::clone(&case)]).unwrap();
+    let bench = plan.bench();
     let outcome = attempt(&bench, &case, &mut Mitsuba::new(kind, normals)).outcome;
     println!("{kind} {normals} at {angle}°: {}: {}", outcome.status().word(), outcome.statement());
     outcome

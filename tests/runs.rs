@@ -19,6 +19,99 @@ fn furnace(arguments: &[&str]) -> Command {
     command
 }
 
+/// How a command ends whose words nobody reads, and what it complains of.
+fn complaint(arguments: &[&str]) -> (Option<i32>, String) {
+    let mut child =
+        furnace(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn a_word_that_is_nearly_a_verb_tries_nothing() {
+    let lines: [&[&str]; 4] = [
+        &["-q", "lint"],
+        &["--project", ".", "lint"],
+        &["--budget", "quick", "list", "causes"],
+        &["expalin", "roulette"],
+    ];
+    for line in lines {
+        let (code, complaint) = complaint(line);
+        assert_eq!(code, Some(2), "{line:?}: {complaint}");
+        assert!(complaint.contains("verb"), "{line:?}: {complaint}");
+    }
+}
+
+#[test]
+fn a_filter_that_selects_nothing_is_an_error_wherever_filters_are_taken() {
+    let lines: [&[&str]; 8] = [
+        &["run", "bvh/", "nohwere"],
+        &["run", "!nohwere"],
+        &["list", "cases", "nohwere"],
+        &["list", "causes", "nohwere"],
+        &["explain", "nohwere"],
+        &["faults", "nohwere"],
+        &["faults", "brdf-without-pi", "nohwere"],
+        &["agreement", "--core", "builtin", "nohwere"],
+    ];
+    for line in lines {
+        let (code, complaint) = complaint(line);
+        assert_eq!(code, Some(4), "{line:?}: {complaint}");
+        assert!(complaint.contains("`nohwere`\nhint: "), "{line:?}: {complaint}");
+    }
+}
+
+/// What lint says of a project with one case, whose file ends so.
+fn lint(end: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = Path::new("scenes").join("sphere-furnace.toml");
+    let case = Path::new("cases/integrator").join("asked.toml");
+    for file in [&scene, &case] {
+        std::fs::create_dir_all(folder.path().join(file).parent().unwrap()).unwrap();
+    }
+    let original = Path::new(env!("CARGO_MANIFEST_DIR")).join(&scene);
+    std::fs::copy(original, folder.path().join(&scene)).unwrap();
+    let head = "title = \"x\"\nteaches = \"x\"\nsource = \"x\"\n";
+    std::fs::write(folder.path().join(&case), format!("{head}{end}")).unwrap();
+    let (code, complaint) = complaint(&["lint", "--project", &folder.path().to_string_lossy()]);
+    assert_eq!(code, Some(2), "{complaint}");
+    complaint
+}
+
+#[test]
+fn what_a_case_says_of_scenes_is_underlined_in_the_case() {
+    let expect = "[expect]\nrow = [{ bounces = [0, 1], radiance = 1 }]\n\
+                  ray = { from = [0, 0, 0], toward = [0, 0, 1] }\n\
+                  detects = \"1 %\"\nat-most = \"1 k paths\"\n";
+    let choices = [
+        ("\"sphere-furnice\"", "did you mean `sphere-furnace`?"),
+        ("{ name = \"sphere-furnace\", albdo = 1 }", "did you mean `albedo`?"),
+        ("{ name = \"sphere-furnace\", albedo = 7 }", "lies in [0, 1], and 7 does not"),
+    ];
+    for (choice, words) in choices {
+        let said = lint(&format!("check = \"mean-radiance\"\nscene = {choice}\n{expect}"));
+        assert!(said.contains("asked.toml:5:") && said.contains(words), "{said}");
+    }
+    let said = lint(
+        "check = \"radiance-is-finite\"\n[expect]\nscenes = [\"sphere-furnice\"]\n\
+         size = [4, 4]\nsamples-per-pixel = 1\nbounces = [0, 1]\n",
+    );
+    assert!(said.contains("asked.toml:6:") && said.contains("`sphere-furnace`"), "{said}");
+}
+
+#[test]
+fn a_reader_who_has_read_enough_ends_nothing() {
+    let runs = tempfile::tempdir().unwrap();
+    let run = ["run", "bvh/", "--core", "builtin", "--budget", "quick", "--report"];
+    let folder = runs.path().to_string_lossy();
+    let run = [&run[..], &[&*folder]].concat();
+    for line in [&["list"][..], &["list", "checks"], &["explain", "shape/"], &run] {
+        assert_eq!(complaint(line).0, Some(0), "{line:?}: {}", complaint(line).1);
+    }
+    assert!(only_run(runs.path()).unwrap().join("index.html").is_file());
+}
+
 fn run_arguments<'a>(runs: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let fixed = ["run", "--budget", "quick", "--report", runs];
     fixed.iter().chain(FILTERS).chain(more).copied().collect()

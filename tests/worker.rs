@@ -28,7 +28,7 @@ fn run(core: &str, filters: &[&str], isolates_own: bool) -> Vec<TrialRecord> {
     };
     let program = env!("CARGO_BIN_EXE_furnace").into();
     let hosting = Hosting { program, isolates_own, ..Hosting::default() };
-    run_in_memory(&Plan::new(project, request, &cases).hosted(hosting))
+    run_in_memory(&Plan::new(project, request, &cases).unwrap().hosted(hosting))
 }
 
 /// Every kind of request: rays, shapes, boxes, samplers, surfaces, streams, scenes, light, pictures.

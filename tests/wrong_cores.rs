@@ -123,7 +123,7 @@ fn cases(filters: &[&str]) -> (Bench, Vec<Arc<Case>>) {
         jobs: 1,
         fail_fast: false,
     };
-    let plan = Plan::new(project, request, &all);
+    let plan = Plan::new(project, request, &all).unwrap();
     let cases = plan.trials.iter().map(|trial| Arc::clone(&trial.case)).collect();
     (plan.bench(), cases)
 }

@@ -10,6 +10,7 @@ use furnace::run::{Outcome, Plan, Request, attempt};
 use furnace::scene::reference::{fingerprint, picture_path, provenance_path};
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 const NAME: &str = "point-light-plane";
 const CASE: &str = "image/point-light-plane-matches-mitsuba";
@@ -31,9 +32,10 @@ fn outcome_after(spoil: impl Fn(&Path)) -> Outcome {
         jobs: 1,
         fail_fast: false,
     };
-    let mut bench = Plan::new(project.clone(), request.clone(), &[]).bench();
-    bench.references = folder.path().to_owned();
     let case = load_one(&project.cases(), CASE).unwrap();
+    let plan = Plan::new(project, request.clone(), &[Arc::clone(&case)]).unwrap();
+    let mut bench = plan.bench();
+    bench.references = folder.path().to_owned();
     attempt(&bench, &case, request.cores[0].make().unwrap().as_mut()).outcome
 }
 

@@ -12,11 +12,10 @@ mod scene_choice;
 mod tier;
 
 pub use catalog::{CatalogError, load_all, load_one};
-pub use filter::Filter;
+pub use filter::{Filter, NothingSelected};
 pub use foundation::{Foundation, foundations};
 pub use next_step::{NextStep, next_steps};
 pub use part::{PARTS, Part};
-pub use renamed::renamed;
 pub use scene_choice::SceneChoice;
 pub use tier::Tier;
 

@@ -8,7 +8,7 @@ fn pairs() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 /// The cases whose old names have `word` in them, as they are called now.
-pub fn renamed(word: &str) -> impl Iterator<Item = &'static str> {
+pub(super) fn renamed(word: &str) -> impl Iterator<Item = &'static str> {
     pairs().filter(move |(old, _)| old.contains(word)).map(|(_, new)| new)
 }
 

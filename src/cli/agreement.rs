@@ -1,7 +1,9 @@
 //! `furnace agreement`: how far renderers are from the references.
 
+use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::agreement::{self, Effort};
+use crate::case::NothingSelected;
 use crate::cores::CoreSpec;
 use clap::Args;
 
@@ -30,13 +32,13 @@ pub struct AgreementArguments {
 pub fn agreement(arguments: &AgreementArguments) -> Answer {
     let project = arguments.project.find()?;
     let filters = &arguments.filters;
+    let all = agreement::references(&project);
+    if let Some(word) = filters.iter().find(|word| !all.iter().any(|name| name.contains(*word))) {
+        return Err(Failure::nothing(NothingSelected::by(word, all.iter().map(String::as_str))));
+    }
     let is_selected =
         |name: &String| filters.is_empty() || filters.iter().any(|part| name.contains(part));
-    let names: Vec<_> = agreement::references(&project).into_iter().filter(is_selected).collect();
-    if names.is_empty() {
-        let message = format!("no reference is called {}", filters.join(" "));
-        return Err(Failure { code: ExitCode::NothingSelected, message });
-    }
+    let names: Vec<_> = all.into_iter().filter(is_selected).collect();
     let effort = Effort {
         runs: arguments.runs,
         samples: arguments.spp,
@@ -47,7 +49,7 @@ pub fn agreement(arguments: &AgreementArguments) -> Answer {
             .iter()
             .map(|name| (name.clone(), agreement::compare(&project, core, name, effort)))
             .collect();
-        println!("{}", agreement::table(core.as_str(), &rows));
+        say_line!("{}", agreement::table(core.as_str(), &rows));
     }
     Ok(ExitCode::Good)
 }

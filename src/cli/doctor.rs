@@ -1,6 +1,7 @@
 //! `furnace doctor`: does a core come up, what can it do, what keeps it, and what is worth doing next.
 
 use super::hosting::HostingArguments;
+use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Case, next_steps};
 use crate::contract::{Capabilities, Conventions, CoreError, CoreInfo, Precision};
@@ -35,11 +36,11 @@ pub fn doctor(arguments: &DoctorArguments) -> Answer {
     let mut code = ExitCode::Good;
     for spec in &cores {
         let begun = Instant::now();
-        println!("core   {spec}");
+        say_line!("core   {spec}");
         match hosting.host(spec) {
             Ok(mut hosted) => {
                 let milliseconds = begun.elapsed().as_millis();
-                println!("       comes up in {milliseconds} ms, {}", place(&hosted));
+                say_line!("       comes up in {milliseconds} ms, {}", place(&hosted));
                 let info = hosted.core_mut().info();
                 introduce(&info);
                 tell_walls(&hosted, &hosting);
@@ -47,7 +48,7 @@ pub fn doctor(arguments: &DoctorArguments) -> Answer {
             }
             Err(error) => code = tell_failure(error),
         }
-        println!();
+        say_line!();
     }
     Ok(code)
 }
@@ -64,7 +65,7 @@ fn introduce(info: &CoreInfo) {
         Precision::Single => "single",
         Precision::Double => "double",
     };
-    println!("       {} {}, {precision} precision", info.name, info.version);
+    say_line!("       {} {}, {precision} precision", info.name, info.version);
     tell("can", &info.capabilities.names());
     tell("cannot", &(Capabilities::all() - info.capabilities).names());
     tell("chose", &conventions(info.conventions));
@@ -91,30 +92,30 @@ fn tell_walls(hosted: &Hosted, hosting: &Hosting) {
 
 fn tell_next_steps(cases: &[Arc<Case>], has: Capabilities) {
     let open = cases.iter().filter(|case| case.prepared.missing(has).is_empty()).count();
-    println!("tried  on {open} of {} cases", cases.len());
+    say_line!("tried  on {open} of {} cases", cases.len());
     for (number, step) in next_steps(cases, has).iter().take(STEPS).enumerate() {
         let label = if number == 0 { "next" } else { "then" };
         let names = step.missing.names().join(", ");
-        println!("{label:<7}{names}: {} more cases, as {}", step.cases.len(), step.cases[0]);
+        say_line!("{label:<7}{names}: {} more cases, as {}", step.cases.len(), step.cases[0]);
         for (_, advice) in ADVICE.iter().filter(|(one, _)| step.missing.contains(*one)) {
-            println!("         {advice}");
+            say_line!("         {advice}");
         }
     }
 }
 
 fn tell(label: &str, lines: &[String]) {
     for (number, line) in lines.iter().enumerate() {
-        println!("{:<7}{line}", if number == 0 { label } else { "" });
+        say_line!("{:<7}{line}", if number == 0 { label } else { "" });
     }
 }
 
 /// A core that dies has failed; what is no core at all is a wrong request.
 fn tell_failure(error: HostError) -> ExitCode {
-    println!("       does not come up: {error}");
+    say_line!("       does not come up: {error}");
     match error {
         HostError::Start(StartError::Core { error, printed }) => {
             for line in printed.lines() {
-                println!("printed {line}");
+                say_line!("printed {line}");
             }
             match error {
                 CoreError::Crashed { .. } | CoreError::TimedOut { .. } => ExitCode::Failed,

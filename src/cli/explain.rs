@@ -1,5 +1,6 @@
 //! `furnace explain`: one case in words, before or after it failed.
 
+use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Case, Filter, foundations};
 use crate::cores::CoreSpec;
@@ -32,18 +33,13 @@ pub struct ExplainArguments {
 pub fn explain(arguments: &ExplainArguments) -> Answer {
     let project = arguments.project.find()?;
     let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
-    let filter = Filter::new(&arguments.filters);
-    let selected: Vec<_> = cases.iter().filter(|case| filter.selects(case)).collect();
-    if selected.is_empty() {
-        let message = format!("no case is called {}", arguments.filters.join(" "));
-        return Err(Failure { code: ExitCode::NothingSelected, message });
-    }
+    let selected = Filter::new(&arguments.filters).select(&cases).map_err(Failure::nothing)?;
     for case in selected.iter().take(MOST) {
-        println!("{}", told(&project, case)?);
+        say_line!("{}", told(&project, case)?);
     }
     if selected.len() > MOST {
         let others: Vec<_> = selected[MOST..].iter().map(|case| case.id.as_str()).collect();
-        println!("{}", labelled("also", &others.join(", ")));
+        say_line!("{}", labelled("also", &others.join(", ")));
     }
     Ok(ExitCode::Good)
 }
@@ -83,7 +79,7 @@ fn scene_words(scene: &case::SceneChoice) -> String {
 fn rests_on(project: &Project, case: &Case) -> Option<String> {
     let library = crate::scene::Library::new(project.scenes());
     let scene = case.scene.as_ref();
-    let scene = scene.and_then(|choice| library.load(&choice.name, &choice.parameters).ok());
+    let scene = scene.and_then(|choice| choice.load(&library).ok());
     let found = foundations(case, scene.as_deref());
     let words: Vec<_> = found.iter().map(|foundation| foundation.word()).collect();
     (!words.is_empty()).then(|| labelled("rests on", &words.join(", ")))
@@ -101,6 +97,7 @@ fn sees(project: &Project, case: &Arc<Case>) -> Result<Vec<String>, Failure> {
         fail_fast: false,
     };
     let plan = Plan::new(project.clone(), request, &[Arc::clone(case)]);
+    let plan = plan.map_err(Failure::nothing)?;
     let Some(trial) = plan.trials.first() else { return Ok(Vec::new()) };
     let record = run_trial(&plan.bench(), trial).record;
     let Outcome::Judged { finding } = &record.outcome else {

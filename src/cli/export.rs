@@ -1,5 +1,6 @@
 //! `furnace export`: a scene in another program's words.
 
+use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::scene::format::{self, ExportError, Format, Request};
 use crate::scene::{Library, Overrides};
@@ -45,9 +46,9 @@ pub fn export(arguments: &ExportArguments) -> Answer {
         ExportError::Io { .. } => Failure::broken(error),
         ExportError::CannotHold { .. } => Failure::request(error),
     })?;
-    println!("{}", written.scene.display());
+    say_line!("{}", written.scene.display());
     if let Some(camera) = written.camera {
-        println!("{}", camera.display());
+        say_line!("{}", camera.display());
     }
     Ok(ExitCode::Good)
 }

@@ -1,9 +1,10 @@
 //! `furnace faults`: the bench put to the test.
 
+use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
-use crate::case;
+use crate::case::{self, NothingSelected};
 use crate::cores::textbook::{different::Different, fault::Fault};
-use crate::faults::{Matrix, Spared, Tried, select_different, select_faults};
+use crate::faults::{Matrix, Spared, Tried, select};
 use crate::stats::Budget;
 use clap::Args;
 use serde::Serialize;
@@ -45,22 +46,17 @@ pub fn faults(arguments: &FaultsArguments) -> Answer {
     let project = arguments.project.find()?;
     let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
     let matrix = Matrix::new(project, &cases, arguments.budget, arguments.jobs);
-    let (faults, different) =
-        (select_faults(&arguments.filters), select_different(&arguments.filters));
-    if faults.is_empty() && different.is_empty() {
-        let message = format!("no fault is called {}", arguments.filters.join(" "));
-        return Err(Failure { code: ExitCode::NothingSelected, message });
-    }
+    let (faults, different) = select(&arguments.filters).map_err(Failure::nothing)?;
     let document = Document {
-        faults: try_faults(&matrix, &faults, arguments),
-        different: try_different(&matrix, &different, arguments),
+        faults: try_faults(&matrix, &faults, arguments).map_err(Failure::nothing)?,
+        different: try_different(&matrix, &different, arguments).map_err(Failure::nothing)?,
     };
     let is_good = document.faults.iter().all(Tried::is_good)
         && document.different.iter().all(Spared::is_good);
     if arguments.json {
-        println!("{}", serde_json::to_string_pretty(&document).map_err(Failure::broken)?);
+        say_line!("{}", serde_json::to_string_pretty(&document).map_err(Failure::broken)?);
     } else {
-        println!("{}", summary(&document));
+        say_line!("{}", summary(&document));
     }
     Ok(if is_good { ExitCode::Good } else { ExitCode::Failed })
 }
@@ -70,20 +66,20 @@ fn try_faults(
     matrix: &Matrix,
     faults: &[&'static Fault],
     arguments: &FaultsArguments,
-) -> Vec<Tried> {
+) -> Result<Vec<Tried>, NothingSelected> {
     let json = arguments.json;
     if !json && !faults.is_empty() {
-        println!("{:NAME$} part  caught  named  seconds  by", "fault");
+        say_line!("{:NAME$} part  caught  named  seconds  by", "fault");
     }
     let tried = |fault: &&'static Fault| {
         let tried = match arguments.brief {
             true => matrix.try_fault_briefly(fault),
             false => matrix.try_fault(fault),
-        };
+        }?;
         if !json {
-            println!("{}", fault_row(&tried, fault));
+            say_line!("{}", fault_row(&tried, fault));
         }
-        tried
+        Ok(tried)
     };
     faults.iter().map(tried).collect()
 }
@@ -92,20 +88,20 @@ fn try_different(
     matrix: &Matrix,
     cores: &[&'static Different],
     arguments: &FaultsArguments,
-) -> Vec<Spared> {
+) -> Result<Vec<Spared>, NothingSelected> {
     let json = arguments.json;
     if !json && !cores.is_empty() {
-        println!("\n{:NAME$} spared  seconds  by", "right but different");
+        say_line!("\n{:NAME$} spared  seconds  by", "right but different");
     }
     let spared = |core: &&'static Different| {
         let spared = match arguments.brief {
             true => matrix.touched_by(core).try_different(core),
             false => matrix.try_different(core),
-        };
+        }?;
         if !json {
-            println!("{}", different_row(&spared));
+            say_line!("{}", different_row(&spared));
         }
-        spared
+        Ok(spared)
     };
     cores.iter().map(spared).collect()
 }

@@ -1,13 +1,22 @@
 //! `furnace lint`: reads every case and scene, runs nothing.
 
-use super::{Answer, ExitCode, Failure};
-use crate::case;
-use crate::project::Project;
-use crate::scene::Library;
+use super::say::say_line;
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::case::{self, Case};
+use crate::scene::{Library, SceneError};
+use crate::text::Source;
+use clap::Args;
+
+/// What `furnace lint` understands.
+#[derive(Clone, Debug, Args)]
+pub struct LintArguments {
+    #[command(flatten)]
+    project: ProjectArguments,
+}
 
 /// Says what is wrong with cases and scenes, all of it at once.
-pub fn lint() -> Answer {
-    let project = Project::find().map_err(Failure::request)?;
+pub fn lint(arguments: &LintArguments) -> Answer {
+    let project = arguments.project.find()?;
     let scenes = Library::new(project.scenes());
     let mut complaints = Vec::new();
     for name in scenes.names().map_err(Failure::request)? {
@@ -19,17 +28,29 @@ pub fn lint() -> Answer {
         Ok(cases) => {
             count = cases.len();
             for case in &cases {
-                let Some(scene) = &case.scene else { continue };
-                if let Err(error) = scenes.load(&scene.name, &scene.parameters) {
-                    complaints.push(format!("{}: {error}", case.path.display()));
-                }
+                let scene = case.scene.as_ref().map(|scene| scene.load(&scenes));
+                complaints.extend(scene.and_then(Result::err).map(|error| error.to_string()));
+                let others = case.prepared.scenes().iter();
+                complaints.extend(others.filter_map(|name| misspelt(case, name, &scenes)));
             }
         }
     }
     if complaints.is_empty() {
-        println!("{count} cases and their scenes are in order");
+        say_line!("{count} cases and their scenes are in order");
         Ok(ExitCode::Good)
     } else {
         Err(Failure::request(complaints.join("\n\n")))
     }
+}
+
+/// What is wrong with a scene that a check names, where the case names it.
+fn misspelt(case: &Case, name: &str, scenes: &Library) -> Option<String> {
+    let error = scenes.load(name, &toml::Table::new()).err()?;
+    let SceneError::NoSuchScene { hint, .. } = error else { return Some(error.to_string()) };
+    let source = Source::read(&case.path).ok()?;
+    let quoted = format!("\"{name}\"");
+    let start = source.text.find(&quoted).unwrap_or(0);
+    let complaint =
+        source.diagnostic(start..start + quoted.len(), format!("there is no scene `{name}`"));
+    Some(complaint.with_hint(hint).to_string())
 }

@@ -1,5 +1,7 @@
 //! The command line: one verb a file, and what each word means.
 
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
 mod agreement;
 mod compare;
 mod doctor;
@@ -14,12 +16,14 @@ mod progress;
 mod reference;
 mod report;
 mod run;
+mod say;
 mod watch;
 mod worker;
 
 pub use exit_code::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use say::complain;
 use std::path::PathBuf;
 
 /// What every verb answers: how the process ends, or why it cannot.
@@ -36,6 +40,11 @@ impl Failure {
     /// The request or a case is wrong.
     fn request(error: impl std::fmt::Display) -> Self {
         Self { code: ExitCode::BadRequest, message: error.to_string() }
+    }
+
+    /// Nothing is selected.
+    fn nothing(error: impl std::fmt::Display) -> Self {
+        Self { code: ExitCode::NothingSelected, message: error.to_string() }
     }
 
     /// The harness could not do its work: a full disk, a missing tool.
@@ -67,7 +76,7 @@ enum Verb {
     /// Say whether two pictures show the same, and if not, which mistake turns one into the other.
     Compare(compare::CompareArguments),
     /// Read every case and scene and say what is wrong with them.
-    Lint,
+    Lint(lint::LintArguments),
     /// Write the pages of a run again.
     Report(report::ReportArguments),
     /// Examine a core: what it can do, what keeps it, and what is worth doing next.
@@ -107,7 +116,7 @@ pub fn main() -> ExitCode {
         Err(error) => return usage(&error),
     };
     let answer = match arguments.verb {
-        None => run::run(&arguments.run),
+        None => run::run_unless_a_verb_is_meant(&arguments.run, &verbs()),
         Some(Verb::Run(arguments)) => run::run(&arguments),
         Some(Verb::List(arguments)) => list::list(&arguments),
         Some(Verb::Explain(arguments)) => explain::explain(&arguments),
@@ -115,16 +124,23 @@ pub fn main() -> ExitCode {
         Some(Verb::Doctor(arguments)) => doctor::doctor(&arguments),
         Some(Verb::Worker(arguments)) => worker::worker(&arguments),
         Some(Verb::Compare(arguments)) => compare::compare(&arguments),
-        Some(Verb::Lint) => lint::lint(),
+        Some(Verb::Lint(arguments)) => lint::lint(&arguments),
         Some(Verb::Report(arguments)) => report::report(&arguments),
         Some(Verb::Agreement(arguments)) => agreement::agreement(&arguments),
         Some(Verb::Export(arguments)) => export::export(&arguments),
         Some(Verb::Reference(arguments)) => reference::reference(&arguments),
     };
     answer.unwrap_or_else(|failure| {
-        eprintln!("{}", failure.message);
+        complain(failure.message);
         failure.code
     })
+}
+
+/// Every word that a command may begin with.
+fn verbs() -> Vec<String> {
+    let command = Arguments::command();
+    let shown = command.get_subcommands().filter(|verb| !verb.is_hide_set());
+    shown.map(|verb| verb.get_name().to_owned()).chain(["help".to_owned()]).collect()
 }
 
 /// Help goes to stdout and is no error; anything else is a wrong request.

@@ -1,5 +1,6 @@
 //! `furnace reference`: makes, verifies and lists Mitsuba references.
 
+use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::reference::{Made, MakeOptions, MitsubaOptions, Progress, Reference, References, State};
 use crate::scene::Library;
@@ -130,17 +131,17 @@ fn make(references: &References, name: &str, options: &MakeOptions) -> Answer {
     let made = references.make(name, options, &mut |progress| display.show(progress));
     match made.map_err(Failure::broken)? {
         Made::Reference(made) => {
-            println!(
+            say_line!(
                 "made {name}: median relative standard error {}; look at references/{name}, then commit it",
                 percent(made.provenance.median_relative_error)
             );
             if made.layers == Layers::default() {
-                println!(
+                say_line!(
                     "hint: `furnace reference layers {name}` adds its bounces, depth and normals"
                 );
             }
         }
-        Made::Part(path) => println!(
+        Made::Part(path) => say_line!(
             "made a part of {name}; `furnace reference make {name} --merge {}` adds it",
             path.display()
         ),
@@ -156,7 +157,7 @@ fn layers(references: &References, name: &str, options: &MitsubaOptions) -> Answ
         true => "; bounces apart need Mitsuba's llvm_ad_rgb",
         false => "",
     };
-    println!("{name}: {}{hint}", content(&reference));
+    say_line!("{name}: {}{hint}", content(&reference));
     Ok(ExitCode::Good)
 }
 
@@ -174,7 +175,7 @@ fn verify(references: &References, name: &str, options: &MitsubaOptions) -> Answ
     let display = Display::new();
     let verified = references.verify(name, options, &mut |progress| display.show(progress));
     let report = verified.map_err(Failure::broken)?.report;
-    println!(
+    say_line!(
         "{name}: {} after {} runs; would have caught an error of {} of the whole picture",
         report.verdict,
         report.runs,
@@ -207,7 +208,7 @@ fn list(references: &References) -> Answer {
                 error.to_string()
             }
         };
-        println!("{:26}  {state}", entry.name);
+        say_line!("{:26}  {state}", entry.name);
     }
     Ok(if all_good { ExitCode::Good } else { ExitCode::Broken })
 }

@@ -1,5 +1,6 @@
 //! `furnace report`: writes the pages of a run again, from its folder alone.
 
+use super::say::{say, say_line};
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::report::text::Style;
 use crate::report::{self, RunTree};
@@ -27,8 +28,8 @@ pub fn report(arguments: &ReportArguments) -> Answer {
     };
     let tree = RunTree::load(&folder).map_err(Failure::request)?;
     let page = report::html::write(&tree, &folder).map_err(Failure::broken)?;
-    print!("{}", report::text::summary(&tree, style(arguments.verbose)));
-    println!("  report  {}", address(&page));
+    say!("{}", report::text::summary(&tree, style(arguments.verbose)));
+    say_line!("  report  {}", address(&page));
     Ok(ExitCode::Good)
 }
 

@@ -2,6 +2,7 @@
 
 use super::hosting::HostingArguments;
 use super::progress::Progress;
+use super::say::{say, say_line};
 use super::watch;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, CatalogError};
@@ -10,6 +11,7 @@ use crate::math::rng::Seed;
 use crate::report;
 use crate::run::{self, Plan, Request, RunError, RunRecord, record};
 use crate::stats::Budget;
+use crate::text::did_you_mean;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -57,6 +59,21 @@ pub struct RunArguments {
     project: ProjectArguments,
 }
 
+/// The run that is asked for without a verb. A word that is nearly a verb is one, mistyped or late: it must not cost
+/// minutes of trials.
+pub fn run_unless_a_verb_is_meant(arguments: &RunArguments, verbs: &[String]) -> Answer {
+    let verbs = || verbs.iter().map(String::as_str);
+    let meant =
+        arguments.filters.iter().find_map(|word| Some((word, did_you_mean(word, verbs())?)));
+    let Some((word, hint)) = meant else { return run(arguments) };
+    let problem = match verbs().any(|verb| verb == word) {
+        true => format!("`{word}` is a verb, and a verb comes first: `furnace {word} ...`"),
+        false => format!("there is no verb `{word}`\nhint: {hint}"),
+    };
+    let other = format!("to try the cases that are called so: `furnace run {word}`");
+    Err(Failure::request(format!("{problem}\nhint: {other}")))
+}
+
 /// Tries the cases, prints the summary, writes the report.
 pub fn run(arguments: &RunArguments) -> Answer {
     let project = arguments.project.find()?;
@@ -74,7 +91,7 @@ pub fn run(arguments: &RunArguments) -> Answer {
         None => arguments.request(),
     };
     let hosting = arguments.hosting.hosting(&runs);
-    let plan = Plan::new(project, request, &cases).hosted(hosting);
+    let plan = Plan::new(project, request, &cases).map_err(Failure::nothing)?.hosted(hosting);
     let mut progress = Progress::new(arguments.quiet);
     let mut listen = |event: run::Event<'_>| progress.hear(event);
     let folder = match &arguments.resume {
@@ -83,9 +100,6 @@ pub fn run(arguments: &RunArguments) -> Answer {
     };
     match folder {
         Ok(folder) => finish(arguments, &folder),
-        Err(error @ RunError::NothingSelected(_)) => {
-            Err(Failure { code: ExitCode::NothingSelected, message: error.to_string() })
-        }
         Err(error @ RunError::NoCore { .. }) => Err(Failure::request(error)),
         Err(error) => Err(Failure::broken(error)),
     }
@@ -125,8 +139,8 @@ fn request_of(folder: &Path, jobs: usize) -> Result<Request, Failure> {
 fn finish(arguments: &RunArguments, folder: &Path) -> Answer {
     let tree = report::RunTree::load(folder).map_err(Failure::broken)?;
     let page = report::html::write(&tree, folder).map_err(Failure::broken)?;
-    print!("{}", report::text::summary(&tree, super::report::style(arguments.verbose)));
-    println!("  report  {}", super::report::address(&page));
+    say!("{}", report::text::summary(&tree, super::report::style(arguments.verbose)));
+    say_line!("  report  {}", super::report::address(&page));
     let statuses = tree.graded().map(|trial| trial.outcome.status());
     Ok(ExitCode::of(statuses, arguments.strict))
 }

@@ -34,9 +34,6 @@ pub enum RunError {
     /// A file of the run could not be written or read.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// The filters select no case.
-    #[error("nothing is selected by {}\nhint: `cargo furnace list` shows the cases", .0.join(" "))]
-    NothingSelected(Vec<String>),
     /// A core is there, but is none that can be asked.
     #[error("`{spec}` does not come up: {error}")]
     NoCore {
@@ -50,15 +47,12 @@ pub enum RunError {
 /// Runs `plan` into a new folder below `runs`, and answers that folder.
 ///
 /// # Errors
-/// If nothing is selected, or a file cannot be written.
+/// If a core cannot be asked, or a file cannot be written.
 pub fn run(
     plan: &Plan,
     runs: &Path,
     events: &mut dyn FnMut(Event<'_>),
 ) -> Result<PathBuf, RunError> {
-    if plan.trials.is_empty() {
-        return Err(RunError::NothingSelected(plan.request.filters.clone()));
-    }
     let started = SystemTime::now();
     let mut bench = plan.bench();
     let cores = discover(plan, &mut bench)?;

@@ -1,7 +1,7 @@
 //! What is to be run: cases × cores, in the order in which one part rests on another.
 
 use super::bench::Bench;
-use crate::case::{Case, Filter};
+use crate::case::{Case, Filter, NothingSelected};
 use crate::cores::{CoreSpec, Hosting};
 use crate::math::rng::Seed;
 use crate::project::Project;
@@ -49,9 +49,15 @@ pub struct Trial {
 
 impl Plan {
     /// Selects among `cases` and lines them up.
-    pub fn new(project: Project, request: Request, cases: &[Arc<Case>]) -> Self {
-        let filter = Filter::new(&request.filters);
-        let selected: Vec<_> = cases.iter().filter(|case| filter.selects(case)).collect();
+    ///
+    /// # Errors
+    /// If that leaves no case, or a word of the filters selects none.
+    pub fn new(
+        project: Project,
+        request: Request,
+        cases: &[Arc<Case>],
+    ) -> Result<Self, NothingSelected> {
+        let selected = Filter::new(&request.filters).select(cases)?;
         let trials = request
             .cores
             .iter()
@@ -59,7 +65,7 @@ impl Plan {
                 selected.iter().map(|case| Trial { case: Arc::clone(case), core: core.clone() })
             })
             .collect();
-        Self { project, request, trials, hosting: Hosting::default() }
+        Ok(Self { project, request, trials, hosting: Hosting::default() })
     }
 
     /// The same with cores hosted so.

@@ -136,9 +136,7 @@ fn provers(plan: &Plan, bench: &Bench) -> Vec<Vec<usize>> {
 
 /// A scene that cannot be read rests on nothing: its trial is broken by itself.
 fn of_case(bench: &Bench, case: &Case) -> BTreeSet<Foundation> {
-    let load = |choice: &crate::case::SceneChoice| {
-        bench.scenes.load(&choice.name, &choice.parameters).ok()
-    };
+    let load = |choice: &crate::case::SceneChoice| choice.load(&bench.scenes).ok();
     foundations(case, case.scene.as_ref().and_then(load).as_deref())
 }
 
@@ -166,7 +164,7 @@ mod tests {
             jobs: 2,
             fail_fast: false,
         };
-        Plan::new(project, request, &cases)
+        Plan::new(project, request, &cases).unwrap()
     }
 
     fn schedule(plan: &Plan) -> Schedule<'_> {

@@ -5,11 +5,8 @@
 
 mod diagnostic;
 mod document;
-
 pub mod number;
-
 mod range;
-
 mod suggestion;
 mod units;
 

@@ -62,7 +62,7 @@ fn a_thousand_comparisons_of_right_and_wrong_pictures() {
         jobs: 1,
         fail_fast: false,
     };
-    let plan = Plan::new(project.clone(), request, &cases);
+    let plan = Plan::new(project.clone(), request, &cases).unwrap();
     let (bench, case) = (plan.bench(), Arc::clone(&plan.trials[0].case));
     let times = number("POWER_TIMES", 1000);
     let told = number("POWER_TOLD", 100).min(times);

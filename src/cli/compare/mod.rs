@@ -4,6 +4,7 @@
 mod side;
 mod words;
 
+use super::say::{say, say_line};
 use super::{Answer, ExitCode, Failure};
 use crate::image::ImageError;
 use crate::image::encoding::{Curve, Encoding, Rounding};
@@ -59,9 +60,9 @@ impl CompareArguments {
 pub fn compare(arguments: &CompareArguments) -> Answer {
     let comparison = measure(arguments)?;
     if arguments.json {
-        println!("{}", serde_json::to_string_pretty(&comparison).map_err(Failure::broken)?);
+        say_line!("{}", serde_json::to_string_pretty(&comparison).map_err(Failure::broken)?);
     } else {
-        print!("{}", words::told(&comparison));
+        say!("{}", words::told(&comparison));
     }
     Ok(match comparison.verdict {
         Verdict::Pass => ExitCode::Good,

@@ -8,8 +8,9 @@ mod files;
 mod memory;
 
 use super::run::RunArguments;
-use super::{Answer, ExitCode, Failure};
-use crate::case;
+use super::say::{complain, say_line};
+use super::{Answer, Failure};
+use crate::case::{self, NothingSelected};
 use crate::project::Project;
 use crate::report::{self, RunTree};
 use crate::run::{self, Plan, Request};
@@ -25,19 +26,17 @@ const PAUSE: Duration = Duration::from_millis(400);
 pub fn watch(arguments: &RunArguments, project: &Project, runs: &Path) -> Answer {
     let request = arguments.request();
     let watched = watched(project, &request);
-    println!("  watching {}; runs go to {}; ctrl-c ends", listed(&watched), runs.display());
+    say_line!("  watching {}; runs go to {}; ctrl-c ends", listed(&watched), runs.display());
     let mut memory = Memory::default();
     loop {
         let before = Snapshot::of(&watched);
         match cycle(project, &request, runs, &mut memory) {
             Ok(Cycle::AllTried) => before.wait_for_change(&watched, || std::thread::sleep(PAUSE)),
             Ok(Cycle::FailuresRepaired) => {}
-            Ok(Cycle::NothingSelected(why)) => {
-                return Err(Failure { code: ExitCode::NothingSelected, message: why });
-            }
+            Ok(Cycle::NothingSelected(why)) => return Err(Failure::nothing(why)),
             // Somebody is in the middle of editing: what is wrong is said, and looked at again.
             Err(failure) => {
-                eprintln!("{}", failure.message);
+                complain(failure.message);
                 before.wait_for_change(&watched, || std::thread::sleep(PAUSE));
             }
         }
@@ -48,7 +47,7 @@ pub fn watch(arguments: &RunArguments, project: &Project, runs: &Path) -> Answer
 enum Cycle {
     AllTried,
     FailuresRepaired,
-    NothingSelected(String),
+    NothingSelected(NothingSelected),
 }
 
 fn cycle(
@@ -58,18 +57,17 @@ fn cycle(
     memory: &mut Memory,
 ) -> Result<Cycle, Failure> {
     let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
-    let mut plan = Plan::new(project.clone(), request.clone(), &cases);
-    if plan.trials.is_empty() {
-        let nothing = run::RunError::NothingSelected(request.filters.clone());
-        return Ok(Cycle::NothingSelected(nothing.to_string()));
-    }
+    let mut plan = match Plan::new(project.clone(), request.clone(), &cases) {
+        Ok(plan) => plan,
+        Err(nothing) => return Ok(Cycle::NothingSelected(nothing)),
+    };
     let scope = memory.restrict(&mut plan.trials);
     let started = SystemTime::now();
     let folder = run::run(&plan, runs, &mut |_| ()).map_err(Failure::broken)?;
     let tree = RunTree::load(&folder).map_err(Failure::broken)?;
     report::html::write(&tree, &folder).map_err(Failure::broken)?;
     let seconds = started.elapsed().unwrap_or_default().as_secs_f64();
-    println!("{}", memory.take(&time_of_day(SystemTime::now()), &tree.trials, seconds));
+    say_line!("{}", memory.take(&time_of_day(SystemTime::now()), &tree.trials, seconds));
     Ok(match scope {
         Scope::Failures if memory.is_clean() => Cycle::FailuresRepaired,
         _ => Cycle::AllTried,

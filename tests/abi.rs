@@ -27,19 +27,19 @@ const STRICT: &[&str] = &["-pedantic", "-Wall", "-Wextra", "-Werror"];
 
 #[test]
 fn the_c_header_is_c99_without_padding() {
-    let Some(cc) = compiler("CC", "cc", "C") else { return };
+    let cc = compiler("CC", "cc", "C");
     compile_header(&cc, "furnace_core.h", "c", &["-std=c99", "-Wpadded"]);
 }
 
 #[test]
 fn the_c_header_is_cpp17_without_padding() {
-    let Some(cpp) = cpp_compiler() else { return };
+    let cpp = cpp_compiler();
     compile_header(&cpp, "furnace_core.h", "c++", &["-std=c++17", "-Wpadded"]);
 }
 
 #[test]
 fn the_cpp_header_is_cpp17() {
-    let Some(cpp) = cpp_compiler() else { return };
+    let cpp = cpp_compiler();
     compile_header(&cpp, "furnace_core.hpp", "c++", &["-std=c++17"]);
 }
 
@@ -173,7 +173,7 @@ fn values_in_c(compiler: &Path, expressions: &[String]) -> Vec<usize> {
 
 #[test]
 fn sizes_and_offsets_are_the_same_on_both_sides() {
-    let Some(cc) = compiler("CC", "cc", "C") else { return };
+    let cc = compiler("CC", "cc", "C");
     let layouts = layouts();
     let expressions: Vec<_> = layouts.iter().map(|layout| layout.c.clone()).collect();
     for (layout, of_c) in layouts.iter().zip(values_in_c(&cc, &expressions)) {
@@ -183,7 +183,7 @@ fn sizes_and_offsets_are_the_same_on_both_sides() {
 
 #[test]
 fn words_have_the_same_numbers_on_both_sides() {
-    let Some(cc) = compiler("CC", "cc", "C") else { return };
+    let cc = compiler("CC", "cc", "C");
     let traits = Traits::all().iter_names().map(|(name, flag)| (name, flag.bits()));
     let traits: Vec<_> = traits.map(|(name, bits)| (format!("FURNACE_{name}"), bits)).collect();
     let numbers = abi::NUMBERS.iter().map(|(name, number)| ((*name).to_owned(), *number));
@@ -204,9 +204,9 @@ fn every_struct_of_the_header_is_compared() {
 }
 
 /// A core of `tests/fixtures/abi`, compiled once for all tests.
-fn load(name: &'static str) -> Option<Dylib> {
+fn load(name: &'static str) -> Dylib {
     static COMPILED: Mutex<BTreeMap<&str, PathBuf>> = Mutex::new(BTreeMap::new());
-    let cpp = cpp_compiler()?;
+    let cpp = cpp_compiler();
     let mut compiled = COMPILED.lock().unwrap();
     let library = compiled.entry(name).or_insert_with(|| {
         let library = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("lib{name}.so"));
@@ -214,7 +214,7 @@ fn load(name: &'static str) -> Option<Dylib> {
         compile_core(&cpp, &source, &library);
         library
     });
-    Some(Dylib::load(library).unwrap())
+    Dylib::load(library).unwrap()
 }
 
 fn camera() -> Camera {
@@ -247,7 +247,7 @@ fn scene() -> SceneDescription {
 
 #[test]
 fn a_cpp_core_has_exactly_the_methods_it_has() {
-    let Some(core) = load("echo") else { return };
+    let core = load("echo");
     let info = core.info();
     assert_eq!((info.name.as_str(), info.version.as_str()), ("echo", "1.2"));
     let expected = Capabilities::GENERATE_RAYS
@@ -266,7 +266,7 @@ fn a_cpp_core_has_exactly_the_methods_it_has() {
 
 #[test]
 fn a_cpp_core_is_handed_what_was_asked_and_its_answers_come_back() {
-    let Some(mut core) = load("echo") else { return };
+    let mut core = load("echo");
     let mut core = Validated::new(&mut core);
     let camera = camera();
     let mut rays = [Ray::new(DVec3::ZERO, DVec3::Z); 2];
@@ -284,7 +284,7 @@ fn a_cpp_core_is_handed_what_was_asked_and_its_answers_come_back() {
 
 #[test]
 fn an_exception_is_a_refusal_in_its_own_words() {
-    let Some(mut core) = load("echo") else { return };
+    let mut core = load("echo");
     let sphere = Primitive::Sphere { centre: DVec3::ZERO, radius: -1.0 };
     let rays = [Ray::new(DVec3::ZERO, DVec3::Z)];
     let error = core.intersect_primitive(&sphere, &rays, &mut [Hit::MISS]).unwrap_err();
@@ -293,7 +293,7 @@ fn an_exception_is_a_refusal_in_its_own_words() {
 
 #[test]
 fn what_a_core_throws_as_unsupported_is_skipped() {
-    let Some(mut core) = load("echo") else { return };
+    let mut core = load("echo");
     let glass = Material {
         name: "glass".to_owned(),
         surface: Surface::Glass { index: 1.5, reflectance: [1.0; 3], transmittance: [1.0; 3] },
@@ -310,7 +310,7 @@ fn what_a_core_throws_as_unsupported_is_skipped() {
 
 #[test]
 fn a_scene_arrives_whole() {
-    let Some(mut core) = load("echo") else { return };
+    let mut core = load("echo");
     let scene = scene();
     let mut built = core.build_scene(&scene, Acceleration::BruteForce).unwrap();
     assert_eq!((built.stats().nodes, built.stats().max_depth), (2, 0));
@@ -325,7 +325,7 @@ fn a_scene_arrives_whole() {
 
 #[test]
 fn counts_of_the_benchs_own_tests_cannot_lie() {
-    let Some(mut core) = load("echo") else { return };
+    let mut core = load("echo");
     let scene = scene();
     let mut built = core.build_scene(&scene, Acceleration::BruteForce).unwrap();
     let rays = [Ray::new(DVec3::new(0.2, 0.2, 1.0), DVec3::NEG_Z); 3];
@@ -338,7 +338,7 @@ fn counts_of_the_benchs_own_tests_cannot_lie() {
 
 #[test]
 fn a_flag_that_is_neither_0_nor_1_breaks_the_contract() {
-    let Some(mut core) = load("flags") else { return };
+    let mut core = load("flags");
     let scene = scene();
     let mut built = core.build_scene(&scene, Acceleration::DEFAULT).unwrap();
     let error = built.occluded(&[Ray::new(DVec3::ZERO, DVec3::Z); 2], &mut [false; 2]).unwrap_err();

@@ -253,16 +253,16 @@ fn fixture(name: &str) -> PathBuf {
 }
 
 /// A core of the fixtures, compiled once.
-fn compiled(name: &str) -> Option<PathBuf> {
+fn compiled(name: &str) -> PathBuf {
     static COMPILED: Mutex<BTreeMap<String, PathBuf>> = Mutex::new(BTreeMap::new());
-    let compiler = cpp_compiler()?;
+    let compiler = cpp_compiler();
     let mut compiled = COMPILED.lock().unwrap_or_else(PoisonError::into_inner);
     let library = compiled.entry(name.to_owned()).or_insert_with(|| {
         let library = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("hostile-{name}.so"));
         compile_core(&compiler, &fixture(&format!("{name}.cpp")), &library);
         library
     });
-    Some(library.clone())
+    library.clone()
 }
 
 /// The interpreter itself, not a script that looks for it. Says so where there is none.
@@ -337,7 +337,7 @@ fn processes() -> impl Iterator<Item = String> {
 #[test]
 fn a_library_can_harm_nothing_but_its_own_trial() {
     let _alone = ALONE.lock();
-    let Some(library) = compiled("hostile") else { return };
+    let library = compiled("hostile");
     let lair = Lair::new();
     let cores: Vec<_> =
         LIBRARIES.iter().map(|(deed, ending)| (lair.core_of(&library, deed), *ending)).collect();
@@ -347,7 +347,7 @@ fn a_library_can_harm_nothing_but_its_own_trial() {
 #[test]
 fn a_library_reaches_neither_secrets_nor_results_nor_anybody_else() {
     let _alone = ALONE.lock();
-    let Some(library) = compiled("hostile") else { return };
+    let library = compiled("hostile");
     if !is_shut_in() {
         return;
     }
@@ -400,7 +400,7 @@ fn a_renderer_reaches_neither_secrets_nor_results_nor_anybody_else() {
 #[test]
 fn a_crash_is_narrowed_to_the_ray_it_comes_of() {
     let _alone = ALONE.lock();
-    let Some(library) = compiled("hostile") else { return };
+    let library = compiled("hostile");
     let lair = Lair::new();
     let trials = lair.run(&[lair.core_of(&library, "segfault")], &[STRUCK]).unwrap();
     let Outcome::Crashed { during, .. } = &trials[0].outcome else { panic!("{trials:?}") };
@@ -422,7 +422,7 @@ fn what_a_core_prints_is_kept_with_its_crash() {
 #[test]
 fn a_core_that_dies_of_being_loaded_is_one_line_and_not_the_end() {
     let _alone = ALONE.lock();
-    let Some(library) = compiled("hostile") else { return };
+    let library = compiled("hostile");
     let lair = Lair::new();
     let crash = lair.core_of(&library, "loadcrash");
     let hang = lair.core_of(&library, "loadhang");
@@ -459,7 +459,7 @@ fn a_program_that_never_answers_or_leaves_is_one_line_too() {
 #[test]
 fn what_is_no_core_is_a_wrong_request() {
     let _alone = ALONE.lock();
-    let Some(library) = compiled("hostile") else { return };
+    let library = compiled("hostile");
     let lair = Lair::new();
     let text = lair.den().join("text.so");
     fs::write(&text, "not a library").unwrap();
@@ -480,7 +480,7 @@ fn what_is_no_core_is_a_wrong_request() {
 #[test]
 fn a_core_that_ignores_the_seed_is_found_out() {
     let _alone = ALONE.lock();
-    let Some(library) = compiled("stubborn") else { return };
+    let library = compiled("stubborn");
     let lair = Lair::new();
     let filters = ["integrator/seeds-and-pixels"];
     let trials = lair.run(&[lair.core_of(&library, "stubborn")], &filters).unwrap();
@@ -490,7 +490,7 @@ fn a_core_that_ignores_the_seed_is_found_out() {
 #[test]
 fn a_core_that_knows_published_answers_by_heart_is_found_out() {
     let _alone = ALONE.lock();
-    let Some(library) = compiled("crib") else { return };
+    let library = compiled("crib");
     let lair = Lair::new();
     let filters = ["light/rectangle-light-overhead-matches", "light/rectangle-light-off-axis"];
     let trials = lair.run(&[lair.core_of(&library, "crib")], &filters).unwrap();

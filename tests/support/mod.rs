@@ -8,20 +8,27 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// `$CXX` or `c++`. Says so where there is none: the test that asked has shown nothing then.
-pub fn cpp_compiler() -> Option<PathBuf> {
+/// `$CXX` or `c++`.
+///
+/// # Panics
+/// Where there is none: a test that could not be made has not passed.
+pub fn cpp_compiler() -> PathBuf {
     compiler("CXX", "c++", "C++")
 }
 
 /// What a variable of the environment names, or the usual one.
-pub fn compiler(variable: &str, usual: &str, language: &str) -> Option<PathBuf> {
+///
+/// # Panics
+/// Where there is none.
+pub fn compiler(variable: &str, usual: &str, language: &str) -> PathBuf {
     let program = std::env::var(variable).unwrap_or_else(|_| usual.to_owned());
     let version = Command::new(&program).arg("--version").output();
-    if version.is_ok_and(|output| output.status.success()) {
-        return Some(program.into());
-    }
-    eprintln!("skipped: there is no {language} compiler ({usual}, or ${variable})");
-    None
+    let is_there = version.is_ok_and(|output| output.status.success());
+    assert!(
+        is_there,
+        "there is no {language} compiler `{program}`: install one or name it in ${variable}"
+    );
+    program.into()
 }
 
 /// Runs a compiler on our headers.

@@ -1,7 +1,7 @@
 //! BSDFs, without any scene.
 
 mod agrees_with_itself;
-mod albedo;
+pub(in crate::checks) mod albedo;
 mod conserves_energy;
 #[cfg(test)]
 mod fake;

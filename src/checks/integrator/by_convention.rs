@@ -29,6 +29,18 @@ impl ConventionEntry {
             && is_met(self.glass_radiance, declared.glass_radiance)
     }
 
+    /// The choices themselves, the usual ones where none is named.
+    #[cfg(test)]
+    pub fn conventions(&self) -> Conventions {
+        Conventions {
+            point_light_falloff: self.point_light_falloff.unwrap_or_default(),
+            emission: self.emission.unwrap_or_default(),
+            smith_term: self.smith_term.unwrap_or_default(),
+            glass_fresnel: self.glass_fresnel.unwrap_or_default(),
+            glass_radiance: self.glass_radiance.unwrap_or_default(),
+        }
+    }
+
     /// What is wrong with it.
     ///
     /// # Errors

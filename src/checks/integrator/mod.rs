@@ -2,6 +2,8 @@
 
 mod bounces_add_up;
 mod by_convention;
+#[cfg(test)]
+mod closed_forms;
 mod error_falls_as_root_n;
 mod estimate;
 mod estimators_agree;

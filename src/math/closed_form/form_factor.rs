@@ -35,27 +35,23 @@ pub fn perpendicular_rectangles(width: f64, height: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::configuration_factor::{rectangle_parallel, rectangle_perpendicular};
+    use super::super::configuration_factor::polygon;
     use super::super::witness::{assert_close, over_unit_square};
     use super::*;
+    use glam::{DVec2, DVec3};
 
     #[test]
     fn they_are_means_of_configuration_factors() {
-        let parallel =
-            over_unit_square(|p| rectangle_parallel([-p.x, 1.0 - p.x], [-p.y, 1.0 - p.y], 1.0));
+        // Seen from a point of the square [0, 1]².
+        let seen = |square: [DVec3; 4], p: DVec2| {
+            polygon(&square.map(|corner| corner - p.extend(0.0)), DVec3::Z)
+        };
+        let above = [DVec3::Z, DVec3::new(1.0, 0.0, 1.0), DVec3::ONE, DVec3::new(0.0, 1.0, 1.0)];
+        let parallel = over_unit_square(|p| seen(above, p));
         assert_close(parallel_rectangles(1.0, 1.0), parallel, 1e-8);
-        let perpendicular = over_unit_square(|p| {
-            // Both sides of the foot of the patch, at distance p.y from the edge.
-            let side = |width| rectangle_perpendicular(width, 1.0, p.y);
-            side(p.x) + side(1.0 - p.x)
-        });
+        let beside = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 0.0, 1.0), DVec3::Z];
+        let perpendicular = over_unit_square(|p| seen(beside, p));
         assert_close(perpendicular_rectangles(1.0, 1.0), perpendicular, 1e-6);
-    }
-
-    #[test]
-    fn the_values_are_those_of_the_table() {
-        assert_close(parallel_rectangles(1.0, 1.0), 0.199_824_895_7, 1e-9);
-        assert_close(perpendicular_rectangles(1.0, 1.0), 0.200_043_776_1, 1e-9);
     }
 
     #[test]

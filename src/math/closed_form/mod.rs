@@ -4,17 +4,26 @@
 //! integral, or a sum that shares no step with the formula. Lengths are scene units, angles
 //! radians, radiance W·sr⁻¹·m⁻².
 //!
+//! Most of them are asked by tests alone: `checks::integrator::closed_forms` works the numbers of every
+//! case out from its scene.
+//!
 //! Not here: which scene a number belongs to; the cases say that.
 
+#[cfg(test)]
 pub mod cavity;
+#[cfg(test)]
 pub mod configuration_factor;
+#[cfg(test)]
 pub mod coverage;
+#[cfg(test)]
 pub mod delta_light;
+#[cfg(test)]
 pub mod form_factor;
 pub mod fresnel;
 pub mod microfacet;
 pub mod rough_dielectric;
+#[cfg(test)]
 pub mod roulette;
 
 #[cfg(test)]
-mod witness;
+pub mod witness;

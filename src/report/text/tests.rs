@@ -23,25 +23,25 @@ fn a_green_run_fits_on_a_screen() {
   builtin and textbook   12 cases   seed 1   budget default   2 threads
 
   builtin 0.1.0 (f32)
-    1 rays and intersections    ###       3 of 3 pass     0.4 s
+    1 rays and intersections    ###       3 of 3 pass     4.9 s
     2 BVH                       ##        2 of 2 pass     4.0 s
-    3 direct light              ###       3 of 3 pass     4.2 s
+    3 direct light              ###       3 of 3 pass     3.1 s
     4 global illumination       ##        2 of 2 pass     9.8 s
-    5 adaptive sampling         #         1 of 1 pass     6.7 s
-    6 images against Mitsuba    #         1 of 1 pass     3.6 s
+    5 adaptive sampling         #         1 of 1 pass     0.6 s
+    6 images against Mitsuba    #         1 of 1 pass     10 ms
 
   textbook 0.1.0 (f64)
-    1 rays and intersections    ###       3 of 3 pass     2.8 s
+    1 rays and intersections    ###       3 of 3 pass     2.4 s
     2 BVH                       ##        2 of 2 pass     0.1 s
-    3 direct light              ###       3 of 3 pass     6.9 s
+    3 direct light              ###       3 of 3 pass     9.5 s
     4 global illumination       ##        2 of 2 pass    10.3 s
-    5 adaptive sampling         #         1 of 1 pass      0 ms
-    6 images against Mitsuba    #         1 of 1 pass     3.4 s
+    5 adaptive sampling         #         1 of 1 pass     10 ms
+    6 images against Mitsuba    #         1 of 1 pass     2.2 s
 
   24 trials in 71.3 s: 24 pass
   chance that a correct core fails any of them: at most 3.6e-8
   72 random claims: 72 means 3.6e-8; none suspected by its first stage
-  weakest pass: image/cornell-spheres on builtin would have caught an error of 1.4 % in
+  weakest pass: image/cornell-spheres on textbook would have caught an error of 1.4 % in
   any bounce
 ";
     assert_eq!(plain(Example::green()), expected);
@@ -85,7 +85,7 @@ fn every_way_to_end_is_named_with_its_trial() {
         "  BLOCKED  1 on textbook: integrator/furnace-bounce-by-bounce failed, and these rest on\n\
          \x20       it\n",
         "  SKIPPED  1 on textbook: the core has no adaptive-sampling\n\
-         \x20       sampling/adaptive-counts-are-true\n",
+         \x20       adaptive/adaptive-counts-are-true\n",
         "24 trials in 71.3 s: 15 pass, 3 fail, 1 inconclusive, 1 skipped, 1 blocked, 1 crashed,\n",
     ] {
         assert!(text.contains(head), "{head} is not in {text}");

@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Probability of calling a right error rate wrong, over all leaves together.
+/// Probability of calling a right error rate wrong, over all hypotheses together.
 const LEVEL: f64 = 1e-3;
 
 /// How the trials of one seed ended.
@@ -33,7 +33,7 @@ const LEVEL: f64 = 1e-3;
 struct Drawn {
     failed: Vec<String>,
     inconclusive: Vec<String>,
-    /// Of every leaf whether its first stage suspected it.
+    /// Of every hypothesis whether its first stage suspected it.
     suspected: BTreeMap<String, (TestKind, bool)>,
     seconds: f64,
 }
@@ -47,14 +47,14 @@ impl Drawn {
         Self {
             failed: ended(|status| !matches!(status, Status::Pass | Status::Inconclusive)),
             inconclusive: ended(|status| status == Status::Inconclusive),
-            suspected: records.iter().flat_map(leaves).collect(),
+            suspected: records.iter().flat_map(hypotheses).collect(),
             seconds,
         }
     }
 }
 
-/// The leaves of a trial, by names that no other has.
-fn leaves(record: &TrialRecord) -> Vec<(String, (TestKind, bool))> {
+/// The hypotheses of a trial, by names that no other has.
+fn hypotheses(record: &TrialRecord) -> Vec<(String, (TestKind, bool))> {
     let measures = record.outcome.finding().map_or(&[][..], |finding| &finding.measures);
     let named = measures.iter().enumerate().filter_map(|(number, measure)| {
         let name = format!("{} on {}: {number}, {}", record.case, record.core, measure.name);
@@ -63,13 +63,13 @@ fn leaves(record: &TrialRecord) -> Vec<(String, (TestKind, bool))> {
     named.collect()
 }
 
-/// How often each leaf was drawn, and how often it was suspected.
+/// How often each hypothesis was drawn, and how often it was suspected.
 #[derive(Default)]
 struct Audit {
     seeds: u32,
     failed: Vec<String>,
     inconclusive: BTreeMap<String, u32>,
-    leaves: BTreeMap<String, (TestKind, u64, u64)>,
+    hypotheses: BTreeMap<String, (TestKind, u64, u64)>,
 }
 
 impl Audit {
@@ -80,15 +80,15 @@ impl Audit {
             *self.inconclusive.entry(what).or_default() += 1;
         }
         for (name, (kind, suspected)) in drawn.suspected {
-            let leaf = self.leaves.entry(name).or_insert((kind, 0, 0));
-            leaf.1 += 1;
-            leaf.2 += u64::from(suspected);
+            let counted = self.hypotheses.entry(name).or_insert((kind, 0, 0));
+            counted.1 += 1;
+            counted.2 += u64::from(suspected);
         }
     }
 
-    /// Leaves that are suspected more often than their level can explain.
+    /// Hypotheses that are suspected more often than their level can explain.
     fn over_suspected(&self) -> Vec<String> {
-        let level = LEVEL / self.leaves.len().max(1) as f64;
+        let level = LEVEL / self.hypotheses.len().max(1) as f64;
         let too_often = |(name, (kind, drawn, suspected)): (&String, &(TestKind, u64, u64))| {
             let expected = kind.suspicion()?;
             let chance = binomial_at_least(*suspected, *drawn, expected);
@@ -96,18 +96,18 @@ impl Audit {
                 format!("{name}: {suspected} of {drawn} at {expected:.1e} (chance {chance:.1e})")
             })
         };
-        self.leaves.iter().filter_map(too_often).collect()
+        self.hypotheses.iter().filter_map(too_often).collect()
     }
 
     fn print(&self) {
-        let leaves = self.leaves.len();
-        println!("{} seeds, {leaves} leaves, {} failures", self.seeds, self.failed.len());
+        let hypotheses = self.hypotheses.len();
+        println!("{} seeds, {hypotheses} hypotheses, {} failures", self.seeds, self.failed.len());
         println!("first stages that suspected a correct core, by kind of test:");
         use TestKind::{Codes, Counts, Mean, Picture, Share};
         for kind in [Mean, Counts, Share, Picture, Codes] {
-            let of_kind = || self.leaves.values().filter(|leaf| leaf.0 == kind);
-            let drawn: u64 = of_kind().map(|leaf| leaf.1).sum();
-            let suspected: u64 = of_kind().map(|leaf| leaf.2).sum();
+            let of_kind = || self.hypotheses.values().filter(|one| one.0 == kind);
+            let drawn: u64 = of_kind().map(|one| one.1).sum();
+            let suspected: u64 = of_kind().map(|one| one.2).sum();
             if drawn == 0 {
                 continue;
             }
@@ -121,7 +121,7 @@ impl Audit {
             );
         }
         println!(
-            "(leaves on the same runs are suspected together; the interval does not know that)"
+            "(hypotheses on the same runs are suspected together; the interval does not know that)"
         );
         for (what, times) in &self.inconclusive {
             println!("inconclusive {times} times: {what}");
@@ -199,7 +199,7 @@ fn a_correct_core_fails_nothing_whatever_the_random_numbers() {
         let drawn = drawn(&folder, seed, seed < pictures);
         let suspected = drawn.suspected.values().filter(|(_, suspected)| *suspected).count();
         println!(
-            "seed {seed}: {} failed, {} inconclusive, {suspected} of {} leaves suspected, {:.0} s",
+            "seed {seed}: {} failed, {} inconclusive, {suspected} of {} hypotheses suspected, {:.0} s",
             drawn.failed.len(),
             drawn.inconclusive.len(),
             drawn.suspected.len(),
@@ -218,7 +218,7 @@ fn the_audit_counts_failures_and_sees_a_wrong_level() {
     let drawn = |suspected| Drawn {
         failed: Vec::new(),
         inconclusive: vec!["a".to_owned()],
-        suspected: BTreeMap::from([("leaf".to_owned(), (TestKind::Mean, suspected))]),
+        suspected: BTreeMap::from([("hypothesis".to_owned(), (TestKind::Mean, suspected))]),
         seconds: 0.0,
     };
     let mut audit = Audit::default();

@@ -5,14 +5,13 @@
 //! otherwise decide alone, and its noisy edge with it.
 
 use crate::image::{Image, luminance};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Red, green, blue and luminance.
 pub const COMPONENTS: usize = 4;
 
 /// What of a pixel is compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Component {
     /// First channel.
     Red,
@@ -31,8 +30,7 @@ impl Component {
 }
 
 /// The size of cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scale {
     /// One pixel.
     Pixel,
@@ -77,7 +75,7 @@ impl std::fmt::Display for Scale {
 
 /// A picture cut into cells of one scale.
 #[derive(Clone, Debug)]
-pub(super) struct Grid {
+pub struct Grid {
     pub(super) scale: Scale,
     pub(super) columns: usize,
     pub(super) rows: usize,
@@ -86,7 +84,7 @@ pub(super) struct Grid {
 }
 
 /// The pixels of a cell: column and row of the top left one, width and height.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Extent {
     /// First column.
     pub x: usize,
@@ -182,7 +180,7 @@ fn error_components(errors: [f32; 3]) -> [f64; COMPONENTS] {
 
 /// The cells of all scales over pictures of one size.
 #[derive(Clone, Debug)]
-pub(super) struct Cells {
+pub struct Cells {
     pub(super) grids: Vec<Grid>,
     weights: Vec<f64>,
 }

@@ -3,10 +3,10 @@
 use super::cells::{Component, Extent, Scale};
 use crate::image::Image;
 use crate::stats::plan::{Hypothesis, Judgement, Report, Stage, TestKind, Verdict};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// A value that no picture has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Impossible {
     /// Neither large nor small.
@@ -30,7 +30,7 @@ impl Impossible {
 }
 
 /// Pixels that are impossible in some run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImpossiblePixels {
     /// What is wrong with the first.
     pub kind: Impossible,
@@ -47,7 +47,7 @@ pub struct ImpossiblePixels {
 }
 
 /// A cell, as the screen sees it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellScore {
     /// Size of the cell.
     pub scale: Scale,
@@ -66,7 +66,7 @@ pub struct CellScore {
 }
 
 /// A confirmation on fresh runs of the cells frozen at one scale.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Confirmation {
     /// How far the frozen combination of cells lies outside its band, in standard errors of these
     /// runs or of the other confirmation's, whichever are larger.
@@ -76,7 +76,7 @@ pub struct Confirmation {
 }
 
 /// What one scale says.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ScaleReport {
     /// Size of the cells.
     pub scale: Scale,
@@ -95,7 +95,7 @@ pub struct ScaleReport {
 
 /// Measured over expected, over the whole picture, with 99.9 % confidence. The noise of the
 /// reference is in it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GlobalRatio {
     /// Red, green, blue or luminance.
     pub component: Component,
@@ -105,18 +105,8 @@ pub struct GlobalRatio {
     pub interval: [f64; 2],
 }
 
-/// How far each 8 by 8 tile is off, in standard errors of core and reference together; no band. For
-/// pictures.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TileMap {
-    /// Tiles in a row.
-    pub columns: usize,
-    /// Row-major from the top left; luminance.
-    pub z: Vec<f64>,
-}
-
 /// The judgement of a picture.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ImageReport {
     /// Pass, fail or inconclusive.
     pub verdict: Verdict,
@@ -136,18 +126,11 @@ pub struct ImageReport {
     pub resolution: f64,
     /// The error that had to be.
     pub detects: f64,
-    /// By how much the samples of every run have to be multiplied, if inconclusive and that would
-    /// help. If it would not, the reference is too noisy.
-    pub samples_factor: Option<f64>,
     /// Runs drawn.
     pub runs: u32,
-    /// How far each tile is off.
-    pub tiles: TileMap,
     /// Mean of all runs.
-    #[serde(skip)]
     pub mean: Image,
     /// Standard error of `mean`.
-    #[serde(skip)]
     pub standard_error: Image,
 }
 

@@ -24,7 +24,6 @@ use super::target::Target;
 use crate::image::Image;
 use crate::math::rng::Seed;
 use crate::stats::{ImageReport, Stage};
-use serde::{Deserialize, Serialize};
 
 /// Probability that the screen suspects a picture without cause.
 pub(in crate::stats) const SCREEN_LEVEL: f64 = 1e-3;
@@ -46,7 +45,7 @@ pub struct Reference<'a> {
 }
 
 /// What a picture is worth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageEffort {
     /// The relative error of the whole picture that must be seen.
     pub detects: f64,
@@ -84,7 +83,7 @@ impl ImageDraw {
 
 /// How easily a picture is suspected and a suspicion confirmed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Levels {
+pub struct Levels {
     /// [`SCREEN_LEVEL`], over all cells.
     pub(super) screen: f64,
     /// [`CONFIRM_LEVEL`], of each confirmation at each scale.
@@ -237,7 +236,6 @@ mod tests {
         assert_eq!(report.worst_scale, Some(Scale::Tile8));
         let tile = report.scales.iter().find(|scale| scale.scale == Scale::Tile8).unwrap();
         assert_eq!((tile.worst[0].extent.x, tile.worst[0].extent.y), (0, 56));
-        assert!(report.tiles.z[7 * report.tiles.columns] > 6.0);
     }
 
     #[test]
@@ -302,11 +300,10 @@ mod tests {
         let reference = Reference { mean: &mean, standard_error: &error };
         let report = judge_against(reference, &ramp(), 1);
         assert_eq!(report.verdict, Verdict::Inconclusive);
-        assert_eq!(report.samples_factor, None);
     }
 
     #[test]
-    fn noise_that_could_hide_the_error_is_inconclusive_and_says_how_many_samples_help() {
+    fn noise_that_could_hide_the_error_is_inconclusive() {
         let (mean, error) = (ramp(), no_error());
         let mut draw = |request: ImageDraw| {
             Ok::<_, Infallible>(noisy(&mean, &mut request.seed(Seed(1)).stream()))
@@ -314,7 +311,6 @@ mod tests {
         let reference = Reference { mean: &mean, standard_error: &error };
         let Ok(report) = judge_image(reference, &ImageEffort::new(0.004, SAMPLES), &mut draw);
         assert_eq!(report.verdict, Verdict::Inconclusive);
-        assert!(report.samples_factor.is_some_and(|factor| factor > 1.0 && factor < 100.0));
     }
 
     /// Pixels that one sample in 40 lights at all, with 40 times the light: all samples of a screen

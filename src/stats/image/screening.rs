@@ -5,7 +5,7 @@ use super::cell_noise::CellNoise;
 use super::cells::{COMPONENTS, Component, Scale};
 use super::dead_pixels::LitRuns;
 use super::report::{
-    CellScore, Confirmation, ImageReport, Impossible, ImpossiblePixels, ScaleReport, TileMap,
+    CellScore, Confirmation, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
 };
 use super::screen::{ImageDraw, ImageEffort, Levels};
 use super::target::{Frozen, Target};
@@ -217,7 +217,6 @@ impl<'a, E> Screening<'a, E> {
         } else {
             Verdict::Inconclusive
         };
-        let inconclusive = verdict == Verdict::Inconclusive;
         ImageReport {
             verdict,
             impossible: None,
@@ -227,9 +226,7 @@ impl<'a, E> Screening<'a, E> {
             ratios: last.brightness.ratios(&self.target),
             resolution,
             detects: self.effort.detects,
-            samples_factor: if inconclusive { self.samples_factor(resolution) } else { None },
             runs: self.runs,
-            tiles: self.tile_map(&last.spread),
             mean: self.pixels(|index| self.all.mean(index)),
             standard_error: self.pixels(|index| self.all.standard_error(index)),
         }
@@ -246,9 +243,7 @@ impl<'a, E> Screening<'a, E> {
             ratios: Vec::new(),
             resolution: self.effort.detects,
             detects: self.effort.detects,
-            samples_factor: None,
             runs: self.runs + 1,
-            tiles: TileMap::default(),
             standard_error: Image::new(image.width, image.height, [0.0; 3]),
             mean: image,
         }
@@ -264,26 +259,6 @@ impl<'a, E> Screening<'a, E> {
         let sigmas = critical + normal_upper(MISS_LEVEL) * spread_of_t;
         let error = sigmas * screened.standard_error(whole);
         (self.target.bands[whole] + error) / self.target.scale[whole]
-    }
-
-    /// By how much the samples have to grow for the resolution to reach what was promised.
-    fn samples_factor(&self, resolution: f64) -> Option<f64> {
-        let whole = self.target.whole_luminance();
-        let band = self.target.bands[whole] / self.target.scale[whole];
-        let factor = ((resolution - band) / (self.effort.detects - band)).powi(2);
-        (self.effort.detects > band && factor.is_finite()).then_some(factor)
-    }
-
-    fn tile_map(&self, spread: &Spread) -> TileMap {
-        let grid = &self.target.cells.grids[1];
-        let start = self.target.cells.ranges()[1].start + COMPONENTS - 1;
-        let z = |tile: usize| {
-            let index = start + tile * COMPONENTS;
-            let difference = spread.mean(index) - self.target.expected[index];
-            let error = spread.standard_error(index).hypot(self.target.errors[index]);
-            if difference == 0.0 { 0.0 } else { (difference / error).clamp(-1e9, 1e9) }
-        };
-        TileMap { columns: grid.columns, z: (0..grid.len()).map(z).collect() }
     }
 
     fn pixels(&self, value: impl Fn(usize) -> f64) -> Image {

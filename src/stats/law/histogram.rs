@@ -6,7 +6,6 @@
 use crate::math::frame::direction;
 use crate::math::quadrature::{Diligence, Integral, Rectangle, integrate_rectangles};
 use glam::{DVec2, DVec3};
-use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// A direction whose cosine is below zero by no more than single precision explains is on the
@@ -17,7 +16,7 @@ const HORIZON: f64 = 1e-6;
 pub type BatchDensity<'a, E> = dyn FnMut(&[DVec3], &mut [f64]) -> Result<(), E> + 'a;
 
 /// A division of the sphere into cells: ring by ring from −z to +z, sector by sector within.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SphereCells {
     /// Edges of the rings in cos θ, ascending from −1 to 1.
     rings: Vec<f64>,
@@ -144,7 +143,7 @@ impl SphereCells {
 }
 
 /// How many samples fell where.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Counts {
     /// In each cell.
     pub cells: Vec<u64>,
@@ -160,7 +159,7 @@ impl Counts {
 }
 
 /// The probability of each cell, and how well it is known.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CellProbabilities {
     /// Of each cell.
     pub cells: Vec<f64>,

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 /// What a claim is worth: the error it promises to catch, and the samples it may spend on that.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// The relative error that must be seen: a claim passes only if this would have been caught
     /// with probability 0.999.

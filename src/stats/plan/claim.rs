@@ -1,7 +1,7 @@
 //! What a core is held to: a true mean, and how far from it rounding may take a correct core.
 
 use crate::math::Precision;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// The half width of a null hypothesis, relative to the scale of its claim.
 ///
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// `f32` move a correct core by parts in ten thousand (Mitsuba's own furnace is off by 2.7e-4), and
 /// enough samples would condemn it for that. The field is private so that a band is chosen by name,
 /// not typed.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Band(f64);
 
 impl Band {
@@ -45,7 +45,7 @@ impl Band {
 }
 
 /// On which side of the expected value a core may fail.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sides {
     /// Too much and too little are both wrong.
@@ -58,7 +58,7 @@ pub enum Sides {
 }
 
 /// One hypothesis of the suite: a mean and what it has to be.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Claim {
     /// The true mean, in the unit of what is drawn.
     pub expected: f64,

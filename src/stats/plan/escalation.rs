@@ -10,7 +10,6 @@
 
 use super::{Hypothesis, TestKind};
 use crate::math::rng::Seed;
-use serde::{Deserialize, Serialize};
 
 /// Level of one stage on one side.
 pub const STAGE_LEVEL: f64 = 5e-4;
@@ -18,8 +17,7 @@ pub const STAGE_LEVEL: f64 = 5e-4;
 pub const ESCALATION_FALSE_ALARM: f64 = STAGE_LEVEL * STAGE_LEVEL * STAGE_LEVEL;
 
 /// A step of a test. Each has its own random numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Measures the noise, decides nothing.
     Pilot,
@@ -73,8 +71,7 @@ pub trait Scored {
 }
 
 /// The stages of one test that were drawn, in their order.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(transparent)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Escalation<S>(Vec<S>);
 
 impl<S> Default for Escalation<S> {

@@ -7,7 +7,6 @@
 
 use crate::math::Precision;
 use crate::stats::plan::{Judgement, Report, Verdict};
-use serde::{Deserialize, Serialize};
 
 /// The error allowed to a correct core, relative to the size and the condition of what is compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +55,7 @@ impl Tolerance {
 }
 
 /// A number that was asked for, and the one that is right.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compared {
     /// What the core answered.
     pub found: f64,
@@ -95,7 +94,7 @@ impl Compared {
 }
 
 /// The worst element of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worst {
     /// Its number in the order compared.
     pub index: usize,
@@ -104,7 +103,7 @@ pub struct Worst {
 }
 
 /// The judgement of a comparison without noise.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactReport {
     /// Pass or fail; inconclusive if nothing was compared.
     pub verdict: Verdict,

@@ -77,9 +77,12 @@ pub fn judge_means<E>(
     let Some(coarse) = effort.coarse() else {
         return judge_means_at(STAGE_LEVEL, claims, effort, draw);
     };
-    let coarse = judge_means_at(STAGE_LEVEL, claims, &coarse, draw)?;
-    let is_over = coarse.iter().any(|report| report.verdict == Verdict::Fail);
-    let reports = if is_over { coarse } else { judge_means_at(STAGE_LEVEL, claims, effort, draw)? };
+    let mut reports = judge_means_at(STAGE_LEVEL, claims, &coarse, draw)?;
+    if reports.iter().all(|report| report.verdict != Verdict::Fail) {
+        let drawn = reports.first().map_or(0, |report| report.samples);
+        reports = judge_means_at(STAGE_LEVEL, claims, effort, draw)?;
+        reports.iter_mut().for_each(|report| report.samples += drawn);
+    }
     Ok(reports.into_iter().map(|report| report.of_two_tests(effort.detects)).collect())
 }
 

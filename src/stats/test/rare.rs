@@ -4,7 +4,6 @@
 use crate::math::Precision;
 use crate::stats::law::{binomial_at_least, share_interval};
 use crate::stats::plan::{Hypothesis, Judgement, MISS_LEVEL, Report, TestKind, Verdict};
-use serde::{Deserialize, Serialize};
 
 /// Probability that a correct core fails: the level of the tail where some are allowed. Where none
 /// is, what a correct core in double precision does in 10⁶ trials with a probability of about that.
@@ -36,7 +35,7 @@ impl Rarity {
 }
 
 /// The judgement of a count of rare events.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RareReport {
     /// Pass or fail; inconclusive without trials.
     pub verdict: Verdict,

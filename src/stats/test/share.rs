@@ -9,13 +9,12 @@ use crate::stats::plan::{
     Band, Effort, Escalation, Judgement, MISS_LEVEL, Report, STAGE_LEVEL, Scored, Stage, TestKind,
     Verdict,
 };
-use serde::{Deserialize, Serialize};
 
 /// Samples of the smallest first stage.
 const FEWEST_SAMPLES: f64 = 1000.0;
 
 /// One stage of counting hits.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShareStage {
     /// Which stage.
     pub stage: Stage,
@@ -36,7 +35,7 @@ impl Scored for ShareStage {
 }
 
 /// The judgement of a share. Its interval is that of the last stage drawn.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ShareReport {
     /// Pass, fail or inconclusive.
     pub verdict: Verdict,
@@ -50,12 +49,6 @@ pub struct ShareReport {
     pub stages: Escalation<ShareStage>,
     /// The smallest relative error that would have been caught with probability 0.999.
     pub resolution: f64,
-    /// The relative error that had to be.
-    pub detects: f64,
-    /// Samples of all stages.
-    pub samples: u64,
-    /// What the first stage lacks, if inconclusive.
-    pub samples_missing: Option<u64>,
 }
 
 impl Report for ShareReport {
@@ -146,18 +139,12 @@ fn report(
     } else {
         Verdict::Inconclusive
     };
-    let needed = planned_samples(expected, band, effort.detects);
-    let missing = (needed - first.trials as f64).max(1.0);
-    let worth_asking = verdict == Verdict::Inconclusive && missing.is_finite();
     ShareReport {
         verdict,
         expected,
         share: last.hits as f64 / last.trials as f64,
         interval: share_interval(last.hits, last.trials, STAGE_LEVEL),
         resolution,
-        detects: effort.detects,
-        samples: stages.iter().map(|stage| stage.trials).sum(),
-        samples_missing: worth_asking.then_some(missing as u64),
         stages,
     }
 }

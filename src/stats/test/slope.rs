@@ -6,7 +6,7 @@
 
 use crate::stats::Moments;
 use crate::stats::plan::{Hypothesis, Judgement, Report, TestKind, Verdict};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// The slope of independent samples.
 const INDEPENDENT: f64 = -0.5;
@@ -57,7 +57,7 @@ impl ErrorLevel {
 }
 
 /// What slope is right.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sampling {
     /// Slope −1/2.
@@ -67,19 +67,18 @@ pub enum Sampling {
     Stratified,
 }
 
-/// One point of the plot.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ErrorPoint {
+/// One point of the line.
+struct ErrorPoint {
     /// Samples per pixel.
-    pub samples: u64,
+    samples: u64,
     /// Root mean square error over pixels and runs.
-    pub error: f64,
+    error: f64,
     /// Standard error of its natural logarithm.
-    pub log_error: f64,
+    log_error: f64,
 }
 
 /// The judgement of a series of errors.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SlopeReport {
     /// Pass, fail or inconclusive.
     pub verdict: Verdict,
@@ -89,13 +88,9 @@ pub struct SlopeReport {
     pub standard_error: f64,
     /// The smallest deviation of the slope that would have been caught with probability 0.999.
     pub resolution: f64,
-    /// The deviation that had to be.
-    pub detects: f64,
     /// The bias that would explain what the last level's error exceeds its own noise by; 0 if
     /// nothing.
     pub plateau_bias: f64,
-    /// Measured.
-    pub points: Vec<ErrorPoint>,
 }
 
 impl Report for SlopeReport {
@@ -134,9 +129,7 @@ pub fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f64) -> S
         slope,
         standard_error,
         resolution,
-        detects,
         plateau_bias: levels.last().map_or(0.0, plateau_bias),
-        points,
     }
 }
 

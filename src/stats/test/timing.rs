@@ -6,7 +6,6 @@
 use crate::math::rng::{Seed, Stream};
 use crate::stats::{Verdict, binomial_at_least};
 use rand::Rng;
-use serde::{Deserialize, Serialize};
 
 /// Resamples of a bootstrap interval.
 const RESAMPLES: usize = 2000;
@@ -14,7 +13,7 @@ const RESAMPLES: usize = 2000;
 const CONFIDENCE: f64 = 0.95;
 
 /// How much faster one of two things is.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedUp {
     /// Median over the pairs of the time of the first over the time of the second.
     pub ratio: f64,
@@ -53,7 +52,7 @@ pub fn speed_up(pairs: &[(f64, f64)]) -> SpeedUp {
 const SIGN_LEVEL: f64 = 1e-4;
 
 /// Whether one of two things is so many times as fast as the other.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Faster {
     /// How much faster the second is.
     pub speed_up: SpeedUp,

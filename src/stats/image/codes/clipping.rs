@@ -5,10 +5,9 @@ use super::channel::{Channel, Standing};
 use crate::image::encoding::WHITE;
 use crate::stats::image::screen::Levels;
 use crate::stats::{ImageDraw, ImageEffort, Moments, Stage, student_upper};
-use serde::{Deserialize, Serialize};
 
 /// Whether pixels that should be clipped are.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClippingReport {
     /// Channels of pixels that should be clipped in most pictures.
     pub channels: usize,

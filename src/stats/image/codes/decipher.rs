@@ -9,7 +9,7 @@ use super::channel::{TOO_NOISY, believed};
 use super::observed::{Observed, Seen};
 use crate::image::encoding::{Curve, Encoding, Rounding, WHITE};
 use crate::stats::{Band, Moments};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The curves that are looked for.
 const CURVES: [Curve; 3] = [Curve::Linear, Curve::Srgb, Curve::Gamma(2.2)];
@@ -32,7 +32,7 @@ const FITS: f64 = 4.0;
 const FEWEST_TONES: f64 = 0.2;
 
 /// What codes say of their own encoding.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Deciphered {
     /// How light is said to be encoded.
     pub declared: Encoding,

@@ -15,7 +15,7 @@ use crate::image::encoding::{Encoding, WHITE};
 use crate::stats::Moments;
 use crate::stats::image::Sample;
 use crate::stats::law::Spread;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Fewer pictures say too little of their noise.
 const FEWEST_RUNS: usize = 4;
@@ -27,7 +27,7 @@ const FEWEST_PIXELS: u64 = 16;
 const FREE: std::ops::Range<f64> = 1.0..WHITE;
 
 /// Where the noise of codes is known from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum NoiseSource {
     /// Several pictures.

@@ -45,7 +45,6 @@ use clipping::Clipping;
 use decipher::decipher;
 use model::Model;
 use observed::Observed;
-use serde::{Deserialize, Serialize};
 
 /// Probability that a correct core is said to encode otherwise than it does.
 const DECIPHERING_FALSE_ALARM: f64 = 1e-10;
@@ -88,7 +87,7 @@ pub struct CodeSettings {
 }
 
 /// The judgement of 8-bit pictures.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CodeReport {
     /// Pass, fail or inconclusive.
     pub verdict: Verdict,
@@ -102,7 +101,6 @@ pub struct CodeReport {
     /// Share of the channels of all pixels whose codes are compared.
     pub compared: f64,
     /// The codes that there should be on average, where they are compared; 0 elsewhere.
-    #[serde(skip)]
     pub expected: Image,
 }
 

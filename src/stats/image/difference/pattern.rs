@@ -4,7 +4,7 @@ use super::STAGES;
 use super::unit::{COMPONENTS, MEASURES, SIDE, Unit, Units};
 use crate::stats::Moments;
 use crate::stats::image::Extent;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ const MOST_CHOSEN: usize = 64;
 const FEWEST_UNITS: usize = 6;
 
 /// A kind of difference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Pattern {
     /// Light in tiles of 64 by 64 pixels.
@@ -89,13 +89,13 @@ impl std::fmt::Display for Pattern {
 
 /// Units that are judged together.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Cell<'a> {
+pub struct Cell<'a> {
     stages: [Vec<&'a Unit>; STAGES],
 }
 
 /// A measure of a cell that stood out in the first stage.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Choice {
+pub struct Choice {
     pub(super) cell: usize,
     measure: usize,
     sign: f64,
@@ -168,7 +168,7 @@ impl Cell<'_> {
 /// What a confirmation says: how far the choices are outside their bands together, in standard
 /// errors, and the degrees of freedom of those.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Score {
+pub struct Score {
     pub(super) t: f64,
     pub(super) freedom: f64,
 }

@@ -3,10 +3,10 @@
 use super::Pattern;
 use crate::stats::image::{Extent, Impossible};
 use crate::stats::plan::{Judgement, Report, Verdict};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Pixels that are wrong on their own.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OddPixels {
     /// What no picture has, if it is that.
     pub impossible: Option<Impossible>,
@@ -21,7 +21,7 @@ pub struct OddPixels {
 }
 
 /// What one pattern says.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PatternReport {
     /// What was looked for.
     pub pattern: Pattern,
@@ -38,7 +38,7 @@ pub struct PatternReport {
 }
 
 /// The comparison of two single pictures.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DifferenceReport {
     /// [`Verdict::Fail`] if they differ by proof; [`Verdict::Pass`] if not; [`Verdict::Inconclusive`]
     /// if the pictures have too few pixels to prove anything.

@@ -2,10 +2,9 @@
 
 use crate::stats::plan::{Escalation, Judgement, Scored};
 use crate::stats::{Report, Stage, TestKind, Verdict};
-use serde::{Deserialize, Serialize};
 
 /// One stage of counting.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountStage {
     /// Which stage.
     pub stage: Stage,
@@ -32,7 +31,7 @@ impl Scored for CountStage {
 }
 
 /// Samples where there should be none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ForbiddenSamples {
     /// The cell of most of them.
     pub cell: usize,
@@ -41,8 +40,7 @@ pub struct ForbiddenSamples {
 }
 
 /// Why counts prove nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CountDoubt {
     /// The integral of the density over the cells is not known well enough.
     QuadratureNotConverged,
@@ -51,7 +49,7 @@ pub enum CountDoubt {
 }
 
 /// The judgement of a sampler against its density. Counts are those of the last stage drawn.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CountReport {
     /// Pass, fail or inconclusive.
     pub verdict: Verdict,

@@ -8,7 +8,7 @@ use super::*;
 use crate::math::rng::{Seed, Stream, uniform};
 use crate::stats::{Band, Verdict};
 use std::convert::Infallible;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// A law of samples with known mean and deviation.
 struct Law {
@@ -153,6 +153,38 @@ fn an_error_as_large_as_the_printed_resolution_is_caught() {
         report.verdict == Verdict::Fail
     });
     assert!(caught.count() >= 98);
+}
+
+/// The median over seven seeds of the samples that a verdict took.
+fn samples_to_a_verdict(law: &Law, gain: f64, coarse_first: bool) -> u64 {
+    let effort = Effort { coarse_first, ..Effort::new(0.02) };
+    let of_seed = |number| {
+        let mut draw = |draw: Draw| {
+            let mut stream = draw.seed(Seed(number)).stream();
+            let sum: f64 = (0..draw.samples).map(|_| (law.sample)(&mut stream)).sum();
+            Ok::<_, Infallible>(vec![gain * sum / draw.samples as f64])
+        };
+        let claim = Claim::value(law.mean, Band::RADIANCE);
+        let Ok(reports) = judge_means(&[claim], &effort, &mut draw);
+        let wrong = gain != 1.0;
+        assert_eq!(reports[0].verdict == Verdict::Fail, wrong, "{}, {gain}", law.name);
+        reports[0].samples
+    };
+    let mut samples: Vec<u64> = (0..7).map(of_seed).collect();
+    samples.sort_unstable();
+    samples[3]
+}
+
+#[test]
+#[ignore = "a minute: the samples that errors of several sizes take"]
+fn gross_errors_take_fewer_samples_where_they_are_looked_for_first() {
+    for law in [&BERNOULLI, &EXPONENTIAL] {
+        for gain in [FRAC_1_PI, 0.5, 1.0 / 1.5, 1.0 / 1.1, 1.0, 1.1, 1.5, 2.0] {
+            let [thorough, hasty] =
+                [false, true].map(|coarse_first| samples_to_a_verdict(law, gain, coarse_first));
+            println!("{}, times {gain:.3}: {thorough} samples, {hasty} coarse first", law.name);
+        }
+    }
 }
 
 #[test]

@@ -2,10 +2,9 @@
 
 use crate::stats::plan::{Escalation, Judgement, Scored};
 use crate::stats::{Hypothesis, Report, Stage, TestKind, Verdict};
-use serde::{Deserialize, Serialize};
 
 /// One stage, seen by one claim.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StageScore {
     /// Which stage.
     pub stage: Stage,
@@ -31,14 +30,12 @@ impl Scored for StageScore {
 
 /// The judgement of one claim. `mean`, `standard_error` and the intervals are those of the last
 /// stage drawn: the earlier ones chose whether it would be, the last one is fresh.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MeanReport {
     /// Pass, fail or inconclusive.
     pub verdict: Verdict,
     /// The true mean, as claimed.
     pub expected: f64,
-    /// What relative errors are relative to.
-    pub scale: f64,
     /// Half width of the null hypothesis, in the unit of the mean.
     pub band: f64,
     /// Measured.
@@ -57,11 +54,6 @@ pub struct MeanReport {
     pub detects: f64,
     /// Samples drawn in all, pilot and repeated stages included.
     pub samples: u64,
-    /// Samples of the first stage that carry the mean: n μ² / (σ² + μ²), hits for a light that is
-    /// rarely hit.
-    pub effective_samples: f64,
-    /// What the first stage lacks, if inconclusive and more samples would help.
-    pub samples_missing: Option<u64>,
     /// Probability that a correct core fails this claim, as entered in the ledger.
     pub false_alarm: f64,
 }

@@ -26,7 +26,7 @@ const FEWEST_TO_SUSPECT: f64 = 16_384.0;
 
 /// How far out a suspected mean is, which says on how many samples it is confirmed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Suspicion {
+pub enum Suspicion {
     /// Grossly too much: no event that has not happened can lower a mean of radiances.
     GrosslyHigh,
     /// Grossly too little, unless rare events have not happened yet.
@@ -239,7 +239,6 @@ impl MeanTest {
         MeanReport {
             verdict,
             expected: self.claim.expected,
-            scale: self.claim.scale,
             band: self.claim.band_width(),
             mean,
             standard_error,
@@ -249,8 +248,6 @@ impl MeanTest {
             resolution,
             detects: effort.detects,
             samples: drawn,
-            effective_samples,
-            samples_missing: self.missing(verdict, effort, first_samples),
             false_alarm: MEAN_FALSE_ALARM,
         }
     }
@@ -262,12 +259,6 @@ impl MeanTest {
             ratio.reverse();
         }
         (expected != 0.0).then_some(ratio)
-    }
-
-    fn missing(&self, verdict: Verdict, effort: &Effort, first_samples: u64) -> Option<u64> {
-        let needed = self.needed_samples(effort.detects);
-        let worth_asking = verdict == Verdict::Inconclusive && needed.is_finite();
-        worth_asking.then(|| (needed as u64).saturating_sub(first_samples).max(1))
     }
 }
 

@@ -49,13 +49,10 @@ fn an_error_of_the_promised_size_fails_on_either_side() {
 }
 
 #[test]
-fn noise_that_could_hide_the_error_is_inconclusive_and_says_what_is_missing() {
+fn noise_that_could_hide_the_error_is_inconclusive() {
     let effort = Effort::new(0.02).with_most_samples(10_000);
     let report = judge(Claim::value(1.0, Band::RADIANCE), &effort, SEED, exponential(1.0));
     assert_eq!(report.verdict, Verdict::Inconclusive);
-    let missing = report.samples_missing.unwrap();
-    // (8.4/0.019)² = 195 000 samples are planned for a relative deviation of 1.
-    assert!((150_000..250_000).contains(&missing), "{missing}");
 }
 
 #[test]

@@ -110,8 +110,8 @@ const PICTURE: &str = "image/point-light-plane-matches";
 
 /// What each program that makes pictures comes to.
 const RENDERERS: &[(&str, Ending)] = &[
-    ("behave", (Status::Fail, "the picture has 0 of the light")),
-    ("behave.png", (Status::Fail, "in codes (sRGB, rounded): the picture has 0 of")),
+    ("behave", (Status::Fail, "of the light it should have")),
+    ("behave.png", (Status::Fail, "in codes (sRGB, rounded): the picture has ")),
     ("crash", (Status::Crashed, "SIGABRT")),
     ("exit", (Status::Fail, "it ended well and wrote no picture.pfm")),
     ("hang", (Status::TimedOut, "no answer in 2 s")),

@@ -313,7 +313,10 @@ fn brightness(report: &ImageReport) -> String {
         None => "the picture is black".to_owned(),
         // Of codes it is an extrapolation, which black ones carry below nothing.
         Some(whole) => {
-            let share = with_interval(whole.ratio.max(0.0), whole.interval.map(|end| end.max(0.0)));
+            let share = match whole.ratio <= 0.0 {
+                true => "none".to_owned(),
+                false => with_interval(whole.ratio, whole.interval),
+            };
             format!("the picture has {share} of the light it should have")
         }
     }

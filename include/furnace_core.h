@@ -172,9 +172,9 @@ enum { /* furnace_material.kind */
    FURNACE_DIFFUSE = 0,  /* f = reflectance / pi */
    FURNACE_MIRROR = 1,   /* reflectance, the same at every angle */
    FURNACE_GLASS = 2,    /* smooth; vacuum on the side of the normal, `index` behind it */
-   FURNACE_CONDUCTOR = 3, /* GGX facets of width `roughness`, each reflects `reflectance` */
-   /* GGX facets of width `roughness`, each smooth glass by Fresnel's equations; only cores with
-    * FURNACE_KNOWS_ROUGH_GLASS meet it */
+   FURNACE_CONDUCTOR = 3, /* GGX microfacets, alpha = `roughness`, of Fresnel reflectance `reflectance` */
+   /* rough dielectric: GGX microfacets, alpha = `roughness`, with the Fresnel equations; asked only of
+    * cores with FURNACE_KNOWS_ROUGH_GLASS */
    FURNACE_ROUGH_GLASS = 4
 };
 
@@ -182,14 +182,14 @@ enum { /* furnace_material.kind */
 typedef struct furnace_material {
    const char  *name;           /* as the scene file has it, for messages */
    uint32_t     kind;
-   uint32_t     emits;          /* 1: the surface glows with `emission`; 0: it does not */
-   furnace_rgb  reflectance;    /* share of light that is reflected; glass: times Fresnel's */
-   furnace_rgb  transmittance;  /* glass, smooth or rough: times Fresnel's */
+   uint32_t     emits;          /* 1: an emitter of radiance `emission`; 0: no emission */
+   furnace_rgb  reflectance;    /* fraction of light reflected; glass: times the Fresnel reflectance */
+   furnace_rgb  transmittance;  /* glass, smooth or rough: times 1 - Fresnel reflectance */
    double       index;          /* glass, smooth or rough: index of refraction inside */
    double       roughness;      /* conductor, rough glass: alpha in (0, 1] */
    furnace_rgb  emission;       /* radiance in every direction of the front side */
-   furnace_vec3 cap_axis;       /* on a sphere: only what is within cap_half_angle of it glows */
-   double       cap_half_angle; /* 0: all of it glows */
+   furnace_vec3 cap_axis;       /* on a sphere: only the cap within cap_half_angle of it emits */
+   double       cap_half_angle; /* 0: all of it emits */
    double       reserved[4];
 } furnace_material;
 
@@ -206,7 +206,7 @@ typedef struct furnace_sphere {
    const char  *name;
    furnace_vec3 centre;
    double       radius;
-   uint32_t     inward; /* 1: normals (and so the front) point to the centre: a room, not a ball */
+   uint32_t     inward; /* 1: normals (and so the front) point to the centre: a sphere seen from inside */
    uint32_t     material;
 } furnace_sphere;
 
@@ -215,7 +215,7 @@ enum { /* furnace_light.kind, and what its fields mean */
    FURNACE_DIRECTIONAL = 1,  /* place = the way light travels, radiance = irradiance facing it */
    FURNACE_CONSTANT_SKY = 2, /* radiance from every direction that meets no shape */
    FURNACE_GRADIENT_SKY = 3, /* place = up; from w: radiance + (zenith - radiance) * max(0, up.w) */
-   FURNACE_AREA = 4          /* the shape numbered `shape`, whose material glows */
+   FURNACE_AREA = 4          /* the shape numbered `shape`, whose material emits */
 };
 
 typedef struct furnace_light {
@@ -264,7 +264,7 @@ typedef struct furnace_counted_tests {
 
 typedef struct furnace_build {
    uint32_t struct_size;
-   uint32_t accelerate;    /* 0: a loop over every primitive, the baseline of every hierarchy */
+   uint32_t accelerate;    /* 0: a loop over every primitive, brute force, the baseline of every BVH */
    uint32_t split;         /* FURNACE_SPLIT_CORES_CHOICE unless the core has FURNACE_SPLIT_RULES */
    uint32_t max_leaf_size; /* primitives in a leaf, as far as they can be told apart */
    const furnace_counted_tests *counted; /* null unless the core has FURNACE_COUNTED_TESTS */
@@ -272,16 +272,16 @@ typedef struct furnace_build {
 
 typedef struct furnace_integrator {
    uint32_t struct_size;
-   /* Shadow rays to each area light or sky; a delta light always gets one. By hemisphere: this many
-    * directions for each light that is not a delta light. */
+   /* Light samples (shadow rays) to each area or environment light; a delta light always gets one.
+    * Hemisphere sampling: this many directions for each light that is not a delta light. */
    uint32_t samples_per_light;
-   /* Bounces added up: 0..0 what glows, 1..1 light scattered once, 0..m everything up to m. */
+   /* Bounces added up: 0..0 emission, 1..1 direct light, 0..m everything up to depth m. */
    uint32_t first_bounce, last_bounce;
-   /* 1: uniform directions, adding what glows where they arrive; 0: points on the lights. Delta
-    * lights are sampled either way. */
+   /* 1: uniform hemisphere sampling, adding the emission that directions hit; 0: light sampling
+    * (next event estimation). Delta lights are sampled either way. */
    uint32_t by_hemisphere;
    uint32_t threads;             /* 0: as many as you like; the answer must not depend on it */
-   double   roulette_stop;       /* probability of stopping where it is played; 0: no roulette */
+   double   roulette_stop;       /* termination probability of Russian roulette; 0: no roulette */
    uint32_t roulette_guaranteed; /* continuations before it is played: 1 is one indirect bounce */
    uint32_t reserved;
    uint64_t seed; /* the only source of randomness */
@@ -298,11 +298,11 @@ typedef struct furnace_adaptive {
 typedef struct furnace_render {
    uint32_t struct_size;
    uint32_t width, height;
-   uint32_t samples_per_pixel; /* the cap, if adaptive */
+   uint32_t samples_per_pixel; /* the maximum, if adaptive */
    const furnace_integrator *integrator;
    const furnace_adaptive   *adaptive; /* null: off */
    /* Of a core with FURNACE_REPORTED_VARIANCE, else null: where it writes width * height RGB triples,
-    * top row first: the estimated variance of each value of the picture, that is of the mean written
+    * top row first: the estimated variance of each value of the image, that is of the mean written
     * there and not of one sample, in radiance squared; 0 where one sample says nothing. */
    float *variances;
    /* 1, of a core with FURNACE_STRATIFIED_PIXELS: samples_per_pixel is k * k, and of a pixel's samples
@@ -333,13 +333,13 @@ enum { /* furnace_conventions; 0 is the default of every field */
    FURNACE_FALLOFF_INVERSE_SQUARE = 0,
    FURNACE_FALLOFF_NONE = 1,     /* equally bright at every distance: the course's base code */
    FURNACE_EMISSION_FRONT = 0,
-   FURNACE_EMISSION_BOTH = 1,    /* emitting surfaces are seen glowing from both sides */
+   FURNACE_EMISSION_BOTH = 1,    /* surfaces emit on both sides */
    FURNACE_SMITH_SEPARABLE = 0,  /* G1(wo) G1(wi) */
    FURNACE_SMITH_CORRELATED = 1, /* 1 / (1 + L(wo) + L(wi)) */
    FURNACE_FRESNEL_EXACT = 0,
    FURNACE_FRESNEL_SCHLICK = 1,         /* with the cosine of the view on both sides, as courses teach it */
-   FURNACE_FRESNEL_SCHLICK_OUTSIDE = 2, /* with the cosine on the thin side, seen from inside too */
-   FURNACE_RADIANCE_SCALED = 0,  /* radiance over index squared is conserved across glass */
+   FURNACE_FRESNEL_SCHLICK_OUTSIDE = 2, /* with the cosine on the side of lower index, from inside too */
+   FURNACE_RADIANCE_SCALED = 0,  /* radiance over squared index of refraction is conserved across glass */
    FURNACE_RADIANCE_UNSCALED = 1
 };
 

@@ -134,7 +134,7 @@ fn judged(kind: &str, normals: &str, angle: &str) -> Outcome {
     let cases = folder.path().join("cases");
     std::fs::create_dir_all(cases.join("bsdf")).unwrap();
     let text = format!(
-        "title = \"Samples follow their density\"\nteaches = \"-\"\nsource = \"-\"\n\
+        "title = \"Samples are distributed by their pdf\"\nteaches = \"-\"\nsource = \"-\"\n\
          check = \"samples-follow-pdf\"\n[expect]\n\
          distribution = {{ surface = {{ conductor = {{ reflectance = 1, roughness = 0.5 }} }}, seen-from = [\"{angle} deg\"] }}\n\
          detects = \"4 %\"\nat-most = \"2 M samples\"\n"

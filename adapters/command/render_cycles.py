@@ -1,7 +1,7 @@
 """Renders a scene with Blender's Cycles: SCENE OUTPUT SAMPLES SEED THREADS.
 
 What makes it the same question (each found by measurement, with bpy 5.0.1): roulette, clamping, filters of gloss, light
-tree and adaptive sampling are off; roughness is the root of alpha; a lamp shines on its front only where
+tree and adaptive sampling are off; roughness is the root of alpha; a light emits on its front only where
 `emission_sampling` says so and a back face is mixed to black; a point light has 4π times its intensity; the first
 sample of every pixel goes through its middle, which is a bias where few are taken, and is left out.
 """

@@ -1,7 +1,7 @@
 """Renders a scene with LuxCore's path tracer: SCENE OUTPUT SAMPLES SEED THREADS.
 
 What makes it the same question (each found by measurement, with pyluxcore 2.11.2): `path.pathdepth` is the last bounce
-plus one; the picture is displaced by one row, so that the window is moved the other way; a point light's colour
+plus one; the image is shifted by one row, so that the window is moved the other way; a point light's colour
 is divided by 4π; a sampler other than RANDOM, or an adaptive one, would not be independent from run to run.
 """
 

@@ -5,9 +5,9 @@
 // course gives is replaced where it would stand in the way:
 //
 // - samplers: here, seeded by the bench. Leave the course's sampler.cpp out.
-// - lights: here, with the density per solid angle; the course's own area light forgets one factor of distance.
-// - primitives: wrapped, so that tests are counted, surfaces scatter on both sides and lamps shine on their front.
-// - pictures: radiance as the sample buffer has it, before any tone curve.
+// - lights: here, with the pdf with respect to solid angle; the course's own area light forgets one factor of distance.
+// - primitives: wrapped, so that tests are counted, surfaces scatter on both sides and emitters are one-sided.
+// - images: radiance as the sample buffer has it, before any tone curve.
 #include "furnace_core.hpp"
 
 #include "CGL/CGL.h"
@@ -154,12 +154,12 @@ CGL::Camera theirs(const furnace_camera &camera) {
 
 // ---- materials ----------------------------------------------------------------------------------
 
-// A diffuse surface by the student, which may glow besides.
+// A diffuse surface by the student, which may also emit.
 struct Surface : BSDF {
    CGL::DiffuseBSDF diffuse;
    Vector3D         glow;
 
-   // Pictures of bounce 0 alone are those of black surfaces: few submissions are right at a depth of 0.
+   // Images of bounce 0 alone are those of black surfaces: few submissions are right at a depth of 0.
    static bool &all_black() {
       static bool all_black = false;
       return all_black;
@@ -203,7 +203,7 @@ struct Material {
 struct Counts {
    uint64_t tests = 0;
    // Rays of this depth see no light: those of the camera, where single bounces are asked for. Whether a
-   // submission adds what the camera sees glowing to every single bounce is left open by the course.
+   // submission adds directly visible emission to every single bounce is left open by the course.
    size_t blind_depth = SIZE_MAX;
 };
 
@@ -311,13 +311,13 @@ struct Stage : Primitive {
    void  drawOutline(const CGL::Color &, float) const override {}
 };
 
-// Nothing at all, for a hierarchy over no primitive is not asked for by the course.
+// Nothing at all, because a BVH over no primitives is not asked for by the course.
 struct Nothing : Stage {
    Nothing() : Stage(0) {}
    bool intersect(const Ray &, Intersection *) const override { return false; }
 };
 
-// An even sky: a glowing sphere far away, which `SkyLamp` ends before.
+// A constant environment light: an emissive sphere far away, which `SkyLamp` ends before.
 struct Sky : Stage {
    static constexpr double radius = 1e4;
    mutable Surface         surface;
@@ -373,14 +373,14 @@ struct SkyLamp : SceneLight {
    bool     is_delta_light() const override { return false; }
    Vector3D sample_L(const Vector3D, Vector3D *wi, double *distance, double *pdf) const override {
       *wi = CGL::UniformSphereSampler3D().get_sample();
-      // Short of the glowing sphere: shadow rays that ask for the nearest hit meet it otherwise.
+      // Short of the emissive sphere: shadow rays that ask for the closest hit would hit it.
       *distance = 0.5 * Sky::radius;
       *pdf = 1 / (4 * pi);
       return radiance;
    }
 };
 
-// A point of a glowing surface, by area.
+// A point of an emitter, by area.
 struct AreaLamp : SceneLight {
    Material *material;
    double    area = 0;
@@ -497,7 +497,7 @@ CGL::Camera any_camera() {
    furnace_camera camera{};
    camera.position = {0, 0, 5};
    camera.right = {1, 0, 0}, camera.up = {0, 1, 0}, camera.backward = {0, 0, 1};
-   // Narrow: every ray meets the box of a `Stage` of 1, or a hierarchy never asks what is in it.
+   // Narrow: every ray meets the box of a `Stage` of 1, or a BVH never asks what is in it.
    camera.horizontal_fov = camera.vertical_fov = 0.1;
    camera.far_clip = 1e6;
    return theirs(camera);
@@ -760,7 +760,7 @@ struct Built {
       return bvh->intersect(ray, &hit) ? tracer.zero_bounce_radiance(ray, hit) : Vector3D();
    }
 
-   // The course's pictures stand on their heads.
+   // The course's images are upside down.
    void add_pixels(const furnace_render &settings, float *pixels, uint32_t *sample_counts) const {
       for (size_t y = 0; y < settings.height; ++y)
          for (size_t x = 0; x < settings.width; ++x) {
@@ -867,7 +867,7 @@ struct Course {
       return hit;
    }
 
-   // `BSDF` has no function for the density: it is the one that the student's samples name.
+   // `BSDF` has no function for the pdf: it is the one that the student's samples return.
    static double density(Material &material, double z) {
       Vector3D wi;
       double   pdf = 0;

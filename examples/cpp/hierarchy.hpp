@@ -1,4 +1,4 @@
-// The bounding volume hierarchy: how it is divided, and how rays walk it.
+// The bounding volume hierarchy (BVH): construction and traversal.
 #ifndef PATHTRACER_HIERARCHY_HPP
 #define PATHTRACER_HIERARCHY_HPP
 

@@ -59,7 +59,7 @@ class Light {
 
    double sky_pdf() const { return is_sky() ? 1 / (4 * PI) : 0; }
 
-   // The density of `sample` in the direction of `p`, a glowing point of the light.
+   // The pdf of `sample` in the direction of `p`, a point of the emitter.
    double area_pdf(Vec from, Vec p, Vec normal) const {
       if (is_ball && fills_a_cone(from)) return 1 / (2 * PI * cone_depth(from));
       return per_steradian(from, p, normal);
@@ -73,7 +73,7 @@ class Light {
    bool                  is_ball = false;
    Ball                  ball{};
    double                area = 0;
-   double                cap_depth = 2; // of the glowing part of the unit sphere
+   double                cap_depth = 2; // of the emissive part of the unit sphere
 
    void take_ball(const Ball &of_scene) {
       is_ball = true;
@@ -82,7 +82,7 @@ class Light {
       area = 2 * PI * ball.radius * ball.radius * cap_depth;
    }
 
-   // 1 / area on the surface, as a density of directions: 0 from behind.
+   // 1 / area on the surface, as pdf with respect to solid angle: 0 from behind.
    double per_steradian(Vec from, Vec p, Vec normal) const {
       Vec    way = p - from;
       double squared = dot(way, way), cosine = -dot(way, normal) / std::sqrt(squared);
@@ -113,7 +113,7 @@ class Light {
       return towards(from, ball.centre + ball.radius * outward, ball.inward ? -outward : outward);
    }
 
-   // From outside, a ball that glows all over is the cone of directions that meet it.
+   // From outside, a sphere light is sampled over the cone of directions that it subtends.
    bool fills_a_cone(Vec from) const {
       bool glows_all_over = !ball.inward && material.cap_half_angle == 0;
       return glows_all_over && length(from - ball.centre) > ball.radius;

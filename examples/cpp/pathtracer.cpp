@@ -10,7 +10,7 @@
 // surfaces.hpp   how surfaces scatter
 // lights.hpp     where light comes from
 // scene.hpp      paths
-// this file      pictures, and the type that the bench talks to
+// this file      images, and the type that the bench talks to
 //
 // It shares no code with the cores that come with the bench.
 #include "scene.hpp"
@@ -20,7 +20,7 @@
 
 namespace pathtracer {
 
-// ---- pictures -----------------------------------------------------------------------------------
+// ---- images -------------------------------------------------------------------------------------
 
 Ray camera_ray(const furnace_camera &camera, furnace_vec2 film) {
    double x = (2 * film.x - 1) * std::tan(camera.horizontal_fov / 2);

@@ -190,7 +190,7 @@ class Scene {
       return arriving * way.f * (std::abs(way.wi.z) / way.pdf);
    }
 
-   // With which density light sampling would have gone where `seen` was found.
+   // The pdf with which light sampling would have chosen `seen` (multiple importance sampling).
    double light_pdf(const Vertex &v, const Vertex &seen) const {
       if (seen.material)
          return seen.light < 0 ? 0 : lights[seen.light].area_pdf(v.point, seen.point, seen.normal);

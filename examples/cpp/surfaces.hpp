@@ -14,7 +14,7 @@ inline bool is_delta(const furnace_material &m) {
 }
 inline Vec mirrored(Vec w) { return {-w.x, -w.y, w.z}; }
 
-// GGX facets with separable Smith masking (Walter et al. 2007). Written with x^2 + y^2 in place of
+// GGX microfacets with separable Smith masking-shadowing (Walter et al. 2007). Written with x^2 + y^2 in place of
 // 1 - z^2: narrow lobes keep their digits.
 inline double ggx_density(double alpha, Vec h) {
    double a2 = alpha * alpha, s = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
@@ -26,14 +26,14 @@ inline double masking_over_cosine(double alpha, Vec w) {
    return 2 / (w.z + std::sqrt(w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y)));
 }
 
-// f, and the density of visible normals over the Jacobian of the reflection.
+// f, and the pdf of visible normals over the Jacobian of the reflection.
 inline furnace_bsdf_value eval_conductor(const furnace_material &m, Vec wo, Vec wi) {
    double d = ggx_density(m.roughness, unit(wo + wi)), o = masking_over_cosine(m.roughness, wo);
    return {d * o * masking_over_cosine(m.roughness, wi) / 4 * m.reflectance, d * o / 4};
 }
 
-// A visible facet is halfway between the view and a uniform point of a spherical cap, once the
-// surface is stretched so that facets form a hemisphere (Dupuy and Benyoub 2023).
+// A visible microfacet is halfway between the view and a uniform point of a spherical cap, once the
+// surface is stretched so that microfacets form a hemisphere (Dupuy and Benyoub 2023).
 inline Vec sample_conductor(double alpha, Vec wo, furnace_vec2 u) {
    Vec view = unit({alpha * wo.x, alpha * wo.y, wo.z});
    Vec stretched = view + below_pole(u.x * (1 + view.z), u.y);

@@ -1,4 +1,4 @@
-"""A bounding volume hierarchy, divided at the median, that all rays walk at once."""
+"""A bounding volume hierarchy (BVH) with median splits, which all rays traverse at once."""
 
 import numpy as np
 from shapes import slabs

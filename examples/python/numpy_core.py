@@ -4,7 +4,7 @@
     cargo furnace 1 2 --core 'exec: .venv/bin/python examples/python/numpy_core.py'
 
 shapes.py     triangles, balls and boxes, many pairs of a ray and a shape at a time
-hierarchy.py  the hierarchy, walked by all rays at once
+hierarchy.py  the BVH, traversed by all rays at once
 this file     what the bench talks to
 """
 

@@ -78,7 +78,7 @@ fn load(folder: &Path, path: &Path) -> Result<Result<Case, String>, CatalogError
 
 fn unknown_folder() -> String {
     let folders = super::PARTS.iter().flat_map(|part| part.folders).copied();
-    format!("a case belongs into one of the folders {}", crate::text::listed(folders))
+    format!("a case belongs in one of the folders {}", crate::text::listed(folders))
 }
 
 /// `cases/bvh/claim.toml` is `bvh/claim`, on every system.

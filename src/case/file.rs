@@ -91,7 +91,7 @@ fn find_check(
         let names = || CHECKS.iter().map(|kind| kind.name);
         let hint = did_you_mean(word, names());
         source
-            .diagnostic(name.span(), format!("there is no check `{word}`"))
+            .diagnostic(name.span(), format!("unknown check `{word}`"))
             .with_hint(hint.unwrap_or_else(|| format!("the checks are {}", listed(names()))))
     })
 }

@@ -10,18 +10,18 @@ use clap::Args;
 /// What `furnace agreement` understands.
 #[derive(Clone, Debug, Args)]
 pub struct AgreementArguments {
-    /// References: parts of their names. All without.
+    /// References: parts of their names [default: all].
     filters: Vec<String>,
     /// The renderer, such as adapters/command/cycles.toml; may be repeated.
     #[arg(long = "core", value_name = "CORE", required = true)]
     cores: Vec<CoreSpec>,
-    /// Independent pictures of each scene.
+    /// Independent renders of each scene.
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(2..))]
     runs: u32,
-    /// Samples a pixel in each.
+    /// Samples per pixel in each.
     #[arg(long, value_name = "N", default_value_t = 64)]
     spp: u32,
-    /// Gather light by directions over the hemisphere.
+    /// Use hemisphere sampling instead of light sampling.
     #[arg(long)]
     hemisphere: bool,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `furnace doctor`: does a core come up, what can it do, what keeps it, and what is worth doing next.
+//! `furnace doctor`: does a core start, what can it do, what sandboxes it, and what is worth doing next.
 
 use super::hosting::HostingArguments;
 use super::say::say_line;

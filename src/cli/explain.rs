@@ -50,9 +50,9 @@ fn told(project: &Project, case: &Arc<Case>) -> Result<String, Failure> {
         format!("{}\n", case.id),
         labelled("claim", &case.title),
         labelled("about", &format!("{part}; {}", case.tier.word())),
-        labelled("remember", &case.teaches),
+        labelled("background", &case.teaches),
         labelled("checked", &format!("{} ({})", case.check.summary, case.check.name)),
-        labelled("true since", &case.source),
+        labelled("source", &case.source),
     ];
     if let Some(scene) = &case.scene {
         lines.push(labelled("scene", &scene_words(scene)));
@@ -101,18 +101,18 @@ fn sees(project: &Project, case: &Arc<Case>) -> Result<Vec<String>, Failure> {
     let Some(trial) = plan.trials.first() else { return Ok(Vec::new()) };
     let record = run_trial(&plan.bench(), trial).record;
     let Outcome::Judged { finding } = &record.outcome else {
-        return Ok(vec![labelled("sees", &record.outcome.statement())]);
+        return Ok(vec![labelled("detects", &record.outcome.statement())]);
     };
     let blame = if finding.false_alarm() > 0.0 {
         format!(
-            "a correct core fails it with probability {} at most",
+            "false-alarm probability on a correct core: at most {}",
             probability(finding.false_alarm())
         )
     } else {
-        "nothing is left to chance: a correct core never fails it".to_owned()
+        "deterministic: a correct core never fails it".to_owned()
     };
     Ok(vec![
-        labelled("sees", &format!("on textbook it {}", finding.resolution)),
+        labelled("detects", &format!("on textbook it {}", finding.resolution)),
         labelled("error rate", &blame),
         labelled(
             "takes",

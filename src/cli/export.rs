@@ -15,16 +15,16 @@ pub struct ExportArguments {
     /// mitsuba, collada (with the course's CGL profile and camera file), pbrt or obj.
     #[arg(long, value_name = "FORMAT")]
     format: Format,
-    /// The folder for the files; it is made if it is not there.
+    /// The folder for the files; created if missing.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// The last bounce to add up, for formats that say so in the scene.
+    /// Maximum depth: the last bounce, for formats that store it in the scene.
     #[arg(long, value_name = "N", default_value_t = 5)]
     bounces: u32,
-    /// Samples a pixel, for formats that say so in the scene.
+    /// Samples per pixel, for formats that store them in the scene.
     #[arg(long, value_name = "N", default_value_t = 64)]
     spp: u32,
-    /// Of the random numbers, for formats that say so in the scene.
+    /// Seed of the random numbers, for formats that store it in the scene.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     #[command(flatten)]

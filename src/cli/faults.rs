@@ -15,19 +15,19 @@ const NAME: usize = 34;
 /// What `furnace faults` understands.
 #[derive(Clone, Debug, Args)]
 pub struct FaultsArguments {
-    /// Which faults: parts of their names, or the number of a part of the course. All without.
+    /// Which faults: parts of their names, or the number of a part of the course [default: all].
     filters: Vec<String>,
-    /// How small an error each case looks for.
+    /// How small an error each case looks for: quick, default or strict.
     #[arg(long, default_value_t = Budget::Quick)]
     budget: Budget,
-    /// Trials at the same time [default: one a hardware thread].
+    /// Number of trials to run in parallel [default: one per hardware thread].
     #[arg(short, long, default_value_t = 0, hide_default_value = true)]
     jobs: usize,
     /// Only the case named for a fault, and those beside it where it does not tell the cause; of
     /// cores that are right only the parts that they change.
     #[arg(long)]
     brief: bool,
-    /// One JSON document in place of the table.
+    /// Print JSON instead of the table.
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -114,8 +114,8 @@ fn fault_row(tried: &Tried, fault: &Fault) -> String {
     };
     let told = match tried.told {
         _ if tried.named => String::new(),
-        Some(told) => format!("; told as {told}, not {}", fault.cause.name),
-        None => format!("; not told, {} is meant", fault.cause.name),
+        Some(told) => format!("; named {told}, not {}", fault.cause.name),
+        None => format!("; not named, expected {}", fault.cause.name),
     };
     let wanted = if tried.caught { "" } else { fault.caught_by };
     let missing = if wanted.is_empty() { String::new() } else { format!("; not by {wanted}") };

@@ -8,20 +8,20 @@ use std::path::{Path, PathBuf};
 /// Where cores live and what they may use up.
 #[derive(Clone, Debug, Args)]
 pub struct HostingArguments {
-    /// Seconds to wait for a core in one trial [default: 120]; for an adapter's program, its file
-    /// says how long a picture may take.
+    /// Time limit of a trial in seconds [default: 120]; for an adapter's program, its file sets the
+    /// time limit of an image.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     time_limit: Option<f64>,
-    /// Memory of a core's process: 512M, 4G, or `none` [default: 4G].
+    /// Memory limit of a core's process: 512M, 4G, or `none` [default: 4G].
     #[arg(long, value_name = "SIZE", value_parser = memory)]
     memory_limit: Option<Memory>,
-    /// Let foreign cores read this file or folder too; may be repeated.
+    /// Let sandboxed cores read this file or folder too; may be repeated.
     #[arg(long, value_name = "PATH")]
     allow_read: Vec<PathBuf>,
-    /// Shut no core in: files, network and processes are open to it.
+    /// Run cores without the sandbox: files, network and processes are open to them.
     #[arg(long)]
     unconfined: bool,
-    /// Put our own cores into processes of their own too.
+    /// Run our own cores in worker processes too.
     #[arg(long)]
     isolate: bool,
 }
@@ -49,7 +49,7 @@ impl HostingArguments {
 
 fn positive(word: &str) -> Result<f64, String> {
     let number = word.parse().ok().filter(|seconds: &f64| *seconds > 0.0 && seconds.is_finite());
-    number.ok_or_else(|| "it is no positive number of seconds".to_owned())
+    number.ok_or_else(|| "invalid time limit: must be a positive number of seconds".to_owned())
 }
 
 fn memory(word: &str) -> Result<Memory, String> {
@@ -61,7 +61,7 @@ fn memory(word: &str) -> Result<Memory, String> {
         None => (word.strip_suffix('M').unwrap_or(""), 20),
     };
     let size = digits.parse::<u64>().ok().and_then(|number| number.checked_mul(1 << shift));
-    let size = size.ok_or_else(|| "sizes are written 512M, 4G or none".to_owned())?;
+    let size = size.ok_or_else(|| "not a size: write 512M, 4G or none".to_owned())?;
     Ok(Memory(Some(size)))
 }
 

@@ -69,24 +69,24 @@ enum Verb {
     Run(run::RunArguments),
     /// Show cases, checks or cores.
     List(list::ListArguments),
-    /// Say what a case checks, why it is true, what it can see and how often it errs.
+    /// Explain a case: what it checks, why it is true, its smallest detectable error and error rate.
     Explain(explain::ExplainArguments),
-    /// Put planted mistakes to the cases: each has to be caught and named.
+    /// Run planted mistakes against the cases: each must be caught and named.
     Faults(faults::FaultsArguments),
-    /// Say whether two pictures show the same, and if not, which mistake turns one into the other.
+    /// Test whether two images differ by more than noise, and by which mistake.
     Compare(compare::CompareArguments),
     /// Read every case and scene and say what is wrong with them.
     Lint(lint::LintArguments),
     /// Write the pages of a run again.
     Report(report::ReportArguments),
-    /// Examine a core: what it can do, what keeps it, and what is worth doing next.
+    /// Examine a core: its capabilities, its sandbox, and what to implement next.
     Doctor(doctor::DoctorArguments),
-    /// The process of a core; furnace starts it by itself.
+    /// The worker process of a core; furnace starts it by itself.
     #[command(hide = true)]
     Worker(worker::WorkerArguments),
-    /// Render what the references are of, and say how far a renderer is from them.
+    /// Render the reference scenes, and print how far a renderer is from the references.
     Agreement(agreement::AgreementArguments),
-    /// Write a scene for another program: Mitsuba, the course's COLLADA, pbrt, OBJ.
+    /// Export a scene to another format: Mitsuba, the course's COLLADA, pbrt, OBJ.
     Export(export::ExportArguments),
     /// Make, verify or list Mitsuba references.
     Reference(reference::ReferenceArguments),

@@ -24,7 +24,7 @@ pub struct Progress {
     ended: usize,
     planned: usize,
     longest_core: usize,
-    /// Cores that do not come up: they are told of once.
+    /// Cores that fail to start: they are told of once.
     absent: BTreeSet<String>,
 }
 
@@ -81,7 +81,7 @@ impl Progress {
         self.longest_core = run.cores.iter().map(|core| core.spec.len()).max().unwrap_or(0);
         let absent = run.cores.iter().map(|core| &core.spec).filter(|core| run.is_absent(core));
         self.absent = absent.cloned().collect();
-        let told = self.absent.iter().map(|core| format!("{} does not come up", clean(core)));
+        let told = self.absent.iter().map(|core| format!("{} fails to start", clean(core)));
         match &mut self.display {
             Display::Quiet => {}
             Display::Lines(out) => {
@@ -279,7 +279,7 @@ mod tests {
         example.run.cores[1].problem = Some("the core crashed during hello".to_owned());
         let lines = lines(&example, 0);
         let of_it = lines.iter().filter(|line| line.contains("textbook"));
-        assert_eq!(of_it.collect::<Vec<_>>(), [&lines[0], "textbook does not come up"]);
+        assert_eq!(of_it.collect::<Vec<_>>(), [&lines[0], "textbook fails to start"]);
     }
 
     #[test]

@@ -23,35 +23,35 @@ pub struct ReferenceArguments {
 
 #[derive(Clone, Debug, Subcommand)]
 enum Verb {
-    /// Render a reference as its recipe in references/recipes.toml says; goes on where it was cut off.
+    /// Render a reference by its recipe in references/recipes.toml; resumes an interrupted run.
     Make {
         /// The reference.
         name: String,
-        /// Make it anew although there is one.
+        /// Replace an existing reference.
         #[arg(long)]
         replace: bool,
-        /// Add the passes that the one there is lacks to be as the recipe, --passes or --spp say.
+        /// Add the passes that the existing one lacks by the recipe, --passes or --spp.
         #[arg(long, conflicts_with = "replace")]
         extend: bool,
-        /// Render the passes of these seeds only, the last left out, and leave their sums for --merge.
+        /// Render only the passes of these seeds (end excluded), and keep their sums for --merge.
         #[arg(long, value_name = "A..B", value_parser = range, conflicts_with = "extend")]
         seeds: Option<Range<u32>>,
-        /// Add up the sums in these files, and those of the reference there is.
+        /// Merge the sums in these files with those of the existing reference.
         #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["extend", "seeds"])]
         merge: Vec<PathBuf>,
-        /// Samples a pixel in all, instead of the recipe's; rounded up to whole passes.
+        /// Samples per pixel in total, overriding the recipe; rounded up to whole passes.
         #[arg(long, value_name = "N", conflicts_with = "passes")]
         spp: Option<u32>,
-        /// Passes, instead of the recipe's.
+        /// Number of passes, overriding the recipe.
         #[arg(long, value_name = "N")]
         passes: Option<u32>,
-        /// Samples a pixel in each pass, at most 256, instead of the recipe's.
+        /// Samples per pixel in each pass, at most 256, overriding the recipe.
         #[arg(long, value_name = "N")]
         samples_per_pass: Option<u32>,
         #[command(flatten)]
         mitsuba: MitsubaArguments,
     },
-    /// Add to references what they hold beside their picture: each bounce alone, depth and normals.
+    /// Add layers to references: each bounce alone, depth and normals.
     Layers {
         /// The references.
         #[arg(required = true, value_name = "NAME")]
@@ -66,7 +66,7 @@ enum Verb {
         #[command(flatten)]
         mitsuba: MitsubaArguments,
     },
-    /// Show every reference, how well it is known, and whether it still belongs to its scene.
+    /// List every reference, its standard error, and whether it still matches its scene.
     List,
 }
 
@@ -194,7 +194,7 @@ fn list(references: &References) -> Answer {
     for entry in &listed {
         let state = match &entry.state {
             State::Good(reference) => format!(
-                "{:>6} samples a pixel, median relative standard error {}  {}",
+                "{:>6} samples per pixel, median relative standard error {}  {}",
                 reference.provenance.samples_per_pixel(),
                 percent(reference.provenance.median_relative_error),
                 content(reference)

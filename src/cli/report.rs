@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub struct ReportArguments {
     /// The folder of a run [default: the newest].
     run: Option<PathBuf>,
-    /// Every trial with the smallest error it would have caught.
+    /// List the smallest detectable error of every trial.
     #[arg(short, long)]
     verbose: bool,
     #[command(flatten)]
@@ -35,7 +35,7 @@ pub fn report(arguments: &ReportArguments) -> Answer {
 
 /// The last folder by name: names are times.
 fn newest(runs: &Path) -> Result<PathBuf, Failure> {
-    let none = || Failure::request(format!("there is no run in {}", runs.display()));
+    let none = || Failure::request(format!("{} holds no run", runs.display()));
     let entries = std::fs::read_dir(runs).map_err(|_| none())?;
     let folders = entries.filter_map(|entry| Some(entry.ok()?.path()));
     folders.filter(|path| path.join("run.json").is_file()).max().ok_or_else(none)

@@ -26,10 +26,10 @@ pub struct RunArguments {
     /// How small an error to look for: quick (5 %), default (2 %) or strict (0.5 %).
     #[arg(long, default_value_t)]
     budget: Budget,
-    /// Draw other random numbers, for audits. Verdicts are published for the default seed.
+    /// Seed of the random numbers, for audits. Verdicts are published for the default seed.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Trials at the same time [default: one a hardware thread].
+    /// Number of trials to run in parallel [default: one per hardware thread].
     #[arg(short, long, default_value_t = 0, hide_default_value = true)]
     jobs: usize,
     /// Stop at the first failure.
@@ -38,19 +38,19 @@ pub struct RunArguments {
     /// Try again whenever a case, a scene or the core's file changes, what failed last first; ctrl-c ends.
     #[arg(long, conflicts_with_all = ["resume", "verbose", "strict"])]
     watch: bool,
-    /// Go on with a run that was cut off; what it was asked is read from its folder.
+    /// Resume an interrupted run; its request is read from its folder.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "cores", "budget", "seed", "fail_fast"])]
     resume: Option<PathBuf>,
-    /// What is inconclusive, skipped or blocked ends with exit code 3.
+    /// Exit with code 3 if anything is inconclusive, skipped or blocked.
     #[arg(long)]
     strict: bool,
     /// Where runs go [default: reports/runs].
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    /// Only the summary.
+    /// Print only the summary.
     #[arg(short, long)]
     quiet: bool,
-    /// Every trial with the smallest error it would have caught.
+    /// List the smallest detectable error of every trial.
     #[arg(short, long)]
     verbose: bool,
     #[command(flatten)]

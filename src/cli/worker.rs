@@ -12,11 +12,11 @@ use clap::Args;
 /// What `furnace worker` understands.
 #[derive(Clone, Debug, Args)]
 pub struct WorkerArguments {
-    /// What to do, as JSON.
+    /// The request, as JSON.
     errand: String,
 }
 
-/// Shuts itself in, and becomes the core.
+/// Enters its sandbox, and becomes the core.
 pub fn worker(arguments: &WorkerArguments) -> Answer {
     let errand: Errand = serde_json::from_str(&arguments.errand).map_err(Failure::request)?;
     let entered = child::begin(&errand).map_err(Failure::broken)?;

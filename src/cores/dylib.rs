@@ -31,7 +31,7 @@ use std::ptr::{self, NonNull};
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     /// The system's loader says no.
-    #[error("{path} cannot be loaded: {why}")]
+    #[error("cannot load {path}: {why}")]
     Library {
         /// The file.
         path: PathBuf,
@@ -42,7 +42,7 @@ pub enum LoadError {
     #[error("{0} exports no `{entry}`; does it end with FURNACE_CORE(...)?", entry = abi::ENTRY)]
     NoEntry(PathBuf),
     /// It answered no table.
-    #[error("{0} says that it cannot serve version {abi} of furnace_core.h", abi = abi::ABI)]
+    #[error("{0} does not support version {abi} of furnace_core.h", abi = abi::ABI)]
     Declined(PathBuf),
     /// It was compiled against another version of the header.
     #[error("{path} was compiled with version {found} of furnace_core.h, this is version {abi}: compile it again", abi = abi::ABI)]
@@ -56,7 +56,7 @@ pub enum LoadError {
     #[error("`{0}` is a program: it runs in a worker, and cannot be loaded")]
     IsProgram(String),
     /// Its table says something that cannot be.
-    #[error("{path} hands over a table that cannot be: {what}")]
+    #[error("{path} returns an invalid function table: {what}")]
     Malformed {
         /// The file.
         path: PathBuf,
@@ -121,13 +121,13 @@ impl Dylib {
             }),
             abi::INVALID | abi::FAILED => Err(CoreError::Refused(self.last_error())),
             other => Err(CoreError::BrokeContract(format!(
-                "status {other} is none of those in furnace_core.h"
+                "unknown status {other}: not in furnace_core.h"
             ))),
         }
     }
 
     fn last_error(&self) -> String {
-        self.reason().unwrap_or_else(|| "it gives no reason (no last_error)".to_owned())
+        self.reason().unwrap_or_else(|| "no reason given (no last_error)".to_owned())
     }
 
     /// In the core's own words, if it has any.
@@ -188,7 +188,7 @@ fn read_table(path: &Path, table: *const CoreTable) -> std::result::Result<CoreT
 
 fn core_info(path: &Path, table: &CoreTable) -> std::result::Result<CoreInfo, LoadError> {
     let conventions = declaration::conventions(&table.conventions).ok_or_else(|| {
-        let what = "it declares a convention that is none of those in furnace_core.h".to_owned();
+        let what = "it declares an unknown convention: not in furnace_core.h".to_owned();
         LoadError::Malformed { path: path.to_owned(), what }
     })?;
     let traits = Traits::from_bits_truncate(table.traits);
@@ -369,7 +369,7 @@ impl Core for Dylib {
             build(&raw const scene, &raw const settings, out, &raw mut stats)
         )?;
         let built = NonNull::new(built).ok_or_else(|| {
-            CoreError::BrokeContract("build answered FURNACE_OK and no scene".to_owned())
+            CoreError::BrokeContract("build returned FURNACE_OK without a scene".to_owned())
         })?;
         Ok(Box::new(BuiltDylib { core: self, built, stats, counted }))
     }

@@ -47,10 +47,10 @@ fn renderer(path: &Path) -> Result<Guest, String> {
 fn program(command: &str) -> Result<Guest, String> {
     let words = shell_words::split(command).map_err(|error| error.to_string())?;
     let [program, arguments @ ..] = words.as_slice() else {
-        return Err(format!("after `{PROGRAM}` comes a command, as in 'exec: python3 core.py'"));
+        return Err(format!("a command must follow `{PROGRAM}`, as in 'exec: python3 core.py'"));
     };
     let program = found(program).ok_or_else(|| {
-        format!("there is no program {} here or on the PATH", listed([program.as_str()]))
+        format!("program not found: {} is neither here nor on the PATH", listed([program.as_str()]))
     })?;
     let mut words = vec![program.to_string_lossy().into_owned()];
     words.extend(arguments.iter().map(|word| absolute(word)));
@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn a_program_that_is_nowhere_is_said_so() {
         let complaint = guest("exec: no-such-program --fast").unwrap().unwrap_err();
-        assert!(complaint.contains("no program `no-such-program`"), "{complaint}");
-        assert!(guest("exec:").unwrap().unwrap_err().contains("comes a command"));
+        assert!(complaint.contains("program not found: `no-such-program`"), "{complaint}");
+        assert!(guest("exec:").unwrap().unwrap_err().contains("a command must follow"));
     }
 }

@@ -46,13 +46,13 @@ pub enum Hosted {
     Away(Box<Remote>),
 }
 
-/// Why a core does not come up.
+/// Why a core fails to start.
 #[derive(Debug, thiserror::Error)]
 pub enum HostError {
     /// There is no such core.
     #[error(transparent)]
     Load(#[from] LoadError),
-    /// Its worker did not come up.
+    /// Its worker failed to start.
     #[error(transparent)]
     Start(#[from] StartError),
 }
@@ -67,7 +67,7 @@ impl Hosting {
     /// Brings up a core.
     ///
     /// # Errors
-    /// If it does not come up.
+    /// If it fails to start.
     pub fn host(&self, spec: &CoreSpec) -> Result<Hosted, HostError> {
         if *spec.guest() == Guest::Resident && !self.isolates_own {
             return Ok(Hosted::Here(spec.make()?));

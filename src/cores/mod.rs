@@ -35,12 +35,12 @@ pub struct CoreKind {
 pub static CORES: &[CoreKind] = &[
     CoreKind {
         name: "builtin",
-        summary: "f32, wide hierarchy, SIMD, threads: the one to trust and to benchmark",
+        summary: "f32, wide BVH, SIMD, threads: the one to trust and to benchmark",
         make: || Box::new(builtin::Builtin::new()),
     },
     CoreKind {
         name: "textbook",
-        summary: "f64, plain, one function a course task: the second witness",
+        summary: "f64, plain, one function per course task: the independent second implementation",
         make: || Box::new(textbook::Textbook::new()),
     },
 ];

@@ -32,7 +32,7 @@ impl Remote {
     /// Starts a worker for the core.
     ///
     /// # Errors
-    /// If there is no process, or the core does not come up.
+    /// If there is no process, or the core fails to start.
     pub fn start(launch: &Launch) -> std::result::Result<Self, StartError> {
         Ok(Self { launch: launch.clone(), worker: Worker::start(launch)? })
     }
@@ -241,5 +241,5 @@ fn done(answer: Result<Answer>) -> Result<()> {
 }
 
 fn out_of_place(answer: &Answer) -> CoreError {
-    CoreError::BrokeContract(format!("it answered {answer:?}, which answers something else"))
+    CoreError::BrokeContract(format!("it answered {answer:?}, which does not match the request"))
 }

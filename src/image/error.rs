@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum ImageError {
     /// Missing, truncated, or not a file of its kind.
-    #[error("`{}` cannot be read as a picture: {cause}", .path.display())]
+    #[error("cannot read `{}` as an image: {cause}", .path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -14,7 +14,7 @@ pub enum ImageError {
         cause: String,
     },
     /// The picture lacks a channel.
-    #[error("the picture has no channel `{channel}`, it has {}", .found.join(", "))]
+    #[error("the image has no channel `{channel}`; its channels are {}", .found.join(", "))]
     NoChannel {
         /// The channel asked for.
         channel: String,
@@ -32,17 +32,17 @@ pub enum ImageError {
         pixels: usize,
     },
     /// Two pictures that are to be compared differ in size.
-    #[error("the pictures differ in size: {} × {} and {} × {} pixels",
+    #[error("the images differ in size: {} × {} and {} × {} pixels",
         .sizes[0][0], .sizes[0][1], .sizes[1][0], .sizes[1][1])]
     DifferentSizes {
         /// Columns and rows of each.
         sizes: [[usize; 2]; 2],
     },
     /// There is nothing to compare.
-    #[error("the pictures have no pixels")]
+    #[error("the images have no pixels")]
     Empty,
     /// The file cannot be written.
-    #[error("`{}` cannot be written: {cause}", .path.display())]
+    #[error("cannot write `{}`: {cause}", .path.display())]
     Unwritable {
         /// The file.
         path: PathBuf,

@@ -268,7 +268,7 @@ mod tests {
     fn a_missing_channel_is_named_with_those_there_are() {
         let file = Exr::from_image(&picture());
         let message = file.colours("se.").unwrap_err().to_string();
-        assert_eq!(message, "the picture has no channel `se.R`, it has R, G, B");
+        assert_eq!(message, "the image has no channel `se.R`; its channels are R, G, B");
     }
 
     #[test]

@@ -52,7 +52,7 @@ impl<'a> Pair<'a> {
     /// A pair.
     ///
     /// # Errors
-    /// If the pictures differ in size, or have no pixels.
+    /// If the images differ in size, or have no pixels.
     pub fn new(image: &'a Image, reference: &'a Image) -> Result<Self, ImageError> {
         let sizes = [image, reference].map(|picture| [picture.width, picture.height]);
         if sizes[0] != sizes[1] {
@@ -106,7 +106,7 @@ mod tests {
     fn pictures_of_different_size_are_no_pair() {
         let (small, large) = (Image::new(2, 2, [0.0; 3]), Image::new(4, 4, [0.0; 3]));
         let message = Pair::new(&small, &large).unwrap_err().to_string();
-        assert_eq!(message, "the pictures differ in size: 2 × 2 and 4 × 4 pixels");
+        assert_eq!(message, "the images differ in size: 2 × 2 and 4 × 4 pixels");
         assert!(Pair::new(&Image::default(), &Image::default()).is_err());
     }
 

@@ -29,10 +29,10 @@ pub fn write(path: &Path, image: &Image) -> Result<(), ImageError> {
 fn decode(bytes: &[u8]) -> Result<Image, String> {
     let (header, values) = Header::read(bytes)?;
     let Header { channels, width, height, .. } = header;
-    let pixels = width.checked_mul(height).ok_or("it claims a size beyond all memory")?;
-    let wanted = pixels.checked_mul(4 * channels).ok_or("it claims a size beyond all memory")?;
+    let pixels = width.checked_mul(height).ok_or("its size exceeds the address space")?;
+    let wanted = pixels.checked_mul(4 * channels).ok_or("its size exceeds the address space")?;
     if values.len() != wanted {
-        return Err(format!("{} bytes of pixels where {wanted} belong", values.len()));
+        return Err(format!("{} bytes of pixels, expected {wanted}", values.len()));
     }
     let rows = values.chunks(4 * channels * width.max(1)).rev();
     let pixels = rows.flat_map(|row| row.chunks(4 * channels)).map(|pixel| header.colour(pixel));
@@ -53,7 +53,7 @@ impl Header {
         let channels = match kind {
             "PF" => 3,
             "Pf" => 1,
-            _ => return Err("it is no portable float map".to_owned()),
+            _ => return Err("not a portable float map".to_owned()),
         };
         let (width, rest) = number::<usize>(rest)?;
         let (height, rest) = number::<usize>(rest)?;
@@ -72,17 +72,17 @@ impl Header {
 
 /// The next word of the header and what follows the one white space that ends it.
 fn word(bytes: &[u8]) -> Result<(&str, &[u8]), String> {
-    let cut_off = || "its header is cut off".to_owned();
+    let cut_off = || "truncated header".to_owned();
     let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace()).ok_or_else(cut_off)?;
     let bytes = &bytes[start..];
     let end = bytes.iter().position(u8::is_ascii_whitespace).ok_or_else(cut_off)?;
-    let word = str::from_utf8(&bytes[..end]).map_err(|_| "its header is no text".to_owned())?;
+    let word = str::from_utf8(&bytes[..end]).map_err(|_| "its header is not text".to_owned())?;
     Ok((word, &bytes[end + 1..]))
 }
 
 fn number<T: std::str::FromStr>(bytes: &[u8]) -> Result<(T, &[u8]), String> {
     let (word, rest) = word(bytes)?;
-    let number = word.parse().map_err(|_| format!("its header has `{word}` for a number"))?;
+    let number = word.parse().map_err(|_| format!("not a number in its header: `{word}`"))?;
     Ok((number, rest))
 }
 

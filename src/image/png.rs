@@ -47,7 +47,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
     let size = reader.output_buffer_size().filter(|size| *size <= MOST_BYTES);
-    let mut data = vec![0; size.ok_or("it claims a size beyond all memory")?];
+    let mut data = vec![0; size.ok_or("its size exceeds the address space")?];
     let frame = reader.next_frame(&mut data).map_err(|error| error.to_string())?;
     let samples = frame.color_type.samples();
     let is_deep = frame.bit_depth == BitDepth::Sixteen;

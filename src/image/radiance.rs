@@ -53,7 +53,7 @@ impl<'a> Rest<'a> {
     }
 
     fn line(&mut self) -> Result<String, String> {
-        let end = self.0.iter().position(|byte| *byte == b'\n').ok_or("its header is cut off")?;
+        let end = self.0.iter().position(|byte| *byte == b'\n').ok_or("truncated header")?;
         let line = String::from_utf8_lossy(self.take(end)?).trim().to_owned();
         self.take(1)?;
         Ok(line)

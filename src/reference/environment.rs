@@ -116,7 +116,7 @@ fn run(command: &mut Command) -> Result<Output, MakeError> {
     let program = command.get_program().to_string_lossy().into_owned();
     let output = command.output().map_err(|problem| MakeError::Program {
         program: program.clone(),
-        how: "it could not be started".to_owned(),
+        how: "it failed to start".to_owned(),
         last_words: problem.to_string(),
     })?;
     if output.status.success() {

@@ -86,7 +86,7 @@ pub enum MakeError {
         requirements: String,
     },
     /// Python, pip or Mitsuba failed.
-    #[error("{program} failed ({how}); its last words:\n{last_words}")]
+    #[error("{program} failed ({how}); the end of its output:\n{last_words}")]
     Program {
         /// What was run.
         program: String,
@@ -96,7 +96,7 @@ pub enum MakeError {
         last_words: String,
     },
     /// A pass holds what no picture does.
-    #[error("pass {seed} of `{name}` has a pixel that is negative or no number")]
+    #[error("pass {seed} of `{name}` has a pixel that is negative or NaN")]
     ImpossiblePass {
         /// The reference.
         name: String,

@@ -37,7 +37,7 @@ impl Recipe {
         if (1..=Self::MOST_SAMPLES_PER_PASS).contains(&self.samples_per_pass) {
             Ok(())
         } else {
-            Err(format!("a pass has 1 to {} samples a pixel", Self::MOST_SAMPLES_PER_PASS))
+            Err(format!("a pass has 1 to {} samples per pixel", Self::MOST_SAMPLES_PER_PASS))
         }
     }
 }

@@ -49,11 +49,11 @@ impl Shard {
     pub fn merge(&mut self, other: &Self, path: &Path) -> Result<(), MakeError> {
         let refused = |problem: String| Err(MakeError::file(path, &problem));
         if let Some(seed) = self.seeds.first_in_both(&other.seeds) {
-            return refused(format!("seed {seed} is in the sums already, and counts once"));
+            return refused(format!("duplicate seed {seed}: it is in the sums already"));
         }
         if self.about != other.about {
             return refused(format!(
-                "its passes are of another kind\n  here  {:?}\n  there {:?}",
+                "its passes have other settings\n  here  {:?}\n  there {:?}",
                 self.about, other.about
             ));
         }
@@ -81,7 +81,7 @@ impl Shard {
     pub fn read(path: &Path) -> Result<Self, MakeError> {
         let failed = |problem: &dyn std::fmt::Display| MakeError::file(path, problem);
         let content = std::fs::read(path).map_err(|problem| failed(&problem))?;
-        Self::parsed(&content).ok_or_else(|| failed(&"these are no sums of passes, or cut off"))
+        Self::parsed(&content).ok_or_else(|| failed(&"not a file of sums of passes, or truncated"))
     }
 
     fn parsed(content: &[u8]) -> Option<Self> {
@@ -127,7 +127,7 @@ mod tests {
         let content = std::fs::read(&path).unwrap();
         std::fs::write(&path, &content[..content.len() - 1]).unwrap();
         let message = Shard::read(&path).unwrap_err().to_string();
-        assert!(message.contains("no sums of passes, or cut off"), "{message}");
+        assert!(message.contains("not a file of sums of passes, or truncated"), "{message}");
     }
 
     #[test]
@@ -138,11 +138,11 @@ mod tests {
         assert_eq!(merged.sums, shard(0, 15).sums);
         assert_eq!(merged.seeds.ranges(), [[0, 15]]);
         let message = merged.merge(&shard(15, 20), Path::new("d")).unwrap_err().to_string();
-        assert!(message.contains("`d`: seed 15 is in the sums already"), "{message}");
+        assert!(message.contains("`d`: duplicate seed 15"), "{message}");
         let mut other = shard(20, 21);
         other.about.version = "3.9.2".to_owned();
         let message = merged.merge(&other, Path::new("e")).unwrap_err().to_string();
-        assert!(message.contains("of another kind"), "{message}");
+        assert!(message.contains("have other settings"), "{message}");
         assert_eq!(merged.seeds.count(), 16);
     }
 }

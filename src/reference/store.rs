@@ -34,7 +34,9 @@ impl References {
             && shard.about.scene_hash == provenance.scene_hash
             && shard.about.samples_per_pass == provenance.samples_per_pass;
         if !same {
-            return Err(missing("those there are of other passes than the reference".to_owned()));
+            return Err(missing(
+                "the existing ones are of other passes than the reference".to_owned(),
+            ));
         }
         Ok((shard, provenance))
     }

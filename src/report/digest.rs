@@ -90,7 +90,7 @@ impl PartGroup<'_> {
 }
 
 /// Groups that are no part: folders that belong to none, and what is not graded.
-const APART: [&str; 3] = ["other cases", "robustness, not graded", "facts, not graded"];
+const APART: [&str; 3] = ["other cases", "robustness, not graded", "informational, not graded"];
 
 /// The group of [`APART`] that a trial belongs to if it belongs to no part.
 const fn apart(tier: Tier) -> &'static str {

@@ -21,20 +21,24 @@ pub const HOSTILE: &str = "<script>alert('pass')</script> & \x1b[2J";
 
 /// Folder, claim, title, whether it draws random numbers.
 const CASES: [(&str, &str, bool); 12] = [
-    ("camera/rays-go-through-their-film-points", "Rays go through their film points", false),
-    ("shape/rays-in-the-plane-miss", "Rays in the plane of a triangle miss it", false),
-    ("shape/the-nearer-root-wins", "Of two roots of a sphere the nearer wins", false),
-    ("bvh/same-hits-as-brute-force", "The hierarchy finds what brute force finds", false),
-    ("bvh/a-flat-box-is-hit", "A box without thickness is hit", false),
-    ("bsdf/cosine-samples-follow-their-density", "Samples follow their density", true),
-    ("light/a-rectangle-lights-a-plane", "A rectangle lights a plane as the formula says", true),
-    ("light/delta-lights-are-sampled-once", "A point light costs one shadow ray", false),
     (
-        "integrator/furnace-bounce-by-bounce",
-        "Each bounce of a furnace is albedo times the last",
+        "camera/rays-go-through-their-film-points",
+        "Camera rays pass through their film points",
+        false,
+    ),
+    ("shape/rays-in-the-plane-miss", "Rays in the plane of a triangle miss it", false),
+    ("shape/the-nearer-root-wins", "The smaller root of the quadratic is the hit", false),
+    ("bvh/same-hits-as-brute-force", "BVH hits match brute force", false),
+    ("bvh/a-flat-box-is-hit", "A flat box is hit", false),
+    ("bsdf/cosine-samples-follow-their-density", "Samples are distributed by their pdf", true),
+    (
+        "light/a-rectangle-lights-a-plane",
+        "A rectangle light on a plane matches the closed form",
         true,
     ),
-    (FAILING, "Roulette leaves every mean as it is", true),
+    ("light/delta-lights-are-sampled-once", "A point light costs one shadow ray", false),
+    ("integrator/furnace-bounce-by-bounce", "The furnace matches its geometric series", true),
+    (FAILING, "Russian roulette leaves every mean unchanged", true),
     ("adaptive/adaptive-counts-are-true", "Adaptive sampling says how many samples it took", true),
     ("image/cornell-spheres", "The Cornell box agrees with Mitsuba", true),
 ];
@@ -197,14 +201,14 @@ fn core(spec: &str, precision: Precision) -> CoreRecord {
 pub fn trial(core: &str, case: &str) -> TrialRecord {
     let seed = Seed::SUITE.child(core).child(case);
     let known = CASES.iter().find(|(name, ..)| case.starts_with(name));
-    let (title, is_random) = known.map_or(("A picture agrees", true), |case| (case.1, case.2));
+    let (title, is_random) = known.map_or(("An image agrees", true), |case| (case.1, case.2));
     let name = case.rsplit('/').next().unwrap_or(case);
     TrialRecord {
         version: VERSION,
         case: case.to_owned(),
         core: core.to_owned(),
         title: title.to_owned(),
-        teaches: "A survivor of roulette carries the weight of those that were stopped.".to_owned(),
+        teaches: "The throughput of a survivor of Russian roulette is divided by the survival probability.".to_owned(),
         source: "By hand: L = Le (1 - rho^(m+1)) / (1 - rho); Le = 0.7, rho = 0.37.".to_owned(),
         check: "mean-radiance".to_owned(),
         tier: Tier::Graded,
@@ -228,8 +232,8 @@ fn exact(seed: Seed) -> Finding {
         Measure::exact("rays that hit", 4096.0, 4096.0, 0.0),
     ];
     Finding::of(
-        "4096 rays go where they should",
-        "a ray 2e-6 of the film's width off would have been seen",
+        "4096 rays have the expected directions",
+        "would have caught a ray off by 2e-6 of the film's width",
         measures,
     )
 }
@@ -267,8 +271,7 @@ fn agreeing(seed: Seed) -> Finding {
 
 fn wrong_roulette() -> Outcome {
     let finding = Finding::of(
-        "bounce 2 gives 70 % of what it should and bounce 3 gives 49 %: every bounce after the \
-         first loses the same share in all three channels",
+        "bounce 2 is 0.70 times the expected value and bounce 3 0.49 times: every bounce after the first loses the same factor in all channels",
         "would have caught an error of 1.4 % in any bounce",
         bounces(Seed::SUITE, 0.7),
     );
@@ -276,11 +279,11 @@ fn wrong_roulette() -> Outcome {
 }
 
 fn wrong_picture() -> Outcome {
-    let whole = noisy("whole picture, luminance", 0.42, 0.905, Seed::SUITE);
+    let whole = noisy("whole image, luminance", 0.42, 0.905, Seed::SUITE);
     let tiles = Measure::exact("tiles that disagree", 887.0, 0.0, 0.0);
     let finding = Finding::of(
-        "the picture is 9.5 % too dark, most of all on the ceiling; 887 of 900 tiles disagree",
-        "would have caught a whole picture 0.4 % off, or one 8 x 8 tile 11 % off",
+        "the image is 9.5 % too dark, most of all on the ceiling; 887 of 900 tiles disagree",
+        "would have caught an error of 0.4 % of the whole image, or of 11 % in one 8 x 8 tile",
         vec![whole, tiles],
     );
     Outcome::Judged { finding }
@@ -290,7 +293,7 @@ fn undecided() -> Outcome {
     let mut measure = noisy("bounce 3, red", 0.0354, 1.0, Seed::SUITE);
     measure.verdict = Verdict::Inconclusive;
     let finding = Finding::of(
-        "nothing disagrees, but the noise could hide an error of 6 % where 2 % was to be seen",
+        "nothing disagrees, but the noise could hide an error of 6 %, and 2 % should be detected",
         "an error of 6 % or more would have been caught; 2 % takes 9 times the samples",
         vec![measure],
     );
@@ -304,10 +307,10 @@ fn pictures(name: &str) -> Vec<PictureFile> {
         file: format!("{name}.{number}.exr"),
     };
     [
-        (0, PictureRole::Reference, "Mitsuba 3.9.1, 131072 samples a pixel"),
-        (1, PictureRole::Render, "mean of 8 runs of 32 samples a pixel"),
+        (0, PictureRole::Reference, "Mitsuba 3.9.1, 131072 samples per pixel"),
+        (1, PictureRole::Render, "mean of 8 runs of 32 samples per pixel"),
         (2, PictureRole::SignedError, "relative error; the ends of the scale are 25 % off"),
-        (3, PictureRole::SampleRate, "samples, as a share of 2048"),
+        (3, PictureRole::SampleRate, "samples, as a fraction of 2048"),
     ]
     .map(picture)
     .to_vec()

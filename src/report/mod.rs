@@ -22,7 +22,7 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The file system said no.
-    #[error("the report cannot be written to {path}: {error}")]
+    #[error("cannot write the report to {path}: {error}")]
     Io {
         /// The file or folder.
         path: PathBuf,

@@ -26,7 +26,7 @@ pub struct RunTree {
     pub folder: PathBuf,
 }
 
-/// A core that was asked for and did not come up.
+/// A core that was asked for and failed to start.
 #[derive(Clone, Copy, Debug)]
 pub struct AbsentCore<'a> {
     /// What the user typed after `--core`.
@@ -121,7 +121,7 @@ impl RunTree {
         self.run.cores.iter().map(|core| (core.spec.as_str(), of(core))).collect()
     }
 
-    /// The cores that did not come up, in the order they were asked.
+    /// The cores that failed to start, in the order they were asked.
     pub fn absent_cores(&self) -> impl Iterator<Item = AbsentCore<'_>> {
         self.run.cores.iter().filter_map(|core| {
             let is_witness = |trial: &&TrialRecord| {
@@ -132,7 +132,7 @@ impl RunTree {
         })
     }
 
-    /// The same run without cores that did not come up: that is one cause, and no trial of theirs says anything more.
+    /// The same run without cores that failed to start: that is one cause, and no trial of theirs says anything more.
     pub fn of_present_cores(&self) -> Self {
         let (mut run, mut trials) = (self.run.clone(), self.trials.clone());
         trials.retain(|trial| !self.run.is_absent(&trial.core));
@@ -198,10 +198,10 @@ fn misplaced(run: &RunRecord, folder: &Path, path: &Path, trial: &TrialRecord) -
         return Some(format!("run.json names no core `{}`", trial.core));
     }
     if sidecar_path(folder, &trial.core, &trial.case) != path {
-        return Some(format!("it is about `{}` on `{}`", trial.case, trial.core));
+        return Some(format!("its contents are about `{}` on `{}`", trial.case, trial.core));
     }
     let outside = trial.pictures.iter().find(|picture| !is_file_name(&picture.file))?;
-    Some(format!("its picture `{}` is not a file beside it", outside.file))
+    Some(format!("its image `{}` is not a file beside it", outside.file))
 }
 
 /// Whether `name` stays in the folder that it is joined to.

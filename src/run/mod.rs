@@ -35,7 +35,7 @@ pub enum RunError {
     #[error(transparent)]
     Record(#[from] RecordError),
     /// A core is there, but is none that can be asked.
-    #[error("`{spec}` does not come up: {error}")]
+    #[error("`{spec}` fails to start: {error}")]
     NoCore {
         /// The core, as the user named it.
         spec: String,

@@ -150,7 +150,7 @@ impl Outcome {
             Self::Skipped { missing } => match Capabilities::from_names(missing) {
                 Ok(_) => format!("the core has no {}", missing.join(", ")),
                 // In its own words.
-                Err(_) => format!("beyond the core: {}", missing.join(", ")),
+                Err(_) => format!("unsupported by the core: {}", missing.join(", ")),
             },
             Self::Blocked { by } => format!("{by} failed, and this rests on it"),
             Self::Crashed { how, during } => format!("the core crashed ({how}) during {during}"),
@@ -192,6 +192,6 @@ mod tests {
         let error = CoreError::Beyond("a sky".to_owned());
         let skipped = Outcome::Skipped { missing: vec!["a sky".to_owned()] };
         assert_eq!(Outcome::of(Err(error.into())), skipped);
-        assert_eq!(skipped.statement(), "beyond the core: a sky");
+        assert_eq!(skipped.statement(), "unsupported by the core: a sky");
     }
 }

@@ -52,7 +52,7 @@ pub struct RunRecord {
 }
 
 impl RunRecord {
-    /// Whether this core was asked for and does not come up.
+    /// Whether this core was asked for and failed to start.
     pub fn is_absent(&self, spec: &str) -> bool {
         self.cores.iter().any(|core| core.spec == spec && core.problem.is_some())
     }
@@ -107,7 +107,7 @@ impl CoreRecord {
         }
     }
 
-    /// The record of a core that did not come up.
+    /// The record of a core that failed to start.
     pub fn unknown(spec: &str, problem: String) -> Self {
         Self {
             spec: spec.to_owned(),

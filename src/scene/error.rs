@@ -82,7 +82,7 @@ pub enum MeshError {
     #[error("vertex {0} has a coordinate that is not a finite number")]
     NotFinite(usize),
     /// A normal is NaN, infinite, or has no direction.
-    #[error("the normal of vertex {0} has no direction")]
+    #[error("the normal of vertex {0} is zero or not finite")]
     NoDirection(usize),
     /// Some vertices have normals and some have none.
     #[error("there are {normals} normals for {vertices} vertices")]

@@ -2,7 +2,7 @@
 
 Lengths are scene units, angles radians, radiance is linear RGB. Directions are unit length. Those of
 BSDFs are in the local shading frame (normal = +z) and both point away from the surface; `f` excludes
-the cosine; every density is per steradian. An argument that is an array has one row for each element
+the cosine; every pdf is with respect to solid angle. An argument that is an array has one row for each element
 of the batch, and so has the answer.
 """
 

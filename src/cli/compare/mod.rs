@@ -18,32 +18,32 @@ use std::path::PathBuf;
 /// What `furnace compare` understands.
 #[derive(Clone, Debug, Args)]
 pub struct CompareArguments {
-    /// Pictures (EXR, PFM, HDR, PNG); the last is the reference. Several before it are independent
-    /// renders of one picture, whose mean and variance are taken.
+    /// Images (EXR, PFM, HDR, PNG); the last is the reference. Several before it are independent
+    /// renders of one image, whose mean and variance are taken.
     #[arg(required = true, num_args = 2.., value_name = "PICTURE")]
     pictures: Vec<PathBuf>,
-    /// How PNG stands for light: srgb, linear, or a gamma such as 2.2.
+    /// Transfer function of PNG files: srgb, linear, or a gamma such as 2.2.
     #[arg(long, value_parser = encoding, default_value = "srgb")]
     encoding: Curve,
-    /// PNG holds codes whose fractions were cut off, not rounded.
+    /// PNG codes were truncated, not rounded.
     #[arg(long)]
     truncated: bool,
-    /// A picture of the variance of every value of the first.
+    /// An image with the per-pixel variance of the first.
     #[arg(long, value_name = "FILE")]
     variance: Option<PathBuf>,
-    /// The same of the reference; an EXR with se.R, se.G and se.B needs none.
+    /// The same for the reference; an EXR with se.R, se.G and se.B needs none.
     #[arg(long, value_name = "FILE")]
     reference_variance: Option<PathBuf>,
-    /// A picture that is black where pixels do not count.
+    /// A mask: pixels that are black in it are ignored.
     #[arg(long, value_name = "FILE")]
     mask: Option<PathBuf>,
-    /// Pixels that do not count: first column, first row from the top, columns, rows.
+    /// Pixels to ignore: first column, first row from the top, columns, rows.
     #[arg(long, value_name = "X,Y,W,H", value_parser = rectangle)]
     ignore: Vec<Rectangle>,
     /// Leave out FLIP, which takes longest.
     #[arg(long)]
     no_flip: bool,
-    /// Answer in JSON.
+    /// Print JSON.
     #[arg(long)]
     json: bool,
 }
@@ -94,7 +94,7 @@ fn reference(arguments: &CompareArguments) -> Result<Side, Failure> {
 }
 
 fn nothing() -> Failure {
-    Failure::request("two pictures are needed")
+    Failure::request("two images are needed")
 }
 
 /// Whether each pixel counts, as far as that is asked.

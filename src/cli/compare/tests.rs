@@ -50,7 +50,7 @@ fn a_second_render_passes_and_a_brighter_one_is_named() {
     assert_eq!(found.metrics.len(), METRICS.len() - 2);
     let found = compared(&[&bright, &reference]).unwrap();
     let told = words::told(&found);
-    assert!(told.starts_with("fail: the picture has 1.05"), "{told}");
+    assert!(told.starts_with("fail: the image has 1.05"), "{told}");
     assert!(told.contains("times as bright, alike in all channels"), "{told}");
     assert!(told.contains("FLIP"), "{told}");
 }
@@ -130,10 +130,10 @@ fn codes_are_compared_by_their_law() {
     };
     let (good, found) = told(5, 1.0, gamma, &[]);
     assert_eq!(found.verdict, Verdict::Pass, "{good}");
-    assert!(good.contains("the noise of the picture is not known"), "{good}");
+    assert!(good.contains("the noise of the image is unknown"), "{good}");
     assert!((found.difference.ratio - 1.0).abs() < 0.01, "{good}");
     let (bright, found) = told(6, 1.1, gamma, &[]);
-    assert!(bright.starts_with("fail: the picture has 1."), "{bright}");
+    assert!(bright.starts_with("fail: the image has 1."), "{bright}");
     assert!((found.difference.ratio - 1.1).abs() < 0.02, "{bright}");
     let (other, _) = told(7, 1.0, Encoding::of(Curve::Srgb), &[]);
     assert!(other.starts_with("fail: encoding mismatch: the codes are sRGB, rounded"), "{other}");

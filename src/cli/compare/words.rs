@@ -19,12 +19,12 @@ pub(super) fn told(comparison: &Comparison) -> String {
     comparison.codes.iter().for_each(|codes| line(by_law(codes, comparison)));
     difference.outliers.iter().for_each(|odd| line(outliers(odd)));
     difference.patterns.iter().filter(|found| found.rejects).for_each(|found| line(pattern(found)));
-    comparison.mistakes.iter().for_each(|fit| line(format!("the picture is {fit}")));
+    comparison.mistakes.iter().for_each(|fit| line(format!("the image is {fit}")));
     comparison.bounces.iter().for_each(|off| line(bounces(off)));
     for metric in &comparison.metrics {
         match metric.value {
             Some(value) => line(format!("{:22} {}", metric.name, significant(value, 6))),
-            None => line(format!("{:22} no number", metric.name)),
+            None => line(format!("{:22} not a number", metric.name)),
         }
     }
     text
@@ -35,15 +35,15 @@ fn by_law(codes: &CodesCompared, comparison: &Comparison) -> String {
     let [width, height] = comparison.size;
     let share = percent(comparison.pixels as f64 / (width * height) as f64);
     let noise = match codes.noise {
-        NoiseSource::Runs => "the noise is that between the pictures",
-        NoiseSource::Variance => "the noise is that of the picture of the variance",
+        NoiseSource::Runs => "noise: measured between the images",
+        NoiseSource::Variance => "noise: from the variance image",
         NoiseSource::Scatter => {
-            "the noise of the picture is not known: it is taken from how codes scatter within 8 × 8 \
+            "the noise of the image is unknown: it is estimated from how codes scatter within 8 × 8 \
              pixels, so that errors as small as that count as noise"
         }
     };
     format!(
-        "8-bit codes ({}) by their law, not decoded, in {share} of the pixels; {noise}",
+        "8-bit codes ({}) compared by their distribution, not decoded, in {share} of the pixels; {noise}",
         codes.deciphered.declared
     )
 }
@@ -59,7 +59,7 @@ fn sentence(comparison: &Comparison) -> String {
     if let Some(deciphered) = deciphered.filter(|deciphered| deciphered.is_another()) {
         let found = deciphered.found.unwrap_or(deciphered.declared);
         return format!(
-            "encoding mismatch: the codes are {found}, and not {}; nothing is said of the light",
+            "encoding mismatch: the codes are {found}, not {}; radiance is not compared",
             deciphered.declared
         );
     }
@@ -68,12 +68,12 @@ fn sentence(comparison: &Comparison) -> String {
         return impossible(&odd);
     }
     match comparison.verdict {
-        _ if difference.equal => "the pictures are equal to the last bit".to_owned(),
+        _ if difference.equal => "the images are equal to the last bit".to_owned(),
         Verdict::Inconclusive => {
-            format!("{width} × {height} pixels are too few to prove anything")
+            format!("{width} × {height} pixels are too few to decide")
         }
         Verdict::Pass => format!(
-            "nothing but noise tells them apart; an error of {} of the whole picture would \
+            "nothing but noise tells them apart; an error of {} of the whole image would \
              have been seen",
             percent(difference.resolution)
         ),
@@ -82,7 +82,7 @@ fn sentence(comparison: &Comparison) -> String {
 }
 
 fn brightness(difference: &DifferenceReport) -> String {
-    format!("the picture has {} of the light of the reference", ratio(difference.ratio))
+    format!("the image has {} times the radiance of the reference", ratio(difference.ratio))
 }
 
 fn impossible(odd: &OddPixels) -> String {
@@ -92,14 +92,14 @@ fn impossible(odd: &OddPixels) -> String {
         _ => "negative",
     };
     format!(
-        "{} pixels are {kind} or as wrong, the first at ({}, {}) from the top left",
+        "{} pixels are {kind} or otherwise invalid, the first at ({}, {}) from the top left",
         odd.pixels, odd.x, odd.y
     )
 }
 
 fn outliers(odd: &OddPixels) -> String {
     format!(
-        "{} pixels are darker than noise makes them; the farthest, at ({}, {}), by {} standard errors",
+        "{} pixels are darker than noise explains; the worst, at ({}, {}), by {} standard errors",
         odd.pixels,
         odd.x,
         odd.y,

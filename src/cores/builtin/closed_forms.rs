@@ -99,7 +99,7 @@ fn assert_mean(samples: &[f64], expected: f64, resolution: f64) {
     assert!((mean - expected).abs() <= 5.0 * error + 1e-5 * expected, "{mean} is not {expected}");
 }
 
-/// Every single estimate is right: nothing is left to chance.
+/// Every single estimate is right: deterministic.
 #[track_caller]
 fn assert_each(samples: &[f64], expected: f64) {
     for sample in samples {
@@ -192,7 +192,7 @@ fn rectangles_light_a_plane_as_howell_says() {
     assert_direct_light(&scene, 0.15690191);
     scene.meshes[1] = rectangle([-0.6, 0.6], [-0.4, 0.4], 1.5, true, 1);
     let away = estimates(&scene, towards_origin(20.0), &settings(1..=1), 100);
-    assert!(away.iter().all(|&sample| sample == 0.0), "only the front side glows");
+    assert!(away.iter().all(|&sample| sample == 0.0), "only the front side emits");
 }
 
 #[test]

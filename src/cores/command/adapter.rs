@@ -15,21 +15,21 @@ pub(super) const PLACEHOLDERS: [(&str, &str); 19] = [
     ("adapter", "the folder of the adapter's file"),
     ("scene", "the scene's file"),
     ("camera", "the camera's file, for formats that have one"),
-    ("folder", "where the scene is and the picture goes"),
-    ("output", "the picture's file"),
-    ("width", "pixels in a row"),
+    ("folder", "the folder of the scene and the image"),
+    ("output", "the image's file"),
+    ("width", "width in pixels"),
     ("height", "rows"),
-    ("spp", "samples a pixel"),
-    ("seed", "of the random numbers"),
+    ("spp", "samples per pixel"),
+    ("seed", "seed of the random numbers"),
     ("first-bounce", "the first bounce to add up"),
     ("last-bounce", "the last bounce to add up"),
     ("depth", "the last bounce plus `depth-offset`"),
-    ("threads", "how many it may use"),
-    ("light-samples", "samples to each light"),
+    ("threads", "maximum number of threads"),
+    ("light-samples", "samples per light"),
     ("horizontal-fov", "degrees"),
     ("vertical-fov", "degrees"),
     ("name", "of the scene"),
-    ("direct", "the arguments of the way to gather light"),
+    ("direct", "the arguments that select hemisphere or light sampling"),
 ];
 
 /// What an adapter's file says.
@@ -238,7 +238,7 @@ impl Adapter {
             if let Some(word) = unknown_placeholder(argument) {
                 let known: Vec<_> = PLACEHOLDERS.iter().map(|(name, _)| *name).collect();
                 let message = format!(
-                    "`{{{word}}}` stands for nothing; there are {}",
+                    "unknown placeholder `{{{word}}}`; the placeholders are {}",
                     crate::text::listed(known)
                 );
                 return Some(Complaint { word, message });
@@ -254,17 +254,17 @@ impl Adapter {
                 return complain("seed-bits", "a seed has 1 to 64 bits");
             }
             Runs::SeedBits(_) if !has("{seed}") && self.scene != Format::Pbrt => {
-                return complain("seed-bits", "`{seed}` stands nowhere in the arguments");
+                return complain("seed-bits", "`{seed}` does not occur in the arguments");
             }
             _ => {}
         }
         if self.can.hemisphere.is_some() && !self.arguments.iter().any(|a| a == "{direct}") {
-            return complain("hemisphere", "`{direct}` is none of the arguments");
+            return complain("hemisphere", "`{direct}` is not an argument of its own");
         }
         if self.can.isolated_bounces && !has("{first-bounce}") {
             return complain(
                 "isolated-bounces",
-                "`{first-bounce}` stands nowhere in the arguments",
+                "`{first-bounce}` does not occur in the arguments",
             );
         }
         let ending = self.output.file.rsplit_once('.').map_or("", |(_, ending)| ending);
@@ -272,10 +272,10 @@ impl Adapter {
             ("exr" | "pfm" | "hdr", Encoding::Linear) => None,
             ("png", Encoding::Srgb | Encoding::Course) => None,
             ("exr" | "pfm" | "hdr", _) => {
-                complain("encoding", "such files hold radiance: `linear`")
+                complain("encoding", "files of this format hold radiance: `linear`")
             }
             ("png", _) => complain("encoding", "a PNG has 8 bits: `srgb` or `course`"),
-            _ => complain("file", "the picture is an .exr, .pfm, .hdr or .png"),
+            _ => complain("file", "the image must be an .exr, .pfm, .hdr or .png"),
         }
     }
 }
@@ -324,14 +324,14 @@ runs = { seed-bits = 31 }
     #[test]
     fn what_is_wrong_is_pointed_at() {
         for (from, to, message) in [
-            ("{scene}", "{scenes}", "`{scenes}` stands for nothing"),
+            ("{scene}", "{scenes}", "unknown placeholder `{scenes}`"),
             ("name = \"sh\"", "name = \"sh\"\nnames = 1", "unknown field `names`"),
-            ("{seed}", "1", "`{seed}` stands nowhere"),
-            ("linear", "srgb", "such files hold radiance"),
+            ("{seed}", "1", "`{seed}` does not occur"),
+            ("linear", "srgb", "files of this format hold radiance"),
             ("picture.pfm", "picture.png", "a PNG has 8 bits"),
             ("picture.pfm", "picture.jpg", "an .exr, .pfm, .hdr or .png"),
             ("{ seed-bits = 31 }", "{ seed-bits = 0 }", "1 to 64 bits"),
-            ("\nruns", "\ncan = { hemisphere = [\"-H\"] }\nruns", "`{direct}` is none"),
+            ("\nruns", "\ncan = { hemisphere = [\"-H\"] }\nruns", "`{direct}` is not an argument"),
             ("\nruns", "\ncan = { isolated-bounces = true }\nruns", "`{first-bounce}`"),
             ("\nruns", "\nlog = { seconds = \"no group\" }\nruns", "has 0 groups"),
         ] {

@@ -154,17 +154,17 @@ impl Program {
         match ended {
             Ended::Exited(status) if status.success() => {}
             Ended::Exited(status) => {
-                let how = format!("{status}; its last words: {}", said.last());
+                let how = format!("{status}; the end of its output: {}", said.last());
                 return Err(CoreError::Crashed { how, during });
             }
             Ended::OutOfTime => {
-                let during = format!("{during}; its last words: {}", said.last());
+                let during = format!("{during}; the end of its output: {}", said.last());
                 return Err(CoreError::TimedOut { limit, during });
             }
         }
         if !folder.join(&self.adapter.output.file).is_file() {
             return Err(CoreError::BrokeContract(format!(
-                "it ended well and wrote no {}; its last words: {}",
+                "it exited successfully without writing {}; the end of its output: {}",
                 self.adapter.output.file,
                 said.last()
             )));
@@ -204,7 +204,7 @@ impl Program {
         }
         let [found_width, found_height] = found;
         Err(CoreError::BrokeContract(format!(
-            "its picture has {found_width} x {found_height} pixels, not {width} x {height}"
+            "its image has {found_width} x {found_height} pixels, not {width} x {height}"
         )))
     }
 
@@ -348,20 +348,19 @@ fn features(scene: &SceneDescription) -> Vec<(Feature, &'static str)> {
                     found.push((Feature::TintedGlass, "tinted glass"));
                 }
             }
-            Surface::Conductor { .. } => {
-                found.push((Feature::RoughMetal, "rough metal of this kind"))
-            }
+            Surface::Conductor { .. } => found
+                .push((Feature::RoughMetal, "rough conductors with this masking-shadowing term")),
         }
         let black = Surface::Diffuse { reflectance: [0.0; 3] };
         if material.emission.is_some() && material.surface != black {
-            found.push((Feature::GlowingSurface, "surfaces that glow and reflect"));
+            found.push((Feature::GlowingSurface, "emitters that also reflect"));
         }
         if let Shape::Sphere(sphere) = scene.shape(number) {
             if material.emission.is_some() {
-                found.push((Feature::SphereLight, "spheres that glow"));
+                found.push((Feature::SphereLight, "sphere lights"));
             }
             if sphere.inward {
-                found.push((Feature::InwardSphere, "spheres that look inward"));
+                found.push((Feature::InwardSphere, "spheres with inward normals"));
             }
         }
     }
@@ -369,7 +368,7 @@ fn features(scene: &SceneDescription) -> Vec<(Feature, &'static str)> {
         Light::Point { .. } => Some((Feature::PointLight, "point lights")),
         Light::Directional { .. } => Some((Feature::DirectionalLight, "directional lights")),
         Light::ConstantSky { .. } => Some((Feature::ConstantSky, "skies")),
-        Light::GradientSky { .. } => Some((Feature::GradientSky, "skies that are brighter above")),
+        Light::GradientSky { .. } => Some((Feature::GradientSky, "gradient environment lights")),
         Light::Area { .. } => None,
     }));
     found

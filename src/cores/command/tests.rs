@@ -107,7 +107,7 @@ fn a_program_that_fails_is_heard_out() {
     else {
         panic!("not seen as a crash")
     };
-    assert!(how.contains("exit status: 7; its last words: no such scene"), "{how}");
+    assert!(how.contains("exit status: 7; the end of its output: no such scene"), "{how}");
 }
 
 #[test]
@@ -120,7 +120,10 @@ fn a_program_that_hangs_is_out_of_time() {
 #[test]
 fn a_program_that_writes_nothing_or_something_else_is_told() {
     let nothing = outcome("echo done", ("", "")).unwrap_err().to_string();
-    assert!(nothing.contains("wrote no picture.pfm; its last words: done"), "{nothing}");
+    assert!(
+        nothing.contains("without writing picture.pfm; the end of its output: done"),
+        "{nothing}"
+    );
     let rubbish = outcome("echo rubbish > $2", ("", "")).unwrap_err().to_string();
     assert!(rubbish.contains("picture.pfm"), "{rubbish}");
     let small = GOOD.replace("1 1", "1 2").replacen("';", "'; printf '123456789012';", 1);

@@ -53,7 +53,7 @@ fn draw(lines: &[Vec<Point>; 3]) -> Markup {
     let y = |ratio: f64| (HEIGHT - BOTTOM) * (1.0 - ratio.clamp(0.0, top) / top) + 6.0;
     let words: Vec<_> =
         lines[0].iter().map(|p| format!("{}: {}", p.bounce, ratio(p.ratio))).collect();
-    let label = format!("each bounce over what it should be, red: {}", words.join(", "));
+    let label = format!("each bounce relative to its expected value, red: {}", words.join(", "));
     html! {
         figure.bounces {
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(label) {
@@ -74,7 +74,7 @@ fn draw(lines: &[Vec<Point>; 3]) -> Markup {
                     }
                 }
             }
-            figcaption { "Each bounce over what it should be, by bounce; bars are 99.9 % intervals." }
+            figcaption { "Each bounce relative to its expected value; bars are 99.9 % confidence intervals." }
         }
     }
 }

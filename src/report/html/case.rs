@@ -52,7 +52,7 @@ fn section(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
 fn about(trial: &TrialRecord) -> Markup {
     html! {
         dl.about {
-            dt { "remember" } dd { (trial.teaches) }
+            dt { "background" } dd { (trial.teaches) }
             dt { "source" } dd { (trial.source) }
             dt { "check" } dd { code { (trial.check) } " · case " (hash(&trial.case_hash)) }
             @if let Some(scene) = &trial.scene {
@@ -120,8 +120,8 @@ pub fn measures<'a>(measures: impl IntoIterator<Item = &'a Measure>) -> Markup {
                             th.number scope="col" { (name) }
                         }
                         @if noisy {
-                            th.number scope="col" { "99.9 % interval" }
-                            th scope="col" { "interval and band" }
+                            th.number scope="col" { "99.9 % CI" }
+                            th scope="col" { "confidence interval and tolerance band" }
                         }
                         th.number scope="col" { "catches" }
                         th scope="col" { "" }
@@ -162,7 +162,7 @@ fn status_of(verdict: Verdict) -> Status {
 pub fn resolution(finding: &Finding) -> Markup {
     html! {
         @if !finding.resolution.is_empty() {
-            p.resolution { b { "Resolution. " } (finding.resolution) }
+            p.resolution { b { "Smallest detectable error. " } (finding.resolution) }
         }
     }
 }

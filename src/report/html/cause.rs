@@ -26,7 +26,7 @@ pub fn card(tree: &RunTree, core: &str, headline: &Headline, kicker: &str) -> Ma
                 (list("seen", &headline.evidence))
                 (list("ruled out", &headline.ruled_out))
                 dt { "where" } dd { (sentence(headline.cause.look_at)) }
-                dt { "instead" } dd { (headline.cause.fix) }
+                dt { "fix" } dd { (headline.cause.fix) }
                 dt { "explains" } dd { (explained(core, headline)) }
             }
             (command(&headline.command))

@@ -124,7 +124,7 @@ impl Keys {
 }
 
 /// What the viewer says to those who only hear it.
-const KEYS: &str = "Pictures. Keys 1 to 5 choose, space flips, w wipes, g shows all.";
+const KEYS: &str = "Images. Keys 1 to 5 choose, space flips, w wipes, g shows all.";
 
 fn viewer(view: &View<'_>, frames: &[Frame<'_>], side: usize) -> Markup {
     let radiance = frames.iter().filter(|frame| scale(frame.shot.file.role).is_none());
@@ -137,7 +137,7 @@ fn viewer(view: &View<'_>, frames: &[Frame<'_>], side: usize) -> Markup {
             figcaption.faint {
                 "Radiance at " (format!("{:+.1}", look.stops)) " EV, sRGB"
                 (made_smaller(first, side)) ". "
-                span.scripted { "Click a picture to see it alone, again to flip back." }
+                span.scripted { "Click an image to see it alone, again to flip back." }
             }
         }
     }
@@ -168,7 +168,7 @@ fn tools(frames: &[Frame<'_>]) -> Markup {
             button type="button" data-layout="all" aria-pressed="false" {
                 kbd { "g" } " side by side"
             }
-            input.wipe type="range" min="0" max="100" value="50" aria-label="Where the wipe stands";
+            input.wipe type="range" min="0" max="100" value="50" aria-label="Position of the wipe";
         }
     }
 }
@@ -181,7 +181,7 @@ fn frame_markup(view: &View<'_>, frame: &Frame<'_>, look: Look) -> Markup {
             p.label { (frame.label) }
             @match image {
                 Ok(image) => { (drawing(image, file, &frame.label, look)) }
-                Err(error) => { p.missing { "This picture cannot be shown. " (error) } }
+                Err(error) => { p.missing { "This image cannot be shown. " (error) } }
             }
             p.faint { (file.caption) " · " (source(view, &path)) }
         }
@@ -194,7 +194,7 @@ fn drawing(image: &Image, file: &PictureFile, label: &str, look: Look) -> Markup
     html! {
         @match look.address(image, file.role) {
             Ok(address) => { img src=(address) alt={ (label) ": " (file.caption) }; }
-            Err(error) => { p.missing { "This picture cannot be shown. " (error) } }
+            Err(error) => { p.missing { "This image cannot be shown. " (error) } }
         }
         (legend(file.role))
         @if bad > 0 { p.bad { (count(bad, "pixel")) " not finite; NaN is magenta" } }
@@ -265,7 +265,7 @@ mod tests {
         let cases = by_case(&tree);
         let case = cases.iter().find(|case| case.first().case == trial.case).unwrap();
         let markup = pictures(&view, case).into_string();
-        assert_eq!(markup.matches("This picture cannot be shown").count(), 1);
+        assert_eq!(markup.matches("This image cannot be shown").count(), 1);
         assert_eq!(markup.matches("<img").count(), 6);
     }
 

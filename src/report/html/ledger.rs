@@ -10,7 +10,8 @@ use crate::text::number::{percent, probability, significant};
 use maud::{Markup, html};
 
 /// Error budget and resolution.
-pub(super) static PAGE: Page = Page { id: "ledger", title: "Error rates and resolution", body };
+pub(super) static PAGE: Page =
+    Page { id: "ledger", title: "Error rates and smallest detectable errors", body };
 
 fn body(view: &View<'_>) -> Option<Markup> {
     Some(html! {
@@ -27,7 +28,7 @@ fn sums(view: &View<'_>) -> Markup {
     html! {
         div.card.wide {
             p {
-                "A check that draws random numbers can fail a correct core by chance. The chances "
+                "A check that draws random numbers can fail a correct core by chance. The probabilities "
                 "below add up to a bound for the whole run, whatever the trials have in common; "
                 "checks without noise spend nothing. A suite may spend "
                 (probability(SUITE_FALSE_ALARM)) "."
@@ -35,17 +36,17 @@ fn sums(view: &View<'_>) -> Markup {
             p {
                 "Most tests have several stages, and only what every stage rejects fails. How "
                 "often first stages suspect a correct core is known: if the counts below are far "
-                "from what is expected, the bound is not to be believed."
+                "from what is expected, do not trust the bound."
             }
             table.small.sums {
                 thead { tr {
                     th scope="col" { "core" }
                     th scope="col" { "kind of test" }
-                    th.number scope="col" { "random claims" }
-                    th.number scope="col" { "suspected by a first stage" }
+                    th.number scope="col" { "hypotheses" }
+                    th.number scope="col" { "needed a second look" }
                     th.number scope="col" { "expected of a correct core" }
                     th.number scope="col" { "would have caught at least" }
-                    th.number scope="col" { "chance that a correct core fails any, at most" }
+                    th.number scope="col" { "probability that a correct core fails any, at most" }
                 } }
                 @for core in &view.tree.run.cores { (book(view, &core.spec)) }
             }
@@ -95,8 +96,8 @@ fn table(view: &View<'_>) -> Markup {
             thead { tr {
                 th scope="col" { "case" }
                 th scope="col" { "core" }
-                th.number scope="col" { "chance spent" }
-                th scope="col" { "the smallest error it would have caught" }
+                th.number scope="col" { "probability spent" }
+                th scope="col" { "the smallest detectable error" }
             } }
             tbody { @for trial in cases.iter().flat_map(|case| &case.trials) { (row(trial)) } }
         }

@@ -69,18 +69,18 @@ fn unfinished(view: &View<'_>) -> Markup {
                 @if view.tree.stopped_at_failure() {
                     strong { "This run stopped at the first failure." }
                 } @else {
-                    strong { "This run did not come to its end." }
+                    strong { "This run is incomplete." }
                 }
                 " " (present) " of " (planned) " planned trials have a result; "
-                "nothing is known about the others, which were not run."
+                "the others were not run."
                 (command(&format!("cargo furnace run --resume {}", view.tree.folder.display())))
             }
         }
     }
 }
 
-const FALSE_ALARM: &str = "the chance that a correct core fails any of its trials";
-const WEAKEST_PASS: &str = "the smallest error that every pass would have caught";
+const FALSE_ALARM: &str = "the probability that a correct core fails any of its trials";
+const WEAKEST_PASS: &str = "the largest of the smallest detectable errors";
 
 fn score(view: &View<'_>) -> Markup {
     let tally = Tally::of(view.tree.graded());

@@ -37,7 +37,7 @@ fn body(view: &View<'_>) -> Option<Markup> {
 }
 
 fn took(run: &RunRecord) -> String {
-    run.timing.seconds.map_or_else(|| "it did not end".to_owned(), duration)
+    run.timing.seconds.map_or_else(|| "incomplete".to_owned(), duration)
 }
 
 fn about(core: &CoreRecord) -> Markup {

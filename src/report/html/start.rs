@@ -57,7 +57,7 @@ fn does_not_come_up(core: AbsentCore<'_>) -> Markup {
     html! {
         div.card.first {
             p.kicker { b { "Start here. " } (badge(core.witness.outcome.status())) }
-            h3.said { (core.spec) " does not come up: no trial could be made." }
+            h3.said { (core.spec) " fails to start: no trial could run." }
             p { (core.problem) }
             @if !core.witness.printed.is_empty() { pre { (core.witness.printed) } }
             (command(&core.command()))
@@ -106,7 +106,7 @@ fn failed(first: &TrialRecord, others: &[&TrialRecord]) -> Markup {
                 }
             }
             h3.said { (first.outcome.statement()) }
-            p { b { "Claim. " } (first.title) ". " b { "Remember. " } (first.teaches) }
+            p { b { "Claim. " } (first.title) ". " b { "Background. " } (first.teaches) }
             @if let Some(finding) = first.outcome.finding() {
                 (measures(worst_first(&finding.measures).into_iter().take(MEASURES)))
                 (resolution(finding))
@@ -120,7 +120,7 @@ fn failed(first: &TrialRecord, others: &[&TrialRecord]) -> Markup {
 fn further(others: &[&TrialRecord]) -> Markup {
     html! {
         @if !others.is_empty() {
-            p.kicker { "Then, in the order in which one part rests on another" }
+            p.kicker { "Next, in the order in which one part rests on another" }
             ul.further {
                 @for trial in others.iter().take(FURTHER) {
                     li {
@@ -143,8 +143,8 @@ fn not_failed(view: &View<'_>, tally: &Tally) -> Markup {
     html! {
         div class={ "card " (if all_good { "good" } else { "open" }) } {
             h3 {
-                @if all_good { "All good: every trial passes." }
-                @else { "Nothing fails, but not everything is known." }
+                @if all_good { "Every trial passes." }
+                @else { "Nothing fails, but not everything is decided." }
             }
             @if !all_good { (unknown(view)) }
             div.two {
@@ -175,7 +175,7 @@ fn unknown(view: &View<'_>) -> Markup {
 fn weakest(view: &View<'_>) -> Markup {
     html! {
         div {
-            h4 { "Weakest passes: the smallest error each would have caught" }
+            h4 { "Weakest passes, with the smallest detectable error of each" }
             table.small {
                 @for weakest in weakest_first(view.tree.graded()).iter().take(ROWS) {
                     tr { (named(weakest.trial)) td.number { (percent(weakest.resolution)) } }

@@ -44,11 +44,11 @@ pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
     lines
 }
 
-/// A core that does not come up: why, and how to try that alone.
+/// A core that fails to start: why, and how to try that alone.
 pub fn absent(core: AbsentCore<'_>, style: Style) -> Vec<String> {
     let status = core.witness.outcome.status();
     let word = style.paint(paint_of(status), &status.word().to_uppercase());
-    let head = format!("  {word}  {} does not come up: no trial could be made", clean(core.spec));
+    let head = format!("  {word}  {} fails to start: no trial could run", clean(core.spec));
     let mut lines = vec![String::new(), head];
     lines.extend(indented(core.problem));
     lines.extend(last_words(core.witness));
@@ -72,7 +72,7 @@ fn full_block(trial: &TrialRecord, style: Style) -> Vec<String> {
     }
     lines.extend(last_words(trial));
     lines.extend(labelled("claim", &claim(trial)));
-    lines.extend(labelled("recall", &trial.teaches));
+    lines.extend(labelled("theory", &trial.teaches));
     lines.push(next(trial));
     lines
 }

@@ -43,7 +43,7 @@ fn block(core: &str, headline: &Headline, style: Style) -> Vec<String> {
         lines.extend(labelled("not", ruled_out));
     }
     lines.extend(labelled("where", headline.cause.look_at));
-    lines.extend(labelled("instead", headline.cause.fix));
+    lines.extend(labelled("fix", headline.cause.fix));
     lines.push(format!("{:INDENT$}try     {}", "", clean(&headline.command)));
     lines
 }
@@ -52,7 +52,7 @@ fn block(core: &str, headline: &Headline, style: Style) -> Vec<String> {
 fn count(headline: &Headline) -> String {
     let explained = headline.explains.len();
     let mut words = match explained {
-        1 => "a cause for 1 failure".to_owned(),
+        1 => "one cause explains 1 failure".to_owned(),
         _ => format!("one cause explains {explained} failures"),
     };
     if !headline.may_follow.is_empty() {

@@ -167,7 +167,7 @@ fn unfinished(tree: &RunTree, style: Style) -> Vec<String> {
     } else {
         format!("  UNFINISHED: {present} of {planned} planned trials have a result")
     };
-    let next = format!("  go on   cargo furnace run --resume {}", tree.folder.display());
+    let next = format!("  resume  cargo furnace run --resume {}", tree.folder.display());
     vec![style.paint(Paint::Unknown, &what), next]
 }
 
@@ -176,9 +176,9 @@ fn chance(tree: &RunTree) -> Vec<String> {
     let ledger = dearest_ledger(tree);
     let (spent, whole) = (probability(ledger.spent()), probability(SUITE_FALSE_ALARM));
     let mut text = match ledger.is_within_budget() {
-        true => format!("chance that a correct core fails any of them: at most {spent}"),
+        true => format!("probability that a correct core fails any of them: at most {spent}"),
         false => format!(
-            "chance that a correct core fails any of them: up to {spent}, more than the {whole} \
+            "probability that a correct core fails any of them: up to {spent}, more than the {whole} \
              that a suite may spend"
         ),
     };
@@ -188,19 +188,22 @@ fn chance(tree: &RunTree) -> Vec<String> {
     wrap(&text, 2).into_iter().map(|line| format!("  {line}")).collect()
 }
 
-/// `40 random claims: 38 means 1.9e-8, 2 pictures 1e-8; 1 suspected by its first stage`
+/// `40 hypotheses: 38 means 1.9e-8, 2 pictures 1e-8; 1 needed a second look`
 fn entries(ledger: &Ledger) -> String {
     let entry = |(kind, entry): (TestKind, LedgerEntry)| {
         let name = if entry.hypotheses == 1 { kind.singular() } else { kind.plural() };
         format!("{} {name} {}", entry.hypotheses, probability(entry.false_alarm))
     };
     let entries: Vec<_> = ledger.entries().map(entry).collect();
-    let claims = count(ledger.hypotheses(), "random claim");
+    let claims = match ledger.hypotheses() {
+        1 => "1 hypothesis".to_owned(),
+        many => format!("{many} hypotheses"),
+    };
     let suspected = match ledger.suspected() {
         0 => "none".to_owned(),
         some => some.to_string(),
     };
-    format!("{claims}: {}; {suspected} suspected by its first stage", entries.join(", "))
+    format!("{claims}: {}; {suspected} needed a second look", entries.join(", "))
 }
 
 /// The pass that proves least.

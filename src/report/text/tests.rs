@@ -39,8 +39,8 @@ fn a_green_run_fits_on_a_screen() {
     6 images against Mitsuba    #         1 of 1 pass     2.2 s
 
   24 trials in 71.3 s: 24 pass
-  chance that a correct core fails any of them: at most 3.6e-8
-  72 random claims: 72 means 3.6e-8; none suspected by its first stage
+  probability that a correct core fails any of them: at most 3.6e-8
+  72 hypotheses: 72 means 3.6e-8; none needed a second look
   weakest pass: image/cornell-spheres on textbook would have caught an error of 1.4 % in
   any bounce
 ";
@@ -52,8 +52,8 @@ fn a_failure_says_verdict_size_numbers_place_and_next_command() {
     let text = plain(Example::mixed());
     let expected = "
   FAIL  integrator/roulette-leaves-every-mean-as-it-is on builtin
-        bounce 2 gives 70 % of what it should and bounce 3 gives 49 %: every bounce
-        after the first loses the same share in all three channels
+        bounce 2 is 0.70 times the expected value and bounce 3 0.49 times: every bounce
+        after the first loses the same factor in all channels
 
                             measured   expected    allowed    off by
         x bounce 3, green    0.05086    0.10421   ±0.00010   -51.2 %
@@ -62,8 +62,9 @@ fn a_failure_says_verdict_size_numbers_place_and_next_command() {
         x bounce 2, red     0.066899   0.095830    ±9.6e-5   -30.2 %
           and 8 more, 2 of them wrong
 
-        claim   Roulette leaves every mean as it is (global illumination)
-        recall  A survivor of roulette carries the weight of those that were stopped.
+        claim   Russian roulette leaves every mean unchanged (global illumination)
+        theory  The throughput of a survivor of Russian roulette is divided by the
+                survival probability.
         try     cargo furnace run integrator/roulette-leaves-every-mean-as-it-is --core builtin
 ";
     assert!(text.contains(expected), "{text}");
@@ -107,7 +108,7 @@ fn a_core_that_does_not_come_up_is_one_block() {
     let mut example = Example::mixed();
     example.run.cores[1].problem = Some("the core crashed during hello".to_owned());
     let text = plain(example);
-    let expected = "textbook does not come up: no trial could be made
+    let expected = "textbook fails to start: no trial could run
         the core crashed during hello
 ";
     assert!(text.contains(expected), "{text}");

@@ -27,7 +27,7 @@ impl Entry {
         let up = self.up.map_or(DVec3::Y, |up| up.0);
         let target = self.look_at.get_ref().0;
         if (target - self.position.0).cross(up).try_normalize().is_none() {
-            let problem = "the camera looks at its own position, or straight along `up`";
+            let problem = "invalid camera: `target` equals the position, or lies along `up`";
             return Err(context.wrong(self.look_at.span(), problem));
         }
         let horizontal_fov = field_of_view(&self.horizontal_fov, context)?;
@@ -45,7 +45,7 @@ impl Entry {
 fn field_of_view(angle: &Spanned<Angle>, context: &Context<'_>) -> Result<f64, Diagnostic> {
     let Angle(radians) = *angle.get_ref();
     let is_valid = radians > 0.0 && radians < PI;
-    is_valid
-        .then_some(radians)
-        .ok_or_else(|| context.wrong(angle.span(), "a field of view lies between 0 and 180 deg"))
+    is_valid.then_some(radians).ok_or_else(|| {
+        context.wrong(angle.span(), "invalid field of view: must be between 0 and 180 deg")
+    })
 }

@@ -102,7 +102,9 @@ impl Quad {
     pub fn make(self) -> Result<Geometry, String> {
         let edges = self.edges.map(|edge| edge.0);
         if edges[0].cross(edges[1]) == DVec3::ZERO {
-            return Err("the edges of a quad are not parallel and have a length".to_owned());
+            return Err(
+                "invalid quad: its edges must not be parallel, nor of zero length".to_owned()
+            );
         }
         let from_centre = self.centre.map(|centre| centre.0 - (edges[0] + edges[1]) / 2.0);
         let corner = exactly_one(
@@ -119,7 +121,7 @@ impl Block {
         if min.cmplt(max).all() {
             Ok(Geometry::Mesh(procedural::block(min, max, self.inward)))
         } else {
-            Err("every coordinate of `min` is below that of `max`".to_owned())
+            Err("invalid box: every coordinate of `min` must be below that of `max`".to_owned())
         }
     }
 }

@@ -52,7 +52,7 @@ pub(super) fn resolve_all(
         let light = entry.into_inner().light();
         let light = light.map_err(|problem| context.wrong(span.clone(), problem))?;
         if is_sky(&light) && lights.iter().any(is_sky) {
-            return Err(context.wrong(span, "a scene has one sky at most, and this is the second"));
+            return Err(context.wrong(span, "second environment light: a scene has at most one"));
         }
         lights.push(light);
     }

@@ -103,7 +103,7 @@ impl Materials {
         let keep = |named: Named| match named.is_used.get() {
             true => Ok(named.material),
             false => {
-                let problem = format!("no shape is made of `{}`", named.material.name);
+                let problem = format!("material `{}` is unused", named.material.name);
                 Err(context.wrong(named.span, problem))
             }
         };
@@ -145,7 +145,7 @@ impl Entry {
     fn emission(self, context: &Context<'_>) -> Result<Option<Emission>, Diagnostic> {
         let radiance = self.emission.map(|power| power.0);
         if let (None, Some(cap)) = (radiance, &self.cap) {
-            return Err(context.wrong(cap.span(), "a `cap` says which part glows: add `emission`"));
+            return Err(context.wrong(cap.span(), "a `cap` without emission: add `emission`"));
         }
         let cap = self.cap.map(|cap| resolve_cap(&cap, context)).transpose()?;
         let lit = radiance.filter(|radiance| *radiance != [0.0; 3]);
@@ -158,6 +158,6 @@ fn resolve_cap(cap: &Spanned<CapEntry>, context: &Context<'_>) -> Result<Cap, Di
     if *half_angle > 0.0 && *half_angle < PI {
         Ok(Cap { axis: axis.0, half_angle: *half_angle })
     } else {
-        Err(context.wrong(cap.span(), "the half angle of a cap lies between 0 and 180 deg"))
+        Err(context.wrong(cap.span(), "invalid half angle of a cap: must be between 0 and 180 deg"))
     }
 }

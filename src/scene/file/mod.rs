@@ -129,7 +129,7 @@ fn exactly_one<T>(
     }
     if given.len() > 1 {
         let both = given.iter().map(|(word, _)| format!("`{word}`")).collect::<Vec<_>>();
-        return Err(format!("{what} is one thing only, but this says {}", both.join(" and ")));
+        return Err(format!("{what} must be one thing, not {}", both.join(" and ")));
     }
     match given.pop() {
         Some((_, entry)) => Ok(entry),

@@ -55,7 +55,7 @@ impl Parameters {
         match self.0.iter().find(|(_, parameter)| !parameter.is_used.get()) {
             None => Ok(()),
             Some((name, parameter)) => {
-                let problem = format!("nothing refers to parameter `{name}`");
+                let problem = format!("parameter `{name}` is unused");
                 let hint = format!("write \"${name}\" where its value belongs");
                 Err(source.diagnostic(parameter.span.clone(), problem).with_hint(hint))
             }

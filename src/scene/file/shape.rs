@@ -66,7 +66,7 @@ pub(super) fn resolve_all(
         let span = entry.span();
         let entry = entry.into_inner();
         if !names.insert(entry.name.get_ref().clone()) {
-            let problem = format!("there is another shape `{}`", entry.name.get_ref());
+            let problem = format!("duplicate shape `{}`", entry.name.get_ref());
             return Err(context.wrong(entry.name.span(), problem));
         }
         entry.resolve(span, materials, context, scene)?;
@@ -155,10 +155,10 @@ fn checked<T>(
 fn check_light(mesh: &Mesh, material: &Material) -> Result<(), String> {
     let Some(emission) = material.emission else { return Ok(()) };
     if emission.cap.is_some() {
-        return Err(format!("`{}` glows on a `cap`, and only spheres have one", material.name));
+        return Err(format!("`{}` has a `cap`, which only spheres can have", material.name));
     }
     let area: f64 = (0..mesh.indices.len()).map(|triangle| mesh.area(triangle)).sum();
-    if area > 0.0 { Ok(()) } else { Err("a shape without area cannot glow".to_owned()) }
+    if area > 0.0 { Ok(()) } else { Err("a shape without area cannot emit".to_owned()) }
 }
 
 /// One sphere takes the shape's name, several take it with their number.

@@ -66,7 +66,7 @@ impl Writer<'_> {
         match red == green && green == blue {
             true => Ok(red),
             false => Err(self.complaint.about(format!(
-                "{of} has the colour {}, and pbrt makes a spectrum of it: only greys stay what they are",
+                "{of} has the colour {}, which pbrt converts to a spectrum: only greys survive",
                 numbers(colour)
             ))),
         }
@@ -91,7 +91,7 @@ impl Writer<'_> {
             Light::GradientSky { .. } => {
                 return Err(self
                     .complaint
-                    .about("its sky is brighter above, and pbrt takes pictures for that"));
+                    .about("it has a gradient environment light, for which pbrt needs an image"));
             }
             Light::Area { .. } => return Ok(()),
         };
@@ -119,7 +119,7 @@ impl Writer<'_> {
         self.line(&surface);
         if let Some(emission) = material.emission {
             if emission.cap.is_some() {
-                return Err(self.complaint.about(format!("`{name}` glows on a part of a sphere")));
+                return Err(self.complaint.about(format!("`{name}` emits on a part of a sphere")));
             }
             let radiance = self.grey(emission.radiance, &format!("the light of `{name}`"))?;
             self.line(&format!("AreaLightSource \"diffuse\" {}", rgb("L", radiance)));
@@ -139,9 +139,11 @@ impl Writer<'_> {
                 let reflectance = self.grey(reflectance, &format!("material `{name}`"))?;
                 Ok(format!("Material \"diffuse\" {}", rgb("reflectance", reflectance)))
             }
-            Surface::Glass { index, reflectance: [1.0, 1.0, 1.0], transmittance: [1.0, 1.0, 1.0] } => {
-                Ok(format!("Material \"dielectric\" \"float eta\" [ {index} ]"))
-            }
+            Surface::Glass {
+                index,
+                reflectance: [1.0, 1.0, 1.0],
+                transmittance: [1.0, 1.0, 1.0],
+            } => Ok(format!("Material \"dielectric\" \"float eta\" [ {index} ]")),
             Surface::RoughGlass {
                 index,
                 roughness,
@@ -154,9 +156,11 @@ impl Writer<'_> {
             Surface::Glass { .. } | Surface::RoughGlass { .. } => {
                 Err(self.complaint.about(format!("glass `{name}` is tinted, and pbrt's is clear")))
             }
-            Surface::Mirror { .. } | Surface::Conductor { .. } => Err(self.complaint.about(format!(
-                "metal `{name}` reflects the same share at every angle, and pbrt's has a Fresnel term"
-            ))),
+            Surface::Mirror { .. } | Surface::Conductor { .. } => {
+                Err(self.complaint.about(format!(
+                    "conductor `{name}` has constant reflectance, and pbrt's has a Fresnel term"
+                )))
+            }
         }
     }
 }

@@ -39,7 +39,7 @@ fn vector(element: &DefaultElement, names: [&str; 3]) -> Result<DVec3, MeshError
         Some(property) => property.to_f32_lossy().map(f64::from),
         None => None,
     };
-    let missing = |name| malformed(&format!("a vertex has no number `{name}`"));
+    let missing = |name| malformed(&format!("a vertex has no property `{name}`"));
     let mut vector = DVec3::ZERO;
     for (axis, name) in names.into_iter().enumerate() {
         vector[axis] = number(name).ok_or_else(|| missing(name))?;

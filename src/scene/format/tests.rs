@@ -190,7 +190,7 @@ fn rough_glass_is_said_to_mitsuba_and_pbrt_and_to_nobody_else() {
     }
     for format in [Format::Collada, Format::Obj] {
         let message = written_after("point-light-plane", format, rough).unwrap_err();
-        assert!(message.contains("is rough glass"), "{message}");
+        assert!(message.contains("is a rough dielectric"), "{message}");
     }
 }
 
@@ -201,26 +201,26 @@ fn the_course_has_no_rough_metal_and_nothing_that_glows_and_reflects() {
         scene.materials[0].emission = None;
     };
     let message = written_after("point-light-plane", Format::Collada, metal).unwrap_err();
-    assert!(message.contains("is a rough metal"), "{message}");
+    assert!(message.contains("is a rough conductor"), "{message}");
     let grey = |scene: &mut SceneDescription| {
         for material in &mut scene.materials {
             material.surface = Surface::Diffuse { reflectance: [0.5; 3] };
         }
     };
     let message = written_after("area-light-plane", Format::Collada, grey).unwrap_err();
-    assert!(message.contains("glows and reflects"), "{message}");
+    assert!(message.contains("emits and reflects"), "{message}");
 }
 
 #[test]
 fn what_a_format_cannot_hold_is_named() {
     for (scene, format, words) in [
-        ("sky", Format::Collada, "a sky lights it"),
-        ("sphere-light", Format::Collada, "lamps are rectangles"),
-        ("cornell-diffuse-spheres", Format::Pbrt, "only greys stay what they are"),
-        ("gradient-sky", Format::Pbrt, "brighter above"),
+        ("sky", Format::Collada, "it has an environment light"),
+        ("sphere-light", Format::Collada, "area lights are rectangles"),
+        ("cornell-diffuse-spheres", Format::Pbrt, "only greys survive"),
+        ("gradient-sky", Format::Pbrt, "gradient environment light"),
         ("cornell-diffuse-spheres", Format::Obj, "is a sphere"),
-        ("point-light-plane", Format::Obj, "no lights but surfaces that glow"),
-        ("cap-cavity", Format::Mitsuba, "glows on a cap only"),
+        ("point-light-plane", Format::Obj, "no lights but emissive surfaces"),
+        ("cap-cavity", Format::Mitsuba, "emits on a cap only"),
     ] {
         let message = written(scene, format).unwrap_err();
         assert!(message.contains(words), "{scene}, {format}: {message}");

@@ -148,7 +148,7 @@ fn read_picture(
     }
     let content = std::fs::read(&path).map_err(|problem| damaged(&problem))?;
     if fingerprint(&content) != provenance.picture_hash {
-        return Err(damaged(&"the picture is not the one its provenance speaks of"));
+        return Err(damaged(&"the image does not match its provenance"));
     }
     Ok(file)
 }
@@ -161,7 +161,7 @@ fn mean_and_error(file: &Exr) -> Result<(Image, Image), ReferenceProblem> {
     if values.copied().all(|value| value >= 0.0 && value.is_finite()) {
         Ok((mean, standard_error))
     } else {
-        Err(damaged(&"it has values that are negative or no numbers"))
+        Err(damaged(&"it has values that are negative or NaN"))
     }
 }
 

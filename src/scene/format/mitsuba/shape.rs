@@ -71,7 +71,7 @@ fn write_material(
     let Some(emission) = material.emission else { return Ok(()) };
     if emission.cap.is_some() {
         return Err(complaint.about(format!(
-            "`{shape}` glows on a cap only: there is no such light; its closed form is its reference"
+            "`{shape}` emits on a cap only: Mitsuba has no such light; its closed form is its reference"
         )));
     }
     xml.open("emitter", &[("type", "area")]);

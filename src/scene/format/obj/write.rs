@@ -8,11 +8,11 @@ use std::fmt::Write;
 pub fn export(scene: &SceneDescription) -> Result<Exported, ExportError> {
     let complaint = Complaint { format: Format::Obj, scene };
     if let Some(sphere) = scene.spheres.first() {
-        let what = format!("`{}` is a sphere, and OBJ has triangles only", sphere.name);
+        let what = format!("`{}` is a sphere, and OBJ has only triangles", sphere.name);
         return Err(complaint.about(what));
     }
     if scene.lights.iter().any(|light| !matches!(light, Light::Area { .. })) {
-        return Err(complaint.about("OBJ has no lights but surfaces that glow"));
+        return Err(complaint.about("OBJ has no lights but emissive surfaces"));
     }
     let mut library = String::new();
     for (number, material) in scene.materials.iter().enumerate() {
@@ -76,7 +76,7 @@ fn write_material(
             };
             let name = &material.name;
             return Err(
-                complaint.about(format!("material `{name}` is {what}, which MTL leaves to taste"))
+                complaint.about(format!("material `{name}` is {what}, which MTL does not define"))
             );
         }
     }

@@ -72,14 +72,21 @@ impl Lens {
     fn check(&self) -> std::result::Result<(), String> {
         for fov in [self.horizontal_fov, self.vertical_fov] {
             if !(fov > 0.0 && fov < 180.0) {
-                return Err(format!("a field of view is {fov} degrees, not between 0 and 180"));
+                return Err(format!(
+                    "invalid field of view of {fov} degrees: must be between 0 and 180"
+                ));
             }
         }
         if !(self.near >= 0.0 && self.near < self.far) {
-            return Err(format!("clips at {} and {}: nothing is between", self.near, self.far));
+            return Err(format!(
+                "invalid clip distances {} and {}: near must be below far",
+                self.near, self.far
+            ));
         }
         if !self.towards_camera.is_finite() {
-            return Err("looks nowhere: its matrix takes (0, 0, -1) to the origin".to_owned());
+            return Err(
+                "has no view direction: its matrix maps (0, 0, -1) to the origin".to_owned()
+            );
         }
         Ok(())
     }

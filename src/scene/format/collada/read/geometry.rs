@@ -87,12 +87,12 @@ fn read_positions<'a>(
     let numbers: Vec<f32> = reader.first_numbers(array, count)?;
     let (points, rest) = numbers.as_chunks::<3>();
     if !rest.is_empty() {
-        return Err(reader.wrong(array, format!("{count} numbers are no list of points")));
+        return Err(reader.wrong(array, format!("{count} numbers are not a list of points")));
     }
     let positions: Vec<_> = points.iter().map(|p| in_world(transform, p.map(f64::from))).collect();
     match positions.iter().position(|position| !position.is_finite()) {
         Some(vertex) => Err(reader
-            .wrong(array, format!("vertex {vertex} ends up nowhere"))
+            .wrong(array, format!("vertex {vertex} is not finite"))
             .with_hint("the last row of the node's matrix should be `0 0 0 1`")),
         None => Ok(positions),
     }
@@ -144,7 +144,7 @@ fn check_polygon(corners: &[u32], vertices: usize) -> std::result::Result<(), St
         return Err(format!("refers to vertex {index}, but there are only {vertices} vertices"));
     }
     if corners.iter().collect::<BTreeSet<_>>().len() < corners.len() {
-        return Err("comes twice to the same vertex".to_owned());
+        return Err("uses the same vertex twice".to_owned());
     }
     Ok(())
 }
@@ -225,6 +225,6 @@ pub(super) fn read_sphere<'a>(
     if sphere.centre.is_finite() && sphere.radius.is_finite() && sphere.radius > 0.0 {
         Ok(sphere)
     } else {
-        Err(reader.wrong(element, format!("a sphere of radius {} is none", sphere.radius)))
+        Err(reader.wrong(element, format!("invalid radius {}: must be positive", sphere.radius)))
     }
 }

@@ -39,7 +39,7 @@ fn add(scene: &mut SceneDescription, lamp: Lamp) -> Option<String> {
     if let Some(mesh) = at.and_then(|position| glowing_mesh_at(scene, position)) {
         let mesh = &mesh.name;
         return Some(format!(
-            "lamp `{name}` lies in `{mesh}`: what shines is `{mesh}`, as it is seen"
+            "light `{name}` lies in `{mesh}`: the emitter is `{mesh}`, as it is visible"
         ));
     }
     match kind {
@@ -47,7 +47,7 @@ fn add(scene: &mut SceneDescription, lamp: Lamp) -> Option<String> {
             let material = scene.materials.len() as u32;
             scene.materials.push(glowing(&name, colour));
             scene.meshes.push(rectangle(&name, centre, direction, sides, material));
-            Some(format!("lamp `{name}` has no surface in the course; here it is seen"))
+            Some(format!("light `{name}` has no surface in the course; here it is visible"))
         }
         Kind::Point { position } => {
             scene.lights.push(Light::Point { position, intensity: colour });
@@ -57,11 +57,11 @@ fn add(scene: &mut SceneDescription, lamp: Lamp) -> Option<String> {
             scene.lights.push(Light::Directional { direction, irradiance: colour });
             None
         }
-        Kind::Ambient => {
-            Some(format!("lamp `{name}` is half of a sky, and shines without being seen: left out"))
-        }
+        Kind::Ambient => Some(format!(
+            "light `{name}` is a hemisphere light, which illuminates without being visible: left out"
+        )),
         Kind::Spot => {
-            Some(format!("lamp `{name}` is a spot, which is dark in the course: left out"))
+            Some(format!("light `{name}` is a spotlight, which the course leaves black: left out"))
         }
     }
 }

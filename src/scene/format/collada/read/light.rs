@@ -47,7 +47,7 @@ pub(super) fn read<'a>(
         .or_else(|| reader.common_technique(light))
         .ok_or_else(|| reader.wrong(light, "has neither a CGL profile nor a common one"))?;
     let kind = technique.children().find(Element::is_element);
-    let kind = kind.ok_or_else(|| reader.wrong(technique, "says nothing of the light"))?;
+    let kind = kind.ok_or_else(|| reader.wrong(technique, "does not describe the light"))?;
     let colour = reader.colour(reader.need(kind, "color")?)?;
     Ok(Lamp { name: name.to_owned(), colour, kind: read_kind(reader, kind, transform)? })
 }
@@ -66,12 +66,12 @@ fn read_kind<'a>(reader: &Reader<'a>, kind: Element<'a>, transform: &DMat4) -> R
         "directional" => Kind::Directional { direction: -unit(point(transform, -DVec3::Z)) },
         "spot" => Kind::Spot,
         "ambient" => Kind::Ambient,
-        _ => return Err(reader.wrong(kind, format!("`{word}` is no light of the course"))),
+        _ => return Err(reader.wrong(kind, format!("unknown light `{word}`: the course has none"))),
     };
     if lamp.is_finite() {
         Ok(lamp)
     } else {
-        Err(reader.wrong(kind, "the matrix of its node leaves the light no size or direction"))
+        Err(reader.wrong(kind, "the matrix of its node gives the light no size or direction"))
     }
 }
 

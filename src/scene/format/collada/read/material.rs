@@ -81,7 +81,7 @@ fn index<'a>(reader: &Reader<'a>, glass: Element<'a>) -> Result<f64> {
     if index > 0.0 {
         Ok(f64::from(index))
     } else {
-        Err(reader.wrong(element, "an index of refraction is positive"))
+        Err(reader.wrong(element, "invalid index of refraction: must be positive"))
     }
 }
 

@@ -96,7 +96,7 @@ impl<'a> Walk<'_, 'a> {
         } else if let Some(geometry) = reader.find(node, "instance_geometry")? {
             self.geometry(node, name, geometry, transform)?;
         } else {
-            let message = "nothing is instanced here, and the course's program crashes on that";
+            let message = "this node instances nothing, and the course's program crashes on that";
             return Err(reader.wrong(node, message).with_hint(
                 "give the node an `instance_geometry`, `instance_light` or `instance_camera`",
             ));

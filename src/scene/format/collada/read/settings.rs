@@ -28,7 +28,7 @@ pub(super) fn parse(source: &Source, film: [u32; 2]) -> Result<Camera, SceneErro
     let numbers: Vec<f64> = words
         .map(|word| {
             let number = word.parse().ok().filter(|number: &f64| number.is_finite());
-            number.ok_or_else(|| wrong(format!("`{word}` is no number")))
+            number.ok_or_else(|| wrong(format!("`{word}` is not a number")))
         })
         .collect::<Result<_, _>>()?;
     if numbers.len() != COUNT {
@@ -50,7 +50,7 @@ pub(super) fn parse(source: &Source, film: [u32; 2]) -> Result<Camera, SceneErro
         && (camera.camera_to_world.determinant() - 1.0).abs() < 1e-3;
     match is_camera {
         true => Ok(camera),
-        false => Err(wrong("these numbers make no camera".to_owned()).into()),
+        false => Err(wrong("these numbers do not describe a camera".to_owned()).into()),
     }
 }
 

@@ -216,7 +216,7 @@ fn what_crashes_the_course_is_refused_with_the_place() {
         "`node` has no attribute `name`",
         "<node id=\"panel\">",
     );
-    let message = "nothing is instanced here";
+    let message = "this node instances nothing";
     assert_refused("<instance_geometry url=\"#tent-geometry\"/>", "", message, "name=\"tent\"");
     assert_refused("<up_axis>Z_UP", "<up_axis>UP", "no other axis", "<up_axis>");
     let message = "there is no element with the id `nose`";
@@ -255,7 +255,7 @@ fn a_mesh_that_is_no_manifold_is_refused() {
     let two = "<triangles count=\"4\">";
     assert_refused(two, "<triangles count=\"2\">", "does not use vertex 3", "<triangles");
     assert_refused(list, "0 1 4 1 2 4 2 3 9 3 0 4", "there are only 5 vertices", "<triangles");
-    assert_refused(list, "0 1 4 1 2 4 2 3 2 3 0 4", "comes twice to the same vertex", "<triangles");
+    assert_refused(list, "0 1 4 1 2 4 2 3 2 3 0 4", "uses the same vertex twice", "<triangles");
 }
 
 #[test]
@@ -280,12 +280,12 @@ fn numbers_are_counted_and_checked() {
     assert_refused(
         array,
         "count=\"14\">0.3 0 0",
-        "14 numbers are no list of points",
+        "14 numbers are not a list of points",
         "float_array",
     );
     assert_refused("<color>7 6 5", "<color>7 -6 5", "cannot be negative", "<color>");
-    assert_refused("<xfov>41.7", "<xfov>1e9", "a field of view is 1000000000", "<camera");
-    assert_refused("<radius>.3", "<radius>0", "a sphere of radius 0 is none", "<radius>");
+    assert_refused("<xfov>41.7", "<xfov>1e9", "invalid field of view of 1000000000", "<camera");
+    assert_refused("<radius>.3", "<radius>0", "invalid radius 0: must be positive", "<radius>");
 }
 
 #[test]

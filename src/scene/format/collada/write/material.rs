@@ -36,10 +36,11 @@ fn write_effect(
     let name = &material.name;
     if let Some(emission) = material.emission {
         if emission.cap.is_some() {
-            return Err(complaint.about(format!("material `{name}` glows on a part of a sphere")));
+            return Err(complaint.about(format!("material `{name}` emits on a part of a sphere")));
         }
         if material.surface != (Surface::Diffuse { reflectance: [0.0; 3] }) {
-            let what = format!("material `{name}` glows and reflects; in the course it does one");
+            let what =
+                format!("material `{name}` emits and reflects; in the course it can only do one");
             return Err(complaint.about(what));
         }
         profile(xml, "emission", &[("radiance", numbers(emission.radiance))]);
@@ -68,12 +69,13 @@ fn write_effect(
         }
         Surface::Conductor { .. } => {
             return Err(complaint.about(format!(
-                "material `{name}` is a rough metal of one reflectance, and the course's has a Fresnel term"
+                "material `{name}` is a rough conductor of constant reflectance; the course's has a Fresnel term"
             )));
         }
         Surface::RoughGlass { .. } => {
-            return Err(complaint
-                .about(format!("material `{name}` is rough glass, and the course's is smooth")));
+            return Err(complaint.about(format!(
+                "material `{name}` is a rough dielectric; the course's is smooth"
+            )));
         }
     }
     Ok(())

@@ -118,9 +118,9 @@ impl Writer<'_> {
                 Ok(("directional", irradiance, DAffine3::from_mat3(axes)))
             }
             Light::Area { shape } => self.area_lamp(shape),
-            Light::ConstantSky { .. } | Light::GradientSky { .. } => {
-                Err(self.complaint.about("a sky lights it, and the course's skies are dark"))
-            }
+            Light::ConstantSky { .. } | Light::GradientSky { .. } => Err(self
+                .complaint
+                .about("it has an environment light, which the course leaves black")),
         }
     }
 
@@ -133,7 +133,7 @@ impl Writer<'_> {
         };
         let rectangle = rectangle.ok_or_else(|| {
             self.complaint.about(format!(
-                "`{name}` glows, and the course's lamps are rectangles of two triangles"
+                "`{name}` emits, and the course's area lights are rectangles of two triangles"
             ))
         })?;
         let [u, v] = rectangle.sides;
@@ -218,15 +218,17 @@ impl Writer<'_> {
         match normals.iter().zip(&mesh.normals).position(differs) {
             None => Ok((mesh.positions.clone(), mesh.indices.clone())),
             Some(vertex) => Err(self.complaint.about(format!(
-                "the course makes its own normals, and at vertex {vertex} of `{name}` it makes another one"
+                "the course computes its own normals, and a different one at vertex {vertex} of `{name}`"
             ))),
         }
     }
 
     fn sphere(&self, xml: &mut XmlWriter, id: &str, sphere: &Sphere) -> Result<(), ExportError> {
         if sphere.inward {
-            let what =
-                format!("sphere `{}` looks inward, and the course's look outward", sphere.name);
+            let what = format!(
+                "sphere `{}` has inward normals, and the course's have outward ones",
+                sphere.name
+            );
             return Err(self.complaint.about(what));
         }
         xml.open("geometry", &[("id", &format!("{id}-geometry")), ("name", id)]);

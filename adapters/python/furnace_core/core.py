@@ -8,7 +8,7 @@ of the batch, and so has the answer.
 
 
 class Unsupported(Exception):
-    """Raise it for a request that is beyond the core: the trial is skipped, not failed."""
+    """Raise it for a request that the core does not support: the trial is skipped, not failed."""
 
 
 class Core:

@@ -735,7 +735,7 @@ struct Built {
       if (!unlit.empty()) throw furnace::Unsupported(unlit);
       const auto is_delta = [](const SceneLight *light) { return light->is_delta_light(); };
       if (settings.by_hemisphere && std::any_of(lights.begin(), lights.end(), is_delta))
-         throw furnace::Unsupported("point lights where light is gathered by the hemisphere");
+         throw furnace::Unsupported("point lights with hemisphere sampling");
       tracer.ns_area_light = settings.samples_per_light;
       tracer.direct_hemisphere_sample = settings.by_hemisphere;
    }

@@ -14,12 +14,12 @@ class Light {
        : light(light) {
       if (light.kind != FURNACE_AREA) return;
       bool     is_mesh = light.shape < scene.mesh_count;
-      uint32_t ball_index = light.shape - scene.mesh_count;
+      uint32_t sphere_index = light.shape - scene.mesh_count;
       material = scene.materials[is_mesh ? scene.meshes[light.shape].material
-                                         : scene.spheres[ball_index].material];
-      if (!is_mesh) take_ball(geometry.balls[ball_index]);
+                                         : scene.spheres[sphere_index].material];
+      if (!is_mesh) take_sphere(geometry.spheres[sphere_index]);
       for (const Primitive &p : geometry.primitives) {
-         if (p.shape != light.shape || p.is_ball) continue;
+         if (p.shape != light.shape || p.is_sphere) continue;
          triangles.push_back(geometry.triangles[p.index]);
          area += length(triangles.back().cross_edges) / 2;
          area_up_to.push_back(area);
@@ -61,7 +61,7 @@ class Light {
 
    // The pdf of `sample` in the direction of `p`, a point of the emitter.
    double area_pdf(Vec from, Vec p, Vec normal) const {
-      if (is_ball && fills_a_cone(from)) return 1 / (2 * PI * cone_depth(from));
+      if (is_sphere && fills_a_cone(from)) return 1 / (2 * PI * cone_depth(from));
       return per_steradian(from, p, normal);
    }
 
@@ -70,16 +70,16 @@ class Light {
    furnace_material      material{};
    std::vector<Triangle> triangles;
    std::vector<double>   area_up_to;
-   bool                  is_ball = false;
-   Ball                  ball{};
+   bool                  is_sphere = false;
+   Sphere                sphere{};
    double                area = 0;
    double                cap_depth = 2; // of the emissive part of the unit sphere
 
-   void take_ball(const Ball &of_scene) {
-      is_ball = true;
-      ball = of_scene;
+   void take_sphere(const Sphere &of_scene) {
+      is_sphere = true;
+      sphere = of_scene;
       if (material.cap_half_angle > 0) cap_depth = 1 - std::cos(material.cap_half_angle);
-      area = 2 * PI * ball.radius * ball.radius * cap_depth;
+      area = 2 * PI * sphere.radius * sphere.radius * cap_depth;
    }
 
    // 1 / area on the surface, as pdf with respect to solid angle: 0 from behind.
@@ -96,7 +96,7 @@ class Light {
    }
 
    furnace_light_sample sample_area(Vec from, const Numbers &random) const {
-      if (is_ball) return fills_a_cone(from) ? sample_cone(from, random.point)
+      if (is_sphere) return fills_a_cone(from) ? sample_cone(from, random.point)
                                              : sample_cap(from, random.point);
       if (triangles.empty()) return NO_LIGHT;
       auto   found = std::upper_bound(area_up_to.begin(), area_up_to.end(), random.lobe * area);
@@ -110,24 +110,24 @@ class Light {
    furnace_light_sample sample_cap(Vec from, furnace_vec2 u) const {
       Vec axis = material.cap_half_angle > 0 ? material.cap_axis : Vec{0, 0, 1};
       Vec outward = Frame(axis).to_world(below_pole(u.x * cap_depth, u.y));
-      return towards(from, ball.centre + ball.radius * outward, ball.inward ? -outward : outward);
+      return towards(from, sphere.centre + sphere.radius * outward, sphere.inward ? -outward : outward);
    }
 
    // From outside, a sphere light is sampled over the cone of directions that it subtends.
    bool fills_a_cone(Vec from) const {
-      bool glows_all_over = !ball.inward && material.cap_half_angle == 0;
-      return glows_all_over && length(from - ball.centre) > ball.radius;
+      bool emits_everywhere = !sphere.inward && material.cap_half_angle == 0;
+      return emits_everywhere && length(from - sphere.centre) > sphere.radius;
    }
    double cone_depth(Vec from) const {
-      Vec    way = ball.centre - from;
-      double sine2 = ball.radius * ball.radius / dot(way, way);
+      Vec    way = sphere.centre - from;
+      double sine2 = sphere.radius * sphere.radius / dot(way, way);
       return sine2 / (1 + std::sqrt(std::max(0.0, 1 - sine2)));
    }
    furnace_light_sample sample_cone(Vec from, furnace_vec2 u) const {
-      Vec    way = ball.centre - from;
+      Vec    way = sphere.centre - from;
       double depth = u.x * cone_depth(from), distance = length(way);
       double off_axis2 = distance * distance * depth * (2 - depth);
-      double half_chord = std::sqrt(std::max(0.0, ball.radius * ball.radius - off_axis2));
+      double half_chord = std::sqrt(std::max(0.0, sphere.radius * sphere.radius - off_axis2));
       Vec    wi = Frame(unit(way)).to_world(below_pole(depth, u.y));
       double pdf = 1 / (2 * PI * cone_depth(from));
       return {wi, distance * (1 - depth) - half_chord, material.emission, pdf, 0, 1};

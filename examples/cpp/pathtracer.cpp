@@ -5,8 +5,8 @@
 //    cargo furnace --core ./libpathtracer.so
 //
 // numbers.hpp    vectors, random numbers, directions around an axis
-// shapes.hpp     boxes, triangles, balls
-// hierarchy.hpp  the bounding volume hierarchy
+// shapes.hpp     boxes, triangles, spheres
+// bvh.hpp        the bounding volume hierarchy
 // surfaces.hpp   how surfaces scatter
 // lights.hpp     where light comes from
 // scene.hpp      paths
@@ -102,7 +102,7 @@ struct PathTracer {
       return alone(Triangle(positions, normals), ray);
    }
    furnace_hit intersect_sphere(Vec centre, double radius, const Ray &ray) {
-      return alone(Ball{centre, radius, false}, ray);
+      return alone(Sphere{centre, radius, false}, ray);
    }
    furnace_box_hit intersect_box(Vec min, Vec max, const Ray &ray) {
       furnace_box_hit hit{};

@@ -2,7 +2,7 @@
 #ifndef PATHTRACER_SCENE_HPP
 #define PATHTRACER_SCENE_HPP
 
-#include "hierarchy.hpp"
+#include "bvh.hpp"
 #include "lights.hpp"
 #include "surfaces.hpp"
 
@@ -17,7 +17,7 @@ struct Vertex {
    Vec                     point{}, normal{}; // geometric
    Frame                   frame{{0, 0, 1}};  // shading
    Vec                     direction{}, wo{}; // of the ray; back along it, local
-   Rgb                     glow{};
+   Rgb                     emission{};
    int64_t                 light = -1; // the light that the surface is
    double                  clearance = 0;
 
@@ -27,7 +27,7 @@ struct Vertex {
 class Scene {
  public:
    Scene(const furnace_scene &scene, const furnace_build &settings)
-       : geometry(scene), hierarchy(geometry, settings),
+       : geometry(scene), bvh(geometry, settings),
          materials(scene.materials, scene.materials + scene.material_count) {
       for (auto &material : materials) material.name = nullptr; // it dies with the call
       for (uint32_t i = 0; i < scene.mesh_count; ++i)
@@ -41,14 +41,14 @@ class Scene {
       }
    }
 
-   furnace_build_stats stats() const { return hierarchy.stats; }
+   furnace_build_stats stats() const { return bvh.stats; }
 
    furnace_hit intersect(const Ray &ray, Stats &stats) const {
       furnace_hit hit;
-      return hierarchy.closest(ray, hit, stats) >= 0 ? hit : furnace::miss();
+      return bvh.closest(ray, hit, stats) >= 0 ? hit : furnace::miss();
    }
 
-   bool occluded(const Ray &ray, Stats &stats) const { return hierarchy.any(ray, stats); }
+   bool occluded(const Ray &ray, Stats &stats) const { return bvh.any(ray, stats); }
 
    furnace_light_sample sample_light(uint32_t light, Vec from, const Numbers &random) const {
       if (light >= lights.size()) throw std::out_of_range("there is no such light");
@@ -64,7 +64,7 @@ class Scene {
 
  private:
    Geometry                      geometry;
-   Hierarchy                     hierarchy;
+   Bvh                           bvh;
    std::vector<furnace_material> materials;
    std::vector<uint32_t>         material_of_shape;
    std::vector<int64_t>          light_of_shape;
@@ -75,9 +75,9 @@ class Scene {
       furnace_hit hit;
       Stats       unused{};
       v.direction = unit(ray.direction);
-      int64_t primitive = hierarchy.closest(ray, hit, unused);
+      int64_t primitive = bvh.closest(ray, hit, unused);
       if (primitive < 0) {
-         for (const Light &light : lights) v.glow = v.glow + light.sky(v.direction);
+         for (const Light &light : lights) v.emission = v.emission + light.sky(v.direction);
          return v;
       }
       v.material = &materials[material_of_shape[hit.shape]];
@@ -90,23 +90,23 @@ class Scene {
       v.frame = Frame(is_glass && !agree ? hit.geometric_normal : hit.shading_normal);
       v.wo = v.frame.to_local(-v.direction);
       const Primitive &met = geometry.primitives[size_t(primitive)];
-      v.glow = glow(*v.material, met, v);
+      v.emission = emitted(*v.material, met, v);
       double travelled = hit.t * length(ray.direction);
       v.clearance = CLEARANCE * std::max({met.reach, largest(ray.origin), travelled});
       return v;
    }
 
-   // Emission leaves the front alone, and of a ball with a cap only the cap.
-   Rgb glow(const furnace_material &m, const Primitive &met, const Vertex &v) const {
+   // Emission leaves the front alone, and of a sphere with a cap only the cap.
+   Rgb emitted(const furnace_material &m, const Primitive &met, const Vertex &v) const {
       if (!m.emits || dot(v.normal, v.direction) >= 0) return {0, 0, 0};
-      if (!met.is_ball || m.cap_half_angle == 0) return m.emission;
-      Vec outward = geometry.balls[met.index].inward ? -v.normal : v.normal;
+      if (!met.is_sphere || m.cap_half_angle == 0) return m.emission;
+      Vec outward = geometry.spheres[met.index].inward ? -v.normal : v.normal;
       return dot(outward, m.cap_axis) >= std::cos(m.cap_half_angle) ? m.emission : Rgb{0, 0, 0};
    }
 
-   // Light of bounce k has been scattered k times on its way to the viewer. At each vertex the
-   // light of the next bounce is gathered from the lights; so what glows where the path itself
-   // arrives counts only for the camera, and after mirror and glass, where no light can be sampled.
+   // Light of bounce k has been scattered k times on its way to the camera. At each vertex light
+   // sampling (next event estimation) adds the next bounce; so emission that the path itself hits
+   // counts only for the camera, and after delta lobes, towards which no light can be sampled.
    Rgb trace(const Ray &ray, const furnace_integrator &settings, Random &random) const {
       auto wanted = [&](uint32_t bounce) {
          return settings.first_bounce <= bounce && bounce <= settings.last_bounce;
@@ -115,11 +115,11 @@ class Scene {
       bool   sees_lights = true;
       Vertex v = look(ray);
       for (uint32_t bounce = 0;; ++bounce) {
-         if (sees_lights && wanted(bounce)) sum = sum + throughput * v.glow;
+         if (sees_lights && wanted(bounce)) sum = sum + throughput * v.emission;
          if (!v.material || bounce >= settings.last_bounce) return sum;
          sees_lights = is_delta(*v.material);
          if (!sees_lights && wanted(bounce + 1))
-            sum = sum + throughput * gather(v, settings, random);
+            sum = sum + throughput * direct_light(v, settings, random);
          if (!sees_lights && bounce + 1 >= settings.last_bounce) return sum;
 
          bool   plays = settings.roulette_stop > 0 && bounce >= settings.roulette_guaranteed;
@@ -134,7 +134,7 @@ class Scene {
    }
 
    // Light that is scattered at `v`, and only there.
-   Rgb gather(const Vertex &v, const furnace_integrator &settings, Random &random) const {
+   Rgb direct_light(const Vertex &v, const furnace_integrator &settings, Random &random) const {
       uint32_t samples = std::max(1u, settings.samples_per_light), area_lights = 0;
       bool     glossy = v.material->kind == FURNACE_CONDUCTOR;
       Rgb      sum{0, 0, 0};
@@ -160,12 +160,12 @@ class Scene {
       Vec wi = uniform_hemisphere(random.point);
       if (v.wo.z < 0) wi = -wi;
       Rgb f = eval_surface(*v.material, v.wo, wi).f;
-      return look(v.ray_to(wi)).glow * f * (std::abs(wi.z) * 2 * PI);
+      return look(v.ray_to(wi)).emission * f * (std::abs(wi.z) * 2 * PI);
    }
 
    // On a glossy surface the lights and the narrow lobe are both sampled; the balance heuristic
    // (Veach 1997) shares out what either could have found.
-   static double share(double own, double other) { return own / (own + other); }
+   static double balance(double own, double other) { return own / (own + other); }
 
    Rgb from_light(const Vertex &v, const Light &light, const Numbers &random, bool glossy) const {
       furnace_light_sample s = light.sample(v.point, random);
@@ -177,8 +177,8 @@ class Scene {
       if (std::isfinite(s.distance)) // ends short of the light, which would shadow itself
          shadow.t_max = s.distance - std::max(v.clearance, CLEARANCE * s.distance);
       Stats unused{};
-      if (hierarchy.any(shadow, unused)) return {0, 0, 0};
-      double weight = glossy && !s.is_delta ? share(s.pdf, pdf) : 1;
+      if (bvh.any(shadow, unused)) return {0, 0, 0};
+      double weight = glossy && !s.is_delta ? balance(s.pdf, pdf) : 1;
       return s.radiance * f * (weight * std::abs(wi.z) / s.pdf);
    }
 
@@ -186,7 +186,7 @@ class Scene {
       auto way = sample_surface(*v.material, v.wo, random);
       if (!way.is_valid) return {0, 0, 0};
       Vertex seen = look(v.ray_to(way.wi));
-      Rgb    arriving = seen.glow * share(way.pdf, light_pdf(v, seen));
+      Rgb    arriving = seen.emission * balance(way.pdf, light_pdf(v, seen));
       return arriving * way.f * (std::abs(way.wi.z) / way.pdf);
    }
 

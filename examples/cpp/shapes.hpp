@@ -1,4 +1,4 @@
-// Boxes, triangles and balls, and the primitives of a scene.
+// Boxes, triangles and spheres, and the primitives of a scene.
 #ifndef PATHTRACER_SHAPES_HPP
 #define PATHTRACER_SHAPES_HPP
 
@@ -86,7 +86,7 @@ struct Triangle {
    }
 };
 
-struct Ball {
+struct Sphere {
    Vec    centre;
    double radius;
    bool   inward;
@@ -115,33 +115,33 @@ struct Ball {
    }
 };
 
-// A triangle or a ball of the scene, by its number there.
+// A triangle or a sphere of the scene, by its number there.
 struct Primitive {
    uint32_t shape, number;
-   uint32_t index; // into the triangles, or into the balls
-   bool     is_ball;
+   uint32_t index; // into the triangles, or into the spheres
+   bool     is_sphere;
    double   reach; // largest coordinate: rounding errors grow with it
    Box      bounds;
 };
 
 struct Geometry {
    std::vector<Triangle>  triangles;
-   std::vector<Ball>      balls;
+   std::vector<Sphere>    spheres;
    std::vector<Primitive> primitives;
 
    explicit Geometry(const furnace_scene &scene) {
       for (uint32_t shape = 0; shape < scene.mesh_count; ++shape) add_mesh(scene, shape);
       for (uint32_t i = 0; i < scene.sphere_count; ++i) {
          const furnace_sphere &s = scene.spheres[i];
-         balls.push_back({s.centre, s.radius, s.inward == 1});
-         add(scene.mesh_count + i, 0, i, true, balls.back().bounds());
+         spheres.push_back({s.centre, s.radius, s.inward == 1});
+         add(scene.mesh_count + i, 0, i, true, spheres.back().bounds());
       }
    }
 
    bool hit(uint32_t number, const Ray &ray, furnace_hit &out) const {
       const Primitive &p = primitives[number];
       out.shape = p.shape, out.primitive = p.number;
-      return p.is_ball ? balls[p.index].hit(ray, out) : triangles[p.index].hit(ray, out);
+      return p.is_sphere ? spheres[p.index].hit(ray, out) : triangles[p.index].hit(ray, out);
    }
 
  private:
@@ -159,12 +159,12 @@ struct Geometry {
          add(shape, number, uint32_t(triangles.size() - 1), false, triangles.back().bounds());
       }
    }
-   void add(uint32_t shape, uint32_t number, uint32_t index, bool is_ball, const Box &box) {
+   void add(uint32_t shape, uint32_t number, uint32_t index, bool is_sphere, const Box &box) {
       double reach = std::max(largest(box.min), largest(box.max));
       Box    padded = box; // a ray that rounding lets graze the primitive grazes the box too
       Vec    pad = 1e-14 * reach * Vec{1, 1, 1};
       padded.add(box.min - pad), padded.add(box.max + pad);
-      primitives.push_back({shape, number, index, is_ball, reach, padded});
+      primitives.push_back({shape, number, index, is_sphere, reach, padded});
    }
 };
 

@@ -37,8 +37,8 @@ inline furnace_bsdf_value eval_conductor(const furnace_material &m, Vec wo, Vec 
 inline Vec sample_conductor(double alpha, Vec wo, furnace_vec2 u) {
    Vec view = unit({alpha * wo.x, alpha * wo.y, wo.z});
    Vec stretched = view + below_pole(u.x * (1 + view.z), u.y);
-   Vec facet = unit({alpha * stretched.x, alpha * stretched.y, std::max(0.0, stretched.z)});
-   return 2 * dot(wo, facet) * facet - wo;
+   Vec h = unit({alpha * stretched.x, alpha * stretched.y, std::max(0.0, stretched.z)});
+   return 2 * dot(wo, h) * h - wo;
 }
 
 // Reflectance of light that arrives at `cosine`, by Fresnel's equations; `ratio` is the index of

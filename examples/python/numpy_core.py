@@ -3,15 +3,15 @@
     python3 -m venv .venv && .venv/bin/pip install ./adapters/python
     cargo furnace 1 2 --core 'exec: .venv/bin/python examples/python/numpy_core.py'
 
-shapes.py     triangles, balls and boxes, many pairs of a ray and a shape at a time
-hierarchy.py  the BVH, traversed by all rays at once
+shapes.py     triangles, spheres and boxes, many pairs of a ray and a shape at a time
+bvh.py        the BVH, traversed by all rays at once
 this file     what the bench talks to
 """
 
 import numpy as np
 from furnace_core import BOX_HIT, Built, Core, rays, serve
 
-import hierarchy
+import bvh
 import shapes
 
 
@@ -23,7 +23,7 @@ class Scene(Built):
         self.primitives = shapes.Primitives.of_scene(scene)
         self.tree = None
         if acceleration.kind == "bvh":
-            self.tree = hierarchy.Tree(self.primitives, acceleration.max_leaf_size)
+            self.tree = bvh.Tree(self.primitives, acceleration.max_leaf_size)
 
     def stats(self):
         return self.tree.stats() if self.tree else {}
@@ -32,7 +32,7 @@ class Scene(Built):
         """Which primitive each ray meets, at what t and where on it, and what it took."""
         if self.tree:
             return self.tree.walk(batch, any_hit)
-        return hierarchy.brute_force(self.primitives, batch)
+        return bvh.brute_force(self.primitives, batch)
 
     def intersect(self, batch):
         found, counts = self.nearest(batch, any_hit=False)
@@ -61,12 +61,12 @@ class NumPy(Core):
         return self.alone(shapes.Primitives.triangle(positions, normals), batch)
 
     def intersect_sphere(self, centre, radius, batch):
-        return self.alone(shapes.Primitives.ball(centre, radius), batch)
+        return self.alone(shapes.Primitives.sphere(centre, radius), batch)
 
     @staticmethod
     def alone(primitives, batch):
         """Hits with the one primitive that there is."""
-        found, _ = hierarchy.brute_force(primitives, batch)
+        found, _ = bvh.brute_force(primitives, batch)
         return primitives.hits(batch, *found)
 
     def intersect_box(self, low, high, batch):

@@ -1,7 +1,7 @@
-"""Triangles, balls and boxes. Every function takes many pairs of a ray and a shape at a time.
+"""Triangles, spheres and boxes. Every function takes many pairs of a ray and a shape at a time.
 
 Sums are written out: `einsum` and `@` add in an order that depends on how many rows there are, and a
-hierarchy has to find the same t as a loop, to the last bit.
+BVH has to find the same t as a loop, to the last bit.
 """
 
 import numpy as np
@@ -38,7 +38,7 @@ def slabs(low, high, origin, direction):
 
 
 class Primitives:
-    """Triangles first, then balls, in the order of their shapes."""
+    """Triangles first, then spheres, in the order of their shapes."""
 
     def __init__(self, corners, normals, centres, radii, inward, shape, number):
         self.corners, self.normals = corners, normals
@@ -59,14 +59,14 @@ class Primitives:
             normals.append(mesh.normals[mesh.indices] if mesh.smooth else flat(of_mesh))
             shape += [index] * len(of_mesh)
             number += range(len(of_mesh))
-        balls = scene.spheres
-        shape += range(len(scene.meshes), len(scene.meshes) + len(balls))
-        number += [0] * len(balls)
+        spheres = scene.spheres
+        shape += range(len(scene.meshes), len(scene.meshes) + len(spheres))
+        number += [0] * len(spheres)
         return cls(
             np.concatenate(corners), np.concatenate(normals),
-            np.array([ball.centre for ball in balls]).reshape(-1, 3),
-            np.array([ball.radius for ball in balls], dtype=float),
-            np.array([ball.inward for ball in balls], dtype=bool),
+            np.array([sphere.centre for sphere in spheres]).reshape(-1, 3),
+            np.array([sphere.radius for sphere in spheres], dtype=float),
+            np.array([sphere.inward for sphere in spheres], dtype=bool),
             np.array(shape, dtype=np.uint32), np.array(number, dtype=np.uint32),
         )
 
@@ -76,10 +76,10 @@ class Primitives:
         return cls(positions[None], normals[None], *none, np.zeros(1, int), np.zeros(1, int))
 
     @classmethod
-    def ball(cls, centre, radius):
+    def sphere(cls, centre, radius):
         none = np.empty((0, 3, 3)), np.empty((0, 3, 3))
-        ball = centre[None], np.array([radius]), np.zeros(1, bool)
-        return cls(*none, *ball, np.zeros(1, int), np.zeros(1, int))
+        sphere = centre[None], np.array([radius]), np.zeros(1, bool)
+        return cls(*none, *sphere, np.zeros(1, int), np.zeros(1, int))
 
     def meet(self, primitive, origin, direction, t_min, t_max):
         """t, u and v of each pair of a primitive and a ray; t is infinite where they do not meet."""
@@ -109,8 +109,8 @@ class Primitives:
 
     def meet_balls(self, primitive, origin, direction, t_min, t_max):
         """The nearer root in the segment, without cancellation (Haines et al. 2019)."""
-        ball = primitive - self.triangles
-        from_centre, radius = origin - self.centres[ball], self.radii[ball]
+        sphere = primitive - self.triangles
+        from_centre, radius = origin - self.centres[sphere], self.radii[sphere]
         a, half_b = dot(direction, direction), dot(from_centre, direction)
         nearest = from_centre - (half_b / a)[:, None] * direction
         discriminant = a * (radius * radius - dot(nearest, nearest))
@@ -140,10 +140,10 @@ class Primitives:
         geometric[flat_ones] = flat(self.corners[index])[:, 0]
         weights = np.stack([1 - u - v, u, v], axis=1)[flat_ones]
         shading[flat_ones] = unit((weights[:, :, None] * self.normals[index]).sum(axis=1))
-        ball = primitive[~flat_ones] - self.triangles
+        sphere = primitive[~flat_ones] - self.triangles
         point = batch["origin"] + t[:, None] * batch["direction"]
-        outward = unit(point[~flat_ones] - self.centres[ball])
-        normal = np.where(self.inward[ball][:, None], -outward, outward)
+        outward = unit(point[~flat_ones] - self.centres[sphere])
+        normal = np.where(self.inward[sphere][:, None], -outward, outward)
         geometric[~flat_ones] = shading[~flat_ones] = normal
         return geometric, shading
 

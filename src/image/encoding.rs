@@ -1,5 +1,5 @@
-//! How linear light becomes the codes of an 8-bit picture: an exposure, a curve, and how what lies
-//! between two codes is rounded.
+//! Transfer functions: how linear radiance becomes the codes of an 8-bit image. An exposure, a curve, and
+//! how what lies between two codes is rounded.
 
 use super::Image;
 use super::png::Picture;
@@ -166,7 +166,7 @@ impl Encoding {
         if code == 0 { 0.0 } else { self.curve.decode(middle / WHITE) / self.exposure }
     }
 
-    /// The codes of a picture.
+    /// The codes of an image.
     pub fn picture(self, image: &Image) -> Picture {
         let pixels = image.pixels.iter().map(|pixel| pixel.map(|light| self.code(light.into())));
         Picture { width: image.width, height: image.height, pixels: pixels.collect() }

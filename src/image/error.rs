@@ -1,8 +1,8 @@
-//! What can be wrong with a picture file.
+//! What can be wrong with an image file.
 
 use std::path::{Path, PathBuf};
 
-/// What can be wrong with a picture file.
+/// What can be wrong with an image file.
 #[derive(Debug, thiserror::Error)]
 pub enum ImageError {
     /// Missing, truncated, or not a file of its kind.
@@ -13,7 +13,7 @@ pub enum ImageError {
         /// What the decoder said.
         cause: String,
     },
-    /// The picture lacks a channel.
+    /// The image lacks a channel.
     #[error("the image has no channel `{channel}`; its channels are {}", .found.join(", "))]
     NoChannel {
         /// The channel asked for.
@@ -21,7 +21,7 @@ pub enum ImageError {
         /// The channels there are.
         found: Vec<String>,
     },
-    /// A channel has another number of values than the picture has pixels.
+    /// A channel has another number of values than the image has pixels.
     #[error("channel `{channel}` has {values} values for {pixels} pixels")]
     WrongLength {
         /// The channel.
@@ -31,7 +31,7 @@ pub enum ImageError {
         /// Width times height.
         pixels: usize,
     },
-    /// Two pictures that are to be compared differ in size.
+    /// Two images that are to be compared differ in size.
     #[error("the images differ in size: {} × {} and {} × {} pixels",
         .sizes[0][0], .sizes[0][1], .sizes[1][0], .sizes[1][1])]
     DifferentSizes {

@@ -1,4 +1,4 @@
-//! OpenEXR: the colours of a picture, any other channels beside them, and text about where it came
+//! OpenEXR: the colours of an image, any other channels beside them, and text about where it came
 //! from.
 //!
 //! Values survive the way to disk and back bit for bit, NaN and infinity included, unless a channel
@@ -72,12 +72,12 @@ impl Exr {
         self
     }
 
-    /// The picture in R, G and B.
+    /// The image in R, G and B.
     pub fn image(&self) -> Result<Image, ImageError> {
         self.colours("")
     }
 
-    /// The picture in the channels `prefix` R, G and B.
+    /// The image in the channels `prefix` R, G and B.
     pub fn colours(&self, prefix: &str) -> Result<Image, ImageError> {
         let [red, green, blue] = COLOURS.map(|colour| self.whole(&format!("{prefix}{colour}")));
         let colours = red?.iter().zip(green?).zip(blue?);
@@ -108,7 +108,7 @@ impl Exr {
     }
 }
 
-/// How many times its own size a file may unfold to: even a picture of one colour is packed less.
+/// How many times its own size a file may unfold to: even an image of one colour is packed less.
 const UNFOLDS: u128 = 1 << 16;
 
 /// That a file can hold what it announces: memory is asked for before the first pixel is read.
@@ -199,7 +199,7 @@ pub fn encode(path: &Path, file: &Exr) -> Result<Vec<u8>, ImageError> {
     Ok(bytes.into_inner())
 }
 
-/// Writes the colours of a picture.
+/// Writes the colours of an image.
 pub fn write_image(path: &Path, image: &Image) -> Result<(), ImageError> {
     write(path, &Exr::from_image(image))
 }

@@ -1,4 +1,4 @@
-//! Picture files of whatever kind: OpenEXR, PFM, Radiance HDR, PNG. What a file holds is told by
+//! Image files of whatever kind: OpenEXR, PFM, Radiance HDR, PNG. What a file holds is told by
 //! its first bytes, not by its name.
 
 use super::encoding::Curve;
@@ -76,7 +76,7 @@ fn linear(image: Image) -> Loaded {
 
 fn load_exr(path: &Path) -> Result<Loaded, ImageError> {
     let file = exr::read(path)?;
-    // Pictures of luminance alone have one channel, Y.
+    // Images of luminance alone have one channel, Y.
     let image = match (file.image(), file.channel("Y")) {
         (Err(_), Ok(grey)) => {
             let pixels = grey.values.iter().map(|value| [*value; 3]).collect();
@@ -97,7 +97,7 @@ fn load_radiance(path: &Path) -> Result<Loaded, ImageError> {
     Ok(linear(image))
 }
 
-/// A picture of whole numbers.
+/// An image of whole numbers.
 fn of_codes(decoded: &Decoded, encoding: Curve) -> Loaded {
     let &Decoded { width, height, is_deep, has_alpha, .. } = decoded;
     #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]

@@ -75,7 +75,7 @@ fn between(stops: &[[u8; 3]], position: f64) -> [u8; 3] {
     })
 }
 
-/// A picture of `values`, row-major from the top left in rows of `width`; each becomes `magnify` by
+/// An image of `values`, row-major from the top left in rows of `width`; each becomes `magnify` by
 /// `magnify` pixels.
 pub fn heatmap(values: &[f64], width: usize, scale: Scale, magnify: usize) -> Picture {
     let height = values.len() / width.max(1);

@@ -1,5 +1,5 @@
 //! Pixels that do not count, because somebody has declared so: where a renderer is known to differ
-//! on purpose, or a picture shows something else.
+//! on purpose, or an image shows something else.
 
 use super::{Image, ImageError};
 
@@ -20,17 +20,17 @@ impl Mask {
         Self { rectangles: rectangles.to_vec(), picture: None }
     }
 
-    /// Of a picture that is black where pixels do not count.
+    /// Of an image that is black where pixels do not count.
     pub fn from_picture(image: &Image) -> Self {
         let counted = image.pixels.iter().map(|pixel| *pixel != [0.0; 3]).collect();
         let picture = Some(([image.width, image.height], counted));
         Self { rectangles: Vec::new(), picture }
     }
 
-    /// Which pixels of a picture of this size count, row by row.
+    /// Which pixels of an image of this size count, row by row.
     ///
     /// # Errors
-    /// If the mask is a picture of another size, or nothing counts.
+    /// If the mask is an image of another size, or nothing counts.
     pub fn counted(&self, [width, height]: [usize; 2]) -> Result<Vec<bool>, ImageError> {
         let mut counted = match &self.picture {
             None => vec![true; width * height],

@@ -1,16 +1,16 @@
-//! Numbers that say how far apart two pictures are. They inform and never grade: a metric has no
+//! Numbers that say how far apart two images are. They inform and never grade: a metric has no
 //! null hypothesis.
 
 use super::pair::Pair;
 use super::{flip, ms_ssim, pixel_error, ssim};
 
-/// A distance between a picture and its reference, or a likeness.
+/// A distance between an image and its reference, or a likeness.
 pub struct Metric {
     /// As written in reports.
     pub name: &'static str,
-    /// The number for two equal pictures.
+    /// The number for two equal images.
     pub of_equals: f64,
-    /// Whether it takes much longer than to read the pictures.
+    /// Whether it takes much longer than to read the images.
     pub is_slow: bool,
     measure: fn(&Pair<'_>) -> f64,
 }
@@ -30,7 +30,7 @@ pub static METRICS: &[Metric] = &[
 ];
 
 impl Metric {
-    /// One that is zero for equal pictures.
+    /// One that is zero for equal images.
     const fn error(name: &'static str, measure: fn(&Pair<'_>) -> f64) -> Self {
         Self { name, of_equals: 0.0, is_slow: false, measure }
     }

@@ -1,6 +1,6 @@
-//! Pictures: linear RGB f32, row 0 on top. Reading, writing, showing and measuring them.
+//! Images: linear RGB f32, row 0 on top. Reading, writing, showing and measuring them.
 //!
-//! Not here: whether two pictures agree. That is decided in `stats`; the [`metric`]s here inform
+//! Not here: whether two images agree. That is decided in `stats`; the [`metric`]s here inform
 //! and never grade.
 
 pub mod encoding;
@@ -27,7 +27,7 @@ pub use error::ImageError;
 /// The channels of a colour, in the order of a pixel.
 pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
-/// A picture of linear RGB radiance, row-major from the top left.
+/// An image of linear RGB radiance, row-major from the top left.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Image {
     /// Pixels in a row.
@@ -39,12 +39,12 @@ pub struct Image {
 }
 
 impl Image {
-    /// A picture of one colour.
+    /// An image of one colour.
     pub fn new(width: usize, height: usize, colour: [f32; 3]) -> Self {
         Self { width, height, pixels: vec![colour; width * height] }
     }
 
-    /// A picture whose pixel in column `x` of row `y` is `colour(x, y)`.
+    /// An image whose pixel in column `x` of row `y` is `colour(x, y)`.
     pub fn from_fn(
         width: usize,
         height: usize,
@@ -54,7 +54,7 @@ impl Image {
         Self { width, height, pixels: positions.map(|(x, y)| colour(x, y)).collect() }
     }
 
-    /// Adds the light of a picture of the same size.
+    /// Adds the light of an image of the same size.
     pub fn add(&mut self, other: &Image) {
         for (sum, pixel) in self.pixels.iter_mut().zip(&other.pixels) {
             *sum = std::array::from_fn(|c| sum[c] + pixel[c]);

@@ -9,7 +9,7 @@ use super::ssim::{RADIUS, similarity};
 const WEIGHTS: [f64; 5] = [0.0448, 0.2856, 0.3001, 0.2363, 0.1333];
 
 /// SSIM as seen from farther and farther away: the weighted geometric mean over five sizes, each half of the one
-/// before; over fewer, where the picture has no room for five.
+/// before; over fewer, where the image has no room for five.
 pub(super) fn multi_scale_similarity(pair: &Pair<'_>) -> f64 {
     let [image, reference] = pair.grey();
     multi_scale(image.clone(), reference.clone())

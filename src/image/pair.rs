@@ -1,4 +1,4 @@
-//! A picture beside its reference, with what several metrics need of them computed once.
+//! An image beside its reference, with what several metrics need of them computed once.
 
 use super::tonemap::{encode_srgb, exposure_of};
 use super::{Image, ImageError, luminance};
@@ -9,10 +9,10 @@ use std::sync::OnceLock;
 /// are.
 const CHUNK: usize = 1 << 14;
 
-/// A picture and its reference, of the same size.
+/// An image and its reference, of the same size.
 #[derive(Debug)]
 pub struct Pair<'a> {
-    /// The picture.
+    /// The image.
     pub image: &'a Image,
     /// What it is held against.
     pub reference: &'a Image,

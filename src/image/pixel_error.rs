@@ -34,7 +34,7 @@ pub(super) fn trimmed_relative_mean_square(pair: &Pair<'_>) -> f64 {
     }
     let kept = errors.len() - (TRIMMED * errors.len() as f64) as usize;
     errors.select_nth_unstable_by(kept - 1, f64::total_cmp);
-    // In the order that selection leaves: the same every time for the same pictures.
+    // In the order that selection leaves: the same every time for the same images.
     errors[..kept].iter().sum::<f64>() / kept as f64
 }
 
@@ -44,7 +44,7 @@ pub(super) fn symmetric_relative(pair: &Pair<'_>) -> f64 {
     mean(pair, |a, b| (a - b).abs() / (a.abs() + b.abs() + OF_SUMS))
 }
 
-/// Peak signal-to-noise ratio, decibels: white squared over the mean squared difference, both pictures as a screen
+/// Peak signal-to-noise ratio, decibels: white squared over the mean squared difference, both images as a screen
 /// shows them in grey. More is better.
 pub(super) fn peak_signal_to_noise(pair: &Pair<'_>) -> f64 {
     let [image, reference] = pair.grey();

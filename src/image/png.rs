@@ -6,7 +6,7 @@ use ::png::{BitDepth, ColorType, Compression, Decoder, Encoder, Filter, Transfor
 use std::io::Cursor;
 use std::path::Path;
 
-/// A picture as a screen shows it: sRGB, row-major from the top left.
+/// An image as a screen shows it: sRGB, row-major from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// Pixels in a row.
@@ -38,10 +38,10 @@ impl Decoded {
     }
 }
 
-/// More bytes of pixels than any picture has.
+/// More bytes of pixels than any image has.
 const MOST_BYTES: usize = 1 << 29;
 
-/// The picture in a file's bytes; a palette is looked up, and so is what it says of transparency.
+/// The image in a file's bytes; a palette is looked up, and so is what it says of transparency.
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, String> {
     let mut decoder = Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(Transformations::EXPAND);

@@ -6,13 +6,13 @@ use super::Image;
 /// The first bytes of a file.
 pub(super) const MAGIC: &[u8] = b"#?RADIANCE";
 
-/// More pixels than any picture has: a few bytes of runs can claim to be as many as they like.
+/// More pixels than any image has: a few bytes of runs can claim to be as many as they like.
 const MOST_PIXELS: usize = 1 << 26;
 
 /// Red, green and blue, and the exponent that they share.
 type Pixel = [u8; 4];
 
-/// The picture in a file's bytes. Values are as they stand, whatever exposure the header tells of.
+/// The image in a file's bytes. Values are as they stand, whatever exposure the header tells of.
 ///
 /// # Errors
 /// If the file is cut off, claims what cannot be, or is of a kind that nobody writes.

@@ -1,9 +1,9 @@
-//! Smaller pictures for reports: means over square blocks of pixels.
+//! Smaller images for reports: means over square blocks of pixels.
 
 use super::Image;
 
 impl Image {
-    /// The picture with no side longer than `longest` pixels, each the mean of a block. NaN stays
+    /// The image with no side longer than `longest` pixels, each the mean of a block. NaN stays
     /// NaN: a block is what its worst pixel is.
     pub fn shrunk_to(&self, longest: usize) -> Self {
         let block = self.width.max(self.height).div_ceil(longest.max(1)).max(1);

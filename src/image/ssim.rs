@@ -20,7 +20,7 @@ pub(super) fn structural_similarity(pair: &Pair<'_>) -> f64 {
     similarity(image, reference).whole
 }
 
-/// How alike two pictures are, the mean over windows.
+/// How alike two images are, the mean over windows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Similarity {
     /// In brightness, contrast and pattern.
@@ -29,7 +29,7 @@ pub(super) struct Similarity {
     pub(super) pattern: f64,
 }
 
-/// Compares the windows around all pixels whose window is inside the picture; in a picture that is
+/// Compares the windows around all pixels whose window is inside the image; in an image that is
 /// smaller than a window, around all, as if its border went on.
 pub(super) fn similarity(image: &Plane, reference: &Plane) -> Similarity {
     let (width, height) = (image.width, image.height);
@@ -47,7 +47,7 @@ pub(super) fn similarity(image: &Plane, reference: &Plane) -> Similarity {
     Similarity { whole: mean(0), pattern: mean(1) }
 }
 
-/// Both pictures less [`MIDDLE`], their squares and their product: their blurs are the moments of
+/// Both images less [`MIDDLE`], their squares and their product: their blurs are the moments of
 /// the windows.
 struct Moments([Plane; 5]);
 
@@ -117,7 +117,7 @@ fn likeness([a, b, aa, bb, ab]: [f64; 5]) -> [f64; 2] {
 pub(super) mod tests {
     use super::*;
 
-    /// Two smooth pictures with noise from a formula, the same as in tests/fixtures/ssim/make.py.
+    /// Two smooth images with noise from a formula, the same as in tests/fixtures/ssim/make.py.
     pub(crate) fn plane(width: usize, height: usize, shift: f64) -> Plane {
         let value = |i: usize| {
             let (x, y) = ((i % width) as f64, (i / width) as f64);

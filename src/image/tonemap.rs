@@ -1,4 +1,4 @@
-//! From radiance to what a screen shows: exposure, then the sRGB curve. NaN is magenta, so that it
+//! Tone mapping: exposure, then the sRGB transfer function. NaN is magenta, so that it
 //! is seen.
 
 use super::encoding::{Curve, Encoding};
@@ -24,7 +24,7 @@ pub fn srgb_code(linear: f32) -> u8 {
     Encoding::of(Curve::Srgb).code(f64::from(linear))
 }
 
-/// The picture times 2^`stops`, clipped to white.
+/// The image times 2^`stops`, clipped to white.
 pub fn tonemap(image: &Image, stops: f32) -> Picture {
     let gain = stops.exp2();
     let shown = |pixel: &[f32; 3]| {
@@ -38,7 +38,7 @@ pub fn tonemap(image: &Image, stops: f32) -> Picture {
     Picture { width: image.width, height: image.height, pixels }
 }
 
-/// Stops with which nearly all of a picture is bright and not clipped. Use that of the reference
+/// Stops with which nearly all of an image is bright and not clipped. Use that of the reference
 /// for both.
 pub fn exposure_of(image: &Image) -> f32 {
     let mut values: Vec<f64> = image.pixels.par_iter().map(|pixel| luminance(*pixel)).collect();

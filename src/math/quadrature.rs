@@ -157,7 +157,7 @@ pub struct Diligence {
 }
 
 impl Diligence {
-    /// For densities with kinks along curves, at which no rectangle can be cut.
+    /// For pdfs with kinks along curves, at which no rectangle can be cut.
     pub const KINKED: Self = Self { tolerance: 1e-6, most_evaluations: 2_500_000 };
 }
 

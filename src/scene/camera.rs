@@ -25,7 +25,7 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera at `position` that looks at `target` with `up` upwards in the picture; the vertical field of
+    /// A camera at `position` that looks at `target` with `up` upwards in the image; the vertical field of
     /// view follows from square pixels.
     pub fn look_at(
         position: DVec3,

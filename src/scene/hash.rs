@@ -1,4 +1,4 @@
-//! The content hash that references are pinned to: a change of anything that changes the picture
+//! The content hash that references are pinned to: a change of anything that changes the image
 //! changes it, and nothing else does. Names, comments, the order of materials and materials without
 //! use do not count.
 
@@ -12,7 +12,7 @@ const LAYOUT: &[u8] = b"furnace scene 1";
 /// SHA-256 of a scene in a canonical form, in hexadecimal.
 ///
 /// Numbers count as single precision, and as zero below 2⁻⁴⁰: sine and cosine may differ between
-/// machines in their last bit, and a picture does not show it.
+/// machines in their last bit, and an image does not show it.
 pub fn content_hash(scene: &SceneDescription) -> String {
     let mut content = Content(Sha256::new_with_prefix(LAYOUT));
     content.camera(scene.camera.as_ref());

@@ -101,7 +101,7 @@ pub fn load_file(path: &Path, overrides: &Overrides) -> Result<SceneDescription,
     file::parse(&name, &source, folder, overrides)
 }
 
-/// A `.dae` file with its two parameters: the size of the picture, and a camera file beside it, the course's
+/// A `.dae` file with its two parameters: the size of the image, and a camera file beside it, the course's
 /// `-c`.
 fn load_collada(path: &Path, overrides: &Overrides) -> Result<SceneDescription, SceneError> {
     let (mut film, mut camera) = (collada::FILM, None);

@@ -36,7 +36,7 @@ pub enum Light {
         /// Radiance straight above.
         zenith: Rgb,
     },
-    /// A shape whose material glows.
+    /// A shape whose material emits.
     Area {
         /// Number of the shape.
         shape: u32,

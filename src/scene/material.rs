@@ -1,4 +1,4 @@
-//! How surfaces scatter and glow.
+//! Materials: BSDF and emission of surfaces.
 
 use super::Rgb;
 use glam::DVec3;
@@ -12,7 +12,7 @@ pub struct Material {
     pub name: String,
     /// How it scatters.
     pub surface: Surface,
-    /// How it glows, if it does.
+    /// How it emits, if it does.
     pub emission: Option<Emission>,
 }
 
@@ -60,13 +60,13 @@ pub enum Surface {
     },
 }
 
-/// How a surface glows, from its front side only (the side of the geometric normal).
+/// How a surface emits, from its front side only (the side of the geometric normal).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Emission {
     /// In every direction of the front side.
     pub radiance: Rgb,
-    /// On a sphere: only this part of it glows.
+    /// On a sphere: only this part of it emits.
     pub cap: Option<Cap>,
 }
 

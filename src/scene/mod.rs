@@ -2,7 +2,7 @@
 //!
 //! - Shapes are numbered meshes first, then spheres.
 //! - Lights are numbered as [`SceneDescription::lights`] lists them: declared lights in the order of the file,
-//!   then one area light for each shape that glows, in the order of shapes.
+//!   then one area light for each shape that emits, in the order of shapes.
 //! - Diffuse, mirror and conductor surfaces scatter on both sides; emission leaves the front side only.
 
 mod camera;
@@ -34,7 +34,7 @@ pub type Rgb = [f64; 3];
 pub struct SceneDescription {
     /// The scene's file name without `.toml`.
     pub name: String,
-    /// Where pictures are taken from, if the scene says so.
+    /// Where images are taken from, if the scene says so.
     pub camera: Option<Camera>,
     /// Materials; shapes refer to them by number.
     pub materials: Vec<Material>,
@@ -87,7 +87,7 @@ impl SceneDescription {
         self.meshes.iter().map(|mesh| mesh.indices.len()).sum::<usize>() + self.spheres.len()
     }
 
-    /// Appends an area light for every shape that glows. The last step of making a scene.
+    /// Appends an area light for every shape that emits. The last step of making a scene.
     pub fn with_area_lights(mut self) -> Self {
         self.lights.retain(|light| !matches!(light, Light::Area { .. }));
         for shape in 0..self.shape_count() as u32 {

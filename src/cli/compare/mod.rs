@@ -1,4 +1,4 @@
-//! `furnace compare`: whether a picture shows what another shows, and if not, which mistake turns
+//! `furnace compare`: whether an image shows what another shows, and if not, which mistake turns
 //! one into the other.
 
 mod side;

@@ -7,7 +7,7 @@ use crate::scene::reference::{ERROR_PREFIX, Layers};
 use crate::stats::Side;
 use std::path::{Path, PathBuf};
 
-/// One picture, or the mean of several renders.
+/// One image, or the mean of several renders.
 pub(super) fn of_runs(
     runs: &[PathBuf],
     encoding: Curve,
@@ -37,7 +37,7 @@ fn with_variance(side: Side, path: &Path) -> Result<Side, Failure> {
     side.with_variance(variance).ok_or_else(|| {
         let path = path.display();
         Failure::request(format!(
-            "`{path}` is no variance of the picture: another size, or negative"
+            "`{path}` is not a variance of the image: it has another size, or negative values"
         ))
     })
 }

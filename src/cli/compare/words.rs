@@ -30,7 +30,7 @@ pub(super) fn told(comparison: &Comparison) -> String {
     text
 }
 
-/// How an 8-bit picture was compared, and what is not known of its noise.
+/// How an 8-bit image was compared, and what is not known of its noise.
 fn by_law(codes: &CodesCompared, comparison: &Comparison) -> String {
     let [width, height] = comparison.size;
     let share = percent(comparison.pixels as f64 / (width * height) as f64);

@@ -1,4 +1,4 @@
-//! How noisy a pixel is, and when it has enough samples by the course's rule; in double precision.
+//! Adaptive sampling: the variance of a pixel, and the course's stopping rule; in double precision.
 
 use crate::contract::{AdaptiveMean, AdaptiveSettings};
 

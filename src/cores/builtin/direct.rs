@@ -1,4 +1,4 @@
-//! Light that is scattered once between a light and the viewer of a vertex.
+//! Direct lighting: light sampling (next event estimation) with shadow rays, or hemisphere sampling.
 
 use super::integrator::Integrator;
 use super::light::Light;
@@ -25,7 +25,7 @@ impl Integrator<'_> {
         if by_hemisphere { radiance + self.gather_directions(vertex) } else { radiance }
     }
 
-    /// The mean over the samples that the light gets: one, if no direction meets it by chance.
+    /// The mean over the samples that the light gets: one for a delta light.
     fn gather_light(&mut self, vertex: &Vertex<'_>, light: &Light) -> Vec3 {
         let samples = if light.is_delta() { 1 } else { self.settings.samples_per_light };
         let sum: Vec3 = (0..samples).map(|_| self.gather_light_sample(vertex, light)).sum();
@@ -46,7 +46,7 @@ impl Integrator<'_> {
         if self.eye.is_blocked(&shadow_ray) { Vec3::ZERO } else { unoccluded }
     }
 
-    /// Scattered radiance of a light sample if nothing is in between.
+    /// Scattered radiance of a light sample, if its shadow ray is not occluded.
     fn weigh(&self, vertex: &Vertex<'_>, light: &Light, sample: &LightSample) -> Vec3 {
         if sample.is_valid == 0 || sample.radiance == [0.0; 3] {
             return Vec3::ZERO;
@@ -67,7 +67,7 @@ impl Integrator<'_> {
         f * rgb(irradiance)
     }
 
-    /// Uniform directions over the hemisphere, or the sphere, and what glows where they arrive.
+    /// Hemisphere sampling: uniform directions over the hemisphere, or the sphere, and the emission that they hit.
     fn gather_directions(&mut self, vertex: &Vertex<'_>) -> Vec3 {
         let reachable = self.eye.world.lights.iter().filter(|light| !light.is_delta()).count();
         let samples = (self.settings.samples_per_light * reachable as u32).max(1);
@@ -97,12 +97,12 @@ impl Integrator<'_> {
         f * seen * (local.z.abs() / density)
     }
 
-    /// Whether light samples and directions of glossy surfaces are combined.
+    /// Whether light and BSDF samples are combined by multiple importance sampling.
     pub(super) fn combines(&self) -> bool {
         self.settings.direct == DirectSampling::Lights
     }
 
-    /// Density of all samples that a light gets together.
+    /// The pdf of all samples of a light together.
     pub(super) fn light_density(&self, pdf: f64) -> f64 {
         pdf * f64::from(self.settings.samples_per_light)
     }

@@ -1,10 +1,10 @@
 //! Paths: one estimate of the radiance along a ray.
 //!
-//! Bounce k is light that was scattered k times. At a diffuse or rough vertex the next bounce is gathered by
-//! sampling lights (`direct.rs`), and the path goes on in a direction sampled from the BSDF; what glows where
-//! that arrives has been gathered already and is not added again. A mirror or glass cannot be gathered for, so
-//! what glows behind it is added when the path gets there. Directions of rough metal and glass are combined with
-//! the light samples by the power heuristic, because either alone is noisy.
+//! Bounce k is light that was scattered k times. At a diffuse or rough vertex, light sampling (next event
+//! estimation, `direct.rs`) adds the next bounce, and the path continues in a direction sampled from the BSDF; the
+//! emission that it hits has been counted already. Delta lobes (mirror, smooth glass) allow no light sampling, so
+//! there that emission is added. On rough conductors and dielectrics both are combined by multiple importance
+//! sampling with the power heuristic, because either alone is noisy.
 
 use super::mis::{GlossyDirection, power_heuristic};
 use super::random::Stream;
@@ -28,7 +28,7 @@ enum Sight {
     All,
     /// Nothing: the vertex has sampled the lights.
     Nothing,
-    /// The share that the light samples have left to it.
+    /// Its weight by multiple importance sampling.
     Share(GlossyDirection),
 }
 
@@ -37,7 +37,7 @@ struct Path {
     ray: Ray,
     /// Back along the ray, unit.
     wo: DVec3,
-    /// What radiance at the end of `ray` is worth at the camera.
+    /// The throughput: what radiance at the end of `ray` is worth at the camera.
     throughput: Vec3,
     sight: Sight,
 }
@@ -72,7 +72,7 @@ impl<'a> Integrator<'a> {
         radiance
     }
 
-    /// What counts of the light that the end of the path emits: a surface, or the sky if there is none.
+    /// What counts of the light that the end of the path emits: a surface, or the environment if there is none.
     fn glow(&self, surface: Option<&Surface>, path: &Path) -> Vec3 {
         let (world, wo) = (self.eye.world, path.wo);
         match (&path.sight, surface) {
@@ -121,7 +121,7 @@ impl<'a> Integrator<'a> {
         Some(Path { ray: vertex.leave(wi), wo: -wi, throughput, sight })
     }
 
-    /// The probability with which the path got over the `continuation`-th vertex, if it did.
+    /// The survival probability of Russian roulette at the `continuation`-th vertex, if the path survived.
     fn play_roulette(&mut self, continuation: u32) -> Option<f32> {
         match self.settings.roulette {
             Some(roulette) if continuation > roulette.guaranteed => {

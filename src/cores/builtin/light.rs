@@ -27,9 +27,9 @@ pub enum Light {
     },
     /// Shines from everywhere.
     Sky(scene::Light),
-    /// A mesh that glows.
+    /// A mesh light.
     Mesh(MeshLight),
-    /// A sphere that glows.
+    /// A sphere light.
     Sphere(SphereLight),
 }
 
@@ -66,12 +66,12 @@ impl Light {
         }
     }
 
-    /// Whether no ray can meet the light by chance.
+    /// Whether this is a delta light, which no ray can hit.
     pub const fn is_delta(&self) -> bool {
         matches!(self, Self::Point { .. } | Self::Directional { .. })
     }
 
-    /// Radiance of the sky from direction `w`; zero for other lights.
+    /// Radiance of an environment light from direction `w`; zero for other lights.
     pub fn sky_radiance(&self, w: DVec3) -> Rgb {
         match self {
             Self::Sky(sky) => sky.sky_radiance(w),
@@ -79,7 +79,7 @@ impl Light {
         }
     }
 
-    /// A direction from a point in space. Skies are sampled uniformly over the sphere of directions.
+    /// A direction from a point in space. Environment lights are sampled uniformly over the sphere.
     pub fn aim(&self, from: DVec3, point: DVec2, lobe: f64) -> Aim {
         match self {
             Self::Point { position, intensity } => aim_at_point(from, *position, *intensity),
@@ -104,7 +104,7 @@ impl Light {
         }
     }
 
-    /// A direction from a surface. Skies are sampled in proportion to the cosine, where there is one side to it.
+    /// A direction from a surface. Environment lights are sampled cosine-weighted, where there is one side to it.
     pub fn aim_from_surface(&self, from: DVec3, reach: Reach, point: DVec2, lobe: f64) -> Aim {
         let (Self::Sky(sky), Reach::Above(normal)) = (self, reach) else {
             return self.aim(from, point, lobe);
@@ -115,8 +115,8 @@ impl Light {
         infinitely_far(LightSample { wi, radiance, pdf: cosine * FRAC_1_PI, ..INVALID })
     }
 
-    /// The density with which [`Self::aim_from_surface`] finds direction `wi`, which meets this light at `there`
-    /// (`None`: in the sky).
+    /// The pdf with which [`Self::aim_from_surface`] samples direction `wi`, which hits this light at `there`
+    /// (`None`: the environment).
     pub fn density(&self, from: DVec3, reach: Reach, wi: DVec3, there: Option<&Surface>) -> f64 {
         match (self, there) {
             (Self::Sky(_), None) => reach.sky_density(wi),
@@ -179,7 +179,7 @@ struct LightTriangle {
     area_up_to: f64,
 }
 
-/// A mesh whose front sides glow alike. Its points are equally likely.
+/// A mesh of one-sided emission. Its points are sampled uniformly by area.
 #[derive(Clone, Debug)]
 pub struct MeshLight {
     triangles: Vec<LightTriangle>,
@@ -218,8 +218,8 @@ impl MeshLight {
     }
 }
 
-/// A sphere that glows. From outside, directions are uniform in the cone that it fills; from inside, and if only
-/// a cap of it glows, the points of what glows are equally likely.
+/// A sphere light. From outside, directions are uniform in the cone that it subtends; from inside, and if only
+/// a cap emits, points are uniform on the emissive part.
 #[derive(Clone, Debug)]
 pub struct SphereLight {
     centre: DVec3,
@@ -236,7 +236,7 @@ impl SphereLight {
         Self { centre, radius, inward, emission, clearance }
     }
 
-    /// Axis and 1 − cosine of the half angle of the part that glows.
+    /// Axis and 1 − cosine of the half angle of the part that emits.
     fn glowing_part(&self) -> (DVec3, f64) {
         match self.emission.cap {
             Some(cap) => (cap.axis, 2.0 * (cap.half_angle / 2.0).sin().powi(2)),
@@ -248,7 +248,7 @@ impl SphereLight {
         TAU * self.radius * self.radius * self.glowing_part().1
     }
 
-    /// 1 − cosine of the half angle of the cone that the sphere fills, where directions are chosen in that cone.
+    /// 1 − cosine of the half angle of the cone that the sphere subtends, where directions are chosen in that cone.
     fn visible_cone(&self, from: DVec3) -> Option<f64> {
         let sine_square = self.radius * self.radius / from.distance_squared(self.centre);
         let is_outside = sine_square < 1.0 - 1e-9;

@@ -1,23 +1,23 @@
-//! Multiple importance sampling: what two techniques that can find the same light count each.
+//! Multiple importance sampling (MIS): the weights of two techniques that can sample the same light.
 
 use super::reach::Reach;
 use glam::DVec3;
 
-/// The share of a sample drawn with density `own` where another technique draws with density `other` (Veach and
+/// The power heuristic: the weight of a sample of pdf `own` where another technique has pdf `other` (Veach and
 /// Guibas 1995, β = 2). Both may be infinite or zero, not both.
 pub fn power_heuristic(own: f64, other: f64) -> f64 {
     let ratio = other / own;
     1.0 / (1.0 + ratio * ratio)
 }
 
-/// Where a direction of a glossy surface came from, for the share that its find gets.
+/// Where a BSDF sample came from, for the weight of the emission that it hits.
 #[derive(Clone, Copy)]
 pub struct GlossyDirection {
     /// The vertex that it left.
     pub from: DVec3,
     /// Where that takes light from.
     pub reach: Reach,
-    /// The density of the direction.
+    /// The pdf of the direction.
     pub pdf: f64,
 }
 

@@ -8,7 +8,7 @@
 //! | `world`, `vertex` | of which material it is; seen from where |
 //! | `scatter`, `light` | directions from surfaces, and towards lights |
 //! | `integrator`, `direct` | paths |
-//! | `render`, `adaptive`, `random` | pictures, when a pixel is done, and numbers |
+//! | `render`, `adaptive`, `random` | images, when a pixel is done, and numbers |
 //!
 //! Which precision where: traversal, BSDFs and throughput are single; points on surfaces, light geometry and
 //! sums over samples are double. Traversal decides in single precision what is hit, and the hit is then worked

@@ -2,7 +2,7 @@
 //! thread draws it, or when.
 //!
 //! The generator is SplitMix64 (Steele, Lea and Flood 2014): a counter and a mixing function. Two streams of
-//! a picture overlap with probability about 2⁻⁶⁴ times their length, which no statistic can see.
+//! an image overlap with probability about 2⁻⁶⁴ times their length, which no statistic can see.
 
 use glam::DVec2;
 

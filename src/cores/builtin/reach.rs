@@ -1,4 +1,4 @@
-//! From where light comes that a surface scatters: above it, or both sides where light passes.
+//! The domain of a BSDF: the hemisphere above a surface, or the sphere where light is transmitted.
 
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;

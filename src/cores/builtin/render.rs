@@ -1,4 +1,4 @@
-//! Pictures and lists of estimates, on as many threads as allowed. Every pixel and every ray has its own random
+//! Images and lists of estimates, on as many threads as allowed. Every pixel and every ray has its own random
 //! numbers and its own sum, so the answer does not depend on the threads.
 
 use super::adaptive::{Running, luminance};
@@ -29,7 +29,7 @@ pub fn radiance(
     for_each(world, settings, &mut radiance[..count], estimate)
 }
 
-/// A picture.
+/// An image.
 pub fn render(
     world: &World,
     camera: &Camera,

@@ -1,4 +1,4 @@
-//! A scene taken in: what a ray or a picture may be asked for.
+//! A scene taken in: what a ray or an image may be asked for.
 
 use super::render;
 use super::trace;

@@ -1,5 +1,5 @@
-//! A ray and a box, as the contract asks: exact about parallel rays, flat boxes and both ends of the segment.
-//! Not the test that traversal runs eight at a time; that one only has to be conservative (`ray.rs`).
+//! The slab test: a ray and a box, as the contract asks: exact about parallel rays, flat boxes, t_min and
+//! t_max. Not the test that traversal runs eight at a time; that one only has to be conservative (`ray.rs`).
 
 use crate::contract::{BoxHit, Ray};
 use crate::scene::Aabb;

@@ -1,4 +1,4 @@
-//! FLIP of one exposure: both pictures blurred and searched for features row by row, then compared
+//! FLIP of one exposure: both images blurred and searched for features row by row, then compared
 //! pixel by pixel.
 //!
 //! Filters are separable, and their halves may come in either order: down the columns first, then
@@ -47,7 +47,7 @@ fn mark_bad_pixels(map: &mut Plane, pair: &Pair<'_>) {
     }
 }
 
-/// A picture in the colours it is blurred in, and its grey: planes of their own, so that filters
+/// An image in the colours it is blurred in, and its grey: planes of their own, so that filters
 /// read neighbours from neighbouring memory.
 struct Seen {
     colours: [Plane; 3],
@@ -88,7 +88,7 @@ impl Filters {
     }
 }
 
-/// One row of one picture after all filters, and the room to get there.
+/// One row of one image after all filters, and the room to get there.
 struct Scratch {
     wide: PaddedRow,
     term: Vec<f32>,

@@ -1,4 +1,4 @@
-//! Exposures that show a picture of high dynamic range from its highlights to its shadows.
+//! Exposures that show an image of high dynamic range from its highlights to its shadows.
 
 use crate::image::{Image, luminance};
 
@@ -40,8 +40,8 @@ pub(super) fn exposures(reference: &Image) -> Vec<f32> {
     (0..count).map(|i| first + i as f32 * step).collect()
 }
 
-/// The largest and the middle luminance of the pixels that are finite; 1 of a black picture. Where
-/// more than half of the picture is black, the middle of the rest.
+/// The largest and the middle luminance of the pixels that are finite; 1 of a black image. Where
+/// more than half of the image is black, the middle of the rest.
 fn brightest_and_middle(reference: &Image) -> [f32; 2] {
     #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
     let levels = reference.pixels.iter().map(|pixel| luminance(*pixel) as f32);

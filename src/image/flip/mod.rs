@@ -1,12 +1,12 @@
-//! FLIP: how different two pictures look when one flips between them (Andersson et al., "FLIP: A
+//! FLIP: how different two images look when one flips between them (Andersson et al., "FLIP: A
 //! Difference Evaluator for Alternating Images", 2020; "Visualizing Errors in Rendered High Dynamic
 //! Range Images", 2021).
 //!
-//! Both pictures are blurred as the eye blurs them at 0.7 m from a screen of 3840 pixels and 0.7 m;
+//! Both images are blurred as the eye blurs them at 0.7 m from a screen of 3840 pixels and 0.7 m;
 //! their colours are compared in a space of even steps; and what differs in edges or points weighs
 //! more. The numbers agree with NVIDIA's implementation to 10⁻⁴ in every pixel
 //! (tests/fixtures/flip), with one exception on purpose: a pixel that is not finite in one of the
-//! pictures counts as the largest error, 1, and as black for its neighbours.
+//! images counts as the largest error, 1, and as black for its neighbours.
 
 mod approximate;
 mod colour;
@@ -19,7 +19,7 @@ mod tests;
 
 use super::pair::{Pair, Plane};
 
-/// Mean FLIP of the pictures clipped to [0, 1]; from 0 to 1.
+/// Mean FLIP of the images clipped to [0, 1]; from 0 to 1.
 pub(super) fn mean_flip(pair: &Pair<'_>) -> f64 {
     mean(&flip(pair))
 }
@@ -30,7 +30,7 @@ pub(super) fn mean_high_dynamic_range_flip(pair: &Pair<'_>) -> f64 {
     mean(&high_dynamic_range_flip(pair))
 }
 
-/// FLIP of every pixel, the pictures clipped to [0, 1].
+/// FLIP of every pixel, the images clipped to [0, 1].
 pub fn flip(pair: &Pair<'_>) -> Plane {
     let mut map = blank(pair);
     difference::raise(&mut map, pair, &|value| value.clamp(0.0, 1.0));

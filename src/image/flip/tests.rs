@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// How far a mean and any pixel may be from NVIDIA's.
 const TOLERANCE: f64 = 1e-4;
 
-/// A picture from the formula of tests/fixtures/flip/make.py.
+/// An image from the formula of tests/fixtures/flip/make.py.
 fn waves(width: usize, height: usize, shift: f64, level: f64) -> Image {
     Image::from_fn(width, height, |x, y| {
         let (x, y) = (x as f64, y as f64);

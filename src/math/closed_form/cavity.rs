@@ -1,4 +1,4 @@
-//! Closed diffuse cavities: furnaces whose every bounce is known.
+//! Closed diffuse cavities (furnaces, radiosity): every bounce is known.
 
 use std::ops::RangeInclusive;
 
@@ -30,7 +30,7 @@ pub fn cap_cavity(
     bounces.filter(|bounce| *bounce > 0).map(light).sum()
 }
 
-/// Two concentric spheres; the outer one, seen from inside, glows.
+/// Two concentric spheres; the outer one, seen from inside, emits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConcentricSpheres {
     /// Radiance that the outer sphere emits.

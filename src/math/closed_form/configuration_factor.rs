@@ -1,6 +1,6 @@
-//! What share of the light a small patch would get from all around comes from one shape: ∫ cos θ
-//! cos θ′ / (π r²) dA. A Lambertian patch of albedo ρ, lit by a shape of radiance L, has radiance ρ
-//! L F.
+//! Configuration factors, the point-to-area form factors: the fraction of a patch's cosine-weighted
+//! hemisphere that a shape fills, ∫ cos θ cos θ′ / (π r²) dA.
+//! A Lambertian patch of albedo ρ, lit by a shape of radiance L, has radiance ρ L F.
 //!
 //! Sources: J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors" (numbers
 //! B-3, B-4, B-12, B-13, B-43 there); J. H. Lambert, Photometria (1760), for polygons.

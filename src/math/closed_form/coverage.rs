@@ -1,9 +1,9 @@
-//! What share of a pinhole picture a shape covers. Angles are the full fields of view, radians.
+//! The fraction of a pinhole image that a shape covers. Angles are the full fields of view, radians.
 
 use std::f64::consts::PI;
 
 /// A rectangle that faces the camera at this depth, with x and y relative to the axis; cut off at
-/// the picture's border.
+/// the image's border.
 pub fn rectangle(x: [f64; 2], y: [f64; 2], depth: f64, fields_of_view: [f64; 2]) -> f64 {
     let covered = |[low, high]: [f64; 2], field: f64| {
         let half = depth * (0.5 * field).tan();
@@ -12,7 +12,7 @@ pub fn rectangle(x: [f64; 2], y: [f64; 2], depth: f64, fields_of_view: [f64; 2])
     covered(x, fields_of_view[0]) * covered(y, fields_of_view[1])
 }
 
-/// A sphere on the axis, wholly within the picture: its cone meets the picture plane in a disk.
+/// A sphere on the axis, wholly within the image: its cone meets the image plane in a disk.
 pub fn sphere_on_axis(radius: f64, distance: f64, fields_of_view: [f64; 2]) -> f64 {
     let [horizontal, vertical] = fields_of_view.map(|field| (0.5 * field).tan());
     let edge = (radius / distance).asin().tan();

@@ -1,4 +1,4 @@
-//! Lambertian surfaces under lights without extent: no noise at all.
+//! Lambertian surfaces under delta lights: no noise at all.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Mean configuration factors between two rectangles: what share of the light leaving one arrives
+//! Form factors between two rectangles (area to area): the fraction of the light leaving one that arrives
 //! at the other.
 //!
 //! Source: J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", C-11 and

@@ -1,5 +1,5 @@
-//! Reflection and refraction at smooth dielectric interfaces. `eta` is the index beyond over the
-//! index before.
+//! Fresnel reflectance and refraction at smooth dielectric interfaces. `eta` is the relative index of
+//! refraction eta_t / eta_i.
 
 /// Unpolarised reflectance (Fresnel 1823); 1 under total internal reflection.
 pub fn reflectance(cos_incident: f64, eta: f64) -> f64 {
@@ -13,7 +13,7 @@ pub fn reflectance(cos_incident: f64, eta: f64) -> f64 {
     0.5 * (perpendicular * perpendicular + parallel * parallel)
 }
 
-/// Schlick's approximation (1994): R₀ + (1 − R₀)(1 − cos θ)⁵ with the cosine on the thin side; 1
+/// Schlick's approximation (1994): R₀ + (1 − R₀)(1 − cos θ)⁵ with the cosine on the side of lower index; 1
 /// under total internal reflection.
 pub fn schlick(cos_incident: f64, eta: f64) -> f64 {
     let at_normal = ((eta - 1.0) / (eta + 1.0)).powi(2);

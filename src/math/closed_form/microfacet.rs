@@ -1,5 +1,5 @@
-//! The GGX microfacet distribution, its masking, and the albedo of a perfect conductor rough that
-//! way.
+//! GGX: its normal distribution function D, its masking-shadowing G, and the directional albedo of a
+//! perfect rough conductor.
 //!
 //! Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007); Heitz,
 //! "Understanding the Masking-Shadowing Function" (2014). Only single scattering: what bounces

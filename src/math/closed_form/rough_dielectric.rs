@@ -1,4 +1,4 @@
-//! What a rough interface between two dielectrics reflects and lets through: GGX facets, each of
+//! The directional albedo and transmittance of a rough dielectric interface: GGX microfacets, each of
 //! them smooth.
 //!
 //! Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007). Only

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 pub(super) struct Entry {
     position: Vector,
     look_at: Spanned<Vector>,
-    /// Upwards in the picture; y unless said otherwise.
+    /// Upwards in the image; y unless said otherwise.
     up: Option<Direction>,
     horizontal_fov: Spanned<Angle>,
     /// Square pixels unless said otherwise.

@@ -141,7 +141,7 @@ impl Entry {
         exactly_one("a material", kinds)
     }
 
-    /// How it glows. An emission of zero is none: parameters can put a light out.
+    /// How it emits. An emission of zero is none: parameters can put a light out.
     fn emission(self, context: &Context<'_>) -> Result<Option<Emission>, Diagnostic> {
         let radiance = self.emission.map(|power| power.0);
         if let (None, Some(cap)) = (radiance, &self.cap) {

@@ -4,7 +4,7 @@
 //! puts values in for `"$name"`.
 //!
 //! ```toml
-//! title  = "A sphere that glows inside"
+//! title  = "A sphere that emits inside"
 //! source = "Closed form"
 //!
 //! [parameters]

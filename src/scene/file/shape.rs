@@ -151,7 +151,7 @@ fn checked<T>(
     })
 }
 
-/// Whether a mesh can glow as its material says.
+/// Whether a mesh can emit as its material says.
 fn check_light(mesh: &Mesh, material: &Material) -> Result<(), String> {
     let Some(emission) = material.emission else { return Ok(()) };
     if emission.cap.is_some() {

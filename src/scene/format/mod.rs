@@ -194,7 +194,7 @@ impl<'a> Complaint<'a> {
         ExportError::CannotHold { format: self.format, scene, what: what.into() }
     }
 
-    /// The scene's camera, without which most formats make no picture.
+    /// The scene's camera, without which most formats make no image.
     fn camera(self) -> Result<&'a Camera, ExportError> {
         self.scene.camera.as_ref().ok_or_else(|| self.about("it has no camera"))
     }

@@ -1,4 +1,4 @@
-//! Meshes that hierarchies stumble over: soups, and arrangements that leave a split rule nothing to
+//! Meshes that BVHs stumble over: soups, and arrangements that leave a split rule nothing to
 //! split by.
 
 use crate::math::rng::{Seed, Stream, uniform};

@@ -1,7 +1,7 @@
-//! What a reference holds beside its picture: each bounce alone, and what stands at the centre of
+//! What a reference holds beside its image: each bounce alone, and what stands at the centre of
 //! each pixel.
 //!
-//! Bounces are channels `bounce.0.R` and so on: 0 is what the camera sees glowing. What is seen
+//! Bounces are channels `bounce.0.R` and so on: 0 is directly visible emission. What is seen
 //! first are `depth.Z`, the distance from the camera, infinite where nothing is hit, and
 //! `normal.X`, `normal.Y`, `normal.Z`, the unit shading normal in world space, 0 where nothing is.
 
@@ -12,7 +12,7 @@ use crate::image::pair::Plane;
 const DEPTH: &str = "depth.Z";
 const NORMAL: [&str; 3] = ["normal.X", "normal.Y", "normal.Z"];
 
-/// What a reference holds beside its picture; nothing, where nobody has added it.
+/// What a reference holds beside its image; nothing, where nobody has added it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layers {
     /// The mean radiance of each bounce alone, from bounce 0.

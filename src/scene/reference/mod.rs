@@ -1,4 +1,4 @@
-//! What is true of a scene: a picture by Mitsuba, how well it is known, and where it comes from.
+//! What is true of a scene: an image by Mitsuba, how well it is known, and where it comes from.
 //!
 //! `references/<name>/reference.exr` holds the mean in R, G, B and the standard error of that mean
 //! in se.R, se.G, se.B, and what else is known in [`Layers`]; `provenance.toml` beside it says how it
@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 /// Channels of the standard error are called `se.R`, `se.G` and `se.B`.
 pub const ERROR_PREFIX: &str = "se.";
 
-/// A picture, its noise and its provenance.
+/// An image, its noise and its provenance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     /// The folder's name.
@@ -33,7 +33,7 @@ pub struct Reference {
     pub mean: Image,
     /// Standard error of that mean.
     pub standard_error: Image,
-    /// What is known beside the picture.
+    /// What is known beside the image.
     pub layers: Layers,
     /// How it came about.
     pub provenance: Provenance,
@@ -61,7 +61,7 @@ pub enum ReferenceProblem {
     /// Of another size than the camera's film.
     #[error("is {found:?} pixels in size, but the scene's film is {film:?}")]
     WrongSize {
-        /// Columns and rows of the picture.
+        /// Columns and rows of the image.
         found: [usize; 2],
         /// Columns and rows of the film.
         film: [usize; 2],
@@ -85,7 +85,7 @@ impl ReferenceError {
     }
 }
 
-/// Where the picture of reference `name` is, below the folder of references.
+/// Where the image of reference `name` is, below the folder of references.
 pub fn picture_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(name).join("reference.exr")
 }
@@ -95,7 +95,7 @@ pub fn provenance_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(name).join("provenance.toml")
 }
 
-/// The SHA-256 of a file's content, in hexadecimal: how provenance knows its picture.
+/// The SHA-256 of a file's content, in hexadecimal: how provenance knows its image.
 pub fn fingerprint(content: &[u8]) -> String {
     Sha256::digest(content).iter().map(|byte| format!("{byte:02x}")).collect()
 }

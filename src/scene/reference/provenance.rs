@@ -12,7 +12,7 @@ pub struct Provenance {
     pub scene: String,
     /// Its [content hash](crate::scene::hash::content_hash) when the reference was made.
     pub scene_hash: String,
-    /// First and last bounce that are added up: 0 is what the camera sees glowing.
+    /// First and last bounce that are added up: 0 is directly visible emission.
     pub bounces: [u32; 2],
     /// Columns and rows.
     pub film: [u32; 2],
@@ -62,7 +62,7 @@ impl Provenance {
         u64::from(self.passes) * u64::from(self.samples_per_pass)
     }
 
-    /// What the header of `reference.exr` says, so that a picture on its own can be made again.
+    /// What the header of `reference.exr` says, so that an image on its own can be made again.
     pub fn header(&self) -> String {
         let mut text = format!(
             "furnace {}\nscene {} {}\n",

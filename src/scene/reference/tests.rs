@@ -11,7 +11,7 @@ fn scene() -> SceneDescription {
     SceneDescription { name: "room".to_owned(), camera: Some(camera), ..Default::default() }
 }
 
-/// A folder with one good reference `room` of a picture of this size.
+/// A folder with one good reference `room` of an image of this size.
 fn written(width: usize, height: usize, mean: f32) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("room")).unwrap();

@@ -1,6 +1,6 @@
 //! A rough conductor: GGX microfacets that reflect the same at every angle.
 //!
-//! Written with the masking sums of `facets`, f = R D G₁ G₁ / (4 cos cos) and its density G₁ D / (4 cos) have no
+//! Written with the masking sums of `facets`, f = R D G₁ G₁ / (4 cos cos) and its pdf G₁ D / (4 cos) have no
 //! cosines left.
 
 use super::facets::Facets;

@@ -1,8 +1,8 @@
-//! GGX microfacets with separable Smith masking, seen from above. Sampled by the visible normals (Heitz 2018,
-//! "Sampling the GGX distribution of visible normals").
+//! GGX microfacets: the normal distribution function D, with separable Smith masking-shadowing, seen
+//! from above. Sampled by the visible normals (Heitz 2018, "Sampling the GGX distribution of visible normals").
 //!
 //! With s(w) = cos θ + √(cos² θ + α² sin² θ), Smith's masking is G₁(w) = 2 cos θ / s(w). Written with s, the cosines
-//! of microfacet formulas and of their densities cancel, also at grazing angles.
+//! of microfacet formulas and of their pdfs cancel, also at grazing angles.
 
 use super::warp::sin_cos_of_turns;
 use glam::{Vec2, Vec3, vec3};

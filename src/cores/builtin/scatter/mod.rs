@@ -1,4 +1,4 @@
-//! How surfaces scatter: directions in a local frame, their densities and their weights, in single precision.
+//! BSDFs: directions in the local shading frame, their pdfs and their weights, in single precision.
 
 mod bsdf;
 mod conductor;

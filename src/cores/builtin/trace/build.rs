@@ -1,4 +1,4 @@
-//! From a list of boxes to a binary hierarchy, by the rules of [`Split`].
+//! BVH construction: from a list of boxes to a binary BVH, by the rules of [`Split`].
 //!
 //! Whatever the rule, a node that it cannot divide (equal centroids, one-sided partitions, great depth) is
 //! divided into equal counts, so every build ends, and its depth is bounded.
@@ -13,7 +13,7 @@ const RULED_DEPTH: usize = 64;
 /// Subtrees at least this large are built in parallel.
 const PARALLEL_SIZE: usize = 4096;
 
-/// A node of the binary hierarchy. Its first child, if any, is the next node.
+/// A node of the binary BVH. Its first child, if any, is the next node.
 #[derive(Clone, Copy, Debug)]
 pub struct BinaryNode {
     /// Around everything below.
@@ -39,7 +39,7 @@ pub enum Content {
     },
 }
 
-/// How a hierarchy is to be built.
+/// How a BVH is to be built.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
     /// The rule.

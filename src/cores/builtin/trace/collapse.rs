@@ -1,4 +1,4 @@
-//! From a binary hierarchy to nodes of eight children: the child of largest area is opened until there are
+//! From a binary BVH to nodes of eight children: the child of largest area is opened until there are
 //! eight (as Embree does), and leaves are packed into blocks.
 
 use super::build::{BinaryNode, Content, Plan};

@@ -1,9 +1,9 @@
-//! What a hierarchy is built over.
+//! What a BVH is built over.
 
 use super::bounds::Bounds;
 use glam::Vec3A;
 
-/// What is sorted into the hierarchy.
+/// What is sorted into the BVH.
 #[derive(Clone, Copy, Debug)]
 pub struct Item {
     /// Around the primitive.

@@ -1,6 +1,6 @@
 //! A ray made ready for traversal: scaled, rounded, and with what the box and triangle tests need of it.
 //!
-//! Two promises hold the hierarchy together:
+//! Two promises hold the BVH together:
 //!
 //! - The segment is kept exactly. `t` passes in single precision if and only if it lies in the open interval
 //!   of the double precision ray.

@@ -1,4 +1,4 @@
-//! A ray and a sphere. In double precision throughout: the quadratic cancels.
+//! A ray and a sphere. In double precision throughout, against catastrophic cancellation in the quadratic.
 
 use super::segment::Segment;
 use super::tree::Ball;

@@ -1,4 +1,4 @@
-//! The surface area heuristic: divide where the expected number of steps is least.
+//! The surface area heuristic (SAH): split where the expected number of steps is least.
 //!
 //! A ray that meets a box meets a smaller box in it with the ratio of their areas (MacDonald and Booth 1990).
 //! Candidates are the edges between equal bins of the centroids along each axis (Wald 2007), and a leaf costs

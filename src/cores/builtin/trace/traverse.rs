@@ -1,4 +1,4 @@
-//! How a ray walks the tree: the same walk for every kernel, nearest hit and any hit.
+//! BVH traversal: the same for every kernel, closest hit and any hit.
 //!
 //! A kernel is the arithmetic of two tests, eight boxes and four triangles at a time. The triangle test is the
 //! same to the last bit in all kernels (no fused multiplication), so a hit does not depend on the processor.

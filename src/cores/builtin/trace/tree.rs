@@ -1,4 +1,4 @@
-//! The hierarchy that rays walk: nodes of eight children, leaves of triangles four at a time, and spheres.
+//! The BVH that rays traverse: nodes of eight children, leaves of triangles four at a time, and spheres.
 //! Brute force is a tree of one leaf of each kind, so both ask exactly the same primitive tests.
 
 use super::bounds::Bounds;

@@ -1,4 +1,4 @@
-//! Where the course's program takes its pictures from without a window. The position in the file
+//! Where the course's program takes its images from without a window. The position in the file
 //! plays no part: only the direction does, and the box around the scene.
 
 use super::xml::{Element, Reader, Result};
@@ -91,7 +91,7 @@ impl Lens {
         Ok(())
     }
 
-    /// The camera for a picture of `film` pixels of a scene within `bounds`.
+    /// The camera for an image of `film` pixels of a scene within `bounds`.
     pub(super) fn place(&self, bounds: &Aabb, film: [u32; 2]) -> Camera {
         let distance = self.screen_distance();
         let angle =
@@ -108,8 +108,8 @@ impl Lens {
         }
     }
 
-    /// Pixels from the pinhole to the picture. It is fitted once, to the window; another size of
-    /// picture leaves it alone, and so crops.
+    /// Pixels from the pinhole to the image. It is fitted once, to the window; another size of
+    /// image leaves it alone, and so crops.
     fn screen_distance(&self) -> f64 {
         let half = |degrees: f32| (radians(f64::from(degrees)) / 2.0).tan();
         let (horizontal, vertical) = (half(self.horizontal_fov), half(self.vertical_fov));

@@ -1,4 +1,4 @@
-//! From lamps that are declared and surfaces that glow to lights that are both.
+//! From lights that are declared and surfaces that emit to lights that are both.
 
 use super::Reading;
 use super::light::{Kind, Lamp};
@@ -6,7 +6,7 @@ use super::node::File;
 use crate::scene::{Aabb, Emission, Light, Material, Mesh, SceneDescription, Surface};
 use glam::DVec3;
 
-/// A lamp this near to a glowing mesh, in diagonals of the mesh, lies in it.
+/// A light this near to an emissive mesh, in diagonals of the mesh, lies in it.
 const WITHIN: f64 = 0.01;
 
 /// Makes a scene of a file.
@@ -19,7 +19,7 @@ pub(super) fn light(name: &str, file: File, film: [u32; 2]) -> Reading {
         spheres: file.spheres,
         lights: Vec::new(),
     };
-    // The course puts the box around the objects of the file, before there are lamps.
+    // The course puts the box around the objects of the file, before there are lights.
     scene.camera = scene.bounds().map(|bounds| file.lens.place(&bounds, film));
     let mut differences = file.differences;
     for lamp in file.lamps {
@@ -28,7 +28,7 @@ pub(super) fn light(name: &str, file: File, film: [u32; 2]) -> Reading {
     Reading { scene: scene.with_area_lights(), differences }
 }
 
-/// Adds a lamp, and says what is different about it.
+/// Adds a light, and says what is different about it.
 fn add(scene: &mut SceneDescription, lamp: Lamp) -> Option<String> {
     let Lamp { name, colour, kind } = lamp;
     let at = match kind {

@@ -1,4 +1,4 @@
-//! The lights of the file, as the course declares them: apart from the surfaces that are seen to glow.
+//! The lights of the file, as the course declares them: apart from the surfaces that are seen to emit.
 
 use super::xml::{Element, Reader, Result};
 use crate::scene::Rgb;
@@ -62,7 +62,7 @@ fn read_kind<'a>(reader: &Reader<'a>, kind: Element<'a>, transform: &DMat4) -> R
             }
             Kind::Point { position: point(transform, DVec3::ZERO) }
         }
-        // The course takes the lamp's place into account: it transforms a point, not a direction.
+        // The course takes the light's place into account: it transforms a point, not a direction.
         "directional" => Kind::Directional { direction: -unit(point(transform, -DVec3::Z)) },
         "spot" => Kind::Spot,
         "ambient" => Kind::Ambient,

@@ -13,7 +13,7 @@ fn grey() -> Surface {
     Surface::Diffuse { reflectance: [0.5; 3] }
 }
 
-/// How a surface scatters and glows, without its name.
+/// How a surface scatters and emits, without its name.
 type Look = (Surface, Option<Emission>);
 
 /// Reads a `material`.

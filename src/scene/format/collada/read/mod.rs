@@ -9,9 +9,9 @@
 //! Where `furnace` cannot say what the course says, a file is either refused or read with a
 //! [`Reading::differences`]. The notable ones:
 //!
-//! - The course declares its lamps apart from the surfaces that are seen to glow, and they need not
-//!   agree: in its boxes the lamp is turned by a right angle, and may be of another brightness. Here a
-//!   lamp that lies in a glowing mesh *is* that mesh: what is seen is what shines. An area light
+//! - The course declares its lights apart from the surfaces that are seen to emit, and they need not
+//!   agree: in its boxes the light is turned by a right angle, and may be of another brightness. Here a
+//!   light that lies in an emissive mesh *is* that mesh: what is seen is what shines. An area light
 //!   without such a mesh gets one.
 //! - Glowing surfaces shine from both sides in the course, point lights do not weaken with
 //!   distance: these are [`Conventions`](crate::contract::Conventions) of a core, not of a scene.
@@ -37,7 +37,7 @@ use crate::scene::{SceneDescription, SceneError};
 use crate::text::Source;
 use std::path::Path;
 
-/// The size of the course's pictures where nothing else is asked for.
+/// The size of the course's images where nothing else is asked for.
 pub const FILM: [u32; 2] = [800, 600];
 
 /// A scene, and what it does not say as the course says it.

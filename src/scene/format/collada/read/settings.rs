@@ -10,7 +10,7 @@ use std::path::Path;
 /// How many numbers there are.
 const COUNT: usize = 30;
 
-/// Reads a camera file for a picture of `film` pixels.
+/// Reads a camera file for an image of `film` pixels.
 ///
 /// # Errors
 /// If the file cannot be read, or is not 30 finite numbers that make a camera.

@@ -6,11 +6,11 @@
 
 namespace pathtracer {
 
-class Hierarchy {
+class Bvh {
  public:
    furnace_build_stats stats{};
 
-   Hierarchy(const Geometry &geometry, const furnace_build &settings)
+   Bvh(const Geometry &geometry, const furnace_build &settings)
        : geometry(geometry), split(settings.split),
          leaf_size(std::max(1u, settings.max_leaf_size)) {
       for (uint32_t i = 0; i < geometry.primitives.size(); ++i) order.push_back(i);

@@ -1,0 +1,282 @@
+//! What people read uses the field's words, and each of the field's words leads to the room where a rendering
+//! engineer expects it.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Words to avoid, and what the field says.
+const AVOID: &[(&str, &str)] = &[
+    ("lamp", "light, emitter or area light"),
+    ("lamps", "lights, emitters or area lights"),
+    ("glow", "emission"),
+    ("glows", "emits"),
+    ("glowing", "emissive"),
+    ("gather", "light sampling or hemisphere sampling"),
+    ("gathers", "light sampling or hemisphere sampling"),
+    ("gathered", "light sampling or hemisphere sampling"),
+    ("by the hemisphere", "hemisphere sampling"),
+    ("even sky", "constant environment light"),
+    ("the eye", "the camera, or wo"),
+    ("facet", "microfacet, or normal distribution function"),
+    ("facets", "microfacets, or normal distribution function"),
+    ("thin side", "side of lower index of refraction"),
+    ("index beyond", "eta_t"),
+    ("index here", "eta_i"),
+    ("Fresnel's share", "Fresnel reflectance"),
+    ("let through", "transmitted"),
+    ("lets through", "transmits"),
+    ("chance to survive", "survival probability"),
+    ("probability of going on", "survival probability"),
+    ("the chance", "the probability"),
+    ("other chance", "selection probability that does not match the pdf"),
+    ("density", "pdf"),
+    ("densities", "pdfs"),
+    ("strangers", "independent"),
+    ("hierarchy", "BVH"),
+    ("hierarchies", "BVHs"),
+    ("ball", "sphere"),
+    ("balls", "spheres"),
+    ("is no number", "is not a number, or NaN"),
+    ("no numbers", "not numbers, or NaN"),
+    ("comes up", "starts"),
+    ("come up", "start"),
+    ("shut in", "sandboxed"),
+    ("shuts in", "sandboxes"),
+    ("says no", "refuses"),
+    ("heard out", "read to the end"),
+    ("suspected by", "needed a second look"),
+    ("remember", "background"),
+    ("wager", "test"),
+];
+
+/// Where such a word is the field's own after all.
+const EXCEPT: &[&str] = &["bounding volume hierarchy", "probability density"];
+
+/// Rooms whose words their authors see to.
+const ELSEWHERE: &[&str] = &[
+    "src/checks/",
+    "src/contract/",
+    "src/cores/textbook/",
+    "src/diagnosis/",
+    "src/stats/",
+    "src/worker/",
+];
+
+/// A term of the field, and the file or folder whose text has it.
+const TERMS: &[(&str, &str)] = &[
+    ("next event estimation", "src/cause/light.rs"),
+    ("next event estimation", "cases/light"),
+    ("next event estimation", "include/furnace_core.h"),
+    ("hemisphere sampling", "src/cause/light.rs"),
+    ("next event estimation", "src/cores/builtin/direct.rs"),
+    ("hemisphere sampling", "src/cores/builtin/direct.rs"),
+    ("multiple importance sampling", "src/cores/builtin/mis.rs"),
+    ("power heuristic", "src/cores/builtin/mis.rs"),
+    ("shadow ray", "src/cause/light.rs"),
+    ("shadow acne", "src/cause/light.rs"),
+    ("self-intersection", "src/cause/light.rs"),
+    ("self-shadowing", "src/cause/light.rs"),
+    ("solid angle", "src/cause/light.rs"),
+    ("delta light", "src/cause/light.rs"),
+    ("Russian roulette", "src/cause/integrator.rs"),
+    ("survival probability", "src/cause/integrator.rs"),
+    ("throughput", "src/cause/integrator.rs"),
+    ("radiosity", "cases/integrator"),
+    ("furnace", "cases/integrator"),
+    ("form factor", "cases/light"),
+    ("form factor", "src/math/closed_form/form_factor.rs"),
+    ("normal distribution function", "src/cause/bsdf.rs"),
+    ("normal distribution function", "src/cores/builtin/scatter/facets.rs"),
+    ("masking-shadowing", "src/cause/bsdf.rs"),
+    ("Fresnel reflectance", "src/cause/bsdf.rs"),
+    ("total internal reflection", "src/cause/bsdf.rs"),
+    ("relative index of refraction", "src/cause/bsdf.rs"),
+    ("lobe selection probability", "src/cause/bsdf.rs"),
+    ("delta distribution", "src/cause/bsdf.rs"),
+    ("reciprocity", "cases/bsdf"),
+    ("Jacobian", "cases/sampling"),
+    ("pdf", "src/cause/sampling.rs"),
+    ("cosine-weighted", "src/cause/sampling.rs"),
+    ("slab test", "src/cause/bvh.rs"),
+    ("slab test", "src/cores/builtin/slab.rs"),
+    ("splitting axis", "src/cause/bvh.rs"),
+    ("traversal", "src/cause/bvh.rs"),
+    ("surface area heuristic", "src/cores/builtin/trace/surface_area.rs"),
+    ("barycentric coordinates", "src/cause/shape.rs"),
+    ("Möller and Trumbore", "src/cause/shape.rs"),
+    ("catastrophic cancellation", "src/cause/shape.rs"),
+    ("watertight", "src/cause/shape.rs"),
+    ("stratified", "src/cause/camera.rs"),
+    ("field of view", "src/cause/camera.rs"),
+    ("confidence interval", "src/cause/adaptive.rs"),
+    ("sRGB transfer function", "src/cause/image.rs"),
+    ("fireflies", "src/cause/image.rs"),
+];
+
+/// Files at and below `path`, of the checkout.
+fn files_below(path: &Path) -> Vec<PathBuf> {
+    if path.is_file() {
+        return vec![path.to_owned()];
+    }
+    let entries = fs::read_dir(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    paths.iter().flat_map(|path| files_below(path)).collect()
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Path below the checkout, with forward slashes.
+fn label(path: &Path) -> String {
+    path.strip_prefix(root()).unwrap().to_string_lossy().replace('\\', "/")
+}
+
+/// Everything that people read, as `place, text`.
+fn readings() -> Vec<(String, String)> {
+    let tops = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs", "cases"];
+    let more = ["scenes", "include", "examples", "adapters", "src"];
+    let paths = tops.iter().chain(&more).flat_map(|top| files_below(&root().join(top)));
+    paths.flat_map(|path| read(&path)).collect()
+}
+
+/// What people read of one file.
+fn read(path: &Path) -> Vec<(String, String)> {
+    let name = label(path);
+    let Some(extension) = path.extension().and_then(|extension| extension.to_str()) else {
+        return Vec::new();
+    };
+    let is_unread = ["simulations/", "/tests/", "tests.rs"].iter().any(|part| name.contains(part));
+    let is_elsewhere = ELSEWHERE.iter().any(|room| name.starts_with(room));
+    if is_unread || is_elsewhere || !is_text(extension) {
+        return Vec::new();
+    }
+    let text = fs::read_to_string(path).unwrap();
+    let lines = || text.lines().enumerate();
+    let at = |line: usize| format!("{name}:{}", line + 1);
+    match extension {
+        "rs" => strings(&text, name.starts_with("src/cli/"))
+            .into_iter()
+            .map(|(line, text)| (at(line), text))
+            .collect(),
+        "toml" => lines().filter_map(|(i, line)| Some((at(i), sentence(line)?))).collect(),
+        "md" => lines().map(|(i, line)| (at(i), prose(line))).collect(),
+        _ if name.starts_with("adapters/") => Vec::new(),
+        _ => lines().map(|(i, line)| (at(i), line.to_owned())).collect(),
+    }
+}
+
+fn is_text(extension: &str) -> bool {
+    ["rs", "toml", "md", "h", "hpp", "cpp", "py"].contains(&extension)
+}
+
+/// What a line of a case or scene says to people: a sentence or a comment. Names are names.
+fn sentence(line: &str) -> Option<String> {
+    let keys = ["title", "teaches", "source", "about"];
+    let (key, value) = line.split_once('=').unwrap_or(("", ""));
+    if keys.contains(&key.trim()) {
+        return Some(value.to_owned());
+    }
+    line.split_once('#').map(|(_, comment)| comment.to_owned())
+}
+
+/// A line of Markdown without code, and of the glossary without the words that it tells to avoid.
+fn prose(line: &str) -> String {
+    let line = match line.strip_suffix('|') {
+        Some(row) if row.starts_with("| **") => row.rsplit_once('|').map_or(row, |(kept, _)| kept),
+        _ => line,
+    };
+    let is_data = line.starts_with(['{', ' ']) && line.contains('"');
+    let spoken: Vec<_> = line.split('`').step_by(2).collect();
+    if is_data { String::new() } else { spoken.join(" ") }
+}
+
+/// The strings of a source before its tests, with their lines; and its doc comments, where they are help texts.
+fn strings(text: &str, has_help: bool) -> Vec<(usize, String)> {
+    let text = text.split("#[cfg(test)]\nmod tests").next().unwrap();
+    let mut found = Vec::new();
+    let (mut open, mut is_escaped) = (None::<(usize, String)>, false);
+    for (number, line) in text.lines().enumerate() {
+        let comment = line.trim_start();
+        if open.is_none() && comment.starts_with("//") {
+            let is_help = has_help && comment.starts_with("///");
+            found.extend(is_help.then(|| (number, comment.to_owned())));
+            continue;
+        }
+        let mut before = ' ';
+        for character in line.chars() {
+            let is_quote = character == '"' && !is_escaped && before != '\'';
+            is_escaped = open.is_some() && character == '\\' && !is_escaped;
+            match open.as_mut() {
+                Some(_) if is_quote => found.extend(open.take()),
+                Some((_, string)) => string.push(character),
+                None if is_quote => open = Some((number, String::new())),
+                None => {}
+            }
+            before = character;
+        }
+        is_escaped = false;
+        open.iter_mut().for_each(|(_, string)| string.push(' '));
+    }
+    found.retain(|(_, string)| string.contains(' '));
+    found
+}
+
+/// Whether a text has a word, as a whole word.
+fn has(text: &str, word: &str) -> bool {
+    let (text, word) = (text.to_lowercase(), word.to_lowercase());
+    let is_part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.');
+    text.match_indices(&word).any(|(start, _)| {
+        let before = text[..start].chars().next_back();
+        let after = text[start + word.len()..].trim_start_matches('.').chars().next();
+        !before.is_some_and(is_part) && !after.is_some_and(is_part)
+    })
+}
+
+#[test]
+fn what_people_read_is_in_the_words_of_the_field() {
+    let readings = readings();
+    assert!(readings.len() > 5_000, "only {} texts are read", readings.len());
+    let mut complaints = String::new();
+    for (place, text) in readings {
+        let text = EXCEPT.iter().fold(text.to_lowercase(), |text, term| text.replace(term, ""));
+        for (word, instead) in AVOID.iter().filter(|(word, _)| has(&text, word)) {
+            let _ = writeln!(complaints, "{place}: `{word}`; the field says: {instead}");
+        }
+    }
+    assert!(complaints.is_empty(), "\n{complaints}");
+}
+
+#[test]
+fn the_words_of_the_field_lead_to_the_right_room() {
+    let is_missing = |(term, room): &&(&str, &str)| {
+        let said = |path: &PathBuf| fs::read_to_string(path).is_ok_and(|text| says(&text, term));
+        !files_below(&root().join(room)).iter().any(said)
+    };
+    let missing: Vec<_> = TERMS.iter().filter(is_missing).collect();
+    assert!(missing.is_empty(), "terms that their rooms do not say: {missing:?}");
+}
+
+/// Whether a text has a term, though a line ends within it.
+fn says(text: &str, term: &str) -> bool {
+    let words: Vec<_> = text.split(|c: char| c.is_whitespace() || c == '/').collect();
+    let flat: Vec<_> = words.into_iter().filter(|word| !word.is_empty()).collect();
+    flat.join(" ").to_lowercase().contains(&term.to_lowercase())
+}
+
+#[test]
+fn the_test_finds_what_it_looks_for() {
+    assert!(has("Two lamps.", "lamps") && !has("a clamp", "lamp") && !has("ball.hpp", "ball"));
+    let source = "let a = \"a \\\" lamp\"; // \"not this\"\n/// nor this\nlet b = '\"'; f(\"and a\n  ball\")";
+    let found: Vec<_> = strings(source, false).into_iter().map(|(_, text)| text).collect();
+    assert_eq!(found[0], "a \\\" lamp");
+    assert_eq!(found.last().unwrap(), "and a   ball");
+    assert_eq!(prose("| **light** | a source | lamp |"), "| **light** | a source ");
+    assert_eq!(sentence("title = \"A lamp\"").as_deref(), Some(" \"A lamp\""));
+    assert_eq!(sentence("name = \"lamp\""), None);
+    assert!(says("normal\n/// distribution function", "normal distribution function"));
+}

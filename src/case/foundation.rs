@@ -28,13 +28,13 @@ pub enum Foundation {
     Boxes,
     /// No box is hit for nothing: that loses time alone.
     TightBoxes,
-    /// The hierarchy finds the hits that a loop over all primitives finds.
+    /// The BVH finds the hits that brute force finds.
     Hits,
-    /// Uniform directions of the hemisphere, and their density.
+    /// Uniform directions of the hemisphere, and their pdf.
     UniformDirections,
-    /// Cosine-distributed directions, and their density.
+    /// Cosine-weighted directions, and their pdf.
     CosineDirections,
-    /// f, density and samples of diffuse surfaces.
+    /// f, pdf and samples of diffuse surfaces.
     Diffuse,
     /// The mirror.
     Mirror,
@@ -44,13 +44,13 @@ pub enum Foundation {
     Metal,
     /// Rough glass.
     RoughGlass,
-    /// What glows is seen glowing.
+    /// Directly visible emission.
     Emission,
     /// A mesh lights a surface in general position.
     DirectLight,
-    /// Meshes that glow.
+    /// Mesh lights.
     MeshLight,
-    /// Spheres that glow.
+    /// Sphere lights.
     SphereLight,
     /// Points that shine.
     PointLight,

@@ -22,7 +22,7 @@ pub static PARTS: &[Part] = &[
 ];
 
 impl Part {
-    /// The number of the part that builds and walks the hierarchy.
+    /// The number of the part that builds and traverses the BVH.
     pub const HIERARCHY: u32 = 2;
 
     /// The part that a case belongs to, by its folder.

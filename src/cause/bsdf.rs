@@ -1,4 +1,4 @@
-//! Part 3: surfaces.
+//! Part 3: BSDFs.
 
 use super::{Cause, causes};
 

@@ -1,4 +1,4 @@
-//! Part 2: ray-box tests, building and traversing the BVH.
+//! Part 2: the slab test, BVH construction and traversal.
 
 use super::{Cause, causes};
 

@@ -1,4 +1,4 @@
-//! Part 3: lights and direct lighting.
+//! Part 3: lights and direct lighting (next event estimation, hemisphere sampling).
 
 use super::{Cause, causes};
 

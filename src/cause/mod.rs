@@ -65,7 +65,7 @@ pub fn all() -> impl Iterator<Item = &'static Cause> {
     subjects.into_iter().flatten().copied()
 }
 
-/// Whether the mistake is one of the hierarchy: closed surfaces leak by it, though every triangle is hit.
+/// Whether the mistake is one of the BVH: closed surfaces leak by it, though every triangle is hit.
 pub fn is_of_hierarchy(cause: &Cause) -> bool {
     bvh::CAUSES.contains(&cause)
 }

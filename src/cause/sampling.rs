@@ -1,4 +1,4 @@
-//! Part 3: sampling directions and their densities.
+//! Part 3: sampling directions, and their pdfs.
 
 use super::{Cause, causes};
 

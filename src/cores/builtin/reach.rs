@@ -13,7 +13,7 @@ pub enum Reach {
 }
 
 impl Reach {
-    /// The density of sky samples: with the cosine above a surface, else uniform.
+    /// The pdf of samples of environment lights: with the cosine above a surface, else uniform.
     pub fn sky_density(self, wi: DVec3) -> f64 {
         match self {
             Self::Above(normal) => normal.dot(wi).max(0.0) * FRAC_1_PI,

@@ -154,7 +154,7 @@ pub enum Runs {
 pub struct Abilities {
     /// `{first-bounce}` is honoured.
     pub isolated_bounces: bool,
-    /// Arguments with which light is gathered by the hemisphere; what `{direct}` stands for then.
+    /// Arguments that select hemisphere sampling; what `{direct}` stands for then.
     pub hemisphere: Option<Vec<String>>,
     /// The same command gives the same bits.
     pub deterministic: bool,
@@ -182,9 +182,9 @@ pub enum Feature {
     ConstantSky,
     /// A sky that is brighter above.
     GradientSky,
-    /// A sphere that glows.
+    /// A sphere light.
     SphereLight,
-    /// A surface that glows and reflects.
+    /// An emitter that also reflects.
     GlowingSurface,
     /// A sphere that looks inward.
     InwardSphere,

@@ -1,7 +1,7 @@
 //! Ray tests that belong to the bench and count themselves, lent to foreign cores.
 //!
 //! A core that uses these for its traversal cannot miscount, and its hits are right whatever its own triangle
-//! routine does; what is measured is its hierarchy alone. Plain and independent of every core: it has to be right,
+//! routine does; what is measured is its BVH alone. Plain and independent of every core: it has to be right,
 //! not fast.
 
 use crate::contract::{BoxHit, Hit, Ray, TraversalStats};

@@ -3,7 +3,7 @@
 //!
 //! Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007); Heitz,
 //! "Understanding the Masking-Shadowing Function" (2014). Only single scattering: what bounces
-//! twice between facets is lost.
+//! twice between microfacets is lost.
 
 use crate::math::quadrature::integrate;
 use std::f64::consts::PI;
@@ -17,7 +17,7 @@ pub enum Masking {
     HeightCorrelated,
 }
 
-/// The density of facet normals at this cosine to the surface normal, per steradian; ∫ D cos dω =
+/// The normal distribution function D at this cosine to the surface normal, per steradian; ∫ D cos dω =
 /// 1.
 pub fn distribution(cos_theta: f64, alpha: f64) -> f64 {
     let a2 = alpha * alpha;
@@ -31,12 +31,12 @@ pub fn lambda(cos_theta: f64, alpha: f64) -> f64 {
     0.5 * ((1.0 + alpha * alpha * (1.0 - c2) / c2).sqrt() - 1.0)
 }
 
-/// The share of facets visible from this cosine.
+/// Masking G1: the fraction of microfacets visible from this cosine.
 pub fn masking(cos_theta: f64, alpha: f64) -> f64 {
     (1.0 + lambda(cos_theta, alpha)).recip()
 }
 
-/// The share of facets visible from both cosines.
+/// Masking-shadowing G: the fraction of microfacets visible from both cosines.
 pub fn masking_shadowing(cos_o: f64, cos_i: f64, alpha: f64, form: Masking) -> f64 {
     match form {
         Masking::Separable => masking(cos_o, alpha) * masking(cos_i, alpha),
@@ -46,7 +46,7 @@ pub fn masking_shadowing(cos_o: f64, cos_i: f64, alpha: f64, form: Masking) -> f
 
 /// The share of light that a GGX conductor of reflectance 1 sends back, viewed at this cosine.
 ///
-/// With facet normals distributed by D cos, the albedo is the mean of G (wo·h) / (cos θo cos θh)
+/// With microfacet normals distributed by D cos, the albedo is the mean of G (wo·h) / (cos θo cos θh)
 /// over those that reflect above the horizon. For each θh they are an interval of φ, whose end is
 /// known, so the integrand is smooth.
 pub fn albedo(cos_o: f64, alpha: f64, form: Masking) -> f64 {

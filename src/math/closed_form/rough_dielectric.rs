@@ -2,7 +2,7 @@
 //! them smooth.
 //!
 //! Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007). Only
-//! single scattering: light that meets two facets is lost.
+//! single scattering: light that hits two microfacets is lost.
 
 use super::fresnel;
 use super::microfacet::{Masking, masking_shadowing};
@@ -22,8 +22,8 @@ impl Shares {
     /// Of an interface of roughness `alpha`, seen at this cosine; `eta`: index beyond over the index
     /// here.
     ///
-    /// With facet normals distributed by D cos, a share is the mean of F G (o·m) / (cos θo cos θm),
-    /// or of 1 − F in place of F, over the facets that send light to its side. For each θm they are
+    /// With microfacet normals distributed by D cos, a share is the mean of F G (o·m) / (cos θo cos θm),
+    /// or of 1 − F in place of F, over the microfacets that send light to its side. For each θm they are
     /// intervals of φ, whose ends are known.
     pub fn of(cos_o: f64, eta: f64, alpha: f64, form: Masking) -> Self {
         let view = View { cos_o, sin_o: (1.0 - cos_o * cos_o).max(0.0).sqrt(), eta, alpha, form };
@@ -35,7 +35,7 @@ impl Shares {
     }
 }
 
-/// Share of light by a facet: of the cosines of its normal with +z and with the view.
+/// Fraction of light by a microfacet: of the cosines of its normal with +z and with the view.
 type Light = fn(&View, f64, f64) -> f64;
 
 struct View {
@@ -47,7 +47,7 @@ struct View {
 }
 
 impl View {
-    /// Of the facet that has the share 1 − v² of all facets above it, by D cos.
+    /// Of the microfacet that has the fraction 1 − v² of all microfacets above it, by D cos.
     fn cos_facet(&self, v: f64) -> f64 {
         v / (v * v + self.alpha * self.alpha * (1.0 - v * v)).sqrt()
     }
@@ -63,7 +63,7 @@ impl View {
         integrate(&breaks, 1e-9, share).value / PI
     }
 
-    /// Cosines between view and facet where a share begins, ends, or has no derivative.
+    /// Cosines between view and microfacet where a fraction begins, ends, or has no derivative.
     fn edges(&self, cos_m: f64) -> [f64; 4] {
         let never = f64::NAN;
         let lack = 1.0 - self.eta * self.eta;

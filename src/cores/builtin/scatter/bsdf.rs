@@ -72,7 +72,7 @@ impl Bsdf {
         matches!(self, Self::Glass(_) | Self::RoughGlass(_))
     }
 
-    /// `f` (RGB, without the cosine) and the density of [`Self::sample`]. Delta lobes answer zero.
+    /// `f` (RGB, without the cosine) and the pdf of [`Self::sample`]. Delta lobes answer zero.
     pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
         let is_same_side = (wo.z > 0.0 && wi.z > 0.0) || (wo.z < 0.0 && wi.z < 0.0);
         match self {

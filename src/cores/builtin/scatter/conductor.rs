@@ -15,19 +15,19 @@ pub struct Conductor {
 }
 
 impl Conductor {
-    /// `reflectance` of a single facet, and the width α of the distribution.
+    /// `reflectance` of a single microfacet, and the width α of the distribution.
     pub const fn new(reflectance: Vec3, roughness: f32) -> Self {
         Self { reflectance, facets: Facets::new(roughness) }
     }
 
-    /// `f` and density for two directions of the upper side.
+    /// `f` and pdf for two directions of the upper side.
     pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
         let distribution = self.facets.distribution((wo + wi).normalize());
         let (s_wo, s_wi) = (self.facets.masking_sum(wo), self.facets.masking_sum(wi));
         (self.reflectance * (distribution / (s_wo * s_wi)), distribution / (2.0 * s_wo))
     }
 
-    /// A reflection on a facet that `wo` sees; `None` if it goes down into the surface.
+    /// A reflection on a microfacet that `wo` sees; `None` if it goes down into the surface.
     pub fn sample(&self, wo: Vec3, point: Vec2) -> Option<Scattering> {
         let facet = self.facets.visible_normal(wo, point);
         let wi = (2.0 * wo.dot(facet) * facet - wo).normalize();

@@ -1,12 +1,12 @@
 //! A rough interface between vacuum (the side of the normal) and glass: GGX microfacets, each of them a smooth
 //! interface (Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces").
 //!
-//! All is worked out with the side of `wo` up: seen from inside, heights are turned over and the ratio of indices
-//! η, beyond over here, is below 1. A facet takes `wi` to `wo` by refraction if its normal is along ∓(wo + η wi);
+//! All is worked out with the side of `wo` up: seen from inside, heights are negated and η =
+//! eta_t / eta_i is below 1. A microfacet takes `wi` to `wo` by refraction if its normal is along ∓(wo + η wi);
 //! the length of that vector is Walter's η wi·h + wo·h. With the masking sums of `facets`,
 //!
-//! reflected: f = F D / (s s), density F D / (2 s);
-//! refracted: f = (1 − F) D 4 |wo·h wi·h| / (s s |wo + η wi|²), density (1 − F) D 2 |wo·h| η² |wi·h| / (s |wo + η wi|²).
+//! reflected: f = F D / (s s), pdf F D / (2 s);
+//! refracted: f = (1 − F) D 4 |wo·h wi·h| / (s s |wo + η wi|²), pdf (1 − F) D 2 |wo·h| η² |wi·h| / (s |wo + η wi|²).
 
 use super::facets::Facets;
 use super::scattering::Scattering;
@@ -32,7 +32,7 @@ impl RoughGlass {
         }
     }
 
-    /// `f` and density for two directions of any side.
+    /// `f` and pdf for two directions of any side.
     pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
         let index = self.index_beyond(wo);
         let (wo, wi) = (facing(wo, wo), facing(wi, wo));
@@ -52,7 +52,7 @@ impl RoughGlass {
 
     fn evaluate_reflection(&self, wo: Vec3, wi: Vec3, index: f32) -> (Vec3, f32) {
         let sum = wo + wi;
-        // Half the length is the cosine with the facet, and the same with light and eye exchanged.
+        // Half the length is the cosine with the microfacet, and the same with wo and wi exchanged.
         let length = sum.length();
         let reflected = 1.0 - transmittance(0.5 * length, index);
         let facets = reflected * self.facets.distribution(sum / length);
@@ -79,7 +79,7 @@ impl RoughGlass {
         (f, 2.0 * index * index * facets / s_wo)
     }
 
-    /// A facet that `wo` sees, which reflects with the probability of its Fresnel reflectance, `lobe` below it, and
+    /// A microfacet that `wo` sees, which reflects with the probability of its Fresnel reflectance, `lobe` below it, and
     /// refracts otherwise; `None` if light would have to come through the interface to be reflected, or not to be
     /// refracted.
     pub fn sample(&self, wo: Vec3, point: Vec2, lobe: f32) -> Option<Scattering> {
@@ -108,7 +108,7 @@ fn facing(w: Vec3, wo: Vec3) -> Vec3 {
     vec3(w.x, w.y, w.z * 1_f32.copysign(wo.z))
 }
 
-/// The direction beyond from which light is bent towards `wo` by a facet that lets it pass.
+/// The refracted direction: the microfacet transmits light from there towards `wo`.
 fn refracted(wo: Vec3, facet: Vec3, index: f32) -> Vec3 {
     let cosine = wo.dot(facet);
     let beyond = cosine_beyond(cosine, index);

@@ -1,7 +1,7 @@
 //! The shapes of a scene in one numbering, and what a ray finds on them.
 //!
 //! Traversal decides in single precision *which* primitive is nearest. *Where* it is hit is then worked out in
-//! double precision, on the primitive itself: light is gathered at points that lie on their surfaces.
+//! double precision, on the primitive itself: direct light is sampled at points on their surfaces.
 
 use super::bounds::Bounds;
 use super::item::Item;

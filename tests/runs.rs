@@ -87,7 +87,7 @@ fn what_a_case_says_of_scenes_is_underlined_in_the_case() {
     let choices = [
         ("\"sphere-furnice\"", "did you mean `sphere-furnace`?"),
         ("{ name = \"sphere-furnace\", albdo = 1 }", "did you mean `albedo`?"),
-        ("{ name = \"sphere-furnace\", albedo = 7 }", "lies in [0, 1], and 7 does not"),
+        ("{ name = \"sphere-furnace\", albedo = 7 }", "invalid reflectance or transmittance 7"),
     ];
     for (choice, words) in choices {
         let said = lint(&format!("check = \"mean-radiance\"\nscene = {choice}\n{expect}"));

@@ -40,7 +40,7 @@ pub fn doctor(arguments: &DoctorArguments) -> Answer {
         match hosting.host(spec) {
             Ok(mut hosted) => {
                 let milliseconds = begun.elapsed().as_millis();
-                say_line!("       comes up in {milliseconds} ms, {}", place(&hosted));
+                say_line!("       starts in {milliseconds} ms, {}", place(&hosted));
                 let info = hosted.core_mut().info();
                 introduce(&info);
                 tell_walls(&hosted, &hosting);
@@ -111,7 +111,7 @@ fn tell(label: &str, lines: &[String]) {
 
 /// A core that dies has failed; what is no core at all is a wrong request.
 fn tell_failure(error: HostError) -> ExitCode {
-    say_line!("       does not come up: {error}");
+    say_line!("       fails to start: {error}");
     match error {
         HostError::Start(StartError::Core { error, printed }) => {
             for line in printed.lines() {

@@ -36,7 +36,7 @@ pub fn lint(arguments: &LintArguments) -> Answer {
         }
     }
     if complaints.is_empty() {
-        say_line!("{count} cases and their scenes are in order");
+        say_line!("{count} cases and their scenes are valid");
         Ok(ExitCode::Good)
     } else {
         Err(Failure::request(complaints.join("\n\n")))

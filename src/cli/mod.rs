@@ -75,9 +75,9 @@ enum Verb {
     Faults(faults::FaultsArguments),
     /// Test whether two images differ by more than noise, and by which mistake.
     Compare(compare::CompareArguments),
-    /// Read every case and scene and say what is wrong with them.
+    /// Validate every case and scene.
     Lint(lint::LintArguments),
-    /// Write the pages of a run again.
+    /// Write the report of a run again.
     Report(report::ReportArguments),
     /// Examine a core: its capabilities, its sandbox, and what to implement next.
     Doctor(doctor::DoctorArguments),

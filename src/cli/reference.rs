@@ -132,7 +132,7 @@ fn make(references: &References, name: &str, options: &MakeOptions) -> Answer {
     match made.map_err(Failure::broken)? {
         Made::Reference(made) => {
             say_line!(
-                "made {name}: median relative standard error {}; look at references/{name}, then commit it",
+                "made {name}: median relative standard error {}; check references/{name}, then commit it",
                 percent(made.provenance.median_relative_error)
             );
             if made.layers == Layers::default() {

@@ -100,7 +100,7 @@ impl TryFrom<[f64; 3]> for Direction {
 
     fn try_from(numbers: [f64; 3]) -> Result<Self, String> {
         let direction = DVec3::from_array(numbers).try_normalize();
-        direction.map(Self).ok_or_else(|| "a vector without length has no direction".to_owned())
+        direction.map(Self).ok_or_else(|| "invalid direction: must not be zero".to_owned())
     }
 }
 
@@ -110,7 +110,9 @@ impl TryFrom<Colour> for Reflectance {
     fn try_from(Colour(share): Colour) -> Result<Self, String> {
         match share.iter().find(|channel| !(0.0..=1.0).contains(*channel)) {
             None => Ok(Self(share)),
-            Some(wrong) => Err(format!("a share of light lies in [0, 1], and {wrong} does not")),
+            Some(wrong) => {
+                Err(format!("invalid reflectance or transmittance {wrong}: must be in [0, 1]"))
+            }
         }
     }
 }
@@ -120,7 +122,9 @@ impl TryFrom<Colour> for Lit {
 
     fn try_from(Colour(colour): Colour) -> Result<Self, String> {
         let is_lit = colour.iter().all(|channel| *channel > 0.0);
-        is_lit.then_some(Self(colour)).ok_or_else(|| "every channel needs some light".to_owned())
+        is_lit
+            .then_some(Self(colour))
+            .ok_or_else(|| "invalid colour: every channel must be above 0".to_owned())
     }
 }
 
@@ -138,7 +142,10 @@ impl TryFrom<Angle> for Polar {
     fn try_from(Angle(angle): Angle) -> Result<Self, String> {
         let is_polar = (0.0..=PI).contains(&angle);
         is_polar.then_some(Self(angle)).ok_or_else(|| {
-            format!("an angle from the normal lies in 0 to 180 deg, not at {}", angle.to_degrees())
+            format!(
+                "invalid angle from the normal {}: must be from 0 to 180 deg",
+                angle.to_degrees()
+            )
         })
     }
 }
@@ -150,7 +157,7 @@ impl TryFrom<f64> for Chance {
         let is_chance = (0.0..1.0).contains(&number);
         is_chance
             .then_some(Self(number))
-            .ok_or_else(|| format!("a probability below 1 is needed, and {number} is none"))
+            .ok_or_else(|| format!("invalid probability {number}: must be in [0, 1)"))
     }
 }
 
@@ -159,7 +166,9 @@ impl TryFrom<f64> for Factor {
 
     fn try_from(number: f64) -> Result<Self, String> {
         let is_more = number > 1.0 && number.is_finite();
-        is_more.then_some(Self(number)).ok_or_else(|| format!("{number} is not above 1"))
+        is_more
+            .then_some(Self(number))
+            .ok_or_else(|| format!("invalid factor {number}: must be above 1"))
     }
 }
 
@@ -169,9 +178,9 @@ impl TryFrom<[Between<0, 1000>; 2]> for Bounces {
     fn try_from(bounces: [Between<0, 1000>; 2]) -> Result<Self, String> {
         let [first, last] = bounces.map(|bounce| bounce.0);
         let is_range = first <= last;
-        is_range
-            .then_some(Self([first, last]))
-            .ok_or_else(|| format!("the first bounce comes before the last: [{last}, {first}]?"))
+        is_range.then_some(Self([first, last])).ok_or_else(|| {
+            format!("invalid bounces: the first comes before the last: [{last}, {first}]?")
+        })
     }
 }
 
@@ -185,7 +194,11 @@ impl<T> TryFrom<Vec<T>> for Several<T> {
     type Error = String;
 
     fn try_from(list: Vec<T>) -> Result<Self, String> {
-        if list.is_empty() { Err("one at least is needed here".to_owned()) } else { Ok(Self(list)) }
+        if list.is_empty() {
+            Err("must not be empty: at least one is needed".to_owned())
+        } else {
+            Ok(Self(list))
+        }
     }
 }
 
@@ -213,7 +226,9 @@ impl TryFrom<f64> for Positive {
 
     fn try_from(number: f64) -> Result<Self, String> {
         let is_positive = number > 0.0 && number.is_finite();
-        is_positive.then_some(Self(number)).ok_or_else(|| format!("{number} is not above zero"))
+        is_positive
+            .then_some(Self(number))
+            .ok_or_else(|| format!("invalid number {number}: must be positive"))
     }
 }
 
@@ -221,7 +236,7 @@ impl TryFrom<Positive> for Bending {
     type Error = String;
 
     fn try_from(Positive(index): Positive) -> Result<Self, String> {
-        let problem = "an index of 1 bends no light, and rough facets of it have no density";
+        let problem = "invalid index of refraction 1: a rough dielectric needs a different one";
         (index != 1.0).then_some(Self(index)).ok_or_else(|| problem.to_owned())
     }
 }
@@ -233,7 +248,7 @@ impl TryFrom<f64> for Roughness {
         let is_valid = number > 0.0 && number <= 1.0;
         is_valid
             .then_some(Self(number))
-            .ok_or_else(|| format!("roughness lies in (0, 1], and {number} does not"))
+            .ok_or_else(|| format!("invalid roughness {number}: must be in (0, 1]"))
     }
 }
 
@@ -245,7 +260,9 @@ impl<const MIN: u32, const MAX: u32> TryFrom<i64> for Between<MIN, MAX> {
             .ok()
             .filter(|number| (MIN..=MAX).contains(number))
             .map(Self)
-            .ok_or_else(|| format!("{number} is not a whole number from {MIN} to {MAX}"))
+            .ok_or_else(|| {
+                format!("invalid count {number}: must be an integer from {MIN} to {MAX}")
+            })
     }
 }
 

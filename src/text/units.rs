@@ -198,9 +198,9 @@ impl<'de> Visitor<'de> for ColourVisitor {
 fn checked<E: de::Error>(colour: [f64; 3]) -> Result<Colour, E> {
     match colour.iter().find(|channel| !(0.0..=f64::MAX).contains(*channel)) {
         None => Ok(Colour(colour)),
-        Some(wrong) => Err(E::custom(format!(
-            "a colour is made of finite numbers from 0 up, and {wrong} is none"
-        ))),
+        Some(wrong) => {
+            Err(E::custom(format!("invalid colour {wrong}: must be finite and not negative")))
+        }
     }
 }
 
@@ -272,7 +272,10 @@ mod tests {
             assert!(read::<Colour>(wrong).unwrap_err().contains("red, green, blue"), "{wrong}");
         }
         for wrong in ["x = -1", "x = [nan, 0, 0]", "x = [0, inf, 0]"] {
-            assert!(read::<Colour>(wrong).unwrap_err().contains("from 0 up"), "{wrong}");
+            assert!(
+                read::<Colour>(wrong).unwrap_err().contains("must be finite and not negative"),
+                "{wrong}"
+            );
         }
     }
 }

@@ -103,7 +103,7 @@ error: there is no parameter `albeto`, only `albedo`
 #[test]
 fn a_wrong_override_is_shown_where_it_is_used() {
     let expected = "\
-error: a share of light lies in [0, 1], and 1.5 does not
+error: invalid reflectance or transmittance 1.5: must be in [0, 1]
   --> scenes/room.toml:15:12
    |
 15 | diffuse  = \"$albedo\"
@@ -283,7 +283,7 @@ fn a_cap_needs_something_that_glows_and_is_round() {
 fn negative_or_infinite_light_is_refused() {
     for wrong in ["-1", "inf", "[1, 1, nan]"] {
         let message = complaint("emission = 1", &format!("emission = {wrong}"));
-        assert!(message.contains("from 0 up"), "{message}");
+        assert!(message.contains("must be finite and not negative"), "{message}");
     }
 }
 

@@ -149,7 +149,7 @@ impl<'a> Node<'a> {
     }
 
     /// The complaint that this is not `what`.
-    fn is_not(self, what: &dyn Expected) -> TomlError {
+    fn other_than(self, what: &dyn Expected) -> TomlError {
         let error = match &self.content {
             Content::Overflow(message) => TomlError::custom(message),
             content => TomlError::invalid_type(content.unexpected(), what),
@@ -229,7 +229,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
             Content::Boolean(value) => visitor.visit_bool(value),
             Content::List(items) => visitor.visit_seq(Items::of(items)),
             Content::Map(table) => visitor.visit_map(Entries::of(table)),
-            Content::Overflow(_) => return Err(self.is_not(&visitor)),
+            Content::Overflow(_) => return Err(self.other_than(&visitor)),
         };
         value.map_err(|error| error.within(span))
     }
@@ -239,7 +239,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
             Content::Map(table) => {
                 visitor.visit_map(Entries::of(table)).map_err(|error| error.within(self.span))
             }
-            _ => Err(self.is_not(&visitor)),
+            _ => Err(self.other_than(&visitor)),
         }
     }
 
@@ -257,7 +257,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
             Content::List(items) => {
                 visitor.visit_seq(Items::of(items)).map_err(|error| error.within(self.span))
             }
-            _ => Err(self.is_not(&visitor)),
+            _ => Err(self.other_than(&visitor)),
         }
     }
 
@@ -286,7 +286,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
             Content::Text(text) => {
                 visitor.visit_str(text).map_err(|error: TomlError| error.within(self.span))
             }
-            _ => Err(self.is_not(&visitor)),
+            _ => Err(self.other_than(&visitor)),
         }
     }
 
@@ -426,7 +426,7 @@ impl<'de> VariantAccess<'de> for Variant<'de> {
         match self.payload {
             Some(Node { content: Content::List([]), .. }) | None => Ok(()),
             Some(Node { content: Content::Map(table), .. }) if table.is_empty() => Ok(()),
-            Some(payload) => Err(payload.is_not(&"empty table")),
+            Some(payload) => Err(payload.other_than(&"empty table")),
         }
     }
 

@@ -88,7 +88,7 @@ impl Side {
         let is_variance = |value: &f32| *value >= 0.0 && value.is_finite();
         let fits = size(&variance) == size(&self.image);
         let is_one = fits && variance.pixels.as_flattened().iter().all(is_variance);
-        is_one.then(|| Self { variance: Some(variance), is_variance_given: true, ..self })
+        is_one.then_some(Self { variance: Some(variance), is_variance_given: true, ..self })
     }
 
     /// Columns and rows.

@@ -1,17 +1,17 @@
 //! How a verdict is reached. Every check decides here, and only here: no check types its own
 //! threshold.
 //!
-//! - [`law`]: laws of chance, and what describes samples. No verdicts.
-//! - [`plan`]: what is claimed ([`Claim`]), what it may cost ([`Effort`], [`Budget`]), how a test
-//!   goes on from stage to stage ([`Escalation`](plan::Escalation)), what every test answers
+//! - `law`: laws of chance, and what describes samples. No verdicts.
+//! - `plan`: what is claimed ([`Claim`]), what it may cost ([`Effort`], [`Budget`]), how a test
+//!   goes on from stage to stage (`Escalation`), what every test answers
 //!   ([`Report`]), and what a run has spent of the probability of blaming a correct core
 //!   ([`Ledger`]).
-//! - [`test`]: tests of numbers. Means ([`judge_means`]), counts against a density
+//! - `test`: tests of numbers. Means ([`judge_means`]), counts against a density
 //!   ([`judge_counts`]), shares ([`judge_share`]), slopes ([`judge_slope`]), independence
 //!   ([`judge_uncorrelated`]), rare events ([`judge_rare`]), and comparisons without noise
 //!   ([`judge_exact`]).
-//! - [`image`]: tests of pictures. Against a reference ([`judge_image`]), by the law of 8-bit codes
-//!   ([`judge_codes`]), against another single picture ([`judge_difference`]); and which mistake
+//! - `image`: tests of pictures. Against a reference ([`judge_image`]), by the law of 8-bit codes
+//!   ([`judge_codes`]), against another single picture ([`compare`]); and which mistake
 //!   turns one picture into another ([`misfit`]), which names, and never grades.
 //!
 //! Not here: how samples are drawn (`checks`), or what a failure means (`diagnosis`).

@@ -55,7 +55,7 @@ pub fn judge_counts<E>(
     judge_count_source(effort, &mut Fixed { expected, draw })
 }
 
-/// Whether counts may well be of this law: one χ² at [`STAGE_LEVEL`]. It gives a name to what has
+/// Whether counts may well be of this law: one χ² at the level of a stage. It gives a name to what has
 /// failed already, and is no verdict on its own.
 pub fn follows_law(law: &CellProbabilities, counts: &Counts) -> bool {
     let forbidden = forbidden_samples(law, counts, |_, samples| samples);

@@ -99,7 +99,7 @@ fn measures(outcome: &furnace::run::Outcome) -> String {
     let lines = lines.take(12).map(|measure| {
         format!(
             "{}: measured {}, expected {}, allowed {}, would have caught {}",
-            measure.name,
+            measure.name(),
             measure.measured,
             measure.expected,
             measure.allowed,

@@ -57,7 +57,7 @@ impl Drawn {
 fn hypotheses(record: &TrialRecord) -> Vec<(String, (TestKind, bool))> {
     let measures = record.outcome.finding().map_or(&[][..], |finding| &finding.measures);
     let named = measures.iter().enumerate().filter_map(|(number, measure)| {
-        let name = format!("{} on {}: {number}, {}", record.case, record.core, measure.name);
+        let name = format!("{} on {}: {number}, {}", record.case, record.core, measure.name());
         measure.hypothesis.map(|one| (name, (one.kind, one.suspected)))
     });
     named.collect()

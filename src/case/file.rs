@@ -2,7 +2,7 @@
 //! every complaint knows its line.
 
 use super::{Case, Foundation, PARTS, SceneChoice, Tier};
-use crate::checks::{self, CHECKS, PrepareError};
+use crate::checks::{self, PrepareError, RENAMED};
 use crate::text::{Diagnostic, Source, Spanned, Words, did_you_mean, listed};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
@@ -88,8 +88,10 @@ fn find_check(
 ) -> Result<&'static checks::CheckKind, Diagnostic> {
     checks::find(name.get_ref()).ok_or_else(|| {
         let word = name.get_ref();
-        let names = || CHECKS.iter().map(|kind| kind.name);
-        let hint = did_you_mean(word, names());
+        let names = || checks::all().map(|kind| kind.name);
+        let renamed = RENAMED.iter().find(|(old, _)| old == word);
+        let hint = renamed.map(|(_, new)| format!("it is called `{new}` now"));
+        let hint = hint.or_else(|| did_you_mean(word, names()));
         source
             .diagnostic(name.span(), format!("unknown check `{word}`"))
             .with_hint(hint.unwrap_or_else(|| format!("the checks are {}", listed(names()))))

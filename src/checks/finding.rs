@@ -1,8 +1,11 @@
 //! What a check has to say: a verdict, a sentence, and the numbers behind it.
 
+use super::phrase::percent;
 use crate::cause::Cause;
-use crate::stats::{Hypothesis, Report, Verdict};
+use crate::image::{CHANNELS, Channel};
+use crate::stats::{ExactReport, Hypothesis, Report, Verdict};
 use serde::{Deserialize, Serialize};
+use std::fmt::Display;
 
 /// The result of one check on one core.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,8 +38,15 @@ pub struct Clue {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measure {
-    /// What was measured: `bounce 2, red`.
-    pub name: String,
+    /// Of which row of the case, scene, build or distribution; empty where there is one only.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub row: String,
+    /// Which number of the row; empty where a row has one only.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub quantity: String,
+    /// Of which channel; none for what has no colour.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub channel: Option<Channel>,
     /// Unit of the numbers; empty for a ratio or a count.
     pub unit: String,
     /// What the core gave.
@@ -63,35 +73,93 @@ pub struct Measure {
 
 impl Measure {
     /// A deterministic measure: passes if it is within `allowed` of `expected`; NaN fails.
-    pub fn exact(name: impl Into<String>, measured: f64, expected: f64, allowed: f64) -> Self {
+    pub fn exact(quantity: impl Display, measured: f64, expected: f64, allowed: f64) -> Self {
         let passes = (measured - expected).abs() <= allowed;
         Self {
-            name: name.into(),
+            row: String::new(),
+            quantity: quantity.to_string(),
+            channel: None,
             unit: String::new(),
             measured,
             expected,
             allowed,
             interval: None,
             resolution: (expected != 0.0).then(|| allowed / expected.abs()),
-            verdict: if passes { Verdict::Pass } else { Verdict::Fail },
+            verdict: Verdict::pass_if(passes),
             hypothesis: None,
         }
     }
 
+    /// A count of what there must not be.
+    pub fn none(quantity: impl Display, found: usize) -> Self {
+        Self::exact(quantity, found as f64, 0.0, 0.0)
+    }
+
+    /// A measure without noise that only has to stay below a limit. NaN fails.
+    pub fn at_most(quantity: impl Display, measured: f64, limit: f64) -> Self {
+        Self {
+            verdict: Verdict::pass_if(measured <= limit),
+            resolution: None,
+            ..Self::exact(format!("{quantity} (at most)"), measured, limit, 0.0)
+        }
+    }
+
     /// What a test says of the number it judged.
-    pub fn of(name: impl Into<String>, report: &impl Report) -> Self {
+    pub fn of(quantity: impl Display, report: &impl Report) -> Self {
         let judgement = report.judgement();
         Self {
-            name: name.into(),
-            unit: String::new(),
-            measured: judgement.measured,
-            expected: judgement.expected,
-            allowed: judgement.allowed,
             interval: judgement.interval,
             resolution: judgement.smallest_detectable_error,
             verdict: judgement.verdict,
             hypothesis: judgement.hypothesis,
+            ..Self::exact(quantity, judgement.measured, judgement.expected, judgement.allowed)
         }
+    }
+
+    /// The same of each channel of a colour.
+    pub fn of_channels(quantity: &str, reports: &[impl Report]) -> Vec<Self> {
+        let pairs = reports.iter().zip(CHANNELS);
+        pairs.map(|(report, channel)| Self::of(quantity, report).of_channel(channel)).collect()
+    }
+
+    /// The worst element of a comparison. Of many, it says which it was, counted from 1.
+    pub fn worst(quantity: impl Display, report: &ExactReport) -> Self {
+        match (report.compared, report.worst) {
+            (all @ 2.., Some(worst)) => {
+                Self::of(format!("{quantity}, worst of {all} (number {})", worst.index + 1), report)
+            }
+            _ => Self::of(quantity, report),
+        }
+    }
+
+    /// The same of a row.
+    pub fn of_row(self, row: impl Display) -> Self {
+        Self { row: row.to_string(), ..self }
+    }
+
+    /// The same of a channel.
+    pub fn of_channel(self, channel: Channel) -> Self {
+        Self { channel: Some(channel), ..self }
+    }
+
+    /// The same, shown and not graded.
+    pub fn not_graded(self) -> Self {
+        Self { verdict: Verdict::Pass, ..self }
+    }
+
+    /// What was measured, as people read it: `bounce 2, red`, `point 1: mean of 1/pdf`.
+    pub fn name(&self) -> String {
+        let parts = [&self.row, &self.quantity].map(String::as_str);
+        let name = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ");
+        match self.channel {
+            Some(channel) => format!("{name}, {channel}"),
+            None => name,
+        }
+    }
+
+    /// Whether the core is wrong in it.
+    pub fn failed(&self) -> bool {
+        self.verdict == Verdict::Fail
     }
 
     /// The same with a unit.
@@ -118,6 +186,41 @@ impl Finding {
         }
     }
 
+    /// A finding of some measures that would have caught what the weakest of them resolves:
+    /// `would have caught an error of 0.42 %`. It says nothing where none has a resolution.
+    pub fn measured(
+        statement: impl Into<String>,
+        measures: impl IntoIterator<Item = Measure>,
+    ) -> Self {
+        let measures: Vec<_> = measures.into_iter().collect();
+        let weakest = measures.iter().filter_map(|measure| measure.resolution).reduce(f64::max);
+        let caught = |r| format!("would have caught an error of {}", percent(r));
+        Self::of(statement, weakest.map_or_else(String::new, caught), measures)
+    }
+
+    /// The same, which says of what the error would have been: ` of a density, root mean square`.
+    pub fn in_terms(mut self, of: &str) -> Self {
+        self.resolution += of;
+        self
+    }
+
+    /// The same, which would have caught this where no measure has a resolution.
+    pub fn or_else_caught(mut self, caught: impl Into<String>) -> Self {
+        if self.resolution.is_empty() {
+            self.resolution = caught.into();
+        }
+        self
+    }
+
+    /// The same with what is wrong for a statement, if anything is.
+    pub fn complaining(mut self, complaints: impl IntoIterator<Item = String>) -> Self {
+        let complaints: Vec<_> = complaints.into_iter().collect();
+        if !complaints.is_empty() {
+            self.statement = complaints.join("; ");
+        }
+        self
+    }
+
     /// A failure with nothing to measure: the core's answer itself is wrong.
     pub fn failure(statement: impl Into<String>) -> Self {
         Self {
@@ -135,13 +238,26 @@ impl Finding {
         self
     }
 
+    /// Adds mistakes with what speaks for each of them, the likeliest first.
+    pub fn because_of<'a, Evidence: Into<String>>(
+        self,
+        causes: impl IntoIterator<Item = (&'a Cause, Evidence)>,
+    ) -> Self {
+        causes.into_iter().fold(self, |finding, (cause, evidence)| finding.because(cause, evidence))
+    }
+
     /// Adds mistakes that all would have given just these answers, and that nothing here tells apart.
     pub fn because_each<'a>(
         self,
         causes: impl IntoIterator<Item = &'a Cause>,
         evidence: &str,
     ) -> Self {
-        causes.into_iter().fold(self, |finding, cause| finding.because(cause, evidence))
+        self.because_of(causes.into_iter().map(|cause| (cause, evidence)))
+    }
+
+    /// Whether the core is wrong.
+    pub fn failed(&self) -> bool {
+        self.verdict == Verdict::Fail
     }
 
     /// The tests that could have failed by chance.
@@ -156,7 +272,7 @@ impl Finding {
 
     /// The measures that did not pass.
     pub fn failed_measures(&self) -> impl Iterator<Item = &Measure> {
-        self.measures.iter().filter(|measure| measure.verdict == Verdict::Fail)
+        self.measures.iter().filter(|measure| measure.failed())
     }
 }
 
@@ -233,10 +349,30 @@ pub mod number {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stats::{Compared, judge_exact};
 
     #[test]
     fn a_nan_measure_fails() {
         assert_eq!(Measure::exact("t", f64::NAN, 1.0, 1e9).verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn the_worst_element_is_shown_with_the_verdict_on_all() {
+        let report =
+            judge_exact([Compared::within(1.0, 1.0, 0.1), Compared::within(3.0, 1.0, 0.1)]);
+        let measure = Measure::worst("t", &report).of_row("ray 1").of_channel(Channel::Red);
+        assert_eq!(measure.name(), "ray 1: t, worst of 2 (number 2), red");
+        assert_eq!((measure.measured, measure.verdict), (3.0, Verdict::Fail));
+        assert_eq!(Measure::worst("t", &judge_exact([])).verdict, Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn complaints_take_the_place_of_a_statement_that_all_is_right() {
+        let finding = || Finding::measured("right", [Measure::exact("t", 1.0, 1.0, 0.01)]);
+        assert_eq!(finding().resolution, "would have caught an error of 1 %");
+        assert_eq!(finding().complaining([]).statement, "right");
+        let complaints = ["one".to_owned(), "two".to_owned()];
+        assert_eq!(finding().complaining(complaints).statement, "one; two");
     }
 
     #[test]

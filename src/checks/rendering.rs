@@ -1,7 +1,9 @@
 //! A small picture of a scene, as the checks of film, pixels and seeds render it.
 
 use super::{CheckError, camera_of};
-use crate::contract::{BuiltScene, Film, IntegratorSettings, RenderSettings};
+use crate::contract::{
+    AdaptiveSettings, BuiltScene, DirectSampling, Film, IntegratorSettings, RenderSettings,
+};
 use crate::scene::{Camera, SceneDescription};
 
 /// Everything about a picture but its seed.
@@ -43,6 +45,18 @@ impl Rendering {
             stratified: false,
         };
         Self { camera, settings }
+    }
+
+    /// The same with another way to sample direct light.
+    pub fn by(mut self, direct: DirectSampling) -> Self {
+        self.settings.integrator.direct = direct;
+        self
+    }
+
+    /// The same where each pixel stops by itself, at the samples asked for at the latest.
+    pub fn adaptive(mut self, settings: AdaptiveSettings) -> Self {
+        self.settings.adaptive = Some(settings);
+        self
     }
 
     /// The same with one sample in each cell of a grid over the pixel.

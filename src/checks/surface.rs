@@ -2,7 +2,7 @@
 //! `{ glass = { index = 1.5 } }`, `{ conductor = { reflectance = 1, roughness = 0.3 } }`,
 //! `{ rough-glass = { index = 1.5, roughness = 0.3 } }`.
 
-use crate::contract::Capabilities;
+use crate::contract::{BsdfQuery, BsdfValue, Capabilities, Core, Result};
 use crate::math::rng::Stream;
 use crate::math::sphere::{on_hemisphere, on_sphere};
 use crate::scene::{Material, Surface};
@@ -137,6 +137,20 @@ impl fmt::Display for SurfaceEntry {
             }
         }
     }
+}
+
+/// What a core says of a material at pairs of directions.
+///
+/// # Errors
+/// If it does not answer.
+pub fn evaluated(
+    core: &mut dyn Core,
+    material: &Material,
+    queries: &[BsdfQuery],
+) -> Result<Vec<BsdfValue>> {
+    let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
+    core.eval_bsdf(material, queries, &mut values)?;
+    Ok(values)
 }
 
 /// Whether light that is scattered to one side may come from the other.

@@ -4,7 +4,7 @@ use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Filter, NothingSelected};
 use crate::cause;
-use crate::checks::CHECKS;
+use crate::checks;
 use crate::cores::CORES;
 use crate::cores::textbook::different::DIFFERENT;
 use crate::cores::textbook::fault;
@@ -39,7 +39,7 @@ pub fn list(arguments: &ListArguments) -> Answer {
     let words = &arguments.filters;
     match arguments.what {
         What::Cases => list_cases(arguments),
-        What::Checks => list_named(words, CHECKS.iter().map(|check| (check.name, check.summary))),
+        What::Checks => list_named(words, checks::all().map(|check| (check.name, check.summary))),
         What::Faults => {
             let faults = fault::all().map(|fault| (fault.name, fault.summary));
             list_named(words, faults.chain(DIFFERENT.iter().map(|core| (core.name, core.summary))))

@@ -71,12 +71,12 @@ struct Furnace {
 impl Furnace {
     /// None if the finding has not the rows that tell emission and albedo.
     fn of(finding: &Finding) -> Option<Self> {
-        let expected = |bounce: u32, channel: &str| {
-            measure(finding, &format!("bounce {bounce}, {channel}")).map(|m| m.expected)
+        let expected = |bounce: u32, channel| {
+            measure(finding, &format!("bounce {bounce}"), channel).map(|m| m.expected)
         };
         let mut albedo = [0.0; 3];
         let mut emission = [0.0; 3];
-        for (number, channel) in CHANNELS.iter().enumerate() {
+        for (number, channel) in CHANNELS.into_iter().enumerate() {
             let (first, second) = (expected(1, channel)?, expected(2, channel)?);
             albedo[number] = second / first;
             emission[number] = first / albedo[number];
@@ -218,8 +218,7 @@ fn is_grey(readings: &[Option<Reading>; 3]) -> bool {
 pub fn rows(finding: &Finding) -> Vec<Row> {
     let mut seen: Vec<[u32; 2]> = Vec::new();
     for measure in &finding.measures {
-        let Some((row, _)) = measure.name.rsplit_once(", ") else { continue };
-        if let Some(bounces) = bounces_of(row).filter(|bounces| !seen.contains(bounces)) {
+        if let Some(bounces) = bounces_of(&measure.row).filter(|bounces| !seen.contains(bounces)) {
             seen.push(bounces);
         }
     }
@@ -267,7 +266,7 @@ mod tests {
                 let channel = channel(number);
                 let right = channel.sum(bounces, |_| 1.0);
                 let ratio = predict(&channel, bounces) / right;
-                measures.push(mean(&format!("{row}, {name}"), right, ratio, 0.003));
+                measures.push(mean(&row, *name, right, ratio, 0.003));
             }
         }
         means(measures)

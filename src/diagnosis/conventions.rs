@@ -62,9 +62,8 @@ fn emission(evidence: &Evidence<'_>) -> Option<Suspicion> {
     if evidence.conventions.emission != EmissionSides::Front {
         return None;
     }
-    let row = |row: &str| {
-        CHANNELS.map(|channel| measure(finding, &format!("{row}, {channel}")).map(|m| m.measured))
-    };
+    let row =
+        |row: &str| CHANNELS.map(|channel| measure(finding, row, channel).map(|m| m.measured));
     let (front, behind) = (row("the light, from below"), row("the light, from behind"));
     let same = front.iter().zip(&behind).all(|(front, behind)| match (front, behind) {
         (Some(front), Some(behind)) => (behind / front - 1.0).abs() <= 1e-3,
@@ -107,7 +106,7 @@ mod tests {
     fn point_lights(power: i32) -> Finding {
         let rows = SQUARED_DISTANCES.iter().flat_map(|(row, squared)| {
             let ratio = squared.powi(power);
-            CHANNELS.map(|channel| mean(&format!("{row}, {channel}"), 0.07, ratio, 1e-4))
+            CHANNELS.map(|channel| mean(row, channel, 0.07, ratio, 1e-4))
         });
         means(rows.collect())
     }
@@ -126,7 +125,7 @@ mod tests {
     fn lamps_that_glow_behind_are_two_sided() {
         let rows = [("the light, from below", 5.0), ("the light, from behind", 0.0)];
         let measures = rows.iter().flat_map(|(row, expected)| {
-            CHANNELS.map(|c| Measure::exact(format!("{row}, {c}"), 5.0, *expected, 1e-4))
+            CHANNELS.map(|c| Measure::exact("", 5.0, *expected, 1e-4).of_row(row).of_channel(c))
         });
         let made = Made::new().with(SEEN_LIGHT, means(measures.collect()));
         assert_eq!(first(&made), Some(convention::TWO_SIDED_EMISSION.name));
@@ -134,8 +133,7 @@ mod tests {
 
     #[test]
     fn glass_that_does_not_scale_is_told_by_the_index_squared() {
-        let measures =
-            CHANNELS.map(|c| mean(&format!("bounces 0 to 40, {c}"), 0.4267, 2.25, 0.004));
+        let measures = CHANNELS.map(|c| mean("bounces 0 to 40", c, 0.4267, 2.25, 0.004));
         let made = Made::new().with(LAMP_IN_GLASS, means(measures.into()));
         assert_eq!(first(&made), Some(convention::UNSCALED_RADIANCE.name));
     }

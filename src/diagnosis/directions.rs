@@ -81,11 +81,12 @@ mod tests {
     use crate::checks::Finding;
     use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, mean, means, passing};
+    use crate::image::Channel;
 
     #[test]
     fn a_wall_that_faces_sideways_shows_a_cosine_with_the_world() {
         let rows = [("bounce 1", 1.0), ("bounce 2", 0.8)];
-        let side = rows.map(|(row, ratio)| mean(&format!("{row}, red"), 0.2, ratio, 0.004));
+        let side = rows.map(|(row, ratio)| mean(row, Channel::Red, 0.2, ratio, 0.004));
         let made = |cavity: Finding| {
             Made::new()
                 .with(FURNACES[0], passing())
@@ -100,7 +101,7 @@ mod tests {
     #[test]
     fn a_cavity_that_is_wrong_where_the_furnace_is_right_is_about_directions() {
         let rows = [("bounce 1", 1.0), ("bounce 2", 0.8)];
-        let measures = rows.map(|(row, ratio)| mean(&format!("{row}, red"), 0.2, ratio, 0.004));
+        let measures = rows.map(|(row, ratio)| mean(row, Channel::Red, 0.2, ratio, 0.004));
         let made = Made::new().with(FURNACES[0], passing()).with(CAVITY, means(measures.into()));
         let name = diagnose(&made.evidence()).first().map(|cause| cause.name);
         assert_eq!(name, Some(integrator::BOUNCE_DIRECTIONS.name));

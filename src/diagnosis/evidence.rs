@@ -3,6 +3,7 @@
 use crate::case::{Part, Tier};
 use crate::checks::{Finding, Measure};
 use crate::contract::Conventions;
+use crate::image::Channel;
 
 /// How a case stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -95,7 +96,8 @@ impl<'a> Evidence<'a> {
     }
 }
 
-/// The measure called `name`.
-pub fn measure<'f>(finding: &'f Finding, name: &str) -> Option<&'f Measure> {
-    finding.measures.iter().find(|measure| measure.name == name)
+/// The number of a row and a channel.
+pub fn measure<'f>(finding: &'f Finding, row: &str, channel: Channel) -> Option<&'f Measure> {
+    let is_it = |measure: &&Measure| measure.row == row && measure.channel == Some(channel);
+    finding.measures.iter().find(is_it)
 }

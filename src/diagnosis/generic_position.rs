@@ -161,13 +161,8 @@ mod tests {
     use glam::DVec3;
 
     fn pair(cases: &[&str; 2], ratios: [f64; 2]) -> Made {
-        let finding = |ratio| {
-            means(
-                CHANNELS
-                    .map(|channel| mean(&format!("{ROW}, {channel}"), 0.05, ratio, 0.004))
-                    .into(),
-            )
-        };
+        let finding =
+            |ratio| means(CHANNELS.map(|channel| mean(ROW, channel, 0.05, ratio, 0.004)).into());
         Made::new().with(cases[0], finding(ratios[0])).with(cases[1], finding(ratios[1]))
     }
 

@@ -39,17 +39,18 @@ mod tests {
     use super::*;
     use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, mean, means, passing};
+    use crate::image::Channel;
 
     #[test]
     fn mirrors_that_show_nothing_are_named_where_the_furnace_is_right() {
-        let dark = || means(vec![mean("bounce 3, red", 0.5, 0.0, 1e-4)]);
+        let dark = || means(vec![mean("bounce 3", Channel::Red, 0.5, 0.0, 1e-4)]);
         let made = Made::new().with(MIRRORS, dark()).with(FURNACE, passing());
         let found = diagnose(&made.evidence());
         assert_eq!(
             found.first().map(|c| c.name),
             Some(integrator::NO_EMISSION_AFTER_SPECULAR.name)
         );
-        let dim = means(vec![mean("bounce 3, red", 0.5, 0.7, 1e-4)]);
+        let dim = means(vec![mean("bounce 3", Channel::Red, 0.5, 0.7, 1e-4)]);
         let made = Made::new().with(MIRRORS, dim).with(FURNACE, passing());
         assert_eq!(diagnose(&made.evidence()).first(), None);
     }

@@ -1,5 +1,6 @@
 //! Measured over expected, with the interval that comparisons are made in.
 
+use super::evidence::measure;
 use crate::checks::{Finding, Measure};
 use crate::image::CHANNELS;
 use crate::stats::Band;
@@ -56,8 +57,5 @@ impl Reading {
 
 /// The readings of a row of a finding, channel by channel; `None` for a channel that expects nothing.
 pub fn channels(finding: &Finding, row: &str) -> [Option<Reading>; 3] {
-    CHANNELS.map(|channel| {
-        let name = format!("{row}, {channel}");
-        finding.measures.iter().find(|measure| measure.name == name).and_then(Reading::of)
-    })
+    CHANNELS.map(|channel| measure(finding, row, channel).and_then(Reading::of))
 }

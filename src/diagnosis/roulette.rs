@@ -4,8 +4,8 @@ use super::evidence::measure;
 use super::readings::{Reading, channels};
 use super::{Evidence, Suspicion};
 use crate::cause::{Cause, integrator};
-use crate::checks::Finding;
-use crate::image::CHANNELS;
+use crate::checks::{Finding, Measure};
+use crate::image::{CHANNELS, Channel};
 
 /// The furnace at four roulettes.
 const CASE: &str = "integrator/russian-roulette-leaves-the-mean-unchanged";
@@ -87,14 +87,13 @@ pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
 }
 
 fn rows(finding: &Finding) -> Vec<Row> {
-    let names = finding.measures.iter().filter_map(|m| m.name.strip_suffix(", red"));
+    let is_red = |measure: &&Measure| measure.channel == Some(Channel::Red);
     let row = |name: &str| {
-        let totals = CHANNELS.map(|channel| {
-            measure(finding, &format!("{name}, {channel}")).map_or(f64::NAN, |m| m.expected)
-        });
+        let totals = CHANNELS
+            .map(|channel| measure(finding, name, channel).map_or(f64::NAN, |m| m.expected));
         Some(Row { play: Play::of(name)?, readings: channels(finding, name), totals })
     };
-    names.filter_map(row).collect()
+    finding.measures.iter().filter(is_red).filter_map(|measure| row(&measure.row)).collect()
 }
 
 impl Row {
@@ -153,12 +152,11 @@ mod tests {
         for law in LAWS {
             let mut measures = Vec::new();
             for (stop, guaranteed) in plays {
-                for channel in 0..3 {
-                    let play = Play { stop, guaranteed };
-                    let ratio = law.ratio(play, channel, totals[channel]);
-                    let name =
-                        format!("stop {stop}, {guaranteed} guaranteed, {}", CHANNELS[channel]);
-                    measures.push(mean(&name, totals[channel], ratio, 0.003));
+                for channel in CHANNELS {
+                    let (play, total) = (Play { stop, guaranteed }, totals[channel.index()]);
+                    let ratio = law.ratio(play, channel.index(), total);
+                    let row = format!("stop {stop}, {guaranteed} guaranteed");
+                    measures.push(mean(&row, channel, total, ratio, 0.003));
                 }
             }
             let diagnosis = diagnose(&Made::new().with(CASE, means(measures)).evidence());

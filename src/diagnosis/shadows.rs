@@ -45,8 +45,8 @@ fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
         return None;
     }
     let channels = CHANNELS.map(|channel| {
-        let mean = measure(open, &format!("bounce 1, {channel}"))?;
-        let variance = measure(noise, &format!("one point, {channel}"))?;
+        let mean = measure(open, "bounce 1", channel)?;
+        let variance = measure(noise, "one point", channel)?;
         some_arrive(mean, variance).then_some((mean, variance))
     });
     let [(mean, variance), ..] = channels.into_iter().collect::<Option<Vec<_>>>()?[..] else {
@@ -144,8 +144,8 @@ mod tests {
 
     #[test]
     fn light_behind_a_wall_is_a_missing_shadow_where_open_light_is_right() {
-        let lit = || means(vec![Measure::exact("behind, red", 0.2, 0.0, 0.0)]);
-        let bright = || means(vec![mean("row, red", 0.1, 1.6, 1e-3)]);
+        let lit = || means(vec![Measure::exact("behind", 0.2, 0.0, 0.0)]);
+        let bright = || means(vec![mean("row", CHANNELS[0], 0.1, 1.6, 1e-3)]);
         let made = || Made::new().with(WALL, lit()).with(BLOCKER, bright());
         assert_eq!(first(&made().with(OPEN, passing())), Some(light::NO_SHADOWS.name));
         assert_eq!(first(&made()), None);
@@ -157,7 +157,7 @@ mod tests {
         let [lit, noise] = [[0.218083, 0.187433, 0.167393], [4.187e-4, 3.093e-4, 2.467e-4]];
         let finding = |row: &str, expected: [f64; 3], ratio: f64| {
             let pairs = CHANNELS.into_iter().zip(expected);
-            means(pairs.map(|(c, e)| mean(&format!("{row}, {c}"), e, ratio, 0.01)).collect())
+            means(pairs.map(|(c, e)| mean(row, c, e, ratio, 0.01)).collect())
         };
         let made = |variance: f64| {
             let made = Made::new()
@@ -174,7 +174,7 @@ mod tests {
         let finding = |near: f64| -> Finding {
             let rows = [("bounce 1", 1.0), ("from nearby", near)];
             let row = |(row, ratio): (&str, f64)| {
-                CHANNELS.map(|channel| mean(&format!("{row}, {channel}"), 0.05, ratio, 0.004))
+                CHANNELS.map(|channel| mean(row, channel, 0.05, ratio, 0.004))
             };
             means(rows.into_iter().flat_map(row).collect())
         };

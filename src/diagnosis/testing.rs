@@ -4,6 +4,7 @@ use super::{Evidence, Observation, Standing};
 use crate::case::Tier;
 use crate::checks::{Finding, Measure};
 use crate::contract::Conventions;
+use crate::image::Channel;
 use crate::stats::Verdict;
 
 /// Cases and what came of them.
@@ -79,15 +80,15 @@ pub fn passing() -> Finding {
     Finding::of("right", "", vec![Measure::exact("t", 1.0, 1.0, 0.0)])
 }
 
-/// A mean of `expected` that was measured as `ratio` of it, to a relative precision of `precision`.
-pub fn mean(name: &str, expected: f64, ratio: f64, precision: f64) -> Measure {
+/// A mean of a row and a channel, of `expected`, that was measured as `ratio` of it, to a relative precision of `precision`.
+pub fn mean(row: &str, channel: Channel, expected: f64, ratio: f64, precision: f64) -> Measure {
     let measured = expected * ratio;
     let half = precision * measured.abs().max(1e-3 * expected);
     let is_right = (ratio - 1.0).abs() <= precision + 1e-3;
     Measure {
         interval: Some([measured - half, measured + half]),
         verdict: Verdict::pass_if(is_right),
-        ..Measure::exact(name, measured, expected, 1e-3 * expected)
+        ..Measure::exact("", measured, expected, 1e-3 * expected).of_row(row).of_channel(channel)
     }
 }
 

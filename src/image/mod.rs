@@ -3,6 +3,7 @@
 //! Not here: whether two images agree. That is decided in `stats`; the [`metric`]s here inform
 //! and never grade.
 
+mod channel;
 pub mod encoding;
 mod error;
 pub mod exr;
@@ -22,10 +23,8 @@ mod shrink;
 mod ssim;
 pub mod tonemap;
 
+pub use channel::{CHANNELS, Channel};
 pub use error::ImageError;
-
-/// The channels of a colour, in the order of a pixel.
-pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// An image of linear RGB radiance, row-major from the top left.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,7 +4,7 @@ use super::tree::RunTree;
 use crate::case::Tier;
 use crate::checks::{Finding, Measure, PictureRole};
 use crate::contract::{Conventions, Precision};
-use crate::image::{Image, exr};
+use crate::image::{CHANNELS, Channel, Image, exr};
 use crate::math::rng::{Seed, uniform};
 use crate::run::record::{
     CoreRecord, Machine, PictureFile, RunTiming, SceneStamp, TrialTiming, VERSION, sidecar_path,
@@ -12,6 +12,7 @@ use crate::run::record::{
 };
 use crate::run::{Outcome, RunRecord, TrialRecord};
 use crate::stats::{Budget, Hypothesis, TestKind, Verdict};
+use std::fmt::Display;
 use std::path::Path;
 
 /// A case that fails on `builtin` in [`Example::mixed`].
@@ -238,27 +239,34 @@ fn exact(seed: Seed) -> Finding {
     )
 }
 
-/// A noisy measure that lies about as far from its expectation as noise brings it.
-fn noisy(name: &str, expected: f64, factor: f64, seed: Seed) -> Measure {
-    let error = (uniform(&mut seed.child(name).stream()) - 0.5) * 0.004;
-    let measured = expected * (factor + error);
-    let half = 0.003 * expected;
+/// A measure that is right, made noisy: about as far from its expectation as noise brings it.
+fn noisy(right: Measure, factor: f64, seed: Seed) -> Measure {
+    let error = (uniform(&mut seed.child(right.name()).stream()) - 0.5) * 0.004;
+    let measured = right.expected * (factor + error);
+    let half = 0.003 * right.expected;
     let is_wrong = (factor - 1.0).abs() >= 0.01;
     Measure {
+        measured,
         interval: Some([measured - half, measured + half]),
         resolution: Some(0.012 + error.abs()),
-        verdict: if is_wrong { Verdict::Fail } else { Verdict::Pass },
+        verdict: Verdict::pass_if(!is_wrong),
         hypothesis: Some(Hypothesis::new(TestKind::Mean, is_wrong)),
-        ..Measure::exact(name, measured, expected, 0.001 * expected)
+        ..right
     }
 }
 
+/// A row whose number is this.
+fn row(name: impl Display, value: f64) -> Measure {
+    Measure::exact("", value, value, 0.001 * value).of_row(name)
+}
+
 fn bounces(seed: Seed, factor: f64) -> Vec<Measure> {
-    let colours = [("red", 0.37), ("green", 0.53), ("blue", 0.71)];
+    let albedos = [0.37, 0.53, 0.71];
     let channel = |bounce: i32| {
-        colours.map(|(colour, albedo)| {
-            let name = format!("bounce {bounce}, {colour}");
-            noisy(&name, 0.7 * f64::powi(albedo, bounce), factor.powi((bounce - 1).max(0)), seed)
+        CHANNELS.map(|channel| {
+            let expected = 0.7 * f64::powi(albedos[channel.index()], bounce);
+            let right = row(format!("bounce {bounce}"), expected).of_channel(channel);
+            noisy(right, factor.powi((bounce - 1).max(0)), seed)
         })
     };
     (0..4).flat_map(channel).collect()
@@ -279,7 +287,7 @@ fn wrong_roulette() -> Outcome {
 }
 
 fn wrong_picture() -> Outcome {
-    let whole = noisy("whole image, luminance", 0.42, 0.905, Seed::SUITE);
+    let whole = noisy(row("whole image, luminance", 0.42), 0.905, Seed::SUITE);
     let tiles = Measure::exact("tiles that disagree", 887.0, 0.0, 0.0);
     let finding = Finding::of(
         "the image is 9.5 % too dark, most of all on the ceiling; 887 of 900 tiles disagree",
@@ -290,7 +298,7 @@ fn wrong_picture() -> Outcome {
 }
 
 fn undecided() -> Outcome {
-    let mut measure = noisy("bounce 3, red", 0.0354, 1.0, Seed::SUITE);
+    let mut measure = noisy(row("bounce 3", 0.0354).of_channel(Channel::Red), 1.0, Seed::SUITE);
     measure.verdict = Verdict::Inconclusive;
     let finding = Finding::of(
         "nothing disagrees, but the noise could hide an error of 6 %, and 2 % should be detected",

@@ -32,8 +32,8 @@ impl MeasureWords {
         let number = |value| to_step(value, step);
         Self {
             name: match measure.unit.as_str() {
-                "" => measure.name.clone(),
-                unit => format!("{} ({unit})", measure.name),
+                "" => measure.name(),
+                unit => format!("{} ({unit})", measure.name()),
             },
             measured: number(measure.measured),
             expected: number(measure.expected),
@@ -146,7 +146,7 @@ mod tests {
             Measure::exact("wrong", 2.0, 1.0, 0.1),
             Measure::exact("not a number", f64::NAN, 1.0, 0.1),
         ];
-        let names: Vec<_> = worst_first(&measures).into_iter().map(|m| m.name.as_str()).collect();
+        let names: Vec<_> = worst_first(&measures).into_iter().map(Measure::name).collect();
         assert_eq!(names, ["not a number", "wrong", "right"]);
     }
 }

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// The version of both files. It changes when something existing does.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// `run.json`: who was asked what, when, on which machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,6 +5,11 @@ mod sample_counts;
 mod stops_by_its_law;
 mod stops_where_it_should;
 
-pub use sample_counts::SampleCounts;
-pub use stops_by_its_law::StopsByItsLaw;
-pub use stops_where_it_should::StopsWhereItShould;
+use super::CheckKind;
+
+/// The checks of this subject.
+pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<stops_where_it_should::StopsWhereItShould>(),
+    CheckKind::of::<stops_by_its_law::StopsByItsLaw>(),
+    CheckKind::of::<sample_counts::SampleCounts>(),
+];

@@ -1,15 +1,10 @@
 //! Adaptive pictures: sample counts in range, and means divided by the samples that were used.
 
-use crate::checks::{
-    Check, CheckError, Context, Finding, Measure, Picture, PictureRole, camera_of,
-};
-use crate::contract::{
-    Acceleration, AdaptiveSettings, BuiltScene, Capabilities, Film, IntegratorSettings,
-    RenderSettings,
-};
-use crate::image::CHANNELS;
-use crate::image::Image;
-use crate::scene::Camera;
+use crate::checks::rendering::Rendering;
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Picture, PictureRole};
+use crate::contract::{Acceleration, AdaptiveSettings, Capabilities, Film};
+use crate::image::{CHANNELS, Image};
+use crate::stats::Verdict;
 use crate::text::{Bounces, Lit, Percent, Size};
 use serde::Deserialize;
 
@@ -49,9 +44,12 @@ impl Check for SampleCounts {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let camera = camera_of(&scene)?;
+        let settings =
+            AdaptiveSettings { samples_per_batch: self.batch, max_tolerance: self.tolerance.0 };
+        let rendering =
+            Rendering::of(&scene, self.size.0, self.bounces.0, self.cap)?.adaptive(settings);
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let film = self.render(built.as_mut(), &camera, context.seed.0)?;
+        let film = rendering.film(built.as_mut(), context.seed.0, 0)?;
         let mut measures = vec![self.out_of_range(&film)];
         if let Some(Lit(radiance)) = self.radiance {
             measures.push(self.beyond_first_look(&film));
@@ -61,44 +59,16 @@ impl Check for SampleCounts {
         }
         drop(built);
         context.pictures.push(rate_picture(&film, self.cap));
-        let failed = measures.iter().find(|measure| !passes(measure));
-        let statement = match failed {
-            None => format!("counts lie in {} to {}, in steps of a batch", self.batch, self.cap),
-            Some(measure) => {
-                format!("{}: {} instead of {}", measure.name, measure.measured, measure.expected)
-            }
-        };
-        Ok(Finding::of(statement, "would have caught one wrong count in the picture", measures))
+        let right = format!("counts lie in {} to {}, in steps of a batch", self.batch, self.cap);
+        let failed = measures.iter().find(|measure| measure.verdict != Verdict::Pass);
+        let complaint =
+            failed.map(|m| format!("{}: {} instead of {}", m.name(), m.measured, m.expected));
+        Ok(Finding::of(right, "would have caught one wrong count in the picture", measures)
+            .complaining(complaint))
     }
 }
 
 impl SampleCounts {
-    fn render(
-        &self,
-        scene: &mut dyn BuiltScene,
-        camera: &Camera,
-        seed: u64,
-    ) -> Result<Film, CheckError> {
-        let settings = RenderSettings {
-            width: self.size.0[0],
-            height: self.size.0[1],
-            samples_per_pixel: self.cap,
-            integrator: IntegratorSettings {
-                bounces: self.bounces.0[0]..=self.bounces.0[1],
-                seed,
-                ..Default::default()
-            },
-            adaptive: Some(AdaptiveSettings {
-                samples_per_batch: self.batch,
-                max_tolerance: self.tolerance.0,
-            }),
-            stratified: false,
-        };
-        let mut film = Film::default();
-        scene.render(camera, &settings, &mut film)?;
-        Ok(film)
-    }
-
     /// A count is a whole number of batches, or the cap.
     fn out_of_range(&self, film: &Film) -> Measure {
         let is_wrong = |count: &&u32| {
@@ -106,18 +76,13 @@ impl SampleCounts {
             !(whole && (self.batch..=self.cap).contains(*count))
         };
         let wrong = film.sample_counts.iter().filter(is_wrong).count();
-        Measure::exact("counts that no look can give", wrong as f64, 0.0, 0.0).in_unit("pixels")
+        Measure::none("counts that no look can give", wrong).in_unit("pixels")
     }
 
     fn beyond_first_look(&self, film: &Film) -> Measure {
         let later = film.sample_counts.iter().filter(|count| **count != self.batch).count();
-        Measure::exact("pixels without noise that took more than one batch", later as f64, 0.0, 0.0)
-            .in_unit("pixels")
+        Measure::none("pixels without noise that took more than one batch", later).in_unit("pixels")
     }
-}
-
-fn passes(measure: &Measure) -> bool {
-    measure.verdict == crate::stats::Verdict::Pass
 }
 
 /// The darkest and the brightest pixel of a picture that is all one colour. Divided by the cap instead of the
@@ -125,14 +90,13 @@ fn passes(measure: &Measure) -> bool {
 fn pixels_equal(film: &Film, radiance: [f64; 3]) -> Vec<Measure> {
     let channel = |c: usize| film.pixels.iter().map(move |pixel| f64::from(pixel[c]));
     let exact = |name: &str, value: f64, c: usize| {
-        let name = format!("{name} pixel, {}", CHANNELS[c]);
-        Measure::exact(name, value, radiance[c], EXACT_PIXEL * radiance[c])
+        Measure::exact(name, value, radiance[c], EXACT_PIXEL * radiance[c]).of_channel(CHANNELS[c])
     };
     (0..3)
         .flat_map(|c| {
             [
-                exact("darkest", channel(c).fold(f64::INFINITY, f64::min), c),
-                exact("brightest", channel(c).fold(0.0, f64::max), c),
+                exact("darkest pixel", channel(c).fold(f64::INFINITY, f64::min), c),
+                exact("brightest pixel", channel(c).fold(0.0, f64::max), c),
             ]
         })
         .collect()
@@ -143,8 +107,7 @@ fn distinct_counts(film: &Film) -> Measure {
     let mut counts = film.sample_counts.clone();
     counts.sort_unstable();
     counts.dedup();
-    let all_alike = f64::from(u8::from(counts.len() < 2));
-    Measure::exact("a noisy picture with one count everywhere", all_alike, 0.0, 0.0)
+    Measure::none("a noisy picture with one count everywhere", usize::from(counts.len() < 2))
 }
 
 fn rate_picture(film: &Film, cap: u32) -> Picture {

@@ -5,7 +5,7 @@
 
 use super::rule::{Rule, Sums, WRONG_RULES, stops};
 use crate::cause::{Cause, adaptive};
-use crate::checks::phrase::{figure, percent, would_have_caught};
+use crate::checks::phrase::{figure, percent};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{AdaptiveMean, AdaptiveSettings, Capabilities, Core, Precision};
 use crate::math::rng::{Seed, uniform};
@@ -213,13 +213,9 @@ impl Trial<'_> {
 }
 
 fn finding(judged: &[Judged]) -> Finding {
-    let measures: Vec<_> = judged.iter().flat_map(Judged::measures).collect();
-    let complaints: Vec<_> = judged.iter().filter_map(Judged::complaint).collect();
-    let statement = match complaints.is_empty() {
-        true => passing_statement(judged),
-        false => complaints.join("; "),
-    };
-    let finding = Finding::of(statement, would_have_caught(&measures), measures);
+    let measures = judged.iter().flat_map(Judged::measures);
+    let finding = Finding::measured(passing_statement(judged), measures)
+        .complaining(judged.iter().filter_map(Judged::complaint));
     let failed = || judged.iter().filter(|one| one.counts.verdict == Verdict::Fail);
     let Some(first) = failed().next() else { return finding };
     let common = first.causes.iter().filter(|cause| failed().all(|one| one.causes.contains(cause)));
@@ -251,10 +247,9 @@ impl Judged {
             measured: self.mean_count(),
             expected: self.law.expected_count(),
             allowed: 0.0,
-            ..Measure::of(format!("{}: samples used", self.name), &self.counts)
+            ..Measure::of("samples used", &self.counts)
         };
-        let mean = Measure::of(format!("{}: mean returned", self.name), &self.mean);
-        [counts, mean]
+        [counts, Measure::of("mean returned", &self.mean)].map(|m| m.of_row(&self.name))
     }
 
     /// Samples used on average, in the last stage drawn.
@@ -289,8 +284,8 @@ impl Judged {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{CoreInfo, Result};
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     const CASE: &str =
         include_str!("../../../cases/adaptive/stop-counts-follow-their-distribution.toml");
@@ -304,52 +299,45 @@ mod tests {
         says_cap: bool,
     }
 
-    impl Core for Stopping {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn adaptive_mean(
-            &mut self,
-            settings: AdaptiveSettings,
-            streams: &[&[f64]],
-            means: &mut [AdaptiveMean],
-        ) -> Result<()> {
+    impl Stopping {
+        fn mean(&self, settings: AdaptiveSettings, stream: &[f64]) -> AdaptiveMean {
             let step = self.every.unwrap_or(settings.samples_per_batch) as usize;
-            for (stream, mean) in streams.iter().zip(means) {
-                let high = stream.iter().copied().fold(f64::NAN, f64::max);
-                let low = stream.iter().copied().fold(f64::NAN, f64::min);
-                let (mut used, mut highs) = (0, 0);
-                while used < stream.len() {
-                    let next = stream.len().min(used + step);
-                    highs += stream[used..next].iter().filter(|x| **x == high).count();
-                    used = next;
-                    let sums = Sums::of_two_values(used, highs, low, high);
-                    if used > 1 && (self.rule)(&sums, settings.max_tolerance) {
-                        break;
-                    }
-                }
+            let high = stream.iter().copied().fold(f64::NAN, f64::max);
+            let low = stream.iter().copied().fold(f64::NAN, f64::min);
+            let (mut used, mut highs) = (0, 0);
+            while used < stream.len() {
+                let next = stream.len().min(used + step);
+                highs += stream[used..next].iter().filter(|x| **x == high).count();
+                used = next;
                 let sums = Sums::of_two_values(used, highs, low, high);
-                let used = if self.says_cap { stream.len() } else { used };
-                let used = u32::try_from(used).unwrap();
-                *mean = AdaptiveMean { mean: self.gain * sums.mean(), used, reserved: 0 };
+                if used > 1 && (self.rule)(&sums, settings.max_tolerance) {
+                    break;
+                }
             }
-            Ok(())
+            let sums = Sums::of_two_values(used, highs, low, high);
+            let used = if self.says_cap { stream.len() } else { used };
+            let used = u32::try_from(used).unwrap();
+            AdaptiveMean { mean: self.gain * sums.mean(), used, reserved: 0 }
         }
     }
 
     const RIGHT: Stopping = Stopping { rule: stops, every: None, gain: 1.0, says_cap: false };
 
     /// Streams that stop early cost little: the third kind of the case.
-    fn found(mut core: Stopping) -> Finding {
+    fn found(stopping: Stopping) -> Finding {
         let mut check = check_of::<StopsByItsLaw>(CASE);
         check.stream = vec![check.stream[2].clone()].try_into().unwrap();
-        judge(&check, &mut core)
+        found_by(&check, stopping)
+    }
+
+    fn found_by(check: &StopsByItsLaw, stopping: Stopping) -> Finding {
+        let mean = Box::new(move |settings, stream: &[f64]| stopping.mean(settings, stream));
+        judge(check, &mut Fake { mean, ..Fake::default() })
     }
 
     #[test]
     fn the_rule_itself_passes() {
-        assert_passes(&judge(&check_of::<StopsByItsLaw>(CASE), &mut { RIGHT }));
+        assert_passes(&found_by(&check_of(CASE), RIGHT));
     }
 
     #[test]
@@ -370,8 +358,7 @@ mod tests {
 
     #[test]
     fn counts_that_are_the_cap_beside_right_means_are_named() {
-        let finding =
-            judge(&check_of::<StopsByItsLaw>(CASE), &mut Stopping { says_cap: true, ..RIGHT });
+        let finding = found_by(&check_of(CASE), Stopping { says_cap: true, ..RIGHT });
         failure(&finding);
         let clues: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
         assert_eq!(clues, [adaptive::COUNTS_ARE_CAP.name]);

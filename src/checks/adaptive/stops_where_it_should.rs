@@ -171,11 +171,11 @@ fn judge(answered: &[Answered<'_>], tolerance: f64) -> Finding {
 fn measures((stream, answer): &Answered<'_>, tolerance: f64) -> [Measure; 2] {
     let (_, mean) = stream.prefix(answer.used);
     let (used, right) = (f64::from(answer.used), f64::from(stream.stops_at));
-    let name = |what: &str| format!("{}: {what}", stream.name);
     [
-        Measure::exact(name("samples used"), used, right, 0.0),
-        Measure::exact(name("mean of the samples used"), answer.mean, mean, tolerance * mean.abs()),
+        Measure::exact("samples used", used, right, 0.0),
+        Measure::exact("mean of the samples used", answer.mean, mean, tolerance * mean.abs()),
     ]
+    .map(|measure| measure.of_row(&stream.name))
 }
 
 /// The mistakes that predict the answers for every stream, and what speaks for them.
@@ -236,44 +236,27 @@ fn complaint((stream, answer): &Answered<'_>, tolerance: f64) -> Option<String> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{Core, CoreInfo, Precision, Result};
-
-    /// Answers as it is told.
-    struct Answering(Box<dyn Fn(&StreamEntry) -> Answer + Send>);
-
-    impl Core for Answering {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn adaptive_mean(
-            &mut self,
-            settings: AdaptiveSettings,
-            streams: &[&[f64]],
-            means: &mut [AdaptiveMean],
-        ) -> Result<()> {
-            for (stream, answer) in streams.iter().zip(means) {
-                let mut entry = StreamEntry {
-                    name: String::new(),
-                    repeats: stream.to_vec().try_into().unwrap(),
-                    batch: settings.samples_per_batch,
-                    tolerance: Percent(settings.max_tolerance),
-                    cap: u32::try_from(stream.len()).unwrap(),
-                    stops_at: 0,
-                };
-                entry.stops_at = entry.count(stops, entry.batch);
-                let (used, mean) = (self.0)(&entry);
-                *answer = AdaptiveMean { mean, used, reserved: 0 };
-            }
-            Ok(())
-        }
-    }
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     fn found(answers: impl Fn(&StreamEntry) -> Answer + Send + 'static) -> Finding {
         let case =
             include_str!("../../../cases/adaptive/known-streams-stop-where-the-rule-says.toml");
-        judge(&check_of::<StopsWhereItShould>(case), &mut Answering(Box::new(answers)))
+        let mean = move |settings: AdaptiveSettings, stream: &[f64]| {
+            let mut entry = StreamEntry {
+                name: String::new(),
+                repeats: stream.to_vec().try_into().unwrap(),
+                batch: settings.samples_per_batch,
+                tolerance: Percent(settings.max_tolerance),
+                cap: u32::try_from(stream.len()).unwrap(),
+                stops_at: 0,
+            };
+            entry.stops_at = entry.count(stops, entry.batch);
+            let (used, mean) = answers(&entry);
+            AdaptiveMean { mean, used, reserved: 0 }
+        };
+        let mut core = Fake { mean: Box::new(mean), ..Fake::default() };
+        judge(&check_of::<StopsWhereItShould>(case), &mut core)
     }
 
     #[test]

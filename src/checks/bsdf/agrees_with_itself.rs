@@ -3,8 +3,8 @@
 use crate::cause::{Cause, bsdf};
 use crate::checks::form::Form;
 use crate::checks::numbers::Numbers;
-use crate::checks::phrase::{some_are, worst_measure};
-use crate::checks::surface::SurfaceEntry;
+use crate::checks::phrase::some_are;
+use crate::checks::surface::{SurfaceEntry, evaluated};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BsdfQuery, BsdfSample, BsdfValue, Capabilities};
 use crate::math::frame::direction;
@@ -38,22 +38,17 @@ impl Check for AgreesWithItself {
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let mut measures = Vec::new();
-        let mut complaints = Vec::new();
-        let mut causes = Vec::new();
+        let mut judged = Vec::new();
         for surface in self.surface.iter() {
-            let drawn = Drawn::new(context, *surface)?;
-            let Judged { measures: more, complaint, cause } = drawn.judge(context)?;
-            measures.extend(more);
-            complaints.extend(complaint);
-            causes.extend(cause);
+            judged.push(Drawn::new(context, *surface)?.judge(context)?);
         }
+        let mut causes: Vec<_> = judged.iter().filter_map(|one| one.cause).collect();
         causes.dedup();
-        let statement = match complaints.is_empty() {
-            true => format!("{} surfaces agree with themselves", self.surface.len()),
-            false => complaints.join("; "),
-        };
-        Ok(Finding::of(statement, "would have caught one sample in a hundred thousand", measures)
+        let complaints: Vec<_> = judged.iter_mut().filter_map(|one| one.complaint.take()).collect();
+        let measures = judged.into_iter().flat_map(|one| one.measures).collect();
+        let right = format!("{} surfaces agree with themselves", self.surface.len());
+        Ok(Finding::of(right, "would have caught one sample in a hundred thousand", measures)
+            .complaining(complaints)
             .because_each(causes, "predicts all samples and values that were compared"))
     }
 }
@@ -115,15 +110,12 @@ impl Drawn {
         let is_cosine =
             Form::of(&shares).is_some_and(|f| f.is_like(Form { constant: 1.0, power: 1 }));
         let name = self.surface.to_string();
-        let mut measures = vec![
-            worst_measure(format!("{name}: density of a sample"), &pdf),
-            worst_measure(format!("{name}: value of a sample"), &f),
-        ];
-        measures.extend(below.map(|below| {
-            let what = format!("{name}: directions below the horizon with a value");
-            Measure::exact(what, below, 0.0, 0.0)
-        }));
-        let below = below.unwrap_or(0.0);
+        let dark = |below| Measure::none("directions below the horizon with a value", below);
+        let measures =
+            [Measure::worst("density of a sample", &pdf), Measure::worst("value of a sample", &f)];
+        let measures = measures.into_iter().chain(below.map(dark)).map(|m| m.of_row(&name));
+        let measures = measures.collect();
+        let below = below.unwrap_or(0);
         let complaint = if pdf.disagree > 0 {
             Some(format!(
                 "{} drawn with another density than evaluated",
@@ -135,11 +127,11 @@ impl Drawn {
                 some_are(f.disagree, f.compared, "channels")
             ))
         } else {
-            (below > 0.0)
+            (below > 0)
                 .then(|| format!("{below} directions below the horizon have a value or a density"))
         };
         let cause = match (pdf.disagree, f.disagree) {
-            (0, 0) if below > 0.0 => Some(&bsdf::LIGHT_FROM_BELOW),
+            (0, 0) if below > 0 => Some(&bsdf::LIGHT_FROM_BELOW),
             (0, 1..) if is_cosine => Some(&bsdf::COSINE_IN_SAMPLED_F),
             _ => None,
         };
@@ -157,13 +149,8 @@ impl Drawn {
         let lit = values.iter().filter(|value| has_value(value)).count();
         let name = self.surface.to_string();
         let measures = vec![
-            Measure::exact(
-                format!("{name}: samples not marked as delta"),
-                unmarked as f64,
-                0.0,
-                0.0,
-            ),
-            Measure::exact(format!("{name}: other directions with a value"), lit as f64, 0.0, 0.0),
+            Measure::none("samples not marked as delta", unmarked).of_row(&name),
+            Measure::none("other directions with a value", lit).of_row(&name),
         ];
         let complaint = (unmarked + lit > 0)
             .then(|| format!("{name} is certain of its direction: mark it, and evaluate to zero"));
@@ -182,13 +169,11 @@ impl Drawn {
         pairs: impl Iterator<Item = (DVec3, DVec3)>,
     ) -> Result<Vec<BsdfValue>, CheckError> {
         let queries: Vec<_> = pairs.map(|(wo, wi)| BsdfQuery { wo, wi }).collect();
-        let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
-        context.core.eval_bsdf(&self.surface.material(), &queries, &mut values)?;
-        Ok(values)
+        Ok(evaluated(context.core, &self.surface.material(), &queries)?)
     }
 
     /// A surface that reflects only has no value below the horizon. `None` where light passes.
-    fn lit_below_horizon(&self, context: &mut Context<'_>) -> Result<Option<f64>, CheckError> {
+    fn lit_below_horizon(&self, context: &mut Context<'_>) -> Result<Option<usize>, CheckError> {
         if self.surface.lets_pass() {
             return Ok(None);
         }
@@ -196,7 +181,7 @@ impl Drawn {
         let mut down = || at_height(-1.0 + 0.99 * uniform(&mut stream), TAU * uniform(&mut stream));
         let pairs: Vec<_> = self.views.iter().map(|view| (*view, down())).collect();
         let values = self.evaluated(context, pairs.into_iter())?;
-        Ok(Some(values.iter().filter(|value| has_value(value)).count() as f64))
+        Ok(Some(values.iter().filter(|value| has_value(value)).count()))
     }
 }
 
@@ -206,36 +191,36 @@ fn has_value(value: &BsdfValue) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::Fake;
+    use super::super::fake::Lambertian;
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     const CASE: &str = "[expect]\nsurface = [{ diffuse = 0.5 }]";
 
-    fn found(fake: Fake) -> Finding {
-        judge(&check_of::<AgreesWithItself>(CASE), &mut { fake })
+    fn found(fake: Lambertian) -> Finding {
+        judge(&check_of::<AgreesWithItself>(CASE), &mut fake.core())
     }
 
     #[test]
     fn a_lambertian_surface_agrees() {
-        assert_passes(&found(Fake::default()));
+        assert_passes(&found(Lambertian::default()));
     }
 
     #[test]
     fn another_density_in_samples_is_seen() {
-        let fake = Fake { sampled_pdf: 0.999, ..Fake::default() };
+        let fake = Lambertian { sampled_pdf: 0.999, ..Lambertian::default() };
         assert!(failure(&found(fake)).contains("another density"));
     }
 
     #[test]
     fn another_value_in_samples_is_seen() {
-        let fake = Fake { sampled_value: 2.0, ..Fake::default() };
+        let fake = Lambertian { sampled_value: 2.0, ..Lambertian::default() };
         assert!(failure(&found(fake)).contains("another value"));
     }
 
     #[test]
     fn light_from_below_is_seen() {
-        let fake = Fake { shines_through: true, ..Fake::default() };
+        let fake = Lambertian { shines_through: true, ..Lambertian::default() };
         let finding = found(fake);
         assert!(failure(&finding).contains("below the horizon"));
         assert_eq!(finding.clues[0].cause, "light-from-below");

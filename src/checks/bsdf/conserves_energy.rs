@@ -5,8 +5,8 @@ use super::metal;
 use super::rough_glass::RoughGlass;
 use crate::cause::{Cause, bsdf};
 use crate::checks::form::Form;
-use crate::checks::phrase::{figure, would_have_caught};
-use crate::checks::surface::{SurfaceEntry, kink, seen_from};
+use crate::checks::phrase::{degrees, figure};
+use crate::checks::surface::{SurfaceEntry, evaluated, kink, seen_from};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BsdfQuery, BsdfValue, Capabilities};
 use crate::math::quadrature::Diligence;
@@ -54,17 +54,14 @@ impl Check for ConservesEnergy {
                 measures.extend(albedo_measures(context, *surface, *angle)?);
             }
         }
-        let worst = measures.iter().find(|measure| measure.verdict != Verdict::Pass);
-        let statement = worst.map_or_else(
-            || format!("{} albedos are what they should be", measures.len()),
-            complaint,
-        );
+        let worst = measures.iter().find(|measure| measure.verdict != Verdict::Pass).map(complaint);
         let causes = match worst {
             Some(_) => self.mistakes(context)?,
             None => Vec::new(),
         };
-        let resolution = would_have_caught(&measures);
-        Ok(Finding::of(statement, resolution, measures)
+        let right = format!("{} albedos are what they should be", measures.len());
+        Ok(Finding::measured(right, measures)
+            .complaining(worst)
             .because_each(causes, &format!("predicts f at {DIRECTIONS} pairs of directions")))
     }
 }
@@ -90,8 +87,7 @@ fn mistake_of(
     let mut direction = || surface.direction(&mut stream);
     let queries: Vec<_> =
         (0..DIRECTIONS).map(|_| BsdfQuery { wo: direction(), wi: direction() }).collect();
-    let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
-    context.core.eval_bsdf(&surface.material(), &queries, &mut values)?;
+    let values = evaluated(context.core, &surface.material(), &queries)?;
     Ok(match surface.material().surface {
         Surface::Diffuse { reflectance } if is_averaged(reflectance, &values) => {
             Some(&bsdf::ALBEDO_AVERAGED)
@@ -147,7 +143,7 @@ fn complaint(measure: &Measure) -> String {
     let slack = 1e-3 * ratio.abs();
     let named = names_of([ratio - slack, ratio + slack], &[]);
     let name = named.first().map_or_else(String::new, |ratio| format!(" ({})", ratio.name));
-    format!("{} is {}{name} of what it should be", measure.name, figure(ratio))
+    format!("{} is {}{name} of what it should be", measure.name(), figure(ratio))
 }
 
 /// The albedo of the green channel, by quadrature of the core's own values; of what light passes, on either side.
@@ -172,8 +168,7 @@ fn albedo_measures(
     let core = &mut *context.core;
     let integral = cells.probabilities(diligence, &mut |directions, values| {
         let queries: Vec<_> = directions.iter().map(|wi| BsdfQuery { wo, wi: *wi }).collect();
-        let mut answers = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
-        core.eval_bsdf(&material, &queries, &mut answers)?;
+        let answers = evaluated(core, &material, &queries)?;
         for ((value, answer), wi) in values.iter_mut().zip(&answers).zip(directions) {
             *value = answer.f[1] * wi.z.abs();
         }
@@ -183,21 +178,21 @@ fn albedo_measures(
         let within = |cell: &usize| belongs(cells.bounds(*cell).0.iter().sum::<f64>() * wo.z);
         let sum = |of: &[f64]| (0..cells.len()).filter(within).map(|cell| of[cell]).sum::<f64>();
         let (found, error) = (sum(&integral.cells), sum(&integral.errors));
-        let name = format!("albedo of {surface} at {}°{what}", figure(angle.to_degrees()));
-        Measure::exact(name, found, expected, relative * expected + error)
+        let row = format!("{surface} seen from {}", degrees(angle));
+        Measure::exact(what, found, expected, relative * expected + error).of_row(row)
     };
     Ok(match expected {
-        Albedo::OfOneSide(expected) => vec![measure("", expected, &|_| true)],
+        Albedo::OfOneSide(expected) => vec![measure("albedo", expected, &|_| true)],
         Albedo::OfBothSides { reflected, refracted } => vec![
-            measure(", reflected", reflected, &|height| height > 0.0),
-            measure(", refracted", refracted, &|height| height < 0.0),
+            measure("albedo, reflected", reflected, &|height| height > 0.0),
+            measure("albedo, refracted", refracted, &|height| height < 0.0),
         ],
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::Fake;
+    use super::super::fake::Lambertian;
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
@@ -205,7 +200,10 @@ mod tests {
         "[expect]\nsurface = [{ diffuse = 0.5 }]\nseen-from = [\"20 deg\", \"70 deg\"]";
 
     fn found(gain: f64) -> Finding {
-        judge(&check_of::<ConservesEnergy>(CASE), &mut Fake { gain, ..Fake::default() })
+        judge(
+            &check_of::<ConservesEnergy>(CASE),
+            &mut Lambertian { gain, ..Lambertian::default() }.core(),
+        )
     }
 
     #[test]

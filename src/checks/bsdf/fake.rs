@@ -1,9 +1,7 @@
 //! A Lambertian core that can be wrong in the ways these checks are for.
 
-use crate::checks::testing::info;
-use crate::contract::{
-    BsdfQuery, BsdfSample, BsdfValue, Core, CoreInfo, Precision, Randomness, Result,
-};
+use crate::checks::fake::Fake;
+use crate::contract::{BsdfSample, BsdfValue};
 use crate::math::sphere::at_height;
 use crate::scene::{Material, Surface};
 use glam::DVec3;
@@ -11,7 +9,7 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// Right by default.
 #[derive(Clone, Copy)]
-pub struct Fake {
+pub struct Lambertian {
     /// Multiplies the density of samples.
     pub sampled_pdf: f64,
     /// Multiplies the value of samples.
@@ -24,13 +22,13 @@ pub struct Fake {
     pub shines_through: bool,
 }
 
-impl Default for Fake {
+impl Default for Lambertian {
     fn default() -> Self {
         Self { sampled_pdf: 1.0, sampled_value: 1.0, tilt: 0.0, gain: 1.0, shines_through: false }
     }
 }
 
-impl Fake {
+impl Lambertian {
     fn value(&self, material: &Material, wo: DVec3, wi: DVec3) -> BsdfValue {
         let Surface::Diffuse { reflectance } = material.surface else {
             return BsdfValue { f: [0.0; 3], pdf: 0.0 };
@@ -41,44 +39,18 @@ impl Fake {
         let factor = self.gain * (1.0 + self.tilt * wo.z) * FRAC_1_PI;
         BsdfValue { f: reflectance.map(|r| r * factor), pdf: wi.z.abs() * FRAC_1_PI }
     }
-}
 
-impl Core for Fake {
-    fn info(&self) -> CoreInfo {
-        info(Precision::Double)
-    }
-
-    fn eval_bsdf(
-        &mut self,
-        material: &Material,
-        queries: &[BsdfQuery],
-        values: &mut [BsdfValue],
-    ) -> Result<()> {
-        for (query, value) in queries.iter().zip(values) {
-            *value = self.value(material, query.wo, query.wi);
+    /// The core.
+    pub fn core(self) -> Fake {
+        Fake {
+            value: Box::new(move |material, query| self.value(material, query.wo, query.wi)),
+            sample: Box::new(move |material, wo, point, _| {
+                let wi = at_height((1.0 - point.x).sqrt(), TAU * point.y);
+                let BsdfValue { f, pdf } = self.value(material, wo, wi);
+                let f = f.map(|value| value * self.sampled_value);
+                BsdfSample { wi, f, pdf: pdf * self.sampled_pdf, is_delta: 0, is_valid: 1 }
+            }),
+            ..Fake::default()
         }
-        Ok(())
-    }
-
-    fn sample_bsdf(
-        &mut self,
-        material: &Material,
-        wo: &[DVec3],
-        random: Randomness<'_>,
-        samples: &mut [BsdfSample],
-    ) -> Result<()> {
-        for (i, sample) in samples.iter_mut().enumerate() {
-            let point = random.points[i];
-            let wi = at_height((1.0 - point.x).sqrt(), TAU * point.y);
-            let BsdfValue { f, pdf } = self.value(material, wo[i], wi);
-            *sample = BsdfSample {
-                wi,
-                f: f.map(|value| value * self.sampled_value),
-                pdf: pdf * self.sampled_pdf,
-                is_delta: 0,
-                is_valid: 1,
-            };
-        }
-        Ok(())
     }
 }

@@ -5,8 +5,8 @@
 
 use super::albedo;
 use crate::cause::{Cause, bsdf as cause, convention};
-use crate::checks::phrase::{figure, percent, some_are, worst_measure};
-use crate::checks::surface::SurfaceEntry;
+use crate::checks::phrase::{figure, percent, some_are};
+use crate::checks::surface::{SurfaceEntry, evaluated};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BsdfQuery, BsdfValue, Capabilities, SmithTerm};
 use crate::math::closed_form::microfacet::{Masking, distribution, masking, masking_shadowing};
@@ -150,8 +150,7 @@ impl Tried {
             .collect();
         let queries: Vec<_> =
             pairs.iter().map(|Pair { wo, wi, .. }| BsdfQuery { wo: *wo, wi: *wi }).collect();
-        let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
-        context.core.eval_bsdf(&material, &queries, &mut values)?;
+        let values = evaluated(context.core, &material, &queries)?;
         Ok(Some(Self { name: surface.to_string(), pairs, values }))
     }
 
@@ -167,7 +166,7 @@ impl Tried {
     }
 
     fn measure(&self, tolerance: f64) -> Measure {
-        worst_measure(format!("f of {}", self.name), &self.report(|_| 1.0, tolerance))
+        Measure::worst("f", &self.report(|_| 1.0, tolerance)).of_row(&self.name)
     }
 
     fn complaint(&self, tolerance: f64) -> Option<String> {
@@ -181,15 +180,12 @@ impl Tried {
 
 fn finding(tried: &[Tried], tolerance: f64) -> Finding {
     let measures = tried.iter().map(|one| one.measure(tolerance)).collect();
-    let complaints: Vec<_> = tried.iter().filter_map(|one| one.complaint(tolerance)).collect();
     let pairs: usize = tried.iter().map(|one| one.pairs.len()).sum();
-    let statement = match complaints.is_empty() {
-        true => format!("f is D G / (4 cos cos) at {pairs} pairs of directions"),
-        false => complaints.join("; "),
-    };
+    let right = format!("f is D G / (4 cos cos) at {pairs} pairs of directions");
     let resolution = format!("would have caught an error of {} at one pair", percent(tolerance));
-    let finding = Finding::of(statement, resolution, measures);
-    if complaints.is_empty() {
+    let finding = Finding::of(right, resolution, measures)
+        .complaining(tried.iter().filter_map(|one| one.complaint(tolerance)));
+    if !finding.failed() {
         return finding;
     }
     let explains = |(_, mistake): &&(&Cause, Mistake)| {
@@ -202,53 +198,38 @@ fn finding(tried: &[Tried], tolerance: f64) -> Finding {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{Conventions, Core, CoreInfo, Precision, Result};
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::scene::Material;
 
     const CASE: &str = include_str!("../../../cases/bsdf/rough-conductor-matches-ggx.toml");
 
     /// The formula times the share of a mistake.
-    struct Rough {
-        mistake: Mistake,
-        smith_term: SmithTerm,
-    }
-
-    impl Core for Rough {
-        fn info(&self) -> CoreInfo {
-            let conventions = Conventions { smith_term: self.smith_term, ..Conventions::default() };
-            CoreInfo { conventions, ..info(Precision::Double) }
-        }
-
-        fn eval_bsdf(
-            &mut self,
-            material: &Material,
-            queries: &[BsdfQuery],
-            values: &mut [BsdfValue],
-        ) -> Result<()> {
+    fn rough(mistake: Mistake, smith_term: SmithTerm) -> Fake {
+        let masking = albedo::masking(smith_term);
+        let value = move |material: &Material, query: &BsdfQuery| {
             let Surface::Conductor { reflectance, roughness } = material.surface else {
-                return Ok(());
+                panic!("no conductor")
             };
-            let masking = albedo::masking(self.smith_term);
-            for (query, value) in queries.iter().zip(values) {
-                let BsdfQuery { wo, wi } = *query;
-                let pair = Pair { wo, wi, reflectance, roughness, masking };
-                let f = (self.mistake)(&pair) * pair.right();
-                *value = BsdfValue { f: reflectance.map(|r| r * f), pdf: 1.0 };
-            }
-            Ok(())
-        }
+            let BsdfQuery { wo, wi } = *query;
+            let pair = Pair { wo, wi, reflectance, roughness, masking };
+            let f = mistake(&pair) * pair.right();
+            BsdfValue { f: reflectance.map(|r| r * f), pdf: 1.0 }
+        };
+        let mut core = Fake { value: Box::new(value), ..Fake::default() };
+        core.info.conventions.smith_term = smith_term;
+        core
     }
 
     fn found(mistake: Mistake) -> Finding {
-        let mut core = Rough { mistake, smith_term: SmithTerm::Separable };
+        let mut core = rough(mistake, SmithTerm::Separable);
         judge(&check_of::<FollowsGgx>(CASE), &mut core)
     }
 
     #[test]
     fn the_formula_passes_with_the_term_that_is_declared() {
         for smith_term in [SmithTerm::Separable, SmithTerm::HeightCorrelated] {
-            let mut core = Rough { mistake: |_| 1.0, smith_term };
+            let mut core = rough(|_| 1.0, smith_term);
             assert_passes(&judge(&check_of::<FollowsGgx>(CASE), &mut core));
         }
     }

@@ -14,9 +14,14 @@ pub(super) mod rough_glass;
 mod smooth_view;
 mod weights_make_the_albedo;
 
-pub use agrees_with_itself::AgreesWithItself;
-pub use conserves_energy::ConservesEnergy;
-pub use follows_ggx::FollowsGgx;
-pub use reciprocal::Reciprocal;
-pub use reflects_and_refracts::ReflectsAndRefracts;
-pub use weights_make_the_albedo::WeightsMakeTheAlbedo;
+use super::CheckKind;
+
+/// The checks of this subject.
+pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<agrees_with_itself::AgreesWithItself>(),
+    CheckKind::of::<reciprocal::Reciprocal>(),
+    CheckKind::of::<conserves_energy::ConservesEnergy>(),
+    CheckKind::of::<weights_make_the_albedo::WeightsMakeTheAlbedo>(),
+    CheckKind::of::<follows_ggx::FollowsGgx>(),
+    CheckKind::of::<reflects_and_refracts::ReflectsAndRefracts>(),
+];

@@ -1,8 +1,8 @@
 //! f(a, b) = f(b, a), after Helmholtz; across an interface, of f over the index squared. Densities need not be.
 
-use crate::checks::phrase::{some_are, worst_measure, would_have_caught};
-use crate::checks::surface::SurfaceEntry;
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::phrase::some_are;
+use crate::checks::surface::{SurfaceEntry, evaluated};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BsdfQuery, BsdfValue, Capabilities, GlassRadiance};
 use crate::scene::Rgb;
 use crate::stats::{Compared, Tolerance, judge_exact};
@@ -46,18 +46,14 @@ impl Check for Reciprocal {
                 judge_exact(there.iter().zip(&back).flat_map(|(a, b)| {
                     (0..3).map(move |c| Compared::relative(a[c], b[c], allowed))
                 }));
-            measures.push(worst_measure(format!("{surface}: f there and back"), &report));
+            measures.push(Measure::worst("f there and back", &report).of_row(surface));
             if report.disagree > 0 {
                 let some = some_are(report.disagree, report.compared, "values");
                 complaints.push(format!("{surface}: {some} another with light and eye exchanged"));
             }
         }
-        let statement = match complaints.is_empty() {
-            true => format!("{} surfaces are reciprocal", self.surface.len()),
-            false => complaints.join("; "),
-        };
-        let resolution = would_have_caught(&measures);
-        Ok(Finding::of(statement, resolution, measures))
+        let right = format!("{} surfaces are reciprocal", self.surface.len());
+        Ok(Finding::measured(right, measures).complaining(complaints))
     }
 }
 
@@ -74,16 +70,15 @@ fn there_and_back(
         .collect();
     let back: Vec<_> = there.iter().map(|q| BsdfQuery { wo: q.wi, wi: q.wo }).collect();
     let radiance = context.info.conventions.glass_radiance;
-    let mut evaluated = |queries: &[BsdfQuery]| {
-        let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
-        context.core.eval_bsdf(&surface.material(), queries, &mut values)?;
+    let mut asked = |queries: &[BsdfQuery]| {
+        let values = evaluated(context.core, &surface.material(), queries)?;
         let over_index = |(query, value): (&BsdfQuery, &BsdfValue)| {
             let index = index_squared(surface, radiance, query);
             value.f.map(|f| f / index)
         };
         Ok::<_, CheckError>(queries.iter().zip(&values).map(over_index).collect())
     };
-    Ok((evaluated(&there)?, evaluated(&back)?))
+    Ok((asked(&there)?, asked(&back)?))
 }
 
 /// Whether light is refracted along the facet that takes it from `wi` to `wo`, where f vanishes.
@@ -111,7 +106,7 @@ fn index_squared(surface: SurfaceEntry, radiance: GlassRadiance, query: &BsdfQue
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::Fake;
+    use super::super::fake::Lambertian;
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
@@ -119,13 +114,13 @@ mod tests {
 
     #[test]
     fn a_lambertian_surface_is_reciprocal() {
-        assert_passes(&judge(&check_of::<Reciprocal>(CASE), &mut Fake::default()));
+        assert_passes(&judge(&check_of::<Reciprocal>(CASE), &mut Lambertian::default().core()));
     }
 
     #[test]
     fn a_value_that_depends_on_the_eye_alone_is_seen() {
-        let mut fake = Fake { tilt: 1e-3, ..Fake::default() };
-        let finding = judge(&check_of::<Reciprocal>(CASE), &mut fake);
+        let fake = Lambertian { tilt: 1e-3, ..Lambertian::default() };
+        let finding = judge(&check_of::<Reciprocal>(CASE), &mut fake.core());
         assert!(failure(&finding).contains("light and eye exchanged"));
     }
 }

@@ -13,7 +13,7 @@ use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{BsdfSample, Capabilities, Core};
 use crate::math::rng::Seed;
 use crate::scene::Material;
-use crate::stats::{Band, Effort, ShareReport, Tolerance, Verdict, judge_share};
+use crate::stats::{Band, Effort, ShareReport, Tolerance, judge_share};
 use crate::text::{Count, Percent, Polar, Several};
 use glam::DVec3;
 use serde::Deserialize;
@@ -131,22 +131,21 @@ impl Trial {
     }
 
     fn finding(&self, surface: SurfaceEntry, views: &[SmoothView]) -> Finding {
-        let statement = match views.iter().find_map(SmoothView::complaint) {
-            Some(complaint) => format!("{surface} {complaint}"),
-            None => format!("{surface} does what it should in {} views", views.len()),
-        };
+        let right = format!("{surface} does what it should in {} views", views.len());
+        let complaint = views.iter().find_map(SmoothView::complaint);
         let resolution = format!(
             "would have caught a direction {} off, and an error of {} of what is reflected",
             degrees(self.allowed.direction),
             percent(self.allowed.formula)
         );
         let measures = views.iter().flat_map(SmoothView::measures).collect();
-        Finding::of(statement, resolution, measures)
+        Finding::of(right, resolution, measures)
+            .complaining(complaint.map(|complaint| format!("{surface} {complaint}")))
     }
 
     /// With the mistakes that predict every sample of every view.
     fn explained(&self, mut finding: Finding, views: &[SmoothView]) -> Finding {
-        if finding.verdict != Verdict::Fail {
+        if !finding.failed() {
             return finding;
         }
         for mistake in MISTAKES {
@@ -157,8 +156,7 @@ impl Trial {
                 finding = finding.because(mistake.cause, evidence);
             }
         }
-        let told = chance_clue(views).into_iter().chain(mark_clue(views));
-        told.fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence))
+        finding.because_of(chance_clue(views).into_iter().chain(mark_clue(views)))
     }
 }
 
@@ -185,10 +183,10 @@ fn mark_clue(views: &[SmoothView]) -> Option<(&'static Cause, String)> {
 mod tests {
     use super::super::interface::Mistake;
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{
-        Conventions, CoreInfo, GlassFresnel, GlassRadiance, Precision, Randomness, Result,
-    };
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::contract::{Conventions, GlassFresnel, GlassRadiance};
+    use crate::stats::Verdict;
 
     const GLASS: &str = include_str!("../../../cases/bsdf/glass-follows-snell-and-fresnel.toml");
     const MIRROR: &str = include_str!("../../../cases/bsdf/mirror-reflects-its-reflectance.toml");
@@ -207,45 +205,35 @@ mod tests {
         }
     }
 
-    impl Core for Smooth {
-        fn info(&self) -> CoreInfo {
-            CoreInfo { conventions: self.conventions, ..info(Precision::Double) }
-        }
-
-        fn sample_bsdf(
-            &mut self,
-            material: &Material,
-            wo: &[DVec3],
-            random: Randomness<'_>,
-            samples: &mut [BsdfSample],
-        ) -> Result<()> {
+    impl Smooth {
+        fn sample(&self, material: &Material, wo: DVec3, chosen: f64) -> BsdfSample {
             let interface = Interface::new(material.surface, self.conventions);
-            for (i, sample) in samples.iter_mut().enumerate() {
-                let lobes = match self.mistake {
-                    None => interface.lobes(wo[i]),
-                    Some(mistake) => interface.mistaken(wo[i], mistake),
-                };
-                let share = lobes.reflected.map_or(0.0, |lobe| lobe.probability);
-                let lobe = if random.lobes[i] < share { lobes.reflected } else { lobes.refracted };
-                *sample = BsdfSample::NONE;
-                let Some(lobe) = lobe else { continue };
-                *sample = BsdfSample {
-                    wi: lobe.wi,
-                    f: lobe.carried.map(|carried| carried / lobe.wi.z.abs()),
-                    pdf: lobe.probability,
-                    is_delta: 1,
-                    is_valid: 1,
-                };
-                (self.spoil)(sample);
-            }
-            Ok(())
+            let lobes = match self.mistake {
+                None => interface.lobes(wo),
+                Some(mistake) => interface.mistaken(wo, mistake),
+            };
+            let share = lobes.reflected.map_or(0.0, |lobe| lobe.probability);
+            let lobe = if chosen < share { lobes.reflected } else { lobes.refracted };
+            let Some(lobe) = lobe else { return BsdfSample::NONE };
+            let mut sample = BsdfSample {
+                wi: lobe.wi,
+                f: lobe.carried.map(|carried| carried / lobe.wi.z.abs()),
+                pdf: lobe.probability,
+                is_delta: 1,
+                is_valid: 1,
+            };
+            (self.spoil)(&mut sample);
+            sample
         }
     }
 
-    fn found(case: &str, mut smooth: Smooth) -> Finding {
+    fn found(case: &str, smooth: Smooth) -> Finding {
         // The chance of a reflection is not what takes time to judge here.
         let case = case.replace("5 %", "30 %");
-        judge(&check_of::<ReflectsAndRefracts>(&case), &mut smooth)
+        let mut core = Fake::default();
+        core.info.conventions = smooth.conventions;
+        core.sample = Box::new(move |material, wo, _, lobe| smooth.sample(material, wo, lobe));
+        judge(&check_of::<ReflectsAndRefracts>(&case), &mut core)
     }
 
     fn spoilt(spoil: fn(&mut BsdfSample)) -> Finding {

@@ -2,7 +2,7 @@
 
 use super::interface::{Lobe, Lobes};
 use crate::checks::Measure;
-use crate::checks::phrase::{degrees, figure, percent, worst_measure};
+use crate::checks::phrase::{degrees, figure, percent};
 use crate::contract::BsdfSample;
 use crate::math::sphere::angle_between;
 use crate::stats::{Compared, ExactReport, ShareReport, Verdict, judge_exact};
@@ -123,16 +123,13 @@ impl SmoothView {
 
     /// The rows of the finding.
     pub fn measures(&self) -> Vec<Measure> {
-        let named = |what: &str| format!("{}, {what}", self.name);
-        let count = |what: &str, found: usize| {
-            Measure::exact(named(what), found as f64, 0.0, 0.0).in_unit("samples")
-        };
+        let count = |what: &str, found: usize| Measure::none(what, found).in_unit("samples");
         let (failed, unmarked) = self.unusable();
         let mut measures = vec![count("failed", failed), count("not marked as delta", unmarked)];
         for way in self.ways() {
+            let name = way.name;
             let Some(lobe) = way.right else {
-                let what = format!("{} where no light goes", way.name);
-                measures.push(count(&what, way.samples.len()));
+                measures.push(count(&format!("{name} where no light goes"), way.samples.len()));
                 continue;
             };
             let rows = [
@@ -140,13 +137,12 @@ impl SmoothView {
                 ("share of light", self.shares(&way, lobe)),
                 ("probability", self.chances(&way)),
             ];
-            let row =
-                |(what, report)| worst_measure(named(&format!("{} {what}", way.name)), report);
-            measures.extend(rows.iter().map(|(what, report)| row((*what, report))));
+            let worst = |(what, report)| Measure::worst(format!("{name} {what}"), &report);
+            measures.extend(rows.map(worst));
         }
         let chance = self.chance.as_ref();
-        measures.extend(chance.map(|report| Measure::of(named("samples reflected"), report)));
-        measures
+        measures.extend(chance.map(|report| Measure::of("samples reflected", report)));
+        measures.into_iter().map(|measure| measure.of_row(&self.name)).collect()
     }
 
     fn directions(&self, way: &Way<'_>, lobe: Lobe) -> ExactReport {

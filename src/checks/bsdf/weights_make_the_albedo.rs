@@ -2,12 +2,12 @@
 
 use super::albedo::Albedo;
 use crate::checks::numbers::Numbers;
-use crate::checks::phrase::{degrees, figure, would_have_caught};
+use crate::checks::phrase::{degrees, figure};
 use crate::checks::surface::{SurfaceEntry, seen_from};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BsdfSample, Capabilities, Core};
 use crate::math::rng::Seed;
-use crate::stats::{Band, Claim, Verdict, judge_means};
+use crate::stats::{Band, Claim, judge_means};
 use crate::text::{Count, Percent, Polar, Several};
 use serde::Deserialize;
 
@@ -52,21 +52,16 @@ impl Check for WeightsMakeTheAlbedo {
                     let samples = usize::try_from(draw.samples).unwrap_or(usize::MAX);
                     mean_weight(context.core, *surface, *angle, draw.seed(seed), samples)
                 })?;
-                let name = format!("weight of {surface} at {}", degrees(*angle));
-                measures.extend(reports.iter().map(|report| Measure::of(name.clone(), report)));
+                let row = format!("{surface} seen from {}", degrees(*angle));
+                measures.push(Measure::of("mean weight", &reports[0]).of_row(row));
             }
         }
-        let failed = measures.iter().find(|measure| measure.verdict == Verdict::Fail);
-        let statement = match failed {
-            None => format!("{} mean weights are albedos", measures.len()),
-            Some(measure) => format!(
-                "{} is {} on average, and the albedo is {}",
-                measure.name,
-                figure(measure.measured),
-                figure(measure.expected)
-            ),
-        };
-        Ok(Finding::of(statement, would_have_caught(&measures), measures))
+        let complaint = measures.iter().find(|measure| measure.failed()).map(|measure| {
+            let (measured, expected) = (figure(measure.measured), figure(measure.expected));
+            format!("{} is {measured}, and the albedo is {expected}", measure.name())
+        });
+        let right = format!("{} mean weights are albedos", measures.len());
+        Ok(Finding::measured(right, measures).complaining(complaint))
     }
 }
 
@@ -89,7 +84,7 @@ fn mean_weight(
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::Fake;
+    use super::super::fake::Lambertian;
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
@@ -101,19 +96,19 @@ mod tests {
         at-most   = "100 k"
     "#;
 
-    fn found(fake: Fake) -> Finding {
-        judge(&check_of::<WeightsMakeTheAlbedo>(CASE), &mut { fake })
+    fn found(fake: Lambertian) -> Finding {
+        judge(&check_of::<WeightsMakeTheAlbedo>(CASE), &mut fake.core())
     }
 
     #[test]
     fn cosine_samples_of_a_diffuse_surface_all_weigh_the_albedo() {
-        assert_passes(&found(Fake::default()));
+        assert_passes(&found(Lambertian::default()));
     }
 
     #[test]
     fn a_hundredth_in_the_value_or_in_the_density_is_seen() {
-        let bright = found(Fake { sampled_value: 1.01, ..Fake::default() });
+        let bright = found(Lambertian { sampled_value: 1.01, ..Lambertian::default() });
         assert!(failure(&bright).contains("is 0.505 on average, and the albedo is 0.5"));
-        failure(&found(Fake { sampled_pdf: 1.01, ..Fake::default() }));
+        failure(&found(Lambertian { sampled_pdf: 1.01, ..Lambertian::default() }));
     }
 }

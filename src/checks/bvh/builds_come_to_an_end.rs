@@ -6,7 +6,6 @@
 use super::question::{Build, LeafSizes, scene_of};
 use super::trial::{NEEDS, Trial, Tried};
 use crate::cause;
-use crate::checks::phrase::at_most;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::Capabilities;
 use crate::math::rng::Seed;
@@ -123,9 +122,10 @@ impl Outcome {
     fn measures(&self) -> [Measure; 2] {
         let differences: usize = self.tried.iter().map(|tried| tried.differences.total()).sum();
         [
-            at_most(format!("{}: depth", self.name), self.depth(), self.deepest_allowed()),
-            Measure::exact(format!("{}: wrong answers", self.name), differences as f64, 0.0, 0.0),
+            Measure::at_most("depth", self.depth(), self.deepest_allowed()),
+            Measure::none("wrong answers", differences),
         ]
+        .map(|measure| measure.of_row(self.name))
     }
 
     fn complaint(&self) -> Option<String> {
@@ -150,27 +150,17 @@ impl Outcome {
 }
 
 fn judge(results: &[Outcome]) -> Finding {
-    let complaints: Vec<_> = results.iter().filter_map(Outcome::complaint).collect();
-    let deepest = results.iter().map(Outcome::depth).fold(0.0, f64::max);
-    let statement = if complaints.is_empty() {
-        let depth = match deepest {
-            0.0 => "of unknown depth".to_owned(),
-            deepest => format!("at most {deepest} nodes deep"),
-        };
-        format!("{} arrangements end in hierarchies {depth}, all of them right", results.len())
-    } else {
-        complaints.join("; ")
+    let depth = match results.iter().map(Outcome::depth).fold(0.0, f64::max) {
+        0.0 => "of unknown depth".to_owned(),
+        deepest => format!("at most {deepest} nodes deep"),
     };
-    let measures = results.iter().flat_map(Outcome::measures).collect();
-    let finding = Finding::of(
-        statement,
-        "would have caught a depth above 2 log2 n + 64, or one wrong hit",
-        measures,
-    );
-    match deep_where_nothing_separates(results) {
-        Some(evidence) => finding.because(&cause::bvh::SPLIT_REPEATED, evidence),
-        None => finding,
-    }
+    let right =
+        format!("{} arrangements end in hierarchies {depth}, all of them right", results.len());
+    let caught = "would have caught a depth above 2 log2 n + 64, or one wrong hit";
+    let evidence = deep_where_nothing_separates(results);
+    Finding::of(right, caught, results.iter().flat_map(Outcome::measures).collect())
+        .complaining(results.iter().filter_map(Outcome::complaint))
+        .because_of(evidence.map(|evidence| (&cause::bvh::SPLIT_REPEATED, evidence)))
 }
 
 /// Only hierarchies over centroids in one place are too deep.

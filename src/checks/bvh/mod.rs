@@ -3,7 +3,6 @@
 
 mod builds_come_to_an_end;
 pub(in crate::checks) mod comparison;
-mod divides_long_scenes;
 mod explanation;
 #[cfg(test)]
 pub(in crate::checks) mod fake;
@@ -16,17 +15,21 @@ mod reference;
 mod same_hits_as_brute_force;
 mod sizes_add_up;
 mod slabs;
-mod stops_behind_hits;
+mod tests_per_ray;
 mod trial;
 mod visits_few_nodes;
 
-pub use builds_come_to_an_end::BuildsComeToAnEnd;
-pub use divides_long_scenes::DividesLongScenes;
-pub use is_faster::IsFaster;
-pub use order_does_not_matter::OrderDoesNotMatter;
-pub use overlaps_box::OverlapsBox;
-pub use random_boxes::BoxesAreNeverMissed;
-pub use same_hits_as_brute_force::SameHitsAsBruteForce;
-pub use sizes_add_up::SizesAddUp;
-pub use stops_behind_hits::StopsBehindHits;
-pub use visits_few_nodes::VisitsFewNodes;
+use super::CheckKind;
+
+/// The checks of this subject.
+pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<overlaps_box::OverlapsBox>(),
+    CheckKind::of::<random_boxes::BoxesAreNeverMissed>(),
+    CheckKind::of::<same_hits_as_brute_force::SameHitsAsBruteForce>(),
+    CheckKind::of::<order_does_not_matter::OrderDoesNotMatter>(),
+    CheckKind::of::<sizes_add_up::SizesAddUp>(),
+    CheckKind::of::<builds_come_to_an_end::BuildsComeToAnEnd>(),
+    CheckKind::of::<visits_few_nodes::VisitsFewNodes>(),
+    CheckKind::of::<tests_per_ray::TestsPerRay>(),
+    CheckKind::of::<is_faster::IsFaster>(),
+];

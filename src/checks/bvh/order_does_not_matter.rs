@@ -151,32 +151,22 @@ fn finding(differences: &[Difference], asked: usize) -> Finding {
     let measures = (1..)
         .zip(differences)
         .flat_map(|(number, difference)| {
-            let count = |what: &str, found: usize| {
-                Measure::exact(
-                    format!("order {number}: {what} that differ"),
-                    found as f64,
-                    0.0,
-                    0.0,
-                )
-            };
-            [count("closest hits", difference.hits), count("any hits", difference.occlusions)]
+            [
+                Measure::none("closest hits that differ", difference.hits),
+                Measure::none("any hits that differ", difference.occlusions),
+            ]
+            .map(|measure| measure.of_row(format!("order {number}")))
         })
         .collect();
-    let worst = differences.iter().max_by_key(|difference| difference.total());
-    let statement = match worst.filter(|difference| difference.total() > 0) {
-        None => format!("{asked} answers are the same in {} orders", differences.len() + 1),
-        Some(worst) => format!(
-            "{} another when the triangles are shuffled",
-            some_are(worst.total(), asked, "answers")
-        ),
-    };
+    let worst = differences.iter().map(Difference::total).max().filter(|total| *total > 0);
+    let complaint = worst.map(|total| {
+        format!("{} another when the triangles are shuffled", some_are(total, asked, "answers"))
+    });
+    let right = format!("{asked} answers are the same in {} orders", differences.len() + 1);
     let rare = figure(((asked * differences.len()) as f64 / 6.9).floor());
-    let finding =
-        Finding::of(statement, format!("would have caught one answer in {rare}"), measures);
-    match lost_place(differences) {
-        Some((cause, evidence)) => finding.because(cause, evidence),
-        None => finding,
-    }
+    Finding::of(right, format!("would have caught one answer in {rare}"), measures)
+        .complaining(complaint)
+        .because_of(lost_place(differences))
 }
 
 /// What is lost always stands at the same place of its order.

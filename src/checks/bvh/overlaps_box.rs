@@ -10,7 +10,7 @@ use crate::checks::phrase::{figure, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BoxHit, Capabilities, Ray};
 use crate::scene::Aabb;
-use crate::stats::{Tolerance, Verdict};
+use crate::stats::Tolerance;
 use crate::text::{Arrow, Several, Vector};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
@@ -118,8 +118,8 @@ impl OverlapsBox {
         for (number, (row, answer)) in self.ray.iter().zip(answers).enumerate() {
             let mut of_row = self.row_measures(row, number, answer, allowed);
             if row.robustness {
-                of_row.iter_mut().for_each(|measure| measure.verdict = Verdict::Pass);
-            } else if let Some(worst) = of_row.iter().find(|m| m.verdict == Verdict::Fail) {
+                of_row = of_row.into_iter().map(Measure::not_graded).collect();
+            } else if let Some(worst) = of_row.iter().find(|measure| measure.failed()) {
                 complaints.push(complaint(row, number, answer, worst));
             }
             measures.extend(of_row);
@@ -148,18 +148,16 @@ impl OverlapsBox {
         let label = row.label(number);
         let flag = |hits| f64::from(u8::from(hits));
         let hits = answer.hit == 1;
-        let mut measures =
-            vec![Measure::exact(format!("{label}: hits"), flag(hits), flag(row.hits), 0.0)];
+        let mut measures = vec![Measure::exact("hits", flag(hits), flag(row.hits), 0.0)];
         if let (true, Some(truth)) = (hits, Overlap::exact(&self.bounds(row), &row.ray()))
             && truth.hits
         {
-            let end = |what, found, right: f64| {
-                Measure::exact(format!("{label}: {what}"), found, right, allowed * right.abs())
-            };
+            let end =
+                |what, found, right: f64| Measure::exact(what, found, right, allowed * right.abs());
             measures.push(end("t_enter", answer.t_enter, truth.enters));
             measures.push(end("t_exit", answer.t_exit, truth.exits));
         }
-        measures
+        measures.into_iter().map(|measure| measure.of_row(&label)).collect()
     }
 
     fn passing_statement(&self, graded: usize, answers: &[BoxHit]) -> String {
@@ -191,7 +189,7 @@ fn complaint(row: &RayRow, number: usize, answer: &BoxHit, worst: &Measure) -> S
         (false, true) => format!("{label} misses, and should hit"),
         _ => {
             let (found, right) = (figure(worst.measured), figure(worst.expected));
-            format!("{} is {found} instead of {right}", worst.name)
+            format!("{} is {found} instead of {right}", worst.name())
         }
     }
 }
@@ -240,10 +238,11 @@ impl Overlap {
 
 #[cfg(test)]
 mod tests {
-    use super::super::slabs::{Boxes, Slabs, pairs_of_mistakes, single_mistakes};
+    use super::super::slabs::{Slabs, hitting, pairs_of_mistakes, single_mistakes};
     use super::*;
     use crate::cause::bvh;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::stats::Verdict;
     use glam::DVec3;
 
     const CASES: [&str; 3] = [
@@ -253,7 +252,7 @@ mod tests {
     ];
 
     fn found(case: usize, hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static) -> Finding {
-        judge(&check_of::<OverlapsBox>(CASES[case]), &mut Boxes(hits))
+        judge(&check_of::<OverlapsBox>(CASES[case]), &mut hitting(hits))
     }
 
     #[test]

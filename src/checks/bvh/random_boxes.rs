@@ -3,7 +3,7 @@
 //!
 //! No rationals are needed: in double precision each crossing is right to two roundings, and an
 //! overlap is graded only where it is thousands of times as long. Not here: flat boxes and rays
-//! along a face, which need exact arithmetic ([`super::OverlapsBox`]).
+//! along a face, which need exact arithmetic (`overlaps-box`).
 
 use super::slabs::{because, wrong_as};
 use crate::checks::phrase::{figure, percent, some_are};
@@ -177,12 +177,7 @@ impl Tally {
     fn finding(&self, margin: f64) -> Finding {
         let share = self.false_hits as f64 / self.passed.max(1) as f64;
         let measures = vec![
-            Measure::exact(
-                format!("boxes missed of {} that are met", self.met),
-                self.missed as f64,
-                0.0,
-                0.0,
-            ),
+            Measure::none(format!("boxes missed of {} that are met", self.met), self.missed),
             Measure::exact("share of boxes hit for nothing (not graded)", share, 0.0, 1.0),
         ];
         let for_nothing = match self.false_hits {
@@ -214,14 +209,14 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::super::overlaps_box::Overlap;
-    use super::super::slabs::{Boxes, Slabs, single_mistakes};
+    use super::super::slabs::{Slabs, hitting, single_mistakes};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::stats::Verdict;
 
     fn found(hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static) -> Finding {
         let check = check_of::<BoxesAreNeverMissed>("[expect]\nrays = \"50 k\"");
-        judge(&check, &mut Boxes(hits))
+        judge(&check, &mut hitting(hits))
     }
 
     #[test]

@@ -6,7 +6,6 @@ use super::trial::{NEEDS, Trial, Tried};
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::Capabilities;
-use crate::stats::Verdict;
 use crate::text::Count;
 use serde::Deserialize;
 
@@ -46,7 +45,7 @@ impl Check for SameHitsAsBruteForce {
 fn judge(tried: &[Tried], answers: usize, overwritten: usize) -> Finding {
     let mut measures: Vec<_> = tried.iter().flat_map(measures).collect();
     let name = "hits without a hierarchy that are not the nearest";
-    measures.push(Measure::exact(name, overwritten as f64, 0.0, 0.0));
+    measures.push(Measure::none(name, overwritten));
     let wrong = tried.iter().filter(|tried| tried.differences.total() > 0);
     let count = wrong.clone().count();
     let causes: Vec<_> = wrong.clone().map(|tried| tried.cause).collect();
@@ -65,23 +64,18 @@ fn judge(tried: &[Tried], answers: usize, overwritten: usize) -> Finding {
     };
     // 6.9 = −ln 0.001: so rare a mistake shows in none of the answers once in a thousand times.
     let rare = figure((answers as f64 / 6.9).floor());
-    let finding =
-        Finding::of(statement, format!("would have caught one wrong answer in {rare}"), measures);
-    match shared(&causes) {
-        Some((cause, evidence)) => finding.because(cause, evidence),
-        None => finding,
-    }
+    Finding::of(statement, format!("would have caught one wrong answer in {rare}"), measures)
+        .because_of(shared(&causes))
 }
 
 /// The second is shown, not graded.
 fn measures(tried: &Tried) -> [Measure; 2] {
-    let count = |what: &str, differences: usize| {
-        let name = format!("{}: answers that differ{what}", tried.build.name());
-        Measure::exact(name, differences as f64, 0.0, 0.0)
-    };
-    let graded = count("", tried.differences.total());
-    let shown = count(", rays at vertices (not graded)", tried.at_vertices.total());
-    [graded, Measure { verdict: Verdict::Pass, ..shown }]
+    let shown = "answers that differ, rays at vertices (not graded)";
+    [
+        Measure::none("answers that differ", tried.differences.total()),
+        Measure::none(shown, tried.at_vertices.total()).not_graded(),
+    ]
+    .map(|measure| measure.of_row(tried.build.name()))
 }
 
 #[cfg(test)]

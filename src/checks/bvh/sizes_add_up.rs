@@ -2,10 +2,9 @@
 //! a depth that both allow.
 
 use super::question::{Build, LeafSizes};
-use crate::checks::phrase::{at_most, figure};
+use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{BuildStats, Capabilities, CoreError};
-use crate::stats::Verdict;
 use serde::Deserialize;
 
 /// The widest node there is.
@@ -60,24 +59,26 @@ impl Sizes {
     }
 
     fn measures(&self) -> Vec<Measure> {
-        let name = |what: &str| format!("{}: {what}", self.build.name());
         let (leaves, depth) = (self.stats.leaves as f64, self.stats.max_depth as f64);
         let held = leaves * f64::from(self.build.max_leaf_size());
         let mut measures = vec![
-            at_most(name("leaves"), leaves, self.primitives as f64),
-            at_most(name("primitives, for the room in its leaves"), self.primitives as f64, held),
-            at_most(name("depth"), depth, self.inner() + 1.0),
-            at_most(name("logarithm of leaves, for the depth"), leaves.log(WIDEST), depth - 1.0),
+            Measure::at_most("leaves", leaves, self.primitives as f64),
+            Measure::at_most(
+                "primitives, for the room in its leaves",
+                self.primitives as f64,
+                held,
+            ),
+            Measure::at_most("depth", depth, self.inner() + 1.0),
+            Measure::at_most("logarithm of leaves, for the depth", leaves.log(WIDEST), depth - 1.0),
         ];
         if leaves > 1.0 {
-            measures.push(at_most(
-                name("two children a node, for its children"),
-                2.0,
-                self.width(),
-            ));
-            measures.push(at_most(name("children of a node, on average"), self.width(), WIDEST));
+            let width = self.width();
+            measures.extend([
+                Measure::at_most("two children a node, for its children", 2.0, width),
+                Measure::at_most("children of a node, on average", width, WIDEST),
+            ]);
         }
-        measures
+        measures.into_iter().map(|measure| measure.of_row(self.build.name())).collect()
     }
 
     fn words(&self) -> String {
@@ -91,14 +92,13 @@ impl Sizes {
 fn finding(built: &[Sizes]) -> Finding {
     let measures: Vec<_> = built.iter().flat_map(Sizes::measures).collect();
     let wrong = built.iter().find_map(|sizes| {
-        let failed = sizes.measures().into_iter().find(|m| m.verdict == Verdict::Fail)?;
+        let failed = sizes.measures().into_iter().find(Measure::failed)?;
         Some((sizes, failed))
     });
     let statement = match (wrong, built.first()) {
         (Some((sizes, failed)), _) => format!(
-            "{}: {} is {}, more than {}; the core tells of {}, over {} primitives",
-            sizes.build.name(),
-            failed.name.trim_start_matches(&format!("{}: ", sizes.build.name())),
+            "{} is {}, more than {}; the core tells of {}, over {} primitives",
+            failed.name(),
             figure(failed.measured),
             figure(failed.expected),
             sizes.words(),
@@ -116,39 +116,19 @@ fn finding(built: &[Sizes]) -> Finding {
 mod tests {
     use super::super::question::scene_of;
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
-    use crate::contract::{Acceleration, BuiltScene, Core, CoreInfo, Precision, Result};
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
     use crate::math::rng::Seed;
-    use crate::scene::SceneDescription;
     use crate::scene::procedural::soup;
 
-    #[derive(Clone, Copy)]
-    struct Says(BuildStats);
-
-    impl Core for Says {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn build_scene(
-            &mut self,
-            _: &SceneDescription,
-            _: Acceleration,
-        ) -> Result<Box<dyn BuiltScene + '_>> {
-            Ok(Box::new(*self))
-        }
-    }
-
-    impl BuiltScene for Says {
-        fn stats(&self) -> BuildStats {
-            self.0
-        }
-    }
-
-    fn found(nodes: u64, leaves: u64, max_depth: u64) -> std::result::Result<Finding, CheckError> {
+    fn found(nodes: u64, leaves: u64, max_depth: u64) -> Result<Finding, CheckError> {
         let check: SizesAddUp = check_of("[expect]\nleaf-sizes = [4]");
         let stats = BuildStats { nodes, leaves, max_depth, bytes: 0 };
-        try_judge(&check, &mut Says(stats), Some(scene_of(soup(1000, Seed(1)))))
+        try_judge(
+            &check,
+            &mut Fake { stats, ..Fake::default() },
+            Some(scene_of(soup(1000, Seed(1)))),
+        )
     }
 
     #[test]

@@ -3,8 +3,6 @@
 use crate::cause::{Cause, bvh};
 use crate::checks::Finding;
 use crate::contract::Ray;
-#[cfg(test)]
-use crate::contract::{BoxHit, Core, CoreInfo, Precision, Result};
 use crate::scene::Aabb;
 use glam::DVec3;
 
@@ -194,28 +192,16 @@ pub fn wrong_as(answers: &[(Aabb, Ray, bool)]) -> Option<Wrong> {
 
 /// `finding`, with the mistake that predicts so many answers.
 pub fn because(finding: Finding, wrong: Option<&Wrong>, predicted: &str) -> Finding {
-    match wrong {
-        None => finding,
-        Some(wrong) => finding.because(wrong.cause, wrong.evidence(predicted)),
-    }
+    finding.because_of(wrong.map(|wrong| (wrong.cause, wrong.evidence(predicted))))
 }
 
-/// A core that hits boxes by a rule of its own, for tests.
+/// A core that hits boxes by a rule of its own.
 #[cfg(test)]
-pub struct Boxes<Hits>(pub Hits);
-
-#[cfg(test)]
-impl<Hits: Fn(Slabs, &Ray) -> bool + Send> Core for Boxes<Hits> {
-    fn info(&self) -> CoreInfo {
-        crate::checks::testing::info(Precision::Double)
-    }
-
-    fn intersect_box(&mut self, bounds: &Aabb, rays: &[Ray], hits: &mut [BoxHit]) -> Result<()> {
-        for (ray, hit) in rays.iter().zip(hits) {
-            let slabs = Slabs::new(bounds, ray);
-            let Span { enters: t_enter, exits: t_exit } = slabs.span();
-            *hit = BoxHit { t_enter, t_exit, hit: (self.0)(slabs, ray).into(), reserved: 0 };
-        }
-        Ok(())
-    }
+pub fn hitting(hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static) -> crate::checks::fake::Fake {
+    let bounds = move |bounds: &Aabb, ray: &Ray| {
+        let slabs = Slabs::new(bounds, ray);
+        let Span { enters: t_enter, exits: t_exit } = slabs.span();
+        crate::contract::BoxHit { t_enter, t_exit, hit: hits(slabs, ray).into(), reserved: 0 }
+    };
+    crate::checks::fake::Fake { bounds: Box::new(bounds), ..Default::default() }
 }

@@ -3,14 +3,13 @@
 use super::question::scene_of;
 use super::reference::{ReferenceBvh, SLACK, Walk};
 use crate::cause::{Cause, bvh};
-use crate::checks::phrase::{at_most, figure};
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::phrase::figure;
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Hit, Ray};
 use crate::math::rng::{Seed, uniform};
 use crate::math::sphere::on_sphere;
 use crate::scene::procedural::{bumpy_sphere, soup};
 use crate::scene::{Aabb, Mesh};
-use crate::stats::Verdict;
 use crate::text::Count;
 use glam::DVec3;
 use serde::Deserialize;
@@ -152,20 +151,23 @@ fn judge(sizes: &[Size]) -> Finding {
         .because(&bvh::COUNTS_NOT_REAL, format!("{tests} tests, {hits} hits a ray"));
     }
     let slope = growth(sizes, |size| size.closest);
-    let mut measures = vec![at_most("growth of tests: exponent of n", slope, STEEPEST)];
+    let mut measures = vec![Measure::at_most("growth of tests: exponent of n", slope, STEEPEST)];
     let counts_boxes = sizes.iter().all(|size| size.boxes > 0.0);
     let slope_of_boxes = growth(sizes, |size| size.boxes);
     if counts_boxes {
-        measures.push(at_most("growth of box tests: exponent of n", slope_of_boxes, STEEPEST));
+        let name = "growth of box tests: exponent of n";
+        measures.push(Measure::at_most(name, slope_of_boxes, STEEPEST));
     }
     for size in sizes {
-        let n = size.triangles;
-        let name = format!("tests a ray, {n} triangles");
-        measures.push(at_most(name, size.closest, SLACK * size.ordered).in_unit("triangles"));
-        let name = format!("tests of any hit over closest hit, {n} triangles");
-        measures.push(at_most(name, size.any / size.closest, ANY_HIT_SLACK));
+        let row = format!("{} triangles", size.triangles);
+        let (tests, ratio) = (SLACK * size.ordered, size.any / size.closest);
+        measures.extend([
+            Measure::at_most("tests a ray", size.closest, tests).of_row(&row).in_unit("triangles"),
+            Measure::at_most("tests of any hit over closest hit", ratio, ANY_HIT_SLACK)
+                .of_row(&row),
+        ]);
     }
-    let failed = measures.iter().any(|m| m.verdict == Verdict::Fail);
+    let failed = measures.iter().any(Measure::failed);
     let is_unbalanced = counts_boxes && slope_of_boxes >= ALL_TESTED && slope < STEEPEST;
     let cause = match is_unbalanced {
         true => Some(&bvh::UNBALANCED),
@@ -246,7 +248,7 @@ mod tests {
     fn the_counts_are_those_of_the_independent_program() {
         // bvh_counts.log: a soup of 32 768 takes 48.5 tests a ray, on another soup and other rays.
         let finding = found(Slip::None, "soup");
-        let tests = finding.measures.iter().find(|m| m.name.contains("a ray, 32768")).unwrap();
+        let tests = finding.measures.iter().find(|m| m.row == "32768 triangles").unwrap();
         assert!((tests.measured / 48.5 - 1.0).abs() < 0.15, "{}", tests.measured);
     }
 

@@ -3,11 +3,11 @@
 
 use super::film_mistakes::{MISTAKES, Place, TILES, whole_tiles_only};
 use crate::cause::{Cause, adaptive, image};
-use crate::checks::phrase::{figure, some_are, worst_measure};
+use crate::checks::phrase::{figure, some_are};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
-use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
+use crate::stats::{Compared, Tolerance, judge_exact};
 use crate::text::{Between, Lit, Several, Size};
 use serde::Deserialize;
 
@@ -80,14 +80,13 @@ impl ConstantFilm {
             measures.push(self.worst_pixel(exposed, allowed));
             measures.push(wrong_counts(exposed));
         }
-        let failed = measures.iter().any(|measure| measure.verdict == Verdict::Fail);
-        let statement = match failed {
-            false => format!("all pixels of {} films are the sample they are made of", films.len()),
-            true => self.complaint(films, allowed),
-        };
+        let right = format!("all pixels of {} films are the sample they are made of", films.len());
         let resolution = format!("would have caught one pixel wrong by {}", figure(allowed));
-        let finding = Finding::of(statement, resolution, measures);
-        if failed { self.explain(finding, films, allowed) } else { finding }
+        let finding = Finding::of(right, resolution, measures);
+        if !finding.failed() {
+            return finding;
+        }
+        self.explain(finding.complaining([self.complaint(films, allowed)]), films, allowed)
     }
 
     fn compared<'a>(
@@ -103,7 +102,7 @@ impl ConstantFilm {
 
     fn worst_pixel(&self, exposed: &Exposed, allowed: f64) -> Measure {
         let report = judge_exact(self.compared(exposed, allowed));
-        worst_measure(format!("{}: channel of a pixel", exposed.name()), &report)
+        Measure::worst("channel of a pixel", &report).of_row(exposed.name())
     }
 
     /// The film with most wrong pixels, and the first of them.
@@ -189,7 +188,7 @@ fn wrong_counts(exposed: &Exposed) -> Measure {
     let counts = exposed.film.sample_counts.iter().map(|count| f64::from(*count));
     let expected = f64::from(exposed.samples);
     let report = judge_exact(counts.map(|count| Compared::within(count, expected, 0.0)));
-    worst_measure(format!("{}: count of samples", exposed.name()), &report)
+    Measure::worst("count of samples", &report).of_row(exposed.name())
 }
 
 #[cfg(test)]
@@ -207,9 +206,9 @@ mod tests {
 
     fn found(core: FakeFilm) -> Finding {
         let Lit(radiance) = check().radiance;
-        let mut core = FakeFilm { radiance: Box::new(move |_, _| radiance), ..core };
+        let core = FakeFilm { radiance: Box::new(move |_, _| radiance), ..core };
         let scene = SceneDescription { camera: Some(FakeFilm::camera()), ..Default::default() };
-        try_judge(&check(), &mut core, Some(scene)).unwrap()
+        try_judge(&check(), &mut core.core(), Some(scene)).unwrap()
     }
 
     fn developed(develop: fn([f64; 3], Place) -> [f64; 3]) -> Finding {

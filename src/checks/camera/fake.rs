@@ -2,12 +2,10 @@
 //! this folder.
 
 use super::film_mistakes::Place;
-use crate::checks::testing::info;
-use crate::contract::{
-    Acceleration, BuildStats, BuiltScene, Core, CoreInfo, Film, Precision, RenderSettings, Result,
-};
+use crate::checks::fake::Fake;
+use crate::contract::{Film, RenderSettings};
 use crate::math::rng::{Seed, Stream, uniform};
-use crate::scene::{Camera, SceneDescription};
+use crate::scene::Camera;
 use glam::{DVec2, DVec3};
 
 /// What a ray through a point brings home: in pixels, from the top left; the second is the film's
@@ -71,42 +69,26 @@ impl FakeFilm {
         }
         sum.map(|sum| sum / f64::from(used))
     }
-}
 
-impl Core for FakeFilm {
-    fn info(&self) -> CoreInfo {
-        info(Precision::Double)
-    }
-
-    fn build_scene(
-        &mut self,
-        _: &SceneDescription,
-        _: Acceleration,
-    ) -> Result<Box<dyn BuiltScene + '_>> {
-        Ok(Box::new(Exposure(self)))
-    }
-}
-
-struct Exposure<'a>(&'a FakeFilm);
-
-impl BuiltScene for Exposure<'_> {
-    fn stats(&self) -> BuildStats {
-        BuildStats::default()
-    }
-
-    fn render(&mut self, _: &Camera, settings: &RenderSettings, film: &mut Film) -> Result<()> {
-        let core = self.0;
+    fn render(&self, settings: &RenderSettings, film: &mut Film) {
         let size = [settings.width, settings.height];
         let samples = settings.samples_per_pixel;
         let stream = &mut Seed(settings.integrator.seed).stream();
         for at in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y])) {
             let place = Place { at, size, samples };
-            let pixel = (core.develop)(core.mean(place, stream), place);
-            let index = (core.index)(at, size) % film.pixels.len();
+            let pixel = (self.develop)(self.mean(place, stream), place);
+            let index = (self.index)(at, size) % film.pixels.len();
             film.pixels[index] = pixel.map(|value| value as f32);
         }
-        let Step(step) = core.count;
+        let Step(step) = self.count;
         film.sample_counts.fill(samples.saturating_add_signed(step));
-        Ok(())
+    }
+
+    /// The core.
+    pub fn core(self) -> Fake {
+        Fake {
+            film: Box::new(move |settings, film| self.render(settings, film)),
+            ..Fake::default()
+        }
     }
 }

@@ -15,10 +15,16 @@ mod strata_pattern;
 mod stratified_samples;
 mod view_coverage;
 
-pub use constant_film::ConstantFilm;
-pub use orientation::PictureOrientation;
-pub use pixel_samples::PixelSamples;
 pub(in crate::checks) use projection::projection;
-pub use rays_through_film::RaysThroughFilm;
-pub use stratified_samples::StratifiedSamples;
-pub use view_coverage::ViewCoverage;
+
+use super::CheckKind;
+
+/// The checks of this subject.
+pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<rays_through_film::RaysThroughFilm>(),
+    CheckKind::of::<constant_film::ConstantFilm>(),
+    CheckKind::of::<orientation::PictureOrientation>(),
+    CheckKind::of::<pixel_samples::PixelSamples>(),
+    CheckKind::of::<stratified_samples::StratifiedSamples>(),
+    CheckKind::of::<view_coverage::ViewCoverage>(),
+];

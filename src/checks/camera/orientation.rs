@@ -2,9 +2,9 @@
 //! is stored.
 
 use crate::cause::{Cause, image};
-use crate::checks::phrase::{figure, some_are, worst_measure};
+use crate::checks::phrase::{figure, some_are};
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
 use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
 use crate::text::{Lit, Size};
@@ -83,7 +83,7 @@ impl PictureOrientation {
             (0..3).map(move |c| Compared::relative(found[c], right[c], allowed))
         };
         let report = judge_exact(self.clear_pixels().flat_map(compared));
-        let measures = vec![worst_measure("channel of a pixel inside a quarter", &report)];
+        let measures = vec![Measure::worst("channel of a pixel inside a quarter", &report)];
         let all = self.clear_pixels().count();
         let is_wrong = |at: &[u32; 2]| compared(*at).any(|c| !c.agrees());
         let wrong: Vec<_> = self.clear_pixels().filter(is_wrong).collect();
@@ -180,9 +180,9 @@ mod tests {
     fn found(core: FakeFilm) -> Finding {
         let check = check();
         let colour = move |at: DVec2, _: DVec2| check.colour_at([at.x as u32, at.y as u32]);
-        let mut core = FakeFilm { radiance: Box::new(colour), ..core };
+        let core = FakeFilm { radiance: Box::new(colour), ..core };
         let scene = SceneDescription { camera: Some(FakeFilm::camera()), ..Default::default() };
-        try_judge(&check, &mut core, Some(scene)).unwrap()
+        try_judge(&check, &mut core.core(), Some(scene)).unwrap()
     }
 
     fn causes(finding: &Finding) -> Vec<&str> {

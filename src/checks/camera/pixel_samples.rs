@@ -6,12 +6,12 @@
 
 use super::pattern::{CELLS, FILM, SAMPLES, lit_pixels, scene, share};
 use super::pixel_laws::{MISTAKES, Tally};
-use crate::checks::phrase::{percent, would_have_caught};
+use crate::checks::phrase::percent;
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities};
 use crate::math::rng::Seed;
-use crate::stats::{Band, Claim, MeanReport, Verdict, judge_means};
+use crate::stats::{Band, Claim, MeanReport, judge_means};
 use crate::text::{Count, Percent};
 use serde::Deserialize;
 
@@ -79,25 +79,19 @@ fn take_pictures(
 const LINES: [&str; 4] = ["column", "row", "falling diagonal", "rising diagonal"];
 
 fn finding(reports: &[MeanReport], all: &Tally) -> Finding {
-    let mut measures: Vec<_> = reports
-        .iter()
-        .enumerate()
-        .map(|(number, report)| {
-            let line = format!("share of {} {}", LINES[number / CELLS], number % CELLS + 1);
-            Measure::of(line, report)
-        })
-        .collect();
-    let resolution = would_have_caught(&measures) + " of the share of a fifth of the pixel";
-    let none = |name: &str, found: f64| Measure::exact(name, found, 0.0, 0.0);
-    measures.push(none("samples that see another pixel", all.strayed));
-    measures.push(none("pixels that are no mean of three samples", all.unreadable as f64));
-    let failed = measures.iter().any(|measure| measure.verdict == Verdict::Fail);
-    let statement = match failed {
-        false => format!("{} samples lie evenly in their pixels", all.samples),
-        true => complaint(all),
+    let share = |(number, report): (usize, &MeanReport)| {
+        let line = format!("{} {}", LINES[number / CELLS], number % CELLS + 1);
+        Measure::of("share", report).of_row(line)
     };
-    let finding = Finding::of(statement, resolution, measures);
-    if failed { explain(finding, all) } else { finding }
+    let none = |name: &str, found: f64| Measure::exact(name, found, 0.0, 0.0);
+    let measures = reports.iter().enumerate().map(share).chain([
+        none("samples that see another pixel", all.strayed),
+        none("pixels that are no mean of three samples", all.unreadable as f64),
+    ]);
+    let finding =
+        Finding::measured(format!("{} samples lie evenly in their pixels", all.samples), measures)
+            .in_terms(" of the share of a fifth of the pixel");
+    if finding.failed() { explain(finding.complaining([complaint(all)]), all) } else { finding }
 }
 
 fn complaint(all: &Tally) -> String {
@@ -147,7 +141,7 @@ mod tests {
     /// Coarser than the case, so that failing cores take a fraction of a second.
     fn found(core: FakeFilm) -> Finding {
         let check: PixelSamples = check_of("[expect]\ndetects = \"30 %\"\nat-most = \"5 k\"");
-        judge(&check, &mut FakeFilm { radiance: Box::new(|at, _| radiance_at(at)), ..core })
+        judge(&check, &mut FakeFilm { radiance: Box::new(|at, _| radiance_at(at)), ..core }.core())
     }
 
     fn placed(place: Law) -> Finding {

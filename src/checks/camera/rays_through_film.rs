@@ -4,13 +4,13 @@
 
 use super::projection::{Formula, MISTAKES, Mistake, projection};
 use crate::cause::{self, Cause};
-use crate::checks::phrase::{degrees, some_are, worst_measure};
+use crate::checks::phrase::{degrees, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Ray};
 use crate::math::rng::{Seed, uniform};
 use crate::math::sphere::angle_between;
 use crate::scene::Camera;
-use crate::stats::{Compared, ExactReport, Tolerance, Verdict, judge_exact};
+use crate::stats::{Compared, ExactReport, Tolerance, judge_exact};
 use crate::text::{Arrow, Polar, Positive, Several, Vector};
 use glam::{DVec2, DVec3};
 use serde::Deserialize;
@@ -145,7 +145,8 @@ fn judge(shots: &[Shot], film: &[DVec2], allowed: f64) -> Finding {
     let mut complaints = Vec::new();
     for (number, shot) in shots.iter().enumerate() {
         for (what, report) in shot.reports(film, allowed) {
-            measures.push(worst_measure(format!("camera {}, {what}", number + 1), &report));
+            let row = format!("camera {}", number + 1);
+            measures.push(Measure::worst(what, &report).of_row(row));
             if report.disagree > 0 && what != "direction" {
                 complaints.push(complaint(number, what, &measures[measures.len() - 1]));
             }
@@ -155,21 +156,18 @@ fn judge(shots: &[Shot], film: &[DVec2], allowed: f64) -> Finding {
     let explained = explanation(shots, film, allowed);
     complaints.splice(0..0, direction_complaint(shots, film, allowed, explained));
     let all = shots.len() * film.len();
-    let statement = match complaints.is_empty() {
-        true => format!("{all} rays of {} cameras leave through their film points", shots.len()),
-        false => complaints.join("; "),
-    };
+    let right = format!("{all} rays of {} cameras leave through their film points", shots.len());
     let resolution = format!("would have caught a ray {} off", degrees(allowed));
     let elsewhere = causes_elsewhere(&measures);
-    Finding::of(statement, resolution, measures)
+    Finding::of(right, resolution, measures)
+        .complaining(complaints)
         .because_each(explained, &format!("predicts the directions of all {all} rays"))
         .because_each(elsewhere, "the directions have no part in it")
 }
 
 /// What is wrong beside directions.
 fn causes_elsewhere(measures: &[Measure]) -> Vec<&'static Cause> {
-    let fails =
-        |what: &str| measures.iter().any(|m| m.verdict == Verdict::Fail && m.name.contains(what));
+    let fails = |what: &str| measures.iter().any(|m| m.failed() && m.quantity.starts_with(what));
     let origin = fails("origin").then_some(&cause::camera::ORIGIN_NOT_AT_CAMERA);
     let clips = (fails("t_min") || fails("t_max")).then_some(&cause::camera::CLIPS_NOT_SET);
     origin.into_iter().chain(clips).collect()
@@ -235,34 +233,19 @@ fn largest_angle(shots: &[Shot], film: &[DVec2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge, try_judge};
-    use crate::contract::{Core, CoreInfo, Precision, Result};
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge, try_judge};
 
     /// A core that makes its rays by a formula and then does something to them.
-    struct Lens {
-        formula: Formula,
-        spoil: fn(&mut Ray),
-    }
-
-    impl Core for Lens {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn generate_rays(
-            &mut self,
-            camera: &Camera,
-            film: &[DVec2],
-            rays: &mut [Ray],
-        ) -> Result<()> {
-            for (ray, point) in rays.iter_mut().zip(film) {
-                let direction = (self.formula)(camera, *point).normalize();
-                let (t_min, t_max) = (camera.near, camera.far);
-                *ray = Ray { origin: camera.position, t_min, direction, t_max };
-                (self.spoil)(ray);
-            }
-            Ok(())
-        }
+    fn lens(formula: Formula, spoil: fn(&mut Ray)) -> Fake {
+        let ray = move |camera: &Camera, film| {
+            let direction = formula(camera, film).normalize();
+            let (t_min, t_max) = (camera.near, camera.far);
+            let mut ray = Ray { origin: camera.position, t_min, direction, t_max };
+            spoil(&mut ray);
+            ray
+        };
+        Fake { ray: Box::new(ray), ..Fake::default() }
     }
 
     fn shipped() -> RaysThroughFilm {
@@ -270,7 +253,7 @@ mod tests {
     }
 
     fn found(formula: Formula) -> Finding {
-        judge(&shipped(), &mut Lens { formula, spoil: |_| () })
+        judge(&shipped(), &mut lens(formula, |_| ()))
     }
 
     #[test]
@@ -310,19 +293,17 @@ mod tests {
 
     #[test]
     fn clip_distances_and_origins_are_looked_at() {
-        let mut lens = Lens { formula: projection, spoil: |ray| ray.t_min = 0.0 };
-        let finding = judge(&shipped(), &mut lens);
+        let finding = judge(&shipped(), &mut lens(projection, |ray| ray.t_min = 0.0));
         assert!(failure(&finding).contains("t_min of the rays of camera 1 is 0, not the camera's"));
         assert_eq!(finding.clues[0].cause, "clips-not-set");
-        let mut lens = Lens { formula: projection, spoil: |ray| ray.origin += 1e-6 };
-        let finding = judge(&shipped(), &mut lens);
+        let finding = judge(&shipped(), &mut lens(projection, |ray| ray.origin += 1e-6));
         assert!(failure(&finding).contains("do not start at its position"));
         assert_eq!(finding.clues[0].cause, "origin-not-at-camera");
     }
 
     #[test]
     fn directions_that_are_not_unit_break_the_contract() {
-        let mut lens = Lens { formula: projection, spoil: |ray| ray.direction *= 1.01 };
+        let mut lens = lens(projection, |ray| ray.direction *= 1.01);
         let error = try_judge(&shipped(), &mut lens, None).unwrap_err().to_string();
         assert!(error.contains("direction has length 1.01"), "{error}");
     }

@@ -4,12 +4,12 @@
 use super::pattern::FILM;
 use super::strata_pattern::{Reading, SAMPLES, STRATA, law, places, read, scene};
 use crate::cause::{Cause, camera};
-use crate::checks::phrase::{percent, would_have_caught};
+use crate::checks::phrase::percent;
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities};
 use crate::math::rng::Seed;
-use crate::stats::{CountReport, Counts, Verdict, follows_law, judge_counts};
+use crate::stats::{CountReport, Counts, follows_law, judge_counts};
 use crate::text::{Count, Percent};
 use serde::Deserialize;
 
@@ -140,16 +140,14 @@ fn finding(all: &Tally, report: Option<&CountReport>) -> Finding {
     ];
     let name = "χ² per degree of freedom, places within a cell";
     measures.extend(report.map(|report| Measure::of(name, report)));
-    let resolution = match report {
-        Some(_) => would_have_caught(&measures) + " of the density within a cell",
-        None => "would have caught a single pixel with two samples in one cell".to_owned(),
+    let caught = "would have caught a single pixel with two samples in one cell";
+    let failed = measures.iter().any(Measure::failed);
+    let finding = match report {
+        Some(_) => Finding::measured(statement(all, failed), measures)
+            .in_terms(" of the density within a cell"),
+        None => Finding::of(statement(all, failed), caught, measures),
     };
-    let failed = measures.iter().any(|measure| measure.verdict == Verdict::Fail);
-    let finding = Finding::of(statement(all, failed), resolution, measures);
-    match failed.then(|| mistake(all, report)).flatten() {
-        Some((cause, evidence)) => finding.because(cause, evidence),
-        None => finding,
-    }
+    finding.because_of(failed.then(|| mistake(all, report)).flatten())
 }
 
 fn statement(all: &Tally, failed: bool) -> String {
@@ -220,7 +218,7 @@ mod tests {
         let check: StratifiedSamples = check_of("[expect]\ndetects = \"15 %\"\nat-most = \"50 k\"");
         let radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send> =
             Box::new(|at, _| radiance_at(at));
-        judge(&check, &mut FakeFilm { radiance, arrange, ..FakeFilm::default() })
+        judge(&check, &mut FakeFilm { radiance, arrange, ..FakeFilm::default() }.core())
     }
 
     #[test]

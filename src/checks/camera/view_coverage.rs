@@ -2,7 +2,7 @@
 //! shading.
 
 use crate::cause::image;
-use crate::checks::phrase::{figure, percent, would_have_caught};
+use crate::checks::phrase::{figure, percent};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Film};
@@ -96,24 +96,19 @@ impl ViewCoverage {
 
     fn finding(&self, reports: &[MeanReport]) -> Finding {
         let names = ["share of the picture", "share times film x", "share times film y"];
-        let measures: Vec<_> =
-            names.into_iter().zip(reports).map(|(n, r)| Measure::of(n, r)).collect();
+        let measures =
+            names.into_iter().zip(reports).map(|(name, report)| Measure::of(name, report));
         let share = reports[0].mean;
-        let centroid = [reports[1].mean / share, reports[2].mean / share];
-        let failed = measures.iter().any(|measure| measure.verdict == Verdict::Fail);
-        let [x, y] = centroid.map(figure);
+        let [x, y] = [reports[1].mean / share, reports[2].mean / share].map(figure);
         let covered =
             format!("the lamp covers {} of the picture, around ({x}, {y})", percent(share));
-        let statement = match failed {
-            false => covered,
-            true => {
-                let [x, y] = self.centroid.map(figure);
-                format!("{covered}, instead of {} around ({x}, {y})", percent(self.share))
-            }
-        };
-        let resolution = would_have_caught(&measures) + " of the share";
-        let finding = Finding::of(statement, resolution, measures);
-        if failed { self.explain(finding, reports) } else { finding }
+        let finding = Finding::measured(&covered, measures).in_terms(" of the share");
+        if !finding.failed() {
+            return finding;
+        }
+        let [x, y] = self.centroid.map(figure);
+        let instead = format!("{covered}, instead of {} around ({x}, {y})", percent(self.share));
+        self.explain(finding.complaining([instead]), reports)
     }
 
     /// A share that is right in a place that is mirrored.
@@ -134,13 +129,9 @@ impl ViewCoverage {
             (&image::TRANSPOSED, [y, x]),
         ];
         let found = tried.into_iter().find(|(_, [x, y])| holds(1, *x) && holds(2, *y));
-        match found {
-            Some((cause, [x, y])) => {
-                let evidence = format!("predicts its middle at ({}, {})", figure(x), figure(y));
-                finding.because(cause, evidence)
-            }
-            None => finding,
-        }
+        finding.because_of(found.map(|(cause, [x, y])| {
+            (cause, format!("predicts its middle at ({}, {})", figure(x), figure(y)))
+        }))
     }
 }
 
@@ -165,7 +156,7 @@ mod tests {
     fn found(core: FakeFilm) -> Finding {
         let check: ViewCoverage = check_of(CASE);
         let scene = SceneDescription { camera: Some(FakeFilm::camera()), ..Default::default() };
-        try_judge(&check, &mut { core }, Some(scene)).unwrap()
+        try_judge(&check, &mut core.core(), Some(scene)).unwrap()
     }
 
     fn seen(radiance: Radiance) -> Finding {

@@ -242,14 +242,16 @@ fn ratio_measure(
     report: &ImageReport,
     hypothesis: Option<Hypothesis>,
 ) -> Measure {
-    let name = format!("brightness of the whole picture, {}", component_name(ratio.component));
+    let name = component_name(ratio.component);
     let is_luminance = ratio.component == Component::Luminance;
     Measure {
         interval: Some(ratio.interval),
         resolution: is_luminance.then_some(report.resolution),
         verdict: report.verdict,
         hypothesis: hypothesis.filter(|_| is_luminance),
-        ..Measure::exact(name, ratio.ratio, 1.0, 0.0).in_unit("of the reference")
+        ..Measure::exact(name, ratio.ratio, 1.0, 0.0)
+            .of_row("brightness of the whole picture")
+            .in_unit("of the reference")
     }
 }
 
@@ -270,7 +272,7 @@ fn scale_measure(scale: &ScaleReport) -> Measure {
     };
     let name = format!("worst {}{place}{name}", scale_name(scale.scale));
     Measure {
-        verdict: if scale.rejects { Verdict::Fail } else { Verdict::Pass },
+        verdict: Verdict::pass_if(!scale.rejects),
         ..Measure::exact(name, measured, 0.0, scale.critical).in_unit("standard errors")
     }
 }

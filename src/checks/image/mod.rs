@@ -5,5 +5,10 @@ mod clues;
 mod matches_as_png;
 mod matches_reference;
 
-pub use matches_as_png::MatchesAsPng;
-pub use matches_reference::MatchesReference;
+use super::CheckKind;
+
+/// The checks of this subject.
+pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<matches_reference::MatchesReference>(),
+    CheckKind::of::<matches_as_png::MatchesAsPng>(),
+];

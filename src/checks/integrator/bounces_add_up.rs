@@ -1,10 +1,9 @@
 //! What is accumulated over some bounces is the sum of those bounces, isolated.
 
 use super::estimate::{RayEntry, estimate, needs, settings};
-use crate::checks::phrase::{percent, would_have_caught};
+use crate::checks::phrase::percent;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
-use crate::image::CHANNELS;
 use crate::stats::{Band, Claim, Verdict, judge_means};
 use crate::text::{Between, Count, Percent};
 use serde::Deserialize;
@@ -58,20 +57,13 @@ impl Check for BouncesAddUp {
             }
             Ok::<_, CheckError>(difference.to_vec())
         })?;
-        let measures: Vec<_> = (0..3)
-            .map(|c| Measure::of(format!("accumulated minus sum, {}", CHANNELS[c]), &reports[c]))
-            .collect();
-        let share = |c: usize| (measures[c].measured / scale[c]).abs();
-        let worst = (0..3).map(share).fold(0.0, f64::max);
-        let statement = if reports.iter().any(|report| report.verdict == Verdict::Fail) {
-            format!(
-                "accumulated radiance differs from the sum of its bounces by {}",
-                percent(worst)
-            )
-        } else {
-            format!("bounces 0 to {} add up", self.last.0)
-        };
-        let resolution = would_have_caught(&measures);
-        Ok(Finding::of(statement, resolution, measures))
+        let difference = Measure::of_channels("accumulated minus sum", &reports);
+        let share = |c: usize| (reports[c].mean / scale[c]).abs();
+        let worst = percent((0..3).map(share).fold(0.0, f64::max));
+        let failed = reports.iter().any(|report| report.verdict == Verdict::Fail);
+        let complaint =
+            format!("accumulated radiance differs from the sum of its bounces by {worst}");
+        Ok(Finding::measured(format!("bounces 0 to {} add up", self.last.0), difference)
+            .complaining(failed.then_some(complaint)))
     }
 }

@@ -1,11 +1,9 @@
 //! Error against sample count: the slope of log error on log samples is −1/2.
 
 use crate::cause;
+use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
-use crate::contract::{
-    Acceleration, BuiltScene, Capabilities, DirectSampling, Film, IntegratorSettings,
-    RenderSettings,
-};
+use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling};
 use crate::image::luminance;
 use crate::math::rng::Seed;
 use crate::scene::Camera;
@@ -114,21 +112,10 @@ impl ErrorFallsAsRootN {
         level: Level,
         seed: Seed,
     ) -> Result<Vec<f64>, CheckError> {
-        let settings = RenderSettings {
-            width: self.size.0[0],
-            height: level.rows,
-            samples_per_pixel: level.samples,
-            integrator: IntegratorSettings {
-                bounces: self.bounces.0[0]..=self.bounces.0[1],
-                direct: self.direct,
-                seed: seed.0,
-                ..Default::default()
-            },
-            adaptive: None,
-            stratified: false,
-        };
-        let mut film = Film::default();
-        scene.render(camera, &settings, &mut film)?;
+        let size = [self.size.0[0], level.rows];
+        let film = Rendering::through(*camera, size, self.bounces.0, level.samples)
+            .by(self.direct)
+            .film(scene, seed.0, 0)?;
         Ok(film.pixels.iter().copied().map(luminance).collect())
     }
 }
@@ -181,7 +168,7 @@ mod tests {
         let radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send> =
             Box::new(|at, _| [2.0 * at.x.fract(); 3]);
         let check = check_of::<ErrorFallsAsRootN>(CASE);
-        try_judge(&check, &mut FakeFilm { radiance, ..core }, Some(scene)).unwrap()
+        try_judge(&check, &mut FakeFilm { radiance, ..core }.core(), Some(scene)).unwrap()
     }
 
     #[test]

@@ -1,14 +1,13 @@
 //! Two ways to estimate the same radiance have the same mean, whatever that is: no reference is needed.
 
 use super::estimate::{RayEntry, estimate, needs, settings};
-use crate::checks::phrase::{percent, would_have_caught};
+use crate::checks::phrase::percent;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray,
 };
-use crate::image::CHANNELS;
 use crate::math::rng::Seed;
-use crate::stats::{Band, Claim, Verdict, judge_means};
+use crate::stats::{Band, Claim, judge_means};
 use crate::text::{Between, Bounces, Count, Percent, Several};
 use serde::Deserialize;
 
@@ -82,14 +81,11 @@ impl Check for EstimatorsAgree {
                 let seed = seed.child(number).child(other.name());
                 let comparison = Comparison { check: self, ray: ray.ray(), other: *other, seed };
                 let found = comparison.judge(built.as_mut(), &effort)?;
-                measures.extend(found.into_iter().map(|measure| Measure {
-                    name: format!("ray {}, {}", number + 1, measure.name),
-                    ..measure
-                }));
+                let row = format!("ray {}", number + 1);
+                measures.extend(found.into_iter().map(|measure| measure.of_row(&row)));
             }
         }
-        let resolution = would_have_caught(&measures);
-        Ok(Finding::of(statement(&measures), resolution, measures))
+        Ok(Finding::measured(statement(&measures), measures))
     }
 }
 
@@ -120,11 +116,8 @@ impl Comparison<'_> {
             Ok::<_, CheckError>((0..3).map(|c| a[c] - b[c]).collect())
         })?;
         let name = format!("{} minus {}", self.other.name(), first.name());
-        let measures = reports.iter().enumerate();
-        let labelled = |c: usize| format!("{name}, {}", CHANNELS[c]);
-        Ok(measures
-            .map(|(c, report)| relative(Measure::of(labelled(c), report), scale[c]))
-            .collect())
+        let measures = Measure::of_channels(&name, &reports).into_iter().zip(scale);
+        Ok(measures.map(|(measure, scale)| relative(measure, scale)).collect())
     }
 }
 
@@ -142,13 +135,13 @@ fn relative(measure: Measure, scale: f64) -> Measure {
 fn statement(measures: &[Measure]) -> String {
     let worst = measures
         .iter()
-        .filter(|measure| measure.verdict == Verdict::Fail)
+        .filter(|measure| measure.failed())
         .max_by(|a, b| a.measured.abs().total_cmp(&b.measured.abs()));
     match worst {
         None => format!("{} differences of means, none of them real", measures.len()),
         Some(worst) => format!(
             "the estimators do not agree: {} is {} of the mean",
-            worst.name,
+            worst.name(),
             percent(worst.measured),
         ),
     }

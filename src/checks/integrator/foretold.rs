@@ -4,7 +4,7 @@ use crate::cause::{self, Cause};
 use crate::checks::Measure;
 use crate::checks::phrase::figure;
 use crate::math::ratios::names_of;
-use crate::stats::{Band, Verdict};
+use crate::stats::Band;
 use crate::text::{Colour, did_you_mean};
 use serde::Deserialize;
 
@@ -17,9 +17,6 @@ pub struct MistakeEntry {
     /// What each row would be.
     gives: Vec<Colour>,
 }
-
-/// What came of a row: measures, with the numbers of their channels.
-pub type JudgedRow = Vec<(usize, Measure)>;
 
 impl MistakeEntry {
     /// What is wrong with it, in a case of so many rows.
@@ -38,24 +35,23 @@ impl MistakeEntry {
         }
     }
 
-    /// The cause and what speaks for it, if something is wrong and every number is as foretold.
-    pub fn explains(&self, rows: &[JudgedRow]) -> Option<(&'static Cause, String)> {
+    /// The cause and what speaks for it, if something is wrong and every number of every row is as foretold.
+    pub fn explains(&self, rows: &[Vec<Measure>]) -> Option<(&'static Cause, String)> {
         let measures = || {
-            let of_row = |(row, Colour(colour)): (&'_ JudgedRow, &Colour)| {
-                let pair = |(c, measure): &(usize, Measure)| (measure.clone(), colour[*c]);
-                row.iter().map(pair).collect::<Vec<_>>()
+            let of_row = |(row, Colour(colour)): (&'_ Vec<Measure>, &Colour)| {
+                let pair = |m: &Measure| Some((m.clone(), colour[m.channel?.index()]));
+                row.iter().filter_map(pair).collect::<Vec<_>>()
             };
             rows.iter().zip(&self.gives).flat_map(of_row)
         };
-        let failed = measures().find(|(measure, _)| measure.verdict == Verdict::Fail);
-        let (worst, foretold) = failed?;
+        let (worst, foretold) = measures().find(|(measure, _)| measure.failed())?;
         let all = measures().count();
         if !measures().all(|(measure, foretold)| is_foretold(&measure, foretold)) {
             return None;
         }
         let (would, right) = (figure(foretold), figure(worst.expected));
         let evidence =
-            format!("foretells all {all} numbers; {}: {would} instead of {right}", worst.name);
+            format!("foretells all {all} numbers; {}: {would} instead of {right}", worst.name());
         Some((cause::find(&self.cause)?, evidence))
     }
 }
@@ -78,16 +74,17 @@ fn is_foretold(measure: &Measure, foretold: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::Channel;
 
     fn entry(cause: &str, gives: &[f64]) -> MistakeEntry {
         let gives = gives.iter().map(|value| Colour([*value; 3])).collect();
         MistakeEntry { cause: cause.to_owned(), gives }
     }
 
-    fn row(measured: f64, half_width: f64) -> JudgedRow {
+    fn row(measured: f64, half_width: f64) -> Vec<Measure> {
         let interval = Some([measured - half_width, measured + half_width]);
-        let right = Measure::exact("a row", measured, 1.0, 0.01);
-        vec![(0, Measure { interval, ..right })]
+        let right = Measure::exact("a row", measured, 1.0, 0.01).of_channel(Channel::Red);
+        vec![Measure { interval, ..right }]
     }
 
     #[test]
@@ -95,7 +92,7 @@ mod tests {
         let mistake = entry("divided-by-lights", &[0.5, 1.0]);
         let (cause, evidence) = mistake.explains(&[row(0.501, 0.01), row(1.0, 0.01)]).unwrap();
         assert_eq!(cause.name, "divided-by-lights");
-        assert_eq!(evidence, "foretells all 2 numbers; a row: 0.5 instead of 1");
+        assert_eq!(evidence, "foretells all 2 numbers; a row, red: 0.5 instead of 1");
         assert!(mistake.explains(&[row(0.501, 0.01), row(1.1, 0.01)]).is_none());
     }
 
@@ -108,7 +105,8 @@ mod tests {
 
     #[test]
     fn a_dark_row_is_foretold_to_be_lit_or_not() {
-        let dark = |measured| vec![(0, Measure::exact("dark", measured, 0.0, 0.0))];
+        let dark =
+            |measured| vec![Measure::exact("dark", measured, 0.0, 0.0).of_channel(Channel::Red)];
         assert!(entry("divided-by-lights", &[0.3]).explains(&[dark(0.1)]).is_some());
         assert!(entry("divided-by-lights", &[0.0]).explains(&[dark(0.1)]).is_none());
     }

@@ -4,7 +4,7 @@ use super::by_convention::ConventionEntry;
 use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, estimate, needs, settings};
 use super::foretold::MistakeEntry;
 use crate::cause::{contract, light};
-use crate::checks::phrase::{figure, percent, ratio_of, would_have_caught};
+use crate::checks::phrase::{figure, percent, ratio_of};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, breach};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
@@ -13,7 +13,7 @@ use crate::contract::{
 use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
-use crate::stats::{Band, Claim, Effort, Tolerance, Verdict, judge_means};
+use crate::stats::{Band, Claim, Effort, Tolerance, judge_means};
 use crate::text::number::apart;
 use crate::text::{Between, Bounces, Colour, Count, Percent, Several};
 use serde::Deserialize;
@@ -103,7 +103,7 @@ impl Check for MeanRadiance {
                 }
                 judged => judged?,
             };
-            let failed = measures.iter().any(|(_, measure)| measure.verdict == Verdict::Fail);
+            let failed = measures.iter().any(Measure::failed);
             rows.push(measures);
             if failed && context.budget.stops_at_failure {
                 break;
@@ -111,16 +111,10 @@ impl Check for MeanRadiance {
         }
         let causes: Vec<_> =
             self.mistake.iter().filter_map(|mistake| mistake.explains(&rows)).collect();
-        let measures: Vec<_> = rows.into_iter().flatten().map(|(_, measure)| measure).collect();
-        let resolution = match would_have_caught(&measures) {
-            dark if dark.is_empty() => {
-                format!("would have caught one lit sample among {DARK_SAMPLES}")
-            }
-            lit => lit,
-        };
-        let finding = Finding::of(statement(&measures), resolution, measures);
-        let explained = |finding: Finding, (cause, evidence)| finding.because(cause, evidence);
-        Ok(causes.into_iter().fold(finding, explained))
+        let measures: Vec<_> = rows.into_iter().flatten().collect();
+        Ok(Finding::measured(statement(&measures), measures)
+            .or_else_caught(format!("would have caught one lit sample among {DARK_SAMPLES}"))
+            .because_of(causes))
     }
 }
 
@@ -182,19 +176,19 @@ struct Question {
 }
 
 impl Question {
-    /// The measures of the three channels, with their numbers.
+    /// The measures of the three channels.
     fn judge(
         &self,
         scene: &mut dyn BuiltScene,
         effort: &Effort,
-    ) -> Result<Vec<(usize, Measure)>, CheckError> {
+    ) -> Result<Vec<Measure>, CheckError> {
         let (lit, dark): (Vec<_>, Vec<_>) = (0..3).partition(|c| self.expected[*c] != 0.0);
         let mut measures = match self.exact {
             Some(tolerance) => self.judge_exact(scene, &lit, tolerance)?,
             None => self.judge_lit(scene, &lit, effort)?,
         };
         measures.extend(self.judge_dark(scene, &dark)?);
-        Ok(measures)
+        Ok(measures.into_iter().map(|measure| measure.of_row(&self.name)).collect())
     }
 
     /// The means of channels with light.
@@ -203,7 +197,7 @@ impl Question {
         scene: &mut dyn BuiltScene,
         channels: &[usize],
         effort: &Effort,
-    ) -> Result<Vec<(usize, Measure)>, CheckError> {
+    ) -> Result<Vec<Measure>, CheckError> {
         if channels.is_empty() {
             return Ok(Vec::new());
         }
@@ -215,7 +209,7 @@ impl Question {
             Ok::<_, CheckError>(channels.iter().map(|channel| run.mean[*channel]).collect())
         })?;
         let measures = channels.iter().zip(&reports);
-        Ok(measures.map(|(c, report)| (*c, Measure::of(self.label(*c), report))).collect())
+        Ok(measures.map(|(c, report)| Measure::of("", report).of_channel(CHANNELS[*c])).collect())
     }
 
     /// No light at all: not one sample may carry any.
@@ -223,12 +217,12 @@ impl Question {
         &self,
         scene: &mut dyn BuiltScene,
         channels: &[usize],
-    ) -> Result<Vec<(usize, Measure)>, CheckError> {
+    ) -> Result<Vec<Measure>, CheckError> {
         if channels.is_empty() {
             return Ok(Vec::new());
         }
         let run = estimate(scene, self.aim, &self.settings, self.seed, DARK_SAMPLES)?;
-        let dark = |c: usize| (c, Measure::exact(self.label(c), run.largest[c], 0.0, 0.0));
+        let dark = |c: usize| Measure::exact("", run.largest[c], 0.0, 0.0).of_channel(CHANNELS[c]);
         Ok(channels.iter().copied().map(dark).collect())
     }
 
@@ -238,17 +232,13 @@ impl Question {
         scene: &mut dyn BuiltScene,
         channels: &[usize],
         tolerance: f64,
-    ) -> Result<Vec<(usize, Measure)>, CheckError> {
+    ) -> Result<Vec<Measure>, CheckError> {
         let run = estimate(scene, self.aim, &self.settings, self.seed, EXACT_SAMPLES)?;
         let exact = |c: usize| {
             let allowed = tolerance * self.expected[c].abs();
-            (c, Measure::exact(self.label(c), run.mean[c], self.expected[c], allowed))
+            Measure::exact("", run.mean[c], self.expected[c], allowed).of_channel(CHANNELS[c])
         };
         Ok(channels.iter().copied().map(exact).collect())
-    }
-
-    fn label(&self, channel: usize) -> String {
-        format!("{}, {}", self.name, CHANNELS[channel])
     }
 }
 
@@ -257,18 +247,18 @@ fn statement(measures: &[Measure]) -> String {
     let departure = |measure: &Measure| ((measure.measured / measure.expected) - 1.0).abs();
     let worst = measures
         .iter()
-        .filter(|measure| measure.verdict == Verdict::Fail)
+        .filter(|measure| measure.failed())
         .max_by(|a, b| departure(a).total_cmp(&departure(b)));
     match worst {
         None => format!("all {} mean radiances are what they should be", measures.len()),
         Some(worst) if worst.expected == 0.0 => {
-            format!("{}: radiance {} where there is no light", worst.name, figure(worst.measured))
+            format!("{}: radiance {} where there is no light", worst.name(), figure(worst.measured))
         }
         Some(worst) => {
             let [measured, expected] = apart([worst.measured, worst.expected]);
             format!(
                 "{}: {} of what it should be ({measured} instead of {expected}), off by {}",
-                worst.name,
+                worst.name(),
                 ratio_of(worst),
                 percent(departure(worst)),
             )

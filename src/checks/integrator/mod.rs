@@ -7,8 +7,6 @@ mod closed_forms;
 mod error_falls_as_root_n;
 mod estimate;
 mod estimators_agree;
-#[cfg(test)]
-pub(in crate::checks) mod fake;
 mod foretold;
 mod mean_radiance;
 mod neighbouring_seeds;
@@ -20,17 +18,23 @@ mod same_seed_same_picture;
 mod seeds_matter;
 mod variance_is_known;
 
-pub use bounces_add_up::BouncesAddUp;
-pub use error_falls_as_root_n::ErrorFallsAsRootN;
 pub use estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
-pub use estimators_agree::EstimatorsAgree;
 pub use foretold::MistakeEntry;
-pub use mean_radiance::MeanRadiance;
-pub use neighbouring_seeds::NeighbouringSeeds;
-pub use radiance_is_finite::RadianceIsFinite;
-pub use radiance_is_linear::RadianceIsLinear;
-pub use reported_variance::ReportsItsVariance;
-pub use roulette_stops_paths::RouletteStopsPaths;
-pub use same_seed_same_picture::SameSeedSamePicture;
-pub use seeds_matter::SeedsMatter;
-pub use variance_is_known::VarianceIsKnown;
+
+use super::CheckKind;
+
+/// The checks of this subject.
+pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<mean_radiance::MeanRadiance>(),
+    CheckKind::of::<estimators_agree::EstimatorsAgree>(),
+    CheckKind::of::<radiance_is_linear::RadianceIsLinear>(),
+    CheckKind::of::<bounces_add_up::BouncesAddUp>(),
+    CheckKind::of::<roulette_stops_paths::RouletteStopsPaths>(),
+    CheckKind::of::<same_seed_same_picture::SameSeedSamePicture>(),
+    CheckKind::of::<seeds_matter::SeedsMatter>(),
+    CheckKind::of::<neighbouring_seeds::NeighbouringSeeds>(),
+    CheckKind::of::<radiance_is_finite::RadianceIsFinite>(),
+    CheckKind::of::<variance_is_known::VarianceIsKnown>(),
+    CheckKind::of::<error_falls_as_root_n::ErrorFallsAsRootN>(),
+    CheckKind::of::<reported_variance::ReportsItsVariance>(),
+];

@@ -62,7 +62,7 @@ impl NeighbouringSeeds {
     }
 }
 
-/// Signs of each pixel's difference to its mean over all seeds: as in [`super::SeedsMatter`], the
+/// Signs of each pixel's difference to its mean over all seeds: as in `seeds-matter`, the
 /// few pixels that are a hundred times as noisy as the rest would otherwise decide alone.
 struct Noise(Vec<Vec<f64>>);
 
@@ -104,7 +104,7 @@ impl Shift {
     }
 
     fn measure(&self) -> Measure {
-        Measure::of(format!("correlation with the next seed, {}", self.words), &self.report)
+        Measure::of("correlation with the next seed", &self.report).of_row(self.words)
     }
 
     /// The same numbers, a pixel further.
@@ -136,11 +136,8 @@ fn finding(shifts: &[Shift]) -> Finding {
     };
     let limit = shifts.iter().map(|shift| shift.report.limit).fold(0.0, f64::max);
     let resolution = format!("would have caught a correlation of {}", figure(2.0 * limit));
-    let finding = Finding::of(statement, resolution, measures);
-    match shifts.iter().find_map(Shift::cause).filter(|_| worst.is_some()) {
-        Some((cause, evidence)) => finding.because(cause, evidence),
-        None => finding,
-    }
+    Finding::of(statement, resolution, measures)
+        .because_of(shifts.iter().find_map(Shift::cause).filter(|_| worst.is_some()))
 }
 
 #[cfg(test)]

@@ -3,10 +3,9 @@
 //! The validation in front of every core refuses such pixels by itself; this check renders what provokes them:
 //! grazing light, roughness near zero, rays along planes, a camera inside glass.
 
-use crate::checks::{Check, CheckError, Context, Finding, Measure, breach, camera_of};
-use crate::contract::{
-    Acceleration, Capabilities, CoreError, DirectSampling, Film, IntegratorSettings, RenderSettings,
-};
+use crate::checks::rendering::Rendering;
+use crate::checks::{Check, CheckError, Context, Finding, Measure, breach};
+use crate::contract::{Acceleration, Capabilities, CoreError, DirectSampling};
 use crate::scene::SceneDescription;
 use crate::text::{Between, Bounces, Several, Size};
 use serde::Deserialize;
@@ -46,8 +45,8 @@ impl Check for RadianceIsFinite {
                     continue;
                 }
                 let complaint = self.complaint(context, &scene, direct)?;
-                let wrong = f64::from(u8::from(complaint.is_some()));
-                measures.push(Measure::exact(format!("{name}, {direct:?}"), wrong, 0.0, 0.0));
+                let what = format!("pictures that cannot be, by {direct:?}");
+                measures.push(Measure::none(what, complaint.is_some().into()).of_row(name));
                 complaints.extend(complaint.map(|complaint| format!("{name}: {complaint}")));
             }
         }
@@ -74,29 +73,14 @@ impl RadianceIsFinite {
         scene: &SceneDescription,
         direct: DirectSampling,
     ) -> Result<Option<String>, CheckError> {
-        let camera = camera_of(scene)?;
         let seed = context.seed.child(&scene.name).child(format!("{direct:?}")).0;
+        let rendering =
+            Rendering::of(scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?.by(direct);
         let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
-        match built.render(&camera, &self.settings(direct, seed), &mut Film::default()) {
-            Ok(()) => Ok(None),
-            Err(CoreError::BrokeContract(complaint)) => Ok(Some(complaint)),
-            Err(other) => Err(other.into()),
-        }
-    }
-
-    fn settings(&self, direct: DirectSampling, seed: u64) -> RenderSettings {
-        RenderSettings {
-            width: self.size.0[0],
-            height: self.size.0[1],
-            samples_per_pixel: self.samples_per_pixel.0,
-            integrator: IntegratorSettings {
-                bounces: self.bounces.0[0]..=self.bounces.0[1],
-                direct,
-                seed,
-                ..Default::default()
-            },
-            adaptive: None,
-            stratified: false,
+        match rendering.film(built.as_mut(), seed, 0) {
+            Ok(_) => Ok(None),
+            Err(CheckError::Core(CoreError::BrokeContract(complaint))) => Ok(Some(complaint)),
+            Err(other) => Err(other),
         }
     }
 }

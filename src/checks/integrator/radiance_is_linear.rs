@@ -3,13 +3,12 @@
 
 use super::estimate::{RayEntry, estimate, needs, settings};
 use crate::cause::{Cause, light};
-use crate::checks::phrase::would_have_caught;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, Capabilities, Core, DirectSampling, IntegratorSettings, Ray};
 use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::scene::{Light, SceneDescription};
-use crate::stats::{Band, Claim, Effort, MeanReport, Verdict, judge_means};
+use crate::stats::{Band, Claim, Effort, MeanReport, judge_means};
 use crate::text::number::apart;
 use crate::text::{Bounces, Count, Percent};
 use serde::Deserialize;
@@ -57,24 +56,17 @@ impl Check for RadianceIsLinear {
             measures.extend(trial.doubles(context.core, &scene)?);
         }
         measures.extend(trial.superposes(context.core, &scene)?);
-        let cause = match measures.iter().any(|measure| measure.verdict == Verdict::Fail) {
+        let cause = match measures.iter().any(Measure::failed) {
             true => trial.what_lights_make_of_each_other(context.core, &scene)?,
             false => None,
         };
         measures.extend(trial.ignores_size(context.core, &scene)?);
-        let failed = measures.iter().find(|measure| measure.verdict == Verdict::Fail);
-        let statement = match failed {
-            None => "light adds up".to_owned(),
-            Some(measure) => {
-                let [measured, expected] = apart([measure.measured, measure.expected]);
-                format!(
-                    "light does not add up: {} is {measured} instead of {expected}",
-                    measure.name
-                )
-            }
-        };
-        let resolution = would_have_caught(&measures);
-        Ok(Finding::of(statement, resolution, measures)
+        let complaint = measures.iter().find(|measure| measure.failed()).map(|measure| {
+            let [measured, expected] = apart([measure.measured, measure.expected]);
+            format!("light does not add up: {} is {measured} instead of {expected}", measure.name())
+        });
+        Ok(Finding::measured("light adds up", measures)
+            .complaining(complaint)
             .because_each(cause, "predicts the radiance of all lights from that of each alone"))
     }
 }
@@ -109,8 +101,8 @@ impl Trial {
         let once = self.mean(core, scene, self.ray, seed, SCALE_SAMPLES)?;
         let twice = self.mean(core, &brightened(scene), self.ray, seed, SCALE_SAMPLES)?;
         let exact = |c: usize| {
-            let name = format!("twice the light, {}", CHANNELS[c]);
-            Measure::exact(name, twice[c], BRIGHTER * once[c], 0.0)
+            Measure::exact("twice the light", twice[c], BRIGHTER * once[c], 0.0)
+                .of_channel(CHANNELS[c])
         };
         Ok((0..3).map(exact).collect())
     }
@@ -134,7 +126,7 @@ impl Trial {
             }
             Ok(difference)
         })?;
-        Ok(measures("all lights minus each alone", &reports))
+        Ok(Measure::of_channels("all lights minus each alone", &reports))
     }
 
     /// The mistake that makes the radiance of all lights out of that of each alone.
@@ -179,7 +171,7 @@ impl Trial {
             let two = self.mean(core, &large, far, seed.child("two"), samples)?;
             Ok(std::array::from_fn(|c| two[c] - one[c]))
         })?;
-        Ok(measures("twice as large minus as it is", &reports))
+        Ok(Measure::of_channels("twice as large minus as it is", &reports))
     }
 
     fn judge(
@@ -192,11 +184,6 @@ impl Trial {
             Ok(draw(step.seed(self.seed), step.samples)?.to_vec())
         })
     }
-}
-
-fn measures(name: &str, reports: &[MeanReport]) -> Vec<Measure> {
-    let named = reports.iter().zip(CHANNELS);
-    named.map(|(report, channel)| Measure::of(format!("{name}, {channel}"), report)).collect()
 }
 
 /// The scene with every light [`BRIGHTER`].

@@ -89,13 +89,13 @@ impl ReportsItsVariance {
 
     fn finding(&self, reports: &[MeanReport], variances: &[TwoVariances; 3]) -> Finding {
         let measures: Vec<_> =
-            (0..3).map(|c| measure(CHANNELS[c], &reports[c], &variances[c])).collect();
+            (0..3).map(|c| measure(&reports[c], &variances[c]).of_channel(CHANNELS[c])).collect();
         let weakest = reports.iter().map(|report| report.resolution).fold(0.0, f64::max);
         let resolution = format!(
             "would have caught a variance that is wrong by a factor of {}",
             figure(weakest.exp2())
         );
-        let failed = measures.iter().position(|measure| measure.verdict == Verdict::Fail);
+        let failed = measures.iter().position(Measure::failed);
         let statement = match failed {
             None => "reported variances are those between pictures".to_owned(),
             Some(channel) => format!(
@@ -106,11 +106,8 @@ impl ReportsItsVariance {
                 figure(variances[channel].measured),
             ),
         };
-        let finding = Finding::of(statement, resolution, measures);
-        match failed.and_then(|_| self.mistake(variances)) {
-            None => finding,
-            Some((cause, evidence)) => finding.because(cause, evidence),
-        }
+        Finding::of(statement, resolution, measures)
+            .because_of(failed.and_then(|_| self.mistake(variances)))
     }
 
     /// The one mistake that predicts the three channels, if there is one.
@@ -163,14 +160,13 @@ fn bright_channels(variances: &[TwoVariances; 3]) -> String {
 }
 
 /// A measure in powers of two. Where pictures have no noise at all, nothing was tested.
-fn measure(channel: &str, report: &MeanReport, variances: &TwoVariances) -> Measure {
+fn measure(report: &MeanReport, variances: &TwoVariances) -> Measure {
     let silent = variances.measured == 0.0 && report.verdict == Verdict::Pass;
-    let name = format!("reported over real variance, {channel}");
     Measure {
         resolution: Some(report.resolution.exp2() - 1.0)
             .filter(|resolution| resolution.is_finite()),
         verdict: if silent { Verdict::Inconclusive } else { report.verdict },
-        ..Measure::of(name, report).in_unit("powers of two")
+        ..Measure::of("reported over real variance", report).in_unit("powers of two")
     }
 }
 
@@ -201,53 +197,26 @@ fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
 mod tests {
     use super::*;
     use crate::checks::camera::fake::FakeFilm;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
-    use crate::contract::{BuildStats, Core, CoreInfo, Film, Precision, RenderSettings, Result};
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::contract::{Film, RenderSettings};
     use crate::math::rng::uniform;
-    use crate::scene::{Camera, SceneDescription};
+    use crate::scene::SceneDescription;
 
     /// What is reported of samples in place of the variance of their mean.
     type Report = fn(&[f64]) -> f64;
 
     /// Samples are uniform between 0 and a tenth; blue is brighter by as much as is told.
-    #[derive(Clone, Copy)]
-    struct Noisy {
-        report: Report,
-        glow: f64,
-    }
-
-    impl Core for Noisy {
-        fn info(&self) -> CoreInfo {
-            CoreInfo { capabilities: Capabilities::all(), ..info(Precision::Double) }
-        }
-
-        fn build_scene(
-            &mut self,
-            _: &SceneDescription,
-            _: Acceleration,
-        ) -> Result<Box<dyn BuiltScene + '_>> {
-            Ok(Box::new(*self))
-        }
-    }
-
-    impl BuiltScene for Noisy {
-        fn stats(&self) -> BuildStats {
-            BuildStats::default()
-        }
-
-        fn render(&mut self, _: &Camera, settings: &RenderSettings, film: &mut Film) -> Result<()> {
-            let mut stream = Seed(settings.integrator.seed).stream();
-            film.sample_counts.fill(settings.samples_per_pixel);
-            for (pixel, variance) in film.pixels.iter_mut().zip(&mut film.variances) {
-                for (channel, glow) in [0.0, 0.0, self.glow].into_iter().enumerate() {
-                    let mut sample = |_| glow + 0.1 * uniform(&mut stream);
-                    let samples: Vec<f64> =
-                        (0..settings.samples_per_pixel).map(&mut sample).collect();
-                    pixel[channel] = (samples.iter().sum::<f64>() / samples.len() as f64) as f32;
-                    variance[channel] = (self.report)(&samples) as f32;
-                }
+    fn take(report: Report, glow: f64, settings: &RenderSettings, film: &mut Film) {
+        let mut stream = Seed(settings.integrator.seed).stream();
+        film.sample_counts.fill(settings.samples_per_pixel);
+        for (pixel, variance) in film.pixels.iter_mut().zip(&mut film.variances) {
+            for (channel, glow) in [0.0, 0.0, glow].into_iter().enumerate() {
+                let mut sample = |_| glow + 0.1 * uniform(&mut stream);
+                let samples: Vec<f64> = (0..settings.samples_per_pixel).map(&mut sample).collect();
+                pixel[channel] = (samples.iter().sum::<f64>() / samples.len() as f64) as f32;
+                variance[channel] = report(&samples) as f32;
             }
-            Ok(())
         }
     }
 
@@ -275,7 +244,10 @@ mod tests {
         );
         let camera = Some(FakeFilm::camera());
         let scene = SceneDescription { camera, ..SceneDescription::default() };
-        try_judge(&check, &mut Noisy { report, glow }, Some(scene)).unwrap()
+        let mut core = Fake::default();
+        core.info.capabilities = Capabilities::all();
+        core.film = Box::new(move |settings, film| take(report, glow, settings, film));
+        try_judge(&check, &mut core, Some(scene)).unwrap()
     }
 
     #[test]

@@ -5,7 +5,7 @@
 
 use super::estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
 use crate::cause::{Cause, integrator as cause};
-use crate::checks::phrase::{figure, percent, would_have_caught};
+use crate::checks::phrase::{figure, percent};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Roulette,
@@ -127,13 +127,10 @@ impl RouletteStopsPaths {
 }
 
 fn finding(shares: &[Share]) -> Finding {
-    let measures: Vec<_> = shares.iter().map(Share::measure).collect();
     let failed = shares.iter().find(|share| share.report.verdict == Verdict::Fail);
-    let statement = match failed {
-        None => "roulette stops as many paths as it says".to_owned(),
-        Some(share) => share.complaint(),
-    };
-    let finding = Finding::of(statement, would_have_caught(&measures), measures);
+    let right = "roulette stops as many paths as it says";
+    let finding = Finding::measured(right, shares.iter().map(Share::measure))
+        .complaining(failed.map(Share::complaint));
     if failed.is_none() {
         return finding;
     }
@@ -163,7 +160,7 @@ impl Share {
     }
 
     fn measure(&self) -> Measure {
-        Measure::of(self.name(), &self.report)
+        Measure::of("", &self.report).of_row(self.name())
     }
 
     fn complaint(&self) -> String {
@@ -177,7 +174,7 @@ impl Share {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::integrator::fake::Draws;
+    use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
     use crate::contract::IntegratorSettings;
     use crate::math::rng::{Stream, uniform};
@@ -197,7 +194,8 @@ mod tests {
     fn found(law: Law) -> Finding {
         // Large errors are what these tests make: no need to look for small ones.
         let check = check_of::<RouletteStopsPaths>(&CASE.replace("5 %", "20 %"));
-        try_judge(&check, &mut Draws(stopping(law)), Some(SceneDescription::default())).unwrap()
+        try_judge(&check, &mut Fake::drawing(stopping(law)), Some(SceneDescription::default()))
+            .unwrap()
     }
 
     #[test]

@@ -46,7 +46,7 @@ impl Check for SameSeedSamePicture {
         let statement = match worst {
             None => "the same seed gives the same bits".to_owned(),
             Some(measure) => {
-                format!("{}: {} of {pixels} pixels differ", measure.name, measure.measured)
+                format!("{}: {} of {pixels} pixels differ", measure.row, measure.measured)
             }
         };
         let cause = cause(&measures);
@@ -56,10 +56,9 @@ impl Check for SameSeedSamePicture {
     }
 }
 
-/// How many pixels have not the same bits.
 /// Pictures differ each time, or only with the number of threads.
 fn cause(measures: &[Measure]) -> Option<&'static Cause> {
-    let differs = |name: &str| measures.iter().any(|m| m.name == name && m.measured > 0.0);
+    let differs = |name: &str| measures.iter().any(|m| m.row == name && m.measured > 0.0);
     match (differs("rendered again"), differs("on one thread")) {
         (true, _) => Some(&cause::integrator::NOT_REPRODUCIBLE),
         (false, true) => Some(&cause::integrator::THREADS_MATTER),
@@ -67,9 +66,10 @@ fn cause(measures: &[Measure]) -> Option<&'static Cause> {
     }
 }
 
+/// How many pixels have not the same bits.
 fn differing(name: &str, first: &Film, other: &Film) -> Measure {
     let bits = |pixel: &[f32; 3]| pixel.map(f32::to_bits);
     let pairs = first.pixels.iter().zip(&other.pixels);
     let count = pairs.filter(|(a, b)| bits(a) != bits(b)).count();
-    Measure::exact(name, count as f64, 0.0, 0.0).in_unit("pixels")
+    Measure::none("pixels that differ", count).of_row(name)
 }

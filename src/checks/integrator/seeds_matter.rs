@@ -45,14 +45,14 @@ impl Check for SeedsMatter {
             Measure::of(format!("correlation of pixels {direction}"), report)
         }));
         let doubt = reports.iter().find_map(CorrelationReport::doubt);
-        let statement = match measures.iter().find(|m| m.verdict == Verdict::Fail) {
+        let statement = match measures.iter().find(|measure| measure.failed()) {
             None => doubt.unwrap_or_else(|| {
                 format!("{} seeds give {} different pictures", self.seeds.0, self.seeds.0)
             }),
             Some(measure) => {
                 format!(
                     "the noise is not independent: {} is {}",
-                    measure.name,
+                    measure.name(),
                     figure(measure.measured)
                 )
             }
@@ -68,9 +68,8 @@ impl Check for SeedsMatter {
 /// Every picture is the same, or else every pixel's noise is.
 fn cause(measures: &[Measure], pictures: usize) -> Option<&'static Cause> {
     let [equal, beside, above] = measures else { return None };
-    let is_shared =
-        |measure: &Measure| measure.verdict == Verdict::Fail && measure.measured >= SHARED;
-    if equal.verdict == Verdict::Fail && equal.measured as usize == pictures - 1 {
+    let is_shared = |measure: &Measure| measure.failed() && measure.measured >= SHARED;
+    if equal.failed() && equal.measured as usize == pictures - 1 {
         Some(&cause::integrator::SEED_IGNORED)
     } else if is_shared(beside) && is_shared(above) {
         Some(&cause::integrator::PIXELS_SHARE_NOISE)
@@ -83,8 +82,7 @@ fn cause(measures: &[Measure], pictures: usize) -> Option<&'static Cause> {
 fn equal_pictures(films: &[Film]) -> Measure {
     let is_repeated = |i: usize| films[..i].iter().any(|earlier| earlier.pixels == films[i].pixels);
     let repeated = (1..films.len()).filter(|i| is_repeated(*i)).count();
-    let measure =
-        Measure::exact("pictures that an earlier seed has given", repeated as f64, 0.0, 0.0);
+    let measure = Measure::none("pictures that an earlier seed has given", repeated);
     // Where nothing is to be seen there is no noise that could differ.
     let is_plain = |film: &Film| film.pixels.windows(2).all(|two| two[0] == two[1]);
     match films.iter().all(is_plain) {

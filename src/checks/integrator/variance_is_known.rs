@@ -6,12 +6,11 @@
 use crate::checks::integrator::{
     MistakeEntry, RayEntry, RouletteEntry, draw_estimates, needs, settings,
 };
-use crate::checks::phrase::{figure, ratio_of, would_have_caught};
+use crate::checks::phrase::{figure, ratio_of};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings};
-use crate::image::CHANNELS;
 use crate::math::rng::Seed;
-use crate::stats::{Band, Claim, Effort, Moments, Sides, Verdict, judge_means};
+use crate::stats::{Band, Claim, Effort, Moments, Sides, judge_means};
 use crate::text::{Between, Bounces, Count, Lit, Percent, Several};
 use serde::Deserialize;
 
@@ -78,10 +77,8 @@ impl Check for VarianceIsKnown {
         }
         let causes: Vec<_> =
             self.mistake.iter().filter_map(|mistake| mistake.explains(&rows)).collect();
-        let measures: Vec<_> = rows.into_iter().flatten().map(|(_, measure)| measure).collect();
-        let finding = Finding::of(statement(&measures), would_have_caught(&measures), measures);
-        let explained = |finding: Finding, (cause, evidence)| finding.because(cause, evidence);
-        Ok(causes.into_iter().fold(finding, explained))
+        let measures: Vec<_> = rows.into_iter().flatten().collect();
+        Ok(Finding::measured(statement(&measures), measures).because_of(causes))
     }
 }
 
@@ -94,14 +91,14 @@ impl VarianceIsKnown {
         }
     }
 
-    /// The measures of the three channels, with their numbers.
+    /// The measures of the three channels.
     fn judge(
         &self,
         scene: &mut dyn BuiltScene,
         row: &Row,
         seed: Seed,
         effort: &Effort,
-    ) -> Result<Vec<(usize, Measure)>, CheckError> {
+    ) -> Result<Vec<Measure>, CheckError> {
         let settings = self.settings(row);
         let claim = |variance| Claim::value(variance, Band::VARIANCE).on_side(self.sides);
         let reports = judge_means(&row.variance.0.map(claim), effort, &mut |draw| {
@@ -115,20 +112,19 @@ impl VarianceIsKnown {
             })?;
             Ok::<_, CheckError>(moments.iter().map(Moments::variance).collect())
         })?;
-        let label = |channel: usize| format!("{}, {}", row.name, CHANNELS[channel]);
-        let measure = |(c, report)| (c, Measure::of(label(c), report));
-        Ok(reports.iter().enumerate().map(measure).collect())
+        let measures = Measure::of_channels("", &reports).into_iter();
+        Ok(measures.map(|measure| measure.of_row(&row.name)).collect())
     }
 }
 
 fn statement(measures: &[Measure]) -> String {
-    let failed = measures.iter().find(|measure| measure.verdict == Verdict::Fail);
+    let failed = measures.iter().find(|measure| measure.failed());
     let Some(measure) = failed else {
         return format!("{} variances are what they should be", measures.len());
     };
     format!(
         "{}: the variance is {} of what it should be: {} instead of {}",
-        measure.name,
+        measure.name(),
         ratio_of(measure),
         figure(measure.measured),
         figure(measure.expected),
@@ -138,7 +134,7 @@ fn statement(measures: &[Measure]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::integrator::fake::Draws;
+    use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
     use crate::contract::IntegratorSettings;
     use crate::math::rng::{Stream, uniform};
@@ -178,7 +174,7 @@ mod tests {
         let draw = move |stream: &mut Stream, settings: &IntegratorSettings| {
             noisy.estimate(stream, settings)
         };
-        try_judge(&check, &mut Draws(draw), Some(SceneDescription::default())).unwrap()
+        try_judge(&check, &mut Fake::drawing(draw), Some(SceneDescription::default())).unwrap()
     }
 
     #[test]

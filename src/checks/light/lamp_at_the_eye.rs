@@ -5,7 +5,7 @@
 
 use crate::cause::{Cause, bsdf, light as cause};
 use crate::checks::integrator::settings;
-use crate::checks::phrase::{figure, percent, some_are, worst_measure};
+use crate::checks::phrase::{figure, percent, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
 use crate::contract::{Acceleration, Capabilities, DirectSampling, Falloff, Hit, Ray};
 use crate::image::CHANNELS;
@@ -180,8 +180,9 @@ impl Seen<'_> {
         let of_channel = move |channel: usize| {
             let lit = self.points.iter().filter(|point| !point.is_dark());
             let compared = lit.map(|point| point.compared(channel, 1.0, tolerance));
-            let name = format!("{}: radiance, {}", self.scene, CHANNELS[channel]);
-            worst_measure(name, &judge_exact(compared))
+            Measure::worst("radiance", &judge_exact(compared))
+                .of_row(self.scene)
+                .of_channel(CHANNELS[channel])
         };
         (0..3).map(of_channel)
     }

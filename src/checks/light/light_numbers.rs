@@ -95,8 +95,7 @@ fn together(replayed: &[Replayed], extremes: &[Extremes]) -> Finding {
     let measures = replayed.iter().flat_map(Replayed::measures).chain(at_the_ends.measures);
     let finding = Finding::of(statement, "would have caught one wrong sample", measures.collect());
     let causes = replayed.iter().filter_map(Replayed::cause);
-    let mut finding =
-        causes.fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence));
+    let mut finding = finding.because_of(causes);
     finding.clues.extend(at_the_ends.clues);
     finding
 }
@@ -104,56 +103,27 @@ fn together(replayed: &[Replayed], extremes: &[Extremes]) -> Finding {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
-    use crate::contract::{BuildStats, Core, CoreInfo, Precision, Randomness};
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
     use crate::scene::{Library, SceneDescription};
     use glam::DVec2;
 
     /// A lamp over the origin: a unit square at height 1, whose points are found by `place`.
-    struct Lamp(fn(DVec2) -> DVec2);
-
-    impl Core for Lamp {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn build_scene(
-            &mut self,
-            _: &SceneDescription,
-            _: Acceleration,
-        ) -> Result<Box<dyn BuiltScene + '_>> {
-            Ok(Box::new(Lamp(self.0)))
-        }
-    }
-
-    impl BuiltScene for Lamp {
-        fn stats(&self) -> BuildStats {
-            BuildStats::default()
-        }
-
-        fn sample_light(
-            &mut self,
-            _: u32,
-            from: &[DVec3],
-            random: Randomness<'_>,
-            samples: &mut [LightSample],
-        ) -> Result<()> {
-            for ((from, point), sample) in from.iter().zip(random.points).zip(samples) {
-                let to = (self.0)(*point).extend(1.0) - *from;
-                let (wi, distance) = (to.normalize(), to.length());
-                let pdf = distance * distance / wi.z;
-                *sample =
-                    LightSample { wi, distance, radiance: [1.0; 3], pdf, is_delta: 0, is_valid: 1 };
-            }
-            Ok(())
-        }
+    fn lamp(place: fn(DVec2) -> DVec2) -> Fake {
+        let light = move |from: DVec3, point| {
+            let to = place(point).extend(1.0) - from;
+            let (wi, distance) = (to.normalize(), to.length());
+            let pdf = distance * distance / wi.z;
+            LightSample { wi, distance, radiance: [1.0; 3], pdf, is_delta: 0, is_valid: 1 }
+        };
+        Fake { light: Box::new(light), ..Fake::default() }
     }
 
     fn found(place: fn(DVec2) -> DVec2) -> Finding {
         let check: LightNumbers = check_of("[expect]\nfrom = [[0, 0, 0]]");
         let scene = Library::new("scenes").load("rectangle-light", &toml::Table::new()).unwrap();
         let scene = SceneDescription::clone(&scene);
-        try_judge(&check, &mut Lamp(place), Some(scene)).unwrap()
+        try_judge(&check, &mut lamp(place), Some(scene)).unwrap()
     }
 
     #[test]

@@ -6,7 +6,7 @@
 use super::density::{self, Geometry, area_of};
 use crate::cause;
 use crate::checks::numbers::Numbers;
-use crate::checks::phrase::{some_are, worst_measure, would_have_caught};
+use crate::checks::phrase::some_are;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, Hit, LightSample, Ray};
 use crate::math::ratios::names_of;
@@ -84,25 +84,18 @@ impl Check for LightSamplesReachLight {
                 point.means(built.as_mut(), light.0, run, draw.samples)
             })?;
             for ((name, _), report) in claims.iter().zip(&reports) {
-                measures.push(Measure::of(format!("{label}: {name}"), report));
+                measures.push(Measure::of(name, report).of_row(&label));
                 complaints.extend(complaint(&label, name, report));
             }
         }
-        let failed = measures.iter().find(|m| m.verdict == Verdict::Fail && m.interval.is_none());
-        complaints.extend(failed.map(|measure| measure.name.clone()));
+        let failed = measures.iter().find(|m| m.failed() && m.interval.is_none());
+        complaints.extend(failed.map(Measure::name));
         let backwards = shines_backwards.then_some(&cause::light::LIGHT_SHINES_BACKWARDS);
-        let off = measures.iter().any(|m| m.verdict == Verdict::Fail && m.interval.is_some());
+        let off = measures.iter().any(|m| m.failed() && m.interval.is_some());
         let density = if off { density::mistake(&met) } else { None };
-        let statement = match complaints.is_empty() {
-            true => "samples reach the light with the density they say".to_owned(),
-            false => complaints.join("; "),
-        };
-        let resolution = would_have_caught(&measures);
-        let resolution = match resolution.is_empty() {
-            true => format!("would have caught one wrong sample among {TRACED}"),
-            false => resolution,
-        };
-        Ok(Finding::of(statement, resolution, measures)
+        Ok(Finding::measured("samples reach the light with the density they say", measures)
+            .or_else_caught(format!("would have caught one wrong sample among {TRACED}"))
+            .complaining(complaints)
             .because_each(backwards, "there are lit samples where the light looks away")
             .because_each(density, &format!("predicts the densities of {} samples", met.len())))
     }
@@ -201,18 +194,16 @@ impl Traced {
         });
         let report = judge_exact(compared);
         if report.compared == 0 {
-            return Measure::exact(format!("{label}: samples that see light"), 0.0, 0.0, 0.0);
+            return Measure::none("samples that see light", 0).of_row(label);
         }
         let some = some_are(report.disagree, report.compared, "samples");
-        match report.verdict {
-            Verdict::Pass => worst_measure(format!("{label}: distance to the light"), &report),
-            _ => Measure::exact(
-                format!("{label}: {some} not on the light at that distance"),
-                report.disagree as f64,
-                0.0,
-                0.0,
-            ),
-        }
+        let measure = match report.verdict {
+            Verdict::Pass => Measure::worst("distance to the light", &report),
+            _ => {
+                Measure::none(format!("{some} not on the light at that distance"), report.disagree)
+            }
+        };
+        measure.of_row(label)
     }
 
     /// Of the samples that met the light.
@@ -223,8 +214,7 @@ impl Traced {
 
     /// A light that looks away sends nothing.
     fn dark(&self, label: &str) -> Measure {
-        let lit = self.samples.len() as f64;
-        Measure::exact(format!("{label}: lit samples of a light that looks away"), lit, 0.0, 0.0)
+        Measure::none("lit samples of a light that looks away", self.samples.len()).of_row(label)
     }
 }
 

@@ -6,7 +6,12 @@ mod light_numbers;
 mod light_samples_reach_light;
 mod open_light_samples;
 
-pub use lamp_at_the_eye::LampAtTheEye;
-pub use light_numbers::LightNumbers;
-pub use light_samples_reach_light::LightSamplesReachLight;
-pub use open_light_samples::OpenLightSamples;
+use super::CheckKind;
+
+/// The checks of this subject.
+pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<light_samples_reach_light::LightSamplesReachLight>(),
+    CheckKind::of::<light_numbers::LightNumbers>(),
+    CheckKind::of::<open_light_samples::OpenLightSamples>(),
+    CheckKind::of::<lamp_at_the_eye::LampAtTheEye>(),
+];

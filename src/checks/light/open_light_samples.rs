@@ -3,13 +3,13 @@
 
 use crate::cause::{Cause, convention, light as cause};
 use crate::checks::numbers::Numbers;
-use crate::checks::phrase::{figure, worst_measure, would_have_caught};
+use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, Falloff, LightSample};
 use crate::math::ratios::names_of;
 use crate::math::rng::{Seed, uniform};
 use crate::scene::Light;
-use crate::stats::{Band, Claim, Compared, Effort, Tolerance, Verdict, judge_exact, judge_means};
+use crate::stats::{Band, Claim, Compared, Effort, Tolerance, judge_exact, judge_means};
 use crate::text::{Count, Percent};
 use glam::DVec3;
 use serde::Deserialize;
@@ -69,31 +69,25 @@ impl Check for OpenLightSamples {
 
 /// What there is to say of one light.
 struct Judged {
-    name: String,
     measures: Vec<Measure>,
     cause: Option<&'static Cause>,
 }
 
 fn finding(found: Vec<Judged>) -> Finding {
-    let fails = |judged: &Judged| judged.measures.iter().any(|m| m.verdict == Verdict::Fail);
     let complaint = |judged: &Judged| {
-        let wrong = judged.measures.iter().find(|m| m.verdict == Verdict::Fail)?;
+        let wrong = judged.measures.iter().find(|measure| measure.failed())?;
         let (measured, expected) = (figure(wrong.measured), figure(wrong.expected));
-        Some(format!("{}: {} is {measured} instead of {expected}", judged.name, wrong.name))
+        Some(format!("{} is {measured} instead of {expected}", wrong.name()))
     };
-    let complaints: Vec<_> = found.iter().filter_map(complaint).collect();
-    let statement = match complaints.is_empty() {
-        true => format!("samples of {} lights are what they should be", found.len()),
-        false => complaints.join("; "),
-    };
-    let causes: Vec<_> =
-        found.iter().filter(|judged| fails(judged)).filter_map(|j| j.cause).collect();
-    let measures: Vec<_> = found.into_iter().flat_map(|judged| judged.measures).collect();
-    let resolution = match would_have_caught(&measures) {
-        empty if empty.is_empty() => "would have caught one wrong sample".to_owned(),
-        known => known,
-    };
-    Finding::of(statement, resolution, measures)
+    let (mut complaints, mut causes) = (Vec::new(), Vec::new());
+    for (judged, complaint) in found.iter().filter_map(|one| Some((one, complaint(one)?))) {
+        complaints.push(complaint);
+        causes.extend(judged.cause);
+    }
+    let right = format!("samples of {} lights are what they should be", found.len());
+    Finding::measured(right, found.into_iter().flat_map(|judged| judged.measures))
+        .or_else_caught("would have caught one wrong sample")
+        .complaining(complaints)
         .because_each(causes, "predicts every sample of the light")
 }
 
@@ -132,20 +126,16 @@ impl Sampled {
             (0..3).map(channel)
         }));
         let mut measures = vec![
-            Measure::exact(
-                "samples marked as delta",
-                usable as f64,
-                self.samples.len() as f64,
-                0.0,
-            ),
-            worst_measure("direction, how far off", &directions),
-            worst_measure("radiance over density", &radiances),
+            Measure::exact("samples marked as delta", usable as f64, POINTS as f64, 0.0),
+            Measure::worst("direction, how far off", &directions),
+            Measure::worst("radiance over density", &radiances),
         ];
         if distances.compared > 0 {
-            measures.push(worst_measure("distance", &distances));
+            measures.push(Measure::worst("distance", &distances));
         }
         let name = if distances.compared > 0 { "the point light" } else { "the sun" };
-        Judged { name: name.to_owned(), measures, cause: self.mistake(light, falloff, tolerance) }
+        let measures = measures.into_iter().map(|measure| measure.of_row(name)).collect();
+        Judged { measures, cause: self.mistake(light, falloff, tolerance) }
     }
 
     /// The mistake that predicts every sample.
@@ -235,8 +225,9 @@ impl Sky {
             .first()
             .is_some_and(|named| named.value == 0.5);
         Ok(Judged {
-            name: "the sky".to_owned(),
-            measures: vec![Measure::of("mean of radiance over density", &reports[0])],
+            measures: vec![
+                Measure::of("mean of radiance over density", &reports[0]).of_row("the sky"),
+            ],
             cause: is_half.then_some(&cause::ENVIRONMENT_PDF_OF_HEMISPHERE),
         })
     }
@@ -245,6 +236,7 @@ impl Sky {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stats::Verdict;
 
     fn sampled(light: &Light, spoil: impl Fn(&mut LightSample)) -> Sampled {
         let from: Vec<_> = (0..20).map(|i| DVec3::new(f64::from(i), 0.3, -1.0)).collect();

@@ -6,7 +6,7 @@
 
 use super::distribution::{Distribution, DistributionEntry, Drawn};
 use crate::cause::{Cause, sampling};
-use crate::checks::phrase::{figure, percent, would_have_caught};
+use crate::checks::phrase::{figure, percent};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Sampler};
 use crate::math::rng::Seed;
@@ -164,61 +164,40 @@ fn cause(report: &CountReport) -> Option<(&'static Cause, String)> {
 
 fn finding(judged: &[(String, CountReport)]) -> Finding {
     let measure = |(name, report): &(String, CountReport)| {
-        Measure::of(format!("χ² per degree of freedom, pairs of {name}"), report)
+        Measure::of("χ² per degree of freedom of pairs", report).of_row(name)
     };
-    let measures: Vec<_> = judged.iter().map(measure).collect();
-    let complaints: Vec<_> =
-        judged.iter().filter_map(|(name, report)| complaint(name, report)).collect();
-    let statement = match complaints.is_empty() {
-        true => "consecutive samples have nothing to do with each other".to_owned(),
-        false => complaints.join("; "),
-    };
-    let resolution = would_have_caught(&measures) + " of the cells of pairs, root mean square";
-    let finding = Finding::of(statement, resolution, measures);
-    let causes = judged.iter().filter_map(|(_, report)| cause(report));
-    causes.fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence))
+    Finding::measured("consecutive samples are independent", judged.iter().map(measure))
+        .in_terms(" of the cells of pairs, root mean square")
+        .complaining(judged.iter().filter_map(|(name, report)| complaint(name, report)))
+        .because_of(judged.iter().filter_map(|(_, report)| cause(report)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::fake::cosine;
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{Core, CoreInfo, DirectionSample, Precision, Randomness, Result};
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::contract::{DirectionSample, Randomness};
     use crate::math::rng::{Stream, uniform};
     use glam::DVec2;
-
-    /// Draws its own numbers, each point from the one before.
-    struct Own(fn(&mut Stream, DVec2) -> DVec2);
-
-    impl Core for Own {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn sample_direction(
-            &mut self,
-            _: Sampler,
-            random: Randomness<'_>,
-            samples: &mut [DirectionSample],
-        ) -> Result<()> {
-            let stream = &mut Seed(random.seed).stream();
-            let mut point = DVec2::splat(0.5);
-            for sample in samples {
-                point = (self.0)(stream, point);
-                let direction = cosine(point).unwrap_or(DVec3::Z);
-                *sample = DirectionSample { direction, pdf: direction.z };
-            }
-            Ok(())
-        }
-    }
 
     fn found(next: fn(&mut Stream, DVec2) -> DVec2) -> Finding {
         let check: ConsecutiveSamples = check_of(
             "[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }\n\
              detects = \"8 %\"\nat-most = \"100 k\"",
         );
-        judge(&check, &mut Own(next))
+        // Numbers of its own, each point from the one before.
+        let (mut stream, mut point) = (Seed(0).stream(), DVec2::ZERO);
+        let direction = move |random: &Randomness<'_>, number| {
+            if number == 0 {
+                (stream, point) = (Seed(random.seed).stream(), DVec2::splat(0.5));
+            }
+            point = next(&mut stream, point);
+            let direction = cosine(point).unwrap_or(DVec3::Z);
+            DirectionSample { direction, pdf: direction.z }
+        };
+        judge(&check, &mut Fake { direction: Box::new(direction), ..Fake::default() })
     }
 
     fn fresh(stream: &mut Stream) -> DVec2 {

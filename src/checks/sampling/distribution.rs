@@ -1,10 +1,9 @@
 //! Anything that draws directions with a density: the samplers of a course, and BSDFs seen from a direction.
 
 use crate::checks::numbers::Numbers;
-use crate::checks::surface::{SurfaceEntry, kink, lets_pass, seen_from};
+use crate::checks::surface::{SurfaceEntry, evaluated, kink, lets_pass, seen_from};
 use crate::contract::{
-    BsdfQuery, BsdfSample, BsdfValue, Capabilities, Core, DirectionSample, Randomness, Result,
-    Sampler,
+    BsdfQuery, BsdfSample, Capabilities, Core, DirectionSample, Randomness, Result, Sampler,
 };
 use crate::math::rng::Seed;
 use crate::scene::Material;
@@ -150,8 +149,7 @@ impl Distribution {
             Self::Bsdf { material, wo, .. } => {
                 let query = |wi: &DVec3| BsdfQuery { wo: *wo, wi: *wi };
                 let queries: Vec<_> = directions.iter().map(query).collect();
-                let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
-                core.eval_bsdf(material, &queries, &mut values)?;
+                let values = evaluated(core, material, &queries)?;
                 pdf.iter_mut().zip(&values).for_each(|(pdf, value)| *pdf = value.pdf);
                 Ok(())
             }

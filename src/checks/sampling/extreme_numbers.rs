@@ -2,7 +2,8 @@
 
 use super::distribution::{Distribution, DistributionEntry};
 use super::extremes::{Extremes, Range, finding};
-use crate::checks::{Check, CheckError, Context, Finding};
+use super::of_distributions::OfDistributions;
+use crate::checks::{CheckError, Context, Finding};
 use crate::contract::{Capabilities, Randomness};
 use crate::stats::Tolerance;
 use serde::Deserialize;
@@ -14,47 +15,46 @@ pub struct ExtremeNumbers {
     distribution: DistributionEntry,
 }
 
-impl Check for ExtremeNumbers {
+impl OfDistributions for ExtremeNumbers {
     const NAME: &'static str = "extreme-numbers";
     const SUMMARY: &'static str = "samples of random numbers that are 0, or nearly 1";
+    type Judged = Extremes;
 
-    fn needs(&self) -> Capabilities {
-        self.distribution.needs() | Capabilities::CALLERS_RANDOMNESS
+    fn distribution(&self) -> &DistributionEntry {
+        &self.distribution
     }
 
-    fn validate(&self) -> Result<(), String> {
-        self.distribution.validate()
+    fn needs_besides(&self) -> Capabilities {
+        Capabilities::CALLERS_RANDOMNESS
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let distributions = self.distribution.distributions();
-        let extremes: Result<Vec<_>, _> =
-            distributions.iter().map(|distribution| extremes_of(context, distribution)).collect();
-        Ok(finding(&extremes?))
+    fn judge(
+        &self,
+        context: &mut Context<'_>,
+        distribution: &Distribution,
+    ) -> Result<Self::Judged, CheckError> {
+        let allowed = Tolerance::SAME_VALUE.of(context.info.precision);
+        let core = &mut *context.core;
+        let ask = &mut |(point, lobe)| {
+            let random = Randomness { points: &[point], lobes: &[lobe], seed: 0 };
+            let drawn = distribution.sample(core, random)?[0];
+            let mut pdf = [0.0];
+            if let Some(direction) = drawn.direction {
+                distribution.pdf(core, &[direction], &mut pdf)?;
+            }
+            Ok((drawn, pdf[0]))
+        };
+        Ok(Extremes::of(distribution.name(), Range::Hemisphere, allowed, ask)?)
     }
-}
 
-fn extremes_of(
-    context: &mut Context<'_>,
-    distribution: &Distribution,
-) -> Result<Extremes, CheckError> {
-    let allowed = Tolerance::SAME_VALUE.of(context.info.precision);
-    let core = &mut *context.core;
-    let ask = &mut |(point, lobe)| {
-        let random = Randomness { points: &[point], lobes: &[lobe], seed: 0 };
-        let drawn = distribution.sample(core, random)?[0];
-        let mut pdf = [0.0];
-        if let Some(direction) = drawn.direction {
-            distribution.pdf(core, &[direction], &mut pdf)?;
-        }
-        Ok((drawn, pdf[0]))
-    };
-    Ok(Extremes::of(distribution.name(), Range::Hemisphere, allowed, ask)?)
+    fn finding(extremes: &[Self::Judged]) -> Finding {
+        finding(extremes)
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{FakeSampler, cosine, cosine_density, uniform, uniform_density};
+    use super::super::fake::{cosine, cosine_density, drawing, uniform, uniform_density};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::sphere::at_height;
@@ -64,7 +64,7 @@ mod tests {
     fn found(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Finding {
         let check: ExtremeNumbers =
             check_of("[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }");
-        judge(&check, &mut FakeSampler { map, density })
+        judge(&check, &mut drawing(map, density))
     }
 
     #[test]

@@ -5,7 +5,7 @@
 
 use super::distribution::Drawn;
 use crate::cause::sampling;
-use crate::checks::phrase::{some_are, worst_measure};
+use crate::checks::phrase::some_are;
 use crate::checks::{Finding, Measure};
 use crate::contract::CoreError;
 use crate::stats::{Compared, Verdict, judge_exact};
@@ -117,8 +117,8 @@ impl Extremes {
             }
             _ => None,
         }));
-        let name = format!("{}: density of a sample against its evaluation", judged.name);
-        judged.measures.push(worst_measure(name, &report));
+        let what = "density of a sample against its evaluation";
+        judged.measures.push(Measure::worst(what, &report).of_row(&judged.name));
         if report.disagree > 0 {
             let some = some_are(report.disagree, report.compared, "densities");
             judged.complaints.push(format!("{some} not what is evaluated"));
@@ -137,8 +137,8 @@ impl Extremes {
             .iter()
             .filter_map(|(numbers, answer)| Some((*numbers, wrong(answer)?)))
             .collect();
-        let name = format!("{}: {what}, of {}", self.name, answers.len());
-        self.measures.push(Measure::exact(name, found.len() as f64, 0.0, 0.0));
+        let of_all = format!("{what}, of {}", answers.len());
+        self.measures.push(Measure::none(of_all, found.len()).of_row(&self.name));
         self.wrong += found.len();
         if let Some(((point, lobe), complaint)) = found.first() {
             let [x, y, lobe] = [point.x, point.y, *lobe].map(word);
@@ -156,18 +156,12 @@ fn word(number: f64) -> String {
 
 /// All of them together.
 pub fn finding(extremes: &[Extremes]) -> Finding {
-    let measures: Vec<_> = extremes.iter().flat_map(|one| one.measures.clone()).collect();
-    let complaints: Vec<_> = extremes
-        .iter()
-        .filter(|one| !one.complaints.is_empty())
-        .map(|one| format!("{}: {}", one.name, one.complaints.join("; ")))
-        .collect();
+    let measures = extremes.iter().flat_map(|one| one.measures.clone()).collect();
+    let wrong = extremes.iter().filter(|one| !one.complaints.is_empty());
     let asked: usize = extremes.iter().map(|one| one.asked).sum();
-    let statement = match complaints.is_empty() {
-        true => format!("{asked} sets of numbers from 0 to nearly 1 give samples and densities"),
-        false => complaints.join("; "),
-    };
-    let finding = Finding::of(statement, "would have caught one wrong sample", measures);
+    let right = format!("{asked} sets of numbers from 0 to nearly 1 give samples and densities");
+    let finding = Finding::of(right, "would have caught one wrong sample", measures)
+        .complaining(wrong.map(|one| format!("{}: {}", one.name, one.complaints.join("; "))));
     let wrong: usize = extremes.iter().map(|one| one.wrong).sum();
     match finding.verdict {
         Verdict::Fail if 0 < wrong && wrong < asked => {

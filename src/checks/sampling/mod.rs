@@ -9,6 +9,7 @@ pub(in crate::checks) mod extremes;
 mod fake;
 mod moments_follow_pdf;
 mod numbers_as_given;
+mod of_distributions;
 mod pdf_integrates_to_one;
 pub(in crate::checks) mod replay;
 mod sample_jacobian;
@@ -16,11 +17,16 @@ mod samples_follow_pdf;
 mod way;
 mod weights_integrate;
 
-pub use consecutive_samples::ConsecutiveSamples;
-pub use extreme_numbers::ExtremeNumbers;
-pub use moments_follow_pdf::MomentsFollowPdf;
-pub use numbers_as_given::NumbersAsGiven;
-pub use pdf_integrates_to_one::PdfIntegratesToOne;
-pub use sample_jacobian::SampleJacobian;
-pub use samples_follow_pdf::SamplesFollowPdf;
-pub use weights_integrate::WeightsIntegrate;
+use super::CheckKind;
+
+/// The checks of this subject.
+pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<numbers_as_given::NumbersAsGiven>(),
+    CheckKind::of::<extreme_numbers::ExtremeNumbers>(),
+    CheckKind::of::<pdf_integrates_to_one::PdfIntegratesToOne>(),
+    CheckKind::of::<sample_jacobian::SampleJacobian>(),
+    CheckKind::of::<samples_follow_pdf::SamplesFollowPdf>(),
+    CheckKind::of::<moments_follow_pdf::MomentsFollowPdf>(),
+    CheckKind::of::<weights_integrate::WeightsIntegrate>(),
+    CheckKind::of::<consecutive_samples::ConsecutiveSamples>(),
+];

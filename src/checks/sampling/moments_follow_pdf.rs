@@ -3,10 +3,11 @@
 //! leans.
 
 use super::distribution::{Distribution, DistributionEntry, Drawn};
+use super::of_distributions::OfDistributions;
 use crate::cause::{Cause, sampling};
-use crate::checks::phrase::{degrees, figure, would_have_caught};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, Core};
+use crate::checks::phrase::{degrees, figure};
+use crate::checks::{CheckError, Context, Finding, Measure};
+use crate::contract::Core;
 use crate::math::harmonics::{COUNT, NAMES, harmonics};
 use crate::math::quadrature::Diligence;
 use crate::math::rng::Seed;
@@ -33,31 +34,37 @@ pub struct MomentsFollowPdf {
     at_most: Count,
 }
 
-impl Check for MomentsFollowPdf {
+impl OfDistributions for MomentsFollowPdf {
     const NAME: &'static str = "moments-follow-pdf";
     const SUMMARY: &'static str = "means of spherical harmonics over samples against their density";
+    type Judged = Judged;
 
-    fn needs(&self) -> Capabilities {
-        self.distribution.needs()
+    fn distribution(&self) -> &DistributionEntry {
+        &self.distribution
     }
 
-    fn validate(&self) -> Result<(), String> {
-        self.distribution.validate()
-    }
-
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn judge(
+        &self,
+        context: &mut Context<'_>,
+        distribution: &Distribution,
+    ) -> Result<Self::Judged, CheckError> {
         let effort = context.effort(self.detects, self.at_most);
         let band = Band::math(context.info.precision);
-        let mut judged = Vec::new();
-        for distribution in self.distribution.distributions() {
-            judged.push(Judged::of(context, &distribution, band, &effort)?);
-        }
-        Ok(finding(&judged))
+        Judged::of(context, distribution, band, &effort)
+    }
+
+    fn finding(judged: &[Self::Judged]) -> Finding {
+        let measures: Vec<_> = judged.iter().flat_map(Judged::measures).collect();
+        let right = format!("{} moments of samples are those of their densities", measures.len());
+        Finding::measured(right, measures)
+            .in_terms(" of the range of a moment")
+            .complaining(judged.iter().filter_map(Judged::complaint))
+            .because_of(judged.iter().filter_map(|judged| judged.cause.clone()))
     }
 }
 
 /// What came of one distribution.
-struct Judged {
+pub struct Judged {
     name: String,
     reports: Vec<MeanReport>,
     cause: Option<(&'static Cause, String)>,
@@ -84,7 +91,7 @@ impl Judged {
 
     fn measures(&self) -> impl Iterator<Item = Measure> {
         self.reports.iter().zip(NAMES).map(|(report, harmonic)| {
-            Measure::of(format!("{}: mean of {harmonic}", self.name), report)
+            Measure::of(format!("mean of {harmonic}"), report).of_row(&self.name)
         })
     }
 
@@ -180,22 +187,9 @@ fn cause(
     Ok(None)
 }
 
-fn finding(judged: &[Judged]) -> Finding {
-    let measures: Vec<_> = judged.iter().flat_map(Judged::measures).collect();
-    let complaints: Vec<_> = judged.iter().filter_map(Judged::complaint).collect();
-    let statement = match complaints.is_empty() {
-        true => format!("{} moments of samples are those of their densities", measures.len()),
-        false => complaints.join("; "),
-    };
-    let resolution = would_have_caught(&measures) + " of the range of a moment";
-    let finding = Finding::of(statement, resolution, measures);
-    let causes = judged.iter().filter_map(|judged| judged.cause.clone());
-    causes.fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{FakeSampler, cosine, cosine_density, uniform, uniform_density};
+    use super::super::fake::{cosine, cosine_density, drawing, uniform, uniform_density};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use glam::{DQuat, DVec2};
@@ -207,7 +201,7 @@ mod tests {
             "[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }\n\
              detects = \"1 %\"\nat-most = \"400 k\"",
         );
-        judge(&check, &mut FakeSampler { map, density })
+        judge(&check, &mut drawing(map, density))
     }
 
     #[test]

@@ -1,10 +1,11 @@
 //! A sample is a function of its own random numbers: the same again for the same, wherever it
 //! stands in a batch, and moved by each of the two that choose the direction.
 
-use super::distribution::DistributionEntry;
+use super::distribution::{Distribution, DistributionEntry};
+use super::of_distributions::OfDistributions;
 use super::replay::{COUNT, Replayed};
 use crate::checks::numbers::Numbers;
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::{CheckError, Context, Finding};
 use crate::contract::Capabilities;
 use serde::Deserialize;
 
@@ -15,85 +16,57 @@ pub struct NumbersAsGiven {
     distribution: DistributionEntry,
 }
 
-impl Check for NumbersAsGiven {
+impl OfDistributions for NumbersAsGiven {
     const NAME: &'static str = "numbers-as-given";
     const SUMMARY: &'static str = "samples follow from their own numbers, and use both";
+    type Judged = Replayed;
 
-    fn needs(&self) -> Capabilities {
-        self.distribution.needs() | Capabilities::CALLERS_RANDOMNESS
+    fn distribution(&self) -> &DistributionEntry {
+        &self.distribution
     }
 
-    fn validate(&self) -> Result<(), String> {
-        self.distribution.validate()
+    fn needs_besides(&self) -> Capabilities {
+        Capabilities::CALLERS_RANDOMNESS
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let mut replayed = Vec::new();
-        for distribution in self.distribution.distributions() {
-            let seed = context.seed.child(distribution.name());
-            let numbers = Numbers::new(seed, COUNT);
-            let mut ask =
-                |numbers: &Numbers| distribution.sample(context.core, numbers.randomness());
-            replayed.push(Replayed::of(distribution.name(), &numbers, &mut ask)?);
-        }
-        Ok(finding(&replayed))
+    fn judge(
+        &self,
+        context: &mut Context<'_>,
+        distribution: &Distribution,
+    ) -> Result<Self::Judged, CheckError> {
+        let numbers = Numbers::new(context.seed.child(distribution.name()), COUNT);
+        let ask = &mut |numbers: &Numbers| distribution.sample(context.core, numbers.randomness());
+        Ok(Replayed::of(distribution.name(), &numbers, ask)?)
     }
-}
 
-fn finding(replayed: &[Replayed]) -> Finding {
-    let measures = replayed.iter().flat_map(Replayed::measures).collect();
-    let complaints: Vec<_> = replayed.iter().filter_map(Replayed::complaint).collect();
-    let statement = match complaints.is_empty() {
-        true => format!("{} samples follow from their own numbers", COUNT * replayed.len()),
-        false => complaints.join("; "),
-    };
-    let resolution = "would have caught one sample that is not a function of its numbers";
-    let finding = Finding::of(statement, resolution, measures);
-    let causes = replayed.iter().filter_map(Replayed::cause);
-    causes.fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence))
+    fn finding(replayed: &[Self::Judged]) -> Finding {
+        let right = format!("{} samples follow from their own numbers", COUNT * replayed.len());
+        let caught = "would have caught one sample that is not a function of its numbers";
+        Finding::of(right, caught, replayed.iter().flat_map(Replayed::measures).collect())
+            .complaining(replayed.iter().filter_map(Replayed::complaint))
+            .because_of(replayed.iter().filter_map(Replayed::cause))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::fake::cosine;
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, judge};
-    use crate::contract::{
-        Core, CoreInfo, DirectionSample, Precision, Randomness, Result, Sampler,
-    };
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::contract::{DirectionSample, Randomness};
     use glam::{DVec2, DVec3};
-
-    /// Samples by the numbers of a whole batch.
-    struct Batches {
-        point: fn(&[DVec2], usize, u64) -> DVec2,
-        calls: u64,
-    }
-
-    impl Core for Batches {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn sample_direction(
-            &mut self,
-            _: Sampler,
-            random: Randomness<'_>,
-            samples: &mut [DirectionSample],
-        ) -> Result<()> {
-            self.calls += 1;
-            for (number, sample) in samples.iter_mut().enumerate() {
-                let point = (self.point)(random.points, number, self.calls);
-                let direction = cosine(point).unwrap_or(DVec3::Z);
-                *sample = DirectionSample { direction, pdf: direction.z };
-            }
-            Ok(())
-        }
-    }
 
     fn found(point: fn(&[DVec2], usize, u64) -> DVec2) -> Finding {
         let check: NumbersAsGiven =
             check_of("[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }");
-        judge(&check, &mut Batches { point, calls: 0 })
+        let mut calls = 0;
+        let direction = move |random: &Randomness<'_>, number| {
+            calls += u64::from(number == 0);
+            let direction = cosine(point(random.points, number, calls)).unwrap_or(DVec3::Z);
+            DirectionSample { direction, pdf: direction.z }
+        };
+        judge(&check, &mut Fake { direction: Box::new(direction), ..Fake::default() })
     }
 
     fn cause(point: fn(&[DVec2], usize, u64) -> DVec2) -> String {

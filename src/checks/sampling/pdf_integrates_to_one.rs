@@ -2,13 +2,13 @@
 
 use super::density::Density;
 use super::distribution::{Distribution, DistributionEntry};
+use super::of_distributions::OfDistributions;
 use crate::cause::Cause;
-use crate::checks::phrase::{figure, percent, would_have_caught};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::Capabilities;
+use crate::checks::phrase::{figure, percent};
+use crate::checks::{CheckError, Context, Finding, Measure};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
-use crate::stats::{Band, Effort, ShareReport, SphereCells, Tolerance, Verdict, judge_share};
+use crate::stats::{Band, Effort, ShareReport, SphereCells, Tolerance, judge_share};
 use serde::Deserialize;
 
 /// Rings in each hemisphere and sectors: the horizon is an edge between cells, and no cell is larger than most lobes.
@@ -23,33 +23,30 @@ pub struct PdfIntegratesToOne {
     distribution: DistributionEntry,
 }
 
-impl Check for PdfIntegratesToOne {
+impl OfDistributions for PdfIntegratesToOne {
     const NAME: &'static str = "pdf-integrates-to-one";
     const SUMMARY: &'static str = "quadrature of a sampler's density over the sphere";
+    type Judged = Mass;
 
-    fn needs(&self) -> Capabilities {
-        self.distribution.needs()
+    fn distribution(&self) -> &DistributionEntry {
+        &self.distribution
     }
 
-    fn validate(&self) -> Result<(), String> {
-        self.distribution.validate()
+    fn judge(
+        &self,
+        context: &mut Context<'_>,
+        distribution: &Distribution,
+    ) -> Result<Self::Judged, CheckError> {
+        Mass::of(context, distribution)
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let mut masses = Vec::new();
-        for distribution in self.distribution.distributions() {
-            masses.push(Mass::of(context, &distribution)?);
-        }
-        let measures: Vec<_> = masses.iter().flat_map(Mass::measures).collect();
-        let complaints: Vec<_> = masses.iter().filter_map(Mass::complaint).collect();
-        let statement = match complaints.is_empty() {
-            true => passing_statement(&masses),
-            false => complaints.join("; "),
-        };
-        let resolution = would_have_caught(&measures);
-        let causes = masses.iter().filter_map(|mass| mass.cause);
-        Ok(Finding::of(statement, resolution, measures)
-            .because_each(causes, "has the form of the density at 200 directions"))
+    fn finding(masses: &[Self::Judged]) -> Finding {
+        Finding::measured(passing_statement(masses), masses.iter().map(Mass::measure))
+            .complaining(masses.iter().filter_map(Mass::complaint))
+            .because_each(
+                masses.iter().filter_map(|mass| mass.cause),
+                "has the form of the density at 200 directions",
+            )
     }
 }
 
@@ -61,7 +58,7 @@ fn passing_statement(masses: &[Mass]) -> String {
 }
 
 /// The integral of one density, and what it has to be.
-struct Mass {
+pub struct Mass {
     name: String,
     value: f64,
     /// Bound on the error of the quadrature.
@@ -105,22 +102,27 @@ impl Mass {
         Self { cause, ..self }
     }
 
-    fn measures(&self) -> Vec<Measure> {
-        let expected = self.accepted.as_ref().map_or(1.0, |report| report.share.min(1.0));
-        let name = format!("integral of the density of {}", self.name);
-        match &self.accepted {
-            None => vec![Measure::exact(name, self.value, 1.0, self.allowed + self.error)],
-            Some(report) => vec![Measure {
+    fn measure(&self) -> Measure {
+        let measure = match &self.accepted {
+            None => {
+                let name = "integral of the density";
+                Measure::exact(name, self.value, 1.0, self.allowed + self.error)
+            }
+            Some(report) => Measure {
                 measured: self.value,
-                expected,
-                allowed: report.resolution * expected,
-                ..Measure::of(name + ", against the share of samples that succeed", report)
-            }],
-        }
+                expected: report.share.min(1.0),
+                allowed: report.resolution * report.share.min(1.0),
+                ..Measure::of(
+                    "integral of the density, against the share of samples that succeed",
+                    report,
+                )
+            },
+        };
+        measure.of_row(&self.name)
     }
 
     fn complaint(&self) -> Option<String> {
-        let measure = self.measures().into_iter().find(|m| m.verdict == Verdict::Fail)?;
+        let measure = Some(self.measure()).filter(Measure::failed)?;
         let measured = figure(self.value);
         if let Some(report) = &self.accepted {
             let share = percent(report.share);
@@ -163,10 +165,11 @@ fn accepted_share(
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{FakeSampler, cosine, cosine_density, uniform_density};
+    use super::super::fake::{cosine, cosine_density, drawing, uniform_density};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::sphere::at_height;
+    use crate::stats::Verdict;
     use std::f64::consts::{FRAC_1_PI, TAU};
 
     const SAMPLER: &str = "[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }";
@@ -174,7 +177,7 @@ mod tests {
         "[expect]\ndistribution = { surface = { diffuse = 0.5 }, seen-from = [\"30 deg\"] }";
 
     fn found(text: &str, density: fn(glam::DVec3) -> f64) -> Finding {
-        judge(&check_of::<PdfIntegratesToOne>(text), &mut FakeSampler { map: cosine, density })
+        judge(&check_of::<PdfIntegratesToOne>(text), &mut drawing(cosine, density))
     }
 
     #[test]
@@ -202,9 +205,8 @@ mod tests {
     fn a_density_that_lacks_what_fails_is_right_and_one_that_does_not_is_wrong() {
         let map =
             |p: glam::DVec2| (p.x < 0.9).then(|| at_height((1.0 - p.x / 0.9).sqrt(), TAU * p.y));
-        let judged = |density| {
-            judge(&check_of::<PdfIntegratesToOne>(SURFACE), &mut FakeSampler { map, density })
-        };
+        let judged =
+            |density| judge(&check_of::<PdfIntegratesToOne>(SURFACE), &mut drawing(map, density));
         assert_passes(&judged(|d| 0.9 * cosine_density(d)));
         let wrong = judged(|d| 0.8 * cosine_density(d));
         assert!(

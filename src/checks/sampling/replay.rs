@@ -4,7 +4,7 @@ use super::distribution::Drawn;
 use crate::cause::{Cause, sampling};
 use crate::checks::Measure;
 use crate::checks::numbers::Numbers;
-use crate::checks::phrase::{at_most, percent, some_are};
+use crate::checks::phrase::{percent, some_are};
 use glam::{DVec2, DVec3};
 
 /// Samples.
@@ -89,20 +89,19 @@ impl Replayed {
     }
 
     /// Four.
-    pub fn measures(&self) -> Vec<Measure> {
-        let count = |what: &str, found: usize| {
-            Measure::exact(format!("{}: {what}", self.name), found as f64, 0.0, 0.0)
+    pub fn measures(&self) -> [Measure; 4] {
+        let unmoved = |which: &str, moved: f64| {
+            let what = format!("share of samples that are not moved by the {which} number");
+            Measure::at_most(what, 1.0 - moved, 1.0 - MOSTLY)
         };
-        let share = |which: &str, moved: f64| {
-            let what = "share of samples that are not moved by the";
-            at_most(format!("{}: {what} {which} number", self.name), 1.0 - moved, 1.0 - MOSTLY)
-        };
-        vec![
-            count("samples that differ when they are asked for again", self.forgotten),
-            count("samples that depend on their place in the batch", self.misplaced),
-            share("first", self.moved[0]),
-            share("second", self.moved[1]),
-        ]
+        let again = "samples that differ when they are asked for again";
+        let measures = [
+            Measure::none(again, self.forgotten),
+            Measure::none("samples that depend on their place in the batch", self.misplaced),
+            unmoved("first", self.moved[0]),
+            unmoved("second", self.moved[1]),
+        ];
+        measures.map(|measure| measure.of_row(&self.name))
     }
 
     /// The first thing that is wrong.

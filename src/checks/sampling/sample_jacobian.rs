@@ -8,12 +8,13 @@
 
 use super::density::{Density, Law};
 use super::distribution::{Distribution, DistributionEntry, Drawn};
+use super::of_distributions::OfDistributions;
 use super::way::{Way, is_same_way};
 use crate::cause::Cause;
 use crate::checks::form::Form;
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::figure;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Precision, Randomness};
 use crate::math::ratios::names_of;
 use crate::stats::{Tolerance, Verdict};
@@ -34,37 +35,41 @@ pub struct SampleJacobian {
     distribution: DistributionEntry,
 }
 
-impl Check for SampleJacobian {
+impl OfDistributions for SampleJacobian {
     const NAME: &'static str = "sample-jacobian";
     const SUMMARY: &'static str =
         "density times the area that the sampler's map makes of the unit square";
+    type Judged = Vec<Products>;
 
-    fn needs(&self) -> Capabilities {
-        self.distribution.needs() | Capabilities::CALLERS_RANDOMNESS
+    fn distribution(&self) -> &DistributionEntry {
+        &self.distribution
     }
 
-    fn validate(&self) -> Result<(), String> {
-        self.distribution.validate()
+    fn needs_besides(&self) -> Capabilities {
+        Capabilities::CALLERS_RANDOMNESS
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let mut products = Vec::new();
-        for distribution in self.distribution.distributions() {
-            for way in Way::of(&distribution) {
-                products.push(Products::of(context, &distribution, *way)?);
-            }
-        }
-        let measures: Vec<_> = products.iter().flat_map(Products::measures).collect();
-        let complaints: Vec<_> = products.iter().filter_map(Products::complaint).collect();
-        let statement = match complaints.is_empty() {
-            true => format!("density times Jacobian is 1 at {} points", POINTS * products.len()),
-            false => complaints.join("; "),
-        };
-        let allowed = Tolerance::JACOBIAN_MEDIAN.of(context.info.precision);
-        let resolution = format!("would have caught a factor of 1 ± {}", figure(allowed));
-        let causes = products.iter().filter_map(Products::cause);
-        Ok(Finding::of(statement, resolution, measures)
-            .because_each(causes, "predicts density and Jacobian at nearly all points"))
+    fn judge(
+        &self,
+        context: &mut Context<'_>,
+        distribution: &Distribution,
+    ) -> Result<Self::Judged, CheckError> {
+        Way::of(distribution).iter().map(|way| Products::of(context, distribution, *way)).collect()
+    }
+
+    fn finding(judged: &[Self::Judged]) -> Finding {
+        let products = || judged.iter().flatten();
+        let right =
+            format!("density times Jacobian is 1 at {} points", POINTS * products().count());
+        let precision = products().next().map_or(Precision::Double, |one| one.precision);
+        let allowed = Tolerance::JACOBIAN_MEDIAN.of(precision);
+        let caught = format!("would have caught a factor of 1 ± {}", figure(allowed));
+        Finding::of(right, caught, products().flat_map(Products::measures).collect())
+            .complaining(products().filter_map(Products::complaint))
+            .because_each(
+                products().filter_map(Products::cause),
+                "predicts density and Jacobian at nearly all points",
+            )
     }
 }
 
@@ -77,7 +82,7 @@ const fn step(precision: Precision) -> f64 {
 }
 
 /// Density times Jacobian at many points.
-struct Products {
+pub struct Products {
     name: String,
     /// (product, cos θ), sorted by product; points whose neighbours fail are left out.
     values: Vec<(f64, f64)>,
@@ -137,8 +142,9 @@ impl Products {
 
     fn measures(&self) -> Vec<Measure> {
         let of = |what: &str, share, tolerance: Tolerance| {
-            let name = format!("{}: error of {what} of the points", self.name);
-            Measure::exact(name, self.error_of_share(share), 0.0, tolerance.of(self.precision))
+            let (error, allowed) = (self.error_of_share(share), tolerance.of(self.precision));
+            Measure::exact(format!("error of {what} of the points"), error, 0.0, allowed)
+                .of_row(&self.name)
         };
         let mut measures = vec![
             of("half", 0.5, Tolerance::JACOBIAN_MEDIAN),
@@ -151,7 +157,7 @@ impl Products {
     }
 
     fn fails(&self) -> bool {
-        self.measures().iter().any(|measure| measure.verdict == Verdict::Fail)
+        self.measures().iter().any(Measure::failed)
     }
 
     fn complaint(&self) -> Option<String> {
@@ -205,7 +211,7 @@ fn named(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::fake::{
-        FakeInterface, FakeSampler, cosine, cosine_density, uniform, uniform_density,
+        cosine, cosine_density, drawing, interface, uniform, uniform_density,
     };
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
@@ -216,7 +222,7 @@ mod tests {
     fn found(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Finding {
         let check: SampleJacobian =
             check_of("[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }");
-        judge(&check, &mut FakeSampler { map, density })
+        judge(&check, &mut drawing(map, density))
     }
 
     /// The statement and the first clue.
@@ -269,7 +275,7 @@ mod tests {
             "[expect]\ndistribution = { surface = { rough-glass = { index = 1.5, roughness = 0.5 } }, \
              seen-from = [\"30 deg\"] }",
         );
-        judge(&check, &mut FakeInterface { reflected: 0.3, density })
+        judge(&check, &mut interface(0.3, density))
     }
 
     #[test]

@@ -2,10 +2,11 @@
 
 use super::density::{Density, Law};
 use super::distribution::{Distribution, DistributionEntry, Drawn};
+use super::of_distributions::OfDistributions;
 use crate::cause::Cause;
-use crate::checks::phrase::{figure, percent, would_have_caught};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, Core};
+use crate::checks::phrase::{figure, percent};
+use crate::checks::{CheckError, Context, Finding, Measure};
+use crate::contract::Core;
 use crate::math::quadrature::Diligence;
 use crate::math::rng::{Seed, uniform};
 use crate::stats::{
@@ -35,31 +36,39 @@ pub struct SamplesFollowPdf {
     at_most: Count,
 }
 
-impl Check for SamplesFollowPdf {
+impl OfDistributions for SamplesFollowPdf {
     const NAME: &'static str = "samples-follow-pdf";
     const SUMMARY: &'static str = "chi-square of samples against their density";
+    type Judged = Judged;
 
-    fn needs(&self) -> Capabilities {
-        self.distribution.needs()
+    fn distribution(&self) -> &DistributionEntry {
+        &self.distribution
     }
 
-    fn validate(&self) -> Result<(), String> {
-        self.distribution.validate()
-    }
-
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn judge(
+        &self,
+        context: &mut Context<'_>,
+        distribution: &Distribution,
+    ) -> Result<Self::Judged, CheckError> {
         let effort = context.effort(self.detects, self.at_most);
-        let mut judged = Vec::new();
-        for distribution in self.distribution.distributions() {
-            let seed = context.seed.child(distribution.name());
-            let core = &mut *context.core;
-            let mut source = Source::new(core, &distribution, seed);
-            let report = judge_count_source(&effort, &mut source)?;
-            let cells = source.cells;
-            let density = Density::of(context.core, &distribution)?;
-            judged.push(Judged { name: distribution.name(), report, cells, density });
-        }
-        Ok(finding(&judged))
+        let seed = context.seed.child(distribution.name());
+        let mut source = Source::new(&mut *context.core, distribution, seed);
+        let report = judge_count_source(&effort, &mut source)?;
+        let cells = source.cells;
+        let density = Density::of(context.core, distribution)?;
+        Ok(Judged { name: distribution.name(), report, cells, density })
+    }
+
+    fn finding(judged: &[Self::Judged]) -> Finding {
+        let samples: u64 = judged.iter().map(|judged| judged.report.samples).sum();
+        let right = format!("{samples} samples fall where their densities say");
+        Finding::measured(right, judged.iter().map(Judged::measure))
+            .in_terms(" of a density, root mean square")
+            .complaining(judged.iter().filter_map(Judged::complaint))
+            .because_each(
+                judged.iter().filter_map(Judged::cause),
+                "predicts the counts of samples in all rings",
+            )
     }
 }
 
@@ -141,33 +150,17 @@ impl CountSource for Source<'_> {
 }
 
 /// What came of one distribution.
-struct Judged {
+pub struct Judged {
     name: String,
     report: CountReport,
     cells: SphereCells,
     density: Option<Density>,
 }
 
-fn finding(judged: &[Judged]) -> Finding {
-    let measures: Vec<_> = judged.iter().map(Judged::measure).collect();
-    let complaints: Vec<_> = judged.iter().filter_map(Judged::complaint).collect();
-    let statement = match complaints.is_empty() {
-        true => {
-            let samples: u64 = judged.iter().map(|judged| judged.report.samples).sum();
-            format!("{samples} samples fall where their densities say")
-        }
-        false => complaints.join("; "),
-    };
-    let resolution = would_have_caught(&measures) + " of a density, root mean square";
-    let causes = judged.iter().filter_map(Judged::cause);
-    Finding::of(statement, resolution, measures)
-        .because_each(causes, "predicts the counts of samples in all rings")
-}
-
 impl Judged {
     /// X² per degree of freedom of the last stage.
     fn measure(&self) -> Measure {
-        Measure::of(format!("χ² per degree of freedom, {}", self.name), &self.report)
+        Measure::of("χ² per degree of freedom", &self.report).of_row(&self.name)
     }
 
     fn complaint(&self) -> Option<String> {
@@ -309,7 +302,7 @@ fn follows(below: fn(f64) -> f64, rings: &[u64]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{FakeInterface, FakeSampler, cosine, cosine_density, uniform};
+    use super::super::fake::{cosine, cosine_density, drawing, interface, uniform};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::sphere::at_height;
@@ -322,7 +315,7 @@ mod tests {
 
     fn found(text: &str, map: fn(DVec2) -> Option<DVec3>) -> Finding {
         let check: SamplesFollowPdf = check_of(text);
-        judge(&check, &mut FakeSampler { map, density: cosine_density })
+        judge(&check, &mut drawing(map, cosine_density))
     }
 
     fn statement(map: fn(DVec2) -> Option<DVec3>) -> String {
@@ -372,10 +365,7 @@ mod tests {
     fn samples_in_a_sliver_that_quadrature_missed_are_not_forbidden() {
         let map = |p: DVec2| if p.x < 1e-4 { Some(DVec3::new(0.6, 0.0, -0.8)) } else { cosine(p) };
         let density = |wi| if is_in_sliver(wi) { 1.0 } else { cosine_density(wi) };
-        assert_passes(&judge(
-            &check_of::<SamplesFollowPdf>(SAMPLER),
-            &mut FakeSampler { map, density },
-        ));
+        assert_passes(&judge(&check_of::<SamplesFollowPdf>(SAMPLER), &mut drawing(map, density)));
         assert!(statement(map).contains("where the density is 0"), "{}", statement(map));
     }
 
@@ -386,7 +376,7 @@ mod tests {
         );
         let density =
             |d: DVec3| (if d.z > 0.0 { 0.3 } else { 0.7 }) * cosine_density(d.with_z(d.z.abs()));
-        judge(&check, &mut FakeInterface { reflected, density })
+        judge(&check, &mut interface(reflected, density))
     }
 
     #[test]

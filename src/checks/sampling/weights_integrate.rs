@@ -6,10 +6,10 @@
 
 use super::density::{Density, Law};
 use super::distribution::{Distribution, DistributionEntry, Drawn};
+use super::of_distributions::OfDistributions;
 use crate::cause::Cause;
-use crate::checks::phrase::{figure, would_have_caught};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::Capabilities;
+use crate::checks::phrase::figure;
+use crate::checks::{CheckError, Context, Finding, Measure};
 use crate::math::ratios::names_of;
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, MeanReport, Verdict, judge_means};
@@ -34,32 +34,37 @@ pub struct WeightsIntegrate {
     at_most: Count,
 }
 
-impl Check for WeightsIntegrate {
+impl OfDistributions for WeightsIntegrate {
     const NAME: &'static str = "weights-integrate";
     const SUMMARY: &'static str = "means of cos³/pdf and cos⁴/pdf are integrals that are known";
+    type Judged = Judged;
 
-    fn needs(&self) -> Capabilities {
-        self.distribution.needs()
+    fn distribution(&self) -> &DistributionEntry {
+        &self.distribution
     }
 
-    fn validate(&self) -> Result<(), String> {
-        self.distribution.validate()
-    }
-
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn judge(
+        &self,
+        context: &mut Context<'_>,
+        distribution: &Distribution,
+    ) -> Result<Self::Judged, CheckError> {
         let effort = context.effort(self.detects, self.at_most);
         let band = Band::math(context.info.precision);
         let claims = POWERS.map(|power| Claim::value(TAU / f64::from(power + 1), band));
-        let mut judged = Vec::new();
-        for distribution in self.distribution.distributions() {
-            let seed = context.seed.child(distribution.name());
-            let reports = judge_means(&claims, &effort, &mut |draw| {
-                mean_weights(context, &distribution, draw.seed(seed), draw.samples)
-            })?;
-            let density = Density::of(context.core, &distribution)?;
-            judged.push(Judged { name: distribution.name(), reports, density });
-        }
-        Ok(finding(&judged))
+        let seed = context.seed.child(distribution.name());
+        let reports = judge_means(&claims, &effort, &mut |draw| {
+            mean_weights(context, distribution, draw.seed(seed), draw.samples)
+        })?;
+        let density = Density::of(context.core, distribution)?;
+        Ok(Judged { name: distribution.name(), reports, density })
+    }
+
+    fn finding(judged: &[Self::Judged]) -> Finding {
+        let measures: Vec<_> = judged.iter().flat_map(Judged::measures).collect();
+        let right = format!("{} integrals come out of samples and their densities", measures.len());
+        Finding::measured(right, measures)
+            .complaining(judged.iter().filter_map(Judged::complaint))
+            .because_of(judged.iter().filter_map(Judged::cause))
     }
 }
 
@@ -85,7 +90,7 @@ fn mean_weights(
 }
 
 /// What came of one distribution.
-struct Judged {
+pub struct Judged {
     name: String,
     reports: Vec<MeanReport>,
     density: Option<Density>,
@@ -94,6 +99,12 @@ struct Judged {
 impl Judged {
     fn failed(&self) -> bool {
         self.reports.iter().any(|report| report.verdict == Verdict::Fail)
+    }
+
+    fn measures(&self) -> impl Iterator<Item = Measure> {
+        self.reports.iter().zip(POWERS).map(|(report, power)| {
+            Measure::of(format!("mean of cos^{power}/pdf"), report).of_row(&self.name)
+        })
     }
 
     /// Measured over expected.
@@ -141,29 +152,9 @@ impl Judged {
     }
 }
 
-fn finding(judged: &[Judged]) -> Finding {
-    let measures: Vec<_> = judged
-        .iter()
-        .flat_map(|judged| {
-            judged.reports.iter().zip(POWERS).map(|(report, power)| {
-                Measure::of(format!("{}: mean of cos^{power}/pdf", judged.name), report)
-            })
-        })
-        .collect();
-    let complaints: Vec<_> = judged.iter().filter_map(Judged::complaint).collect();
-    let statement = match complaints.is_empty() {
-        true => format!("{} integrals come out of samples and their densities", measures.len()),
-        false => complaints.join("; "),
-    };
-    let resolution = would_have_caught(&measures);
-    let finding = Finding::of(statement, resolution, measures);
-    let causes = judged.iter().filter_map(Judged::cause);
-    causes.fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{FakeSampler, cosine, cosine_density, uniform, uniform_density};
+    use super::super::fake::{cosine, cosine_density, drawing, uniform, uniform_density};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use glam::{DVec2, DVec3};
@@ -173,7 +164,7 @@ mod tests {
             "[expect]\ndistribution = {{ sampler = \"{sampler}\" }}\n\
              detects = \"3 %\"\nat-most = \"400 k\""
         ));
-        judge(&check, &mut FakeSampler { map, density })
+        judge(&check, &mut drawing(map, density))
     }
 
     fn cause(finding: &Finding) -> &str {

@@ -94,11 +94,10 @@ fn judge(encounters: &[Encounter]) -> Finding {
     let lost = hits.iter().filter(|e| e.found.is_none()).count();
     let invented = misses.iter().filter(|e| e.found.is_some()).count();
     let t = judge_exact(encounters.iter().filter_map(Encounter::t_compared));
-    let count = |name: String, number: usize| Measure::exact(name, number as f64, 0.0, 0.0);
     let measures = vec![
-        count(format!("hits lost of {}", hits.len()), lost),
-        count(format!("hits invented among {} misses", misses.len()), invented),
-        count(format!("wrong t among {} hits", t.compared), t.disagree),
+        Measure::none(format!("hits lost of {}", hits.len()), lost),
+        Measure::none(format!("hits invented among {} misses", misses.len()), invented),
+        Measure::none(format!("wrong t among {} hits", t.compared), t.disagree),
     ];
     let wrong = lost + invented + t.disagree;
     let explained = if wrong == 0 { None } else { explanation(encounters) };
@@ -110,11 +109,7 @@ fn judge(encounters: &[Encounter]) -> Finding {
     // 6.9 = −ln 0.001: that many mistaken rays are expected where none is seen in one case of a thousand.
     let rare = encounters.len() as f64 / 6.9;
     let resolution = format!("would have caught a mistake in one ray of {}", figure(rare.floor()));
-    let finding = Finding::of(statement, resolution, measures);
-    match explained {
-        Some((cause, evidence)) => finding.because(cause, evidence),
-        None => finding,
-    }
+    Finding::of(statement, resolution, measures).because_of(explained)
 }
 
 /// `counts` are of hits lost, hits invented, and wrong t.
@@ -211,15 +206,15 @@ fn threshold(encounters: &[Encounter]) -> Option<(&'static Cause, String)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::Intersects;
     use super::super::imitation::{Formula, intersection, mistake};
     use super::*;
+    use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::contract::Primitive;
 
     fn found(formula: Formula) -> Finding {
         let check: AgreesWithExactArithmetic = check_of("[expect]\nrays = \"20 k\"");
-        judge(&check, &mut Intersects(formula))
+        judge(&check, &mut Fake::intersecting(formula))
     }
 
     #[test]

@@ -151,12 +151,11 @@ impl Outcome {
     }
 
     fn measures(&self) -> [Measure; 2] {
-        let unanswered = f64::from(u8::from(self.complaint.is_some()));
-        let name = self.question.name;
         [
-            Measure::exact(format!("{name}: questions without an answer"), unanswered, 0.0, 0.0),
-            Measure::exact(format!("{name}: wrong hits"), self.wrong_hits() as f64, 0.0, 0.0),
+            Measure::none("questions without an answer", usize::from(self.complaint.is_some())),
+            Measure::none("wrong hits", self.wrong_hits()),
         ]
+        .map(|measure| measure.of_row(self.question.name))
     }
 
     fn words(&self) -> Option<String> {
@@ -171,16 +170,12 @@ impl Outcome {
 }
 
 fn judge(outcomes: &[Outcome]) -> Finding {
-    let complaints: Vec<_> = outcomes.iter().filter_map(Outcome::words).collect();
     let rays: usize = outcomes.iter().map(|outcome| outcome.question.rays.len()).sum();
-    let statement = match complaints.is_empty() {
-        true => {
-            format!("{rays} rays at triangles of no area, in planes and along edges get answers")
-        }
-        false => complaints.join("; "),
-    };
+    let right =
+        format!("{rays} rays at triangles of no area, in planes and along edges get answers");
     let measures = outcomes.iter().flat_map(Outcome::measures).collect();
-    let finding = Finding::of(statement, "would have caught one wrong answer", measures);
+    let finding = Finding::of(right, "would have caught one wrong answer", measures)
+        .complaining(outcomes.iter().filter_map(Outcome::words));
     explain(finding, outcomes)
 }
 
@@ -203,13 +198,13 @@ fn explain(mut finding: Finding, outcomes: &[Outcome]) -> Finding {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::Intersects;
     use super::super::imitation::{Answer, Formula, intersection};
     use super::*;
+    use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     fn found(formula: Formula) -> Finding {
-        judge(&check_of::<DegenerateTriangles>("[expect]"), &mut Intersects(formula))
+        judge(&check_of::<DegenerateTriangles>("[expect]"), &mut Fake::intersecting(formula))
     }
 
     #[test]

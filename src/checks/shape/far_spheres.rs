@@ -2,10 +2,10 @@
 
 use super::exact_sphere::{Encounter, Formula};
 use crate::cause::{Cause, shape};
-use crate::checks::phrase::{figure, some_are, worst_measure};
+use crate::checks::phrase::{figure, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, CoreError, Hit, Precision};
-use crate::stats::{Compared, Verdict, judge_exact};
+use crate::stats::{Compared, judge_exact};
 use crate::text::{Count, Several};
 use glam::DVec3;
 use serde::Deserialize;
@@ -119,9 +119,8 @@ impl Range {
             return Judged { measures: Vec::new(), wrong_sides: 0, clear: 0, worst_t: 0.0 };
         }
         let wrong_sides = clear.iter().filter(|answer| answer.is_wrong_side()).count();
-        let name = |what: &str| format!("{}: {what}", self.name());
-        let sides = name(&format!("hits lost or invented of {}", clear.len()));
-        let mut measures = vec![Measure::exact(sides, wrong_sides as f64, 0.0, 0.0)];
+        let sides = format!("hits lost or invented of {}", clear.len());
+        let mut measures = vec![Measure::none(sides, wrong_sides)];
         let both = || clear.iter().filter(|answer| answer.error().is_some());
         let t = judge_exact(both().filter_map(|answer| {
             let (t, _) = answer.encounter.hit?;
@@ -134,14 +133,15 @@ impl Range {
             Some(Compared::within(off, 0.0, answer.encounter.allowed_normal(formula, precision)))
         }));
         if t.compared > 0 {
-            measures.push(worst_measure(name("t"), &t));
-            measures.push(worst_measure(name("normal off by"), &normals));
+            measures.push(Measure::worst("t", &t));
+            measures.push(Measure::worst("normal off by", &normals));
         }
         let in_radii = |answer: &&&Answer| {
             let length = answer.encounter.ray.direction.length() / answer.encounter.radius;
             answer.error().map_or(0.0, |error| error * length)
         };
         let worst_t = both().map(|answer| in_radii(&answer)).fold(0.0, f64::max);
+        let measures = measures.into_iter().map(|measure| measure.of_row(self.name())).collect();
         Judged { measures, wrong_sides, clear: clear.len(), worst_t }
     }
 
@@ -155,18 +155,12 @@ impl FarSpheres {
     fn judge(&self, ranges: &[Range], precision: Precision) -> Finding {
         let judged: Vec<_> =
             ranges.iter().map(|range| (range, range.judge(self.formula, precision))).collect();
-        let has_failed = |judged: &Judged| {
-            judged.measures.iter().any(|measure| measure.verdict == Verdict::Fail)
-        };
+        let has_failed = |judged: &Judged| judged.measures.iter().any(Measure::failed);
         let complaints: Vec<_> = judged
             .iter()
             .filter(|(_, judged)| has_failed(judged))
             .map(|(range, judged)| complaint(range, judged, precision))
             .collect();
-        let statement = match complaints.is_empty() {
-            true => self.passing_statement(&judged, precision),
-            false => complaints.join("; "),
-        };
         let rays: usize = judged.iter().map(|(_, judged)| judged.clear).sum();
         let measures: Vec<_> =
             judged.iter().flat_map(|(_, judged)| judged.measures.clone()).collect();
@@ -175,11 +169,9 @@ impl FarSpheres {
             "would have caught an error of {} of the distance in one of {rays} rays",
             figure(crate::stats::Tolerance::ROUNDINGS.of(precision) * self.magnified(nearest))
         );
-        let finding = Finding::of(statement, resolution, measures);
-        match finding.verdict {
-            Verdict::Fail => explain(finding, ranges, precision),
-            _ => finding,
-        }
+        let right = self.passing_statement(&judged, precision);
+        let finding = Finding::of(right, resolution, measures).complaining(complaints);
+        if finding.failed() { explain(finding, ranges, precision) } else { finding }
     }
 
     fn magnified(&self, distance: f64) -> f64 {
@@ -216,7 +208,7 @@ fn complaint(range: &Range, judged: &Judged, precision: Precision) -> String {
 fn explain(finding: Finding, ranges: &[Range], precision: Precision) -> Finding {
     let holds = |range: &Range, formula, precision| {
         let judged = range.judge(formula, precision);
-        judged.measures.iter().all(|measure| measure.verdict != Verdict::Fail)
+        !judged.measures.iter().any(Measure::failed)
     };
     let nearest = ranges.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
     let near_is_right = nearest.is_some_and(|range| holds(range, Formula::Stable, precision));
@@ -233,17 +225,14 @@ fn explain(finding: Finding, ranges: &[Range], precision: Precision) -> Finding 
         } else {
             None
         };
-    match found {
-        Some((cause, evidence)) => finding.because(cause, evidence),
-        None => finding,
-    }
+    finding.because_of(found)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::Intersects;
     use super::super::imitation::{Answer as Meeting, Formula as Intersection, intersection};
     use super::*;
+    use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::contract::{Primitive, Ray};
 
@@ -266,7 +255,7 @@ mod tests {
 
     fn found(formula: &str, intersection: Intersection) -> Finding {
         let check: FarSpheres = check_of(&format!("[expect]\n{ALL}\"{formula}\""));
-        judge(&check, &mut Intersects(intersection))
+        judge(&check, &mut Fake::intersecting(intersection))
     }
 
     #[test]
@@ -315,7 +304,7 @@ mod tests {
             Some(Meeting { geometric_normal: faces * answer.geometric_normal, ..answer })
         });
         failure(&finding);
-        let failed: Vec<_> = finding.failed_measures().map(|m| m.name.as_str()).collect();
+        let failed: Vec<_> = finding.failed_measures().map(Measure::name).collect();
         assert!(failed[0].starts_with("from inside: normal off by"), "{failed:?}");
         assert!(finding.clues.is_empty());
     }

@@ -5,7 +5,7 @@
 use crate::cause::{Cause, shape};
 use crate::checks::camera::projection;
 use crate::checks::oracle::{Met, nearest};
-use crate::checks::phrase::{figure, some_are, worst_measure};
+use crate::checks::phrase::{figure, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, PictureRole, camera_of};
 use crate::contract::{Acceleration, Capabilities, Hit, Precision, Ray};
 use crate::image::Image;
@@ -188,10 +188,10 @@ impl View<'_> {
         let shading = normals(|hit| hit.shading_normal, |met| met.answer.shading_normal);
         let shapes = format!("pixels that see another shape, of {}", clear.len());
         let mut measures = vec![
-            Measure::exact(shapes, wrong.len() as f64, 0.0, 0.0),
-            worst_measure("depth", &depth),
-            worst_measure("geometric normal off by", &geometric),
-            worst_measure("shading normal off by", &shading),
+            Measure::none(shapes, wrong.len()),
+            Measure::worst("depth", &depth),
+            Measure::worst("geometric normal off by", &geometric),
+            Measure::worst("shading normal off by", &shading),
         ];
         if (clear.len() as f64) < FEWEST * pixels.len() as f64 {
             measures.iter_mut().for_each(|measure| measure.verdict = Verdict::Inconclusive);
@@ -213,10 +213,7 @@ impl View<'_> {
                     .push(format!("{} wrong", some_are(report.disagree, report.compared, what)));
             }
         }
-        let statement = match complaints.is_empty() {
-            true => format!("{} pixels see what stands before them", clear.len()),
-            false => complaints.join("; "),
-        };
+        let right = format!("{} pixels see what stands before them", clear.len());
         let allowed = both().map(|(pixel, (_, met))| pixel.allowed(met, precision));
         let resolution = format!(
             "would have caught a surface {} away from its place",
@@ -225,7 +222,9 @@ impl View<'_> {
         let causes = if complaints.is_empty() { Vec::new() } else { causes(&clear) };
         let evidence =
             format!("predicts the normals of all {} pixels that see a surface", both().count());
-        Finding::of(statement, resolution, measures).because_each(causes, &evidence)
+        Finding::of(right, resolution, measures)
+            .complaining(complaints)
+            .because_each(causes, &evidence)
     }
 }
 
@@ -266,65 +265,10 @@ fn causes(pixels: &[&Pixel]) -> Vec<&'static Cause> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
-    use crate::contract::{BuildStats, BuiltScene, Core, CoreInfo, Result, TraversalStats};
+    use crate::checks::fake::Fake;
+    use crate::checks::shape::as_hit;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
     use crate::scene::Library;
-
-    /// A core that finds what is there, and then spoils it.
-    struct Sees {
-        scene: SceneDescription,
-        spoil: fn(&Ray, &mut Hit),
-    }
-
-    impl Core for Sees {
-        fn info(&self) -> CoreInfo {
-            info(Precision::Double)
-        }
-
-        fn generate_rays(
-            &mut self,
-            camera: &Camera,
-            film: &[DVec2],
-            rays: &mut [Ray],
-        ) -> Result<()> {
-            for (point, ray) in film.iter().zip(rays) {
-                let direction = projection(camera, *point).normalize();
-                *ray = Ray::new(camera.position, direction);
-            }
-            Ok(())
-        }
-
-        fn build_scene(
-            &mut self,
-            _: &SceneDescription,
-            _: Acceleration,
-        ) -> Result<Box<dyn BuiltScene + '_>> {
-            Ok(Box::new(Seen(self)))
-        }
-    }
-
-    struct Seen<'a>(&'a Sees);
-
-    impl BuiltScene for Seen<'_> {
-        fn stats(&self) -> BuildStats {
-            BuildStats::default()
-        }
-
-        fn intersect(&mut self, rays: &[Ray], hits: &mut [Hit]) -> Result<TraversalStats> {
-            for (ray, hit) in rays.iter().zip(hits) {
-                *hit = nearest(&self.0.scene, ray).map_or(Hit::MISS, |met| Hit {
-                    t: met.answer.t,
-                    shape: met.shape,
-                    primitive: met.primitive,
-                    geometric_normal: met.answer.geometric_normal,
-                    shading_normal: met.answer.shading_normal,
-                    uv: DVec2::ZERO,
-                });
-                (self.0.spoil)(ray, hit);
-            }
-            Ok(TraversalStats::default())
-        }
-    }
 
     fn scene(name: &str) -> SceneDescription {
         let scene = Library::new("scenes").load(name, &toml::Table::new()).unwrap();
@@ -336,7 +280,18 @@ mod tests {
         let right = scene("cornell-diffuse-spheres");
         let mut seen = right.clone();
         change(&mut seen);
-        try_judge(&check, &mut Sees { scene: seen, spoil }, Some(right)).unwrap()
+        let hit = move |ray: &Ray| {
+            let mut hit = as_hit(nearest(&seen, ray).map(|met| met.answer));
+            if let Some(met) = nearest(&seen, ray) {
+                hit = Hit { shape: met.shape, primitive: met.primitive, ..hit };
+            }
+            spoil(ray, &mut hit);
+            hit
+        };
+        let ray =
+            |camera: &Camera, film| Ray::new(camera.position, projection(camera, film).normalize());
+        let mut core = Fake { ray: Box::new(ray), hit: Box::new(hit), ..Fake::default() };
+        try_judge(&check, &mut core, Some(right)).unwrap()
     }
 
     fn cause(spoil: fn(&Ray, &mut Hit)) -> String {

@@ -5,7 +5,7 @@ use crate::cause::Cause;
 use crate::checks::phrase::{figure, percent, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Hit, Precision, Primitive, Ray};
-use crate::stats::{Tolerance, Verdict};
+use crate::stats::Tolerance;
 use crate::text::{Arrow, Positive, Vector};
 use glam::DVec3;
 use serde::Deserialize;
@@ -158,8 +158,8 @@ fn judge(rows: &[RayRow], primitive: &Primitive, hits: &[Hit], precision: Precis
         let answer = intersection(primitive, &row.ray());
         let mut of_row = row_measures(row, number, answer.as_ref(), hit, precision);
         if row.robustness {
-            of_row.iter_mut().for_each(|measure| measure.verdict = Verdict::Pass);
-        } else if let Some(worst) = of_row.iter().find(|m| m.verdict == Verdict::Fail) {
+            of_row = of_row.into_iter().map(Measure::not_graded).collect();
+        } else if let Some(worst) = of_row.iter().find(|measure| measure.failed()) {
             complaints.push(complaint(row, number, answer.as_ref(), hit, worst));
         }
         measures.extend(of_row);
@@ -209,18 +209,18 @@ fn row_measures(
 ) -> Vec<Measure> {
     let label = row.label(number);
     let flag = |hits| f64::from(u8::from(hits));
-    let hits = Measure::exact(format!("{label}: hits"), flag(hit.is_hit()), flag(row.hits), 0.0);
+    let hits = Measure::exact("hits", flag(hit.is_hit()), flag(row.hits), 0.0).of_row(&label);
     let (true, Some(answer)) = (hit.is_hit() && row.hits, answer) else { return vec![hits] };
     let intersection = Tolerance::INTERSECTION.of(precision);
     let direction = Tolerance::DIRECTION.of(precision);
     let error = |what: &str, error: f64, allowed: f64| {
-        Measure::exact(format!("{label}: error of the {what}"), error, 0.0, allowed)
+        Measure::exact(format!("error of the {what}"), error, 0.0, allowed).of_row(&label)
     };
     let geometric = hit.geometric_normal.distance(answer.geometric_normal);
     let shading = hit.shading_normal.distance(answer.shading_normal);
     let mut measures = vec![
         hits,
-        Measure::exact(format!("{label}: t"), hit.t, answer.t, intersection * answer.t.abs()),
+        Measure::exact("t", hit.t, answer.t, intersection * answer.t.abs()).of_row(&label),
         error("geometric normal", geometric, direction),
         error("shading normal", shading, direction),
     ];
@@ -244,20 +244,20 @@ fn complaint(
         (false, Some(answer)) => {
             format!("{label} misses; it should hit at t = {}", figure(answer.t))
         }
-        _ if worst.expected == 0.0 => format!("{} is {}", worst.name, figure(worst.measured)),
+        _ if worst.expected == 0.0 => format!("{} is {}", worst.name(), figure(worst.measured)),
         _ => {
             let (found, right) = (figure(worst.measured), figure(worst.expected));
-            format!("{} is {found} instead of {right}", worst.name)
+            format!("{} is {found} instead of {right}", worst.name())
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::Intersects;
     use super::super::imitation::{Formula, mistake};
     use super::*;
     use crate::cause::shape;
+    use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     const CASES: [&str; 4] = [
@@ -268,7 +268,7 @@ mod tests {
     ];
 
     fn found(case: usize, formula: Formula) -> Finding {
-        judge(&check_of::<HitsPrimitive>(CASES[case]), &mut Intersects(formula))
+        judge(&check_of::<HitsPrimitive>(CASES[case]), &mut Fake::intersecting(formula))
     }
 
     #[test]
@@ -325,7 +325,8 @@ mod tests {
              [[expect.ray]]\nfrom = [3, 0, 0]\ntoward = [1, 0, 0]\nhits = false\n\
              [[expect.ray]]\nfrom = [0, 3, 0]\ntoward = [1, 0, 0]\n{row}\n"
         );
-        let finding = judge(&check_of::<HitsPrimitive>(&text), &mut Intersects(intersection));
+        let finding =
+            judge(&check_of::<HitsPrimitive>(&text), &mut Fake::intersecting(intersection));
         assert_passes(&finding);
         assert_eq!(finding.measures[1].measured, 0.0);
     }

@@ -142,22 +142,15 @@ fn judge(tallies: &[Tally]) -> Finding {
     let measures: Vec<_> = tallies
         .iter()
         .map(|tally| {
-            let name = format!(
-                "rays that meet their own surface again, of {} {}",
-                tally.spawned, tally.name
-            );
-            Measure::exact(name, tally.met.len() as f64, 0.0, 0.0)
+            let row = format!("{} {}", tally.spawned, tally.name);
+            Measure::none("rays that meet their own surface again", tally.met.len()).of_row(row)
         })
         .collect();
     let spawned: usize = tallies.iter().map(|tally| tally.spawned).sum();
-    let complaints: Vec<_> = tallies.iter().filter_map(complaint).collect();
-    let statement = match complaints.is_empty() {
-        true => format!("{spawned} rays leave the surface they start from"),
-        false => complaints.join("; "),
-    };
     let rare = figure((spawned as f64 / 6.9).floor());
-    let resolution = format!("would have caught one ray in {rare}");
-    let finding = Finding::of(statement, resolution, measures);
+    let right = format!("{spawned} rays leave the surface they start from");
+    let finding = Finding::of(right, format!("would have caught one ray in {rare}"), measures)
+        .complaining(tallies.iter().filter_map(complaint));
     let met: usize = tallies.iter().map(|tally| tally.met.len()).sum();
     let early: usize = tallies.iter().map(|tally| tally.before_start).sum();
     match (met, early) {
@@ -181,9 +174,9 @@ fn complaint(tally: &Tally) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::Intersects;
     use super::super::imitation::{Answer, Formula, intersection};
     use super::*;
+    use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     fn with_unit_normals(answer: Answer) -> Answer {
@@ -193,7 +186,10 @@ mod tests {
 
     fn found(formula: Formula) -> Finding {
         let unit = move |p: &Primitive, ray: &Ray| formula(p, ray).map(with_unit_normals);
-        judge(&check_of::<LeavesItsSurface>("[expect]\nrays = \"20 k\""), &mut Intersects(unit))
+        judge(
+            &check_of::<LeavesItsSurface>("[expect]\nrays = \"20 k\""),
+            &mut Fake::intersecting(unit),
+        )
     }
 
     #[test]

@@ -4,8 +4,6 @@ mod agrees_with_exact_arithmetic;
 mod degenerate_triangles;
 mod exact_sphere;
 mod exact_triangle;
-#[cfg(test)]
-mod fake;
 mod far_spheres;
 mod first_hits;
 mod hits_primitive;
@@ -14,12 +12,21 @@ mod leaves_its_surface;
 mod no_ray_leaks;
 mod shared_edges;
 
-pub use agrees_with_exact_arithmetic::AgreesWithExactArithmetic;
-pub use degenerate_triangles::DegenerateTriangles;
-pub use far_spheres::FarSpheres;
-pub use first_hits::{FirstHits, first_hits};
-pub use hits_primitive::HitsPrimitive;
+pub use first_hits::first_hits;
+#[cfg(test)]
+pub(in crate::checks) use imitation::as_hit;
 pub(in crate::checks) use imitation::{Answer, intersection};
-pub use leaves_its_surface::LeavesItsSurface;
-pub use no_ray_leaks::NoRayLeaks;
-pub use shared_edges::SharedEdges;
+
+use super::CheckKind;
+
+/// The checks of this subject.
+pub static CHECKS: &[CheckKind] = &[
+    CheckKind::of::<hits_primitive::HitsPrimitive>(),
+    CheckKind::of::<agrees_with_exact_arithmetic::AgreesWithExactArithmetic>(),
+    CheckKind::of::<far_spheres::FarSpheres>(),
+    CheckKind::of::<degenerate_triangles::DegenerateTriangles>(),
+    CheckKind::of::<leaves_its_surface::LeavesItsSurface>(),
+    CheckKind::of::<shared_edges::SharedEdges>(),
+    CheckKind::of::<no_ray_leaks::NoRayLeaks>(),
+    CheckKind::of::<first_hits::FirstHits>(),
+];

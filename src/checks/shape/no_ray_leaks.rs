@@ -137,20 +137,12 @@ fn finding(report: &RareReport, at_vertices: f64, causes: Vec<(&Cause, String)>)
     };
     let measures = vec![
         Measure::of("share of rays that leak", report),
-        Measure {
-            verdict: Verdict::Pass,
-            ..Measure::exact(
-                "share of rays at vertices that leak (not graded)",
-                at_vertices,
-                0.0,
-                0.0,
-            )
-        },
+        Measure::exact("share of rays at vertices that leak (not graded)", at_vertices, 0.0, 0.0)
+            .not_graded(),
     ];
     let one_in = figure(report.resolution.recip().floor());
     let resolution = format!("would have caught one leak in {one_in} rays");
-    let finding = Finding::of(statement, resolution, measures);
-    causes.into_iter().fold(finding, |finding, (cause, evidence)| finding.because(cause, evidence))
+    Finding::of(statement, resolution, measures).because_of(causes)
 }
 
 /// What the leaks have in common.

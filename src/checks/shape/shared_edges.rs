@@ -9,7 +9,6 @@ use crate::checks::phrase::percent;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, Hit, Primitive, Ray};
 use crate::math::rng::{Stream, uniform};
-use crate::stats::Verdict;
 use crate::text::Count;
 use glam::{DVec2, DVec3, IVec2, Vec3Swizzles};
 use serde::Deserialize;
@@ -131,9 +130,9 @@ impl Place {
 /// How many rays met nothing.
 #[derive(Clone, Copy, Debug, Default)]
 struct Missed {
-    pairs: u64,
-    at_edges: u64,
-    inside: u64,
+    pairs: usize,
+    at_edges: usize,
+    inside: usize,
 }
 
 impl Missed {
@@ -148,8 +147,8 @@ impl Missed {
             *is_hit = hits.map(|hit| hit.is_hit());
         }
         self.pairs += 1;
-        self.at_edges += u64::from(!is_hit[0][0] && !is_hit[1][0]);
-        self.inside += u64::from(!is_hit[0][1]) + u64::from(!is_hit[1][2]);
+        self.at_edges += usize::from(!is_hit[0][0] && !is_hit[1][0]);
+        self.inside += usize::from(!is_hit[0][1]) + usize::from(!is_hit[1][2]);
         Ok(())
     }
 
@@ -165,14 +164,13 @@ impl Missed {
                 2 * self.pairs
             ),
         };
-        let none = |name: &str, count: u64| Measure::exact(name, count as f64, 0.0, 0.0);
         let measures = vec![
-            none("rays that fall through an edge", self.at_edges),
-            none("rays that fall through a triangle", self.inside),
+            Measure::none("rays that fall through an edge", self.at_edges),
+            Measure::none("rays that fall through a triangle", self.inside),
         ];
         let finding = Finding::of(statement, "would have caught one ray", measures);
         let share = self.at_edges as f64 / self.pairs as f64;
-        match finding.verdict == Verdict::Fail && self.inside == 0 {
+        match finding.failed() && self.inside == 0 {
             true => finding.because(
                 &shape::EDGES_EXCLUDED,
                 format!("{} of rays exactly at an edge meet neither triangle", percent(share)),
@@ -184,13 +182,16 @@ impl Missed {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::Intersects;
     use super::super::imitation::{Answer, Formula, intersection};
     use super::*;
+    use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
 
     fn found(formula: Formula) -> Finding {
-        judge(&check_of::<SharedEdges>("[expect]\npairs = \"500\""), &mut Intersects(formula))
+        judge(
+            &check_of::<SharedEdges>("[expect]\npairs = \"500\""),
+            &mut Fake::intersecting(formula),
+        )
     }
 
     /// Where one of the weights is at most `least`, there is no hit.

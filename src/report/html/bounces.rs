@@ -1,9 +1,9 @@
 //! Energy bounce by bounce: each bounce of a furnace over what it should be, one line a channel, where a cause
 //! explains a case that isolates bounces.
 
-use crate::checks::Finding;
+use crate::checks::{Finding, Measure};
 use crate::diagnosis::Headline;
-use crate::image::CHANNELS;
+use crate::image::{CHANNELS, Channel};
 use crate::report::tree::RunTree;
 use crate::text::number::ratio;
 use maud::{Markup, html};
@@ -30,17 +30,17 @@ pub fn plot(tree: &RunTree, core: &str, headline: &Headline) -> Option<Markup> {
     })
 }
 
-/// `bounce k, channel`, in the order of the bounces.
-fn points(finding: &Finding, channel: &str) -> Vec<Point> {
-    let point = |measure: &crate::checks::Measure| {
-        let name = measure.name.strip_suffix(channel)?.strip_suffix(", ")?;
-        let bounce = name.strip_prefix("bounce ")?.parse().ok()?;
+/// Of the rows `bounce k`, in the order of the bounces.
+fn points(finding: &Finding, channel: Channel) -> Vec<Point> {
+    let point = |measure: &Measure| {
+        let bounce = measure.row.strip_prefix("bounce ")?.parse().ok()?;
         let ratio = measure.measured / measure.expected;
         let interval = measure.interval.unwrap_or([measure.measured; 2]);
         let interval = interval.map(|end| end / measure.expected);
         ratio.is_finite().then_some(Point { bounce, ratio, interval })
     };
-    let mut points: Vec<_> = finding.measures.iter().filter_map(point).collect();
+    let of_channel = finding.measures.iter().filter(|m| m.channel == Some(channel));
+    let mut points: Vec<_> = of_channel.filter_map(point).collect();
     points.sort_by_key(|point| point.bounce);
     points
 }

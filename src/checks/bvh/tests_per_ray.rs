@@ -1,0 +1,253 @@
+//! Triangles tested a ray where an arrangement shows what a hierarchy does wrong, against a plain hierarchy. Counts,
+//! which no clock and no machine can change.
+
+use super::question::scene_of;
+use super::reference::{ReferenceBvh, SLACK, Walk};
+use crate::cause::{Cause, bvh};
+use crate::checks::phrase::figure;
+use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::contract::{Acceleration, Capabilities, Hit, Ray};
+use crate::math::rng::{Seed, Stream, uniform};
+use crate::math::sphere::on_sphere;
+use crate::scene::Mesh;
+use crate::text::Count;
+use glam::DVec3;
+use serde::Deserialize;
+
+/// Squares one behind the other, each of so many cells along a side.
+const LAYERS: u32 = 64;
+const CELLS: u32 = 4;
+/// Triangles of about this size, strewn in a box of 1 × 1 × so much.
+const TRIANGLES: u32 = 2048;
+const SIZE: f64 = 0.2;
+const LENGTH: f64 = 200.0;
+/// Even a hierarchy that never divides along the length passes by more than half of the triangles.
+const UNUSED: f64 = 0.5;
+
+/// The number of tests is that of a plain hierarchy, or not much larger.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct TestsPerRay {
+    arrangement: Arrangement,
+    /// From each side.
+    rays: Count,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Arrangement {
+    /// Layers behind layers, seen from both ends: what lies behind the first hit need not be tested.
+    Layers,
+    /// Small triangles in a long box, along each axis in turn: rays across it need few tests if nodes are divided
+    /// along the length.
+    LongBoxes,
+}
+
+impl Check for TestsPerRay {
+    const NAME: &'static str = "tests-per-ray";
+    const SUMMARY: &'static str = "tests per ray where layers hide each other, or boxes are long";
+
+    fn needs(&self) -> Capabilities {
+        Capabilities::BUILD_SCENE | Capabilities::INTERSECT | Capabilities::TRAVERSAL_STATS
+    }
+
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+        let count = usize::try_from(self.rays.0).unwrap_or(usize::MAX);
+        let views = match self.arrangement {
+            Arrangement::Layers => through_layers(count, context.seed),
+            Arrangement::LongBoxes => across_long_boxes(count, context.seed),
+        };
+        let tried: Result<Vec<_>, _> = views.into_iter().map(|view| view.put_to(context)).collect();
+        Ok(self.judge(&tried?))
+    }
+}
+
+/// A scene and rays from one side.
+struct View {
+    name: &'static str,
+    mesh: Mesh,
+    rays: Vec<Ray>,
+}
+
+/// What came of it.
+struct Tried {
+    name: &'static str,
+    tests: f64,
+    /// Of a plain hierarchy.
+    plain: f64,
+}
+
+impl View {
+    fn put_to(self, context: &mut Context<'_>) -> Result<Tried, CheckError> {
+        let plain = ReferenceBvh::new(&self.mesh).tests_per_ray(&self.rays, Walk::Ordered);
+        let scene = scene_of(self.mesh);
+        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let mut hits = vec![Hit::MISS; self.rays.len()];
+        let stats = built.intersect(&self.rays, &mut hits)?;
+        let tests = stats.primitive_tests as f64 / self.rays.len() as f64;
+        Ok(Tried { name: self.name, tests, plain })
+    }
+}
+
+fn through_layers(count: usize, seed: Seed) -> Vec<View> {
+    let view = |(name, from_above)| {
+        let stream = &mut seed.child(name).stream();
+        let rays = (0..count).map(|_| ray_through_layers(from_above, stream)).collect();
+        View { name, mesh: layers(), rays }
+    };
+    [("from below", false), ("from above", true)].map(view).into()
+}
+
+/// Triangles in z = 0, 1, 2, …
+fn layers() -> Mesh {
+    let mut mesh = Mesh::default();
+    for layer in 0..LAYERS {
+        for cell in 0..CELLS * CELLS {
+            let first = u32::try_from(mesh.positions.len()).unwrap_or(u32::MAX);
+            let corner = |dx: u32, dy: u32| {
+                let at = [cell % CELLS + dx, cell / CELLS + dy].map(f64::from);
+                DVec3::new(at[0], at[1], f64::from(layer))
+            };
+            mesh.positions.extend([corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)]);
+            mesh.indices.extend([[0, 1, 2], [0, 2, 3]].map(|face| face.map(|v| first + v)));
+        }
+    }
+    mesh
+}
+
+/// Steeply through all of them.
+fn ray_through_layers(from_above: bool, stream: &mut Stream) -> Ray {
+    let mut at = |z: f64| {
+        let inside = [(); 2].map(|()| f64::from(CELLS) * (0.1 + 0.8 * uniform(stream)));
+        DVec3::new(inside[0], inside[1], z)
+    };
+    let (low, high) = (at(-3.0), at(f64::from(LAYERS) + 3.0));
+    let (from, to) = if from_above { (high, low) } else { (low, high) };
+    Ray::new(from, (to - from).normalize())
+}
+
+fn across_long_boxes(count: usize, seed: Seed) -> Vec<View> {
+    let view = |(axis, name)| {
+        let stream = &mut seed.child(axis).stream();
+        let rays = (0..count).map(|_| ray_across(axis, stream)).collect();
+        View { name, mesh: long_box(axis), rays }
+    };
+    [(0, "along x"), (1, "along y"), (2, "along z")].map(view).into()
+}
+
+/// The same numbers for each axis.
+fn long_box(axis: usize) -> Mesh {
+    let stream = &mut Seed(1).stream();
+    let mut mesh = Mesh::default();
+    for number in 0..TRIANGLES {
+        let centre = point_in_box(axis, stream);
+        let corners = [(); 3].map(|()| centre + 0.5 * SIZE * on_sphere(stream));
+        mesh.positions.extend(corners);
+        mesh.indices.push([0, 1, 2].map(|corner| 3 * number + corner));
+    }
+    mesh
+}
+
+fn point_in_box(axis: usize, stream: &mut Stream) -> DVec3 {
+    let mut point = DVec3::from_array(std::array::from_fn(|_| uniform(stream)));
+    point[axis] *= LENGTH;
+    point
+}
+
+/// From outside, at right angles to the length.
+fn ray_across(axis: usize, stream: &mut Stream) -> Ray {
+    let target = point_in_box(axis, stream);
+    let mut direction = on_sphere(stream);
+    direction[axis] = 0.0;
+    let direction = direction.normalize_or(DVec3::ONE);
+    Ray::new(target - 3.0 * direction, direction)
+}
+
+impl Tried {
+    fn is_slow(&self) -> bool {
+        self.tests > SLACK * self.plain
+    }
+
+    fn measure(&self) -> Measure {
+        Measure::at_most("tests a ray", self.tests, SLACK * self.plain).of_row(self.name)
+    }
+
+    fn words(&self) -> String {
+        let [tests, plain] = [self.tests, self.plain].map(figure);
+        format!("{tests} {}, a plain hierarchy {plain}", self.name)
+    }
+}
+
+impl TestsPerRay {
+    fn judge(&self, tried: &[Tried]) -> Finding {
+        let told = tried.iter().map(Tried::words).collect::<Vec<_>>().join("; ");
+        let tested = format!("triangles tested a ray: {told}");
+        let measures = tried.iter().map(Tried::measure).collect();
+        let finding = Finding::of(&tested, "would have caught four times the tests", measures);
+        let cause = finding.failed().then(|| self.cause(tried)).flatten();
+        let explained = cause.map(|cause| format!("{tested}: {}", cause.headline));
+        finding.complaining(explained).because_each(cause, &told)
+    }
+
+    fn cause(&self, tried: &[Tried]) -> Option<&'static Cause> {
+        let all_test =
+            |share: f64| tried.iter().all(|view| view.tests >= share * f64::from(TRIANGLES));
+        let slow: Vec<_> = tried.iter().filter(|view| view.is_slow()).map(|v| v.name).collect();
+        match (self.arrangement, slow.as_slice()) {
+            (Arrangement::Layers, _) if all_test(1.0) => Some(&bvh::HIERARCHY_NOT_USED),
+            (Arrangement::Layers, [_, _]) => Some(&bvh::SEGMENT_NOT_SHORTENED),
+            (Arrangement::Layers, _) => Some(&bvh::CHILDREN_UNORDERED),
+            (Arrangement::LongBoxes, _) if all_test(UNUSED) => Some(&bvh::HIERARCHY_NOT_USED),
+            (Arrangement::LongBoxes, ["along z"]) => Some(&bvh::Z_NEVER_SPLIT),
+            (Arrangement::LongBoxes, [_, _, _]) => Some(&bvh::SHORTEST_AXIS),
+            (Arrangement::LongBoxes, _) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake::{FakeCore, Slip};
+    use super::*;
+    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+
+    fn found(arrangement: &str, slip: Slip) -> Finding {
+        let text = format!("[expect]\narrangement = \"{arrangement}\"\nrays = 200");
+        judge(&check_of::<TestsPerRay>(&text), &mut FakeCore(slip))
+    }
+
+    #[test]
+    fn an_ordered_walk_of_a_plain_hierarchy_passes() {
+        assert_eq!(layers().indices.len(), TRIANGLES as usize);
+        assert_passes(&found("layers", Slip::None));
+        assert_passes(&found("long-boxes", Slip::None));
+    }
+
+    #[test]
+    fn walks_that_test_what_is_hidden_fail_and_are_named() {
+        for (slip, cause) in [
+            (Slip::NeverShortens, "t-max-not-shortened"),
+            (Slip::NeverOrders, "children-unordered"),
+            (Slip::TestsEverything, "bvh-not-used"),
+        ] {
+            let finding = found("layers", slip);
+            failure(&finding);
+            assert_eq!(finding.clues[0].cause, cause);
+        }
+    }
+
+    #[test]
+    fn the_axes_that_are_slow_name_the_mistake() {
+        let told = |tests: [f64; 3]| {
+            let check = TestsPerRay { arrangement: Arrangement::LongBoxes, rays: Count(1) };
+            let names = ["along x", "along y", "along z"];
+            let tried = [0, 1, 2].map(|i| Tried { name: names[i], tests: tests[i], plain: 10.0 });
+            check.judge(&tried).clues.first().map(|clue| clue.cause.clone())
+        };
+        assert_eq!(told([10.0, 12.0, 9.0]), None);
+        assert_eq!(told([10.0, 12.0, 90.0]).as_deref(), Some("z-never-split"));
+        assert_eq!(told([80.0, 90.0, 90.0]).as_deref(), Some("shortest-axis"));
+        assert_eq!(told([2048.0; 3]).as_deref(), Some("bvh-not-used"));
+        assert_eq!(told([1196.0, 1321.0, 1249.0]).as_deref(), Some("bvh-not-used"));
+    }
+}

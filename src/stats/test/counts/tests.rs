@@ -1,0 +1,169 @@
+//! Samplers that are right, and wrong in the ways that samplers are.
+
+use super::*;
+use crate::math::frame::direction;
+use crate::math::quadrature::Diligence;
+use crate::math::rng::{Seed, Stream, uniform};
+use crate::stats::SphereCells;
+use glam::DVec3;
+use std::convert::Infallible;
+use std::f64::consts::{FRAC_1_PI, TAU};
+
+fn cells() -> SphereCells {
+    SphereCells::hemisphere(10, 20)
+}
+
+fn probabilities(pdf: impl Fn(DVec3) -> f64) -> CellProbabilities {
+    let mut batch = |directions: &[DVec3], values: &mut [f64]| {
+        directions.iter().zip(values).for_each(|(d, v)| *v = pdf(*d));
+        Ok::<_, Infallible>(())
+    };
+    let Ok(expected) = cells().probabilities(Diligence::default(), &mut batch);
+    expected
+}
+
+fn cosine() -> CellProbabilities {
+    probabilities(|d| d.z.max(0.0) * FRAC_1_PI)
+}
+
+/// Samples with cos θ = u^(1/(exponent + 1)): the cosine law at exponent 1.
+fn power(stream: &mut Stream, exponent: f64) -> DVec3 {
+    let z = uniform(stream).powf(1.0 / (exponent + 1.0));
+    direction(z.acos(), TAU * uniform(stream))
+}
+
+fn judge(
+    expected: &CellProbabilities,
+    detects: f64,
+    seed: u64,
+    sample: impl Fn(&mut Stream) -> Option<DVec3>,
+) -> CountReport {
+    let mut draw = |stage: Stage, samples: u64| {
+        let mut stream = Seed(seed).child(stage).stream();
+        Ok::<_, Infallible>(cells().count((0..samples).map(|_| sample(&mut stream))))
+    };
+    let Ok(report) = judge_counts(expected, &Effort::new(detects), &mut draw);
+    report
+}
+
+#[test]
+fn a_right_sampler_passes_and_says_what_it_would_have_seen() {
+    let report = judge(&cosine(), 0.03, 1, |s| Some(power(s, 1.0)));
+    assert_eq!(report.verdict, Verdict::Pass, "{:?}", report.stages);
+    assert!(report.resolution <= 0.03 && report.resolution > 0.02);
+    assert_eq!(report.stages.len(), 1);
+}
+
+#[test]
+fn gross_mistakes_fail() {
+    let uniform_for_cosine =
+        judge(&cosine(), 0.1, 1, |s| Some(direction(uniform(s).acos(), TAU * uniform(s))));
+    let half_the_circle =
+        judge(&cosine(), 0.1, 1, |s| Some(power(s, 1.0)).map(|d| d.with_y(d.y.abs())));
+    let one_number_twice = judge(&cosine(), 0.1, 1, |s| {
+        let u = uniform(s);
+        Some(direction(u.sqrt().acos(), TAU * u))
+    });
+    for report in [uniform_for_cosine, half_the_circle, one_number_twice] {
+        assert_eq!(report.verdict, Verdict::Fail, "{:?}", report.stages);
+        assert_eq!(report.stages.len(), 3);
+    }
+}
+
+#[test]
+fn a_slightly_wrong_exponent_fails_where_it_is_promised_and_not_below() {
+    // The density of exponent 1.05 is 1.2 % off, root mean square.
+    let seen = judge(&cosine(), 0.012, 1, |s| Some(power(s, 1.05)));
+    assert_eq!(seen.verdict, Verdict::Fail);
+    let unseen = judge(&cosine(), 0.1, 1, |s| Some(power(s, 1.05)));
+    assert_eq!(unseen.verdict, Verdict::Pass);
+}
+
+#[test]
+fn one_sample_below_the_horizon_fails() {
+    let report = judge(&cosine(), 0.1, 1, |s| {
+        let up = power(s, 1.0);
+        Some(if uniform(s) < 1e-3 { -up } else { up })
+    });
+    assert_eq!(report.verdict, Verdict::Fail);
+    assert!(report.forbidden.is_some_and(|forbidden| forbidden.cell < 20));
+}
+
+#[test]
+fn failed_samples_are_right_if_the_density_lacks_them_and_wrong_if_not() {
+    let lossy = |s: &mut Stream| (uniform(s) < 0.9).then(|| power(s, 1.0));
+    let honest = probabilities(|d| 0.9 * d.z.max(0.0) * FRAC_1_PI);
+    assert_eq!(judge(&honest, 0.1, 1, lossy).verdict, Verdict::Pass);
+    assert_eq!(judge(&cosine(), 0.1, 1, lossy).verdict, Verdict::Fail);
+}
+
+#[test]
+fn a_density_that_is_twice_too_large_fails() {
+    let doubled = probabilities(|d| 2.0 * d.z.max(0.0) * FRAC_1_PI);
+    let report = judge(&doubled, 0.1, 1, |s| Some(power(s, 1.0)));
+    assert_eq!(report.verdict, Verdict::Fail);
+}
+
+#[test]
+fn a_density_that_is_not_a_number_fails() {
+    let mut expected = cosine();
+    expected.cells[50] = f64::NAN;
+    let report = judge(&expected, 0.1, 1, |s| Some(power(s, 1.0)));
+    assert_eq!(report.verdict, Verdict::Fail);
+    assert_eq!(report.improper_cell, Some(50));
+}
+
+#[test]
+fn an_unknown_integral_is_no_ground_for_a_verdict() {
+    let mut expected = cosine();
+    expected.errors.fill(1e-3);
+    let report = judge(&expected, 0.1, 1, |s| Some(power(s, 1.0)));
+    assert_eq!(report.verdict, Verdict::Inconclusive);
+    assert_eq!(report.doubt, Some(CountDoubt::QuadratureNotConverged));
+}
+
+#[test]
+fn an_integral_known_roughly_takes_more_samples_to_pass() {
+    let mut expected = cosine();
+    let exact = judge(&expected, 0.03, 1, |s| Some(power(s, 1.0)));
+    expected.errors.fill(3e-6);
+    let rough = judge(&expected, 0.03, 1, |s| Some(power(s, 1.0)));
+    assert_eq!(rough.verdict, Verdict::Pass, "{:?}", rough.doubt);
+    assert!(rough.samples > exact.samples && rough.resolution <= 0.03);
+}
+
+#[test]
+fn an_unknown_integral_does_not_hide_a_gross_mistake() {
+    let mut expected = cosine();
+    expected.errors.fill(1e-4);
+    let report = judge(&expected, 0.1, 1, |s| Some(power(s, 3.0)));
+    assert_eq!(report.verdict, Verdict::Fail);
+}
+
+#[test]
+fn starved_cells_are_pooled_until_they_expect_enough() {
+    let expected = CellProbabilities::exact(vec![0.001; 1000]);
+    let counts = Counts { cells: vec![1; 1000], absorbed: 0 };
+    let pools = pooled(&expected, &counts);
+    assert!(pools.iter().all(|pool| pool.expected >= FEWEST_EXPECTED));
+    let observed: f64 = pools.iter().map(|pool| pool.observed).sum();
+    assert_eq!(observed, 1000.0);
+}
+
+#[test]
+fn p_values_of_a_right_sampler_are_uniform() {
+    let expected = cosine();
+    let mut stream = Seed(7).stream();
+    let trials = 2000;
+    let p_values: Vec<f64> = (0..trials)
+        .map(|_| {
+            let samples = (0..6000).map(|_| Some(power(&mut stream, 1.0)));
+            score(Stage::First, &expected, &cells().count(samples)).p_value
+        })
+        .collect();
+    for level in [0.01, 0.05, 0.5] {
+        let below = p_values.iter().filter(|p| **p < level).count() as f64;
+        let deviation = (trials as f64 * level * (1.0 - level)).sqrt();
+        assert!((below - trials as f64 * level).abs() < 4.0 * deviation, "{level}: {below}");
+    }
+}

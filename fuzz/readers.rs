@@ -4,7 +4,7 @@
 //! Shared by the targets of libFuzzer (`fuzz/fuzz_targets`) and by `tests/fuzzing.rs`.
 
 use furnace::case;
-use furnace::contract::{Capabilities, Conventions, Core, CoreInfo, Hit, Precision, Ray};
+use furnace::contract::{Core, CoreInfo, Hit, Ray};
 use furnace::image::exr;
 use furnace::scene::format::collada;
 use furnace::scene::mesh::{self, Format};
@@ -36,8 +36,8 @@ pub fn protocol(bytes: &[u8]) {
         || Channel { input: Box::new(Cursor::new(bytes.to_vec())), output: Box::new(sink()) };
     let _ = serve(&mut Nobody, channel());
     let mut hits = [Hit::MISS; 2];
-    let _ =
-        Client::new(channel()).ask(&Request::Intersect, &[], &mut [Wanted::new("hits", &mut hits)]);
+    let _ = Client::new(channel())
+        .ask(&Request::new("intersect"), &mut [Wanted::new("hits", &mut hits)]);
     let mut rays = [Ray::new(glam::DVec3::ZERO, glam::DVec3::Z)];
     let _ = Client::new(channel()).hear(&mut [Wanted::new("rays", &mut rays)]);
 }
@@ -90,12 +90,6 @@ struct Nobody;
 
 impl Core for Nobody {
     fn info(&self) -> CoreInfo {
-        CoreInfo {
-            name: "nobody".to_owned(),
-            version: "0".to_owned(),
-            capabilities: Capabilities::empty(),
-            precision: Precision::Double,
-            conventions: Conventions::default(),
-        }
+        CoreInfo::default()
     }
 }

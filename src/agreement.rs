@@ -173,8 +173,7 @@ fn settings(camera: Camera, reference: &Reference, effort: Effort, run: u32) -> 
         height,
         samples_per_pixel: effort.samples,
         integrator,
-        adaptive: None,
-        stratified: false,
+        ..Default::default()
     }
 }
 

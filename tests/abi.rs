@@ -6,11 +6,12 @@
 mod support;
 
 use furnace::contract::abi::{self, Traits};
+use furnace::contract::crossing::{Element, Layout};
 use furnace::contract::validate::Validated;
 use furnace::contract::{
-    Acceleration, BoxHit, BsdfQuery, BsdfSample, BsdfValue, BuildStats, Capabilities, Core,
-    CoreError, DirectionSample, Hit, IntegratorSettings, LightSample, Primitive, Randomness, Ray,
-    Sampler, TraversalStats,
+    Acceleration, AdaptiveMean, BoxHit, BsdfQuery, BsdfSample, BsdfValue, BuildStats, Capabilities,
+    Core, CoreError, DirectionSample, Hit, IntegratorSettings, LightSample, Primitive, Randomness,
+    Ray, Sampler, TraversalStats,
 };
 use furnace::cores::dylib::Dylib;
 use furnace::scene::{Camera, Light, Material, Mesh, SceneDescription, Surface};
@@ -59,97 +60,55 @@ fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
 }
 
 /// A size or an offset, as C writes it and as Rust has it.
-struct Layout {
+struct Compared {
     c: String,
     rust: usize,
 }
 
-/// The size of a struct, and the offsets of its fields; a field that is named otherwise in C says how.
-macro_rules! layout {
-    ($c:literal, $rust:ty: $($field:tt $(= $c_field:literal)?),* $(,)?) => {
-        vec![
-            Layout { c: format!("sizeof({})", $c), rust: size_of::<$rust>() },
-            $(Layout {
-                c: format!("offsetof({}, {})", $c, last(&[stringify!($field) $(, $c_field)?])),
-                rust: offset_of!($rust, $field),
-            }),*
-        ]
+/// The size of a struct, and the offsets of its fields, some of which Rust cannot name as C does.
+fn layout(of: &Layout) -> Vec<Compared> {
+    let name = format!("furnace_{}", of.name.replace('-', "_"));
+    let name = name.replace("furnace_furnace_", "furnace_");
+    let field = |(field, rust): &(&str, usize)| {
+        let field = field.trim_start_matches("r#").replace("this", "self");
+        Compared { c: format!("offsetof({name}, {field})"), rust: *rust }
+    };
+    let whole = Compared { c: format!("sizeof({name})"), rust: of.size };
+    [whole].into_iter().chain(of.fields.iter().map(field)).collect()
+}
+
+/// The layout of a struct that is neither of the header alone nor an element.
+macro_rules! plain {
+    ($name:literal, $type:ty: $($field:ident),*) => {
+        Layout {
+            name: $name,
+            size: size_of::<$type>(),
+            fields: &[$((stringify!($field), offset_of!($type, $field))),*],
+        }
     };
 }
 
-fn last<'a>(names: &[&'a str]) -> &'a str {
-    names.last().unwrap()
-}
-
-fn layouts() -> Vec<Layout> {
-    [
-        layout!("furnace_vec2", DVec2: x, y),
-        layout!("furnace_vec3", DVec3: x, y, z),
-        layout!("furnace_rgb", [f64; 3]:),
-        layout!("furnace_ray", Ray: origin, t_min, direction, t_max),
-        layout!("furnace_hit", Hit: t, shape, primitive, geometric_normal, shading_normal, uv),
-        layout!("furnace_box_hit", BoxHit: t_enter, t_exit, hit, reserved),
-        layout!("furnace_direction_sample", DirectionSample: direction, pdf),
-        layout!("furnace_bsdf_query", BsdfQuery: wo, wi),
-        layout!("furnace_bsdf_value", BsdfValue: f, pdf),
-        layout!("furnace_bsdf_sample", BsdfSample: wi, f, pdf, is_delta, is_valid),
-        layout!(
-            "furnace_light_sample", LightSample: wi, distance, radiance, pdf, is_delta, is_valid
-        ),
-        layout!("furnace_adaptive_mean", furnace::contract::AdaptiveMean: mean, used, reserved),
-        layout!("furnace_stream", abi::Stream: values, count),
-        layout!("furnace_traversal_stats", TraversalStats: rays, box_tests, primitive_tests),
-        layout!("furnace_build_stats", BuildStats: nodes, leaves, max_depth, bytes),
-        layout!("furnace_randomness", abi::Randomness: points, lobes, seed),
-        layout!(
-            "furnace_camera", abi::Camera: struct_size, reserved, position, right, up, backward,
-            horizontal_fov, vertical_fov, near_clip, far_clip, film_width, film_height
-        ),
-        layout!(
-            "furnace_material", abi::Material: name, kind, emits, reflectance, transmittance, index,
-            roughness, emission, cap_axis, cap_half_angle, reserved
-        ),
-        layout!(
-            "furnace_mesh", abi::Mesh: name, positions, normals, indices, vertex_count,
-            triangle_count, material, reserved
-        ),
-        layout!("furnace_sphere", abi::Sphere: name, centre, radius, inward, material),
-        layout!("furnace_light", abi::Light: kind, shape, place, radiance, zenith, reserved),
-        layout!(
-            "furnace_scene", abi::Scene: struct_size, material_count, mesh_count, sphere_count,
-            light_count, reserved, name, camera, materials, meshes, spheres, lights
-        ),
-        layout!(
-            "furnace_counted_tests", abi::CountedTests: struct_size, reserved, bench, primitive,
-            r#box = "box"
-        ),
-        layout!(
-            "furnace_build", abi::Build: struct_size, accelerate, split, max_leaf_size, counted
-        ),
-        layout!(
-            "furnace_integrator", abi::Integrator: struct_size, samples_per_light, first_bounce,
-            last_bounce, by_hemisphere, threads, roulette_stop, roulette_guaranteed, reserved, seed
-        ),
-        layout!("furnace_adaptive", abi::Adaptive: struct_size, samples_per_batch, max_tolerance),
-        layout!(
-            "furnace_render", abi::Render: struct_size, width, height, samples_per_pixel,
-            integrator, adaptive, variances, stratified, reserved
-        ),
-        layout!(
-            "furnace_conventions", abi::Conventions: point_light_falloff, emission, smith_term,
-            glass_fresnel, glass_radiance, reserved
-        ),
-        layout!(
-            "furnace_core", abi::CoreTable: abi, struct_size, traits, reserved, conventions, name,
-            version, this = "self", last_error, generate_rays, intersect_triangle,
-            intersect_sphere, intersect_box, sample_direction, direction_pdf, eval_bsdf,
-            sample_bsdf, adaptive_mean, build, release, intersect, occluded, sample_light,
-            radiance, render
-        ),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+fn layouts() -> Vec<Compared> {
+    let structs = abi::STRUCTS.iter().chain([&abi::CORE]).copied();
+    let elements = [
+        DVec2::LAYOUT,
+        DVec3::LAYOUT,
+        <[f64; 3]>::LAYOUT,
+        Ray::LAYOUT,
+        Hit::LAYOUT,
+        BoxHit::LAYOUT,
+        DirectionSample::LAYOUT,
+        BsdfQuery::LAYOUT,
+        BsdfValue::LAYOUT,
+        BsdfSample::LAYOUT,
+        LightSample::LAYOUT,
+        AdaptiveMean::LAYOUT,
+    ];
+    let stats = [
+        plain!("traversal-stats", TraversalStats: rays, box_tests, primitive_tests),
+        plain!("build-stats", BuildStats: nodes, leaves, max_depth, bytes),
+    ];
+    structs.chain(elements).chain(stats).flat_map(|of| layout(&of)).collect()
 }
 
 /// What C thinks the value of each expression is.

@@ -25,8 +25,7 @@ fn render(core: &str, scene: &SceneDescription, seed: Seed) -> Image {
         height: SIZE[1],
         samples_per_pixel: SAMPLES,
         integrator: IntegratorSettings { bounces: 0..=4, seed: seed.0, ..Default::default() },
-        adaptive: None,
-        stratified: false,
+        ..Default::default()
     };
     let mut film = Film::default();
     let mut built = core.build_scene(scene, Acceleration::DEFAULT).unwrap();

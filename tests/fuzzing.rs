@@ -12,13 +12,13 @@
 #[path = "../fuzz/readers.rs"]
 mod readers;
 
-use furnace::contract::{Acceleration, Hit, Ray, Sampler};
+use furnace::contract::{Acceleration, Hit, Primitive, Randomness, Ray, Sampler};
 use furnace::image::{Image, exr};
 use furnace::math::rng::{Seed, Stream, uniform};
 use furnace::project::Project;
 use furnace::scene::{Library, Overrides};
+use furnace::worker::build_request;
 use furnace::worker::message::{Answer, Request, Sent, encode};
-use furnace::worker::{SceneArrays, scene_header};
 use glam::{DVec2, DVec3};
 use readers::READERS;
 use std::fs;
@@ -213,28 +213,30 @@ fn files(folder: &Path, extension: &str) -> Vec<Vec<u8>> {
 /// Requests and answers as they are.
 fn frames() -> Vec<Vec<u8>> {
     let mut frames = Vec::new();
-    let mut push = |request: Request, sent: &[Sent<'_>]| {
+    let mut push = |request: Request<'_>| {
         let mut buffer = Vec::new();
-        encode(&mut buffer, 1, request, sent).unwrap();
+        encode(&mut buffer, 1, request.members(), request.arrays()).unwrap();
         frames.push(buffer);
     };
     let rays = [Ray::new(DVec3::ZERO, DVec3::Z); 2];
     let corners = [DVec3::X, DVec3::Y, DVec3::Z];
-    let rays = Sent::new("rays", &rays);
-    push(Request::Hello, &[]);
-    let shared = [Sent::shared("positions", &corners), Sent::shared("normals", &corners), rays];
-    push(Request::IntersectTriangle, &shared);
-    push(Request::IntersectSphere, &[Sent::shared("spheres", &[[0.0, 0.0, 0.0, 1.0]]), rays]);
-    push(Request::IntersectBox, &[Sent::shared("bounds", &corners[..2]), rays]);
+    push(Request::new("hello"));
+    let triangle = Primitive::Triangle { positions: corners, normals: corners };
+    let sphere = Primitive::Sphere { centre: DVec3::ZERO, radius: 1.0 };
+    for primitive in [triangle, sphere] {
+        let request = Request::new("intersect_primitive").with_argument("primitive", &primitive);
+        push(request.with_argument("rays", rays.as_slice()));
+    }
+    push(Request::new("intersect").with_argument("rays", rays.as_slice()));
     let (points, lobes) = ([DVec2::ZERO; 3], [0.5; 3]);
-    let random = [Sent::new("points", &points), Sent::new("lobes", &lobes)];
-    push(Request::SampleDirection { sampler: Sampler::CosineHemisphere, seed: 7 }, &random);
+    let random = Randomness { points: &points, lobes: &lobes, seed: 7 };
+    let sampler = Sampler::CosineHemisphere;
+    let request = Request::new("sample_direction").with_argument("sampler", sampler);
+    push(request.with_argument("random", random));
     let scenes = Library::new(Project::at(env!("CARGO_MANIFEST_DIR")).scenes());
     for scene in ["cornell-diffuse-spheres", "gradient-sky", "rough-conductor-in-sky"] {
         let scene = scenes.load(scene, &Overrides::new()).unwrap();
-        let arrays = SceneArrays::new(&scene);
-        let acceleration = Acceleration::DEFAULT;
-        push(Request::Build { scene: scene_header(&scene), acceleration }, &arrays.sent());
+        push(build_request(&scene, Acceleration::DEFAULT));
     }
     let mut answer = Vec::new();
     encode(&mut answer, 1, Answer::Done, &[Sent::new("hits", &[Hit::MISS; 2])]).unwrap();

@@ -1,23 +1,24 @@
-//! Which mistake an answer in the wrong form is, from the words of [`crate::contract::validate`].
+//! Which mistake an answer is that has not the contract's form.
 
 use crate::cause::{Cause, camera, contract, shape};
+use crate::contract::{Breach, BreachKind};
 
-/// Words of a complaint, and what they tell. The first that is found counts.
-const WORDS: &[(&[&str], &Cause)] = &[
-    (&["ray ", ": direction has length"], &camera::DIRECTION_NOT_UNIT),
-    (&["normal has length"], &shape::NORMAL_NOT_UNIT),
-    (&["hit ", ": t is NaN"], &shape::NAN_HIT_ACCEPTED),
-    (&["left untouched"], &contract::UNTOUCHED),
-    (&["has length"], &contract::NOT_UNIT),
-    (&["NaN"], &contract::NOT_A_NUMBER),
-    (&["inf"], &contract::INFINITE),
-    (&["negative"], &contract::NEGATIVE),
-];
-
-/// The mistake that a breach of the contract is, if its words say so.
-pub fn cause_of(complaint: &str) -> Option<&'static Cause> {
-    let tells = |words: &&[&str]| words.iter().all(|word| complaint.contains(word));
-    WORDS.iter().find(|(words, _)| tells(words)).map(|(_, cause)| *cause)
+/// The mistake that a breach of the contract is, if its kind says so.
+pub fn cause_of(breach: &Breach) -> Option<&'static Cause> {
+    let cause = match (breach.element(), breach.field.as_ref(), &breach.kind) {
+        ("ray", "direction", BreachKind::NotUnit(_)) => &camera::DIRECTION_NOT_UNIT,
+        (_, "geometric_normal" | "shading_normal", BreachKind::NotUnit(_)) => {
+            &shape::NORMAL_NOT_UNIT
+        }
+        ("hit", "t", BreachKind::NotANumber) => &shape::NAN_HIT_ACCEPTED,
+        (_, _, BreachKind::Untouched) => &contract::UNTOUCHED,
+        (_, _, BreachKind::NotUnit(_)) => &contract::NOT_UNIT,
+        (_, _, BreachKind::NotANumber) => &contract::NOT_A_NUMBER,
+        (_, _, BreachKind::Infinite) => &contract::INFINITE,
+        (_, _, BreachKind::Negative(_)) => &contract::NEGATIVE,
+        _ => return None,
+    };
+    Some(cause)
 }
 
 #[cfg(test)]
@@ -25,20 +26,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn complaints_of_validation_are_understood() {
-        let told = |complaint| cause_of(complaint).map(|cause| cause.name);
+    fn a_breach_is_known_by_its_kind_and_its_place() {
+        let told = |what, field: &'static str, kind| {
+            cause_of(&Breach::of(field, kind).in_element(what, 0, 9)).map(|cause| cause.name)
+        };
+        let long = || BreachKind::NotUnit(1.2);
+        assert_eq!(told("ray", "direction", long()), Some("direction-not-unit"));
+        assert_eq!(told("hit", "shading_normal", long()), Some("normal-not-unit"));
+        assert_eq!(told("sample", "wi", long()), Some("answer-not-unit"));
+        assert_eq!(told("hit", "t", BreachKind::NotANumber), Some("nan-hit-accepted"));
         assert_eq!(
-            told("ray 0 of 159: direction has length 1.2, not 1"),
-            Some("direction-not-unit")
+            told("radiance", "radiance", BreachKind::NotANumber),
+            Some("answer-not-a-number")
         );
-        assert_eq!(
-            told("hit 3 of 9: shading_normal has length 0.9, not 1"),
-            Some("normal-not-unit")
-        );
-        assert_eq!(told("hit 3 of 9: t is NaN; a miss is NONE"), Some("nan-hit-accepted"));
-        assert_eq!(told("sample 1 of 2: wi has length 2, not 1"), Some("answer-not-unit"));
-        assert_eq!(told("radiance 7 of 9: radiance is NaN (red)"), Some("answer-not-a-number"));
-        assert_eq!(told("pixel (3, 4): radiance = -1 is negative (red)"), Some("answer-negative"));
-        assert_eq!(told("shape 7 has no primitive 0"), None);
+        assert_eq!(told("hit", "t", BreachKind::Infinite), Some("answer-infinite"));
+        assert_eq!(told("pixel", "radiance", BreachKind::Negative(-1.0)), Some("answer-negative"));
+        let ghost = BreachKind::NoSuchPrimitive { shape: 7, primitive: 0 };
+        assert_eq!(told("hit", "primitive", ghost), None);
+        assert_eq!(cause_of(&Breach::other("NaN, inf, negative")), None);
     }
 }

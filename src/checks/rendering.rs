@@ -41,8 +41,7 @@ impl Rendering {
                 bounces: bounces[0]..=bounces[1],
                 ..Default::default()
             },
-            adaptive: None,
-            stratified: false,
+            ..Default::default()
         };
         Self { camera, settings }
     }

@@ -4,6 +4,7 @@ use super::hosting::HostingArguments;
 use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Case, next_steps};
+use crate::contract::questions::QUESTIONS;
 use crate::contract::{Capabilities, Conventions, CoreError, CoreInfo, Precision};
 use crate::cores::{CORES, CoreSpec, HostError, Hosted, Hosting};
 use crate::worker::StartError;
@@ -97,8 +98,8 @@ fn tell_next_steps(cases: &[Arc<Case>], has: Capabilities) {
         let label = if number == 0 { "next" } else { "then" };
         let names = step.missing.names().join(", ");
         say_line!("{label:<7}{names}: {} more cases, as {}", step.cases.len(), step.cases[0]);
-        for (_, advice) in ADVICE.iter().filter(|(one, _)| step.missing.contains(*one)) {
-            say_line!("         {advice}");
+        for one in step.missing.iter() {
+            say_line!("         {}", advice(one));
         }
     }
 }
@@ -127,7 +128,14 @@ fn tell_failure(error: HostError) -> ExitCode {
     }
 }
 
-/// How each capability is written in furnace_core.hpp.
+/// How a capability is written in furnace_core.hpp.
+fn advice(one: Capabilities) -> String {
+    let special = ADVICE.iter().find(|(of, _)| *of == one).map(|(_, advice)| (*advice).to_owned());
+    let functions = || QUESTIONS.iter().filter(|q| q.capability == one).flat_map(|q| q.in_c);
+    special.unwrap_or_else(|| functions().copied().collect::<Vec<_>>().join(", "))
+}
+
+/// Where the names of its functions do not say it.
 const ADVICE: &[(Capabilities, &str)] = &[
     (Capabilities::GENERATE_RAYS, "generate_ray(camera, film)"),
     (
@@ -202,8 +210,7 @@ mod tests {
 
     #[test]
     fn there_is_advice_for_every_capability() {
-        let advised = ADVICE.iter().map(|(one, _)| *one).collect::<Capabilities>();
-        assert_eq!((Capabilities::all() - advised).names(), Vec::<String>::new());
+        assert!(Capabilities::all().iter().all(|one| !advice(one).is_empty()));
         assert!(ADVICE.iter().all(|(one, _)| one.iter().count() == 1));
     }
 }

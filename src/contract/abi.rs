@@ -7,10 +7,13 @@
 
 #![expect(missing_docs, reason = "the header documents the fields")]
 
-use super::{
-    AdaptiveMean, BoxHit, BsdfQuery, BsdfSample, BsdfValue, BuildStats, DirectionSample, Hit,
-    LightSample, Ray, TraversalStats,
-};
+pub mod given;
+mod table;
+
+pub use table::{CORE, CoreTable};
+
+use super::crossing::Layout;
+use super::{BoxHit, Hit, Ray};
 use bitflags::bitflags;
 use glam::{DVec2, DVec3};
 use std::ffi::{c_char, c_void};
@@ -78,231 +81,186 @@ numbers! {
 }
 
 bitflags! {
-    /// `furnace_core.traits`: what no function pointer can say.
+    /// `furnace_core.traits`, where each name begins with `FURNACE_`: what no function pointer can say.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Traits: u32 {
-        /// `FURNACE_BRUTE_FORCE`
         const BRUTE_FORCE = 1 << 0;
-        /// `FURNACE_SPLIT_RULES`
         const SPLIT_RULES = 1 << 1;
-        /// `FURNACE_HEMISPHERE_SAMPLING`
         const HEMISPHERE_SAMPLING = 1 << 2;
-        /// `FURNACE_ISOLATED_BOUNCES`
         const ISOLATED_BOUNCES = 1 << 3;
-        /// `FURNACE_ROULETTE`
         const ROULETTE = 1 << 4;
-        /// `FURNACE_ADAPTIVE_SAMPLING`
         const ADAPTIVE_SAMPLING = 1 << 5;
-        /// `FURNACE_COUNTS_TRAVERSAL`
         const COUNTS_TRAVERSAL = 1 << 6;
-        /// `FURNACE_COUNTED_TESTS`
         const COUNTED_TESTS = 1 << 7;
-        /// `FURNACE_CALLERS_RANDOMNESS`
         const CALLERS_RANDOMNESS = 1 << 8;
-        /// `FURNACE_DETERMINISTIC`
         const DETERMINISTIC = 1 << 9;
-        /// `FURNACE_SINGLE_PRECISION`
         const SINGLE_PRECISION = 1 << 10;
-        /// `FURNACE_KNOWS_ROUGH_GLASS`
         const KNOWS_ROUGH_GLASS = 1 << 11;
-        /// `FURNACE_REPORTED_VARIANCE`
         const REPORTED_VARIANCE = 1 << 12;
-        /// `FURNACE_STRATIFIED_PIXELS`
         const STRATIFIED_PIXELS = 1 << 13;
     }
 }
 
-/// `furnace_camera`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Camera {
-    pub struct_size: u32,
-    pub reserved: u32,
-    pub position: DVec3,
-    pub right: DVec3,
-    pub up: DVec3,
-    pub backward: DVec3,
-    pub horizontal_fov: f64,
-    pub vertical_fov: f64,
-    pub near_clip: f64,
-    pub far_clip: f64,
-    pub film_width: u32,
-    pub film_height: u32,
+/// The structs of the header, and how they lie, for the test that compares them.
+macro_rules! structs {
+    ($($(#[$meta:meta])* $name:ident = $c:literal { $($field:ident: $type:ty),* $(,)? })*) => {
+        $(
+            #[doc = concat!("`", $c, "`")]
+            $(#[$meta])*
+            #[repr(C)]
+            #[derive(Clone, Copy, Debug)]
+            pub struct $name {
+                $(pub $field: $type),*
+            }
+        )*
+        /// Every struct above by its name in C.
+        pub const STRUCTS: &[Layout] = &[$(Layout {
+            name: $c,
+            size: size_of::<$name>(),
+            fields: &[$((stringify!($field), std::mem::offset_of!($name, $field))),*],
+        }),*];
+    };
 }
 
-/// `furnace_material`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Material {
-    pub name: *const c_char,
-    pub kind: u32,
-    pub emits: u32,
-    pub reflectance: [f64; 3],
-    pub transmittance: [f64; 3],
-    pub index: f64,
-    pub roughness: f64,
-    pub emission: [f64; 3],
-    pub cap_axis: DVec3,
-    pub cap_half_angle: f64,
-    pub reserved: [f64; 4],
-}
-
-/// `furnace_mesh`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Mesh {
-    pub name: *const c_char,
-    pub positions: *const DVec3,
-    pub normals: *const DVec3,
-    pub indices: *const [u32; 3],
-    pub vertex_count: u32,
-    pub triangle_count: u32,
-    pub material: u32,
-    pub reserved: u32,
-}
-
-/// `furnace_sphere`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Sphere {
-    pub name: *const c_char,
-    pub centre: DVec3,
-    pub radius: f64,
-    pub inward: u32,
-    pub material: u32,
-}
-
-/// `furnace_light`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Light {
-    pub kind: u32,
-    pub shape: u32,
-    pub place: DVec3,
-    pub radiance: [f64; 3],
-    pub zenith: [f64; 3],
-    pub reserved: [f64; 2],
-}
-
-/// `furnace_scene`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Scene {
-    pub struct_size: u32,
-    pub material_count: u32,
-    pub mesh_count: u32,
-    pub sphere_count: u32,
-    pub light_count: u32,
-    pub reserved: u32,
-    pub name: *const c_char,
-    pub camera: *const Camera,
-    pub materials: *const Material,
-    pub meshes: *const Mesh,
-    pub spheres: *const Sphere,
-    pub lights: *const Light,
-}
-
-/// `furnace_counted_tests`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct CountedTests {
-    pub struct_size: u32,
-    pub reserved: u32,
-    pub bench: *mut c_void,
-    pub primitive: unsafe extern "C" fn(
+structs! {
+    Camera = "furnace_camera" {
+        struct_size: u32,
+        reserved: u32,
+        position: DVec3,
+        right: DVec3,
+        up: DVec3,
+        backward: DVec3,
+        horizontal_fov: f64,
+        vertical_fov: f64,
+        near_clip: f64,
+        far_clip: f64,
+        film_width: u32,
+        film_height: u32,
+    }
+    Material = "furnace_material" {
+        name: *const c_char,
+        kind: u32,
+        emits: u32,
+        reflectance: [f64; 3],
+        transmittance: [f64; 3],
+        index: f64,
+        roughness: f64,
+        emission: [f64; 3],
+        cap_axis: DVec3,
+        cap_half_angle: f64,
+        reserved: [f64; 4],
+    }
+    Mesh = "furnace_mesh" {
+        name: *const c_char,
+        positions: *const DVec3,
+        normals: *const DVec3,
+        indices: *const [u32; 3],
+        vertex_count: u32,
+        triangle_count: u32,
+        material: u32,
+        reserved: u32,
+    }
+    Sphere = "furnace_sphere" {
+        name: *const c_char,
+        centre: DVec3,
+        radius: f64,
+        inward: u32,
+        material: u32,
+    }
+    Light = "furnace_light" {
+        kind: u32,
+        shape: u32,
+        place: DVec3,
+        radiance: [f64; 3],
+        zenith: [f64; 3],
+        reserved: [f64; 2],
+    }
+    Scene = "furnace_scene" {
+        struct_size: u32,
+        material_count: u32,
+        mesh_count: u32,
+        sphere_count: u32,
+        light_count: u32,
+        reserved: u32,
+        name: *const c_char,
+        camera: *const Camera,
+        materials: *const Material,
+        meshes: *const Mesh,
+        spheres: *const Sphere,
+        lights: *const Light,
+    }
+    CountedTests = "furnace_counted_tests" {
+        struct_size: u32,
+        reserved: u32,
+        bench: *mut c_void,
+        primitive: unsafe extern "C" fn(
         bench: *mut c_void,
         shape: u32,
         primitive: u32,
         ray: *const Ray,
         hit: *mut Hit,
     ) -> u32,
-    pub r#box: unsafe extern "C" fn(
+        r#box: unsafe extern "C" fn(
         bench: *mut c_void,
         min: *const DVec3,
         max: *const DVec3,
         ray: *const Ray,
         hit: *mut BoxHit,
     ) -> u32,
-}
-
-/// `furnace_build`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Build {
-    pub struct_size: u32,
-    pub accelerate: u32,
-    pub split: u32,
-    pub max_leaf_size: u32,
-    pub counted: *const CountedTests,
-}
-
-/// `furnace_integrator`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Integrator {
-    pub struct_size: u32,
-    pub samples_per_light: u32,
-    pub first_bounce: u32,
-    pub last_bounce: u32,
-    pub by_hemisphere: u32,
-    pub threads: u32,
-    pub roulette_stop: f64,
-    pub roulette_guaranteed: u32,
-    pub reserved: u32,
-    pub seed: u64,
-}
-
-/// `furnace_adaptive`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Adaptive {
-    pub struct_size: u32,
-    pub samples_per_batch: u32,
-    pub max_tolerance: f64,
-}
-
-/// `furnace_render`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Render {
-    pub struct_size: u32,
-    pub width: u32,
-    pub height: u32,
-    pub samples_per_pixel: u32,
-    pub integrator: *const Integrator,
-    pub adaptive: *const Adaptive,
-    pub variances: *mut [f32; 3],
-    pub stratified: u32,
-    pub reserved: u32,
-}
-
-/// `furnace_randomness`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Randomness {
-    pub points: *const DVec2,
-    pub lobes: *const f64,
-    pub seed: u64,
-}
-
-/// `furnace_stream`
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Stream {
-    pub values: *const f64,
-    pub count: u64,
-}
-
-/// `furnace_conventions`
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Conventions {
-    pub point_light_falloff: u32,
-    pub emission: u32,
-    pub smith_term: u32,
-    pub glass_fresnel: u32,
-    pub glass_radiance: u32,
-    pub reserved: [u32; 3],
+    }
+    Build = "furnace_build" {
+        struct_size: u32,
+        accelerate: u32,
+        split: u32,
+        max_leaf_size: u32,
+        counted: *const CountedTests,
+    }
+    Integrator = "furnace_integrator" {
+        struct_size: u32,
+        samples_per_light: u32,
+        first_bounce: u32,
+        last_bounce: u32,
+        by_hemisphere: u32,
+        threads: u32,
+        roulette_stop: f64,
+        roulette_guaranteed: u32,
+        reserved: u32,
+        seed: u64,
+    }
+    Adaptive = "furnace_adaptive" {
+        struct_size: u32,
+        samples_per_batch: u32,
+        max_tolerance: f64,
+    }
+    Render = "furnace_render" {
+        struct_size: u32,
+        width: u32,
+        height: u32,
+        samples_per_pixel: u32,
+        integrator: *const Integrator,
+        adaptive: *const Adaptive,
+        variances: *mut [f32; 3],
+        stratified: u32,
+        reserved: u32,
+    }
+    Randomness = "furnace_randomness" {
+        points: *const DVec2,
+        lobes: *const f64,
+        seed: u64,
+    }
+    Stream = "furnace_stream" {
+        values: *const f64,
+        count: u64,
+    }
+    #[derive(Default)]
+    Conventions = "furnace_conventions" {
+        point_light_falloff: u32,
+        emission: u32,
+        smith_term: u32,
+        glass_fresnel: u32,
+        glass_radiance: u32,
+        reserved: [u32; 3],
+    }
 }
 
 /// `furnace_built`: the core's own.
@@ -311,168 +269,3 @@ pub struct Conventions {
 pub struct Built {
     private: [u8; 0],
 }
-
-/// A function over a batch: the arguments between `self` and the count are its own.
-macro_rules! functions {
-    ($($(#[$meta:meta])* $name:ident ( $($argument:ident: $type:ty),* $(,)? );)*) => {
-        $($(#[$meta])* pub type $name =
-            unsafe extern "C" fn(this: *mut c_void, $($argument: $type),*) -> Status;)*
-    };
-}
-
-functions! {
-    /// `generate_rays`
-    GenerateRays(camera: *const Camera, film: *const DVec2, out: *mut Ray, count: usize);
-    /// `intersect_triangle`
-    IntersectTriangle(
-        positions: *const DVec3,
-        normals: *const DVec3,
-        rays: *const Ray,
-        out: *mut Hit,
-        count: usize,
-    );
-    /// `intersect_sphere`
-    IntersectSphere(
-        centre: *const DVec3,
-        radius: f64,
-        rays: *const Ray,
-        out: *mut Hit,
-        count: usize,
-    );
-    /// `intersect_box`
-    IntersectBox(
-        min: *const DVec3,
-        max: *const DVec3,
-        rays: *const Ray,
-        out: *mut BoxHit,
-        count: usize,
-    );
-    /// `sample_direction`
-    SampleDirection(
-        sampler: u32,
-        random: *const Randomness,
-        out: *mut DirectionSample,
-        count: usize,
-    );
-    /// `direction_pdf`
-    DirectionPdf(sampler: u32, directions: *const DVec3, out: *mut f64, count: usize);
-    /// `eval_bsdf`
-    EvalBsdf(
-        material: *const Material,
-        queries: *const BsdfQuery,
-        out: *mut BsdfValue,
-        count: usize,
-    );
-    /// `sample_bsdf`
-    SampleBsdf(
-        material: *const Material,
-        wo: *const DVec3,
-        random: *const Randomness,
-        out: *mut BsdfSample,
-        count: usize,
-    );
-    /// `adaptive_mean`
-    AdaptiveMeans(
-        settings: *const Adaptive,
-        streams: *const Stream,
-        out: *mut AdaptiveMean,
-        count: usize,
-    );
-    /// `build`
-    BuildScene(
-        scene: *const Scene,
-        settings: *const Build,
-        out: *mut *mut Built,
-        stats: *mut BuildStats,
-    );
-    /// `intersect`
-    Intersect(
-        built: *mut Built,
-        rays: *const Ray,
-        out: *mut Hit,
-        count: usize,
-        stats: *mut TraversalStats,
-    );
-    /// `occluded`
-    Occluded(
-        built: *mut Built,
-        rays: *const Ray,
-        out: *mut u8,
-        count: usize,
-        stats: *mut TraversalStats,
-    );
-    /// `sample_light`
-    SampleLight(
-        built: *mut Built,
-        light: u32,
-        from: *const DVec3,
-        random: *const Randomness,
-        out: *mut LightSample,
-        count: usize,
-    );
-    /// `radiance`
-    Radiance(
-        built: *mut Built,
-        rays: *const Ray,
-        settings: *const Integrator,
-        out: *mut [f64; 3],
-        count: usize,
-    );
-    /// `render`
-    RenderPicture(
-        built: *mut Built,
-        camera: *const Camera,
-        settings: *const Render,
-        pixels: *mut [f32; 3],
-        sample_counts: *mut u32,
-    );
-}
-
-/// `furnace_core`: who the core is, and its functions. `None` is "not supported".
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct CoreTable {
-    pub abi: u32,
-    pub struct_size: u32,
-    pub traits: u32,
-    pub reserved: u32,
-    pub conventions: Conventions,
-    pub name: *const c_char,
-    pub version: *const c_char,
-    pub this: *mut c_void,
-    pub last_error: Option<unsafe extern "C" fn(this: *mut c_void) -> *const c_char>,
-    pub generate_rays: Option<GenerateRays>,
-    pub intersect_triangle: Option<IntersectTriangle>,
-    pub intersect_sphere: Option<IntersectSphere>,
-    pub intersect_box: Option<IntersectBox>,
-    pub sample_direction: Option<SampleDirection>,
-    pub direction_pdf: Option<DirectionPdf>,
-    pub eval_bsdf: Option<EvalBsdf>,
-    pub sample_bsdf: Option<SampleBsdf>,
-    pub adaptive_mean: Option<AdaptiveMeans>,
-    pub build: Option<BuildScene>,
-    pub release: Option<unsafe extern "C" fn(this: *mut c_void, built: *mut Built)>,
-    pub intersect: Option<Intersect>,
-    pub occluded: Option<Occluded>,
-    pub sample_light: Option<SampleLight>,
-    pub radiance: Option<Radiance>,
-    pub render: Option<RenderPicture>,
-}
-
-// The sizes that a 64-bit C compiler gives the header; `tests/abi.rs` asks one.
-const _: () = {
-    assert!(size_of::<Camera>() == 144);
-    assert!(size_of::<Material>() == 168);
-    assert!(size_of::<Mesh>() == 48);
-    assert!(size_of::<Sphere>() == 48);
-    assert!(size_of::<Light>() == 96);
-    assert!(size_of::<Scene>() == 72);
-    assert!(size_of::<CountedTests>() == 32);
-    assert!(size_of::<Build>() == 24);
-    assert!(size_of::<Integrator>() == 48);
-    assert!(size_of::<Adaptive>() == 16);
-    assert!(size_of::<Render>() == 48);
-    assert!(size_of::<Randomness>() == 24);
-    assert!(size_of::<Stream>() == 16);
-    assert!(size_of::<CoreTable>() == 208);
-};

@@ -1,8 +1,11 @@
 //! The elements of batches: rays, hits, samples. Plain `repr(C)` data, the same in Rust and in C.
 
-use super::{Capabilities, CoreError, Result};
-use crate::image::encoding::Encoding;
-use crate::image::png;
+use super::answer::{
+    Answered, Asked, Form, colour, finite, finite_vector, flag, holds, not_nan, not_negative,
+    touched, unit,
+};
+use super::crossing::elements;
+use super::{Breach, BreachKind, Capabilities, CoreError, Result};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -31,6 +34,19 @@ impl Ray {
     /// The point at parameter `t`.
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + t * self.direction
+    }
+}
+
+elements! { "ray": Ray { origin, t_min, direction, t_max }; }
+
+impl Answered for Ray {
+    const NOUN: &'static str = "ray";
+
+    fn check(&self, _: &Asked<'_>) -> Form {
+        finite_vector("origin", self.origin)?;
+        unit("direction", self.direction)?;
+        not_nan("t_min", self.t_min)?;
+        not_nan("t_max", self.t_max)
     }
 }
 
@@ -73,6 +89,26 @@ impl Hit {
     }
 }
 
+elements! { "hit": Hit { t, shape, primitive, geometric_normal, shading_normal, uv }; }
+
+impl Answered for Hit {
+    const NOUN: &'static str = "hit";
+
+    fn check(&self, asked: &Asked<'_>) -> Form {
+        if !self.is_hit() {
+            return Ok(());
+        }
+        touched("primitive", self.primitive)?;
+        let &Self { shape, primitive, .. } = self;
+        let primitives = asked.primitives_of_shape.get(shape as usize).copied().unwrap_or(0);
+        let ghost = || BreachKind::NoSuchPrimitive { shape, primitive };
+        holds((primitive as usize) < primitives, "primitive", ghost)?;
+        finite("t", self.t)?;
+        unit("geometric_normal", self.geometric_normal)?;
+        unit("shading_normal", self.shading_normal)
+    }
+}
+
 /// Where a ray segment meets a box.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -85,6 +121,16 @@ pub struct BoxHit {
     pub hit: u32,
     /// Always 0.
     pub reserved: u32,
+}
+
+elements! { "box-hit": BoxHit { t_enter, t_exit, hit, reserved }; }
+
+impl Answered for BoxHit {
+    const NOUN: &'static str = "box hit";
+
+    fn check(&self, _: &Asked<'_>) -> Form {
+        flag("hit", self.hit)
+    }
 }
 
 /// A single shape, tested without any scene.
@@ -147,6 +193,17 @@ pub struct DirectionSample {
     pub pdf: f64,
 }
 
+elements! { "direction-sample": DirectionSample { direction, pdf }; }
+
+impl Answered for DirectionSample {
+    const NOUN: &'static str = "sample";
+
+    fn check(&self, _: &Asked<'_>) -> Form {
+        unit("direction", self.direction)?;
+        not_negative("pdf", self.pdf)
+    }
+}
+
 /// A pair of directions to evaluate a BSDF for.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -157,6 +214,8 @@ pub struct BsdfQuery {
     pub wi: DVec3,
 }
 
+elements! { "bsdf-query": BsdfQuery { wo, wi }; }
+
 /// What a BSDF answers for a pair of directions.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -165,6 +224,17 @@ pub struct BsdfValue {
     pub f: [f64; 3],
     /// Density per steradian around `wi`, given `wo`.
     pub pdf: f64,
+}
+
+elements! { "bsdf-value": BsdfValue { f, pdf }; }
+
+impl Answered for BsdfValue {
+    const NOUN: &'static str = "value";
+
+    fn check(&self, _: &Asked<'_>) -> Form {
+        colour("f", self.f)?;
+        not_negative("pdf", self.pdf)
+    }
 }
 
 /// A sampled incident direction.
@@ -187,6 +257,23 @@ pub struct BsdfSample {
 impl BsdfSample {
     /// A sample that failed.
     pub const NONE: Self = Self { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
+}
+
+elements! { "bsdf-sample": BsdfSample { wi, f, pdf, is_delta, is_valid }; }
+
+impl Answered for BsdfSample {
+    const NOUN: &'static str = "sample";
+
+    fn check(&self, _: &Asked<'_>) -> Form {
+        flag("is_valid", self.is_valid)?;
+        if self.is_valid == 0 {
+            return Ok(());
+        }
+        flag("is_delta", self.is_delta)?;
+        unit("wi", self.wi)?;
+        colour("f", self.f)?;
+        not_negative("pdf", self.pdf)
+    }
 }
 
 /// A sampled direction towards a light.
@@ -220,6 +307,24 @@ impl LightSample {
     };
 }
 
+elements! { "light-sample": LightSample { wi, distance, radiance, pdf, is_delta, is_valid }; }
+
+impl Answered for LightSample {
+    const NOUN: &'static str = "sample";
+
+    fn check(&self, _: &Asked<'_>) -> Form {
+        flag("is_valid", self.is_valid)?;
+        if self.is_valid == 0 {
+            return Ok(());
+        }
+        flag("is_delta", self.is_delta)?;
+        unit("wi", self.wi)?;
+        not_nan("distance", self.distance)?;
+        colour("radiance", self.radiance)?;
+        not_negative("pdf", self.pdf)
+    }
+}
+
 /// Random numbers for one batch, all in [0, 1). `points[i]` and `lobes[i]` belong to element i; a core without
 /// [`Capabilities::CALLERS_RANDOMNESS`] ignores them and seeds itself.
 #[derive(Clone, Copy, Debug)]
@@ -244,6 +349,35 @@ pub struct AdaptiveMean {
     pub reserved: u32,
 }
 
+elements! { "adaptive-mean": AdaptiveMean { mean, used, reserved }; }
+
+impl Answered for AdaptiveMean {
+    const NOUN: &'static str = "mean";
+
+    fn check(&self, _: &Asked<'_>) -> Form {
+        finite("mean", self.mean)?;
+        touched("used", self.used)
+    }
+}
+
+/// A density.
+impl Answered for f64 {
+    const NOUN: &'static str = "density";
+
+    fn check(&self, _: &Asked<'_>) -> Form {
+        not_negative("pdf", *self)
+    }
+}
+
+/// The radiance along a ray.
+impl Answered for [f64; 3] {
+    const NOUN: &'static str = "radiance";
+
+    fn check(&self, _: &Asked<'_>) -> Form {
+        colour("radiance", *self)
+    }
+}
+
 /// Reads flags that cross the boundary as bytes.
 ///
 /// # Errors
@@ -254,9 +388,9 @@ pub fn read_flags(bytes: &[u8], flags: &mut [bool]) -> Result<()> {
             0 => false,
             1 => true,
             _ => {
-                let place = format!("occluded {index} of {}", bytes.len());
-                let what = format!("{place}: it is {byte}, neither 0 nor 1");
-                return Err(CoreError::BrokeContract(what));
+                let breach = Breach::of("it", BreachKind::NotAFlag(u32::from(*byte)));
+                let breach = breach.in_element("occluded", index, bytes.len());
+                return Err(CoreError::BrokeContract(breach));
             }
         };
     }
@@ -294,22 +428,3 @@ impl Film {
         }
     }
 }
-
-/// A picture of 8 bits, and how its codes were made.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CodedFilm {
-    /// From radiance to codes, as the core declares it.
-    pub encoding: Encoding,
-    /// Row-major, row 0 on top.
-    pub codes: png::Picture,
-}
-
-const _: () = {
-    assert!(size_of::<Ray>() == 64);
-    assert!(size_of::<Hit>() == 80);
-    assert!(size_of::<BoxHit>() == 24);
-    assert!(size_of::<BsdfSample>() == 64);
-    assert!(size_of::<LightSample>() == 72);
-    assert!(size_of::<TraversalStats>() == 24);
-    assert!(size_of::<AdaptiveMean>() == 16);
-};

@@ -1,68 +1,52 @@
 //! What a core can be asked, and what it may freely choose.
 
+use super::questions::questions;
 use crate::math::Precision;
 use bitflags::bitflags;
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-bitflags! {
-    /// What a core can be asked to do. A check declares what it needs; a missing capability skips the trial
-    /// (and a suite may turn that skip into a failure).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-    pub struct Capabilities: u64 {
-        /// [`super::Core::generate_rays`]
-        const GENERATE_RAYS = 1 << 0;
-        /// [`super::Core::intersect_primitive`]
-        const INTERSECT_PRIMITIVE = 1 << 1;
-        /// [`super::Core::build_scene`]
-        const BUILD_SCENE = 1 << 2;
-        /// [`super::BuiltScene::intersect`]
-        const INTERSECT = 1 << 3;
-        /// [`super::BuiltScene::occluded`]
-        const OCCLUDED = 1 << 4;
-        /// [`super::Acceleration::BruteForce`] is honoured.
-        const BRUTE_FORCE = 1 << 5;
-        /// Traversal counts are real.
-        const TRAVERSAL_STATS = 1 << 6;
-        /// [`super::Core::eval_bsdf`]
-        const EVAL_BSDF = 1 << 7;
-        /// [`super::Core::sample_bsdf`]
-        const SAMPLE_BSDF = 1 << 8;
-        /// [`super::BuiltScene::sample_light`]
-        const SAMPLE_LIGHT = 1 << 9;
-        /// [`super::BuiltScene::radiance`]
-        const RADIANCE = 1 << 10;
-        /// [`super::BuiltScene::render`]
-        const RENDER = 1 << 11;
-        /// Adaptive sampling in `render`, with true sample counts.
-        const ADAPTIVE_SAMPLING = 1 << 12;
-        /// [`super::Core::intersect_box`]
-        const INTERSECT_BOX = 1 << 13;
-        /// [`super::Core::sample_direction`] and [`super::Core::direction_pdf`]
-        const SAMPLE_DIRECTION = 1 << 14;
-        /// [`super::Core::adaptive_mean`]
-        const ADAPTIVE_MEAN = 1 << 15;
-        /// The split rules of [`super::Split`] can be chosen.
-        const SPLIT_RULES = 1 << 16;
-        /// [`super::DirectSampling::Hemisphere`] is honoured.
-        const HEMISPHERE_SAMPLING = 1 << 17;
-        /// Bounce ranges that do not start at 0 (isolated bounces).
-        const ISOLATED_BOUNCES = 1 << 18;
-        /// Russian roulette with a given probability.
-        const ROULETTE = 1 << 19;
-        /// [`super::BuiltScene::render_codes`]: pictures of 8 bits, of a core that writes nothing else.
-        const RENDER_CODES = 1 << 20;
-        /// [`crate::scene::Surface::RoughGlass`] among the materials.
-        const ROUGH_GLASS = 1 << 21;
-        /// [`super::Film::variances`] of `render`.
-        const REPORTED_VARIANCE = 1 << 22;
-        /// [`super::RenderSettings::stratified`] is honoured.
-        const STRATIFIED_PIXELS = 1 << 23;
-        /// Sampling calls use the caller's random numbers, so they can be replayed.
-        const CALLERS_RANDOMNESS = 1 << 32;
-        /// The same settings and seed give the same bits.
-        const DETERMINISTIC = 1 << 33;
-    }
+/// The bits that the table of questions names, and those of what is not asked but honoured. Only their names cross.
+macro_rules! capabilities {
+    (() $($kind:ident $c:tt { $(#[$doc:meta])* $can:ident $(= $bit:literal)? $(fn $($rest:tt)*)? })*) => {
+        bitflags! {
+            /// What a core can be asked to do. A check declares what it needs; a missing capability skips the trial
+            /// (and a suite may turn that skip into a failure).
+            #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+            pub struct Capabilities: u64 {
+                $($(
+                    #[doc = concat!("Bit ", stringify!($bit), ": the question of this name, in [`super::questions`].")]
+                    const $can = 1 << $bit;
+                )?)*
+                /// [`super::Acceleration::BruteForce`] is honoured.
+                const BRUTE_FORCE = 1 << 5;
+                /// Traversal counts are real.
+                const TRAVERSAL_STATS = 1 << 6;
+                /// Adaptive sampling in `render`, with true sample counts.
+                const ADAPTIVE_SAMPLING = 1 << 12;
+                /// The split rules of [`super::Split`] can be chosen.
+                const SPLIT_RULES = 1 << 16;
+                /// [`super::DirectSampling::Hemisphere`] is honoured.
+                const HEMISPHERE_SAMPLING = 1 << 17;
+                /// Bounce ranges that do not start at 0 (isolated bounces).
+                const ISOLATED_BOUNCES = 1 << 18;
+                /// Russian roulette with a given probability.
+                const ROULETTE = 1 << 19;
+                /// [`crate::scene::Surface::RoughGlass`] among the materials.
+                const ROUGH_GLASS = 1 << 21;
+                /// [`super::Film::variances`] of `render`.
+                const REPORTED_VARIANCE = 1 << 22;
+                /// [`super::RenderSettings::stratified`] is honoured.
+                const STRATIFIED_PIXELS = 1 << 23;
+                /// Sampling calls use the caller's random numbers, so they can be replayed.
+                const CALLERS_RANDOMNESS = 1 << 32;
+                /// The same settings and seed give the same bits.
+                const DETERMINISTIC = 1 << 33;
+            }
+        }
+    };
 }
+questions! { capabilities, () }
 
 impl Capabilities {
     /// The names of the single capabilities in `self`, as users write them: `generate-rays`.
@@ -82,8 +66,22 @@ impl Capabilities {
     }
 }
 
+/// They cross by their names.
+impl Serialize for Capabilities {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.names().serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Capabilities {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let names = Vec::<String>::deserialize(deserializer)?;
+        Self::from_names(&names).map_err(D::Error::custom)
+    }
+}
+
 /// Who the core is. Shown on every report page.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CoreInfo {
     /// `builtin`, `textbook`, or what the core calls itself.
     pub name: String,
@@ -94,6 +92,7 @@ pub struct CoreInfo {
     /// The arithmetic it computes in.
     pub precision: Precision,
     /// What it has freely chosen.
+    #[serde(default)]
     pub conventions: Conventions,
 }
 

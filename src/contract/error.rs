@@ -1,6 +1,6 @@
 //! Why a core could not answer. Each variant is the core's own doing and says so.
 
-use super::Capabilities;
+use super::{Breach, Capabilities};
 use std::time::Duration;
 
 /// What every request to a core gives.
@@ -21,7 +21,7 @@ pub enum CoreError {
     Refused(String),
     /// The core answered, but not in the form the contract asks.
     #[error("the core broke the contract: {0}")]
-    BrokeContract(String),
+    BrokeContract(Breach),
     /// The core stopped working while it was answering.
     #[error("the core crashed ({how}) during {during}")]
     Crashed {
@@ -38,4 +38,11 @@ pub enum CoreError {
         /// The request it was answering.
         during: String,
     },
+}
+
+impl CoreError {
+    /// An answer that is not what was asked for, in words.
+    pub fn breach(words: impl Into<String>) -> Self {
+        Self::BrokeContract(Breach::other(words))
+    }
 }

@@ -110,8 +110,8 @@ pub struct Roulette {
     pub guaranteed: u32,
 }
 
-/// How a picture is made.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// How a picture is made. By default it has no pixels.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct RenderSettings {
     /// Pixels in a row.
@@ -139,4 +139,11 @@ pub struct AdaptiveSettings {
     pub samples_per_batch: u32,
     /// Half width of the 95 % interval, relative to the mean.
     pub max_tolerance: f64,
+}
+
+impl Default for AdaptiveSettings {
+    /// The course's own.
+    fn default() -> Self {
+        Self { samples_per_batch: 32, max_tolerance: 0.05 }
+    }
 }

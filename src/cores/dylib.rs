@@ -8,19 +8,13 @@
 
 mod counted;
 mod declaration;
-mod description;
 
+use crate::contract::abi::given::{self, Given, SceneTables, struct_size};
 use crate::contract::abi::{self, CoreTable, Traits};
-use crate::contract::{
-    Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
-    BuildStats, BuiltScene, Capabilities, Core, CoreError, CoreInfo, DirectionSample, Film, Hit,
-    IntegratorSettings, LightSample, Precision, Primitive, Randomness, Ray, RenderSettings, Result,
-    Sampler, Split, TraversalStats, read_flags,
-};
-use crate::scene::{Aabb, Camera, Material, SceneDescription};
+use crate::contract::answer::Batch;
+use crate::contract::questions::*;
+use crate::contract::{Acceleration, BuildStats, BuiltScene, Core, CoreInfo, Precision, Split};
 use counted::CountedScene;
-use description::{MaterialTable, SceneTables, struct_size};
-use glam::{DVec2, DVec3};
 use libloading::Library;
 use std::ffi::{CStr, c_char, c_void};
 use std::mem::{MaybeUninit, offset_of};
@@ -120,9 +114,9 @@ impl Dylib {
                 _ => CoreError::Unsupported(wanted),
             }),
             abi::INVALID | abi::FAILED => Err(CoreError::Refused(self.last_error())),
-            other => Err(CoreError::BrokeContract(format!(
-                "unknown status {other}: not in furnace_core.h"
-            ))),
+            other => {
+                Err(CoreError::breach(format!("unknown status {other}: not in furnace_core.h")))
+            }
         }
     }
 
@@ -217,27 +211,46 @@ macro_rules! ask {
             return Err(CoreError::Unsupported(Capabilities::$capability));
         };
         // SAFETY: the header gives the function this type; every pointer is valid for the call, and every slice is
-        // as long as the count that goes with it, which `lengths` has checked.
+        // as long as the count that goes with it, which `Given::lent` has checked.
         let status = unsafe { function(core.table.this, $($argument),*) };
         core.answered(Capabilities::$capability, status)
     }};
 }
 
-/// Every slice of a request is as long as its answers: C sees only one count.
-///
-/// # Panics
-/// If one is not, which is a mistake of the caller.
-fn lengths<const N: usize>(answers: usize, others: [usize; N]) -> usize {
-    assert_eq!(others, [answers; N], "slices of one batch have one length");
-    answers
-}
-
-fn randomness(random: Randomness<'_>) -> abi::Randomness {
-    abi::Randomness {
-        points: random.points.as_ptr(),
-        lobes: random.lobes.as_ptr(),
-        seed: random.seed,
-    }
+/// Calls the function of a question that C is asked with the same arguments; of a scene with that before them, and of a
+/// traversal with its counts after them.
+macro_rules! called {
+    (($($core:ident)?; $($built:ident)?) {
+        $(#[$doc:meta])* $can:ident $(= $bit:literal)?
+        fn $method:ident($($arg:ident: $ty:ty),*; $out:ident: &mut $answer:ty) -> ();
+    }) => {
+        fn $method(&mut self, $($arg: $ty,)* $out: &mut $answer) -> Result<()> {
+            let count = $out.len();
+            $(let $arg = $arg.lent(count);)*
+            $out.receive_batch(|out| {
+                ask!(self$(.$core)?, $can, $method(
+                    $(self.$built.as_ptr(),)? $(<$ty as Given>::passed(&$arg),)* out.as_mut_ptr(), count
+                ))
+            })
+        }
+    };
+    ($of:tt {
+        $(#[$doc:meta])* $can:ident $(= $bit:literal)?
+        fn $method:ident($($arg:ident: $ty:ty),*; $out:ident: &mut $answer:ty) -> TraversalStats;
+    }) => {
+        fn $method(&mut self, $($arg: $ty,)* $out: &mut $answer) -> Result<TraversalStats> {
+            let count = $out.len();
+            let mut stats = TraversalStats::default();
+            $(let $arg = $arg.lent(count);)*
+            $out.receive_batch(|out| {
+                let (built, out, stats) = (self.built.as_ptr(), out.as_mut_ptr(), &raw mut stats);
+                ask!(self.core, $can, $method(
+                    built, $(<$ty as Given>::passed(&$arg),)* out, count, stats
+                ))
+            })?;
+            Ok(self.counts(stats, count))
+        }
+    };
 }
 
 impl Core for Dylib {
@@ -245,12 +258,7 @@ impl Core for Dylib {
         self.info.clone()
     }
 
-    fn generate_rays(&mut self, camera: &Camera, film: &[DVec2], rays: &mut [Ray]) -> Result<()> {
-        let count = lengths(rays.len(), [film.len()]);
-        let camera = description::camera(camera);
-        let out = rays.as_mut_ptr();
-        ask!(self, GENERATE_RAYS, generate_rays(&raw const camera, film.as_ptr(), out, count))
-    }
+    each_question! { PlainCore called (;) }
 
     fn intersect_primitive(
         &mut self,
@@ -258,8 +266,8 @@ impl Core for Dylib {
         rays: &[Ray],
         hits: &mut [Hit],
     ) -> Result<()> {
-        let count = lengths(hits.len(), [rays.len()]);
-        let (rays, out) = (rays.as_ptr(), hits.as_mut_ptr());
+        let count = hits.len();
+        let (rays, out) = (rays.lent(count), hits.as_mut_ptr());
         match primitive {
             Primitive::Triangle { positions, normals } => {
                 let (positions, normals) = (positions.as_ptr(), normals.as_ptr());
@@ -277,76 +285,10 @@ impl Core for Dylib {
     }
 
     fn intersect_box(&mut self, bounds: &Aabb, rays: &[Ray], hits: &mut [BoxHit]) -> Result<()> {
-        let count = lengths(hits.len(), [rays.len()]);
+        let count = hits.len();
         let (min, max) = (ptr::from_ref(&bounds.min), ptr::from_ref(&bounds.max));
-        let out = hits.as_mut_ptr();
-        ask!(self, INTERSECT_BOX, intersect_box(min, max, rays.as_ptr(), out, count))
-    }
-
-    fn sample_direction(
-        &mut self,
-        sampler: Sampler,
-        random: Randomness<'_>,
-        samples: &mut [DirectionSample],
-    ) -> Result<()> {
-        let count = lengths(samples.len(), [random.points.len(), random.lobes.len()]);
-        let (sampler, random) = (description::sampler(sampler), randomness(random));
-        let out = samples.as_mut_ptr();
-        ask!(self, SAMPLE_DIRECTION, sample_direction(sampler, &raw const random, out, count))
-    }
-
-    fn direction_pdf(
-        &mut self,
-        sampler: Sampler,
-        directions: &[DVec3],
-        pdf: &mut [f64],
-    ) -> Result<()> {
-        let count = lengths(pdf.len(), [directions.len()]);
-        let sampler = description::sampler(sampler);
-        let (directions, out) = (directions.as_ptr(), pdf.as_mut_ptr());
-        ask!(self, SAMPLE_DIRECTION, direction_pdf(sampler, directions, out, count))
-    }
-
-    fn eval_bsdf(
-        &mut self,
-        material: &Material,
-        queries: &[BsdfQuery],
-        values: &mut [BsdfValue],
-    ) -> Result<()> {
-        let count = lengths(values.len(), [queries.len()]);
-        let table = MaterialTable::new(material);
-        let material = table.as_abi();
-        let (queries, out) = (queries.as_ptr(), values.as_mut_ptr());
-        ask!(self, EVAL_BSDF, eval_bsdf(&raw const material, queries, out, count))
-    }
-
-    fn sample_bsdf(
-        &mut self,
-        material: &Material,
-        wo: &[DVec3],
-        random: Randomness<'_>,
-        samples: &mut [BsdfSample],
-    ) -> Result<()> {
-        let count = lengths(samples.len(), [wo.len(), random.points.len(), random.lobes.len()]);
-        let table = MaterialTable::new(material);
-        let (material, random) = (table.as_abi(), randomness(random));
-        let (wo, random, out) = (wo.as_ptr(), &raw const random, samples.as_mut_ptr());
-        ask!(self, SAMPLE_BSDF, sample_bsdf(&raw const material, wo, random, out, count))
-    }
-
-    fn adaptive_mean(
-        &mut self,
-        settings: AdaptiveSettings,
-        streams: &[&[f64]],
-        means: &mut [AdaptiveMean],
-    ) -> Result<()> {
-        let count = lengths(means.len(), [streams.len()]);
-        let settings = description::adaptive(settings);
-        let stream =
-            |values: &&[f64]| abi::Stream { values: values.as_ptr(), count: values.len() as u64 };
-        let streams: Vec<_> = streams.iter().map(stream).collect();
-        let (streams, out) = (streams.as_ptr(), means.as_mut_ptr());
-        ask!(self, ADAPTIVE_MEAN, adaptive_mean(&raw const settings, streams, out, count))
+        let (rays, out) = (rays.lent(count), hits.as_mut_ptr());
+        ask!(self, INTERSECT_BOX, intersect_box(min, max, rays, out, count))
     }
 
     fn build_scene(
@@ -358,7 +300,7 @@ impl Core for Dylib {
         let counted = self.counted_tests(scene);
         let tests = counted.as_deref().map(tests_of);
         let settings =
-            description::build(acceleration, tests.as_ref().map_or(ptr::null(), ptr::from_ref));
+            given::build(acceleration, tests.as_ref().map_or(ptr::null(), ptr::from_ref));
         let tables = SceneTables::new(scene);
         let scene = tables.as_abi();
         let (mut built, mut stats) = (ptr::null_mut(), BuildStats::default());
@@ -368,9 +310,8 @@ impl Core for Dylib {
             BUILD_SCENE,
             build(&raw const scene, &raw const settings, out, &raw mut stats)
         )?;
-        let built = NonNull::new(built).ok_or_else(|| {
-            CoreError::BrokeContract("build returned FURNACE_OK without a scene".to_owned())
-        })?;
+        let built = NonNull::new(built)
+            .ok_or_else(|| CoreError::breach("build returned FURNACE_OK without a scene"))?;
         Ok(Box::new(BuiltDylib { core: self, built, stats, counted }))
     }
 }
@@ -408,50 +349,7 @@ impl BuiltScene for BuiltDylib<'_> {
         self.stats
     }
 
-    fn intersect(&mut self, rays: &[Ray], hits: &mut [Hit]) -> Result<TraversalStats> {
-        let count = lengths(hits.len(), [rays.len()]);
-        let mut stats = TraversalStats::default();
-        let (built, out) = (self.built.as_ptr(), hits.as_mut_ptr());
-        ask!(self.core, INTERSECT, intersect(built, rays.as_ptr(), out, count, &raw mut stats))?;
-        Ok(self.counts(stats, rays.len()))
-    }
-
-    fn occluded(&mut self, rays: &[Ray], occluded: &mut [bool]) -> Result<TraversalStats> {
-        let count = lengths(occluded.len(), [rays.len()]);
-        let mut stats = TraversalStats::default();
-        let mut flags = vec![u8::MAX; count];
-        let (built, out) = (self.built.as_ptr(), flags.as_mut_ptr());
-        ask!(self.core, OCCLUDED, occluded(built, rays.as_ptr(), out, count, &raw mut stats))?;
-        read_flags(&flags, occluded)?;
-        Ok(self.counts(stats, rays.len()))
-    }
-
-    fn sample_light(
-        &mut self,
-        light: u32,
-        from: &[DVec3],
-        random: Randomness<'_>,
-        samples: &mut [LightSample],
-    ) -> Result<()> {
-        let count = lengths(samples.len(), [from.len(), random.points.len(), random.lobes.len()]);
-        let random = randomness(random);
-        let (from, random, out) = (from.as_ptr(), &raw const random, samples.as_mut_ptr());
-        let built = self.built.as_ptr();
-        ask!(self.core, SAMPLE_LIGHT, sample_light(built, light, from, random, out, count))
-    }
-
-    fn radiance(
-        &mut self,
-        rays: &[Ray],
-        settings: &IntegratorSettings,
-        radiance: &mut [[f64; 3]],
-    ) -> Result<()> {
-        let count = lengths(radiance.len(), [rays.len()]);
-        let settings = description::integrator(settings);
-        let (built, out) = (self.built.as_ptr(), radiance.as_mut_ptr());
-        let settings = &raw const settings;
-        ask!(self.core, RADIANCE, radiance(built, rays.as_ptr(), settings, out, count))
-    }
+    each_question! { PlainScene called (core; built) }
 
     fn render(
         &mut self,
@@ -459,17 +357,17 @@ impl BuiltScene for BuiltDylib<'_> {
         settings: &RenderSettings,
         film: &mut Film,
     ) -> Result<()> {
-        let pixel_count = settings.width as usize * settings.height as usize;
-        lengths(pixel_count, [film.pixels.len(), film.sample_counts.len()]);
+        let count = settings.width as usize * settings.height as usize;
+        assert_eq!([film.pixels.len(), film.sample_counts.len()], [count; 2], "of that size");
         if !self.core.info.capabilities.contains(Capabilities::ADAPTIVE_SAMPLING) {
             film.sample_counts.fill(settings.samples_per_pixel);
         }
-        let camera = description::camera(camera);
-        let integrator = description::integrator(&settings.integrator);
-        let adaptive = settings.adaptive.map(description::adaptive);
-        let mut settings = description::render(settings, &integrator, adaptive.as_ref());
+        let camera = camera.lent(1);
+        let integrator = settings.integrator.lent(1);
+        let adaptive = settings.adaptive.map(|adaptive| adaptive.lent(1));
+        let mut settings = given::render(settings, &integrator, adaptive.as_ref());
         if self.core.info.capabilities.contains(Capabilities::REPORTED_VARIANCE) {
-            lengths(pixel_count, [film.variances.len()]);
+            assert_eq!(film.variances.len(), count, "of that size");
             settings.variances = film.variances.as_mut_ptr();
         }
         let (built, camera, settings) =

@@ -3,19 +3,12 @@
 //! To checks it is a [`Core`] like any other. If it dies in a batch, fresh workers are given halves
 //! of that batch until the element is found that it dies of.
 
-mod scene;
-
-use crate::contract::{
-    Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
-    BuiltScene, Core, CoreError, CoreInfo, DirectionSample, Hit, Primitive, Randomness, Ray,
-    Result, Sampler,
-};
-use crate::scene::{Aabb, Camera, Material, SceneDescription};
-use crate::worker::message::{Answer, Blank, Request, Sent, Wanted};
+use crate::contract::answer::Answer as Filled;
+use crate::contract::questions::*;
+use crate::contract::{Acceleration, BuildStats, BuiltScene, Core, CoreInfo};
+use crate::worker::message::{Answer, Request, Told, Wanted};
 use crate::worker::narrow::narrow;
-use crate::worker::{Confinement, Launch, StartError, Worker};
-use glam::{DVec2, DVec3};
-use scene::RemoteScene;
+use crate::worker::{Confinement, Launch, StartError, Worker, build_request};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
@@ -26,6 +19,8 @@ const SEARCH: Duration = Duration::from_secs(10);
 pub struct Remote {
     launch: Launch,
     worker: Worker,
+    /// What built the scene that there is, for workers that have to build it again.
+    built: Option<Request<'static>>,
 }
 
 impl Remote {
@@ -34,7 +29,7 @@ impl Remote {
     /// # Errors
     /// If there is no process, or the core fails to start.
     pub fn start(launch: &Launch) -> std::result::Result<Self, StartError> {
-        Ok(Self { launch: launch.clone(), worker: Worker::start(launch)? })
+        Ok(Self { launch: launch.clone(), worker: Worker::start(launch)?, built: None })
     }
 
     /// What the system enforces on it.
@@ -47,30 +42,33 @@ impl Remote {
         self.worker.printed()
     }
 
-    /// Asks for a batch; a crash is narrowed to the element that it comes of.
-    fn ask(
+    /// Asks, and fills the answer; a crash in a batch is narrowed to the element that it comes of.
+    fn ask<A: Filled + ?Sized, T: Told>(
         &mut self,
-        before: Option<Step<'_>>,
-        request: &Request,
-        sent: &[Sent<'_>],
-        wanted: &mut [Wanted<'_>],
-    ) -> Result<Answer> {
-        let answer = self.worker.ask(request, sent, wanted);
-        let Err(CoreError::Crashed { how, during }) = answer else { return answer };
-        let place = self.search(before, request, sent, wanted).unwrap_or_default();
-        Err(CoreError::Crashed { how, during: during + &place })
+        request: &Request<'_>,
+        name: &'static str,
+        answer: &mut A,
+    ) -> Result<T> {
+        let capabilities = self.worker.info().capabilities;
+        let mut told = Answer::Done;
+        answer.receive(name, capabilities, &mut |wanted| {
+            told = match self.worker.ask(request, wanted) {
+                Err(CoreError::Crashed { how, during }) => {
+                    let place = self.search(request, wanted).unwrap_or_default();
+                    return Err(CoreError::Crashed { how, during: during + &place });
+                }
+                answer => answer?,
+            };
+            Ok(())
+        })?;
+        T::of(&told).ok_or_else(|| out_of_place(&told))
     }
 
     /// Where in the batch the core dies, in words.
-    fn search(
-        &self,
-        before: Option<Step<'_>>,
-        request: &Request,
-        sent: &[Sent<'_>],
-        wanted: &[Wanted<'_>],
-    ) -> Option<String> {
+    fn search(&self, request: &Request<'_>, wanted: &[Wanted<'_>]) -> Option<String> {
         let count = wanted.first()?.count();
-        let of_batch: Vec<_> = sent.iter().filter(|array| !array.is_shared()).collect();
+        let arrays = request.arrays().iter();
+        let of_batch: Vec<_> = arrays.filter(|array| !array.is_shared()).collect();
         // A picture has no elements that could be asked for alone.
         let is_batch = count > 0
             && !of_batch.is_empty()
@@ -80,7 +78,7 @@ impl Remote {
         }
         let begun = Instant::now();
         let found = narrow(count, |range| {
-            (begun.elapsed() < SEARCH).then(|| self.dies_of(before, request, sent, wanted, range))
+            (begun.elapsed() < SEARCH).then(|| self.dies_of(request, wanted, &range))
         });
         Some(match found {
             None => format!(" of {count} elements, though not of them alone"),
@@ -93,32 +91,33 @@ impl Remote {
     }
 
     /// Whether a fresh worker dies of a part of the batch.
-    fn dies_of(
-        &self,
-        before: Option<Step<'_>>,
-        request: &Request,
-        sent: &[Sent<'_>],
-        wanted: &[Wanted<'_>],
-        range: Range<usize>,
-    ) -> bool {
+    fn dies_of(&self, request: &Request<'_>, wanted: &[Wanted<'_>], range: &Range<usize>) -> bool {
         let Ok(mut worker) = Worker::start(&self.launch) else { return false };
-        if let Some(step) = before
-            && worker.ask(step.request, step.sent, &mut []).is_err()
-        {
+        if self.built.as_ref().is_some_and(|build| worker.ask(build, &mut []).is_err()) {
             return false;
         }
-        let part: Vec<_> = sent.iter().map(|array| array.part(range.clone())).collect();
-        let mut memory: Vec<_> = wanted.iter().map(|wanted| wanted.blank(range.len())).collect();
-        let mut answers: Vec<_> = memory.iter_mut().map(Blank::wanted).collect();
-        matches!(worker.ask(request, &part, &mut answers), Err(CoreError::Crashed { .. }))
+        let memory = |array: &Wanted<'_>| vec![0; array.size_of_one() * range.len()];
+        let mut memory: Vec<_> = wanted.iter().map(memory).collect();
+        let places = wanted.iter().zip(&mut memory);
+        let mut answers: Vec<_> =
+            places.map(|(array, bytes)| array.within(&mut bytes[..])).collect();
+        let answer = worker.ask(&request.part(range), &mut answers);
+        matches!(answer, Err(CoreError::Crashed { .. }))
     }
 }
 
-/// What a fresh worker has to be asked first.
-#[derive(Clone, Copy)]
-struct Step<'a> {
-    request: &'a Request,
-    sent: &'a [Sent<'a>],
+/// Sends a question, and fills its answer with what comes back.
+macro_rules! sent_and_heard {
+    (($($remote:ident)?) {
+        $(#[$doc:meta])* $can:ident $(= $bit:literal)?
+        fn $method:ident($($arg:ident: $ty:ty),*; $out:ident: &mut $answer:ty) -> $told:ty;
+    }) => {
+        fn $method(&mut self, $($arg: $ty,)* $out: &mut $answer) -> Result<$told> {
+            let request =
+                Request::new(stringify!($method))$(.with_argument(stringify!($arg), $arg))*;
+            self$(.$remote)?.ask(&request, stringify!($out), $out)
+        }
+    };
 }
 
 impl Core for Remote {
@@ -126,120 +125,46 @@ impl Core for Remote {
         self.worker.info().clone()
     }
 
-    fn generate_rays(&mut self, camera: &Camera, film: &[DVec2], rays: &mut [Ray]) -> Result<()> {
-        let request = Request::GenerateRays { camera: *camera };
-        done(self.ask(None, &request, &[Sent::new("film", film)], &mut [Wanted::new("rays", rays)]))
-    }
-
-    fn intersect_primitive(
-        &mut self,
-        primitive: &Primitive,
-        rays: &[Ray],
-        hits: &mut [Hit],
-    ) -> Result<()> {
-        let wanted = &mut [Wanted::new("hits", hits)];
-        let rays = Sent::new("rays", rays);
-        match primitive {
-            Primitive::Triangle { positions, normals } => {
-                let positions = Sent::shared("positions", positions);
-                let sent = [positions, Sent::shared("normals", normals), rays];
-                done(self.ask(None, &Request::IntersectTriangle, &sent, wanted))
-            }
-            Primitive::Sphere { centre, radius } => {
-                let sphere = [[centre.x, centre.y, centre.z, *radius]];
-                let sent = [Sent::shared("spheres", &sphere), rays];
-                done(self.ask(None, &Request::IntersectSphere, &sent, wanted))
-            }
-        }
-    }
-
-    fn intersect_box(&mut self, bounds: &Aabb, rays: &[Ray], hits: &mut [BoxHit]) -> Result<()> {
-        let corners = [bounds.min, bounds.max];
-        let sent = [Sent::shared("bounds", &corners), Sent::new("rays", rays)];
-        let wanted = Wanted::new("box-hits", hits);
-        done(self.ask(None, &Request::IntersectBox, &sent, &mut [wanted]))
-    }
-
-    fn sample_direction(
-        &mut self,
-        sampler: Sampler,
-        random: Randomness<'_>,
-        samples: &mut [DirectionSample],
-    ) -> Result<()> {
-        let request = Request::SampleDirection { sampler, seed: random.seed };
-        done(self.ask(None, &request, &numbers(random), &mut [Wanted::new("samples", samples)]))
-    }
-
-    fn direction_pdf(
-        &mut self,
-        sampler: Sampler,
-        directions: &[DVec3],
-        pdf: &mut [f64],
-    ) -> Result<()> {
-        let sent = Sent::new("directions", directions);
-        let request = Request::DirectionPdf { sampler };
-        done(self.ask(None, &request, &[sent], &mut [Wanted::new("pdf", pdf)]))
-    }
-
-    fn eval_bsdf(
-        &mut self,
-        material: &Material,
-        queries: &[BsdfQuery],
-        values: &mut [BsdfValue],
-    ) -> Result<()> {
-        let request = Request::EvalBsdf { material: material.clone() };
-        let sent = Sent::new("queries", queries);
-        done(self.ask(None, &request, &[sent], &mut [Wanted::new("values", values)]))
-    }
-
-    fn sample_bsdf(
-        &mut self,
-        material: &Material,
-        wo: &[DVec3],
-        random: Randomness<'_>,
-        samples: &mut [BsdfSample],
-    ) -> Result<()> {
-        let request = Request::SampleBsdf { material: material.clone(), seed: random.seed };
-        let [points, lobes] = numbers(random);
-        let sent = [Sent::new("wo", wo), points, lobes];
-        done(self.ask(None, &request, &sent, &mut [Wanted::new("samples", samples)]))
-    }
-
-    fn adaptive_mean(
-        &mut self,
-        settings: AdaptiveSettings,
-        streams: &[&[f64]],
-        means: &mut [AdaptiveMean],
-    ) -> Result<()> {
-        let lengths: Vec<_> = streams.iter().map(|stream| stream.len() as u64).collect();
-        let values = streams.concat();
-        let sent = [Sent::new("values", &values), Sent::new("lengths", &lengths)];
-        let wanted = Wanted::new("means", means);
-        done(self.ask(None, &Request::AdaptiveMean { settings }, &sent, &mut [wanted]))
-    }
+    each_question! { Core sent_and_heard () }
 
     fn build_scene(
         &mut self,
         scene: &SceneDescription,
         acceleration: Acceleration,
     ) -> Result<Box<dyn BuiltScene + '_>> {
-        Ok(Box::new(RemoteScene::build(self, scene, acceleration)?))
+        let build = build_request(scene, acceleration);
+        match self.worker.ask(&build, &mut [])? {
+            Answer::Built { stats } => {
+                self.built = Some(build);
+                Ok(Box::new(RemoteScene { remote: self, stats }))
+            }
+            other => Err(out_of_place(&other)),
+        }
     }
 }
 
-/// Random numbers as they are sent.
-fn numbers(random: Randomness<'_>) -> [Sent<'_>; 2] {
-    [Sent::new("points", random.points), Sent::new("lobes", random.lobes)]
+/// A scene that a core in a worker has taken in.
+struct RemoteScene<'a> {
+    remote: &'a mut Remote,
+    stats: BuildStats,
 }
 
-/// An answer that is nothing but its arrays.
-fn done(answer: Result<Answer>) -> Result<()> {
-    match answer? {
-        Answer::Done => Ok(()),
-        other => Err(out_of_place(&other)),
+impl BuiltScene for RemoteScene<'_> {
+    fn stats(&self) -> BuildStats {
+        self.stats
+    }
+
+    each_question! { Scene sent_and_heard (remote) }
+}
+
+impl Drop for RemoteScene<'_> {
+    fn drop(&mut self) {
+        self.remote.built = None;
+        // If it cannot be released, the core has died, and the next request will say so.
+        let _ = self.remote.worker.ask(&Request::new("release"), &mut []);
     }
 }
 
 fn out_of_place(answer: &Answer) -> CoreError {
-    CoreError::BrokeContract(format!("it answered {answer:?}, which does not match the request"))
+    CoreError::breach(format!("it answered {answer:?}, which does not match the request"))
 }

@@ -7,7 +7,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 /// An image as a screen shows it: sRGB, row-major from the top left.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Picture {
     /// Pixels in a row.
     pub width: usize,

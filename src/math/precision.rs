@@ -3,12 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 /// The arithmetic a core computes in; tolerances of deterministic checks scale by it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Precision {
     /// f32
     Single,
     /// f64
+    #[default]
     Double,
 }
 

@@ -119,10 +119,10 @@ impl Outcome {
                 Self::TimedOut { limit: limit.as_secs_f64(), during }
             }
             CoreError::Refused(_) => Self::Judged { finding: Finding::failure(error.to_string()) },
-            CoreError::BrokeContract(ref complaint) => {
+            CoreError::BrokeContract(ref breach) => {
                 let finding = Finding::failure(error.to_string());
-                let cause = breach::cause_of(complaint);
-                Self::Judged { finding: finding.because_each(cause, complaint) }
+                let cause = breach::cause_of(breach);
+                Self::Judged { finding: finding.because_each(cause, &breach.to_string()) }
             }
         }
     }
@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_broken_contract_is_a_failure_of_the_core() {
-        let error = CoreError::BrokeContract("pixel (3, 4) is NaN".into());
+        let error = CoreError::breach("its picture has 8 pixels");
         assert_eq!(Outcome::of(Err(error.into())).status(), Status::Fail);
     }
 

@@ -2,7 +2,8 @@
 
 use super::Channel;
 use super::frame::{self, FrameError};
-use super::message::{Answer, ArrayHeader, Header, Request, Sent, Wanted, encode, parse};
+use super::message::{Answer, ArrayHeader, Header, Request, Wanted, encode, parse};
+use crate::contract::crossing::padded;
 use std::fmt::Display;
 
 /// One end of a channel to a core.
@@ -46,12 +47,11 @@ impl Client {
     /// If no answer comes, or one that does not fit.
     pub fn ask(
         &mut self,
-        request: &Request,
-        sent: &[Sent<'_>],
+        request: &Request<'_>,
         wanted: &mut [Wanted<'_>],
     ) -> Result<Answer, Silence> {
         self.number += 1;
-        encode(&mut self.buffer, self.number, request, sent)?;
+        encode(&mut self.buffer, self.number, request.members(), request.arrays())?;
         frame::send(&mut self.channel.output, &self.buffer)?;
         self.hear(wanted)
     }
@@ -92,7 +92,7 @@ fn fits(arrays: &[ArrayHeader], body: u64, wanted: &[Wanted<'_>]) -> Result<(), 
             None => return Err(nonsense(format!("its answer has no `{name}`"))),
         }
     }
-    let size: usize = wanted.iter().map(|wanted| frame::padded(wanted.size())).sum();
+    let size: usize = wanted.iter().map(|wanted| padded(wanted.bytes().len())).sum();
     if arrays.len() != wanted.len() || body != size as u64 {
         return Err(nonsense(format!(
             "its answer has {} arrays in {body} bytes; asked for were {} in {size}",

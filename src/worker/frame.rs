@@ -14,6 +14,7 @@
 //! Not here: what headers say (`message`). Whoever sends is not trusted: no length is believed
 //! before it is bounded.
 
+use crate::contract::crossing::{ALIGNMENT, Malformed, padded};
 use std::io::{self, Read, Write};
 
 /// The first bytes of every frame.
@@ -24,9 +25,6 @@ const PREFIX: usize = 24;
 
 /// The longest header that is read: the names of a scene's shapes, or a long complaint.
 const LONGEST_HEADER: usize = 64 << 20;
-
-/// Every array begins at a multiple of this.
-pub const ALIGNMENT: usize = 8;
 
 /// Why no frame could be read.
 #[derive(Debug, thiserror::Error)]
@@ -40,6 +38,12 @@ pub enum FrameError {
     /// What came is no frame.
     #[error("what came on the channel is no frame: {0}")]
     Malformed(String),
+}
+
+impl From<Malformed> for FrameError {
+    fn from(Malformed(what): Malformed) -> Self {
+        Self::Malformed(what)
+    }
 }
 
 impl From<io::Error> for FrameError {
@@ -61,11 +65,6 @@ pub struct Opening {
     pub header: Vec<u8>,
     /// Bytes of the body, which have not been read yet.
     pub body: u64,
-}
-
-/// How many bytes an array of so many takes in the body.
-pub fn padded(bytes: usize) -> usize {
-    bytes.next_multiple_of(ALIGNMENT)
 }
 
 /// Puts a whole frame into `buffer`, in place of what was there.

@@ -31,7 +31,7 @@ pub use confine::Confinement;
 #[cfg(target_os = "linux")]
 pub use confine_linux::end_with_us;
 pub use process::{Launch, Limits, StartError, Worker};
-pub use scene::{SceneArrays, header as scene_header};
+pub use scene::build_request;
 pub use serve::{refuse, serve};
 
 use std::io::{Read, Write};

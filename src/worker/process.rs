@@ -5,7 +5,7 @@ use super::child::{Errand, Guest};
 use super::client::{Client, Silence};
 use super::confine::Confinement;
 use super::guard::{Guard, Watch};
-use super::message::{Answer, Request, Sent, Wanted};
+use super::message::{Answer, Request, Wanted};
 use super::output::Output;
 use crate::contract::{CoreError, CoreInfo};
 use serde::{Deserialize, Serialize};
@@ -143,7 +143,7 @@ impl Worker {
             _watch: guard.watch(),
             guard,
             output: Output::of(reader),
-            info: nobody(),
+            info: CoreInfo::default(),
             confinement: Confinement::default(),
             dead: None,
             _scratch: scratch,
@@ -164,10 +164,13 @@ impl Worker {
             Some(seconds) => format!("time: {seconds} s a trial"),
             None => "time: what its adapter's file allows for a picture".to_owned(),
         });
-        let nonsense = |what| CoreError::BrokeContract(format!("when it was greeted: {what}"));
-        match self.ask(&Request::Hello, &[], &mut [])? {
-            Answer::Core { core } => self.info = core.info().map_err(nonsense)?,
-            other => return Err(nonsense(format!("it answered {other:?}"))),
+        match self.ask(&Request::new("hello"), &mut [])? {
+            Answer::Core { core } => self.info = core,
+            other => {
+                return Err(CoreError::breach(format!(
+                    "when it was greeted, it answered {other:?}"
+                )));
+            }
         }
         Ok(())
     }
@@ -178,11 +181,10 @@ impl Worker {
     /// What the core answers, if it is an error, or how it ended. After that it only says the same.
     pub fn ask(
         &mut self,
-        request: &Request,
-        sent: &[Sent<'_>],
+        request: &Request<'_>,
         wanted: &mut [Wanted<'_>],
     ) -> Result<Answer, CoreError> {
-        self.guarded(request.name(), |client| client.ask(request, sent, wanted))?.into_result()
+        self.guarded(request.name(), |client| client.ask(request, wanted))?.into_result()
     }
 
     fn guarded(
@@ -199,9 +201,7 @@ impl Worker {
         outcome.map_err(|silence| {
             let error = match silence {
                 Silence::Gone => self.guard.explain(during, || self.output.last_words(PATIENCE)),
-                Silence::Nonsense(what) => {
-                    CoreError::BrokeContract(format!("during {during} {what}"))
-                }
+                Silence::Nonsense(what) => CoreError::breach(format!("during {during} {what}")),
             };
             // Waiting for a status is all that can fail, and then nobody is there to be ended.
             let _ = self.guard.end();
@@ -232,17 +232,6 @@ impl Drop for Worker {
     fn drop(&mut self) {
         // As above.
         let _ = self.guard.end();
-    }
-}
-
-/// Who a core is before it has said so.
-fn nobody() -> CoreInfo {
-    CoreInfo {
-        name: String::new(),
-        version: String::new(),
-        capabilities: crate::contract::Capabilities::empty(),
-        precision: crate::contract::Precision::Double,
-        conventions: crate::contract::Conventions::default(),
     }
 }
 

@@ -1,49 +1,30 @@
-//! A scene as a header and five arrays, and back.
+//! A scene as a request with five arrays, and back.
 
 use super::frame::FrameError;
-use super::message::{MeshHeader, SceneHeader, Sent};
-use super::serve::Arrays;
+use super::message::{MeshHeader, Received, Request, SceneHeader, Sent};
+use crate::contract::Acceleration;
 use crate::scene::{Mesh, SceneDescription, Sphere};
 use glam::DVec3;
 
-/// The long lists of a scene, one after another.
-#[derive(Debug, Default)]
-pub struct SceneArrays {
-    positions: Vec<DVec3>,
-    normals: Vec<DVec3>,
-    indices: Vec<[u32; 3]>,
-    spheres: Vec<[f64; 4]>,
-    sphere_kinds: Vec<[u32; 2]>,
+/// The request to build `scene`: what the arrays do not say of it, and its long lists, one after another.
+pub fn build_request(scene: &SceneDescription, acceleration: Acceleration) -> Request<'static> {
+    let sphere = |s: &Sphere| [s.centre.x, s.centre.y, s.centre.z, s.radius];
+    let kind = |s: &Sphere| [u32::from(s.inward), s.material];
+    Request::new("build")
+        .with("scene", header(scene))
+        .with("acceleration", acceleration)
+        .with_array(Sent::made("positions", &all(&scene.meshes, |mesh| &mesh.positions)))
+        .with_array(Sent::made("normals", &all(&scene.meshes, |mesh| &mesh.normals)))
+        .with_array(Sent::made("indices", &all(&scene.meshes, |mesh| &mesh.indices)))
+        .with_array(Sent::made("spheres", &scene.spheres.iter().map(sphere).collect::<Vec<_>>()))
+        .with_array(Sent::made("sphere-kinds", &scene.spheres.iter().map(kind).collect::<Vec<_>>()))
 }
 
-impl SceneArrays {
-    /// Of `scene`.
-    pub fn new(scene: &SceneDescription) -> Self {
-        let sphere = |s: &Sphere| [s.centre.x, s.centre.y, s.centre.z, s.radius];
-        let kind = |s: &Sphere| [u32::from(s.inward), s.material];
-        Self {
-            positions: scene.meshes.iter().flat_map(|mesh| mesh.positions.clone()).collect(),
-            normals: scene.meshes.iter().flat_map(|mesh| mesh.normals.clone()).collect(),
-            indices: scene.meshes.iter().flat_map(|mesh| mesh.indices.clone()).collect(),
-            spheres: scene.spheres.iter().map(sphere).collect(),
-            sphere_kinds: scene.spheres.iter().map(kind).collect(),
-        }
-    }
-
-    /// As they are sent.
-    pub fn sent(&self) -> [Sent<'_>; 5] {
-        [
-            Sent::new("positions", &self.positions),
-            Sent::new("normals", &self.normals),
-            Sent::new("indices", &self.indices),
-            Sent::new("spheres", &self.spheres),
-            Sent::new("sphere-kinds", &self.sphere_kinds),
-        ]
-    }
+fn all<T: Clone>(meshes: &[Mesh], list: impl Fn(&Mesh) -> &Vec<T>) -> Vec<T> {
+    meshes.iter().flat_map(|mesh| list(mesh).iter().cloned()).collect()
 }
 
-/// What the arrays do not say of `scene`.
-pub fn header(scene: &SceneDescription) -> SceneHeader {
+fn header(scene: &SceneDescription) -> SceneHeader {
     let mesh = |mesh: &Mesh| MeshHeader {
         name: mesh.name.clone(),
         material: mesh.material,
@@ -65,15 +46,13 @@ pub fn header(scene: &SceneDescription) -> SceneHeader {
 ///
 /// # Errors
 /// If the arrays are not what the header says.
-pub fn decode(
-    header: SceneHeader,
-    arrays: &mut Arrays<'_>,
-) -> Result<SceneDescription, FrameError> {
-    let mut positions = arrays.take::<DVec3>("positions")?;
-    let mut normals = arrays.take::<DVec3>("normals")?;
-    let mut indices = arrays.take::<[u32; 3]>("indices")?;
-    let spheres = arrays.take::<[f64; 4]>("spheres")?;
-    let kinds = arrays.take::<[u32; 2]>("sphere-kinds")?;
+pub fn decode(received: &mut Received<'_>) -> Result<SceneDescription, FrameError> {
+    let header: SceneHeader = received.member("scene")?;
+    let mut positions = received.take::<DVec3>("positions")?;
+    let mut normals = received.take::<DVec3>("normals")?;
+    let mut indices = received.take::<[u32; 3]>("indices")?;
+    let spheres = received.take::<[f64; 4]>("spheres")?;
+    let kinds = received.take::<[u32; 2]>("sphere-kinds")?;
     let mesh = |mesh: MeshHeader| {
         Ok(Mesh {
             name: mesh.name,

@@ -64,8 +64,7 @@ impl Studio {
                     seed: seed.child(run).0,
                     ..Default::default()
                 },
-                adaptive: None,
-                stratified: false,
+                ..Default::default()
             };
             let mut film = Film::default();
             built.render(camera, &settings, &mut film).unwrap();

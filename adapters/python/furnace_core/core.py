@@ -11,6 +11,24 @@ class Unsupported(Exception):
     """Raise it for a request that the core does not support: the trial is skipped, not failed."""
 
 
+def question(capability, tells_stats=False, **answer):
+    """A method that answers a request of its own name: which capability that is, and of which
+    elements its answer is made, as `hits="hit"`. `furnace_core.serve` hands it its arguments by
+    their names."""
+
+    def declare(method):
+        def unanswered(*_):
+            raise NotImplementedError
+
+        unanswered.__doc__, unanswered.__name__ = method.__doc__, method.__name__
+        unanswered.arguments = method.__code__.co_varnames[1:method.__code__.co_argcount]
+        unanswered.capability, unanswered.tells_stats = capability, tells_stats
+        [unanswered.answer] = answer.items()
+        return unanswered
+
+    return declare
+
+
 class Core:
     """A renderer under test."""
 
@@ -29,42 +47,42 @@ class Core:
     # The class of built scenes, if there are any.
     built = None
 
+    @question("generate-rays", rays="ray")
     def generate_rays(self, camera, film):
         """camera (position, axes = rows right, up, backward, fovs, near, far), film (n, 2) → RAY"""
-        raise NotImplementedError
 
+    @question("intersect-primitive", hits="hit")
     def intersect_triangle(self, positions, normals, rays):
         """(3, 3), (3, 3), RAY → HIT with shape = primitive = 0"""
-        raise NotImplementedError
 
+    @question("intersect-primitive", hits="hit")
     def intersect_sphere(self, centre, radius, rays):
         """(3,), a number, RAY → HIT with shape = primitive = 0"""
-        raise NotImplementedError
 
+    @question("intersect-box", box_hits="box-hit")
     def intersect_box(self, low, high, rays):
         """(3,), (3,), RAY → BOX_HIT"""
-        raise NotImplementedError
 
+    @question("sample-direction", samples="direction-sample")
     def sample_direction(self, sampler, random):
         """"uniform-hemisphere" or "cosine-hemisphere", random (points (n, 2), lobes (n,), seed)
         → DIRECTION_SAMPLE"""
-        raise NotImplementedError
 
+    @question("sample-direction", pdf="f64")
     def direction_pdf(self, sampler, directions):
         """As above, (n, 3) → (n,)"""
-        raise NotImplementedError
 
+    @question("eval-bsdf", values="bsdf-value")
     def eval_bsdf(self, material, wo, wi):
         """material (kind, reflectance, …), (n, 3), (n, 3) → f (n, 3), pdf (n,)"""
-        raise NotImplementedError
 
+    @question("sample-bsdf", samples="bsdf-sample")
     def sample_bsdf(self, material, wo, random):
         """material, (n, 3), random → BSDF_SAMPLE"""
-        raise NotImplementedError
 
+    @question("adaptive-mean", means="adaptive-mean")
     def adaptive_mean(self, samples_per_batch, max_tolerance, streams):
         """int, float, list of (count,) → list of (mean, used)"""
-        raise NotImplementedError
 
     def build(self, scene, acceleration):
         """scene (camera, materials, meshes, spheres, lights), acceleration (kind "brute-force" or
@@ -82,45 +100,34 @@ class Built:
         """{"nodes", "leaves", "max-depth", "bytes"}; leave out what you do not know"""
         return {}
 
+    @question("intersect", tells_stats=True, hits="hit")
     def intersect(self, rays):
         """RAY → HIT, {"box-tests", "primitive-tests"}; meshes are numbered first, then spheres"""
-        raise NotImplementedError
 
+    @question("occluded", tells_stats=True, occluded="u8")
     def occluded(self, rays):
         """RAY → (n,) of 0 and 1, counts as above"""
-        raise NotImplementedError
 
+    @question("sample-light", samples="light-sample")
     def sample_light(self, light, origins, random):
         """number of the light, (n, 3), random → LIGHT_SAMPLE"""
-        raise NotImplementedError
 
+    @question("radiance", radiance="rgb")
     def radiance(self, rays, settings):
         """RAY, settings (samples_per_light, bounces, direct, roulette, seed, threads) → (n, 3)"""
-        raise NotImplementedError
 
+    @question("render", pixels="rgb-f32")
     def render(self, camera, settings):
         """camera, settings (width, height, samples_per_pixel, integrator, adaptive, stratified)
         → pixels (height, width, 3), row 0 on top, and samples (height, width); with the trait
         "reported-variance" also the variance of each value of pixels, that is of a mean and not
         of one sample"""
-        raise NotImplementedError
 
 
-# Capabilities that are a method's, and whose.
-METHODS = {
-    "generate-rays": (Core, ("generate_rays",)),
-    "intersect-primitive": (Core, ("intersect_triangle", "intersect_sphere")),
-    "intersect-box": (Core, ("intersect_box",)),
-    "sample-direction": (Core, ("sample_direction", "direction_pdf")),
-    "eval-bsdf": (Core, ("eval_bsdf",)),
-    "sample-bsdf": (Core, ("sample_bsdf",)),
-    "adaptive-mean": (Core, ("adaptive_mean",)),
-    "intersect": (Built, ("intersect",)),
-    "occluded": (Built, ("occluded",)),
-    "sample-light": (Built, ("sample_light",)),
-    "radiance": (Built, ("radiance",)),
-    "render": (Built, ("render",)),
-}
+def methods(owner):
+    """The questions of `Core` or `Built`, by the names of their requests."""
+    found = {name.replace("_", "-"): method for name, method in vars(owner).items()}
+    return {name: method for name, method in found.items() if hasattr(method, "capability")}
 
 
 def capabilities(core):
@@ -128,13 +135,8 @@ def capabilities(core):
     found = set(core.traits)
     if core.built is not None:
         found.add("build-scene")
-    for name, (owner, methods) in METHODS.items():
-        kind = type(core) if owner is Core else core.built
-        if kind is not None and any(is_overridden(kind, owner, method) for method in methods):
-            found.add(name)
+    for owner, kind in ((Core, type(core)), (Built, core.built)):
+        for method in methods(owner).values():
+            if kind is not None and getattr(kind, method.__name__, method) is not method:
+                found.add(method.capability)
     return sorted(found)
-
-
-def is_overridden(kind, owner, method):
-    """Whether a class has a method of its own."""
-    return getattr(kind, method, None) is not getattr(owner, method)

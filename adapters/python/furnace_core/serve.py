@@ -8,8 +8,8 @@ import traceback
 
 import numpy as np
 
-from .core import Unsupported, capabilities
-from .elements import ADAPTIVE_MEAN, BSDF_VALUE, ELEMENTS, decode, encode
+from .core import Built, Core, Unsupported, capabilities, methods
+from .elements import ELEMENTS, decode, encode
 
 MAGIC = b"FRN1"
 PREFIX = struct.Struct("<4sIQQ")
@@ -128,9 +128,7 @@ def ask(core, built, header, arrays):
         return {"answer": "built", "stats": whole({**stats, **built.stats()})}, [], built
     if request == "release":
         return {"answer": "done"}, [], None
-    if request in ("intersect", "occluded"):
-        return (*traced(built, request, arrays["rays"]), built)
-    return {"answer": "done"}, batch(core, built, request, header, arrays), built
+    return (*answer(core, built, header, arrays), built)
 
 
 def introduction(core):
@@ -145,12 +143,50 @@ def introduction(core):
     }
 
 
-def traced(built, request, rays):
-    """Hits or flags, and what it took."""
-    answer, counts = getattr(built, request)(rays)
-    name, element = ("hits", "hit") if request == "intersect" else ("occluded", "u8")
-    stats = {"rays": len(rays), "box-tests": 0, "primitive-tests": 0, **counts}
-    return {"answer": "traced", "stats": whole(stats)}, [(name, element, len(rays), answer)]
+def answer(core, built, header, arrays):
+    """What comes of a question of `Core` or `Built`."""
+    request = header["request"]
+    owner = Core if request in methods(Core) else Built
+    asked = methods(owner).get(request)
+    if asked is None:
+        raise Unsupported(f"the request `{request}` is not known to this version of furnace_core")
+    method = getattr(core if owner is Core else built, asked.__name__)
+    told = method(*(argument(name, header, arrays) for name in asked.arguments))
+    if request == "render":
+        return {"answer": "done"}, picture(core, header["settings"], told)
+    name, element = asked.answer
+    count = len(list(arrays.values())[-1])
+    if not asked.tells_stats:
+        return {"answer": "done"}, [(name.replace("_", "-"), element, count, rows(told, element))]
+    told, counts = told
+    stats = {"rays": count, "box-tests": 0, "primitive-tests": 0, **counts}
+    return {"answer": "traced", "stats": whole(stats)}, [(name, element, count, told)]
+
+
+def rows(told, element):
+    """An answer as an array: a tuple are its columns, a list of tuples its rows."""
+    dtype, _ = ELEMENTS[element]
+    if dtype.names is None or not isinstance(told, (tuple, list)):
+        return told
+    columns = told if isinstance(told, tuple) else tuple(zip(*told))
+    made = np.zeros(len(columns[0]), dtype)
+    for name, column in zip(dtype.names, columns):
+        made[name] = column
+    return made
+
+
+def picture(core, settings, told):
+    """The arrays of a picture."""
+    count = settings["width"] * settings["height"]
+    pixels, samples, *rest = told
+    sent = [
+        ("pixels", "rgb-f32", count, np.reshape(pixels, (count, 3))),
+        ("sample-counts", "u32", count, np.reshape(samples, count)),
+    ]
+    if "reported-variance" in core.traits:
+        [variances] = rest
+        sent.append(("variances", "rgb-f32", count, np.reshape(variances, (count, 3))))
+    return sent
 
 
 def whole(counts):
@@ -165,66 +201,30 @@ class Random:
         self.seed, self.points, self.lobes = header["seed"], arrays["points"], arrays["lobes"]
 
 
-def batch(core, built, request, header, arrays):
-    """The arrays that answer a request."""
-    rays = arrays.get("rays")
-    if request == "generate-rays":
-        film = arrays["film"]
-        return [("rays", "ray", len(film), core.generate_rays(camera_of(header["camera"]), film))]
-    if request == "intersect-triangle":
-        corners = arrays["positions"], arrays["normals"]
-        return [("hits", "hit", len(rays), core.intersect_triangle(*corners, rays))]
-    if request == "intersect-sphere":
-        [sphere] = arrays["spheres"]
-        hits = core.intersect_sphere(sphere[:3], float(sphere[3]), rays)
-        return [("hits", "hit", len(rays), hits)]
-    if request == "intersect-box":
-        low, high = arrays["bounds"]
-        return [("box-hits", "box-hit", len(rays), core.intersect_box(low, high, rays))]
-    if request == "sample-direction":
-        random = Random(header, arrays)
-        samples = core.sample_direction(header["sampler"], random)
-        return [("samples", "direction-sample", len(random.points), samples)]
-    if request == "direction-pdf":
-        directions = arrays["directions"]
-        pdf = core.direction_pdf(header["sampler"], directions)
-        return [("pdf", "f64", len(directions), pdf)]
-    if request == "eval-bsdf":
-        queries = arrays["queries"]
-        values = np.empty(len(queries), BSDF_VALUE)
-        material = material_of(header["material"])
-        values["f"], values["pdf"] = core.eval_bsdf(material, queries["wo"], queries["wi"])
-        return [("values", "bsdf-value", len(queries), values)]
-    if request == "sample-bsdf":
-        wo, random = arrays["wo"], Random(header, arrays)
-        samples = core.sample_bsdf(material_of(header["material"]), wo, random)
-        return [("samples", "bsdf-sample", len(wo), samples)]
-    if request == "adaptive-mean":
-        streams = np.split(arrays["values"], np.cumsum(arrays["lengths"]).astype(int)[:-1])
-        means = np.zeros(len(streams), ADAPTIVE_MEAN)
-        rule = header["samples-per-batch"], header["max-tolerance"]
-        for index, answer in enumerate(core.adaptive_mean(*rule, streams)):
-            means[index]["mean"], means[index]["used"] = answer
-        return [("means", "adaptive-mean", len(means), means)]
-    if request == "sample-light":
-        origins, random = arrays["from"], Random(header, arrays)
-        samples = built.sample_light(header["light"], origins, random)
-        return [("samples", "light-sample", len(origins), samples)]
-    if request == "radiance":
-        return [("radiance", "rgb", len(rays), built.radiance(rays, Table(header["settings"])))]
-    if request == "render":
-        settings = Table(header["settings"])
-        pixels, samples, *rest = built.render(camera_of(header["camera"]), settings)
-        count = settings.width * settings.height
-        sent = [
-            ("pixels", "rgb-f32", count, np.reshape(pixels, (count, 3))),
-            ("sample-counts", "u32", count, np.reshape(samples, count)),
-        ]
-        if "reported-variance" in core.traits:
-            [variances] = rest
-            sent.append(("variances", "rgb-f32", count, np.reshape(variances, (count, 3))))
-        return sent
-    raise Unsupported(f"the request `{request}` is not known to this version of furnace_core")
+# Arguments that are not simply an array or a member of their name.
+ARGUMENTS = {
+    "camera": lambda header, arrays: camera_of(header["camera"]),
+    "material": lambda header, arrays: material_of(header["material"]),
+    "random": Random,
+    "centre": lambda header, arrays: arrays["spheres"][0][:3],
+    "radius": lambda header, arrays: float(arrays["spheres"][0][3]),
+    "low": lambda header, arrays: arrays["bounds"][0],
+    "high": lambda header, arrays: arrays["bounds"][1],
+    "wo": lambda header, arrays: arrays["queries"]["wo"] if "queries" in arrays else arrays["wo"],
+    "wi": lambda header, arrays: arrays["queries"]["wi"],
+    "origins": lambda header, arrays: arrays["from"],
+    "streams": lambda header, arrays: np.split(
+        arrays["values"], np.cumsum(arrays["lengths"]).astype(int)[:-1]
+    ),
+}
+
+
+def argument(name, header, arrays):
+    """What a method is handed under a name."""
+    if name in ARGUMENTS:
+        return ARGUMENTS[name](header, arrays)
+    plain = name.replace("_", "-")
+    return arrays[plain] if plain in arrays else table(header[plain])
 
 
 def material_of(members):

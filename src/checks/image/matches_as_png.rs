@@ -53,10 +53,11 @@ mod tests {
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
     use crate::contract::{
-        BuildStats, BuiltScene, CodedFilm, Core, CoreInfo, Film, Precision, RenderSettings, Result,
+        BuildStats, BuiltScene, Core, CoreInfo, Film, Precision, RenderSettings, Result,
     };
     use crate::image::Image;
     use crate::image::encoding::{Curve, Rounding};
+    use crate::image::png::Picture;
     use crate::math::rng::{Seed, uniform};
     use crate::scene::{Camera, Library, SceneDescription, reference};
     use std::path::Path;
@@ -119,9 +120,15 @@ mod tests {
             Ok(())
         }
 
-        fn render_codes(&mut self, _: &Camera, settings: &RenderSettings) -> Result<CodedFilm> {
+        fn render_codes(
+            &mut self,
+            _: &Camera,
+            settings: &RenderSettings,
+            codes: &mut Picture,
+        ) -> Result<Encoding> {
             let [said, done] = self.0.writes.unwrap();
-            Ok(CodedFilm { encoding: said, codes: done.picture(&self.picture(settings)) })
+            *codes = done.picture(&self.picture(settings));
+            Ok(said)
         }
     }
 

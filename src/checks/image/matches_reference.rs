@@ -3,10 +3,12 @@
 use super::{by_codes, clues};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, PictureRole, camera_of};
 use crate::contract::{
-    Acceleration, BuiltScene, Capabilities, CodedFilm, DirectSampling, Film, IntegratorSettings,
+    Acceleration, BuiltScene, Capabilities, DirectSampling, Film, IntegratorSettings,
     RenderSettings,
 };
 use crate::image::Image;
+use crate::image::encoding::Encoding;
+use crate::image::png::Picture;
 use crate::math::rng::Seed;
 use crate::scene::reference::{self, Reference};
 use crate::scene::{Camera, SceneDescription};
@@ -94,9 +96,9 @@ impl MatchesReference {
         let setup = self.setup(context)?;
         let seed = context.seed;
         let mut built = context.core.build_scene(&setup.scene, Acceleration::DEFAULT)?;
-        let declared = setup.shot.codes(built.as_mut(), seed.child("encoding"))?.encoding;
+        let declared = setup.shot.codes(built.as_mut(), seed.child("encoding"))?.0;
         let judged = by_codes::judge(&setup, declared, &mut |draw| {
-            Ok(setup.shot.codes(built.as_mut(), draw.seed(seed))?.codes)
+            Ok(setup.shot.codes(built.as_mut(), draw.seed(seed))?.1)
         })?;
         drop(built);
         Ok(judged.shown(&setup, context))
@@ -183,8 +185,14 @@ impl Shot<'_> {
     }
 
     /// The same of a core that writes 8 bits.
-    fn codes(&self, scene: &mut dyn BuiltScene, seed: Seed) -> Result<CodedFilm, CheckError> {
-        Ok(scene.render_codes(&self.camera, &self.settings(seed))?)
+    fn codes(
+        &self,
+        scene: &mut dyn BuiltScene,
+        seed: Seed,
+    ) -> Result<(Encoding, Picture), CheckError> {
+        let mut codes = Picture::default();
+        let encoding = scene.render_codes(&self.camera, &self.settings(seed), &mut codes)?;
+        Ok((encoding, codes))
     }
 
     fn settings(&self, seed: Seed) -> RenderSettings {
@@ -199,8 +207,7 @@ impl Shot<'_> {
                 seed: seed.0,
                 ..Default::default()
             },
-            adaptive: None,
-            stratified: false,
+            ..Default::default()
         }
     }
 }

@@ -122,7 +122,8 @@ impl Check for MeanRadiance {
 const NO_LIGHTS: &str = "radiance is not a number in a scene that has no light";
 
 fn divides_by_no_lights(scene: &SceneDescription, error: &CoreError) -> bool {
-    scene.lights.is_empty() && breach::cause_of(&error.to_string()) == Some(&contract::NOT_A_NUMBER)
+    let CoreError::BrokeContract(breach) = error else { return false };
+    scene.lights.is_empty() && breach::cause_of(breach) == Some(&contract::NOT_A_NUMBER)
 }
 
 impl MeanRadiance {

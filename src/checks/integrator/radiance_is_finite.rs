@@ -5,7 +5,7 @@
 
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, breach};
-use crate::contract::{Acceleration, Capabilities, CoreError, DirectSampling};
+use crate::contract::{Acceleration, Breach, Capabilities, CoreError, DirectSampling};
 use crate::scene::SceneDescription;
 use crate::text::{Between, Bounces, Several, Size};
 use serde::Deserialize;
@@ -34,7 +34,7 @@ impl Check for RadianceIsFinite {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut measures = Vec::new();
-        let mut complaints = Vec::new();
+        let mut breaches = Vec::new();
         for name in self.scenes.iter() {
             let scene = context
                 .scenes
@@ -44,17 +44,17 @@ impl Check for RadianceIsFinite {
                 if !can(context, direct) {
                     continue;
                 }
-                let complaint = self.complaint(context, &scene, direct)?;
+                let breach = self.breach(context, &scene, direct)?;
                 let what = format!("pictures that cannot be, by {direct:?}");
-                measures.push(Measure::none(what, complaint.is_some().into()).of_row(name));
-                complaints.extend(complaint.map(|complaint| format!("{name}: {complaint}")));
+                measures.push(Measure::none(what, breach.is_some().into()).of_row(name));
+                breaches.extend(breach.map(|breach| (name, breach)));
             }
         }
-        let statement = match complaints.first() {
+        let statement = match breaches.first() {
             None => format!("every pixel of {} pictures is finite", measures.len()),
-            Some(first) => first.clone(),
+            Some((scene, breach)) => format!("{scene}: {breach}"),
         };
-        let cause = complaints.first().and_then(|first| breach::cause_of(first));
+        let cause = breaches.first().and_then(|(_, breach)| breach::cause_of(breach));
         Ok(Finding::of(&statement, "would have caught one such pixel", measures)
             .because_each(cause, &statement))
     }
@@ -67,19 +67,19 @@ fn can(context: &Context<'_>, direct: DirectSampling) -> bool {
 
 impl RadianceIsFinite {
     /// What the validation says of a picture, if anything.
-    fn complaint(
+    fn breach(
         &self,
         context: &mut Context<'_>,
         scene: &SceneDescription,
         direct: DirectSampling,
-    ) -> Result<Option<String>, CheckError> {
+    ) -> Result<Option<Breach>, CheckError> {
         let seed = context.seed.child(&scene.name).child(format!("{direct:?}")).0;
         let rendering =
             Rendering::of(scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?.by(direct);
         let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
         match rendering.film(built.as_mut(), seed, 0) {
             Ok(_) => Ok(None),
-            Err(CheckError::Core(CoreError::BrokeContract(complaint))) => Ok(Some(complaint)),
+            Err(CheckError::Core(CoreError::BrokeContract(breach))) => Ok(Some(breach)),
             Err(other) => Err(other),
         }
     }

@@ -6,7 +6,9 @@ use crate::checks::sampling::distribution::Drawn;
 use crate::checks::sampling::extremes::{self, Extremes, Range};
 use crate::checks::sampling::replay::{self, Replayed};
 use crate::checks::{Check, CheckError, Context, Finding};
-use crate::contract::{Acceleration, BuiltScene, Capabilities, CoreError, LightSample, Result};
+use crate::contract::{
+    Acceleration, Breach, BreachKind, BuiltScene, Capabilities, CoreError, LightSample, Result,
+};
 use crate::math::rng::Seed;
 use crate::scene::Light;
 use crate::text::{Several, Vector};
@@ -83,7 +85,11 @@ fn drawn(sample: &LightSample) -> Result<Drawn> {
     let is_valid = sample.is_valid == 1;
     if is_valid && !(sample.distance > 0.0 && sample.distance.is_finite()) {
         let distance = sample.distance;
-        return Err(CoreError::BrokeContract(format!("the distance to the light is {distance}")));
+        let kind = match distance.is_infinite() {
+            true => BreachKind::Infinite,
+            false => BreachKind::OutOfRange(distance),
+        };
+        return Err(CoreError::BrokeContract(Breach::of("the distance to the light", kind)));
     }
     Ok(Drawn { direction: is_valid.then_some(sample.wi), pdf: sample.pdf })
 }

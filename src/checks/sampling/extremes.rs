@@ -72,7 +72,7 @@ impl Extremes {
         for numbers in all_numbers() {
             let answer = match ask(numbers) {
                 Ok((drawn, pdf)) => Answer::Sample(drawn, pdf),
-                Err(CoreError::BrokeContract(complaint)) => Answer::Broken(complaint),
+                Err(CoreError::BrokeContract(breach)) => Answer::Broken(breach.to_string()),
                 Err(other) => return Err(other),
             };
             answers.push((numbers, answer));

@@ -4,7 +4,7 @@
 use crate::cause::shape;
 use crate::checks::phrase::some_are;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, CoreError, Hit, Primitive, Ray};
+use crate::contract::{BreachKind, Capabilities, CoreError, Hit, Primitive, Ray};
 use crate::math::rng::{Stream, uniform};
 use crate::math::sphere::on_sphere;
 use glam::DVec3;
@@ -38,7 +38,7 @@ impl Check for DegenerateTriangles {
             let complaint = match asked {
                 Ok(()) => None,
                 Err(error @ (CoreError::BrokeContract(_) | CoreError::Crashed { .. })) => {
-                    Some(error.to_string())
+                    Some(error)
                 }
                 Err(other) => return Err(other.into()),
             };
@@ -62,7 +62,7 @@ struct Outcome {
     question: Question,
     hit: usize,
     /// Why there is no answer.
-    complaint: Option<String>,
+    complaint: Option<CoreError>,
 }
 
 const PROPER: [DVec3; 3] =
@@ -180,7 +180,10 @@ fn judge(outcomes: &[Outcome]) -> Finding {
 }
 
 fn explain(mut finding: Finding, outcomes: &[Outcome]) -> Finding {
-    let is_nan = |outcome: &&Outcome| outcome.complaint.as_ref().is_some_and(|c| c.contains("NaN"));
+    let is_nan = |outcome: &&Outcome| {
+        matches!(&outcome.complaint, Some(CoreError::BrokeContract(breach))
+            if breach.kind == BreachKind::NotANumber)
+    };
     let nan = outcomes.iter().filter(is_nan).count();
     if nan > 0 {
         let kinds = outcomes.len();

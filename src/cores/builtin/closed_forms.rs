@@ -365,14 +365,7 @@ fn picture(scene: &SceneDescription, settings: &RenderSettings) -> Film {
 
 fn picture_settings(samples_per_pixel: u32, threads: u32) -> RenderSettings {
     let integrator = IntegratorSettings { threads, ..settings(0..=4) };
-    RenderSettings {
-        width: 24,
-        height: 16,
-        samples_per_pixel,
-        integrator,
-        adaptive: None,
-        stratified: false,
-    }
+    RenderSettings { width: 24, height: 16, samples_per_pixel, integrator, ..Default::default() }
 }
 
 fn small_room(emitted: Rgb) -> SceneDescription {

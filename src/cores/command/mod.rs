@@ -19,9 +19,11 @@ pub use process::found;
 pub use program::{AdapterError, Log, Program, Rendered};
 
 use crate::contract::{
-    Acceleration, BuildStats, BuiltScene, Capabilities, CodedFilm, Core, CoreError, CoreInfo, Film,
-    Precision, RenderSettings, Result,
+    Acceleration, BuildStats, BuiltScene, Capabilities, Core, CoreError, CoreInfo, Film, Precision,
+    RenderSettings, Result,
 };
+use crate::image::encoding::Encoding;
+use crate::image::png::Picture as Codes;
 use crate::scene::{Camera, SceneDescription};
 
 /// A program as a core.
@@ -82,14 +84,19 @@ impl BuiltScene for BuiltCommand<'_> {
         Ok(())
     }
 
-    fn render_codes(&mut self, camera: &Camera, settings: &RenderSettings) -> Result<CodedFilm> {
+    fn render_codes(
+        &mut self,
+        camera: &Camera,
+        settings: &RenderSettings,
+        codes: &mut Codes,
+    ) -> Result<Encoding> {
         let unsupported = CoreError::Unsupported(Capabilities::RENDER_CODES);
         let Some(encoding) = self.program.adapter().output.encoding.of_codes() else {
             return Err(unsupported);
         };
         let rendered = self.program.render(&self.scene, camera, settings)?;
-        let codes = rendered.picture.codes.ok_or(unsupported)?;
-        Ok(CodedFilm { encoding, codes })
+        *codes = rendered.picture.codes.ok_or(unsupported)?;
+        Ok(encoding)
     }
 }
 

@@ -163,7 +163,7 @@ impl Program {
             }
         }
         if !folder.join(&self.adapter.output.file).is_file() {
-            return Err(CoreError::BrokeContract(format!(
+            return Err(CoreError::breach(format!(
                 "it exited successfully without writing {}; the end of its output: {}",
                 self.adapter.output.file,
                 said.last()
@@ -196,14 +196,14 @@ impl Program {
 
     fn read(&self, folder: &Path, film: [u32; 2]) -> Result<Picture> {
         let picture = picture::read(&self.adapter.output, folder)
-            .map_err(|error| CoreError::BrokeContract(error.to_string()))?;
+            .map_err(|error| CoreError::breach(error.to_string()))?;
         let [width, height] = film.map(|pixels| pixels as usize);
         let found = [picture.image.width, picture.image.height];
         if found == [width, height] {
             return Ok(picture);
         }
         let [found_width, found_height] = found;
-        Err(CoreError::BrokeContract(format!(
+        Err(CoreError::breach(format!(
             "its image has {found_width} x {found_height} pixels, not {width} x {height}"
         )))
     }

@@ -48,8 +48,7 @@ fn request(scene: &str, seed: u64) -> (Arc<SceneDescription>, Camera, RenderSett
         height: 1,
         samples_per_pixel: 4,
         integrator,
-        adaptive: None,
-        stratified: false,
+        ..Default::default()
     };
     (scene, camera, settings)
 }
@@ -87,9 +86,10 @@ fn a_program_that_writes_8_bits_is_asked_for_its_codes() {
     let mut core = core(folder.path(), &script, eight_bits);
     let (scene, camera, settings) = request("point-light-plane", 5);
     let mut built = core.build_scene(&scene, Acceleration::DEFAULT).unwrap();
-    let film = built.render_codes(&camera, &settings).unwrap();
-    assert_eq!(film.encoding, Encoding::COURSE);
-    assert_eq!(film.codes.pixels, [[10, 128, 255]]);
+    let mut codes = png::Picture::default();
+    let encoding = built.render_codes(&camera, &settings, &mut codes).unwrap();
+    assert_eq!(encoding, Encoding::COURSE);
+    assert_eq!(codes.pixels, [[10, 128, 255]]);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! What a C core declares: the functions it has, its traits, its conventions.
 
 use crate::contract::abi::{self, Traits};
+use crate::contract::questions::each_question;
 use crate::contract::{
     Capabilities, Conventions, EmissionSides, Falloff, GlassFresnel, GlassRadiance, SmithTerm,
 };
@@ -37,34 +38,39 @@ pub fn conventions(declared: &abi::Conventions) -> Option<Conventions> {
     })
 }
 
+/// The capabilities of plain questions whose functions are there.
+macro_rules! add_if_there {
+    (($found:ident, $table:ident) {
+        $(#[$doc:meta])* $can:ident $(= $bit:literal)? fn $method:ident $($rest:tt)*
+    }) => {
+        if $table.$method.is_some() {
+            $found |= Capabilities::$can;
+        }
+    };
+}
+
 /// What a core can be asked: the functions it has, and of its traits those that go with them.
 pub fn capabilities(table: &abi::CoreTable) -> Capabilities {
     let traits = Traits::from_bits_truncate(table.traits);
     let has = |wanted| traits.contains(wanted);
+    let mut found = Capabilities::empty();
+    each_question! { PlainCore add_if_there (found, table) }
     let builds = table.build.is_some() && table.release.is_some();
-    let intersects = builds && table.intersect.is_some();
+    if builds {
+        each_question! { PlainScene add_if_there (found, table) }
+    }
     let renders = builds && table.render.is_some();
-    let integrates = renders || (builds && table.radiance.is_some());
+    let integrates = renders || found.contains(Capabilities::RADIANCE);
     let counts = has(Traits::COUNTS_TRAVERSAL) || has(Traits::COUNTED_TESTS);
-    let draws = table.sample_direction.is_some() || table.direction_pdf.is_some();
     let hits_primitives = table.intersect_triangle.is_some() || table.intersect_sphere.is_some();
-    [
-        (table.generate_rays.is_some(), Capabilities::GENERATE_RAYS),
+    let others = [
         (hits_primitives, Capabilities::INTERSECT_PRIMITIVE),
         (table.intersect_box.is_some(), Capabilities::INTERSECT_BOX),
-        (draws, Capabilities::SAMPLE_DIRECTION),
-        (table.eval_bsdf.is_some(), Capabilities::EVAL_BSDF),
-        (table.sample_bsdf.is_some(), Capabilities::SAMPLE_BSDF),
-        (table.adaptive_mean.is_some(), Capabilities::ADAPTIVE_MEAN),
         (builds, Capabilities::BUILD_SCENE),
-        (intersects, Capabilities::INTERSECT),
-        (builds && table.occluded.is_some(), Capabilities::OCCLUDED),
-        (builds && table.sample_light.is_some(), Capabilities::SAMPLE_LIGHT),
-        (builds && table.radiance.is_some(), Capabilities::RADIANCE),
         (renders, Capabilities::RENDER),
         (builds && has(Traits::BRUTE_FORCE), Capabilities::BRUTE_FORCE),
         (builds && has(Traits::SPLIT_RULES), Capabilities::SPLIT_RULES),
-        (intersects && counts, Capabilities::TRAVERSAL_STATS),
+        (found.contains(Capabilities::INTERSECT) && counts, Capabilities::TRAVERSAL_STATS),
         (integrates && has(Traits::HEMISPHERE_SAMPLING), Capabilities::HEMISPHERE_SAMPLING),
         (integrates && has(Traits::ISOLATED_BOUNCES), Capabilities::ISOLATED_BOUNCES),
         (integrates && has(Traits::ROULETTE), Capabilities::ROULETTE),
@@ -74,10 +80,8 @@ pub fn capabilities(table: &abi::CoreTable) -> Capabilities {
         (renders && has(Traits::STRATIFIED_PIXELS), Capabilities::STRATIFIED_PIXELS),
         (has(Traits::CALLERS_RANDOMNESS), Capabilities::CALLERS_RANDOMNESS),
         (has(Traits::DETERMINISTIC), Capabilities::DETERMINISTIC),
-    ]
-    .into_iter()
-    .filter_map(|(can, capability)| can.then_some(capability))
-    .collect()
+    ];
+    others.into_iter().filter(|(can, _)| *can).fold(found, |all, (_, one)| all | one)
 }
 
 #[cfg(test)]

@@ -3,9 +3,10 @@
 //! Meshes are not copied: the tables point into the scene they were made of. Not here: anything `unsafe`; making a
 //! pointer is harmless, following it is the core's business.
 
+use crate::contract::crossing::Element;
 use crate::contract::{
-    Acceleration, AdaptiveSettings, DirectSampling, IntegratorSettings, RenderSettings, Roulette,
-    Sampler, Split, abi,
+    Acceleration, AdaptiveSettings, DirectSampling, IntegratorSettings, Randomness, RenderSettings,
+    Roulette, Sampler, Split, abi,
 };
 use crate::scene::{Camera, Light, Material, Mesh, Rgb, SceneDescription, Sphere, Surface};
 use glam::DVec3;
@@ -83,26 +84,125 @@ impl<'a> SceneTables<'a> {
     }
 }
 
-/// A material outside any scene, with the name it points to.
-pub struct MaterialTable {
-    name: CString,
-    material: Material,
+/// An argument of a question as C has it.
+pub trait Given {
+    /// What C gets.
+    type Passed;
+    /// What that points to, valid as long as itself.
+    type Lent;
+
+    /// What is lent for a call about `count` elements.
+    ///
+    /// # Panics
+    /// If it has another number of elements, for C sees only one count.
+    fn lent(self, count: usize) -> Self::Lent;
+
+    /// What is passed.
+    fn passed(lent: &Self::Lent) -> Self::Passed;
 }
 
-impl MaterialTable {
-    /// The table of `material`.
-    pub fn new(material: &Material) -> Self {
-        Self { name: c_name(&material.name), material: material.clone() }
+/// A struct of the contract, by a pointer to the one that C knows.
+macro_rules! structs {
+    ($($type:ty => $of:path: $in_c:ty),* $(,)?) => { $(
+        impl Given for $type {
+            type Passed = *const $in_c;
+            type Lent = $in_c;
+
+            fn lent(self, _: usize) -> $in_c {
+                $of(self)
+            }
+
+            fn passed(lent: &$in_c) -> *const $in_c {
+                ptr::from_ref(lent)
+            }
+        }
+    )* };
+}
+structs! {
+    &Camera => camera: abi::Camera,
+    &IntegratorSettings => integrator: abi::Integrator,
+    AdaptiveSettings => adaptive: abi::Adaptive,
+}
+
+/// A number.
+macro_rules! numbers {
+    ($($type:ty => $of:path: $in_c:ty),* $(,)?) => { $(
+        impl Given for $type {
+            type Passed = $in_c;
+            type Lent = $in_c;
+
+            fn lent(self, _: usize) -> $in_c {
+                $of(self)
+            }
+
+            fn passed(lent: &$in_c) -> $in_c {
+                *lent
+            }
+        }
+    )* };
+}
+numbers! { u32 => u32::from: u32, f64 => f64::from: f64, Sampler => sampler: u32 }
+
+impl Given for &Material {
+    type Passed = *const abi::Material;
+    /// With the name that it points to.
+    type Lent = (abi::Material, CString);
+
+    fn lent(self, _: usize) -> Self::Lent {
+        let name = c_name(&self.name);
+        (material(self, name.as_ptr()), name)
     }
 
-    /// The struct that a core is handed; valid as long as `self`.
-    pub fn as_abi(&self) -> abi::Material {
-        material(&self.material, self.name.as_ptr())
+    fn passed(lent: &Self::Lent) -> Self::Passed {
+        ptr::from_ref(&lent.0)
     }
 }
 
-/// A camera.
-pub fn camera(camera: &Camera) -> abi::Camera {
+impl<T: Element> Given for &[T] {
+    type Passed = *const T;
+    type Lent = *const T;
+
+    fn lent(self, count: usize) -> *const T {
+        assert_eq!(self.len(), count, "slices of one batch have one length");
+        self.as_ptr()
+    }
+
+    fn passed(lent: &*const T) -> *const T {
+        *lent
+    }
+}
+
+impl Given for Randomness<'_> {
+    type Passed = *const abi::Randomness;
+    type Lent = abi::Randomness;
+
+    fn lent(self, count: usize) -> abi::Randomness {
+        let (points, lobes) = (self.points.lent(count), self.lobes.lent(count));
+        abi::Randomness { points, lobes, seed: self.seed }
+    }
+
+    fn passed(lent: &abi::Randomness) -> *const abi::Randomness {
+        ptr::from_ref(lent)
+    }
+}
+
+impl Given for &[&[f64]] {
+    type Passed = *const abi::Stream;
+    type Lent = Vec<abi::Stream>;
+
+    fn lent(self, count: usize) -> Vec<abi::Stream> {
+        assert_eq!(self.len(), count, "slices of one batch have one length");
+        let stream =
+            |values: &&[f64]| abi::Stream { values: values.as_ptr(), count: values.len() as u64 };
+        self.iter().map(stream).collect()
+    }
+
+    fn passed(lent: &Vec<abi::Stream>) -> *const abi::Stream {
+        lent.as_ptr()
+    }
+}
+
+fn camera(camera: &Camera) -> abi::Camera {
     abi::Camera {
         struct_size: struct_size::<abi::Camera>(),
         reserved: 0,
@@ -190,8 +290,7 @@ fn light(light: &Light) -> abi::Light {
     abi::Light { kind, shape, place, radiance, zenith, reserved: [0.0; 2] }
 }
 
-/// The number of a sampler.
-pub fn sampler(sampler: Sampler) -> u32 {
+fn sampler(sampler: Sampler) -> u32 {
     match sampler {
         Sampler::UniformHemisphere => abi::UNIFORM_HEMISPHERE,
         Sampler::CosineHemisphere => abi::COSINE_HEMISPHERE,
@@ -218,8 +317,7 @@ fn split_number(split: Split) -> u32 {
     }
 }
 
-/// How to trace a path.
-pub fn integrator(settings: &IntegratorSettings) -> abi::Integrator {
+fn integrator(settings: &IntegratorSettings) -> abi::Integrator {
     let Roulette { stop, guaranteed } =
         settings.roulette.unwrap_or(Roulette { stop: 0.0, guaranteed: 0 });
     abi::Integrator {
@@ -236,8 +334,7 @@ pub fn integrator(settings: &IntegratorSettings) -> abi::Integrator {
     }
 }
 
-/// When to stop sampling.
-pub fn adaptive(settings: AdaptiveSettings) -> abi::Adaptive {
+fn adaptive(settings: AdaptiveSettings) -> abi::Adaptive {
     abi::Adaptive {
         struct_size: struct_size::<abi::Adaptive>(),
         samples_per_batch: settings.samples_per_batch,

@@ -1,0 +1,391 @@
+//! What an answer is made of: what it holds before a core has written it, what form it has to have, and how it
+//! crosses.
+//!
+//! Not here: whether an answer is *right*, which is what checks are for.
+
+use super::crossing::{Element, Part, Sent, Wanted};
+use super::{Breach, BreachKind, Capabilities, CoreError, Film, Place, Result, read_flags};
+use crate::image::png::Picture;
+use bytemuck::Pod;
+use glam::DVec3;
+
+/// How far from 1 the length of a unit vector may be: f32 cores normalise to about 1e-7.
+const UNIT_LENGTH_ERROR: f64 = 1e-5;
+
+/// What an answer has to fit.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// Elements of a batch, and 1; width and height of a picture.
+    pub size: [usize; 2],
+    /// What the core can do.
+    pub capabilities: Capabilities,
+    /// Primitives of each shape of the scene, to tell hits that cannot be.
+    pub primitives_of_shape: &'a [usize],
+}
+
+/// What a question fills: a batch, or a picture.
+pub trait Answer {
+    /// Its arrays; the one without a name is called as the table of questions calls the answer.
+    const PARTS: &'static [Part];
+
+    /// One of the size asked for, with nothing in it.
+    fn blank(asked: &Asked<'_>) -> Box<Self>;
+
+    /// Marks every value, so that "left untouched" is seen.
+    fn untouch(&mut self, asked: &Asked<'_>);
+
+    /// Takes it as an answer to what was asked.
+    ///
+    /// # Errors
+    /// If it has not the contract's form.
+    fn accept(&mut self, asked: &Asked<'_>) -> Result<()>;
+
+    /// Rounds every number to single precision, if it is not in that anyway.
+    fn round(&mut self) {}
+
+    /// As it is sent.
+    fn sent(&self, name: &'static str, can: Capabilities) -> Vec<Sent<'_>>;
+
+    /// Lets `fill` write the arrays, and takes them over.
+    ///
+    /// # Errors
+    /// Those of `fill`, and values that are none.
+    fn receive(&mut self, name: &'static str, can: Capabilities, fill: Fill<'_>) -> Result<()>;
+}
+
+/// Writes the arrays of an answer.
+pub type Fill<'a> = &'a mut dyn FnMut(&mut [Wanted<'_>]) -> Result<()>;
+
+/// A number or some numbers: what stands for "not written", and how it is in single precision.
+pub trait Value: Copy {
+    /// What no computation makes.
+    const UNTOUCHED: Self;
+
+    /// Rounded to single precision, if it has a fraction.
+    #[must_use]
+    fn rounded(self) -> Self;
+}
+
+impl Value for f64 {
+    /// A NaN that no computation makes.
+    const UNTOUCHED: Self = Self::from_bits(0x7ff8_f00d_f00d_f00d);
+
+    fn rounded(self) -> Self {
+        Self::from(self as f32)
+    }
+}
+
+impl Value for f32 {
+    const UNTOUCHED: Self = Self::from_bits(0x7fd0_f00d);
+
+    fn rounded(self) -> Self {
+        self
+    }
+}
+
+/// Whole numbers are not rounded.
+macro_rules! whole {
+    ($($type:ty: $untouched:expr),*) => {
+        $(impl Value for $type {
+            const UNTOUCHED: Self = $untouched;
+
+            fn rounded(self) -> Self {
+                self
+            }
+        })*
+    };
+}
+whole! { u8: u8::MAX, u32: u32::MAX - 1, u64: u64::MAX - 1 }
+
+impl<T: Value, const N: usize> Value for [T; N] {
+    const UNTOUCHED: Self = [T::UNTOUCHED; N];
+
+    fn rounded(self) -> Self {
+        self.map(T::rounded)
+    }
+}
+
+/// What is wrong with one element, before its number is known.
+pub type Form = std::result::Result<(), Breach>;
+
+/// An element that cores answer.
+pub trait Answered: Element {
+    /// What complaints call one.
+    const NOUN: &'static str;
+
+    /// Whether it has the contract's form.
+    ///
+    /// # Errors
+    /// What is wrong first.
+    fn check(&self, asked: &Asked<'_>) -> Form;
+}
+
+impl<T: Answered> Answer for [T] {
+    const PARTS: &'static [Part] = &[Part::array::<T>("")];
+
+    fn blank(asked: &Asked<'_>) -> Box<Self> {
+        vec![T::UNTOUCHED; asked.size[0]].into()
+    }
+
+    fn untouch(&mut self, _: &Asked<'_>) {
+        self.fill(T::UNTOUCHED);
+    }
+
+    fn accept(&mut self, asked: &Asked<'_>) -> Result<()> {
+        each(self, T::NOUN, |element| element.check(asked))
+    }
+
+    fn round(&mut self) {
+        self.iter_mut().for_each(|element| *element = element.rounded());
+    }
+
+    fn sent(&self, name: &'static str, _: Capabilities) -> Vec<Sent<'_>> {
+        vec![Sent::new(name, self)]
+    }
+
+    fn receive(&mut self, name: &'static str, _: Capabilities, fill: Fill<'_>) -> Result<()> {
+        fill(&mut [Wanted::new(name, self)])
+    }
+}
+
+/// Flags cross as bytes.
+impl Answer for [bool] {
+    const PARTS: &'static [Part] = &[Part::array::<u8>("")];
+
+    fn blank(asked: &Asked<'_>) -> Box<Self> {
+        vec![false; asked.size[0]].into()
+    }
+
+    /// A flag has no third value.
+    fn untouch(&mut self, _: &Asked<'_>) {}
+
+    fn accept(&mut self, _: &Asked<'_>) -> Result<()> {
+        Ok(())
+    }
+
+    fn sent(&self, name: &'static str, _: Capabilities) -> Vec<Sent<'_>> {
+        vec![Sent::new(name, bytemuck::cast_slice::<bool, u8>(self))]
+    }
+
+    fn receive(&mut self, name: &'static str, _: Capabilities, fill: Fill<'_>) -> Result<()> {
+        self.receive_batch(|bytes: &mut [u8]| fill(&mut [Wanted::new(name, bytes)]))
+    }
+}
+
+/// An answer that is one array: how foreign code writes it.
+pub trait Batch: Answer {
+    /// What it writes.
+    type Foreign: Pod;
+
+    /// Lets `fill` write every element.
+    ///
+    /// # Errors
+    /// Those of `fill`, and values that are none.
+    fn receive_batch(
+        &mut self,
+        fill: impl FnOnce(&mut [Self::Foreign]) -> Result<()>,
+    ) -> Result<()>;
+}
+
+impl<T: Answered> Batch for [T] {
+    type Foreign = T;
+
+    fn receive_batch(&mut self, fill: impl FnOnce(&mut [T]) -> Result<()>) -> Result<()> {
+        fill(self)
+    }
+}
+
+impl Batch for [bool] {
+    type Foreign = u8;
+
+    fn receive_batch(&mut self, fill: impl FnOnce(&mut [u8]) -> Result<()>) -> Result<()> {
+        let mut bytes = vec![u8::UNTOUCHED; self.len()];
+        fill(&mut bytes)?;
+        read_flags(&bytes, self)
+    }
+}
+
+impl Answer for Film {
+    const PARTS: &'static [Part] = &[
+        Part::array::<[f32; 3]>("pixels"),
+        Part::array::<u32>("sample-counts"),
+        Part::array::<[f32; 3]>("variances"),
+    ];
+
+    fn blank(asked: &Asked<'_>) -> Box<Self> {
+        let mut film = Box::<Self>::default();
+        film.untouch(asked);
+        film
+    }
+
+    fn untouch(&mut self, asked: &Asked<'_>) {
+        let [width, height] = asked.size;
+        let count = width * height;
+        *self = Self {
+            width: width as u32,
+            height: height as u32,
+            pixels: vec![Value::UNTOUCHED; count],
+            sample_counts: vec![Value::UNTOUCHED; count],
+            variances: vec![Value::UNTOUCHED; if reports(asked.capabilities) { count } else { 0 }],
+        };
+    }
+
+    fn accept(&mut self, asked: &Asked<'_>) -> Result<()> {
+        let [width, height] = asked.size;
+        let count = width * height;
+        if self.pixels.len() != count || self.sample_counts.len() != count {
+            return Err(CoreError::breach(format!(
+                "the picture has {} pixels and {} sample counts; {width} x {height} is {count}",
+                self.pixels.len(),
+                self.sample_counts.len(),
+            )));
+        }
+        each_pixel(&self.pixels, width, "pixel", "radiance")?;
+        each(&self.sample_counts, "sample count", |count| touched("it", *count))?;
+        if !reports(asked.capabilities) {
+            self.variances.clear();
+        } else if self.variances.len() != count {
+            let found = self.variances.len();
+            return Err(CoreError::breach(format!(
+                "the picture has {found} variances of {count} pixels"
+            )));
+        }
+        each_pixel(&self.variances, width, "variance of pixel", "it")
+    }
+
+    fn sent(&self, _: &'static str, can: Capabilities) -> Vec<Sent<'_>> {
+        let counts = Sent::new("sample-counts", &self.sample_counts);
+        let mut arrays = vec![Sent::new("pixels", &self.pixels), counts];
+        if reports(can) {
+            arrays.push(Sent::new("variances", &self.variances));
+        }
+        arrays
+    }
+
+    fn receive(&mut self, _: &'static str, can: Capabilities, fill: Fill<'_>) -> Result<()> {
+        let counts = Wanted::new("sample-counts", &mut self.sample_counts);
+        let mut arrays = vec![Wanted::new("pixels", &mut self.pixels), counts];
+        if reports(can) {
+            arrays.push(Wanted::new("variances", &mut self.variances));
+        }
+        fill(&mut arrays)
+    }
+}
+
+fn reports(capabilities: Capabilities) -> bool {
+    capabilities.contains(Capabilities::REPORTED_VARIANCE)
+}
+
+impl Answer for Picture {
+    const PARTS: &'static [Part] = &[Part::array::<[u8; 3]>("")];
+
+    fn blank(asked: &Asked<'_>) -> Box<Self> {
+        let [width, height] = asked.size;
+        Box::new(Self { width, height, pixels: vec![[0; 3]; width * height] })
+    }
+
+    /// Every code is one that a core may have written.
+    fn untouch(&mut self, asked: &Asked<'_>) {
+        *self = *Self::blank(asked);
+    }
+
+    fn accept(&mut self, asked: &Asked<'_>) -> Result<()> {
+        let is_whole = self.pixels.len() == self.width * self.height;
+        if asked.size == [self.width, self.height] && is_whole {
+            return Ok(());
+        }
+        let [width, height] = asked.size;
+        let found = format!("{} × {} pixels", self.width, self.height);
+        Err(CoreError::breach(format!("the picture has {found}, not {width} × {height}")))
+    }
+
+    fn sent(&self, name: &'static str, _: Capabilities) -> Vec<Sent<'_>> {
+        vec![Sent::new(name, &self.pixels)]
+    }
+
+    fn receive(&mut self, name: &'static str, _: Capabilities, fill: Fill<'_>) -> Result<()> {
+        fill(&mut [Wanted::new(name, &mut self.pixels)])
+    }
+}
+
+fn each<T>(elements: &[T], what: &'static str, check: impl Fn(&T) -> Form) -> Result<()> {
+    let of = elements.len();
+    elements.iter().enumerate().try_for_each(|(index, element)| {
+        let breach = |breach: Breach| breach.in_element(what, index, of);
+        check(element).map_err(|found| CoreError::BrokeContract(breach(found)))
+    })
+}
+
+/// Whether every value of the pixels of a film is written, finite and not negative.
+fn each_pixel(
+    values: &[[f32; 3]],
+    width: usize,
+    what: &'static str,
+    field: &'static str,
+) -> Result<()> {
+    values.iter().enumerate().try_for_each(|(index, value)| {
+        let place = || Place::Pixel { what: what.into(), x: index % width, y: index / width };
+        let breach = |breach| CoreError::BrokeContract(Breach { place: place(), ..breach });
+        valid_pixel(field, *value).map_err(breach)
+    })
+}
+
+fn valid_pixel(field: &'static str, value: [f32; 3]) -> Form {
+    let is_touched = value.iter().all(|value| value.to_bits() != f32::UNTOUCHED.to_bits());
+    holds(is_touched, field, || BreachKind::Untouched)?;
+    colour(field, value.map(f64::from))
+}
+
+/// Three numbers that are finite and not negative.
+pub fn colour(field: &'static str, value: [f64; 3]) -> Form {
+    value.iter().enumerate().try_for_each(|(channel, value)| {
+        let breach = |breach| Breach { channel: Some(channel), ..breach };
+        not_negative(field, *value).map_err(breach)
+    })
+}
+
+/// A number that is finite and not negative.
+pub fn not_negative(field: &'static str, value: f64) -> Form {
+    finite(field, value)?;
+    holds(value >= 0.0, field, || BreachKind::Negative(value))
+}
+
+/// A number that is finite.
+pub fn finite(field: &'static str, value: f64) -> Form {
+    not_nan(field, value)?;
+    holds(value.is_finite(), field, || BreachKind::Infinite)
+}
+
+/// A number that is written, and is one.
+pub fn not_nan(field: &'static str, value: f64) -> Form {
+    holds(value.to_bits() != f64::UNTOUCHED.to_bits(), field, || BreachKind::Untouched)?;
+    holds(!value.is_nan(), field, || BreachKind::NotANumber)
+}
+
+/// A vector of finite numbers.
+pub fn finite_vector(field: &'static str, value: DVec3) -> Form {
+    value.to_array().iter().try_for_each(|component| finite(field, *component))
+}
+
+/// A vector of length 1.
+pub fn unit(field: &'static str, value: DVec3) -> Form {
+    finite_vector(field, value)?;
+    let length = value.length();
+    holds((length - 1.0).abs() <= UNIT_LENGTH_ERROR, field, || BreachKind::NotUnit(length))
+}
+
+/// 0 or 1.
+pub fn flag(field: &'static str, value: u32) -> Form {
+    touched(field, value)?;
+    holds(value <= 1, field, || BreachKind::NotAFlag(value))
+}
+
+/// A whole number that is written.
+pub fn touched(field: &'static str, value: u32) -> Form {
+    holds(value != u32::UNTOUCHED, field, || BreachKind::Untouched)
+}
+
+/// What has to be so, of one field.
+pub fn holds(is_so: bool, field: &'static str, kind: impl FnOnce() -> BreachKind) -> Form {
+    if is_so { Ok(()) } else { Err(Breach::of(field, kind())) }
+}

@@ -1,0 +1,131 @@
+//! An answer that has not the contract's form, as data: where, which field, and what is wrong with it.
+//!
+//! Sentences are made where they are shown ([`fmt::Display`]); causes are matched by value (`checks::breach`).
+
+use crate::image::CHANNELS;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fmt;
+
+/// What is wrong with an answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Breach {
+    /// In which of its elements.
+    pub place: Place,
+    /// Which of the element's fields, as the contract calls it.
+    pub field: Cow<'static, str>,
+    /// Which colour of the field, if it has three: 0 is red.
+    pub channel: Option<usize>,
+    /// What is wrong with that.
+    pub kind: BreachKind,
+}
+
+/// Where an answer is wrong.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Place {
+    /// In the answer as a whole.
+    Answer,
+    /// In element `index` of a batch of `of`.
+    Element {
+        /// What the elements are: `hit`, `sample`.
+        what: Cow<'static, str>,
+        /// From 0.
+        index: usize,
+        /// How many there are.
+        of: usize,
+    },
+    /// In a pixel of a picture.
+    Pixel {
+        /// What of it: `pixel`, `variance of pixel`.
+        what: Cow<'static, str>,
+        /// From the left.
+        x: usize,
+        /// From the top.
+        y: usize,
+    },
+}
+
+/// What is wrong with a value.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum BreachKind {
+    /// The core has not written it.
+    Untouched,
+    /// It is NaN.
+    NotANumber,
+    /// It is infinite where it has to be finite.
+    Infinite,
+    /// It is this, below zero.
+    Negative(f64),
+    /// It is a direction of this length.
+    NotUnit(f64),
+    /// It is a flag with this value.
+    NotAFlag(u32),
+    /// It is this, and cannot be.
+    OutOfRange(f64),
+    /// It names a primitive that does not exist.
+    NoSuchPrimitive {
+        /// Number of the shape.
+        shape: u32,
+        /// Number of the primitive.
+        primitive: u32,
+    },
+    /// The answer as a whole is not what was asked for, in words.
+    Other(String),
+}
+
+impl Breach {
+    /// A breach by `field`; where, the caller says.
+    pub fn of(field: impl Into<Cow<'static, str>>, kind: BreachKind) -> Self {
+        Self { place: Place::Answer, field: field.into(), channel: None, kind }
+    }
+
+    /// A breach that only words can tell.
+    pub fn other(words: impl Into<String>) -> Self {
+        Self::of("", BreachKind::Other(words.into()))
+    }
+
+    /// The same in element `index` of `of`.
+    #[must_use]
+    pub fn in_element(self, what: &'static str, index: usize, of: usize) -> Self {
+        Self { place: Place::Element { what: what.into(), index, of }, ..self }
+    }
+
+    /// What the elements of the answer are; nothing of one that is wrong as a whole.
+    pub fn element(&self) -> &str {
+        match &self.place {
+            Place::Answer => "",
+            Place::Element { what, .. } | Place::Pixel { what, .. } => what,
+        }
+    }
+}
+
+impl fmt::Display for Breach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { place, field, channel, kind } = self;
+        match place {
+            Place::Answer => {}
+            Place::Element { what, index, of } => write!(f, "{what} {index} of {of}: ")?,
+            Place::Pixel { what, x, y } => write!(f, "{what} ({x}, {y}) from the top left: ")?,
+        }
+        match kind {
+            BreachKind::Untouched => write!(f, "{field} was left untouched"),
+            BreachKind::NotANumber => write!(f, "{field} is NaN"),
+            BreachKind::Infinite => write!(f, "{field} is infinite"),
+            BreachKind::Negative(value) => write!(f, "{field} = {value} is negative"),
+            BreachKind::NotUnit(length) => write!(f, "{field} has length {length}, not 1"),
+            BreachKind::NotAFlag(value) => write!(f, "{field} is {value}, neither 0 nor 1"),
+            BreachKind::OutOfRange(value) => write!(f, "{field} is {value}"),
+            BreachKind::NoSuchPrimitive { shape, primitive } => {
+                write!(f, "shape {shape} has no primitive {primitive}")
+            }
+            BreachKind::Other(words) => f.write_str(words),
+        }?;
+        if let Some(channel) = *channel {
+            write!(f, " ({})", CHANNELS[channel % 3])?;
+        }
+        if (self.element(), field.as_ref()) == ("hit", "t") {
+            f.write_str("; did the ray miss? set primitive to NONE")?;
+        }
+        Ok(())
+    }
+}

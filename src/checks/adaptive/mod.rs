@@ -1,5 +1,6 @@
 //! Adaptive sampling.
 
+mod random_stream;
 mod rule;
 mod sample_counts;
 mod stops_by_its_law;

@@ -1,26 +1,18 @@
 //! The albedo of a surface: never above one, and what its parameters say it is.
 
 use super::albedo::Albedo;
-use super::metal;
-use super::rough_glass::RoughGlass;
-use crate::cause::{Cause, bsdf};
-use crate::checks::form::Form;
+use super::wrong_value::{DIRECTIONS, mistake_of};
+use crate::cause::Cause;
 use crate::checks::phrase::{degrees, figure};
 use crate::checks::surface::{SurfaceEntry, evaluated, kink, seen_from};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{BsdfQuery, BsdfValue, Capabilities};
+use crate::contract::{BsdfQuery, Capabilities};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
-use crate::scene::{Rgb, Surface};
 use crate::stats::{SphereCells, Tolerance, Verdict};
 use crate::text::{Polar, Several};
 use serde::Deserialize;
-use std::f64::consts::{FRAC_1_PI, PI};
 
-/// Pairs of directions at which f is looked at.
-const DIRECTIONS: usize = 200;
-/// How far from the mean albedo a channel may be to be it, relative.
-const AVERAGED: f64 = 1e-4;
 /// Rings in each hemisphere and sectors of the quadrature.
 const CELLS: (usize, usize) = (4, 8);
 
@@ -76,66 +68,6 @@ impl ConservesEnergy {
         causes.dedup();
         Ok(if causes.len() == 1 { causes } else { Vec::new() })
     }
-}
-
-/// The mistake that predicts f at many pairs of directions.
-fn mistake_of(
-    context: &mut Context<'_>,
-    surface: SurfaceEntry,
-) -> Result<Option<&'static Cause>, CheckError> {
-    let mut stream = context.seed.child("form of a value").stream();
-    let mut direction = || surface.direction(&mut stream);
-    let queries: Vec<_> =
-        (0..DIRECTIONS).map(|_| BsdfQuery { wo: direction(), wi: direction() }).collect();
-    let values = evaluated(context.core, &surface.material(), &queries)?;
-    Ok(match surface.material().surface {
-        Surface::Diffuse { reflectance } if is_averaged(reflectance, &values) => {
-            Some(&bsdf::ALBEDO_AVERAGED)
-        }
-        Surface::Diffuse { reflectance } => {
-            let share = |(query, value): (&BsdfQuery, &BsdfValue)| {
-                (value.f[1] * PI / reflectance[1], query.wi.z)
-            };
-            let shares: Vec<_> = queries.iter().zip(&values).map(share).collect();
-            Form::of(&shares).and_then(mistake)
-        }
-        Surface::Conductor { reflectance, roughness } => {
-            let smith = context.info.conventions.smith_term;
-            metal::mistake_of_value((reflectance[1], roughness), smith, &queries, &values)
-        }
-        Surface::RoughGlass { index, roughness, reflectance, transmittance } => {
-            let conventions = context.info.conventions;
-            let white = |(query, value): (BsdfQuery, &BsdfValue)| {
-                let passes = query.wo.z * query.wi.z < 0.0;
-                let colour = if passes { transmittance } else { reflectance };
-                (query, value.f[1] / colour[1])
-            };
-            let pairs: Vec<_> = queries.into_iter().zip(&values).map(white).collect();
-            RoughGlass { index, roughness, conventions }.mistake_of_value(&pairs)
-        }
-        Surface::Mirror { .. } | Surface::Glass { .. } => None,
-    })
-}
-
-/// Whether a coloured surface answers the mean of its albedos in every channel.
-fn is_averaged(reflectance: Rgb, values: &[BsdfValue]) -> bool {
-    let mean = reflectance.iter().sum::<f64>() / 3.0;
-    let is_mean = |f: &f64| (f * PI / mean - 1.0).abs() <= AVERAGED;
-    let is_coloured = reflectance.iter().any(|albedo| (albedo / mean - 1.0).abs() > 0.01);
-    is_coloured && values.iter().flat_map(|value| &value.f).all(is_mean)
-}
-
-/// The mistake that makes f this share of albedo/π.
-fn mistake(share: Form) -> Option<&'static Cause> {
-    let made: [(Form, &Cause); 6] = [
-        (Form::constant(PI), &bsdf::WITHOUT_PI),
-        (Form::constant(0.5), &bsdf::ALBEDO_HALVED),
-        (Form::constant(2.0), &bsdf::ALBEDO_DOUBLED),
-        (Form::constant(FRAC_1_PI), &bsdf::WITH_PI),
-        (Form { constant: 1.0, power: 1 }, &bsdf::COSINE_IN_F),
-        (Form { constant: 1.0, power: -1 }, &bsdf::F_OVER_COSINE),
-    ];
-    made.into_iter().find(|(form, _)| share.is_like(*form)).map(|(_, cause)| cause)
 }
 
 fn complaint(measure: &Measure) -> String {
@@ -195,6 +127,7 @@ mod tests {
     use super::super::fake::Lambertian;
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use std::f64::consts::PI;
 
     const CASE: &str =
         "[expect]\nsurface = [{ diffuse = 0.5 }]\nseen-from = [\"20 deg\", \"70 deg\"]";

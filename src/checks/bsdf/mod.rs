@@ -3,9 +3,11 @@
 mod agrees_with_itself;
 pub(in crate::checks) mod albedo;
 mod conserves_energy;
+mod drawn;
 #[cfg(test)]
 mod fake;
 mod follows_ggx;
+mod ggx_pair;
 mod interface;
 pub(super) mod metal;
 mod reciprocal;
@@ -13,6 +15,7 @@ mod reflects_and_refracts;
 pub(super) mod rough_glass;
 mod smooth_view;
 mod weights_make_the_albedo;
+mod wrong_value;
 
 use super::CheckKind;
 

@@ -1,27 +1,22 @@
 //! Mean radiance along a ray against a number that is known.
 
 use super::by_convention::ConventionEntry;
-use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, estimate, needs, settings};
+use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, needs, settings};
 use super::foretold::MistakeEntry;
+use super::question::{DARK_SAMPLES, Question};
 use crate::cause::{contract, light};
 use crate::checks::phrase::{figure, percent, ratio_of};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, breach};
 use crate::contract::{
-    Acceleration, BuiltScene, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
+    Acceleration, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
     IntegratorSettings, Ray,
 };
-use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
-use crate::stats::{Band, Claim, Effort, Tolerance, judge_means};
+use crate::stats::Tolerance;
 use crate::text::number::apart;
 use crate::text::{Between, Bounces, Colour, Count, Percent, Several};
 use serde::Deserialize;
-
-/// Samples of a row that has no variance.
-const EXACT_SAMPLES: u64 = 64;
-/// Samples of a row that has to be dark: one photon is enough to fail.
-const DARK_SAMPLES: u64 = 16_384;
 
 /// Each row: the mean radiance along a ray is a given number.
 #[derive(Clone, Debug, Deserialize)]
@@ -162,84 +157,6 @@ impl Row {
             [first, last] if first == last => format!("bounce {first}"),
             [first, last] => format!("bounces {first} to {last}"),
         })
-    }
-}
-
-/// One row, put to one core.
-struct Question {
-    name: String,
-    aim: Aim,
-    settings: IntegratorSettings,
-    expected: [f64; 3],
-    /// Relative error allowed where nothing is left to chance.
-    exact: Option<f64>,
-    seed: Seed,
-}
-
-impl Question {
-    /// The measures of the three channels.
-    fn judge(
-        &self,
-        scene: &mut dyn BuiltScene,
-        effort: &Effort,
-    ) -> Result<Vec<Measure>, CheckError> {
-        let (lit, dark): (Vec<_>, Vec<_>) = (0..3).partition(|c| self.expected[*c] != 0.0);
-        let mut measures = match self.exact {
-            Some(tolerance) => self.judge_exact(scene, &lit, tolerance)?,
-            None => self.judge_lit(scene, &lit, effort)?,
-        };
-        measures.extend(self.judge_dark(scene, &dark)?);
-        Ok(measures.into_iter().map(|measure| measure.of_row(&self.name)).collect())
-    }
-
-    /// The means of channels with light.
-    fn judge_lit(
-        &self,
-        scene: &mut dyn BuiltScene,
-        channels: &[usize],
-        effort: &Effort,
-    ) -> Result<Vec<Measure>, CheckError> {
-        if channels.is_empty() {
-            return Ok(Vec::new());
-        }
-        let claim = |channel: &usize| Claim::value(self.expected[*channel], Band::RADIANCE);
-        let claims: Vec<_> = channels.iter().map(claim).collect();
-        let reports = judge_means(&claims, effort, &mut |draw| {
-            let seed = draw.seed(self.seed);
-            let run = estimate(scene, self.aim, &self.settings, seed, draw.samples)?;
-            Ok::<_, CheckError>(channels.iter().map(|channel| run.mean[*channel]).collect())
-        })?;
-        let measures = channels.iter().zip(&reports);
-        Ok(measures.map(|(c, report)| Measure::of("", report).of_channel(CHANNELS[*c])).collect())
-    }
-
-    /// No light at all: not one sample may carry any.
-    fn judge_dark(
-        &self,
-        scene: &mut dyn BuiltScene,
-        channels: &[usize],
-    ) -> Result<Vec<Measure>, CheckError> {
-        if channels.is_empty() {
-            return Ok(Vec::new());
-        }
-        let run = estimate(scene, self.aim, &self.settings, self.seed, DARK_SAMPLES)?;
-        let dark = |c: usize| Measure::exact("", run.largest[c], 0.0, 0.0).of_channel(CHANNELS[c]);
-        Ok(channels.iter().copied().map(dark).collect())
-    }
-
-    /// No variance: a few samples say it all.
-    fn judge_exact(
-        &self,
-        scene: &mut dyn BuiltScene,
-        channels: &[usize],
-        tolerance: f64,
-    ) -> Result<Vec<Measure>, CheckError> {
-        let run = estimate(scene, self.aim, &self.settings, self.seed, EXACT_SAMPLES)?;
-        let exact = |c: usize| {
-            let allowed = tolerance * self.expected[c].abs();
-            Measure::exact("", run.mean[c], self.expected[c], allowed).of_channel(CHANNELS[c])
-        };
-        Ok(channels.iter().copied().map(exact).collect())
     }
 }
 

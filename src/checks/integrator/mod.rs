@@ -2,14 +2,17 @@
 
 mod bounces_add_up;
 mod by_convention;
+mod changed_scene;
 #[cfg(test)]
 mod closed_forms;
 mod error_falls_as_root_n;
 mod estimate;
 mod estimators_agree;
 mod foretold;
+mod linearity;
 mod mean_radiance;
 mod neighbouring_seeds;
+mod question;
 mod radiance_is_finite;
 mod radiance_is_linear;
 mod reported_variance;

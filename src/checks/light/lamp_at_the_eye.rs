@@ -3,27 +3,21 @@
 //! So a point of light is put where the camera is, all other lights out, and every point of a diffuse surface that
 //! is seen has to have the radiance that its distance and its angle say. A dark one lies in its own shadow.
 
-use crate::cause::{Cause, bsdf, light as cause};
+use super::seen_points::{INTENSITY, MISTAKES, Point, Seen};
+use crate::cause::light as cause;
 use crate::checks::integrator::settings;
-use crate::checks::phrase::{figure, percent, some_are};
+use crate::checks::phrase::percent;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
-use crate::contract::{Acceleration, Capabilities, DirectSampling, Falloff, Hit, Ray};
-use crate::image::CHANNELS;
+use crate::contract::{Acceleration, Capabilities, DirectSampling, Hit, Ray};
 use crate::math::rng::{Seed, uniform};
 use crate::scene::{Light, Rgb, SceneDescription, Surface};
-use crate::stats::{Compared, Rarity, Tolerance, Verdict, judge_exact, judge_rare};
+use crate::stats::{Rarity, Tolerance, Verdict, judge_rare};
 use crate::text::{Count, Several};
 use glam::DVec2;
 use serde::Deserialize;
-use std::f64::consts::{FRAC_1_PI, PI};
 
-/// Of the lamp, in general position.
-const INTENSITY: Rgb = [2.0, 3.0, 5.0];
 /// Seen under a flatter angle than this cosine, a surface may well hide behind its own rounding.
 const GRAZING: f64 = 0.01;
-/// A mistake may magnify rounding, but not a hundredfold.
-const LIKENESS: f64 = 100.0;
-
 /// Random rays of the cameras of some scenes.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -62,27 +56,6 @@ impl Check for LampAtTheEye {
         let precision = context.info.precision;
         Ok(finding(&seen, Tolerance::FORMULA.of(precision), Rarity::OWN_SHADOWS.of(precision)))
     }
-}
-
-/// A point of a diffuse surface that the eye sees.
-#[derive(Clone, Copy)]
-struct Point {
-    /// From the eye.
-    distance: f64,
-    /// Between view and shading normal.
-    cosine: f64,
-    /// The same, if all surfaces faced +z.
-    world_cosine: f64,
-    reflectance: Rgb,
-    falloff: Falloff,
-    /// What the core says it sends to the eye.
-    radiance: Rgb,
-}
-
-/// The points that are seen in one scene.
-struct Seen<'a> {
-    scene: &'a str,
-    points: Vec<Point>,
 }
 
 impl LampAtTheEye {
@@ -133,82 +106,6 @@ fn lit_by_lamp(scene: &SceneDescription, lamp: Light) -> SceneDescription {
     scene
 }
 
-/// The radiance of a point as a share of what is right.
-type Mistake = fn(&Point) -> f64;
-
-const MISTAKES: &[(&Cause, Mistake)] = &[
-    (&bsdf::WITHOUT_PI, |_| PI),
-    (&cause::COSINE_FORGOTTEN, |point| point.cosine.recip()),
-    (&cause::COSINE_TWICE, |point| point.cosine),
-    (&cause::WORLD_COSINE, |point| point.world_cosine / point.cosine),
-    (&cause::FADES_WITH_DISTANCE, |point| point.distance),
-];
-
-impl Point {
-    /// albedo/π · intensity · cos/d².
-    fn right(&self, channel: usize) -> f64 {
-        let falloff = match self.falloff {
-            Falloff::InverseSquare => self.distance.powi(-2),
-            Falloff::None => 1.0,
-        };
-        self.reflectance[channel] * FRAC_1_PI * INTENSITY[channel] * self.cosine * falloff
-    }
-
-    /// Small angles to the surface magnify the rounding of its normal.
-    fn compared(&self, channel: usize, share: f64, tolerance: f64) -> Compared {
-        let expected = share * self.right(channel);
-        Compared::relative(self.radiance[channel], expected, tolerance / self.cosine)
-    }
-
-    fn is_dark(&self) -> bool {
-        (0..3).all(|channel| self.radiance[channel] == 0.0)
-    }
-
-    fn is_by(&self, mistake: Mistake, tolerance: f64) -> bool {
-        let compare = |channel| self.compared(channel, mistake(self), LIKENESS * tolerance);
-        (0..3).all(|channel| compare(channel).agrees())
-    }
-}
-
-impl Seen<'_> {
-    fn dark(&self) -> usize {
-        self.points.iter().filter(|point| point.is_dark()).count()
-    }
-
-    /// How bright the points are that are not dark.
-    fn measures(&self, tolerance: f64) -> impl Iterator<Item = Measure> {
-        let of_channel = move |channel: usize| {
-            let lit = self.points.iter().filter(|point| !point.is_dark());
-            let compared = lit.map(|point| point.compared(channel, 1.0, tolerance));
-            Measure::worst("radiance", &judge_exact(compared))
-                .of_row(self.scene)
-                .of_channel(CHANNELS[channel])
-        };
-        (0..3).map(of_channel)
-    }
-
-    fn darkness(&self) -> Option<String> {
-        let (dark, all) = (self.dark(), self.points.len());
-        let some = some_are(dark, all, "points that the eye sees");
-        (dark > 0).then(|| format!("{}: {some} dark, with a lamp at the eye", self.scene))
-    }
-
-    fn complaint(&self, tolerance: f64) -> Option<String> {
-        let all = self.points.len();
-        let off = |point: &Point| {
-            !point.is_dark() && !(0..3).all(|c| point.compared(c, 1.0, tolerance).agrees())
-        };
-        let wrong = self.points.iter().filter(|point| off(point)).count();
-        let worst = self.points.iter().find(|point| off(point))?;
-        let some = some_are(wrong, all, "points");
-        let (is, should) = (figure(worst.radiance[0]), figure(worst.right(0)));
-        Some(format!(
-            "{}: {some} not as bright as they should be, one {is} instead of {should}",
-            self.scene
-        ))
-    }
-}
-
 fn finding(seen: &[Seen<'_>], tolerance: f64, allowed: f64) -> Finding {
     let all = || seen.iter().flat_map(|one| &one.points);
     let (points, dark) = (all().count(), all().filter(|point| point.is_dark()).count());
@@ -244,8 +141,10 @@ fn finding(seen: &[Seen<'_>], tolerance: f64, allowed: f64) -> Finding {
 
 #[cfg(test)]
 mod tests {
+    use super::super::seen_points::Mistake;
     use super::*;
     use crate::checks::testing::{assert_passes, failure};
+    use crate::contract::Falloff;
 
     /// Points in general position, with the radiance of a mistake.
     fn seen(share: Mistake, dark: usize) -> Finding {

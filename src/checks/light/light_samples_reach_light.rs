@@ -3,28 +3,23 @@
 //! Two means need no BSDF and no shadow ray: the mean of 1/pdf is the solid angle of the light, that of cos/pdf is π
 //! times its form factor. A wrong Jacobian from area to solid angle shows in both.
 
-use super::density::{self, Geometry, area_of};
+use super::density::{self, area_of};
+use super::traced::Traced;
 use crate::cause;
 use crate::checks::numbers::Numbers;
-use crate::checks::phrase::some_are;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, BuiltScene, Capabilities, Hit, LightSample, Ray};
+use crate::contract::{Acceleration, BuiltScene, Capabilities, LightSample};
 use crate::math::ratios::names_of;
 use crate::math::rng::Seed;
 use crate::scene::{Light, SceneDescription};
-use crate::stats::{
-    Band, Claim, Compared, MeanReport, Tolerance, Verdict, judge_exact, judge_means,
-};
+use crate::stats::{Band, Claim, MeanReport, Tolerance, Verdict, judge_means};
 use crate::text::number::with_interval;
 use crate::text::{Chance, Count, Direction, Percent, Positive, Several, Vector};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// Samples whose end is looked for.
-const TRACED: usize = 4096;
-/// Shadow rays start and the light is looked for this share of the distance away from either end.
-const SLACK: f64 = 1e-3;
-
+pub(super) const TRACED: usize = 4096;
 /// Samples an area light from some points.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -39,10 +34,10 @@ pub struct LightSamplesReachLight {
 /// Where the light is sampled from, and how large it looks there.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct Point {
-    from: Vector,
+pub(super) struct Point {
+    pub(super) from: Vector,
     /// Of the surface there, unit.
-    normal: Direction,
+    pub(super) normal: Direction,
     /// Steradians. None where only a part of the light faces the point.
     solid_angle: Option<Positive>,
     /// Of the light as seen by the surface; 0 where the light looks away.
@@ -138,7 +133,7 @@ impl Point {
         Ok(self.solid_angle.map(|_| inverse / n).into_iter().chain([cosine / n]).collect())
     }
 
-    fn samples(
+    pub(super) fn samples(
         &self,
         scene: &mut dyn BuiltScene,
         light: u32,
@@ -153,69 +148,8 @@ impl Point {
     }
 }
 
-fn is_lit(sample: &LightSample) -> bool {
+pub(super) fn is_lit(sample: &LightSample) -> bool {
     sample.is_valid == 1 && sample.pdf > 0.0 && sample.radiance != [0.0; 3]
-}
-
-/// Some samples, and what their rays meet in the scene.
-struct Traced {
-    samples: Vec<LightSample>,
-    hits: Vec<Hit>,
-    shape: u32,
-}
-
-impl Traced {
-    fn new(
-        scene: &mut dyn BuiltScene,
-        point: &Point,
-        (light, shape): (u32, u32),
-        seed: Seed,
-    ) -> Result<Self, CheckError> {
-        let mut samples = point.samples(scene, light, seed.child("traced"), TRACED)?;
-        samples.retain(is_lit);
-        // From close before the light: what lies in between is the business of shadow rays.
-        let ray = |sample: &LightSample| {
-            let start = (1.0 - SLACK) * sample.distance;
-            Ray { t_min: start, ..Ray::new(point.from.0, sample.wi) }
-        };
-        let rays: Vec<_> = samples.iter().map(ray).collect();
-        let mut hits = vec![Hit::MISS; rays.len()];
-        if !rays.is_empty() {
-            scene.intersect(&rays, &mut hits)?;
-        }
-        Ok(Self { samples, hits, shape })
-    }
-
-    /// Every lit sample ends on the light, where it says.
-    fn reached(&self, label: &str, tolerance: f64) -> Measure {
-        let compared = self.samples.iter().zip(&self.hits).map(|(sample, hit)| {
-            let found = if hit.is_hit() && hit.shape == self.shape { hit.t } else { f64::NAN };
-            Compared::relative(found, sample.distance, tolerance.max(1e-6))
-        });
-        let report = judge_exact(compared);
-        if report.compared == 0 {
-            return Measure::none("samples that see light", 0).of_row(label);
-        }
-        let some = some_are(report.disagree, report.compared, "samples");
-        let measure = match report.verdict {
-            Verdict::Pass => Measure::worst("distance to the light", &report),
-            _ => {
-                Measure::none(format!("{some} not on the light at that distance"), report.disagree)
-            }
-        };
-        measure.of_row(label)
-    }
-
-    /// Of the samples that met the light.
-    fn geometry(&self, area: f64, point: &Point) -> Vec<(Geometry, f64)> {
-        let normal = point.normal.0;
-        Geometry::of(area, normal, &self.samples, &self.hits)
-    }
-
-    /// A light that looks away sends nothing.
-    fn dark(&self, label: &str) -> Measure {
-        Measure::none("lit samples of a light that looks away", self.samples.len()).of_row(label)
-    }
 }
 
 fn complaint(label: &str, name: &str, report: &MeanReport) -> Option<String> {

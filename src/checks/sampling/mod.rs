@@ -1,16 +1,21 @@
 //! Samplers of directions, those of BSDFs included, against the densities they claim.
 
+mod cell_source;
 mod consecutive_samples;
+mod counted;
 mod density;
 pub(in crate::checks) mod distribution;
 mod extreme_numbers;
 pub(in crate::checks) mod extremes;
 #[cfg(test)]
 mod fake;
+mod mass;
 mod moments_follow_pdf;
 mod numbers_as_given;
 mod of_distributions;
+mod pairs;
 mod pdf_integrates_to_one;
+mod products;
 pub(in crate::checks) mod replay;
 mod sample_jacobian;
 mod samples_follow_pdf;

@@ -6,27 +6,15 @@
 //! No statistics: wherever the map from the unit square is smooth, how much it stretches area is the reciprocal of
 //! the density (an idea seen in the tests of lajolla). Needs a core that samples with the caller's numbers.
 
-use super::density::{Density, Law};
-use super::distribution::{Distribution, DistributionEntry, Drawn};
+use super::distribution::{Distribution, DistributionEntry};
 use super::of_distributions::OfDistributions;
-use super::way::{Way, is_same_way};
-use crate::cause::Cause;
-use crate::checks::form::Form;
-use crate::checks::numbers::Numbers;
+use super::products::{POINTS, Products};
+use super::way::Way;
 use crate::checks::phrase::figure;
-use crate::checks::{CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, Precision, Randomness};
-use crate::math::ratios::names_of;
-use crate::stats::{Tolerance, Verdict};
-use glam::DVec2;
+use crate::checks::{CheckError, Context, Finding};
+use crate::contract::{Capabilities, Precision};
+use crate::stats::Tolerance;
 use serde::Deserialize;
-
-/// Points of the unit square.
-const POINTS: usize = 2000;
-/// Fewer points with a derivative than this prove nothing: most of the map fails, or has a kink.
-const FEWEST_POINTS: usize = POINTS / 10;
-/// Points lie on a grid of this step, so that single precision holds them and their neighbours.
-const GRID: f64 = 1.0 / 1_048_576.0;
 
 /// Density times Jacobian is 1.
 #[derive(Clone, Debug, Deserialize)]
@@ -73,141 +61,6 @@ impl OfDistributions for SampleJacobian {
     }
 }
 
-/// Half the distance of central differences: the cube root of a rounding balances truncation against rounding.
-const fn step(precision: Precision) -> f64 {
-    match precision {
-        Precision::Double => GRID * 8.0,
-        Precision::Single => GRID * 4096.0,
-    }
-}
-
-/// Density times Jacobian at many points.
-pub struct Products {
-    name: String,
-    /// (product, cos θ), sorted by product; points whose neighbours fail are left out.
-    values: Vec<(f64, f64)>,
-    precision: Precision,
-    density: Option<Density>,
-}
-
-impl Products {
-    fn of(
-        context: &mut Context<'_>,
-        distribution: &Distribution,
-        way: Way,
-    ) -> Result<Self, CheckError> {
-        let precision = context.info.precision;
-        let h = step(precision);
-        let seed = context.seed.child(distribution.name());
-        let numbers = Numbers::new(seed, POINTS);
-        let on_grid = |u: f64| h + ((1.0 - 2.0 * h) * u / GRID).floor() * GRID;
-        let points: Vec<_> =
-            numbers.points.iter().map(|p| DVec2::new(on_grid(p.x), on_grid(p.y))).collect();
-        let core = &mut *context.core;
-        let mut draw = |points: &[DVec2], lobes: &[f64]| {
-            let random = Randomness { points, lobes, seed: seed.0 };
-            Ok(distribution.sample(core, random)?)
-        };
-        let lobes = vec![way.lobe(); points.len()];
-        let mut at = |offset: DVec2| {
-            draw(&points.iter().map(|point| *point + offset).collect::<Vec<_>>(), &lobes)
-        };
-        let centre = at(DVec2::ZERO)?;
-        let [right, left] = [at(DVec2::new(h, 0.0))?, at(DVec2::new(-h, 0.0))?];
-        let [above, below] = [at(DVec2::new(0.0, h))?, at(DVec2::new(0.0, -h))?];
-        let chances = way.chances(&points, &mut draw, &centre)?;
-        let product = |i: usize| {
-            let neighbours = [&right[i], &left[i], &above[i], &below[i]];
-            let goes_on = neighbours.iter().all(|drawn| is_same_way(drawn, &centre[i]));
-            let along = |to: &[Drawn], from: &[Drawn]| {
-                Some((to[i].direction? - from[i].direction?) / (2.0 * h))
-            };
-            let jacobian = along(&right, &left)?.cross(along(&above, &below)?).length();
-            let product = centre[i].pdf * jacobian / chances[i];
-            goes_on.then_some((product, centre[i].direction?.z))
-        };
-        let mut values: Vec<_> = (0..points.len()).filter_map(product).collect();
-        values.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let density = Density::of(context.core, distribution)?;
-        Ok(Self { name: distribution.name() + way.words(), values, precision, density })
-    }
-
-    /// The error that this share of the points does not exceed.
-    fn error_of_share(&self, share: f64) -> f64 {
-        let mut errors: Vec<_> = self.values.iter().map(|(value, _)| (value - 1.0).abs()).collect();
-        errors.sort_by(f64::total_cmp);
-        let last = errors.len().saturating_sub(1);
-        errors.get(((share * errors.len() as f64) as usize).min(last)).copied().unwrap_or(f64::NAN)
-    }
-
-    fn measures(&self) -> Vec<Measure> {
-        let of = |what: &str, share, tolerance: Tolerance| {
-            let (error, allowed) = (self.error_of_share(share), tolerance.of(self.precision));
-            Measure::exact(format!("error of {what} of the points"), error, 0.0, allowed)
-                .of_row(&self.name)
-        };
-        let mut measures = vec![
-            of("half", 0.5, Tolerance::JACOBIAN_MEDIAN),
-            of("99 %", 0.99, Tolerance::JACOBIAN_TAIL),
-        ];
-        if self.values.len() < FEWEST_POINTS {
-            measures.iter_mut().for_each(|measure| measure.verdict = Verdict::Inconclusive);
-        }
-        measures
-    }
-
-    fn fails(&self) -> bool {
-        self.measures().iter().any(Measure::failed)
-    }
-
-    fn complaint(&self) -> Option<String> {
-        self.fails().then(|| format!("{}: density times Jacobian is {}", self.name, self.factor()))
-    }
-
-    /// A wrong density, or else a wrong map.
-    fn cause(&self) -> Option<&'static Cause> {
-        let density = self.density.filter(|_| self.fails())?;
-        density.mistake().or_else(|| density.mistake_of_map(self.law(density)?))
-    }
-
-    fn law(&self, density: Density) -> Option<Law> {
-        if self.error_of_share(0.5) > 0.99 && self.values.iter().all(|(value, _)| *value < 0.01) {
-            return Some(Law::Line);
-        }
-        let over_sine =
-            |(value, cosine): &(f64, f64)| (value / (1.0 - cosine * cosine).sqrt(), *cosine);
-        let by_angle: Vec<_> = self.values.iter().map(over_sine).collect();
-        match Form::of(&self.values) {
-            Some(product) => density.law_of_product(product),
-            None => density.law_of_angle(Form::of(&by_angle)?),
-        }
-    }
-
-    /// The product as a constant, as a constant times a power of the cosine, or by its range.
-    fn factor(&self) -> String {
-        if let Some(Form { constant, power }) = Form::of(&self.values) {
-            let words = match power {
-                1 => " cos θ",
-                -1 => " / cos θ",
-                2 => " cos² θ",
-                -2 => " / cos² θ",
-                _ => "",
-            };
-            return format!("{}{words} instead of 1", named(constant));
-        }
-        let [low, high] = [0.05, 0.95].map(|share| {
-            self.values.get((share * self.values.len() as f64) as usize).map_or(f64::NAN, |v| v.0)
-        });
-        format!("between {} and {} instead of 1", figure(low), figure(high))
-    }
-}
-
-/// `2π`, or the figure.
-fn named(value: f64) -> String {
-    let names = names_of([0.99 * value, 1.01 * value], &[]);
-    names.first().map_or_else(|| figure(value), |ratio| ratio.name.clone())
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::fake::{
@@ -216,6 +69,8 @@ mod tests {
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::sphere::at_height;
+    use crate::stats::Verdict;
+    use glam::DVec2;
     use glam::DVec3;
     use std::f64::consts::TAU;
 

@@ -1,19 +1,12 @@
 //! Triangles that are none, rays that run in their plane, directions of any length: an answer is
 //! asked for, not a crash and not NaN, and what has no area is not hit.
 
+use super::awkward::{Question, questions};
 use crate::cause::shape;
 use crate::checks::phrase::some_are;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{BreachKind, Capabilities, CoreError, Hit, Primitive, Ray};
-use crate::math::rng::{Stream, uniform};
-use crate::math::sphere::on_sphere;
-use glam::DVec3;
+use crate::contract::{BreachKind, Capabilities, CoreError, Hit};
 use serde::Deserialize;
-
-/// Rays of each kind at each triangle.
-const RAYS_EACH: usize = 200;
-/// Lengths of directions.
-const LENGTHS: [f64; 4] = [1e-3, 0.125, 30.0, 1e3];
 
 /// Degenerate triangles are missed, and every other question gets an answer.
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -49,100 +42,12 @@ impl Check for DegenerateTriangles {
     }
 }
 
-/// A triangle, some rays, and whether any of them may hit.
-struct Question {
-    name: &'static str,
-    primitive: Primitive,
-    rays: Vec<Ray>,
-    may_hit: bool,
-}
-
 /// What came of a question.
 struct Outcome {
     question: Question,
     hit: usize,
     /// Why there is no answer.
     complaint: Option<CoreError>,
-}
-
-const PROPER: [DVec3; 3] =
-    [DVec3::new(0.25, 0.5, -0.25), DVec3::new(1.5, 0.75, 0.5), DVec3::new(-0.5, 1.25, 1.0)];
-
-fn questions(stream: &mut Stream) -> Vec<Question> {
-    let [a, b, c] = PROPER;
-    let without_area = [
-        ("three times the same vertex", [a, a, a]),
-        ("the first two vertices equal", [a, a, c]),
-        ("the last two vertices equal", [a, b, b]),
-        ("the first and the last vertex equal", [a, b, a]),
-        ("vertices on a line", [a, a + 0.5 * (b - a), b]),
-        ("a vertex that is NaN", [a, DVec3::NAN, c]),
-        ("all vertices NaN", [DVec3::NAN; 3]),
-    ];
-    let degenerate = without_area.map(|(name, vertices)| Question {
-        name,
-        primitive: triangle(vertices),
-        rays: rays_at(a, b, stream),
-        may_hit: false,
-    });
-    let proper = [
-        ("a ray in the plane of its triangle", in_plane(stream)),
-        ("a ray along an edge", along_edges(stream)),
-        ("a direction of any length", of_any_length(stream)),
-    ];
-    let proper = proper.map(|(name, rays)| Question {
-        name,
-        primitive: triangle(PROPER),
-        rays,
-        may_hit: true,
-    });
-    degenerate.into_iter().chain(proper).collect()
-}
-
-/// With a normal that is unit, whatever the vertices are.
-fn triangle(positions: [DVec3; 3]) -> Primitive {
-    Primitive::Triangle { positions, normals: [DVec3::Z; 3] }
-}
-
-/// At points between two vertices, from all sides.
-fn rays_at(a: DVec3, b: DVec3, stream: &mut Stream) -> Vec<Ray> {
-    let mut ray = |_| {
-        let target = a.lerp(b, uniform(stream));
-        let origin = target + 2.0 * on_sphere(stream);
-        Ray::new(origin, target - origin)
-    };
-    (0..RAYS_EACH).map(&mut ray).collect()
-}
-
-/// Between points of the plane; half of them start inside the triangle.
-fn in_plane(stream: &mut Stream) -> Vec<Ray> {
-    let [a, b, c] = PROPER;
-    let point = |stream: &mut Stream, reach: f64| {
-        a + reach * uniform(stream) * (b - a) + reach * uniform(stream) * (c - a)
-    };
-    let ray = |number: usize| {
-        let origin = point(stream, if number.is_multiple_of(2) { 0.5 } else { -2.0 });
-        Ray::new(origin, point(stream, 1.0) - origin)
-    };
-    (0..RAYS_EACH).map(ray).collect()
-}
-
-fn along_edges(stream: &mut Stream) -> Vec<Ray> {
-    let ray = |number: usize| {
-        let (from, to) = (PROPER[number % 3], PROPER[(number + 1) % 3]);
-        let origin = from - 2.0 * uniform(stream) * (to - from);
-        Ray::new(origin, to - from)
-    };
-    (0..RAYS_EACH).map(ray).collect()
-}
-
-fn of_any_length(stream: &mut Stream) -> Vec<Ray> {
-    let middle = PROPER.iter().sum::<DVec3>() / 3.0;
-    let ray = |number: usize| {
-        let toward = on_sphere(stream);
-        Ray::new(middle - toward, LENGTHS[number % LENGTHS.len()] * toward)
-    };
-    (0..RAYS_EACH).map(ray).collect()
 }
 
 impl Outcome {
@@ -205,6 +110,9 @@ mod tests {
     use super::*;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::contract::Primitive;
+    use crate::contract::Ray;
+    use glam::DVec3;
 
     fn found(formula: Formula) -> Finding {
         judge(&check_of::<DegenerateTriangles>("[expect]"), &mut Fake::intersecting(formula))

@@ -1,11 +1,10 @@
 //! Spheres near and far: t and the normal, with the digits that distance may cost and no more.
 
 use super::exact_sphere::{Encounter, Formula};
-use crate::cause::{Cause, shape};
-use crate::checks::phrase::{figure, some_are};
+use super::sphere_range::{Answer, Judged, Range, complaint, explain};
+use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
 use crate::contract::{Capabilities, CoreError, Hit, Precision};
-use crate::stats::{Compared, judge_exact};
 use crate::text::{Count, Several};
 use glam::DVec3;
 use serde::Deserialize;
@@ -67,90 +66,6 @@ fn ask(context: &mut Context<'_>, encounter: &Encounter) -> Result<Hit, CheckErr
     }
 }
 
-/// An encounter, and what a core makes of it.
-struct Answer {
-    encounter: Encounter,
-    found: Hit,
-}
-
-impl Answer {
-    /// The error of t; none if there is no t to compare.
-    fn error(&self) -> Option<f64> {
-        let (t, _) = self.encounter.hit.filter(|_| self.found.is_hit())?;
-        Some((self.found.t - t).abs())
-    }
-
-    fn is_wrong_side(&self) -> bool {
-        self.encounter.hit.is_some() != self.found.is_hit()
-    }
-}
-
-/// The answers at one distance.
-struct Range {
-    distance: f64,
-    answers: Vec<Answer>,
-}
-
-/// The four things that are compared at one distance.
-struct Judged {
-    measures: Vec<Measure>,
-    wrong_sides: usize,
-    clear: usize,
-    worst_t: f64,
-}
-
-impl Range {
-    fn name(&self) -> String {
-        match self.distance {
-            distance if distance < 1.0 => "from inside".to_owned(),
-            distance => format!("{} radii away", figure(distance)),
-        }
-    }
-
-    /// The answers in which rounding decides nothing.
-    fn clear(&self, formula: Formula, precision: Precision) -> Vec<&Answer> {
-        let is_clear = |answer: &&Answer| answer.encounter.is_clear(formula, precision);
-        self.answers.iter().filter(is_clear).collect()
-    }
-
-    fn judge(&self, formula: Formula, precision: Precision) -> Judged {
-        let clear = self.clear(formula, precision);
-        if clear.is_empty() {
-            return Judged { measures: Vec::new(), wrong_sides: 0, clear: 0, worst_t: 0.0 };
-        }
-        let wrong_sides = clear.iter().filter(|answer| answer.is_wrong_side()).count();
-        let sides = format!("hits lost or invented of {}", clear.len());
-        let mut measures = vec![Measure::none(sides, wrong_sides)];
-        let both = || clear.iter().filter(|answer| answer.error().is_some());
-        let t = judge_exact(both().filter_map(|answer| {
-            let (t, _) = answer.encounter.hit?;
-            let allowed = answer.encounter.allowed(formula, precision);
-            Some(Compared::within(answer.found.t, t, allowed))
-        }));
-        let normals = judge_exact(both().filter_map(|answer| {
-            let (_, normal) = answer.encounter.hit?;
-            let off = answer.found.geometric_normal.distance(normal);
-            Some(Compared::within(off, 0.0, answer.encounter.allowed_normal(formula, precision)))
-        }));
-        if t.compared > 0 {
-            measures.push(Measure::worst("t", &t));
-            measures.push(Measure::worst("normal off by", &normals));
-        }
-        let in_radii = |answer: &&&Answer| {
-            let length = answer.encounter.ray.direction.length() / answer.encounter.radius;
-            answer.error().map_or(0.0, |error| error * length)
-        };
-        let worst_t = both().map(|answer| in_radii(&answer)).fold(0.0, f64::max);
-        let measures = measures.into_iter().map(|measure| measure.of_row(self.name())).collect();
-        Judged { measures, wrong_sides, clear: clear.len(), worst_t }
-    }
-
-    /// Decimal digits of the distance that t has lost.
-    fn digits_lost(&self, worst_t: f64, precision: Precision) -> f64 {
-        (worst_t / (precision.epsilon() * self.distance.max(1.0))).max(1.0).log10()
-    }
-}
-
 impl FarSpheres {
     fn judge(&self, ranges: &[Range], precision: Precision) -> Finding {
         let judged: Vec<_> =
@@ -187,45 +102,6 @@ impl FarSpheres {
             -precision.epsilon().log10()
         )
     }
-}
-
-fn complaint(range: &Range, judged: &Judged, precision: Precision) -> String {
-    let digits = -precision.epsilon().log10();
-    let name = range.name();
-    if judged.wrong_sides > 0 {
-        let some = some_are(judged.wrong_sides, judged.clear, "rays");
-        return format!("{name}: {some} wrong about hit or miss");
-    }
-    format!(
-        "{name}: t is off by up to {} radii: {:.0} of {digits:.0} digits are lost",
-        figure(judged.worst_t),
-        range.digits_lost(judged.worst_t, precision)
-    )
-}
-
-/// Errors that grow as the square of the distance are those of the quadratic's discriminant; errors
-/// of single precision everywhere are those of a float.
-fn explain(finding: Finding, ranges: &[Range], precision: Precision) -> Finding {
-    let holds = |range: &Range, formula, precision| {
-        let judged = range.judge(formula, precision);
-        !judged.measures.iter().any(Measure::failed)
-    };
-    let nearest = ranges.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
-    let near_is_right = nearest.is_some_and(|range| holds(range, Formula::Stable, precision));
-    let fits = |formula, precision| ranges.iter().all(|range| holds(range, formula, precision));
-    let all: usize = ranges.iter().map(|range| range.answers.len()).sum();
-    let evidence = |what: &str| format!("all {all} rays are within {what}");
-    let found: Option<(&'static Cause, String)> =
-        if near_is_right && fits(Formula::Quadratic, precision) {
-            let what = "the roundings of b² − 4ac, which grow as the square of the distance";
-            Some((&shape::SPHERE_CANCELLATION, evidence(what)))
-        } else if precision == Precision::Double && fits(Formula::Stable, Precision::Single) {
-            let what = "the roundings of single precision";
-            Some((&shape::SINGLE_PRECISION_INSIDE, evidence(what)))
-        } else {
-            None
-        };
-    finding.because_of(found)
 }
 
 #[cfg(test)]

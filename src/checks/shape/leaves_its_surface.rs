@@ -4,22 +4,19 @@
 //! this does no harm, and here it is as large as geometry asks: at grazing angles a point that lies
 //! δ inside a sphere of radius r meets it again after √(2rδ).
 
+use super::body::{Body, FROM, RandomBody};
 use crate::cause::shape;
 use crate::checks::phrase::{figure, percent};
 use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, Hit, Primitive, Ray};
-use crate::math::rng::{Stream, uniform};
+use crate::contract::{Capabilities, Hit, Ray};
+use crate::math::rng::Stream;
 use crate::math::sphere::on_sphere;
 use crate::stats::Tolerance;
 use crate::text::Count;
-use glam::DVec3;
 use serde::Deserialize;
 
 /// Rays onto each primitive, each followed by one away from it.
 const RAYS_EACH: usize = 100;
-/// How far the first rays come from, in sizes of the primitive.
-const FROM: f64 = 10.0;
-
 /// Rays spawned at a surface leave it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -49,48 +46,6 @@ impl Check for LeavesItsSurface {
             tallies.push(tally);
         }
         Ok(judge(&tallies))
-    }
-}
-
-/// Draws a primitive.
-type RandomBody = fn(&mut Stream) -> Body;
-
-/// A primitive and its size.
-struct Body {
-    primitive: Primitive,
-    middle: DVec3,
-    size: f64,
-}
-
-fn random_vector(stream: &mut Stream) -> DVec3 {
-    DVec3::from_array(std::array::from_fn(|_| 2.0 * uniform(stream) - 1.0))
-}
-
-impl Body {
-    fn random_size(stream: &mut Stream) -> f64 {
-        2f64.powf(20.0 * uniform(stream) - 10.0)
-    }
-
-    fn sphere(stream: &mut Stream) -> Self {
-        let size = Self::random_size(stream);
-        let middle = size * random_vector(stream);
-        Self { primitive: Primitive::Sphere { centre: middle, radius: size }, middle, size }
-    }
-
-    fn triangle(stream: &mut Stream) -> Self {
-        let size = Self::random_size(stream);
-        let positions = [(); 3].map(|()| size * random_vector(stream));
-        let [a, b, c] = positions;
-        let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
-        let primitive = Primitive::Triangle { positions, normals: [normal; 3] };
-        Self { primitive, middle: positions.iter().sum::<DVec3>() / 3.0, size }
-    }
-
-    /// From around, at points near the middle.
-    fn ray(&self, stream: &mut Stream) -> Ray {
-        let origin = self.middle + FROM * self.size * on_sphere(stream);
-        let target = self.middle + 0.5 * self.size * random_vector(stream);
-        Ray::new(origin, (target - origin).normalize())
     }
 }
 
@@ -178,6 +133,7 @@ mod tests {
     use super::*;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::contract::Primitive;
 
     fn with_unit_normals(answer: Answer) -> Answer {
         let normal = answer.geometric_normal.normalize();

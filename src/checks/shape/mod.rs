@@ -1,16 +1,23 @@
 //! Rays against single primitives, and what a camera ray hits first.
 
 mod agrees_with_exact_arithmetic;
+mod awkward;
+mod body;
 mod degenerate_triangles;
+mod encounter;
 mod exact_sphere;
 mod exact_triangle;
 mod far_spheres;
 mod first_hits;
 mod hits_primitive;
 mod imitation;
+mod lattice;
+mod leaks;
 mod leaves_its_surface;
 mod no_ray_leaks;
 mod shared_edges;
+mod sphere_range;
+mod view;
 
 pub use first_hits::first_hits;
 #[cfg(test)]

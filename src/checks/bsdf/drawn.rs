@@ -1,0 +1,162 @@
+//! Samples of one surface, beside what it evaluates to.
+
+use crate::cause::{Cause, bsdf};
+use crate::checks::form::Form;
+use crate::checks::numbers::Numbers;
+use crate::checks::phrase::some_are;
+use crate::checks::surface::{SurfaceEntry, evaluated};
+use crate::checks::{CheckError, Context, Measure};
+use crate::contract::{BsdfQuery, BsdfSample, BsdfValue};
+use crate::math::frame::direction;
+use crate::math::rng::{Stream, uniform};
+use crate::math::sphere::{at_height, on_hemisphere};
+use crate::stats::{Compared, Tolerance, judge_exact};
+use glam::DVec3;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// Views with many samples each.
+const VIEWS: usize = 64;
+
+const SAMPLES_PER_VIEW: usize = 512;
+
+/// Angles from the horizon at which mistakes divide by nearly nothing, radians.
+pub(super) const GRAZING: [f64; 4] = [1e-2, 1e-4, 1e-8, 1e-12];
+
+/// What there is to say of one surface.
+pub(super) struct Judged {
+    pub(super) measures: Vec<Measure>,
+    pub(super) complaint: Option<String>,
+    pub(super) cause: Option<&'static Cause>,
+}
+
+/// Samples of one surface, with the views they were drawn for.
+pub(super) struct Drawn {
+    pub(super) surface: SurfaceEntry,
+    pub(super) views: Vec<DVec3>,
+    pub(super) samples: Vec<BsdfSample>,
+}
+
+/// Directions from which the surface is seen, among them straight on and grazing ones.
+pub(super) fn views(surface: SurfaceEntry, stream: &mut Stream) -> Vec<DVec3> {
+    let special = GRAZING.iter().map(|up| direction(FRAC_PI_2 - up, 1.0)).chain([DVec3::Z]);
+    let mut views: Vec<_> = special.collect();
+    if surface.lets_pass() {
+        views.extend_from_within(..);
+        views.iter_mut().take(GRAZING.len() + 1).for_each(|view| *view = -*view);
+    }
+    views.resize_with(VIEWS, || surface.direction(stream));
+    views
+}
+
+impl Drawn {
+    pub(super) fn new(
+        context: &mut Context<'_>,
+        surface: SurfaceEntry,
+    ) -> Result<Self, CheckError> {
+        let seed = context.seed.child(surface);
+        let mut stream = seed.stream();
+        let each = |view: DVec3| std::iter::repeat_n(view, SAMPLES_PER_VIEW);
+        let views: Vec<_> = views(surface, &mut stream).into_iter().flat_map(each).collect();
+        let numbers = Numbers::new(seed.child("numbers"), views.len());
+        let mut samples = vec![BsdfSample::NONE; views.len()];
+        let random = numbers.randomness();
+        context.core.sample_bsdf(&surface.material(), &views, random, &mut samples)?;
+        Ok(Self { surface, views, samples })
+    }
+
+    pub(super) fn judge(&self, context: &mut Context<'_>) -> Result<Judged, CheckError> {
+        if self.surface.is_delta() {
+            return self.judge_delta(context);
+        }
+        let allowed = Tolerance::SAME_VALUE.of(context.info.precision);
+        let valid: Vec<_> = self.valid().collect();
+        let values = self.evaluated(context, valid.iter().map(|(view, s)| (*view, s.wi)))?;
+        let pairs = || valid.iter().zip(&values);
+        let pdf = judge_exact(pairs().map(|((_, s), v)| Compared::relative(s.pdf, v.pdf, allowed)));
+        let f = judge_exact(pairs().flat_map(|((_, s), v)| {
+            (0..3).map(move |c| Compared::relative(s.f[c], v.f[c], allowed))
+        }));
+        let below = self.lit_below_horizon(context)?;
+        let cosines = pairs().filter(|(_, value)| value.f[1] > 0.0);
+        let shares: Vec<_> = cosines.map(|((_, s), v)| (s.f[1] / v.f[1], s.wi.z)).collect();
+        let is_cosine =
+            Form::of(&shares).is_some_and(|f| f.is_like(Form { constant: 1.0, power: 1 }));
+        let name = self.surface.to_string();
+        let dark = |below| Measure::none("directions below the horizon with a value", below);
+        let measures =
+            [Measure::worst("density of a sample", &pdf), Measure::worst("value of a sample", &f)];
+        let measures = measures.into_iter().chain(below.map(dark)).map(|m| m.of_row(&name));
+        let measures = measures.collect();
+        let below = below.unwrap_or(0);
+        let complaint = if pdf.disagree > 0 {
+            Some(format!(
+                "{} drawn with another density than evaluated",
+                some_are(pdf.disagree, pdf.compared, "samples")
+            ))
+        } else if f.disagree > 0 {
+            Some(format!(
+                "{} drawn with another value than evaluated",
+                some_are(f.disagree, f.compared, "channels")
+            ))
+        } else {
+            (below > 0)
+                .then(|| format!("{below} directions below the horizon have a value or a density"))
+        };
+        let cause = match (pdf.disagree, f.disagree) {
+            (0, 0) if below > 0 => Some(&bsdf::LIGHT_FROM_BELOW),
+            (0, 1..) if is_cosine => Some(&bsdf::COSINE_IN_SAMPLED_F),
+            _ => None,
+        };
+        let complaint = complaint.map(|complaint| format!("{name}: {complaint}"));
+        Ok(Judged { measures, complaint, cause })
+    }
+
+    /// A mirror or glass says so, and is nothing to whoever evaluates it.
+    fn judge_delta(&self, context: &mut Context<'_>) -> Result<Judged, CheckError> {
+        let unmarked = self.valid().filter(|(_, sample)| sample.is_delta == 0).count();
+        let mut stream = context.seed.child("elsewhere").stream();
+        let elsewhere: Vec<_> =
+            self.views.iter().map(|view| (*view, on_hemisphere(&mut stream))).collect();
+        let values = self.evaluated(context, elsewhere.into_iter())?;
+        let lit = values.iter().filter(|value| has_value(value)).count();
+        let name = self.surface.to_string();
+        let measures = vec![
+            Measure::none("samples not marked as delta", unmarked).of_row(&name),
+            Measure::none("other directions with a value", lit).of_row(&name),
+        ];
+        let complaint = (unmarked + lit > 0)
+            .then(|| format!("{name} is certain of its direction: mark it, and evaluate to zero"));
+        let cause = (unmarked > 0 && lit == 0).then_some(&bsdf::MIRROR_NOT_DELTA);
+        Ok(Judged { measures, complaint, cause })
+    }
+
+    pub(super) fn valid(&self) -> impl Iterator<Item = (DVec3, BsdfSample)> {
+        let pairs = self.views.iter().copied().zip(self.samples.iter().copied());
+        pairs.filter(|(_, sample)| sample.is_valid == 1)
+    }
+
+    pub(super) fn evaluated(
+        &self,
+        context: &mut Context<'_>,
+        pairs: impl Iterator<Item = (DVec3, DVec3)>,
+    ) -> Result<Vec<BsdfValue>, CheckError> {
+        let queries: Vec<_> = pairs.map(|(wo, wi)| BsdfQuery { wo, wi }).collect();
+        Ok(evaluated(context.core, &self.surface.material(), &queries)?)
+    }
+
+    /// A surface that reflects only has no value below the horizon. `None` where light passes.
+    fn lit_below_horizon(&self, context: &mut Context<'_>) -> Result<Option<usize>, CheckError> {
+        if self.surface.lets_pass() {
+            return Ok(None);
+        }
+        let mut stream = context.seed.child("below").stream();
+        let mut down = || at_height(-1.0 + 0.99 * uniform(&mut stream), TAU * uniform(&mut stream));
+        let pairs: Vec<_> = self.views.iter().map(|view| (*view, down())).collect();
+        let values = self.evaluated(context, pairs.into_iter())?;
+        Ok(Some(values.iter().filter(|value| has_value(value)).count()))
+    }
+}
+
+fn has_value(value: &BsdfValue) -> bool {
+    value.pdf != 0.0 || value.f != [0.0; 3]
+}

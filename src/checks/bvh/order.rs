@@ -1,0 +1,100 @@
+//! Scenes with their triangles in another order, and how the answers to them differ.
+
+use super::comparison::closest_hits;
+use crate::checks::{CheckError, Context};
+use crate::contract::{Acceleration, Hit, Ray};
+use crate::math::rng::{Stream, uniform};
+use crate::scene::SceneDescription;
+
+/// What a core answers for one order.
+pub(super) struct Answers {
+    pub(super) hits: Vec<Hit>,
+    pub(super) occluded: Vec<bool>,
+}
+
+impl Answers {
+    pub(super) fn of(
+        context: &mut Context<'_>,
+        scene: &SceneDescription,
+        rays: &[Ray],
+        segments: Option<&[Ray]>,
+    ) -> Result<Self, CheckError> {
+        let segments = segments.unwrap_or_default();
+        let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
+        let hits = closest_hits(built.as_mut(), rays)?;
+        let mut occluded = vec![false; segments.len()];
+        built.occluded(segments, &mut occluded)?;
+        Ok(Self { hits, occluded })
+    }
+}
+
+/// A scene with the triangles of each mesh in another order.
+pub(super) struct Order {
+    pub(super) scene: SceneDescription,
+    /// For each mesh, where each triangle of the first order stands now.
+    pub(super) places: Vec<Vec<u32>>,
+}
+
+impl Order {
+    pub(super) fn shuffled(scene: &SceneDescription, stream: &mut Stream) -> Self {
+        let mut scene = scene.clone();
+        let mut places = Vec::new();
+        for mesh in &mut scene.meshes {
+            let mut order: Vec<usize> = (0..mesh.indices.len()).collect();
+            for last in (1..order.len()).rev() {
+                order.swap(last, (uniform(stream) * (last + 1) as f64) as usize);
+            }
+            mesh.indices = order.iter().map(|number| mesh.indices[*number]).collect();
+            let mut place = vec![0; order.len()];
+            for (now, number) in (0..).zip(&order) {
+                place[*number] = now;
+            }
+            places.push(place);
+        }
+        Self { scene, places }
+    }
+
+    /// Where the triangle of a hit in the first order stands now.
+    pub(super) fn place(&self, hit: &Hit) -> u32 {
+        let place =
+            self.places.get(hit.shape as usize).and_then(|mesh| mesh.get(hit.primitive as usize));
+        place.copied().unwrap_or(hit.primitive)
+    }
+}
+
+/// How the answers for two orders differ.
+pub(super) struct Difference {
+    pub(super) hits: usize,
+    pub(super) occlusions: usize,
+    /// Where the triangles stand that one order hits and the other does not, in the order that does
+    /// not, and how many there are in all.
+    pub(super) lost: Vec<(u32, usize)>,
+}
+
+impl Difference {
+    pub(super) fn between(first: &Answers, other: &Answers, order: &Order) -> Self {
+        let mut difference = Self { hits: 0, occlusions: 0, lost: Vec::new() };
+        for (a, b) in first.hits.iter().zip(&other.hits) {
+            let is_same =
+                a.is_hit() == b.is_hit() && (!a.is_hit() || a.t.to_bits() == b.t.to_bits());
+            difference.hits += usize::from(!is_same);
+            if is_same {
+                continue;
+            }
+            let triangles = |hit: &Hit| order.places.get(hit.shape as usize).map_or(0, Vec::len);
+            if a.is_hit() && (!b.is_hit() || a.t < b.t) {
+                difference.lost.push((order.place(a), triangles(a)));
+            } else if let Some(mesh) = order.places.get(b.shape as usize) {
+                let number = mesh.iter().position(|now| *now == b.primitive);
+                difference.lost.extend(number.map(|number| (number as u32, mesh.len())));
+            }
+        }
+        let pairs = first.occluded.iter().zip(&other.occluded);
+        difference.occlusions = pairs.filter(|(a, b)| a != b).count();
+        difference
+    }
+
+    pub(super) fn total(&self) -> usize {
+        self.hits + self.occlusions
+    }
+}

@@ -1,0 +1,81 @@
+//! Scenes that are brighter, larger, or lit by one light alone.
+
+use crate::scene::{Light, SceneDescription};
+
+/// A power of two, so that doubling commutes with every rounding.
+pub(super) const BRIGHTER: f64 = 2.0;
+
+pub(super) const LARGER: f64 = 2.0;
+
+/// The scene with every light [`BRIGHTER`].
+pub(super) fn brightened(scene: &SceneDescription) -> SceneDescription {
+    let mut scene = scene.clone();
+    let brighter = |rgb: &mut [f64; 3]| rgb.iter_mut().for_each(|value| *value *= BRIGHTER);
+    for emission in scene.materials.iter_mut().filter_map(|material| material.emission.as_mut()) {
+        brighter(&mut emission.radiance);
+    }
+    for light in &mut scene.lights {
+        match light {
+            Light::Point { intensity, .. } => brighter(intensity),
+            Light::Directional { irradiance, .. } => brighter(irradiance),
+            Light::ConstantSky { radiance } => brighter(radiance),
+            Light::GradientSky { horizon, zenith, .. } => {
+                brighter(horizon);
+                brighter(zenith);
+            }
+            Light::Area { .. } => {}
+        }
+    }
+    scene
+}
+
+/// The scene with light number `kept` alone; the shapes of the others stay, dark.
+pub(super) fn only(scene: &SceneDescription, kept: usize) -> SceneDescription {
+    let mut scene = scene.clone();
+    let light = scene.lights[kept];
+    let glowing = match light {
+        Light::Area { shape } => Some(shape),
+        _ => None,
+    };
+    for shape in 0..scene.shape_count() as u32 {
+        if glowing != Some(shape) {
+            darken(&mut scene, shape);
+        }
+    }
+    scene.lights = if glowing.is_some() { Vec::new() } else { vec![light] };
+    scene.with_area_lights()
+}
+
+/// Gives a shape a copy of its material that does not glow.
+fn darken(scene: &mut SceneDescription, shape: u32) {
+    let mut material = scene.material_of(shape).clone();
+    if material.emission.take().is_none() {
+        return;
+    }
+    let number = scene.materials.len() as u32;
+    scene.materials.push(material);
+    let shape = shape as usize;
+    match shape.checked_sub(scene.meshes.len()) {
+        None => scene.meshes[shape].material = number,
+        Some(sphere) => scene.spheres[sphere].material = number,
+    }
+}
+
+/// The scene [`LARGER`]; a point light needs that much squared to light it as before.
+pub(super) fn enlarged(scene: &SceneDescription) -> SceneDescription {
+    let mut scene = scene.clone();
+    for position in scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.positions) {
+        *position *= LARGER;
+    }
+    for sphere in &mut scene.spheres {
+        sphere.centre *= LARGER;
+        sphere.radius *= LARGER;
+    }
+    for light in &mut scene.lights {
+        if let Light::Point { position, intensity } = light {
+            *position *= LARGER;
+            intensity.iter_mut().for_each(|value| *value *= LARGER * LARGER);
+        }
+    }
+    scene
+}

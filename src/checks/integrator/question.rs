@@ -1,0 +1,92 @@
+//! One row of a case of mean radiance, put to one core.
+
+use super::estimate::{Aim, estimate};
+use crate::checks::{CheckError, Measure};
+use crate::contract::{BuiltScene, IntegratorSettings};
+use crate::image::CHANNELS;
+use crate::math::rng::Seed;
+use crate::stats::{Band, Claim, Effort, judge_means};
+
+/// Samples of a row that has no variance.
+const EXACT_SAMPLES: u64 = 64;
+
+/// Samples of a row that has to be dark: one photon is enough to fail.
+pub(super) const DARK_SAMPLES: u64 = 16_384;
+
+/// One row, put to one core.
+pub(super) struct Question {
+    pub(super) name: String,
+    pub(super) aim: Aim,
+    pub(super) settings: IntegratorSettings,
+    pub(super) expected: [f64; 3],
+    /// Relative error allowed where nothing is left to chance.
+    pub(super) exact: Option<f64>,
+    pub(super) seed: Seed,
+}
+
+impl Question {
+    /// The measures of the three channels.
+    pub(super) fn judge(
+        &self,
+        scene: &mut dyn BuiltScene,
+        effort: &Effort,
+    ) -> Result<Vec<Measure>, CheckError> {
+        let (lit, dark): (Vec<_>, Vec<_>) = (0..3).partition(|c| self.expected[*c] != 0.0);
+        let mut measures = match self.exact {
+            Some(tolerance) => self.judge_exact(scene, &lit, tolerance)?,
+            None => self.judge_lit(scene, &lit, effort)?,
+        };
+        measures.extend(self.judge_dark(scene, &dark)?);
+        Ok(measures.into_iter().map(|measure| measure.of_row(&self.name)).collect())
+    }
+
+    /// The means of channels with light.
+    fn judge_lit(
+        &self,
+        scene: &mut dyn BuiltScene,
+        channels: &[usize],
+        effort: &Effort,
+    ) -> Result<Vec<Measure>, CheckError> {
+        if channels.is_empty() {
+            return Ok(Vec::new());
+        }
+        let claim = |channel: &usize| Claim::value(self.expected[*channel], Band::RADIANCE);
+        let claims: Vec<_> = channels.iter().map(claim).collect();
+        let reports = judge_means(&claims, effort, &mut |draw| {
+            let seed = draw.seed(self.seed);
+            let run = estimate(scene, self.aim, &self.settings, seed, draw.samples)?;
+            Ok::<_, CheckError>(channels.iter().map(|channel| run.mean[*channel]).collect())
+        })?;
+        let measures = channels.iter().zip(&reports);
+        Ok(measures.map(|(c, report)| Measure::of("", report).of_channel(CHANNELS[*c])).collect())
+    }
+
+    /// No light at all: not one sample may carry any.
+    fn judge_dark(
+        &self,
+        scene: &mut dyn BuiltScene,
+        channels: &[usize],
+    ) -> Result<Vec<Measure>, CheckError> {
+        if channels.is_empty() {
+            return Ok(Vec::new());
+        }
+        let run = estimate(scene, self.aim, &self.settings, self.seed, DARK_SAMPLES)?;
+        let dark = |c: usize| Measure::exact("", run.largest[c], 0.0, 0.0).of_channel(CHANNELS[c]);
+        Ok(channels.iter().copied().map(dark).collect())
+    }
+
+    /// No variance: a few samples say it all.
+    fn judge_exact(
+        &self,
+        scene: &mut dyn BuiltScene,
+        channels: &[usize],
+        tolerance: f64,
+    ) -> Result<Vec<Measure>, CheckError> {
+        let run = estimate(scene, self.aim, &self.settings, self.seed, EXACT_SAMPLES)?;
+        let exact = |c: usize| {
+            let allowed = tolerance * self.expected[c].abs();
+            Measure::exact("", run.mean[c], self.expected[c], allowed).of_channel(CHANNELS[c])
+        };
+        Ok(channels.iter().copied().map(exact).collect())
+    }
+}

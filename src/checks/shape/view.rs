@@ -1,0 +1,182 @@
+//! A scene as a camera sees it: what stands at the centre of each pixel.
+
+use crate::cause::{Cause, shape};
+use crate::checks::camera::projection;
+use crate::checks::oracle::{Met, nearest};
+use crate::checks::phrase::{figure, some_are};
+use crate::checks::{Finding, Measure};
+use crate::contract::{Hit, Precision, Ray};
+use crate::scene::{Camera, SceneDescription, Shape};
+use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
+use glam::{DVec2, DVec3};
+
+/// Pixels whose view changes within this much of their centre, in pixels, lie on an edge and are
+/// not graded.
+pub(super) const EDGE: f64 = 0.05;
+
+/// A share of graded pixels below which a picture is all edges.
+const FEWEST: f64 = 0.25;
+
+/// A pixel: what the core finds at its centre, and what is there.
+pub(super) struct Pixel {
+    pub(super) ray: Ray,
+    pub(super) found: Hit,
+    pub(super) right: Option<Met>,
+    /// Nothing changes within [`EDGE`].
+    pub(super) is_clear: bool,
+}
+
+/// A scene and where it is seen from.
+pub(super) struct View<'a> {
+    pub(super) scene: &'a SceneDescription,
+    pub(super) camera: Camera,
+    pub(super) size: [u32; 2],
+}
+
+impl View<'_> {
+    pub(super) fn ray(&self, film: DVec2) -> Ray {
+        let Camera { position, near, far, .. } = self.camera;
+        let direction = projection(&self.camera, film).normalize();
+        Ray { origin: position, t_min: near, direction, t_max: far }
+    }
+
+    pub(super) fn pixel(&self, film: DVec2, found: Hit) -> Pixel {
+        let step = EDGE / DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
+        let ray = self.ray(film);
+        let right = nearest(self.scene, &ray);
+        let named = |met: Option<Met>| met.map(|met| (met.shape, met.primitive));
+        let around = [DVec2::ONE, DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0)];
+        let is_clear = around.into_iter().all(|corner| {
+            named(nearest(self.scene, &self.ray(film + corner * step))) == named(right)
+        });
+        Pixel { ray, found, right, is_clear }
+    }
+
+    fn name_of(&self, shape: u32) -> String {
+        match self.scene.shape(shape) {
+            Shape::Mesh(mesh) => mesh.name.clone(),
+            Shape::Sphere(sphere) => sphere.name.clone(),
+        }
+    }
+
+    /// The size of what is hit: a normal changes by about 1 over it.
+    fn size_of(&self, met: &Met) -> f64 {
+        match self.scene.shape(met.shape) {
+            Shape::Mesh(mesh) => mesh.area(met.primitive as usize).sqrt(),
+            Shape::Sphere(sphere) => sphere.radius,
+        }
+    }
+}
+
+impl Pixel {
+    /// How far the hit point may be off along the ray: more where the surface is seen at a slant.
+    pub(super) fn allowed(&self, met: &Met, precision: Precision) -> f64 {
+        let cosine = met.answer.geometric_normal.dot(self.ray.direction).abs();
+        let far = self.ray.origin.length() + met.answer.t;
+        Tolerance::DIRECTION.of(precision) * far / cosine
+    }
+
+    /// Core and truth, where both hit the same shape.
+    pub(super) fn both(&self) -> Option<(&Hit, &Met)> {
+        let met = self.right.as_ref()?;
+        (self.found.is_hit() && self.found.shape == met.shape).then_some((&self.found, met))
+    }
+
+    fn sees_another_shape(&self) -> bool {
+        let found = self.found.is_hit().then_some(self.found.shape);
+        found != self.right.map(|met| met.shape)
+    }
+}
+
+impl View<'_> {
+    pub(super) fn judge(&self, pixels: &[Pixel], precision: Precision) -> Finding {
+        let clear: Vec<_> = pixels.iter().filter(|pixel| pixel.is_clear).collect();
+        let wrong: Vec<_> = clear.iter().filter(|pixel| pixel.sees_another_shape()).collect();
+        let both = || clear.iter().filter_map(|pixel| Some((*pixel, pixel.both()?)));
+        let depth = judge_exact(both().map(|(pixel, (found, met))| {
+            Compared::within(found.t, met.answer.t, pixel.allowed(met, precision))
+        }));
+        let normals = |of: fn(&Hit) -> DVec3, right: fn(&Met) -> DVec3| {
+            judge_exact(both().map(|(pixel, (found, met))| {
+                let place = pixel.allowed(met, precision) / self.size_of(met);
+                let allowed = Tolerance::DIRECTION.of(precision) + place;
+                Compared::within(of(found).distance(right(met)), 0.0, allowed)
+            }))
+        };
+        let geometric = normals(|hit| hit.geometric_normal, |met| met.answer.geometric_normal);
+        let shading = normals(|hit| hit.shading_normal, |met| met.answer.shading_normal);
+        let shapes = format!("pixels that see another shape, of {}", clear.len());
+        let mut measures = vec![
+            Measure::none(shapes, wrong.len()),
+            Measure::worst("depth", &depth),
+            Measure::worst("geometric normal off by", &geometric),
+            Measure::worst("shading normal off by", &shading),
+        ];
+        if (clear.len() as f64) < FEWEST * pixels.len() as f64 {
+            measures.iter_mut().for_each(|measure| measure.verdict = Verdict::Inconclusive);
+        }
+        let mut complaints = Vec::new();
+        if let Some(first) = wrong.first() {
+            let name = |shape: Option<u32>| shape.map_or("nothing".to_owned(), |s| self.name_of(s));
+            let found = name(first.found.is_hit().then_some(first.found.shape));
+            let right = name(first.right.map(|met| met.shape));
+            let some = some_are(wrong.len(), clear.len(), "pixels");
+            complaints
+                .push(format!("{some} another shape's, for example {found} instead of {right}"));
+        }
+        for (report, what) in
+            [(depth, "depths"), (geometric, "geometric normals"), (shading, "shading normals")]
+        {
+            if report.disagree > 0 {
+                complaints
+                    .push(format!("{} wrong", some_are(report.disagree, report.compared, what)));
+            }
+        }
+        let right = format!("{} pixels see what stands before them", clear.len());
+        let allowed = both().map(|(pixel, (_, met))| pixel.allowed(met, precision));
+        let resolution = format!(
+            "would have caught a surface {} away from its place",
+            figure(allowed.fold(0.0, f64::max))
+        );
+        let causes = if complaints.is_empty() { Vec::new() } else { causes(&clear) };
+        let evidence =
+            format!("predicts the normals of all {} pixels that see a surface", both().count());
+        Finding::of(right, resolution, measures)
+            .complaining(complaints)
+            .because_each(causes, &evidence)
+    }
+}
+
+/// A way to get normals wrong: what comes out of the right ones for a ray.
+pub(super) type Normals = fn(&Met, &Ray) -> [DVec3; 2];
+
+pub(super) const MISTAKES: [(&Cause, Normals); 4] = [
+    (&shape::NORMALS_INSIDE_OUT, |met, _| {
+        [-met.answer.geometric_normal, -met.answer.shading_normal]
+    }),
+    (&shape::NORMALS_FACE_RAY, |met, ray| {
+        [met.answer.geometric_normal, met.answer.shading_normal]
+            .map(|normal| if normal.dot(ray.direction) > 0.0 { -normal } else { normal })
+    }),
+    (&shape::FLAT_SHADING_NORMAL, |met, _| [met.answer.geometric_normal; 2]),
+    (&shape::GEOMETRIC_NORMAL_INTERPOLATED, |met, _| [met.answer.shading_normal; 2]),
+];
+
+/// How far a normal may be from what a mistake makes of it: mistakes are a hundred times as far
+/// apart.
+const EXPLAINED: f64 = 1e-3;
+
+pub(super) fn causes(pixels: &[&Pixel]) -> Vec<&'static Cause> {
+    let both = || pixels.iter().filter_map(|pixel| Some((&pixel.ray, pixel.both()?)));
+    let is_like = |found: &Hit, normals: [DVec3; 2]| {
+        found.geometric_normal.distance(normals[0]) <= EXPLAINED
+            && found.shading_normal.distance(normals[1]) <= EXPLAINED
+    };
+    let right: Normals = |met, _| [met.answer.geometric_normal, met.answer.shading_normal];
+    let fits =
+        |normals: Normals| both().all(|(ray, (found, met))| is_like(found, normals(met, ray)));
+    if both().count() == 0 || fits(right) {
+        return Vec::new();
+    }
+    MISTAKES.iter().filter(|(_, normals)| fits(*normals)).map(|(cause, _)| *cause).collect()
+}

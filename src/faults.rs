@@ -3,7 +3,7 @@
 //!
 //! Pictures against references are left out: a mistake that only a picture shows is one that nobody is told of.
 
-use crate::case::{Case, NothingSelected, Part};
+use crate::case::{Case, NothingSelected, Part, Subject};
 use crate::cores::CoreSpec;
 use crate::cores::textbook::different::{DIFFERENT, Different};
 use crate::cores::textbook::fault::{self, Fault};
@@ -144,8 +144,8 @@ impl Matrix {
 
     /// The cases of the same folder as the one named for the fault.
     fn folder_of(&self, fault: &Fault) -> Self {
-        let folder = |case: &str| case.split('/').next().map(str::to_owned);
-        self.with_cases(|case| folder(&case.id) == folder(fault.caught_by))
+        let subject = Subject::of_case(fault.caught_by);
+        self.with_cases(|case| Subject::of_case(&case.id) == subject)
     }
 
     /// Puts a fault to the cases.
@@ -206,7 +206,7 @@ impl Matrix {
 }
 
 fn is_of_pictures(part: &'static Part) -> bool {
-    part.folders.contains(&"image")
+    part.subjects.contains(&Subject::Image)
 }
 
 /// # Panics

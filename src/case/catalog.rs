@@ -1,6 +1,6 @@
 //! The folder is the registry: every `.toml` below `cases/` is a case.
 
-use super::{Case, Part, file};
+use super::{Case, Part, Subject, file};
 use crate::text::Source;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -77,7 +77,7 @@ fn load(folder: &Path, path: &Path) -> Result<Result<Case, String>, CatalogError
 }
 
 fn unknown_folder() -> String {
-    let folders = super::PARTS.iter().flat_map(|part| part.folders).copied();
+    let folders = Subject::ALL.map(Subject::folder);
     format!("a case belongs in one of the folders {}", crate::text::listed(folders))
 }
 

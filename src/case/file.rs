@@ -1,7 +1,7 @@
 //! TOML → [`Case`]. The head is read first, then the check reads its own `[expect]` out of the whole text, so that
 //! every complaint knows its line.
 
-use super::{Case, Foundation, PARTS, SceneChoice, Tier};
+use super::{Case, Foundation, PARTS, Role, SceneChoice, Tier};
 use crate::checks::{self, PrepareError, RENAMED};
 use crate::text::{Diagnostic, Source, Spanned, Words, did_you_mean, listed};
 use serde::Deserialize;
@@ -23,6 +23,7 @@ struct Head {
     proves: Vec<Foundation>,
     #[serde(default)]
     rests_on: Vec<Foundation>,
+    role: Option<Role>,
     check: Spanned<String>,
     scene: Option<Spanned<SceneEntry>>,
     /// The check's own; it reads it with its own words.
@@ -59,6 +60,7 @@ pub fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diagnostic>
         tier: head.tier,
         proves: head.proves,
         rests_on: head.rests_on,
+        role: head.role,
         scene: head.scene.map(|scene| scene_choice(source, scene)).transpose()?,
         check,
         prepared,

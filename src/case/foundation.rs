@@ -4,7 +4,7 @@
 //! (`rests-on`), and those that follow from what they ask and from their scene. A case whose foundation has been
 //! found broken is blocked by it, not failed: its own result would blame the wrong line.
 
-use super::Case;
+use super::{Case, Subject};
 use crate::contract::Capabilities;
 use crate::scene::{Light, SceneDescription, Shape, Surface};
 use serde::{Deserialize, Serialize};
@@ -149,12 +149,12 @@ fn beneath(case: &Case, scene: Option<&SceneDescription>) -> BTreeSet<Foundation
         // These are judged whatever else is wrong with light: they tell which bounce it is.
         return found;
     }
-    let folder = case.id.split('/').next().unwrap_or_default();
-    if matches!(folder, "integrator" | "image") {
+    let subject = Subject::of_case(&case.id);
+    if matches!(subject, Some(Subject::Integrator | Subject::Image)) {
         found.extend([Foundation::Emission, Foundation::DirectLight]);
         found.extend(scene.into_iter().flat_map(lights_of));
     }
-    if folder == "image" {
+    if subject == Some(Subject::Image) {
         found.insert(Foundation::Bounces);
     }
     found

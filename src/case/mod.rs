@@ -8,6 +8,7 @@ mod foundation;
 mod next_step;
 mod part;
 mod renamed;
+mod role;
 mod scene_choice;
 mod tier;
 
@@ -15,7 +16,8 @@ pub use catalog::{CatalogError, load_all, load_one};
 pub use filter::{Filter, NothingSelected};
 pub use foundation::{Foundation, foundations};
 pub use next_step::{NextStep, next_steps};
-pub use part::{PARTS, Part};
+pub use part::{PARTS, Part, Subject};
+pub use role::Role;
 pub use scene_choice::SceneChoice;
 pub use tier::Tier;
 
@@ -41,6 +43,8 @@ pub struct Case {
     pub proves: Vec<Foundation>,
     /// What it rests on beside what follows from its scene.
     pub rests_on: Vec<Foundation>,
+    /// What it shows to the rules of the diagnosis, if they ask for it.
+    pub role: Option<Role>,
     /// The scene it is tried in, if it names one.
     pub scene: Option<SceneChoice>,
     /// Which check judges.

@@ -1,24 +1,91 @@
-//! The parts of a path tracer, as the course numbers them, and the folders of cases that belong to each.
+//! The subjects of a path tracer, which are the folders of `cases/`, and the parts of the course they belong to.
+
+/// What a case is about: its folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// From film points to rays, from samples to pixels.
+    Camera,
+    /// Rays against triangles and spheres.
+    Shape,
+    /// Boxes, building and traversing the hierarchy.
+    Bvh,
+    /// Directions of the hemisphere.
+    Sampling,
+    /// How surfaces scatter.
+    Bsdf,
+    /// Light sources and direct light.
+    Light,
+    /// Paths of many bounces.
+    Integrator,
+    /// Stopping where a pixel has converged.
+    Adaptive,
+    /// Whole images.
+    Image,
+}
+
+impl Subject {
+    /// Every subject, in the order in which one rests on another.
+    pub const ALL: [Self; 9] = [
+        Self::Camera,
+        Self::Shape,
+        Self::Bvh,
+        Self::Sampling,
+        Self::Bsdf,
+        Self::Light,
+        Self::Integrator,
+        Self::Adaptive,
+        Self::Image,
+    ];
+
+    /// The name of its folder.
+    pub const fn folder(self) -> &'static str {
+        match self {
+            Self::Camera => "camera",
+            Self::Shape => "shape",
+            Self::Bvh => "bvh",
+            Self::Sampling => "sampling",
+            Self::Bsdf => "bsdf",
+            Self::Light => "light",
+            Self::Integrator => "integrator",
+            Self::Adaptive => "adaptive",
+            Self::Image => "image",
+        }
+    }
+
+    /// What the case called `case` is about.
+    pub fn of_case(case: &str) -> Option<Self> {
+        let folder = case.split('/').next()?;
+        Self::ALL.into_iter().find(|subject| subject.folder() == folder)
+    }
+}
 
 /// A part of a path tracer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// 1 to 5 as in the course; 6 is pictures as a whole.
+    /// 1 to 5 as in the course; 6 is images as a whole.
     pub number: u32,
     /// As reports call it.
     pub title: &'static str,
-    /// The folders of `cases/` that belong to it.
-    pub folders: &'static [&'static str],
+    /// What belongs to it.
+    pub subjects: &'static [Subject],
 }
 
 /// Every part, in the order in which one rests on another.
 pub static PARTS: &[Part] = &[
-    Part { number: 1, title: "rays and intersections", folders: &["camera", "shape"] },
-    Part { number: 2, title: "BVH", folders: &["bvh"] },
-    Part { number: 3, title: "direct light", folders: &["sampling", "bsdf", "light"] },
-    Part { number: 4, title: "global illumination", folders: &["integrator"] },
-    Part { number: 5, title: "adaptive sampling", folders: &["adaptive"] },
-    Part { number: 6, title: "images against Mitsuba", folders: &["image"] },
+    Part {
+        number: 1,
+        title: "rays and intersections",
+        subjects: &[Subject::Camera, Subject::Shape],
+    },
+    Part { number: 2, title: "BVH", subjects: &[Subject::Bvh] },
+    Part {
+        number: 3,
+        title: "direct light",
+        subjects: &[Subject::Sampling, Subject::Bsdf, Subject::Light],
+    },
+    Part { number: 4, title: "global illumination", subjects: &[Subject::Integrator] },
+    Part { number: 5, title: "adaptive sampling", subjects: &[Subject::Adaptive] },
+    Part { number: 6, title: "images against Mitsuba", subjects: &[Subject::Image] },
 ];
 
 impl Part {
@@ -27,18 +94,14 @@ impl Part {
 
     /// The part that a case belongs to, by its folder.
     pub fn of_case(case: &str) -> Option<&'static Part> {
-        let folder = case.split('/').next().unwrap_or(case);
-        PARTS.iter().find(|part| part.folders.contains(&folder))
+        let subject = Subject::of_case(case)?;
+        PARTS.iter().find(|part| part.subjects.contains(&subject))
     }
 
-    /// Where a case stands in the order of parts and folders.
+    /// Where a case stands in the order of subjects.
     pub fn position(case: &str) -> usize {
-        let folder = case.split('/').next().unwrap_or(case);
-        PARTS
-            .iter()
-            .flat_map(|part| part.folders)
-            .position(|known| *known == folder)
-            .unwrap_or(usize::MAX)
+        let subject = Subject::of_case(case);
+        Subject::ALL.iter().position(|known| Some(*known) == subject).unwrap_or(usize::MAX)
     }
 }
 
@@ -48,15 +111,14 @@ mod tests {
 
     #[test]
     fn a_case_is_of_the_part_of_its_folder() {
-        assert_eq!(
-            Part::of_case("camera/rays-go-through-the-film").map(|part| part.number),
-            Some(1)
-        );
-        assert_eq!(Part::of_case("elsewhere/claim"), None);
+        let number = |case| Part::of_case(case).map(|part| part.number);
+        assert_eq!(number("camera/rays-go-through-the-film"), Some(1));
+        assert_eq!(number("elsewhere/claim"), None);
+        assert!(Subject::ALL.iter().all(|subject| number(subject.folder()).is_some()));
     }
 
     #[test]
-    fn intersections_come_before_pictures() {
+    fn shapes_come_before_images() {
         assert!(Part::position("shape/a") < Part::position("image/a"));
     }
 }

@@ -8,6 +8,7 @@ use super::bounce_laws::{Channel, LAWS, Law, indirect};
 use super::evidence::measure;
 use super::readings::{Reading, channels};
 use super::{Evidence, Suspicion};
+use crate::case::{Role, Subject};
 use crate::cause::integrator;
 use crate::checks::Finding;
 use crate::image::CHANNELS;
@@ -15,19 +16,17 @@ use crate::math::ratios::names_of;
 use crate::text::number::{figure, plus_minus};
 
 /// The furnaces whose bounces are told one by one.
-pub const FURNACES: [&str; 2] = [
-    "integrator/furnace-matches-geometric-series",
-    "integrator/furnace-by-hemisphere-sampling-matches-geometric-series",
-];
+pub const FURNACES: [Role; 2] = [Role::Furnace, Role::FurnaceByHemisphere];
 /// How much less a mistake weighs if it is not the only one that fits.
 const SHARED: f64 = 0.6;
 /// Laws that predict a failing furnace, a factor a bounce, or directions that only the cavity sees.
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
-    FURNACES.iter().flat_map(|case| explain(evidence, case)).collect()
+    FURNACES.iter().flat_map(|role| explain(evidence, *role)).collect()
 }
 
-fn explain(evidence: &Evidence<'_>, case: &str) -> Vec<Suspicion> {
-    let Some(finding) = evidence.failed_finding(case) else { return Vec::new() };
+fn explain(evidence: &Evidence<'_>, role: Role) -> Vec<Suspicion> {
+    let case = evidence.case(role);
+    let Some(finding) = evidence.failed_finding(role) else { return Vec::new() };
     let Some(furnace) = Furnace::of(finding) else { return Vec::new() };
     let fitting: Vec<_> = LAWS.iter().filter(|law| furnace.admits(law.predict)).collect();
     let weight = if fitting.len() == 1 { 1.0 } else { SHARED };
@@ -51,7 +50,7 @@ fn direct_light(evidence: &Evidence<'_>, law: &Law) -> Vec<String> {
         let mut wrong = finding.failed_measures().filter_map(Reading::of).peekable();
         law.direct != 1.0 && wrong.peek().is_some() && wrong.all(|r| r.admits(law.direct))
     };
-    let failures = evidence.failures().filter(|seen| seen.case.starts_with("light/"));
+    let failures = evidence.failures().filter(|seen| seen.is_about(Subject::Light));
     let explained = failures.filter(|seen| seen.finding.is_some_and(explains));
     explained.map(|seen| seen.case.to_owned()).collect()
 }

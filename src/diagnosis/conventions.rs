@@ -4,19 +4,20 @@
 use super::evidence::measure;
 use super::readings::{Reading, channels};
 use super::{Evidence, Suspicion};
+use crate::case::Role;
 use crate::cause::{Cause, convention};
 use crate::contract::{EmissionSides, Falloff, GlassRadiance};
 use crate::image::CHANNELS;
 use crate::text::number::figure;
 
 /// Point lights at several distances, and the squared distance of each row.
-const POINT_LIGHT: &str = "light/point-light-follows-the-inverse-square-law";
+const POINT_LIGHT: Role = Role::PointLight;
 const SQUARED_DISTANCES: [(&str, f64); 3] =
     [("below and beside", 3.06), ("nearly below", 2.27), ("far away", 12.91)];
 /// Lights seen from both sides.
-const SEEN_LIGHT: &str = "light/visible-light-has-its-emission";
+const SEEN_LIGHT: Role = Role::VisibleLight;
 /// A lamp in glass of index 1.5.
-const LAMP_IN_GLASS: &str = "integrator/light-inside-glass-scales-by-index-squared";
+const LAMP_IN_GLASS: Role = Role::LightInsideGlass;
 const INDEX_SQUARED: f64 = 2.25;
 
 /// Every choice that another choice would explain.
@@ -25,11 +26,11 @@ pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
 }
 
 /// A convention explains all of a case: it weighs more than any mistake that would.
-fn suspicion(cause: &'static Cause, case: &str, evidence: String) -> Suspicion {
+fn suspicion(cause: &'static Cause, case: &str, sentence: String) -> Suspicion {
     Suspicion {
         cause,
         cases: vec![case.to_owned()],
-        evidence: vec![evidence],
+        evidence: vec![sentence],
         ruled_out: Vec::new(),
         weight: 1.5,
     }
@@ -53,7 +54,7 @@ fn falloff(evidence: &Evidence<'_>) -> Option<Suspicion> {
         seen.push(format!("{} at distance {}", figure(reading.ratio), figure(squared.sqrt())));
     }
     let sentence = format!("over what it should be: {}: distance squared", seen.join(", "));
-    Some(suspicion(cause, POINT_LIGHT, sentence))
+    Some(suspicion(cause, evidence.case(POINT_LIGHT), sentence))
 }
 
 /// From behind the lamp has the radiance that it has in front.
@@ -71,7 +72,7 @@ fn emission(evidence: &Evidence<'_>) -> Option<Suspicion> {
     });
     same.then(|| {
         let sentence = "from behind, the lamp is as bright as from the front".to_owned();
-        suspicion(&convention::TWO_SIDED_EMISSION, SEEN_LIGHT, sentence)
+        suspicion(&convention::TWO_SIDED_EMISSION, evidence.case(SEEN_LIGHT), sentence)
     })
 }
 
@@ -88,7 +89,7 @@ fn glass(evidence: &Evidence<'_>) -> Option<Suspicion> {
             "the lamp in glass is {} of what it should be: 1.5² = 2.25",
             figure(readings[0].ratio)
         );
-        suspicion(&convention::UNSCALED_RADIANCE, LAMP_IN_GLASS, sentence)
+        suspicion(&convention::UNSCALED_RADIANCE, evidence.case(LAMP_IN_GLASS), sentence)
     })
 }
 

@@ -4,12 +4,13 @@
 use super::bounces::{FURNACES, rows};
 use super::readings::channels;
 use super::{Evidence, Suspicion};
+use crate::case::{Role, Subject};
 use crate::cause::integrator;
 
 /// The cavity that sees directions, which a furnace cannot.
-const CAVITY: &str = "integrator/emissive-cap-matches-closed-form";
+const CAVITY: Role = Role::Cavity;
 /// A wall that faces sideways.
-const SIDE: &str = "integrator/radiosity-is-the-same-at-every-orientation";
+const SIDE: Role = Role::SidewaysWall;
 /// Directions of bounces, and the cosine they are weighted with.
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     wrong_directions(evidence).into_iter().chain(world_cosine(evidence)).collect()
@@ -30,10 +31,10 @@ fn wrong_directions(evidence: &Evidence<'_>) -> Option<Suspicion> {
     };
     (admits_one(1) && !admits_one(2)).then(|| Suspicion {
         cause: &integrator::BOUNCE_DIRECTIONS,
-        cases: vec![CAVITY.to_owned()],
+        cases: vec![evidence.case(CAVITY).to_owned()],
         evidence: vec![
             "bounce 1 of the cavity is right and bounce 2 is not".to_owned(),
-            format!("{} passes: the energy of each bounce is right", FURNACES[0]),
+            format!("{} passes: the energy of each bounce is right", evidence.case(FURNACES[0])),
         ],
         ruled_out: vec!["a wrong weight of bounces (the furnace would see it)".to_owned()],
         weight: 1.0,
@@ -48,15 +49,18 @@ fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
         let readings = channels(finding, &format!("bounce {bounce}"));
         readings.iter().flatten().all(|reading| reading.admits(1.0))
     };
-    let averages = [FURNACES[0], CAVITY].iter().all(|case| evidence.has_withstood(case));
+    let averages = [FURNACES[0], CAVITY].iter().all(|role| evidence.has_withstood(*role));
     (averages && admits_one(1) && !admits_one(2)).then(|| Suspicion {
         cause: &integrator::BOUNCE_WORLD_COSINE,
-        cases: std::iter::once(SIDE.to_owned()).chain(delta_cases(evidence)).collect(),
+        cases: std::iter::once(evidence.case(SIDE).to_owned())
+            .chain(delta_cases(evidence))
+            .collect(),
         evidence: vec![
             "at a wall that faces sideways bounce 1 is right and bounce 2 is not".to_owned(),
             format!(
-                "{} and {CAVITY} do not fail: over all directions the weights are right",
-                FURNACES[0]
+                "{} and {} do not fail: over all directions the weights are right",
+                evidence.case(FURNACES[0]),
+                evidence.case(CAVITY)
             ),
         ],
         ruled_out: vec!["bounces in wrong directions (the cavity would see it)".to_owned()],
@@ -68,7 +72,7 @@ fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
 fn delta_cases(evidence: &Evidence<'_>) -> Vec<String> {
     let about = ["mirror", "glass"];
     let is_rough = |case: &str| case.contains("rough-glass");
-    let failures = evidence.failures().filter(|seen| seen.case.starts_with("integrator/"));
+    let failures = evidence.failures().filter(|seen| seen.is_about(Subject::Integrator));
     failures
         .filter(|seen| about.iter().any(|word| seen.case.contains(word)) && !is_rough(seen.case))
         .map(|seen| seen.case.to_owned())

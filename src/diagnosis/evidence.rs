@@ -1,6 +1,6 @@
 //! What the rules see: the findings of one core in one run.
 
-use crate::case::{Part, Tier};
+use crate::case::{Part, Role, Subject, Tier};
 use crate::checks::{Finding, Measure};
 use crate::contract::Conventions;
 use crate::image::Channel;
@@ -25,6 +25,8 @@ pub struct Observation<'a> {
     pub case: &'a str,
     /// What it counts for.
     pub tier: Tier,
+    /// What it shows to the rules, if they ask for it.
+    pub role: Option<Role>,
     /// How it stands.
     pub standing: Standing,
     /// What the check found, if it came to that.
@@ -33,6 +35,13 @@ pub struct Observation<'a> {
     pub rerun: &'a str,
     /// Seconds it took.
     pub seconds: f64,
+}
+
+impl Observation<'_> {
+    /// Whether the case is about `subject`.
+    pub fn is_about(&self, subject: Subject) -> bool {
+        Subject::of_case(self.case) == Some(subject)
+    }
 }
 
 /// The findings of one core in one run, in the order of parts.
@@ -65,25 +74,35 @@ impl<'a> Evidence<'a> {
             .filter(|seen| seen.standing == Standing::Failed && seen.tier == Tier::Robustness)
     }
 
-    /// The case called `case`, if it was tried and came to a finding.
-    pub fn finding(&self, case: &str) -> Option<&'a Finding> {
-        self.observations.iter().find(|seen| seen.case == case)?.finding
+    /// The case of a role, if it was selected.
+    fn of(&self, role: Role) -> Option<&Observation<'a>> {
+        self.observations.iter().find(|seen| seen.role == Some(role))
+    }
+
+    /// The name of the case of a role; empty where it was not selected.
+    pub fn case(&self, role: Role) -> &'a str {
+        self.of(role).map_or("", |seen| seen.case)
+    }
+
+    /// What came of the case of a role, if it was tried.
+    pub fn finding(&self, role: Role) -> Option<&'a Finding> {
+        self.of(role)?.finding
     }
 
     /// The same if it failed.
-    pub fn failed_finding(&self, case: &str) -> Option<&'a Finding> {
-        let seen = self.observations.iter().find(|seen| seen.case == case)?;
+    pub fn failed_finding(&self, role: Role) -> Option<&'a Finding> {
+        let seen = self.of(role)?;
         (seen.standing == Standing::Failed).then_some(seen.finding)?
     }
 
-    /// Whether the case was tried and passed.
-    pub fn has_passed(&self, case: &str) -> bool {
-        self.observations.iter().any(|seen| seen.case == case && seen.standing == Standing::Passed)
+    /// Whether the case of a role was tried and passed.
+    pub fn has_passed(&self, role: Role) -> bool {
+        self.of(role).is_some_and(|seen| seen.standing == Standing::Passed)
     }
 
-    /// Whether the case was tried and did not fail: it passed, or noise left it open.
-    pub fn has_withstood(&self, case: &str) -> bool {
-        self.finding(case).is_some() && self.failed_finding(case).is_none()
+    /// Whether it was tried and did not fail: it passed, or noise left it open.
+    pub fn has_withstood(&self, role: Role) -> bool {
+        self.finding(role).is_some() && self.failed_finding(role).is_none()
     }
 
     /// How many cases were not tried since one of `cases` failed.

@@ -5,20 +5,15 @@
 
 use super::readings::{Reading, channels};
 use super::{Evidence, Suspicion};
+use crate::case::Role;
 use crate::cause::{Cause, bsdf, light, sampling};
 use crate::text::number::figure;
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 /// The two scenes, by light sampling with 7 and 5 samples.
-const BY_LIGHTS: [&str; 2] = [
-    "light/rectangle-light-tilted-matches-closed-form",
-    "light/rectangle-light-slanted-matches-closed-form",
-];
+const BY_LIGHTS: [Role; 2] = [Role::TiltedLight, Role::SlantedLight];
 /// The same by the hemisphere.
-const BY_HEMISPHERE: [&str; 2] = [
-    "light/rectangle-light-tilted-by-hemisphere-sampling-matches-closed-form",
-    "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
-];
+const BY_HEMISPHERE: [Role; 2] = [Role::TiltedLightByHemisphere, Role::SlantedLightByHemisphere];
 /// The row of all four.
 const ROW: &str = "bounce 1";
 /// How much less a mistake weighs if it is not the only one that fits.
@@ -79,15 +74,15 @@ pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
 /// What explains one pair of cases.
 fn explain(
     evidence: &Evidence<'_>,
-    cases: &[&str; 2],
+    roles: &[Role; 2],
     special: &'static [Signature],
 ) -> Vec<Suspicion> {
-    let failed: Vec<_> = cases
+    let failed: Vec<_> = roles
         .iter()
-        .filter(|case| evidence.failed_finding(case).is_some())
-        .map(|&case| case.to_owned())
+        .filter(|role| evidence.failed_finding(**role).is_some())
+        .map(|role| evidence.case(*role).to_owned())
         .collect();
-    let Some(readings) = read(evidence, cases).filter(|_| !failed.is_empty()) else {
+    let Some(readings) = read(evidence, roles).filter(|_| !failed.is_empty()) else {
         return Vec::new();
     };
     let (fitting, others): (Vec<_>, Vec<_>) =
@@ -105,13 +100,13 @@ fn explain(
 }
 
 /// The lit channels of both scenes; none if one of them was not tried.
-fn read(evidence: &Evidence<'_>, cases: &[&str; 2]) -> Option<[Vec<Reading>; 2]> {
-    let of = |case: &str| {
+fn read(evidence: &Evidence<'_>, roles: &[Role; 2]) -> Option<[Vec<Reading>; 2]> {
+    let of = |role: Role| {
         let readings: Vec<_> =
-            channels(evidence.finding(case)?, ROW).into_iter().flatten().collect();
+            channels(evidence.finding(role)?, ROW).into_iter().flatten().collect();
         (!readings.is_empty()).then_some(readings)
     };
-    Some([of(cases[0])?, of(cases[1])?])
+    Some([of(roles[0])?, of(roles[1])?])
 }
 
 fn fits(signature: &Signature, readings: &[Vec<Reading>; 2]) -> bool {
@@ -160,17 +155,17 @@ mod tests {
     use crate::image::CHANNELS;
     use glam::DVec3;
 
-    fn pair(cases: &[&str; 2], ratios: [f64; 2]) -> Made {
+    fn pair(roles: &[Role; 2], ratios: [f64; 2]) -> Made {
         let finding =
             |ratio| means(CHANNELS.map(|channel| mean(ROW, channel, 0.05, ratio, 0.004)).into());
-        Made::new().with(cases[0], finding(ratios[0])).with(cases[1], finding(ratios[1]))
+        Made::new().with(roles[0], finding(ratios[0])).with(roles[1], finding(ratios[1]))
     }
 
     #[test]
     fn every_signature_is_told_by_its_own_ratios() {
-        for (cases, special) in [(&BY_LIGHTS, OF_LIGHTS), (&BY_HEMISPHERE, OF_HEMISPHERE)] {
+        for (roles, special) in [(&BY_LIGHTS, OF_LIGHTS), (&BY_HEMISPHERE, OF_HEMISPHERE)] {
             for signature in OF_BOTH.iter().chain(special) {
-                let made = pair(cases, signature.ratios.map(|ratio| 1.001 * ratio));
+                let made = pair(roles, signature.ratios.map(|ratio| 1.001 * ratio));
                 let diagnosis = diagnose(&made.evidence());
                 let name = diagnosis.first().map(|cause| cause.name);
                 assert_eq!(name, Some(signature.cause.name));

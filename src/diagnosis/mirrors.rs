@@ -2,11 +2,12 @@
 
 use super::readings::Reading;
 use super::{Evidence, Suspicion};
+use crate::case::{Role, Subject};
 use crate::cause::integrator;
 use crate::checks::Finding;
 
-const MIRRORS: &str = "integrator/three-mirrors-multiply-their-reflectance";
-const FURNACE: &str = "integrator/furnace-matches-geometric-series";
+const MIRRORS: Role = Role::Mirrors;
+const FURNACE: Role = Role::Furnace;
 
 /// Mirrors and glass are dark, and the furnace is right.
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
@@ -17,12 +18,12 @@ pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
         let mut wrong = finding.failed_measures().filter_map(Reading::of).peekable();
         wrong.peek().is_some() && wrong.all(|reading| reading.admits(0.0))
     };
-    let failures = evidence.failures().filter(|seen| seen.case.starts_with("integrator/"));
+    let failures = evidence.failures().filter(|seen| seen.is_about(Subject::Integrator));
     let cases: Vec<_> = failures
         .filter(|seen| seen.finding.is_some_and(dark))
         .map(|seen| seen.case.to_owned())
         .collect();
-    if !cases.iter().any(|case| case == MIRRORS) {
+    if !cases.iter().any(|case| case == evidence.case(MIRRORS)) {
         return Vec::new();
     }
     vec![Suspicion {

@@ -3,12 +3,13 @@
 use super::evidence::measure;
 use super::readings::{Reading, channels};
 use super::{Evidence, Suspicion};
+use crate::case::Role;
 use crate::cause::{Cause, integrator};
 use crate::checks::{Finding, Measure};
 use crate::image::{CHANNELS, Channel};
 
 /// The furnace at four roulettes.
-const CASE: &str = "integrator/russian-roulette-leaves-the-mean-unchanged";
+const FURNACE: Role = Role::FurnaceUnderRoulette;
 /// Bounces that a prediction adds up; what is beyond is below 1e-12 of the whole.
 const LAST: i32 = 40;
 
@@ -80,10 +81,10 @@ struct Row {
 
 /// Laws that predict the mean of every row.
 pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
-    let Some(finding) = evidence.failed_finding(CASE) else { return Vec::new() };
+    let Some(finding) = evidence.failed_finding(FURNACE) else { return Vec::new() };
     let rows = rows(finding);
     let fits = |law: &&Law| !rows.is_empty() && rows.iter().all(|row| row.admits(law));
-    LAWS.iter().filter(fits).map(|law| suspicion(law, &rows)).collect()
+    LAWS.iter().filter(fits).map(|law| suspicion(evidence.case(FURNACE), law, &rows)).collect()
 }
 
 fn rows(finding: &Finding) -> Vec<Row> {
@@ -128,11 +129,11 @@ impl Law {
     }
 }
 
-fn suspicion(law: &Law, rows: &[Row]) -> Suspicion {
+fn suspicion(case: &str, law: &Law, rows: &[Row]) -> Suspicion {
     let measured: Vec<_> = rows.iter().filter_map(|row| row.words(law)).collect();
     Suspicion {
         cause: law.cause,
-        cases: vec![CASE.to_owned()],
+        cases: vec![case.to_owned()],
         evidence: vec![law.words.to_owned(), format!("red over right: {}", measured.join(" · "))],
         ruled_out: Vec::new(),
         weight: 1.0,
@@ -159,7 +160,7 @@ mod tests {
                     measures.push(mean(&row, channel, total, ratio, 0.003));
                 }
             }
-            let diagnosis = diagnose(&Made::new().with(CASE, means(measures)).evidence());
+            let diagnosis = diagnose(&Made::new().with(FURNACE, means(measures)).evidence());
             assert_eq!(diagnosis.first().map(|cause| cause.name), Some(law.cause.name));
         }
     }

@@ -3,6 +3,7 @@
 use super::evidence::measure;
 use super::readings::channels;
 use super::{Evidence, Suspicion};
+use crate::case::{Role, Subject};
 use crate::cause::light;
 use crate::checks::{Finding, Measure};
 use crate::image::CHANNELS;
@@ -10,23 +11,17 @@ use crate::stats::Verdict;
 use crate::text::number::figure;
 
 /// Direct light that nothing blocks.
-const OPEN: &str = "light/rectangle-light-overhead-matches-closed-form";
+const OPEN: Role = Role::OpenLight;
 /// Light behind something.
-const BLOCKER: &str = "light/occluder-hides-just-what-is-behind-it";
-const WALL: &str = "light/occluded-light-adds-nothing";
+const BLOCKER: Role = Role::OccludedInPart;
+const WALL: Role = Role::OccludedInFull;
 /// Lights found by the hemisphere, looked at from far and from near.
-const FOUND: [&str; 2] = [
-    "light/rectangle-light-tilted-by-hemisphere-sampling-matches-closed-form",
-    "light/rectangle-light-slanted-by-hemisphere-sampling-matches-closed-form",
-];
+const FOUND: [Role; 2] = [Role::TiltedLightByHemisphere, Role::SlantedLightByHemisphere];
 
 /// The variance of one light sample under [`OPEN`].
-const NOISE: &str = "light/light-sampling-variance-is-bounded";
+const NOISE: Role = Role::LightSamplingVariance;
 /// Light that no shadow ray of a lamp takes part in.
-const WITHOUT_LAMPS: [&str; 2] = [
-    "light/rectangle-light-overhead-by-hemisphere-sampling-matches-closed-form",
-    "light/point-light-follows-the-inverse-square-law",
-];
+const WITHOUT_LAMPS: [Role; 2] = [Role::OpenLightByHemisphere, Role::PointLight];
 /// Relative error forgiven of a variance beyond its interval: σ² is 0.9 % of L² for uniform points on the lamp, and less
 /// for better maps.
 const VARIANCE_SLACK: f64 = 0.02;
@@ -41,7 +36,7 @@ pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
 /// lamp. Where a share p of them arrives, the mean is p L and the variance of one sample p σ² + p (1 − p) L².
 fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let (open, noise) = (evidence.failed_finding(OPEN)?, evidence.failed_finding(NOISE)?);
-    if !WITHOUT_LAMPS.iter().all(|case| evidence.has_passed(case)) {
+    if !WITHOUT_LAMPS.iter().all(|role| evidence.has_passed(*role)) {
         return None;
     }
     let channels = CHANNELS.map(|channel| {
@@ -57,10 +52,10 @@ fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
         wrong.peek().is_some() && wrong.all(|m| m.measured < m.expected)
     };
     let dark = evidence.failures().filter(|seen| seen.finding.is_some_and(is_dark));
-    let dark = dark.map(|seen| seen.case).filter(|case| case.starts_with("light/"));
+    let dark = dark.filter(|seen| seen.is_about(Subject::Light)).map(|seen| seen.case);
     Some(Suspicion {
         cause: &light::EMITTER_SHADOWS_ITSELF,
-        cases: dark.chain([NOISE]).map(str::to_owned).collect(),
+        cases: dark.chain([evidence.case(NOISE)]).map(str::to_owned).collect(),
         evidence: vec![format!(
             "{} of the light of a lamp arrives, and the variance of a sample is {}, as where so many of them arrive \
              whole and the others not at all",
@@ -98,7 +93,7 @@ fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let light = wall.measures.iter().map(|measure| measure.measured).fold(0.0, f64::max);
     (evidence.has_passed(OPEN) && light > 0.0).then(|| Suspicion {
         cause: &light::NO_SHADOWS,
-        cases: vec![BLOCKER.to_owned(), WALL.to_owned()],
+        cases: [BLOCKER, WALL].map(|role| evidence.case(role).to_owned()).into(),
         evidence: vec![format!(
             "behind a wall there is light ({}), behind a blocker too much, and without one it is right",
             figure(light)
@@ -110,8 +105,8 @@ fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
 
 /// Right from afar and dark from nearby: rays go no further than the eye was away.
 fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
-    let is_dark = |case: &&str| {
-        evidence.failed_finding(case).is_some_and(|finding| {
+    let is_dark = |role: &&Role| {
+        evidence.failed_finding(**role).is_some_and(|finding| {
             let near: Vec<_> = channels(finding, "from nearby").into_iter().flatten().collect();
             let far: Vec<_> = channels(finding, "bounce 1").into_iter().flatten().collect();
             near.len() == CHANNELS.len()
@@ -119,7 +114,11 @@ fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
                 && far.iter().all(|reading| reading.admits(1.0))
         })
     };
-    let cases: Vec<_> = FOUND.iter().filter(|c| is_dark(c)).map(|&c| c.to_owned()).collect();
+    let cases: Vec<_> = FOUND
+        .iter()
+        .filter(|role| is_dark(role))
+        .map(|role| evidence.case(*role).to_owned())
+        .collect();
     (!cases.is_empty()).then(|| Suspicion {
         cause: &light::T_MAX_NOT_RESET,
         cases,

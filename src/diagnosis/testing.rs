@@ -1,15 +1,43 @@
 //! Made-up findings for the tests of rules.
 
 use super::{Evidence, Observation, Standing};
-use crate::case::Tier;
+use crate::case::{Role, Tier};
 use crate::checks::{Finding, Measure};
 use crate::contract::Conventions;
 use crate::image::Channel;
 use crate::stats::Verdict;
 
+/// What a made-up case is called, or is to the rules.
+pub struct Name {
+    case: String,
+    role: Option<Role>,
+}
+
+impl From<&str> for Name {
+    fn from(case: &str) -> Self {
+        Self { case: case.to_owned(), role: None }
+    }
+}
+
+impl From<Role> for Name {
+    fn from(role: Role) -> Self {
+        let subject = match role {
+            Role::Furnace
+            | Role::FurnaceByHemisphere
+            | Role::FurnaceUnderRoulette
+            | Role::Mirrors
+            | Role::Cavity
+            | Role::SidewaysWall
+            | Role::LightInsideGlass => "integrator",
+            _ => "light",
+        };
+        Self { case: format!("{subject}/{role:?}"), role: Some(role) }
+    }
+}
+
 /// Cases and what came of them.
 pub struct Made {
-    findings: Vec<(String, Finding)>,
+    findings: Vec<(Name, Finding)>,
     blocked: Vec<(String, String)>,
     robustness: Vec<String>,
     /// What the core declares.
@@ -23,8 +51,8 @@ impl Made {
     }
 
     /// The same with the finding of another case.
-    pub fn with(mut self, case: &str, finding: Finding) -> Self {
-        self.findings.push((case.to_owned(), finding));
+    pub fn with(mut self, case: impl Into<Name>, finding: Finding) -> Self {
+        self.findings.push((case.into(), finding));
         self
     }
 
@@ -41,7 +69,7 @@ impl Made {
     }
 
     pub fn evidence(&self) -> Evidence<'_> {
-        let tried = self.findings.iter().map(|(case, finding)| {
+        let tried = self.findings.iter().map(|(Name { case, role }, finding)| {
             let standing = match finding.verdict {
                 Verdict::Pass => Standing::Passed,
                 Verdict::Fail => Standing::Failed,
@@ -52,7 +80,7 @@ impl Made {
             } else {
                 Tier::Graded
             };
-            Observation { tier, ..observation(case, standing, Some(finding)) }
+            Observation { tier, role: *role, ..observation(case, standing, Some(finding)) }
         });
         let blocked = self
             .blocked
@@ -67,7 +95,8 @@ fn observation<'a>(
     standing: Standing,
     finding: Option<&'a Finding>,
 ) -> Observation<'a> {
-    Observation { case, tier: Tier::Graded, standing, finding, rerun: case, seconds: 1.0 }
+    let (tier, role) = (Tier::Graded, None);
+    Observation { case, tier, role, standing, finding, rerun: case, seconds: 1.0 }
 }
 
 /// A finding that fails.

@@ -213,6 +213,7 @@ pub fn trial(core: &str, case: &str) -> TrialRecord {
         source: "By hand: L = Le (1 - rho^(m+1)) / (1 - rho); Le = 0.7, rho = 0.37.".to_owned(),
         check: "mean-radiance".to_owned(),
         tier: Tier::Graded,
+        role: None,
         case_hash: format!("{:064x}", seed.child("case").0),
         scene: is_random
             .then(|| SceneStamp { name: name.to_owned(), hash: format!("{:064x}", seed.0) }),

@@ -75,6 +75,7 @@ fn record_of(bench: &Bench, trial: &Trial, outcome: Outcome) -> TrialRecord {
         source: case.source.clone(),
         check: case.check.name.to_owned(),
         tier: case.tier,
+        role: case.role,
         case_hash: case.hash.clone(),
         scene: None,
         budget: bench.allowance.budget,

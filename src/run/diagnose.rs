@@ -23,6 +23,7 @@ fn observation(trial: &TrialRecord) -> Observation<'_> {
     Observation {
         case: &trial.case,
         tier: trial.tier,
+        role: trial.role,
         standing,
         finding: trial.outcome.finding(),
         rerun: &trial.rerun,

@@ -10,7 +10,7 @@
 //! `timing`.
 
 use super::outcome::{Outcome, Status};
-use crate::case::Tier;
+use crate::case::{Role, Tier};
 use crate::checks::PictureRole;
 use crate::contract::{Conventions, CoreInfo, Precision};
 use crate::disk;
@@ -166,6 +166,9 @@ pub struct TrialRecord {
     /// What the result counts for.
     #[serde(default)]
     pub tier: Tier,
+    /// What the case shows to the rules of the diagnosis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub role: Option<Role>,
     /// SHA-256 of the case file's text, hex.
     pub case_hash: String,
     /// The scene it names, if it names one.

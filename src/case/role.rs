@@ -1,0 +1,101 @@
+//! What a case is to the rules of the diagnosis: a rule asks for the furnace, and never for a file.
+
+use serde::{Deserialize, Serialize};
+
+/// What a case shows to the rules of `crate::diagnosis`. One case has each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Role {
+    /// A closed diffuse sphere that emits: bounce k is emission · albedo^k.
+    Furnace,
+    /// The same by hemisphere sampling.
+    FurnaceByHemisphere,
+    /// The same at several settings of Russian roulette.
+    FurnaceUnderRoulette,
+    /// Emission seen after three specular bounces.
+    Mirrors,
+    /// A cavity with an emissive cap: it sees where bounces go, which a furnace cannot.
+    Cavity,
+    /// A wall that does not face +z.
+    SidewaysWall,
+    /// Emission inside glass of index 1.5.
+    LightInsideGlass,
+    /// A point light at several distances.
+    PointLight,
+    /// An area light seen directly, from both sides.
+    VisibleLight,
+    /// Direct light in general position, by light sampling with 7 samples.
+    TiltedLight,
+    /// Another general position, by light sampling with 5 samples.
+    SlantedLight,
+    /// [`Self::TiltedLight`] by hemisphere sampling.
+    TiltedLightByHemisphere,
+    /// [`Self::SlantedLight`] by hemisphere sampling.
+    SlantedLightByHemisphere,
+    /// Direct light that nothing occludes, by light sampling.
+    OpenLight,
+    /// The same by hemisphere sampling.
+    OpenLightByHemisphere,
+    /// An area light behind an occluder that hides a part of it.
+    OccludedInPart,
+    /// A light behind a wall.
+    OccludedInFull,
+    /// The variance of one light sample under [`Self::OpenLight`].
+    LightSamplingVariance,
+}
+
+impl Role {
+    /// Every role.
+    pub const ALL: &[Self] = &[
+        Self::Furnace,
+        Self::FurnaceByHemisphere,
+        Self::FurnaceUnderRoulette,
+        Self::Mirrors,
+        Self::Cavity,
+        Self::SidewaysWall,
+        Self::LightInsideGlass,
+        Self::PointLight,
+        Self::VisibleLight,
+        Self::TiltedLight,
+        Self::SlantedLight,
+        Self::TiltedLightByHemisphere,
+        Self::SlantedLightByHemisphere,
+        Self::OpenLight,
+        Self::OpenLightByHemisphere,
+        Self::OccludedInPart,
+        Self::OccludedInFull,
+        Self::LightSamplingVariance,
+    ];
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::load_all;
+    use std::path::Path;
+
+    #[test]
+    fn one_case_has_each_role() {
+        let cases = load_all(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases")).unwrap();
+        for role in Role::ALL {
+            let holders = cases.iter().filter(|case| case.role == Some(*role)).count();
+            assert_eq!(holders, 1, "{role:?}");
+        }
+    }
+
+    #[test]
+    fn every_role_is_asked_for_by_a_rule_and_no_rule_names_a_case() {
+        let rules = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/diagnosis");
+        let files = std::fs::read_dir(rules).unwrap().map(|file| file.unwrap().path());
+        let texts: Vec<_> = files.map(|path| std::fs::read_to_string(path).unwrap()).collect();
+        let rules: Vec<_> =
+            texts.iter().filter_map(|text| text.split("#[cfg(test)]").next()).collect();
+        for role in Role::ALL {
+            let name = format!("Role::{role:?}");
+            assert!(rules.iter().any(|text| text.contains(&name)), "{name}");
+        }
+        for case in load_all(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases")).unwrap() {
+            assert!(!rules.iter().any(|text| text.contains(&case.id)), "{}", case.id);
+        }
+    }
+}

@@ -3,8 +3,9 @@
 
 use super::encoding::Curve;
 use super::pair::Plane;
-use super::png::{Decoded, Picture};
-use super::{Image, ImageError, exr, pfm, png, radiance};
+use super::png::Picture;
+use super::{Image, ImageError, exr, pfm};
+use image::{DynamicImage, ImageReader};
 use std::path::Path;
 
 /// The codes of a file of whole numbers.
@@ -40,16 +41,14 @@ pub fn load(path: &Path, encoding: Option<Curve>) -> Result<Loaded, ImageError> 
     match Kind::of(path)? {
         Kind::OpenExr => load_exr(path),
         Kind::FloatMap => Ok(linear(pfm::read(path)?)),
-        Kind::Radiance => load_radiance(path),
-        Kind::Png => Ok(of_codes(&png::read(path)?, encoding.unwrap_or(Curve::Srgb))),
+        Kind::Other => load_other(path, encoding.unwrap_or(Curve::Srgb)),
     }
 }
 
 enum Kind {
     OpenExr,
     FloatMap,
-    Radiance,
-    Png,
+    Other,
 }
 
 impl Kind {
@@ -58,15 +57,13 @@ impl Kind {
         let mut start = Vec::new();
         let file =
             std::fs::File::open(path).map_err(|error| ImageError::unreadable(path, error))?;
-        let read = file.take(radiance::MAGIC.len() as u64).read_to_end(&mut start);
+        let read = file.take(4).read_to_end(&mut start);
         read.map_err(|error| ImageError::unreadable(path, error))?;
-        match start.as_slice() {
-            [0x76, 0x2f, 0x31, 0x01, ..] => Ok(Self::OpenExr),
-            [b'P', b'F' | b'f', ..] => Ok(Self::FloatMap),
-            [0x89, b'P', b'N', b'G', ..] => Ok(Self::Png),
-            radiance::MAGIC => Ok(Self::Radiance),
-            _ => Err(ImageError::unreadable(path, "it is no OpenEXR, PFM, Radiance HDR or PNG")),
-        }
+        Ok(match start.as_slice() {
+            [0x76, 0x2f, 0x31, 0x01] => Self::OpenExr,
+            [b'P', b'F' | b'f', ..] => Self::FloatMap,
+            _ => Self::Other,
+        })
     }
 }
 
@@ -90,33 +87,53 @@ fn load_exr(path: &Path) -> Result<Loaded, ImageError> {
     Ok(Loaded { alpha, extra: Some(file), ..linear(image) })
 }
 
-fn load_radiance(path: &Path) -> Result<Loaded, ImageError> {
-    let bytes = std::fs::read(path).map_err(|error| ImageError::unreadable(path, error))?;
-    let image =
-        radiance::decode(&bytes).map_err(|problem| ImageError::unreadable(path, problem))?;
-    Ok(linear(image))
+fn load_other(path: &Path, encoding: Curve) -> Result<Loaded, ImageError> {
+    let failed = |error: &dyn std::fmt::Display| ImageError::unreadable(path, error);
+    let reader = ImageReader::open(path).map_err(|error| failed(&error))?;
+    let reader = reader.with_guessed_format().map_err(|error| failed(&error))?;
+    let decoded = reader.decode().map_err(|error| failed(&error))?;
+    match decoded {
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            let floats = decoded.to_rgb32f();
+            let [width, height] = [floats.width(), floats.height()].map(|side| side as usize);
+            let pixels = floats.pixels().map(|pixel| pixel.0).collect();
+            Ok(linear(Image { width, height, pixels }))
+        }
+        codes => Ok(of_codes(&codes, encoding)),
+    }
 }
 
-/// An image of whole numbers.
-fn of_codes(decoded: &Decoded, encoding: Curve) -> Loaded {
-    let &Decoded { width, height, is_deep, has_alpha, .. } = decoded;
+/// A picture of whole numbers.
+fn of_codes(decoded: &DynamicImage, encoding: Curve) -> Loaded {
+    let largest = match decoded {
+        DynamicImage::ImageLuma16(_)
+        | DynamicImage::ImageLumaA16(_)
+        | DynamicImage::ImageRgb16(_)
+        | DynamicImage::ImageRgba16(_) => 65_535,
+        _ => 255,
+    };
+    // Codes of 8 bits are widened without loss: 65,535 = 257 · 255.
+    let wide = decoded.to_rgba16();
+    let [width, height] = [wide.width(), wide.height()].map(|side| side as usize);
     #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
     let light = |code: u16| encoding.decode(f64::from(code) / 65_535.0) as f32;
-    let pixels = decoded.rgba.iter().map(|&[r, g, b, _]| [r, g, b].map(light)).collect();
-    let alpha = has_alpha.then(|| {
-        let values = decoded.rgba.iter().map(|pixel| f32::from(pixel[3]) / 65_535.0).collect();
+    let colour = |pixel: &image::Rgba<u16>| [pixel.0[0], pixel.0[1], pixel.0[2]].map(light);
+    let pixels = wide.pixels().map(colour).collect();
+    let alpha = decoded.color().has_alpha().then(|| {
+        let values = wide.pixels().map(|pixel| f32::from(pixel.0[3]) / 65_535.0).collect();
         Plane { width, height, values }
     });
-    let codes = Codes {
-        largest: if is_deep { 65_535 } else { 255 },
-        picture: (!is_deep).then(|| decoded.picture()),
-    };
-    let image = Image { width, height, pixels };
-    Loaded { image, alpha, encoding, codes: Some(codes), extra: None }
+    let picture = (largest == 255).then(|| {
+        let pixels = decoded.to_rgb8().pixels().map(|pixel| pixel.0).collect();
+        Picture { width, height, pixels }
+    });
+    let codes = Some(Codes { largest, picture });
+    Loaded { image: Image { width, height, pixels }, alpha, encoding, codes, extra: None }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::png;
     use super::*;
 
     #[test]

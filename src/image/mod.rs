@@ -18,7 +18,6 @@ pub mod pair;
 pub mod pfm;
 mod pixel_error;
 pub mod png;
-mod radiance;
 mod shrink;
 mod ssim;
 pub mod tonemap;

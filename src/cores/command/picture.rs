@@ -3,7 +3,7 @@
 use super::adapter::{FirstRow, Output};
 use crate::image::encoding::Encoding;
 use crate::image::png::Picture as Codes;
-use crate::image::{Image, ImageError, exr, file, pfm, png};
+use crate::image::{Image, ImageError, exr, pfm};
 use std::path::Path;
 
 /// A picture, and which pixels say only that they are bright.
@@ -37,9 +37,10 @@ pub fn read(output: &Output, folder: &Path) -> Result<Picture, ImageError> {
     } else if ending == "pfm" {
         Picture::linear(pfm::read(&path)?)
     } else {
+        let opened = image::open(&path).map_err(|error| ImageError::unreadable(&path, error))?;
         match output.encoding.of_codes() {
-            None => Picture::linear(file::load(&path, None)?.image),
-            Some(encoding) => decoded(png::read(&path)?.picture(), encoding),
+            None => Picture::linear(from_floats(&opened.to_rgb32f())),
+            Some(encoding) => decoded(&opened.to_rgb8(), encoding),
         }
     };
     if output.first_row == FirstRow::Bottom {
@@ -48,8 +49,16 @@ pub fn read(output: &Output, folder: &Path) -> Result<Picture, ImageError> {
     Ok(picture)
 }
 
-fn decoded(codes: Codes, encoding: Encoding) -> Picture {
-    let &Codes { width, height, .. } = &codes;
+fn from_floats(buffer: &image::Rgb32FImage) -> Image {
+    let (width, height) = buffer.dimensions();
+    let pixels = buffer.pixels().map(|pixel| pixel.0).collect();
+    Image { width: width as usize, height: height as usize, pixels }
+}
+
+fn decoded(buffer: &image::RgbImage, encoding: Encoding) -> Picture {
+    let (width, height) = buffer.dimensions();
+    let (width, height) = (width as usize, height as usize);
+    let codes = Codes { width, height, pixels: buffer.pixels().map(|pixel| pixel.0).collect() };
     #[expect(clippy::cast_possible_truncation, reason = "pictures are single precision")]
     let light = |code: u8| encoding.light(code) as f32;
     let pixels = codes.pixels.iter().map(|pixel| pixel.map(light)).collect();
@@ -76,8 +85,8 @@ mod tests {
     #[test]
     fn a_png_says_where_it_is_clipped_and_can_stand_upside_down() {
         let folder = tempfile::tempdir().unwrap();
-        let codes = Codes { width: 1, height: 2, pixels: vec![[10, 20, 30], [255, 0, 0]] };
-        png::write(&folder.path().join("p.png"), &codes).unwrap();
+        let pixels = image::RgbImage::from_raw(1, 2, vec![10, 20, 30, 255, 0, 0]).unwrap();
+        pixels.save(folder.path().join("p.png")).unwrap();
         let mut output = Output {
             file: "p.png".to_owned(),
             encoding: crate::cores::command::adapter::Encoding::Course,

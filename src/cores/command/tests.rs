@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::contract::{CoreError, IntegratorSettings};
-use crate::image::{encoding::Encoding, png};
+use crate::image::encoding::Encoding;
 use crate::scene::{Library, Overrides};
 use std::path::Path;
 use std::sync::Arc;
@@ -78,8 +78,8 @@ fn a_program_can_be_asked_for_pictures_only() {
 #[test]
 fn a_program_that_writes_8_bits_is_asked_for_its_codes() {
     let folder = tempfile::tempdir().unwrap();
-    let codes = png::Picture { width: 1, height: 1, pixels: vec![[10, 128, 255]] };
-    png::write(&folder.path().join("made.png"), &codes).unwrap();
+    let codes = image::RgbImage::from_raw(1, 1, vec![10, 128, 255]).unwrap();
+    codes.save(folder.path().join("made.png")).unwrap();
     let script = format!("cp {}/made.png $2", folder.path().display());
     let eight_bits =
         ("picture.pfm\", encoding = \"linear\"", "picture.png\", encoding = \"course\"");

@@ -268,10 +268,10 @@ mod tests {
         let example = Example::mixed();
         example.write(folder.path());
         let path = sidecar_path(folder.path(), "builtin", example::FAILING);
-        edit(&path, "\"version\": 1", "\"version\": 2, \"novelty\": 3");
+        edit(&path, "\"version\": 2", "\"version\": 3, \"novelty\": 3");
         let message = refusal(folder.path());
         assert!(message.contains(&path.display().to_string()), "{message}");
-        assert!(message.contains("version 2"), "{message}");
+        assert!(message.contains("version 3"), "{message}");
     }
 
     #[test]

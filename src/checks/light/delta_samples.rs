@@ -54,7 +54,12 @@ impl Sampled {
             (0..3).map(channel)
         }));
         let mut measures = vec![
-            Measure::exact("samples marked as delta", usable as f64, POINTS as f64, 0.0),
+            Measure::exact(
+                "samples marked as delta",
+                usable as f64,
+                self.samples.len() as f64,
+                0.0,
+            ),
             Measure::worst("direction, how far off", &directions),
             Measure::worst("radiance over density", &radiances),
         ];

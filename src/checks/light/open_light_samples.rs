@@ -1,7 +1,7 @@
 //! Samples of lights that are no shapes: points, the sun, skies. Direction, distance and radiance of the first two are
 //! known exactly; of an even sky the mean of radiance over density is 4π times its radiance, however it is sampled.
 
-use super::delta_samples::{Sampled, expected};
+use super::delta_samples::Sampled;
 use crate::cause::{Cause, light as cause};
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::figure;
@@ -130,7 +130,7 @@ impl Sky {
 
 #[cfg(test)]
 mod tests {
-    use super::super::delta_samples::Expected;
+    use super::super::delta_samples::{Expected, expected};
     use super::*;
     use crate::contract::Falloff;
     use crate::stats::Verdict;

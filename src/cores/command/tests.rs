@@ -86,7 +86,7 @@ fn a_program_that_writes_8_bits_is_asked_for_its_codes() {
     let mut core = core(folder.path(), &script, eight_bits);
     let (scene, camera, settings) = request("point-light-plane", 5);
     let mut built = core.build_scene(&scene, Acceleration::DEFAULT).unwrap();
-    let mut codes = png::Picture::default();
+    let mut codes = crate::image::png::Picture::default();
     let encoding = built.render_codes(&camera, &settings, &mut codes).unwrap();
     assert_eq!(encoding, Encoding::COURSE);
     assert_eq!(codes.pixels, [[10, 128, 255]]);

@@ -311,8 +311,7 @@ impl Answer for Picture {
 fn each<T>(elements: &[T], what: &'static str, check: impl Fn(&T) -> Form) -> Result<()> {
     let of = elements.len();
     elements.iter().enumerate().try_for_each(|(index, element)| {
-        let breach = |breach: Breach| breach.in_element(what, index, of);
-        check(element).map_err(|found| CoreError::BrokeContract(breach(found)))
+        check(element).map_err(|breach| breach.in_element(what, index, of).into())
     })
 }
 
@@ -325,7 +324,7 @@ fn each_pixel(
 ) -> Result<()> {
     values.iter().enumerate().try_for_each(|(index, value)| {
         let place = || Place::Pixel { what: what.into(), x: index % width, y: index / width };
-        let breach = |breach| CoreError::BrokeContract(Breach { place: place(), ..breach });
+        let breach = |breach| CoreError::from(Breach { place: place(), ..breach });
         valid_pixel(field, *value).map_err(breach)
     })
 }

@@ -5,7 +5,7 @@ use super::answer::{
     touched, unit,
 };
 use super::crossing::elements;
-use super::{Breach, BreachKind, Capabilities, CoreError, Result};
+use super::{Breach, BreachKind, Capabilities, Result};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -390,7 +390,7 @@ pub fn read_flags(bytes: &[u8], flags: &mut [bool]) -> Result<()> {
             _ => {
                 let breach = Breach::of("it", BreachKind::NotAFlag(u32::from(*byte)));
                 let breach = breach.in_element("occluded", index, bytes.len());
-                return Err(CoreError::BrokeContract(breach));
+                return Err(breach.into());
             }
         };
     }

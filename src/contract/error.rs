@@ -21,7 +21,7 @@ pub enum CoreError {
     Refused(String),
     /// The core answered, but not in the form the contract asks.
     #[error("the core broke the contract: {0}")]
-    BrokeContract(Breach),
+    BrokeContract(Box<Breach>),
     /// The core stopped working while it was answering.
     #[error("the core crashed ({how}) during {during}")]
     Crashed {
@@ -40,9 +40,15 @@ pub enum CoreError {
     },
 }
 
+impl From<Breach> for CoreError {
+    fn from(breach: Breach) -> Self {
+        Self::BrokeContract(Box::new(breach))
+    }
+}
+
 impl CoreError {
     /// An answer that is not what was asked for, in words.
     pub fn breach(words: impl Into<String>) -> Self {
-        Self::BrokeContract(Breach::other(words))
+        Breach::other(words).into()
     }
 }

@@ -100,7 +100,7 @@ pub enum Answer {
     /// [`CoreError::BrokeContract`]
     BrokeContract {
         /// What is wrong with the answer.
-        breach: Breach,
+        breach: Box<Breach>,
     },
     /// [`CoreError::Crashed`], where the worker has survived it.
     Crashed {

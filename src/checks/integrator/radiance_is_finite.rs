@@ -79,7 +79,7 @@ impl RadianceIsFinite {
         let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
         match rendering.film(built.as_mut(), seed, 0) {
             Ok(_) => Ok(None),
-            Err(CheckError::Core(CoreError::BrokeContract(breach))) => Ok(Some(breach)),
+            Err(CheckError::Core(CoreError::BrokeContract(breach))) => Ok(Some(*breach)),
             Err(other) => Err(other),
         }
     }

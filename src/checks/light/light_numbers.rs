@@ -7,7 +7,7 @@ use crate::checks::sampling::extremes::{self, Extremes, Range};
 use crate::checks::sampling::replay::{self, Replayed};
 use crate::checks::{Check, CheckError, Context, Finding};
 use crate::contract::{
-    Acceleration, Breach, BreachKind, BuiltScene, Capabilities, CoreError, LightSample, Result,
+    Acceleration, Breach, BreachKind, BuiltScene, Capabilities, LightSample, Result,
 };
 use crate::math::rng::Seed;
 use crate::scene::Light;
@@ -89,7 +89,7 @@ fn drawn(sample: &LightSample) -> Result<Drawn> {
             true => BreachKind::Infinite,
             false => BreachKind::OutOfRange(distance),
         };
-        return Err(CoreError::BrokeContract(Breach::of("the distance to the light", kind)));
+        return Err(Breach::of("the distance to the light", kind).into());
     }
     Ok(Drawn { direction: is_valid.then_some(sample.wi), pdf: sample.pdf })
 }

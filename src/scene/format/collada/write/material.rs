@@ -73,9 +73,8 @@ fn write_effect(
             )));
         }
         Surface::RoughGlass { .. } => {
-            return Err(complaint.about(format!(
-                "material `{name}` is a rough dielectric; the course's is smooth"
-            )));
+            return Err(complaint
+                .about(format!("material `{name}` is rough glass; the course's is smooth")));
         }
     }
     Ok(())

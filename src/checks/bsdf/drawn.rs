@@ -72,10 +72,14 @@ impl Drawn {
         let valid: Vec<_> = self.valid().collect();
         let values = self.evaluated(context, valid.iter().map(|(view, s)| (*view, s.wi)))?;
         let pairs = || valid.iter().zip(&values);
-        let pdf = judge_exact(pairs().map(|((_, s), v)| Compared::relative(s.pdf, v.pdf, allowed)));
-        let f = judge_exact(pairs().flat_map(|((_, s), v)| {
-            (0..3).map(move |c| Compared::relative(s.f[c], v.f[c], allowed))
-        }));
+        let compared = |(_, s): &(DVec3, BsdfSample), v: &BsdfValue| {
+            let f = |c: usize| Compared::relative(s.f[c], v.f[c], allowed);
+            [Compared::relative(s.pdf, v.pdf, allowed), f(0), f(1), f(2)]
+        };
+        let mut compared: Vec<_> = pairs().map(|(pair, value)| compared(pair, value)).collect();
+        self.forgive_rounding(context, &valid, &values, &mut compared)?;
+        let pdf = judge_exact(compared.iter().map(|[pdf, ..]| *pdf));
+        let f = judge_exact(compared.iter().flat_map(|[_, f @ ..]| *f));
         let below = self.lit_below_horizon(context)?;
         let cosines = pairs().filter(|(_, value)| value.f[1] > 0.0);
         let shares: Vec<_> = cosines.map(|((_, s), v)| (s.f[1] / v.f[1], s.wi.z)).collect();
@@ -144,6 +148,35 @@ impl Drawn {
         Ok(evaluated(context.core, &self.surface.material(), &queries)?)
     }
 
+    /// A sampled direction is rounded, and value and density are evaluated where it went to. Where they differ, as much
+    /// more is allowed as they change within that rounding.
+    fn forgive_rounding(
+        &self,
+        context: &mut Context<'_>,
+        valid: &[(DVec3, BsdfSample)],
+        values: &[BsdfValue],
+        compared: &mut [[Compared; 4]],
+    ) -> Result<(), CheckError> {
+        let rounding = Tolerance::DIRECTION.of(context.info.precision);
+        let differing: Vec<_> = (0..valid.len())
+            .filter(|number| !compared[*number].iter().all(Compared::agrees))
+            .collect();
+        let around = differing.iter().flat_map(|number| {
+            let (view, sample) = valid[*number];
+            beside(sample.wi, rounding).map(|wi| (view, wi))
+        });
+        let around = self.evaluated(context, around)?;
+        for (number, around) in differing.iter().zip(around.chunks_exact(BESIDE)) {
+            let parts = |value: &BsdfValue| [value.pdf, value.f[0], value.f[1], value.f[2]];
+            let there = parts(&values[*number]);
+            for (part, compared) in compared[*number].iter_mut().enumerate() {
+                let changes = around.iter().map(|value| (parts(value)[part] - there[part]).abs());
+                compared.allowed += changes.fold(0.0, f64::max);
+            }
+        }
+        Ok(())
+    }
+
     /// A surface that reflects only has no value below the horizon. `None` where light passes.
     fn lit_below_horizon(&self, context: &mut Context<'_>) -> Result<Option<usize>, CheckError> {
         if self.surface.lets_pass() {
@@ -155,6 +188,15 @@ impl Drawn {
         let values = self.evaluated(context, pairs.into_iter())?;
         Ok(Some(values.iter().filter(|value| has_value(value)).count()))
     }
+}
+
+/// How many directions [`beside`] answers.
+const BESIDE: usize = 4;
+
+/// Directions at the angle `rounding`, radians, from `wi` on four sides.
+fn beside(wi: DVec3, rounding: f64) -> [DVec3; BESIDE] {
+    let (first, second) = wi.any_orthonormal_pair();
+    [first, -first, second, -second].map(|side| (wi + rounding * side).normalize())
 }
 
 fn has_value(value: &BsdfValue) -> bool {

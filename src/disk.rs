@@ -22,11 +22,17 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
 
 /// Temporary files are their owner's alone unless told otherwise, and keep that when they are renamed. What others
 /// may do with a result is for the user's umask to say.
+#[cfg(unix)]
 fn for_everybody() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder
+}
+
+/// Elsewhere a file has the rights of its folder.
+#[cfg(not(unix))]
+fn for_everybody() -> tempfile::Builder<'static, 'static> {
+    tempfile::Builder::new()
 }
 
 #[cfg(test)]

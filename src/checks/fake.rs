@@ -13,6 +13,7 @@ use crate::scene::{Aabb, Camera, Material, SceneDescription};
 use glam::{DVec2, DVec3};
 
 /// See the module. A question that a test does not expect ends it.
+#[expect(clippy::type_complexity, reason = "each closure's type is the signature of its question")]
 pub struct Fake {
     /// It can do everything, in double precision.
     pub info: CoreInfo,

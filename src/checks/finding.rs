@@ -1,9 +1,9 @@
 //! What a check has to say: a verdict, a sentence, and the numbers behind it.
 
-use super::phrase::percent;
 use crate::cause::Cause;
 use crate::image::{CHANNELS, Channel};
 use crate::stats::{ExactReport, Hypothesis, Report, Verdict};
+use crate::text::number::percent;
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 

@@ -29,7 +29,8 @@ impl Default for Lambertian {
 }
 
 impl Lambertian {
-    fn value(&self, material: &Material, wo: DVec3, wi: DVec3) -> BsdfValue {
+    /// What it answers for a pair of directions.
+    pub fn value(&self, material: &Material, wo: DVec3, wi: DVec3) -> BsdfValue {
         let Surface::Diffuse { reflectance } = material.surface else {
             return BsdfValue { f: [0.0; 3], pdf: 0.0 };
         };

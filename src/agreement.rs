@@ -25,41 +25,41 @@ const NEARLY_CLIPPED: f32 = 0.6;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
     /// Independent pictures, at least two.
-    pub runs: u32,
+    pub(crate) runs: u32,
     /// Samples a pixel in each.
-    pub samples: u32,
+    pub(crate) samples: u32,
     /// Directions over the hemisphere in place of points on lights.
-    pub by_hemisphere: bool,
+    pub(crate) by_hemisphere: bool,
 }
 
 /// One reference and one renderer.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// Relative difference of the whole picture, red, green and blue.
-    pub whole: [Difference; 3],
+    pub(crate) whole: [Difference; 3],
     /// Root mean square of the blocks' differences in standard errors. With few runs it is above one by
     /// itself: √((n − 1)/(n − 3)) for n runs.
-    pub blocks: f64,
+    pub(crate) blocks: f64,
     /// The largest relative difference of a block.
-    pub worst: f64,
+    pub(crate) worst: f64,
     /// Share of the pixels that were compared.
-    pub compared: f64,
+    pub(crate) compared: f64,
     /// Seconds of a run, as the renderer's log has it.
-    pub seconds: Option<f64>,
+    pub(crate) seconds: Option<f64>,
 }
 
 /// A relative difference and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Difference {
+pub(crate) struct Difference {
     /// Of the renderer from the reference.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Of both together.
-    pub standard_error: f64,
+    pub(crate) standard_error: f64,
 }
 
 impl Difference {
     /// In standard errors.
-    pub fn sigmas(self) -> f64 {
+    pub(crate) fn sigmas(self) -> f64 {
         if self.mean == 0.0 { 0.0 } else { self.mean / self.standard_error }
     }
 }
@@ -84,7 +84,7 @@ pub enum AgreementError {
 }
 
 /// The names of the references of a project, in the order of the alphabet.
-pub fn references(project: &Project) -> Vec<String> {
+pub(crate) fn references(project: &Project) -> Vec<String> {
     let entries = std::fs::read_dir(project.references()).into_iter().flatten().flatten();
     let with_provenance = entries.filter(|entry| entry.path().join("provenance.toml").is_file());
     let mut names: Vec<_> =
@@ -263,7 +263,7 @@ fn difference(
 }
 
 /// Rows of Markdown, with a head.
-pub fn table(core: &str, rows: &[(String, Result<Row, AgreementError>)]) -> String {
+pub(crate) fn table(core: &str, rows: &[(String, Result<Row, AgreementError>)]) -> String {
     let mut text = format!(
         "| {core} | red | green | blue | blocks, σ | worst block | compared | s |\n|---|---|---|---|---|---|---|---|\n"
     );

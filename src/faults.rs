@@ -64,7 +64,7 @@ pub struct Spared {
 
 impl Tried {
     /// Whether nothing is left to wish for.
-    pub fn is_good(&self) -> bool {
+    pub(crate) fn is_good(&self) -> bool {
         self.caught && self.named
     }
 }
@@ -115,7 +115,7 @@ impl Matrix {
     }
 
     /// The same with only the cases that are asked for.
-    pub fn with_cases(&self, wanted: impl Fn(&Case) -> bool) -> Self {
+    pub(crate) fn with_cases(&self, wanted: impl Fn(&Case) -> bool) -> Self {
         let cases = self.cases.iter().filter(|case| wanted(case)).cloned().collect();
         Self { cases, ..self.clone() }
     }
@@ -152,7 +152,7 @@ impl Matrix {
     ///
     /// # Errors
     /// If there are none.
-    pub fn try_fault(&self, fault: &Fault) -> Result<Tried, NothingSelected> {
+    pub(crate) fn try_fault(&self, fault: &Fault) -> Result<Tried, NothingSelected> {
         let clock = Instant::now();
         let records = self.records(fault.name)?;
         let mut by: Vec<_> = failures(&records).map(|record| record.case.clone()).collect();

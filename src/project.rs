@@ -13,7 +13,7 @@ pub struct Project {
 #[error(
     "no folder `cases` here or above; run furnace inside its checkout, or set FURNACE_HOME to it"
 )]
-pub struct NoProject;
+pub(crate) struct NoProject;
 
 impl Project {
     /// The project at `root`.
@@ -26,7 +26,7 @@ impl Project {
     ///
     /// # Errors
     /// If there is none.
-    pub fn find() -> Result<Self, NoProject> {
+    pub(crate) fn find() -> Result<Self, NoProject> {
         if let Some(home) = std::env::var_os("FURNACE_HOME") {
             return Ok(Self::at(home));
         }
@@ -51,7 +51,7 @@ impl Project {
 
     /// What no core may read: what is asked, what is true, what was found, and where copies of that
     /// are kept.
-    pub fn secrets(&self) -> Vec<PathBuf> {
+    pub(crate) fn secrets(&self) -> Vec<PathBuf> {
         ["cases", "references", "reports", "suites", ".git"]
             .map(|folder| self.root.join(folder))
             .to_vec()

@@ -43,7 +43,7 @@ enum SceneEntry {
 ///
 /// # Errors
 /// A diagnostic that points at the line at fault.
-pub fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diagnostic> {
+pub(crate) fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diagnostic> {
     let head: Head = source.parse_toml()?;
     refuse_unknown_parts(source, &head.tags)?;
     let check = find_check(source, &head.check)?;

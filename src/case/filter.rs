@@ -29,7 +29,7 @@ pub struct NothingSelected {
 
 impl NothingSelected {
     /// By a word that is in none of these names.
-    pub fn by<'a>(word: &str, names: impl Iterator<Item = &'a str> + Clone) -> Self {
+    pub(crate) fn by<'a>(word: &str, names: impl Iterator<Item = &'a str> + Clone) -> Self {
         let last = word.rsplit('/').next().filter(|last| last.len() > 2);
         let longer = || names.clone().find(|name| last.is_some_and(|last| name.contains(last)));
         let hint = did_you_mean(word, names.clone())
@@ -43,7 +43,7 @@ impl NothingSelected {
 
 impl Filter {
     /// Reads words such as `bvh`, `@energy`, `3` (a part's number), `!@slow`.
-    pub fn new(words: &[String]) -> Self {
+    pub(crate) fn new(words: &[String]) -> Self {
         let mut filter = Self::default();
         for word in words {
             match word.strip_prefix('!') {
@@ -58,7 +58,7 @@ impl Filter {
     ///
     /// # Errors
     /// If there is none, or one of the words alone selects none: it is mistyped, or its case has another name now.
-    pub fn select<'a>(
+    pub(crate) fn select<'a>(
         &self,
         cases: &'a [Arc<Case>],
     ) -> Result<Vec<&'a Arc<Case>>, NothingSelected> {

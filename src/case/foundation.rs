@@ -64,7 +64,7 @@ pub enum Foundation {
 
 impl Foundation {
     /// As people read it.
-    pub const fn word(self) -> &'static str {
+    pub(crate) const fn word(self) -> &'static str {
         match self {
             Self::Seeds => "random numbers",
             Self::Camera => "camera rays",
@@ -94,7 +94,7 @@ impl Foundation {
 }
 
 /// What `case` rests on, in `scene` if it names one. Never what it proves itself, nor what comes later.
-pub fn foundations(case: &Case, scene: Option<&SceneDescription>) -> BTreeSet<Foundation> {
+pub(crate) fn foundations(case: &Case, scene: Option<&SceneDescription>) -> BTreeSet<Foundation> {
     let mut found: BTreeSet<_> = case.rests_on.iter().copied().collect();
     let needs = case.prepared.needs();
     if needs.intersects(Capabilities::RADIANCE | Capabilities::RENDER) {

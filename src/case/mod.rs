@@ -14,12 +14,12 @@ mod tier;
 
 pub use catalog::{CatalogError, load_all, load_one};
 pub use filter::{Filter, NothingSelected};
-pub use foundation::{Foundation, foundations};
-pub use next_step::{NextStep, next_steps};
-pub use part::{PARTS, Part, Subject};
-pub use role::Role;
-pub use scene_choice::SceneChoice;
-pub use tier::Tier;
+pub(crate) use foundation::{Foundation, foundations};
+pub(crate) use next_step::next_steps;
+pub(crate) use part::{PARTS, Part, Subject};
+pub(crate) use role::Role;
+pub(crate) use scene_choice::SceneChoice;
+pub(crate) use tier::Tier;
 
 use crate::checks::{CheckKind, Prepared};
 use std::fmt;
@@ -59,7 +59,7 @@ pub struct Case {
 
 impl Case {
     /// The part of a path tracer it is about.
-    pub fn part(&self) -> Option<&'static Part> {
+    pub(crate) fn part(&self) -> Option<&'static Part> {
         Part::of_case(&self.id)
     }
 }

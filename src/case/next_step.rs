@@ -7,15 +7,15 @@ use std::sync::Arc;
 
 /// Capabilities to implement together, and what that is worth.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NextStep {
+pub(crate) struct NextStep {
     /// What is missing.
-    pub missing: Capabilities,
+    pub(crate) missing: Capabilities,
     /// The cases that lack nothing else.
-    pub cases: Vec<String>,
+    pub(crate) cases: Vec<String>,
 }
 
 /// What is worth most for each capability comes first; each step supposes those before it.
-pub fn next_steps(cases: &[Arc<Case>], has: Capabilities) -> Vec<NextStep> {
+pub(crate) fn next_steps(cases: &[Arc<Case>], has: Capabilities) -> Vec<NextStep> {
     let lacking = |has| {
         let lacks = |case: &Arc<Case>| (case.id.clone(), case.prepared.missing(has));
         cases.iter().map(lacks).collect()

@@ -2,7 +2,7 @@
 
 /// What a case is about: its folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Subject {
+pub(crate) enum Subject {
     /// From film points to rays, from samples to pixels.
     Camera,
     /// Rays against triangles and spheres.
@@ -25,7 +25,7 @@ pub enum Subject {
 
 impl Subject {
     /// Every subject, in the order in which one rests on another.
-    pub const ALL: [Self; 9] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::Camera,
         Self::Shape,
         Self::Bvh,
@@ -38,7 +38,7 @@ impl Subject {
     ];
 
     /// The name of its folder.
-    pub const fn folder(self) -> &'static str {
+    pub(crate) const fn folder(self) -> &'static str {
         match self {
             Self::Camera => "camera",
             Self::Shape => "shape",
@@ -53,7 +53,7 @@ impl Subject {
     }
 
     /// What the case called `case` is about.
-    pub fn of_case(case: &str) -> Option<Self> {
+    pub(crate) fn of_case(case: &str) -> Option<Self> {
         let folder = case.split('/').next()?;
         Self::ALL.into_iter().find(|subject| subject.folder() == folder)
     }
@@ -61,7 +61,7 @@ impl Subject {
 
 /// A part of a path tracer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Part {
+pub(crate) struct Part {
     /// 1 to 5 as in the course; 6 is images as a whole.
     pub number: u32,
     /// As reports call it.
@@ -71,7 +71,7 @@ pub struct Part {
 }
 
 /// Every part, in the order in which one rests on another.
-pub static PARTS: &[Part] = &[
+pub(crate) static PARTS: &[Part] = &[
     Part {
         number: 1,
         title: "rays and intersections",
@@ -90,16 +90,16 @@ pub static PARTS: &[Part] = &[
 
 impl Part {
     /// The number of the part that builds and traverses the BVH.
-    pub const HIERARCHY: u32 = 2;
+    pub(crate) const HIERARCHY: u32 = 2;
 
     /// The part that a case belongs to, by its folder.
-    pub fn of_case(case: &str) -> Option<&'static Part> {
+    pub(crate) fn of_case(case: &str) -> Option<&'static Part> {
         let subject = Subject::of_case(case)?;
         PARTS.iter().find(|part| part.subjects.contains(&subject))
     }
 
     /// Where a case stands in the order of subjects.
-    pub fn position(case: &str) -> usize {
+    pub(crate) fn position(case: &str) -> usize {
         let subject = Subject::of_case(case);
         Subject::ALL.iter().position(|known| Some(*known) == subject).unwrap_or(usize::MAX)
     }

@@ -46,7 +46,8 @@ pub enum Role {
 
 impl Role {
     /// Every role.
-    pub const ALL: &[Self] = &[
+    #[cfg(test)]
+    pub(crate) const ALL: &[Self] = &[
         Self::Furnace,
         Self::FurnaceByHemisphere,
         Self::FurnaceUnderRoulette,

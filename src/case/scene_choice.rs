@@ -10,9 +10,9 @@ use toml::de::{DeTable, DeValue};
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneChoice {
     /// File name without `.toml`.
-    pub name: String,
+    pub(crate) name: String,
     /// Values instead of those in the scene's `[parameters]`.
-    pub parameters: toml::Table,
+    pub(crate) parameters: toml::Table,
     /// The case's file.
     pub(super) source: Source,
 }
@@ -22,7 +22,7 @@ impl SceneChoice {
     ///
     /// # Errors
     /// What is wrong with the choice points into the case, what is wrong with the scene into its own file.
-    pub fn load(&self, scenes: &Library) -> Result<Arc<SceneDescription>, SceneError> {
+    pub(crate) fn load(&self, scenes: &Library) -> Result<Arc<SceneDescription>, SceneError> {
         scenes.load(&self.name, &self.parameters).map_err(|error| self.blame(error))
     }
 

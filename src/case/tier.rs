@@ -19,7 +19,7 @@ pub enum Tier {
 
 impl Tier {
     /// As people read it.
-    pub const fn word(self) -> &'static str {
+    pub(crate) const fn word(self) -> &'static str {
         match self {
             Self::Graded => "graded",
             Self::Robustness => "robustness",

@@ -6,18 +6,18 @@
 //!
 //! To add one: an entry in the table of its subject.
 
-pub mod adaptive;
-pub mod bsdf;
-pub mod bvh;
-pub mod camera;
-pub mod contract;
-pub mod convention;
-pub mod image;
-pub mod integrator;
-pub mod light;
+pub(crate) mod adaptive;
+pub(crate) mod bsdf;
+pub(crate) mod bvh;
+pub(crate) mod camera;
+pub(crate) mod contract;
+pub(crate) mod convention;
+pub(crate) mod image;
+pub(crate) mod integrator;
+pub(crate) mod light;
 mod renamed;
-pub mod sampling;
-pub mod shape;
+pub(crate) mod sampling;
+pub(crate) mod shape;
 
 /// A mistake that people make in path tracers.
 #[derive(Debug, PartialEq, Eq)]
@@ -37,18 +37,18 @@ macro_rules! causes {
     ($($name:ident = $slug:literal: $headline:literal, at $look_at:expr, fix $fix:expr;)*) => {
         $(
             #[doc = $headline]
-            pub static $name: Cause =
+            pub(crate) static $name: Cause =
                 Cause { name: $slug, headline: $headline, look_at: $look_at, fix: $fix };
         )*
 
         /// Every cause of this subject.
-        pub static CAUSES: &[&Cause] = &[$(&$name),*];
+        pub(crate) static CAUSES: &[&Cause] = &[$(&$name),*];
     };
 }
 use causes;
 
 /// Every cause, subject by subject, in the order in which one part rests on another.
-pub fn all() -> impl Iterator<Item = &'static Cause> {
+pub(crate) fn all() -> impl Iterator<Item = &'static Cause> {
     let subjects = [
         convention::CAUSES,
         camera::CAUSES,
@@ -66,17 +66,17 @@ pub fn all() -> impl Iterator<Item = &'static Cause> {
 }
 
 /// Whether the mistake is one of the BVH: closed surfaces leak by it, though every triangle is hit.
-pub fn is_of_hierarchy(cause: &Cause) -> bool {
+pub(crate) fn is_of_hierarchy(cause: &Cause) -> bool {
     bvh::CAUSES.contains(&cause)
 }
 
 /// Whether the cause says what is lost and not why: any other of its kind explains more.
-pub fn is_vague(cause: &Cause) -> bool {
+pub(crate) fn is_vague(cause: &Cause) -> bool {
     *cause == bvh::HITS_LOST
 }
 
 /// The cause called `name`, today or before it was renamed.
-pub fn find(name: &str) -> Option<&'static Cause> {
+pub(crate) fn find(name: &str) -> Option<&'static Cause> {
     let name = renamed::current(name);
     all().find(|cause| cause.name == name)
 }

@@ -8,7 +8,7 @@ fn pairs() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 /// What the cause once called `old` is called now; any other name is its own.
-pub fn current(old: &str) -> &str {
+pub(crate) fn current(old: &str) -> &str {
     pairs().find(|(before, _)| *before == old).map_or(old, |(_, now)| now)
 }
 

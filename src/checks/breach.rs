@@ -4,7 +4,7 @@ use crate::cause::{Cause, camera, contract, shape};
 use crate::contract::{Breach, BreachKind};
 
 /// The mistake that a breach of the contract is, if its kind says so.
-pub fn cause_of(breach: &Breach) -> Option<&'static Cause> {
+pub(crate) fn cause_of(breach: &Breach) -> Option<&'static Cause> {
     let cause = match (breach.element(), breach.field.as_ref(), &breach.kind) {
         ("ray", "direction", BreachKind::NotUnit(_)) => &camera::DIRECTION_NOT_UNIT,
         (_, "geometric_normal" | "shading_normal", BreachKind::NotUnit(_)) => {

@@ -12,27 +12,27 @@ use std::sync::Arc;
 /// What a check is handed.
 pub struct Context<'a> {
     /// The core under test; its answers already have the contract's form.
-    pub core: &'a mut dyn Core,
+    pub(crate) core: &'a mut dyn Core,
     /// Who the core is, what it can do and which conventions it declares.
-    pub info: CoreInfo,
+    pub(crate) info: CoreInfo,
     /// The scene that the case names, if it names one.
-    pub scene: Option<Arc<SceneDescription>>,
+    pub(crate) scene: Option<Arc<SceneDescription>>,
     /// All scenes, for checks that name their own.
-    pub scenes: &'a Library,
+    pub(crate) scenes: &'a Library,
     /// The folder of references.
-    pub references: &'a Path,
+    pub(crate) references: &'a Path,
     /// Seed of the trial: the same for every core, so that a core gets the same verdict on every machine.
-    pub seed: Seed,
+    pub(crate) seed: Seed,
     /// How much may be spent, and so how small an error is looked for; and whether a gross one may
     /// end the trial early.
-    pub budget: Allowance,
+    pub(crate) budget: Allowance,
     /// Pictures for the report.
-    pub pictures: Vec<Picture>,
+    pub(crate) pictures: Vec<Picture>,
 }
 
 impl Context<'_> {
     /// How small an error must be seen, in at most so many samples: both under the budget.
-    pub fn effort(&self, detects: Percent, at_most: Count) -> Effort {
+    pub(crate) fn effort(&self, detects: Percent, at_most: Count) -> Effort {
         self.budget.scale(Effort::new(detects.0).with_most_samples(at_most.0))
     }
 
@@ -40,14 +40,14 @@ impl Context<'_> {
     ///
     /// # Errors
     /// [`CheckError::Broken`] if it names none.
-    pub fn scene(&self) -> Result<Arc<SceneDescription>, CheckError> {
+    pub(crate) fn scene(&self) -> Result<Arc<SceneDescription>, CheckError> {
         self.scene.clone().ok_or_else(|| {
             CheckError::Broken("the case names no scene; add `scene = \"…\"`".to_owned())
         })
     }
 
     /// Keeps a picture for the report.
-    pub fn show(&mut self, role: PictureRole, caption: impl Into<String>, image: Image) {
+    pub(crate) fn show(&mut self, role: PictureRole, caption: impl Into<String>, image: Image) {
         self.pictures.push(Picture { role, caption: caption.into(), image });
     }
 }
@@ -56,7 +56,7 @@ impl Context<'_> {
 ///
 /// # Errors
 /// [`CheckError::Broken`] if it has none.
-pub fn camera_of(scene: &SceneDescription) -> Result<Camera, CheckError> {
+pub(crate) fn camera_of(scene: &SceneDescription) -> Result<Camera, CheckError> {
     scene
         .camera
         .ok_or_else(|| CheckError::Broken(format!("scene `{}` has no `[camera]`", scene.name)))
@@ -66,11 +66,11 @@ pub fn camera_of(scene: &SceneDescription) -> Result<Camera, CheckError> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// What it shows.
-    pub role: PictureRole,
+    pub(crate) role: PictureRole,
     /// A few words below it.
-    pub caption: String,
+    pub(crate) caption: String,
     /// Linear RGB radiance.
-    pub image: Image,
+    pub(crate) image: Image,
 }
 
 /// What a picture shows, so that the report knows how to draw it.

@@ -14,35 +14,35 @@ use glam::{DVec2, DVec3};
 
 /// See the module. A question that a test does not expect ends it.
 #[expect(clippy::type_complexity, reason = "each closure's type is the signature of its question")]
-pub struct Fake {
+pub(crate) struct Fake {
     /// It can do everything, in double precision.
-    pub info: CoreInfo,
+    pub(crate) info: CoreInfo,
     /// A camera ray through a film point.
-    pub ray: Box<dyn FnMut(&Camera, DVec2) -> Ray + Send>,
+    pub(crate) ray: Box<dyn FnMut(&Camera, DVec2) -> Ray + Send>,
     /// A hit of a primitive; right by default.
-    pub primitive: Box<dyn FnMut(&Primitive, &Ray) -> Option<Answer> + Send>,
+    pub(crate) primitive: Box<dyn FnMut(&Primitive, &Ray) -> Option<Answer> + Send>,
     /// A hit of a box.
-    pub bounds: Box<dyn FnMut(&Aabb, &Ray) -> BoxHit + Send>,
+    pub(crate) bounds: Box<dyn FnMut(&Aabb, &Ray) -> BoxHit + Send>,
     /// The sample of this number in a batch.
-    pub direction: Box<dyn FnMut(&Randomness<'_>, usize) -> DirectionSample + Send>,
+    pub(crate) direction: Box<dyn FnMut(&Randomness<'_>, usize) -> DirectionSample + Send>,
     /// The density of a direction.
-    pub pdf: Box<dyn FnMut(DVec3) -> f64 + Send>,
+    pub(crate) pdf: Box<dyn FnMut(DVec3) -> f64 + Send>,
     /// A BSDF and its density.
-    pub value: Box<dyn FnMut(&Material, &BsdfQuery) -> BsdfValue + Send>,
+    pub(crate) value: Box<dyn FnMut(&Material, &BsdfQuery) -> BsdfValue + Send>,
     /// A sample of a BSDF for a view and three random numbers.
-    pub sample: Box<dyn FnMut(&Material, DVec3, DVec2, f64) -> BsdfSample + Send>,
+    pub(crate) sample: Box<dyn FnMut(&Material, DVec3, DVec2, f64) -> BsdfSample + Send>,
     /// Where a stream of samples stops.
-    pub mean: Box<dyn FnMut(AdaptiveSettings, &[f64]) -> AdaptiveMean + Send>,
+    pub(crate) mean: Box<dyn FnMut(AdaptiveSettings, &[f64]) -> AdaptiveMean + Send>,
     /// The size of a hierarchy.
-    pub stats: BuildStats,
+    pub(crate) stats: BuildStats,
     /// The closest hit in the scene.
-    pub hit: Box<dyn FnMut(&Ray) -> Hit + Send>,
+    pub(crate) hit: Box<dyn FnMut(&Ray) -> Hit + Send>,
     /// A sample of a light from a point, for two random numbers.
-    pub light: Box<dyn FnMut(DVec3, DVec2) -> LightSample + Send>,
+    pub(crate) light: Box<dyn FnMut(DVec3, DVec2) -> LightSample + Send>,
     /// An estimate of radiance, the same in every channel, whatever the ray.
-    pub radiance: Box<dyn FnMut(&mut Stream, &IntegratorSettings) -> f64 + Send>,
+    pub(crate) radiance: Box<dyn FnMut(&mut Stream, &IntegratorSettings) -> f64 + Send>,
     /// A picture.
-    pub film: Box<dyn FnMut(&RenderSettings, &mut Film) + Send>,
+    pub(crate) film: Box<dyn FnMut(&RenderSettings, &mut Film) + Send>,
 }
 
 impl Default for Fake {
@@ -68,14 +68,14 @@ impl Default for Fake {
 
 impl Fake {
     /// One that intersects primitives by this formula.
-    pub fn intersecting(
+    pub(crate) fn intersecting(
         formula: impl FnMut(&Primitive, &Ray) -> Option<Answer> + Send + 'static,
     ) -> Self {
         Self { primitive: Box::new(formula), ..Self::default() }
     }
 
     /// One whose estimates are drawn so.
-    pub fn drawing(
+    pub(crate) fn drawing(
         draw: impl FnMut(&mut Stream, &IntegratorSettings) -> f64 + Send + 'static,
     ) -> Self {
         Self { radiance: Box::new(draw), ..Self::default() }

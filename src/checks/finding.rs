@@ -73,7 +73,12 @@ pub struct Measure {
 
 impl Measure {
     /// A deterministic measure: passes if it is within `allowed` of `expected`; NaN fails.
-    pub fn exact(quantity: impl Display, measured: f64, expected: f64, allowed: f64) -> Self {
+    pub(crate) fn exact(
+        quantity: impl Display,
+        measured: f64,
+        expected: f64,
+        allowed: f64,
+    ) -> Self {
         let passes = (measured - expected).abs() <= allowed;
         Self {
             row: String::new(),
@@ -91,12 +96,12 @@ impl Measure {
     }
 
     /// A count of what there must not be.
-    pub fn none(quantity: impl Display, found: usize) -> Self {
+    pub(crate) fn none(quantity: impl Display, found: usize) -> Self {
         Self::exact(quantity, found as f64, 0.0, 0.0)
     }
 
     /// A measure without noise that only has to stay below a limit. NaN fails.
-    pub fn at_most(quantity: impl Display, measured: f64, limit: f64) -> Self {
+    pub(crate) fn at_most(quantity: impl Display, measured: f64, limit: f64) -> Self {
         Self {
             verdict: Verdict::pass_if(measured <= limit),
             resolution: None,
@@ -105,7 +110,7 @@ impl Measure {
     }
 
     /// What a test says of the number it judged.
-    pub fn of(quantity: impl Display, report: &impl Report) -> Self {
+    pub(crate) fn of(quantity: impl Display, report: &impl Report) -> Self {
         let judgement = report.judgement();
         Self {
             interval: judgement.interval,
@@ -117,13 +122,13 @@ impl Measure {
     }
 
     /// The same of each channel of a colour.
-    pub fn of_channels(quantity: &str, reports: &[impl Report]) -> Vec<Self> {
+    pub(crate) fn of_channels(quantity: &str, reports: &[impl Report]) -> Vec<Self> {
         let pairs = reports.iter().zip(CHANNELS);
         pairs.map(|(report, channel)| Self::of(quantity, report).of_channel(channel)).collect()
     }
 
     /// The worst element of a comparison. Of many, it says which it was, counted from 1.
-    pub fn worst(quantity: impl Display, report: &ExactReport) -> Self {
+    pub(crate) fn worst(quantity: impl Display, report: &ExactReport) -> Self {
         match (report.compared, report.worst) {
             (all @ 2.., Some(worst)) => {
                 Self::of(format!("{quantity}, worst of {all} (number {})", worst.index + 1), report)
@@ -133,17 +138,17 @@ impl Measure {
     }
 
     /// The same of a row.
-    pub fn of_row(self, row: impl Display) -> Self {
+    pub(crate) fn of_row(self, row: impl Display) -> Self {
         Self { row: row.to_string(), ..self }
     }
 
     /// The same of a channel.
-    pub fn of_channel(self, channel: Channel) -> Self {
+    pub(crate) fn of_channel(self, channel: Channel) -> Self {
         Self { channel: Some(channel), ..self }
     }
 
     /// The same, shown and not graded.
-    pub fn not_graded(self) -> Self {
+    pub(crate) fn not_graded(self) -> Self {
         Self { verdict: Verdict::Pass, ..self }
     }
 
@@ -158,12 +163,12 @@ impl Measure {
     }
 
     /// Whether the core is wrong in it.
-    pub fn failed(&self) -> bool {
+    pub(crate) fn failed(&self) -> bool {
         self.verdict == Verdict::Fail
     }
 
     /// The same with a unit.
-    pub fn in_unit(mut self, unit: &str) -> Self {
+    pub(crate) fn in_unit(mut self, unit: &str) -> Self {
         unit.clone_into(&mut self.unit);
         self
     }
@@ -171,7 +176,7 @@ impl Measure {
 
 impl Finding {
     /// A finding of some measures: its verdict is the worst of theirs; none at all is inconclusive.
-    pub fn of(
+    pub(crate) fn of(
         statement: impl Into<String>,
         resolution: impl Into<String>,
         measures: Vec<Measure>,
@@ -188,7 +193,7 @@ impl Finding {
 
     /// A finding of some measures that would have caught what the weakest of them resolves:
     /// `would have caught an error of 0.42 %`. It says nothing where none has a resolution.
-    pub fn measured(
+    pub(crate) fn measured(
         statement: impl Into<String>,
         measures: impl IntoIterator<Item = Measure>,
     ) -> Self {
@@ -199,13 +204,13 @@ impl Finding {
     }
 
     /// The same, which says of what the error would have been: ` of a density, root mean square`.
-    pub fn in_terms(mut self, of: &str) -> Self {
+    pub(crate) fn in_terms(mut self, of: &str) -> Self {
         self.resolution += of;
         self
     }
 
     /// The same, which would have caught this where no measure has a resolution.
-    pub fn or_else_caught(mut self, caught: impl Into<String>) -> Self {
+    pub(crate) fn or_else_caught(mut self, caught: impl Into<String>) -> Self {
         if self.resolution.is_empty() {
             self.resolution = caught.into();
         }
@@ -213,7 +218,7 @@ impl Finding {
     }
 
     /// The same with what is wrong for a statement, if anything is.
-    pub fn complaining(mut self, complaints: impl IntoIterator<Item = String>) -> Self {
+    pub(crate) fn complaining(mut self, complaints: impl IntoIterator<Item = String>) -> Self {
         let complaints: Vec<_> = complaints.into_iter().collect();
         if !complaints.is_empty() {
             self.statement = complaints.join("; ");
@@ -222,7 +227,7 @@ impl Finding {
     }
 
     /// A failure with nothing to measure: the core's answer itself is wrong.
-    pub fn failure(statement: impl Into<String>) -> Self {
+    pub(crate) fn failure(statement: impl Into<String>) -> Self {
         Self {
             verdict: Verdict::Fail,
             statement: statement.into(),
@@ -233,13 +238,13 @@ impl Finding {
     }
 
     /// Adds a mistake that would have given just these answers, less likely than those added before.
-    pub fn because(mut self, cause: &Cause, evidence: impl Into<String>) -> Self {
+    pub(crate) fn because(mut self, cause: &Cause, evidence: impl Into<String>) -> Self {
         self.clues.push(Clue { cause: cause.name.to_owned(), evidence: evidence.into() });
         self
     }
 
     /// Adds mistakes with what speaks for each of them, the likeliest first.
-    pub fn because_of<'a, Evidence: Into<String>>(
+    pub(crate) fn because_of<'a, Evidence: Into<String>>(
         self,
         causes: impl IntoIterator<Item = (&'a Cause, Evidence)>,
     ) -> Self {
@@ -247,7 +252,7 @@ impl Finding {
     }
 
     /// Adds mistakes that all would have given just these answers, and that nothing here tells apart.
-    pub fn because_each<'a>(
+    pub(crate) fn because_each<'a>(
         self,
         causes: impl IntoIterator<Item = &'a Cause>,
         evidence: &str,
@@ -256,28 +261,28 @@ impl Finding {
     }
 
     /// Whether the core is wrong.
-    pub fn failed(&self) -> bool {
+    pub(crate) fn failed(&self) -> bool {
         self.verdict == Verdict::Fail
     }
 
     /// The tests that could have failed by chance.
-    pub fn hypotheses(&self) -> impl Iterator<Item = Hypothesis> {
+    pub(crate) fn hypotheses(&self) -> impl Iterator<Item = Hypothesis> {
         self.measures.iter().filter_map(|measure| measure.hypothesis)
     }
 
     /// The probability that a correct core fails it, at most.
-    pub fn false_alarm(&self) -> f64 {
+    pub(crate) fn false_alarm(&self) -> f64 {
         self.hypotheses().map(|hypothesis| hypothesis.false_alarm).sum()
     }
 
     /// The measures that did not pass.
-    pub fn failed_measures(&self) -> impl Iterator<Item = &Measure> {
+    pub(crate) fn failed_measures(&self) -> impl Iterator<Item = &Measure> {
         self.measures.iter().filter(|measure| measure.failed())
     }
 }
 
 /// Numbers in JSON, where NaN and the infinities have no literal: they are written as words.
-pub mod number {
+pub(crate) mod number {
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
     #[derive(Deserialize)]
@@ -291,7 +296,7 @@ pub mod number {
     ///
     /// # Errors
     /// Those of the serializer.
-    pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    pub(crate) fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
         if value.is_finite() {
             serializer.serialize_f64(*value)
         } else {
@@ -303,7 +308,7 @@ pub mod number {
     ///
     /// # Errors
     /// If it is neither a number nor `NaN`, `inf` or `-inf`.
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
         match Written::deserialize(deserializer)? {
             Written::Number(value) => Ok(value),
             Written::Word(word) if ["NaN", "inf", "-inf"].contains(&word.as_str()) => {
@@ -316,7 +321,7 @@ pub mod number {
     }
 
     /// The same for both ends of an interval, where there is one.
-    pub mod interval {
+    pub(crate) mod interval {
         use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
         #[derive(Serialize, Deserialize)]
@@ -326,7 +331,7 @@ pub mod number {
         ///
         /// # Errors
         /// Those of the serializer.
-        pub fn serialize<S: Serializer>(
+        pub(crate) fn serialize<S: Serializer>(
             value: &Option<[f64; 2]>,
             serializer: S,
         ) -> Result<S::Ok, S::Error> {
@@ -337,7 +342,7 @@ pub mod number {
         ///
         /// # Errors
         /// If it is not a pair of numbers.
-        pub fn deserialize<'de, D: Deserializer<'de>>(
+        pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
             deserializer: D,
         ) -> Result<Option<[f64; 2]>, D::Error> {
             let ends = Option::<[End; 2]>::deserialize(deserializer)?;

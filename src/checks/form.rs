@@ -12,37 +12,37 @@ const FEWEST: usize = 20;
 
 /// `constant` · cosᵖ θ.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Form {
+pub(crate) struct Form {
     /// In the middle of all values.
-    pub constant: f64,
+    pub(crate) constant: f64,
     /// p.
-    pub power: i32,
+    pub(crate) power: i32,
 }
 
 impl Form {
     /// The same everywhere.
-    pub const fn constant(constant: f64) -> Self {
+    pub(crate) const fn constant(constant: f64) -> Self {
         Self { constant, power: 0 }
     }
 
     /// The density of uniform directions of the hemisphere.
-    pub const UNIFORM: Self = Self::constant(0.5 * FRAC_1_PI);
+    pub(crate) const UNIFORM: Self = Self::constant(0.5 * FRAC_1_PI);
     /// The density of cosine-distributed directions.
-    pub const COSINE: Self = Self { constant: FRAC_1_PI, power: 1 };
+    pub(crate) const COSINE: Self = Self { constant: FRAC_1_PI, power: 1 };
 
     /// The form of these values, each at its cosine, if they have one.
-    pub fn of(values: &[(f64, f64)]) -> Option<Self> {
+    pub(crate) fn of(values: &[(f64, f64)]) -> Option<Self> {
         let form = |power| Some(Self { constant: constant_of(values, power)?, power });
         POWERS.into_iter().find_map(form)
     }
 
     /// Whether it is the other one but for noise.
-    pub fn is_like(self, other: Self) -> bool {
+    pub(crate) fn is_like(self, other: Self) -> bool {
         self.power == other.power && self.is_times(1.0, other)
     }
 
     /// Whether it is the other one times `factor`.
-    pub fn is_times(self, factor: f64, other: Self) -> bool {
+    pub(crate) fn is_times(self, factor: f64, other: Self) -> bool {
         let ratio = self.constant / (factor * other.constant);
         self.power == other.power && (ratio - 1.0).abs() <= SPREAD
     }

@@ -5,38 +5,38 @@
 //! trial's seed; it leaves every verdict to [`crate::stats`]. To add one: write the file, and its lines
 //! in the `mod.rs` of its subject.
 
-pub mod adaptive;
-pub mod breach;
-pub mod bsdf;
-pub mod bvh;
-pub mod camera;
+pub(crate) mod adaptive;
+pub(crate) mod breach;
+pub(crate) mod bsdf;
+pub(crate) mod bvh;
+pub(crate) mod camera;
 mod context;
 #[cfg(test)]
 mod fake;
 mod finding;
 mod form;
-pub mod image;
-pub mod integrator;
-pub mod light;
+pub(crate) mod image;
+pub(crate) mod integrator;
+pub(crate) mod light;
 mod numbers;
 mod oracle;
 mod phrase;
 mod rendering;
-pub mod sampling;
-pub mod shape;
+pub(crate) mod sampling;
+pub(crate) mod shape;
 mod surface;
 #[cfg(test)]
 mod testing;
 
-pub use context::{CheckError, Context, Picture, PictureRole, camera_of};
-pub use finding::{Clue, Finding, Measure, number};
+pub(crate) use context::{CheckError, Context, Picture, PictureRole, camera_of};
+pub(crate) use finding::{Finding, Measure};
 
 use crate::contract::Capabilities;
 use crate::text::{TomlError, read_key};
 use serde::de::DeserializeOwned;
 
 /// A way to judge a core. The struct that implements it is the `[expect]` of its cases.
-pub trait Check: DeserializeOwned + Send + Sync + 'static {
+pub(crate) trait Check: DeserializeOwned + Send + Sync + 'static {
     /// The word in `check = "…"`.
     const NAME: &'static str;
     /// One line for `furnace list checks`.
@@ -111,7 +111,7 @@ impl<C: Check> Prepared for C {
 
 /// Why a case's text did not become a check.
 #[derive(Debug)]
-pub enum PrepareError {
+pub(crate) enum PrepareError {
     /// The `[expect]` table is not what the check wants; carries the place in the text.
     Toml(TomlError),
     /// The values make no sense together.
@@ -121,16 +121,16 @@ pub enum PrepareError {
 /// A line of the `CHECKS` of a subject.
 pub struct CheckKind {
     /// The word in `check = "…"`.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// One line for `furnace list checks`.
-    pub summary: &'static str,
+    pub(crate) summary: &'static str,
     /// Reads the `[expect]` table out of the whole text of a case, so that errors know their line.
-    pub prepare: fn(&str) -> Result<Box<dyn Prepared>, PrepareError>,
+    pub(crate) prepare: fn(&str) -> Result<Box<dyn Prepared>, PrepareError>,
 }
 
 impl CheckKind {
     /// The line for check `C`.
-    pub const fn of<C: Check>() -> Self {
+    pub(crate) const fn of<C: Check>() -> Self {
         Self { name: C::NAME, summary: C::SUMMARY, prepare: prepare::<C> }
     }
 }
@@ -142,7 +142,7 @@ fn prepare<C: Check>(text: &str) -> Result<Box<dyn Prepared>, PrepareError> {
 }
 
 /// Every check there is, subject by subject.
-pub fn all() -> impl Iterator<Item = &'static CheckKind> {
+pub(crate) fn all() -> impl Iterator<Item = &'static CheckKind> {
     [
         camera::CHECKS,
         shape::CHECKS,
@@ -159,12 +159,12 @@ pub fn all() -> impl Iterator<Item = &'static CheckKind> {
 }
 
 /// Words of old cases, each with the check that judges so now.
-pub static RENAMED: &[(&str, &str)] = &[
+pub(crate) static RENAMED: &[(&str, &str)] = &[
     ("divides-long-scenes", "tests-per-ray"), // arrangement = "long-boxes"
     ("stops-behind-hits", "tests-per-ray"),   // arrangement = "layers"
 ];
 
 /// The check called `name`.
-pub fn find(name: &str) -> Option<&'static CheckKind> {
+pub(crate) fn find(name: &str) -> Option<&'static CheckKind> {
     all().find(|kind| kind.name == name)
 }

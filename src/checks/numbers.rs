@@ -6,18 +6,18 @@ use glam::DVec2;
 
 /// Numbers for one batch, drawn from one seed.
 #[derive(Clone)]
-pub struct Numbers {
+pub(crate) struct Numbers {
     /// Two for each sample.
-    pub points: Vec<DVec2>,
+    pub(crate) points: Vec<DVec2>,
     /// One for each sample.
-    pub lobes: Vec<f64>,
+    pub(crate) lobes: Vec<f64>,
     /// For cores that draw their own.
-    pub seed: Seed,
+    pub(crate) seed: Seed,
 }
 
 impl Numbers {
     /// Draws the numbers of `count` samples.
-    pub fn new(seed: Seed, count: usize) -> Self {
+    pub(crate) fn new(seed: Seed, count: usize) -> Self {
         let stream = &mut seed.stream();
         let points = (0..count).map(|_| DVec2::new(uniform(stream), uniform(stream))).collect();
         let lobes = (0..count).map(|_| uniform(stream)).collect();
@@ -25,7 +25,7 @@ impl Numbers {
     }
 
     /// As a core is handed them.
-    pub fn randomness(&self) -> Randomness<'_> {
+    pub(crate) fn randomness(&self) -> Randomness<'_> {
         Randomness { points: &self.points, lobes: &self.lobes, seed: self.seed.0 }
     }
 }

@@ -7,17 +7,17 @@ use crate::scene::{SceneDescription, Shape};
 
 /// What a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Met {
+pub(crate) struct Met {
     /// Number of the shape in the scene.
-    pub shape: u32,
+    pub(crate) shape: u32,
     /// Number of the triangle in its mesh, 0 for a sphere.
-    pub primitive: u32,
+    pub(crate) primitive: u32,
     /// Where, and the normals there; those of an inward sphere point inward.
-    pub answer: Answer,
+    pub(crate) answer: Answer,
 }
 
 /// The nearest hit on the segment of `ray`.
-pub fn nearest(scene: &SceneDescription, ray: &Ray) -> Option<Met> {
+pub(crate) fn nearest(scene: &SceneDescription, ray: &Ray) -> Option<Met> {
     let mut ray = *ray;
     let mut met = None;
     for (shape, primitive, geometry) in primitives(scene) {

@@ -3,15 +3,15 @@
 use super::Measure;
 use crate::text::number::{ratio, with_interval};
 
-pub use crate::text::number::{degrees, figure, percent};
+pub(crate) use crate::text::number::{degrees, figure, percent};
 
 /// `12 of 53 rays are`, `1 of 53 rays is`: the beginning of most failing statements.
-pub fn some_are(some: usize, all: usize, noun: &str) -> String {
+pub(crate) fn some_are(some: usize, all: usize, noun: &str) -> String {
     format!("{some} of {all} {noun} {}", if some == 1 { "is" } else { "are" })
 }
 
 /// `0.318 (99.9 % CI 0.316 to 0.320)`: what was measured over what it should be.
-pub fn ratio_of(measure: &Measure) -> String {
+pub(crate) fn ratio_of(measure: &Measure) -> String {
     let over = |value: f64| value / measure.expected;
     match measure.interval {
         Some(ends) => with_interval(over(measure.measured), ends.map(over)),

@@ -7,7 +7,7 @@ use crate::contract::{
 use crate::scene::{Camera, SceneDescription};
 
 /// Everything about a picture but its seed.
-pub struct Rendering {
+pub(crate) struct Rendering {
     camera: Camera,
     settings: RenderSettings,
 }
@@ -17,7 +17,7 @@ impl Rendering {
     ///
     /// # Errors
     /// If it has none.
-    pub fn of(
+    pub(crate) fn of(
         scene: &SceneDescription,
         size: [u32; 2],
         bounces: [u32; 2],
@@ -27,7 +27,7 @@ impl Rendering {
     }
 
     /// A picture from another camera.
-    pub fn through(
+    pub(crate) fn through(
         camera: Camera,
         size: [u32; 2],
         bounces: [u32; 2],
@@ -47,19 +47,19 @@ impl Rendering {
     }
 
     /// The same with another way to sample direct light.
-    pub fn by(mut self, direct: DirectSampling) -> Self {
+    pub(crate) fn by(mut self, direct: DirectSampling) -> Self {
         self.settings.integrator.direct = direct;
         self
     }
 
     /// The same where each pixel stops by itself, at the samples asked for at the latest.
-    pub fn adaptive(mut self, settings: AdaptiveSettings) -> Self {
+    pub(crate) fn adaptive(mut self, settings: AdaptiveSettings) -> Self {
         self.settings.adaptive = Some(settings);
         self
     }
 
     /// The same with one sample in each cell of a grid over the pixel.
-    pub fn stratified(mut self) -> Self {
+    pub(crate) fn stratified(mut self) -> Self {
         self.settings.stratified = true;
         self
     }
@@ -68,7 +68,7 @@ impl Rendering {
     ///
     /// # Errors
     /// If the core does not render.
-    pub fn film(
+    pub(crate) fn film(
         &self,
         scene: &mut dyn BuiltScene,
         seed: u64,

@@ -14,7 +14,7 @@ use std::fmt;
 /// A surface that does not glow.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub enum SurfaceEntry {
+pub(crate) enum SurfaceEntry {
     /// Reflectance.
     Diffuse(Reflectance),
     /// Reflectance.
@@ -30,41 +30,41 @@ pub enum SurfaceEntry {
 /// `{ index = 1.5, reflectance = 0.8, transmittance = 0.9 }`
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct GlassEntry {
+pub(crate) struct GlassEntry {
     /// Inside; outside is vacuum.
-    pub index: Positive,
+    pub(crate) index: Positive,
     /// Multiplies what is reflected.
     #[serde(default = "white")]
-    pub reflectance: Reflectance,
+    pub(crate) reflectance: Reflectance,
     /// Multiplies what is let through.
     #[serde(default = "white")]
-    pub transmittance: Reflectance,
+    pub(crate) transmittance: Reflectance,
 }
 
 /// `{ reflectance = 1, roughness = 0.3 }`
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ConductorEntry {
+pub(crate) struct ConductorEntry {
     /// Of a single facet.
-    pub reflectance: Reflectance,
+    pub(crate) reflectance: Reflectance,
     /// The width parameter α.
-    pub roughness: Roughness,
+    pub(crate) roughness: Roughness,
 }
 
 /// `{ index = 1.5, roughness = 0.3, reflectance = 0.8, transmittance = 0.9 }`
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct RoughGlassEntry {
+pub(crate) struct RoughGlassEntry {
     /// Inside; outside is vacuum.
-    pub index: Bending,
+    pub(crate) index: Bending,
     /// The width parameter α.
-    pub roughness: Roughness,
+    pub(crate) roughness: Roughness,
     /// Multiplies what is reflected.
     #[serde(default = "white")]
-    pub reflectance: Reflectance,
+    pub(crate) reflectance: Reflectance,
     /// Multiplies what is let through.
     #[serde(default = "white")]
-    pub transmittance: Reflectance,
+    pub(crate) transmittance: Reflectance,
 }
 
 const fn white() -> Reflectance {
@@ -73,7 +73,7 @@ const fn white() -> Reflectance {
 
 impl SurfaceEntry {
     /// As a core is asked for it.
-    pub fn material(self) -> Material {
+    pub(crate) fn material(self) -> Material {
         let surface = match self {
             Self::Diffuse(Reflectance(reflectance)) => Surface::Diffuse { reflectance },
             Self::Mirror(Reflectance(reflectance)) => Surface::Mirror { reflectance },
@@ -95,7 +95,7 @@ impl SurfaceEntry {
     }
 
     /// What a core has to know of besides.
-    pub const fn needs(self) -> Capabilities {
+    pub(crate) const fn needs(self) -> Capabilities {
         match self {
             Self::RoughGlass(_) => Capabilities::ROUGH_GLASS,
             _ => Capabilities::empty(),
@@ -103,22 +103,22 @@ impl SurfaceEntry {
     }
 
     /// What all of `surfaces` need.
-    pub fn all_need(surfaces: &[Self]) -> Capabilities {
+    pub(crate) fn all_need(surfaces: &[Self]) -> Capabilities {
         surfaces.iter().fold(Capabilities::empty(), |all, surface| all | surface.needs())
     }
 
     /// Whether light passes, so that samples may lie on either side, and viewers too.
-    pub fn lets_pass(self) -> bool {
+    pub(crate) fn lets_pass(self) -> bool {
         lets_pass(&self.material().surface)
     }
 
     /// A random direction from which light may come to it, or where a viewer may be.
-    pub fn direction(self, stream: &mut Stream) -> DVec3 {
+    pub(crate) fn direction(self, stream: &mut Stream) -> DVec3 {
         if self.lets_pass() { on_sphere(stream) } else { on_hemisphere(stream) }
     }
 
     /// Whether a core evaluates it as zero everywhere.
-    pub const fn is_delta(self) -> bool {
+    pub(crate) const fn is_delta(self) -> bool {
         matches!(self, Self::Mirror(_) | Self::Glass(_))
     }
 }
@@ -143,7 +143,7 @@ impl fmt::Display for SurfaceEntry {
 ///
 /// # Errors
 /// If it does not answer.
-pub fn evaluated(
+pub(crate) fn evaluated(
     core: &mut dyn Core,
     material: &Material,
     queries: &[BsdfQuery],
@@ -154,13 +154,13 @@ pub fn evaluated(
 }
 
 /// Whether light that is scattered to one side may come from the other.
-pub const fn lets_pass(surface: &Surface) -> bool {
+pub(crate) const fn lets_pass(surface: &Surface) -> bool {
     matches!(surface, Surface::RoughGlass { .. })
 }
 
 /// The height at which f and its density may jump, seen from this angle: rough glass refracts by facets that face
 /// the side of the normal, and where the half vector has just turned over there are none.
-pub fn kink(surface: &Surface, angle: f64) -> Option<f64> {
+pub(crate) fn kink(surface: &Surface, angle: f64) -> Option<f64> {
     match surface {
         Surface::RoughGlass { index, .. } if angle.cos() > 0.0 => Some(-angle.cos() / index),
         Surface::RoughGlass { index, .. } => Some(-angle.cos() * index),
@@ -169,7 +169,7 @@ pub fn kink(surface: &Surface, angle: f64) -> Option<f64> {
 }
 
 /// The direction at this angle from the normal, turned to an azimuth that is no multiple of anything.
-pub fn seen_from(angle: f64) -> DVec3 {
+pub(crate) fn seen_from(angle: f64) -> DVec3 {
     const AZIMUTH: f64 = 0.7;
     crate::math::frame::direction(angle, AZIMUTH)
 }

@@ -14,14 +14,14 @@ use std::sync::Arc;
 ///
 /// # Panics
 /// If the text is not what the check wants.
-pub fn check_of<C: Check>(text: &str) -> C {
+pub(crate) fn check_of<C: Check>(text: &str) -> C {
     let expect: C = read_key(text, "expect").unwrap();
     expect.validate().unwrap();
     expect
 }
 
 /// Who a fake core is: it can do everything it is asked, and makes pictures without variances.
-pub fn info(precision: Precision) -> CoreInfo {
+pub(crate) fn info(precision: Precision) -> CoreInfo {
     CoreInfo {
         name: "fake".into(),
         version: "0".into(),
@@ -35,7 +35,7 @@ pub fn info(precision: Precision) -> CoreInfo {
 ///
 /// # Errors
 /// Those of the check.
-pub fn try_judge<C: Check>(
+pub(crate) fn try_judge<C: Check>(
     check: &C,
     core: &mut dyn Core,
     scene: Option<SceneDescription>,
@@ -60,7 +60,7 @@ pub fn try_judge<C: Check>(
 ///
 /// # Panics
 /// If it says nothing.
-pub fn judge<C: Check>(check: &C, core: &mut dyn Core) -> Finding {
+pub(crate) fn judge<C: Check>(check: &C, core: &mut dyn Core) -> Finding {
     try_judge(check, core, None).unwrap()
 }
 
@@ -68,7 +68,7 @@ pub fn judge<C: Check>(check: &C, core: &mut dyn Core) -> Finding {
 ///
 /// # Panics
 /// If it is none.
-pub fn failure(finding: &Finding) -> &str {
+pub(crate) fn failure(finding: &Finding) -> &str {
     assert_eq!(finding.verdict, Verdict::Fail, "{finding:#?}");
     &finding.statement
 }
@@ -77,7 +77,7 @@ pub fn failure(finding: &Finding) -> &str {
 ///
 /// # Panics
 /// If it does not.
-pub fn assert_passes(finding: &Finding) {
+pub(crate) fn assert_passes(finding: &Finding) {
     assert_eq!(finding.verdict, Verdict::Pass, "{finding:#?}");
     assert!(!finding.resolution.is_empty(), "a pass says what it would have caught");
 }

@@ -9,7 +9,7 @@ use clap::Args;
 
 /// What `furnace agreement` understands.
 #[derive(Clone, Debug, Args)]
-pub struct AgreementArguments {
+pub(crate) struct AgreementArguments {
     /// References: parts of their names [default: all].
     filters: Vec<String>,
     /// The renderer, such as adapters/command/cycles.toml; may be repeated.
@@ -29,7 +29,7 @@ pub struct AgreementArguments {
 }
 
 /// Renders and prints one table a renderer, in Markdown.
-pub fn agreement(arguments: &AgreementArguments) -> Answer {
+pub(crate) fn agreement(arguments: &AgreementArguments) -> Answer {
     let project = arguments.project.find()?;
     let filters = &arguments.filters;
     let all = agreement::references(&project);

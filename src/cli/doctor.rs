@@ -17,7 +17,7 @@ const STEPS: usize = 5;
 
 /// What `furnace doctor` understands.
 #[derive(Clone, Debug, Args)]
-pub struct DoctorArguments {
+pub(crate) struct DoctorArguments {
     /// The core to examine; may be repeated [default: every core of our own].
     #[arg(long = "core", value_name = "CORE")]
     cores: Vec<CoreSpec>,
@@ -28,7 +28,7 @@ pub struct DoctorArguments {
 }
 
 /// Examines cores one after another.
-pub fn doctor(arguments: &DoctorArguments) -> Answer {
+pub(crate) fn doctor(arguments: &DoctorArguments) -> Answer {
     let project = arguments.project.find()?;
     let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
     let hosting = arguments.hosting.hosting(&project.runs()).hiding(project.secrets());

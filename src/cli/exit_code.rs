@@ -19,7 +19,7 @@ pub enum ExitCode {
 
 impl ExitCode {
     /// The code for a run whose trials ended so.
-    pub fn of(statuses: impl IntoIterator<Item = Status>, strict: bool) -> Self {
+    pub(crate) fn of(statuses: impl IntoIterator<Item = Status>, strict: bool) -> Self {
         let statuses: Vec<_> = statuses.into_iter().collect();
         let any = |wanted: &dyn Fn(Status) -> bool| statuses.iter().any(|status| wanted(*status));
         let undecided = [Status::Inconclusive, Status::Skipped, Status::Blocked];
@@ -37,7 +37,7 @@ impl ExitCode {
     }
 
     /// The number that the shell sees.
-    pub const fn number(self) -> u8 {
+    pub(crate) const fn number(self) -> u8 {
         match self {
             Self::Good => 0,
             Self::Failed => 1,

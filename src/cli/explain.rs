@@ -21,7 +21,7 @@ const MOST: usize = 3;
 
 /// What `furnace explain` understands.
 #[derive(Clone, Debug, Args)]
-pub struct ExplainArguments {
+pub(crate) struct ExplainArguments {
     /// Which case: its name, or a part of it.
     #[arg(required = true)]
     filters: Vec<String>,
@@ -30,7 +30,7 @@ pub struct ExplainArguments {
 }
 
 /// Tells what the selected cases are about.
-pub fn explain(arguments: &ExplainArguments) -> Answer {
+pub(crate) fn explain(arguments: &ExplainArguments) -> Answer {
     let project = arguments.project.find()?;
     let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
     let selected = Filter::new(&arguments.filters).select(&cases).map_err(Failure::nothing)?;

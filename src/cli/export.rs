@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 /// What `furnace export` understands.
 #[derive(Clone, Debug, Args)]
-pub struct ExportArguments {
+pub(crate) struct ExportArguments {
     /// A scene of the project, or a `.toml` or `.dae` file.
     scene: String,
     /// mitsuba, collada (with the course's CGL profile and camera file), pbrt or obj.
@@ -32,7 +32,7 @@ pub struct ExportArguments {
 }
 
 /// Writes the files and says where they are.
-pub fn export(arguments: &ExportArguments) -> Answer {
+pub(crate) fn export(arguments: &ExportArguments) -> Answer {
     let project = arguments.project.find()?;
     let library = Library::new(project.scenes());
     let scene = library.load(&arguments.scene, &Overrides::new()).map_err(Failure::request)?;

@@ -14,7 +14,7 @@ const NAME: usize = 34;
 
 /// What `furnace faults` understands.
 #[derive(Clone, Debug, Args)]
-pub struct FaultsArguments {
+pub(crate) struct FaultsArguments {
     /// Which faults: parts of their names, or the number of a part of the course [default: all].
     filters: Vec<String>,
     /// How small an error each case looks for: quick, default or strict.
@@ -42,7 +42,7 @@ struct Document {
 }
 
 /// Puts every selected fault, and every core that is right but different, to the cases.
-pub fn faults(arguments: &FaultsArguments) -> Answer {
+pub(crate) fn faults(arguments: &FaultsArguments) -> Answer {
     let project = arguments.project.find()?;
     let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
     let matrix = Matrix::new(project, &cases, arguments.budget, arguments.jobs);

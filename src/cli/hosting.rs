@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Where cores live and what they may use up.
 #[derive(Clone, Debug, Args)]
-pub struct HostingArguments {
+pub(crate) struct HostingArguments {
     /// Time limit of a trial in seconds [default: 120]; for an adapter's program, its file sets the
     /// time limit of an image.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
@@ -32,7 +32,7 @@ struct Memory(Option<u64>);
 
 impl HostingArguments {
     /// How cores are hosted, out of sight of the results in `runs`.
-    pub fn hosting(&self, runs: &Path) -> Hosting {
+    pub(crate) fn hosting(&self, runs: &Path) -> Hosting {
         let mut limits = Limits::default();
         limits.seconds = self.time_limit.or(limits.seconds);
         limits.memory = self.memory_limit.map_or(limits.memory, |limit| limit.0);

@@ -9,13 +9,13 @@ use clap::Args;
 
 /// What `furnace lint` understands.
 #[derive(Clone, Debug, Args)]
-pub struct LintArguments {
+pub(crate) struct LintArguments {
     #[command(flatten)]
     project: ProjectArguments,
 }
 
 /// Says what is wrong with cases and scenes, all of it at once.
-pub fn lint(arguments: &LintArguments) -> Answer {
+pub(crate) fn lint(arguments: &LintArguments) -> Answer {
     let project = arguments.project.find()?;
     let scenes = Library::new(project.scenes());
     let mut complaints = Vec::new();

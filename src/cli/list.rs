@@ -13,7 +13,7 @@ use clap::{Args, ValueEnum};
 
 /// What `furnace list` understands.
 #[derive(Clone, Debug, Args)]
-pub struct ListArguments {
+pub(crate) struct ListArguments {
     /// What to list.
     #[arg(value_enum, default_value_t)]
     what: What,
@@ -35,7 +35,7 @@ enum What {
 }
 
 /// Prints a table.
-pub fn list(arguments: &ListArguments) -> Answer {
+pub(crate) fn list(arguments: &ListArguments) -> Answer {
     let words = &arguments.filters;
     match arguments.what {
         What::Cases => list_cases(arguments),

@@ -20,7 +20,7 @@ mod say;
 mod watch;
 mod worker;
 
-pub use exit_code::ExitCode;
+pub(crate) use exit_code::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use say::complain;
@@ -31,7 +31,7 @@ type Answer = Result<ExitCode, Failure>;
 
 /// Why a verb stopped.
 #[derive(Debug)]
-pub struct Failure {
+pub(crate) struct Failure {
     code: ExitCode,
     message: String,
 }

@@ -18,7 +18,7 @@ const WHOLE: &str =
 const RUNNING: &str = "  {elapsed:>5}  {msg}";
 
 /// Listens to a run and shows how it goes.
-pub struct Progress {
+pub(crate) struct Progress {
     display: Display,
     tally: BTreeMap<Status, usize>,
     ended: usize,
@@ -44,7 +44,7 @@ struct Live {
 
 impl Progress {
     /// What suits standard error. Quiet shows nothing.
-    pub fn new(quiet: bool) -> Self {
+    pub(crate) fn new(quiet: bool) -> Self {
         let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
         let display = match () {
             () if quiet => Display::Quiet,
@@ -63,7 +63,7 @@ impl Progress {
     }
 
     /// Shows what happened.
-    pub fn hear(&mut self, event: Event<'_>) {
+    pub(crate) fn hear(&mut self, event: Event<'_>) {
         match event {
             Event::Planned { run, folder, already_done } => self.planned(run, folder, already_done),
             Event::Started { core, case } => {

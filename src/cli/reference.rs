@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 /// What `furnace reference` understands.
 #[derive(Clone, Debug, Args)]
-pub struct ReferenceArguments {
+pub(crate) struct ReferenceArguments {
     #[command(subcommand)]
     verb: Verb,
     #[command(flatten)]
@@ -90,7 +90,7 @@ impl MitsubaArguments {
 }
 
 /// Does what was asked.
-pub fn reference(arguments: &ReferenceArguments) -> Answer {
+pub(crate) fn reference(arguments: &ReferenceArguments) -> Answer {
     let project = arguments.project.find()?;
     let references = References::new(project.references(), Library::new(project.scenes()));
     match &arguments.verb {

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// What `furnace report` understands.
 #[derive(Clone, Debug, Args)]
-pub struct ReportArguments {
+pub(crate) struct ReportArguments {
     /// The folder of a run [default: the newest].
     run: Option<PathBuf>,
     /// List the smallest detectable error of every trial.
@@ -21,7 +21,7 @@ pub struct ReportArguments {
 }
 
 /// Prints the summary and writes the page.
-pub fn report(arguments: &ReportArguments) -> Answer {
+pub(crate) fn report(arguments: &ReportArguments) -> Answer {
     let folder = match &arguments.run {
         Some(folder) => folder.clone(),
         None => newest(&arguments.project.find()?.runs())?,
@@ -42,13 +42,13 @@ fn newest(runs: &Path) -> Result<PathBuf, Failure> {
 }
 
 /// How the summary is dressed on this terminal.
-pub fn style(verbose: bool) -> Style {
+pub(crate) fn style(verbose: bool) -> Style {
     let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     Style { colour, verbose }
 }
 
 /// What a browser opens.
-pub fn address(page: &Path) -> String {
+pub(crate) fn address(page: &Path) -> String {
     let page = page.canonicalize().unwrap_or_else(|_| page.to_owned());
     format!("file://{}", page.display())
 }

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 /// What `furnace run` understands.
 #[derive(Clone, Debug, Args)]
-pub struct RunArguments {
+pub(crate) struct RunArguments {
     /// Cases to try: parts of their names, `@tag`, a part's number 1 to 6, `!` before any of these for not.
     filters: Vec<String>,
     /// The renderer to try; may be repeated [default: every core of our own].
@@ -61,7 +61,7 @@ pub struct RunArguments {
 
 /// The run that is asked for without a verb. A word that is nearly a verb is one, mistyped or late: it must not cost
 /// minutes of trials.
-pub fn run_unless_a_verb_is_meant(arguments: &RunArguments, verbs: &[String]) -> Answer {
+pub(crate) fn run_unless_a_verb_is_meant(arguments: &RunArguments, verbs: &[String]) -> Answer {
     let verbs = || verbs.iter().map(String::as_str);
     let meant =
         arguments.filters.iter().find_map(|word| Some((word, did_you_mean(word, verbs())?)));
@@ -75,7 +75,7 @@ pub fn run_unless_a_verb_is_meant(arguments: &RunArguments, verbs: &[String]) ->
 }
 
 /// Tries the cases, prints the summary, writes the report.
-pub fn run(arguments: &RunArguments) -> Answer {
+pub(crate) fn run(arguments: &RunArguments) -> Answer {
     let project = arguments.project.find()?;
     if arguments.watch {
         let runs = arguments.report.clone().unwrap_or_else(|| project.runs());
@@ -107,7 +107,7 @@ pub fn run(arguments: &RunArguments) -> Answer {
 
 impl RunArguments {
     /// What is to be run.
-    pub fn request(&self) -> Request {
+    pub(crate) fn request(&self) -> Request {
         let all = || CORES.iter().filter_map(|kind| kind.name.parse().ok()).collect();
         Request {
             cores: if self.cores.is_empty() { all() } else { self.cores.clone() },

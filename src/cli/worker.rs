@@ -11,13 +11,13 @@ use clap::Args;
 
 /// What `furnace worker` understands.
 #[derive(Clone, Debug, Args)]
-pub struct WorkerArguments {
+pub(crate) struct WorkerArguments {
     /// The request, as JSON.
     errand: String,
 }
 
 /// Enters its sandbox, and becomes the core.
-pub fn worker(arguments: &WorkerArguments) -> Answer {
+pub(crate) fn worker(arguments: &WorkerArguments) -> Answer {
     let errand: Errand = serde_json::from_str(&arguments.errand).map_err(Failure::request)?;
     let entered = child::begin(&errand).map_err(Failure::broken)?;
     if let Guest::Program(words) = &errand.guest {

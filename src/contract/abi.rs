@@ -7,7 +7,7 @@
 
 #![expect(missing_docs, reason = "the header documents the fields")]
 
-pub mod given;
+pub(crate) mod given;
 mod table;
 
 pub use table::{CORE, CoreTable};
@@ -19,30 +19,30 @@ use glam::{DVec2, DVec3};
 use std::ffi::{c_char, c_void};
 
 /// The version of everything here. It changes when something existing does, not when a struct grows at its end.
-pub const ABI: u32 = 1;
+pub(crate) const ABI: u32 = 1;
 
 /// The one symbol that a core exports: a [`Entry`].
-pub const ENTRY: &str = "furnace_core_entry";
+pub(crate) const ENTRY: &str = "furnace_core_entry";
 
 /// `furnace_core_entry`: answers null if the core cannot serve a bench of that ABI.
-pub type Entry = unsafe extern "C" fn(bench_abi: u32) -> *const CoreTable;
+pub(crate) type Entry = unsafe extern "C" fn(bench_abi: u32) -> *const CoreTable;
 
 /// `furnace_status`
 pub type Status = u32;
 
 /// The request was answered.
-pub const OK: Status = 0;
+pub(crate) const OK: Status = 0;
 /// This very request is beyond the core.
-pub const UNSUPPORTED: Status = 1;
+pub(crate) const UNSUPPORTED: Status = 1;
 /// The arguments make no sense to the core.
-pub const INVALID: Status = 2;
+pub(crate) const INVALID: Status = 2;
 /// Anything else.
-pub const FAILED: Status = 3;
+pub(crate) const FAILED: Status = 3;
 
 /// The numbers behind the words of the header: `numbers! { NAME = value }` documents each by its C name.
 macro_rules! numbers {
     ($($name:ident = $value:literal),* $(,)?) => {
-        $(#[doc = concat!("`FURNACE_", stringify!($name), "`")] pub const $name: u32 = $value;)*
+        $(#[doc = concat!("`FURNACE_", stringify!($name), "`")] pub(crate) const $name: u32 = $value;)*
         /// Every number above with its name in C, for the test that compares them.
         pub const NUMBERS: &[(&str, u32)] =
             &[$((concat!("FURNACE_", stringify!($name)), $name)),*];

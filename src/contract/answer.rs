@@ -16,11 +16,11 @@ const UNIT_LENGTH_ERROR: f64 = 1e-5;
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// Elements of a batch, and 1; width and height of a picture.
-    pub size: [usize; 2],
+    pub(crate) size: [usize; 2],
     /// What the core can do.
-    pub capabilities: Capabilities,
+    pub(crate) capabilities: Capabilities,
     /// Primitives of each shape of the scene, to tell hits that cannot be.
-    pub primitives_of_shape: &'a [usize],
+    pub(crate) primitives_of_shape: &'a [usize],
 }
 
 /// What a question fills: a batch, or a picture.
@@ -54,7 +54,7 @@ pub trait Answer {
 }
 
 /// Writes the arrays of an answer.
-pub type Fill<'a> = &'a mut dyn FnMut(&mut [Wanted<'_>]) -> Result<()>;
+pub(crate) type Fill<'a> = &'a mut dyn FnMut(&mut [Wanted<'_>]) -> Result<()>;
 
 /// A number or some numbers: what stands for "not written", and how it is in single precision.
 pub trait Value: Copy {
@@ -106,10 +106,10 @@ impl<T: Value, const N: usize> Value for [T; N] {
 }
 
 /// What is wrong with one element, before its number is known.
-pub type Form = std::result::Result<(), Breach>;
+pub(crate) type Form = std::result::Result<(), Breach>;
 
 /// An element that cores answer.
-pub trait Answered: Element {
+pub(crate) trait Answered: Element {
     /// What complaints call one.
     const NOUN: &'static str;
 
@@ -336,7 +336,7 @@ fn valid_pixel(field: &'static str, value: [f32; 3]) -> Form {
 }
 
 /// Three numbers that are finite and not negative.
-pub fn colour(field: &'static str, value: [f64; 3]) -> Form {
+pub(crate) fn colour(field: &'static str, value: [f64; 3]) -> Form {
     value.iter().enumerate().try_for_each(|(channel, value)| {
         let breach = |breach| Breach { channel: Some(channel), ..breach };
         not_negative(field, *value).map_err(breach)
@@ -344,47 +344,47 @@ pub fn colour(field: &'static str, value: [f64; 3]) -> Form {
 }
 
 /// A number that is finite and not negative.
-pub fn not_negative(field: &'static str, value: f64) -> Form {
+pub(crate) fn not_negative(field: &'static str, value: f64) -> Form {
     finite(field, value)?;
     holds(value >= 0.0, field, || BreachKind::Negative(value))
 }
 
 /// A number that is finite.
-pub fn finite(field: &'static str, value: f64) -> Form {
+pub(crate) fn finite(field: &'static str, value: f64) -> Form {
     not_nan(field, value)?;
     holds(value.is_finite(), field, || BreachKind::Infinite)
 }
 
 /// A number that is written, and is one.
-pub fn not_nan(field: &'static str, value: f64) -> Form {
+pub(crate) fn not_nan(field: &'static str, value: f64) -> Form {
     holds(value.to_bits() != f64::UNTOUCHED.to_bits(), field, || BreachKind::Untouched)?;
     holds(!value.is_nan(), field, || BreachKind::NotANumber)
 }
 
 /// A vector of finite numbers.
-pub fn finite_vector(field: &'static str, value: DVec3) -> Form {
+pub(crate) fn finite_vector(field: &'static str, value: DVec3) -> Form {
     value.to_array().iter().try_for_each(|component| finite(field, *component))
 }
 
 /// A vector of length 1.
-pub fn unit(field: &'static str, value: DVec3) -> Form {
+pub(crate) fn unit(field: &'static str, value: DVec3) -> Form {
     finite_vector(field, value)?;
     let length = value.length();
     holds((length - 1.0).abs() <= UNIT_LENGTH_ERROR, field, || BreachKind::NotUnit(length))
 }
 
 /// 0 or 1.
-pub fn flag(field: &'static str, value: u32) -> Form {
+pub(crate) fn flag(field: &'static str, value: u32) -> Form {
     touched(field, value)?;
     holds(value <= 1, field, || BreachKind::NotAFlag(value))
 }
 
 /// A whole number that is written.
-pub fn touched(field: &'static str, value: u32) -> Form {
+pub(crate) fn touched(field: &'static str, value: u32) -> Form {
     holds(value != u32::UNTOUCHED, field, || BreachKind::Untouched)
 }
 
 /// What has to be so, of one field.
-pub fn holds(is_so: bool, field: &'static str, kind: impl FnOnce() -> BreachKind) -> Form {
+pub(crate) fn holds(is_so: bool, field: &'static str, kind: impl FnOnce() -> BreachKind) -> Form {
     if is_so { Ok(()) } else { Err(Breach::of(field, kind())) }
 }

@@ -11,13 +11,13 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Breach {
     /// In which of its elements.
-    pub place: Place,
+    pub(crate) place: Place,
     /// Which of the element's fields, as the contract calls it.
-    pub field: Cow<'static, str>,
+    pub(crate) field: Cow<'static, str>,
     /// Which colour of the field, if it has three: 0 is red.
-    pub channel: Option<usize>,
+    pub(crate) channel: Option<usize>,
     /// What is wrong with that.
-    pub kind: BreachKind,
+    pub(crate) kind: BreachKind,
 }
 
 /// Where an answer is wrong.
@@ -75,23 +75,23 @@ pub enum BreachKind {
 
 impl Breach {
     /// A breach by `field`; where, the caller says.
-    pub fn of(field: impl Into<Cow<'static, str>>, kind: BreachKind) -> Self {
+    pub(crate) fn of(field: impl Into<Cow<'static, str>>, kind: BreachKind) -> Self {
         Self { place: Place::Answer, field: field.into(), channel: None, kind }
     }
 
     /// A breach that only words can tell.
-    pub fn other(words: impl Into<String>) -> Self {
+    pub(crate) fn other(words: impl Into<String>) -> Self {
         Self::of("", BreachKind::Other(words.into()))
     }
 
     /// The same in element `index` of `of`.
     #[must_use]
-    pub fn in_element(self, what: &'static str, index: usize, of: usize) -> Self {
+    pub(crate) fn in_element(self, what: &'static str, index: usize, of: usize) -> Self {
         Self { place: Place::Element { what: what.into(), index, of }, ..self }
     }
 
     /// What the elements of the answer are; nothing of one that is wrong as a whole.
-    pub fn element(&self) -> &str {
+    pub(crate) fn element(&self) -> &str {
         match &self.place {
             Place::Answer => "",
             Place::Element { what, .. } | Place::Pixel { what, .. } => what,

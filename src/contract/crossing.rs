@@ -33,12 +33,12 @@ pub struct Part {
 
 impl Part {
     /// A member of the header.
-    pub const fn member(name: &'static str) -> Self {
+    pub(crate) const fn member(name: &'static str) -> Self {
         Self { name, element: None }
     }
 
     /// An array of `T`.
-    pub const fn array<T: Element>(name: &'static str) -> Self {
+    pub(crate) const fn array<T: Element>(name: &'static str) -> Self {
         Self { name, element: Some(T::LAYOUT) }
     }
 }
@@ -112,7 +112,7 @@ impl<'a> Request<'a> {
     }
 
     /// What it is called.
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         self.members["request"].as_str().unwrap_or_default()
     }
 
@@ -128,14 +128,14 @@ impl<'a> Request<'a> {
 
     /// Adds a member.
     #[must_use]
-    pub fn with(mut self, name: &str, member: impl Serialize) -> Self {
+    pub(crate) fn with(mut self, name: &str, member: impl Serialize) -> Self {
         self.member(name, member);
         self
     }
 
     /// Adds an array.
     #[must_use]
-    pub fn with_array(mut self, array: Sent<'a>) -> Self {
+    pub(crate) fn with_array(mut self, array: Sent<'a>) -> Self {
         self.arrays.push(array);
         self
     }
@@ -149,7 +149,7 @@ impl<'a> Request<'a> {
 
     /// The same with only some of the elements of each array that is not shared.
     #[must_use]
-    pub fn part(&self, range: &Range<usize>) -> Request<'_> {
+    pub(crate) fn part(&self, range: &Range<usize>) -> Request<'_> {
         let arrays = self.arrays.iter().map(|array| array.part(range)).collect();
         Request { members: self.members.clone(), arrays }
     }
@@ -174,19 +174,19 @@ impl<'a> Received<'a> {
     ///
     /// # Errors
     /// If the list of arrays is none.
-    pub fn new(mut members: Map<String, Json>, body: &'a [u8]) -> Result<Self, Malformed> {
+    pub(crate) fn new(mut members: Map<String, Json>, body: &'a [u8]) -> Result<Self, Malformed> {
         let arrays = members.remove("arrays").unwrap_or_else(|| Json::Array(Vec::new()));
         let headers = from_json("arrays", arrays)?;
         Ok(Self { members, headers, taken: 0, bytes: body })
     }
 
     /// What it is called.
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         self.members.get("request").and_then(Json::as_str).unwrap_or_default()
     }
 
     /// Whether it asks what the table of questions calls `method`.
-    pub fn asks(&self, method: &str) -> bool {
+    pub(crate) fn asks(&self, method: &str) -> bool {
         let name = match self.name() {
             "intersect-triangle" | "intersect-sphere" => "intersect-primitive",
             name => name,
@@ -198,7 +198,7 @@ impl<'a> Received<'a> {
     ///
     /// # Errors
     /// If it is missing, or something else.
-    pub fn member<T: DeserializeOwned>(&mut self, name: &str) -> Result<T, Malformed> {
+    pub(crate) fn member<T: DeserializeOwned>(&mut self, name: &str) -> Result<T, Malformed> {
         let member = self.members.remove(name);
         from_json(name, member.ok_or_else(|| Malformed(format!("member `{name}` is missing")))?)
     }
@@ -207,7 +207,7 @@ impl<'a> Received<'a> {
     ///
     /// # Errors
     /// If it is another, or longer than what was sent.
-    pub fn take<T: Element>(&mut self, name: &str) -> Result<&'a [T], Malformed> {
+    pub(crate) fn take<T: Element>(&mut self, name: &str) -> Result<&'a [T], Malformed> {
         let wrong = |what: String| Malformed(format!("array `{name}` {what}"));
         let header = self.headers.get(self.taken).ok_or_else(|| wrong("is missing".to_owned()))?;
         self.taken += 1;
@@ -240,16 +240,16 @@ fn from_json<T: DeserializeOwned>(name: &str, json: Json) -> Result<T, Malformed
 }
 
 /// Every array begins at a multiple of this many bytes.
-pub const ALIGNMENT: usize = 8;
+pub(crate) const ALIGNMENT: usize = 8;
 
 /// How many bytes an array of so many takes in the body.
-pub const fn padded(bytes: usize) -> usize {
+pub(crate) const fn padded(bytes: usize) -> usize {
     bytes.next_multiple_of(ALIGNMENT)
 }
 
 /// One array: what it is called, what each element is, how many there are.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ArrayHeader(pub String, pub String, pub u64);
+pub struct ArrayHeader(pub(crate) String, pub(crate) String, pub(crate) u64);
 
 /// An array on its way.
 #[derive(Clone, Debug)]
@@ -275,27 +275,27 @@ impl<B: Deref<Target = [u8]>> Array<B> {
     }
 
     /// Its line in the header.
-    pub fn header(&self) -> ArrayHeader {
+    pub(crate) fn header(&self) -> ArrayHeader {
         ArrayHeader(self.name.replace('_', "-"), self.element.to_owned(), self.count as u64)
     }
 
     /// Its bytes.
-    pub fn bytes(&self) -> &[u8] {
+    pub(crate) fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
     /// How many elements there are.
-    pub const fn count(&self) -> usize {
+    pub(crate) const fn count(&self) -> usize {
         self.count
     }
 
     /// The bytes of one element.
-    pub fn size_of_one(&self) -> usize {
+    pub(crate) fn size_of_one(&self) -> usize {
         (self.bytes.len() / self.count.max(1)).max(1)
     }
 
     /// The same array in other memory, with as many of its elements as that holds.
-    pub fn within<C: Deref<Target = [u8]>>(&self, bytes: C) -> Array<C> {
+    pub(crate) fn within<C: Deref<Target = [u8]>>(&self, bytes: C) -> Array<C> {
         let count = bytes.len() / self.size_of_one();
         Array { name: self.name, element: self.element, count, bytes, shared: self.shared }
     }
@@ -308,24 +308,24 @@ impl<'a> Sent<'a> {
     }
 
     /// Elements that are made for the sending.
-    pub fn made<T: Element>(name: &'static str, elements: &[T]) -> Self {
+    pub(crate) fn made<T: Element>(name: &'static str, elements: &[T]) -> Self {
         Self::of::<T>(name, Cow::Owned(bytemuck::cast_slice(elements).to_vec()))
     }
 
     /// The same, to go with every part of a batch: the corners of the triangle that rays meet.
     /// Numbers that may be NaN or infinite travel so, since JSON has none.
     #[must_use]
-    pub fn shared(self) -> Self {
+    pub(crate) fn shared(self) -> Self {
         Self { shared: true, ..self }
     }
 
     /// Whether each element of the batch needs all of it.
-    pub const fn is_shared(&self) -> bool {
+    pub(crate) const fn is_shared(&self) -> bool {
         self.shared
     }
 
     /// Some of its elements; all of them, if they are shared.
-    pub fn part(&self, range: &Range<usize>) -> Sent<'_> {
+    pub(crate) fn part(&self, range: &Range<usize>) -> Sent<'_> {
         let size = self.size_of_one();
         let bytes = match self.shared {
             true => self.bytes(),
@@ -335,7 +335,7 @@ impl<'a> Sent<'a> {
     }
 
     /// One element in words: its numbers.
-    pub fn describe(&self, index: usize) -> String {
+    pub(crate) fn describe(&self, index: usize) -> String {
         let part = self.part(&(index..index + 1));
         let Ok(numbers) = bytemuck::try_cast_slice::<u8, f64>(part.bytes()) else {
             return format!("{:?}", part.bytes());
@@ -356,7 +356,7 @@ impl<'a> Wanted<'a> {
     }
 
     /// Where its bytes go.
-    pub fn bytes_mut(&mut self) -> &mut [u8] {
+    pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         self.bytes
     }
 }
@@ -394,7 +394,7 @@ pub trait Argument<'a>: Copy {
 }
 
 /// The size of the answer to a question with arguments of these sizes.
-pub fn size_of_answer<const N: usize>(sizes: [Option<[usize; 2]>; N]) -> [usize; 2] {
+pub(crate) fn size_of_answer<const N: usize>(sizes: [Option<[usize; 2]>; N]) -> [usize; 2] {
     sizes.into_iter().flatten().next_back().unwrap_or([0, 1])
 }
 
@@ -435,7 +435,7 @@ members! {
 }
 
 /// What a core has to know before it is shown a material.
-pub fn needed_by(material: &Material) -> Capabilities {
+pub(crate) fn needed_by(material: &Material) -> Capabilities {
     match material.surface {
         Surface::RoughGlass { .. } => Capabilities::ROUGH_GLASS,
         _ => Capabilities::empty(),

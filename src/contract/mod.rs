@@ -1,7 +1,7 @@
 //! What a renderer core promises, and the plain data that crosses the boundary.
 //!
 //! A core implements [`Core`], and the scenes it has taken in implement [`BuiltScene`]. Their methods are the
-//! questions of one table ([`questions`]). Every method has a default that answers [`CoreError::Unsupported`]:
+//! questions of one table ([`mod@questions`]). Every method has a default that answers [`CoreError::Unsupported`]:
 //! implement what you have, declare it in [`Core::info`], and the harness asks for nothing else.
 //!
 //! # Rules, once for all
@@ -64,7 +64,7 @@ macro_rules! unsupported {
     };
 }
 
-/// A renderer under test. Its questions are those of [`questions`] that need no scene.
+/// A renderer under test. Its questions are those of [`mod@questions`] that need no scene.
 pub trait Core: Send {
     /// Who the core is, what it can do, and which conventions it follows.
     fn info(&self) -> CoreInfo;
@@ -83,7 +83,7 @@ pub trait Core: Send {
 }
 
 /// A scene the core has taken in: the only way to reach a traversal or a render, so that "intersect before
-/// build" cannot be written. Its questions are those of [`questions`] that need one.
+/// build" cannot be written. Its questions are those of [`mod@questions`] that need one.
 pub trait BuiltScene {
     /// What the build made. Zero for what the core does not know.
     fn stats(&self) -> BuildStats;

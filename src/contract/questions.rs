@@ -159,15 +159,15 @@ macro_rules! pick_question {
 pub(crate) use pick_question;
 
 // The words of the table, for whoever expands it.
-pub use super::{
+pub(crate) use super::{
     AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue, Capabilities,
     CoreError, DirectionSample, Film, Hit, IntegratorSettings, LightSample, Primitive, Randomness,
     Ray, RenderSettings, Result, Sampler, TraversalStats,
 };
-pub use crate::image::encoding::Encoding;
-pub use crate::image::png::Picture;
+pub(crate) use crate::image::encoding::Encoding;
+pub(crate) use crate::image::png::Picture;
 pub use crate::scene::{Aabb, Camera, Material, SceneDescription};
-pub use glam::{DVec2, DVec3};
+pub(crate) use glam::{DVec2, DVec3};
 
 use super::answer::Answer;
 use super::crossing::{Argument, Part};

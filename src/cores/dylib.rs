@@ -76,7 +76,7 @@ unsafe impl Send for Dylib {}
 
 /// Lets a fault inside foreign code end the process, as it would without us. Rust installs a handler that tells
 /// stack overflows apart; a fault that a core *raises* returns through it and is forgotten.
-pub fn let_faults_kill() {
+pub(crate) fn let_faults_kill() {
     #[cfg(unix)]
     for signal in [libc::SIGSEGV, libc::SIGBUS] {
         // SAFETY: SIG_DFL is a valid disposition, and nothing of ours relies on the handler that is replaced.

@@ -19,7 +19,7 @@ const PROGRAM: &str = "exec:";
 ///
 /// # Errors
 /// A hint, if there is no such library or program.
-pub fn guest(word: &str) -> Option<Result<Guest, String>> {
+pub(crate) fn guest(word: &str) -> Option<Result<Guest, String>> {
     if let Some(command) = word.strip_prefix(PROGRAM) {
         return Some(program(command));
     }

@@ -59,7 +59,7 @@ pub enum HostError {
 
 impl Hosting {
     /// The same with more out of sight.
-    pub fn hiding(mut self, paths: impl IntoIterator<Item = PathBuf>) -> Self {
+    pub(crate) fn hiding(mut self, paths: impl IntoIterator<Item = PathBuf>) -> Self {
         self.hidden.extend(paths);
         self
     }
@@ -76,7 +76,7 @@ impl Hosting {
     }
 
     /// How the workers of a core are started.
-    pub fn launch(&self, spec: &CoreSpec) -> Launch {
+    pub(crate) fn launch(&self, spec: &CoreSpec) -> Launch {
         let renderer = spec.program().and_then(Result::ok);
         // Its file says how long each picture may take.
         let seconds = if renderer.is_some() { None } else { self.limits.seconds };
@@ -113,7 +113,7 @@ impl Hosted {
     }
 
     /// What it has printed; nothing of a core in this process is kept.
-    pub fn printed(&self) -> String {
+    pub(crate) fn printed(&self) -> String {
         match self {
             Self::Here(_) => String::new(),
             Self::Away(remote) => remote.printed(),

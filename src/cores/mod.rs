@@ -3,12 +3,12 @@
 //! that any program makes ([`command`]).
 
 pub mod builtin;
-pub mod command;
+pub(crate) mod command;
 pub mod dylib;
 mod foreign;
 mod hosting;
-pub mod remote;
-pub mod textbook;
+pub(crate) mod remote;
+pub(crate) mod textbook;
 
 pub use hosting::{HostError, Hosted, Hosting};
 
@@ -88,13 +88,13 @@ impl CoreSpec {
     }
 
     /// The program that an adapter's file describes, if this is one.
-    pub fn program(&self) -> Option<Result<Program, AdapterError>> {
+    pub(crate) fn program(&self) -> Option<Result<Program, AdapterError>> {
         let path = Path::new(&self.word);
         path.extension().is_some_and(|ending| ending == "toml").then(|| Program::load(path))
     }
 
     /// What kind of core it is.
-    pub const fn guest(&self) -> &Guest {
+    pub(crate) const fn guest(&self) -> &Guest {
         &self.guest
     }
 

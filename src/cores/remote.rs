@@ -28,17 +28,17 @@ impl Remote {
     ///
     /// # Errors
     /// If there is no process, or the core fails to start.
-    pub fn start(launch: &Launch) -> std::result::Result<Self, StartError> {
+    pub(crate) fn start(launch: &Launch) -> std::result::Result<Self, StartError> {
         Ok(Self { launch: launch.clone(), worker: Worker::start(launch)?, built: None })
     }
 
     /// What the system enforces on it.
-    pub const fn confinement(&self) -> &Confinement {
+    pub(crate) const fn confinement(&self) -> &Confinement {
         self.worker.confinement()
     }
 
     /// What it has printed.
-    pub fn printed(&self) -> String {
+    pub(crate) fn printed(&self) -> String {
         self.worker.printed()
     }
 

@@ -8,7 +8,7 @@ const LAST: u32 = 40;
 
 /// Emission and albedo of one channel, as the case expects them.
 #[derive(Clone, Copy, Debug)]
-pub struct Channel {
+pub(crate) struct Channel {
     pub emission: f64,
     pub albedo: f64,
     /// Luminance of the three albedos.
@@ -18,31 +18,31 @@ pub struct Channel {
 }
 
 impl Channel {
-    pub fn of(emission: f64, albedo: f64, all: [f64; 3]) -> Self {
+    pub(crate) fn of(emission: f64, albedo: f64, all: [f64; 3]) -> Self {
         let luminance = 0.2126 * all[0] + 0.7152 * all[1] + 0.0722 * all[2];
         Self { emission, albedo, luminance, mean: all.iter().sum::<f64>() / 3.0 }
     }
 
     /// Light that was scattered `bounce` times.
-    pub fn bounce(&self, bounce: u32) -> f64 {
+    pub(crate) fn bounce(&self, bounce: u32) -> f64 {
         self.emission * self.albedo.powi(bounce.cast_signed())
     }
 
     /// The sum over bounces of `weight(bounce)` times what is right.
-    pub fn sum(&self, [first, last]: [u32; 2], weight: impl Fn(u32) -> f64) -> f64 {
+    pub(crate) fn sum(&self, [first, last]: [u32; 2], weight: impl Fn(u32) -> f64) -> f64 {
         (first..=last.min(LAST)).map(|bounce| weight(bounce) * self.bounce(bounce)).sum()
     }
 }
 
 /// A mistake, and what it makes of the sum of bounces `first..=last`.
-pub struct Law {
-    pub cause: &'static Cause,
+pub(crate) struct Law {
+    pub(crate) cause: &'static Cause,
     /// What is wrong, in a sentence with k.
-    pub words: &'static str,
+    pub(crate) words: &'static str,
     /// The sum of these bounces as the mistake makes it.
-    pub predict: fn(&Channel, [u32; 2]) -> f64,
+    pub(crate) predict: fn(&Channel, [u32; 2]) -> f64,
     /// What it makes of light that is scattered once, over what is right.
-    pub direct: f64,
+    pub(crate) direct: f64,
 }
 
 impl Law {
@@ -61,7 +61,7 @@ impl Law {
 }
 
 /// Indirect bounces: those that need the path to go on.
-pub fn indirect(bounce: u32) -> i32 {
+pub(crate) fn indirect(bounce: u32) -> i32 {
     bounce.saturating_sub(1).cast_signed()
 }
 
@@ -70,7 +70,7 @@ pub fn indirect(bounce: u32) -> i32 {
 const TIMES_PDF: f64 = 1.0 / (2.0 * PI * PI);
 
 /// Every law.
-pub static LAWS: &[Law] = &[
+pub(crate) static LAWS: &[Law] = &[
     Law::new(
         &integrator::ONE_BOUNCE_SHORT,
         "bounce k holds what belongs to bounce k − 1, and sums end one bounce early",

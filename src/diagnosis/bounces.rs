@@ -16,11 +16,11 @@ use crate::math::ratios::names_of;
 use crate::text::number::{figure, plus_minus};
 
 /// The furnaces whose bounces are told one by one.
-pub const FURNACES: [Role; 2] = [Role::Furnace, Role::FurnaceByHemisphere];
+pub(crate) const FURNACES: [Role; 2] = [Role::Furnace, Role::FurnaceByHemisphere];
 /// How much less a mistake weighs if it is not the only one that fits.
 const SHARED: f64 = 0.6;
 /// Laws that predict a failing furnace, a factor a bounce, or directions that only the cavity sees.
-pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     FURNACES.iter().flat_map(|role| explain(evidence, *role)).collect()
 }
 
@@ -56,9 +56,9 @@ fn direct_light(evidence: &Evidence<'_>, law: &Law) -> Vec<String> {
 }
 
 /// A row of a furnace: which bounces it adds up, and what was read in each channel.
-pub struct Row {
-    pub bounces: [u32; 2],
-    pub readings: [Option<Reading>; 3],
+pub(crate) struct Row {
+    pub(crate) bounces: [u32; 2],
+    pub(crate) readings: [Option<Reading>; 3],
 }
 
 /// The rows of a failing furnace.
@@ -214,7 +214,7 @@ fn is_grey(readings: &[Option<Reading>; 3]) -> bool {
 }
 
 /// `bounce 2` and `bounces 0 to 3`, as the checks name them.
-pub fn rows(finding: &Finding) -> Vec<Row> {
+pub(crate) fn rows(finding: &Finding) -> Vec<Row> {
     let mut seen: Vec<[u32; 2]> = Vec::new();
     for measure in &finding.measures {
         if let Some(bounces) = bounces_of(&measure.row).filter(|bounces| !seen.contains(bounces)) {

@@ -7,7 +7,7 @@ use crate::cause;
 const NEXT: f64 = 0.7;
 
 /// Every clue of every failing case.
-pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let mut suspicions = Vec::new();
     for failure in evidence.failures().chain(evidence.failures_of_robustness()) {
         let Some(finding) = failure.finding else { continue };

@@ -21,7 +21,7 @@ const LAMP_IN_GLASS: Role = Role::LightInsideGlass;
 const INDEX_SQUARED: f64 = 2.25;
 
 /// Every choice that another choice would explain.
-pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     [falloff, emission, glass].iter().filter_map(|rule| rule(evidence)).collect()
 }
 

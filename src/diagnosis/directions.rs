@@ -12,7 +12,7 @@ const CAVITY: Role = Role::Cavity;
 /// A wall that faces sideways.
 const SIDE: Role = Role::SidewaysWall;
 /// Directions of bounces, and the cosine they are weighted with.
-pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     wrong_directions(evidence).into_iter().chain(world_cosine(evidence)).collect()
 }
 

@@ -7,7 +7,7 @@ use crate::image::Channel;
 
 /// How a case stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub(crate) enum Standing {
     /// The core passed it.
     Passed,
     /// The core failed it.
@@ -20,55 +20,55 @@ pub enum Standing {
 
 /// One case and what came of it.
 #[derive(Clone, Debug)]
-pub struct Observation<'a> {
+pub(crate) struct Observation<'a> {
     /// Folder and claim.
-    pub case: &'a str,
+    pub(crate) case: &'a str,
     /// What it counts for.
-    pub tier: Tier,
+    pub(crate) tier: Tier,
     /// What it shows to the rules, if they ask for it.
-    pub role: Option<Role>,
+    pub(crate) role: Option<Role>,
     /// How it stands.
-    pub standing: Standing,
+    pub(crate) standing: Standing,
     /// What the check found, if it came to that.
-    pub finding: Option<&'a Finding>,
+    pub(crate) finding: Option<&'a Finding>,
     /// The command that repeats it.
-    pub rerun: &'a str,
+    pub(crate) rerun: &'a str,
     /// Seconds it took.
-    pub seconds: f64,
+    pub(crate) seconds: f64,
 }
 
 impl Observation<'_> {
     /// Whether the case is about `subject`.
-    pub fn is_about(&self, subject: Subject) -> bool {
+    pub(crate) fn is_about(&self, subject: Subject) -> bool {
         Subject::of_case(self.case) == Some(subject)
     }
 }
 
 /// The findings of one core in one run, in the order of parts.
 #[derive(Clone, Debug)]
-pub struct Evidence<'a> {
+pub(crate) struct Evidence<'a> {
     observations: Vec<Observation<'a>>,
     /// What the core declares to have chosen.
-    pub conventions: Conventions,
+    pub(crate) conventions: Conventions,
 }
 
 impl<'a> Evidence<'a> {
     /// Sorts `observations` into the order in which one part rests on another.
-    pub fn new(mut observations: Vec<Observation<'a>>, conventions: Conventions) -> Self {
+    pub(crate) fn new(mut observations: Vec<Observation<'a>>, conventions: Conventions) -> Self {
         observations
             .sort_by_key(|observation| (Part::position(observation.case), observation.case));
         Self { observations, conventions }
     }
 
     /// Graded cases that failed, the earliest part first.
-    pub fn failures(&self) -> impl Iterator<Item = &Observation<'a>> {
+    pub(crate) fn failures(&self) -> impl Iterator<Item = &Observation<'a>> {
         self.observations
             .iter()
             .filter(|seen| seen.standing == Standing::Failed && seen.tier.is_graded())
     }
 
     /// Failures of robustness, which count nothing, in the same order.
-    pub fn failures_of_robustness(&self) -> impl Iterator<Item = &Observation<'a>> {
+    pub(crate) fn failures_of_robustness(&self) -> impl Iterator<Item = &Observation<'a>> {
         self.observations
             .iter()
             .filter(|seen| seen.standing == Standing::Failed && seen.tier == Tier::Robustness)
@@ -80,33 +80,33 @@ impl<'a> Evidence<'a> {
     }
 
     /// The name of the case of a role; empty where it was not selected.
-    pub fn case(&self, role: Role) -> &'a str {
+    pub(crate) fn case(&self, role: Role) -> &'a str {
         self.of(role).map_or("", |seen| seen.case)
     }
 
     /// What came of the case of a role, if it was tried.
-    pub fn finding(&self, role: Role) -> Option<&'a Finding> {
+    pub(crate) fn finding(&self, role: Role) -> Option<&'a Finding> {
         self.of(role)?.finding
     }
 
     /// The same if it failed.
-    pub fn failed_finding(&self, role: Role) -> Option<&'a Finding> {
+    pub(crate) fn failed_finding(&self, role: Role) -> Option<&'a Finding> {
         let seen = self.of(role)?;
         (seen.standing == Standing::Failed).then_some(seen.finding)?
     }
 
     /// Whether the case of a role was tried and passed.
-    pub fn has_passed(&self, role: Role) -> bool {
+    pub(crate) fn has_passed(&self, role: Role) -> bool {
         self.of(role).is_some_and(|seen| seen.standing == Standing::Passed)
     }
 
     /// Whether it was tried and did not fail: it passed, or noise left it open.
-    pub fn has_withstood(&self, role: Role) -> bool {
+    pub(crate) fn has_withstood(&self, role: Role) -> bool {
         self.finding(role).is_some() && self.failed_finding(role).is_none()
     }
 
     /// How many cases were not tried since one of `cases` failed.
-    pub fn blocked_by(&self, cases: &[String]) -> usize {
+    pub(crate) fn blocked_by(&self, cases: &[String]) -> usize {
         let is_blocked = |seen: &&Observation<'_>| match &seen.standing {
             Standing::Blocked(by) => cases.contains(by),
             _ => false,
@@ -116,7 +116,11 @@ impl<'a> Evidence<'a> {
 }
 
 /// The number of a row and a channel.
-pub fn measure<'f>(finding: &'f Finding, row: &str, channel: Channel) -> Option<&'f Measure> {
+pub(crate) fn measure<'f>(
+    finding: &'f Finding,
+    row: &str,
+    channel: Channel,
+) -> Option<&'f Measure> {
     let is_it = |measure: &&Measure| measure.row == row && measure.channel == Some(channel);
     finding.measures.iter().find(is_it)
 }

@@ -65,7 +65,7 @@ static OF_HEMISPHERE: &[Signature] = &[
 ];
 
 /// Mistakes whose predictions lie inside every interval of both scenes.
-pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let mut suspicions = explain(evidence, &BY_LIGHTS, OF_LIGHTS);
     suspicions.extend(explain(evidence, &BY_HEMISPHERE, OF_HEMISPHERE));
     suspicions

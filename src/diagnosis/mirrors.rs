@@ -10,7 +10,7 @@ const MIRRORS: Role = Role::Mirrors;
 const FURNACE: Role = Role::Furnace;
 
 /// Mirrors and glass are dark, and the furnace is right.
-pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     if evidence.failed_finding(MIRRORS).is_none() || evidence.failed_finding(FURNACE).is_some() {
         return Vec::new();
     }

@@ -22,37 +22,37 @@ mod shadows;
 #[cfg(test)]
 mod testing;
 
-pub use evidence::{Evidence, Observation, Standing};
-pub use rank::{Diagnosis, Headline};
+pub(crate) use evidence::{Evidence, Observation, Standing};
+pub(crate) use rank::{Diagnosis, Headline};
 
 use crate::cause::Cause;
 
 /// A reason to suspect a cause.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Suspicion {
+pub(crate) struct Suspicion {
     /// The mistake.
-    pub cause: &'static Cause,
+    pub(crate) cause: &'static Cause,
     /// The failing cases that it would explain.
-    pub cases: Vec<String>,
+    pub(crate) cases: Vec<String>,
     /// What speaks for it, a sentence each, with numbers.
-    pub evidence: Vec<String>,
+    pub(crate) evidence: Vec<String>,
     /// What else could have been, and why it is not.
-    pub ruled_out: Vec<String>,
+    pub(crate) ruled_out: Vec<String>,
     /// How well it explains a case: 1 if it is the first thing to think of, less for each that comes before it.
-    pub weight: f64,
+    pub(crate) weight: f64,
 }
 
 /// A way to come from findings to causes.
-pub struct Rule {
+pub(crate) struct Rule {
     /// As `furnace list rules` shows it.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// What it compares with what, in one line.
-    pub summary: &'static str,
+    pub(crate) summary: &'static str,
     run: fn(&Evidence<'_>) -> Vec<Suspicion>,
 }
 
 /// Every rule. Their order does not matter: suspicions are ranked by what they explain.
-pub static RULES: &[Rule] = &[
+pub(crate) static RULES: &[Rule] = &[
     Rule { name: "clues", summary: "what a check itself has recognised", run: clues::suspect },
     Rule {
         name: "conventions",
@@ -84,7 +84,7 @@ pub static RULES: &[Rule] = &[
 ];
 
 /// The causes of what failed, the first to look at first.
-pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
+pub(crate) fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let suspicions = RULES.iter().flat_map(|rule| (rule.run)(evidence)).collect();
     rank::rank(evidence, suspicions)
 }

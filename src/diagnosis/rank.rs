@@ -12,37 +12,37 @@ const EVIDENCE: usize = 4;
 
 /// One cause and all that it explains.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Headline {
+pub(crate) struct Headline {
     /// The mistake.
-    pub cause: &'static Cause,
+    pub(crate) cause: &'static Cause,
     /// What the failures count for.
-    pub tier: Tier,
+    pub(crate) tier: Tier,
     /// What speaks for it.
-    pub evidence: Vec<String>,
+    pub(crate) evidence: Vec<String>,
     /// What else could have been, and why it is not.
-    pub ruled_out: Vec<String>,
+    pub(crate) ruled_out: Vec<String>,
     /// The failing cases that it explains, the earliest part first.
-    pub explains: Vec<String>,
+    pub(crate) explains: Vec<String>,
     /// Failing cases of the same and later parts that nothing explains: they may follow from it.
-    pub may_follow: Vec<String>,
+    pub(crate) may_follow: Vec<String>,
     /// Cases that were not tried because of these.
-    pub blocked: usize,
+    pub(crate) blocked: usize,
     /// The command that repeats the quickest of the failing cases.
-    pub command: String,
+    pub(crate) command: String,
 }
 
 /// What is wrong with a core.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Diagnosis {
+pub(crate) struct Diagnosis {
     /// The causes, the one to look at first in front.
-    pub headlines: Vec<Headline>,
+    pub(crate) headlines: Vec<Headline>,
     /// Failing cases that no cause explains.
-    pub unexplained: Vec<String>,
+    pub(crate) unexplained: Vec<String>,
 }
 
 impl Diagnosis {
     /// The cause to look at first.
-    pub fn first(&self) -> Option<&'static Cause> {
+    pub(crate) fn first(&self) -> Option<&'static Cause> {
         self.headlines.first().map(|headline| headline.cause)
     }
 }
@@ -58,7 +58,7 @@ struct Candidate {
 
 /// Takes the best candidate, then the best for what is left, until nothing is left; what counts comes before what
 /// does not.
-pub fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagnosis {
+pub(crate) fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagnosis {
     let mut candidates = gather(suspicions);
     let case = |seen: &Observation<'_>| seen.case.to_owned();
     let suspected = |case: &String| candidates.iter().any(|c| c.cases.contains_key(case));

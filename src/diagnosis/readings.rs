@@ -12,16 +12,16 @@ const SLACK: f64 = 2.0 * Band::RADIANCE.relative();
 
 /// One ratio that was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reading {
+pub(crate) struct Reading {
     /// Measured over expected.
-    pub ratio: f64,
+    pub(crate) ratio: f64,
     /// Holds the true ratio with 99.9 % confidence, and a little more for rounding.
-    pub interval: [f64; 2],
+    pub(crate) interval: [f64; 2],
 }
 
 impl Reading {
     /// The reading of a measure; none where nothing was expected, or the numbers are no numbers.
-    pub fn of(measure: &Measure) -> Option<Self> {
+    pub(crate) fn of(measure: &Measure) -> Option<Self> {
         let ratio = measure.measured / measure.expected;
         let around = |value: f64| [value - SLACK * value.abs(), value + SLACK * value.abs()];
         let interval = match measure.interval {
@@ -39,23 +39,23 @@ impl Reading {
     }
 
     /// Whether a prediction lies inside.
-    pub fn admits(&self, prediction: f64) -> bool {
+    pub(crate) fn admits(&self, prediction: f64) -> bool {
         self.interval[0] <= prediction && prediction <= self.interval[1]
     }
 
     /// Half the width of the interval.
-    pub fn half_width(&self) -> f64 {
+    pub(crate) fn half_width(&self) -> f64 {
         0.5 * (self.interval[1] - self.interval[0])
     }
 
     /// With its uncertainty, and what a rule predicts.
-    pub fn beside(&self, predicted: f64) -> String {
+    pub(crate) fn beside(&self, predicted: f64) -> String {
         let measured = plus_minus(self.ratio, self.half_width());
         format!("{measured} (predicted {})", figure(predicted))
     }
 }
 
 /// The readings of a row of a finding, channel by channel; `None` for a channel that expects nothing.
-pub fn channels(finding: &Finding, row: &str) -> [Option<Reading>; 3] {
+pub(crate) fn channels(finding: &Finding, row: &str) -> [Option<Reading>; 3] {
     CHANNELS.map(|channel| measure(finding, row, channel).and_then(Reading::of))
 }

@@ -80,7 +80,7 @@ struct Row {
 }
 
 /// Laws that predict the mean of every row.
-pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let Some(finding) = evidence.failed_finding(FURNACE) else { return Vec::new() };
     let rows = rows(finding);
     let fits = |law: &&Law| !rows.is_empty() && rows.iter().all(|row| row.admits(law));

@@ -27,7 +27,7 @@ const WITHOUT_LAMPS: [Role; 2] = [Role::OpenLightByHemisphere, Role::PointLight]
 const VARIANCE_SLACK: f64 = 0.02;
 
 /// Shadows that are missing, rays that are too short, and shadows of the lamps themselves.
-pub fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let rules = [no_shadows, range_kept, shadowed_at_times];
     rules.into_iter().filter_map(|rule| rule(evidence)).collect()
 }

@@ -8,7 +8,7 @@ use crate::image::Channel;
 use crate::stats::Verdict;
 
 /// What a made-up case is called, or is to the rules.
-pub struct Name {
+pub(crate) struct Name {
     case: String,
     role: Option<Role>,
 }
@@ -36,39 +36,39 @@ impl From<Role> for Name {
 }
 
 /// Cases and what came of them.
-pub struct Made {
+pub(crate) struct Made {
     findings: Vec<(Name, Finding)>,
     blocked: Vec<(String, String)>,
     robustness: Vec<String>,
     /// What the core declares.
-    pub conventions: Conventions,
+    pub(crate) conventions: Conventions,
 }
 
 impl Made {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let conventions = Conventions::default();
         Self { findings: Vec::new(), blocked: Vec::new(), robustness: Vec::new(), conventions }
     }
 
     /// The same with the finding of another case.
-    pub fn with(mut self, case: impl Into<Name>, finding: Finding) -> Self {
+    pub(crate) fn with(mut self, case: impl Into<Name>, finding: Finding) -> Self {
         self.findings.push((case.into(), finding));
         self
     }
 
     /// The same with a case that counts nothing.
-    pub fn beside_the_grade(mut self, case: &str) -> Self {
+    pub(crate) fn beside_the_grade(mut self, case: &str) -> Self {
         self.robustness.push(case.to_owned());
         self
     }
 
     /// The same with a case that was not tried.
-    pub fn blocked(mut self, case: &str, by: &str) -> Self {
+    pub(crate) fn blocked(mut self, case: &str, by: &str) -> Self {
         self.blocked.push((case.to_owned(), by.to_owned()));
         self
     }
 
-    pub fn evidence(&self) -> Evidence<'_> {
+    pub(crate) fn evidence(&self) -> Evidence<'_> {
         let tried = self.findings.iter().map(|(Name { case, role }, finding)| {
             let standing = match finding.verdict {
                 Verdict::Pass => Standing::Passed,
@@ -100,17 +100,23 @@ fn observation<'a>(
 }
 
 /// A finding that fails.
-pub fn failing(statement: &str) -> Finding {
+pub(crate) fn failing(statement: &str) -> Finding {
     Finding::failure(statement)
 }
 
 /// A finding that passes.
-pub fn passing() -> Finding {
+pub(crate) fn passing() -> Finding {
     Finding::of("right", "", vec![Measure::exact("t", 1.0, 1.0, 0.0)])
 }
 
 /// A mean of a row and a channel, of `expected`, that was measured as `ratio` of it, to a relative precision of `precision`.
-pub fn mean(row: &str, channel: Channel, expected: f64, ratio: f64, precision: f64) -> Measure {
+pub(crate) fn mean(
+    row: &str,
+    channel: Channel,
+    expected: f64,
+    ratio: f64,
+    precision: f64,
+) -> Measure {
     let measured = expected * ratio;
     let half = precision * measured.abs().max(1e-3 * expected);
     let is_right = (ratio - 1.0).abs() <= precision + 1e-3;
@@ -122,6 +128,6 @@ pub fn mean(row: &str, channel: Channel, expected: f64, ratio: f64, precision: f
 }
 
 /// A finding of such means.
-pub fn means(measures: Vec<Measure>) -> Finding {
+pub(crate) fn means(measures: Vec<Measure>) -> Finding {
     Finding::of("means", "", measures)
 }

@@ -16,11 +16,11 @@ pub enum Channel {
 }
 
 /// All of them, in the order of a pixel.
-pub const CHANNELS: [Channel; 3] = [Channel::Red, Channel::Green, Channel::Blue];
+pub(crate) const CHANNELS: [Channel; 3] = [Channel::Red, Channel::Green, Channel::Blue];
 
 impl Channel {
     /// Its place in a pixel.
-    pub const fn index(self) -> usize {
+    pub(crate) const fn index(self) -> usize {
         self as usize
     }
 }

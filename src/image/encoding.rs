@@ -7,7 +7,7 @@ use crate::text::number::figure;
 use serde::{Deserialize, Serialize};
 
 /// The largest code.
-pub const WHITE: f64 = 255.0;
+pub(crate) const WHITE: f64 = 255.0;
 /// Below this light, the sRGB curve is a line...
 const SRGB_TOE: f64 = 0.003_130_8;
 /// ...of this slope.
@@ -20,7 +20,7 @@ const SRGB_POWER: f64 = 2.4;
 /// From linear light to a share of white.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Curve {
+pub(crate) enum Curve {
     /// Twice the number is twice the light.
     Linear,
     /// The curve of IEC 61966-2-1.
@@ -32,7 +32,7 @@ pub enum Curve {
 
 impl Curve {
     /// The share of white that shows this light; light beyond [0, 1] is clipped. NaN stays NaN.
-    pub fn encode(self, light: f64) -> f64 {
+    pub(crate) fn encode(self, light: f64) -> f64 {
         let light = light.clamp(0.0, 1.0);
         match self {
             Self::Linear => light,
@@ -45,7 +45,7 @@ impl Curve {
     }
 
     /// The light of a share of white.
-    pub fn decode(self, share: f64) -> f64 {
+    pub(crate) fn decode(self, share: f64) -> f64 {
         match self {
             Self::Linear => share,
             Self::Gamma(gamma) => share.powf(gamma),
@@ -56,7 +56,7 @@ impl Curve {
 
     /// Share of white that is gained if light grows by a small factor, over the logarithm of that
     /// factor.
-    pub fn slope(self, light: f64) -> f64 {
+    pub(crate) fn slope(self, light: f64) -> f64 {
         let light = light.clamp(0.0, 1.0);
         match self {
             Self::Linear => light,
@@ -68,7 +68,7 @@ impl Curve {
 
     /// How strongly the curve is bent around a share of white: minus its second derivative over the
     /// square of its first. Noise of variance v there takes half of this times v from the mean.
-    pub fn bend(self, share: f64) -> f64 {
+    pub(crate) fn bend(self, share: f64) -> f64 {
         match self {
             Self::Linear => 0.0,
             Self::Gamma(gamma) => (gamma - 1.0) / share,
@@ -91,7 +91,7 @@ impl std::fmt::Display for Curve {
 /// What becomes of the fraction of a code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Rounding {
+pub(crate) enum Rounding {
     /// The nearest code is taken.
     #[default]
     Nearest,
@@ -113,13 +113,13 @@ impl std::fmt::Display for Rounding {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Encoding {
     /// From linear light to a share of white.
-    pub curve: Curve,
+    pub(crate) curve: Curve,
     /// What becomes of the fraction of a code.
     #[serde(default)]
-    pub rounding: Rounding,
+    pub(crate) rounding: Rounding,
     /// What light is multiplied with before.
     #[serde(default = "unexposed")]
-    pub exposure: f64,
+    pub(crate) exposure: f64,
 }
 
 const fn unexposed() -> f64 {
@@ -128,46 +128,46 @@ const fn unexposed() -> f64 {
 
 impl Encoding {
     /// Rounded codes of a curve.
-    pub const fn of(curve: Curve) -> Self {
+    pub(crate) const fn of(curve: Curve) -> Self {
         Self { curve, rounding: Rounding::Nearest, exposure: 1.0 }
     }
 
     /// The course's: ⌊255 (√2 L)^(1/2.2)⌋.
-    pub const COURSE: Self = Self {
+    pub(crate) const COURSE: Self = Self {
         curve: Curve::Gamma(2.2),
         rounding: Rounding::Down,
         exposure: std::f64::consts::SQRT_2,
     };
 
     /// The code of this light; 0 of what is no number.
-    pub fn code(self, light: f64) -> u8 {
+    pub(crate) fn code(self, light: f64) -> u8 {
         // In [0, 256): the cast drops the fraction and cannot overflow.
         (WHITE * self.curve.encode(self.exposure * light) + self.half()) as u8
     }
 
     /// The least light with this code; between codes, that of the code there would be.
-    pub fn edge(self, code: f64) -> f64 {
+    pub(crate) fn edge(self, code: f64) -> f64 {
         self.curve.decode(((code - self.half()) / WHITE).max(0.0)) / self.exposure
     }
 
     /// The mean code around this light, were there noise enough to hide the steps.
-    pub fn level(self, light: f64) -> f64 {
+    pub(crate) fn level(self, light: f64) -> f64 {
         WHITE * self.curve.encode(self.exposure * light) + self.half() - 0.5
     }
 
     /// Codes gained if light grows by a small factor, over the logarithm of that factor.
-    pub fn slope(self, light: f64) -> f64 {
+    pub(crate) fn slope(self, light: f64) -> f64 {
         WHITE * self.curve.slope(self.exposure * light)
     }
 
     /// The light in the middle of what gives a code; none of 0.
-    pub fn light(self, code: u8) -> f64 {
+    pub(crate) fn light(self, code: u8) -> f64 {
         let middle = f64::from(code) + 0.5 - self.half();
         if code == 0 { 0.0 } else { self.curve.decode(middle / WHITE) / self.exposure }
     }
 
     /// The codes of an image.
-    pub fn picture(self, image: &Image) -> Picture {
+    pub(crate) fn picture(self, image: &Image) -> Picture {
         let pixels = image.pixels.iter().map(|pixel| pixel.map(|light| self.code(light.into())));
         Picture { width: image.width, height: image.height, pixels: pixels.collect() }
     }

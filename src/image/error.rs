@@ -53,7 +53,7 @@ pub enum ImageError {
 
 impl ImageError {
     /// A file that is not what it should be, in the words of whoever read it.
-    pub fn unreadable(path: &Path, cause: impl std::fmt::Display) -> Self {
+    pub(crate) fn unreadable(path: &Path, cause: impl std::fmt::Display) -> Self {
         Self::Unreadable { path: path.to_owned(), cause: cause.to_string() }
     }
 

@@ -28,7 +28,7 @@ pub enum Storage {
 
 /// One value for each pixel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Channel {
+pub(crate) struct Channel {
     /// Such as `R`, or `se.R`.
     pub name: String,
     /// Row-major from the top left.
@@ -41,13 +41,13 @@ pub struct Channel {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exr {
     /// Pixels in a row.
-    pub width: usize,
+    pub(crate) width: usize,
     /// Rows.
-    pub height: usize,
+    pub(crate) height: usize,
     /// In the order of the file: by name.
-    pub channels: Vec<Channel>,
+    pub(crate) channels: Vec<Channel>,
     /// Text attributes by name. Other attributes are not kept.
-    pub attributes: BTreeMap<String, String>,
+    pub(crate) attributes: BTreeMap<String, String>,
 }
 
 impl Exr {
@@ -67,18 +67,18 @@ impl Exr {
     }
 
     /// The same with one text attribute more.
-    pub fn with_attribute(mut self, name: &str, text: impl Into<String>) -> Self {
+    pub(crate) fn with_attribute(mut self, name: &str, text: impl Into<String>) -> Self {
         self.attributes.insert(name.to_owned(), text.into());
         self
     }
 
     /// The image in R, G and B.
-    pub fn image(&self) -> Result<Image, ImageError> {
+    pub(crate) fn image(&self) -> Result<Image, ImageError> {
         self.colours("")
     }
 
     /// The image in the channels `prefix` R, G and B.
-    pub fn colours(&self, prefix: &str) -> Result<Image, ImageError> {
+    pub(crate) fn colours(&self, prefix: &str) -> Result<Image, ImageError> {
         let [red, green, blue] = COLOURS.map(|colour| self.whole(&format!("{prefix}{colour}")));
         let colours = red?.iter().zip(green?).zip(blue?);
         let pixels = colours.map(|((red, green), blue)| [*red, *green, *blue]).collect();
@@ -98,7 +98,7 @@ impl Exr {
     }
 
     /// The channel of this name.
-    pub fn channel(&self, name: &str) -> Result<&Channel, ImageError> {
+    pub(crate) fn channel(&self, name: &str) -> Result<&Channel, ImageError> {
         self.channels.iter().find(|channel| channel.name == name).ok_or_else(|| {
             ImageError::NoChannel {
                 channel: name.to_owned(),
@@ -174,7 +174,7 @@ pub fn write(path: &Path, file: &Exr) -> Result<(), ImageError> {
 }
 
 /// The bytes of a file that is to stand at `path`.
-pub fn encode(path: &Path, file: &Exr) -> Result<Vec<u8>, ImageError> {
+pub(crate) fn encode(path: &Path, file: &Exr) -> Result<Vec<u8>, ImageError> {
     let pixels = file.width * file.height;
     if let Some(wrong) = file.channels.iter().find(|channel| channel.values.len() != pixels) {
         let (channel, values) = (wrong.name.clone(), wrong.values.len());

@@ -10,26 +10,26 @@ use std::path::Path;
 
 /// The codes of a file of whole numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Codes {
+pub(crate) struct Codes {
     /// The largest: 255 or 65,535.
-    pub largest: u32,
+    pub(crate) largest: u32,
     /// The codes themselves, if there are 256.
-    pub picture: Option<Picture>,
+    pub(crate) picture: Option<Picture>,
 }
 
 /// What a file holds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Loaded {
+pub(crate) struct Loaded {
     /// Linear light, if the numbers were encoded as was said.
-    pub image: Image,
+    pub(crate) image: Image,
     /// Coverage, where the file has it.
-    pub alpha: Option<Plane>,
+    pub(crate) alpha: Option<Plane>,
     /// How the numbers were taken.
-    pub encoding: Curve,
+    pub(crate) encoding: Curve,
     /// Of a file of whole numbers.
-    pub codes: Option<Codes>,
+    pub(crate) codes: Option<Codes>,
     /// Other channels of an OpenEXR file, such as standard errors.
-    pub extra: Option<exr::Exr>,
+    pub(crate) extra: Option<exr::Exr>,
 }
 
 /// Reads a file. Numbers of PNG are taken as `encoding`, sRGB if none is said; all others are
@@ -37,7 +37,7 @@ pub struct Loaded {
 ///
 /// # Errors
 /// If the file is missing, damaged, or of another kind.
-pub fn load(path: &Path, encoding: Option<Curve>) -> Result<Loaded, ImageError> {
+pub(crate) fn load(path: &Path, encoding: Option<Curve>) -> Result<Loaded, ImageError> {
     match Kind::of(path)? {
         Kind::OpenExr => load_exr(path),
         Kind::FloatMap => Ok(linear(pfm::read(path)?)),

@@ -47,7 +47,7 @@ pub enum Scale {
 
 impl Scale {
     /// The colour of a value; magenta for NaN, the end of the scale beyond it.
-    pub fn colour(self, value: f64) -> [u8; 3] {
+    pub(crate) fn colour(self, value: f64) -> [u8; 3] {
         let (stops, position): (&[_], _) = match self {
             Scale::Signed { limit } => (&SIGNED, 0.5 + 0.5 * value / limit),
             Scale::Magnitude { limit } => (&MAGNITUDE, value / limit),
@@ -56,7 +56,7 @@ impl Scale {
     }
 
     /// The value that the strongest colour stands for.
-    pub fn limit(self) -> f64 {
+    pub(crate) fn limit(self) -> f64 {
         match self {
             Scale::Signed { limit } | Scale::Magnitude { limit } => limit,
         }
@@ -77,7 +77,7 @@ fn between(stops: &[[u8; 3]], position: f64) -> [u8; 3] {
 
 /// An image of `values`, row-major from the top left in rows of `width`; each becomes `magnify` by
 /// `magnify` pixels.
-pub fn heatmap(values: &[f64], width: usize, scale: Scale, magnify: usize) -> Picture {
+pub(crate) fn heatmap(values: &[f64], width: usize, scale: Scale, magnify: usize) -> Picture {
     let height = values.len() / width.max(1);
     let rows = 0..height * magnify;
     let pixel = |x: usize, y: usize| scale.colour(values[y / magnify * width + x / magnify]);

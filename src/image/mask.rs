@@ -4,11 +4,11 @@
 use super::{Image, ImageError};
 
 /// A rectangle of pixels: first column, first row from the top, columns, rows.
-pub type Rectangle = [usize; 4];
+pub(crate) type Rectangle = [usize; 4];
 
 /// Pixels that do not count.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Mask {
+pub(crate) struct Mask {
     rectangles: Vec<Rectangle>,
     /// Columns, rows, and which pixels count.
     picture: Option<([usize; 2], Vec<bool>)>,
@@ -16,12 +16,12 @@ pub struct Mask {
 
 impl Mask {
     /// Of rectangles that do not count.
-    pub fn of_rectangles(rectangles: &[Rectangle]) -> Self {
+    pub(crate) fn of_rectangles(rectangles: &[Rectangle]) -> Self {
         Self { rectangles: rectangles.to_vec(), picture: None }
     }
 
     /// Of an image that is black where pixels do not count.
-    pub fn from_picture(image: &Image) -> Self {
+    pub(crate) fn from_picture(image: &Image) -> Self {
         let counted = image.pixels.iter().map(|pixel| *pixel != [0.0; 3]).collect();
         let picture = Some(([image.width, image.height], counted));
         Self { rectangles: Vec::new(), picture }
@@ -31,7 +31,7 @@ impl Mask {
     ///
     /// # Errors
     /// If the mask is an image of another size, or nothing counts.
-    pub fn counted(&self, [width, height]: [usize; 2]) -> Result<Vec<bool>, ImageError> {
+    pub(crate) fn counted(&self, [width, height]: [usize; 2]) -> Result<Vec<bool>, ImageError> {
         let mut counted = match &self.picture {
             None => vec![true; width * height],
             Some((size, counted)) if *size == [width, height] => counted.clone(),
@@ -51,7 +51,7 @@ impl Mask {
 
 impl Image {
     /// Shows `other` where pixels do not count, so that no comparison of both sees them.
-    pub fn paint_over(&mut self, counted: &[bool], other: &Image) {
+    pub(crate) fn paint_over(&mut self, counted: &[bool], other: &Image) {
         let pixels = self.pixels.iter_mut().zip(&other.pixels).zip(counted);
         for ((pixel, other), _) in pixels.filter(|(_, counted)| !**counted) {
             *pixel = *other;

@@ -4,26 +4,26 @@
 //! and never grade.
 
 mod channel;
-pub mod encoding;
+pub(crate) mod encoding;
 mod error;
 pub mod exr;
-pub mod file;
+pub(crate) mod file;
 pub(crate) mod filter;
-pub mod flip;
-pub mod heatmap;
-pub mod mask;
+pub(crate) mod flip;
+pub(crate) mod heatmap;
+pub(crate) mod mask;
 pub mod metric;
 mod ms_ssim;
 pub mod pair;
-pub mod pfm;
+pub(crate) mod pfm;
 mod pixel_error;
-pub mod png;
+pub(crate) mod png;
 mod shrink;
 mod ssim;
-pub mod tonemap;
+pub(crate) mod tonemap;
 
-pub use channel::{CHANNELS, Channel};
-pub use error::ImageError;
+pub(crate) use channel::{CHANNELS, Channel};
+pub(crate) use error::ImageError;
 
 /// An image of linear RGB radiance, row-major from the top left.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,14 +53,14 @@ impl Image {
     }
 
     /// Adds the light of an image of the same size.
-    pub fn add(&mut self, other: &Image) {
+    pub(crate) fn add(&mut self, other: &Image) {
         for (sum, pixel) in self.pixels.iter_mut().zip(&other.pixels) {
             *sum = std::array::from_fn(|c| sum[c] + pixel[c]);
         }
     }
 
     /// Whether both have the same width and height.
-    pub fn same_size(&self, other: &Image) -> bool {
+    pub(crate) fn same_size(&self, other: &Image) -> bool {
         (self.width, self.height) == (other.width, other.height)
     }
 }

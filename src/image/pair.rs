@@ -13,31 +13,31 @@ const CHUNK: usize = 1 << 14;
 #[derive(Debug)]
 pub struct Pair<'a> {
     /// The image.
-    pub image: &'a Image,
+    pub(crate) image: &'a Image,
     /// What it is held against.
-    pub reference: &'a Image,
+    pub(crate) reference: &'a Image,
     grey: OnceLock<[Plane; 2]>,
 }
 
 /// One number for each pixel, row-major from the top left.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plane {
+pub(crate) struct Plane {
     /// Pixels in a row.
-    pub width: usize,
+    pub(crate) width: usize,
     /// Rows.
-    pub height: usize,
+    pub(crate) height: usize,
     /// `width · height` numbers.
-    pub values: Vec<f32>,
+    pub(crate) values: Vec<f32>,
 }
 
 impl Plane {
     /// Row `y` from the top.
-    pub fn row(&self, y: usize) -> &[f32] {
+    pub(crate) fn row(&self, y: usize) -> &[f32] {
         &self.values[y * self.width..][..self.width]
     }
 
     /// Means of two by two pixels; a last odd row or column is left out.
-    pub fn halved(&self) -> Self {
+    pub(crate) fn halved(&self) -> Self {
         let (width, height) = (self.width / 2, self.height / 2);
         let row = |y: usize| {
             let [upper, lower] = [self.row(2 * y), self.row(2 * y + 1)];
@@ -66,7 +66,7 @@ impl<'a> Pair<'a> {
 
     /// Both as a screen shows them: luminance at the exposure that suits the reference, clipped to
     /// white, sRGB. In [0, 1]; NaN stays NaN.
-    pub fn grey(&self) -> &[Plane; 2] {
+    pub(crate) fn grey(&self) -> &[Plane; 2] {
         self.grey.get_or_init(|| {
             let gain = exposure_of(self.reference).exp2();
             [self.image, self.reference].map(|picture| grey(picture, gain))
@@ -74,7 +74,7 @@ impl<'a> Pair<'a> {
     }
 
     /// The mean of `error` over all pixels.
-    pub fn mean(&self, error: impl Fn([f32; 3], [f32; 3]) -> f64 + Sync) -> f64 {
+    pub(crate) fn mean(&self, error: impl Fn([f32; 3], [f32; 3]) -> f64 + Sync) -> f64 {
         let chunks =
             self.image.pixels.par_chunks(CHUNK).zip(self.reference.pixels.par_chunks(CHUNK));
         let sum = |(image, reference): (&[[f32; 3]], &[[f32; 3]])| -> f64 {
@@ -85,7 +85,7 @@ impl<'a> Pair<'a> {
     }
 
     /// `error` of every pixel.
-    pub fn each(&self, error: impl Fn([f32; 3], [f32; 3]) -> f64 + Sync) -> Vec<f64> {
+    pub(crate) fn each(&self, error: impl Fn([f32; 3], [f32; 3]) -> f64 + Sync) -> Vec<f64> {
         let pairs = self.image.pixels.par_iter().zip(&self.reference.pixels);
         pairs.map(|(image, reference)| error(*image, *reference)).collect()
     }

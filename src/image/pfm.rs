@@ -2,14 +2,13 @@
 //! stand from the bottom up.
 
 use super::{Image, ImageError};
-use crate::disk;
 use std::path::Path;
 
 /// Reads a file.
 ///
 /// # Errors
 /// If it is missing, cut off, or no portable float map.
-pub fn read(path: &Path) -> Result<Image, ImageError> {
+pub(crate) fn read(path: &Path) -> Result<Image, ImageError> {
     let bytes = std::fs::read(path).map_err(|error| ImageError::unreadable(path, error))?;
     decode(&bytes).map_err(|problem| ImageError::unreadable(path, problem))
 }
@@ -18,12 +17,13 @@ pub fn read(path: &Path) -> Result<Image, ImageError> {
 ///
 /// # Errors
 /// If the file system says no.
-pub fn write(path: &Path, image: &Image) -> Result<(), ImageError> {
+#[cfg(test)]
+pub(crate) fn write(path: &Path, image: &Image) -> Result<(), ImageError> {
     let mut bytes = format!("PF\n{} {}\n-1.0\n", image.width, image.height).into_bytes();
     for row in image.pixels.chunks(image.width.max(1)).rev() {
         bytes.extend(row.as_flattened().iter().flat_map(|value| value.to_le_bytes()));
     }
-    disk::replace(path, &bytes).map_err(|error| ImageError::unwritable(path, error))
+    crate::disk::replace(path, &bytes).map_err(|error| ImageError::unwritable(path, error))
 }
 
 fn decode(bytes: &[u8]) -> Result<Image, String> {

@@ -1,25 +1,22 @@
 //! PNG, 8 bits a channel: for reports. Never for comparison: rounding and clipping cannot be
 //! undone.
 
-use super::ImageError;
-use crate::disk;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
-use std::path::Path;
 
 /// An image as a screen shows it: sRGB, row-major from the top left.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Picture {
     /// Pixels in a row.
-    pub width: usize,
+    pub(crate) width: usize,
     /// Rows.
-    pub height: usize,
+    pub(crate) height: usize,
     /// `width · height` colours.
-    pub pixels: Vec<[u8; 3]>,
+    pub(crate) pixels: Vec<[u8; 3]>,
 }
 
 /// The bytes of a PNG file.
-pub fn encode(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
+pub(crate) fn encode(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
     let side = |length: usize| {
         u32::try_from(length).map_err(|_| {
             let kind = image::error::ParameterErrorKind::DimensionMismatch;
@@ -40,9 +37,11 @@ pub fn encode(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
 }
 
 /// Writes a PNG file.
-pub fn write(path: &Path, picture: &Picture) -> Result<(), ImageError> {
+#[cfg(test)]
+pub(crate) fn write(path: &std::path::Path, picture: &Picture) -> Result<(), super::ImageError> {
+    use super::ImageError;
     let bytes = encode(picture).map_err(|error| ImageError::unwritable(path, error))?;
-    disk::replace(path, &bytes).map_err(|error| ImageError::unwritable(path, error))
+    crate::disk::replace(path, &bytes).map_err(|error| ImageError::unwritable(path, error))
 }
 
 #[cfg(test)]

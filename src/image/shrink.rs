@@ -5,7 +5,7 @@ use super::Image;
 impl Image {
     /// The image with no side longer than `longest` pixels, each the mean of a block. NaN stays
     /// NaN: a block is what its worst pixel is.
-    pub fn shrunk_to(&self, longest: usize) -> Self {
+    pub(crate) fn shrunk_to(&self, longest: usize) -> Self {
         let block = self.width.max(self.height).div_ceil(longest.max(1)).max(1);
         let (width, height) = (self.width.div_ceil(block), self.height.div_ceil(block));
         let mut small = Self::new(width, height, [0.0; 3]);

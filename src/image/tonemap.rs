@@ -6,7 +6,7 @@ use super::{Image, luminance, png::Picture};
 use rayon::prelude::*;
 
 /// The colour of a pixel that is not a number.
-pub const NOT_A_NUMBER: [u8; 3] = [255, 0, 255];
+pub(crate) const NOT_A_NUMBER: [u8; 3] = [255, 0, 255];
 
 /// The share of pixels that the exposure of [`exposure_of`] keeps below white.
 const WHITE_PERCENTILE: f64 = 0.95;
@@ -15,17 +15,17 @@ const WHITE: f64 = 0.8;
 
 /// Linear light, clipped to [0, 1], to sRGB in [0, 1] (IEC 61966-2-1). NaN stays NaN.
 #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
-pub fn encode_srgb(linear: f32) -> f32 {
+pub(crate) fn encode_srgb(linear: f32) -> f32 {
     Curve::Srgb.encode(f64::from(linear)) as f32
 }
 
 /// Linear light in [0, 1] to an sRGB code.
-pub fn srgb_code(linear: f32) -> u8 {
+pub(crate) fn srgb_code(linear: f32) -> u8 {
     Encoding::of(Curve::Srgb).code(f64::from(linear))
 }
 
 /// The image times 2^`stops`, clipped to white.
-pub fn tonemap(image: &Image, stops: f32) -> Picture {
+pub(crate) fn tonemap(image: &Image, stops: f32) -> Picture {
     let gain = stops.exp2();
     let shown = |pixel: &[f32; 3]| {
         if pixel.iter().any(|value| value.is_nan()) {
@@ -40,7 +40,7 @@ pub fn tonemap(image: &Image, stops: f32) -> Picture {
 
 /// Stops with which nearly all of an image is bright and not clipped. Use that of the reference
 /// for both.
-pub fn exposure_of(image: &Image) -> f32 {
+pub(crate) fn exposure_of(image: &Image) -> f32 {
     let mut values: Vec<f64> = image.pixels.par_iter().map(|pixel| luminance(*pixel)).collect();
     values.retain(|value| value.is_finite() && *value > 0.0);
     if values.is_empty() {

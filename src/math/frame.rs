@@ -3,20 +3,22 @@
 use glam::DVec3;
 
 /// An orthonormal, right-handed frame whose third axis is the normal.
+#[cfg(test)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub(crate) struct Frame {
     /// First tangent, world space.
-    pub tangent: DVec3,
+    pub(crate) tangent: DVec3,
     /// Second tangent, world space.
-    pub bitangent: DVec3,
+    pub(crate) bitangent: DVec3,
     /// Third axis, world space.
-    pub normal: DVec3,
+    pub(crate) normal: DVec3,
 }
 
+#[cfg(test)]
 impl Frame {
     /// Some frame around a unit normal. Duff et al., "Building an Orthonormal Basis, Revisited",
     /// JCGT 2017.
-    pub fn around(normal: DVec3) -> Self {
+    pub(crate) fn around(normal: DVec3) -> Self {
         let sign = 1f64.copysign(normal.z);
         let a = -1.0 / (sign + normal.z);
         let b = normal.x * normal.y * a;
@@ -28,18 +30,18 @@ impl Frame {
     }
 
     /// A world direction in this frame.
-    pub fn to_local(&self, world: DVec3) -> DVec3 {
+    pub(crate) fn to_local(&self, world: DVec3) -> DVec3 {
         DVec3::new(world.dot(self.tangent), world.dot(self.bitangent), world.dot(self.normal))
     }
 
     /// A direction of this frame in the world.
-    pub fn to_world(&self, local: DVec3) -> DVec3 {
+    pub(crate) fn to_world(&self, local: DVec3) -> DVec3 {
         local.x * self.tangent + local.y * self.bitangent + local.z * self.normal
     }
 }
 
 /// The unit direction at polar angle `theta` from +z and azimuth `phi` from +x, radians.
-pub fn direction(theta: f64, phi: f64) -> DVec3 {
+pub(crate) fn direction(theta: f64, phi: f64) -> DVec3 {
     DVec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
 }
 

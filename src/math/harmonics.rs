@@ -6,10 +6,10 @@
 use glam::DVec3;
 
 /// Harmonics of degree 1, 2 and 3; that of degree 0 is 1.
-pub const COUNT: usize = 15;
+pub(crate) const COUNT: usize = 15;
 
 /// Their names, as polynomials.
-pub const NAMES: [&str; COUNT] = [
+pub(crate) const NAMES: [&str; COUNT] = [
     "y",
     "z",
     "x",
@@ -28,7 +28,7 @@ pub const NAMES: [&str; COUNT] = [
 ];
 
 /// All of them in a direction, degree by degree, order by order.
-pub fn harmonics(direction: DVec3) -> [f64; COUNT] {
+pub(crate) fn harmonics(direction: DVec3) -> [f64; COUNT] {
     let DVec3 { x, y, z } = direction;
     let (xx, yy, zz) = (x * x, y * y, z * z);
     [

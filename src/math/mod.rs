@@ -1,7 +1,7 @@
 //! Mathematics that knows nothing of renderers.
 
 pub mod closed_form;
-pub mod frame;
+pub(crate) mod frame;
 pub mod harmonics;
 mod precision;
 pub mod quadrature;

@@ -47,11 +47,11 @@ const BATCH: usize = 64;
 
 /// The value of an integral, and how far it may be from the truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Integral {
+pub(crate) struct Integral {
     /// Estimate.
-    pub value: f64,
+    pub(crate) value: f64,
     /// Bound on its error, as far as the rule can tell.
-    pub error: f64,
+    pub(crate) error: f64,
 }
 
 impl std::ops::AddAssign for Integral {
@@ -80,7 +80,7 @@ fn rescaled_error(difference: f64, spread: f64) -> f64 {
 
 /// The integral of `f` over the pieces between successive `breaks`, each to an absolute error of
 /// `tolerance`. Put a break at every kink.
-pub fn integrate(breaks: &[f64], tolerance: f64, mut f: impl FnMut(f64) -> f64) -> Integral {
+pub(crate) fn integrate(breaks: &[f64], tolerance: f64, mut f: impl FnMut(f64) -> f64) -> Integral {
     let mut whole = Integral::default();
     for piece in breaks.windows(2) {
         whole += integrate_piece(piece[0], piece[1], tolerance, 0, &mut f);
@@ -125,9 +125,9 @@ fn kronrod(from: f64, to: f64, f: &mut impl FnMut(f64) -> f64) -> Integral {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rectangle {
     /// Corner of the smallest coordinates.
-    pub low: DVec2,
+    pub(crate) low: DVec2,
     /// Corner of the largest coordinates.
-    pub high: DVec2,
+    pub(crate) high: DVec2,
 }
 
 impl Rectangle {
@@ -144,21 +144,21 @@ impl Rectangle {
 }
 
 /// Writes its values at many points of the plane.
-pub type BatchIntegrand<'a, E> = dyn FnMut(&[DVec2], &mut [f64]) -> Result<(), E> + 'a;
+pub(crate) type BatchIntegrand<'a, E> = dyn FnMut(&[DVec2], &mut [f64]) -> Result<(), E> + 'a;
 
 /// How hard [`integrate_rectangles`] tries.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Diligence {
+pub(crate) struct Diligence {
     /// Absolute error wanted of each rectangle.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
     /// Evaluations of the integrand over all rectangles; when they are spent, the errors stay what they
     /// are.
-    pub most_evaluations: usize,
+    pub(crate) most_evaluations: usize,
 }
 
 impl Diligence {
     /// For pdfs with kinks along curves, at which no rectangle can be cut.
-    pub const KINKED: Self = Self { tolerance: 1e-6, most_evaluations: 2_500_000 };
+    pub(crate) const KINKED: Self = Self { tolerance: 1e-6, most_evaluations: 2_500_000 };
 }
 
 impl Default for Diligence {
@@ -189,7 +189,7 @@ struct Estimate {
 ///
 /// Of each rectangle whose parts together are not known well enough, those are halved that have more
 /// than their share of the error. So a kink along a curve costs as many parts as lie on it.
-pub fn integrate_rectangles<E>(
+pub(crate) fn integrate_rectangles<E>(
     rectangles: &[Rectangle],
     diligence: Diligence,
     f: &mut BatchIntegrand<'_, E>,

@@ -33,17 +33,17 @@ const WIDEST: f64 = 1.15;
 
 /// A ratio and what it is called.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct NamedRatio {
+pub(crate) struct NamedRatio {
     /// The number.
-    pub value: f64,
+    pub(crate) value: f64,
     /// As it is written, such as `1/π`.
-    pub name: String,
+    pub(crate) name: String,
 }
 
 /// The named ratios inside an interval, the nearest to its middle first. None if the interval is so
 /// wide that a name would mean nothing, or holds 1, which is no mistake. `also` adds names that only this measurement has, such as
 /// the number of light samples.
-pub fn names_of(interval: [f64; 2], also: &[(f64, &str)]) -> Vec<NamedRatio> {
+pub(crate) fn names_of(interval: [f64; 2], also: &[(f64, &str)]) -> Vec<NamedRatio> {
     let [low, high] = interval;
     let is_narrow = high <= WIDEST * low || (low..=high).contains(&0.0) && high <= WIDEST - 1.0;
     if !is_narrow {

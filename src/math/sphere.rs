@@ -10,19 +10,19 @@ pub fn on_sphere(stream: &mut Stream) -> DVec3 {
 }
 
 /// A unit vector, uniform over the hemisphere around +z.
-pub fn on_hemisphere(stream: &mut Stream) -> DVec3 {
+pub(crate) fn on_hemisphere(stream: &mut Stream) -> DVec3 {
     at_height(uniform(stream), TAU * uniform(stream))
 }
 
 /// The unit vector with `z` and azimuth `phi` from +x.
-pub fn at_height(z: f64, phi: f64) -> DVec3 {
+pub(crate) fn at_height(z: f64, phi: f64) -> DVec3 {
     let radius = (1.0 - z * z).max(0.0).sqrt();
     DVec3::new(radius * phi.cos(), radius * phi.sin(), z)
 }
 
 /// The angle between two directions of any length, radians. Exact to rounding for tiny angles too,
 /// where the arc cosine of the dot product is not.
-pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
+pub(crate) fn angle_between(a: DVec3, b: DVec3) -> f64 {
     a.cross(b).length().atan2(a.dot(b))
 }
 

@@ -23,11 +23,11 @@ const LLVM_FOLDERS: [&str; 7] = [
 
 /// How to get Mitsuba.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct MitsubaOptions {
+pub(crate) struct MitsubaOptions {
     /// Install it into `references/.venv` if it is not there.
-    pub create_environment: bool,
+    pub(crate) create_environment: bool,
     /// Its back end, instead of the fastest that works.
-    pub variant: Option<String>,
+    pub(crate) variant: Option<String>,
 }
 
 /// The Python of the references' own environment. Installs one if `create`.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// Why a reference could not be made or verified.
 #[derive(Debug, thiserror::Error)]
-pub enum MakeError {
+pub(crate) enum MakeError {
     /// Something is wrong in `recipes.toml`.
     #[error("{0}")]
     Recipes(Box<Diagnostic>),

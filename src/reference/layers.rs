@@ -23,7 +23,7 @@ impl References {
     ///
     /// # Errors
     /// If there is no such reference, or Mitsuba fails.
-    pub fn add_layers(
+    pub(crate) fn add_layers(
         &self,
         name: &str,
         options: &MitsubaOptions,

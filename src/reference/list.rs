@@ -7,18 +7,18 @@ use std::sync::Arc;
 
 /// A reference that there is a recipe for.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Listed {
+pub(crate) struct Listed {
     /// Its name.
-    pub name: String,
+    pub(crate) name: String,
     /// How to make it.
-    pub recipe: super::Recipe,
+    pub(crate) recipe: super::Recipe,
     /// Whether it can be compared with.
-    pub state: State,
+    pub(crate) state: State,
 }
 
 /// Whether a reference can be compared with.
 #[derive(Clone, Debug, PartialEq)]
-pub enum State {
+pub(crate) enum State {
     /// It can.
     Good(Box<Reference>),
     /// It has to be made.
@@ -29,7 +29,7 @@ pub enum State {
 
 impl References {
     /// Every reference that there is a recipe for, in the order of the alphabet.
-    pub fn list(&self) -> Result<Vec<Listed>, MakeError> {
+    pub(crate) fn list(&self) -> Result<Vec<Listed>, MakeError> {
         let recipes = recipe::read_all(&self.folder)?;
         let listed = |(name, recipe): (String, super::Recipe)| {
             let scene = self.scenes.load(&recipe.scene, &recipe.parameters);

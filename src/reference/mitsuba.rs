@@ -16,19 +16,19 @@ const LAST_WORDS: u64 = 2_000;
 
 /// A Python with Mitsuba in it, and the back end to use.
 pub(super) struct Mitsuba {
-    pub python: PathBuf,
-    pub variant: Variant,
+    pub(crate) python: PathBuf,
+    pub(crate) variant: Variant,
     /// Its version; empty until it has been probed.
-    pub version: String,
+    pub(crate) version: String,
 }
 
 /// A back end of Mitsuba.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Variant {
     /// Such as `llvm_ad_rgb`.
-    pub name: String,
+    pub(crate) name: String,
     /// The library that LLVM is loaded from.
-    pub llvm: Option<PathBuf>,
+    pub(crate) llvm: Option<PathBuf>,
 }
 
 impl fmt::Display for Variant {
@@ -44,33 +44,33 @@ impl fmt::Display for Variant {
 #[derive(Clone, Debug)]
 pub(super) struct Job {
     /// Holds `scene.xml`.
-    pub folder: PathBuf,
+    pub(crate) folder: PathBuf,
     /// Columns and rows.
-    pub film: [u32; 2],
+    pub(crate) film: [u32; 2],
     /// Samples a pixel in each pass.
-    pub samples: u32,
+    pub(crate) samples: u32,
     /// The last bounce, if a pass holds each bounce alone, one below the other.
-    pub last_bounce: Option<u32>,
+    pub(crate) last_bounce: Option<u32>,
 }
 
 /// What Mitsuba said about itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Spent {
     /// Its version; empty if it did not run.
-    pub version: String,
+    pub(crate) version: String,
     /// Processor seconds of all its threads.
-    pub cpu_seconds: f64,
+    pub(crate) cpu_seconds: f64,
 }
 
 impl Job {
     /// The same with each bounce alone, one below the other: the film is so many times as high.
-    pub fn apart(&self, last_bounce: u32) -> Self {
+    pub(crate) fn apart(&self, last_bounce: u32) -> Self {
         let film = [self.film[0], self.film[1] * (last_bounce + 1)];
         Self { film, last_bounce: Some(last_bounce), ..self.clone() }
     }
 
     /// The pass of a seed, if it is there and whole.
-    pub fn pass(&self, seed: u32) -> Option<Image> {
+    pub(crate) fn pass(&self, seed: u32) -> Option<Image> {
         let bytes = std::fs::read(self.pass_path(seed)).ok()?;
         let [width, height] = self.film.map(|pixels| pixels as usize);
         let (values, rest) = bytes.as_chunks::<4>();
@@ -88,7 +88,7 @@ impl Job {
 
 impl Mitsuba {
     /// Whether this back end renders the scene at all, found out with a pass of one sample.
-    pub fn probe(&mut self, job: &Job) -> Result<(), MakeError> {
+    pub(crate) fn probe(&mut self, job: &Job) -> Result<(), MakeError> {
         const SEED: u32 = 0;
         let folder =
             tempfile::tempdir().map_err(|problem| MakeError::file(&job.folder, &problem))?;
@@ -97,7 +97,7 @@ impl Mitsuba {
     }
 
     /// Renders the passes of these seeds that are not there yet.
-    pub fn render(
+    pub(crate) fn render(
         &self,
         job: &Job,
         seeds: &[u32],

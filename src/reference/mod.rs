@@ -25,27 +25,26 @@ mod store;
 mod sums;
 mod verify;
 
-pub use crate::scene::reference::{Provenance, Reference, ReferenceError};
-pub use environment::MitsubaOptions;
-pub use error::MakeError;
-pub use list::{Listed, State};
-pub use make::{Made, MakeOptions};
-pub use recipe::Recipe;
-pub use verify::Verification;
+pub(crate) use crate::scene::reference::Reference;
+pub(crate) use environment::MitsubaOptions;
+pub(crate) use error::MakeError;
+pub(crate) use list::State;
+pub(crate) use make::{Made, MakeOptions};
+pub(crate) use recipe::Recipe;
 
 use crate::scene::Library;
 use std::path::PathBuf;
 
 /// The folder of references and the scenes they are pictures of.
 #[derive(Debug)]
-pub struct References {
+pub(crate) struct References {
     folder: PathBuf,
     scenes: Library,
 }
 
 /// What is being done, for whoever shows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Progress {
+pub(crate) enum Progress {
     /// A Python environment with Mitsuba is being installed.
     CreatingEnvironment {
         /// Where.
@@ -66,11 +65,11 @@ pub enum Progress {
 }
 
 /// Hears of progress.
-pub type Listener<'a> = &'a mut dyn FnMut(Progress);
+pub(crate) type Listener<'a> = &'a mut dyn FnMut(Progress);
 
 impl References {
     /// The references in `folder`, of the scenes in `scenes`.
-    pub fn new(folder: impl Into<PathBuf>, scenes: Library) -> Self {
+    pub(crate) fn new(folder: impl Into<PathBuf>, scenes: Library) -> Self {
         Self { folder: folder.into(), scenes }
     }
 }

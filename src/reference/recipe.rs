@@ -9,25 +9,25 @@ use std::path::Path;
 
 /// How to make a reference.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Recipe {
+pub(crate) struct Recipe {
     /// The scene's name.
-    pub scene: String,
+    pub(crate) scene: String,
     /// Values for parameters of the scene.
-    pub parameters: Overrides,
+    pub(crate) parameters: Overrides,
     /// The last bounce that is added up.
-    pub bounces: u32,
+    pub(crate) bounces: u32,
     /// Independent passes.
-    pub passes: u32,
+    pub(crate) passes: u32,
     /// Samples a pixel in each.
-    pub samples_per_pass: u32,
+    pub(crate) samples_per_pass: u32,
 }
 
 impl Recipe {
     /// Fewer passes leave the standard error itself uncertain by more than 18 %.
-    pub const FEWEST_PASSES: u32 = 16;
+    pub(crate) const FEWEST_PASSES: u32 = 16;
 
     /// Mitsuba adds a pass up in single precision: 2.4e-6 is lost at 2⁸ samples, 4e-5 at 2¹².
-    pub const MOST_SAMPLES_PER_PASS: u32 = 256;
+    pub(crate) const MOST_SAMPLES_PER_PASS: u32 = 256;
 
     /// Whether passes of this kind give a mean and a standard error worth keeping.
     pub(super) fn check(&self) -> Result<(), String> {

@@ -8,7 +8,7 @@ pub(super) struct Seeds(Vec<[u32; 2]>);
 
 impl Seeds {
     /// From ranges; none if two share a seed or one ends before it begins.
-    pub fn from_ranges(ranges: &[[u32; 2]]) -> Option<Self> {
+    pub(crate) fn from_ranges(ranges: &[[u32; 2]]) -> Option<Self> {
         let mut seeds = Self::default();
         for &[first, last] in ranges {
             let range = Self(vec![[first, last]]);
@@ -21,37 +21,37 @@ impl Seeds {
     }
 
     /// First and last of each range.
-    pub fn ranges(&self) -> &[[u32; 2]] {
+    pub(crate) fn ranges(&self) -> &[[u32; 2]] {
         &self.0
     }
 
     /// How many.
-    pub fn count(&self) -> u32 {
+    pub(crate) fn count(&self) -> u32 {
         self.0.iter().map(|[first, last]| last - first + 1).sum()
     }
 
     /// Every one.
-    pub fn iter(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = u32> {
         self.0.iter().flat_map(|&[first, last]| first..=last)
     }
 
     /// Whether a seed is among them.
-    pub fn contains(&self, seed: u32) -> bool {
+    pub(crate) fn contains(&self, seed: u32) -> bool {
         self.0.iter().any(|&[first, last]| (first..=last).contains(&seed))
     }
 
     /// A seed of both sets.
-    pub fn first_in_both(&self, other: &Self) -> Option<u32> {
+    pub(crate) fn first_in_both(&self, other: &Self) -> Option<u32> {
         other.iter().find(|seed| self.contains(*seed))
     }
 
     /// Takes in a seed that is not among them.
-    pub fn add_one(&mut self, seed: u32) {
+    pub(crate) fn add_one(&mut self, seed: u32) {
         self.add(&Self(vec![[seed, seed]]));
     }
 
     /// Takes in seeds that are not among them.
-    pub fn add(&mut self, other: &Self) {
+    pub(crate) fn add(&mut self, other: &Self) {
         self.0.extend(&other.0);
         self.0.sort_unstable();
         let mut joined: Vec<[u32; 2]> = Vec::new();

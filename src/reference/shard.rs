@@ -17,23 +17,23 @@ const LAST_LINE: &str = "---\n";
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(super) struct About {
-    pub scene: String,
-    pub scene_hash: String,
-    pub bounces: [u32; 2],
-    pub film: [u32; 2],
-    pub samples_per_pass: u32,
-    pub sampler: String,
-    pub version: String,
-    pub variant: String,
+    pub(crate) scene: String,
+    pub(crate) scene_hash: String,
+    pub(crate) bounces: [u32; 2],
+    pub(crate) film: [u32; 2],
+    pub(crate) samples_per_pass: u32,
+    pub(crate) sampler: String,
+    pub(crate) version: String,
+    pub(crate) variant: String,
 }
 
 /// Passes that have been added up.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Shard {
-    pub about: About,
-    pub seeds: Seeds,
-    pub cpu_seconds: f64,
-    pub sums: Sums,
+    pub(crate) about: About,
+    pub(crate) seeds: Seeds,
+    pub(crate) cpu_seconds: f64,
+    pub(crate) sums: Sums,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -46,7 +46,7 @@ struct Head {
 
 impl Shard {
     /// Takes in passes of the same kind with other seeds, from the file `path` if they are refused.
-    pub fn merge(&mut self, other: &Self, path: &Path) -> Result<(), MakeError> {
+    pub(crate) fn merge(&mut self, other: &Self, path: &Path) -> Result<(), MakeError> {
         let refused = |problem: String| Err(MakeError::file(path, &problem));
         if let Some(seed) = self.seeds.first_in_both(&other.seeds) {
             return refused(format!("duplicate seed {seed}: it is in the sums already"));
@@ -64,7 +64,7 @@ impl Shard {
     }
 
     /// Writes a file, whole or not at all.
-    pub fn write(&self, path: &Path) -> Result<(), MakeError> {
+    pub(crate) fn write(&self, path: &Path) -> Result<(), MakeError> {
         let failed = |problem: &dyn std::fmt::Display| MakeError::file(path, problem);
         let head = Head {
             seeds: self.seeds.ranges().to_vec(),
@@ -78,7 +78,7 @@ impl Shard {
     }
 
     /// Reads a file that [`Shard::write`] wrote.
-    pub fn read(path: &Path) -> Result<Self, MakeError> {
+    pub(crate) fn read(path: &Path) -> Result<Self, MakeError> {
         let failed = |problem: &dyn std::fmt::Display| MakeError::file(path, problem);
         let content = std::fs::read(path).map_err(|problem| failed(&problem))?;
         Self::parsed(&content).ok_or_else(|| failed(&"not a file of sums of passes, or truncated"))

@@ -62,12 +62,12 @@ pub(super) enum Rank {
 
 impl Sums {
     /// No passes yet.
-    pub fn new(width: usize, height: usize) -> Self {
+    pub(crate) fn new(width: usize, height: usize) -> Self {
         Self { width, passes: 0, moments: vec![[Moments::default(); 3]; width * height] }
     }
 
     /// Takes in one pass of the same size.
-    pub fn push(&mut self, pass: &Image) {
+    pub(crate) fn push(&mut self, pass: &Image) {
         self.passes += 1;
         for (moments, pixel) in self.moments.iter_mut().zip(&pass.pixels) {
             for (channel, value) in moments.iter_mut().zip(pixel) {
@@ -80,7 +80,7 @@ impl Sums {
     }
 
     /// Takes in the passes of other sums of the same size.
-    pub fn merge(&mut self, other: &Self) {
+    pub(crate) fn merge(&mut self, other: &Self) {
         self.passes += other.passes;
         let pairs = self.moments.as_flattened_mut().iter_mut().zip(other.moments.as_flattened());
         for (moments, other) in pairs {
@@ -94,12 +94,16 @@ impl Sums {
     }
 
     /// All sums, as they are kept in a file.
-    pub fn bytes(&self) -> &[u8] {
+    pub(crate) fn bytes(&self) -> &[u8] {
         bytemuck::cast_slice(self.moments.as_flattened())
     }
 
     /// Sums of so many passes from a file; none if it has another length.
-    pub fn from_bytes([width, height]: [usize; 2], passes: u32, bytes: &[u8]) -> Option<Self> {
+    pub(crate) fn from_bytes(
+        [width, height]: [usize; 2],
+        passes: u32,
+        bytes: &[u8],
+    ) -> Option<Self> {
         let mut sums = Self { passes, ..Self::new(width, height) };
         let kept: &mut [u8] = bytemuck::cast_slice_mut(sums.moments.as_flattened_mut());
         if kept.len() != bytes.len() {
@@ -110,17 +114,17 @@ impl Sums {
     }
 
     /// The mean, rounded to 16 bits of precision.
-    pub fn mean(&self) -> Image {
+    pub(crate) fn mean(&self) -> Image {
         self.mean_rounded(MEAN_BITS)
     }
 
     /// The mean, rounded to so many bits of precision.
-    pub fn mean_rounded(&self, bits: u32) -> Image {
+    pub(crate) fn mean_rounded(&self, bits: u32) -> Image {
         self.image(|moments| rounded(self.mean_of(moments) as f32, bits))
     }
 
     /// The standard error of the mean as it is stored: that of the passes, and that of rounding.
-    pub fn standard_error(&self) -> Image {
+    pub(crate) fn standard_error(&self) -> Image {
         self.image(|moments| {
             let rounding = self.mean_of(moments) * MEAN_ROUNDING / 3f64.sqrt();
             rounded(self.error_of(moments).hypot(rounding) as f32, ERROR_BITS)
@@ -128,7 +132,7 @@ impl Sums {
     }
 
     /// Standard error over mean at a rank among all values that are not black. 0 if all are.
-    pub fn relative_error(&self, rank: Rank) -> f64 {
+    pub(crate) fn relative_error(&self, rank: Rank) -> f64 {
         let lit = self.moments.as_flattened().iter().filter(|moments| moments.sum.high > 0.0);
         let mut errors: Vec<f64> =
             lit.map(|moments| self.error_of(moments) / self.mean_of(moments)).collect();

@@ -6,11 +6,11 @@ use crate::stats::{self, ImageDraw, ImageEffort, ImageReport, Stage, judge_image
 
 /// What came out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Verification {
+pub(crate) struct Verification {
     /// The same judgement a core's picture gets.
-    pub report: ImageReport,
+    pub(crate) report: ImageReport,
     /// Samples a pixel in each of its runs.
-    pub samples_per_run: u32,
+    pub(crate) samples_per_run: u32,
 }
 
 /// The relative error of the whole picture that must be seen.
@@ -23,7 +23,7 @@ const FIRST_SEED: u32 = 500_000;
 impl References {
     /// Renders passes with seeds the reference has not seen, and judges them as a core's picture is
     /// judged: screened, and confirmed if suspected.
-    pub fn verify(
+    pub(crate) fn verify(
         &self,
         name: &str,
         options: &MitsubaOptions,

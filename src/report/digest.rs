@@ -12,11 +12,11 @@ use std::collections::BTreeMap;
 
 /// How many trials ended in which way.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Tally(BTreeMap<Status, usize>);
+pub(crate) struct Tally(BTreeMap<Status, usize>);
 
 impl Tally {
     /// Counts.
-    pub fn of<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Self {
+    pub(crate) fn of<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Self {
         let mut counts = BTreeMap::new();
         for trial in trials {
             *counts.entry(trial.outcome.status()).or_default() += 1;
@@ -25,34 +25,34 @@ impl Tally {
     }
 
     /// How many ended so.
-    pub fn count(&self, status: Status) -> usize {
+    pub(crate) fn count(&self, status: Status) -> usize {
         self.0.get(&status).copied().unwrap_or(0)
     }
 
     /// How many there are.
-    pub fn total(&self) -> usize {
+    pub(crate) fn total(&self) -> usize {
         self.0.values().sum()
     }
 
     /// How many count against a core.
-    pub fn failures(&self) -> usize {
+    pub(crate) fn failures(&self) -> usize {
         self.0.iter().filter(|(status, _)| status.is_failure()).map(|(_, count)| count).sum()
     }
 
     /// What occurs, the good first.
-    pub fn iter(&self) -> impl Iterator<Item = (Status, usize)> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (Status, usize)> {
         self.0.iter().map(|(status, count)| (*status, *count))
     }
 
     /// `117 pass, 1 fail, 2 skipped`
-    pub fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         let words: Vec<_> =
             self.iter().map(|(status, count)| format!("{count} {}", status.word())).collect();
         if words.is_empty() { "none".to_owned() } else { words.join(", ") }
     }
 
     /// The result of a run in a few words, for titles.
-    pub fn headline(&self) -> String {
+    pub(crate) fn headline(&self) -> String {
         let (total, failures, passes) = (self.total(), self.failures(), self.count(Status::Pass));
         if total == 0 {
             "no graded trial has a result".to_owned()
@@ -73,18 +73,18 @@ impl Tally {
 
 /// Some trials of one part of a path tracer.
 #[derive(Clone, Debug)]
-pub struct PartGroup<'a> {
+pub(crate) struct PartGroup<'a> {
     /// As the course numbers it; none for folders that belong to no part.
-    pub number: Option<u32>,
+    pub(crate) number: Option<u32>,
     /// As reports call it.
-    pub title: &'static str,
+    pub(crate) title: &'static str,
     /// The trials.
-    pub trials: Vec<&'a TrialRecord>,
+    pub(crate) trials: Vec<&'a TrialRecord>,
 }
 
 impl PartGroup<'_> {
     /// Seconds spent on its trials.
-    pub fn seconds(&self) -> f64 {
+    pub(crate) fn seconds(&self) -> f64 {
         self.trials.iter().map(|trial| trial.timing.seconds).sum()
     }
 }
@@ -103,7 +103,7 @@ const fn apart(tier: Tier) -> &'static str {
 
 /// Sorts trials into parts, in the order in which one rests on another. A folder that belongs to no
 /// part is not dropped: it comes last.
-pub fn by_part<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Vec<PartGroup<'a>> {
+pub(crate) fn by_part<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Vec<PartGroup<'a>> {
     let group = |part: &Part| PartGroup {
         number: Some(part.number),
         title: part.title,
@@ -128,7 +128,7 @@ pub fn by_part<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Vec<Par
 
 /// Trials with that status, the earliest part first, so that a cause stands before its
 /// consequences.
-pub fn in_order_of_parts(tree: &RunTree, status: Status) -> Vec<&TrialRecord> {
+pub(crate) fn in_order_of_parts(tree: &RunTree, status: Status) -> Vec<&TrialRecord> {
     let mut trials: Vec<_> =
         tree.trials.iter().filter(|trial| trial.outcome.status() == status).collect();
     // Stable: of one case the cores keep their order.
@@ -137,7 +137,7 @@ pub fn in_order_of_parts(tree: &RunTree, status: Status) -> Vec<&TrialRecord> {
 }
 
 /// What counts against a core, in the order in which to look at it.
-pub fn failures(tree: &RunTree) -> Vec<&TrialRecord> {
+pub(crate) fn failures(tree: &RunTree) -> Vec<&TrialRecord> {
     let mut trials: Vec<_> = Status::ALL
         .into_iter()
         .filter(|status| status.is_failure())
@@ -149,7 +149,7 @@ pub fn failures(tree: &RunTree) -> Vec<&TrialRecord> {
 }
 
 /// What went wrong beside the grade: shown, and not held against the core.
-pub fn ungraded_failures(tree: &RunTree) -> Vec<&TrialRecord> {
+pub(crate) fn ungraded_failures(tree: &RunTree) -> Vec<&TrialRecord> {
     let failing =
         |trial: &&TrialRecord| !trial.tier.is_graded() && trial.outcome.status().is_failure();
     tree.trials.iter().filter(failing).collect()
@@ -157,13 +157,13 @@ pub fn ungraded_failures(tree: &RunTree) -> Vec<&TrialRecord> {
 
 /// What these trials spent of the probability of failing a correct core, hypothesis by hypothesis. What is not
 /// graded cannot.
-pub fn ledger<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Ledger {
+pub(crate) fn ledger<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Ledger {
     let graded = trials.into_iter().filter(|trial| trial.tier.is_graded());
     graded.filter_map(|trial| trial.outcome.finding()).flat_map(Finding::hypotheses).collect()
 }
 
 /// The [`ledger`] of the core that has spent most: every core is judged for itself.
-pub fn dearest_ledger(tree: &RunTree) -> Ledger {
+pub(crate) fn dearest_ledger(tree: &RunTree) -> Ledger {
     let of_core = |core: &CoreRecord| ledger(tree.trials_of(&core.spec));
     let ledgers = tree.run.cores.iter().map(of_core);
     ledgers.max_by(|a, b| a.spent().total_cmp(&b.spent())).unwrap_or_default()
@@ -171,7 +171,7 @@ pub fn dearest_ledger(tree: &RunTree) -> Ledger {
 
 /// The largest relative error that any hypothesis of a kind would have let through: what a ledger cannot
 /// know. None where no hypothesis of the kind states one.
-pub fn worst_resolution<'a>(
+pub(crate) fn worst_resolution<'a>(
     trials: impl IntoIterator<Item = &'a TrialRecord>,
     kind: TestKind,
 ) -> Option<f64> {
@@ -183,16 +183,18 @@ pub fn worst_resolution<'a>(
 
 /// A trial that passed, and the largest relative error that it would have let through.
 #[derive(Clone, Copy, Debug)]
-pub struct Weakness<'a> {
+pub(crate) struct Weakness<'a> {
     /// The trial.
-    pub trial: &'a TrialRecord,
+    pub(crate) trial: &'a TrialRecord,
     /// The largest resolution of its measures.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
 }
 
 /// The passes, the one that proves least first. Passes whose measures state no resolution are left
 /// out.
-pub fn weakest_first<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Vec<Weakness<'a>> {
+pub(crate) fn weakest_first<'a>(
+    trials: impl IntoIterator<Item = &'a TrialRecord>,
+) -> Vec<Weakness<'a>> {
     let passes = trials.into_iter().filter(|trial| trial.outcome.status() == Status::Pass);
     let mut sorted: Vec<_> = passes
         .filter_map(|trial| resolution(trial).map(|resolution| Weakness { trial, resolution }))
@@ -211,7 +213,7 @@ fn resolution(trial: &TrialRecord) -> Option<f64> {
 
 /// The smallest error that a trial would have caught, as its check words it; where there is none,
 /// why.
-pub fn resolution_in_words(trial: &TrialRecord) -> String {
+pub(crate) fn resolution_in_words(trial: &TrialRecord) -> String {
     match trial.outcome.finding() {
         Some(finding) if !finding.resolution.is_empty() => finding.resolution.clone(),
         Some(_) => "nothing was measured".to_owned(),
@@ -220,7 +222,7 @@ pub fn resolution_in_words(trial: &TrialRecord) -> String {
 }
 
 /// The trials, those that took longest first.
-pub fn slowest_first<'a>(
+pub(crate) fn slowest_first<'a>(
     trials: impl IntoIterator<Item = &'a TrialRecord>,
 ) -> Vec<&'a TrialRecord> {
     let mut sorted: Vec<_> = trials.into_iter().collect();
@@ -230,20 +232,20 @@ pub fn slowest_first<'a>(
 
 /// One case and what every core made of it.
 #[derive(Clone, Debug)]
-pub struct CaseGroup<'a> {
+pub(crate) struct CaseGroup<'a> {
     /// One trial a core that has one, in the order the cores were asked. Never empty.
-    pub trials: Vec<&'a TrialRecord>,
+    pub(crate) trials: Vec<&'a TrialRecord>,
 }
 
 impl<'a> CaseGroup<'a> {
     /// The trial that stands for what all of them share: claim, source, check.
-    pub fn first(&self) -> &'a TrialRecord {
+    pub(crate) fn first(&self) -> &'a TrialRecord {
         self.trials[0]
     }
 }
 
 /// Every case once, in the order of parts.
-pub fn by_case(tree: &RunTree) -> Vec<CaseGroup<'_>> {
+pub(crate) fn by_case(tree: &RunTree) -> Vec<CaseGroup<'_>> {
     let mut cases: BTreeMap<_, Vec<_>> = BTreeMap::new();
     for trial in &tree.trials {
         cases.entry((Part::position(&trial.case), &trial.case)).or_default().push(trial);

@@ -16,9 +16,9 @@ use std::fmt::Display;
 use std::path::Path;
 
 /// A case that fails on `builtin` in [`Example::mixed`].
-pub const FAILING: &str = "integrator/roulette-leaves-every-mean-as-it-is";
+pub(crate) const FAILING: &str = "integrator/roulette-leaves-every-mean-as-it-is";
 /// What a core could say to deceive a reader.
-pub const HOSTILE: &str = "<script>alert('pass')</script> & \x1b[2J";
+pub(crate) const HOSTILE: &str = "<script>alert('pass')</script> & \x1b[2J";
 
 /// Folder, claim, title, whether it draws random numbers.
 const CASES: [(&str, &str, bool); 12] = [
@@ -45,23 +45,23 @@ const CASES: [(&str, &str, bool); 12] = [
 ];
 
 /// A run that is not yet on disk.
-pub struct Example {
+pub(crate) struct Example {
     /// `run.json`
-    pub run: RunRecord,
+    pub(crate) run: RunRecord,
     /// The sidecars.
-    pub trials: Vec<TrialRecord>,
+    pub(crate) trials: Vec<TrialRecord>,
     /// Width and height of pictures, pixels.
-    pub picture_size: (usize, usize),
+    pub(crate) picture_size: (usize, usize),
 }
 
 impl Example {
     /// Twelve cases on two cores; everything passes.
-    pub fn green() -> Self {
+    pub(crate) fn green() -> Self {
         Self::of_cases(CASES.iter().map(|(case, ..)| (*case).to_owned()))
     }
 
     /// As many cases and pictures as the default suite has.
-    pub fn of_default_size() -> Self {
+    pub(crate) fn of_default_size() -> Self {
         let numbered = |round: usize| {
             let copies = if round == 0 { &CASES[..] } else { &CASES[..11] };
             copies.iter().map(move |(case, ..)| {
@@ -75,7 +75,7 @@ impl Example {
     }
 
     /// [`Example::green`] with every other way to end.
-    pub fn mixed() -> Self {
+    pub(crate) fn mixed() -> Self {
         let mut example = Self::green();
         example.set("builtin", FAILING, wrong_roulette());
         example.set("builtin", "image/cornell-spheres", wrong_picture());
@@ -154,13 +154,13 @@ impl Example {
     }
 
     /// Gives the trial of `case` on `core` another end.
-    pub fn set(&mut self, core: &str, case: &str, outcome: Outcome) {
+    pub(crate) fn set(&mut self, core: &str, case: &str, outcome: Outcome) {
         let trial = self.trials.iter_mut().find(|t| t.core == core && t.case == case).unwrap();
         trial.outcome = outcome;
     }
 
     /// Writes `run.json`, the sidecars and the pictures.
-    pub fn write(&self, folder: &Path) {
+    pub(crate) fn write(&self, folder: &Path) {
         self.write_records(folder);
         for trial in &self.trials {
             let sidecar = sidecar_path(folder, &trial.core, &trial.case);
@@ -172,7 +172,7 @@ impl Example {
     }
 
     /// Writes `run.json` and the sidecars; the pictures stay missing.
-    pub fn write_records(&self, folder: &Path) {
+    pub(crate) fn write_records(&self, folder: &Path) {
         write_json(&folder.join("run.json"), &self.run).unwrap();
         for trial in &self.trials {
             write_json(&sidecar_path(folder, &trial.core, &trial.case), trial).unwrap();
@@ -180,7 +180,7 @@ impl Example {
     }
 
     /// As it would read back; its folder does not exist.
-    pub fn tree(self) -> RunTree {
+    pub(crate) fn tree(self) -> RunTree {
         RunTree { run: self.run, trials: self.trials, folder: "no-such-folder".into() }
     }
 }
@@ -199,7 +199,7 @@ fn core(spec: &str, precision: Precision) -> CoreRecord {
 }
 
 /// A trial that passes.
-pub fn trial(core: &str, case: &str) -> TrialRecord {
+pub(crate) fn trial(core: &str, case: &str) -> TrialRecord {
     let seed = Seed::SUITE.child(core).child(case);
     let known = CASES.iter().find(|(name, ..)| case.starts_with(name));
     let (title, is_random) = known.map_or(("An image agrees", true), |case| (case.1, case.2));

@@ -6,28 +6,28 @@ use crate::text::number::{percent, signed_percent, to_step};
 
 /// The numbers of a [`Measure`], ready to be shown side by side.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MeasureWords {
+pub(crate) struct MeasureWords {
     /// What was measured, with its unit.
-    pub name: String,
+    pub(crate) name: String,
     /// What the core gave.
-    pub measured: String,
+    pub(crate) measured: String,
     /// What it should be.
-    pub expected: String,
+    pub(crate) expected: String,
     /// How far from `expected` is still right.
-    pub allowed: String,
+    pub(crate) allowed: String,
     /// 99.9 % interval of what was measured; empty without noise.
-    pub interval: String,
+    pub(crate) interval: String,
     /// Measured over expected; empty where nothing is expected.
-    pub ratio: String,
+    pub(crate) ratio: String,
     /// How far off the core is: in per cent of what is expected, or absolutely where that is zero.
-    pub off_by: String,
+    pub(crate) off_by: String,
     /// The smallest relative error that would have been caught; empty if not known.
-    pub resolution: String,
+    pub(crate) resolution: String,
 }
 
 impl MeasureWords {
     /// Puts a measure into words.
-    pub fn of(measure: &Measure) -> Self {
+    pub(crate) fn of(measure: &Measure) -> Self {
         let step = finest_step(measure);
         let number = |value| to_step(value, step);
         Self {
@@ -82,7 +82,7 @@ fn off_by(measure: &Measure, step: f64) -> String {
 
 /// The measures of a finding, the worst first: failures before the undecided, those before passes;
 /// of equals the largest error in units of what is allowed, NaN before all.
-pub fn worst_first(measures: &[Measure]) -> Vec<&Measure> {
+pub(crate) fn worst_first(measures: &[Measure]) -> Vec<&Measure> {
     let mut sorted: Vec<_> = measures.iter().collect();
     sorted.sort_by(|a, b| {
         (rank(a.verdict).cmp(&rank(b.verdict))).then_with(|| excess(b).total_cmp(&excess(a)))

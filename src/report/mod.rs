@@ -4,15 +4,14 @@
 //! no threshold, so that a report can be made again from an old run, elsewhere. To add a page
 //! section, write a file in `html/` and a line in its `PAGES`.
 
-pub mod digest;
+pub(crate) mod digest;
 #[cfg(test)]
 pub(crate) mod example;
 pub mod html;
-pub mod measure;
+pub(crate) mod measure;
 pub mod text;
-pub mod tree;
+pub(crate) mod tree;
 
-pub use html::write;
 pub use text::{Style, summary};
 pub use tree::{RunTree, TreeError};
 

@@ -28,18 +28,18 @@ pub struct RunTree {
 
 /// A core that was asked for and failed to start.
 #[derive(Clone, Copy, Debug)]
-pub struct AbsentCore<'a> {
+pub(crate) struct AbsentCore<'a> {
     /// What the user typed after `--core`.
-    pub spec: &'a str,
+    pub(crate) spec: &'a str,
     /// Why.
-    pub problem: &'a str,
+    pub(crate) problem: &'a str,
     /// A trial that shows it, with what the core printed.
-    pub witness: &'a TrialRecord,
+    pub(crate) witness: &'a TrialRecord,
 }
 
 impl AbsentCore<'_> {
     /// What tries to bring it up, and nothing else.
-    pub fn command(&self) -> String {
+    pub(crate) fn command(&self) -> String {
         format!("cargo furnace doctor --core {}", shell_words::quote(self.spec))
     }
 }
@@ -106,23 +106,23 @@ impl RunTree {
     }
 
     /// The trials of the core that was asked as `spec`.
-    pub fn trials_of<'a>(&'a self, spec: &'a str) -> impl Iterator<Item = &'a TrialRecord> {
+    pub(crate) fn trials_of<'a>(&'a self, spec: &'a str) -> impl Iterator<Item = &'a TrialRecord> {
         self.trials.iter().filter(move |trial| trial.core == spec)
     }
 
     /// The trials that count for or against a core.
-    pub fn graded(&self) -> impl Iterator<Item = &TrialRecord> {
+    pub(crate) fn graded(&self) -> impl Iterator<Item = &TrialRecord> {
         self.trials.iter().filter(|trial| trial.tier.is_graded())
     }
 
     /// What is wrong with each core, in the order they were asked.
-    pub fn diagnoses(&self) -> Vec<(&str, Diagnosis)> {
+    pub(crate) fn diagnoses(&self) -> Vec<(&str, Diagnosis)> {
         let of = |core: &'_ CoreRecord| run::diagnose(core, &self.trials);
         self.run.cores.iter().map(|core| (core.spec.as_str(), of(core))).collect()
     }
 
     /// The cores that failed to start, in the order they were asked.
-    pub fn absent_cores(&self) -> impl Iterator<Item = AbsentCore<'_>> {
+    pub(crate) fn absent_cores(&self) -> impl Iterator<Item = AbsentCore<'_>> {
         self.run.cores.iter().filter_map(|core| {
             let is_witness = |trial: &&TrialRecord| {
                 trial.core == core.spec && trial.outcome.status().is_failure()
@@ -133,7 +133,7 @@ impl RunTree {
     }
 
     /// The same run without cores that failed to start: that is one cause, and no trial of theirs says anything more.
-    pub fn of_present_cores(&self) -> Self {
+    pub(crate) fn of_present_cores(&self) -> Self {
         let (mut run, mut trials) = (self.run.clone(), self.trials.clone());
         trials.retain(|trial| !self.run.is_absent(&trial.core));
         run.cores.retain(|core| core.problem.is_none());
@@ -142,22 +142,22 @@ impl RunTree {
     }
 
     /// How many planned trials have no result.
-    pub fn missing(&self) -> usize {
+    pub(crate) fn missing(&self) -> usize {
         self.run.trials.saturating_sub(self.trials.len())
     }
 
     /// Whether the run ended before its last trial because that was asked of it: at a failure.
-    pub fn stopped_at_failure(&self) -> bool {
+    pub(crate) fn stopped_at_failure(&self) -> bool {
         self.run.fail_fast && self.missing() > 0 && self.run.timing.seconds.is_some()
     }
 
     /// Whether the run came to its end with a result for every trial.
-    pub fn is_finished(&self) -> bool {
+    pub(crate) fn is_finished(&self) -> bool {
         self.missing() == 0 && self.run.timing.seconds.is_some()
     }
 
     /// Where a picture of a trial stands.
-    pub fn picture_path(&self, trial: &TrialRecord, picture: &PictureFile) -> PathBuf {
+    pub(crate) fn picture_path(&self, trial: &TrialRecord, picture: &PictureFile) -> PathBuf {
         sidecar_path(&self.folder, &trial.core, &trial.case).with_file_name(&picture.file)
     }
 }

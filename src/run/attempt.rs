@@ -60,7 +60,7 @@ fn attempt_hosted(bench: &Bench, trial: &Trial) -> (Attempt, String) {
 }
 
 /// A trial that was not tried, since `by` failed.
-pub fn blocked(bench: &Bench, trial: &Trial, by: String) -> Ended {
+pub(crate) fn blocked(bench: &Bench, trial: &Trial, by: String) -> Ended {
     Ended { record: record_of(bench, trial, Outcome::Blocked { by }), pictures: Vec::new() }
 }
 
@@ -94,9 +94,9 @@ pub struct Attempt {
     /// How it ended.
     pub outcome: Outcome,
     /// The scene it was tried in.
-    pub scene: Option<SceneStamp>,
+    pub(crate) scene: Option<SceneStamp>,
     /// What the check wants people to see.
-    pub pictures: Vec<Picture>,
+    pub(crate) pictures: Vec<Picture>,
 }
 
 impl Attempt {

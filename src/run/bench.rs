@@ -14,23 +14,23 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Bench {
     /// The scenes.
-    pub scenes: Arc<Library>,
+    pub(crate) scenes: Arc<Library>,
     /// The folder of references.
     pub references: PathBuf,
     /// How much may be spent.
-    pub allowance: Allowance,
+    pub(crate) allowance: Allowance,
     /// The seed of the run.
-    pub seed: Seed,
+    pub(crate) seed: Seed,
     /// Where cores live.
-    pub hosting: Hosting,
+    pub(crate) hosting: Hosting,
     /// Cores that died before they said who they are: how, and what they printed. Nothing else is
     /// asked of them.
-    pub unfit: BTreeMap<String, (CoreError, String)>,
+    pub(crate) unfit: BTreeMap<String, (CoreError, String)>,
 }
 
 impl Bench {
     /// The seed of a case: the same for every core.
-    pub fn seed_of(&self, case: &Case) -> Seed {
+    pub(crate) fn seed_of(&self, case: &Case) -> Seed {
         self.seed.child(&case.id)
     }
 }

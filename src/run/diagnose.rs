@@ -5,7 +5,7 @@ use super::{Outcome, Status, TrialRecord};
 use crate::diagnosis::{self, Diagnosis, Evidence, Observation, Standing};
 
 /// The causes of what failed on `core` among `trials`; those of other cores are left aside.
-pub fn diagnose<'a>(
+pub(crate) fn diagnose<'a>(
     core: &CoreRecord,
     trials: impl IntoIterator<Item = &'a TrialRecord>,
 ) -> Diagnosis {

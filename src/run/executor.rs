@@ -13,7 +13,7 @@ use std::path::Path;
 use std::sync::mpsc;
 
 /// What the threads of a run tell the one that listens.
-pub enum Message {
+pub(crate) enum Message {
     /// A trial began.
     Started(Trial),
     /// A trial ended, or was blocked.
@@ -25,7 +25,7 @@ pub enum Message {
 ///
 /// # Errors
 /// The first of `sink`: the run stops there.
-pub fn run_trials<E>(
+pub(crate) fn run_trials<E>(
     plan: &Plan,
     bench: &Bench,
     schedule: &Schedule<'_>,
@@ -73,7 +73,7 @@ fn work(bench: &Bench, plan: &Plan, schedule: &Schedule<'_>, sender: &mpsc::Send
 ///
 /// # Errors
 /// If a file cannot be written: the run stops there, and what was written stays.
-pub fn run_into(
+pub(crate) fn run_into(
     plan: &Plan,
     bench: &Bench,
     todo: &[usize],

@@ -5,17 +5,18 @@
 mod attempt;
 mod bench;
 mod diagnose;
-pub mod event;
-pub mod executor;
-pub mod outcome;
-pub mod plan;
+pub(crate) mod event;
+pub(crate) mod executor;
+pub(crate) mod outcome;
+pub(crate) mod plan;
 pub mod record;
 mod schedule;
 
-pub use attempt::{Attempt, Ended, attempt, run_trial};
+pub use attempt::attempt;
+pub use attempt::{Attempt, Ended, run_trial};
 pub use bench::Bench;
-pub use diagnose::diagnose;
-pub use event::Event;
+pub(crate) use diagnose::diagnose;
+pub(crate) use event::Event;
 pub use executor::run_in_memory;
 pub use outcome::{Outcome, Status};
 pub use plan::{Plan, Request, Trial};
@@ -67,7 +68,7 @@ pub fn run(
 ///
 /// # Errors
 /// If the folder is not a run, or a file cannot be written.
-pub fn resume(
+pub(crate) fn resume(
     plan: &Plan,
     folder: &Path,
     events: &mut dyn FnMut(Event<'_>),

@@ -68,7 +68,7 @@ pub enum Status {
 
 impl Status {
     /// Every status, the good one first.
-    pub const ALL: [Status; 8] = [
+    pub(crate) const ALL: [Status; 8] = [
         Status::Pass,
         Status::Fail,
         Status::Inconclusive,
@@ -94,14 +94,14 @@ impl Status {
     }
 
     /// Whether it counts against the core.
-    pub const fn is_failure(self) -> bool {
+    pub(crate) const fn is_failure(self) -> bool {
         matches!(self, Self::Fail | Self::Crashed | Self::TimedOut)
     }
 }
 
 impl Outcome {
     /// The outcome of a check that ran, or did not come to its end.
-    pub fn of(result: Result<Finding, CheckError>) -> Self {
+    pub(crate) fn of(result: Result<Finding, CheckError>) -> Self {
         match result {
             Ok(finding) => Self::Judged { finding },
             Err(CheckError::Broken(why)) => Self::Broken { why },

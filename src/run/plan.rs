@@ -92,12 +92,12 @@ impl Plan {
     }
 
     /// Where cores live, out of sight of what is expected of them.
-    pub fn hosting(&self) -> Hosting {
+    pub(crate) fn hosting(&self) -> Hosting {
         self.hosting.clone().hiding(self.project.secrets())
     }
 
     /// Trials at the same time.
-    pub fn jobs(&self) -> usize {
+    pub(crate) fn jobs(&self) -> usize {
         match self.request.jobs {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             jobs => jobs,

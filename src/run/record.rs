@@ -21,39 +21,39 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// The version of both files. It changes when something existing does.
-pub const VERSION: u32 = 2;
+pub(crate) const VERSION: u32 = 2;
 
 /// `run.json`: who was asked what, when, on which machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunRecord {
     /// [`VERSION`]
-    pub version: u32,
+    pub(crate) version: u32,
     /// Version of furnace that ran.
-    pub furnace: String,
+    pub(crate) furnace: String,
     /// The cores, in the order they were asked.
-    pub cores: Vec<CoreRecord>,
+    pub(crate) cores: Vec<CoreRecord>,
     /// What was selected, as the user typed it.
-    pub filters: Vec<String>,
+    pub(crate) filters: Vec<String>,
     /// How much was spent, and so how small an error was looked for.
-    pub budget: Budget,
+    pub(crate) budget: Budget,
     /// The seed of the whole run.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// How many trials were planned.
-    pub trials: usize,
+    pub(crate) trials: usize,
     /// Whether the run was to stop at the first graded failure. Trials without a sidecar were not
     /// run then.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub fail_fast: bool,
+    pub(crate) fail_fast: bool,
     /// The machine.
-    pub machine: Machine,
+    pub(crate) machine: Machine,
     /// When, and how long.
-    pub timing: RunTiming,
+    pub(crate) timing: RunTiming,
 }
 
 impl RunRecord {
     /// Whether this core was asked for and failed to start.
-    pub fn is_absent(&self, spec: &str) -> bool {
+    pub(crate) fn is_absent(&self, spec: &str) -> bool {
         self.cores.iter().any(|core| core.spec == spec && core.problem.is_some())
     }
 }
@@ -61,40 +61,40 @@ impl RunRecord {
 /// When a run was, and how long it took.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct RunTiming {
+pub(crate) struct RunTiming {
     /// Seconds since 1970, UTC.
-    pub started: u64,
+    pub(crate) started: u64,
     /// Wall time of the run so far, seconds; a resumed run adds up. None while it has not ended.
-    pub seconds: Option<f64>,
+    pub(crate) seconds: Option<f64>,
 }
 
 /// A core, as the report shows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct CoreRecord {
+pub(crate) struct CoreRecord {
     /// What the user typed after `--core`; also the folder's name.
-    pub spec: String,
+    pub(crate) spec: String,
     /// What it calls itself.
-    pub name: String,
+    pub(crate) name: String,
     /// Its own version.
-    pub version: String,
+    pub(crate) version: String,
     /// The arithmetic it computes in.
-    pub precision: Precision,
+    pub(crate) precision: Precision,
     /// What it can be asked.
-    pub capabilities: Vec<String>,
+    pub(crate) capabilities: Vec<String>,
     /// What it has freely chosen.
-    pub conventions: Conventions,
+    pub(crate) conventions: Conventions,
     /// What the system enforces on it; none for a core that lives in the bench's own process.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub confinement: Option<Confinement>,
+    pub(crate) confinement: Option<Confinement>,
     /// Why nothing is known of it, if it died before it said who it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub problem: Option<String>,
+    pub(crate) problem: Option<String>,
 }
 
 impl CoreRecord {
     /// The record of a core that answers `info`.
-    pub fn new(spec: &str, info: &CoreInfo) -> Self {
+    pub(crate) fn new(spec: &str, info: &CoreInfo) -> Self {
         Self {
             spec: spec.to_owned(),
             name: info.name.clone(),
@@ -108,7 +108,7 @@ impl CoreRecord {
     }
 
     /// The record of a core that failed to start.
-    pub fn unknown(spec: &str, problem: String) -> Self {
+    pub(crate) fn unknown(spec: &str, problem: String) -> Self {
         Self {
             spec: spec.to_owned(),
             name: spec.to_owned(),
@@ -125,18 +125,18 @@ impl CoreRecord {
 /// The machine a run was made on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Machine {
+pub(crate) struct Machine {
     /// `linux`, `macos`, `windows`
-    pub system: String,
+    pub(crate) system: String,
     /// `x86_64`, `aarch64`
-    pub architecture: String,
+    pub(crate) architecture: String,
     /// Hardware threads.
-    pub threads: usize,
+    pub(crate) threads: usize,
 }
 
 impl Machine {
     /// This one.
-    pub fn this() -> Self {
+    pub(crate) fn this() -> Self {
         Self {
             system: std::env::consts::OS.to_owned(),
             architecture: std::env::consts::ARCH.to_owned(),
@@ -192,7 +192,7 @@ pub struct TrialRecord {
 
 impl TrialRecord {
     /// Whether it counts against the core.
-    pub fn fails_the_core(&self) -> bool {
+    pub(crate) fn fails_the_core(&self) -> bool {
         self.tier.is_graded() && self.outcome.status().is_failure()
     }
 }
@@ -202,7 +202,7 @@ const PRINTED: usize = 8 << 10;
 
 impl TrialRecord {
     /// Keeps the end of what the core printed, where somebody will ask for it.
-    pub fn keep_printed(&mut self, printed: &str) {
+    pub(crate) fn keep_printed(&mut self, printed: &str) {
         let asked_for = !matches!(self.outcome.status(), Status::Pass | Status::Skipped);
         if asked_for {
             let first = printed.len().saturating_sub(PRINTED);
@@ -217,9 +217,9 @@ impl TrialRecord {
 #[serde(deny_unknown_fields)]
 pub struct SceneStamp {
     /// File name without `.toml`.
-    pub name: String,
+    pub(crate) name: String,
     /// Content hash of the resolved scene, hex.
-    pub hash: String,
+    pub(crate) hash: String,
 }
 
 /// How long a trial took.
@@ -264,14 +264,14 @@ pub enum RecordError {
 }
 
 /// The file name that no core, case or user can reach out of the folder with.
-pub fn folder_of_core(spec: &str) -> String {
+pub(crate) fn folder_of_core(spec: &str) -> String {
     spec.chars()
         .map(|c| if c.is_ascii_alphanumeric() || "-_.".contains(c) { c } else { '_' })
         .collect()
 }
 
 /// Where the sidecar of a trial stands in the folder of its run.
-pub fn sidecar_path(run: &Path, core: &str, case: &str) -> PathBuf {
+pub(crate) fn sidecar_path(run: &Path, core: &str, case: &str) -> PathBuf {
     run.join(folder_of_core(core)).join(format!("{case}.json"))
 }
 
@@ -279,7 +279,7 @@ pub fn sidecar_path(run: &Path, core: &str, case: &str) -> PathBuf {
 ///
 /// # Errors
 /// If the file system says no.
-pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), RecordError> {
+pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), RecordError> {
     let failed = |error: std::io::Error| RecordError::Io { path: path.to_owned(), error };
     let mut bytes = serde_json::to_vec_pretty(value).map_err(|error| failed(error.into()))?;
     bytes.push(b'\n');

@@ -10,7 +10,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 /// What a thread that asks for work is told.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Next {
+pub(crate) enum Next {
     /// Try the trial of this number.
     Try(usize),
     /// The trial of this number is blocked by a case that failed.
@@ -18,7 +18,7 @@ pub enum Next {
 }
 
 /// Hands out the trials of a plan to threads.
-pub struct Schedule<'a> {
+pub(crate) struct Schedule<'a> {
     plan: &'a Plan,
     /// For each trial the numbers of those that prove what it rests on.
     rests_on: Vec<Vec<usize>>,
@@ -43,7 +43,12 @@ enum Fate {
 
 impl<'a> Schedule<'a> {
     /// All trials whose numbers are in `todo`. `earlier` is what a run that was cut off already knows.
-    pub fn new(plan: &'a Plan, bench: &Bench, todo: &[usize], earlier: &[(usize, Status)]) -> Self {
+    pub(crate) fn new(
+        plan: &'a Plan,
+        bench: &Bench,
+        todo: &[usize],
+        earlier: &[(usize, Status)],
+    ) -> Self {
         let mut fates = vec![Fate::Left; plan.trials.len()];
         for number in todo {
             fates[*number] = Fate::Waiting;
@@ -60,7 +65,7 @@ impl<'a> Schedule<'a> {
     }
 
     /// The next trial; waits where all that is left rests on what is being tried. None when nothing is left.
-    pub fn next(&self) -> Option<Next> {
+    pub(crate) fn next(&self) -> Option<Next> {
         let mut state = self.lock();
         loop {
             if state.stopped {
@@ -84,13 +89,13 @@ impl<'a> Schedule<'a> {
     }
 
     /// A trial that was handed out has ended.
-    pub fn ended(&self, number: usize, status: Status) {
+    pub(crate) fn ended(&self, number: usize, status: Status) {
         self.lock().fates[number] = Fate::Ended(blocker(&self.plan.trials[number], status));
         self.changed.notify_all();
     }
 
     /// Nobody is handed anything any more.
-    pub fn stop(&self) {
+    pub(crate) fn stop(&self) {
         self.lock().stopped = true;
         self.changed.notify_all();
     }

@@ -49,7 +49,7 @@ impl Camera {
     }
 
     /// Whether the pixels of `film` are as high as they are wide.
-    pub fn has_square_pixels(&self) -> bool {
+    pub(crate) fn has_square_pixels(&self) -> bool {
         let [width, height] = self.film.map(f64::from);
         let ratio = (self.vertical_fov / 2.0).tan() / (self.horizontal_fov / 2.0).tan();
         (ratio * width / height - 1.0).abs() < 1e-9

@@ -13,7 +13,7 @@ const LAYOUT: &[u8] = b"furnace scene 1";
 ///
 /// Numbers count as single precision, and as zero below 2⁻⁴⁰: sine and cosine may differ between
 /// machines in their last bit, and an image does not show it.
-pub fn content_hash(scene: &SceneDescription) -> String {
+pub(crate) fn content_hash(scene: &SceneDescription) -> String {
     let mut content = Content(Sha256::new_with_prefix(LAYOUT));
     content.camera(scene.camera.as_ref());
     content.count(scene.meshes.len());

@@ -40,7 +40,7 @@ impl Library {
     }
 
     /// The names of all scenes, in the order of the alphabet.
-    pub fn names(&self) -> Result<Vec<String>, SceneError> {
+    pub(crate) fn names(&self) -> Result<Vec<String>, SceneError> {
         let unreadable = |problem: std::io::Error| SceneError::Unreadable {
             path: self.folder.display().to_string(),
             problem: problem.to_string(),

@@ -45,12 +45,12 @@ pub enum Light {
 
 impl Light {
     /// Whether no ray can meet the light by chance.
-    pub const fn is_delta(&self) -> bool {
+    pub(crate) const fn is_delta(&self) -> bool {
         matches!(self, Self::Point { .. } | Self::Directional { .. })
     }
 
     /// Radiance of the sky from direction `w` (unit, away from the scene); zero for other lights.
-    pub fn sky_radiance(&self, w: DVec3) -> Rgb {
+    pub(crate) fn sky_radiance(&self, w: DVec3) -> Rgb {
         match *self {
             Self::ConstantSky { radiance } => radiance,
             Self::GradientSky { up, horizon, zenith } => {

@@ -4,7 +4,7 @@
 //! Not here: where a mesh stands in the scene, and what it is made of.
 
 use super::Mesh;
-pub use super::error::MeshError;
+pub(crate) use super::error::MeshError;
 use super::format::{obj, ply, stl};
 use glam::DVec3;
 use serde::Deserialize;
@@ -24,7 +24,7 @@ pub enum Format {
 /// Which normals a mesh shades with, where a scene file says so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Shading {
+pub(crate) enum Shading {
     /// Those of the triangles.
     Flat,
     /// Those of the vertices: the mean over the triangles around each.
@@ -33,7 +33,7 @@ pub enum Shading {
 
 impl Shading {
     /// Drops or computes the vertex normals of `mesh`.
-    pub fn apply(self, mesh: &mut Mesh) {
+    pub(crate) fn apply(self, mesh: &mut Mesh) {
         mesh.normals = match self {
             Self::Flat => Vec::new(),
             Self::Smooth => smooth_normals(mesh),
@@ -55,7 +55,7 @@ pub fn load(path: &Path, format: Format) -> Result<Mesh, MeshError> {
 }
 
 /// That every index names a vertex, every number is finite, and every normal has a direction.
-pub fn check(mesh: &Mesh) -> Result<(), MeshError> {
+pub(crate) fn check(mesh: &Mesh) -> Result<(), MeshError> {
     let vertices = mesh.positions.len();
     for (triangle, corners) in mesh.indices.iter().enumerate() {
         if let Some(&index) = corners.iter().find(|index| **index as usize >= vertices) {
@@ -76,7 +76,7 @@ pub fn check(mesh: &Mesh) -> Result<(), MeshError> {
 
 /// One unit normal a vertex: the mean over the triangles around it, each weighted by its angle
 /// there, so that the normal does not depend on how a polygon was cut (Thürmer and Wüthrich 1998).
-pub fn smooth_normals(mesh: &Mesh) -> Vec<DVec3> {
+pub(crate) fn smooth_normals(mesh: &Mesh) -> Vec<DVec3> {
     let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
     for (triangle, indices) in mesh.indices.iter().enumerate() {
         let corners = mesh.corners(triangle);

@@ -9,7 +9,7 @@ mod camera;
 mod error;
 mod file;
 pub mod format;
-pub mod hash;
+pub(crate) mod hash;
 mod library;
 mod light;
 mod material;
@@ -19,7 +19,7 @@ pub mod reference;
 mod shape;
 
 pub use camera::Camera;
-pub use error::SceneError;
+pub(crate) use error::SceneError;
 pub use file::Overrides;
 pub use library::{Library, load_file};
 pub use light::Light;
@@ -27,7 +27,7 @@ pub use material::{Cap, Emission, Material, Surface};
 pub use shape::{Aabb, Mesh, Rectangle, Sphere};
 
 /// Linear RGB: radiance, reflectance or intensity, as the field says.
-pub type Rgb = [f64; 3];
+pub(crate) type Rgb = [f64; 3];
 
 /// Everything a core needs to build a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,7 +48,7 @@ pub struct SceneDescription {
 
 /// A shape of the scene, by its number.
 #[derive(Clone, Copy, Debug)]
-pub enum Shape<'a> {
+pub(crate) enum Shape<'a> {
     /// A triangle mesh.
     Mesh(&'a Mesh),
     /// A sphere.
@@ -57,7 +57,7 @@ pub enum Shape<'a> {
 
 impl SceneDescription {
     /// How many shapes there are.
-    pub fn shape_count(&self) -> usize {
+    pub(crate) fn shape_count(&self) -> usize {
         self.meshes.len() + self.spheres.len()
     }
 
@@ -65,7 +65,7 @@ impl SceneDescription {
     ///
     /// # Panics
     /// If there is no such shape.
-    pub fn shape(&self, number: u32) -> Shape<'_> {
+    pub(crate) fn shape(&self, number: u32) -> Shape<'_> {
         let number = number as usize;
         match self.meshes.get(number) {
             Some(mesh) => Shape::Mesh(mesh),
@@ -74,7 +74,7 @@ impl SceneDescription {
     }
 
     /// The material of shape `number`.
-    pub fn material_of(&self, number: u32) -> &Material {
+    pub(crate) fn material_of(&self, number: u32) -> &Material {
         let material = match self.shape(number) {
             Shape::Mesh(mesh) => mesh.material,
             Shape::Sphere(sphere) => sphere.material,
@@ -88,7 +88,7 @@ impl SceneDescription {
     }
 
     /// Appends an area light for every shape that emits. The last step of making a scene.
-    pub fn with_area_lights(mut self) -> Self {
+    pub(crate) fn with_area_lights(mut self) -> Self {
         self.lights.retain(|light| !matches!(light, Light::Area { .. }));
         for shape in 0..self.shape_count() as u32 {
             if self.material_of(shape).emission.is_some() {

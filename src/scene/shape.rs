@@ -19,12 +19,12 @@ pub struct Mesh {
 
 impl Mesh {
     /// The corners of triangle `number`.
-    pub fn corners(&self, number: usize) -> [DVec3; 3] {
+    pub(crate) fn corners(&self, number: usize) -> [DVec3; 3] {
         self.indices[number].map(|index| self.positions[index as usize])
     }
 
     /// The shading normals at the corners of triangle `number`: its own normal three times if the mesh is flat.
-    pub fn corner_normals(&self, number: usize) -> [DVec3; 3] {
+    pub(crate) fn corner_normals(&self, number: usize) -> [DVec3; 3] {
         if self.normals.is_empty() {
             let [a, b, c] = self.corners(number);
             [(b - a).cross(c - a).normalize_or_zero(); 3]
@@ -34,7 +34,7 @@ impl Mesh {
     }
 
     /// Area of triangle `number`.
-    pub fn area(&self, number: usize) -> f64 {
+    pub(crate) fn area(&self, number: usize) -> f64 {
         let [a, b, c] = self.corners(number);
         (b - a).cross(c - a).length() / 2.0
     }
@@ -44,16 +44,16 @@ impl Mesh {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rectangle {
     /// World space.
-    pub centre: DVec3,
+    pub(crate) centre: DVec3,
     /// Two whole sides at a right angle.
-    pub sides: [DVec3; 2],
+    pub(crate) sides: [DVec3; 2],
     /// Unit, on the front side.
-    pub normal: DVec3,
+    pub(crate) normal: DVec3,
 }
 
 impl Mesh {
     /// The rectangle that a flat mesh of two triangles is, if it is one.
-    pub fn as_rectangle(&self) -> Option<Rectangle> {
+    pub(crate) fn as_rectangle(&self) -> Option<Rectangle> {
         let &[a, b, c, d] = self.positions.as_slice() else { return None };
         let [u, v] = [b - a, d - a];
         let is_parallelogram = (a + u + v).abs_diff_eq(c, 1e-12);
@@ -69,15 +69,15 @@ impl Mesh {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sphere {
     /// As the scene file calls it, for messages.
-    pub name: String,
+    pub(crate) name: String,
     /// World space.
-    pub centre: DVec3,
+    pub(crate) centre: DVec3,
     /// Scene units, positive.
-    pub radius: f64,
+    pub(crate) radius: f64,
     /// Normals (and so the front side) point to the centre: a room, not a ball.
-    pub inward: bool,
+    pub(crate) inward: bool,
     /// Number of the material.
-    pub material: u32,
+    pub(crate) material: u32,
 }
 
 /// An axis-aligned box, closed: flat and point boxes are boxes.
@@ -91,7 +91,7 @@ pub struct Aabb {
 
 impl Aabb {
     /// The smallest box around some points; `None` if there are none.
-    pub fn around(points: impl IntoIterator<Item = DVec3>) -> Option<Self> {
+    pub(crate) fn around(points: impl IntoIterator<Item = DVec3>) -> Option<Self> {
         points.into_iter().fold(None, |bounds, point| {
             Some(match bounds {
                 None => Self { min: point, max: point },

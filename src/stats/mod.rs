@@ -21,26 +21,31 @@ mod law;
 mod plan;
 mod test;
 
-pub use image::misfit;
+pub use image::ImageEffort;
+pub use image::judge_image_pair;
+pub(crate) use image::misfit;
 pub use image::{
     CodeReference, CodeReport, CodeSettings, CodesCompared, Comparison, Component, Deciphered,
-    DifferenceReport, GlobalRatio, ImageDraw, ImageEffort, ImageReport, Impossible, NoiseSource,
-    OddPixels, Pattern, PatternReport, Question, Reference, Sample, Scale, ScaleReport, Side,
-    compare, judge_codes, judge_image, judge_image_pair,
+    DifferenceReport, GlobalRatio, ImageDraw, ImageReport, Impossible, NoiseSource, OddPixels,
+    Pattern, PatternReport, Question, Reference, Sample, Scale, ScaleReport, Side, compare,
+    judge_codes, judge_image,
 };
+pub use law::Moments;
+pub use law::normal_upper;
 use law::student_upper;
 pub use law::{
-    CellProbabilities, Counts, Moments, SphereCells, StoppingLaw, TwoValues, binomial_at_least,
-    chi_square_upper, normal_upper, share_interval,
+    CellProbabilities, Counts, SphereCells, StoppingLaw, TwoValues, binomial_at_least,
+    chi_square_upper, share_interval,
 };
+pub use plan::Budget;
 pub use plan::{
-    Allowance, Band, Budget, Claim, Effort, Hypothesis, Ledger, LedgerEntry, Report,
-    SUITE_FALSE_ALARM, Sides, Stage, TestKind, Verdict,
+    Allowance, Band, Claim, Effort, Hypothesis, Ledger, LedgerEntry, Report, SUITE_FALSE_ALARM,
+    Sides, Stage, TestKind, Verdict,
 };
-pub use test::timing;
-pub use test::{
-    Compared, CorrelationReport, CountDoubt, CountReport, CountSource, Draw, ErrorLevel,
-    ExactReport, MeanReport, RareReport, Rarity, ReportedVariance, Sampling, ShareReport,
-    SlopeReport, Tolerance, TwoVariances, follows_law, judge_count_source, judge_counts,
-    judge_exact, judge_means, judge_rare, judge_share, judge_slope, judge_uncorrelated,
+pub(crate) use test::timing;
+pub(crate) use test::{
+    Compared, CorrelationReport, CountDoubt, CountReport, CountSource, ErrorLevel, ExactReport,
+    MeanReport, RareReport, Rarity, ReportedVariance, Sampling, ShareReport, SlopeReport,
+    Tolerance, TwoVariances, follows_law, judge_count_source, judge_counts, judge_exact,
+    judge_means, judge_rare, judge_share, judge_slope, judge_uncorrelated,
 };

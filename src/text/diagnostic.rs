@@ -11,37 +11,37 @@ use std::sync::Arc;
 
 /// A text and the name it goes by in messages. Cheap to clone.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Source {
+pub(crate) struct Source {
     /// What messages call it: a path as the user would type it.
-    pub name: Arc<str>,
+    pub(crate) name: Arc<str>,
     /// The whole text; spans count its bytes.
-    pub text: Arc<str>,
+    pub(crate) text: Arc<str>,
 }
 
 impl Source {
     /// A text that is already in memory.
-    pub fn new(name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> Self {
+    pub(crate) fn new(name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> Self {
         Self { name: name.into(), text: text.into() }
     }
 
     /// The text of a file.
-    pub fn read(path: &Path) -> std::io::Result<Self> {
+    pub(crate) fn read(path: &Path) -> std::io::Result<Self> {
         Ok(Self::new(path.display().to_string(), std::fs::read_to_string(path)?))
     }
 
     /// A complaint about the bytes of `span`.
-    pub fn diagnostic(&self, span: Range<usize>, message: impl Into<String>) -> Diagnostic {
+    pub(crate) fn diagnostic(&self, span: Range<usize>, message: impl Into<String>) -> Diagnostic {
         Diagnostic { source: self.clone(), span, message: message.into(), hint: None }
     }
 
     /// The text as TOML of a given shape. Unknown keys and variants come back with the word that
     /// was probably meant.
-    pub fn parse_toml<T: DeserializeOwned>(&self) -> Result<T, Diagnostic> {
+    pub(crate) fn parse_toml<T: DeserializeOwned>(&self) -> Result<T, Diagnostic> {
         read_toml(&self.text).map_err(|error| self.toml_diagnostic(error))
     }
 
     /// What the TOML parser or a deserialiser says, pointing at the place it speaks of.
-    pub fn toml_diagnostic(&self, error: impl Into<TomlError>) -> Diagnostic {
+    pub(crate) fn toml_diagnostic(&self, error: impl Into<TomlError>) -> Diagnostic {
         let error = error.into();
         let message = error.message();
         let hint =
@@ -59,30 +59,30 @@ impl Source {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// The text it is about.
-    pub source: Source,
+    pub(crate) source: Source,
     /// The bytes it is about.
-    pub span: Range<usize>,
+    pub(crate) span: Range<usize>,
     /// What is wrong: a lowercase fragment, names in backticks.
-    pub message: String,
+    pub(crate) message: String,
     /// What to do about it.
-    pub hint: Option<String>,
+    pub(crate) hint: Option<String>,
 }
 
 impl Diagnostic {
     /// The same complaint with advice.
-    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
+    pub(crate) fn with_hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
     }
 
     /// The same complaint with advice if there is any.
-    pub fn with_hint_if_any(mut self, hint: Option<String>) -> Self {
+    pub(crate) fn with_hint_if_any(mut self, hint: Option<String>) -> Self {
         self.hint = hint.or(self.hint);
         self
     }
 
     /// The line the complaint points at, counted from 1.
-    pub fn line(&self) -> usize {
+    pub(crate) fn line(&self) -> usize {
         let start = self.visible_span().start;
         self.source.text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count() + 1
     }

@@ -16,7 +16,7 @@ use toml::de::{DeTable, DeValue};
 ///
 /// # Errors
 /// If it is no TOML, or not the TOML of a `T`.
-pub fn read_toml<T: DeserializeOwned>(text: &str) -> Result<T, TomlError> {
+pub(crate) fn read_toml<T: DeserializeOwned>(text: &str) -> Result<T, TomlError> {
     read_table(&DeTable::parse(text)?)
 }
 
@@ -24,7 +24,7 @@ pub fn read_toml<T: DeserializeOwned>(text: &str) -> Result<T, TomlError> {
 ///
 /// # Errors
 /// Those of [`read_toml`], and if there is no such key.
-pub fn read_key<T: DeserializeOwned>(text: &str, key: &'static str) -> Result<T, TomlError> {
+pub(crate) fn read_key<T: DeserializeOwned>(text: &str, key: &'static str) -> Result<T, TomlError> {
     let document = DeTable::parse(text)?;
     let value = document.get_ref().get(key).ok_or_else(|| TomlError::missing_field(key))?;
     T::deserialize(Node::of(value))
@@ -43,24 +43,24 @@ pub(crate) fn read_table<T: DeserializeOwned>(
 /// A value and where it stands. Only the functions of this module can read one.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(from = "Placed<T>")]
-pub struct Spanned<T> {
+pub(crate) struct Spanned<T> {
     value: T,
     span: Range<usize>,
 }
 
 impl<T> Spanned<T> {
     /// The bytes of the text that the value was read from.
-    pub fn span(&self) -> Range<usize> {
+    pub(crate) fn span(&self) -> Range<usize> {
         self.span.clone()
     }
 
     /// The value.
-    pub fn get_ref(&self) -> &T {
+    pub(crate) fn get_ref(&self) -> &T {
         &self.value
     }
 
     /// The value without its place.
-    pub fn into_inner(self) -> T {
+    pub(crate) fn into_inner(self) -> T {
         self.value
     }
 }
@@ -80,16 +80,16 @@ impl<T> From<Placed<T>> for Spanned<T> {
 
 /// What is wrong with a text, and where, if that is known.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TomlError(Box<(String, Option<Range<usize>>)>);
+pub(crate) struct TomlError(Box<(String, Option<Range<usize>>)>);
 
 impl TomlError {
     /// What is wrong.
-    pub fn message(&self) -> &str {
+    pub(crate) fn message(&self) -> &str {
         &self.0.0
     }
 
     /// The bytes of the text at fault.
-    pub fn span(&self) -> Option<Range<usize>> {
+    pub(crate) fn span(&self) -> Option<Range<usize>> {
         self.0.1.clone()
     }
 

@@ -5,17 +5,17 @@
 
 mod diagnostic;
 mod document;
-pub mod number;
+pub(crate) mod number;
 mod range;
 mod suggestion;
 mod units;
 
-pub use diagnostic::{Diagnostic, Source};
+pub(crate) use diagnostic::{Diagnostic, Source};
 pub(crate) use document::read_table;
-pub use document::{Spanned, TomlError, read_key, read_toml};
-pub use range::{
+pub(crate) use document::{Spanned, TomlError, read_key, read_toml};
+pub(crate) use range::{
     Arrow, Bending, Between, Bounces, Chance, Direction, Factor, Lit, Polar, Positive, Reflectance,
     Roughness, Several, Size, Vector, Words,
 };
-pub use suggestion::{did_you_mean, listed};
-pub use units::{Angle, Colour, Count, Percent};
+pub(crate) use suggestion::{did_you_mean, listed};
+pub(crate) use units::{Angle, Colour, Count, Percent};

@@ -11,12 +11,12 @@
 const MOST_DIGITS: i32 = 15;
 
 /// `value` with three significant digits: `7.1`, `1234`, `2e-9`.
-pub fn figure(value: f64) -> String {
+pub(crate) fn figure(value: f64) -> String {
     significant(value, 3)
 }
 
 /// `value` with so many significant digits and no idle zeros, plain where that is short, else as `1.5e-7`.
-pub fn significant(value: f64, digits: i32) -> String {
+pub(crate) fn significant(value: f64, digits: i32) -> String {
     if !value.is_finite() || is_whole(value) && is_plain(value) {
         return without_negative_zero(value.to_string());
     }
@@ -31,20 +31,20 @@ pub fn significant(value: f64, digits: i32) -> String {
 
 /// Two numbers that should be the same, each with two digits of what is between them, and three at least:
 /// `1.0004` and `1`.
-pub fn apart(values: [f64; 2]) -> [String; 2] {
+pub(crate) fn apart(values: [f64; 2]) -> [String; 2] {
     let difference = exponent(values[0] - values[1]);
     let digits = |value| (exponent(value) - difference + 2).clamp(3, MOST_DIGITS);
     values.map(|value| significant(value, if values[0] == values[1] { 3 } else { digits(value) }))
 }
 
 /// A ratio that should be one.
-pub fn ratio(value: f64) -> String {
+pub(crate) fn ratio(value: f64) -> String {
     let [value, _] = apart([value, 1.0]);
     value
 }
 
 /// `1.553 (99.9 % CI 1.552 to 1.555)`: a value, and the ends of its interval of 99.9 % confidence.
-pub fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
+pub(crate) fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
     let half = (high - low) / 2.0;
     if !(half.is_finite() && half > 0.0) {
         return figure(value);
@@ -54,7 +54,7 @@ pub fn with_interval(value: f64, [low, high]: [f64; 2]) -> String {
 }
 
 /// `0.7000 ± 0.0004`: a value, and half the width of its interval.
-pub fn plus_minus(value: f64, half: f64) -> String {
+pub(crate) fn plus_minus(value: f64, half: f64) -> String {
     if !(half.is_finite() && half > 0.0) {
         return figure(value);
     }
@@ -63,7 +63,7 @@ pub fn plus_minus(value: f64, half: f64) -> String {
 
 /// `value` with two digits below the leading one of `step`: the finest difference that matters.
 /// Without a usable step, six significant digits.
-pub fn to_step(value: f64, step: f64) -> String {
+pub(crate) fn to_step(value: f64, step: f64) -> String {
     if !(step.is_finite() && step > 0.0) {
         return significant(value, 6);
     }
@@ -74,13 +74,13 @@ pub fn to_step(value: f64, step: f64) -> String {
 }
 
 /// A share as per cent, with its sign.
-pub fn signed_percent(share: f64) -> String {
+pub(crate) fn signed_percent(share: f64) -> String {
     let sign = if share > 0.0 { "+" } else { "" };
     format!("{sign}{}", percent(share))
 }
 
 /// A share as per cent: `9.52 %`, `0.0021 %`.
-pub fn percent(share: f64) -> String {
+pub(crate) fn percent(share: f64) -> String {
     match share.is_finite() {
         true => format!("{} %", figure(share * 100.0)),
         false => share.to_string(),
@@ -88,17 +88,17 @@ pub fn percent(share: f64) -> String {
 }
 
 /// An angle: `7.1°`.
-pub fn degrees(radians: f64) -> String {
+pub(crate) fn degrees(radians: f64) -> String {
     format!("{}°", figure(radians.to_degrees()))
 }
 
 /// A probability: `1.8e-7`; nothing spent is `0`.
-pub fn probability(value: f64) -> String {
+pub(crate) fn probability(value: f64) -> String {
     if value > 0.0 && value < 0.01 { format!("{value:.1e}") } else { significant(value, 2) }
 }
 
 /// A duration: `12 ms`, `1.4 s`, `2 m 49 s`, `1 h 03 m`.
-pub fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     if !(0.0..1e9).contains(&seconds) {
         return format!("{seconds} s");
     }
@@ -117,7 +117,7 @@ pub fn duration(seconds: f64) -> String {
 }
 
 /// `1 trial`, `2 trials`.
-pub fn count(number: usize, noun: &str) -> String {
+pub(crate) fn count(number: usize, noun: &str) -> String {
     let ending = if number == 1 { "" } else { "s" };
     format!("{number} {noun}{ending}")
 }

@@ -9,82 +9,82 @@ use std::ops::Deref;
 /// A point or an edge: three finite numbers.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(try_from = "[f64; 3]")]
-pub struct Vector(pub DVec3);
+pub(crate) struct Vector(pub(crate) DVec3);
 
 /// A direction of any length but zero, made unit.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "[f64; 3]")]
-pub struct Direction(pub DVec3);
+pub(crate) struct Direction(pub(crate) DVec3);
 
 /// A share of light, in [0, 1] per channel.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "Colour")]
-pub struct Reflectance(pub [f64; 3]);
+pub(crate) struct Reflectance(pub(crate) [f64; 3]);
 
 /// A colour with some light in every channel: what relative errors can be relative to.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "Colour")]
-pub struct Lit(pub [f64; 3]);
+pub(crate) struct Lit(pub(crate) [f64; 3]);
 
 /// A direction that keeps its length, which is not zero.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "Vector")]
-pub struct Arrow(pub DVec3);
+pub(crate) struct Arrow(pub(crate) DVec3);
 
 /// The angle of a direction from a normal, in radians: 0 to 180 degrees.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "Angle")]
-pub struct Polar(pub f64);
+pub(crate) struct Polar(pub(crate) f64);
 
 /// A probability below 1.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "f64")]
-pub struct Chance(pub f64);
+pub(crate) struct Chance(pub(crate) f64);
 
 /// How many times as much: more than 1, finite.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "f64")]
-pub struct Factor(pub f64);
+pub(crate) struct Factor(pub(crate) f64);
 
 /// The first and the last bounce that are added up.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "[Between<0, 1000>; 2]")]
-pub struct Bounces(pub [u32; 2]);
+pub(crate) struct Bounces(pub(crate) [u32; 2]);
 
 /// Columns and rows of a small picture.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(from = "[Between<1, 4096>; 2]")]
-pub struct Size(pub [u32; 2]);
+pub(crate) struct Size(pub(crate) [u32; 2]);
 
 /// A list that is not empty.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(try_from = "Vec<T>")]
-pub struct Several<T>(Vec<T>);
+pub(crate) struct Several<T>(Vec<T>);
 
 /// Words that say something.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(try_from = "String")]
-pub struct Words(pub String);
+pub(crate) struct Words(pub(crate) String);
 
 /// A length or an index of refraction: above zero, finite.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "f64")]
-pub struct Positive(pub f64);
+pub(crate) struct Positive(pub(crate) f64);
 
 /// An index of refraction that bends light: above zero, finite, not 1.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "Positive")]
-pub struct Bending(pub f64);
+pub(crate) struct Bending(pub(crate) f64);
 
 /// The width parameter of a microfacet distribution, in (0, 1].
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "f64")]
-pub struct Roughness(pub f64);
+pub(crate) struct Roughness(pub(crate) f64);
 
 /// A whole number from `MIN` to `MAX`: generators whose output grows like a power need an end.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "i64")]
-pub struct Between<const MIN: u32, const MAX: u32>(pub u32);
+pub(crate) struct Between<const MIN: u32, const MAX: u32>(pub(crate) u32);
 
 impl TryFrom<[f64; 3]> for Vector {
     type Error = String;

@@ -5,7 +5,10 @@
 ///
 /// Damerau-Levenshtein distance of at most a third of the length: two slips in `positon`, none in
 /// `at`.
-pub fn did_you_mean<'a>(word: &str, valid: impl IntoIterator<Item = &'a str>) -> Option<String> {
+pub(crate) fn did_you_mean<'a>(
+    word: &str,
+    valid: impl IntoIterator<Item = &'a str>,
+) -> Option<String> {
     let distance = |candidate: &str| strsim::damerau_levenshtein(word, candidate);
     let nearest = valid.into_iter().min_by_key(|candidate| distance(candidate))?;
     let allowed = word.chars().count().max(3) / 3;
@@ -13,7 +16,7 @@ pub fn did_you_mean<'a>(word: &str, valid: impl IntoIterator<Item = &'a str>) ->
 }
 
 /// Words as a list for a message: "`a`, `b` or `c`".
-pub fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+pub(crate) fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     let quoted: Vec<String> = words.into_iter().map(|word| format!("`{word}`")).collect();
     match quoted.as_slice() {
         [] => "nothing".to_owned(),

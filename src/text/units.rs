@@ -8,19 +8,19 @@ use std::str::FromStr;
 
 /// An angle, in radians. Written `"45 deg"` or `"0.8 rad"`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub struct Angle(pub f64);
+pub(crate) struct Angle(pub(crate) f64);
 
 /// A share of one, more than nothing and less than all. Written `"1 %"`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub struct Percent(pub f64);
+pub(crate) struct Percent(pub(crate) f64);
 
 /// How many, from 1 to [`Count::MOST`]. Written `4096`, `"400 k"` or `"2 M paths"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Count(pub u64);
+pub(crate) struct Count(pub(crate) u64);
 
 /// Linear RGB, not negative and finite. Written as one number for grey, or as three.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Colour(pub [f64; 3]);
+pub(crate) struct Colour(pub(crate) [f64; 3]);
 
 /// What may be counted: a noun after a [`Count`] is read aloud and means nothing.
 const COUNTABLE: [&str; 9] =
@@ -81,7 +81,7 @@ impl FromStr for Count {
 
 impl Count {
     /// More would not fit into any memory.
-    pub const MOST: u64 = 100_000_000;
+    pub(crate) const MOST: u64 = 100_000_000;
 }
 
 /// `value` as something that can be counted.

@@ -12,31 +12,31 @@ use std::process::Command;
 
 /// The variable that tells a program where its channel is: the number of an inherited socket, or
 /// `stdio` where there are none to inherit.
-pub const CHANNEL_VARIABLE: &str = "FURNACE_CHANNEL";
+pub(crate) const CHANNEL_VARIABLE: &str = "FURNACE_CHANNEL";
 
 /// What a worker is started for; its one argument, as JSON.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Errand {
+pub(crate) struct Errand {
     /// The core, as the user named it.
-    pub spec: String,
+    pub(crate) spec: String,
     /// What kind of core that is.
-    pub guest: Guest,
+    pub(crate) guest: Guest,
     /// What it may use up.
-    pub limits: Limits,
+    pub(crate) limits: Limits,
     /// The one folder it may write.
-    pub scratch: PathBuf,
+    pub(crate) scratch: PathBuf,
     /// What it may never read, wherever it lies.
-    pub hidden: Vec<PathBuf>,
+    pub(crate) hidden: Vec<PathBuf>,
     /// What the user lets it read besides itself and the system.
-    pub readable: Vec<PathBuf>,
+    pub(crate) readable: Vec<PathBuf>,
     /// Whether it is shut in at all.
-    pub confined: bool,
+    pub(crate) confined: bool,
 }
 
 /// What kind of core a worker is for.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Guest {
+pub(crate) enum Guest {
     /// One of our own, that is in this very program.
     Resident,
     /// A shared library.
@@ -54,14 +54,14 @@ pub enum Guest {
 
 impl Guest {
     /// Whether it may start processes.
-    pub const fn starts_processes(&self) -> bool {
+    pub(crate) const fn starts_processes(&self) -> bool {
         matches!(self, Self::Program(_) | Self::Renderer { .. })
     }
 }
 
 /// Why a worker did not get as far as its core.
 #[derive(Debug, thiserror::Error)]
-pub enum ChildError {
+pub(crate) enum ChildError {
     /// The system says no.
     #[error(transparent)]
     Io(#[from] io::Error),
@@ -78,7 +78,7 @@ pub enum ChildError {
 ///
 /// # Errors
 /// If there is no channel.
-pub fn begin(errand: &Errand) -> Result<Entered, ChildError> {
+pub(crate) fn begin(errand: &Errand) -> Result<Entered, ChildError> {
     let mut entered = Entered { channel: inherited::take()? };
     let confinement = confine(errand);
     entered.announce(confinement)?;
@@ -86,7 +86,7 @@ pub fn begin(errand: &Errand) -> Result<Entered, ChildError> {
 }
 
 /// A worker that is shut in.
-pub struct Entered {
+pub(crate) struct Entered {
     channel: inherited::Inherited,
 }
 
@@ -101,7 +101,7 @@ impl Entered {
     ///
     /// # Errors
     /// If the system says no.
-    pub fn into_channel(self) -> io::Result<Channel> {
+    pub(crate) fn into_channel(self) -> io::Result<Channel> {
         self.channel.into_channel()
     }
 
@@ -110,7 +110,7 @@ impl Entered {
     ///
     /// # Errors
     /// If the program cannot be started.
-    pub fn run_program(self, words: &[String]) -> Result<i32, ChildError> {
+    pub(crate) fn run_program(self, words: &[String]) -> Result<i32, ChildError> {
         let [program, arguments @ ..] = words else { return Err(ChildError::NoProgram) };
         let mut command = Command::new(program);
         command.args(arguments);
@@ -131,21 +131,21 @@ mod inherited {
     use std::os::unix::process::CommandExt;
     use std::process::Command;
 
-    pub struct Inherited(UnixStream);
+    pub(crate) struct Inherited(UnixStream);
 
     /// Moves the socket to where nobody looks for it, and leaves nothing to read behind.
-    pub fn take() -> io::Result<Inherited> {
+    pub(crate) fn take() -> io::Result<Inherited> {
         let socket = fcntl_dupfd_cloexec(rustix::stdio::stdin(), 3)?;
         rustix::stdio::dup2_stdin(File::open("/dev/null")?)?;
         Ok(Inherited(UnixStream::from(socket)))
     }
 
     impl Inherited {
-        pub fn into_channel(self) -> io::Result<Channel> {
+        pub(crate) fn into_channel(self) -> io::Result<Channel> {
             Ok(Channel { input: Box::new(Eager(self.0.try_clone()?)), output: Box::new(self.0) })
         }
 
-        pub fn hand_to(self, mut command: Command) -> io::Result<i32> {
+        pub(crate) fn hand_to(self, mut command: Command) -> io::Result<i32> {
             fcntl_setfd(&self.0, FdFlags::empty())?;
             Err(command.env(CHANNEL_VARIABLE, self.0.as_raw_fd().to_string()).exec())
         }
@@ -169,18 +169,18 @@ mod inherited {
     use std::io::{self, Write};
     use std::process::Command;
 
-    pub struct Inherited;
+    pub(crate) struct Inherited;
 
-    pub fn take() -> io::Result<Inherited> {
+    pub(crate) fn take() -> io::Result<Inherited> {
         Ok(Inherited)
     }
 
     impl Inherited {
-        pub fn into_channel(self) -> io::Result<Channel> {
+        pub(crate) fn into_channel(self) -> io::Result<Channel> {
             Ok(Channel { input: Box::new(io::stdin()), output: Box::new(io::stdout()) })
         }
 
-        pub fn hand_to(self, mut command: Command) -> io::Result<i32> {
+        pub(crate) fn hand_to(self, mut command: Command) -> io::Result<i32> {
             let status = command.env(CHANNEL_VARIABLE, "stdio").status()?;
             Ok(status.code().unwrap_or(1))
         }

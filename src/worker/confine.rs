@@ -63,7 +63,7 @@ const SYSTEM: &[&str] = &[
 const LIBRARY_VARIABLES: &[&str] = &["LD_LIBRARY_PATH", "PYTHONPATH", "VIRTUAL_ENV"];
 
 /// Shuts this process in, as far as the system can.
-pub fn confine(errand: &Errand) -> Confinement {
+pub(crate) fn confine(errand: &Errand) -> Confinement {
     let mut confinement = Confinement::default();
     limit(&errand.limits, &mut confinement);
     if errand.confined {
@@ -124,7 +124,7 @@ fn in_bytes(bytes: u64) -> String {
 
 /// What the core may read: files, and folders with all that is in them.
 #[cfg(target_os = "linux")]
-pub fn readable(errand: &Errand) -> Vec<PathBuf> {
+pub(crate) fn readable(errand: &Errand) -> Vec<PathBuf> {
     let hidden = &errand.hidden;
     let mut paths: Vec<_> =
         SYSTEM.iter().flat_map(|path| without_hidden(Path::new(path), hidden)).collect();

@@ -23,7 +23,7 @@ use std::time::Duration;
 const NEWEST: ABI = ABI::V6;
 
 /// Shuts this process in, for good.
-pub fn shut_in(errand: &Errand, confinement: &mut Confinement) {
+pub(crate) fn shut_in(errand: &Errand, confinement: &mut Confinement) {
     // A worker does not outlive its bench.
     let _ = rustix::process::set_parent_process_death_signal(Some(Signal::KILL));
     let Confinement { in_force, lacking } = confinement;
@@ -194,21 +194,21 @@ fn install(rules: Rules, error: i32) -> Result<(), seccompiler::Error> {
 
 /// From here on a process whose parent has ended becomes a child of this one, if it descends from
 /// it: nothing that a worker started gets away.
-pub fn adopt_orphans() {
+pub(crate) fn adopt_orphans() {
     // A kernel that cannot leaves orphans to init, and they are ended all the same.
     let _ = rustix::process::set_child_subreaper(Some(getpid()));
 }
 
 /// Lets a program end with whoever starts it: a worker that is killed leaves no renderer behind.
 #[expect(unsafe_code, reason = "a system call between fork and exec")]
-pub fn end_with_us(command: &mut Command) {
+pub(crate) fn end_with_us(command: &mut Command) {
     let leash = || Ok(rustix::process::set_parent_process_death_signal(Some(Signal::KILL))?);
     // SAFETY: it is one system call, which takes neither locks nor memory.
     unsafe { command.pre_exec(leash) };
 }
 
 /// What a worker and all it has started use at the moment.
-pub fn usage(group: Pid, is_program: bool) -> Usage {
+pub(crate) fn usage(group: Pid, is_program: bool) -> Usage {
     let leader = group.as_raw_nonzero().get().unsigned_abs();
     if !is_program {
         return usage_of(leader, group).unwrap_or_default();

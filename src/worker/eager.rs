@@ -16,7 +16,7 @@ const GLANCE: Duration = Duration::from_micros(300);
 const TAKEN: Duration = Duration::from_micros(20);
 
 /// The reading end of a channel.
-pub struct Eager(pub UnixStream);
+pub(crate) struct Eager(pub(crate) UnixStream);
 
 impl Read for Eager {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {

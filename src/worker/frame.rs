@@ -18,7 +18,7 @@ use crate::contract::crossing::{ALIGNMENT, Malformed, padded};
 use std::io::{self, Read, Write};
 
 /// The first bytes of every frame.
-pub const MAGIC: [u8; 4] = *b"FRN1";
+pub(crate) const MAGIC: [u8; 4] = *b"FRN1";
 
 /// Bytes before the header.
 const PREFIX: usize = 24;
@@ -58,20 +58,20 @@ impl From<io::Error> for FrameError {
 
 /// What a frame announces of itself, and its header.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Opening {
+pub(crate) struct Opening {
     /// Number of the request.
-    pub number: u64,
+    pub(crate) number: u64,
     /// The header's text.
-    pub header: Vec<u8>,
+    pub(crate) header: Vec<u8>,
     /// Bytes of the body, which have not been read yet.
-    pub body: u64,
+    pub(crate) body: u64,
 }
 
 /// Puts a whole frame into `buffer`, in place of what was there.
 ///
 /// # Errors
 /// If the header is longer than any reader takes.
-pub fn encode(
+pub(crate) fn encode(
     buffer: &mut Vec<u8>,
     number: u64,
     header: &[u8],
@@ -98,7 +98,7 @@ pub fn encode(
 ///
 /// # Errors
 /// If the other side is gone, or the system says no.
-pub fn send(channel: &mut impl Write, frame: &[u8]) -> Result<(), FrameError> {
+pub(crate) fn send(channel: &mut impl Write, frame: &[u8]) -> Result<(), FrameError> {
     channel.write_all(frame)?;
     Ok(channel.flush()?)
 }
@@ -107,7 +107,7 @@ pub fn send(channel: &mut impl Write, frame: &[u8]) -> Result<(), FrameError> {
 ///
 /// # Errors
 /// If the channel ends, or what comes is no frame.
-pub fn open(channel: &mut impl Read) -> Result<Opening, FrameError> {
+pub(crate) fn open(channel: &mut impl Read) -> Result<Opening, FrameError> {
     let mut prefix = [0; PREFIX];
     channel.read_exact(&mut prefix)?;
     if prefix[..4] != MAGIC {
@@ -136,7 +136,7 @@ fn number_at(bytes: &[u8; PREFIX], offset: usize, size: usize) -> u64 {
 ///
 /// # Errors
 /// If the channel ends.
-pub fn read_array(channel: &mut impl Read, array: &mut [u8]) -> Result<(), FrameError> {
+pub(crate) fn read_array(channel: &mut impl Read, array: &mut [u8]) -> Result<(), FrameError> {
     channel.read_exact(array)?;
     let mut filling = [0; ALIGNMENT];
     Ok(channel.read_exact(&mut filling[..padded(array.len()) - array.len()])?)
@@ -148,14 +148,14 @@ const PIECE: usize = 1 << 17;
 
 /// A body that was read whole, aligned so that its arrays can be looked at where they lie.
 #[derive(Debug, Default)]
-pub struct Body(Vec<u64>);
+pub(crate) struct Body(Vec<u64>);
 
 impl Body {
     /// Reads a body into the memory of the last one.
     ///
     /// # Errors
     /// If the channel ends, or the length is no multiple of 8.
-    pub fn read(&mut self, channel: &mut impl Read, bytes: u64) -> Result<(), FrameError> {
+    pub(crate) fn read(&mut self, channel: &mut impl Read, bytes: u64) -> Result<(), FrameError> {
         let words = usize::try_from(bytes / ALIGNMENT as u64).unwrap_or(usize::MAX);
         if !bytes.is_multiple_of(ALIGNMENT as u64) || words == usize::MAX {
             return Err(FrameError::Malformed(format!("it announces a body of {bytes} bytes")));
@@ -173,7 +173,7 @@ impl Body {
     }
 
     /// The bytes.
-    pub fn bytes(&self) -> &[u8] {
+    pub(crate) fn bytes(&self) -> &[u8] {
         bytemuck::cast_slice(&self.0)
     }
 }

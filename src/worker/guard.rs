@@ -20,7 +20,7 @@ const FAREWELL: Duration = Duration::from_secs(1);
 const PATIENCE: u32 = 20;
 
 /// What keeps a worker within its limits.
-pub struct Guard {
+pub(crate) struct Guard {
     limits: Limits,
     /// Whether it may start processes, which are then counted.
     is_program: bool,
@@ -47,21 +47,21 @@ struct State {
 
 /// What a worker uses at a moment, with all that it has started.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Usage {
+pub(crate) struct Usage {
     /// Processes.
-    pub processes: usize,
+    pub(crate) processes: usize,
     /// Memory they occupy together.
-    pub bytes: u64,
+    pub(crate) bytes: u64,
     /// Processor time that those there are have had so far.
-    pub computed: Duration,
+    pub(crate) computed: Duration,
     /// Whether some thread computes, or waits only for its turn.
-    pub would_compute: bool,
+    pub(crate) would_compute: bool,
 }
 
 #[cfg(target_os = "linux")]
 impl Usage {
     /// Of two processes together.
-    pub fn and(self, other: Self) -> Self {
+    pub(crate) fn and(self, other: Self) -> Self {
         Self {
             processes: self.processes + other.processes,
             bytes: self.bytes + other.bytes,
@@ -80,11 +80,11 @@ enum Sentence {
 }
 
 /// Stops the looking when it is dropped.
-pub struct Watch(#[expect(dead_code, reason = "held, never used")] mpsc::Sender<()>);
+pub(crate) struct Watch(#[expect(dead_code, reason = "held, never used")] mpsc::Sender<()>);
 
 impl Guard {
     /// Over `child`, which leads a process group.
-    pub fn new(
+    pub(crate) fn new(
         child: Child,
         limits: Limits,
         is_program: bool,
@@ -103,7 +103,7 @@ impl Guard {
     }
 
     /// Looks at the worker again and again until the answer is dropped.
-    pub fn watch(self: &Arc<Self>) -> Watch {
+    pub(crate) fn watch(self: &Arc<Self>) -> Watch {
         let guard = Arc::clone(self);
         let (sender, receiver) = mpsc::channel();
         let tick = if self.is_program { TICK_OF_PROGRAMS } else { TICK };
@@ -116,12 +116,12 @@ impl Guard {
     }
 
     /// The bench begins to wait.
-    pub fn asked(&self) {
+    pub(crate) fn asked(&self) {
         self.lock().is_asked = true;
     }
 
     /// The bench has been answered.
-    pub fn answered(&self) {
+    pub(crate) fn answered(&self) {
         self.lock().is_asked = false;
     }
 
@@ -165,7 +165,7 @@ impl Guard {
 
     /// Ends the worker, if it has not ended, with all it has started; nothing of it is left
     /// afterwards.
-    pub fn end(&self) -> io::Result<ExitStatus> {
+    pub(crate) fn end(&self) -> io::Result<ExitStatus> {
         let mut state = self.lock();
         if let Some(status) = state.status {
             return Ok(status);
@@ -179,7 +179,7 @@ impl Guard {
     }
 
     /// Why no answer has come, once the channel is closed. `printed` is what the core has printed.
-    pub fn explain(&self, during: &str, printed: impl FnOnce() -> String) -> CoreError {
+    pub(crate) fn explain(&self, during: &str, printed: impl FnOnce() -> String) -> CoreError {
         let ended_by_itself = self.wait_for_the_end();
         let sentence = self.lock().sentence;
         let during = during.to_owned();
@@ -241,34 +241,34 @@ mod unix {
     use std::process::{Child, ExitStatus};
 
     /// Ends the whole group at once: nobody in it can start anything any more.
-    pub fn kill(child: &mut Child) {
+    pub(crate) fn kill(child: &mut Child) {
         // Nothing to be done if it is gone already.
         let _ = kill_process_group(Pid::from_child(child), Signal::KILL);
     }
 
     /// Whether it has ended; whoever asks for its status still gets it.
-    pub fn has_ended(child: &Child) -> bool {
+    pub(crate) fn has_ended(child: &Child) -> bool {
         let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT | WaitIdOptions::NOHANG;
         !matches!(waitid(WaitId::Pid(Pid::from_child(child)), options), Ok(None))
     }
 
     /// Waits for those it had started, who are ours since it ended.
-    pub fn bury(child: &Child) {
+    pub(crate) fn bury(child: &Child) {
         while let Ok(Some(_)) = waitpgid(Pid::from_child(child), WaitOptions::empty()) {}
     }
 
     #[cfg(target_os = "linux")]
-    pub fn usage(child: &Child, is_program: bool) -> Usage {
+    pub(crate) fn usage(child: &Child, is_program: bool) -> Usage {
         crate::worker::confine_linux::usage(Pid::from_child(child), is_program)
     }
 
     #[cfg(not(target_os = "linux"))]
-    pub fn usage(_: &Child, _: bool) -> Usage {
+    pub(crate) fn usage(_: &Child, _: bool) -> Usage {
         Usage::default()
     }
 
     /// How a process ended, in words.
-    pub fn death(status: ExitStatus) -> String {
+    pub(crate) fn death(status: ExitStatus) -> String {
         match (status.signal(), status.code()) {
             (Some(signal), _) => format!("signal {signal}{}", meaning(signal)),
             (None, Some(code)) => format!("exit code {code} without an answer"),
@@ -303,23 +303,23 @@ mod elsewhere {
     use std::process::{Child, ExitStatus};
 
     /// Ends the process; what it has started goes on.
-    pub fn kill(child: &mut Child) {
+    pub(crate) fn kill(child: &mut Child) {
         // Nothing to be done if it is gone already.
         let _ = child.kill();
     }
 
     /// Not to be known without taking its status: whoever waits finds out.
-    pub fn has_ended(_: &Child) -> bool {
+    pub(crate) fn has_ended(_: &Child) -> bool {
         true
     }
 
-    pub fn bury(_: &Child) {}
+    pub(crate) fn bury(_: &Child) {}
 
-    pub fn usage(_: &Child, _: bool) -> Usage {
+    pub(crate) fn usage(_: &Child, _: bool) -> Usage {
         Usage::default()
     }
 
-    pub fn death(status: ExitStatus) -> String {
+    pub(crate) fn death(status: ExitStatus) -> String {
         match status.code() {
             Some(code) => format!("exit code {code} without an answer"),
             None => "it ended in an unknown way".to_owned(),

@@ -18,35 +18,35 @@ pub use crate::contract::crossing::{ArrayHeader, Element, Received, Request, Sen
 /// A scene without its long lists.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub struct SceneHeader {
+pub(crate) struct SceneHeader {
     /// As its file calls it.
-    pub name: String,
+    pub(crate) name: String,
     /// Where pictures are taken from, if the scene says so.
-    pub camera: Option<Camera>,
+    pub(crate) camera: Option<Camera>,
     /// Shapes refer to them by number.
-    pub materials: Vec<Material>,
+    pub(crate) materials: Vec<Material>,
     /// In the order in which their vertices and triangles lie in the arrays.
-    pub meshes: Vec<MeshHeader>,
+    pub(crate) meshes: Vec<MeshHeader>,
     /// Names of the spheres.
-    pub spheres: Vec<String>,
+    pub(crate) spheres: Vec<String>,
     /// Every light, area lights included.
-    pub lights: Vec<Light>,
+    pub(crate) lights: Vec<Light>,
 }
 
 /// A mesh without its vertices and triangles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub struct MeshHeader {
+pub(crate) struct MeshHeader {
     /// As the scene file calls it.
-    pub name: String,
+    pub(crate) name: String,
     /// Number of the material.
-    pub material: u32,
+    pub(crate) material: u32,
     /// How many of `positions` are its own.
-    pub vertices: u64,
+    pub(crate) vertices: u64,
     /// Whether as many of `normals` are its own; otherwise its faces are flat and it has none.
-    pub smooth: bool,
+    pub(crate) smooth: bool,
     /// How many of `indices` are its own; they count its own vertices from 0.
-    pub triangles: u64,
+    pub(crate) triangles: u64,
 }
 
 /// What came of a request.
@@ -120,7 +120,7 @@ pub enum Answer {
 
 impl Answer {
     /// The answer that carries an error across.
-    pub fn of_error(error: CoreError) -> Self {
+    pub(crate) fn of_error(error: CoreError) -> Self {
         match error {
             CoreError::Unsupported(capabilities) => Self::Unsupported { capabilities },
             CoreError::Beyond(why) => Self::Beyond { why },
@@ -135,7 +135,7 @@ impl Answer {
     ///
     /// # Errors
     /// What the core answered, if it is an error.
-    pub fn into_result(self) -> Result<Self, CoreError> {
+    pub(crate) fn into_result(self) -> Result<Self, CoreError> {
         Err(match self {
             Self::Unsupported { capabilities } => CoreError::Unsupported(capabilities),
             Self::Beyond { why } => CoreError::Beyond(why),
@@ -149,7 +149,7 @@ impl Answer {
 }
 
 /// What is told besides the arrays of an answer.
-pub trait Told: Sized {
+pub(crate) trait Told: Sized {
     /// The answer that says it.
     fn into_answer(self) -> Answer;
 
@@ -190,13 +190,13 @@ impl Told for Encoding {
 
 /// A request or an answer with the list of its arrays.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Header<M> {
+pub(crate) struct Header<M> {
     /// The request or the answer.
     #[serde(flatten)]
-    pub message: M,
+    pub(crate) message: M,
     /// In the order in which they lie in the body.
     #[serde(default)]
-    pub arrays: Vec<ArrayHeader>,
+    pub(crate) arrays: Vec<ArrayHeader>,
 }
 
 /// Puts a message and its arrays into `buffer` as one frame.
@@ -220,7 +220,7 @@ pub fn encode<M: Serialize>(
 ///
 /// # Errors
 /// If it is not JSON, or says what nobody knows.
-pub fn parse<T: DeserializeOwned>(header: &[u8]) -> Result<T, FrameError> {
+pub(crate) fn parse<T: DeserializeOwned>(header: &[u8]) -> Result<T, FrameError> {
     serde_json::from_slice(header)
         .map_err(|error| FrameError::Malformed(format!("its header says {error}")))
 }

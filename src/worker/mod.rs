@@ -9,30 +9,31 @@
 //!
 //! Not here: which cores there are (`cores`), and what their answers are worth (`checks`).
 
-pub mod child;
+pub(crate) mod child;
 mod client;
 mod confine;
 #[cfg(target_os = "linux")]
 mod confine_linux;
 #[cfg(unix)]
 mod eager;
-pub mod frame;
+pub(crate) mod frame;
 mod guard;
 pub mod message;
-pub mod narrow;
+pub(crate) mod narrow;
 mod output;
 mod process;
 mod scene;
 mod serve;
 
-pub use child::{Errand, Guest};
+pub(crate) use child::{Errand, Guest};
 pub use client::{Client, Silence};
-pub use confine::Confinement;
+pub(crate) use confine::Confinement;
 #[cfg(target_os = "linux")]
-pub use confine_linux::end_with_us;
+pub(crate) use confine_linux::end_with_us;
 pub use process::{Launch, Limits, StartError, Worker};
 pub use scene::build_request;
-pub use serve::{refuse, serve};
+pub use serve::refuse;
+pub use serve::serve;
 
 use std::io::{Read, Write};
 

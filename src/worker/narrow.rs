@@ -5,7 +5,7 @@ use std::ops::Range;
 /// The smallest part of a batch of `count` that still crashes: one element, as a rule. None if the
 /// batch alone does not, for then the crash depends on what came before it; `crashes` answers none
 /// where it has run out of time, and what is known by then is the answer.
-pub fn narrow(
+pub(crate) fn narrow(
     count: usize,
     mut crashes: impl FnMut(Range<usize>) -> Option<bool>,
 ) -> Option<Range<usize>> {

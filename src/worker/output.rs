@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 const KEPT: usize = 64 << 10;
 
 /// The last of what a process has printed, on both of its streams.
-pub struct Output {
+pub(crate) struct Output {
     tail: Arc<Mutex<Tail>>,
     reader: JoinHandle<()>,
 }
@@ -23,14 +23,14 @@ struct Tail {
 
 impl Output {
     /// Reads from `pipe` until nobody holds its other end.
-    pub fn of(pipe: PipeReader) -> Self {
+    pub(crate) fn of(pipe: PipeReader) -> Self {
         let tail = Arc::default();
         let kept = Arc::clone(&tail);
         Self { tail, reader: thread::spawn(move || read(pipe, &kept)) }
     }
 
     /// What was printed so far: of much, the end, and how much came before.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let tail = self.tail.lock().unwrap_or_else(PoisonError::into_inner);
         let bytes: Vec<_> = tail.bytes.iter().copied().collect();
         let text = String::from_utf8_lossy(&bytes);
@@ -41,7 +41,7 @@ impl Output {
     }
 
     /// The same, when all that was printed has been read, or else after `patience`.
-    pub fn last_words(&self, patience: Duration) -> String {
+    pub(crate) fn last_words(&self, patience: Duration) -> String {
         let begun = Instant::now();
         while !self.reader.is_finished() && begun.elapsed() < patience {
             thread::sleep(Duration::from_millis(1));

@@ -41,7 +41,7 @@ impl Default for Limits {
 
 impl Limits {
     /// [`Self::seconds`] as the standard library has it.
-    pub fn time(&self) -> Duration {
+    pub(crate) fn time(&self) -> Duration {
         let seconds = self.seconds.unwrap_or(f64::INFINITY);
         Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
     }
@@ -51,21 +51,21 @@ impl Limits {
 #[derive(Clone, Debug)]
 pub struct Launch {
     /// The `furnace` program.
-    pub program: PathBuf,
+    pub(crate) program: PathBuf,
     /// The core, as the user named it.
-    pub spec: String,
+    pub(crate) spec: String,
     /// What kind of core that is.
-    pub guest: Guest,
+    pub(crate) guest: Guest,
     /// What each worker may use up.
-    pub limits: Limits,
+    pub(crate) limits: Limits,
     /// What it may never read, wherever it lies: cases, references, results.
-    pub hidden: Vec<PathBuf>,
+    pub(crate) hidden: Vec<PathBuf>,
     /// What the user lets it read besides itself and the system.
-    pub readable: Vec<PathBuf>,
+    pub(crate) readable: Vec<PathBuf>,
     /// Whether it is shut in at all.
-    pub confined: bool,
+    pub(crate) confined: bool,
     /// For its environment, besides what every worker keeps.
-    pub variables: Vec<(String, String)>,
+    pub(crate) variables: Vec<(String, String)>,
 }
 
 /// Why there is no worker.
@@ -128,7 +128,7 @@ impl Worker {
     ///
     /// # Errors
     /// If there is no process, or the core does not come up.
-    pub fn start(launch: &Launch) -> Result<Self, StartError> {
+    pub(crate) fn start(launch: &Launch) -> Result<Self, StartError> {
         let failed = |error| StartError::Bench { program: launch.program.clone(), error };
         let scratch = TempDir::with_prefix("furnace-").map_err(failed)?;
         let (reader, writer) = io::pipe().map_err(failed)?;
@@ -179,7 +179,7 @@ impl Worker {
     ///
     /// # Errors
     /// What the core answers, if it is an error, or how it ended. After that it only says the same.
-    pub fn ask(
+    pub(crate) fn ask(
         &mut self,
         request: &Request<'_>,
         wanted: &mut [Wanted<'_>],
@@ -210,17 +210,17 @@ impl Worker {
     }
 
     /// Who the core is.
-    pub const fn info(&self) -> &CoreInfo {
+    pub(crate) const fn info(&self) -> &CoreInfo {
         &self.info
     }
 
     /// What the system enforces on it.
-    pub const fn confinement(&self) -> &Confinement {
+    pub(crate) const fn confinement(&self) -> &Confinement {
         &self.confinement
     }
 
     /// What the core has printed: all of it, if it has crashed; so far, if it lives.
-    pub fn printed(&self) -> String {
+    pub(crate) fn printed(&self) -> String {
         match self.dead {
             Some(_) => self.output.last_words(PATIENCE),
             None => self.output.text(),

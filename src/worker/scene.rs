@@ -46,7 +46,7 @@ fn header(scene: &SceneDescription) -> SceneHeader {
 ///
 /// # Errors
 /// If the arrays are not what the header says.
-pub fn decode(received: &mut Received<'_>) -> Result<SceneDescription, FrameError> {
+pub(crate) fn decode(received: &mut Received<'_>) -> Result<SceneDescription, FrameError> {
     let header: SceneHeader = received.member("scene")?;
     let mut positions = received.take::<DVec3>("positions")?;
     let mut normals = received.take::<DVec3>("normals")?;

@@ -9,7 +9,7 @@ mod stops_where_it_should;
 use super::CheckKind;
 
 /// The checks of this subject.
-pub static CHECKS: &[CheckKind] = &[
+pub(crate) static CHECKS: &[CheckKind] = &[
     CheckKind::of::<stops_where_it_should::StopsWhereItShould>(),
     CheckKind::of::<stops_by_its_law::StopsByItsLaw>(),
     CheckKind::of::<sample_counts::SampleCounts>(),

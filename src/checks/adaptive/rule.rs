@@ -6,10 +6,10 @@ use crate::cause::{Cause, adaptive};
 const NORMAL_95: f64 = 1.96;
 
 /// A stopping rule: whether to stop after these samples.
-pub type Rule = fn(&Sums, f64) -> bool;
+pub(crate) type Rule = fn(&Sums, f64) -> bool;
 
 /// The mistakes that students make in the rule, each with the rule it amounts to.
-pub const WRONG_RULES: &[(&Cause, Rule)] = &[
+pub(crate) const WRONG_RULES: &[(&Cause, Rule)] = &[
     (&adaptive::POPULATION_VARIANCE, |s, tolerance| {
         NORMAL_95 * (s.population_variance() / s.n).sqrt() <= tolerance * s.mean()
     }),
@@ -31,13 +31,13 @@ pub const WRONG_RULES: &[(&Cause, Rule)] = &[
 ];
 
 /// The course's rule.
-pub fn stops(sums: &Sums, tolerance: f64) -> bool {
+pub(crate) fn stops(sums: &Sums, tolerance: f64) -> bool {
     NORMAL_95 * (sums.variance() / sums.n).sqrt() <= tolerance * sums.mean()
 }
 
 /// What the rule needs of the samples so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Sums {
+pub(crate) struct Sums {
     n: f64,
     sum: f64,
     squares: f64,
@@ -45,20 +45,20 @@ pub struct Sums {
 
 impl Sums {
     /// Of some samples.
-    pub fn of(samples: &[f64]) -> Self {
+    pub(crate) fn of(samples: &[f64]) -> Self {
         let squares = samples.iter().map(|x| x * x).sum();
         Self { n: samples.len() as f64, sum: samples.iter().sum(), squares }
     }
 
     /// Of `n` samples of which `highs` have the value `high`, and the others `low`.
-    pub fn of_two_values(n: usize, highs: usize, low: f64, high: f64) -> Self {
+    pub(crate) fn of_two_values(n: usize, highs: usize, low: f64, high: f64) -> Self {
         let (lows, highs) = ((n - highs) as f64, highs as f64);
         let squares = lows * low * low + highs * high * high;
         Self { n: n as f64, sum: lows * low + highs * high, squares }
     }
 
     /// Their mean.
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.sum / self.n
     }
 

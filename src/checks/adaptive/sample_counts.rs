@@ -14,7 +14,7 @@ const EXACT_PIXEL: f64 = 1e-5;
 /// Renders a scene adaptively and looks at the counts.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct SampleCounts {
+pub(crate) struct SampleCounts {
     size: Size,
     bounces: Bounces,
     /// The most samples a pixel may take.

@@ -1,6 +1,6 @@
 //! The stopping rule on random streams: how often it stops where, and with what mean.
 //!
-//! An adaptive mean is biased by construction, so it is held to its own expectation ([`StoppingLaw`]), never to
+//! An adaptive mean is biased by construction, so it is held to its own expectation ([`crate::stats::StoppingLaw`]), never to
 //! the true mean.
 
 use super::random_stream::{Judged, StreamEntry, Trial};
@@ -15,7 +15,7 @@ use serde::Deserialize;
 /// Random streams of two values stop by the exact law of the rule.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct StopsByItsLaw {
+pub(crate) struct StopsByItsLaw {
     /// The smallest error of the law of the counts that must be seen, root mean square.
     detects: Percent,
     /// The smallest error of the mean that must be seen.

@@ -12,7 +12,7 @@ use serde::Deserialize;
 /// Each stream stops after a given number of samples, with the mean of just those.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct StopsWhereItShould {
+pub(crate) struct StopsWhereItShould {
     stream: Several<StreamEntry>,
 }
 

@@ -10,7 +10,7 @@ use serde::Deserialize;
 /// Sampled directions are evaluated again.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct AgreesWithItself {
+pub(crate) struct AgreesWithItself {
     surface: Several<SurfaceEntry>,
 }
 

@@ -10,7 +10,7 @@ use crate::scene::Surface;
 ///
 /// Single scattering from GGX loses light, more of it with the separable Smith term.
 #[derive(Clone, Copy, Debug)]
-pub enum Albedo {
+pub(crate) enum Albedo {
     /// Of a surface that light does not pass.
     OfOneSide(f64),
     /// Of one that it does.
@@ -24,7 +24,7 @@ pub enum Albedo {
 
 impl Albedo {
     /// By the conventions that the core declares. Mirrors and smooth glass have none.
-    pub fn expected(surface: SurfaceEntry, angle: f64, conventions: Conventions) -> Self {
+    pub(crate) fn expected(surface: SurfaceEntry, angle: f64, conventions: Conventions) -> Self {
         let masking = masking(conventions.smith_term);
         match surface.material().surface {
             Surface::Diffuse { reflectance } => Self::OfOneSide(reflectance[1]),
@@ -49,7 +49,7 @@ impl Albedo {
     }
 
     /// All of it.
-    pub fn sum(self) -> f64 {
+    pub(crate) fn sum(self) -> f64 {
         match self {
             Self::OfOneSide(albedo) => albedo,
             Self::OfBothSides { reflected, refracted } => reflected + refracted,
@@ -58,7 +58,7 @@ impl Albedo {
 }
 
 /// The masking that a core declares, as closed forms name it.
-pub const fn masking(smith: SmithTerm) -> Masking {
+pub(crate) const fn masking(smith: SmithTerm) -> Masking {
     match smith {
         SmithTerm::Separable => Masking::Separable,
         SmithTerm::HeightCorrelated => Masking::HeightCorrelated,

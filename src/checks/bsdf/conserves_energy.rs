@@ -19,7 +19,7 @@ const CELLS: (usize, usize) = (4, 8);
 /// Integrates f · cos over the sphere, from several views.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct ConservesEnergy {
+pub(crate) struct ConservesEnergy {
     surface: Several<SurfaceEntry>,
     seen_from: Several<Polar>,
 }

@@ -9,17 +9,17 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// Right by default.
 #[derive(Clone, Copy)]
-pub struct Lambertian {
+pub(crate) struct Lambertian {
     /// Multiplies the density of samples.
-    pub sampled_pdf: f64,
+    pub(crate) sampled_pdf: f64,
     /// Multiplies the value of samples.
-    pub sampled_value: f64,
+    pub(crate) sampled_value: f64,
     /// Multiplies the value by `1 + tilt · wo.z`, which is not reciprocal.
-    pub tilt: f64,
+    pub(crate) tilt: f64,
     /// Multiplies the value.
-    pub gain: f64,
+    pub(crate) gain: f64,
     /// Has a value below the horizon.
-    pub shines_through: bool,
+    pub(crate) shines_through: bool,
 }
 
 impl Default for Lambertian {
@@ -30,7 +30,7 @@ impl Default for Lambertian {
 
 impl Lambertian {
     /// What it answers for a pair of directions.
-    pub fn value(&self, material: &Material, wo: DVec3, wi: DVec3) -> BsdfValue {
+    pub(crate) fn value(&self, material: &Material, wo: DVec3, wi: DVec3) -> BsdfValue {
         let Surface::Diffuse { reflectance } = material.surface else {
             return BsdfValue { f: [0.0; 3], pdf: 0.0 };
         };
@@ -42,7 +42,7 @@ impl Lambertian {
     }
 
     /// The core.
-    pub fn core(self) -> Fake {
+    pub(crate) fn core(self) -> Fake {
         Fake {
             value: Box::new(move |material, query| self.value(material, query.wo, query.wi)),
             sample: Box::new(move |material, wo, point, _| {

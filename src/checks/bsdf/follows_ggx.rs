@@ -26,7 +26,7 @@ const LIKENESS: f64 = 100.0;
 /// Rough conductors, at random pairs of directions.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct FollowsGgx {
+pub(crate) struct FollowsGgx {
     surface: Several<SurfaceEntry>,
 }
 

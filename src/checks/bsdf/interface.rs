@@ -9,27 +9,27 @@ use glam::DVec3;
 
 /// One of the two ways light takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lobe {
+pub(crate) struct Lobe {
     /// Local, unit, away from the surface.
-    pub wi: DVec3,
+    pub(crate) wi: DVec3,
     /// The share of the radiance along `wi` that leaves along `wo`: f · |cos θi|.
-    pub carried: Rgb,
+    pub(crate) carried: Rgb,
     /// The share of all light that goes this way, but for colours: what samples are usually chosen by.
-    pub probability: f64,
+    pub(crate) probability: f64,
 }
 
 /// What a smooth surface makes of one view; `None` where no light goes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Lobes {
+pub(crate) struct Lobes {
     /// To the side of the viewer.
-    pub reflected: Option<Lobe>,
+    pub(crate) reflected: Option<Lobe>,
     /// Through the interface.
-    pub refracted: Option<Lobe>,
+    pub(crate) refracted: Option<Lobe>,
 }
 
 /// A smooth surface, and the conventions it is worked out by.
 #[derive(Clone, Copy, Debug)]
-pub struct Interface {
+pub(crate) struct Interface {
     surface: Surface,
     conventions: Conventions,
 }
@@ -70,14 +70,14 @@ impl Share {
 }
 
 /// A mistake and the cause it is told as.
-pub struct Mistake {
+pub(crate) struct Mistake {
     /// Its entry in the glossary.
-    pub cause: &'static Cause,
+    pub(crate) cause: &'static Cause,
     change: fn(&mut Working),
 }
 
 /// The mistakes that can be told apart by what they predict.
-pub static MISTAKES: &[Mistake] = &[
+pub(crate) static MISTAKES: &[Mistake] = &[
     Mistake {
         cause: &cause::ETA_SWAPPED,
         change: |w| {
@@ -124,24 +124,24 @@ pub static MISTAKES: &[Mistake] = &[
 
 impl Lobes {
     /// Those that light takes.
-    pub fn iter(&self) -> impl Iterator<Item = Lobe> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Lobe> {
         self.reflected.into_iter().chain(self.refracted)
     }
 }
 
 impl Interface {
     /// A mirror or glass; anything else sends light nowhere.
-    pub const fn new(surface: Surface, conventions: Conventions) -> Self {
+    pub(crate) const fn new(surface: Surface, conventions: Conventions) -> Self {
         Self { surface, conventions }
     }
 
     /// As it should be.
-    pub fn lobes(&self, wo: DVec3) -> Lobes {
+    pub(crate) fn lobes(&self, wo: DVec3) -> Lobes {
         self.worked_out(wo, &self.working())
     }
 
     /// With a mistake.
-    pub fn mistaken(&self, wo: DVec3, mistake: &Mistake) -> Lobes {
+    pub(crate) fn mistaken(&self, wo: DVec3, mistake: &Mistake) -> Lobes {
         let mut working = self.working();
         (mistake.change)(&mut working);
         self.worked_out(wo, &working)

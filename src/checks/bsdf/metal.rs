@@ -10,7 +10,7 @@ const SAME: f64 = 1e-3;
 
 /// What f and densities of rough metal are made of.
 #[derive(Clone, Copy, Debug)]
-pub struct Facets {
+pub(crate) struct Facets {
     alpha: f64,
     cos_o: f64,
     cos_i: f64,
@@ -24,7 +24,7 @@ type Formula = fn(&Facets) -> f64;
 
 impl Facets {
     /// For a pair of directions above the horizon.
-    pub fn of(alpha: f64, wo: DVec3, wi: DVec3) -> Self {
+    pub(crate) fn of(alpha: f64, wo: DVec3, wi: DVec3) -> Self {
         let half = (wo + wi).normalize();
         Self { alpha, cos_o: wo.z, cos_i: wi.z, cos_h: half.z, cos_d: wo.dot(half) }
     }
@@ -54,7 +54,7 @@ const fn masking_of(smith: SmithTerm) -> (Formula, Formula) {
 }
 
 /// The mistake that makes every value of the green channel of a conductor with this reflectance there.
-pub fn mistake_of_value(
+pub(crate) fn mistake_of_value(
     (reflectance, alpha): (f64, f64),
     smith: SmithTerm,
     queries: &[BsdfQuery],
@@ -78,7 +78,7 @@ pub fn mistake_of_value(
 }
 
 /// The mistake that makes every one of these densities of a conductor. Two ways to sample are right.
-pub fn mistake_of_density(facets: &[(Facets, f64)]) -> Option<&'static Cause> {
+pub(crate) fn mistake_of_density(facets: &[(Facets, f64)]) -> Option<&'static Cause> {
     let of_facets: [Formula; 2] = [Facets::visible, |f| f.distribution() * f.cos_h];
     let predicts = |formula: &Formula| {
         let same = |(f, pdf): &(Facets, f64)| (pdf / formula(f) - 1.0).abs() <= SAME;

@@ -20,7 +20,7 @@ mod wrong_value;
 use super::CheckKind;
 
 /// The checks of this subject.
-pub static CHECKS: &[CheckKind] = &[
+pub(crate) static CHECKS: &[CheckKind] = &[
     CheckKind::of::<agrees_with_itself::AgreesWithItself>(),
     CheckKind::of::<reciprocal::Reciprocal>(),
     CheckKind::of::<conserves_energy::ConservesEnergy>(),

@@ -17,7 +17,7 @@ const GRAZING: f64 = 1e-3;
 /// Light and eye are exchanged.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Reciprocal {
+pub(crate) struct Reciprocal {
     surface: Several<SurfaceEntry>,
 }
 

@@ -26,7 +26,7 @@ const BATCH: u64 = 1 << 16;
 /// Samples a mirror or glass from some angles; beyond 90° the viewer is inside.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct ReflectsAndRefracts {
+pub(crate) struct ReflectsAndRefracts {
     surface: SurfaceEntry,
     seen_from: Several<Polar>,
     /// The smallest error of the share of samples reflected.

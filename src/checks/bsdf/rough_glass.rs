@@ -13,13 +13,13 @@ const SAME: f64 = 1e-3;
 
 /// Rough glass, and the conventions it is worked out by.
 #[derive(Clone, Copy, Debug)]
-pub struct RoughGlass {
+pub(crate) struct RoughGlass {
     /// Inside; outside is vacuum.
-    pub index: f64,
+    pub(crate) index: f64,
     /// The width parameter α.
-    pub roughness: f64,
+    pub(crate) roughness: f64,
     /// What the core declares.
-    pub conventions: Conventions,
+    pub(crate) conventions: Conventions,
 }
 
 /// A pair of directions, and the facet that takes light from one to the other. All cosines are positive where it
@@ -152,12 +152,12 @@ const DENSITIES: &[(&Cause, Factor)] = &[
 
 impl RoughGlass {
     /// The mistake that makes every f, of white glass, at these pairs of directions.
-    pub fn mistake_of_value(self, pairs: &[(BsdfQuery, f64)]) -> Option<&'static Cause> {
+    pub(crate) fn mistake_of_value(self, pairs: &[(BsdfQuery, f64)]) -> Option<&'static Cause> {
         self.mistake(pairs, Facet::value, VALUES)
     }
 
     /// The mistake that makes every density. Samples may be drawn by other laws that are as right.
-    pub fn mistake_of_density(self, pairs: &[(BsdfQuery, f64)]) -> Option<&'static Cause> {
+    pub(crate) fn mistake_of_density(self, pairs: &[(BsdfQuery, f64)]) -> Option<&'static Cause> {
         self.mistake(pairs, Facet::density, DENSITIES)
     }
 

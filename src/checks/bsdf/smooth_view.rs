@@ -13,27 +13,27 @@ const LIKENESS: f64 = 100.0;
 
 /// How far rounding may take a correct core.
 #[derive(Clone, Copy, Debug)]
-pub struct Allowed {
+pub(crate) struct Allowed {
     /// Of a direction, radians, before its condition.
-    pub direction: f64,
+    pub(crate) direction: f64,
     /// Of what a lobe carries, and of its probability; relative.
-    pub formula: f64,
+    pub(crate) formula: f64,
 }
 
 /// One view, the samples drawn for it, and how often they were reflections.
-pub struct SmoothView {
+pub(crate) struct SmoothView {
     /// `at 60°`
-    pub name: String,
+    pub(crate) name: String,
     /// Towards the viewer, local.
-    pub wo: DVec3,
+    pub(crate) wo: DVec3,
     /// What light should do.
-    pub right: Lobes,
+    pub(crate) right: Lobes,
     /// Samples that are looked at one by one.
-    pub samples: Vec<BsdfSample>,
+    pub(crate) samples: Vec<BsdfSample>,
     /// Whether samples are reflections as often as they say.
-    pub chance: Option<ShareReport>,
+    pub(crate) chance: Option<ShareReport>,
     /// How far rounding may take a correct core.
-    pub allowed: Allowed,
+    pub(crate) allowed: Allowed,
 }
 
 /// One of the two ways, and what went it.
@@ -48,7 +48,7 @@ struct Way<'a> {
 
 impl SmoothView {
     /// The probability of a reflection that the samples state.
-    pub fn stated_chance(&self) -> Option<f64> {
+    pub(crate) fn stated_chance(&self) -> Option<f64> {
         let (back, through) = self.sides();
         let of_reflection = back.first().map(|sample| sample.pdf);
         let stated = of_reflection.or_else(|| through.first().map(|sample| 1.0 - sample.pdf));
@@ -56,26 +56,26 @@ impl SmoothView {
     }
 
     /// Whether every sample goes where it should with what it should carry, and none is marked.
-    pub fn lacks_its_mark(&self) -> bool {
+    pub(crate) fn lacks_its_mark(&self) -> bool {
         self.samples.iter().all(|sample| sample.is_valid == 1 && sample.is_delta == 0)
             && self.is_predicted_by(self.right)
     }
 
     /// What pdf says of a reflection and how many there are, if that is all that is wrong.
-    pub fn other_chance(&self) -> Option<(f64, f64)> {
+    pub(crate) fn other_chance(&self) -> Option<(f64, f64)> {
         let chance = self.chance.as_ref().filter(|chance| chance.verdict == Verdict::Fail)?;
         self.is_predicted_by(self.right).then_some((chance.expected, chance.share))
     }
 
     /// Whether light goes both ways, and every sample states a probability of one.
-    pub fn is_sure_of_both(&self) -> Option<bool> {
+    pub(crate) fn is_sure_of_both(&self) -> Option<bool> {
         let (back, through) = self.sides();
         let goes_both_ways = !back.is_empty() && !through.is_empty();
         goes_both_ways.then(|| self.samples.iter().all(|s| s.is_valid == 1 && s.pdf == 1.0))
     }
 
     /// Whether a core that works light out this way would have given every sample.
-    pub fn is_predicted_by(&self, lobes: Lobes) -> bool {
+    pub(crate) fn is_predicted_by(&self, lobes: Lobes) -> bool {
         let (back, through) = self.sides();
         let samples = || back.iter().chain(&through);
         let is_met = |lobe: Lobe| samples().any(|s| self.is_like(s, lobe));
@@ -122,7 +122,7 @@ impl SmoothView {
     }
 
     /// The rows of the finding.
-    pub fn measures(&self) -> Vec<Measure> {
+    pub(crate) fn measures(&self) -> Vec<Measure> {
         let count = |what: &str, found: usize| Measure::none(what, found).in_unit("samples");
         let (failed, unmarked) = self.unusable();
         let mut measures = vec![count("failed", failed), count("not marked as delta", unmarked)];
@@ -165,7 +165,7 @@ impl SmoothView {
     }
 
     /// The first thing that is wrong.
-    pub fn complaint(&self) -> Option<String> {
+    pub(crate) fn complaint(&self) -> Option<String> {
         let at = &self.name;
         match self.unusable() {
             (0, 0) => {}
@@ -219,7 +219,7 @@ impl SmoothView {
 }
 
 /// Whether a sample stays on the side of the viewer.
-pub fn is_reflection(sample: &BsdfSample, wo: DVec3) -> bool {
+pub(crate) fn is_reflection(sample: &BsdfSample, wo: DVec3) -> bool {
     sample.is_valid == 1 && sample.wi.z * wo.z > 0.0
 }
 

@@ -14,7 +14,7 @@ use serde::Deserialize;
 /// Means over the samples of each surface from each view.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct WeightsMakeTheAlbedo {
+pub(crate) struct WeightsMakeTheAlbedo {
     surface: Several<SurfaceEntry>,
     seen_from: Several<Polar>,
     /// The smallest error of a mean that must be seen.

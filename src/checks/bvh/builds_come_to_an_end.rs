@@ -18,7 +18,7 @@ use serde::Deserialize;
 /// Every hierarchy over every arrangement is finite, shallow and right.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct BuildsComeToAnEnd {
+pub(crate) struct BuildsComeToAnEnd {
     /// Triangles of each arrangement.
     triangles: Count,
     /// Rays by which each hierarchy is compared with brute force.

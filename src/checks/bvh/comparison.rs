@@ -8,42 +8,45 @@ use crate::contract::{BuiltScene, Hit, Ray};
 
 /// What is asked with and without a hierarchy.
 #[derive(Clone, Debug, Default)]
-pub struct Questions {
+pub(crate) struct Questions {
     /// Closest hits.
-    pub rays: Vec<Ray>,
+    pub(crate) rays: Vec<Ray>,
     /// Closest hits and any hit.
-    pub segments: Vec<Ray>,
+    pub(crate) segments: Vec<Ray>,
 }
 
 /// What a hierarchy answers.
 #[derive(Clone, Debug)]
-pub struct Answers {
+pub(crate) struct Answers {
     /// To [`Questions::rays`].
-    pub rays: Vec<Hit>,
+    pub(crate) rays: Vec<Hit>,
     /// To [`Questions::segments`].
-    pub segments: Vec<Hit>,
+    pub(crate) segments: Vec<Hit>,
     /// The same, any hit.
-    pub occluded: Vec<bool>,
+    pub(crate) occluded: Vec<bool>,
 }
 
 /// What the loop answers; whether a segment is occluded follows.
 #[derive(Clone, Debug)]
-pub struct Truth {
+pub(crate) struct Truth {
     /// Of [`Questions::rays`].
-    pub rays: Vec<Hit>,
+    pub(crate) rays: Vec<Hit>,
     /// Of [`Questions::segments`].
-    pub segments: Vec<Hit>,
+    pub(crate) segments: Vec<Hit>,
     /// Whether each segment would be occluded if it had no end.
-    pub endless: Vec<bool>,
+    pub(crate) endless: Vec<bool>,
     /// Rays that hit something nearer than their hit, once they are told to end just before it.
-    pub overwritten: usize,
+    pub(crate) overwritten: usize,
 }
 
 /// The closest hits of some rays.
 ///
 /// # Errors
 /// If the core does not answer.
-pub fn closest_hits(scene: &mut dyn BuiltScene, rays: &[Ray]) -> Result<Vec<Hit>, CheckError> {
+pub(crate) fn closest_hits(
+    scene: &mut dyn BuiltScene,
+    rays: &[Ray],
+) -> Result<Vec<Hit>, CheckError> {
     let mut hits = vec![Hit::MISS; rays.len()];
     scene.intersect(rays, &mut hits)?;
     Ok(hits)
@@ -54,7 +57,7 @@ impl Questions {
     ///
     /// # Errors
     /// If the core does not answer.
-    pub fn ask(&self, scene: &mut dyn BuiltScene) -> Result<Answers, CheckError> {
+    pub(crate) fn ask(&self, scene: &mut dyn BuiltScene) -> Result<Answers, CheckError> {
         let rays = closest_hits(scene, &self.rays)?;
         let segments = closest_hits(scene, &self.segments)?;
         let mut occluded = vec![false; self.segments.len()];
@@ -63,38 +66,38 @@ impl Questions {
     }
 
     /// How many single answers that makes.
-    pub fn answers(&self) -> usize {
+    pub(crate) fn answers(&self) -> usize {
         self.rays.len() + 2 * self.segments.len()
     }
 }
 
 /// How the answers with a hierarchy differ from those without.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Differences {
+pub(crate) struct Differences {
     /// Brute force hits, the hierarchy misses.
-    pub lost: usize,
+    pub(crate) lost: usize,
     /// The hierarchy hits, but something nearer is there.
-    pub farther: usize,
+    pub(crate) farther: usize,
     /// The hierarchy hits where brute force misses, or before what is nearest.
-    pub invented: usize,
+    pub(crate) invented: usize,
     /// Outside the segment that was asked for. Its very ends are a core's own affair: brute force says what they are.
-    pub outside: usize,
+    pub(crate) outside: usize,
     /// At the right t, but another primitive, which is not there.
-    pub misnamed: usize,
+    pub(crate) misnamed: usize,
     /// Any-hit says free, where something is hit.
-    pub unoccluded: usize,
+    pub(crate) unoccluded: usize,
     /// Any-hit says occluded, where nothing is hit.
-    pub occluded: usize,
+    pub(crate) occluded: usize,
 }
 
 impl Differences {
     /// All of them.
-    pub fn total(&self) -> usize {
+    pub(crate) fn total(&self) -> usize {
         self.kinds().iter().map(|(count, _)| count).sum()
     }
 
     /// The most frequent first, in words.
-    pub fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         let mut kinds = self.kinds().to_vec();
         kinds.retain(|(count, _)| *count > 0);
         kinds.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
@@ -136,7 +139,7 @@ impl Differences {
 }
 
 /// Compares answers; `is_there` tells whether a ray meets the primitive of a hit at the hit's t.
-pub fn compare(
+pub(crate) fn compare(
     questions: &Questions,
     found: &Answers,
     right: &Truth,

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 const ASKED_OFTEN: usize = 2;
 
 /// The mistake that makes just such a pattern. Nothing is said where two mistakes would.
-pub fn explain(
+pub(crate) fn explain(
     questions: &Questions,
     found: &Answers,
     right: &Truth,
@@ -72,7 +72,7 @@ fn some_are_never_found(found: &Answers, right: &Truth) -> bool {
 }
 
 /// The mistake that most of the wrong hierarchies share, with how many they are.
-pub fn shared(causes: &[Option<&'static Cause>]) -> Option<(&'static Cause, String)> {
+pub(crate) fn shared(causes: &[Option<&'static Cause>]) -> Option<(&'static Cause, String)> {
     let count = |cause: &Cause| causes.iter().flatten().filter(|other| **other == cause).count();
     let most = causes.iter().flatten().max_by_key(|cause| count(cause))?;
     let evidence = format!(

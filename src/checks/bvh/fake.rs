@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 
 /// What a fake core gets wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Slip {
+pub(crate) enum Slip {
     /// Nothing.
     None,
     /// Closest hits end at the first triangle that is hit.
@@ -56,7 +56,7 @@ impl Slip {
 }
 
 /// See the module.
-pub struct FakeCore(pub Slip);
+pub(crate) struct FakeCore(pub(crate) Slip);
 
 struct FakeScene {
     slip: Slip,

@@ -28,7 +28,7 @@ const HARDLY: f64 = 1e-12;
 /// The same rays with the core's own hierarchy and with a loop over every primitive, in turn.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct IsFaster {
+pub(crate) struct IsFaster {
     /// Rays of one pass.
     rays: Count,
     /// How many times as fast it should be.

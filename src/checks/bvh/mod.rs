@@ -26,7 +26,7 @@ mod visits_few_nodes;
 use super::CheckKind;
 
 /// The checks of this subject.
-pub static CHECKS: &[CheckKind] = &[
+pub(crate) static CHECKS: &[CheckKind] = &[
     CheckKind::of::<overlaps_box::OverlapsBox>(),
     CheckKind::of::<random_boxes::BoxesAreNeverMissed>(),
     CheckKind::of::<same_hits_as_brute_force::SameHitsAsBruteForce>(),

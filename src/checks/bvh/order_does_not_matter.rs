@@ -20,7 +20,7 @@ const ORDERS: usize = 3;
 /// Hits do not depend on the order of triangles.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct OrderDoesNotMatter {
+pub(crate) struct OrderDoesNotMatter {
     /// Rays, and as many segments.
     rays: Count,
 }

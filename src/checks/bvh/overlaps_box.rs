@@ -19,7 +19,7 @@ use serde::Deserialize;
 /// Rays meet boxes where their rows say.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct OverlapsBox {
+pub(crate) struct OverlapsBox {
     /// For the rows that have no box of their own.
     r#box: BoxEntry,
     ray: Several<RayRow>,

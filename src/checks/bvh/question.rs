@@ -12,18 +12,18 @@ const RULES: [Split; 4] =
     [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea];
 
 /// The most primitives a leaf may have, each tried alone.
-pub type LeafSizes = Several<Between<1, 65535>>;
+pub(crate) type LeafSizes = Several<Between<1, 65535>>;
 
 /// A way to build, and its name in statements.
 #[derive(Clone, Copy, Debug)]
-pub struct Build {
+pub(crate) struct Build {
     split: Split,
     max_leaf_size: u32,
 }
 
 impl Build {
     /// Every split rule that the core can be asked for, with each leaf size.
-    pub fn all(capabilities: Capabilities, leaf_sizes: &LeafSizes) -> Vec<Self> {
+    pub(crate) fn all(capabilities: Capabilities, leaf_sizes: &LeafSizes) -> Vec<Self> {
         let rules = if capabilities.contains(Capabilities::SPLIT_RULES) { &RULES[..] } else { &[] };
         let splits = [Split::CoresChoice].into_iter().chain(rules.iter().copied());
         splits
@@ -34,17 +34,17 @@ impl Build {
     }
 
     /// As the contract asks for it.
-    pub fn acceleration(self) -> Acceleration {
+    pub(crate) fn acceleration(self) -> Acceleration {
         Acceleration::Bvh { split: self.split, max_leaf_size: self.max_leaf_size }
     }
 
     /// At most this many primitives in a leaf.
-    pub const fn max_leaf_size(self) -> u32 {
+    pub(crate) const fn max_leaf_size(self) -> u32 {
         self.max_leaf_size
     }
 
     /// `split at the median, leaves of 4`
-    pub fn name(self) -> String {
+    pub(crate) fn name(self) -> String {
         let split = match self.split {
             Split::CoresChoice => "the core's own split",
             Split::Median => "split at the median",
@@ -57,7 +57,7 @@ impl Build {
 }
 
 /// A scene of this mesh alone.
-pub fn scene_of(mesh: Mesh) -> SceneDescription {
+pub(crate) fn scene_of(mesh: Mesh) -> SceneDescription {
     let white = Material {
         name: "white".into(),
         surface: Surface::Diffuse { reflectance: [0.8; 3] },
@@ -68,7 +68,7 @@ pub fn scene_of(mesh: Mesh) -> SceneDescription {
 
 /// Half the rays cross the scene from outside, the rest start inside it, run along an axis or in a
 /// plane of two. All are in general position: none is aimed at an edge.
-pub fn generic_rays(bounds: Aabb, count: usize, stream: &mut Stream) -> Vec<Ray> {
+pub(crate) fn generic_rays(bounds: Aabb, count: usize, stream: &mut Stream) -> Vec<Ray> {
     let ray = |number: usize| match number % 6 {
         0..=2 => from_outside(bounds, stream),
         3 => Ray::new(point_in(bounds, stream), on_sphere(stream)),
@@ -79,7 +79,7 @@ pub fn generic_rays(bounds: Aabb, count: usize, stream: &mut Stream) -> Vec<Ray>
 }
 
 /// Rays from outside at corners of triangles, where a rounding decides between neighbours.
-pub fn rays_at_vertices(
+pub(crate) fn rays_at_vertices(
     scene: &SceneDescription,
     bounds: Aabb,
     count: usize,
@@ -99,7 +99,7 @@ pub fn rays_at_vertices(
 
 /// Some segment of each ray: it may begin before or behind the ray's hit, and end before or behind
 /// it.
-pub fn segments(rays: &[Ray], hits: &[Hit], bounds: Aabb, stream: &mut Stream) -> Vec<Ray> {
+pub(crate) fn segments(rays: &[Ray], hits: &[Hit], bounds: Aabb, stream: &mut Stream) -> Vec<Ray> {
     let size = bounds.diagonal().max(1.0);
     let segment = |(ray, hit): (&Ray, &Hit)| {
         let scale = if hit.is_hit() { hit.t } else { size };

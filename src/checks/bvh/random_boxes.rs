@@ -18,7 +18,7 @@ use serde::Deserialize;
 /// No box is missed that a segment meets.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct BoxesAreNeverMissed {
+pub(crate) struct BoxesAreNeverMissed {
     /// Random segments at the default budget, a thousand at each random box.
     rays: Count,
 }

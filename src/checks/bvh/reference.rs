@@ -12,11 +12,11 @@ use glam::DVec3;
 const LEAF: usize = 4;
 
 /// A core may test this many times the triangles that a plain median hierarchy tests.
-pub const SLACK: f64 = 4.0;
+pub(crate) const SLACK: f64 = 4.0;
 
 /// How a hierarchy is walked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Walk {
+pub(crate) enum Walk {
     /// The nearer child first, and the ray ends at what was found.
     Ordered,
     /// The left child first, and the ray ends at what was found.
@@ -29,7 +29,7 @@ pub enum Walk {
 
 /// A hierarchy over the triangles of a mesh.
 #[derive(Debug)]
-pub struct ReferenceBvh {
+pub(crate) struct ReferenceBvh {
     nodes: Vec<Node>,
     /// In the order of the leaves, with their numbers in the mesh.
     triangles: Vec<(u32, [DVec3; 3])>,
@@ -47,16 +47,16 @@ struct Node {
 
 /// What came of walking one ray.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Walked {
+pub(crate) struct Walked {
     /// The nearest t, and the number of its triangle in the mesh.
-    pub nearest: Option<(f64, u32)>,
+    pub(crate) nearest: Option<(f64, u32)>,
     /// Triangles tested.
-    pub tests: u64,
+    pub(crate) tests: u64,
 }
 
 impl ReferenceBvh {
     /// Builds it.
-    pub fn new(mesh: &Mesh) -> Self {
+    pub(crate) fn new(mesh: &Mesh) -> Self {
         let numbers = 0..u32::try_from(mesh.indices.len()).unwrap_or(u32::MAX);
         let mut bvh = Self {
             nodes: Vec::new(),
@@ -89,7 +89,7 @@ impl ReferenceBvh {
     }
 
     /// Walks one ray.
-    pub fn walk(&self, ray: &Ray, walk: Walk) -> Walked {
+    pub(crate) fn walk(&self, ray: &Ray, walk: Walk) -> Walked {
         let mut search =
             Search { ray: *ray, inverse: ray.direction.recip(), walk, found: Walked::default() };
         if !self.nodes.is_empty() {
@@ -117,7 +117,7 @@ impl ReferenceBvh {
     }
 
     /// Triangles tested over all rays, a ray.
-    pub fn tests_per_ray(&self, rays: &[Ray], walk: Walk) -> f64 {
+    pub(crate) fn tests_per_ray(&self, rays: &[Ray], walk: Walk) -> f64 {
         let tests: u64 = rays.iter().map(|ray| self.walk(ray, walk).tests).sum();
         tests as f64 / rays.len() as f64
     }
@@ -126,17 +126,17 @@ impl ReferenceBvh {
 #[cfg(test)]
 impl ReferenceBvh {
     /// Puts other boxes in the place of all.
-    pub fn change_boxes(&mut self, change: impl Fn(Aabb) -> Aabb) {
+    pub(crate) fn change_boxes(&mut self, change: impl Fn(Aabb) -> Aabb) {
         self.nodes.iter_mut().for_each(|node| node.bounds = change(node.bounds));
     }
 
     /// Where a triangle stands in the order of the leaves.
-    pub fn place_of(&self, number: u32) -> u32 {
+    pub(crate) fn place_of(&self, number: u32) -> u32 {
         self.triangles.iter().position(|(n, _)| *n == number).unwrap_or(0) as u32
     }
 
     /// Nodes on the longest way from the root to a leaf.
-    pub fn depth(&self) -> u64 {
+    pub(crate) fn depth(&self) -> u64 {
         fn below(nodes: &[Node], number: usize) -> u64 {
             let Some(node) = nodes.get(number) else { return 0 };
             if node.end > node.first {
@@ -192,7 +192,7 @@ impl Search {
 }
 
 /// Möller and Trumbore (1997).
-pub fn meets(ray: &Ray, [a, b, c]: &[DVec3; 3]) -> Option<f64> {
+pub(crate) fn meets(ray: &Ray, [a, b, c]: &[DVec3; 3]) -> Option<f64> {
     let (e1, e2) = (*b - *a, *c - *a);
     let p = ray.direction.cross(e2);
     let scale = e1.dot(p).recip();

@@ -12,7 +12,7 @@ use serde::Deserialize;
 /// Closest and any hits of the case's scene agree with brute force for every split rule.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct SameHitsAsBruteForce {
+pub(crate) struct SameHitsAsBruteForce {
     /// Rays, and as many segments.
     rays: Count,
     /// Each split rule is tried with each of these.

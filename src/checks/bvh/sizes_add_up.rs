@@ -13,7 +13,7 @@ const WIDEST: f64 = 16.0;
 /// Nodes, leaves and depth fit each other and the scene.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct SizesAddUp {
+pub(crate) struct SizesAddUp {
     /// Each split rule is tried with each of these.
     leaf_sizes: LeafSizes,
 }

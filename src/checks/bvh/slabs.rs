@@ -7,14 +7,14 @@ use crate::scene::Aabb;
 use glam::DVec3;
 
 /// The parameters at which a line crosses the planes of a box, as the textbook divides them.
-pub struct Slabs {
+pub(crate) struct Slabs {
     lower: DVec3,
     upper: DVec3,
 }
 
 impl Slabs {
     /// Those of a ray.
-    pub fn new(bounds: &Aabb, ray: &Ray) -> Self {
+    pub(crate) fn new(bounds: &Aabb, ray: &Ray) -> Self {
         Self {
             lower: (bounds.min - ray.origin) / ray.direction,
             upper: (bounds.max - ray.origin) / ray.direction,
@@ -22,7 +22,7 @@ impl Slabs {
     }
 
     /// What the line has of the box.
-    pub fn span(&self) -> Span {
+    pub(crate) fn span(&self) -> Span {
         Span {
             enters: self.lower.min(self.upper).max_element(),
             exits: self.lower.max(self.upper).min_element(),
@@ -50,16 +50,16 @@ impl Slabs {
 /// Where a line enters a box and where it leaves, in lengths of the ray's direction; the wrong way round where it
 /// passes by.
 #[derive(Clone, Copy)]
-pub struct Span {
+pub(crate) struct Span {
     /// The largest of the entries.
-    pub enters: f64,
+    pub(crate) enters: f64,
     /// The smallest of the exits.
-    pub exits: f64,
+    pub(crate) exits: f64,
 }
 
 impl Span {
     /// The right test, where no 0/0 occurs.
-    pub fn hits(self, ray: &Ray) -> bool {
+    pub(crate) fn hits(self, ray: &Ray) -> bool {
         self.is_proper() && self.exits >= ray.t_min && self.enters <= ray.t_max
     }
 
@@ -116,23 +116,23 @@ const CONCLUSIONS: &[Conclusion] = &[
 ];
 
 /// An implementation that people write instead: one mistake, or one of each kind.
-pub struct Wrong {
+pub(crate) struct Wrong {
     span: fn(Slabs) -> Span,
     hits: fn(Span, &Ray) -> bool,
     /// What is wrong with it, in the glossary.
-    pub cause: &'static Cause,
+    pub(crate) cause: &'static Cause,
     /// What is wrong besides.
-    pub besides: Option<&'static Cause>,
+    pub(crate) besides: Option<&'static Cause>,
 }
 
 impl Wrong {
     /// Whether it hits.
-    pub fn hits(&self, slabs: Slabs, ray: &Ray) -> bool {
+    pub(crate) fn hits(&self, slabs: Slabs, ray: &Ray) -> bool {
         (self.hits)((self.span)(slabs), ray)
     }
 
     /// Its mistakes in words.
-    pub fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         match self.besides {
             None => self.cause.headline.to_owned(),
             Some(other) => format!("{}, and {}", self.cause.headline, other.headline),
@@ -149,7 +149,7 @@ impl Wrong {
 }
 
 /// Every single mistake.
-pub fn single_mistakes() -> impl Iterator<Item = Wrong> {
+pub(crate) fn single_mistakes() -> impl Iterator<Item = Wrong> {
     let crossings = CROSSINGS.iter().map(|crossing| Wrong {
         span: crossing.span,
         hits: Span::hits,
@@ -166,7 +166,7 @@ pub fn single_mistakes() -> impl Iterator<Item = Wrong> {
 }
 
 /// Every mistake of one kind with every one of the other.
-pub fn pairs_of_mistakes() -> impl Iterator<Item = Wrong> {
+pub(crate) fn pairs_of_mistakes() -> impl Iterator<Item = Wrong> {
     let with = |conclusion: &'static Conclusion| {
         CROSSINGS.iter().map(|crossing| Wrong {
             span: crossing.span,
@@ -180,7 +180,7 @@ pub fn pairs_of_mistakes() -> impl Iterator<Item = Wrong> {
 
 /// The one implementation that hits the boxes which a core hits, and no others; of one mistake if there is such. None
 /// where several do: too little was asked to tell them apart.
-pub fn wrong_as(answers: &[(Aabb, Ray, bool)]) -> Option<Wrong> {
+pub(crate) fn wrong_as(answers: &[(Aabb, Ray, bool)]) -> Option<Wrong> {
     let predicts = |wrong: &Wrong| {
         answers.iter().all(|(bounds, ray, hit)| wrong.hits(Slabs::new(bounds, ray), ray) == *hit)
     };
@@ -191,13 +191,15 @@ pub fn wrong_as(answers: &[(Aabb, Ray, bool)]) -> Option<Wrong> {
 }
 
 /// `finding`, with the mistake that predicts so many answers.
-pub fn because(finding: Finding, wrong: Option<&Wrong>, predicted: &str) -> Finding {
+pub(crate) fn because(finding: Finding, wrong: Option<&Wrong>, predicted: &str) -> Finding {
     finding.because_of(wrong.map(|wrong| (wrong.cause, wrong.evidence(predicted))))
 }
 
 /// A core that hits boxes by a rule of its own.
 #[cfg(test)]
-pub fn hitting(hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static) -> crate::checks::fake::Fake {
+pub(crate) fn hitting(
+    hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static,
+) -> crate::checks::fake::Fake {
     let bounds = move |bounds: &Aabb, ray: &Ray| {
         let slabs = Slabs::new(bounds, ray);
         let Span { enters: t_enter, exits: t_exit } = slabs.span();

@@ -17,7 +17,7 @@ const UNUSED: f64 = 0.5;
 /// The number of tests is that of a plain hierarchy, or not much larger.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct TestsPerRay {
+pub(crate) struct TestsPerRay {
     arrangement: Arrangement,
     /// From each side.
     rays: Count,

@@ -17,7 +17,7 @@ const ON_PRIMITIVE: f64 = 1e-5;
 const OVERWRITTEN_RAYS: usize = 500;
 
 /// What a comparison with brute force asks of a core.
-pub const NEEDS: Capabilities = Capabilities::BUILD_SCENE
+pub(crate) const NEEDS: Capabilities = Capabilities::BUILD_SCENE
     .union(Capabilities::INTERSECT)
     .union(Capabilities::OCCLUDED)
     .union(Capabilities::BRUTE_FORCE);
@@ -49,7 +49,7 @@ impl<'a> Trial<'a> {
     ///
     /// # Errors
     /// If the core does not answer.
-    pub fn prepare(
+    pub(crate) fn prepare(
         context: &mut Context<'_>,
         scene: &'a SceneDescription,
         count: usize,
@@ -95,7 +95,11 @@ impl<'a> Trial<'a> {
     ///
     /// # Errors
     /// If the core does not answer.
-    pub fn put_to(&self, context: &mut Context<'_>, build: Build) -> Result<Tried, CheckError> {
+    pub(crate) fn put_to(
+        &self,
+        context: &mut Context<'_>,
+        build: Build,
+    ) -> Result<Tried, CheckError> {
         let mut built = context.core.build_scene(self.scene, build.acceleration())?;
         let stats = built.stats();
         let is_there = |ray: &Ray, hit: &Hit| lies_on_its_primitive(self.scene, ray, hit);
@@ -110,12 +114,12 @@ impl<'a> Trial<'a> {
     }
 
     /// Hits of brute force that are not the nearest.
-    pub fn overwritten(&self) -> usize {
+    pub(crate) fn overwritten(&self) -> usize {
         self.graded.1.overwritten
     }
 
     /// Graded answers of each hierarchy.
-    pub fn answers(&self) -> usize {
+    pub(crate) fn answers(&self) -> usize {
         self.graded.0.answers()
     }
 }

@@ -17,7 +17,7 @@ const STEEPEST: f64 = 0.5;
 /// The number of tests grows slowly with the mesh.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct VisitsFewNodes {
+pub(crate) struct VisitsFewNodes {
     mesh: Meshes,
     rays: Count,
 }

@@ -18,7 +18,7 @@ const EXPLAINED: f64 = 1e-3;
 /// A scene that sends the same radiance into every pixel, in films of several sizes.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct ConstantFilm {
+pub(crate) struct ConstantFilm {
     /// What every ray brings home: different in every channel, none of them 0.
     radiance: Lit,
     /// Columns and rows.

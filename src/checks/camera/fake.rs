@@ -10,31 +10,31 @@ use glam::{DVec2, DVec3};
 
 /// What a ray through a point brings home: in pixels, from the top left; the second is the film's
 /// size.
-pub type Radiance = fn(DVec2, DVec2) -> [f64; 3];
+pub(crate) type Radiance = fn(DVec2, DVec2) -> [f64; 3];
 /// At which index the pixel of column and row is stored, in a film of this size.
-pub type Index = fn([u32; 2], [u32; 2]) -> usize;
+pub(crate) type Index = fn([u32; 2], [u32; 2]) -> usize;
 
 /// What is added to the count of samples.
 #[derive(Clone, Copy)]
-pub struct Step(pub i32);
+pub(crate) struct Step(pub i32);
 
 /// A renderer of a picture that is a function of the film point; each step can be replaced by a
 /// wrong one.
-pub struct FakeFilm {
+pub(crate) struct FakeFilm {
     /// See [`Radiance`].
-    pub radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send>,
+    pub(crate) radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send>,
     /// Where a sample with these random numbers lies, from the corner of its pixel.
-    pub place: fn(DVec2) -> DVec2,
+    pub(crate) place: fn(DVec2) -> DVec2,
     /// The random numbers of a sample, by its number in its pixel.
-    pub arrange: fn(u32, DVec2) -> DVec2,
+    pub(crate) arrange: fn(u32, DVec2) -> DVec2,
     /// What becomes of the mean of a pixel.
-    pub develop: fn([f64; 3], Place) -> [f64; 3],
+    pub(crate) develop: fn([f64; 3], Place) -> [f64; 3],
     /// How many samples are taken where so many are asked for.
-    pub samples_used: fn(u32) -> u32,
+    pub(crate) samples_used: fn(u32) -> u32,
     /// See [`Index`].
-    pub index: Index,
+    pub(crate) index: Index,
     /// See [`Step`].
-    pub count: Step,
+    pub(crate) count: Step,
 }
 
 impl Default for FakeFilm {
@@ -53,7 +53,7 @@ impl Default for FakeFilm {
 
 impl FakeFilm {
     /// Some camera: the fake looks at nothing but the film.
-    pub fn camera() -> Camera {
+    pub(crate) fn camera() -> Camera {
         Camera::look_at(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, [16, 12])
     }
 
@@ -85,7 +85,7 @@ impl FakeFilm {
     }
 
     /// The core.
-    pub fn core(self) -> Fake {
+    pub(crate) fn core(self) -> Fake {
         Fake {
             film: Box::new(move |settings, film| self.render(settings, film)),
             ..Fake::default()

@@ -6,23 +6,23 @@ use crate::cause::{Cause, image};
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// Column and row, from the top left.
-    pub at: [u32; 2],
+    pub(crate) at: [u32; 2],
     /// Columns and rows of the film.
-    pub size: [u32; 2],
+    pub(crate) size: [u32; 2],
     /// Camera rays per pixel.
-    pub samples: u32,
+    pub(crate) samples: u32,
 }
 
 /// A mistake and what it writes where `radiance` belongs.
-pub struct FilmMistake {
+pub(crate) struct FilmMistake {
     /// In the glossary.
-    pub cause: &'static Cause,
+    pub(crate) cause: &'static Cause,
     /// The pixel it makes.
-    pub develop: fn([f64; 3], Place) -> [f64; 3],
+    pub(crate) develop: fn([f64; 3], Place) -> [f64; 3],
 }
 
 /// Edges of the tiles that people cut pictures into.
-pub const TILES: [u32; 6] = [64, 32, 16, 8, 4, 2];
+pub(crate) const TILES: [u32; 6] = [64, 32, 16, 8, 4, 2];
 
 const fn mistake(cause: &'static Cause, develop: fn([f64; 3], Place) -> [f64; 3]) -> FilmMistake {
     FilmMistake { cause, develop }
@@ -38,7 +38,7 @@ fn only(radiance: [f64; 3], is_inside: bool) -> [f64; 3] {
 }
 
 /// Every mistake but those with a size of their own ([`TILES`]).
-pub const MISTAKES: &[FilmMistake] = &[
+pub(crate) const MISTAKES: &[FilmMistake] = &[
     mistake(&image::NOT_DIVIDED, |radiance, place| scaled(radiance, f64::from(place.samples))),
     mistake(&image::DIVIDED_TWICE, |radiance, place| {
         scaled(radiance, f64::from(place.samples).recip())
@@ -70,7 +70,11 @@ pub const MISTAKES: &[FilmMistake] = &[
 ];
 
 /// What a film holds if only whole tiles of this edge are rendered.
-pub fn whole_tiles_only(radiance: [f64; 3], Place { at, size, .. }: Place, tile: u32) -> [f64; 3] {
+pub(crate) fn whole_tiles_only(
+    radiance: [f64; 3],
+    Place { at, size, .. }: Place,
+    tile: u32,
+) -> [f64; 3] {
     let is_whole = |axis: usize| at[axis] / tile < size[axis] / tile;
     only(radiance, is_whole(0) && is_whole(1))
 }

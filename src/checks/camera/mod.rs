@@ -20,7 +20,7 @@ pub(in crate::checks) use projection::projection;
 use super::CheckKind;
 
 /// The checks of this subject.
-pub static CHECKS: &[CheckKind] = &[
+pub(crate) static CHECKS: &[CheckKind] = &[
     CheckKind::of::<rays_through_film::RaysThroughFilm>(),
     CheckKind::of::<constant_film::ConstantFilm>(),
     CheckKind::of::<orientation::PictureOrientation>(),

@@ -13,7 +13,7 @@ use serde::Deserialize;
 /// Four colours stand in their quarters of the picture.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct PictureOrientation {
+pub(crate) struct PictureOrientation {
     /// Columns and rows: different, so that they cannot be mistaken for each other.
     size: Size,
     top_left: Lit,

@@ -14,12 +14,12 @@ use glam::{DVec2, DVec3};
 /// Columns and rows of the film; odd, so that every pixel of the border is dark.
 pub const FILM: [u32; 2] = [17, 13];
 /// Camera rays per pixel: one less than the base of the digits.
-pub const SAMPLES: u32 = 3;
+pub(crate) const SAMPLES: u32 = 3;
 /// Cells in a row, and digits of a number; odd, so that the middle of a pixel is in the middle of
 /// one.
-pub const CELLS: usize = 5;
+pub(crate) const CELLS: usize = 5;
 /// Between the border of a pixel and its cells, in pixels: no rounding carries a sample across.
-pub const MARGIN: f64 = 0.002;
+pub(crate) const MARGIN: f64 = 0.002;
 
 const BASE: f64 = 4.0;
 /// The digit of red that counts samples of the background.
@@ -46,23 +46,23 @@ const BACKGROUND_RADIANCE: [f64; 3] = [1024.0, 0.0, 0.0];
 const _: () = assert!(BACKGROUND == 5, "1024 is the fifth power of 4");
 
 /// Whether a pixel shows cells.
-pub fn is_lit([x, y]: [u32; 2]) -> bool {
+pub(crate) fn is_lit([x, y]: [u32; 2]) -> bool {
     x % 2 == 1 && y % 2 == 1
 }
 
 /// Pixels that show cells.
-pub fn lit_pixels() -> u64 {
+pub(crate) fn lit_pixels() -> u64 {
     u64::from(FILM[0] / 2) * u64::from(FILM[1] / 2)
 }
 
 /// The share of uniform samples that falls in one column of cells.
-pub fn share() -> f64 {
+pub(crate) fn share() -> f64 {
     let side = 1.0 - 2.0 * MARGIN;
     side * side / CELLS as f64
 }
 
 /// The cell at a film point in pixels from the top left, if one is there.
-pub fn cell_at(point: DVec2) -> Option<[usize; 2]> {
+pub(crate) fn cell_at(point: DVec2) -> Option<[usize; 2]> {
     let corner = point.floor();
     let inside = corner.cmpge(DVec2::ZERO).all() && corner.cmplt(FILM.map(f64::from).into()).all();
     let within = (point - corner - MARGIN) / (1.0 - 2.0 * MARGIN);
@@ -73,21 +73,21 @@ pub fn cell_at(point: DVec2) -> Option<[usize; 2]> {
 
 /// What a ray through a film point brings home.
 #[cfg(test)]
-pub fn radiance_at(point: DVec2) -> [f64; 3] {
+pub(crate) fn radiance_at(point: DVec2) -> [f64; 3] {
     cell_at(point).map_or(BACKGROUND_RADIANCE, cell_radiance)
 }
 
 /// How many of the samples of a pixel fell where.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Decoded {
+pub(crate) struct Decoded {
     /// In each column, row, falling and rising diagonal of cells.
-    pub lines: [[u32; CELLS]; 4],
+    pub(crate) lines: [[u32; CELLS]; 4],
     /// Samples of the background.
-    pub background: u32,
+    pub(crate) background: u32,
 }
 
 /// Reads a pixel; `None` if it is no mean of [`SAMPLES`] radiances of the pattern.
-pub fn decode(pixel: [f32; 3]) -> Option<Decoded> {
+pub(crate) fn decode(pixel: [f32; 3]) -> Option<Decoded> {
     let [red, green, blue] = pixel.map(|mean| digits(f64::from(mean) * f64::from(SAMPLES)));
     let (red, green, blue) = (red?, green?, blue?);
     let low = |digits: [u32; 10]| std::array::from_fn(|place| digits[place]);
@@ -109,7 +109,7 @@ fn digits(sum: f64) -> Option<[u32; 10]> {
 }
 
 /// A camera that stands and looks in no special way.
-pub fn view() -> Camera {
+pub(crate) fn view() -> Camera {
     Camera::look_at(
         DVec3::new(1.3, -2.1, 0.7),
         DVec3::new(-0.4, 0.2, 1.9),
@@ -120,7 +120,7 @@ pub fn view() -> Camera {
 }
 
 /// The scene as [`view`] sees it.
-pub fn scene() -> SceneDescription {
+pub(crate) fn scene() -> SceneDescription {
     let camera = view();
     let mut meshes = vec![background(&camera)];
     let mut materials = vec![glowing("background", BACKGROUND_RADIANCE)];
@@ -141,7 +141,7 @@ pub fn scene() -> SceneDescription {
 }
 
 /// A black surface of this radiance.
-pub fn glowing(name: &str, radiance: [f64; 3]) -> Material {
+pub(crate) fn glowing(name: &str, radiance: [f64; 3]) -> Material {
     Material {
         name: name.to_owned(),
         surface: Surface::Diffuse { reflectance: [0.0; 3] },
@@ -157,7 +157,11 @@ fn seen_at(camera: &Camera, point: DVec2, depth: f64) -> DVec3 {
 }
 
 /// Quads between pairs of film points, at a depth, facing the camera.
-pub fn quads(camera: &Camera, corners: impl Iterator<Item = [DVec2; 2]>, depth: f64) -> Mesh {
+pub(crate) fn quads(
+    camera: &Camera,
+    corners: impl Iterator<Item = [DVec2; 2]>,
+    depth: f64,
+) -> Mesh {
     let mut mesh = Mesh::default();
     for [top_left, bottom_right] in corners {
         let first = u32::try_from(mesh.positions.len()).unwrap_or(u32::MAX);
@@ -171,7 +175,7 @@ pub fn quads(camera: &Camera, corners: impl Iterator<Item = [DVec2; 2]>, depth: 
 }
 
 /// Behind the cells, beyond the film on every side.
-pub fn background(camera: &Camera) -> Mesh {
+pub(crate) fn background(camera: &Camera) -> Mesh {
     let corners = [DVec2::splat(-4.0), DVec2::from(FILM.map(f64::from)) + 4.0];
     quads(camera, [corners].into_iter(), 1.01)
 }

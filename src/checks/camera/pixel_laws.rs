@@ -6,14 +6,14 @@ use crate::cause::{Cause, camera};
 use glam::DVec2;
 
 /// Where a sample with two uniform numbers lies, in pixels from the top left corner of its own.
-pub type Law = fn(DVec2) -> DVec2;
+pub(crate) type Law = fn(DVec2) -> DVec2;
 
 /// A law that people write instead of the identity.
-pub struct PixelMistake {
+pub(crate) struct PixelMistake {
     /// In the glossary.
-    pub cause: &'static Cause,
+    pub(crate) cause: &'static Cause,
     /// Its samples.
-    pub law: Law,
+    pub(crate) law: Law,
 }
 
 const fn mistake(cause: &'static Cause, law: Law) -> PixelMistake {
@@ -21,7 +21,7 @@ const fn mistake(cause: &'static Cause, law: Law) -> PixelMistake {
 }
 
 /// Each shows another pattern than the rest.
-pub const MISTAKES: &[PixelMistake] = &[
+pub(crate) const MISTAKES: &[PixelMistake] = &[
     mistake(&camera::PIXEL_CENTRE, |_| DVec2::splat(0.5)),
     mistake(&camera::PIXEL_CORNER, |_| DVec2::ZERO),
     mistake(&camera::HALF_A_PIXEL, |u| u + 0.5),
@@ -54,44 +54,44 @@ const SIDES: usize = 4;
 
 /// Samples of a picture of the pattern, counted.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Tally {
+pub(crate) struct Tally {
     /// Samples of lit pixels.
-    pub samples: f64,
+    pub(crate) samples: f64,
     /// Of those, how many fell in each column, row, falling and rising diagonal of their own cells.
-    pub lines: [[f64; CELLS]; 4],
+    pub(crate) lines: [[f64; CELLS]; 4],
     /// Samples of all dark pixels.
-    pub dark_samples: f64,
+    pub(crate) dark_samples: f64,
     /// Of those, how many saw the cells of another pixel.
-    pub strayed: f64,
+    pub(crate) strayed: f64,
     /// Samples of dark pixels that have a lit one on one side only, by that side.
     beside: [f64; SIDES],
     /// Of those, how many saw cells.
     seen_beside: [f64; SIDES],
     /// Pixels that are no mean of radiances of the pattern.
-    pub unreadable: u64,
+    pub(crate) unreadable: u64,
 }
 
 impl Tally {
     /// The shares that a mistake predicts: of lit pixels line by line, then of the pixels beside
     /// them, side by side.
-    pub fn shares(&self) -> Vec<f64> {
+    pub(crate) fn shares(&self) -> Vec<f64> {
         let beside = (0..SIDES).map(|side| self.seen_beside[side] / self.beside[side]);
         self.own_shares().into_iter().chain(beside).collect()
     }
 
     /// The shares of the samples of lit pixels, line by line; NaN if a pixel could not be read.
-    pub fn own_shares(&self) -> Vec<f64> {
+    pub(crate) fn own_shares(&self) -> Vec<f64> {
         let samples = if self.unreadable > 0 { f64::NAN } else { self.samples };
         self.lines.iter().flatten().map(|count| count / samples).collect()
     }
 
     /// The share of the samples of dark pixels that saw light.
-    pub fn strayed_share(&self) -> f64 {
+    pub(crate) fn strayed_share(&self) -> f64 {
         self.strayed / self.dark_samples
     }
 
     /// Takes in another picture.
-    pub fn add(&mut self, other: &Self) {
+    pub(crate) fn add(&mut self, other: &Self) {
         let add = |a: &mut [f64], b: &[f64]| a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
         self.samples += other.samples;
         add(self.lines.as_flattened_mut(), other.lines.as_flattened());
@@ -103,7 +103,7 @@ impl Tally {
     }
 
     /// What a picture of the pattern shows.
-    pub fn of_picture(pixels: &[[f32; 3]]) -> Self {
+    pub(crate) fn of_picture(pixels: &[[f32; 3]]) -> Self {
         let mut tally = Self::default();
         for (at, pixel) in places().zip(pixels) {
             match decode(*pixel) {
@@ -136,7 +136,7 @@ impl Tally {
     }
 
     /// What a picture shows, on average, whose samples follow `law`.
-    pub fn of_law(law: Law) -> Self {
+    pub(crate) fn of_law(law: Law) -> Self {
         const GRID: u32 = 40;
         let middle = |n: u32| (f64::from(n) + 0.5) / f64::from(GRID);
         let numbers = || (0..GRID * GRID).map(|n| DVec2::new(middle(n % GRID), middle(n / GRID)));

@@ -22,7 +22,7 @@ const EXPLAINED: f64 = 0.02;
 /// Fifths of a pixel, in columns, rows and diagonals, get a fifth of the samples each.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct PixelSamples {
+pub(crate) struct PixelSamples {
     /// The smallest error of a fifth's share that must be seen.
     detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.

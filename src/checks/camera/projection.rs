@@ -5,10 +5,10 @@ use crate::scene::Camera;
 use glam::{DMat3, DVec2, DVec3, Vec2Swizzles};
 
 /// A direction of any length through a film point.
-pub type Formula = fn(&Camera, DVec2) -> DVec3;
+pub(crate) type Formula = fn(&Camera, DVec2) -> DVec3;
 
 /// The right formula, as [`Camera`] states it: a sensor at distance 1 in front of the pinhole.
-pub fn projection(camera: &Camera, film: DVec2) -> DVec3 {
+pub(crate) fn projection(camera: &Camera, film: DVec2) -> DVec3 {
     camera.camera_to_world * (centred(film) * half_sensor(camera)).extend(-1.0)
 }
 
@@ -32,16 +32,16 @@ fn with_fov(camera: &Camera, angle: impl Fn(f64) -> f64) -> Camera {
 }
 
 /// A formula that people write instead.
-pub struct Mistake {
+pub(crate) struct Mistake {
     /// What was done.
-    pub cause: &'static Cause,
+    pub(crate) cause: &'static Cause,
     /// The rays it makes.
-    pub formula: Formula,
+    pub(crate) formula: Formula,
 }
 
 /// Each predicts other rays than the rest for a camera in general position, so that the one which predicts all
 /// rays of all cameras is the one that was made.
-pub const MISTAKES: &[Mistake] = &[
+pub(crate) const MISTAKES: &[Mistake] = &[
     Mistake {
         cause: &camera::FOV_NOT_HALVED,
         formula: |camera, film| projection(&with_fov(camera, |fov| 2.0 * fov), film),

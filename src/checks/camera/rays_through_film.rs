@@ -22,7 +22,7 @@ const GENERIC_POINTS: usize = 48;
 /// Rays leave the camera through the film points they are asked for.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct RaysThroughFilm {
+pub(crate) struct RaysThroughFilm {
     /// Cameras in general position: no angle, axis or coordinate that hides a mistake.
     camera: Several<CameraRow>,
 }

@@ -13,11 +13,11 @@ use crate::stats::CellProbabilities;
 use glam::DVec2;
 
 /// Camera rays per pixel.
-pub const SAMPLES: u32 = 4;
+pub(crate) const SAMPLES: u32 = 4;
 /// Quarters in a row.
 const SIDE: usize = 2;
 /// Quarters of a pixel.
-pub const STRATA: usize = SIDE * SIDE;
+pub(crate) const STRATA: usize = SIDE * SIDE;
 /// Cells in a row of a quarter.
 const CELLS: usize = 3;
 
@@ -30,19 +30,19 @@ const WHOLE: f64 = 0.25;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reading {
     /// Samples in each quarter, row by row. The rest lie between them.
-    pub strata: [u32; STRATA],
+    pub(crate) strata: [u32; STRATA],
     /// Where in the quarter that is looked at closely its only sample lies, cell by cell, row by row.
-    pub cell: Option<usize>,
+    pub(crate) cell: Option<usize>,
 }
 
 impl Reading {
     /// Whether no quarter has two samples.
-    pub fn is_even(&self) -> bool {
+    pub(crate) fn is_even(&self) -> bool {
         self.strata.iter().all(|count| *count <= 1)
     }
 
     /// Whether no sample lies between the quarters.
-    pub fn is_whole(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         self.strata.iter().sum::<u32>() == SAMPLES
     }
 }
@@ -62,7 +62,7 @@ fn close_radiance(stratum: usize, cell: usize) -> [f64; 3] {
 
 /// Reads the pixel of this column and row; `None` if it is no mean of [`SAMPLES`] radiances of the
 /// pattern.
-pub fn read(at: [u32; 2], pixel: [f32; 3]) -> Option<Reading> {
+pub(crate) fn read(at: [u32; 2], pixel: [f32; 3]) -> Option<Reading> {
     let [red, green, _] = pixel.map(|mean| f64::from(mean) * f64::from(SAMPLES));
     let (red, green) = (whole(red)?, whole(green)?);
     let digit = |place: usize| (red / BASE.powi(place as i32)) as u32 % BASE as u32;
@@ -83,7 +83,7 @@ fn whole(sum: f64) -> Option<f64> {
 
 /// The probabilities of the cells of a quarter for a sample whose two coordinates in it are uniform
 /// in this interval of [0, 1]. What is missing lies between the quarters.
-pub fn law([from, to]: [f64; 2]) -> CellProbabilities {
+pub(crate) fn law([from, to]: [f64; 2]) -> CellProbabilities {
     let border = |number: usize| to_stratum(MARGIN + number as f64 * cell_size());
     let share = |cell: usize| {
         let overlap = border(cell + 1).min(to) - border(cell).max(from);
@@ -108,7 +108,7 @@ fn cell_size() -> f64 {
 }
 
 /// The scene, seen by a camera that stands and looks in no special way.
-pub fn scene() -> SceneDescription {
+pub(crate) fn scene() -> SceneDescription {
     let camera = view();
     let mut meshes = vec![background(&camera)];
     let mut materials = vec![glowing("background", BACKGROUND_RADIANCE)];
@@ -139,7 +139,7 @@ pub fn scene() -> SceneDescription {
 }
 
 /// Columns and rows of the film, in the order of its pixels.
-pub fn places() -> impl Iterator<Item = [u32; 2]> {
+pub(crate) fn places() -> impl Iterator<Item = [u32; 2]> {
     (0..FILM[1]).flat_map(|y| (0..FILM[0]).map(move |x| [x, y]))
 }
 
@@ -154,7 +154,7 @@ fn area(at: [u32; 2], stratum: usize, first: usize, cells: usize) -> [DVec2; 2] 
 
 /// What a ray through a film point brings home.
 #[cfg(test)]
-pub fn radiance_at(point: DVec2) -> [f64; 3] {
+pub(crate) fn radiance_at(point: DVec2) -> [f64; 3] {
     let at = point.floor().to_array().map(|c| c as u32);
     let inside = |[low, high]: [DVec2; 2]| point.cmpge(low).all() && point.cmplt(high).all();
     let Some(stratum) = (0..STRATA).find(|stratum| inside(area(at, *stratum, 0, CELLS))) else {

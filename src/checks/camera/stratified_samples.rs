@@ -19,7 +19,7 @@ const FIRST_LOOK: u64 = 8;
 /// Four samples lie in the four quarters of each pixel, evenly spread within them.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct StratifiedSamples {
+pub(crate) struct StratifiedSamples {
     /// The smallest error of the density within a cell that must be seen, root mean square.
     detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.

@@ -18,7 +18,7 @@ const SAMPLES: u32 = 4;
 /// it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct ViewCoverage {
+pub(crate) struct ViewCoverage {
     /// Columns and rows. Pixels stand for their centres, so that they should be small.
     size: Size,
     /// Of the picture.

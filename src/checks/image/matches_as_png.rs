@@ -11,7 +11,7 @@ use serde::Deserialize;
 /// and handed in.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct MatchesAsPng {
+pub(crate) struct MatchesAsPng {
     /// How light becomes codes.
     encoding: Encoding,
     /// What is rendered, and with what it has to agree.

@@ -27,7 +27,7 @@ const ERROR_SCALE: f32 = 6.0;
 /// Independent renders agree with a reference, at every scale from a pixel to the whole picture.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct MatchesReference {
+pub(crate) struct MatchesReference {
     /// The folder below `references/`.
     reference: String,
     bounces: Bounces,

@@ -8,7 +8,7 @@ mod matches_reference;
 use super::CheckKind;
 
 /// The checks of this subject.
-pub static CHECKS: &[CheckKind] = &[
+pub(crate) static CHECKS: &[CheckKind] = &[
     CheckKind::of::<matches_reference::MatchesReference>(),
     CheckKind::of::<matches_as_png::MatchesAsPng>(),
 ];

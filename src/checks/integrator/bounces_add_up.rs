@@ -14,7 +14,7 @@ const SCALE_SAMPLES: u64 = 65_536;
 /// Radiance over bounces `0..=last` is the sum of the bounces `0`, `1`, … `last` alone.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct BouncesAddUp {
+pub(crate) struct BouncesAddUp {
     ray: RayEntry,
     /// The last bounce.
     last: Between<1, 1000>,

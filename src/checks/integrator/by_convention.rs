@@ -9,19 +9,19 @@ use serde::Deserialize;
 /// `{ glass-radiance = "unscaled", radiance = 0.96 }`: what is right for a core that declares all of this.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct ConventionEntry {
+pub(crate) struct ConventionEntry {
     point_light_falloff: Option<Falloff>,
     emission: Option<EmissionSides>,
     smith_term: Option<SmithTerm>,
     glass_fresnel: Option<GlassFresnel>,
     glass_radiance: Option<GlassRadiance>,
     /// Instead of that of the row.
-    pub radiance: Colour,
+    pub(crate) radiance: Colour,
 }
 
 impl ConventionEntry {
     /// Whether a core declares all that is named here.
-    pub fn is_declared_by(&self, declared: &Conventions) -> bool {
+    pub(crate) fn is_declared_by(&self, declared: &Conventions) -> bool {
         is_met(self.point_light_falloff, declared.point_light_falloff)
             && is_met(self.emission, declared.emission)
             && is_met(self.smith_term, declared.smith_term)
@@ -31,7 +31,7 @@ impl ConventionEntry {
 
     /// The choices themselves, the usual ones where none is named.
     #[cfg(test)]
-    pub fn conventions(&self) -> Conventions {
+    pub(crate) fn conventions(&self) -> Conventions {
         Conventions {
             point_light_falloff: self.point_light_falloff.unwrap_or_default(),
             emission: self.emission.unwrap_or_default(),
@@ -45,7 +45,7 @@ impl ConventionEntry {
     ///
     /// # Errors
     /// A sentence for the author of the case.
-    pub fn validate(&self) -> Result<(), String> {
+    pub(crate) fn validate(&self) -> Result<(), String> {
         match self.is_declared_by(&Conventions::default()) {
             true => {
                 Err("`by-convention` names no choice that differs from the usual one".to_owned())

@@ -15,7 +15,7 @@ use serde::Deserialize;
 /// Renders small pictures of which every pixel has the same known radiance, at growing sample counts.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct ErrorFallsAsRootN {
+pub(crate) struct ErrorFallsAsRootN {
     size: Size,
     bounces: Bounces,
     #[serde(default)]

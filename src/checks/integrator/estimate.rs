@@ -13,14 +13,14 @@ const RAYS_PER_CALL: u64 = 1 << 16;
 /// `{ from = […], toward = […] }`: a ray by its origin and its direction (of any length).
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct RayEntry {
+pub(crate) struct RayEntry {
     from: Vector,
     toward: Arrow,
 }
 
 impl RayEntry {
     /// The ray, with a unit direction.
-    pub fn ray(self) -> Ray {
+    pub(crate) fn ray(self) -> Ray {
         Ray::new(self.from.0, self.toward.0.normalize())
     }
 }
@@ -29,7 +29,7 @@ impl RayEntry {
 /// parallelogram. Their mean is the mean of the radiance that leaves it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct PatchEntry {
+pub(crate) struct PatchEntry {
     from: Vector,
     corner: Vector,
     edges: [Arrow; 2],
@@ -45,7 +45,7 @@ impl PatchEntry {
 
 /// Where estimates are asked for.
 #[derive(Clone, Copy, Debug)]
-pub enum Aim {
+pub(crate) enum Aim {
     /// Along one ray.
     Ray(Ray),
     /// At random points of a surface.
@@ -73,12 +73,12 @@ impl Aim {
 /// `{ stop = 0.35, guaranteed = 1 }`
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct RouletteEntry {
+pub(crate) struct RouletteEntry {
     /// Probability of stopping at each bounce.
-    pub stop: Chance,
+    pub(crate) stop: Chance,
     /// Bounces that are always traced.
     #[serde(default)]
-    pub guaranteed: u32,
+    pub(crate) guaranteed: u32,
 }
 
 impl From<RouletteEntry> for Roulette {
@@ -88,12 +88,12 @@ impl From<RouletteEntry> for Roulette {
 }
 
 /// Settings for bounces `first..=last`.
-pub fn settings(bounces: [u32; 2], direct: DirectSampling) -> IntegratorSettings {
+pub(crate) fn settings(bounces: [u32; 2], direct: DirectSampling) -> IntegratorSettings {
     IntegratorSettings { bounces: bounces[0]..=bounces[1], direct, ..Default::default() }
 }
 
 /// What a core needs for these settings.
-pub fn needs(settings: &IntegratorSettings) -> Capabilities {
+pub(crate) fn needs(settings: &IntegratorSettings) -> Capabilities {
     let mut needs = Capabilities::BUILD_SCENE | Capabilities::RADIANCE;
     if *settings.bounces.start() > 0 {
         needs |= Capabilities::ISOLATED_BOUNCES;
@@ -108,7 +108,7 @@ pub fn needs(settings: &IntegratorSettings) -> Capabilities {
 }
 
 /// Draws `samples` independent estimates and hands them over, some at a time.
-pub fn draw_estimates(
+pub(crate) fn draw_estimates(
     scene: &mut dyn BuiltScene,
     aim: impl Into<Aim>,
     settings: &IntegratorSettings,
@@ -136,15 +136,15 @@ pub fn draw_estimates(
 
 /// Mean and largest channel value of `samples` estimates along `ray`.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Estimate {
+pub(crate) struct Estimate {
     /// Mean radiance of each channel.
-    pub mean: [f64; 3],
+    pub(crate) mean: [f64; 3],
     /// The largest single estimate of each channel.
-    pub largest: [f64; 3],
+    pub(crate) largest: [f64; 3],
 }
 
 /// One seeded run: `samples` independent estimates.
-pub fn estimate(
+pub(crate) fn estimate(
     scene: &mut dyn BuiltScene,
     aim: impl Into<Aim>,
     settings: &IntegratorSettings,

@@ -17,7 +17,7 @@ const SCALE_SAMPLES: u64 = 65_536;
 /// Along each ray, every estimator has the mean of the first.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct EstimatorsAgree {
+pub(crate) struct EstimatorsAgree {
     /// The rays to compare along.
     ray: Several<RayEntry>,
     bounces: Bounces,

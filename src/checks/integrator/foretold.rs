@@ -11,7 +11,7 @@ use serde::Deserialize;
 /// `{ cause = "delta-divided", gives = [0.5, 0.25] }`: one colour for each row of the case.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct MistakeEntry {
+pub(crate) struct MistakeEntry {
     /// Its name in the glossary.
     cause: String,
     /// What each row would be.
@@ -23,7 +23,7 @@ impl MistakeEntry {
     ///
     /// # Errors
     /// A sentence for the author of the case.
-    pub fn validate(&self, rows: usize) -> Result<(), String> {
+    pub(crate) fn validate(&self, rows: usize) -> Result<(), String> {
         if cause::find(&self.cause).is_none() {
             let known = did_you_mean(&self.cause, cause::all().map(|cause| cause.name));
             let hint = known.map_or_else(String::new, |hint| format!("; {hint}"));
@@ -36,7 +36,7 @@ impl MistakeEntry {
     }
 
     /// The cause and what speaks for it, if something is wrong and every number of every row is as foretold.
-    pub fn explains(&self, rows: &[Vec<Measure>]) -> Option<(&'static Cause, String)> {
+    pub(crate) fn explains(&self, rows: &[Vec<Measure>]) -> Option<(&'static Cause, String)> {
         let measures = || {
             let of_row = |(row, Colour(colour)): (&'_ Vec<Measure>, &Colour)| {
                 let pair = |m: &Measure| Some((m.clone(), colour[m.channel?.index()]));

@@ -21,7 +21,7 @@ use serde::Deserialize;
 /// Each row: the mean radiance along a ray is a given number.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct MeanRadiance {
+pub(crate) struct MeanRadiance {
     /// For every row that has none of its own.
     ray: Option<RayEntry>,
     #[serde(default)]

@@ -21,13 +21,13 @@ mod same_seed_same_picture;
 mod seeds_matter;
 mod variance_is_known;
 
-pub use estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
-pub use foretold::MistakeEntry;
+pub(crate) use estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
+pub(crate) use foretold::MistakeEntry;
 
 use super::CheckKind;
 
 /// The checks of this subject.
-pub static CHECKS: &[CheckKind] = &[
+pub(crate) static CHECKS: &[CheckKind] = &[
     CheckKind::of::<mean_radiance::MeanRadiance>(),
     CheckKind::of::<estimators_agree::EstimatorsAgree>(),
     CheckKind::of::<radiance_is_linear::RadianceIsLinear>(),

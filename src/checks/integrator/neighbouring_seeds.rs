@@ -19,7 +19,7 @@ const REPEATED: f64 = 0.3;
 /// Renders a noisy picture with consecutive seeds.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct NeighbouringSeeds {
+pub(crate) struct NeighbouringSeeds {
     size: Size,
     bounces: Bounces,
     samples_per_pixel: Between<1, 65536>,

@@ -13,7 +13,7 @@ use serde::Deserialize;
 /// Renders each scene with light sampling and, where the core has it, hemisphere sampling.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct RadianceIsFinite {
+pub(crate) struct RadianceIsFinite {
     scenes: Several<String>,
     size: Size,
     samples_per_pixel: Between<1, 65536>,

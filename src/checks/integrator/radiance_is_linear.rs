@@ -12,7 +12,7 @@ use serde::Deserialize;
 /// Superposition and scaling along a ray.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct RadianceIsLinear {
+pub(crate) struct RadianceIsLinear {
     ray: RayEntry,
     bounces: Bounces,
     #[serde(default)]

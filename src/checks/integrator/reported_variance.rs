@@ -23,7 +23,7 @@ const PICTURES: u32 = 8;
 /// Every picture comes with the variance of its pixels, and it is right within a factor of two.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct ReportsItsVariance {
+pub(crate) struct ReportsItsVariance {
     size: Size,
     bounces: Bounces,
     /// Fewer than 4 hardly know their variance.

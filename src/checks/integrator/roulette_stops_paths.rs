@@ -18,7 +18,7 @@ use serde::Deserialize;
 /// The share of paths that bring light at each isolated bounce, under each roulette.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct RouletteStopsPaths {
+pub(crate) struct RouletteStopsPaths {
     ray: RayEntry,
     /// The last bounce that is looked at; the first is 1.
     /// Below 3 no law can be told from another.

@@ -10,7 +10,7 @@ use serde::Deserialize;
 /// Renders a picture again, and again on one thread.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct SameSeedSamePicture {
+pub(crate) struct SameSeedSamePicture {
     size: Size,
     bounces: Bounces,
     samples_per_pixel: Between<1, 65536>,

@@ -13,7 +13,7 @@ use serde::Deserialize;
 /// Renders a noisy picture with many seeds.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct SeedsMatter {
+pub(crate) struct SeedsMatter {
     size: Size,
     bounces: Bounces,
     samples_per_pixel: Between<1, 65536>,

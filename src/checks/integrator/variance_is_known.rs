@@ -17,7 +17,7 @@ use serde::Deserialize;
 /// Each row: the variance of one estimate along a ray is a given number.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct VarianceIsKnown {
+pub(crate) struct VarianceIsKnown {
     ray: RayEntry,
     bounces: Bounces,
     #[serde(default)]

@@ -39,7 +39,7 @@ const MISTAKES: &[(&Cause, Formula)] = &[
 
 /// The mistake that predicts the density of every sample. Of a light whose density is right, and which fails all the
 /// same, the points are not uniform. None of lights that are no meshes.
-pub fn mistake(geometries: &[(Geometry, f64)]) -> Option<&'static Cause> {
+pub(crate) fn mistake(geometries: &[(Geometry, f64)]) -> Option<&'static Cause> {
     let predicts = |formula: Formula| {
         let same = |(g, pdf): &(Geometry, f64)| (pdf / formula(g) - 1.0).abs() <= SAME;
         !geometries.is_empty() && geometries.iter().all(same)
@@ -52,7 +52,12 @@ pub fn mistake(geometries: &[(Geometry, f64)]) -> Option<&'static Cause> {
 
 impl Geometry {
     /// Of samples that met the light, each with its density.
-    pub fn of(area: f64, normal: DVec3, samples: &[LightSample], hits: &[Hit]) -> Vec<(Self, f64)> {
+    pub(crate) fn of(
+        area: f64,
+        normal: DVec3,
+        samples: &[LightSample],
+        hits: &[Hit],
+    ) -> Vec<(Self, f64)> {
         let met = samples.iter().zip(hits).filter(|(_, hit)| hit.is_hit());
         met.map(|(sample, hit)| {
             let cosine = -sample.wi.dot(hit.geometric_normal);
@@ -64,7 +69,7 @@ impl Geometry {
 }
 
 /// The area of a mesh. A ball may be sampled in many ways.
-pub fn area_of(scene: &SceneDescription, shape: u32) -> Option<f64> {
+pub(crate) fn area_of(scene: &SceneDescription, shape: u32) -> Option<f64> {
     let Shape::Mesh(mesh) = scene.shape(shape) else { return None };
     let area = |number| {
         let [a, b, c] = mesh.corners(number);

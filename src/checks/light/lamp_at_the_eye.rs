@@ -21,7 +21,7 @@ const GRAZING: f64 = 0.01;
 /// Random rays of the cameras of some scenes.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct LampAtTheEye {
+pub(crate) struct LampAtTheEye {
     scenes: Several<String>,
     /// Rays through the film of each scene.
     rays: Count,

@@ -21,7 +21,7 @@ const SAME: f64 = 0.0;
 /// Samples of every area light from some points that see its front.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct LightNumbers {
+pub(crate) struct LightNumbers {
     from: Several<Vector>,
 }
 

@@ -23,7 +23,7 @@ pub(super) const TRACED: usize = 4096;
 /// Samples an area light from some points.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct LightSamplesReachLight {
+pub(crate) struct LightSamplesReachLight {
     /// The smallest error of a mean that must be seen.
     detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.

@@ -12,7 +12,7 @@ mod traced;
 use super::CheckKind;
 
 /// The checks of this subject.
-pub static CHECKS: &[CheckKind] = &[
+pub(crate) static CHECKS: &[CheckKind] = &[
     CheckKind::of::<light_samples_reach_light::LightSamplesReachLight>(),
     CheckKind::of::<light_numbers::LightNumbers>(),
     CheckKind::of::<open_light_samples::OpenLightSamples>(),

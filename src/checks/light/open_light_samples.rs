@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 /// Samples every light of the scene that is no shape.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct OpenLightSamples {
+pub(crate) struct OpenLightSamples {
     /// The smallest error of the mean of a sky that must be seen.
     detects: Percent,
     /// Past this the verdict is inconclusive, never a pass.

@@ -17,7 +17,7 @@ use serde::Deserialize;
 /// Height and azimuth of a sample and the height of the next, in 8 × 8 × 8 cells.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct ConsecutiveSamples {
+pub(crate) struct ConsecutiveSamples {
     /// A sampler of the hemisphere: what is even in it is known.
     distribution: DistributionEntry,
     /// The smallest dependence that must be seen, as a root mean square error of the cells.

@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_2_PI;
 const NAMED_LEVEL: f64 = 1e-4;
 
 /// What came of one distribution.
-pub struct Judged {
+pub(crate) struct Judged {
     pub(super) name: String,
     pub(super) report: CountReport,
     pub(super) cells: SphereCells,

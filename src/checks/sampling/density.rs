@@ -45,7 +45,7 @@ impl Wanted {
 
 /// The form of the core's density over the upper hemisphere, and whether it is 0 below.
 #[derive(Clone, Copy, Debug)]
-pub struct Density {
+pub(crate) struct Density {
     wanted: Wanted,
     form: Option<Form>,
     is_dark_below: bool,
@@ -58,7 +58,7 @@ impl Density {
     ///
     /// # Errors
     /// If the core does not answer.
-    pub fn of(core: &mut dyn Core, distribution: &Distribution) -> Result<Option<Self>> {
+    pub(crate) fn of(core: &mut dyn Core, distribution: &Distribution) -> Result<Option<Self>> {
         let Some(wanted) = Wanted::of(distribution) else { return Ok(None) };
         let mut stream = Seed::SUITE.child("form of a density").stream();
         let above: Vec<_> = (0..DIRECTIONS).map(|_| on_hemisphere(&mut stream)).collect();
@@ -82,7 +82,7 @@ impl Density {
     }
 
     /// The mistake that makes such a density, whatever is drawn.
-    pub fn mistake(self) -> Option<&'static Cause> {
+    pub(crate) fn mistake(self) -> Option<&'static Cause> {
         let Some(form) = self.form else { return self.of_facets };
         let right = match (self.wanted, form.power) {
             (Wanted::Uniform, _) | (Wanted::Either, 0) => Form::UNIFORM,
@@ -109,7 +109,7 @@ impl Density {
     }
 
     /// The mistake that draws directions by this law of heights, where the density is right in itself.
-    pub fn mistake_of_map(self, law: Law) -> Option<&'static Cause> {
+    pub(crate) fn mistake_of_map(self, law: Law) -> Option<&'static Cause> {
         let is_uniform = self.form?.is_like(Form::UNIFORM);
         match (law, self.wanted) {
             (Law::PartOfAzimuths, _) => Some(&sampling::HALF_OF_AZIMUTHS),
@@ -126,14 +126,14 @@ impl Density {
     }
 
     /// The law that gives this product of density and Jacobian, over the sine: it draws the angle uniformly.
-    pub fn law_of_angle(self, product: Form) -> Option<Law> {
+    pub(crate) fn law_of_angle(self, product: Form) -> Option<Law> {
         let density = self.form?;
         let predicted = Form { constant: AREA_BY_ANGLE * density.constant, power: density.power };
         product.is_like(predicted).then_some(Law::ThetaUniform)
     }
 
     /// The law of heights that gives this product of density and Jacobian.
-    pub fn law_of_product(self, product: Form) -> Option<Law> {
+    pub(crate) fn law_of_product(self, product: Form) -> Option<Law> {
         let density = self.form?;
         let jacobian = Form {
             constant: product.constant / density.constant,
@@ -181,7 +181,7 @@ const AREA_BY_ANGLE: f64 = PI * PI;
 
 /// How the directions of a sampler are distributed, whatever its density says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Law {
+pub(crate) enum Law {
     /// Over the hemisphere.
     Uniform,
     /// As cos θ.

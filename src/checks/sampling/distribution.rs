@@ -18,7 +18,7 @@ const BATCH: u64 = 1 << 16;
 /// Either `{ sampler = "cosine-hemisphere" }` or `{ surface = { … }, seen-from = ["5 deg", "85 deg"] }`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct DistributionEntry {
+pub(crate) struct DistributionEntry {
     sampler: Option<SamplerEntry>,
     surface: Option<SurfaceEntry>,
     #[serde(default)]
@@ -46,7 +46,7 @@ impl DistributionEntry {
     ///
     /// # Errors
     /// A sentence for the author of the case.
-    pub fn validate(&self) -> std::result::Result<(), String> {
+    pub(crate) fn validate(&self) -> std::result::Result<(), String> {
         match (self.sampler, self.surface) {
             (Some(_), None) => Ok(()),
             (None, Some(surface)) if surface.is_delta() => {
@@ -61,7 +61,7 @@ impl DistributionEntry {
     }
 
     /// One for a sampler, one for each direction a surface is seen from.
-    pub fn distributions(&self) -> Vec<Distribution> {
+    pub(crate) fn distributions(&self) -> Vec<Distribution> {
         let sampler = self.sampler.map(|sampler| Distribution::Sampler(sampler.sampler()));
         let views = self.surface.iter().flat_map(|surface| {
             let material = surface.material();
@@ -75,7 +75,7 @@ impl DistributionEntry {
     }
 
     /// What a core has to be able to do.
-    pub fn needs(&self) -> Capabilities {
+    pub(crate) fn needs(&self) -> Capabilities {
         let of_bsdf = Capabilities::SAMPLE_BSDF | Capabilities::EVAL_BSDF;
         match self.surface {
             None => Capabilities::SAMPLE_DIRECTION,
@@ -86,7 +86,7 @@ impl DistributionEntry {
 
 /// Something that draws directions.
 #[derive(Clone, Debug)]
-pub enum Distribution {
+pub(crate) enum Distribution {
     /// Around +z.
     Sampler(Sampler),
     /// Seen from `wo`.
@@ -102,16 +102,16 @@ pub enum Distribution {
 
 /// A sample, and the density that came with it.
 #[derive(Clone, Copy, Debug)]
-pub struct Drawn {
+pub(crate) struct Drawn {
     /// `None`: sampling failed.
-    pub direction: Option<DVec3>,
+    pub(crate) direction: Option<DVec3>,
     /// Per steradian, as returned with the sample.
-    pub pdf: f64,
+    pub(crate) pdf: f64,
 }
 
 impl Distribution {
     /// `the cosine hemisphere`, `a conductor of roughness 0.3 seen from 45°`
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         match self {
             Self::Sampler(Sampler::UniformHemisphere) => "the uniform hemisphere".to_owned(),
             Self::Sampler(Sampler::CosineHemisphere) => "the cosine hemisphere".to_owned(),
@@ -122,17 +122,17 @@ impl Distribution {
     }
 
     /// Whether a sample may fail: samplers of the whole hemisphere may not.
-    pub const fn may_fail(&self) -> bool {
+    pub(crate) const fn may_fail(&self) -> bool {
         matches!(self, Self::Bsdf { .. })
     }
 
     /// Whether samples may lie anywhere on the sphere, and not above the horizon only.
-    pub const fn is_of_sphere(&self) -> bool {
+    pub(crate) const fn is_of_sphere(&self) -> bool {
         matches!(self, Self::Bsdf { material, .. } if lets_pass(&material.surface))
     }
 
     /// The height at which the density may jump.
-    pub fn kink(&self) -> Option<f64> {
+    pub(crate) fn kink(&self) -> Option<f64> {
         match self {
             Self::Sampler(_) => None,
             Self::Bsdf { material, angle, .. } => kink(&material.surface, angle.0),
@@ -143,7 +143,12 @@ impl Distribution {
     ///
     /// # Errors
     /// If the core does not answer.
-    pub fn pdf(&self, core: &mut dyn Core, directions: &[DVec3], pdf: &mut [f64]) -> Result<()> {
+    pub(crate) fn pdf(
+        &self,
+        core: &mut dyn Core,
+        directions: &[DVec3],
+        pdf: &mut [f64],
+    ) -> Result<()> {
         match self {
             Self::Sampler(sampler) => core.direction_pdf(*sampler, directions, pdf),
             Self::Bsdf { material, wo, .. } => {
@@ -160,7 +165,7 @@ impl Distribution {
     ///
     /// # Errors
     /// If the core does not answer.
-    pub fn sample(&self, core: &mut dyn Core, random: Randomness<'_>) -> Result<Vec<Drawn>> {
+    pub(crate) fn sample(&self, core: &mut dyn Core, random: Randomness<'_>) -> Result<Vec<Drawn>> {
         match self {
             Self::Sampler(sampler) => {
                 let blank = DirectionSample { direction: DVec3::ZERO, pdf: 0.0 };
@@ -187,7 +192,7 @@ impl Distribution {
     ///
     /// # Errors
     /// If the core does not answer.
-    pub fn draw(
+    pub(crate) fn draw(
         &self,
         core: &mut dyn Core,
         seed: Seed,

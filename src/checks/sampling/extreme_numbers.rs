@@ -11,7 +11,7 @@ use serde::Deserialize;
 /// Every pair of extreme numbers gives a direction above the horizon, with its density.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct ExtremeNumbers {
+pub(crate) struct ExtremeNumbers {
     distribution: DistributionEntry,
 }
 

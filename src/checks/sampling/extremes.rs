@@ -23,7 +23,7 @@ const NUMBERS: [f64; 7] = [
 ];
 
 /// Two numbers for the direction, one for the lobe.
-pub type Extreme = (DVec2, f64);
+pub(crate) type Extreme = (DVec2, f64);
 
 fn all_numbers() -> impl Iterator<Item = Extreme> {
     let pairs = NUMBERS.into_iter().flat_map(|x| NUMBERS.map(|y| DVec2::new(x, y)));
@@ -40,7 +40,7 @@ enum Answer {
 
 /// Where samples belong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Range {
+pub(crate) enum Range {
     /// Above the horizon.
     Hemisphere,
     /// Anywhere.
@@ -48,7 +48,7 @@ pub enum Range {
 }
 
 /// What came of all sets of extreme numbers.
-pub struct Extremes {
+pub(crate) struct Extremes {
     name: String,
     measures: Vec<Measure>,
     complaints: Vec<String>,
@@ -62,7 +62,7 @@ impl Extremes {
     ///
     /// # Errors
     /// Those of `ask`, but for broken contracts, which are findings.
-    pub fn of(
+    pub(crate) fn of(
         name: String,
         range: Range,
         allowed: f64,
@@ -155,7 +155,7 @@ fn word(number: f64) -> String {
 }
 
 /// All of them together.
-pub fn finding(extremes: &[Extremes]) -> Finding {
+pub(crate) fn finding(extremes: &[Extremes]) -> Finding {
     let measures = extremes.iter().flat_map(|one| one.measures.clone()).collect();
     let wrong = extremes.iter().filter(|one| !one.complaints.is_empty());
     let asked: usize = extremes.iter().map(|one| one.asked).sum();

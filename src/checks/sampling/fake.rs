@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// Draws by `map` and claims `density`, whatever the sampler; BSDFs do the same with f = pdf. A map that gives no
 /// direction fails.
-pub fn drawing(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Fake {
+pub(crate) fn drawing(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Fake {
     Fake {
         direction: Box::new(move |random, number| {
             let direction = map(random.points[number]).unwrap_or(DVec3::Z);
@@ -20,7 +20,7 @@ pub fn drawing(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Fa
 }
 
 /// Reflects and refracts with the cosine, whatever its material and the viewer, and claims `density`.
-pub fn interface(reflected: f64, density: fn(DVec3) -> f64) -> Fake {
+pub(crate) fn interface(reflected: f64, density: fn(DVec3) -> f64) -> Fake {
     let draw = move |point, lobe| {
         let up = cosine(point)?;
         Some(if lobe < reflected { up } else { -up })
@@ -50,21 +50,21 @@ fn sample(wi: Option<DVec3>, density: fn(DVec3) -> f64) -> BsdfSample {
 }
 
 /// Malley's method, right.
-pub fn cosine(point: DVec2) -> Option<DVec3> {
+pub(crate) fn cosine(point: DVec2) -> Option<DVec3> {
     Some(at_height((1.0 - point.x).sqrt(), TAU * point.y))
 }
 
 /// Archimedes' method, right.
-pub fn uniform(point: DVec2) -> Option<DVec3> {
+pub(crate) fn uniform(point: DVec2) -> Option<DVec3> {
     Some(at_height(1.0 - point.x, TAU * point.y))
 }
 
 /// cos θ/π.
-pub fn cosine_density(direction: DVec3) -> f64 {
+pub(crate) fn cosine_density(direction: DVec3) -> f64 {
     direction.z.max(0.0) * FRAC_1_PI
 }
 
 /// 1/2π.
-pub fn uniform_density(direction: DVec3) -> f64 {
+pub(crate) fn uniform_density(direction: DVec3) -> f64 {
     if direction.z > 0.0 { 1.0 / TAU } else { 0.0 }
 }

@@ -16,7 +16,7 @@ pub(super) const CELLS: (usize, usize) = (4, 8);
 const SHARE_DETECTS: f64 = 0.01;
 
 /// The integral of one density, and what it has to be.
-pub struct Mass {
+pub(crate) struct Mass {
     pub(super) name: String,
     pub(super) value: f64,
     /// Bound on the error of the quadrature.

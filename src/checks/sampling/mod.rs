@@ -25,7 +25,7 @@ mod weights_integrate;
 use super::CheckKind;
 
 /// The checks of this subject.
-pub static CHECKS: &[CheckKind] = &[
+pub(crate) static CHECKS: &[CheckKind] = &[
     CheckKind::of::<numbers_as_given::NumbersAsGiven>(),
     CheckKind::of::<extreme_numbers::ExtremeNumbers>(),
     CheckKind::of::<pdf_integrates_to_one::PdfIntegratesToOne>(),

@@ -26,7 +26,7 @@ const EXPLAINED: f64 = 2e-3;
 /// E\[Yₗₘ\] over samples is ∫ pdf Yₗₘ, for degrees 1 to 3.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct MomentsFollowPdf {
+pub(crate) struct MomentsFollowPdf {
     distribution: DistributionEntry,
     /// The smallest error of a moment that must be seen; moments lie between −1 and 1.
     detects: Percent,
@@ -64,7 +64,7 @@ impl OfDistributions for MomentsFollowPdf {
 }
 
 /// What came of one distribution.
-pub struct Judged {
+pub(crate) struct Judged {
     name: String,
     reports: Vec<MeanReport>,
     cause: Option<(&'static Cause, String)>,

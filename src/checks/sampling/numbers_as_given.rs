@@ -12,7 +12,7 @@ use serde::Deserialize;
 /// Samples follow from the numbers they are given.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct NumbersAsGiven {
+pub(crate) struct NumbersAsGiven {
     distribution: DistributionEntry,
 }
 

@@ -6,7 +6,7 @@ use crate::contract::Capabilities;
 use serde::de::DeserializeOwned;
 
 /// A check of the directions that a sampler or a BSDF draws.
-pub trait OfDistributions: DeserializeOwned + Send + Sync + 'static {
+pub(crate) trait OfDistributions: DeserializeOwned + Send + Sync + 'static {
     /// As in [`Check`].
     const NAME: &'static str;
     /// As in [`Check`].

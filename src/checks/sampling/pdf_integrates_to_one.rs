@@ -10,7 +10,7 @@ use serde::Deserialize;
 /// The core's own density, integrated over the whole sphere.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct PdfIntegratesToOne {
+pub(crate) struct PdfIntegratesToOne {
     distribution: DistributionEntry,
 }
 

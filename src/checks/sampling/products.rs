@@ -31,7 +31,7 @@ const fn step(precision: Precision) -> f64 {
 }
 
 /// Density times Jacobian at many points.
-pub struct Products {
+pub(crate) struct Products {
     pub(super) name: String,
     /// (product, cos θ), sorted by product; points whose neighbours fail are left out.
     pub(super) values: Vec<(f64, f64)>,

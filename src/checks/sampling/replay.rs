@@ -8,7 +8,7 @@ use crate::checks::phrase::{percent, some_are};
 use glam::{DVec2, DVec3};
 
 /// Samples.
-pub const COUNT: usize = 2000;
+pub(crate) const COUNT: usize = 2000;
 /// A number is changed by this much: about a third of its range, round the end.
 const STEP: f64 = 0.37;
 /// A direction that is moved by less than this has not been moved.
@@ -46,7 +46,7 @@ enum Number {
 }
 
 /// What came of asking again and again.
-pub struct Replayed {
+pub(crate) struct Replayed {
     name: String,
     /// Samples that differ when the same is asked again.
     forgotten: usize,
@@ -63,7 +63,7 @@ impl Replayed {
     ///
     /// # Errors
     /// Those of `ask`.
-    pub fn of<E>(
+    pub(crate) fn of<E>(
         name: String,
         numbers: &Numbers,
         ask: &mut dyn FnMut(&Numbers) -> Result<Vec<Drawn>, E>,
@@ -89,7 +89,7 @@ impl Replayed {
     }
 
     /// Four.
-    pub fn measures(&self) -> [Measure; 4] {
+    pub(crate) fn measures(&self) -> [Measure; 4] {
         let unmoved = |which: &str, moved: f64| {
             let what = format!("share of samples that are not moved by the {which} number");
             Measure::at_most(what, 1.0 - moved, 1.0 - MOSTLY)
@@ -105,7 +105,7 @@ impl Replayed {
     }
 
     /// The first thing that is wrong.
-    pub fn complaint(&self) -> Option<String> {
+    pub(crate) fn complaint(&self) -> Option<String> {
         let told = |some: usize, what: &str| {
             format!("{}: {} {what}", self.name, some_are(some, COUNT, "samples"))
         };
@@ -122,7 +122,7 @@ impl Replayed {
     }
 
     /// The mistake that is told by it, with evidence.
-    pub fn cause(&self) -> Option<(&'static Cause, String)> {
+    pub(crate) fn cause(&self) -> Option<(&'static Cause, String)> {
         if self.forgotten > 0 {
             let evidence = format!("{} of {COUNT} samples change", self.forgotten);
             return Some((&sampling::OWN_NUMBERS, evidence));

@@ -19,7 +19,7 @@ use serde::Deserialize;
 /// Density times Jacobian is 1.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct SampleJacobian {
+pub(crate) struct SampleJacobian {
     distribution: DistributionEntry,
 }
 

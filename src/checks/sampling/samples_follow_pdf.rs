@@ -13,7 +13,7 @@ use serde::Deserialize;
 /// Counts of samples against the integral of the density over cells.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct SamplesFollowPdf {
+pub(crate) struct SamplesFollowPdf {
     distribution: DistributionEntry,
     /// The smallest error of the density, root mean square, that must be seen.
     detects: Percent,

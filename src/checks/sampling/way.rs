@@ -10,7 +10,7 @@ const HALVINGS: usize = 30;
 
 /// The third number of all points, by the way that it chooses.
 #[derive(Clone, Copy, Debug)]
-pub enum Way {
+pub(crate) enum Way {
     /// There is one.
     Only,
     /// That of the smallest numbers.
@@ -21,7 +21,7 @@ pub enum Way {
 
 impl Way {
     /// Those that samples may go.
-    pub const fn of(distribution: &Distribution) -> &'static [Self] {
+    pub(crate) const fn of(distribution: &Distribution) -> &'static [Self] {
         match distribution.is_of_sphere() {
             true => &[Self::First, Self::Last],
             false => &[Self::Only],
@@ -29,7 +29,7 @@ impl Way {
     }
 
     /// A third number that chooses it, if any does.
-    pub const fn lobe(self) -> f64 {
+    pub(crate) const fn lobe(self) -> f64 {
         match self {
             Self::Only => 0.5,
             Self::First => 0.0,
@@ -46,7 +46,7 @@ impl Way {
     }
 
     /// As part of a name.
-    pub const fn words(self) -> &'static str {
+    pub(crate) const fn words(self) -> &'static str {
         match self {
             Self::Only => "",
             Self::First => ", lobe 0",
@@ -58,7 +58,7 @@ impl Way {
     ///
     /// # Errors
     /// Those of `draw`.
-    pub fn chances(
+    pub(crate) fn chances(
         self,
         points: &[DVec2],
         draw: &mut Draw<'_>,
@@ -88,10 +88,10 @@ impl Way {
 }
 
 /// One sample for each point and third number.
-pub type Draw<'a> = dyn FnMut(&[DVec2], &[f64]) -> Result<Vec<Drawn>, CheckError> + 'a;
+pub(crate) type Draw<'a> = dyn FnMut(&[DVec2], &[f64]) -> Result<Vec<Drawn>, CheckError> + 'a;
 
 /// Whether two samples lie on the same side, or fail both.
-pub fn is_same_way(one: &Drawn, other: &Drawn) -> bool {
+pub(crate) fn is_same_way(one: &Drawn, other: &Drawn) -> bool {
     let side = |drawn: &Drawn| drawn.direction.map(|direction| direction.z > 0.0);
     side(one) == side(other)
 }

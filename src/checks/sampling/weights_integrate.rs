@@ -25,7 +25,7 @@ const SAME: f64 = 0.02;
 /// E[cosⁿθ / pdf] = 2π/(n + 1).
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct WeightsIntegrate {
+pub(crate) struct WeightsIntegrate {
     /// A sampler, or a surface whose samples fill the hemisphere.
     distribution: DistributionEntry,
     /// The smallest error of an integral that must be seen.
@@ -90,7 +90,7 @@ fn mean_weights(
 }
 
 /// What came of one distribution.
-pub struct Judged {
+pub(crate) struct Judged {
     name: String,
     reports: Vec<MeanReport>,
     density: Option<Density>,

@@ -16,7 +16,7 @@ const RAYS_EACH: usize = 10;
 /// A core hits what exact arithmetic hits, misses what it misses, at the right t.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct AgreesWithExactArithmetic {
+pub(crate) struct AgreesWithExactArithmetic {
     /// Random rays, ten at each random triangle.
     rays: Count,
 }

@@ -11,7 +11,7 @@ use serde::Deserialize;
 /// Degenerate triangles are missed, and every other question gets an answer.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct DegenerateTriangles {}
+pub(crate) struct DegenerateTriangles {}
 
 impl Check for DegenerateTriangles {
     const NAME: &'static str = "degenerate-triangles";

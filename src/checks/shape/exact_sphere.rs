@@ -19,17 +19,17 @@ const REACH: f64 = 1.2;
 
 /// A sphere, a ray, and what has to come out of them.
 #[derive(Clone, Copy, Debug)]
-pub struct Encounter {
+pub(crate) struct Encounter {
     /// Always a sphere.
-    pub primitive: Primitive,
+    pub(crate) primitive: Primitive,
     /// Its direction has any length.
-    pub ray: Ray,
+    pub(crate) ray: Ray,
     /// t and the outward normal; `None` for a miss.
-    pub hit: Option<(f64, DVec3)>,
+    pub(crate) hit: Option<(f64, DVec3)>,
     /// From the ray's origin to the centre, in the world.
     far: f64,
     /// In the world.
-    pub radius: f64,
+    pub(crate) radius: f64,
     /// Offset of the ray from the centre, in the world.
     offset: f64,
     /// Half the way through the sphere, in the world; 0 past it.
@@ -38,7 +38,7 @@ pub struct Encounter {
 
 impl Encounter {
     /// A random one whose origin is this many radii from the centre.
-    pub fn random(distance: f64, precision: Precision, stream: &mut Stream) -> Self {
+    pub(crate) fn random(distance: f64, precision: Precision, stream: &mut Stream) -> Self {
         let held = |vector: DVec3| match precision {
             Precision::Single => vector.as_vec3().as_dvec3(),
             Precision::Double => vector,
@@ -111,7 +111,7 @@ impl Encounter {
     }
 
     /// Whether no rounding of the formula decides between a hit and a miss, or between two hits.
-    pub fn is_clear(&self, formula: Formula, precision: Precision) -> bool {
+    pub(crate) fn is_clear(&self, formula: Formula, precision: Precision) -> bool {
         let rounding = self.rounding(formula, precision);
         let grazes = (self.radius - self.offset).abs();
         let room = if self.half_chord > 0.0 { grazes.min(self.half_chord) } else { grazes };
@@ -141,13 +141,13 @@ impl Encounter {
 
     /// How far t may be off: roundings, more where the ray grazes, over the length of the
     /// direction.
-    pub fn allowed(&self, formula: Formula, precision: Precision) -> f64 {
+    pub(crate) fn allowed(&self, formula: Formula, precision: Precision) -> f64 {
         let slant = 1.0 + self.offset / self.half_chord;
         self.rounding(formula, precision) * slant / self.ray.direction.length()
     }
 
     /// How far the normal may be off: as t is, and as the hit point is rounded.
-    pub fn allowed_normal(&self, formula: Formula, precision: Precision) -> f64 {
+    pub(crate) fn allowed_normal(&self, formula: Formula, precision: Precision) -> f64 {
         let along = self.allowed(formula, precision) * self.ray.direction.length();
         let place = Tolerance::ROUNDINGS.of(precision) * self.ray.origin.length();
         Tolerance::DIRECTION.of(precision) + (along + place) / self.radius
@@ -157,7 +157,7 @@ impl Encounter {
 /// How a sphere's discriminant is formed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Formula {
+pub(crate) enum Formula {
     /// b² − 4ac, with the square of the distance in b and in c: rounding grows with it.
     Quadratic,
     /// r² − |l|², with l the offset of the ray from the centre.

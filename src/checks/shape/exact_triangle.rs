@@ -29,14 +29,14 @@ type Steps = [i128; 3];
 
 /// A triangle on the grid, and the size of a step.
 #[derive(Clone, Copy, Debug)]
-pub struct GridTriangle {
+pub(crate) struct GridTriangle {
     vertices: [Steps; 3],
     step: f64,
 }
 
 /// A ray on the grid. Its direction is in steps too, of a size of their own.
 #[derive(Clone, Copy, Debug)]
-pub struct GridRay {
+pub(crate) struct GridRay {
     origin: Steps,
     direction: Steps,
     /// The size of a step of the direction in the world.
@@ -48,20 +48,20 @@ pub struct GridRay {
 
 /// Where a ray meets the plane of a triangle, exact but for the last rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Meeting {
+pub(crate) struct Meeting {
     /// Barycentric weights of the three vertices.
-    pub weights: [f64; 3],
+    pub(crate) weights: [f64; 3],
     /// In units of the world's direction.
-    pub t: f64,
+    pub(crate) t: f64,
     /// e1 · (d × e2) in the world; negative where the ray comes from behind.
-    pub determinant: f64,
+    pub(crate) determinant: f64,
     /// What is right.
-    pub truth: Truth,
+    pub(crate) truth: Truth,
 }
 
 /// What a core has to answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Truth {
+pub(crate) enum Truth {
     /// Hits, with t within `allowed`.
     Hit {
         /// Absolute.
@@ -120,7 +120,7 @@ fn target_weights(stream: &mut Stream) -> [f64; 2] {
 
 impl GridTriangle {
     /// A triangle of any size, place and shape down to slivers.
-    pub fn random(stream: &mut Stream) -> Self {
+    pub(crate) fn random(stream: &mut Stream) -> Self {
         let edge_exponent = exponent(stream, EDGE_EXPONENTS);
         let edge = 2f64.powi(edge_exponent);
         let step = 2f64.powi(exponent(stream, SIZE_EXPONENTS) - edge_exponent);
@@ -134,7 +134,7 @@ impl GridTriangle {
     }
 
     /// The triangle as a core sees it, with flat shading.
-    pub fn primitive(&self) -> Primitive {
+    pub(crate) fn primitive(&self) -> Primitive {
         let positions = self.vertices.map(|vertex| self.step * to_vector(vertex));
         let (e1, e2) = self.edges();
         Primitive::Triangle { positions, normals: [to_vector(cross(e1, e2)).normalize(); 3] }
@@ -147,7 +147,7 @@ impl GridTriangle {
 
     /// A ray at a point in or around the triangle, from anywhere, with a direction of about unit length; some
     /// look away from it, some end before or just behind it.
-    pub fn ray(&self, stream: &mut Stream) -> GridRay {
+    pub(crate) fn ray(&self, stream: &mut Stream) -> GridRay {
         let [first, ..] = self.vertices.map(to_vector);
         let (e1, e2) = self.edges();
         let [v, w] = target_weights(stream);
@@ -169,7 +169,7 @@ impl GridTriangle {
     }
 
     /// The ray as a core sees it.
-    pub fn world_ray(&self, ray: &GridRay) -> Ray {
+    pub(crate) fn world_ray(&self, ray: &GridRay) -> Ray {
         Ray {
             origin: self.step * to_vector(ray.origin),
             t_min: ray.t_min,
@@ -179,7 +179,7 @@ impl GridTriangle {
     }
 
     /// Where they meet; `None` for a ray along the plane.
-    pub fn meeting(&self, ray: &GridRay, precision: Precision) -> Option<Meeting> {
+    pub(crate) fn meeting(&self, ray: &GridRay, precision: Precision) -> Option<Meeting> {
         let (e1, e2) = self.edges();
         let from_first = subtract(ray.origin, self.vertices[0]);
         let p = cross(ray.direction, e2);

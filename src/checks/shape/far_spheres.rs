@@ -12,7 +12,7 @@ use serde::Deserialize;
 /// Spheres are hit where they are, from any distance.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct FarSpheres {
+pub(crate) struct FarSpheres {
     /// From the origin of the rays to the centre, in radii; 0 is inside.
     distances: Several<f64>,
     /// At each distance.

@@ -16,7 +16,7 @@ use serde::Deserialize;
 /// Depth, normals and shapes of a picture.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct FirstHits {
+pub(crate) struct FirstHits {
     /// Columns and rows.
     size: Size,
 }
@@ -80,7 +80,7 @@ impl FirstHits {
 
 /// What stands at the centre of each pixel of the film, row by row from the top: distance from the
 /// camera and unit shading normal; infinity and 0 where nothing does.
-pub fn first_hits(scene: &SceneDescription, camera: &Camera) -> Vec<(f64, DVec3)> {
+pub(crate) fn first_hits(scene: &SceneDescription, camera: &Camera) -> Vec<(f64, DVec3)> {
     let view = View { scene, camera: *camera, size: camera.film };
     let seen = |film: &DVec2| {
         let met = nearest(scene, &view.ray(*film));

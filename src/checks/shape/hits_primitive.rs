@@ -18,7 +18,7 @@ const SPELT_OUT: usize = 3;
 /// Rays meet a primitive where their rows say, and nowhere else.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct HitsPrimitive {
+pub(crate) struct HitsPrimitive {
     triangle: Option<TriangleEntry>,
     sphere: Option<SphereEntry>,
     ray: Vec<RayRow>,

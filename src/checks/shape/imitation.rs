@@ -9,20 +9,20 @@ use glam::DVec3;
 
 /// What there is to say of a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Answer {
+pub(crate) struct Answer {
     /// Ray parameter in units of `|direction|`.
-    pub t: f64,
+    pub(crate) t: f64,
     /// Unit, on the side of the winding; outward for a sphere.
-    pub geometric_normal: DVec3,
+    pub(crate) geometric_normal: DVec3,
     /// Unit, interpolated.
-    pub shading_normal: DVec3,
+    pub(crate) shading_normal: DVec3,
     /// Weights of the three vertices; `None` for a sphere.
-    pub weights: Option<[f64; 3]>,
+    pub(crate) weights: Option<[f64; 3]>,
 }
 
 impl Answer {
     /// As a case would write it: `t = 1, normal = [0, 0, 1], shading-normal = [0, 0, 1]`.
-    pub fn in_words(&self) -> String {
+    pub(crate) fn in_words(&self) -> String {
         let [normal, shading] = [self.geometric_normal, self.shading_normal]
             .map(|n| n.to_array().map(figure).join(", "));
         let known = format!("t = {}, normal = [{normal}], shading-normal = [{shading}]", self.t);
@@ -33,7 +33,7 @@ impl Answer {
     }
 
     /// Whether a core gave this answer, to within `allowed` (relative for t).
-    pub fn is_like(&self, hit: &Hit, allowed: f64) -> bool {
+    pub(crate) fn is_like(&self, hit: &Hit, allowed: f64) -> bool {
         let weights = self.weights.is_none_or(|[_, v, w]| {
             (hit.uv.x - v).abs() <= allowed && (hit.uv.y - w).abs() <= allowed
         });
@@ -45,10 +45,10 @@ impl Answer {
 }
 
 /// An implementation of ray-primitive intersection.
-pub type Formula = fn(&Primitive, &Ray) -> Option<Answer>;
+pub(crate) type Formula = fn(&Primitive, &Ray) -> Option<Answer>;
 
 /// The right one: the first meeting point inside the primitive and inside the open segment.
-pub fn intersection(primitive: &Primitive, ray: &Ray) -> Option<Answer> {
+pub(crate) fn intersection(primitive: &Primitive, ray: &Ray) -> Option<Answer> {
     meetings(primitive, ray)
         .into_iter()
         .find(|m| m.is_inside() && is_on(ray, m.t))
@@ -142,15 +142,15 @@ fn sphere_meetings(centre: DVec3, radius: f64, ray: &Ray) -> Vec<Meeting> {
 }
 
 /// An implementation that people write instead.
-pub struct Mistake {
+pub(crate) struct Mistake {
     /// What was done.
-    pub cause: &'static Cause,
+    pub(crate) cause: &'static Cause,
     /// What it answers.
-    pub formula: Formula,
+    pub(crate) formula: Formula,
 }
 
 /// The mistakes that predict every one of these answers: `hits[i]` to `rays[i]`.
-pub fn explanations(
+pub(crate) fn explanations(
     primitive: &Primitive,
     rays: &[Ray],
     hits: &[Hit],
@@ -356,7 +356,7 @@ const MISTAKES: &[Mistake] = &[
 
 /// The answer as a core would give it.
 #[cfg(test)]
-pub fn as_hit(answer: Option<Answer>) -> Hit {
+pub(crate) fn as_hit(answer: Option<Answer>) -> Hit {
     answer.map_or(Hit::MISS, |answer| {
         let [_, v, w] = answer.weights.unwrap_or_default();
         Hit {
@@ -375,7 +375,7 @@ pub fn as_hit(answer: Option<Answer>) -> Hit {
 /// # Panics
 /// If there is none.
 #[cfg(test)]
-pub fn mistake(cause: &Cause) -> Formula {
+pub(crate) fn mistake(cause: &Cause) -> Formula {
     let known = MISTAKES.iter().find(|mistake| mistake.cause == cause);
     known.unwrap_or_else(|| panic!("no mistake `{}`", cause.name)).formula
 }

@@ -20,7 +20,7 @@ const RAYS_EACH: usize = 100;
 /// Rays spawned at a surface leave it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct LeavesItsSurface {
+pub(crate) struct LeavesItsSurface {
     /// Rays away from spheres, and as many from triangles.
     rays: Count,
 }

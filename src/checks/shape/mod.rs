@@ -19,7 +19,7 @@ mod shared_edges;
 mod sphere_range;
 mod view;
 
-pub use first_hits::first_hits;
+pub(crate) use first_hits::first_hits;
 #[cfg(test)]
 pub(in crate::checks) use imitation::as_hit;
 pub(in crate::checks) use imitation::{Answer, intersection};
@@ -27,7 +27,7 @@ pub(in crate::checks) use imitation::{Answer, intersection};
 use super::CheckKind;
 
 /// The checks of this subject.
-pub static CHECKS: &[CheckKind] = &[
+pub(crate) static CHECKS: &[CheckKind] = &[
     CheckKind::of::<hits_primitive::HitsPrimitive>(),
     CheckKind::of::<agrees_with_exact_arithmetic::AgreesWithExactArithmetic>(),
     CheckKind::of::<far_spheres::FarSpheres>(),

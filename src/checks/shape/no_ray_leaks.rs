@@ -27,7 +27,7 @@ const AT_VERTICES: u64 = 100;
 /// No ray from the middle of a closed mesh escapes.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct NoRayLeaks {
+pub(crate) struct NoRayLeaks {
     /// In random directions, at the default budget.
     rays: Count,
 }

@@ -15,7 +15,7 @@ use serde::Deserialize;
 /// Pairs of triangles, each with a ray at the edge between them and one into either.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct SharedEdges {
+pub(crate) struct SharedEdges {
     /// At the default budget.
     pairs: Count,
 }

@@ -17,7 +17,7 @@ use std::path::PathBuf;
 
 /// What `furnace compare` understands.
 #[derive(Clone, Debug, Args)]
-pub struct CompareArguments {
+pub(crate) struct CompareArguments {
     /// Images (EXR, PFM, HDR, PNG); the last is the reference. Several before it are independent
     /// renders of one image, whose mean and variance are taken.
     #[arg(required = true, num_args = 2.., value_name = "PICTURE")]
@@ -57,7 +57,7 @@ impl CompareArguments {
 }
 
 /// Compares, and says how it went.
-pub fn compare(arguments: &CompareArguments) -> Answer {
+pub(crate) fn compare(arguments: &CompareArguments) -> Answer {
     let comparison = measure(arguments)?;
     if arguments.json {
         say_line!("{}", serde_json::to_string_pretty(&comparison).map_err(Failure::broken)?);

@@ -7,11 +7,11 @@ use walkdir::WalkDir;
 
 /// Files, when each was last written, and how long it is.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Snapshot(BTreeMap<PathBuf, (Option<SystemTime>, u64)>);
+pub(crate) struct Snapshot(BTreeMap<PathBuf, (Option<SystemTime>, u64)>);
 
 impl Snapshot {
     /// All files at and below some paths. What cannot be read is not there.
-    pub fn of(paths: &[PathBuf]) -> Self {
+    pub(crate) fn of(paths: &[PathBuf]) -> Self {
         let entries = paths.iter().flat_map(WalkDir::new).filter_map(Result::ok);
         let files = entries.filter_map(|entry| {
             let about = entry.metadata().ok().filter(|about| about.is_file())?;
@@ -22,7 +22,7 @@ impl Snapshot {
 
     /// Waits until the files are others than these and have come to rest: a library that is being
     /// linked is not yet one.
-    pub fn wait_for_change(&self, paths: &[PathBuf], mut pause: impl FnMut()) {
+    pub(crate) fn wait_for_change(&self, paths: &[PathBuf], mut pause: impl FnMut()) {
         let mut last = Self::of(paths);
         loop {
             pause();

@@ -14,7 +14,7 @@ const NAMED_TRIALS: usize = 3;
 
 /// What a cycle tries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scope {
+pub(crate) enum Scope {
     /// Everything that is selected.
     All,
     /// What failed last.
@@ -23,7 +23,7 @@ pub enum Scope {
 
 /// How trials have ended, cycle after cycle.
 #[derive(Debug, Default)]
-pub struct Memory {
+pub(crate) struct Memory {
     trials: BTreeMap<Name, History>,
 }
 
@@ -39,7 +39,7 @@ struct History {
 
 impl Memory {
     /// Leaves in `trials` what failed last, if any of that is still there. What is not is forgotten.
-    pub fn restrict(&mut self, trials: &mut Vec<Trial>) -> Scope {
+    pub(crate) fn restrict(&mut self, trials: &mut Vec<Trial>) -> Scope {
         let name = |trial: &Trial| (trial.case.id.clone(), trial.core.to_string());
         let names: BTreeSet<Name> = trials.iter().map(name).collect();
         self.trials.retain(|name, _| names.contains(name));
@@ -53,12 +53,12 @@ impl Memory {
     }
 
     /// Whether nothing failed when it was last tried.
-    pub fn is_clean(&self) -> bool {
+    pub(crate) fn is_clean(&self) -> bool {
         !self.trials.values().any(|history| history.fails)
     }
 
     /// Remembers how trials have ended, and says in one line what is new.
-    pub fn take(&mut self, time: &str, ended: &[TrialRecord], seconds: f64) -> String {
+    pub(crate) fn take(&mut self, time: &str, ended: &[TrialRecord], seconds: f64) -> String {
         let mut told = Vec::new();
         for trial in ended {
             let history = self.trials.entry((trial.case.clone(), trial.core.clone())).or_default();

@@ -23,7 +23,7 @@ use std::time::{Duration, SystemTime};
 const PAUSE: Duration = Duration::from_millis(400);
 
 /// Tries, waits for a change, and so on.
-pub fn watch(arguments: &RunArguments, project: &Project, runs: &Path) -> Answer {
+pub(crate) fn watch(arguments: &RunArguments, project: &Project, runs: &Path) -> Answer {
     let request = arguments.request();
     let watched = watched(project, &request);
     say_line!("  watching {}; runs go to {}; ctrl-c ends", listed(&watched), runs.display());

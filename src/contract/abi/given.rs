@@ -15,7 +15,7 @@ use std::marker::PhantomData;
 use std::ptr;
 
 /// The size that a struct of the boundary says it has.
-pub fn struct_size<T>() -> u32 {
+pub(crate) fn struct_size<T>() -> u32 {
     // Every struct of the boundary is far below 4 GiB.
     u32::try_from(size_of::<T>()).unwrap_or(u32::MAX)
 }
@@ -34,7 +34,7 @@ fn c_name(name: &str) -> CString {
 }
 
 /// A scene as C structs that point into it.
-pub struct SceneTables<'a> {
+pub(crate) struct SceneTables<'a> {
     /// What every `name` points to.
     names: Vec<CString>,
     camera: Option<abi::Camera>,
@@ -47,7 +47,7 @@ pub struct SceneTables<'a> {
 
 impl<'a> SceneTables<'a> {
     /// The tables of `scene`.
-    pub fn new(scene: &'a SceneDescription) -> Self {
+    pub(crate) fn new(scene: &'a SceneDescription) -> Self {
         let mut names = vec![c_name(&scene.name)];
         let mut name = |text: &str| {
             names.push(c_name(text));
@@ -66,7 +66,7 @@ impl<'a> SceneTables<'a> {
     }
 
     /// The struct that a core is handed; valid as long as `self`.
-    pub fn as_abi(&self) -> abi::Scene {
+    pub(crate) fn as_abi(&self) -> abi::Scene {
         abi::Scene {
             struct_size: struct_size::<abi::Scene>(),
             material_count: count(self.materials.len()),
@@ -298,7 +298,7 @@ fn sampler(sampler: Sampler) -> u32 {
 }
 
 /// How to build.
-pub fn build(acceleration: Acceleration, counted: *const abi::CountedTests) -> abi::Build {
+pub(crate) fn build(acceleration: Acceleration, counted: *const abi::CountedTests) -> abi::Build {
     let (accelerate, split, max_leaf_size) = match acceleration {
         Acceleration::BruteForce => (0, abi::SPLIT_CORES_CHOICE, 0),
         Acceleration::Bvh { split, max_leaf_size } => (1, split_number(split), max_leaf_size),
@@ -343,7 +343,7 @@ fn adaptive(settings: AdaptiveSettings) -> abi::Adaptive {
 }
 
 /// How to render; points to the two others.
-pub fn render(
+pub(crate) fn render(
     settings: &RenderSettings,
     integrator: &abi::Integrator,
     adaptive: Option<&abi::Adaptive>,

@@ -15,7 +15,7 @@ use std::mem::offset_of;
 /// Functions whose arguments C has in another form than the table of questions.
 macro_rules! functions {
     ($($name:ident($($argument:ident: $type:ty),*) $(-> $status:ty)?;)*) => {
-        $(pub type $name =
+        $(pub(crate) type $name =
             unsafe extern "C" fn(this: *mut c_void, $($argument: $type),*) $(-> $status)?;)*
     };
 }

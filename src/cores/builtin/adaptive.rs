@@ -8,7 +8,7 @@ const HALF_WIDTH: f64 = 1.96;
 /// Running mean and variance of the samples of one pixel (Welford 1962), which unlike sums of squares
 /// gives exactly zero for a constant.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Running {
+pub(crate) struct Running {
     count: u32,
     mean: f64,
     squares: f64,
@@ -16,7 +16,7 @@ pub struct Running {
 
 impl Running {
     /// Takes one more sample in: a luminance, or the light of a channel.
-    pub fn add(&mut self, value: f64) {
+    pub(crate) fn add(&mut self, value: f64) {
         self.count += 1;
         let deviation = value - self.mean;
         self.mean += deviation / f64::from(self.count);
@@ -24,7 +24,7 @@ impl Running {
     }
 
     /// Variance of the mean so far; 0 before the second sample, when nothing is known of it.
-    pub fn variance_of_mean(&self) -> f64 {
+    pub(crate) fn variance_of_mean(&self) -> f64 {
         match self.count {
             0 | 1 => 0.0,
             _ => self.standard_error().powi(2),
@@ -32,7 +32,7 @@ impl Running {
     }
 
     /// Whether a batch is complete and 1.96 σ/√n ≤ tolerance · μ, with σ over n − 1.
-    pub fn suffice(&self, settings: AdaptiveSettings) -> bool {
+    pub(crate) fn suffice(&self, settings: AdaptiveSettings) -> bool {
         let at_end_of_batch = self.count.is_multiple_of(settings.samples_per_batch.max(1));
         at_end_of_batch && self.half_interval() <= settings.max_tolerance * self.mean
     }
@@ -50,12 +50,12 @@ impl Running {
 }
 
 /// Luminance of linear RGB, by the weights of Rec. 709.
-pub fn luminance([red, green, blue]: [f64; 3]) -> f64 {
+pub(crate) fn luminance([red, green, blue]: [f64; 3]) -> f64 {
     0.2126 * red + 0.7152 * green + 0.0722 * blue
 }
 
 /// What the rule makes of one stream of luminances that ends at the sample cap.
-pub fn mean_of_stream(settings: AdaptiveSettings, stream: &[f64]) -> AdaptiveMean {
+pub(crate) fn mean_of_stream(settings: AdaptiveSettings, stream: &[f64]) -> AdaptiveMean {
     let mut luminances = Running::default();
     let mut sum = 0.0;
     for &sample in stream {

@@ -5,21 +5,21 @@ use crate::scene::Camera;
 use glam::{DVec2, dvec3};
 
 /// A camera with its film's half sizes at distance 1 worked out.
-pub struct Pinhole {
+pub(crate) struct Pinhole {
     camera: Camera,
     half_size: DVec2,
 }
 
 impl Pinhole {
     /// Takes the tangents of half the fields of view once.
-    pub fn new(camera: &Camera) -> Self {
+    pub(crate) fn new(camera: &Camera) -> Self {
         let half_size =
             DVec2::new((camera.horizontal_fov / 2.0).tan(), (camera.vertical_fov / 2.0).tan());
         Self { camera: *camera, half_size }
     }
 
     /// The ray through `film`, a point of [0, 1]² with (0, 0) bottom left.
-    pub fn ray(&self, film: DVec2) -> Ray {
+    pub(crate) fn ray(&self, film: DVec2) -> Ray {
         let on_sensor = (2.0 * film - 1.0) * self.half_size;
         let direction = self.camera.camera_to_world * dvec3(on_sensor.x, on_sensor.y, -1.0);
         Ray {
@@ -31,7 +31,7 @@ impl Pinhole {
     }
 
     /// The ray through the point `jitter` ∈ [0, 1)² of a pixel: column `x`, row `y` counted from the top.
-    pub fn ray_through_pixel(
+    pub(crate) fn ray_through_pixel(
         &self,
         [x, y]: [u32; 2],
         [width, height]: [u32; 2],

@@ -16,7 +16,7 @@ use crate::contract::{IntegratorSettings, Ray};
 use glam::{DVec3, Vec3};
 
 /// Traces paths, one after the other.
-pub struct Integrator<'a> {
+pub(crate) struct Integrator<'a> {
     pub(super) eye: Eye<'a>,
     pub(super) settings: &'a IntegratorSettings,
     pub(super) stream: Stream,
@@ -44,12 +44,12 @@ struct Path {
 
 impl<'a> Integrator<'a> {
     /// Paths in `world`, none traced yet.
-    pub fn new(world: &'a World, settings: &'a IntegratorSettings) -> Self {
+    pub(crate) fn new(world: &'a World, settings: &'a IntegratorSettings) -> Self {
         Self { eye: Eye::new(world), settings, stream: Stream::new(settings.seed, 0, 0) }
     }
 
     /// One estimate of the radiance along `ray`, by the numbers of `stream`.
-    pub fn radiance(&mut self, ray: &Ray, stream: Stream) -> Vec3 {
+    pub(crate) fn radiance(&mut self, ray: &Ray, stream: Stream) -> Vec3 {
         self.stream = stream;
         let (first, last) = (*self.settings.bounces.start(), *self.settings.bounces.end());
         let wo = -ray.direction.normalize();

@@ -35,18 +35,18 @@ pub enum Light {
 
 /// A direction towards a light, and where a shadow ray towards it ends.
 #[derive(Clone, Copy, Debug)]
-pub struct Aim {
+pub(crate) struct Aim {
     /// As the contract has it.
-    pub sample: LightSample,
+    pub(crate) sample: LightSample,
     /// In front of the point on the light, away from its surface; `None` at infinity.
-    pub target: Option<DVec3>,
+    pub(crate) target: Option<DVec3>,
 }
 
 const INVALID: LightSample = LightSample { distance: f64::INFINITY, ..LightSample::NONE };
 
 impl Light {
     /// Prepares light `light` of `scene`.
-    pub fn new(scene: &SceneDescription, light: &scene::Light) -> Self {
+    pub(crate) fn new(scene: &SceneDescription, light: &scene::Light) -> Self {
         match *light {
             scene::Light::Point { position, intensity } => Self::Point { position, intensity },
             scene::Light::Directional { direction, irradiance } => {
@@ -67,12 +67,12 @@ impl Light {
     }
 
     /// Whether this is a delta light, which no ray can hit.
-    pub const fn is_delta(&self) -> bool {
+    pub(crate) const fn is_delta(&self) -> bool {
         matches!(self, Self::Point { .. } | Self::Directional { .. })
     }
 
     /// Radiance of an environment light from direction `w`; zero for other lights.
-    pub fn sky_radiance(&self, w: DVec3) -> Rgb {
+    pub(crate) fn sky_radiance(&self, w: DVec3) -> Rgb {
         match self {
             Self::Sky(sky) => sky.sky_radiance(w),
             _ => [0.0; 3],
@@ -80,7 +80,7 @@ impl Light {
     }
 
     /// A direction from a point in space. Environment lights are sampled uniformly over the sphere.
-    pub fn aim(&self, from: DVec3, point: DVec2, lobe: f64) -> Aim {
+    pub(crate) fn aim(&self, from: DVec3, point: DVec2, lobe: f64) -> Aim {
         match self {
             Self::Point { position, intensity } => aim_at_point(from, *position, *intensity),
             Self::Directional { towards, irradiance } => {
@@ -105,7 +105,13 @@ impl Light {
     }
 
     /// A direction from a surface. Environment lights are sampled cosine-weighted, where there is one side to it.
-    pub fn aim_from_surface(&self, from: DVec3, reach: Reach, point: DVec2, lobe: f64) -> Aim {
+    pub(crate) fn aim_from_surface(
+        &self,
+        from: DVec3,
+        reach: Reach,
+        point: DVec2,
+        lobe: f64,
+    ) -> Aim {
         let (Self::Sky(sky), Reach::Above(normal)) = (self, reach) else {
             return self.aim(from, point, lobe);
         };
@@ -117,7 +123,13 @@ impl Light {
 
     /// The pdf with which [`Self::aim_from_surface`] samples direction `wi`, which hits this light at `there`
     /// (`None`: the environment).
-    pub fn density(&self, from: DVec3, reach: Reach, wi: DVec3, there: Option<&Surface>) -> f64 {
+    pub(crate) fn density(
+        &self,
+        from: DVec3,
+        reach: Reach,
+        wi: DVec3,
+        there: Option<&Surface>,
+    ) -> f64 {
         match (self, there) {
             (Self::Sky(_), None) => reach.sky_density(wi),
             (Self::Mesh(mesh), Some(there)) => area_density(mesh.area, from, wi, there),
@@ -181,7 +193,7 @@ struct LightTriangle {
 
 /// A mesh of one-sided emission. Its points are sampled uniformly by area.
 #[derive(Clone, Debug)]
-pub struct MeshLight {
+pub(crate) struct MeshLight {
     triangles: Vec<LightTriangle>,
     area: f64,
     radiance: Rgb,
@@ -221,7 +233,7 @@ impl MeshLight {
 /// A sphere light. From outside, directions are uniform in the cone that it subtends; from inside, and if only
 /// a cap emits, points are uniform on the emissive part.
 #[derive(Clone, Debug)]
-pub struct SphereLight {
+pub(crate) struct SphereLight {
     centre: DVec3,
     radius: f64,
     inward: bool,

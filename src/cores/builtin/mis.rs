@@ -5,20 +5,20 @@ use glam::DVec3;
 
 /// The power heuristic: the weight of a sample of pdf `own` where another technique has pdf `other` (Veach and
 /// Guibas 1995, β = 2). Both may be infinite or zero, not both.
-pub fn power_heuristic(own: f64, other: f64) -> f64 {
+pub(crate) fn power_heuristic(own: f64, other: f64) -> f64 {
     let ratio = other / own;
     1.0 / (1.0 + ratio * ratio)
 }
 
 /// Where a BSDF sample came from, for the weight of the emission that it hits.
 #[derive(Clone, Copy)]
-pub struct GlossyDirection {
+pub(crate) struct GlossyDirection {
     /// The vertex that it left.
-    pub from: DVec3,
+    pub(crate) from: DVec3,
     /// Where that takes light from.
-    pub reach: Reach,
+    pub(crate) reach: Reach,
     /// The pdf of the direction.
-    pub pdf: f64,
+    pub(crate) pdf: f64,
 }
 
 #[cfg(test)]

@@ -11,13 +11,13 @@ const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A stream of random numbers.
 #[derive(Clone, Debug)]
-pub struct Stream {
+pub(crate) struct Stream {
     counter: u64,
 }
 
 impl Stream {
     /// The stream of one sample of one element (a pixel, a ray) under one seed.
-    pub fn new(seed: u64, element: u64, sample: u64) -> Self {
+    pub(crate) fn new(seed: u64, element: u64, sample: u64) -> Self {
         let keyed = mix(seed.wrapping_add(STEP)) ^ element;
         let counter = mix(mix(keyed.wrapping_add(STEP)) ^ sample);
         Self { counter }
@@ -29,12 +29,12 @@ impl Stream {
     }
 
     /// A multiple of 2⁻³² in [0, 1).
-    pub fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         halves(self.bits())[0]
     }
 
     /// A point of the unit square, of multiples of 2⁻³².
-    pub fn point(&mut self) -> DVec2 {
+    pub(crate) fn point(&mut self) -> DVec2 {
         DVec2::from_array(halves(self.bits()))
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_1_PI;
 
 /// Where a surface takes light from.
 #[derive(Clone, Copy, Debug)]
-pub enum Reach {
+pub(crate) enum Reach {
     /// The hemisphere around this normal.
     Above(DVec3),
     /// Both sides.
@@ -14,7 +14,7 @@ pub enum Reach {
 
 impl Reach {
     /// The pdf of samples of environment lights: with the cosine above a surface, else uniform.
-    pub fn sky_density(self, wi: DVec3) -> f64 {
+    pub(crate) fn sky_density(self, wi: DVec3) -> f64 {
         match self {
             Self::Above(normal) => normal.dot(wi).max(0.0) * FRAC_1_PI,
             Self::Everywhere => FRAC_1_PI / 4.0,

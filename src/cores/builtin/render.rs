@@ -15,7 +15,7 @@ use rayon::prelude::*;
 const PORTION: usize = 64;
 
 /// One estimate for each ray.
-pub fn radiance(
+pub(crate) fn radiance(
     world: &World,
     rays: &[Ray],
     settings: &IntegratorSettings,
@@ -30,7 +30,7 @@ pub fn radiance(
 }
 
 /// An image.
-pub fn render(
+pub(crate) fn render(
     world: &World,
     camera: &Camera,
     settings: &RenderSettings,

@@ -14,13 +14,13 @@ use crate::scene::{Camera, Light, Mesh, SceneDescription};
 use glam::DVec3;
 
 /// A scene with its tree.
-pub struct BuiltinScene {
+pub(crate) struct BuiltinScene {
     world: World,
 }
 
 impl BuiltinScene {
     /// Takes `scene` in. Refuses numbers that refer to nothing.
-    pub fn new(scene: &SceneDescription, acceleration: Acceleration) -> Result<Self> {
+    pub(crate) fn new(scene: &SceneDescription, acceleration: Acceleration) -> Result<Self> {
         check_numbers(scene).map_err(CoreError::Refused)?;
         let geometry = Geometry::new(scene);
         let tree = match acceleration {

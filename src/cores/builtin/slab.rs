@@ -5,7 +5,7 @@ use crate::contract::{BoxHit, Ray};
 use crate::scene::Aabb;
 
 /// Where the line of `ray` is inside the closed `bounds`, and whether its closed segment is.
-pub fn intersect_box(bounds: &Aabb, ray: &Ray) -> BoxHit {
+pub(crate) fn intersect_box(bounds: &Aabb, ray: &Ray) -> BoxHit {
     let (mut t_enter, mut t_exit) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut beside = false;
     for axis in 0..3 {

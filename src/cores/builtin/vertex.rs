@@ -7,15 +7,15 @@ use crate::contract::Ray;
 use glam::{DVec3, Vec3, vec3};
 
 /// Where a path scatters.
-pub struct Vertex<'a> {
+pub(crate) struct Vertex<'a> {
     /// On the surface.
-    pub position: DVec3,
+    pub(crate) position: DVec3,
     /// How it scatters.
-    pub bsdf: &'a Bsdf,
+    pub(crate) bsdf: &'a Bsdf,
     /// Towards where the path came from, local frame.
-    pub wo: Vec3,
+    pub(crate) wo: Vec3,
     /// Unit; for reflecting surfaces on the side of `wo`.
-    pub normal: DVec3,
+    pub(crate) normal: DVec3,
     /// Tangents of the local frame, and its normal.
     frame: [Vec3; 3],
     /// Unit, on the side of `wo`.
@@ -25,7 +25,7 @@ pub struct Vertex<'a> {
 
 impl<'a> Vertex<'a> {
     /// The surface seen from direction `wo` (unit, world space).
-    pub fn new(surface: &Surface, bsdf: &'a Bsdf, wo: DVec3) -> Self {
+    pub(crate) fn new(surface: &Surface, bsdf: &'a Bsdf, wo: DVec3) -> Self {
         let is_front = surface.geometric_normal.dot(wo) >= 0.0;
         let side = if is_front { 1.0 } else { -1.0 };
         let geometric_normal = surface.geometric_normal * side;
@@ -43,40 +43,40 @@ impl<'a> Vertex<'a> {
     }
 
     /// Where light comes from that it scatters to its viewer.
-    pub fn light_reach(&self) -> Reach {
+    pub(crate) fn light_reach(&self) -> Reach {
         if self.bsdf.is_interface() { Reach::Everywhere } else { Reach::Above(self.normal) }
     }
 
     /// A local direction in world space.
-    pub fn to_world(&self, w: Vec3) -> DVec3 {
+    pub(crate) fn to_world(&self, w: Vec3) -> DVec3 {
         let [first, second, up] = self.frame;
         (first * w.x + second * w.y + up * w.z).as_dvec3()
     }
 
     /// A world direction in the local frame.
-    pub fn to_local(&self, w: DVec3) -> Vec3 {
+    pub(crate) fn to_local(&self, w: DVec3) -> Vec3 {
         to_local(&self.frame, w.as_vec3())
     }
 
     /// Cosine of a world direction with the normal; 0 for one that does not reach the surface.
-    pub fn cosine(&self, wi: DVec3) -> f64 {
+    pub(crate) fn cosine(&self, wi: DVec3) -> f64 {
         let cosine = wi.dot(self.normal);
         if self.bsdf.is_interface() { cosine.abs() } else { cosine.max(0.0) }
     }
 
     /// Whether `wi` leaves the surface on the side where the shading frame thinks it does. Interpolated normals
     /// may point light through a surface that reflects; such light is not carried.
-    pub fn is_consistent(&self, wi: DVec3, local: Vec3) -> bool {
+    pub(crate) fn is_consistent(&self, wi: DVec3, local: Vec3) -> bool {
         (self.geometric_normal.dot(wi) > 0.0) == (local.z * self.wo.z > 0.0)
     }
 
     /// The whole ray from here along `wi`.
-    pub fn leave(&self, wi: DVec3) -> Ray {
+    pub(crate) fn leave(&self, wi: DVec3) -> Ray {
         Ray::new(self.start(wi), wi)
     }
 
     /// The segment from here to `target`.
-    pub fn reach(&self, wi: DVec3, target: DVec3) -> Ray {
+    pub(crate) fn reach(&self, wi: DVec3, target: DVec3) -> Ray {
         let origin = self.start(wi);
         Ray { t_max: 1.0, ..Ray::new(origin, target - origin) }
     }

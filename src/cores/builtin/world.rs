@@ -11,13 +11,13 @@ use crate::scene::{Emission, SceneDescription};
 use glam::{DVec3, Vec3};
 
 /// Everything that stays the same while rays are traced.
-pub struct World {
+pub(crate) struct World {
     /// What is hit.
-    pub geometry: Geometry,
+    pub(crate) geometry: Geometry,
     /// How it is found.
-    pub tree: Tree,
+    pub(crate) tree: Tree,
     /// What shines, in the order of the scene.
-    pub lights: Vec<Light>,
+    pub(crate) lights: Vec<Light>,
     materials: Vec<(Bsdf, Option<Emission>)>,
     /// The material of each shape.
     shape_materials: Vec<usize>,
@@ -27,7 +27,7 @@ pub struct World {
 
 impl World {
     /// Puts a scene, whose numbers have been checked, together with the tree over its `geometry`.
-    pub fn new(scene: &SceneDescription, geometry: Geometry, tree: Tree) -> Self {
+    pub(crate) fn new(scene: &SceneDescription, geometry: Geometry, tree: Tree) -> Self {
         use crate::scene::Light as Declared;
         let material =
             |material: &crate::scene::Material| (Bsdf::new(&material.surface), material.emission);
@@ -50,17 +50,17 @@ impl World {
     }
 
     /// How the surface scatters.
-    pub fn bsdf(&self, surface: &Surface) -> &Bsdf {
+    pub(crate) fn bsdf(&self, surface: &Surface) -> &Bsdf {
         &self.materials[self.shape_materials[surface.shape as usize]].0
     }
 
     /// The light that the surface is part of.
-    pub fn light_of(&self, surface: &Surface) -> Option<&Light> {
+    pub(crate) fn light_of(&self, surface: &Surface) -> Option<&Light> {
         self.shape_lights[surface.shape as usize].map(|number| &self.lights[number])
     }
 
     /// Radiance that the surface itself emits towards `wo`: only from its front side.
-    pub fn emitted(&self, surface: &Surface, wo: DVec3) -> Vec3 {
+    pub(crate) fn emitted(&self, surface: &Surface, wo: DVec3) -> Vec3 {
         match &self.materials[self.shape_materials[surface.shape as usize]].1 {
             Some(emission) if surface.geometric_normal.dot(wo) > 0.0 => {
                 let outward = match emission.cap {
@@ -74,33 +74,33 @@ impl World {
     }
 
     /// Radiance of all skies from direction `w`.
-    pub fn sky(&self, w: DVec3) -> Vec3 {
+    pub(crate) fn sky(&self, w: DVec3) -> Vec3 {
         self.lights.iter().map(|light| rgb(light.sky_radiance(w))).sum()
     }
 }
 
 /// Rays in a world, one after the other.
-pub struct Eye<'a> {
+pub(crate) struct Eye<'a> {
     /// What they meet.
-    pub world: &'a World,
+    pub(crate) world: &'a World,
     tracer: Tracer<'a>,
 }
 
 impl<'a> Eye<'a> {
     /// Nothing traced yet.
-    pub fn new(world: &'a World) -> Self {
+    pub(crate) fn new(world: &'a World) -> Self {
         Self { world, tracer: Tracer::new(&world.tree) }
     }
 
     /// The nearest surface along `ray`.
-    pub fn nearest(&mut self, ray: &Ray) -> Option<Surface> {
+    pub(crate) fn nearest(&mut self, ray: &Ray) -> Option<Surface> {
         let segment = Segment::new(ray);
         let candidate = self.tracer.nearest(&segment)?;
         Some(self.world.geometry.surface(&segment, candidate))
     }
 
     /// Whether anything lies on `ray`.
-    pub fn is_blocked(&mut self, ray: &Ray) -> bool {
+    pub(crate) fn is_blocked(&mut self, ray: &Ray) -> bool {
         self.tracer.is_blocked(&Segment::new(ray))
     }
 }

@@ -35,77 +35,78 @@ pub(super) const PLACEHOLDERS: [(&str, &str); 19] = [
 /// What an adapter's file says.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Adapter {
+pub(crate) struct Adapter {
     /// What reports call the renderer.
-    pub name: String,
+    pub(crate) name: String,
     /// Of the renderer that it was written for.
-    pub version: String,
+    pub(crate) version: String,
     /// One line for people.
-    pub about: String,
+    #[expect(dead_code, reason = "for who reads the file")]
+    pub(crate) about: String,
     /// What scenes are written in.
-    pub scene: Format,
+    pub(crate) scene: Format,
     /// What is started.
-    pub program: Executable,
+    pub(crate) program: Executable,
     /// What it is given; words in braces are replaced.
-    pub arguments: Vec<String>,
+    pub(crate) arguments: Vec<String>,
     /// For the environment of the program.
     #[serde(default)]
-    pub environment: BTreeMap<String, String>,
+    pub(crate) environment: BTreeMap<String, String>,
     /// Variables of the user's environment that the program gets to see; others but a few it does not.
     #[serde(default)]
-    pub keeps: Vec<String>,
+    pub(crate) keeps: Vec<String>,
     /// What `{depth}` adds to the last bounce.
     #[serde(default)]
-    pub depth_offset: u32,
+    pub(crate) depth_offset: u32,
     /// Seconds until a picture is given up.
-    pub time_limit: u32,
+    pub(crate) time_limit: u32,
     /// What it writes.
-    pub output: Output,
+    pub(crate) output: Output,
     /// How two pictures become independent.
-    pub runs: Runs,
+    pub(crate) runs: Runs,
     /// What it can be asked beyond a picture of all bounces.
     #[serde(default)]
-    pub can: Abilities,
+    pub(crate) can: Abilities,
     /// What scenes may say and this program cannot do.
     #[serde(default)]
-    pub lacks: Vec<Feature>,
+    pub(crate) lacks: Vec<Feature>,
     /// What it has freely chosen.
     #[serde(default)]
-    pub conventions: Conventions,
+    pub(crate) conventions: Conventions,
     /// What is read from the program's own words.
     #[serde(default)]
-    pub log: LogPatterns,
+    pub(crate) log: LogPatterns,
 }
 
 /// Where the program is.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Executable {
+pub(crate) struct Executable {
     /// An environment variable that names it.
-    pub variable: String,
+    pub(crate) variable: String,
     /// What is started where that is not set.
-    pub default: String,
+    pub(crate) default: String,
     /// What it has to be, for the message where it is not.
-    pub needs: String,
+    pub(crate) needs: String,
 }
 
 /// The picture.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Output {
+pub(crate) struct Output {
     /// Its file; the ending says which format: `.exr`, `.pfm`, `.hdr` or `.png`.
-    pub file: String,
+    pub(crate) file: String,
     /// From radiance to what is stored.
-    pub encoding: Encoding,
+    pub(crate) encoding: Encoding,
     /// Which row comes first.
     #[serde(default)]
-    pub first_row: FirstRow,
+    pub(crate) first_row: FirstRow,
 }
 
 /// From radiance to what is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Encoding {
+pub(crate) enum Encoding {
     /// Radiance itself.
     Linear,
     /// 8 bits of sRGB, rounded.
@@ -116,7 +117,7 @@ pub enum Encoding {
 
 impl Encoding {
     /// How codes are made; none where radiance itself is stored.
-    pub fn of_codes(self) -> Option<image::encoding::Encoding> {
+    pub(crate) fn of_codes(self) -> Option<image::encoding::Encoding> {
         match self {
             Self::Linear => None,
             Self::Srgb => Some(image::encoding::Encoding::of(image::encoding::Curve::Srgb)),
@@ -128,7 +129,7 @@ impl Encoding {
 /// Which row comes first in the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum FirstRow {
+pub(crate) enum FirstRow {
     /// As in most formats.
     #[default]
     Top,
@@ -139,7 +140,7 @@ pub enum FirstRow {
 /// How two pictures become independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub enum Runs {
+pub(crate) enum Runs {
     /// `{seed}` is a number of this many bits.
     SeedBits(u32),
     /// The program takes no seed and draws one stream of numbers through the picture: the n-th run has n
@@ -151,19 +152,19 @@ pub enum Runs {
 /// What can be asked beyond a picture of all bounces.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
-pub struct Abilities {
+pub(crate) struct Abilities {
     /// `{first-bounce}` is honoured.
-    pub isolated_bounces: bool,
+    pub(crate) isolated_bounces: bool,
     /// Arguments that select hemisphere sampling; what `{direct}` stands for then.
-    pub hemisphere: Option<Vec<String>>,
+    pub(crate) hemisphere: Option<Vec<String>>,
     /// The same command gives the same bits.
-    pub deterministic: bool,
+    pub(crate) deterministic: bool,
 }
 
 /// Something in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Feature {
+pub(crate) enum Feature {
     /// A mirror.
     Mirror,
     /// Glass.
@@ -193,18 +194,18 @@ pub enum Feature {
 /// Patterns with one group, a number.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
-pub struct LogPatterns {
+pub(crate) struct LogPatterns {
     /// Seconds of rendering, by whichever clock the program has.
-    pub seconds: Option<Pattern>,
+    pub(crate) seconds: Option<Pattern>,
     /// Rays traced.
-    pub rays: Option<Pattern>,
+    pub(crate) rays: Option<Pattern>,
     /// Boxes and primitives tested for one ray.
-    pub tests_per_ray: Option<Pattern>,
+    pub(crate) tests_per_ray: Option<Pattern>,
 }
 
 /// A regular expression with one group.
 #[derive(Clone, Debug)]
-pub struct Pattern(pub Regex);
+pub(crate) struct Pattern(pub(crate) Regex);
 
 impl<'de> Deserialize<'de> for Pattern {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -222,7 +223,7 @@ impl Adapter {
     ///
     /// # Errors
     /// If it says something that is not known, or does not fit together.
-    pub fn parse(source: &Source) -> Result<Self, Diagnostic> {
+    pub(crate) fn parse(source: &Source) -> Result<Self, Diagnostic> {
         let adapter: Self = source.parse_toml()?;
         match adapter.complaint() {
             None => Ok(adapter),
@@ -298,7 +299,7 @@ pub(super) mod tests {
     use super::*;
 
     /// An adapter that is in order.
-    pub const GOOD: &str = r#"
+    pub(crate) const GOOD: &str = r#"
 name = "sh"
 version = "1"
 about = "A shell"

@@ -13,10 +13,9 @@ mod picture;
 mod process;
 mod program;
 
-pub use adapter::Adapter;
-pub use picture::Picture;
-pub use process::found;
-pub use program::{AdapterError, Log, Program, Rendered};
+pub(crate) use picture::Picture;
+pub(crate) use process::found;
+pub(crate) use program::{AdapterError, Program};
 
 use crate::contract::{
     Acceleration, BuildStats, BuiltScene, Capabilities, Core, CoreError, CoreInfo, Film, Precision,
@@ -28,7 +27,7 @@ use crate::scene::{Camera, SceneDescription};
 
 /// A program as a core.
 #[derive(Debug)]
-pub struct CommandCore(pub Program);
+pub(crate) struct CommandCore(pub(crate) Program);
 
 impl Core for CommandCore {
     fn info(&self) -> CoreInfo {

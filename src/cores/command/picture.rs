@@ -8,18 +8,18 @@ use std::path::Path;
 
 /// A picture, and which pixels say only that they are bright.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub(crate) struct Picture {
     /// Linear.
-    pub image: Image,
+    pub(crate) image: Image,
     /// Codes of 255 stand for anything from there up.
-    pub clipped: Vec<bool>,
+    pub(crate) clipped: Vec<bool>,
     /// The codes themselves, if the file holds no more.
-    pub codes: Option<Codes>,
+    pub(crate) codes: Option<Codes>,
 }
 
 impl Picture {
     /// One that holds radiance as it is.
-    pub fn linear(image: Image) -> Self {
+    pub(crate) fn linear(image: Image) -> Self {
         let clipped = vec![false; image.pixels.len()];
         Self { image, clipped, codes: None }
     }
@@ -29,7 +29,7 @@ impl Picture {
 ///
 /// # Errors
 /// If it is no such picture.
-pub fn read(output: &Output, folder: &Path) -> Result<Picture, ImageError> {
+pub(crate) fn read(output: &Output, folder: &Path) -> Result<Picture, ImageError> {
     let path = folder.join(&output.file);
     let ending = path.extension().unwrap_or_default();
     let mut picture = if ending == "exr" {

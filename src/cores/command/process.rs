@@ -25,7 +25,7 @@ pub enum Ended {
 
 /// Whom the processes of a program belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Group {
+pub(crate) enum Group {
     /// To a group of their own, which is ended with the program.
     Own,
     /// To that of the worker they are in, which may found no other and is ended as a whole.
@@ -33,7 +33,7 @@ pub enum Group {
 }
 
 /// What a program said, kept in files while it runs: however much it is, it blocks nobody.
-pub struct Words<'a> {
+pub(crate) struct Words<'a> {
     folder: &'a Path,
 }
 
@@ -42,7 +42,7 @@ const STDERR: &str = "stderr.txt";
 
 impl Words<'_> {
     /// The end of its standard error, or else of its standard output.
-    pub fn last(&self) -> String {
+    pub(crate) fn last(&self) -> String {
         let tails = [STDERR, STDOUT].map(|name| tail(&self.folder.join(name), LAST_WORDS));
         let said = tails.into_iter().map(|tail| tail.trim_end().to_owned());
         let last = said.into_iter().find(|tail| !tail.is_empty());
@@ -50,7 +50,7 @@ impl Words<'_> {
     }
 
     /// The end of both, for patterns to look through.
-    pub fn all(&self) -> String {
+    pub(crate) fn all(&self) -> String {
         [STDOUT, STDERR].map(|name| tail(&self.folder.join(name), LONGEST_LOG)).join("\n")
     }
 }
@@ -71,7 +71,7 @@ fn tail(path: &Path, length: u64) -> String {
 ///
 /// # Errors
 /// If it cannot be started.
-pub fn run<'a>(
+pub(crate) fn run<'a>(
     command: &mut Command,
     folder: &'a Path,
     limit: Duration,
@@ -142,7 +142,7 @@ fn kill(child: &mut Child, _group: Group) {
 }
 
 /// Where a program is. Links are not followed: a program may ask by which name it was called.
-pub fn found(program: &str) -> Option<PathBuf> {
+pub(crate) fn found(program: &str) -> Option<PathBuf> {
     if Path::new(program).components().count() > 1 {
         return std::path::absolute(program).ok().filter(|path| path.is_file());
     }

@@ -15,7 +15,7 @@ use std::time::Duration;
 
 /// A program and how it is called.
 #[derive(Debug)]
-pub struct Program {
+pub(crate) struct Program {
     adapter: Adapter,
     /// Where the adapter's file is.
     folder: PathBuf,
@@ -27,7 +27,7 @@ pub struct Program {
 
 /// Why an adapter cannot be had.
 #[derive(Debug, thiserror::Error)]
-pub enum AdapterError {
+pub(crate) enum AdapterError {
     /// The file cannot be read.
     #[error("{path} cannot be read: {error}")]
     Unreadable {
@@ -43,22 +43,22 @@ pub enum AdapterError {
 
 /// What a program made, and what it said about it.
 #[derive(Clone, Debug)]
-pub struct Rendered {
+pub(crate) struct Rendered {
     /// What it made.
-    pub picture: Picture,
+    pub(crate) picture: Picture,
     /// What its words tell.
-    pub log: Log,
+    pub(crate) log: Log,
 }
 
 /// Numbers from a program's own words; none where it says nothing, or nothing is declared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Log {
+pub(crate) struct Log {
     /// Of rendering.
-    pub seconds: Option<f64>,
+    pub(crate) seconds: Option<f64>,
     /// Rays traced.
-    pub rays: Option<f64>,
+    pub(crate) rays: Option<f64>,
     /// Boxes and primitives tested for one ray.
-    pub tests_per_ray: Option<f64>,
+    pub(crate) tests_per_ray: Option<f64>,
 }
 
 impl Program {
@@ -66,7 +66,7 @@ impl Program {
     ///
     /// # Errors
     /// If the file cannot be read, or says something wrong.
-    pub fn load(path: &Path) -> std::result::Result<Self, AdapterError> {
+    pub(crate) fn load(path: &Path) -> std::result::Result<Self, AdapterError> {
         let unreadable = |error| AdapterError::Unreadable { path: path.to_owned(), error };
         let source = Source::read(path).map_err(unreadable)?;
         let adapter =
@@ -77,12 +77,12 @@ impl Program {
     }
 
     /// The same in a worker, which is ended with all that it has started.
-    pub fn within_a_worker(self) -> Self {
+    pub(crate) fn within_a_worker(self) -> Self {
         Self { group: Group::Workers, ..self }
     }
 
     /// The program, and what it is started with as far as that is known before there is a scene.
-    pub fn words(&self) -> Vec<String> {
+    pub(crate) fn words(&self) -> Vec<String> {
         let folder = self.folder.display().to_string();
         let arguments = self.adapter.arguments.iter();
         let arguments = arguments.map(|argument| argument.replace("{adapter}", &folder));
@@ -90,7 +90,7 @@ impl Program {
     }
 
     /// Of the user's environment, what the program gets to see.
-    pub fn variables(&self) -> Vec<(String, String)> {
+    pub(crate) fn variables(&self) -> Vec<(String, String)> {
         let kept = self.adapter.keeps.iter();
         let kept = kept.filter_map(|name| Some((name.clone(), std::env::var(name).ok()?)));
         let program = (self.adapter.program.variable.clone(), self.executable());
@@ -98,12 +98,12 @@ impl Program {
     }
 
     /// What its file says.
-    pub fn adapter(&self) -> &Adapter {
+    pub(crate) fn adapter(&self) -> &Adapter {
         &self.adapter
     }
 
     /// Whether its pictures hold radiance as it is, not cut to 8 bits.
-    pub fn is_linear(&self) -> bool {
+    pub(crate) fn is_linear(&self) -> bool {
         self.adapter.output.encoding == Encoding::Linear
     }
 
@@ -112,7 +112,7 @@ impl Program {
     /// # Errors
     /// If the program or the format cannot hold the scene ([`CoreError::Beyond`]), or the program fails, takes
     /// too long or writes something else.
-    pub fn render(
+    pub(crate) fn render(
         &self,
         scene: &SceneDescription,
         camera: &Camera,

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The primitives of a scene, and how often they were tested.
 #[derive(Debug)]
-pub struct CountedScene {
+pub(crate) struct CountedScene {
     meshes: Vec<Mesh>,
     spheres: Vec<Sphere>,
     box_tests: AtomicU64,
@@ -20,7 +20,7 @@ pub struct CountedScene {
 
 impl CountedScene {
     /// Of the shapes of `scene`.
-    pub fn new(scene: &SceneDescription) -> Self {
+    pub(crate) fn new(scene: &SceneDescription) -> Self {
         Self {
             meshes: scene.meshes.clone(),
             spheres: scene.spheres.clone(),
@@ -30,7 +30,7 @@ impl CountedScene {
     }
 
     /// The tests since the last call, and starts anew.
-    pub fn take_counts(&self, rays: u64) -> TraversalStats {
+    pub(crate) fn take_counts(&self, rays: u64) -> TraversalStats {
         TraversalStats {
             rays,
             box_tests: self.box_tests.swap(0, Ordering::Relaxed),
@@ -39,7 +39,7 @@ impl CountedScene {
     }
 
     /// Tests one primitive; a shape or primitive that does not exist is never hit.
-    pub fn hit_primitive(&self, shape: u32, primitive: u32, ray: &Ray) -> Option<Hit> {
+    pub(crate) fn hit_primitive(&self, shape: u32, primitive: u32, ray: &Ray) -> Option<Hit> {
         self.primitive_tests.fetch_add(1, Ordering::Relaxed);
         let shape_index = shape as usize;
         let hit = match self.meshes.get(shape_index) {
@@ -50,7 +50,7 @@ impl CountedScene {
     }
 
     /// Tests one box.
-    pub fn hit_box(&self, min: DVec3, max: DVec3, ray: &Ray) -> Option<BoxHit> {
+    pub(crate) fn hit_box(&self, min: DVec3, max: DVec3, ray: &Ray) -> Option<BoxHit> {
         self.box_tests.fetch_add(1, Ordering::Relaxed);
         let (mut t_enter, mut t_exit) = (f64::NEG_INFINITY, f64::INFINITY);
         for axis in 0..3 {

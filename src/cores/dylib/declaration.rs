@@ -7,7 +7,7 @@ use crate::contract::{
 };
 
 /// What the core declares; `None` for a number that no convention has.
-pub fn conventions(declared: &abi::Conventions) -> Option<Conventions> {
+pub(crate) fn conventions(declared: &abi::Conventions) -> Option<Conventions> {
     Some(Conventions {
         point_light_falloff: match declared.point_light_falloff {
             abi::FALLOFF_INVERSE_SQUARE => Falloff::InverseSquare,
@@ -50,7 +50,7 @@ macro_rules! add_if_there {
 }
 
 /// What a core can be asked: the functions it has, and of its traits those that go with them.
-pub fn capabilities(table: &abi::CoreTable) -> Capabilities {
+pub(crate) fn capabilities(table: &abi::CoreTable) -> Capabilities {
     let traits = Traits::from_bits_truncate(table.traits);
     let has = |wanted| traits.contains(wanted);
     let mut found = Capabilities::empty();

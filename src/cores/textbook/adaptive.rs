@@ -4,47 +4,47 @@ use super::steps::Steps;
 use crate::contract::{AdaptiveMean, AdaptiveSettings};
 
 /// Half width of the 95 % interval of a normal variable, in standard deviations.
-pub const Z_95: f64 = 1.96;
+pub(crate) const Z_95: f64 = 1.96;
 
 /// The sums a pixel keeps: s₁ and s₂ of the course.
 ///
 /// The textbook formula for the variance loses digits where σ is far below μ; a rule that compares
 /// σ with a few percent of μ cannot notice.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Tally {
+pub(crate) struct Tally {
     /// Samples so far.
-    pub count: u32,
+    pub(crate) count: u32,
     /// s₁, of their luminances.
-    pub sum: f64,
+    pub(crate) sum: f64,
     /// s₂.
-    pub sum_of_squares: f64,
+    pub(crate) sum_of_squares: f64,
 }
 
 /// Adds one sample's luminance.
-pub fn count_in(tally: &mut Tally, luminance: f64) {
+pub(crate) fn count_in(tally: &mut Tally, luminance: f64) {
     tally.count += 1;
     tally.sum += luminance;
     tally.sum_of_squares += luminance * luminance;
 }
 
 /// Sample variance: over n − 1, not a number for a single sample.
-pub fn variance(tally: &Tally) -> f64 {
+pub(crate) fn variance(tally: &Tally) -> f64 {
     let n = f64::from(tally.count);
     squared_deviations(tally) / (n - 1.0)
 }
 
 /// From the mean.
-pub fn squared_deviations(tally: &Tally) -> f64 {
+pub(crate) fn squared_deviations(tally: &Tally) -> f64 {
     (tally.sum_of_squares - tally.sum * tally.sum / f64::from(tally.count)).max(0.0)
 }
 
 /// Half width of the 95 % interval of the mean of `n` samples.
-pub fn half_width(variance: f64, n: f64) -> f64 {
+pub(crate) fn half_width(variance: f64, n: f64) -> f64 {
     Z_95 * (variance / n).sqrt()
 }
 
 /// How wide that may be.
-pub fn tolerance(max_tolerance: f64, mean: f64) -> f64 {
+pub(crate) fn tolerance(max_tolerance: f64, mean: f64) -> f64 {
     max_tolerance * mean
 }
 
@@ -57,7 +57,7 @@ fn has_converged(tally: &Tally, max_tolerance: f64, steps: &Steps) -> bool {
 }
 
 /// Draws luminances from `next` until the rule says stop, at most `cap` of them.
-pub fn sample_until_converged(
+pub(crate) fn sample_until_converged(
     settings: AdaptiveSettings,
     cap: u32,
     steps: &Steps,
@@ -78,34 +78,38 @@ pub fn sample_until_converged(
 }
 
 /// The rule is applied after so many samples, and so many more.
-pub fn batch_size(settings: AdaptiveSettings) -> u32 {
+pub(crate) fn batch_size(settings: AdaptiveSettings) -> u32 {
     settings.samples_per_batch.max(1)
 }
 
 /// All samples of the cap may be drawn; the last batch may be a part of one.
-pub fn sample_limit(cap: u32, _batch: u32) -> u32 {
+pub(crate) fn sample_limit(cap: u32, _batch: u32) -> u32 {
     cap
 }
 
 /// Draws all `cap` luminances: what adaptive sampling is compared with.
-pub fn sample_all(cap: u32, steps: &Steps, next: impl FnMut(u32) -> f64) -> Tally {
+pub(crate) fn sample_all(cap: u32, steps: &Steps, next: impl FnMut(u32) -> f64) -> Tally {
     let mut tally = Tally::default();
     (0..cap).map(next).for_each(|luminance| steps.count_in(&mut tally, luminance));
     tally
 }
 
 /// What the sum of `count` samples is divided by.
-pub fn divisor(count: u32, _cap: u32) -> f64 {
+pub(crate) fn divisor(count: u32, _cap: u32) -> f64 {
     f64::from(count)
 }
 
 /// How many samples a pixel says it has taken. Without a batch it has taken them all.
-pub fn reported_count(count: u32, _cap: u32, _batch: Option<u32>) -> u32 {
+pub(crate) fn reported_count(count: u32, _cap: u32, _batch: Option<u32>) -> u32 {
     count
 }
 
 /// What the rule makes of a given stream, which is as long as the cap.
-pub fn mean_of_stream(settings: AdaptiveSettings, stream: &[f64], steps: &Steps) -> AdaptiveMean {
+pub(crate) fn mean_of_stream(
+    settings: AdaptiveSettings,
+    stream: &[f64],
+    steps: &Steps,
+) -> AdaptiveMean {
     let cap = u32::try_from(stream.len()).unwrap_or(u32::MAX);
     let mut total = 0.0;
     let tally = sample_until_converged(settings, cap, steps, |index| {

@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// A mesh that emits.
 #[derive(Clone, Debug)]
-pub struct MeshLight {
+pub(crate) struct MeshLight {
     /// Those of its triangles that have area.
     triangles: Vec<Triangle>,
     /// Area of each triangle and all before it.
@@ -25,7 +25,7 @@ pub struct MeshLight {
 
 impl MeshLight {
     /// Prepares a mesh that emits `radiance`.
-    pub fn new(mesh: &Mesh, radiance: Rgb) -> Self {
+    pub(crate) fn new(mesh: &Mesh, radiance: Rgb) -> Self {
         let corners = (0..mesh.indices.len()).map(|triangle| mesh.corners(triangle));
         let triangles: Vec<Triangle> = corners.filter_map(Triangle::new).collect();
         let mut total = 0.0;
@@ -44,7 +44,7 @@ impl MeshLight {
     }
 
     /// Uniform over the area of the mesh: a triangle in proportion to its area, then a point of it.
-    pub fn sample(
+    pub(crate) fn sample(
         &self,
         from: DVec3,
         point: DVec2,
@@ -66,24 +66,24 @@ impl MeshLight {
     }
 
     /// The density of the direction from `from` to the point `at` with this normal.
-    pub fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
+    pub(crate) fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
         steps.mesh_pdf(per_steradian(from, at, normal, steps), self.area())
     }
 }
 
 /// Weights of vertices 1 and 2 of a uniform point of a triangle (Turk 1990).
-pub fn triangle_point(point: DVec2) -> DVec2 {
+pub(crate) fn triangle_point(point: DVec2) -> DVec2 {
     let root = point.x.sqrt();
     DVec2::new(root * (1.0 - point.y), root * point.y)
 }
 
 /// Per steradian, of points that are uniform over the area.
-pub fn mesh_pdf(area_per_steradian: f64, area: f64) -> f64 {
+pub(crate) fn mesh_pdf(area_per_steradian: f64, area: f64) -> f64 {
     area_per_steradian / area
 }
 
 /// The same in all directions to the front.
-pub fn mesh_radiance(radiance: Rgb, _to_light: DVec3, _normal: DVec3) -> Rgb {
+pub(crate) fn mesh_radiance(radiance: Rgb, _to_light: DVec3, _normal: DVec3) -> Rgb {
     radiance
 }
 
@@ -98,18 +98,18 @@ fn per_steradian(from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
 }
 
 /// Positive in front of the light.
-pub fn cosine_at_light(to_light: DVec3, normal: DVec3) -> f64 {
+pub(crate) fn cosine_at_light(to_light: DVec3, normal: DVec3) -> f64 {
     -to_light.dot(normal) / to_light.length()
 }
 
 /// What is twice as far away, or slanted to half its width, takes more area to fill a direction.
-pub fn area_per_steradian(distance_squared: f64, cosine: f64) -> f64 {
+pub(crate) fn area_per_steradian(distance_squared: f64, cosine: f64) -> f64 {
     distance_squared / cosine
 }
 
 /// A sphere that emits.
 #[derive(Clone, Debug)]
-pub struct BallLight {
+pub(crate) struct BallLight {
     ball: Ball,
     /// Whether it shines towards its centre.
     inward: bool,
@@ -118,13 +118,13 @@ pub struct BallLight {
 
 impl BallLight {
     /// Prepares a sphere.
-    pub fn new(sphere: &Sphere, emission: Emission) -> Self {
+    pub(crate) fn new(sphere: &Sphere, emission: Emission) -> Self {
         let Sphere { centre, radius, inward, .. } = *sphere;
         Self { ball: Ball { centre, radius }, inward, emission }
     }
 
     /// A direction from `from` towards an emitting point.
-    pub fn sample(&self, from: DVec3, point: DVec2, steps: &Steps) -> Option<LightSample> {
+    pub(crate) fn sample(&self, from: DVec3, point: DVec2, steps: &Steps) -> Option<LightSample> {
         if self.fills_cone(from) {
             self.sample_cone(from, point)
         } else {
@@ -133,7 +133,7 @@ impl BallLight {
     }
 
     /// The density of the direction from `from` to the emitting point `at` with this normal.
-    pub fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
+    pub(crate) fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
         if self.fills_cone(from) {
             self.cone_pdf(from)
         } else {

@@ -14,22 +14,22 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_1_PI;
 
 /// A pair of directions between which nothing is scattered.
-pub const NOTHING: BsdfValue = BsdfValue { f: [0.0; 3], pdf: 0.0 };
+pub(crate) const NOTHING: BsdfValue = BsdfValue { f: [0.0; 3], pdf: 0.0 };
 
 /// Whether the surface scatters each direction into finitely many: nothing else can be evaluated,
 /// and no light be sampled, there.
-pub fn is_delta(surface: &Surface) -> bool {
+pub(crate) fn is_delta(surface: &Surface) -> bool {
     matches!(surface, Surface::Mirror { .. } | Surface::Glass { .. })
 }
 
 /// Whether light passes: it has an inside, and light from both sides is scattered towards `wo`.
-pub fn is_interface(surface: &Surface) -> bool {
+pub(crate) fn is_interface(surface: &Surface) -> bool {
     matches!(surface, Surface::Glass { .. } | Surface::RoughGlass { .. })
 }
 
 /// `f` and the density of [`sample`]. Zero for mirror and smooth glass, and for directions on
 /// different sides of what light does not pass.
-pub fn evaluate(surface: &Surface, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
+pub(crate) fn evaluate(surface: &Surface, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
     if let Some(glass) = rough_glass(surface) {
         return glass.evaluate(wo, wi, steps);
     }
@@ -64,28 +64,28 @@ fn evaluate_from_above(surface: &Surface, wo: DVec3, wi: DVec3, steps: &Steps) -
 }
 
 /// Seen from above, a diffuse surface scatters light from above.
-pub fn scatters_light_from(wi: DVec3) -> bool {
+pub(crate) fn scatters_light_from(wi: DVec3) -> bool {
     wi.z > 0.0
 }
 
 /// Lambert's law: f = reflectance/π.
-pub fn diffuse(reflectance: Rgb, _wi: DVec3) -> Rgb {
+pub(crate) fn diffuse(reflectance: Rgb, _wi: DVec3) -> Rgb {
     reflectance.map(|reflectance| reflectance * FRAC_1_PI)
 }
 
 /// How the directions of a diffuse surface are drawn: in proportion to f cos θ.
-pub fn diffuse_sampler() -> Sampler {
+pub(crate) fn diffuse_sampler() -> Sampler {
     Sampler::CosineHemisphere
 }
 
 /// The sampler whose density those directions have.
-pub fn diffuse_density() -> Sampler {
+pub(crate) fn diffuse_density() -> Sampler {
     Sampler::CosineHemisphere
 }
 
 /// One incident direction for `wo`; `point` chooses the direction, `lobe` between reflection and
 /// refraction.
-pub fn sample(
+pub(crate) fn sample(
     surface: &Surface,
     wo: DVec3,
     point: DVec2,
@@ -122,22 +122,22 @@ fn sample_from_above(
 }
 
 /// A sample says of its direction what evaluation says.
-pub fn sampled(wi: DVec3, BsdfValue { f, pdf }: BsdfValue) -> BsdfSample {
+pub(crate) fn sampled(wi: DVec3, BsdfValue { f, pdf }: BsdfValue) -> BsdfSample {
     BsdfSample { wi, f, pdf, is_delta: 0, is_valid: 1 }
 }
 
 /// The f that is multiplied with light is the f of the surface.
-pub fn scattered(_surface: &Surface, f: Rgb) -> DVec3 {
+pub(crate) fn scattered(_surface: &Surface, f: Rgb) -> DVec3 {
     f.into()
 }
 
 /// All that is reflected comes from the mirrored direction.
-pub fn mirror(wo: DVec3, reflectance: Rgb) -> Option<BsdfSample> {
+pub(crate) fn mirror(wo: DVec3, reflectance: Rgb) -> Option<BsdfSample> {
     delta(reflect(wo), reflectance, 1.0)
 }
 
 /// `w` mirrored about the normal.
-pub fn reflect(w: DVec3) -> DVec3 {
+pub(crate) fn reflect(w: DVec3) -> DVec3 {
     DVec3::new(-w.x, -w.y, w.z)
 }
 
@@ -146,7 +146,7 @@ pub fn reflect(w: DVec3) -> DVec3 {
 ///
 /// f is such that f·|cos θ| is the weight: the cosine of the rendering equation has no part in a
 /// mirror. Along the surface there is no such f.
-pub fn delta(wi: DVec3, weight: Rgb, probability: f64) -> Option<BsdfSample> {
+pub(crate) fn delta(wi: DVec3, weight: Rgb, probability: f64) -> Option<BsdfSample> {
     let f = weight.map(|weight| weight / wi.z.abs());
     let is_sound = probability > 0.0 && f.iter().all(|f| f.is_finite());
     is_sound.then_some(BsdfSample { wi, f, pdf: probability, is_delta: 1, is_valid: 1 })

@@ -11,16 +11,16 @@ use std::ops::Range;
 
 /// A node of the hierarchy.
 #[derive(Debug)]
-pub struct Node {
+pub(crate) struct Node {
     /// Holds everything below.
-    pub bounds: Aabb,
+    pub(crate) bounds: Aabb,
     /// What is below.
-    pub content: Content,
+    pub(crate) content: Content,
 }
 
 /// What is below a node.
 #[derive(Debug)]
-pub enum Content {
+pub(crate) enum Content {
     /// The primitives in this range.
     Leaf(Range<usize>),
     /// The numbers of the children.
@@ -29,7 +29,7 @@ pub enum Content {
 
 /// The nodes over `boxes`, the root first and each left child right after its parent; and the
 /// numbers of the boxes in the order of the leaves. No nodes over nothing.
-pub fn build(
+pub(crate) fn build(
     boxes: impl Iterator<Item = Aabb>,
     split: Split,
     max_leaf_size: u32,
@@ -66,15 +66,15 @@ fn max_rule_depth(primitives: usize) -> usize {
 }
 
 /// A hierarchy under construction.
-pub struct Builder<'a> {
+pub(crate) struct Builder<'a> {
     /// The rule that is asked for.
-    pub split: Split,
+    pub(crate) split: Split,
     /// No leaf holds more.
-    pub max_leaf_size: usize,
+    pub(crate) max_leaf_size: usize,
     max_rule_depth: usize,
     nodes: Vec<Node>,
     /// The lesson's.
-    pub steps: &'a Steps,
+    pub(crate) steps: &'a Steps,
 }
 
 impl Builder<'_> {
@@ -95,17 +95,17 @@ impl Builder<'_> {
 }
 
 /// The box of a node holds the boxes of all its items.
-pub fn node_bounds(items: &[Item]) -> Aabb {
+pub(crate) fn node_bounds(items: &[Item]) -> Aabb {
     split::union(items.iter().map(|item| item.bounds))
 }
 
 /// The places of a leaf's items in the order of leaves.
-pub fn leaf(first: usize, count: usize) -> Range<usize> {
+pub(crate) fn leaf(first: usize, count: usize) -> Range<usize> {
     first..first + count
 }
 
 /// How many items go left: at least one, and not all. `None` where they are few enough for a leaf.
-pub fn divide(builder: &Builder<'_>, items: &mut [Item], depth: usize) -> Option<usize> {
+pub(crate) fn divide(builder: &Builder<'_>, items: &mut [Item], depth: usize) -> Option<usize> {
     if items.len() <= builder.max_leaf_size {
         return None;
     }

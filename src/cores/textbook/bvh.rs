@@ -15,7 +15,7 @@ use std::ops::Range;
 
 /// The form of a primitive.
 #[derive(Clone, Copy, Debug)]
-pub enum Form {
+pub(crate) enum Form {
     /// A triangle of a mesh.
     Triangle(Triangle),
     /// A sphere.
@@ -38,7 +38,7 @@ impl Form {
     }
 
     /// Its largest coordinates, in absolute value.
-    pub fn reach(&self) -> DVec3 {
+    pub(crate) fn reach(&self) -> DVec3 {
         let Aabb { min, max } = self.bounds();
         min.abs().max(max.abs())
     }
@@ -46,18 +46,18 @@ impl Form {
 
 /// A triangle or a sphere of the scene.
 #[derive(Clone, Copy, Debug)]
-pub struct Primitive {
+pub(crate) struct Primitive {
     /// What is tested.
-    pub form: Form,
+    pub(crate) form: Form,
     /// Number of its shape in the scene.
-    pub shape: u32,
+    pub(crate) shape: u32,
     /// Number of the triangle in its mesh, 0 for a sphere.
-    pub number: u32,
+    pub(crate) number: u32,
 }
 
 /// All primitives of a scene, with or without a hierarchy over them.
 #[derive(Debug)]
-pub struct Bvh<'a> {
+pub(crate) struct Bvh<'a> {
     /// The root first, each left child right after its parent. None at all for brute force.
     nodes: Vec<Node>,
     /// In the order of the leaves.
@@ -67,7 +67,11 @@ pub struct Bvh<'a> {
 
 impl<'a> Bvh<'a> {
     /// Takes the primitives in.
-    pub fn new(primitives: Vec<Primitive>, acceleration: Acceleration, steps: &'a Steps) -> Self {
+    pub(crate) fn new(
+        primitives: Vec<Primitive>,
+        acceleration: Acceleration,
+        steps: &'a Steps,
+    ) -> Self {
         let Acceleration::Bvh { split, max_leaf_size } = acceleration else {
             return Self { nodes: Vec::new(), primitives, steps };
         };
@@ -77,12 +81,16 @@ impl<'a> Bvh<'a> {
     }
 
     /// The primitive with number `index` in the order of the leaves.
-    pub fn primitive(&self, index: usize) -> &Primitive {
+    pub(crate) fn primitive(&self, index: usize) -> &Primitive {
         &self.primitives[index]
     }
 
     /// The nearest crossing of `ray`, and the index of its primitive.
-    pub fn closest(&self, ray: &Ray, stats: &mut TraversalStats) -> Option<(usize, Crossing)> {
+    pub(crate) fn closest(
+        &self,
+        ray: &Ray,
+        stats: &mut TraversalStats,
+    ) -> Option<(usize, Crossing)> {
         stats.rays += 1;
         let mut search = Search { ray, segment: *ray, found: None, stats, steps: self.steps };
         match self.nodes.first() {
@@ -132,7 +140,7 @@ impl<'a> Bvh<'a> {
     }
 
     /// Tests one primitive against what is left of the segment.
-    pub fn test(&self, primitive: usize, search: &mut Search<'_>) {
+    pub(crate) fn test(&self, primitive: usize, search: &mut Search<'_>) {
         search.stats.primitive_tests += 1;
         let form = &self.primitives[primitive].form;
         if let Some(crossing) = form.intersect(&search.segment, self.steps) {
@@ -141,13 +149,13 @@ impl<'a> Bvh<'a> {
     }
 
     /// Whether anything lies on the segment; stops at the first that does.
-    pub fn any(&self, ray: &Ray, stats: &mut TraversalStats) -> bool {
+    pub(crate) fn any(&self, ray: &Ray, stats: &mut TraversalStats) -> bool {
         stats.rays += 1;
         self.steps.any(self, ray, stats)
     }
 
     /// The same, among what is below the node of this number.
-    pub fn any_below(&self, node: usize, ray: &Ray, stats: &mut TraversalStats) -> bool {
+    pub(crate) fn any_below(&self, node: usize, ray: &Ray, stats: &mut TraversalStats) -> bool {
         let node = &self.nodes[node];
         stats.box_tests += 1;
         if intersect_box(&node.bounds, ray, self.steps).is_none() {
@@ -167,7 +175,7 @@ impl<'a> Bvh<'a> {
     }
 
     /// What the build made.
-    pub fn build_stats(&self) -> BuildStats {
+    pub(crate) fn build_stats(&self) -> BuildStats {
         let is_leaf = |node: &&Node| matches!(node.content, Content::Leaf(_));
         BuildStats {
             nodes: self.nodes.len() as u64,
@@ -189,21 +197,21 @@ impl<'a> Bvh<'a> {
 }
 
 /// The primitives as the leaves name them, each with its own number.
-pub fn in_leaf_order(primitives: &[Primitive], order: &[usize]) -> Vec<Primitive> {
+pub(crate) fn in_leaf_order(primitives: &[Primitive], order: &[usize]) -> Vec<Primitive> {
     order.iter().map(|index| primitives[*index]).collect()
 }
 
 /// One closest-hit query under way.
-pub struct Search<'a> {
+pub(crate) struct Search<'a> {
     /// The ray as it was asked for.
-    pub ray: &'a Ray,
+    pub(crate) ray: &'a Ray,
     /// The ray, up to the nearest crossing so far.
-    pub segment: Ray,
+    pub(crate) segment: Ray,
     /// The nearest crossing so far, and the index of its primitive.
-    pub found: Option<(usize, Crossing)>,
+    pub(crate) found: Option<(usize, Crossing)>,
     stats: &'a mut TraversalStats,
     /// The lesson's.
-    pub steps: &'a Steps,
+    pub(crate) steps: &'a Steps,
 }
 
 impl Search<'_> {
@@ -215,40 +223,40 @@ impl Search<'_> {
 }
 
 /// Where the segment enters the box, if it does.
-pub fn enter(search: &mut Search<'_>, bounds: &Aabb) -> Option<f64> {
+pub(crate) fn enter(search: &mut Search<'_>, bounds: &Aabb) -> Option<f64> {
     intersect_box(bounds, &search.segment, search.steps).map(|(enter, _)| enter)
 }
 
 /// Whether the right child is to be visited first. For a child that is missed there is no entry.
-pub fn right_is_nearer(left: Option<f64>, right: Option<f64>) -> bool {
+pub(crate) fn right_is_nearer(left: Option<f64>, right: Option<f64>) -> bool {
     matches!((left, right), (Some(left), Some(right)) if right < left)
 }
 
 /// A child that begins behind what was found has nothing nearer.
-pub fn is_worth_a_visit(search: &Search<'_>, enter: f64) -> bool {
+pub(crate) fn is_worth_a_visit(search: &Search<'_>, enter: f64) -> bool {
     enter <= search.segment.t_max
 }
 
 /// The primitives that are tested for a leaf are its own.
-pub fn tested_for_leaf(leaf: &Range<usize>, _primitives: usize) -> Range<usize> {
+pub(crate) fn tested_for_leaf(leaf: &Range<usize>, _primitives: usize) -> Range<usize> {
     leaf.clone()
 }
 
 /// Tests every primitive of a range; each one found shortens the segment for those after it.
-pub fn closest_among(bvh: &Bvh<'_>, range: Range<usize>, search: &mut Search<'_>) {
+pub(crate) fn closest_among(bvh: &Bvh<'_>, range: Range<usize>, search: &mut Search<'_>) {
     for primitive in range {
         bvh.test(primitive, search);
     }
 }
 
 /// Keeps a crossing, and what is left of the segment before it.
-pub fn keep(search: &mut Search<'_>, primitive: usize, crossing: Crossing) {
+pub(crate) fn keep(search: &mut Search<'_>, primitive: usize, crossing: Crossing) {
     search.segment.t_max = crossing.t;
     search.found = Some((primitive, crossing));
 }
 
 /// Whether anything lies on the segment.
-pub fn any(bvh: &Bvh<'_>, ray: &Ray, stats: &mut TraversalStats) -> bool {
+pub(crate) fn any(bvh: &Bvh<'_>, ray: &Ray, stats: &mut TraversalStats) -> bool {
     match bvh.nodes.is_empty() {
         true => bvh.any_among(0..bvh.primitives.len(), ray, stats),
         false => bvh.any_below(0, ray, stats),
@@ -256,7 +264,7 @@ pub fn any(bvh: &Bvh<'_>, ray: &Ray, stats: &mut TraversalStats) -> bool {
 }
 
 /// Whether any primitive of a leaf lies on the segment.
-pub fn any_in_leaf(
+pub(crate) fn any_in_leaf(
     bvh: &Bvh<'_>,
     leaf: &Range<usize>,
     ray: &Ray,
@@ -266,7 +274,7 @@ pub fn any_in_leaf(
 }
 
 /// One hit is enough: below the right child nobody looks if there is one below the left.
-pub fn any_below_children(
+pub(crate) fn any_below_children(
     bvh: &Bvh<'_>,
     [left, right]: [usize; 2],
     ray: &Ray,

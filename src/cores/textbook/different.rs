@@ -34,7 +34,7 @@ pub struct Different {
 pub(super) const NOTHING: fn(&mut CoreInfo) = |_| ();
 
 /// Every choice.
-pub const DIFFERENT: &[Different] = &[
+pub(crate) const DIFFERENT: &[Different] = &[
     Different {
         name: "uniform-bounces",
         summary: "the diffuse surface draws uniform directions, with their density",

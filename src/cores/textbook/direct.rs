@@ -17,7 +17,7 @@ use crate::scene::Surface;
 use glam::{DVec2, DVec3};
 
 /// Radiance that leaves `vertex` along the path after being scattered there, and only there.
-pub fn one_bounce(
+pub(crate) fn one_bounce(
     world: &World<'_>,
     settings: &IntegratorSettings,
     vertex: &Vertex<'_>,
@@ -40,7 +40,7 @@ pub fn one_bounce(
 }
 
 /// Which of the two estimators is asked for.
-pub fn direct_sampling(settings: &IntegratorSettings) -> DirectSampling {
+pub(crate) fn direct_sampling(settings: &IntegratorSettings) -> DirectSampling {
     settings.direct
 }
 
@@ -176,48 +176,48 @@ impl Scatter<'_> {
 }
 
 /// As many directions as light sampling would draw points.
-pub fn hemisphere_samples(per_light: u32, lights: u32) -> u32 {
+pub(crate) fn hemisphere_samples(per_light: u32, lights: u32) -> u32 {
     (per_light * lights).max(1)
 }
 
 /// Out in the world.
-pub fn hemisphere_direction(frame: &Frame, wi: DVec3) -> DVec3 {
+pub(crate) fn hemisphere_direction(frame: &Frame, wi: DVec3) -> DVec3 {
     frame.to_world(wi)
 }
 
 /// `light` is what arrives, times f · |cos θ|.
-pub fn hemisphere_estimate(light: DVec3, pdf: f64) -> DVec3 {
+pub(crate) fn hemisphere_estimate(light: DVec3, pdf: f64) -> DVec3 {
     light / pdf
 }
 
 /// Over the directions.
-pub fn hemisphere_mean(total: DVec3, samples: u32) -> DVec3 {
+pub(crate) fn hemisphere_mean(total: DVec3, samples: u32) -> DVec3 {
     total / f64::from(samples)
 }
 
 /// The numbers for sample `number` of so many of one light.
-pub fn light_point(random: &mut Random<'_>, _number: u32, _of: u32) -> DVec2 {
+pub(crate) fn light_point(random: &mut Random<'_>, _number: u32, _of: u32) -> DVec2 {
     random.point()
 }
 
 /// |cos θ| at the surface, of a direction that is known in both frames.
-pub fn light_cosine(local: DVec3, _world: DVec3) -> f64 {
+pub(crate) fn light_cosine(local: DVec3, _world: DVec3) -> f64 {
     local.z.abs()
 }
 
 /// `light` is the light's radiance, times f · |cos θ|.
-pub fn light_estimate(light: DVec3, pdf: f64) -> DVec3 {
+pub(crate) fn light_estimate(light: DVec3, pdf: f64) -> DVec3 {
     light / pdf
 }
 
 /// Over the samples of one light that were drawn; of a delta light that is one, whatever was asked
 /// for.
-pub fn light_mean(total: DVec3, drawn: u32, _asked_for: u32) -> DVec3 {
+pub(crate) fn light_mean(total: DVec3, drawn: u32, _asked_for: u32) -> DVec3 {
     total / f64::from(drawn)
 }
 
 /// Light adds up. `each` are the means of the lights, of so many samples.
-pub fn sum_over_lights(each: &mut dyn Iterator<Item = DVec3>, _samples: u32) -> DVec3 {
+pub(crate) fn sum_over_lights(each: &mut dyn Iterator<Item = DVec3>, _samples: u32) -> DVec3 {
     each.sum()
 }
 
@@ -228,7 +228,7 @@ fn power_heuristic(own: f64, other: f64) -> f64 {
 }
 
 /// Radiance that a view shows without any scattering: what is emitted there, or the sky.
-pub fn zero_bounce(world: &World<'_>, view: &View<'_>) -> DVec3 {
+pub(crate) fn zero_bounce(world: &World<'_>, view: &View<'_>) -> DVec3 {
     match view {
         View::Surface(vertex) => vertex.emitted,
         View::Sky(direction) => world.sky_radiance(*direction),

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// An orthonormal frame around a normal.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame {
+pub(crate) struct Frame {
     tangent: DVec3,
     bitangent: DVec3,
     normal: DVec3,
@@ -13,18 +13,18 @@ pub struct Frame {
 impl Frame {
     /// A frame whose +z is `normal` (unit, world space). Which way x and y point does not matter:
     /// no BSDF here depends on it.
-    pub fn around(normal: DVec3) -> Self {
+    pub(crate) fn around(normal: DVec3) -> Self {
         let (tangent, bitangent) = normal.any_orthonormal_pair();
         Self { tangent, bitangent, normal }
     }
 
     /// A world direction as the surface sees it.
-    pub fn to_local(self, world: DVec3) -> DVec3 {
+    pub(crate) fn to_local(self, world: DVec3) -> DVec3 {
         DVec3::new(world.dot(self.tangent), world.dot(self.bitangent), world.dot(self.normal))
     }
 
     /// A local direction out in the world.
-    pub fn to_world(self, local: DVec3) -> DVec3 {
+    pub(crate) fn to_world(self, local: DVec3) -> DVec3 {
         local.x * self.tangent + local.y * self.bitangent + local.z * self.normal
     }
 }

@@ -11,23 +11,23 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// What f and density of a pair of directions are made of.
 #[derive(Clone, Copy, Debug)]
-pub struct Facets {
+pub(crate) struct Facets {
     /// α.
-    pub roughness: f64,
+    pub(crate) roughness: f64,
     /// Towards the viewer.
-    pub wo: DVec3,
+    pub(crate) wo: DVec3,
     /// Towards the light.
-    pub wi: DVec3,
+    pub(crate) wi: DVec3,
     /// The normal h of the facets that reflect one into the other.
-    pub normal: DVec3,
+    pub(crate) normal: DVec3,
     /// D(h).
-    pub density: f64,
+    pub(crate) density: f64,
     /// G₁(wo)/cos θo and G₁(wi)/cos θi.
-    pub masking_over_cosine: [f64; 2],
+    pub(crate) masking_over_cosine: [f64; 2],
 }
 
 /// `f` and the density of [`sample`].
-pub fn evaluate(
+pub(crate) fn evaluate(
     reflectance: Rgb,
     roughness: f64,
     wo: DVec3,
@@ -44,24 +44,24 @@ pub fn evaluate(
 }
 
 /// The width of the lobe is the roughness itself.
-pub fn alpha(roughness: f64) -> f64 {
+pub(crate) fn alpha(roughness: f64) -> f64 {
     roughness
 }
 
 /// f/R = D(h) G₁(wo) G₁(wi) / (4 cos θo cos θi).
-pub fn metal_f(facets: &Facets) -> f64 {
+pub(crate) fn metal_f(facets: &Facets) -> f64 {
     let [masking_wo, masking_wi] = facets.masking_over_cosine;
     facets.density * masking_wo * masking_wi / 4.0
 }
 
 /// The density of visible normals, G₁(wo) D(h) max(0, wo·h) / cos θo, over the Jacobian 4 wo·h of
 /// the reflection.
-pub fn metal_pdf(facets: &Facets) -> f64 {
+pub(crate) fn metal_pdf(facets: &Facets) -> f64 {
     facets.density * facets.masking_over_cosine[0] / 4.0
 }
 
 /// A direction reflected from a visible facet; it may point below the horizon, where `f` is zero.
-pub fn sample(roughness: f64, wo: DVec3, point: DVec2, steps: &Steps) -> DVec3 {
+pub(crate) fn sample(roughness: f64, wo: DVec3, point: DVec2, steps: &Steps) -> DVec3 {
     let facet = visible_facet(steps.alpha(roughness), wo, point);
     2.0 * wo.dot(facet) * facet - wo
 }
@@ -69,14 +69,14 @@ pub fn sample(roughness: f64, wo: DVec3, point: DVec2, steps: &Steps) -> DVec3 {
 /// D: area of facets with normal `h` per unit of surface and solid angle.
 ///
 /// Written with h.x² + h.y² in place of 1 − h.z², which would lose all digits for small roughness.
-pub fn facet_density(roughness: f64, h: DVec3) -> f64 {
+pub(crate) fn facet_density(roughness: f64, h: DVec3) -> f64 {
     let alpha_squared = roughness * roughness;
     let stretched = h.x * h.x + h.y * h.y + alpha_squared * h.z * h.z;
     alpha_squared * FRAC_1_PI / (stretched * stretched)
 }
 
 /// G₁(w)/cos θ with G₁ = 2/(1 + √(1 + α² tan² θ)): finite down to the horizon, where both are zero.
-pub fn masking_over_cosine(roughness: f64, w: DVec3) -> f64 {
+pub(crate) fn masking_over_cosine(roughness: f64, w: DVec3) -> f64 {
     let alpha_squared = roughness * roughness;
     let sine_squared = w.x * w.x + w.y * w.y;
     2.0 / (w.z + (w.z * w.z + alpha_squared * sine_squared).sqrt())
@@ -84,7 +84,7 @@ pub fn masking_over_cosine(roughness: f64, w: DVec3) -> f64 {
 
 /// Heitz 2018, listing 1: stretch to the unit hemisphere, sample its projected area as seen from
 /// `wo`, unstretch.
-pub fn visible_facet(roughness: f64, wo: DVec3, point: DVec2) -> DVec3 {
+pub(crate) fn visible_facet(roughness: f64, wo: DVec3, point: DVec2) -> DVec3 {
     let view = DVec3::new(roughness * wo.x, roughness * wo.y, wo.z).normalize();
     let across = DVec3::new(-view.y, view.x, 0.0).try_normalize().unwrap_or(DVec3::X);
     let along = view.cross(across);

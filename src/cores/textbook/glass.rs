@@ -8,18 +8,18 @@ use glam::DVec3;
 
 /// A smooth interface.
 #[derive(Clone, Copy, Debug)]
-pub struct Glass {
+pub(crate) struct Glass {
     /// Of the inside; outside is vacuum.
-    pub index: f64,
+    pub(crate) index: f64,
     /// Multiplies what is reflected.
-    pub reflectance: Rgb,
+    pub(crate) reflectance: Rgb,
     /// Multiplies what is let through.
-    pub transmittance: Rgb,
+    pub(crate) transmittance: Rgb,
 }
 
 impl Glass {
     /// Reflects with the probability of Fresnel's reflectance, refracts otherwise.
-    pub fn sample(&self, wo: DVec3, lobe: f64, steps: &Steps) -> Option<BsdfSample> {
+    pub(crate) fn sample(&self, wo: DVec3, lobe: f64, steps: &Steps) -> Option<BsdfSample> {
         let ratio = steps.relative_index(self.index, wo);
         let fresnel = steps.fresnel(wo.z.abs(), ratio);
         let (reflected, transmitted) = steps.shares(fresnel);
@@ -34,12 +34,12 @@ impl Glass {
 }
 
 /// Index of refraction on the far side over that on the side of `wo`.
-pub fn relative_index(index: f64, wo: DVec3) -> f64 {
+pub(crate) fn relative_index(index: f64, wo: DVec3) -> f64 {
     if wo.z > 0.0 { index } else { 1.0 / index }
 }
 
 /// The unpolarised reflectance of Fresnel's equations for light that arrives at `cosine` > 0.
-pub fn fresnel(cosine: f64, ratio: f64) -> f64 {
+pub(crate) fn fresnel(cosine: f64, ratio: f64) -> f64 {
     let Some(refracted) = refracted_cosine(cosine, ratio) else { return 1.0 };
     let perpendicular = (cosine - ratio * refracted) / (cosine + ratio * refracted);
     let parallel = (ratio * cosine - refracted) / (ratio * cosine + refracted);
@@ -47,24 +47,24 @@ pub fn fresnel(cosine: f64, ratio: f64) -> f64 {
 }
 
 /// Cosine of the refracted direction by Snell's law; `None` if all light is reflected.
-pub fn refracted_cosine(cosine: f64, ratio: f64) -> Option<f64> {
+pub(crate) fn refracted_cosine(cosine: f64, ratio: f64) -> Option<f64> {
     let sine_squared = (1.0 - cosine * cosine) / (ratio * ratio);
     (sine_squared < 1.0).then(|| (1.0 - sine_squared).sqrt())
 }
 
 /// The number of the lobe decides: reflection has the probability `fresnel`.
-pub fn reflects(lobe: f64, fresnel: f64) -> bool {
+pub(crate) fn reflects(lobe: f64, fresnel: f64) -> bool {
     lobe < fresnel
 }
 
 /// The shares of light that are reflected and transmitted.
-pub fn shares(fresnel: f64) -> (f64, f64) {
+pub(crate) fn shares(fresnel: f64) -> (f64, f64) {
     (fresnel, 1.0 - fresnel)
 }
 
 /// Radiance over index squared is what crosses an interface unchanged: light that comes to the
 /// side of `wo` out of the denser medium is spread over a wider cone.
-pub fn radiance_scale(ratio: f64) -> f64 {
+pub(crate) fn radiance_scale(ratio: f64) -> f64 {
     1.0 / (ratio * ratio)
 }
 

@@ -20,39 +20,39 @@ use std::ops::RangeInclusive;
 
 /// Estimates radiance along rays.
 #[derive(Clone, Copy, Debug)]
-pub struct Integrator<'a> {
+pub(crate) struct Integrator<'a> {
     /// What rays see.
-    pub world: &'a World<'a>,
+    pub(crate) world: &'a World<'a>,
     /// How many bounces, by which estimator, with which roulette.
-    pub settings: &'a IntegratorSettings,
+    pub(crate) settings: &'a IntegratorSettings,
     steps: &'a Steps,
 }
 
 /// How far a path has come.
 #[derive(Clone, Copy, Debug)]
-pub struct Progress {
+pub(crate) struct Progress {
     /// The rays after the first, counted from 0.
-    pub continuation: u32,
+    pub(crate) continuation: u32,
     /// The share of the light at its end that reaches the viewer.
-    pub throughput: DVec3,
+    pub(crate) throughput: DVec3,
 }
 
 /// How a path goes on from a vertex.
-pub struct Continuation {
+pub(crate) struct Continuation {
     /// To the next vertex.
-    pub ray: Ray,
+    pub(crate) ray: Ray,
     /// f · |cos θ| / pdf, over the probability of going on at all.
     weight: DVec3,
 }
 
 impl<'a> Integrator<'a> {
     /// For rays into `world`, traced as `settings` say.
-    pub fn new(world: &'a World<'a>, settings: &'a IntegratorSettings) -> Self {
+    pub(crate) fn new(world: &'a World<'a>, settings: &'a IntegratorSettings) -> Self {
         Self { world, settings, steps: world.steps() }
     }
 
     /// One estimate of the radiance that arrives along `ray`.
-    pub fn radiance(&self, ray: &Ray, random: &mut Random<'_>) -> DVec3 {
+    pub(crate) fn radiance(&self, ray: &Ray, random: &mut Random<'_>) -> DVec3 {
         let view = self.world.look(ray);
         let seen = if self.wants(0) { zero_bounce(self.world, &view) } else { DVec3::ZERO };
         seen + self.at_least_one_bounce(view, random)
@@ -89,12 +89,12 @@ impl<'a> Integrator<'a> {
     }
 
     /// Beyond it nothing is followed but mirror and glass.
-    pub fn last_bounce(&self) -> u32 {
+    pub(crate) fn last_bounce(&self) -> u32 {
         self.steps.last_bounce(&self.settings.bounces)
     }
 
     /// The ray after `vertex`. `None` where the path ends.
-    pub fn continue_path(
+    pub(crate) fn continue_path(
         &self,
         vertex: &Vertex<'_>,
         path: Progress,
@@ -118,17 +118,17 @@ impl<'a> Integrator<'a> {
 }
 
 /// Whether the light of this bounce is asked for: accumulated from 0, or isolated.
-pub fn wants(bounces: &RangeInclusive<u32>, bounce: u32) -> bool {
+pub(crate) fn wants(bounces: &RangeInclusive<u32>, bounce: u32) -> bool {
     bounces.contains(&bounce)
 }
 
 /// The last bounce that is asked for.
-pub fn last_bounce(bounces: &RangeInclusive<u32>) -> u32 {
+pub(crate) fn last_bounce(bounces: &RangeInclusive<u32>) -> u32 {
     *bounces.end()
 }
 
 /// The light of this very bounce, from the lights.
-pub fn gather(
+pub(crate) fn gather(
     integrator: &Integrator<'_>,
     vertex: &Vertex<'_>,
     _bounce: u32,
@@ -139,29 +139,33 @@ pub fn gather(
 
 /// Whether what is emitted at the end of the next segment is light of the bounce at this surface:
 /// at mirror and glass it comes over the path.
-pub fn path_meets_light(surface: &Surface, _is_last: bool) -> bool {
+pub(crate) fn path_meets_light(surface: &Surface, _is_last: bool) -> bool {
     bsdf::is_delta(surface)
 }
 
 /// Out in the world.
-pub fn bounce_direction(frame: &Frame, wi: DVec3) -> DVec3 {
+pub(crate) fn bounce_direction(frame: &Frame, wi: DVec3) -> DVec3 {
     frame.to_world(wi)
 }
 
 /// f · |cos θ| / pdf of a sample, which leads in this `direction` of the world.
-pub fn bounce_weight(f: DVec3, sample: &BsdfSample, _direction: DVec3) -> DVec3 {
+pub(crate) fn bounce_weight(f: DVec3, sample: &BsdfSample, _direction: DVec3) -> DVec3 {
     f * sample.wi.z.abs() / sample.pdf
 }
 
 /// The weights of all bounces so far multiply.
-pub fn next_throughput(throughput: DVec3, weight: DVec3) -> DVec3 {
+pub(crate) fn next_throughput(throughput: DVec3, weight: DVec3) -> DVec3 {
     throughput * weight
 }
 
 /// Roulette is played at each continuation but the first `guaranteed` ones. The light of bounce
 /// k needs k − 1 continuations where no mirror is in the way: with `guaranteed` = 1, bounces 1
 /// and 2 never depend on roulette.
-pub fn survival_probability(roulette: Option<Roulette>, _surface: &Surface, path: Progress) -> f64 {
+pub(crate) fn survival_probability(
+    roulette: Option<Roulette>,
+    _surface: &Surface,
+    path: Progress,
+) -> f64 {
     match roulette {
         Some(Roulette { stop, guaranteed }) if path.continuation >= guaranteed => 1.0 - stop,
         _ => 1.0,
@@ -169,6 +173,6 @@ pub fn survival_probability(roulette: Option<Roulette>, _surface: &Surface, path
 }
 
 /// Whoever survives carries the light of those who do not.
-pub fn survival_divisor(_roulette: Option<Roulette>, survival: f64) -> f64 {
+pub(crate) fn survival_divisor(_roulette: Option<Roulette>, survival: f64) -> f64 {
     survival
 }

@@ -11,11 +11,11 @@ use glam::{DVec2, DVec3};
 
 /// Where a ray meets a triangle or a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
+pub(crate) struct Crossing {
     /// Ray parameter.
-    pub t: f64,
+    pub(crate) t: f64,
     /// Triangle: the weights of vertices 1 and 2. Sphere: zero.
-    pub uv: DVec2,
+    pub(crate) uv: DVec2,
 }
 
 /// A triangle thinner than this, relative to its longest edge, has no area as far as f64 can tell:
@@ -30,7 +30,7 @@ const MOST_FORGIVEN: f64 = 1e-9;
 
 /// A triangle with area, as Möller and Trumbore want it: a corner and the two edges that leave it.
 #[derive(Clone, Copy, Debug)]
-pub struct Triangle {
+pub(crate) struct Triangle {
     corner: DVec3,
     edges: [DVec3; 2],
     longest_edge: f64,
@@ -38,7 +38,7 @@ pub struct Triangle {
 
 impl Triangle {
     /// `None` if the corners make no area or are not numbers: nothing can hit such a triangle.
-    pub fn new([a, b, c]: [DVec3; 3]) -> Option<Self> {
+    pub(crate) fn new([a, b, c]: [DVec3; 3]) -> Option<Self> {
         let edges = [b - a, c - a];
         let lengths = [edges[0].length(), edges[1].length(), b.distance(c)];
         let longest_edge = lengths.into_iter().fold(0.0, f64::max);
@@ -48,29 +48,29 @@ impl Triangle {
     }
 
     /// Unit, on the side from which the corners run counter-clockwise.
-    pub fn normal(&self) -> DVec3 {
+    pub(crate) fn normal(&self) -> DVec3 {
         self.edges[0].cross(self.edges[1]).normalize()
     }
 
     /// In square units.
-    pub fn area(&self) -> f64 {
+    pub(crate) fn area(&self) -> f64 {
         self.edges[0].cross(self.edges[1]).length() / 2.0
     }
 
     /// The point with weights `uv` of vertices 1 and 2.
-    pub fn point(&self, uv: DVec2) -> DVec3 {
+    pub(crate) fn point(&self, uv: DVec2) -> DVec3 {
         self.corner + uv.x * self.edges[0] + uv.y * self.edges[1]
     }
 
     /// The smallest box around it.
-    pub fn bounds(&self) -> Aabb {
+    pub(crate) fn bounds(&self) -> Aabb {
         let [b, c] = self.edges.map(|edge| self.corner + edge);
         Aabb { min: self.corner.min(b).min(c), max: self.corner.max(b).max(c) }
     }
 
     /// Möller and Trumbore 1997: solve origin + t·direction = (1 − u − v)·a + u·b + v·c by Cramer's
     /// rule. Both sides are hit, and edges belong to the triangle.
-    pub fn intersect(&self, ray: &Ray, steps: &Steps) -> Option<Crossing> {
+    pub(crate) fn intersect(&self, ray: &Ray, steps: &Steps) -> Option<Crossing> {
         let [edge1, edge2] = self.edges;
         let p = ray.direction.cross(edge2);
         let determinant = edge1.dot(p);
@@ -93,7 +93,7 @@ impl Triangle {
 }
 
 /// Whether the plane of a triangle is met on the segment.
-pub fn triangle_reached(ray: &Ray, t: f64) -> bool {
+pub(crate) fn triangle_reached(ray: &Ray, t: f64) -> bool {
     contains(ray, t)
 }
 
@@ -104,7 +104,7 @@ pub fn triangle_reached(ray: &Ray, t: f64) -> bool {
 /// Were there no room for rounding, a ray through the edge could miss both: a crack along the
 /// diagonal of every floor. The room is relative to all lengths involved, so that neither small
 /// nor far triangles vanish or grow.
-pub fn weight_error(
+pub(crate) fn weight_error(
     triangle: &Triangle,
     ray: &Ray,
     from_corner: DVec3,
@@ -118,45 +118,45 @@ pub fn weight_error(
 }
 
 /// Whether the point with these weights lies in the triangle, edges included.
-pub fn triangle_holds(u: f64, v: f64, error: f64) -> bool {
+pub(crate) fn triangle_holds(u: f64, v: f64, error: f64) -> bool {
     u >= -error && v >= -error && u + v <= 1.0 + error
 }
 
 /// A sphere without a side.
 #[derive(Clone, Copy, Debug)]
-pub struct Ball {
+pub(crate) struct Ball {
     /// World space.
-    pub centre: DVec3,
+    pub(crate) centre: DVec3,
     /// Scene units, positive.
-    pub radius: f64,
+    pub(crate) radius: f64,
 }
 
 /// a t² + b t + c = 0 for the points that a ray and a sphere share.
 #[derive(Clone, Copy, Debug)]
-pub struct Quadratic {
+pub(crate) struct Quadratic {
     /// The direction's length, squared.
-    pub a: f64,
+    pub(crate) a: f64,
     /// b/2.
-    pub half_b: f64,
+    pub(crate) half_b: f64,
     /// Positive outside the sphere.
-    pub c: f64,
+    pub(crate) c: f64,
     /// (b/2)² − ac, computed so that it keeps its digits.
-    pub discriminant: f64,
+    pub(crate) discriminant: f64,
 }
 
 impl Ball {
     /// `None` unless it has a size and a place.
-    pub fn new(centre: DVec3, radius: f64) -> Option<Self> {
+    pub(crate) fn new(centre: DVec3, radius: f64) -> Option<Self> {
         (radius > 0.0 && centre.is_finite()).then_some(Self { centre, radius })
     }
 
     /// The smallest box around it.
-    pub fn bounds(&self) -> Aabb {
+    pub(crate) fn bounds(&self) -> Aabb {
         Aabb { min: self.centre - self.radius, max: self.centre + self.radius }
     }
 
     /// The nearer crossing inside the segment; from inside the ball that is the far one.
-    pub fn intersect(&self, ray: &Ray, steps: &Steps) -> Option<Crossing> {
+    pub(crate) fn intersect(&self, ray: &Ray, steps: &Steps) -> Option<Crossing> {
         let quadratic = self.quadratic(ray);
         if quadratic.discriminant < 0.0 {
             return None;
@@ -183,23 +183,23 @@ impl Ball {
 
 /// Both solutions, in any order. The smaller one comes from the product of both, c/a: the usual
 /// formula would subtract nearly equal numbers.
-pub fn roots(Quadratic { a, half_b, c, discriminant }: Quadratic) -> (f64, f64) {
+pub(crate) fn roots(Quadratic { a, half_b, c, discriminant }: Quadratic) -> (f64, f64) {
     let q = -(half_b + discriminant.sqrt().copysign(half_b));
     (c / q, q / a)
 }
 
 /// The first of the two that lies on the segment.
-pub fn nearer_root(ray: &Ray, near: f64, far: f64) -> Option<f64> {
+pub(crate) fn nearer_root(ray: &Ray, near: f64, far: f64) -> Option<f64> {
     [near, far].into_iter().find(|t| contains(ray, *t))
 }
 
 /// Unit, away from the centre.
-pub fn outward_normal(ball: &Ball, point: DVec3) -> DVec3 {
+pub(crate) fn outward_normal(ball: &Ball, point: DVec3) -> DVec3 {
     (point - ball.centre).normalize()
 }
 
 /// Whether `t` lies strictly inside the ray's segment. Not a number lies nowhere.
-pub fn contains(ray: &Ray, t: f64) -> bool {
+pub(crate) fn contains(ray: &Ray, t: f64) -> bool {
     ray.t_min < t && t < ray.t_max
 }
 

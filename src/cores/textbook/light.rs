@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3};
 
 /// A light, prepared for sampling.
 #[derive(Clone, Debug)]
-pub enum Lamp {
+pub(crate) enum Lamp {
     /// Point, directional or sky: nothing to prepare.
     Simple(Light),
     /// A mesh that emits.
@@ -26,7 +26,7 @@ pub enum Lamp {
 
 impl Lamp {
     /// Prepares `light` of `scene`.
-    pub fn new(light: &Light, scene: &SceneDescription) -> Self {
+    pub(crate) fn new(light: &Light, scene: &SceneDescription) -> Self {
         let Light::Area { shape } = *light else { return Self::Simple(*light) };
         let Some(emission) = scene.material_of(shape).emission else { return Self::Dark };
         match scene.shape(shape) {
@@ -36,12 +36,12 @@ impl Lamp {
     }
 
     /// Whether no ray can meet the light by chance.
-    pub fn is_delta(&self) -> bool {
+    pub(crate) fn is_delta(&self) -> bool {
         matches!(self, Self::Simple(light) if light.is_delta())
     }
 
     /// Radiance of the sky from `direction`; zero for other lights.
-    pub fn sky_radiance(&self, direction: DVec3) -> Rgb {
+    pub(crate) fn sky_radiance(&self, direction: DVec3) -> Rgb {
         match self {
             Self::Simple(light) => light.sky_radiance(direction),
             _ => [0.0; 3],
@@ -49,7 +49,7 @@ impl Lamp {
     }
 
     /// A direction from `from` towards the light; `lobe` chooses the triangle of a mesh.
-    pub fn sample(
+    pub(crate) fn sample(
         &self,
         from: DVec3,
         point: DVec2,
@@ -66,7 +66,7 @@ impl Lamp {
 
     /// The density with which [`Self::sample`] draws the direction from `from` to `at`, an emitting
     /// point of the light with unit `normal` on its front.
-    pub fn area_pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
+    pub(crate) fn area_pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
         match self {
             Self::Mesh(mesh) => mesh.pdf(from, at, normal, steps),
             Self::Ball(ball) => ball.pdf(from, at, normal, steps),
@@ -76,7 +76,7 @@ impl Lamp {
 
     /// The density with which [`Self::sample`] draws a direction into the sky; zero for other
     /// lights.
-    pub fn sky_pdf(&self, steps: &Steps) -> f64 {
+    pub(crate) fn sky_pdf(&self, steps: &Steps) -> f64 {
         match self {
             Self::Simple(Light::ConstantSky { .. } | Light::GradientSky { .. }) => steps.sky_pdf(),
             _ => 0.0,
@@ -102,12 +102,12 @@ fn sample_simple(light: &Light, from: DVec3, point: DVec2, steps: &Steps) -> Opt
 }
 
 /// Intensity over distance squared.
-pub fn point_light_radiance(intensity: Rgb, distance: f64) -> Rgb {
+pub(crate) fn point_light_radiance(intensity: Rgb, distance: f64) -> Rgb {
     intensity.map(|i| i / (distance * distance))
 }
 
 /// Against the way its light travels.
-pub fn towards_directional(direction: DVec3) -> DVec3 {
+pub(crate) fn towards_directional(direction: DVec3) -> DVec3 {
     -direction
 }
 
@@ -117,7 +117,7 @@ fn delta(wi: DVec3, distance: f64, radiance: Rgb) -> LightSample {
 
 /// The sample that leads from `from` to the point `at`, drawn with density `pdf`. From behind,
 /// where the density is 0, there is none.
-pub fn towards(from: DVec3, at: DVec3, radiance: Rgb, pdf: f64) -> Option<LightSample> {
+pub(crate) fn towards(from: DVec3, at: DVec3, radiance: Rgb, pdf: f64) -> Option<LightSample> {
     let wi = (at - from).try_normalize()?;
     let distance = from.distance(at);
     let sample = LightSample { wi, distance, radiance, pdf, is_delta: 0, is_valid: 1 };
@@ -137,7 +137,7 @@ fn sample_sky(light: &Light, point: DVec2, steps: &Steps) -> LightSample {
 }
 
 /// Uniform over all directions: the point that asks has no normal to prefer some.
-pub fn sky_pdf() -> f64 {
+pub(crate) fn sky_pdf() -> f64 {
     sampling::uniform_sphere_pdf()
 }
 

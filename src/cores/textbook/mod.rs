@@ -32,9 +32,9 @@ mod bsdf;
 mod build;
 mod bvh;
 mod camera;
-pub mod different;
+pub(crate) mod different;
 mod direct;
-pub mod fault;
+pub(crate) mod fault;
 mod frame;
 mod ggx;
 mod glass;
@@ -50,7 +50,7 @@ mod slab;
 mod split;
 mod spread;
 mod steps;
-pub mod variant;
+pub(crate) mod variant;
 mod vertex;
 mod world;
 
@@ -74,14 +74,14 @@ use world::World;
 
 /// The plain core, or a copy of it.
 #[derive(Clone, Debug)]
-pub struct Textbook {
+pub(crate) struct Textbook {
     steps: Steps,
     info: CoreInfo,
 }
 
 impl Textbook {
     /// The plain core, ready to be asked.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let info = CoreInfo {
             name: "textbook".to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),

@@ -9,22 +9,22 @@ use rand::SeedableRng;
 
 /// The random numbers of one path.
 #[derive(Clone, Debug)]
-pub struct Random<'a> {
+pub(crate) struct Random<'a> {
     /// What the stream starts from.
-    pub name: u64,
+    pub(crate) name: u64,
     /// The generator.
-    pub stream: Stream,
+    pub(crate) stream: Stream,
     steps: &'a Steps,
 }
 
 impl<'a> Random<'a> {
     /// For ray number `ray` of one call.
-    pub fn for_ray(seed: u64, ray: usize) -> Self {
+    pub(crate) fn for_ray(seed: u64, ray: usize) -> Self {
         Self::named(&[seed, ray as u64])
     }
 
     /// For camera sample `sample` of pixel number `pixel`.
-    pub fn for_sample(seed: u64, pixel: usize, sample: u32) -> Self {
+    pub(crate) fn for_sample(seed: u64, pixel: usize, sample: u32) -> Self {
         Self::named(&[seed, pixel as u64, u64::from(sample)])
     }
 
@@ -34,45 +34,45 @@ impl<'a> Random<'a> {
     }
 
     /// The same stream, drawn from as these steps say.
-    pub fn drawn_by(self, steps: &Steps) -> Random<'_> {
+    pub(crate) fn drawn_by(self, steps: &Steps) -> Random<'_> {
         Random { name: self.name, stream: self.stream, steps }
     }
 
     /// A number in [0, 1).
-    pub fn number(&mut self) -> f64 {
+    pub(crate) fn number(&mut self) -> f64 {
         self.steps.number(self)
     }
 
     /// A point of the unit square.
-    pub fn point(&mut self) -> DVec2 {
+    pub(crate) fn point(&mut self) -> DVec2 {
         let x = self.number();
         DVec2::new(x, self.number())
     }
 }
 
 /// A number in [0, 1): the next of the stream.
-pub fn number(random: &mut Random<'_>) -> f64 {
+pub(crate) fn number(random: &mut Random<'_>) -> f64 {
     uniform(&mut random.stream)
 }
 
 /// The stream of one sample of one pixel.
-pub fn sample_stream(seed: u64, pixel: usize, sample: u32) -> Random<'static> {
+pub(crate) fn sample_stream(seed: u64, pixel: usize, sample: u32) -> Random<'static> {
     Random::for_sample(seed, pixel, sample)
 }
 
 /// The seed that numbers are drawn by is the one that was given.
-pub fn seed(given: u64) -> u64 {
+pub(crate) fn seed(given: u64) -> u64 {
     given
 }
 
 /// Sampling uses the caller's numbers: a point of the unit square, and one to choose a lobe.
-pub fn callers_numbers(random: &Randomness<'_>, index: usize) -> (DVec2, f64) {
+pub(crate) fn callers_numbers(random: &Randomness<'_>, index: usize) -> (DVec2, f64) {
     (random.points[index], random.lobes[index])
 }
 
 /// One step of SplitMix64 (Steele, Lea and Flood 2014): a bijection that leaves no trace of the
 /// order of labels, so that neighbouring seeds and neighbouring pixels are unrelated.
-pub fn scramble(label: u64) -> u64 {
+pub(crate) fn scramble(label: u64) -> u64 {
     let mut z = label.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -16,7 +16,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Renders `world` into `film`.
-pub fn render(
+pub(crate) fn render(
     world: &World<'_>,
     camera: &Camera,
     settings: &RenderSettings,
@@ -36,7 +36,11 @@ pub fn render(
 }
 
 /// Fills `out[index]` with `value(index)`, on as many threads as are allowed; 0 means all.
-pub fn fill<T: Send>(threads: u32, out: &mut [T], value: impl Fn(usize) -> T + Sync) -> Result<()> {
+pub(crate) fn fill<T: Send>(
+    threads: u32,
+    out: &mut [T],
+    value: impl Fn(usize) -> T + Sync,
+) -> Result<()> {
     let one = |(index, slot): (usize, &mut T)| *slot = value(index);
     match threads {
         0 => out.par_iter_mut().enumerate().for_each(one),
@@ -113,34 +117,39 @@ impl Picture<'_> {
 }
 
 /// The sum of the samples, divided by their number.
-pub fn pixel_mean(total: DVec3, samples: f64) -> DVec3 {
+pub(crate) fn pixel_mean(total: DVec3, samples: f64) -> DVec3 {
     total / samples
 }
 
 /// Samples are adaptive where that is asked for.
-pub fn adaptive_settings(settings: &RenderSettings) -> Option<AdaptiveSettings> {
+pub(crate) fn adaptive_settings(settings: &RenderSettings) -> Option<AdaptiveSettings> {
     settings.adaptive
 }
 
 /// Where in the unit square sample number `sample` of a pixel lies.
-pub fn pixel_point(random: &mut Random<'_>, _seed: u64, _pixel: usize, _sample: u32) -> DVec2 {
+pub(crate) fn pixel_point(
+    random: &mut Random<'_>,
+    _seed: u64,
+    _pixel: usize,
+    _sample: u32,
+) -> DVec2 {
     random.point()
 }
 
 /// A point of cell number `sample` of a grid of `side` by `side` over the unit square.
-pub fn stratum(sample: u32, side: u32, jitter: DVec2) -> DVec2 {
+pub(crate) fn stratum(sample: u32, side: u32, jitter: DVec2) -> DVec2 {
     let (column, row) = (sample % side, sample / side);
     (DVec2::new(f64::from(column), f64::from(row)) + jitter) / f64::from(side)
 }
 
 /// Where on the film a point of a pixel lies. Rows run down the picture, the film runs up.
-pub fn film_point(settings: &RenderSettings, pixel: usize, within: DVec2) -> DVec2 {
+pub(crate) fn film_point(settings: &RenderSettings, pixel: usize, within: DVec2) -> DVec2 {
     let from_top = from_top(settings, pixel, within);
     DVec2::new(from_top.x, 1.0 - from_top.y)
 }
 
 /// Where in the picture a point of a pixel lies: (0, 0) top left, (1, 1) bottom right.
-pub fn from_top(settings: &RenderSettings, pixel: usize, within: DVec2) -> DVec2 {
+pub(crate) fn from_top(settings: &RenderSettings, pixel: usize, within: DVec2) -> DVec2 {
     let width = settings.width as usize;
     let corner = DVec2::new((pixel % width) as f64, (pixel / width) as f64);
     let size = DVec2::new(f64::from(settings.width), f64::from(settings.height));

@@ -14,20 +14,20 @@ use glam::{DVec2, DVec3};
 
 /// A rough interface.
 #[derive(Clone, Copy, Debug)]
-pub struct RoughGlass {
+pub(crate) struct RoughGlass {
     /// Of the inside; outside is vacuum.
-    pub index: f64,
+    pub(crate) index: f64,
     /// The width α of the distribution of facets.
-    pub roughness: f64,
+    pub(crate) roughness: f64,
     /// Multiplies what is reflected.
-    pub reflectance: Rgb,
+    pub(crate) reflectance: Rgb,
     /// Multiplies what is let through.
-    pub transmittance: Rgb,
+    pub(crate) transmittance: Rgb,
 }
 
 impl RoughGlass {
     /// `f` and the density of [`Self::sample`].
-    pub fn evaluate(&self, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
+    pub(crate) fn evaluate(&self, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
         if wo.z * wi.z > 0.0 {
             self.reflection(wo, wi, steps)
         } else if wo.z * wi.z < 0.0 {
@@ -70,7 +70,13 @@ impl RoughGlass {
     /// One incident direction for `wo`: a facet that is seen, which reflects with the probability
     /// of Fresnel's reflectance and refracts otherwise. What comes out on the wrong side of the
     /// surface is lost.
-    pub fn sample(&self, wo: DVec3, point: DVec2, lobe: f64, steps: &Steps) -> Option<BsdfSample> {
+    pub(crate) fn sample(
+        &self,
+        wo: DVec3,
+        point: DVec2,
+        lobe: f64,
+        steps: &Steps,
+    ) -> Option<BsdfSample> {
         let side = wo.z.signum();
         let towards_wo = side * ggx::visible_facet(self.roughness, side * wo, point);
         let (cosine, ratio) = (wo.dot(towards_wo), self.ratio(wo));
@@ -87,7 +93,7 @@ impl RoughGlass {
     }
 
     /// Index of refraction on the far side over that on the side of `wo`.
-    pub fn ratio(&self, wo: DVec3) -> f64 {
+    pub(crate) fn ratio(&self, wo: DVec3) -> f64 {
         glass::relative_index(self.index, wo)
     }
 
@@ -111,37 +117,37 @@ impl RoughGlass {
 }
 
 /// The cosine that Fresnel's equations take: light meets the facet, not the surface.
-pub fn fresnel_cosine(wo: DVec3, facet: DVec3) -> f64 {
+pub(crate) fn fresnel_cosine(wo: DVec3, facet: DVec3) -> f64 {
     wo.dot(facet).abs()
 }
 
 /// The facet that refracts `wi` towards `wo`: Walter's equation 16.
-pub fn refraction_facet(glass: &RoughGlass, wo: DVec3, wi: DVec3) -> DVec3 {
+pub(crate) fn refraction_facet(glass: &RoughGlass, wo: DVec3, wi: DVec3) -> DVec3 {
     upward((-(wo + glass.ratio(wo) * wi)).normalize())
 }
 
 /// Solid angle of facets per solid angle of refracted directions: Walter's equation 17.
-pub fn refraction_jacobian(ratio: f64, i_m: f64, denominator: f64) -> f64 {
+pub(crate) fn refraction_jacobian(ratio: f64, i_m: f64, denominator: f64) -> f64 {
     ratio * ratio * i_m.abs() / denominator
 }
 
 /// A sample goes each way with the probability of that way's share of the light.
-pub fn lobe_probability(share: f64) -> f64 {
+pub(crate) fn lobe_probability(share: f64) -> f64 {
     share
 }
 
 /// G / (cos θo cos θi), with separable masking.
-pub fn masking_over_cosines(roughness: f64, wo: DVec3, wi: DVec3) -> f64 {
+pub(crate) fn masking_over_cosines(roughness: f64, wo: DVec3, wi: DVec3) -> f64 {
     ggx::masking_over_cosine(roughness, wo) * ggx::masking_over_cosine(roughness, wi)
 }
 
 /// Equation 21 is of radiance that is scaled by the index squared where it crosses.
-pub fn rough_radiance_scale(_ratio: f64) -> f64 {
+pub(crate) fn rough_radiance_scale(_ratio: f64) -> f64 {
     1.0
 }
 
 /// The normal of a facet, which points out of the glass.
-pub fn upward(facet: DVec3) -> DVec3 {
+pub(crate) fn upward(facet: DVec3) -> DVec3 {
     if facet.z < 0.0 { -facet } else { facet }
 }
 

@@ -9,13 +9,13 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// One direction of `sampler`, with its density per steradian.
-pub fn sample(sampler: Sampler, point: DVec2, steps: &Steps) -> DirectionSample {
+pub(crate) fn sample(sampler: Sampler, point: DVec2, steps: &Steps) -> DirectionSample {
     let direction = direction(sampler, point, steps);
     DirectionSample { direction, pdf: pdf(sampler, direction, steps) }
 }
 
 /// One direction of `sampler`.
-pub fn direction(sampler: Sampler, point: DVec2, steps: &Steps) -> DVec3 {
+pub(crate) fn direction(sampler: Sampler, point: DVec2, steps: &Steps) -> DVec3 {
     let height = match sampler {
         Sampler::UniformHemisphere => steps.uniform_height(point.x),
         Sampler::CosineHemisphere => steps.cosine_height(point.x),
@@ -24,7 +24,7 @@ pub fn direction(sampler: Sampler, point: DVec2, steps: &Steps) -> DVec3 {
 }
 
 /// The density per steradian with which `sampler` draws `direction`; 0 below the horizon.
-pub fn pdf(sampler: Sampler, direction: DVec3, steps: &Steps) -> f64 {
+pub(crate) fn pdf(sampler: Sampler, direction: DVec3, steps: &Steps) -> f64 {
     if steps.is_below_horizon(direction) {
         return 0.0;
     }
@@ -35,47 +35,47 @@ pub fn pdf(sampler: Sampler, direction: DVec3, steps: &Steps) -> f64 {
 }
 
 /// Where no sampler draws a direction.
-pub fn is_below_horizon(direction: DVec3) -> bool {
+pub(crate) fn is_below_horizon(direction: DVec3) -> bool {
     direction.z <= 0.0
 }
 
 /// Archimedes: the height of a uniform point of the sphere is itself uniform. 1 − u is never 0.
-pub fn uniform_height(u: f64) -> f64 {
+pub(crate) fn uniform_height(u: f64) -> f64 {
     1.0 - u
 }
 
 /// 1/2π.
-pub fn uniform_hemisphere_pdf() -> f64 {
+pub(crate) fn uniform_hemisphere_pdf() -> f64 {
     FRAC_1_PI / 2.0
 }
 
 /// Malley: a uniform point of the disk, lifted to the hemisphere.
-pub fn cosine_height(u: f64) -> f64 {
+pub(crate) fn cosine_height(u: f64) -> f64 {
     (1.0 - u).sqrt()
 }
 
 /// cos θ/π.
-pub fn cosine_hemisphere_pdf(direction: DVec3) -> f64 {
+pub(crate) fn cosine_hemisphere_pdf(direction: DVec3) -> f64 {
     direction.z * FRAC_1_PI
 }
 
 /// Share of a full turn.
-pub fn turn(point: DVec2) -> f64 {
+pub(crate) fn turn(point: DVec2) -> f64 {
     point.y
 }
 
 /// Uniform over the whole sphere.
-pub fn uniform_sphere(point: DVec2) -> DVec3 {
+pub(crate) fn uniform_sphere(point: DVec2) -> DVec3 {
     direction_at(1.0 - 2.0 * point.x, point.y)
 }
 
 /// 1/4π.
-pub fn uniform_sphere_pdf() -> f64 {
+pub(crate) fn uniform_sphere_pdf() -> f64 {
     FRAC_1_PI / 4.0
 }
 
 /// The unit vector with height `cosine` over the plane, at `turn` of a full turn.
-pub fn direction_at(cosine: f64, turn: f64) -> DVec3 {
+pub(crate) fn direction_at(cosine: f64, turn: f64) -> DVec3 {
     let sine = ((1.0 - cosine) * (1.0 + cosine)).max(0.0).sqrt();
     let (sin_phi, cos_phi) = (2.0 * PI * turn).sin_cos();
     DVec3::new(sine * cos_phi, sine * sin_phi, cosine)

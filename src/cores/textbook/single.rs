@@ -5,7 +5,7 @@ use crate::contract::questions::*;
 use crate::contract::{Acceleration, BuildStats, BuiltScene, Core, CoreInfo};
 
 /// A core whose answers are those of another, rounded.
-pub struct Single<C>(pub C);
+pub(crate) struct Single<C>(pub(crate) C);
 
 /// A scene in such a core.
 struct SingleScene<'a>(Box<dyn BuiltScene + 'a>);

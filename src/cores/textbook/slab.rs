@@ -5,7 +5,7 @@ use crate::contract::Ray;
 use crate::scene::Aabb;
 
 /// Where the line of `ray` enters and leaves the closed box, if the box meets the closed segment.
-pub fn intersect_box(bounds: &Aabb, ray: &Ray, steps: &Steps) -> Option<(f64, f64)> {
+pub(crate) fn intersect_box(bounds: &Aabb, ray: &Ray, steps: &Steps) -> Option<(f64, f64)> {
     let (x_enter, x_exit) = steps.slab(bounds, ray, 0)?;
     let (y_enter, y_exit) = steps.slab(bounds, ray, 1)?;
     let (z_enter, z_exit) = steps.slab(bounds, ray, 2)?;
@@ -18,7 +18,7 @@ pub fn intersect_box(bounds: &Aabb, ray: &Ray, steps: &Steps) -> Option<(f64, f6
 ///
 /// A ray along the planes is inside for ever or never; dividing by its zero would give 0/0 on a
 /// plane, and the wrong infinity for a direction of −0.
-pub fn slab(bounds: &Aabb, ray: &Ray, axis: usize) -> Option<(f64, f64)> {
+pub(crate) fn slab(bounds: &Aabb, ray: &Ray, axis: usize) -> Option<(f64, f64)> {
     let (low, high) = (bounds.min[axis], bounds.max[axis]);
     let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
     if direction == 0.0 {
@@ -30,7 +30,7 @@ pub fn slab(bounds: &Aabb, ray: &Ray, axis: usize) -> Option<(f64, f64)> {
 }
 
 /// Whether the three slabs have a common stretch, and the segment a part in it.
-pub fn slabs_overlap(enter: f64, exit: f64, ray: &Ray) -> bool {
+pub(crate) fn slabs_overlap(enter: f64, exit: f64, ray: &Ray) -> bool {
     enter <= exit && enter <= ray.t_max && exit >= ray.t_min
 }
 

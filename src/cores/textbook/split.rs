@@ -12,20 +12,20 @@ use std::ops::Range;
 
 /// A primitive as the builder sees it.
 #[derive(Clone, Copy, Debug)]
-pub struct Item {
+pub(crate) struct Item {
     /// Its number in the scene.
-    pub primitive: usize,
+    pub(crate) primitive: usize,
     /// A box that holds it.
-    pub bounds: Aabb,
+    pub(crate) bounds: Aabb,
     /// The middle of that box.
-    pub centroid: DVec3,
+    pub(crate) centroid: DVec3,
 }
 
 /// Bins of the surface area heuristic.
 const BINS: usize = 16;
 
 /// Reorders `items` by the rule that was `asked` for, and answers how many of them go left.
-pub fn partition(asked: Split, items: &mut [Item], steps: &Steps) -> usize {
+pub(crate) fn partition(asked: Split, items: &mut [Item], steps: &Steps) -> usize {
     match steps.rule(asked) {
         Split::Median => halve(items, steps),
         Split::MeanOfCentroids => {
@@ -44,12 +44,12 @@ pub fn partition(asked: Split, items: &mut [Item], steps: &Steps) -> usize {
 }
 
 /// The rule that divides nodes is the one that was asked for.
-pub fn rule(asked: Split) -> Split {
+pub(crate) fn rule(asked: Split) -> Split {
     asked
 }
 
 /// Equal counts along the longest axis: always separates.
-pub fn halve(items: &mut [Item], steps: &Steps) -> usize {
+pub(crate) fn halve(items: &mut [Item], steps: &Steps) -> usize {
     let axis = steps.longest_axis(extent(&centroid_bounds(items)));
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |a, b| a.centroid[axis].total_cmp(&b.centroid[axis]));
@@ -57,12 +57,12 @@ pub fn halve(items: &mut [Item], steps: &Steps) -> usize {
 }
 
 /// The axis along which a box is longest.
-pub fn longest_axis(extent: DVec3) -> usize {
+pub(crate) fn longest_axis(extent: DVec3) -> usize {
     extent.max_position()
 }
 
 /// The box around all boxes.
-pub fn union(boxes: impl Iterator<Item = Aabb>) -> Aabb {
+pub(crate) fn union(boxes: impl Iterator<Item = Aabb>) -> Aabb {
     boxes.fold(EMPTY, |all, one| Aabb { min: all.min.min(one.min), max: all.max.max(one.max) })
 }
 
@@ -70,7 +70,7 @@ pub fn union(boxes: impl Iterator<Item = Aabb>) -> Aabb {
 const EMPTY: Aabb = Aabb { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
 /// The box around all centroids.
-pub fn centroid_bounds(items: &[Item]) -> Aabb {
+pub(crate) fn centroid_bounds(items: &[Item]) -> Aabb {
     union(items.iter().map(|item| Aabb { min: item.centroid, max: item.centroid }))
 }
 
@@ -103,7 +103,7 @@ fn partition_by_surface_area(items: &mut [Item], steps: &Steps) -> usize {
 }
 
 /// The axes across which the surface area heuristic looks for a plane: all of them.
-pub fn compared_axes(_extent: DVec3) -> Range<usize> {
+pub(crate) fn compared_axes(_extent: DVec3) -> Range<usize> {
     0..3
 }
 

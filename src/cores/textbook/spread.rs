@@ -7,16 +7,16 @@ use glam::DVec3;
 ///
 /// In double precision they lose no digit that matters: samples would have to agree to seven digits.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Spread {
+pub(crate) struct Spread {
     count: u32,
     /// Of the samples.
-    pub sum: DVec3,
+    pub(crate) sum: DVec3,
     /// Of each channel.
-    pub sum_of_squares: DVec3,
+    pub(crate) sum_of_squares: DVec3,
 }
 
 /// Takes one more sample in.
-pub fn add(spread: &mut Spread, radiance: DVec3) {
+pub(crate) fn add(spread: &mut Spread, radiance: DVec3) {
     spread.count += 1;
     spread.sum += radiance;
     spread.sum_of_squares += radiance * radiance;
@@ -24,7 +24,7 @@ pub fn add(spread: &mut Spread, radiance: DVec3) {
 
 impl Spread {
     /// Variance of the mean of the samples. Of a single sample nothing is known: 0.
-    pub fn variance_of_mean(&self, steps: &Steps) -> DVec3 {
+    pub(crate) fn variance_of_mean(&self, steps: &Steps) -> DVec3 {
         if self.count < 2 {
             return DVec3::ZERO;
         }
@@ -35,7 +35,7 @@ impl Spread {
 }
 
 /// That of one sample, over n − 1, divided by n.
-pub fn variance_of_mean(squared_deviations: DVec3, n: f64) -> DVec3 {
+pub(crate) fn variance_of_mean(squared_deviations: DVec3, n: f64) -> DVec3 {
     squared_deviations / (n - 1.0) / n
 }
 

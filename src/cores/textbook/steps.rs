@@ -30,13 +30,13 @@ use glam::{DVec2, DVec3};
 use std::ops::{Range, RangeInclusive};
 
 /// The table without anything in a step's place: the lesson itself.
-pub const LESSON: Steps = Steps::LESSON;
+pub(crate) const LESSON: Steps = Steps::LESSON;
 
 macro_rules! steps {
     ($($module:ident::$step:ident($($argument:ident: $type:ty),*) $(-> $answer:ty)?;)*) => {
         /// What stands in place of each step, if anything does.
         #[derive(Clone, Copy, Debug)]
-        pub struct Steps {
+        pub(crate) struct Steps {
             $(pub $step: Option<fn($($type),*) $(-> $answer)?>,)*
         }
 
@@ -45,7 +45,7 @@ macro_rules! steps {
 
             $(
                 #[inline]
-                pub fn $step(&self, $($argument: $type),*) $(-> $answer)? {
+                pub(crate) fn $step(&self, $($argument: $type),*) $(-> $answer)? {
                     match self.$step {
                         None => super::$module::$step($($argument),*),
                         Some(other) => other($($argument),*),
@@ -57,7 +57,7 @@ macro_rules! steps {
             ///
             /// # Errors
             /// With the first step that both replace.
-            pub fn and(&self, other: &Self) -> Result<Self, &'static str> {
+            pub(crate) fn and(&self, other: &Self) -> Result<Self, &'static str> {
                 let mut both = *self;
                 $(
                     if other.$step.is_some() {
@@ -72,7 +72,7 @@ macro_rules! steps {
 
             /// The steps that are replaced, and all there are.
             #[cfg(test)]
-            pub fn replaced(&self) -> (Vec<&'static str>, usize) {
+            pub(crate) fn replaced(&self) -> (Vec<&'static str>, usize) {
                 let all = [$((stringify!($step), self.$step.is_some())),*];
                 let replaced = all.iter().filter(|(_, is_replaced)| *is_replaced);
                 (replaced.map(|(step, _)| *step).collect(), all.len())

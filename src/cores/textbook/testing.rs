@@ -10,16 +10,16 @@ use glam::DVec3;
 
 /// A scene under construction.
 #[derive(Clone, Debug, Default)]
-pub struct Stage(SceneDescription);
+pub(crate) struct Stage(SceneDescription);
 
 impl Stage {
     /// Nothing at all.
-    pub fn empty() -> Self {
+    pub(crate) fn empty() -> Self {
         Self::default()
     }
 
     /// A polygon, fanned from its first corner; counter-clockwise from the front.
-    pub fn polygon(mut self, corners: &[DVec3], look: Look) -> Self {
+    pub(crate) fn polygon(mut self, corners: &[DVec3], look: Look) -> Self {
         let material = self.add(look);
         let indices = (2..corners.len() as u32).map(|last| [0, last - 1, last]).collect();
         let mesh = Mesh { positions: corners.to_vec(), indices, material, ..Mesh::default() };
@@ -28,25 +28,25 @@ impl Stage {
     }
 
     /// A mesh as it is.
-    pub fn mesh(mut self, mut mesh: Mesh, look: Look) -> Self {
+    pub(crate) fn mesh(mut self, mut mesh: Mesh, look: Look) -> Self {
         mesh.material = self.add(look);
         self.0.meshes.push(mesh);
         self
     }
 
     /// The plane z = 0 from −10 to 10, facing up, with reflectance .37.
-    pub fn floor(self) -> Self {
+    pub(crate) fn floor(self) -> Self {
         let corners = [(-10.0, -10.0), (10.0, -10.0), (10.0, 10.0), (-10.0, 10.0)];
         self.polygon(&corners.map(|(x, y)| DVec3::new(x, y, 0.0)), diffuse(0.37))
     }
 
     /// A ball, with its front outside.
-    pub fn ball(self, centre: DVec3, radius: f64, look: Look) -> Self {
+    pub(crate) fn ball(self, centre: DVec3, radius: f64, look: Look) -> Self {
         self.sphere(centre, radius, false, look)
     }
 
     /// A room, with its front inside.
-    pub fn room(self, radius: f64, look: Look) -> Self {
+    pub(crate) fn room(self, radius: f64, look: Look) -> Self {
         self.sphere(DVec3::ZERO, radius, true, look)
     }
 
@@ -57,7 +57,7 @@ impl Stage {
     }
 
     /// A light that is no shape.
-    pub fn light(mut self, light: Light) -> Self {
+    pub(crate) fn light(mut self, light: Light) -> Self {
         self.0.lights.push(light);
         self
     }
@@ -69,73 +69,78 @@ impl Stage {
     }
 
     /// The description.
-    pub fn scene(self) -> SceneDescription {
+    pub(crate) fn scene(self) -> SceneDescription {
         self.0.with_area_lights()
     }
 
     /// The scene as rays see it.
-    pub fn world(self) -> World<'static> {
+    pub(crate) fn world(self) -> World<'static> {
         World::new(&self.scene(), Acceleration::DEFAULT, &LESSON)
     }
 }
 
 /// How a shape scatters and glows.
 #[derive(Clone, Copy, Debug)]
-pub struct Look {
+pub(crate) struct Look {
     /// How it scatters.
-    pub surface: Surface,
+    pub(crate) surface: Surface,
     /// How it glows.
-    pub emission: Option<Emission>,
+    pub(crate) emission: Option<Emission>,
 }
 
 impl Look {
     /// And glows with this radiance.
-    pub fn glowing(self, radiance: f64) -> Self {
+    pub(crate) fn glowing(self, radiance: f64) -> Self {
         Self { emission: Some(Emission { radiance: grey(radiance), cap: None }), ..self }
     }
 
     /// And glows within `half_angle` of +z.
-    pub fn glowing_cap(self, radiance: f64, half_angle: f64) -> Self {
+    pub(crate) fn glowing_cap(self, radiance: f64, half_angle: f64) -> Self {
         let cap = Some(Cap { axis: DVec3::Z, half_angle });
         Self { emission: Some(Emission { radiance: grey(radiance), cap }), ..self }
     }
 }
 
 /// The same in all channels.
-pub fn grey(value: f64) -> Rgb {
+pub(crate) fn grey(value: f64) -> Rgb {
     [value; 3]
 }
 
 /// A diffuse surface that does not glow.
-pub fn diffuse(reflectance: f64) -> Look {
+pub(crate) fn diffuse(reflectance: f64) -> Look {
     looks(Surface::Diffuse { reflectance: grey(reflectance) })
 }
 
 /// A surface that does not glow.
-pub fn looks(surface: Surface) -> Look {
+pub(crate) fn looks(surface: Surface) -> Look {
     Look { surface, emission: None }
 }
 
 /// Glass of index 1.5 that absorbs nothing.
-pub fn clear_glass() -> Look {
+pub(crate) fn clear_glass() -> Look {
     let (reflectance, transmittance) = (grey(1.0), grey(1.0));
     looks(Surface::Glass { index: 1.5, reflectance, transmittance })
 }
 
 /// A mean with its standard error.
 #[derive(Clone, Copy, Debug)]
-pub struct Estimate {
+pub(crate) struct Estimate {
     /// Of the red channel.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Of the mean.
-    pub standard_error: f64,
+    pub(crate) standard_error: f64,
     /// Of a single path.
-    pub variance: f64,
+    pub(crate) variance: f64,
 }
 
 impl Estimate {
     /// Traces `paths` paths along `ray`.
-    pub fn of(world: &World<'_>, ray: &Ray, settings: &IntegratorSettings, paths: usize) -> Self {
+    pub(crate) fn of(
+        world: &World<'_>,
+        ray: &Ray,
+        settings: &IntegratorSettings,
+        paths: usize,
+    ) -> Self {
         let integrator = Integrator::new(world, settings);
         let mut mean = 0.0;
         let mut squared_deviations = 0.0;
@@ -152,7 +157,7 @@ impl Estimate {
 
     /// The mean is `expected` within 4.5 standard errors (one false alarm in 150,000), and those
     /// are at most `resolution` of it: an error of ten times that could not hide.
-    pub fn assert_is(self, expected: f64, resolution: f64) {
+    pub(crate) fn assert_is(self, expected: f64, resolution: f64) {
         let rounding = 1e-9 * expected;
         let error = (self.mean - expected).abs();
         assert!(error <= 4.5 * self.standard_error + rounding, "expected {expected}, got {self:?}");
@@ -161,7 +166,7 @@ impl Estimate {
     }
 
     /// The mean is `expected` at once: every path says so.
-    pub fn assert_is_exactly(self, expected: f64) {
+    pub(crate) fn assert_is_exactly(self, expected: f64) {
         self.assert_is(expected, 0.0);
     }
 }

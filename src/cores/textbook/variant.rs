@@ -10,7 +10,7 @@ const AND: char = '+';
 
 /// Why there is no copy with these changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoVariant<'a> {
+pub(crate) enum NoVariant<'a> {
     /// Nothing has this name.
     #[error("no fault and no choice is called `{0}`")]
     Unknown(&'a str),
@@ -40,7 +40,7 @@ fn changes() -> impl Iterator<Item = Change> {
 }
 
 /// The names of all changes: the words that may follow `textbook:`.
-pub fn names() -> impl Iterator<Item = &'static str> {
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     changes().map(|change| change.name)
 }
 
@@ -48,7 +48,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// For a name that nothing has, and for two changes of one step.
-pub fn core(joined: &str) -> Result<Box<dyn Core>, NoVariant<'_>> {
+pub(crate) fn core(joined: &str) -> Result<Box<dyn Core>, NoVariant<'_>> {
     let core = textbook(joined)?;
     Ok(match core.info.precision {
         Precision::Single => Box::new(single::Single(core)),

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 /// What a ray sees at its end.
 #[derive(Debug)]
-pub enum View<'a> {
+pub(crate) enum View<'a> {
     /// The nearest surface.
     Surface(Vertex<'a>),
     /// Nothing: the sky in this direction (unit).
@@ -18,39 +18,39 @@ pub enum View<'a> {
 
 /// A point of a path on a surface.
 #[derive(Debug)]
-pub struct Vertex<'a> {
+pub(crate) struct Vertex<'a> {
     /// World space.
-    pub point: DVec3,
+    pub(crate) point: DVec3,
     /// Geometric, unit, on the side that emits.
-    pub normal: DVec3,
+    pub(crate) normal: DVec3,
     /// The shading frame.
-    pub frame: Frame,
+    pub(crate) frame: Frame,
     /// Back along the path, local, unit.
-    pub wo: DVec3,
+    pub(crate) wo: DVec3,
     /// How it scatters.
-    pub surface: &'a Surface,
+    pub(crate) surface: &'a Surface,
     /// Radiance it emits back along the path.
-    pub emitted: DVec3,
+    pub(crate) emitted: DVec3,
     /// The light that the surface is.
-    pub light: Option<&'a Lamp>,
+    pub(crate) light: Option<&'a Lamp>,
     /// Rays that leave the point start this far away.
-    pub clearance: f64,
+    pub(crate) clearance: f64,
     /// How far the path came from the point before.
-    pub travelled: f64,
+    pub(crate) travelled: f64,
 }
 
 /// Share of the largest length involved by which rays keep clear of the surface they leave: far
 /// above the rounding of f64, far below anything that is seen.
-pub const CLEARANCE: f64 = 1e-10;
+pub(crate) const CLEARANCE: f64 = 1e-10;
 
 /// The ray from a vertex in a direction of the world: as long as it finds nothing, without end.
-pub fn ray_from(vertex: &Vertex<'_>, direction: DVec3) -> Ray {
+pub(crate) fn ray_from(vertex: &Vertex<'_>, direction: DVec3) -> Ray {
     Ray { t_min: vertex.clearance, ..Ray::new(vertex.point, direction) }
 }
 
 /// The ray to the point of a light that was sampled. It stops short of the light, which would
 /// shadow itself.
-pub fn shadow_ray(vertex: &Vertex<'_>, sample: &LightSample) -> Ray {
+pub(crate) fn shadow_ray(vertex: &Vertex<'_>, sample: &LightSample) -> Ray {
     let distance = sample.distance;
     let stop_short = vertex.clearance.max(CLEARANCE * distance);
     let t_max = if distance.is_finite() { distance - stop_short } else { distance };
@@ -59,13 +59,13 @@ pub fn shadow_ray(vertex: &Vertex<'_>, sample: &LightSample) -> Ray {
 
 /// How far rays must keep clear of a point: its error grows with the `longest` of where the ray
 /// began, how far it came, and the coordinates of what it hit.
-pub fn clearance(longest: f64) -> f64 {
+pub(crate) fn clearance(longest: f64) -> f64 {
     CLEARANCE * longest
 }
 
 /// The shading normal; but glass has an inside, and where the shading normal disagrees with the
 /// geometric one about the side the ray is on, the latter is right.
-pub fn frame_normal(surface: &Surface, hit: &Hit, to_viewer: DVec3) -> DVec3 {
+pub(crate) fn frame_normal(surface: &Surface, hit: &Hit, to_viewer: DVec3) -> DVec3 {
     let agree = hit.shading_normal.dot(to_viewer) * hit.geometric_normal.dot(to_viewer) > 0.0;
     if bsdf::is_interface(surface) && !agree { hit.geometric_normal } else { hit.shading_normal }
 }

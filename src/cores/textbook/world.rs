@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 
 /// A scene the core has taken in.
 #[derive(Debug)]
-pub struct World<'a> {
+pub(crate) struct World<'a> {
     bvh: Bvh<'a>,
     shapes: Vec<Shape>,
     lights: Vec<Lamp>,
@@ -36,7 +36,11 @@ struct Shape {
 
 impl<'a> World<'a> {
     /// Takes the scene in.
-    pub fn new(scene: &SceneDescription, acceleration: Acceleration, steps: &'a Steps) -> Self {
+    pub(crate) fn new(
+        scene: &SceneDescription,
+        acceleration: Acceleration,
+        steps: &'a Steps,
+    ) -> Self {
         Self {
             bvh: Bvh::new(primitives(scene), acceleration, steps),
             shapes: (0..scene.shape_count() as u32).map(|n| Shape::new(scene, n)).collect(),
@@ -46,33 +50,33 @@ impl<'a> World<'a> {
     }
 
     /// The steps of the lesson, as this scene is asked.
-    pub fn steps(&self) -> &'a Steps {
+    pub(crate) fn steps(&self) -> &'a Steps {
         self.steps
     }
 
     /// The lights, by number.
-    pub fn lights(&self) -> &[Lamp] {
+    pub(crate) fn lights(&self) -> &[Lamp] {
         &self.lights
     }
 
     /// What the build made.
-    pub fn build_stats(&self) -> BuildStats {
+    pub(crate) fn build_stats(&self) -> BuildStats {
         self.bvh.build_stats()
     }
 
     /// The nearest hit.
-    pub fn closest_hit(&self, ray: &Ray, stats: &mut TraversalStats) -> Option<Hit> {
+    pub(crate) fn closest_hit(&self, ray: &Ray, stats: &mut TraversalStats) -> Option<Hit> {
         let (index, crossing) = self.bvh.closest(ray, stats)?;
         Some(self.hit(self.bvh.primitive(index), ray, crossing))
     }
 
     /// Whether anything lies on the segment.
-    pub fn any_hit(&self, ray: &Ray, stats: &mut TraversalStats) -> bool {
+    pub(crate) fn any_hit(&self, ray: &Ray, stats: &mut TraversalStats) -> bool {
         self.bvh.any(ray, stats)
     }
 
     /// What a ray sees.
-    pub fn look(&self, ray: &Ray) -> View<'_> {
+    pub(crate) fn look(&self, ray: &Ray) -> View<'_> {
         let direction = ray.direction.normalize();
         match self.bvh.closest(ray, &mut TraversalStats::default()) {
             None => View::Sky(direction),
@@ -85,7 +89,7 @@ impl<'a> World<'a> {
     }
 
     /// Radiance of all skies from `direction`.
-    pub fn sky_radiance(&self, direction: DVec3) -> DVec3 {
+    pub(crate) fn sky_radiance(&self, direction: DVec3) -> DVec3 {
         self.lights.iter().map(|light| DVec3::from(light.sky_radiance(direction))).sum()
     }
 
@@ -154,7 +158,7 @@ impl Shape {
 }
 
 /// Surfaces emit from their front alone.
-pub fn emits_towards(normal: DVec3, to_viewer: DVec3) -> bool {
+pub(crate) fn emits_towards(normal: DVec3, to_viewer: DVec3) -> bool {
     normal.dot(to_viewer) > 0.0
 }
 
@@ -167,20 +171,20 @@ fn emitted_at(emission: &Emission, form: &Form, point: DVec3) -> DVec3 {
 }
 
 /// Barycentric interpolation: `uv` are the weights of vertices 1 and 2.
-pub fn interpolated_normal([n0, n1, n2]: [DVec3; 3], uv: DVec2) -> Option<DVec3> {
+pub(crate) fn interpolated_normal([n0, n1, n2]: [DVec3; 3], uv: DVec2) -> Option<DVec3> {
     ((1.0 - uv.x - uv.y) * n0 + uv.x * n1 + uv.y * n2).try_normalize()
 }
 
 /// What is said of a hit of this shape and primitive; normals, geometric and for shading, stay on
 /// their side, wherever the ray comes from.
-pub fn hit(_ray: &Ray, crossing: Crossing, numbers: [u32; 2], normals: [DVec3; 2]) -> Hit {
+pub(crate) fn hit(_ray: &Ray, crossing: Crossing, numbers: [u32; 2], normals: [DVec3; 2]) -> Hit {
     let ([shape, primitive], [geometric_normal, shading_normal]) = (numbers, normals);
     let Crossing { t, uv } = crossing;
     Hit { t, shape, primitive, geometric_normal, shading_normal, uv }
 }
 
 /// The hit of `ray` with a single primitive that belongs to no scene.
-pub fn hit_alone(primitive: &contract::Primitive, ray: &Ray, steps: &Steps) -> Option<Hit> {
+pub(crate) fn hit_alone(primitive: &contract::Primitive, ray: &Ray, steps: &Steps) -> Option<Hit> {
     let (crossing, normal, interpolated) = match *primitive {
         contract::Primitive::Triangle { positions, normals } => {
             let triangle = Triangle::new(positions)?;

@@ -31,14 +31,14 @@ pub(super) fn mean_high_dynamic_range_flip(pair: &Pair<'_>) -> f64 {
 }
 
 /// FLIP of every pixel, the images clipped to [0, 1].
-pub fn flip(pair: &Pair<'_>) -> Plane {
+pub(crate) fn flip(pair: &Pair<'_>) -> Plane {
     let mut map = blank(pair);
     difference::raise(&mut map, pair, &|value| value.clamp(0.0, 1.0));
     map
 }
 
 /// The largest FLIP of every pixel over the exposures that the reference asks for.
-pub fn high_dynamic_range_flip(pair: &Pair<'_>) -> Plane {
+pub(crate) fn high_dynamic_range_flip(pair: &Pair<'_>) -> Plane {
     let mut map = blank(pair);
     for stops in exposure::exposures(pair.reference) {
         let gain = stops.exp2();

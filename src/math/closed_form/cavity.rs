@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 /// Radiance of these bounces in a closed cavity of uniform albedo and emission: a piece of the
 /// geometric series. Every point sees the same radiance in every direction, so each bounce
 /// multiplies by the albedo.
-pub fn furnace(emission: f64, albedo: f64, bounces: RangeInclusive<u32>) -> f64 {
+pub(crate) fn furnace(emission: f64, albedo: f64, bounces: RangeInclusive<u32>) -> f64 {
     bounces.map(|bounce| emission * power(albedo, bounce)).sum()
 }
 
@@ -20,7 +20,7 @@ fn cap_fraction(half_angle: f64) -> f64 {
 /// Between two points inside a sphere of radius R, cos θ cos θ′ / (π r²) = 1 / (4πR²): light
 /// spreads evenly over the whole sphere at the first bounce already. Bounce 0 is 0, the cap being
 /// elsewhere.
-pub fn cap_cavity(
+pub(crate) fn cap_cavity(
     emission: f64,
     albedo: f64,
     half_angle: f64,
@@ -32,24 +32,24 @@ pub fn cap_cavity(
 
 /// Two concentric spheres; the outer one, seen from inside, emits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConcentricSpheres {
+pub(crate) struct ConcentricSpheres {
     /// Radiance that the outer sphere emits.
-    pub emission: f64,
+    pub(crate) emission: f64,
     /// Radius of the inner over that of the outer sphere.
-    pub radius_ratio: f64,
+    pub(crate) radius_ratio: f64,
     /// Of the inner sphere.
-    pub inner_albedo: f64,
+    pub(crate) inner_albedo: f64,
     /// Of the outer sphere.
-    pub outer_albedo: f64,
+    pub(crate) outer_albedo: f64,
 }
 
 /// Radiance leaving both spheres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InnerAndOuter {
+pub(crate) struct InnerAndOuter {
     /// Leaving the inner sphere.
-    pub inner: f64,
+    pub(crate) inner: f64,
     /// Leaving the outer sphere, emission included.
-    pub outer: f64,
+    pub(crate) outer: f64,
 }
 
 impl ConcentricSpheres {
@@ -69,7 +69,7 @@ impl ConcentricSpheres {
     }
 
     /// Radiance with bounces up to this one.
-    pub fn up_to(&self, bounce: u32) -> InnerAndOuter {
+    pub(crate) fn up_to(&self, bounce: u32) -> InnerAndOuter {
         let emitted = InnerAndOuter { inner: 0.0, outer: self.emission };
         let (mut last, mut sum) = (emitted, emitted);
         for _ in 0..bounce {

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 /// A flat polygon, vertices relative to the patch, clipped at the horizon of the patch's unit
 /// `normal`: Lambert's formula, half the sum over edges of the angle they subtend times the cosine
 /// between normal and edge plane.
-pub fn polygon(vertices: &[DVec3], normal: DVec3) -> f64 {
+pub(crate) fn polygon(vertices: &[DVec3], normal: DVec3) -> f64 {
     let above = clipped(vertices, normal);
     let next = above.iter().cycle().skip(1);
     let sum: f64 = above.iter().zip(next).map(|(a, b)| edge(*a, *b, normal)).sum();
@@ -44,7 +44,7 @@ fn clipped(vertices: &[DVec3], normal: DVec3) -> Vec<DVec3> {
 
 /// A sphere whose centre is at `distance`, at the angle `theta` from the normal, wholly or partly
 /// above the horizon (B-43).
-pub fn sphere(radius: f64, distance: f64, theta: f64) -> f64 {
+pub(crate) fn sphere(radius: f64, distance: f64, theta: f64) -> f64 {
     let h = distance / radius;
     let half_angle = h.recip().acos();
     if theta <= half_angle {
@@ -61,7 +61,7 @@ pub fn sphere(radius: f64, distance: f64, theta: f64) -> f64 {
 
 /// A sky of radiance a + b cos θ, and a below the horizon, over a patch whose normal is `tilt` from
 /// the zenith, relative to a sky of radiance 1.
-pub fn gradient_sky(a: f64, b: f64, tilt: f64) -> f64 {
+pub(crate) fn gradient_sky(a: f64, b: f64, tilt: f64) -> f64 {
     a + 2.0 * b / (3.0 * PI) * (tilt.sin() + (PI - tilt) * tilt.cos())
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 /// A rectangle that faces the camera at this depth, with x and y relative to the axis; cut off at
 /// the image's border.
-pub fn rectangle(x: [f64; 2], y: [f64; 2], depth: f64, fields_of_view: [f64; 2]) -> f64 {
+pub(crate) fn rectangle(x: [f64; 2], y: [f64; 2], depth: f64, fields_of_view: [f64; 2]) -> f64 {
     let covered = |[low, high]: [f64; 2], field: f64| {
         let half = depth * (0.5 * field).tan();
         (high.min(half) - low.max(-half)).max(0.0) / (2.0 * half)
@@ -13,7 +13,7 @@ pub fn rectangle(x: [f64; 2], y: [f64; 2], depth: f64, fields_of_view: [f64; 2])
 }
 
 /// A sphere on the axis, wholly within the image: its cone meets the image plane in a disk.
-pub fn sphere_on_axis(radius: f64, distance: f64, fields_of_view: [f64; 2]) -> f64 {
+pub(crate) fn sphere_on_axis(radius: f64, distance: f64, fields_of_view: [f64; 2]) -> f64 {
     let [horizontal, vertical] = fields_of_view.map(|field| (0.5 * field).tan());
     let edge = (radius / distance).asin().tan();
     PI * edge * edge / (4.0 * horizontal * vertical)

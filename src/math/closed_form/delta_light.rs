@@ -4,14 +4,14 @@ use std::f64::consts::PI;
 
 /// Radiance of a plane under an isotropic point light of this intensity (W·sr⁻¹) at `height` above
 /// it, seen at `distance` from its foot: ρ/π · I cos θ / d².
-pub fn point_light(intensity: f64, albedo: f64, height: f64, distance: f64) -> f64 {
+pub(crate) fn point_light(intensity: f64, albedo: f64, height: f64, distance: f64) -> f64 {
     let squared = height * height + distance * distance;
     albedo / PI * intensity * height / (squared * squared.sqrt())
 }
 
 /// Radiance of a plane under a directional light of this irradiance at normal incidence: ρ/π · E
 /// cos θ.
-pub fn directional_light(irradiance: f64, albedo: f64, cos_theta: f64) -> f64 {
+pub(crate) fn directional_light(irradiance: f64, albedo: f64, cos_theta: f64) -> f64 {
     albedo / PI * irradiance * cos_theta.max(0.0)
 }
 

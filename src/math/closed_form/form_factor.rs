@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 
 /// Between identical parallel rectangles whose sides are `x` and `y` times their distance (C-11).
-pub fn parallel_rectangles(x: f64, y: f64) -> f64 {
+pub(crate) fn parallel_rectangles(x: f64, y: f64) -> f64 {
     let (root_x, root_y) = (f64::hypot(1.0, x), f64::hypot(1.0, y));
     let diagonal = (1.0 + x * x + y * y).sqrt();
     let sum = (root_x * root_y / diagonal).ln()
@@ -21,7 +21,7 @@ pub fn parallel_rectangles(x: f64, y: f64) -> f64 {
 /// From a rectangle to one at right angles to it along a common edge (C-14). `width` is how far the
 /// source goes away from the edge and `height` how far the target does, both over the length of the
 /// edge.
-pub fn perpendicular_rectangles(width: f64, height: f64) -> f64 {
+pub(crate) fn perpendicular_rectangles(width: f64, height: f64) -> f64 {
     let (w2, h2) = (width * width, height * height);
     let both = 1.0 + w2 + h2;
     let slant = (h2 + w2).sqrt();

@@ -2,7 +2,7 @@
 //! refraction eta_t / eta_i.
 
 /// Unpolarised reflectance (Fresnel 1823); 1 under total internal reflection.
-pub fn reflectance(cos_incident: f64, eta: f64) -> f64 {
+pub(crate) fn reflectance(cos_incident: f64, eta: f64) -> f64 {
     let sine_squared = (1.0 - cos_incident * cos_incident) / (eta * eta);
     if sine_squared >= 1.0 {
         return 1.0;
@@ -15,7 +15,7 @@ pub fn reflectance(cos_incident: f64, eta: f64) -> f64 {
 
 /// Schlick's approximation (1994): R₀ + (1 − R₀)(1 − cos θ)⁵ with the cosine on the side of lower index; 1
 /// under total internal reflection.
-pub fn schlick(cos_incident: f64, eta: f64) -> f64 {
+pub(crate) fn schlick(cos_incident: f64, eta: f64) -> f64 {
     let at_normal = ((eta - 1.0) / (eta + 1.0)).powi(2);
     let sine_squared = (1.0 - cos_incident * cos_incident) / (eta * eta);
     if sine_squared >= 1.0 {
@@ -27,7 +27,7 @@ pub fn schlick(cos_incident: f64, eta: f64) -> f64 {
 
 /// The same with the cosine at hand on either side, as courses teach it: no longer the same both
 /// ways through a face.
-pub fn schlick_of_view(cos_incident: f64, eta: f64) -> f64 {
+pub(crate) fn schlick_of_view(cos_incident: f64, eta: f64) -> f64 {
     if reflectance(cos_incident, eta) == 1.0 {
         return 1.0;
     }
@@ -38,7 +38,7 @@ pub fn schlick_of_view(cos_incident: f64, eta: f64) -> f64 {
 /// What a clear parallel slab lets through, all internal reflections included, of faces that reflect
 /// so much from outside and from inside: (1 − Fₒ) (1 − Fᵢ) Σ Fᵢ²ᵏ = (1 − Fₒ)/(1 + Fᵢ).
 #[cfg(test)]
-pub fn slab_transmittance(outside: f64, inside: f64) -> f64 {
+pub(crate) fn slab_transmittance(outside: f64, inside: f64) -> f64 {
     (1.0 - outside) / (1.0 + inside)
 }
 
@@ -46,7 +46,7 @@ pub fn slab_transmittance(outside: f64, inside: f64) -> f64 {
 /// inside: all but what is still inside. Every reflection inside a sphere meets it at the same
 /// angle.
 #[cfg(test)]
-pub fn sphere_in_furnace(outside: f64, inside: f64, segments: u32) -> f64 {
+pub(crate) fn sphere_in_furnace(outside: f64, inside: f64, segments: u32) -> f64 {
     1.0 - (0..segments).fold(1.0 - outside, |left, _| left * inside)
 }
 

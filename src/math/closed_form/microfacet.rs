@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// How masking towards viewer and light combine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Masking {
+pub(crate) enum Masking {
     /// G₁(wo) G₁(wi), as if the two were independent. Mitsuba's.
     Separable,
     /// 1 / (1 + Λ(wo) + Λ(wi)): deep points are hidden from both.
@@ -19,25 +19,25 @@ pub enum Masking {
 
 /// The normal distribution function D at this cosine to the surface normal, per steradian; ∫ D cos dω =
 /// 1.
-pub fn distribution(cos_theta: f64, alpha: f64) -> f64 {
+pub(crate) fn distribution(cos_theta: f64, alpha: f64) -> f64 {
     let a2 = alpha * alpha;
     let c2 = cos_theta * cos_theta;
     a2 / (PI * (c2 * (a2 - 1.0) + 1.0).powi(2))
 }
 
 /// Smith's Λ: hidden over visible area, seen at this cosine.
-pub fn lambda(cos_theta: f64, alpha: f64) -> f64 {
+pub(crate) fn lambda(cos_theta: f64, alpha: f64) -> f64 {
     let c2 = cos_theta * cos_theta;
     0.5 * ((1.0 + alpha * alpha * (1.0 - c2) / c2).sqrt() - 1.0)
 }
 
 /// Masking G1: the fraction of microfacets visible from this cosine.
-pub fn masking(cos_theta: f64, alpha: f64) -> f64 {
+pub(crate) fn masking(cos_theta: f64, alpha: f64) -> f64 {
     (1.0 + lambda(cos_theta, alpha)).recip()
 }
 
 /// Masking-shadowing G: the fraction of microfacets visible from both cosines.
-pub fn masking_shadowing(cos_o: f64, cos_i: f64, alpha: f64, form: Masking) -> f64 {
+pub(crate) fn masking_shadowing(cos_o: f64, cos_i: f64, alpha: f64, form: Masking) -> f64 {
     match form {
         Masking::Separable => masking(cos_o, alpha) * masking(cos_i, alpha),
         Masking::HeightCorrelated => (1.0 + lambda(cos_o, alpha) + lambda(cos_i, alpha)).recip(),
@@ -49,7 +49,7 @@ pub fn masking_shadowing(cos_o: f64, cos_i: f64, alpha: f64, form: Masking) -> f
 /// With microfacet normals distributed by D cos, the albedo is the mean of G (wo·h) / (cos θo cos θh)
 /// over those that reflect above the horizon. For each θh they are an interval of φ, whose end is
 /// known, so the integrand is smooth.
-pub fn albedo(cos_o: f64, alpha: f64, form: Masking) -> f64 {
+pub(crate) fn albedo(cos_o: f64, alpha: f64, form: Masking) -> f64 {
     let (cos_o, sin_o) = (cos_o, (1.0 - cos_o * cos_o).max(0.0).sqrt());
     let over_phi = |u: f64| {
         let tangent_squared = alpha * alpha * u / (1.0 - u);

@@ -10,20 +10,20 @@
 //! Not here: which scene a number belongs to; the cases say that.
 
 #[cfg(test)]
-pub mod cavity;
+pub(crate) mod cavity;
 #[cfg(test)]
-pub mod configuration_factor;
+pub(crate) mod configuration_factor;
 #[cfg(test)]
-pub mod coverage;
+pub(crate) mod coverage;
 #[cfg(test)]
-pub mod delta_light;
+pub(crate) mod delta_light;
 #[cfg(test)]
-pub mod form_factor;
-pub mod fresnel;
-pub mod microfacet;
-pub mod rough_dielectric;
+pub(crate) mod form_factor;
+pub(crate) mod fresnel;
+pub(crate) mod microfacet;
+pub(crate) mod rough_dielectric;
 #[cfg(test)]
-pub mod roulette;
+pub(crate) mod roulette;
 
 #[cfg(test)]
-pub mod witness;
+pub(crate) mod witness;

@@ -11,11 +11,11 @@ use std::f64::consts::PI;
 
 /// Shares of the light that meets the interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shares {
+pub(crate) struct Shares {
     /// To the side where it came from.
-    pub reflected: f64,
+    pub(crate) reflected: f64,
     /// To the other side; of radiance, before any scaling by the index squared.
-    pub refracted: f64,
+    pub(crate) refracted: f64,
 }
 
 impl Shares {
@@ -25,7 +25,7 @@ impl Shares {
     /// With microfacet normals distributed by D cos, a share is the mean of F G (o·m) / (cos θo cos θm),
     /// or of 1 − F in place of F, over the microfacets that send light to its side. For each θm they are
     /// intervals of φ, whose ends are known.
-    pub fn of(cos_o: f64, eta: f64, alpha: f64, form: Masking) -> Self {
+    pub(crate) fn of(cos_o: f64, eta: f64, alpha: f64, form: Masking) -> Self {
         let view = View { cos_o, sin_o: (1.0 - cos_o * cos_o).max(0.0).sqrt(), eta, alpha, form };
         let mean = |light: Light| {
             let over_facets = |v: f64| 2.0 * v * view.mean_over_phi(view.cos_facet(v), light);

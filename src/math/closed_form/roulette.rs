@@ -2,15 +2,15 @@
 
 /// A furnace whose paths stop by chance: emission is collected at every vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RouletteFurnace {
+pub(crate) struct RouletteFurnace {
     /// Radiance emitted everywhere.
-    pub emission: f64,
+    pub(crate) emission: f64,
     /// Of every surface.
-    pub albedo: f64,
+    pub(crate) albedo: f64,
     /// Probability of going on at each bounce it is played at; what goes on is divided by it.
-    pub survival: f64,
+    pub(crate) survival: f64,
     /// Bounces that are always traced.
-    pub guaranteed: u32,
+    pub(crate) guaranteed: u32,
 }
 
 impl RouletteFurnace {
@@ -19,7 +19,7 @@ impl RouletteFurnace {
     /// Beyond the guaranteed bounces a path adds c Σ_{j ≤ J} rʲ with r = ρ/q, c = Lₑ ρᵍ and P(J ≥
     /// j) = qʲ. Its second moment is c² Σᵢⱼ r^(i+j) q^max(i,j): a diagonal Σ dʲ with d = r²q, and
     /// twice Σ_j ρʲ Σ_{i<j} rⁱ.
-    pub fn variance(&self) -> f64 {
+    pub(crate) fn variance(&self) -> f64 {
         let (rho, q) = (self.albedo, self.survival);
         if rho * rho >= q {
             return f64::INFINITY;

@@ -4,7 +4,7 @@ mod options;
 #[cfg(test)]
 mod tests;
 
-pub use options::MakeOptions;
+pub(crate) use options::MakeOptions;
 
 use super::mitsuba::{Job, Mitsuba, Spent};
 use super::recipe::{self, Recipe};
@@ -23,7 +23,7 @@ use std::sync::Arc;
 
 /// What was made.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Made {
+pub(crate) enum Made {
     /// A reference.
     Reference(Box<Reference>),
     /// The sums of some of its passes, in this file.
@@ -32,16 +32,16 @@ pub enum Made {
 
 /// A reference about to be rendered.
 pub(super) struct Plan {
-    pub name: String,
-    pub recipe: Recipe,
-    pub scene: Arc<SceneDescription>,
-    pub job: Job,
+    pub(crate) name: String,
+    pub(crate) recipe: Recipe,
+    pub(crate) scene: Arc<SceneDescription>,
+    pub(crate) job: Job,
 }
 
 impl References {
     /// Makes reference `name` as its recipe says, and writes it. Goes on where an earlier attempt
     /// was cut off. Replaces nothing unasked.
-    pub fn make(
+    pub(crate) fn make(
         &self,
         name: &str,
         options: &MakeOptions,
@@ -213,7 +213,7 @@ impl References {
 
 impl Plan {
     /// The passes of these seeds, added up.
-    pub fn shard(
+    pub(crate) fn shard(
         &self,
         seeds: &[u32],
         mitsuba: &Mitsuba,
@@ -253,12 +253,12 @@ impl Plan {
     }
 
     /// The pass of one seed, which has been rendered.
-    pub fn pass(&self, seed: u32) -> Result<Image, MakeError> {
+    pub(crate) fn pass(&self, seed: u32) -> Result<Image, MakeError> {
         self.whole(self.job.pass(seed), seed)
     }
 
     /// What has been read of a pass, if it is there and can be light.
-    pub fn whole(&self, pass: Option<Image>, seed: u32) -> Result<Image, MakeError> {
+    pub(crate) fn whole(&self, pass: Option<Image>, seed: u32) -> Result<Image, MakeError> {
         let pass = pass.ok_or_else(|| {
             MakeError::file(&self.job.folder, &format!("pass {seed} is missing or cut off"))
         })?;

@@ -7,23 +7,23 @@ use std::path::PathBuf;
 
 /// How to make a reference, where it differs from the recipe.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct MakeOptions {
+pub(crate) struct MakeOptions {
     /// Make it even if there is one already.
-    pub replace: bool,
+    pub(crate) replace: bool,
     /// Add the passes that the one there is lacks.
-    pub extend: bool,
+    pub(crate) extend: bool,
     /// Render these seeds only, and leave their sums for a merge.
-    pub seeds: Option<Range<u32>>,
+    pub(crate) seeds: Option<Range<u32>>,
     /// Files of sums: render nothing, and add these up, with those of the reference there is.
-    pub merge: Vec<PathBuf>,
+    pub(crate) merge: Vec<PathBuf>,
     /// How to get Mitsuba.
-    pub mitsuba: MitsubaOptions,
+    pub(crate) mitsuba: MitsubaOptions,
     /// Passes, instead of the recipe's.
-    pub passes: Option<u32>,
+    pub(crate) passes: Option<u32>,
     /// Samples a pixel in all passes together, instead of the recipe's, rounded up to whole passes.
-    pub samples: Option<u32>,
+    pub(crate) samples: Option<u32>,
     /// Samples a pixel in each pass, instead of the recipe's.
-    pub samples_per_pass: Option<u32>,
+    pub(crate) samples_per_pass: Option<u32>,
 }
 
 impl MakeOptions {

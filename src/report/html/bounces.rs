@@ -21,7 +21,7 @@ struct Point {
 }
 
 /// The plot, if one of the explained cases has three isolated bounces at least.
-pub fn plot(tree: &RunTree, core: &str, headline: &Headline) -> Option<Markup> {
+pub(crate) fn plot(tree: &RunTree, core: &str, headline: &Headline) -> Option<Markup> {
     let findings = tree.trials_of(core).filter(|trial| headline.explains.contains(&trial.case));
     let mut findings = findings.filter_map(|trial| trial.outcome.finding());
     findings.find_map(|finding| {

@@ -107,7 +107,7 @@ fn all_measures(finding: &Finding) -> Markup {
 }
 
 /// Measured against expected, one row a measure.
-pub fn measures<'a>(measures: impl IntoIterator<Item = &'a Measure>) -> Markup {
+pub(crate) fn measures<'a>(measures: impl IntoIterator<Item = &'a Measure>) -> Markup {
     let measures: Vec<_> = measures.into_iter().collect();
     let noisy = measures.iter().any(|measure| measure.interval.is_some());
     html! {
@@ -159,7 +159,7 @@ fn status_of(verdict: Verdict) -> Status {
 }
 
 /// The smallest error that the trial would have caught.
-pub fn resolution(finding: &Finding) -> Markup {
+pub(crate) fn resolution(finding: &Finding) -> Markup {
     html! {
         @if !finding.resolution.is_empty() {
             p.resolution { b { "Smallest detectable error. " } (finding.resolution) }

@@ -12,7 +12,7 @@ use maud::{Markup, html};
 const CASES: usize = 8;
 
 /// The card of a cause.
-pub fn card(tree: &RunTree, core: &str, headline: &Headline, kicker: &str) -> Markup {
+pub(crate) fn card(tree: &RunTree, core: &str, headline: &Headline, kicker: &str) -> Markup {
     let part = headline.explains.first().and_then(|case| Part::of_case(case));
     html! {
         div.card.first.beside[!headline.tier.is_graded()] {

@@ -25,17 +25,17 @@ const COLOUR_STEPS: f64 = 24.0;
 
 /// How the pictures of one viewer are developed: all alike, so that they can be compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
+pub(crate) struct Look {
     /// Brightening of radiance, powers of two.
-    pub stops: f32,
+    pub(crate) stops: f32,
     /// The longest side, pixels; what is larger is made smaller.
-    pub side: usize,
+    pub(crate) side: usize,
 }
 
 impl Look {
     /// The exposure of `picture`, in half stops, so that pictures of about the same brightness are
     /// shown alike.
-    pub fn for_picture(picture: Option<&Image>, side: usize) -> Self {
+    pub(crate) fn for_picture(picture: Option<&Image>, side: usize) -> Self {
         let stops = picture.map_or(0.0, exposure_of);
         Self { stops: (stops * 2.0).floor() / 2.0, side }
     }
@@ -44,7 +44,7 @@ impl Look {
     ///
     /// # Errors
     /// If the picture is empty.
-    pub fn address(self, image: &Image, role: PictureRole) -> Result<String, String> {
+    pub(crate) fn address(self, image: &Image, role: PictureRole) -> Result<String, String> {
         let small = image.shrunk_to(self.side);
         let picture = match scale(role) {
             None => tonemap(&small, self.stops),
@@ -56,7 +56,7 @@ impl Look {
 }
 
 /// The colours of a picture that does not show radiance.
-pub const fn scale(role: PictureRole) -> Option<Scale> {
+pub(crate) const fn scale(role: PictureRole) -> Option<Scale> {
     match role {
         PictureRole::Reference | PictureRole::Render => None,
         PictureRole::SignedError => Some(Scale::Signed { limit: 1.0 }),
@@ -65,7 +65,7 @@ pub const fn scale(role: PictureRole) -> Option<Scale> {
 }
 
 /// A CSS background that runs through a scale.
-pub fn gradient(scale: Scale) -> String {
+pub(crate) fn gradient(scale: Scale) -> String {
     let lowest = match scale {
         Scale::Signed { limit } => -limit,
         Scale::Magnitude { .. } => 0.0,
@@ -91,7 +91,7 @@ fn false_colour(image: &Image, scale: Scale) -> Picture {
 
 /// The side to which the pictures of a case are made smaller, so that all of the run's fit the
 /// page.
-pub fn longest_side(tree: &RunTree, case_failed: bool) -> usize {
+pub(crate) fn longest_side(tree: &RunTree, case_failed: bool) -> usize {
     let weight: f64 = tree.trials.iter().map(|trial| weight(tree, trial)).sum();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
     let side = (PAGE_WEIGHT / weight).sqrt().clamp(64.0, 512.0) as usize;

@@ -28,7 +28,7 @@ struct Frame<'a> {
 }
 
 /// The viewers of a case: one for each round of pictures that its check has kept.
-pub fn pictures(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
+pub(crate) fn pictures(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
     let failed = case.trials.iter().any(|trial| trial.outcome.status().is_failure());
     let side = longest_side(view.tree, failed);
     html! {

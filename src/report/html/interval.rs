@@ -33,7 +33,7 @@ impl Scale {
 }
 
 /// The drawing; nothing for a measure without an interval, or with one that cannot be drawn.
-pub fn plot(measure: &Measure) -> Markup {
+pub(crate) fn plot(measure: &Measure) -> Markup {
     let drawing = measure.interval.and_then(|interval| draw(measure, interval));
     html! { @if let Some(drawing) = drawing { (drawing) } }
 }

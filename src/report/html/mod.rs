@@ -42,11 +42,11 @@ static PAGES: &[&Page] =
 
 /// What a section is made of.
 #[derive(Clone, Copy, Debug)]
-pub struct View<'a> {
+pub(crate) struct View<'a> {
     /// The run.
-    pub tree: &'a RunTree,
+    pub(crate) tree: &'a RunTree,
     /// The folder of the page, which links are relative to.
-    pub folder: &'a Path,
+    pub(crate) folder: &'a Path,
 }
 
 const STYLE: &str = include_str!("assets/report.css");
@@ -68,7 +68,7 @@ pub fn write(tree: &RunTree, folder: &Path) -> Result<PathBuf, ReportError> {
 }
 
 /// The text of the page that is to stand in `folder`.
-pub fn render(tree: &RunTree, folder: &Path) -> String {
+pub(crate) fn render(tree: &RunTree, folder: &Path) -> String {
     let view = View { tree, folder };
     let tally = Tally::of(tree.graded());
     let cores: Vec<_> = tree.run.cores.iter().map(|core| core.spec.as_str()).collect();

@@ -23,7 +23,7 @@ fn body(view: &View<'_>) -> Option<Markup> {
 }
 
 /// The result, and who was asked what, when, on what.
-pub fn header(view: &View<'_>, headline: &str) -> Markup {
+pub(crate) fn header(view: &View<'_>, headline: &str) -> Markup {
     let run = &view.tree.run;
     html! {
         header {
@@ -50,7 +50,7 @@ fn sentence(text: &str) -> String {
 }
 
 /// `2026-11-21 03:14 UTC`
-pub fn date(seconds: u64) -> String {
+pub(crate) fn date(seconds: u64) -> String {
     // Later dates have no four-digit year, and are somebody's mistake.
     const YEAR_10000: u64 = 253_402_300_800;
     if seconds >= YEAR_10000 {

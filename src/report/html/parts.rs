@@ -4,7 +4,7 @@ use crate::run::{Status, TrialRecord};
 use maud::{Markup, html};
 
 /// The class that the style sheet knows a status by.
-pub fn class(status: Status) -> &'static str {
+pub(crate) fn class(status: Status) -> &'static str {
     match status {
         Status::TimedOut => "timed-out",
         _ => status.word(),
@@ -12,7 +12,7 @@ pub fn class(status: Status) -> &'static str {
 }
 
 /// The character beside the word, for those who do not see the colour.
-pub fn glyph(status: Status) -> &'static str {
+pub(crate) fn glyph(status: Status) -> &'static str {
     match status {
         Status::Pass => "✓",
         Status::Fail => "✗",
@@ -26,12 +26,12 @@ pub fn glyph(status: Status) -> &'static str {
 }
 
 /// Mark and word.
-pub fn badge(status: Status) -> Markup {
+pub(crate) fn badge(status: Status) -> Markup {
     html! { span class={ "status " (class(status)) } { (glyph(status)) " " (status.word()) } }
 }
 
 /// One trial as a small shape that leads to its case.
-pub fn cell(trial: &TrialRecord) -> Markup {
+pub(crate) fn cell(trial: &TrialRecord) -> Markup {
     let status = trial.outcome.status();
     let words = format!("{} on {}: {}", trial.case, trial.core, status.word());
     html! {
@@ -40,22 +40,22 @@ pub fn cell(trial: &TrialRecord) -> Markup {
 }
 
 /// The anchor of a case: its name, which always has a slash, as no section has.
-pub fn case_anchor(trial: &TrialRecord) -> String {
+pub(crate) fn case_anchor(trial: &TrialRecord) -> String {
     trial.case.clone()
 }
 
 /// The anchor of a case on one core.
-pub fn anchor(trial: &TrialRecord) -> String {
+pub(crate) fn anchor(trial: &TrialRecord) -> String {
     format!("{}@{}", trial.case, trial.core)
 }
 
 /// A link to [`anchor`].
-pub fn link(trial: &TrialRecord) -> String {
+pub(crate) fn link(trial: &TrialRecord) -> String {
     format!("#{}", escaped(&anchor(trial)))
 }
 
 /// `text` as it may stand in an address.
-pub fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let escape = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'@' | b'-' | b'_' | b'.' => {
             char::from(byte).to_string()
@@ -66,7 +66,7 @@ pub fn escaped(text: &str) -> String {
 }
 
 /// A command, with a button that copies it.
-pub fn command(text: &str) -> Markup {
+pub(crate) fn command(text: &str) -> Markup {
     html! {
         div.command {
             code { (text) }

@@ -23,7 +23,7 @@ const MEASURES: usize = 4;
 const LAST_WORDS: usize = 3;
 
 /// Every block about trials.
-pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
+pub(crate) fn all(tree: &RunTree, style: Style) -> Vec<String> {
     let diagnoses = tree.diagnoses();
     let mut lines = headlines::all(&diagnoses, style);
     let (explained, alone): (Vec<_>, Vec<_>) =
@@ -45,7 +45,7 @@ pub fn all(tree: &RunTree, style: Style) -> Vec<String> {
 }
 
 /// A core that fails to start: why, and how to try that alone.
-pub fn absent(core: AbsentCore<'_>, style: Style) -> Vec<String> {
+pub(crate) fn absent(core: AbsentCore<'_>, style: Style) -> Vec<String> {
     let status = core.witness.outcome.status();
     let word = style.paint(paint_of(status), &status.word().to_uppercase());
     let head = format!("  {word}  {} fails to start: no trial could run", clean(core.spec));

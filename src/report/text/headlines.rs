@@ -11,7 +11,7 @@ const MOST: usize = 3;
 const CASES: usize = 4;
 
 /// The causes of every core, the one to look at first in front.
-pub fn all(diagnoses: &[(&str, Diagnosis)], style: Style) -> Vec<String> {
+pub(crate) fn all(diagnoses: &[(&str, Diagnosis)], style: Style) -> Vec<String> {
     let of_core = |(core, diagnosis): &(&str, Diagnosis)| {
         let told = diagnosis.headlines.iter().take(MOST);
         told.flat_map(|headline| block(core, headline, style)).collect::<Vec<_>>()

@@ -3,15 +3,15 @@
 use super::style::wrap;
 
 /// Where the text of a block begins.
-pub const INDENT: usize = 8;
+pub(crate) const INDENT: usize = 8;
 
 /// A paragraph below the first line of a block.
-pub fn indented(text: &str) -> Vec<String> {
+pub(crate) fn indented(text: &str) -> Vec<String> {
     wrap(text, INDENT).into_iter().map(|line| format!("{:INDENT$}{line}", "")).collect()
 }
 
 /// A label and a text that goes on below itself.
-pub fn labelled(label: &str, text: &str) -> Vec<String> {
+pub(crate) fn labelled(label: &str, text: &str) -> Vec<String> {
     let label_of = |number| if number == 0 { label } else { "" };
     let lines = wrap(text, INDENT + 8).into_iter().enumerate();
     lines.map(|(number, line)| format!("{:INDENT$}{:<8}{line}", "", label_of(number))).collect()

@@ -10,9 +10,9 @@ pub const COLUMNS: usize = 88;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Style {
     /// Whether to colour. Everything is readable without.
-    pub colour: bool,
+    pub(crate) colour: bool,
     /// Whether to list what every case would have caught.
-    pub verbose: bool,
+    pub(crate) verbose: bool,
 }
 
 /// What a piece of text is, as far as colour goes.
@@ -35,7 +35,7 @@ impl Style {
     pub const PLAIN: Self = Self { colour: false, verbose: false };
 
     /// `text` in its colour.
-    pub fn paint(self, paint: Paint, text: &str) -> String {
+    pub(crate) fn paint(self, paint: Paint, text: &str) -> String {
         if !self.colour || text.is_empty() {
             return text.to_owned();
         }
@@ -106,7 +106,7 @@ pub fn clean(text: &str) -> String {
 }
 
 /// `text` cut to `width` columns, with dots where something is missing.
-pub fn cut(text: &str, width: usize) -> String {
+pub(crate) fn cut(text: &str, width: usize) -> String {
     let text = clean(text).replace('\n', " ");
     if text.chars().count() <= width {
         return text;

@@ -23,7 +23,7 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    pub fn resolve(self, context: &Context<'_>) -> Result<Camera, Diagnostic> {
+    pub(crate) fn resolve(self, context: &Context<'_>) -> Result<Camera, Diagnostic> {
         let up = self.up.map_or(DVec3::Y, |up| up.0);
         let target = self.look_at.get_ref().0;
         if (target - self.position.0).cross(up).try_normalize().is_none() {

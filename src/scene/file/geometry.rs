@@ -99,7 +99,7 @@ pub(super) struct Pathological {
 }
 
 impl Quad {
-    pub fn make(self) -> Result<Geometry, String> {
+    pub(crate) fn make(self) -> Result<Geometry, String> {
         let edges = self.edges.map(|edge| edge.0);
         if edges[0].cross(edges[1]) == DVec3::ZERO {
             return Err(
@@ -116,7 +116,7 @@ impl Quad {
 }
 
 impl Block {
-    pub fn make(self) -> Result<Geometry, String> {
+    pub(crate) fn make(self) -> Result<Geometry, String> {
         let (min, max) = (self.min.0, self.max.0);
         if min.cmplt(max).all() {
             Ok(Geometry::Mesh(procedural::block(min, max, self.inward)))
@@ -127,7 +127,7 @@ impl Block {
 }
 
 impl Triangles {
-    pub fn make(self) -> Result<Geometry, String> {
+    pub(crate) fn make(self) -> Result<Geometry, String> {
         let mesh = Mesh {
             positions: self.positions.into_iter().map(|position| position.0).collect(),
             normals: self.normals.into_iter().map(|normal| normal.0).collect(),
@@ -140,7 +140,7 @@ impl Triangles {
 }
 
 impl Ball {
-    pub fn make(self) -> Geometry {
+    pub(crate) fn make(self) -> Geometry {
         Geometry::Spheres(vec![sphere(self.centre.0, self.radius.0, self.inward)])
     }
 }
@@ -150,7 +150,7 @@ fn sphere(centre: DVec3, radius: f64, inward: bool) -> Sphere {
 }
 
 impl Icosphere {
-    pub fn make(self) -> Geometry {
+    pub(crate) fn make(self) -> Geometry {
         let mut mesh = procedural::icosphere(self.subdivisions.0);
         for position in &mut mesh.positions {
             *position = self.centre.0 + self.radius.0 * *position;
@@ -160,13 +160,13 @@ impl Icosphere {
 }
 
 impl BumpySphere {
-    pub fn make(self) -> Geometry {
+    pub(crate) fn make(self) -> Geometry {
         Geometry::Mesh(procedural::bumpy_sphere(self.subdivisions.0))
     }
 }
 
 impl Sphereflake {
-    pub fn make(self) -> Geometry {
+    pub(crate) fn make(self) -> Geometry {
         match self.subdivisions {
             Some(Between(subdivisions)) => {
                 Geometry::Mesh(procedural::sphereflake(self.depth.0, subdivisions))
@@ -181,19 +181,19 @@ impl Sphereflake {
 }
 
 impl Teapot {
-    pub fn make(self) -> Geometry {
+    pub(crate) fn make(self) -> Geometry {
         Geometry::Mesh(procedural::teapot(self.segments.0))
     }
 }
 
 impl Soup {
-    pub fn make(self) -> Geometry {
+    pub(crate) fn make(self) -> Geometry {
         Geometry::Mesh(procedural::soup(self.triangles.0, seed(self.seed)))
     }
 }
 
 impl Pathological {
-    pub fn make(self) -> Geometry {
+    pub(crate) fn make(self) -> Geometry {
         let mesh = procedural::pathological(self.layout, self.triangles.0, seed(self.seed));
         Geometry::Mesh(mesh)
     }

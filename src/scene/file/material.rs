@@ -82,7 +82,7 @@ pub(super) fn resolve_all(
 
 impl Materials {
     /// Number and content of the material that a shape names.
-    pub fn find(
+    pub(crate) fn find(
         &self,
         name: &Spanned<String>,
         context: &Context<'_>,
@@ -99,7 +99,7 @@ impl Materials {
     }
 
     /// The materials themselves. One that no shape asked for is a mistake.
-    pub fn into_scene(self, context: &Context<'_>) -> Result<Vec<Material>, Diagnostic> {
+    pub(crate) fn into_scene(self, context: &Context<'_>) -> Result<Vec<Material>, Diagnostic> {
         let keep = |named: Named| match named.is_used.get() {
             true => Ok(named.material),
             false => {

@@ -28,7 +28,11 @@ struct Parameter {
 
 impl Parameters {
     /// What a file declares, with `overrides` applied.
-    pub fn read(scene: &str, source: &Source, overrides: &Overrides) -> Result<Self, SceneError> {
+    pub(crate) fn read(
+        scene: &str,
+        source: &Source,
+        overrides: &Overrides,
+    ) -> Result<Self, SceneError> {
         let mut parameters = Self(declared(source)?);
         for (name, value) in overrides {
             match parameters.0.get_mut(name) {
@@ -43,7 +47,7 @@ impl Parameters {
     }
 
     /// Puts values in for every `"$name"`. A parameter that nothing refers to is a mistake.
-    pub fn substitute<'a>(
+    pub(crate) fn substitute<'a>(
         &'a self,
         source: &Source,
         document: &mut DeTable<'a>,
@@ -64,7 +68,7 @@ impl Parameters {
 
     /// Adds what a parameter stands for to a complaint about a place where one is used. A value from elsewhere is at
     /// fault itself.
-    pub fn explain(&self, diagnostic: Diagnostic) -> SceneError {
+    pub(crate) fn explain(&self, diagnostic: Diagnostic) -> SceneError {
         let place = diagnostic.source.text.get(diagnostic.span.clone()).unwrap_or_default();
         let is_there = |name: &str| place.contains(&format!("\"${name}\""));
         let used = self.0.iter().find(|(name, _)| is_there(name));

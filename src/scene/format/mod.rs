@@ -7,7 +7,7 @@
 //! Not here: the scene files of this project (`file`), and pictures ([`crate::image`]).
 
 pub mod collada;
-pub mod mitsuba;
+pub(crate) mod mitsuba;
 pub(super) mod obj;
 mod pbrt;
 pub(super) mod ply;
@@ -25,7 +25,7 @@ use std::str::FromStr;
 /// What a whole scene can be written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Format {
+pub(crate) enum Format {
     /// Mitsuba 3: `scene.xml` and the meshes it names.
     Mitsuba,
     /// The COLLADA of the course, with its CGL profile, and the camera file for its `-c`.
@@ -38,7 +38,7 @@ pub enum Format {
 
 impl Format {
     /// Every format, with the word for it.
-    pub const ALL: [(&str, Self); 4] = [
+    pub(crate) const ALL: [(&str, Self); 4] = [
         ("mitsuba", Self::Mitsuba),
         ("collada", Self::Collada),
         ("pbrt", Self::Pbrt),
@@ -82,7 +82,7 @@ pub struct Request {
 
 /// Why a scene was not written.
 #[derive(Debug, thiserror::Error)]
-pub enum ExportError {
+pub(crate) enum ExportError {
     /// The format has no words for something in the scene.
     #[error("{format} cannot hold scene `{scene}`: {what}")]
     CannotHold {
@@ -105,18 +105,18 @@ pub enum ExportError {
 
 /// Where the parts of a written scene are.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Written {
+pub(crate) struct Written {
     /// What a program is given.
-    pub scene: PathBuf,
+    pub(crate) scene: PathBuf,
     /// The camera, where it has a file of its own.
-    pub camera: Option<PathBuf>,
+    pub(crate) camera: Option<PathBuf>,
 }
 
 /// Writes `scene` into `folder`, which exists.
 ///
 /// # Errors
 /// If the format cannot hold the scene, or a file cannot be written.
-pub fn write(
+pub(crate) fn write(
     scene: &SceneDescription,
     format: Format,
     request: Request,
@@ -133,7 +133,7 @@ pub fn write(
 
 /// The files of a scene; the first one is what a program is given.
 #[derive(Debug)]
-pub struct Exported {
+pub(crate) struct Exported {
     files: Vec<(String, Content)>,
     /// The file of the camera.
     camera: Option<&'static str>,
@@ -157,7 +157,7 @@ impl Exported {
     ///
     /// # Errors
     /// If one cannot be written.
-    pub fn write_to(&self, folder: &Path) -> Result<Written, ExportError> {
+    pub(crate) fn write_to(&self, folder: &Path) -> Result<Written, ExportError> {
         for (name, content) in &self.files {
             let path = folder.join(name);
             content.write(&path).map_err(|error| ExportError::Io { path, error })?;

@@ -9,7 +9,7 @@ use std::fs::File;
 use std::path::Path;
 
 /// The mesh in a file, polygons cut into fans, vertex normals if the file has them.
-pub fn read(path: &Path) -> Result<Mesh, MeshError> {
+pub(crate) fn read(path: &Path) -> Result<Mesh, MeshError> {
     let ply = Parser::<DefaultElement>::new()
         .read_ply(&mut File::open(path)?)
         .map_err(|problem| malformed(&problem))?;
@@ -58,7 +58,7 @@ fn malformed(problem: &dyn std::fmt::Display) -> MeshError {
 }
 
 /// A binary file of single precision, which Mitsuba computes in anyway.
-pub fn written(mesh: &Mesh) -> Vec<u8> {
+pub(crate) fn written(mesh: &Mesh) -> Vec<u8> {
     let normals = match mesh.normals.is_empty() {
         true => "",
         false => "property float nx\nproperty float ny\nproperty float nz\n",

@@ -8,7 +8,7 @@ use std::io::BufReader;
 use std::path::Path;
 
 /// The mesh in a file, vertices at the same place being one.
-pub fn read(path: &Path) -> Result<Mesh, MeshError> {
+pub(crate) fn read(path: &Path) -> Result<Mesh, MeshError> {
     let mut reader = BufReader::new(File::open(path)?);
     let stl = stl_io::read_stl(&mut reader).map_err(|problem| malformed(&problem))?;
     let index =

@@ -20,32 +20,32 @@ impl Default for XmlWriter {
 
 impl XmlWriter {
     /// Begins an element that others go into.
-    pub fn open(&mut self, element: &'static str, attributes: &[(&str, &str)]) {
+    pub(crate) fn open(&mut self, element: &'static str, attributes: &[(&str, &str)]) {
         self.write(Event::Start(tag(element, attributes)));
         self.open.push(element);
     }
 
     /// Ends the element begun last.
-    pub fn close(&mut self) {
+    pub(crate) fn close(&mut self) {
         if let Some(element) = self.open.pop() {
             self.write(Event::End(BytesEnd::new(element)));
         }
     }
 
     /// An element that nothing goes into.
-    pub fn leaf(&mut self, element: &str, attributes: &[(&str, &str)]) {
+    pub(crate) fn leaf(&mut self, element: &str, attributes: &[(&str, &str)]) {
         self.write(Event::Empty(tag(element, attributes)));
     }
 
     /// An element with a text and nothing else.
-    pub fn text(&mut self, element: &str, attributes: &[(&str, &str)], text: &str) {
+    pub(crate) fn text(&mut self, element: &str, attributes: &[(&str, &str)], text: &str) {
         self.write(Event::Start(tag(element, attributes)));
         self.write(Event::Text(BytesText::new(text)));
         self.write(Event::End(BytesEnd::new(element)));
     }
 
     /// The text of the document.
-    pub fn finish(mut self) -> String {
+    pub(crate) fn finish(mut self) -> String {
         while !self.open.is_empty() {
             self.close();
         }

@@ -13,7 +13,7 @@ pub(super) struct Builder {
 
 impl Builder {
     /// Adds a triangle unless two of its corners coincide, as they do at the poles of a patch.
-    pub fn triangle(&mut self, corners: [DVec3; 3]) {
+    pub(crate) fn triangle(&mut self, corners: [DVec3; 3]) {
         let [a, b, c] = corners.map(|corner| self.vertex(corner));
         if a != b && b != c && c != a {
             self.mesh.indices.push([a, b, c]);
@@ -21,13 +21,13 @@ impl Builder {
     }
 
     /// Adds a quadrilateral as two triangles.
-    pub fn quadrilateral(&mut self, [a, b, c, d]: [DVec3; 4]) {
+    pub(crate) fn quadrilateral(&mut self, [a, b, c, d]: [DVec3; 4]) {
         self.triangle([a, b, c]);
         self.triangle([a, c, d]);
     }
 
     /// What has been added so far.
-    pub fn finish(self) -> Mesh {
+    pub(crate) fn finish(self) -> Mesh {
         self.mesh
     }
 

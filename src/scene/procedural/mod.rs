@@ -11,7 +11,8 @@ mod sphereflake;
 mod teapot;
 
 pub use pathological::{Layout, pathological, soup};
-pub use polyhedron::{block, parallelogram};
+pub(crate) use polyhedron::{block, parallelogram};
 pub use sphere::{bumpy_sphere, icosphere};
-pub use sphereflake::{sphereflake, sphereflake_spheres};
+pub use sphereflake::sphereflake;
+pub use sphereflake::sphereflake_spheres;
 pub use teapot::teapot;

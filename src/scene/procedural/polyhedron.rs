@@ -6,7 +6,7 @@ use glam::DVec3;
 
 /// The parallelogram with a corner and the two edges that leave it; its front is the side that
 /// `edges[0] × edges[1]` points to.
-pub fn parallelogram(corner: DVec3, edges: [DVec3; 2]) -> Mesh {
+pub(crate) fn parallelogram(corner: DVec3, edges: [DVec3; 2]) -> Mesh {
     let [u, v] = edges;
     Mesh {
         positions: vec![corner, corner + u, corner + u + v, corner + v],
@@ -16,7 +16,7 @@ pub fn parallelogram(corner: DVec3, edges: [DVec3; 2]) -> Mesh {
 }
 
 /// The block between two opposite corners, twelve triangles. Fronts look out, or in if `inward`.
-pub fn block(min: DVec3, max: DVec3, inward: bool) -> Mesh {
+pub(crate) fn block(min: DVec3, max: DVec3, inward: bool) -> Mesh {
     let mut builder = Builder::default();
     for axis in 0..3 {
         for upper in [false, true] {

@@ -16,30 +16,30 @@ const NORMAL: [&str; 3] = ["normal.X", "normal.Y", "normal.Z"];
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layers {
     /// The mean radiance of each bounce alone, from bounce 0.
-    pub bounces: Vec<Image>,
+    pub(crate) bounces: Vec<Image>,
     /// What stands at the centre of each pixel.
-    pub first_hits: Option<FirstHits>,
+    pub(crate) first_hits: Option<FirstHits>,
 }
 
 /// What stands at the centre of each pixel, exactly.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FirstHits {
+pub(crate) struct FirstHits {
     /// Distance from the camera in units of the scene; infinite where nothing is hit.
-    pub depth: Plane,
+    pub(crate) depth: Plane,
     /// Unit shading normal in world space; 0 where nothing is hit.
-    pub normal: Image,
+    pub(crate) normal: Image,
 }
 
 impl Layers {
     /// The layers in a file; those that it lacks are not there.
-    pub fn read(file: &Exr) -> Self {
+    pub(crate) fn read(file: &Exr) -> Self {
         let bounces = (0..).map_while(|bounce| file.colours(&prefix(bounce)).ok()).collect();
         Self { bounces, first_hits: FirstHits::read(file) }
     }
 
     /// The file with these layers more.
     #[must_use]
-    pub fn added_to(&self, mut file: Exr) -> Exr {
+    pub(crate) fn added_to(&self, mut file: Exr) -> Exr {
         for (bounce, light) in self.bounces.iter().enumerate() {
             file = file.with_colours(&prefix(bounce), light, Storage::Half);
         }

@@ -10,8 +10,8 @@
 mod layers;
 mod provenance;
 
-pub use layers::{FirstHits, Layers};
-pub use provenance::Provenance;
+pub(crate) use layers::{FirstHits, Layers};
+pub(crate) use provenance::Provenance;
 
 use super::SceneDescription;
 use super::hash::content_hash;
@@ -22,7 +22,7 @@ use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
 /// Channels of the standard error are called `se.R`, `se.G` and `se.B`.
-pub const ERROR_PREFIX: &str = "se.";
+pub(crate) const ERROR_PREFIX: &str = "se.";
 
 /// An image, its noise and its provenance.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,14 +44,14 @@ pub struct Reference {
 #[error("reference `{name}` {problem}\nhint: `{}`", self.command())]
 pub struct ReferenceError {
     /// The reference.
-    pub name: String,
+    pub(crate) name: String,
     /// What is the matter with it.
-    pub problem: ReferenceProblem,
+    pub(crate) problem: ReferenceProblem,
 }
 
 /// What can be the matter with a reference.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ReferenceProblem {
+pub(crate) enum ReferenceProblem {
     /// Never made.
     #[error("does not exist: there is no `{}`", .0.display())]
     Missing(PathBuf),
@@ -76,7 +76,7 @@ pub enum ReferenceProblem {
 
 impl ReferenceError {
     /// The command that makes the reference, or makes it anew.
-    pub fn command(&self) -> String {
+    pub(crate) fn command(&self) -> String {
         let replace = match self.problem {
             ReferenceProblem::Missing(_) => "",
             _ => " --replace",
@@ -120,7 +120,7 @@ pub fn load(
 }
 
 /// The provenance of reference `name`, whatever its scene has become.
-pub fn read_provenance(folder: &Path, name: &str) -> Result<Provenance, ReferenceProblem> {
+pub(crate) fn read_provenance(folder: &Path, name: &str) -> Result<Provenance, ReferenceProblem> {
     let path = provenance_path(folder, name);
     if !path.is_file() {
         return Err(ReferenceProblem::Missing(path));

@@ -9,46 +9,46 @@ use std::fmt::Write;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Provenance {
     /// The scene's name.
-    pub scene: String,
+    pub(crate) scene: String,
     /// Its [content hash](crate::scene::hash::content_hash) when the reference was made.
-    pub scene_hash: String,
+    pub(crate) scene_hash: String,
     /// First and last bounce that are added up: 0 is directly visible emission.
-    pub bounces: [u32; 2],
+    pub(crate) bounces: [u32; 2],
     /// Columns and rows.
-    pub film: [u32; 2],
+    pub(crate) film: [u32; 2],
     /// Who rendered it.
-    pub renderer: String,
+    pub(crate) renderer: String,
     /// Which version.
-    pub version: String,
+    pub(crate) version: String,
     /// Which of its back ends.
-    pub variant: String,
+    pub(crate) variant: String,
     /// Which sampler.
-    pub sampler: String,
+    pub(crate) sampler: String,
     /// Independent passes. The standard error is taken between them.
-    pub passes: u32,
+    pub(crate) passes: u32,
     /// Samples a pixel in each.
-    pub samples_per_pass: u32,
+    pub(crate) samples_per_pass: u32,
     /// First and last seed of each unbroken range; every pass has a seed of its own.
-    pub seeds: Vec<[u32; 2]>,
+    pub(crate) seeds: Vec<[u32; 2]>,
     /// Standard error over mean, the middle one of all pixels and channels that are not black.
-    pub median_relative_error: f64,
+    pub(crate) median_relative_error: f64,
     /// The same, exceeded by one value in a hundred.
-    pub high_relative_error: f64,
+    pub(crate) high_relative_error: f64,
     /// SHA-256 of `reference.exr`.
-    pub picture_hash: String,
+    pub(crate) picture_hash: String,
     /// What was typed.
-    pub command: String,
+    pub(crate) command: String,
     /// Day it was made, UTC.
-    pub date: String,
+    pub(crate) date: String,
     /// Processor seconds it took, less those of attempts that were cut off.
-    pub cpu_seconds: f64,
+    pub(crate) cpu_seconds: f64,
     /// Passes that each bounce alone is the mean of, with the first of the seeds; 0 if the reference
     /// does not hold them.
     #[serde(default, skip_serializing_if = "is_zero")]
-    pub bounce_passes: u32,
+    pub(crate) bounce_passes: u32,
     /// Values that were given to parameters of the scene.
     #[serde(default, skip_serializing_if = "Overrides::is_empty")]
-    pub parameters: Overrides,
+    pub(crate) parameters: Overrides,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands a reference")]
@@ -58,12 +58,12 @@ fn is_zero(number: &u32) -> bool {
 
 impl Provenance {
     /// Samples a pixel in all.
-    pub fn samples_per_pixel(&self) -> u64 {
+    pub(crate) fn samples_per_pixel(&self) -> u64 {
         u64::from(self.passes) * u64::from(self.samples_per_pass)
     }
 
     /// What the header of `reference.exr` says, so that an image on its own can be made again.
-    pub fn header(&self) -> String {
+    pub(crate) fn header(&self) -> String {
         let mut text = format!(
             "furnace {}\nscene {} {}\n",
             env!("CARGO_PKG_VERSION"),

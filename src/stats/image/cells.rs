@@ -8,7 +8,7 @@ use crate::image::{Image, luminance};
 use serde::Serialize;
 
 /// Red, green, blue and luminance.
-pub const COMPONENTS: usize = 4;
+pub(crate) const COMPONENTS: usize = 4;
 
 /// What of a pixel is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub enum Component {
 
 impl Component {
     /// In the order in which cells keep them.
-    pub const ALL: [Component; COMPONENTS] =
+    pub(crate) const ALL: [Component; COMPONENTS] =
         [Component::Red, Component::Green, Component::Blue, Component::Luminance];
 }
 
@@ -46,7 +46,7 @@ pub enum Scale {
 
 impl Scale {
     /// From the finest to the coarsest.
-    pub const ALL: [Scale; 5] =
+    pub(crate) const ALL: [Scale; 5] =
         [Scale::Pixel, Scale::Tile8, Scale::Tile32, Scale::Rows, Scale::Whole];
 
     /// Width and height of a cell that is not cut off by the border.
@@ -75,7 +75,7 @@ impl std::fmt::Display for Scale {
 
 /// A picture cut into cells of one scale.
 #[derive(Clone, Debug)]
-pub struct Grid {
+pub(crate) struct Grid {
     pub(super) scale: Scale,
     pub(super) columns: usize,
     pub(super) rows: usize,
@@ -87,13 +87,13 @@ pub struct Grid {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Extent {
     /// First column.
-    pub x: usize,
+    pub(crate) x: usize,
     /// First row, from the top.
-    pub y: usize,
+    pub(crate) y: usize,
     /// Columns.
-    pub width: usize,
+    pub(crate) width: usize,
     /// Rows.
-    pub height: usize,
+    pub(crate) height: usize,
 }
 
 impl Grid {
@@ -180,7 +180,7 @@ fn error_components(errors: [f32; 3]) -> [f64; COMPONENTS] {
 
 /// The cells of all scales over pictures of one size.
 #[derive(Clone, Debug)]
-pub struct Cells {
+pub(crate) struct Cells {
     pub(super) grids: Vec<Grid>,
     weights: Vec<f64>,
 }

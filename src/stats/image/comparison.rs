@@ -37,7 +37,7 @@ pub struct Side {
 
 impl Side {
     /// A file, with the standard errors and the isolated bounces that it holds.
-    pub fn of(loaded: Loaded, standard_error: Option<&Image>, bounces: Vec<Image>) -> Self {
+    pub(crate) fn of(loaded: Loaded, standard_error: Option<&Image>, bounces: Vec<Image>) -> Self {
         let rounding = loaded.codes.as_ref().map(|codes| rounding(&loaded, codes.largest));
         Self {
             is_coded: rounding.is_some(),
@@ -55,7 +55,7 @@ impl Side {
     ///
     /// # Errors
     /// [`ImageError::DifferentSizes`]
-    pub fn mean_of(runs: &[Loaded]) -> Result<Self, ImageError> {
+    pub(crate) fn mean_of(runs: &[Loaded]) -> Result<Self, ImageError> {
         let [width, height] = runs.first().map_or([0; 2], |run| size(&run.image));
         if let Some(other) = runs.iter().map(|run| size(&run.image)).find(|s| *s != [width, height])
         {
@@ -84,7 +84,7 @@ impl Side {
     }
 
     /// The same with a picture of the variance of every value; none if it has another size or is negative.
-    pub fn with_variance(self, variance: Image) -> Option<Self> {
+    pub(crate) fn with_variance(self, variance: Image) -> Option<Self> {
         let is_variance = |value: &f32| *value >= 0.0 && value.is_finite();
         let fits = size(&variance) == size(&self.image);
         let is_one = fits && variance.pixels.as_flattened().iter().all(is_variance);
@@ -92,7 +92,7 @@ impl Side {
     }
 
     /// Columns and rows.
-    pub fn size(&self) -> [usize; 2] {
+    pub(crate) fn size(&self) -> [usize; 2] {
         size(&self.image)
     }
 
@@ -125,40 +125,40 @@ impl Side {
 #[derive(Debug, Serialize)]
 pub struct Comparison {
     /// Whether the pictures show the same.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// Columns and rows.
-    pub size: [usize; 2],
+    pub(crate) size: [usize; 2],
     /// Pixels that count.
-    pub pixels: usize,
+    pub(crate) pixels: usize,
     /// By what they differ.
-    pub difference: DifferenceReport,
+    pub(crate) difference: DifferenceReport,
     /// How the codes of an 8-bit picture were compared, if it could be done by their law.
-    pub codes: Option<CodesCompared>,
+    pub(crate) codes: Option<CodesCompared>,
     /// What turns the reference into the picture, the greatest mistake first.
-    pub mistakes: Vec<Fit>,
+    pub(crate) mistakes: Vec<Fit>,
     /// Bounces that are missing or there too often, if the reference holds its bounces apart and that
     /// explains more than any mistake.
-    pub bounces: Option<BouncesOff>,
+    pub(crate) bounces: Option<BouncesOff>,
     /// How far apart they are.
-    pub metrics: Vec<Measured>,
+    pub(crate) metrics: Vec<Measured>,
 }
 
 /// What was done with codes.
 #[derive(Debug, Serialize)]
 pub struct CodesCompared {
     /// What the codes say of their own encoding.
-    pub deciphered: Deciphered,
+    pub(crate) deciphered: Deciphered,
     /// Where the noise of the picture is known from.
-    pub noise: NoiseSource,
+    pub(crate) noise: NoiseSource,
 }
 
 /// A metric of the pixels that count.
 #[derive(Debug, Serialize)]
-pub struct Measured {
+pub(crate) struct Measured {
     /// The metric.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// None where a pixel is no number.
-    pub value: Option<f64>,
+    pub(crate) value: Option<f64>,
 }
 
 /// What is asked of a comparison, besides its pictures.

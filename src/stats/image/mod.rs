@@ -8,7 +8,7 @@ mod codes;
 mod comparison;
 mod dead_pixels;
 mod difference;
-pub mod misfit;
+pub(crate) mod misfit;
 mod report;
 mod screen;
 mod screening;

@@ -33,64 +33,64 @@ impl Impossible {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImpossiblePixels {
     /// What is wrong with the first.
-    pub kind: Impossible,
+    pub(crate) kind: Impossible,
     /// Its column.
-    pub x: usize,
+    pub(crate) x: usize,
     /// Its row, from the top.
-    pub y: usize,
+    pub(crate) y: usize,
     /// How many there are in that run.
-    pub pixels: usize,
+    pub(crate) pixels: usize,
     /// The stage of that run.
-    pub stage: Stage,
+    pub(crate) stage: Stage,
     /// Its number in the stage.
-    pub run: u32,
+    pub(crate) run: u32,
 }
 
 /// A cell, as the screen sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CellScore {
+pub(crate) struct CellScore {
     /// Size of the cell.
-    pub scale: Scale,
+    pub(crate) scale: Scale,
     /// Red, green, blue or luminance.
-    pub component: Component,
+    pub(crate) component: Component,
     /// Its pixels.
-    pub extent: Extent,
+    pub(crate) extent: Extent,
     /// Measured.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Of the reference; 0 for the difference of two renders.
-    pub expected: f64,
+    pub(crate) expected: f64,
     /// How far a correct core may be from `expected`: rounding, and the noise of the reference.
-    pub band: f64,
+    pub(crate) band: f64,
     /// How far outside the band the mean is, in standard errors of the screen's runs.
-    pub t: f64,
+    pub(crate) t: f64,
 }
 
 /// A confirmation on fresh runs of the cells frozen at one scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Confirmation {
+pub(crate) struct Confirmation {
     /// How far the frozen combination of cells lies outside its band, in standard errors of these
     /// runs or of the other confirmation's, whichever are larger.
-    pub t: f64,
+    pub(crate) t: f64,
     /// Whether that is too far.
-    pub rejects: bool,
+    pub(crate) rejects: bool,
 }
 
 /// What one scale says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaleReport {
     /// Size of the cells.
-    pub scale: Scale,
+    pub(crate) scale: Scale,
     /// How many, times components.
-    pub cells: usize,
+    pub(crate) cells: usize,
     /// The most extreme first; none inside its band.
-    pub worst: Vec<CellScore>,
+    pub(crate) worst: Vec<CellScore>,
     /// What |t| of a cell had to exceed to be suspected.
-    pub critical: f64,
+    pub(crate) critical: f64,
     /// Both confirmations, if anything was suspected at any scale and this one has cells outside
     /// their bands.
-    pub confirmations: Option<[Confirmation; 2]>,
+    pub(crate) confirmations: Option<[Confirmation; 2]>,
     /// Whether both reject.
-    pub rejects: bool,
+    pub(crate) rejects: bool,
 }
 
 /// Measured over expected, over the whole picture, with 99.9 % confidence. The noise of the
@@ -98,11 +98,11 @@ pub struct ScaleReport {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GlobalRatio {
     /// Red, green, blue or luminance.
-    pub component: Component,
+    pub(crate) component: Component,
     /// Measured over expected.
-    pub ratio: f64,
+    pub(crate) ratio: f64,
     /// Ends of its interval.
-    pub interval: [f64; 2],
+    pub(crate) interval: [f64; 2],
 }
 
 /// The judgement of a picture.

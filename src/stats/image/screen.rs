@@ -48,13 +48,13 @@ pub struct Reference<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageEffort {
     /// The relative error of the whole picture that must be seen.
-    pub detects: f64,
+    pub(crate) detects: f64,
     /// Samples a pixel of each run, which the caller draws; 1 if that is not known.
-    pub samples: u32,
+    pub(crate) samples: u32,
     /// Runs of the screen: all that a correct core pays.
-    pub screen_runs: u32,
+    pub(crate) screen_runs: u32,
     /// Runs of each of two confirmations.
-    pub confirm_runs: u32,
+    pub(crate) confirm_runs: u32,
 }
 
 impl ImageEffort {
@@ -69,9 +69,9 @@ impl ImageEffort {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImageDraw {
     /// [`Stage::First`] screens, [`Stage::Second`] and [`Stage::Third`] confirm.
-    pub stage: Stage,
+    pub(crate) stage: Stage,
     /// Number of the run in its stage.
-    pub run: u32,
+    pub(crate) run: u32,
 }
 
 impl ImageDraw {
@@ -83,7 +83,7 @@ impl ImageDraw {
 
 /// How easily a picture is suspected and a suspicion confirmed.
 #[derive(Clone, Copy, Debug)]
-pub struct Levels {
+pub(crate) struct Levels {
     /// [`SCREEN_LEVEL`], over all cells.
     pub(super) screen: f64,
     /// [`CONFIRM_LEVEL`], of each confirmation at each scale.

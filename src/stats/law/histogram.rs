@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 const HORIZON: f64 = 1e-6;
 
 /// Writes its values, per steradian, for many unit directions.
-pub type BatchDensity<'a, E> = dyn FnMut(&[DVec3], &mut [f64]) -> Result<(), E> + 'a;
+pub(crate) type BatchDensity<'a, E> = dyn FnMut(&[DVec3], &mut [f64]) -> Result<(), E> + 'a;
 
 /// A division of the sphere into cells: ring by ring from −z to +z, sector by sector within.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,13 +30,13 @@ pub struct SphereCells {
 impl SphereCells {
     /// The upper hemisphere in `rings` by `sectors` cells; all that is below the horizon is one
     /// ring more.
-    pub fn hemisphere(rings: usize, sectors: usize) -> Self {
+    pub(crate) fn hemisphere(rings: usize, sectors: usize) -> Self {
         let upper = (0..=rings).map(|ring| ring as f64 / rings as f64);
         Self::new([-1.0].into_iter().chain(upper).collect(), sectors)
     }
 
     /// The sphere in twice `rings` by `sectors` cells; the horizon is an edge.
-    pub fn sphere(rings: usize, sectors: usize) -> Self {
+    pub(crate) fn sphere(rings: usize, sectors: usize) -> Self {
         let edges = 0..=2 * rings;
         Self::new(edges.map(|ring| ring as f64 / rings as f64 - 1.0).collect(), sectors)
     }
@@ -46,37 +46,32 @@ impl SphereCells {
     }
 
     /// The same cells, the first sector beginning at azimuth `offset`.
-    pub fn turned_by(self, offset: f64) -> Self {
+    pub(crate) fn turned_by(self, offset: f64) -> Self {
         Self { offset, ..self }
     }
 
     /// The same cells for a density with kinks on the circles of these cos θ.
-    pub fn with_kinks(self, kinks: &[f64]) -> Self {
+    pub(crate) fn with_kinks(self, kinks: &[f64]) -> Self {
         Self { kinks: kinks.to_vec(), ..self }
     }
 
     /// Number of cells.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.ring_count() * self.sectors
     }
 
-    /// Never: there is at least one ring.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// Rings, from −z to +z.
-    pub fn ring_count(&self) -> usize {
+    pub(crate) fn ring_count(&self) -> usize {
         self.rings.len() - 1
     }
 
     /// Sectors in each ring.
-    pub fn sector_count(&self) -> usize {
+    pub(crate) fn sector_count(&self) -> usize {
         self.sectors
     }
 
     /// The range of cos θ and of φ (radians) of a cell.
-    pub fn bounds(&self, cell: usize) -> ([f64; 2], [f64; 2]) {
+    pub(crate) fn bounds(&self, cell: usize) -> ([f64; 2], [f64; 2]) {
         let (ring, sector) = (cell / self.sectors, cell % self.sectors);
         let width = TAU / self.sectors as f64;
         let from = self.offset + sector as f64 * width;
@@ -84,7 +79,7 @@ impl SphereCells {
     }
 
     /// The cell of a unit direction.
-    pub fn cell_of(&self, direction: DVec3) -> usize {
+    pub(crate) fn cell_of(&self, direction: DVec3) -> usize {
         let z = if (-HORIZON..0.0).contains(&direction.z) { 0.0 } else { direction.z };
         let ring = self.rings.partition_point(|&edge| edge <= z);
         let ring = ring.clamp(1, self.ring_count()) - 1;
@@ -94,7 +89,7 @@ impl SphereCells {
     }
 
     /// Counts samples; `None` is a sample that failed.
-    pub fn count(&self, samples: impl IntoIterator<Item = Option<DVec3>>) -> Counts {
+    pub(crate) fn count(&self, samples: impl IntoIterator<Item = Option<DVec3>>) -> Counts {
         let mut counts = Counts { cells: vec![0; self.len()], absorbed: 0 };
         for sample in samples {
             match sample {
@@ -107,7 +102,7 @@ impl SphereCells {
 
     /// The probability of each cell under a density per steradian. What is missing to 1 is the
     /// probability that a sample fails. `pdf` answers for many directions at a time.
-    pub fn probabilities<E>(
+    pub(crate) fn probabilities<E>(
         &self,
         diligence: Diligence,
         pdf: &mut BatchDensity<'_, E>,
@@ -146,14 +141,14 @@ impl SphereCells {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Counts {
     /// In each cell.
-    pub cells: Vec<u64>,
+    pub(crate) cells: Vec<u64>,
     /// Samples that failed: the cell "absorbed".
-    pub absorbed: u64,
+    pub(crate) absorbed: u64,
 }
 
 impl Counts {
     /// All samples.
-    pub fn total(&self) -> u64 {
+    pub(crate) fn total(&self) -> u64 {
         self.absorbed + self.cells.iter().sum::<u64>()
     }
 }
@@ -162,18 +157,18 @@ impl Counts {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellProbabilities {
     /// Of each cell.
-    pub cells: Vec<f64>,
+    pub(crate) cells: Vec<f64>,
     /// Bound on the quadrature error of each.
-    pub errors: Vec<f64>,
+    pub(crate) errors: Vec<f64>,
     /// That a sample fails: what is missing to 1, never negative.
-    pub absorbed: f64,
+    pub(crate) absorbed: f64,
     /// The integral of the density.
-    pub mass: f64,
+    pub(crate) mass: f64,
 }
 
 impl CellProbabilities {
     /// From the integral of the density over each cell.
-    pub fn new(cells: Vec<Integral>) -> Self {
+    pub(crate) fn new(cells: Vec<Integral>) -> Self {
         let mass: f64 = cells.iter().map(|cell| cell.value).sum();
         Self {
             errors: cells.iter().map(|cell| cell.error).collect(),
@@ -184,7 +179,7 @@ impl CellProbabilities {
     }
 
     /// Known without error, and adding up to 1 or less.
-    pub fn exact(cells: Vec<f64>) -> Self {
+    pub(crate) fn exact(cells: Vec<f64>) -> Self {
         let cells = cells.into_iter().map(|value| Integral { value, error: 0.0 });
         Self::new(cells.collect())
     }

@@ -28,7 +28,7 @@ pub fn chi_square_tail(value: f64, freedom: f64) -> f64 {
 
 /// The probability that noncentral χ² exceeds `value`: a Poisson mixture of central ones
 /// (Johnson, Kotz and Balakrishnan, Continuous Univariate Distributions 2, section 29.3).
-pub fn noncentral_chi_square_tail(value: f64, freedom: f64, noncentrality: f64) -> f64 {
+pub(crate) fn noncentral_chi_square_tail(value: f64, freedom: f64, noncentrality: f64) -> f64 {
     let rate = 0.5 * noncentrality;
     let spread = 12.0 * rate.sqrt() + 12.0;
     let from = (rate - spread).max(0.0).floor() as u64;

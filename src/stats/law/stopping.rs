@@ -16,27 +16,27 @@ use crate::math::quadrature::Integral;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoValues {
     /// One value.
-    pub low: f64,
+    pub(crate) low: f64,
     /// The other.
-    pub high: f64,
+    pub(crate) high: f64,
     /// The probability of the other.
-    pub chance: f64,
+    pub(crate) chance: f64,
 }
 
 /// When a rule stops, and with what mean.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoppingLaw {
     /// The probability of stopping after n samples, for n from 0 to the cap.
-    pub stops: Vec<f64>,
+    pub(crate) stops: Vec<f64>,
     /// Expectation of the returned mean.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Standard deviation of the returned mean.
-    pub deviation: f64,
+    pub(crate) deviation: f64,
 }
 
 impl TwoValues {
     /// The true mean.
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.low + self.chance * (self.high - self.low)
     }
 
@@ -58,7 +58,7 @@ impl TwoValues {
 impl StoppingLaw {
     /// Of a rule that looks after every `batch` samples, up to `cap`, and is asked for the number of
     /// samples and of high ones among them.
-    pub fn new(
+    pub(crate) fn new(
         stream: TwoValues,
         batch: usize,
         cap: usize,
@@ -93,13 +93,13 @@ impl StoppingLaw {
     }
 
     /// Expectation of the number of samples.
-    pub fn expected_count(&self) -> f64 {
+    pub(crate) fn expected_count(&self) -> f64 {
         self.stops.iter().enumerate().map(|(n, probability)| n as f64 * probability).sum()
     }
 
     /// As cells to count in: cell n is stopping after n samples. How far it is from `other` bounds
     /// the error of each, where the two are the same law but for rounding.
-    pub fn cells(&self, other: &Self) -> CellProbabilities {
+    pub(crate) fn cells(&self, other: &Self) -> CellProbabilities {
         let pairs = self.stops.iter().zip(&other.stops);
         let cell = |(p, q): (&f64, &f64)| Integral { value: *p, error: (p - q).abs() };
         CellProbabilities::new(pairs.map(cell).collect())

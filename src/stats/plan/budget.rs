@@ -8,26 +8,26 @@ use serde::{Deserialize, Serialize};
 pub struct Effort {
     /// The relative error that must be seen: a claim passes only if this would have been caught
     /// with probability 0.999.
-    pub detects: f64,
+    pub(crate) detects: f64,
     /// The most samples of the first stage, over all its runs.
-    pub most_samples: u64,
+    pub(crate) most_samples: u64,
     /// Independent runs of the core in each stage: the units of replication, at least 32.
-    pub runs: u32,
+    pub(crate) runs: u32,
     /// The samples of a run come in multiples of this (the pixels of a film, say).
-    pub grain: u64,
+    pub(crate) grain: u64,
     /// Whether means are tested for gross errors before they are tested for `detects`: what fails
     /// there is known soon, and less precisely.
-    pub coarse_first: bool,
+    pub(crate) coarse_first: bool,
 }
 
 impl Effort {
     /// Errors beyond this are gross: nobody who stops at the first failure wants to know them better.
     const GROSS: f64 = 0.25;
     /// Fewer runs leave the standard error itself uncertain by more than 13 %.
-    pub const FEWEST_RUNS: u32 = 32;
+    pub(crate) const FEWEST_RUNS: u32 = 32;
 
     /// The effort that sees an error of `detects`, relative to the scale of the claim.
-    pub fn new(detects: f64) -> Self {
+    pub(crate) fn new(detects: f64) -> Self {
         Self { detects, most_samples: 4_000_000, runs: 64, grain: 1, coarse_first: false }
     }
 
@@ -38,17 +38,17 @@ impl Effort {
     }
 
     /// The same with another cap on the first stage's samples.
-    pub fn with_most_samples(self, most_samples: u64) -> Self {
+    pub(crate) fn with_most_samples(self, most_samples: u64) -> Self {
         Self { most_samples, ..self }
     }
 
     /// The same with another number of runs a stage; never fewer than [`Effort::FEWEST_RUNS`].
-    pub fn with_runs(self, runs: u32) -> Self {
+    pub(crate) fn with_runs(self, runs: u32) -> Self {
         Self { runs: runs.max(Self::FEWEST_RUNS), ..self }
     }
 
     /// The same with samples in multiples of `grain`.
-    pub fn in_steps_of(self, grain: u64) -> Self {
+    pub(crate) fn in_steps_of(self, grain: u64) -> Self {
         Self { grain: grain.max(1), ..self }
     }
 }
@@ -57,24 +57,24 @@ impl Effort {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Allowance {
     /// How small an error is looked for.
-    pub budget: Budget,
+    pub(crate) budget: Budget,
     /// Whether one failure is enough: `--fail-fast`.
-    pub stops_at_failure: bool,
+    pub(crate) stops_at_failure: bool,
 }
 
 impl Allowance {
     /// What `effort` becomes under this allowance.
-    pub fn scale(self, effort: Effort) -> Effort {
+    pub(crate) fn scale(self, effort: Effort) -> Effort {
         Effort { coarse_first: self.stops_at_failure, ..self.budget.scale(effort) }
     }
 
     /// [`Budget::samples`]
-    pub fn samples(self, default: u64) -> u64 {
+    pub(crate) fn samples(self, default: u64) -> u64 {
         self.budget.samples(default)
     }
 
     /// [`Budget::coarseness`]
-    pub const fn coarseness(self) -> f64 {
+    pub(crate) const fn coarseness(self) -> f64 {
         self.budget.coarseness()
     }
 }
@@ -100,7 +100,7 @@ pub enum Budget {
 
 impl Budget {
     /// By how much the smallest error that must be seen is multiplied.
-    pub const fn coarseness(self) -> f64 {
+    pub(crate) const fn coarseness(self) -> f64 {
         match self {
             Budget::Quick => 2.5,
             Budget::Default => 1.0,
@@ -110,12 +110,12 @@ impl Budget {
 
     /// By how much a number of samples is multiplied: an error half as large takes four times as
     /// many.
-    pub const fn samples_factor(self) -> f64 {
+    pub(crate) const fn samples_factor(self) -> f64 {
         1.0 / (self.coarseness() * self.coarseness())
     }
 
     /// What `effort` becomes under this budget.
-    pub fn scale(self, effort: Effort) -> Effort {
+    pub(crate) fn scale(self, effort: Effort) -> Effort {
         Effort {
             detects: effort.detects * self.coarseness(),
             most_samples: self.samples(effort.most_samples),
@@ -124,7 +124,7 @@ impl Budget {
     }
 
     /// What a number of samples meant for the default budget becomes under this one.
-    pub fn samples(self, default: u64) -> u64 {
+    pub(crate) fn samples(self, default: u64) -> u64 {
         (default as f64 * self.samples_factor()).ceil() as u64
     }
 }

@@ -14,24 +14,25 @@ pub struct Band(f64);
 
 impl Band {
     /// Nothing to forgive: counts of the harness's own draws.
-    pub const NONE: Band = Band(0.0);
+    #[cfg(test)]
+    pub(crate) const NONE: Band = Band(0.0);
     /// Radiance that a renderer has traced, shaded and accumulated.
-    pub const RADIANCE: Band = Band(1e-3);
+    pub(crate) const RADIANCE: Band = Band(1e-3);
     /// One evaluation in double precision.
-    pub const DOUBLE_MATH: Band = Band(2e-5);
+    pub(crate) const DOUBLE_MATH: Band = Band(2e-5);
     /// One evaluation in single precision.
-    pub const SINGLE_MATH: Band = Band(2e-4);
+    pub(crate) const SINGLE_MATH: Band = Band(2e-4);
     /// The variance of an estimator: two legitimate ways to write one differ by a few per cent.
-    pub const VARIANCE: Band = Band(0.2);
+    pub(crate) const VARIANCE: Band = Band(0.2);
     /// The logarithm to base 2 of a ratio: twice and half are near enough for whoever decides by it
     /// where to spend samples.
-    pub const FACTOR_OF_TWO: Band = Band(1.0);
+    pub(crate) const FACTOR_OF_TWO: Band = Band(1.0);
 
     /// How far a picture may be displaced, pixels: what no eye and no float notices.
-    pub const ALIGNMENT: Band = Band(0.01);
+    pub(crate) const ALIGNMENT: Band = Band(0.01);
 
     /// One evaluation in this precision.
-    pub const fn math(precision: Precision) -> Band {
+    pub(crate) const fn math(precision: Precision) -> Band {
         match precision {
             Precision::Double => Self::DOUBLE_MATH,
             Precision::Single => Self::SINGLE_MATH,
@@ -39,7 +40,7 @@ impl Band {
     }
 
     /// The half width relative to the scale of the claim.
-    pub const fn relative(self) -> f64 {
+    pub(crate) const fn relative(self) -> f64 {
         self.0
     }
 }
@@ -61,55 +62,55 @@ pub enum Sides {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Claim {
     /// The true mean, in the unit of what is drawn.
-    pub expected: f64,
+    pub(crate) expected: f64,
     /// What relative errors are relative to, positive. `expected` itself, unless that is a
     /// difference.
-    pub scale: f64,
+    pub(crate) scale: f64,
     /// How far from `expected` a correct core may be, relative to `scale`.
-    pub band: Band,
+    pub(crate) band: Band,
     /// Standard deviation of *one sample* of a correct core, where theory gives it. Protects a
     /// claim whose estimator meets light less often than once in 10⁴ samples; elsewhere the other
     /// stages measure it.
-    pub null_deviation: Option<f64>,
+    pub(crate) null_deviation: Option<f64>,
     /// On which side the core may fail.
-    pub sides: Sides,
+    pub(crate) sides: Sides,
 }
 
 impl Claim {
     /// The mean is `expected`, which is not 0.
-    pub fn value(expected: f64, band: Band) -> Self {
+    pub(crate) fn value(expected: f64, band: Band) -> Self {
         Self { expected, scale: expected.abs(), band, null_deviation: None, sides: Sides::Both }
     }
 
     /// The mean of a difference is 0. `scale` is the size of the things subtracted.
-    pub fn difference(scale: f64, band: Band) -> Self {
+    pub(crate) fn difference(scale: f64, band: Band) -> Self {
         Self { expected: 0.0, ..Self::value(scale, band) }
     }
 
     /// A share of independent yes-or-no samples is `probability`, in (0, 1).
-    pub fn share(probability: f64, band: Band) -> Self {
+    pub(crate) fn share(probability: f64, band: Band) -> Self {
         let deviation = (probability * (1.0 - probability)).sqrt();
         Self::value(probability, band).with_null_deviation(deviation)
     }
 
     /// The same claim with the standard deviation of one sample known from theory.
-    pub fn with_null_deviation(self, deviation: f64) -> Self {
+    pub(crate) fn with_null_deviation(self, deviation: f64) -> Self {
         Self { null_deviation: Some(deviation), ..self }
     }
 
     /// The same claim, forgiving one side.
-    pub fn on_side(self, sides: Sides) -> Self {
+    pub(crate) fn on_side(self, sides: Sides) -> Self {
         Self { sides, ..self }
     }
 
     /// Half width of the null, in the unit of what is drawn.
-    pub fn band_width(&self) -> f64 {
+    pub(crate) fn band_width(&self) -> f64 {
         self.band.relative() * self.scale
     }
 
     /// How far a finite mean lies outside the band, with its sign; 0 inside, and on the forgiven
     /// side.
-    pub fn departure(&self, mean: f64) -> f64 {
+    pub(crate) fn departure(&self, mean: f64) -> f64 {
         let difference = mean - self.expected;
         let outside = (difference.abs() - self.band_width()).max(0.0) * difference.signum();
         match self.sides {

@@ -31,10 +31,10 @@ pub enum Stage {
 
 impl Stage {
     /// The stages that decide, in their order.
-    pub const DECIDING: [Self; 3] = [Self::First, Self::Second, Self::Third];
+    pub(crate) const DECIDING: [Self; 3] = [Self::First, Self::Second, Self::Third];
 
     /// Samples for each sample of the first stage.
-    pub const fn factor(self) -> u64 {
+    pub(crate) const fn factor(self) -> u64 {
         match self {
             Self::Second => 4,
             Self::Third => 16,
@@ -48,7 +48,7 @@ impl Stage {
     }
 
     /// The seed of this stage below the seed of its check.
-    pub fn seed(self, check: Seed) -> Seed {
+    pub(crate) fn seed(self, check: Seed) -> Seed {
         check.child(self)
     }
 }
@@ -90,28 +90,28 @@ impl<S> std::ops::Deref for Escalation<S> {
 
 impl<S: Scored> Escalation<S> {
     /// The stage to be drawn: the first, or the next after one that rejects. None when all is said.
-    pub fn next(&self) -> Option<Stage> {
+    pub(crate) fn next(&self) -> Option<Stage> {
         let goes_on = self.0.last().is_none_or(Scored::rejects);
         Stage::DECIDING.get(self.0.len()).copied().filter(|_| goes_on)
     }
 
     /// Takes in the stage that was to be drawn.
-    pub fn push(&mut self, score: S) {
+    pub(crate) fn push(&mut self, score: S) {
         self.0.push(score);
     }
 
     /// Whether the first stage rejects, so that there has to be a second.
-    pub fn suspects(&self) -> bool {
+    pub(crate) fn suspects(&self) -> bool {
         self.0.first().is_some_and(Scored::rejects)
     }
 
     /// Whether all three reject.
-    pub fn rejects(&self) -> bool {
+    pub(crate) fn rejects(&self) -> bool {
         self.0.len() == Stage::DECIDING.len() && self.0.iter().all(Scored::rejects)
     }
 
     /// What the ledger enters.
-    pub fn hypothesis(&self, kind: TestKind) -> Hypothesis {
+    pub(crate) fn hypothesis(&self, kind: TestKind) -> Hypothesis {
         Hypothesis::new(kind, self.suspects())
     }
 }

@@ -40,7 +40,7 @@ pub enum TestKind {
 
 impl TestKind {
     /// As people read it, of one.
-    pub const fn singular(self) -> &'static str {
+    pub(crate) const fn singular(self) -> &'static str {
         match self {
             Self::Mean => "mean",
             Self::Counts => "density",
@@ -68,7 +68,7 @@ impl TestKind {
     }
 
     /// The probability that a correct core fails one such hypothesis.
-    pub const fn false_alarm(self) -> f64 {
+    pub(crate) const fn false_alarm(self) -> f64 {
         match self {
             Self::Mean => MEAN_FALSE_ALARM,
             Self::Counts => ESCALATION_FALSE_ALARM,
@@ -109,7 +109,7 @@ pub struct Hypothesis {
 
 impl Hypothesis {
     /// A hypothesis of this kind at its usual price.
-    pub const fn new(kind: TestKind, suspected: bool) -> Self {
+    pub(crate) const fn new(kind: TestKind, suspected: bool) -> Self {
         Self { kind, false_alarm: kind.false_alarm(), suspected }
     }
 }
@@ -118,11 +118,11 @@ impl Hypothesis {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LedgerEntry {
     /// How many.
-    pub hypotheses: usize,
+    pub(crate) hypotheses: usize,
     /// What they may cost together.
-    pub false_alarm: f64,
+    pub(crate) false_alarm: f64,
     /// How many a first stage suspected.
-    pub suspected: usize,
+    pub(crate) suspected: usize,
 }
 
 impl LedgerEntry {
@@ -139,27 +139,27 @@ pub struct Ledger(BTreeMap<TestKind, LedgerEntry>);
 
 impl Ledger {
     /// By kind.
-    pub fn entries(&self) -> impl Iterator<Item = (TestKind, LedgerEntry)> {
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (TestKind, LedgerEntry)> {
         self.0.iter().map(|(kind, entry)| (*kind, *entry))
     }
 
     /// How many hypotheses there are.
-    pub fn hypotheses(&self) -> usize {
+    pub(crate) fn hypotheses(&self) -> usize {
         self.0.values().map(|entry| entry.hypotheses).sum()
     }
 
     /// How many hypotheses a first stage suspected.
-    pub fn suspected(&self) -> usize {
+    pub(crate) fn suspected(&self) -> usize {
         self.0.values().map(|entry| entry.suspected).sum()
     }
 
     /// At most this is the probability that a correct core fails anything.
-    pub fn spent(&self) -> f64 {
+    pub(crate) fn spent(&self) -> f64 {
         self.0.values().map(|entry| entry.false_alarm).sum()
     }
 
     /// Whether that is within what a suite may spend. NaN is not.
-    pub fn is_within_budget(&self) -> bool {
+    pub(crate) fn is_within_budget(&self) -> bool {
         self.spent() <= SUITE_FALSE_ALARM
     }
 }

@@ -8,20 +8,20 @@ use super::{Hypothesis, Verdict};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judgement {
     /// Pass, fail or inconclusive.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// What the core gave.
-    pub measured: f64,
+    pub(crate) measured: f64,
     /// What it should be.
-    pub expected: f64,
+    pub(crate) expected: f64,
     /// How far from `expected` is still right, in the same unit, without noise.
-    pub allowed: f64,
+    pub(crate) allowed: f64,
     /// 99.9 % interval of what was measured; none without noise.
-    pub interval: Option<[f64; 2]>,
+    pub(crate) interval: Option<[f64; 2]>,
     /// The smallest relative error that would have been caught with probability 0.999; none where it is
     /// not known, or infinite.
-    pub smallest_detectable_error: Option<f64>,
+    pub(crate) smallest_detectable_error: Option<f64>,
     /// What the ledger enters; none where chance has no part in it.
-    pub hypothesis: Option<Hypothesis>,
+    pub(crate) hypothesis: Option<Hypothesis>,
 }
 
 /// What a test found out.

@@ -17,13 +17,13 @@ pub enum Verdict {
 impl Verdict {
     /// The worst of several; nothing judged is [`Verdict::Inconclusive`], since absence of evidence
     /// is not success.
-    pub fn worst_of(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
+    pub(crate) fn worst_of(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
         verdicts.into_iter().max().unwrap_or(Verdict::Inconclusive)
     }
 
     /// Pass if the condition holds, else fail: for comparisons without noise. Write the condition
     /// so that NaN makes it false.
-    pub fn pass_if(holds: bool) -> Verdict {
+    pub(crate) fn pass_if(holds: bool) -> Verdict {
         if holds { Verdict::Pass } else { Verdict::Fail }
     }
 }

@@ -12,20 +12,20 @@ pub(in crate::stats) const CORRELATION_FALSE_ALARM: f64 = 1e-10;
 
 /// What came of comparing two series.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CorrelationReport {
+pub(crate) struct CorrelationReport {
     /// Fail if they are related.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// Pearson's coefficient, in [-1, 1].
-    pub coefficient: f64,
+    pub(crate) coefficient: f64,
     /// The largest that chance explains.
-    pub limit: f64,
+    pub(crate) limit: f64,
     /// How many pairs were compared.
-    pub pairs: usize,
+    pub(crate) pairs: usize,
 }
 
 impl CorrelationReport {
     /// Why nothing can be said, if that is so.
-    pub fn doubt(&self) -> Option<String> {
+    pub(crate) fn doubt(&self) -> Option<String> {
         let doubt = || match self.limit < 1.0 {
             true => "there is no noise to compare".to_owned(),
             false => format!("{} pairs prove nothing, {FEWEST_PAIRS} might", self.pairs),
@@ -51,7 +51,7 @@ impl Report for CorrelationReport {
 /// Judges pairs of numbers: Pearson's coefficient of n unrelated pairs has standard error 1/√n.
 /// Series without any variance are inconclusive, and so are those that could not fail, because chance
 /// explains even equal ones.
-pub fn judge_uncorrelated(pairs: &[[f64; 2]]) -> CorrelationReport {
+pub(crate) fn judge_uncorrelated(pairs: &[[f64; 2]]) -> CorrelationReport {
     let n = pairs.len() as f64;
     let mean = |side: usize| pairs.iter().map(|pair| pair[side]).sum::<f64>() / n;
     let means = [mean(0), mean(1)];

@@ -14,7 +14,7 @@
 
 mod report;
 
-pub use report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};
+pub(crate) use report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};
 
 use crate::stats::law::{chi_square_tail, chi_square_upper, detectable_noncentrality};
 use crate::stats::plan::{Escalation, MISS_LEVEL, STAGE_LEVEL};
@@ -30,7 +30,7 @@ const FEWEST_SAMPLES: f64 = 10_000.0;
 const LARGEST_RESIDUAL: f64 = 1e6;
 
 /// Where counts come from, and what they should be.
-pub trait CountSource {
+pub(crate) trait CountSource {
     /// What goes wrong in the core.
     type Error;
     /// The probabilities of the cells of this stage. Called once a stage, before
@@ -47,7 +47,7 @@ pub trait CountSource {
 }
 
 /// Judges counts against probabilities that are the same in every stage.
-pub fn judge_counts<E>(
+pub(crate) fn judge_counts<E>(
     expected: &CellProbabilities,
     effort: &Effort,
     draw: &mut dyn FnMut(Stage, u64) -> Result<Counts, E>,
@@ -57,7 +57,7 @@ pub fn judge_counts<E>(
 
 /// Whether counts may well be of this law: one χ² at the level of a stage. It gives a name to what has
 /// failed already, and is no verdict on its own.
-pub fn follows_law(law: &CellProbabilities, counts: &Counts) -> bool {
+pub(crate) fn follows_law(law: &CellProbabilities, counts: &Counts) -> bool {
     let forbidden = forbidden_samples(law, counts, |_, samples| samples);
     forbidden.is_none() && !score(Stage::Third, law, counts).rejects
 }
@@ -84,7 +84,7 @@ impl<E> CountSource for Fixed<'_, E> {
 /// # Panics
 ///
 /// If the source counts in another number of cells than it has probabilities for.
-pub fn judge_count_source<S: CountSource>(
+pub(crate) fn judge_count_source<S: CountSource>(
     effort: &Effort,
     source: &mut S,
 ) -> Result<CountReport, S::Error> {

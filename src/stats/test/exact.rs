@@ -10,7 +10,7 @@ use crate::stats::plan::{Judgement, Report, Verdict};
 
 /// The error allowed to a correct core, relative to the size and the condition of what is compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
+pub(crate) struct Tolerance {
     double: f64,
     single: f64,
 }
@@ -18,35 +18,35 @@ pub struct Tolerance {
 impl Tolerance {
     /// Components of a unit direction after a handful of operations (camera rays, normals, mirror
     /// directions).
-    pub const DIRECTION: Self = Self { double: 1e-12, single: 2e-6 };
+    pub(crate) const DIRECTION: Self = Self { double: 1e-12, single: 2e-6 };
     /// Ray parameters of intersections, relative, before their condition number.
-    pub const INTERSECTION: Self = Self { double: 1e-9, single: 1e-4 };
+    pub(crate) const INTERSECTION: Self = Self { double: 1e-9, single: 1e-4 };
     /// Some sixteen roundings of numbers whose size is known; what is compared says which.
-    pub const ROUNDINGS: Self = Self { double: 16.0 * f64::EPSILON, single: 16.0 * 1.2e-7 };
+    pub(crate) const ROUNDINGS: Self = Self { double: 16.0 * f64::EPSILON, single: 16.0 * 1.2e-7 };
     /// By how much two ways around a box may differ that do not touch: a box test rounds each
     /// crossing twice.
-    pub const SLAB: Self = Self { double: 1e-12, single: 1e-6 };
+    pub(crate) const SLAB: Self = Self { double: 1e-12, single: 1e-6 };
     /// A density or a BSDF evaluated twice for the same directions, relative.
-    pub const SAME_VALUE: Self = Self { double: 1e-6, single: 1e-4 };
+    pub(crate) const SAME_VALUE: Self = Self { double: 1e-6, single: 1e-4 };
     /// A density or a BSDF against its formula, relative: cancellation near grazing costs single
     /// precision digits.
-    pub const FORMULA: Self = Self { double: 1e-6, single: 1e-3 };
+    pub(crate) const FORMULA: Self = Self { double: 1e-6, single: 1e-3 };
     /// An integral over the sphere, by quadrature of the core's own values.
-    pub const INTEGRAL: Self = Self { double: 1e-6, single: 1e-5 };
+    pub(crate) const INTEGRAL: Self = Self { double: 1e-6, single: 1e-5 };
     /// Density times Jacobian of a sampler by central differences, half the points.
-    pub const JACOBIAN_MEDIAN: Self = Self { double: 1e-6, single: 1e-2 };
+    pub(crate) const JACOBIAN_MEDIAN: Self = Self { double: 1e-6, single: 1e-2 };
     /// The same, 99 points of 100.
-    pub const JACOBIAN_TAIL: Self = Self { double: 1e-3, single: 1e-1 };
+    pub(crate) const JACOBIAN_TAIL: Self = Self { double: 1e-3, single: 1e-1 };
     /// Radiance without noise: delta lights, furnaces without variance. Relative. In both
     /// precisions a shadow ray starts and ends a little off its surfaces.
-    pub const RADIANCE: Self = Self { double: 1e-5, single: 1e-5 };
+    pub(crate) const RADIANCE: Self = Self { double: 1e-5, single: 1e-5 };
 
     /// A pixel that is the mean of equal samples, relative: films are single precision in every
     /// core, and weights of 1/n round once a sample.
-    pub const PIXEL: Self = Self { double: 1e-6, single: 1e-6 };
+    pub(crate) const PIXEL: Self = Self { double: 1e-6, single: 1e-6 };
 
     /// The relative error allowed in this precision.
-    pub const fn of(self, precision: Precision) -> f64 {
+    pub(crate) const fn of(self, precision: Precision) -> f64 {
         match precision {
             Precision::Double => self.double,
             Precision::Single => self.single,
@@ -56,33 +56,33 @@ impl Tolerance {
 
 /// A number that was asked for, and the one that is right.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Compared {
+pub(crate) struct Compared {
     /// What the core answered.
-    pub found: f64,
+    pub(crate) found: f64,
     /// What is right.
-    pub expected: f64,
+    pub(crate) expected: f64,
     /// How far apart they may be, absolute.
-    pub allowed: f64,
+    pub(crate) allowed: f64,
 }
 
 impl Compared {
     /// Allows an absolute error.
-    pub fn within(found: f64, expected: f64, allowed: f64) -> Self {
+    pub(crate) fn within(found: f64, expected: f64, allowed: f64) -> Self {
         Self { found, expected, allowed }
     }
 
     /// Allows an error relative to what is expected.
-    pub fn relative(found: f64, expected: f64, allowed: f64) -> Self {
+    pub(crate) fn relative(found: f64, expected: f64, allowed: f64) -> Self {
         Self { found, expected, allowed: allowed * expected.abs() }
     }
 
     /// How far apart they are; 0 for equal infinities.
-    pub fn error(&self) -> f64 {
+    pub(crate) fn error(&self) -> f64 {
         if self.found == self.expected { 0.0 } else { (self.found - self.expected).abs() }
     }
 
     /// Whether that is allowed. NaN is not.
-    pub fn agrees(&self) -> bool {
+    pub(crate) fn agrees(&self) -> bool {
         self.error() <= self.allowed
     }
 
@@ -95,24 +95,24 @@ impl Compared {
 
 /// The worst element of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Worst {
+pub(crate) struct Worst {
     /// Its number in the order compared.
-    pub index: usize,
+    pub(crate) index: usize,
     /// What was compared.
-    pub compared: Compared,
+    pub(crate) compared: Compared,
 }
 
 /// The judgement of a comparison without noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ExactReport {
+pub(crate) struct ExactReport {
     /// Pass or fail; inconclusive if nothing was compared.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// Elements compared.
-    pub compared: usize,
+    pub(crate) compared: usize,
     /// Elements that do not agree.
-    pub disagree: usize,
+    pub(crate) disagree: usize,
     /// The element furthest beyond what is allowed, or nearest to it.
-    pub worst: Option<Worst>,
+    pub(crate) worst: Option<Worst>,
 }
 
 impl Report for ExactReport {
@@ -133,7 +133,7 @@ impl Report for ExactReport {
 }
 
 /// Judges elements one by one: all have to agree.
-pub fn judge_exact(elements: impl IntoIterator<Item = Compared>) -> ExactReport {
+pub(crate) fn judge_exact(elements: impl IntoIterator<Item = Compared>) -> ExactReport {
     let mut report =
         ExactReport { verdict: Verdict::Inconclusive, compared: 0, disagree: 0, worst: None };
     for (index, compared) in elements.into_iter().enumerate() {

@@ -20,7 +20,7 @@ mod state;
 #[cfg(test)]
 mod tests;
 
-pub use report::{MeanReport, StageScore};
+pub(crate) use report::{MeanReport, StageScore};
 
 use crate::math::rng::Seed;
 use crate::stats::plan::{ESCALATION_FALSE_ALARM, STAGE_LEVEL};
@@ -38,26 +38,26 @@ const LARGEST_PILOT: u64 = 65_536;
 
 /// A request for one run of the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Draw {
+pub(crate) struct Draw {
     /// The stage it belongs to.
-    pub stage: Stage,
+    pub(crate) stage: Stage,
     /// How often the stage has been drawn before: pilots grow, and one stage may be repeated.
-    pub attempt: u32,
+    pub(crate) attempt: u32,
     /// Number of the run in its stage.
-    pub run: u32,
+    pub(crate) run: u32,
     /// Samples that its mean is over.
-    pub samples: u64,
+    pub(crate) samples: u64,
 }
 
 impl Draw {
     /// The seed of this run below the seed of its check.
-    pub fn seed(&self, check: Seed) -> Seed {
+    pub(crate) fn seed(&self, check: Seed) -> Seed {
         self.stage.seed(check).child(self.attempt).child(self.run)
     }
 }
 
 /// Runs the core once and answers the mean of every claim over that run.
-pub type DrawMeans<'a, E> = dyn FnMut(Draw) -> Result<Vec<f64>, E> + 'a;
+pub(crate) type DrawMeans<'a, E> = dyn FnMut(Draw) -> Result<Vec<f64>, E> + 'a;
 
 /// Judges all claims on the same runs. `draw` runs the core once, with its own seed, and answers
 /// for each claim the mean over that run.
@@ -69,7 +69,7 @@ pub type DrawMeans<'a, E> = dyn FnMut(Draw) -> Result<Vec<f64>, E> + 'a;
 /// # Panics
 ///
 /// If `draw` answers another number of means than there are claims.
-pub fn judge_means<E>(
+pub(crate) fn judge_means<E>(
     claims: &[Claim],
     effort: &Effort,
     draw: &mut DrawMeans<'_, E>,

@@ -11,7 +11,7 @@ pub(in crate::stats) const RARE_FALSE_ALARM: f64 = 1e-8;
 
 /// How often something may happen to a correct core.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rarity {
+pub(crate) struct Rarity {
     double: f64,
     single: f64,
 }
@@ -19,14 +19,14 @@ pub struct Rarity {
 impl Rarity {
     /// Rays that slip through a closed surface. Single precision: the rate at which Embree's own
     /// verification accepts leaks.
-    pub const LEAKS: Self = Self { double: 0.0, single: 2e-5 };
+    pub(crate) const LEAKS: Self = Self { double: 0.0, single: 2e-5 };
 
     /// Points in a shadow that is none. Rays keep clear of the surface they leave, by 10⁻⁶ to 10⁻⁴ of the scene, and
     /// where surfaces touch or cross they may start behind the other one: about that share of an area is so near.
-    pub const OWN_SHADOWS: Self = Self { double: 1e-4, single: 1e-4 };
+    pub(crate) const OWN_SHADOWS: Self = Self { double: 1e-4, single: 1e-4 };
 
     /// The share of trials in this precision.
-    pub const fn of(self, precision: Precision) -> f64 {
+    pub(crate) const fn of(self, precision: Precision) -> f64 {
         match precision {
             Precision::Double => self.double,
             Precision::Single => self.single,
@@ -36,19 +36,19 @@ impl Rarity {
 
 /// The judgement of a count of rare events.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RareReport {
+pub(crate) struct RareReport {
     /// Pass or fail; inconclusive without trials.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// How often it happened.
-    pub hits: u64,
+    pub(crate) hits: u64,
     /// Of how many.
-    pub trials: u64,
+    pub(crate) trials: u64,
     /// The share that is allowed.
-    pub allowed: f64,
+    pub(crate) allowed: f64,
     /// Holds the share of the core with 99.9 % confidence.
-    pub interval: [f64; 2],
+    pub(crate) interval: [f64; 2],
     /// The smallest share that would have been caught with probability 0.999.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
 }
 
 impl Report for RareReport {
@@ -67,7 +67,7 @@ impl Report for RareReport {
 
 /// Judges whether something that happened `hits` times in `trials` may happen with probability
 /// `allowed`.
-pub fn judge_rare(hits: u64, trials: u64, allowed: f64) -> RareReport {
+pub(crate) fn judge_rare(hits: u64, trials: u64, allowed: f64) -> RareReport {
     let is_too_many =
         |hits| hits > 0 && binomial_at_least(hits, trials, allowed) < RARE_FALSE_ALARM;
     let verdict = match trials {

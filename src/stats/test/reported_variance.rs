@@ -13,7 +13,7 @@ const LARGEST: f64 = 64.0;
 
 /// What a renderer reports and what it does, over pictures that differ in nothing but their seed.
 #[derive(Clone, Debug, Default)]
-pub struct ReportedVariance {
+pub(crate) struct ReportedVariance {
     /// Of the values of pictures.
     spread: Spread,
     /// Means over pixels of what was reported, one for each picture and channel.
@@ -22,18 +22,18 @@ pub struct ReportedVariance {
 
 /// The two of one channel: means over pixels, of the variance of a pixel's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TwoVariances {
+pub(crate) struct TwoVariances {
     /// As the renderer says.
-    pub reported: f64,
+    pub(crate) reported: f64,
     /// Between pictures.
-    pub measured: f64,
+    pub(crate) measured: f64,
     /// Mean of the values themselves.
-    pub mean: f64,
+    pub(crate) mean: f64,
 }
 
 impl ReportedVariance {
     /// Takes in a picture and the variances that came with it.
-    pub fn push(&mut self, pixels: &[[f32; 3]], variances: &[[f32; 3]]) {
+    pub(crate) fn push(&mut self, pixels: &[[f32; 3]], variances: &[[f32; 3]]) {
         let values: Vec<f64> = pixels.as_flattened().iter().map(|v| f64::from(*v)).collect();
         self.spread.push(&values);
         let mean = |channel: usize| {
@@ -44,7 +44,7 @@ impl ReportedVariance {
     }
 
     /// What was reported and what is so, channel by channel; NaN of fewer than two pictures.
-    pub fn variances(&self) -> [TwoVariances; 3] {
+    pub(crate) fn variances(&self) -> [TwoVariances; 3] {
         [0, 1, 2].map(|channel| {
             let pixels = (channel..self.spread.len()).step_by(3);
             let count = (self.spread.len() / 3) as f64;
@@ -61,7 +61,7 @@ impl ReportedVariance {
 
 impl TwoVariances {
     /// By how many powers of two too much is reported; 0 where both variances are 0.
-    pub fn log_ratio(&self) -> f64 {
+    pub(crate) fn log_ratio(&self) -> f64 {
         if self.reported == 0.0 && self.measured == 0.0 {
             return 0.0;
         }
@@ -69,7 +69,7 @@ impl TwoVariances {
     }
 
     /// The mean over groups of pictures.
-    pub fn mean_of(groups: &[Self]) -> Self {
+    pub(crate) fn mean_of(groups: &[Self]) -> Self {
         let mean =
             |part: fn(&Self) -> f64| groups.iter().map(part).sum::<f64>() / groups.len() as f64;
         Self {
@@ -82,7 +82,7 @@ impl TwoVariances {
 
 impl Claim {
     /// A reported variance is the real one: the mean of [`TwoVariances::log_ratio`] is 0.
-    pub fn reported_variance() -> Self {
+    pub(crate) fn reported_variance() -> Self {
         Self::difference(1.0, Band::FACTOR_OF_TWO)
     }
 }

@@ -15,17 +15,17 @@ const FEWEST_SAMPLES: f64 = 1000.0;
 
 /// One stage of counting hits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShareStage {
+pub(crate) struct ShareStage {
     /// Which stage.
-    pub stage: Stage,
+    pub(crate) stage: Stage,
     /// Samples drawn.
-    pub trials: u64,
+    pub(crate) trials: u64,
     /// Those that were "yes".
-    pub hits: u64,
+    pub(crate) hits: u64,
     /// The smaller tail, were the share at the near end of its band.
-    pub p_value: f64,
+    pub(crate) p_value: f64,
     /// Whether that is too small, on the side the first stage chose.
-    pub rejects: bool,
+    pub(crate) rejects: bool,
 }
 
 impl Scored for ShareStage {
@@ -36,19 +36,19 @@ impl Scored for ShareStage {
 
 /// The judgement of a share. Its interval is that of the last stage drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ShareReport {
+pub(crate) struct ShareReport {
     /// Pass, fail or inconclusive.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// The true share.
-    pub expected: f64,
+    pub(crate) expected: f64,
     /// Measured.
-    pub share: f64,
+    pub(crate) share: f64,
     /// Holds the share of the core with 99.9 % confidence.
-    pub interval: [f64; 2],
+    pub(crate) interval: [f64; 2],
     /// Every stage drawn.
-    pub stages: Escalation<ShareStage>,
+    pub(crate) stages: Escalation<ShareStage>,
     /// The smallest relative error that would have been caught with probability 0.999.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
 }
 
 impl Report for ShareReport {
@@ -67,7 +67,7 @@ impl Report for ShareReport {
 
 /// Judges whether `draw`, asked for a number of samples, answers "yes" with probability `expected`.
 /// Shares of exactly 0 or 1 have no chance in them: one sample on the wrong side fails.
-pub fn judge_share<E>(
+pub(crate) fn judge_share<E>(
     expected: f64,
     band: Band,
     effort: &Effort,

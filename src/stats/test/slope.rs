@@ -25,18 +25,18 @@ pub(in crate::stats) const SLOPE_FALSE_ALARM: f64 = 1e-8;
 
 /// The errors at one number of samples.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ErrorLevel {
+pub(crate) struct ErrorLevel {
     /// Samples per pixel.
-    pub samples: u64,
+    pub(crate) samples: u64,
     /// Of each run, the mean over pixels of the squared difference to the truth.
-    pub squared_errors: Vec<f64>,
+    pub(crate) squared_errors: Vec<f64>,
     /// Mean over pixels of the variance between runs.
-    pub variance: f64,
+    pub(crate) variance: f64,
 }
 
 impl ErrorLevel {
     /// From the pixels of several runs and the true values.
-    pub fn from_runs(samples: u64, runs: &[Vec<f64>], truth: &[f64]) -> Self {
+    pub(crate) fn from_runs(samples: u64, runs: &[Vec<f64>], truth: &[f64]) -> Self {
         let squared = |run: &Vec<f64>| {
             let squares: f64 = run.iter().zip(truth).map(|(x, mu)| (x - mu).powi(2)).sum();
             squares / truth.len() as f64
@@ -59,7 +59,7 @@ impl ErrorLevel {
 /// What slope is right.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Sampling {
+pub(crate) enum Sampling {
     /// Slope −1/2.
     #[default]
     Independent,
@@ -79,18 +79,18 @@ struct ErrorPoint {
 
 /// The judgement of a series of errors.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SlopeReport {
+pub(crate) struct SlopeReport {
     /// Pass, fail or inconclusive.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// Of log error on log samples.
-    pub slope: f64,
+    pub(crate) slope: f64,
     /// Of `slope`.
-    pub standard_error: f64,
+    pub(crate) standard_error: f64,
     /// The smallest deviation of the slope that would have been caught with probability 0.999.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
     /// The bias that would explain what the last level's error exceeds its own noise by; 0 if
     /// nothing.
-    pub plateau_bias: f64,
+    pub(crate) plateau_bias: f64,
 }
 
 impl Report for SlopeReport {
@@ -109,7 +109,7 @@ impl Report for SlopeReport {
 }
 
 /// Judges the slope of the errors; it must be seen if it is off by `detects`.
-pub fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f64) -> SlopeReport {
+pub(crate) fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f64) -> SlopeReport {
     let points: Vec<ErrorPoint> = levels.iter().map(point).collect();
     let (slope, standard_error) = fit(&points);
     let off = match sampling {

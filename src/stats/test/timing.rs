@@ -14,19 +14,19 @@ const CONFIDENCE: f64 = 0.95;
 
 /// How much faster one of two things is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpeedUp {
+pub(crate) struct SpeedUp {
     /// Median over the pairs of the time of the first over the time of the second.
-    pub ratio: f64,
+    pub(crate) ratio: f64,
     /// 95 % bootstrap interval of that median.
-    pub interval: [f64; 2],
+    pub(crate) interval: [f64; 2],
     /// Pairs measured.
-    pub pairs: usize,
+    pub(crate) pairs: usize,
     /// Pairs in which the second was faster.
-    pub wins: usize,
+    pub(crate) wins: usize,
 }
 
 /// The median; NaN of nothing. The mean of the middle two of an even number.
-pub fn median(values: &[f64]) -> f64 {
+pub(crate) fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;
@@ -38,7 +38,7 @@ pub fn median(values: &[f64]) -> f64 {
 }
 
 /// How much faster the second of each pair of times is. Deterministic for equal times.
-pub fn speed_up(pairs: &[(f64, f64)]) -> SpeedUp {
+pub(crate) fn speed_up(pairs: &[(f64, f64)]) -> SpeedUp {
     let ratios: Vec<f64> = pairs.iter().map(|(first, second)| first / second).collect();
     SpeedUp {
         ratio: median(&ratios),
@@ -53,20 +53,20 @@ const SIGN_LEVEL: f64 = 1e-4;
 
 /// Whether one of two things is so many times as fast as the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Faster {
+pub(crate) struct Faster {
     /// How much faster the second is.
-    pub speed_up: SpeedUp,
+    pub(crate) speed_up: SpeedUp,
     /// Pairs in which it is by more than what was asked.
-    pub above: usize,
+    pub(crate) above: usize,
     /// Probability of as many such pairs, were it so in half of them: the sign test, which knows no
     /// law of times.
-    pub p_value: f64,
+    pub(crate) p_value: f64,
     /// A pass, or inconclusive: times never fail a core.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
 }
 
 /// Whether the second of each pair of times is more than `at_least` times as fast as the first.
-pub fn judge_faster(pairs: &[(f64, f64)], at_least: f64) -> Faster {
+pub(crate) fn judge_faster(pairs: &[(f64, f64)], at_least: f64) -> Faster {
     let is_above = |(first, second): &&(f64, f64)| first / second > at_least;
     let above = pairs.iter().filter(is_above).count();
     let p_value = binomial_at_least(above as u64, pairs.len() as u64, 0.5);

@@ -14,7 +14,7 @@ use std::f32::consts::FRAC_1_PI;
 
 /// A surface's scattering with its constants in single precision.
 #[derive(Clone, Debug)]
-pub enum Bsdf {
+pub(crate) enum Bsdf {
     /// f = reflectance/π.
     Diffuse {
         /// Share of light that is scattered.
@@ -34,13 +34,13 @@ pub enum Bsdf {
 }
 
 /// Linear RGB in single precision.
-pub fn rgb(colour: Rgb) -> Vec3 {
+pub(crate) fn rgb(colour: Rgb) -> Vec3 {
     Vec3::from_array(colour.map(|channel| channel as f32))
 }
 
 impl Bsdf {
     /// Takes the constants over.
-    pub fn new(surface: &Surface) -> Self {
+    pub(crate) fn new(surface: &Surface) -> Self {
         match *surface {
             Surface::Diffuse { reflectance } => Self::Diffuse { reflectance: rgb(reflectance) },
             Surface::Mirror { reflectance } => Self::Mirror { reflectance: rgb(reflectance) },
@@ -58,22 +58,22 @@ impl Bsdf {
     }
 
     /// Whether all light goes into single directions, which no light sample can meet.
-    pub const fn is_delta(&self) -> bool {
+    pub(crate) const fn is_delta(&self) -> bool {
         matches!(self, Self::Mirror { .. } | Self::Glass(_))
     }
 
     /// Whether directions sampled here are worth combining with light samples.
-    pub const fn is_glossy(&self) -> bool {
+    pub(crate) const fn is_glossy(&self) -> bool {
         matches!(self, Self::Conductor(_) | Self::RoughGlass(_))
     }
 
     /// Whether it has an inside, to which light passes: the others are the same from both sides.
-    pub const fn is_interface(&self) -> bool {
+    pub(crate) const fn is_interface(&self) -> bool {
         matches!(self, Self::Glass(_) | Self::RoughGlass(_))
     }
 
     /// `f` (RGB, without the cosine) and the pdf of [`Self::sample`]. Delta lobes answer zero.
-    pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
+    pub(crate) fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
         let is_same_side = (wo.z > 0.0 && wi.z > 0.0) || (wo.z < 0.0 && wi.z < 0.0);
         match self {
             Self::Diffuse { reflectance } if is_same_side => {
@@ -89,7 +89,7 @@ impl Bsdf {
 
     /// A direction for `wo`, by two random numbers, and by a third that chooses between lobes; `None` if the
     /// sample is to count as zero.
-    pub fn sample(&self, wo: Vec3, point: Vec2, lobe: f32) -> Option<Scattering> {
+    pub(crate) fn sample(&self, wo: Vec3, point: Vec2, lobe: f32) -> Option<Scattering> {
         if wo.z == 0.0 {
             return None;
         }

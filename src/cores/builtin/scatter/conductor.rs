@@ -9,26 +9,26 @@ use glam::{Vec2, Vec3};
 
 /// A rough conductor seen from its upper side.
 #[derive(Clone, Debug)]
-pub struct Conductor {
+pub(crate) struct Conductor {
     reflectance: Vec3,
     facets: Facets,
 }
 
 impl Conductor {
     /// `reflectance` of a single microfacet, and the width α of the distribution.
-    pub const fn new(reflectance: Vec3, roughness: f32) -> Self {
+    pub(crate) const fn new(reflectance: Vec3, roughness: f32) -> Self {
         Self { reflectance, facets: Facets::new(roughness) }
     }
 
     /// `f` and pdf for two directions of the upper side.
-    pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
+    pub(crate) fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
         let distribution = self.facets.distribution((wo + wi).normalize());
         let (s_wo, s_wi) = (self.facets.masking_sum(wo), self.facets.masking_sum(wi));
         (self.reflectance * (distribution / (s_wo * s_wi)), distribution / (2.0 * s_wo))
     }
 
     /// A reflection on a microfacet that `wo` sees; `None` if it goes down into the surface.
-    pub fn sample(&self, wo: Vec3, point: Vec2) -> Option<Scattering> {
+    pub(crate) fn sample(&self, wo: Vec3, point: Vec2) -> Option<Scattering> {
         let facet = self.facets.visible_normal(wo, point);
         let wi = (2.0 * wo.dot(facet) * facet - wo).normalize();
         (wi.z > 0.0).then(|| {

@@ -10,19 +10,19 @@ use std::f32::consts::FRAC_1_PI;
 
 /// Facets of one roughness.
 #[derive(Clone, Debug)]
-pub struct Facets {
+pub(crate) struct Facets {
     roughness: f32,
 }
 
 impl Facets {
     /// Of the width α.
-    pub const fn new(roughness: f32) -> Self {
+    pub(crate) const fn new(roughness: f32) -> Self {
         Self { roughness }
     }
 
     /// D(h) = α² / (π (sin² θ + α² cos² θ)²), from the components, which near the normal are more exact than
     /// the cosine.
-    pub fn distribution(&self, half: Vec3) -> f32 {
+    pub(crate) fn distribution(&self, half: Vec3) -> f32 {
         let alpha = self.roughness;
         let sine_square = half.x * half.x + half.y * half.y;
         let ratio = alpha / (sine_square + alpha * alpha * half.z * half.z);
@@ -30,13 +30,13 @@ impl Facets {
     }
 
     /// s(w).
-    pub fn masking_sum(&self, w: Vec3) -> f32 {
+    pub(crate) fn masking_sum(&self, w: Vec3) -> f32 {
         let alpha = self.roughness;
         w.z + (w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y)).sqrt()
     }
 
     /// Heitz 2018, listing 1: the hemisphere stretched to roughness 1, its projection sampled, and back.
-    pub fn visible_normal(&self, wo: Vec3, point: Vec2) -> Vec3 {
+    pub(crate) fn visible_normal(&self, wo: Vec3, point: Vec2) -> Vec3 {
         let alpha = self.roughness;
         let stretched = vec3(alpha * wo.x, alpha * wo.y, wo.z).normalize();
         let length = stretched.x.hypot(stretched.y);

@@ -6,7 +6,7 @@ use glam::{Vec3, vec3};
 
 /// A smooth interface.
 #[derive(Clone, Debug)]
-pub struct Glass {
+pub(crate) struct Glass {
     index: f32,
     reflectance: Vec3,
     transmittance: Vec3,
@@ -14,12 +14,12 @@ pub struct Glass {
 
 impl Glass {
     /// `index` of refraction inside; the colours multiply what Fresnel's equations say.
-    pub const fn new(index: f64, reflectance: Vec3, transmittance: Vec3) -> Self {
+    pub(crate) const fn new(index: f64, reflectance: Vec3, transmittance: Vec3) -> Self {
         Self { index: index as f32, reflectance, transmittance }
     }
 
     /// Reflects with the probability of the Fresnel reflectance, `lobe` below it, and refracts otherwise.
-    pub fn sample(&self, wo: Vec3, lobe: f32) -> Option<Scattering> {
+    pub(crate) fn sample(&self, wo: Vec3, lobe: f32) -> Option<Scattering> {
         // Index on the far side of the interface over that on the side of `wo`.
         let index = if wo.z > 0.0 { self.index } else { 1.0 / self.index };
         let sine_square = (wo.x * wo.x + wo.y * wo.y) / (index * index);

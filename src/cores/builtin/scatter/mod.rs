@@ -6,6 +6,6 @@ mod facets;
 mod glass;
 mod rough_glass;
 mod scattering;
-pub mod warp;
+pub(crate) mod warp;
 
-pub use bsdf::{Bsdf, rgb};
+pub(crate) use bsdf::{Bsdf, rgb};

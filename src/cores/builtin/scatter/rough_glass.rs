@@ -14,7 +14,7 @@ use glam::{Vec2, Vec3, vec3};
 
 /// A rough interface.
 #[derive(Clone, Debug)]
-pub struct RoughGlass {
+pub(crate) struct RoughGlass {
     index: f32,
     facets: Facets,
     reflectance: Vec3,
@@ -23,7 +23,12 @@ pub struct RoughGlass {
 
 impl RoughGlass {
     /// `index` of refraction inside and width α; the colours multiply what Fresnel's equations say.
-    pub const fn new(index: f64, roughness: f64, reflectance: Vec3, transmittance: Vec3) -> Self {
+    pub(crate) const fn new(
+        index: f64,
+        roughness: f64,
+        reflectance: Vec3,
+        transmittance: Vec3,
+    ) -> Self {
         Self {
             index: index as f32,
             facets: Facets::new(roughness as f32),
@@ -33,7 +38,7 @@ impl RoughGlass {
     }
 
     /// `f` and pdf for two directions of any side.
-    pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
+    pub(crate) fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
         let index = self.index_beyond(wo);
         let (wo, wi) = (facing(wo, wo), facing(wi, wo));
         if wo.z == 0.0 || wi.z == 0.0 {
@@ -82,7 +87,7 @@ impl RoughGlass {
     /// A microfacet that `wo` sees, which reflects with the probability of its Fresnel reflectance, `lobe` below it, and
     /// refracts otherwise; `None` if light would have to come through the interface to be reflected, or not to be
     /// refracted.
-    pub fn sample(&self, wo: Vec3, point: Vec2, lobe: f32) -> Option<Scattering> {
+    pub(crate) fn sample(&self, wo: Vec3, point: Vec2, lobe: f32) -> Option<Scattering> {
         let index = self.index_beyond(wo);
         let up = facing(wo, wo);
         let facet = self.facets.visible_normal(up, point);

@@ -4,11 +4,11 @@ use glam::Vec3;
 
 /// A sampled direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scattering {
+pub(crate) struct Scattering {
     /// Towards the light, local frame, unit.
-    pub wi: Vec3,
+    pub(crate) wi: Vec3,
     /// `f · |cos θi| / pdf`, RGB.
-    pub weight: Vec3,
+    pub(crate) weight: Vec3,
     /// Density per steradian; for a delta lobe the probability of having chosen it.
-    pub pdf: f32,
+    pub(crate) pdf: f32,
 }

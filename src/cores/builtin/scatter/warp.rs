@@ -8,20 +8,20 @@ use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
 /// Density per steradian of [`uniform_hemisphere`]: 1/2π.
-pub const UNIFORM_DENSITY: f32 = 0.5 * FRAC_1_PI;
+pub(crate) const UNIFORM_DENSITY: f32 = 0.5 * FRAC_1_PI;
 
 /// A random number in single precision. Rounding must not turn a number below 1 into 1.
-pub fn narrow(number: f64) -> f32 {
+pub(crate) fn narrow(number: f64) -> f32 {
     (number as f32).min(BELOW_ONE)
 }
 
 /// A random point in single precision, still inside the half-open unit square.
-pub fn narrow_point(point: DVec2) -> Vec2 {
+pub(crate) fn narrow_point(point: DVec2) -> Vec2 {
     Vec2::new(narrow(point.x), narrow(point.y))
 }
 
 /// The direction that a point of the unit square becomes.
-pub fn direction(sampler: Sampler, point: Vec2) -> Vec3 {
+pub(crate) fn direction(sampler: Sampler, point: Vec2) -> Vec3 {
     match sampler {
         Sampler::UniformHemisphere => uniform_hemisphere(point),
         Sampler::CosineHemisphere => cosine_hemisphere(point),
@@ -29,7 +29,7 @@ pub fn direction(sampler: Sampler, point: Vec2) -> Vec3 {
 }
 
 /// Density per steradian of [`direction`]; zero below the horizon.
-pub fn density(sampler: Sampler, direction: Vec3) -> f32 {
+pub(crate) fn density(sampler: Sampler, direction: Vec3) -> f32 {
     match sampler {
         Sampler::UniformHemisphere if direction.z >= 0.0 => UNIFORM_DENSITY,
         Sampler::UniformHemisphere => 0.0,
@@ -38,7 +38,7 @@ pub fn density(sampler: Sampler, direction: Vec3) -> f32 {
 }
 
 /// Uniform over the hemisphere: the height is uniform (Archimedes).
-pub fn uniform_hemisphere(point: Vec2) -> Vec3 {
+pub(crate) fn uniform_hemisphere(point: Vec2) -> Vec3 {
     // With z = 1 − u, sin² θ = u (2 − u) has no cancellation, and z is never 0.
     let radius = (point.x * (2.0 - point.x)).sqrt();
     let (sine, cosine) = sin_cos_of_turns(point.y);
@@ -46,14 +46,14 @@ pub fn uniform_hemisphere(point: Vec2) -> Vec3 {
 }
 
 /// Proportional to the cosine: a uniform point of the disk, lifted to the sphere (Malley).
-pub fn cosine_hemisphere(point: Vec2) -> Vec3 {
+pub(crate) fn cosine_hemisphere(point: Vec2) -> Vec3 {
     let radius = point.x.sqrt();
     let (sine, cosine) = sin_cos_of_turns(point.y);
     vec3(radius * cosine, radius * sine, (1.0 - point.x).sqrt())
 }
 
 /// Density per steradian of [`cosine_hemisphere`]; zero below the horizon.
-pub fn cosine_density(cosine: f32) -> f32 {
+pub(crate) fn cosine_density(cosine: f32) -> f32 {
     cosine.max(0.0) * FRAC_1_PI
 }
 
@@ -61,7 +61,7 @@ pub fn cosine_density(cosine: f32) -> f32 {
 ///
 /// The same on every machine, which the standard library's are not, and two to three times as fast. The
 /// argument is brought to ±π/4 exactly; the Taylor remainders there are below 2⁻²⁹ (sine) and 2⁻³³ (cosine).
-pub fn sin_cos_of_turns(turns: f32) -> (f32, f32) {
+pub(crate) fn sin_cos_of_turns(turns: f32) -> (f32, f32) {
     let quarter = (4.0 * turns + 0.5) as u8;
     let angle = (4.0 * turns - f32::from(quarter)) * FRAC_PI_2;
     let square = angle * angle;

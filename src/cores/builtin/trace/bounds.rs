@@ -8,19 +8,19 @@ const MARGIN: f32 = f32::EPSILON * 2.0;
 
 /// A closed box, two vector registers wide. The empty box has `min = +∞` and `max = −∞`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub(crate) struct Bounds {
     /// Smallest coordinates.
-    pub min: Vec3A,
+    pub(crate) min: Vec3A,
     /// Largest coordinates.
-    pub max: Vec3A,
+    pub(crate) max: Vec3A,
 }
 
 impl Bounds {
     /// The box around nothing.
-    pub const EMPTY: Self = Self { min: Vec3A::INFINITY, max: Vec3A::NEG_INFINITY };
+    pub(crate) const EMPTY: Self = Self { min: Vec3A::INFINITY, max: Vec3A::NEG_INFINITY };
 
     /// The box around points that are exact in single precision or within rounding of it, with a margin.
-    pub fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
+    pub(crate) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
         let tight =
             points.into_iter().fold(Self::EMPTY, |bounds, point| bounds.with(point.as_vec3a()));
         let margin = MARGIN * tight.min.abs().max(tight.max.abs()).max_element();
@@ -28,33 +28,33 @@ impl Bounds {
     }
 
     /// The smallest box around `self` and `point`.
-    pub fn with(self, point: Vec3A) -> Self {
+    pub(crate) fn with(self, point: Vec3A) -> Self {
         Self { min: self.min.min(point), max: self.max.max(point) }
     }
 
     /// The smallest box around both.
-    pub fn union(self, other: Self) -> Self {
+    pub(crate) fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
     /// From corner to corner; negative infinite for the empty box.
-    pub fn extent(self) -> Vec3A {
+    pub(crate) fn extent(self) -> Vec3A {
         self.max - self.min
     }
 
     /// Half the surface area, which is all that the surface area heuristic needs; 0 for the empty box.
-    pub fn half_area(self) -> f32 {
+    pub(crate) fn half_area(self) -> f32 {
         let size = self.extent().max(Vec3A::ZERO);
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 
     /// The point in the middle.
-    pub fn centre(self) -> Vec3A {
+    pub(crate) fn centre(self) -> Vec3A {
         0.5 * (self.min + self.max)
     }
 
     /// The axis along which the box is longest.
-    pub fn longest_axis(self) -> usize {
+    pub(crate) fn longest_axis(self) -> usize {
         self.extent().max_position()
     }
 }

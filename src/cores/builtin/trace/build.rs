@@ -15,16 +15,16 @@ const PARALLEL_SIZE: usize = 4096;
 
 /// A node of the binary BVH. Its first child, if any, is the next node.
 #[derive(Clone, Copy, Debug)]
-pub struct BinaryNode {
+pub(crate) struct BinaryNode {
     /// Around everything below.
-    pub bounds: Bounds,
+    pub(crate) bounds: Bounds,
     /// What is below.
-    pub content: Content,
+    pub(crate) content: Content,
 }
 
 /// What is below a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
+pub(crate) enum Content {
     /// Items `first .. first + count`, all of one kind.
     Leaf {
         /// In the sorted list.
@@ -50,7 +50,7 @@ pub struct Plan {
 
 impl Plan {
     /// Sorts `items` and answers the nodes over them, the root first; some may be unused. Empty for no items.
-    pub fn build(self, items: &mut [Item]) -> Vec<BinaryNode> {
+    pub(crate) fn build(self, items: &mut [Item]) -> Vec<BinaryNode> {
         let unused =
             BinaryNode { bounds: Bounds::EMPTY, content: Content::Leaf { first: 0, count: 0 } };
         // A subtree over n items has at most 2 n − 1 nodes: every subtree knows its slice beforehand.

@@ -7,7 +7,7 @@ use super::item::Item;
 use super::tree::{Ball, Child, LANES, Tree, TriangleBlock, WIDTH, WideNode};
 
 /// Builds the tree over everything solid in `geometry`.
-pub fn hierarchy(geometry: &Geometry, plan: Plan) -> Tree {
+pub(crate) fn hierarchy(geometry: &Geometry, plan: Plan) -> Tree {
     let mut items = geometry.items();
     let binary = plan.build(&mut items);
     let mut collapse = Collapse { geometry, binary: &binary, items: &items, tree: Tree::default() };
@@ -19,7 +19,7 @@ pub fn hierarchy(geometry: &Geometry, plan: Plan) -> Tree {
 }
 
 /// One leaf of all triangles and one of all spheres, in the order of the scene.
-pub fn brute_force(geometry: &Geometry) -> Tree {
+pub(crate) fn brute_force(geometry: &Geometry) -> Tree {
     let items = geometry.items();
     let mut collapse = Collapse { geometry, binary: &[], items: &items, tree: Tree::default() };
     let first_ball = items.partition_point(|item| !item.is_ball);

@@ -37,26 +37,26 @@ struct Triangle {
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
     /// In units of the segment's scaled direction.
-    pub t: f64,
+    pub(crate) t: f64,
     /// On the primitive, world space.
-    pub position: DVec3,
+    pub(crate) position: DVec3,
     /// Unit, on the front side.
-    pub geometric_normal: DVec3,
+    pub(crate) geometric_normal: DVec3,
     /// Unit, interpolated where the mesh has normals.
-    pub shading_normal: DVec3,
+    pub(crate) shading_normal: DVec3,
     /// Of a triangle: barycentric weights of corners 1 and 2.
-    pub uv: DVec2,
+    pub(crate) uv: DVec2,
     /// Number of the shape.
-    pub shape: u32,
+    pub(crate) shape: u32,
     /// Number of the triangle in its mesh, 0 for a sphere.
-    pub primitive: u32,
+    pub(crate) primitive: u32,
     /// How far away from the surface rays must start.
-    pub clearance: f64,
+    pub(crate) clearance: f64,
 }
 
 impl Geometry {
     /// Takes the shapes of `scene` in; its indices have been checked.
-    pub fn new(scene: &SceneDescription) -> Self {
+    pub(crate) fn new(scene: &SceneDescription) -> Self {
         let mut geometry = Self {
             positions: Vec::new(),
             normals: Vec::new(),
@@ -81,7 +81,7 @@ impl Geometry {
 
     /// A box for every primitive that can be hit: not for triangles without area, nor for anything that is
     /// not a number. Triangles come first.
-    pub fn items(&self) -> Vec<Item> {
+    pub(crate) fn items(&self) -> Vec<Item> {
         let triangles = (0..self.triangles.len()).filter_map(|index| self.triangle_item(index));
         let spheres = self.spheres.iter().enumerate().filter_map(|(index, sphere)| {
             let bounds =
@@ -106,17 +106,17 @@ impl Geometry {
     }
 
     /// The corners of triangle `number` as traversal sees them.
-    pub fn corners32(&self, number: u32) -> [Vec3; 3] {
+    pub(crate) fn corners32(&self, number: u32) -> [Vec3; 3] {
         self.corners(number as usize).map(|corner| corner.as_vec3())
     }
 
     /// The sphere that is primitive `number`.
-    pub fn sphere(&self, number: u32) -> &Sphere {
+    pub(crate) fn sphere(&self, number: u32) -> &Sphere {
         &self.spheres[number as usize - self.triangles.len()]
     }
 
     /// From the centre of the sphere to a point on it, unit; the normal elsewhere.
-    pub fn outward(&self, surface: &Surface) -> DVec3 {
+    pub(crate) fn outward(&self, surface: &Surface) -> DVec3 {
         let number = (surface.shape as usize).checked_sub(self.first_triangles.len());
         match number.map(|number| &self.spheres[number]) {
             Some(sphere) if sphere.inward => -surface.geometric_normal,
@@ -125,7 +125,7 @@ impl Geometry {
     }
 
     /// What the ray finds at a candidate.
-    pub fn surface(&self, segment: &Segment, candidate: Candidate) -> Surface {
+    pub(crate) fn surface(&self, segment: &Segment, candidate: Candidate) -> Surface {
         match self.triangles.get(candidate.number as usize) {
             Some(triangle) => self.triangle_surface(segment, candidate, triangle),
             None => self.sphere_surface(segment, candidate),

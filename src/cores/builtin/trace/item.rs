@@ -5,36 +5,36 @@ use glam::Vec3A;
 
 /// What is sorted into the BVH.
 #[derive(Clone, Copy, Debug)]
-pub struct Item {
+pub(crate) struct Item {
     /// Around the primitive.
-    pub bounds: Bounds,
+    pub(crate) bounds: Bounds,
     /// Its number in the scene.
-    pub number: u32,
+    pub(crate) number: u32,
     /// Triangles and spheres do not share leaves.
-    pub is_ball: bool,
+    pub(crate) is_ball: bool,
 }
 
 impl Item {
     /// Where the item counts as being.
     #[inline]
-    pub fn centroid(&self) -> Vec3A {
+    pub(crate) fn centroid(&self) -> Vec3A {
         self.bounds.centre()
     }
 }
 
 /// What is to be known of a list of items before it is divided.
-pub struct Summary {
+pub(crate) struct Summary {
     /// Around the items.
-    pub bounds: Bounds,
+    pub(crate) bounds: Bounds,
     /// Around their centroids.
-    pub centroids: Bounds,
+    pub(crate) centroids: Bounds,
     /// How many of them are spheres.
-    pub balls: usize,
+    pub(crate) balls: usize,
     count: usize,
 }
 
 impl Summary {
-    pub fn of(items: &[Item]) -> Self {
+    pub(crate) fn of(items: &[Item]) -> Self {
         let empty = Self { bounds: Bounds::EMPTY, centroids: Bounds::EMPTY, balls: 0, count: 0 };
         items.iter().fold(empty, |summary, item| Self {
             bounds: summary.bounds.union(item.bounds),
@@ -45,7 +45,7 @@ impl Summary {
     }
 
     /// Whether there are triangles and spheres.
-    pub fn is_mixed(&self) -> bool {
+    pub(crate) fn is_mixed(&self) -> bool {
         self.balls != 0 && self.balls != self.count
     }
 }

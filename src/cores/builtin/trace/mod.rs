@@ -19,9 +19,9 @@ mod tree;
 #[cfg(test)]
 mod equivalence;
 
-pub use build::Plan;
-pub use collapse::{brute_force, hierarchy};
+pub(crate) use build::Plan;
+pub(crate) use collapse::{brute_force, hierarchy};
 pub use geometry::{Geometry, Surface, clearance_of};
-pub use segment::Segment;
-pub use tracer::Tracer;
-pub use tree::Tree;
+pub(crate) use segment::Segment;
+pub(crate) use tracer::Tracer;
+pub(crate) use tree::Tree;

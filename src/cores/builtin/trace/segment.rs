@@ -20,56 +20,56 @@ const OFFSET_MARGIN: f32 = f32::EPSILON * 4.0;
 /// A ray ready for traversal. Its direction is scaled by a power of two, exactly, so that the largest
 /// component is in [1, 2); `t` is in units of that direction until [`Segment::unscale`].
 #[derive(Clone, Debug)]
-pub struct Segment {
+pub(crate) struct Segment {
     /// In double precision, with the scaled direction.
-    pub origin: DVec3,
+    pub(crate) origin: DVec3,
     /// Scaled.
-    pub direction: DVec3,
+    pub(crate) direction: DVec3,
     /// The given `t` over the scaled one.
     scale: f64,
     /// Open ends in units of the given direction.
     limits: [f64; 2],
     /// `t` must be greater than this.
-    pub t_after: f32,
+    pub(crate) t_after: f32,
     /// `t` must not be greater than this.
-    pub t_last: f32,
+    pub(crate) t_last: f32,
     /// What the box test needs.
-    pub slabs: Slabs,
+    pub(crate) slabs: Slabs,
     /// What the triangle test needs.
-    pub shear: Shear,
+    pub(crate) shear: Shear,
 }
 
 /// The ray for boxes: a plane at `p` is met at `p · inverse − offset`.
 #[derive(Clone, Debug)]
-pub struct Slabs {
+pub(crate) struct Slabs {
     /// Reciprocal of the direction; its sign says which of two planes the ray meets first.
-    pub inverse: [f32; 3],
+    pub(crate) inverse: [f32; 3],
     /// Of the planes where the ray enters, a little too large.
-    pub enter_offset: [f32; 3],
+    pub(crate) enter_offset: [f32; 3],
     /// Of the planes where it leaves, a little too small.
-    pub exit_offset: [f32; 3],
+    pub(crate) exit_offset: [f32; 3],
 }
 
 /// The ray for triangles: the shear that turns it into the z axis (Woop, Benthin and Wald 2013, "Watertight
 /// ray/triangle intersection").
 #[derive(Clone, Debug)]
-pub struct Shear {
+pub(crate) struct Shear {
     /// Rounded origin, in the order of `axes`.
-    pub origin: [f32; 3],
+    pub(crate) origin: [f32; 3],
     /// World axes in the order x, y, z of the sheared space; z is where the direction is largest.
-    pub axes: [u8; 3],
+    pub(crate) axes: [u8; 3],
     /// Shear along x and y, and scale of z.
-    pub factors: [f32; 3],
+    pub(crate) factors: [f32; 3],
 }
 
 impl Segment {
     /// Relative outward shift of where a ray leaves a box or ends: for the rounding of reciprocals and products
     /// and of the triangle test itself.
-    pub const MARGIN: f32 = f32::EPSILON * 8.0;
+    pub(crate) const MARGIN: f32 = f32::EPSILON * 8.0;
 
     /// Prepares `ray`. A direction that is zero or not finite makes an empty segment, which hits nothing.
     #[inline]
-    pub fn new(ray: &Ray) -> Self {
+    pub(crate) fn new(ray: &Ray) -> Self {
         let (scale, inverse_scale) = power_of_two_for(ray.direction.abs().max_element());
         let direction = ray.direction * scale;
         let (origin32, direction32) = (ray.origin.as_vec3(), direction.as_vec3());
@@ -90,7 +90,7 @@ impl Segment {
 
     /// `t` in units of the direction that was given, strictly inside the ends that were given.
     #[inline]
-    pub fn unscale(&self, t: f64) -> f64 {
+    pub(crate) fn unscale(&self, t: f64) -> f64 {
         let [t_min, t_max] = self.limits;
         let given = t * self.scale;
         // A refined t may round across the end that its single precision forerunner respected.
@@ -105,7 +105,7 @@ impl Segment {
 
     /// An end of a segment for the box test: a little beyond `t_last`.
     #[inline(always)]
-    pub fn beyond(t_last: f32) -> f32 {
+    pub(crate) fn beyond(t_last: f32) -> f32 {
         t_last + t_last.abs() * Self::MARGIN
     }
 }
@@ -127,7 +127,7 @@ impl Slabs {
 
     /// The rows of a node's planes that the ray enters and leaves by along `axis`.
     #[inline(always)]
-    pub fn rows(&self, axis: usize) -> [usize; 2] {
+    pub(crate) fn rows(&self, axis: usize) -> [usize; 2] {
         let is_backward = usize::from(self.inverse[axis] < 0.0);
         [2 * axis + is_backward, 2 * axis + 1 - is_backward]
     }

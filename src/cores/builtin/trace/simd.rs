@@ -16,7 +16,7 @@ use super::tree::Tree;
 use crate::contract::TraversalStats;
 
 /// Whether this processor can run the kernel.
-pub fn is_available() -> bool {
+pub(crate) fn is_available() -> bool {
     #[cfg(target_arch = "x86_64")]
     {
         is_x86_feature_detected!("avx2")
@@ -32,7 +32,7 @@ pub fn is_available() -> bool {
 
 /// [`super::traverse::walk`] with this kernel, to be called only where [`is_available`].
 #[inline]
-pub fn walk<const ANY: bool>(
+pub(crate) fn walk<const ANY: bool>(
     tree: &Tree,
     segment: &Segment,
     stack: &mut Stack,

@@ -9,7 +9,7 @@ use glam::DVec3;
 /// The discriminant is taken from the distance between line and centre, and the smaller root from the product
 /// of the roots, so that neither cancels (Haines, Günther and Akenine-Möller 2019, "Precision improvements for
 /// ray/sphere intersection").
-pub fn roots(origin: DVec3, direction: DVec3, radius: f64) -> Option<[f64; 2]> {
+pub(crate) fn roots(origin: DVec3, direction: DVec3, radius: f64) -> Option<[f64; 2]> {
     let square = direction.length_squared();
     let towards = -origin.dot(direction);
     let nearest = origin + direction * (towards / square);
@@ -25,14 +25,14 @@ pub fn roots(origin: DVec3, direction: DVec3, radius: f64) -> Option<[f64; 2]> {
 
 /// The first root on the segment, of those not beyond `t_last`, in single precision.
 #[inline]
-pub fn first_root_inside(ball: &Ball, segment: &Segment, t_last: f32) -> Option<f32> {
+pub(crate) fn first_root_inside(ball: &Ball, segment: &Segment, t_last: f32) -> Option<f32> {
     let roots = roots(segment.origin - ball.centre, segment.direction, ball.radius)?;
     let is_inside = |t: &f32| *t > segment.t_after && *t <= t_last;
     roots.map(|root| root as f32).into_iter().find(is_inside)
 }
 
 /// The root that `t` was rounded from.
-pub fn exact_root(centre: DVec3, radius: f64, segment: &Segment, t: f32) -> f64 {
+pub(crate) fn exact_root(centre: DVec3, radius: f64, segment: &Segment, t: f32) -> f64 {
     let rounded = f64::from(t);
     match roots(segment.origin - centre, segment.direction, radius) {
         Some([near, far]) if (near - rounded).abs() <= (far - rounded).abs() => near,

@@ -14,7 +14,7 @@ const STEP_COST: f32 = 1.0;
 
 /// Where to cut: items whose bin along `axis` is below `bin` go left.
 #[derive(Clone, Copy, Debug)]
-pub struct Cut {
+pub(crate) struct Cut {
     binning: Binning,
     axis: usize,
     bin: usize,
@@ -24,13 +24,13 @@ pub struct Cut {
 impl Cut {
     /// Whether the item goes to the first part.
     #[inline]
-    pub fn is_left(&self, item: &Item) -> bool {
+    pub(crate) fn is_left(&self, item: &Item) -> bool {
         self.binning.bin(item, self.axis) < self.bin
     }
 }
 
 /// Whether a leaf of `items` is expected to cost no more than dividing them.
-pub fn prefers_leaf(items: &[Item], summary: &Summary) -> bool {
+pub(crate) fn prefers_leaf(items: &[Item], summary: &Summary) -> bool {
     let area = summary.bounds.half_area();
     // One block is tested at once: dividing it cannot gain anything.
     items.len() <= LANES
@@ -39,7 +39,7 @@ pub fn prefers_leaf(items: &[Item], summary: &Summary) -> bool {
 }
 
 /// The cheapest cut of the candidates that leave something on both sides.
-pub fn best_cut(items: &[Item], summary: &Summary) -> Option<Cut> {
+pub(crate) fn best_cut(items: &[Item], summary: &Summary) -> Option<Cut> {
     let binning = Binning::new(items.len(), summary.centroids);
     let bins = binning.fill(items);
     let cuts = (0..3).filter_map(|axis| best_along(axis, binning, &bins[axis]));

@@ -7,27 +7,27 @@ use super::tree::Tree;
 use crate::contract::TraversalStats;
 
 /// Walks one tree, ray after ray, and counts.
-pub struct Tracer<'a> {
+pub(crate) struct Tracer<'a> {
     tree: &'a Tree,
     stack: Stack,
     has_simd: bool,
     /// Tests so far.
-    pub stats: TraversalStats,
+    pub(crate) stats: TraversalStats,
 }
 
 impl<'a> Tracer<'a> {
     /// With the best kernel of this processor.
-    pub fn new(tree: &'a Tree) -> Self {
+    pub(crate) fn new(tree: &'a Tree) -> Self {
         Self { has_simd: simd::is_available(), ..Self::portable(tree) }
     }
 
     /// With the kernel that runs everywhere.
-    pub fn portable(tree: &'a Tree) -> Self {
+    pub(crate) fn portable(tree: &'a Tree) -> Self {
         Self { tree, stack: Stack::new(), has_simd: false, stats: TraversalStats::default() }
     }
 
     /// The nearest primitive on the segment.
-    pub fn nearest(&mut self, segment: &Segment) -> Option<Candidate> {
+    pub(crate) fn nearest(&mut self, segment: &Segment) -> Option<Candidate> {
         let (tree, stack, stats) = (self.tree, &mut self.stack, &mut self.stats);
         if self.has_simd {
             simd::walk::<false>(tree, segment, stack, stats)
@@ -37,7 +37,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Whether there is any primitive on the segment.
-    pub fn is_blocked(&mut self, segment: &Segment) -> bool {
+    pub(crate) fn is_blocked(&mut self, segment: &Segment) -> bool {
         let (tree, stack, stats) = (self.tree, &mut self.stack, &mut self.stats);
         if self.has_simd {
             simd::walk::<true>(tree, segment, stack, stats).is_some()

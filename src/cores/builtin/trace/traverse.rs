@@ -12,7 +12,7 @@ use crate::contract::TraversalStats;
 const CAPACITY: usize = 1024;
 
 /// The two tests, in whatever arithmetic.
-pub trait Kernel {
+pub(crate) trait Kernel {
     /// Which of the eight boxes the segment meets, one bit each, and where it enters them.
     fn boxes(node: &WideNode, slabs: &Slabs, t_after: f32, t_beyond: f32) -> (u32, [f32; WIDTH]);
 
@@ -27,11 +27,11 @@ pub trait Kernel {
 
 /// What a walk finds, to be refined by `Geometry::surface`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Candidate {
+pub(crate) struct Candidate {
     /// In units of the scaled direction.
-    pub t: f32,
+    pub(crate) t: f32,
     /// Of the primitive in the scene.
-    pub number: u32,
+    pub(crate) number: u32,
 }
 
 impl Candidate {
@@ -48,11 +48,11 @@ impl Candidate {
 
 /// Children still to be visited, with the `t` where the ray enters them. Lives as long as its tracer, because
 /// clearing it for each ray would cost more than the walk.
-pub struct Stack(Box<[Entry; CAPACITY]>);
+pub(crate) struct Stack(Box<[Entry; CAPACITY]>);
 
 impl Stack {
     /// Nothing to visit.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(Box::new([Entry(0); CAPACITY]))
     }
 }
@@ -83,7 +83,7 @@ impl Entry {
 /// Children are visited in the order in which the ray enters them; the farther ones wait on the stack, and are
 /// dropped if something nearer has been found meanwhile.
 #[inline(always)]
-pub fn walk<K: Kernel, const ANY: bool>(
+pub(crate) fn walk<K: Kernel, const ANY: bool>(
     tree: &Tree,
     segment: &Segment,
     stack: &mut Stack,
@@ -218,7 +218,7 @@ fn visit_balls(balls: &[Ball], segment: &Segment, best: &mut Candidate, tests: &
 }
 
 /// The kernel for every processor: arrays, which the compiler turns into what vectors there are.
-pub struct Portable;
+pub(crate) struct Portable;
 
 impl Kernel for Portable {
     #[inline(always)]

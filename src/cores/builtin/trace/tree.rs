@@ -6,30 +6,30 @@ use crate::contract::BuildStats;
 use glam::{DVec3, Vec3};
 
 /// Children of a node.
-pub const WIDTH: usize = 8;
+pub(crate) const WIDTH: usize = 8;
 /// Triangles in a block.
-pub const LANES: usize = 4;
+pub(crate) const LANES: usize = 4;
 
 /// Everything a ray walks through.
 #[derive(Clone, Debug, Default)]
-pub struct Tree {
+pub(crate) struct Tree {
     /// Where rays start: nothing, one node, or a leaf of each kind.
-    pub roots: Vec<Child>,
+    pub(crate) roots: Vec<Child>,
     /// Inner nodes, parents before children.
-    pub nodes: Vec<WideNode>,
+    pub(crate) nodes: Vec<WideNode>,
     /// Triangles; the blocks of a leaf follow each other.
-    pub blocks: Vec<TriangleBlock>,
+    pub(crate) blocks: Vec<TriangleBlock>,
     /// Spheres; those of a leaf follow each other.
-    pub balls: Vec<Ball>,
+    pub(crate) balls: Vec<Ball>,
     /// Leaves and the longest way to one.
-    pub leaves: u64,
+    pub(crate) leaves: u64,
     /// Nodes on the longest way from the root to a leaf.
-    pub depth: u64,
+    pub(crate) depth: u64,
 }
 
 impl Tree {
     /// What the build made.
-    pub fn stats(&self) -> BuildStats {
+    pub(crate) fn stats(&self) -> BuildStats {
         let bytes = size_of_val(self.nodes.as_slice())
             + size_of_val(self.blocks.as_slice())
             + size_of_val(self.balls.as_slice());
@@ -45,11 +45,11 @@ impl Tree {
 /// What hangs on a node: an inner node, the first block of a leaf, or the first ball of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
-pub struct Child(pub u32);
+pub(crate) struct Child(pub(crate) u32);
 
 /// A [`Child`], taken apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Target {
+pub(crate) enum Target {
     /// Number of a node.
     Node(usize),
     /// Number of a leaf's first block.
@@ -64,26 +64,26 @@ impl Child {
     const INDEX: u32 = Self::BALLS - 1;
 
     /// No child. Its box is empty, so no ray comes here.
-    pub const NONE: Self = Self(u32::MAX);
+    pub(crate) const NONE: Self = Self(u32::MAX);
 
     /// An inner node.
-    pub fn node(index: usize) -> Self {
+    pub(crate) fn node(index: usize) -> Self {
         Self(Self::checked(index))
     }
 
     /// The leaf that starts at block `index`.
-    pub fn triangles(index: usize) -> Self {
+    pub(crate) fn triangles(index: usize) -> Self {
         Self(Self::checked(index) | Self::LEAF)
     }
 
     /// The leaf that starts at ball `index`.
-    pub fn balls(index: usize) -> Self {
+    pub(crate) fn balls(index: usize) -> Self {
         Self(Self::checked(index) | Self::LEAF | Self::BALLS)
     }
 
     /// What is referred to.
     #[inline(always)]
-    pub fn target(self) -> Target {
+    pub(crate) fn target(self) -> Target {
         let index = (self.0 & Self::INDEX) as usize;
         if self.0 & Self::LEAF == 0 {
             Target::Node(index)
@@ -103,13 +103,13 @@ impl Child {
 /// Eight boxes and what is in them. Boxes of missing children are empty. Four cache lines.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
-pub struct WideNode {
+pub(crate) struct WideNode {
     /// Row `2 · axis` holds the lower planes of the eight boxes, row `2 · axis + 1` the upper ones.
-    pub planes: [[f32; WIDTH]; 6],
+    pub(crate) planes: [[f32; WIDTH]; 6],
     /// One for each box.
-    pub children: [Child; WIDTH],
+    pub(crate) children: [Child; WIDTH],
     /// How many children there are.
-    pub child_count: u32,
+    pub(crate) child_count: u32,
 }
 
 impl WideNode {
@@ -117,14 +117,14 @@ impl WideNode {
     const UPPER: [f32; WIDTH] = [f32::NEG_INFINITY; WIDTH];
 
     /// No children yet.
-    pub const EMPTY: Self = Self {
+    pub(crate) const EMPTY: Self = Self {
         planes: [Self::LOWER, Self::UPPER, Self::LOWER, Self::UPPER, Self::LOWER, Self::UPPER],
         children: [Child::NONE; WIDTH],
         child_count: 0,
     };
 
     /// Hangs `child` with its box into `slot`, which was empty.
-    pub fn set(&mut self, slot: usize, bounds: Bounds, child: Child) {
+    pub(crate) fn set(&mut self, slot: usize, bounds: Bounds, child: Child) {
         for axis in 0..3 {
             self.planes[2 * axis][slot] = bounds.min[axis];
             self.planes[2 * axis + 1][slot] = bounds.max[axis];
@@ -146,16 +146,16 @@ fn flag(more: bool) -> u32 {
 /// One to four triangles. Corners of missing ones are NaN, which nothing hits.
 #[derive(Clone, Debug)]
 #[repr(C, align(16))]
-pub struct TriangleBlock {
+pub(crate) struct TriangleBlock {
     /// For each axis, the coordinates of each corner of the four triangles.
-    pub corners: [[[f32; LANES]; 3]; 3],
+    pub(crate) corners: [[[f32; LANES]; 3]; 3],
     /// Below the primitive numbers, the first has room for how many there are, less one, and for [`MORE`].
     numbers: [u32; LANES],
 }
 
 impl TriangleBlock {
     /// Packs at most four triangles with their primitive numbers.
-    pub fn new(triangles: impl Iterator<Item = (u32, [Vec3; 3])>, more: bool) -> Self {
+    pub(crate) fn new(triangles: impl Iterator<Item = (u32, [Vec3; 3])>, more: bool) -> Self {
         let mut block = Self { corners: [[[f32::NAN; LANES]; 3]; 3], numbers: [0; LANES] };
         let mut last = 0;
         for (lane, (number, corners)) in triangles.enumerate() {
@@ -173,48 +173,48 @@ impl TriangleBlock {
 
     /// The primitive number of a lane.
     #[inline(always)]
-    pub fn number(&self, lane: usize) -> u32 {
+    pub(crate) fn number(&self, lane: usize) -> u32 {
         self.numbers[lane] & (NUMBERS - 1)
     }
 
     /// Whether the leaf goes on with the next block.
     #[inline(always)]
-    pub fn is_followed(&self) -> bool {
+    pub(crate) fn is_followed(&self) -> bool {
         self.numbers[0] & MORE != 0
     }
 
     /// How many triangles there are.
     #[inline(always)]
-    pub fn triangle_count(&self) -> u64 {
+    pub(crate) fn triangle_count(&self) -> u64 {
         1 + u64::from(self.numbers[0] / NUMBERS % LANES as u32)
     }
 }
 
 /// A sphere, in double precision: its quadratic cancels too much in single.
 #[derive(Clone, Debug)]
-pub struct Ball {
+pub(crate) struct Ball {
     /// World space.
-    pub centre: DVec3,
+    pub(crate) centre: DVec3,
     /// Scene units.
-    pub radius: f64,
+    pub(crate) radius: f64,
     number: u32,
 }
 
 impl Ball {
     /// A sphere with its primitive number.
-    pub fn new(number: u32, centre: DVec3, radius: f64, more: bool) -> Self {
+    pub(crate) fn new(number: u32, centre: DVec3, radius: f64, more: bool) -> Self {
         Self { centre, radius, number: number | flag(more) }
     }
 
     /// The primitive number.
     #[inline(always)]
-    pub fn number(&self) -> u32 {
+    pub(crate) fn number(&self) -> u32 {
         self.number & !MORE
     }
 
     /// Whether the leaf goes on with the next ball.
     #[inline(always)]
-    pub fn is_followed(&self) -> bool {
+    pub(crate) fn is_followed(&self) -> bool {
         self.number & MORE != 0
     }
 }

@@ -44,7 +44,7 @@ macro_rules! faults {
         $($step:ident = $wrong:expr),+;
     )*) => {
         /// In the order of the lecture.
-        pub const FAULTS: &[super::Fault] = &[$(super::Fault {
+        pub(crate) const FAULTS: &[super::Fault] = &[$(super::Fault {
             name: $name,
             part: $part,
             summary: $summary,
@@ -57,7 +57,7 @@ macro_rules! faults {
 use faults;
 
 /// Every fault, part by part.
-pub fn all() -> impl Iterator<Item = &'static Fault> {
+pub(crate) fn all() -> impl Iterator<Item = &'static Fault> {
     let subjects = [
         camera::FAULTS,
         shape::FAULTS,

@@ -21,7 +21,7 @@ use xml::Xml;
 ///
 /// # Errors
 /// If Mitsuba has no words for something in the scene.
-pub fn export(scene: &SceneDescription, last_bounce: u32) -> Result<Exported, ExportError> {
+pub(crate) fn export(scene: &SceneDescription, last_bounce: u32) -> Result<Exported, ExportError> {
     let complaint = Complaint { format: Format::Mitsuba, scene };
     let camera = complaint.square_camera()?;
     let mut xml = Xml::default();
@@ -72,7 +72,7 @@ fn write_sensor(xml: &mut Xml, camera: &Camera) {
 }
 
 /// The sampler that scenes are written with.
-pub const SAMPLER: &str = "multijitter";
+pub(crate) const SAMPLER: &str = "multijitter";
 
 #[cfg(test)]
 mod tests;

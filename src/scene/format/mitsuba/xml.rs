@@ -11,62 +11,62 @@ pub(super) struct Xml(XmlWriter);
 
 impl Xml {
     /// Begins an element that others go into.
-    pub fn open(&mut self, element: &'static str, attributes: &[(&str, &str)]) {
+    pub(crate) fn open(&mut self, element: &'static str, attributes: &[(&str, &str)]) {
         self.0.open(element, attributes);
     }
 
     /// Ends the element begun last.
-    pub fn close(&mut self) {
+    pub(crate) fn close(&mut self) {
         self.0.close();
     }
 
     /// An element that nothing goes into.
-    pub fn leaf(&mut self, element: &str, attributes: &[(&str, &str)]) {
+    pub(crate) fn leaf(&mut self, element: &str, attributes: &[(&str, &str)]) {
         self.0.leaf(element, attributes);
     }
 
-    pub fn integer(&mut self, name: &str, value: u32) {
+    pub(crate) fn integer(&mut self, name: &str, value: u32) {
         self.leaf("integer", &[("name", name), ("value", &value.to_string())]);
     }
 
-    pub fn float(&mut self, name: &str, value: f64) {
+    pub(crate) fn float(&mut self, name: &str, value: f64) {
         self.leaf("float", &[("name", name), ("value", &value.to_string())]);
     }
 
-    pub fn string(&mut self, name: &str, value: &str) {
+    pub(crate) fn string(&mut self, name: &str, value: &str) {
         self.leaf("string", &[("name", name), ("value", value)]);
     }
 
-    pub fn boolean(&mut self, name: &str, value: bool) {
+    pub(crate) fn boolean(&mut self, name: &str, value: bool) {
         self.leaf("boolean", &[("name", name), ("value", &value.to_string())]);
     }
 
-    pub fn rgb(&mut self, name: &str, value: Rgb) {
+    pub(crate) fn rgb(&mut self, name: &str, value: Rgb) {
         self.leaf("rgb", &[("name", name), ("value", &numbers(value))]);
     }
 
-    pub fn point(&mut self, name: &str, value: DVec3) {
+    pub(crate) fn point(&mut self, name: &str, value: DVec3) {
         self.vector("point", name, value);
     }
 
-    pub fn direction(&mut self, name: &str, value: DVec3) {
+    pub(crate) fn direction(&mut self, name: &str, value: DVec3) {
         self.vector("vector", name, value);
     }
 
-    pub fn look_at(&mut self, origin: DVec3, target: DVec3, up: DVec3) {
+    pub(crate) fn look_at(&mut self, origin: DVec3, target: DVec3, up: DVec3) {
         let [origin, target, up] =
             [origin, target, up].map(|v| numbers(v.to_array()).replace(' ', ", "));
         self.leaf("lookat", &[("origin", &origin), ("target", &target), ("up", &up)]);
     }
 
     /// The transform `to_world`, row by row.
-    pub fn transform(&mut self, transform: DAffine3) {
+    pub(crate) fn transform(&mut self, transform: DAffine3) {
         self.open("transform", &[("name", "to_world")]);
         self.leaf("matrix", &[("value", &matrix(transform))]);
         self.close();
     }
 
-    pub fn finish(self) -> String {
+    pub(crate) fn finish(self) -> String {
         self.0.finish()
     }
 

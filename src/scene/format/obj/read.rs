@@ -8,7 +8,7 @@ use std::io::BufReader;
 use std::path::Path;
 
 /// The mesh in a file, polygons cut into fans, vertex normals if the file has them.
-pub fn read(path: &Path) -> Result<Mesh, MeshError> {
+pub(crate) fn read(path: &Path) -> Result<Mesh, MeshError> {
     let options = tobj::LoadOptions { triangulate: true, single_index: true, ..Default::default() };
     let without_materials = |_: &Path| Ok(Default::default());
     check_references(&std::fs::read(path)?)?;

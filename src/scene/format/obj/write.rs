@@ -5,7 +5,7 @@ use crate::scene::{Light, Material, Mesh, SceneDescription, Surface};
 use std::fmt::Write;
 
 /// `scene.obj` and `scene.mtl`. The camera is not in them.
-pub fn export(scene: &SceneDescription) -> Result<Exported, ExportError> {
+pub(crate) fn export(scene: &SceneDescription) -> Result<Exported, ExportError> {
     let complaint = Complaint { format: Format::Obj, scene };
     if let Some(sphere) = scene.spheres.first() {
         let what = format!("`{}` is a sphere, and OBJ has only triangles", sphere.name);

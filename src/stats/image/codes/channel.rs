@@ -17,7 +17,7 @@ const HALF: f64 = 0.5;
 
 /// One channel of one pixel.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Channel {
+pub(crate) struct Channel {
     pub(super) standing: Standing,
     /// Mean code; 0 if it is not compared.
     pub(super) expected: f64,
@@ -33,7 +33,7 @@ pub struct Channel {
 
 /// What a channel is asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Standing {
+pub(crate) enum Standing {
     /// Its code.
     Compared,
     /// Only whether it is clipped too seldom.
@@ -45,7 +45,7 @@ pub enum Standing {
 
 /// How noisy a pixel is.
 #[derive(Clone, Copy, Debug)]
-pub struct Noise {
+pub(crate) struct Noise {
     /// Standard deviation of its codes.
     pub(super) codes: f64,
     /// The same of its light, as its codes have it.

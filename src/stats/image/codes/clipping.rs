@@ -8,15 +8,15 @@ use crate::stats::{ImageDraw, ImageEffort, Moments, Stage, student_upper};
 
 /// Whether pixels that should be clipped are.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClippingReport {
+pub(crate) struct ClippingReport {
     /// Channels of pixels that should be clipped in most pictures.
-    pub channels: usize,
+    pub(crate) channels: usize,
     /// Share of them that is, over the last pictures drawn.
-    pub share: f64,
+    pub(crate) share: f64,
     /// The share that should be at least.
-    pub expected: f64,
+    pub(crate) expected: f64,
     /// Whether every stage found too few.
-    pub rejects: bool,
+    pub(crate) rejects: bool,
 }
 
 /// The account, stage by stage.

@@ -35,26 +35,26 @@ const FEWEST_TONES: f64 = 0.2;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Deciphered {
     /// How light is said to be encoded.
-    pub declared: Encoding,
+    pub(crate) declared: Encoding,
     /// The encoding that fits; none if none does, or too few tiles say anything.
-    pub found: Option<Encoding>,
+    pub(crate) found: Option<Encoding>,
     /// The power of light that codes follow: 0.45 for 1/2.2, 1 without a curve.
-    pub power: Option<f64>,
+    pub(crate) power: Option<f64>,
     /// Codes by which the picture lies above the declared encoding, with the gain that suits best:
     /// −0.5 is truncation.
-    pub offset: Option<f64>,
+    pub(crate) offset: Option<f64>,
     /// Tiles times channels that were compared.
-    pub tiles: usize,
+    pub(crate) tiles: usize,
 }
 
 impl Deciphered {
     /// Whether another encoding than the declared one was found.
-    pub fn is_another(&self) -> bool {
+    pub(crate) fn is_another(&self) -> bool {
         self.found.is_some_and(|found| found != self.declared)
     }
 
     /// Whether nothing but the rounding is another: half a code everywhere.
-    pub fn is_rounded_otherwise(&self) -> bool {
+    pub(crate) fn is_rounded_otherwise(&self) -> bool {
         let is_alike = |found: Encoding| found.curve == self.declared.curve;
         self.is_another() && self.found.is_some_and(is_alike)
     }

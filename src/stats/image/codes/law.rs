@@ -14,27 +14,27 @@ const FAR: f64 = 12.0;
 
 /// The law of a pixel's value: the mean of its samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PixelLaw {
+pub(crate) struct PixelLaw {
     /// Mean.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Standard deviation between pictures.
-    pub deviation: f64,
+    pub(crate) deviation: f64,
 }
 
 /// What can be said of a pixel's code.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CodeLaw {
+pub(crate) struct CodeLaw {
     /// Mean code.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Standard deviation of the code.
-    pub deviation: f64,
+    pub(crate) deviation: f64,
     /// Codes gained if all light grows by a small factor, over the logarithm of that factor.
-    pub slope: f64,
+    pub(crate) slope: f64,
 }
 
 impl PixelLaw {
     /// The law of the code that this pixel gets.
-    pub fn codes(self, encoding: Encoding) -> CodeLaw {
+    pub(crate) fn codes(self, encoding: Encoding) -> CodeLaw {
         if !(self.deviation > 0.0 && self.mean > 0.0) {
             let mean = f64::from(encoding.code(self.mean));
             let slope = if mean < WHITE { encoding.slope(self.mean) } else { 0.0 };
@@ -50,7 +50,7 @@ impl PixelLaw {
     }
 
     /// The probability of the largest code.
-    pub fn clipped(self, encoding: Encoding) -> f64 {
+    pub(crate) fn clipped(self, encoding: Encoding) -> f64 {
         if self.deviation > 0.0 && self.mean > 0.0 {
             return self.at_least(encoding.edge(WHITE));
         }

@@ -42,17 +42,17 @@ pub enum NoiseSource {
 #[derive(Clone, Debug)]
 pub struct LightOfCodes {
     /// How the light was encoded; if otherwise than declared, nothing else here means anything.
-    pub deciphered: Deciphered,
+    pub(crate) deciphered: Deciphered,
     /// Where the noise is known from.
-    pub noise: NoiseSource,
+    pub(crate) noise: NoiseSource,
     /// The light, the mean of all pictures.
-    pub image: Image,
+    pub(crate) image: Image,
     /// Its variance, if that is known.
-    pub variance: Option<Image>,
+    pub(crate) variance: Option<Image>,
     /// By how much the law may be off, the same way everywhere at worst.
-    pub slack: Image,
+    pub(crate) slack: Image,
     /// Which pixels say anything: neither clipped in most pictures nor lost in noise.
-    pub compared: Vec<bool>,
+    pub(crate) compared: Vec<bool>,
 }
 
 impl LightOfCodes {

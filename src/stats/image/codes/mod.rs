@@ -4,7 +4,7 @@
 //! clipped: the mean code is not the code of the mean, and cannot be decoded. With 64 samples of
 //! relative deviation 1 a pixel of radiance 0.3 looks 0.4 % darker, one of 0.95 looks 3 % darker,
 //! since a third of its pictures clip. The mean of n samples has, nearly, the law of a Gamma
-//! variable with the pixel's mean and deviation ([`PixelLaw`]); that gives every code's probability.
+//! variable with the pixel's mean and deviation ([`law::PixelLaw`]); that gives every code's probability.
 //!
 //! A few pictures tell the noise of every code and how light was encoded. Then the codes are
 //! screened and confirmed on fresh pictures like radiance is ([`super::judge_image`]). What a code
@@ -29,7 +29,7 @@ mod simulation;
 #[cfg(test)]
 mod tests;
 
-pub use clipping::ClippingReport;
+pub(crate) use clipping::ClippingReport;
 pub use decipher::Deciphered;
 pub use light::{LightOfCodes, NoiseSource, light_of_codes};
 
@@ -61,12 +61,12 @@ const FEWEST_COMPARED: f64 = 0.5;
 #[derive(Clone, Copy, Debug)]
 pub struct CodeReference<'a> {
     /// Mean radiance.
-    pub mean: &'a Image,
+    pub(crate) mean: &'a Image,
     /// Standard error of that mean.
-    pub standard_error: &'a Image,
+    pub(crate) standard_error: &'a Image,
     /// Samples a pixel behind it, if that is known: from them follows how noisy a picture with fewer
     /// is, whether or not its codes show it.
-    pub samples: Option<u64>,
+    pub(crate) samples: Option<u64>,
 }
 
 impl CodeReference<'_> {
@@ -81,27 +81,27 @@ impl CodeReference<'_> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CodeSettings {
     /// How light is said to be encoded.
-    pub declared: Encoding,
+    pub(crate) declared: Encoding,
     /// What has to be seen, and on how many pictures.
-    pub effort: ImageEffort,
+    pub(crate) effort: ImageEffort,
 }
 
 /// The judgement of 8-bit pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodeReport {
     /// Pass, fail or inconclusive.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// What the codes say of their own encoding.
-    pub deciphered: Deciphered,
+    pub(crate) deciphered: Deciphered,
     /// Cells of codes; relative errors are those of the light behind them. None if the encoding is
     /// another than declared: nothing can be compared then.
-    pub image: Option<ImageReport>,
+    pub(crate) image: Option<ImageReport>,
     /// None where nothing should be clipped.
-    pub clipping: Option<ClippingReport>,
+    pub(crate) clipping: Option<ClippingReport>,
     /// Share of the channels of all pixels whose codes are compared.
-    pub compared: f64,
+    pub(crate) compared: f64,
     /// The codes that there should be on average, where they are compared; 0 elsewhere.
-    pub expected: Image,
+    pub(crate) expected: Image,
 }
 
 impl Report for CodeReport {

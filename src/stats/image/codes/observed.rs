@@ -4,7 +4,7 @@ use crate::stats::law::Spread;
 
 /// The code of every channel of every pixel, with its noise.
 #[derive(Clone, Debug)]
-pub struct Observed {
+pub(crate) struct Observed {
     codes: Vec<Seen>,
     /// Degrees of freedom of each variance.
     pub(super) freedom: f64,
@@ -12,7 +12,7 @@ pub struct Observed {
 
 /// One channel of one pixel.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Seen {
+pub(crate) struct Seen {
     /// Mean code.
     pub(super) code: f64,
     /// Standard error of `code`.

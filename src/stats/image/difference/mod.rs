@@ -42,16 +42,17 @@ const STAGES: usize = 3;
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<'a> {
     /// The picture.
-    pub image: &'a Image,
+    pub(crate) image: &'a Image,
     /// The variance of each value of `image`, if it is known.
-    pub variance: Option<&'a Image>,
+    pub(crate) variance: Option<&'a Image>,
     /// Half a step of each value, where the file holds whole numbers.
-    pub rounding: Option<&'a Image>,
+    pub(crate) rounding: Option<&'a Image>,
 }
 
+#[cfg(test)]
 impl<'a> Sample<'a> {
     /// A picture of which nothing more is known.
-    pub fn of(image: &'a Image) -> Self {
+    pub(crate) fn of(image: &'a Image) -> Self {
         Self { image, variance: None, rounding: None }
     }
 }
@@ -62,7 +63,7 @@ impl<'a> Sample<'a> {
 /// # Panics
 ///
 /// If the pictures differ in size.
-pub fn judge_difference(
+pub(crate) fn judge_difference(
     picture: Sample<'_>,
     reference: Sample<'_>,
     counted: Option<&[bool]>,

@@ -31,7 +31,8 @@ pub enum Pattern {
 
 impl Pattern {
     /// From the finest to the coarsest.
-    pub const ALL: [Self; 5] = [Self::Tiles, Self::Rows, Self::Columns, Self::Whole, Self::Edges];
+    pub(crate) const ALL: [Self; 5] =
+        [Self::Tiles, Self::Rows, Self::Columns, Self::Whole, Self::Edges];
 
     /// Units in a cell, across and down; none for as many as there are.
     const fn extent(self) -> [Option<usize>; 2] {
@@ -89,13 +90,13 @@ impl std::fmt::Display for Pattern {
 
 /// Units that are judged together.
 #[derive(Clone, Debug, Default)]
-pub struct Cell<'a> {
+pub(crate) struct Cell<'a> {
     stages: [Vec<&'a Unit>; STAGES],
 }
 
 /// A measure of a cell that stood out in the first stage.
 #[derive(Clone, Copy, Debug)]
-pub struct Choice {
+pub(crate) struct Choice {
     pub(super) cell: usize,
     measure: usize,
     sign: f64,
@@ -168,7 +169,7 @@ impl Cell<'_> {
 /// What a confirmation says: how far the choices are outside their bands together, in standard
 /// errors, and the degrees of freedom of those.
 #[derive(Clone, Copy, Debug)]
-pub struct Score {
+pub(crate) struct Score {
     pub(super) t: f64,
     pub(super) freedom: f64,
 }

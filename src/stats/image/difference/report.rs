@@ -9,32 +9,32 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OddPixels {
     /// What no picture has, if it is that.
-    pub impossible: Option<Impossible>,
+    pub(crate) impossible: Option<Impossible>,
     /// Column of the first, or of the one farthest off.
-    pub x: usize,
+    pub(crate) x: usize,
     /// Its row, from the top.
-    pub y: usize,
+    pub(crate) y: usize,
     /// How many there are.
-    pub pixels: usize,
+    pub(crate) pixels: usize,
     /// How far the farthest is off, in standard errors; negative if too dark.
-    pub sigmas: Option<f64>,
+    pub(crate) sigmas: Option<f64>,
 }
 
 /// What one pattern says.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PatternReport {
     /// What was looked for.
-    pub pattern: Pattern,
+    pub(crate) pattern: Pattern,
     /// Cells that were judged.
-    pub cells: usize,
+    pub(crate) cells: usize,
     /// The cell that stood out most.
-    pub worst: Option<Extent>,
+    pub(crate) worst: Option<Extent>,
     /// Its difference: relative to the light of the reference, or in pixels for edges.
-    pub difference: f64,
+    pub(crate) difference: f64,
     /// How far what stood out lies outside its band in either confirmation, in standard errors.
-    pub t: [f64; 2],
+    pub(crate) t: [f64; 2],
     /// Whether both reject.
-    pub rejects: bool,
+    pub(crate) rejects: bool,
 }
 
 /// The comparison of two single pictures.
@@ -42,20 +42,20 @@ pub struct PatternReport {
 pub struct DifferenceReport {
     /// [`Verdict::Fail`] if they differ by proof; [`Verdict::Pass`] if not; [`Verdict::Inconclusive`]
     /// if the pictures have too few pixels to prove anything.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// Whether they are equal to the last bit.
-    pub equal: bool,
+    pub(crate) equal: bool,
     /// Values that no picture has: a difference without statistics.
-    pub impossible: Option<OddPixels>,
+    pub(crate) impossible: Option<OddPixels>,
     /// Pixels that stand out of the known noise.
-    pub outliers: Option<OddPixels>,
+    pub(crate) outliers: Option<OddPixels>,
     /// From the finest to the coarsest.
-    pub patterns: Vec<PatternReport>,
+    pub(crate) patterns: Vec<PatternReport>,
     /// Luminance of the picture over that of the reference.
-    pub ratio: f64,
+    pub(crate) ratio: f64,
     /// The smallest relative error of the whole picture's luminance that would have been seen with
     /// probability 0.999.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
 }
 
 impl DifferenceReport {

@@ -17,7 +17,7 @@ const FEWEST_PIXELS: usize = SIDE * SIDE / 2;
 
 /// A unit of the picture.
 #[derive(Clone, Copy, Debug)]
-pub struct Unit {
+pub(crate) struct Unit {
     pub(super) column: usize,
     pub(super) row: usize,
     /// Sums of the weighted difference, by measure.

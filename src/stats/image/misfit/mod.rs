@@ -21,9 +21,9 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-pub use part::{BouncesOff, Share, bounces_off};
-pub use stripe::Lines;
-pub use symmetry::Symmetry;
+pub(crate) use part::{BouncesOff, bounces_off};
+pub(crate) use stripe::Lines;
+pub(crate) use symmetry::Symmetry;
 
 use crate::image::Image;
 use crate::image::pair::Plane;
@@ -52,11 +52,11 @@ const FACTOR_WORTH_NAMING: f64 = 0.001;
 
 /// A number, and where it lies with 99.9 % confidence.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Estimate {
+pub(crate) struct Estimate {
     /// The number.
-    pub value: f64,
+    pub(crate) value: f64,
     /// Ends of its interval.
-    pub interval: [f64; 2],
+    pub(crate) interval: [f64; 2],
 }
 
 impl Estimate {
@@ -74,7 +74,7 @@ impl Estimate {
     }
 
     /// Whether a number is in the interval.
-    pub fn allows(&self, value: f64) -> bool {
+    pub(crate) fn allows(&self, value: f64) -> bool {
         self.interval[0] <= value && value <= self.interval[1]
     }
 }
@@ -82,7 +82,7 @@ impl Estimate {
 /// What was done to the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Misfit {
+pub(crate) enum Misfit {
     /// Mirrored, rotated or transposed.
     Turned(Symmetry),
     /// All light times a factor, for each channel.
@@ -137,25 +137,25 @@ pub enum Misfit {
 
 /// A mistake that was found.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Fit {
+pub(crate) struct Fit {
     /// The mistake.
-    pub misfit: Misfit,
+    pub(crate) misfit: Misfit,
     /// The share of what differed before that no longer does, from 0 to 1.
-    pub explains: f64,
+    pub(crate) explains: f64,
     /// What it explains, over its standard error between units of 8 by 8 pixels.
-    pub certainty: f64,
+    pub(crate) certainty: f64,
 }
 
 /// What is known of a picture beside its colours.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Knowledge<'a> {
+pub(crate) struct Knowledge<'a> {
     /// Coverage, where the picture's file holds it.
-    pub alpha: Option<&'a Plane>,
+    pub(crate) alpha: Option<&'a Plane>,
     /// Pixels that count; all, if none.
-    pub counted: Option<&'a [bool]>,
+    pub(crate) counted: Option<&'a [bool]>,
     /// The energy that the noise of both pictures adds to the difference is taken off before shares
     /// are computed, where its standard errors are known.
-    pub standard_error: Option<&'a Image>,
+    pub(crate) standard_error: Option<&'a Image>,
 }
 
 /// The mistakes that turn `reference` into `image`, the greatest first; none where nothing known
@@ -164,7 +164,7 @@ pub struct Knowledge<'a> {
 /// # Panics
 ///
 /// If the pictures differ in size.
-pub fn explain(image: &Image, reference: &Image, knowledge: &Knowledge<'_>) -> Vec<Fit> {
+pub(crate) fn explain(image: &Image, reference: &Image, knowledge: &Knowledge<'_>) -> Vec<Fit> {
     assert!(image.same_size(reference), "two pictures of one size");
     let weights = question::weights(image, reference, knowledge);
     let (image, mut explained) = (finite(image), finite(reference));

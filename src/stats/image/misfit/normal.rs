@@ -8,7 +8,7 @@ const SIGMAS: f64 = 3.29;
 
 /// The sums of a unit that a step of Gauss and Newton needs.
 #[derive(Clone, Copy, Debug)]
-pub struct Sums<const N: usize> {
+pub(crate) struct Sums<const N: usize> {
     /// Σ slopeᵢ · slopeⱼ
     squares: [[f64; N]; N],
     /// Σ slopeᵢ · difference

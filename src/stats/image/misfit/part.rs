@@ -11,11 +11,11 @@ const ALLOWANCE: f64 = 0.1;
 
 /// How often a part has to be taken from the reference to make it the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Share {
+pub(crate) struct Share {
     /// 1 if the part is missing once, negative if it is there once too often.
-    pub missing: Estimate,
+    pub(crate) missing: Estimate,
     /// The share of the difference that this explains, from 0 to 1, without known noise.
-    pub explains: f64,
+    pub(crate) explains: f64,
 }
 
 impl Share {
@@ -29,13 +29,13 @@ impl Share {
 
 /// Bounces whose light is what a picture lacks, or has once too often.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BouncesOff {
+pub(crate) struct BouncesOff {
     /// 0 is what the camera sees glowing.
-    pub first: usize,
+    pub(crate) first: usize,
     /// The last of them.
-    pub last: usize,
+    pub(crate) last: usize,
     /// How often they are missing.
-    pub share: Share,
+    pub(crate) share: Share,
 }
 
 /// The bounce, or all bounces from one on, whose light is what the picture lacks or has once too
@@ -45,7 +45,7 @@ pub struct BouncesOff {
 /// # Panics
 ///
 /// If the pictures differ in size.
-pub fn bounces_off(
+pub(crate) fn bounces_off(
     image: &Image,
     reference: &Image,
     bounces: &[Image],

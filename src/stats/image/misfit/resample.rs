@@ -9,7 +9,7 @@ type Taps = (isize, [f32; 4]);
 
 /// Which place of the reference is seen at each pixel of an axis: `slope` · pixel + `start`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Axis {
+pub(crate) struct Axis {
     pub(super) start: f64,
     pub(super) slope: f64,
 }

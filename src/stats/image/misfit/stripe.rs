@@ -16,7 +16,7 @@ const MOST: f32 = 12.0;
 /// What a stripe is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Lines {
+pub(crate) enum Lines {
     /// From top to bottom.
     Columns,
     /// From left to right.

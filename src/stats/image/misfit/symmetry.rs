@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// A way to lay a picture onto itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Symmetry {
+pub(crate) enum Symmetry {
     /// Left and right exchanged.
     LeftRight,
     /// Top and bottom exchanged.
@@ -27,7 +27,7 @@ pub enum Symmetry {
 
 impl Symmetry {
     /// Every way.
-    pub const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 7] = [
         Self::LeftRight,
         Self::UpsideDown,
         Self::HalfTurn,
@@ -43,7 +43,7 @@ impl Symmetry {
     }
 
     /// The picture laid so.
-    pub fn of(self, image: &Image) -> Image {
+    pub(crate) fn of(self, image: &Image) -> Image {
         let (width, height) = (image.width, image.height);
         let (new_width, new_height) =
             if self.exchanges_axes() { (height, width) } else { (width, height) };

@@ -5,23 +5,23 @@ use crate::stats::{Report, Stage, TestKind, Verdict};
 
 /// One stage of counting.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CountStage {
+pub(crate) struct CountStage {
     /// Which stage.
-    pub stage: Stage,
+    pub(crate) stage: Stage,
     /// Samples drawn.
-    pub samples: u64,
+    pub(crate) samples: u64,
     /// X² = Σ (O − E)² / E over pooled cells.
-    pub statistic: f64,
+    pub(crate) statistic: f64,
     /// Degrees of freedom.
-    pub freedom: f64,
+    pub(crate) freedom: f64,
     /// What X² has to exceed to reject, quadrature error included.
-    pub critical: f64,
+    pub(crate) critical: f64,
     /// Probability of a larger X², were the density right.
-    pub p_value: f64,
+    pub(crate) p_value: f64,
     /// N Σ δ²/p: how much of the statistic may be quadrature.
-    pub quadrature_error: f64,
+    pub(crate) quadrature_error: f64,
     /// Whether the stage rejects.
-    pub rejects: bool,
+    pub(crate) rejects: bool,
 }
 
 impl Scored for CountStage {
@@ -32,16 +32,16 @@ impl Scored for CountStage {
 
 /// Samples where there should be none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ForbiddenSamples {
+pub(crate) struct ForbiddenSamples {
     /// The cell of most of them.
-    pub cell: usize,
+    pub(crate) cell: usize,
     /// How many fell in it.
-    pub samples: u64,
+    pub(crate) samples: u64,
 }
 
 /// Why counts prove nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CountDoubt {
+pub(crate) enum CountDoubt {
     /// The integral of the density over the cells is not known well enough.
     QuadratureNotConverged,
     /// An error of the promised size could have hidden in the noise.
@@ -50,38 +50,38 @@ pub enum CountDoubt {
 
 /// The judgement of a sampler against its density. Counts are those of the last stage drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CountReport {
+pub(crate) struct CountReport {
     /// Pass, fail or inconclusive.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// Why it is inconclusive.
-    pub doubt: Option<CountDoubt>,
+    pub(crate) doubt: Option<CountDoubt>,
     /// Every stage drawn; a clean sampler has one.
-    pub stages: Escalation<CountStage>,
+    pub(crate) stages: Escalation<CountStage>,
     /// Samples in cells where the density is zero.
-    pub forbidden: Option<ForbiddenSamples>,
+    pub(crate) forbidden: Option<ForbiddenSamples>,
     /// A cell whose probability is negative or not a number.
-    pub improper_cell: Option<usize>,
+    pub(crate) improper_cell: Option<usize>,
     /// The smallest root-mean-square relative error of the density (weighted by the expectation)
     /// that would have been caught with probability 0.999.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
     /// The error that had to be.
-    pub detects: f64,
+    pub(crate) detects: f64,
     /// Samples in all stages.
-    pub samples: u64,
+    pub(crate) samples: u64,
     /// What the first stage lacks, if more samples would help.
-    pub samples_missing: Option<u64>,
+    pub(crate) samples_missing: Option<u64>,
     /// Counted in each cell.
-    pub observed: Vec<u64>,
+    pub(crate) observed: Vec<u64>,
     /// Expected in each cell.
-    pub expected: Vec<f64>,
+    pub(crate) expected: Vec<f64>,
     /// (O − E)/√E of each cell, for pictures.
-    pub residuals: Vec<f64>,
+    pub(crate) residuals: Vec<f64>,
     /// Samples that failed, counted.
-    pub absorbed_observed: u64,
+    pub(crate) absorbed_observed: u64,
     /// Samples that should have failed.
-    pub absorbed_expected: f64,
+    pub(crate) absorbed_expected: f64,
     /// The integral of the density over all cells.
-    pub mass: f64,
+    pub(crate) mass: f64,
 }
 
 impl Report for CountReport {

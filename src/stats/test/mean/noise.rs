@@ -4,7 +4,7 @@ use crate::stats::Moments;
 
 /// The variance of one sample, pooled over stages.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Noise {
+pub(crate) struct Noise {
     pub(super) freedom: f64,
     weighted_variance: f64,
 }

@@ -5,21 +5,21 @@ use crate::stats::{Hypothesis, Report, Stage, TestKind, Verdict};
 
 /// One stage, seen by one claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StageScore {
+pub(crate) struct StageScore {
     /// Which stage.
-    pub stage: Stage,
+    pub(crate) stage: Stage,
     /// Samples over all its runs.
-    pub samples: u64,
+    pub(crate) samples: u64,
     /// Mean over its runs.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Standard error of that mean, from the spread of this stage's own runs.
-    pub standard_error: f64,
+    pub(crate) standard_error: f64,
     /// How far outside the band the mean is, in standard errors of this stage (the first key).
-    pub t: f64,
+    pub(crate) t: f64,
     /// The same in standard errors known from theory or from the other stages (the second key).
-    pub u: f64,
+    pub(crate) u: f64,
     /// Whether both keys turned, on the side the first stage chose.
-    pub rejects: bool,
+    pub(crate) rejects: bool,
 }
 
 impl Scored for StageScore {
@@ -31,31 +31,31 @@ impl Scored for StageScore {
 /// The judgement of one claim. `mean`, `standard_error` and the intervals are those of the last
 /// stage drawn: the earlier ones chose whether it would be, the last one is fresh.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MeanReport {
+pub(crate) struct MeanReport {
     /// Pass, fail or inconclusive.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// The true mean, as claimed.
-    pub expected: f64,
+    pub(crate) expected: f64,
     /// Half width of the null hypothesis, in the unit of the mean.
-    pub band: f64,
+    pub(crate) band: f64,
     /// Measured.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Of `mean`, from the spread of independent runs.
-    pub standard_error: f64,
+    pub(crate) standard_error: f64,
     /// Holds the mean of the core with 99.9 % confidence.
-    pub interval: [f64; 2],
+    pub(crate) interval: [f64; 2],
     /// `interval` divided by what was expected; none for the mean of a difference.
-    pub ratio: Option<[f64; 2]>,
+    pub(crate) ratio: Option<[f64; 2]>,
     /// Every stage drawn; a clean claim has one.
-    pub stages: Escalation<StageScore>,
+    pub(crate) stages: Escalation<StageScore>,
     /// The smallest relative error that would have been caught with probability 0.999.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
     /// The relative error that had to be.
-    pub detects: f64,
+    pub(crate) detects: f64,
     /// Samples drawn in all, pilot and repeated stages included.
-    pub samples: u64,
+    pub(crate) samples: u64,
     /// Probability that a correct core fails this claim, as entered in the ledger.
-    pub false_alarm: f64,
+    pub(crate) false_alarm: f64,
 }
 
 impl MeanReport {

@@ -26,7 +26,7 @@ const FEWEST_TO_SUSPECT: f64 = 16_384.0;
 
 /// How far out a suspected mean is, which says on how many samples it is confirmed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Suspicion {
+pub(crate) enum Suspicion {
     /// Grossly too much: no event that has not happened can lower a mean of radiances.
     GrosslyHigh,
     /// Grossly too little, unless rare events have not happened yet.

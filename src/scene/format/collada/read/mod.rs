@@ -44,9 +44,9 @@ pub const FILM: [u32; 2] = [800, 600];
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// The scene.
-    pub scene: SceneDescription,
+    pub(crate) scene: SceneDescription,
     /// One sentence each.
-    pub differences: Vec<String>,
+    pub(crate) differences: Vec<String>,
 }
 
 /// Reads a file. `film` is the size of the picture, the course's `-r`: a smaller one is a part cut
@@ -67,7 +67,7 @@ pub fn load(path: &Path, film: [u32; 2]) -> Result<Reading, SceneError> {
 ///
 /// # Errors
 /// If the text is none that the course's program renders.
-pub fn parse(name: &str, source: &Source, film: [u32; 2]) -> Result<Reading, SceneError> {
+pub(crate) fn parse(name: &str, source: &Source, film: [u32; 2]) -> Result<Reading, SceneError> {
     let document = xml::parse(source)?;
     let reader = xml::Reader::new(source, &document);
     let file = node::read(&reader)?;

@@ -32,7 +32,10 @@ struct HalfEdges {
 
 /// One unit normal a vertex. `polygons` must be an oriented manifold that uses every vertex; if not,
 /// the answer says why, as a fragment that fits after the name of the mesh.
-pub fn vertex_normals(positions: &[DVec3], polygons: &[Vec<u32>]) -> Result<Vec<DVec3>, String> {
+pub(crate) fn vertex_normals(
+    positions: &[DVec3],
+    polygons: &[Vec<u32>],
+) -> Result<Vec<DVec3>, String> {
     let mesh = HalfEdges::new(positions.len(), polygons)?;
     let normal = |vertex: usize| {
         let normal = mesh.normal(vertex, positions);

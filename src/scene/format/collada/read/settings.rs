@@ -56,7 +56,7 @@ pub(super) fn parse(source: &Source, film: [u32; 2]) -> Result<Camera, SceneErro
 
 /// The angle in degrees from which the course makes an angle in radians, or the nearest: about one in ten has
 /// none.
-pub fn degrees_for(angle: f64) -> f64 {
+pub(crate) fn degrees_for(angle: f64) -> f64 {
     let nearest = angle.to_degrees();
     let neighbours = [nearest, nearest.next_up(), nearest.next_down()];
     neighbours.into_iter().find(|degrees| radians(*degrees) == angle).unwrap_or(nearest)

@@ -19,7 +19,7 @@ use glam::{DAffine3, DMat3, DVec3};
 const SAME_NORMAL: f64 = 1e-3;
 
 /// `scene.dae` and `camera.txt`.
-pub fn export(scene: &SceneDescription) -> Result<Exported, ExportError> {
+pub(crate) fn export(scene: &SceneDescription) -> Result<Exported, ExportError> {
     let complaint = Complaint { format: Format::Collada, scene };
     let camera = complaint.camera()?;
     let writer = Writer { scene, complaint };

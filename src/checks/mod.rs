@@ -11,6 +11,7 @@ pub(crate) mod bsdf;
 pub(crate) mod bvh;
 pub(crate) mod camera;
 mod context;
+mod declared;
 #[cfg(test)]
 mod fake;
 mod finding;
@@ -29,21 +30,18 @@ mod surface;
 mod testing;
 
 pub(crate) use context::{CheckError, Context, Picture, PictureRole, camera_of};
+pub(crate) use declared::{Declared, check};
 pub(crate) use finding::{Finding, Measure};
 
 use crate::contract::Capabilities;
 use crate::text::{TomlError, read_key};
-use serde::de::DeserializeOwned;
 
 /// A way to judge a core. The struct that implements it is the `[expect]` of its cases.
-pub(crate) trait Check: DeserializeOwned + Send + Sync + 'static {
-    /// The word in `check = "…"`.
-    const NAME: &'static str;
-    /// One line for `furnace list checks`.
-    const SUMMARY: &'static str;
-
-    /// What the core must be able to do; a core without it skips the trial.
-    fn needs(&self) -> Capabilities;
+pub(crate) trait Check: Declared {
+    /// What its settings need besides [`Declared::NEEDS`].
+    fn needs_besides(&self) -> Capabilities {
+        Capabilities::empty()
+    }
 
     /// Other capabilities that do as well, if any do.
     fn needs_instead(&self) -> Option<Capabilities> {
@@ -72,7 +70,7 @@ pub(crate) trait Check: DeserializeOwned + Send + Sync + 'static {
 
 /// A check with its settings read, ready to run.
 pub trait Prepared: Send + Sync {
-    /// What the core must be able to do.
+    /// What the core must be able to do; a core without it skips the trial.
     fn needs(&self) -> Capabilities;
 
     /// What of that it cannot do, if it has these capabilities; nothing where others do as well.
@@ -90,13 +88,13 @@ pub trait Prepared: Send + Sync {
 
 impl<C: Check> Prepared for C {
     fn needs(&self) -> Capabilities {
-        Check::needs(self)
+        C::NEEDS | self.needs_besides()
     }
 
     fn missing(&self, has: Capabilities) -> Capabilities {
         match Check::needs_instead(self) {
             Some(instead) if has.contains(instead) => Capabilities::empty(),
-            _ => Check::needs(self) - has,
+            _ => self.needs() - has,
         }
     }
 

@@ -1,40 +1,35 @@
 //! Adaptive pictures: sample counts in range, and means divided by the samples that were used.
 
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, Picture, PictureRole};
-use crate::contract::{Acceleration, AdaptiveSettings, Capabilities, Film};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Picture, PictureRole, check};
+use crate::contract::{Acceleration, AdaptiveSettings, Film};
 use crate::image::{CHANNELS, Image};
 use crate::stats::Verdict;
 use crate::text::{Bounces, Lit, Percent, Size};
-use serde::Deserialize;
 
 /// Relative error of a pixel whose samples are all alike: rounding of a sum of some thousand terms.
 const EXACT_PIXEL: f64 = 1e-5;
 
-/// Renders a scene adaptively and looks at the counts.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct SampleCounts {
-    size: Size,
-    bounces: Bounces,
-    /// The most samples a pixel may take.
-    cap: u32,
-    /// Samples between two looks.
-    batch: u32,
-    /// Half width of the interval that is good enough.
-    tolerance: Percent,
-    /// The scene has no noise: every pixel stops at the first look, and has this radiance.
-    radiance: Option<Lit>,
+check! {
+    /// Renders a scene adaptively and looks at the counts.
+    pub(crate) struct SampleCounts {
+        size: Size,
+        bounces: Bounces,
+        /// The most samples a pixel may take.
+        cap: u32,
+        /// Samples between two looks.
+        batch: u32,
+        /// Half width of the interval that is good enough.
+        tolerance: Percent,
+        /// The scene has no noise: every pixel stops at the first look, and has this radiance.
+        radiance: Option<Lit>,
+    }
+    name: "sample-counts",
+    summary: "adaptive pictures: counts in range, means over what was used",
+    needs: BUILD_SCENE | RENDER | ADAPTIVE_SAMPLING,
 }
 
 impl Check for SampleCounts {
-    const NAME: &'static str = "sample-counts";
-    const SUMMARY: &'static str = "adaptive pictures: counts in range, means over what was used";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER | Capabilities::ADAPTIVE_SAMPLING
-    }
-
     fn validate(&self) -> Result<(), String> {
         if self.batch < 2 || self.cap < self.batch {
             return Err("`batch` must be at least 2, and `cap` at least `batch`".to_owned());

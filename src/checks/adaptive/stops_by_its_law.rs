@@ -6,33 +6,27 @@
 use super::random_stream::{Judged, StreamEntry, Trial};
 use crate::cause::adaptive;
 use crate::checks::phrase::percent;
-use crate::checks::{Check, CheckError, Context, Finding};
-use crate::contract::Capabilities;
+use crate::checks::{Check, CheckError, Context, Finding, check};
 use crate::stats::Verdict;
 use crate::text::{Count, Percent, Several};
-use serde::Deserialize;
 
-/// Random streams of two values stop by the exact law of the rule.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct StopsByItsLaw {
-    /// The smallest error of the law of the counts that must be seen, root mean square.
-    detects: Percent,
-    /// The smallest error of the mean that must be seen.
-    mean_detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
-    stream: Several<StreamEntry>,
+check! {
+    /// Random streams of two values stop by the exact law of the rule.
+    pub(crate) struct StopsByItsLaw {
+        /// The smallest error of the law of the counts that must be seen, root mean square.
+        detects: Percent,
+        /// The smallest error of the mean that must be seen.
+        mean_detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+        stream: Several<StreamEntry>,
+    }
+    name: "stops-by-its-law",
+    summary: "the adaptive stopping rule on random streams: counts and means",
+    needs: ADAPTIVE_MEAN,
 }
 
 impl Check for StopsByItsLaw {
-    const NAME: &'static str = "stops-by-its-law";
-    const SUMMARY: &'static str = "the adaptive stopping rule on random streams: counts and means";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::ADAPTIVE_MEAN
-    }
-
     fn validate(&self) -> Result<(), String> {
         self.stream.iter().try_for_each(StreamEntry::validate)
     }

@@ -3,17 +3,20 @@
 use super::rule::{Rule, Sums, WRONG_RULES, stops};
 use crate::cause::{Cause, adaptive, image};
 use crate::checks::phrase::figure;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{AdaptiveMean, AdaptiveSettings, Capabilities};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{AdaptiveMean, AdaptiveSettings};
 use crate::stats::Tolerance;
 use crate::text::{Percent, Several};
 use serde::Deserialize;
 
-/// Each stream stops after a given number of samples, with the mean of just those.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct StopsWhereItShould {
-    stream: Several<StreamEntry>,
+check! {
+    /// Each stream stops after a given number of samples, with the mean of just those.
+    pub(crate) struct StopsWhereItShould {
+        stream: Several<StreamEntry>,
+    }
+    name: "stops-where-it-should",
+    summary: "the adaptive stopping rule on streams whose count is known",
+    needs: ADAPTIVE_MEAN,
 }
 
 /// A stream of luminances that repeats, and where it has to stop.
@@ -114,13 +117,6 @@ impl StreamEntry {
 }
 
 impl Check for StopsWhereItShould {
-    const NAME: &'static str = "stops-where-it-should";
-    const SUMMARY: &'static str = "the adaptive stopping rule on streams whose count is known";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::ADAPTIVE_MEAN
-    }
-
     fn validate(&self) -> Result<(), String> {
         for stream in self.stream.iter() {
             if stream.repeats.iter().any(|value| !value.is_finite())

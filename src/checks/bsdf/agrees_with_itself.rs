@@ -2,24 +2,23 @@
 
 use super::drawn::Drawn;
 use crate::checks::surface::SurfaceEntry;
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::{Check, CheckError, Context, Finding, check};
 use crate::contract::Capabilities;
 use crate::text::Several;
-use serde::Deserialize;
 
-/// Sampled directions are evaluated again.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct AgreesWithItself {
-    surface: Several<SurfaceEntry>,
+check! {
+    /// Sampled directions are evaluated again.
+    pub(crate) struct AgreesWithItself {
+        surface: Several<SurfaceEntry>,
+    }
+    name: "bsdf-agrees-with-itself",
+    summary: "sampled values and densities are those that are evaluated",
+    needs: EVAL_BSDF | SAMPLE_BSDF,
 }
 
 impl Check for AgreesWithItself {
-    const NAME: &'static str = "bsdf-agrees-with-itself";
-    const SUMMARY: &'static str = "sampled values and densities are those that are evaluated";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::EVAL_BSDF | Capabilities::SAMPLE_BSDF | SurfaceEntry::all_need(&self.surface)
+    fn needs_besides(&self) -> Capabilities {
+        SurfaceEntry::all_need(&self.surface)
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {

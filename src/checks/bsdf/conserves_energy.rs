@@ -5,31 +5,30 @@ use super::wrong_value::{DIRECTIONS, mistake_of};
 use crate::cause::Cause;
 use crate::checks::phrase::{degrees, figure};
 use crate::checks::surface::{SurfaceEntry, evaluated, kink, seen_from};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{BsdfQuery, Capabilities};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
 use crate::stats::{SphereCells, Tolerance, Verdict};
 use crate::text::{Polar, Several};
-use serde::Deserialize;
 
 /// Rings in each hemisphere and sectors of the quadrature.
 const CELLS: (usize, usize) = (4, 8);
 
-/// Integrates f · cos over the sphere, from several views.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct ConservesEnergy {
-    surface: Several<SurfaceEntry>,
-    seen_from: Several<Polar>,
+check! {
+    /// Integrates f · cos over the sphere, from several views.
+    pub(crate) struct ConservesEnergy {
+        surface: Several<SurfaceEntry>,
+        seen_from: Several<Polar>,
+    }
+    name: "bsdf-conserves-energy",
+    summary: "quadrature of f cos is the albedo, and never above one",
+    needs: EVAL_BSDF,
 }
 
 impl Check for ConservesEnergy {
-    const NAME: &'static str = "bsdf-conserves-energy";
-    const SUMMARY: &'static str = "quadrature of f cos is the albedo, and never above one";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::EVAL_BSDF | SurfaceEntry::all_need(&self.surface)
+    fn needs_besides(&self) -> Capabilities {
+        SurfaceEntry::all_need(&self.surface)
     }
 
     fn validate(&self) -> Result<(), String> {

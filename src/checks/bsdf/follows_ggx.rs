@@ -8,13 +8,12 @@ use super::ggx_pair::{MISTAKES, Mistake, Pair};
 use crate::cause::Cause;
 use crate::checks::phrase::{figure, percent, some_are};
 use crate::checks::surface::{SurfaceEntry, evaluated};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{BsdfQuery, BsdfValue, Capabilities, SmithTerm};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{BsdfQuery, BsdfValue, SmithTerm};
 use crate::math::sphere::on_hemisphere;
 use crate::scene::Surface;
 use crate::stats::{Compared, ExactReport, Tolerance, judge_exact};
 use crate::text::Several;
-use serde::Deserialize;
 
 /// Pairs of directions for each surface.
 const PAIRS: usize = 10_000;
@@ -23,21 +22,17 @@ const GRAZING: f64 = 1e-3;
 /// A mistake may magnify rounding, but not a hundredfold.
 const LIKENESS: f64 = 100.0;
 
-/// Rough conductors, at random pairs of directions.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct FollowsGgx {
-    surface: Several<SurfaceEntry>,
+check! {
+    /// Rough conductors, at random pairs of directions.
+    pub(crate) struct FollowsGgx {
+        surface: Several<SurfaceEntry>,
+    }
+    name: "bsdf-follows-ggx",
+    summary: "f of rough metal against the microfacet formula, pair by pair",
+    needs: EVAL_BSDF,
 }
 
 impl Check for FollowsGgx {
-    const NAME: &'static str = "bsdf-follows-ggx";
-    const SUMMARY: &'static str = "f of rough metal against the microfacet formula, pair by pair";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::EVAL_BSDF
-    }
-
     fn validate(&self) -> Result<(), String> {
         let other = self.surface.iter().find(|s| !matches!(s, SurfaceEntry::Conductor(_)));
         match other {

@@ -2,31 +2,30 @@
 
 use crate::checks::phrase::some_are;
 use crate::checks::surface::{SurfaceEntry, evaluated};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{BsdfQuery, BsdfValue, Capabilities, GlassRadiance};
 use crate::scene::Rgb;
 use crate::stats::{Compared, Tolerance, judge_exact};
 use crate::text::Several;
-use serde::Deserialize;
 
 /// Pairs of directions for each surface.
 const PAIRS: usize = 10_000;
 /// Nearer to a facet that refracts, cosines of single precision have lost their digits.
 const GRAZING: f64 = 1e-3;
 
-/// Light and eye are exchanged.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct Reciprocal {
-    surface: Several<SurfaceEntry>,
+check! {
+    /// Light and eye are exchanged.
+    pub(crate) struct Reciprocal {
+        surface: Several<SurfaceEntry>,
+    }
+    name: "bsdf-reciprocal",
+    summary: "f(a, b) = f(b, a), over the index squared",
+    needs: EVAL_BSDF,
 }
 
 impl Check for Reciprocal {
-    const NAME: &'static str = "bsdf-reciprocal";
-    const SUMMARY: &'static str = "f(a, b) = f(b, a), over the index squared";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::EVAL_BSDF | SurfaceEntry::all_need(&self.surface)
+    fn needs_besides(&self) -> Capabilities {
+        SurfaceEntry::all_need(&self.surface)
     }
 
     fn validate(&self) -> Result<(), String> {

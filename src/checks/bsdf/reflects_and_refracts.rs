@@ -9,41 +9,35 @@ use crate::cause::{Cause, bsdf as cause};
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::{degrees, percent};
 use crate::checks::surface::{SurfaceEntry, seen_from};
-use crate::checks::{Check, CheckError, Context, Finding};
-use crate::contract::{BsdfSample, Capabilities, Core};
+use crate::checks::{Check, CheckError, Context, Finding, check};
+use crate::contract::{BsdfSample, Core};
 use crate::math::rng::Seed;
 use crate::scene::Material;
 use crate::stats::{Band, Effort, ShareReport, Tolerance, judge_share};
 use crate::text::{Count, Percent, Polar, Several};
 use glam::DVec3;
-use serde::Deserialize;
 
 /// Samples of each view that are looked at one by one: a lobe of 4 % is missed with probability 1e-72.
 const EXAMINED: usize = 4096;
 /// Samples drawn in one batch.
 const BATCH: u64 = 1 << 16;
 
-/// Samples a mirror or glass from some angles; beyond 90° the viewer is inside.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct ReflectsAndRefracts {
-    surface: SurfaceEntry,
-    seen_from: Several<Polar>,
-    /// The smallest error of the share of samples reflected.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Samples a mirror or glass from some angles; beyond 90° the viewer is inside.
+    pub(crate) struct ReflectsAndRefracts {
+        surface: SurfaceEntry,
+        seen_from: Several<Polar>,
+        /// The smallest error of the share of samples reflected.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "reflects-and-refracts",
+    summary: "mirror and glass: directions, Fresnel's shares, weights, chances",
+    needs: SAMPLE_BSDF,
 }
 
 impl Check for ReflectsAndRefracts {
-    const NAME: &'static str = "reflects-and-refracts";
-    const SUMMARY: &'static str =
-        "mirror and glass: directions, Fresnel's shares, weights, chances";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::SAMPLE_BSDF
-    }
-
     fn validate(&self) -> Result<(), String> {
         match self.surface.is_delta() {
             true => Ok(()),

@@ -4,31 +4,30 @@ use super::albedo::Albedo;
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::{degrees, figure};
 use crate::checks::surface::{SurfaceEntry, seen_from};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{BsdfSample, Capabilities, Core};
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, judge_means};
 use crate::text::{Count, Percent, Polar, Several};
-use serde::Deserialize;
 
-/// Means over the samples of each surface from each view.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct WeightsMakeTheAlbedo {
-    surface: Several<SurfaceEntry>,
-    seen_from: Several<Polar>,
-    /// The smallest error of a mean that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Means over the samples of each surface from each view.
+    pub(crate) struct WeightsMakeTheAlbedo {
+        surface: Several<SurfaceEntry>,
+        seen_from: Several<Polar>,
+        /// The smallest error of a mean that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "weights-make-the-albedo",
+    summary: "the mean of f cos / pdf over samples is the albedo",
+    needs: SAMPLE_BSDF,
 }
 
 impl Check for WeightsMakeTheAlbedo {
-    const NAME: &'static str = "weights-make-the-albedo";
-    const SUMMARY: &'static str = "the mean of f cos / pdf over samples is the albedo";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::SAMPLE_BSDF | SurfaceEntry::all_need(&self.surface)
+    fn needs_besides(&self) -> Capabilities {
+        SurfaceEntry::all_need(&self.surface)
     }
 
     fn validate(&self) -> Result<(), String> {

@@ -4,27 +4,28 @@
 //! build takes.
 
 use super::question::{Build, LeafSizes, scene_of};
-use super::trial::{NEEDS, Trial, Tried};
+use super::trial::{Trial, Tried};
 use crate::cause;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::Capabilities;
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::math::rng::Seed;
 use crate::scene::procedural::{Layout, pathological, soup};
 use crate::scene::{Mesh, SceneDescription};
 use crate::text::Count;
 use crate::text::number::figure;
-use serde::Deserialize;
 
-/// Every hierarchy over every arrangement is finite, shallow and right.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct BuildsComeToAnEnd {
-    /// Triangles of each arrangement.
-    triangles: Count,
-    /// Rays by which each hierarchy is compared with brute force.
-    rays: Count,
-    /// Each split rule is tried with each of these.
-    leaf_sizes: LeafSizes,
+check! {
+    /// Every hierarchy over every arrangement is finite, shallow and right.
+    pub(crate) struct BuildsComeToAnEnd {
+        /// Triangles of each arrangement.
+        triangles: Count,
+        /// Rays by which each hierarchy is compared with brute force.
+        rays: Count,
+        /// Each split rule is tried with each of these.
+        leaf_sizes: LeafSizes,
+    }
+    name: "builds-come-to-an-end",
+    summary: "equal centroids, coincident triangles, huge ratios, next to nothing",
+    needs: BUILD_SCENE | INTERSECT | OCCLUDED | BRUTE_FORCE,
 }
 
 const LAYOUTS: [(Layout, &str); 5] = [
@@ -40,14 +41,6 @@ const IN_ONE_PLACE: usize = 2;
 const FEW: [(u32, &str); 3] = [(0, "no triangle"), (1, "one triangle"), (2, "two triangles")];
 
 impl Check for BuildsComeToAnEnd {
-    const NAME: &'static str = "builds-come-to-an-end";
-    const SUMMARY: &'static str =
-        "equal centroids, coincident triangles, huge ratios, next to nothing";
-
-    fn needs(&self) -> Capabilities {
-        NEEDS
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let builds = Build::all(context.info.capabilities, &self.leaf_sizes);
         let mut results = Vec::new();

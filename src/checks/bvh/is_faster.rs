@@ -10,12 +10,11 @@
 
 use super::question::generic_rays;
 use crate::checks::phrase::{figure, percent};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, Capabilities, Core, Hit, Ray};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, Core, Hit, Ray};
 use crate::scene::SceneDescription;
 use crate::stats::timing::{Faster, judge_faster, median};
 use crate::text::{Count, Factor};
-use serde::Deserialize;
 use std::time::Instant;
 
 /// Pairs of times: if all of them say the same, chance does so once in 2¹⁵.
@@ -25,25 +24,20 @@ const PASSES: usize = 3;
 /// The length of a segment that meets nothing.
 const HARDLY: f64 = 1e-12;
 
-/// The same rays with the core's own hierarchy and with a loop over every primitive, in turn.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct IsFaster {
-    /// Rays of one pass.
-    rays: Count,
-    /// How many times as fast it should be.
-    at_least: Factor,
+check! {
+    /// The same rays with the core's own hierarchy and with a loop over every primitive, in turn.
+    pub(crate) struct IsFaster {
+        /// Rays of one pass.
+        rays: Count,
+        /// How many times as fast it should be.
+        at_least: Factor,
+    }
+    name: "is-faster",
+    summary: "the time with a hierarchy against that of the loop, for the same hits",
+    needs: BUILD_SCENE | INTERSECT | BRUTE_FORCE,
 }
 
 impl Check for IsFaster {
-    const NAME: &'static str = "is-faster";
-    const SUMMARY: &'static str =
-        "the time with a hierarchy against that of the loop, for the same hits";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::INTERSECT | Capabilities::BRUTE_FORCE
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let bounds = scene

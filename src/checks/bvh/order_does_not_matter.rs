@@ -7,32 +7,26 @@ use super::order::{Answers, Difference, Order};
 use super::question::{generic_rays, segments};
 use crate::cause::{Cause, bvh};
 use crate::checks::phrase::{figure, some_are};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::Capabilities;
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::scene::Aabb;
 use crate::text::Count;
 use glam::DVec3;
-use serde::Deserialize;
 
 /// Orders beside the one of the scene.
 const ORDERS: usize = 3;
 
-/// Hits do not depend on the order of triangles.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct OrderDoesNotMatter {
-    /// Rays, and as many segments.
-    rays: Count,
+check! {
+    /// Hits do not depend on the order of triangles.
+    pub(crate) struct OrderDoesNotMatter {
+        /// Rays, and as many segments.
+        rays: Count,
+    }
+    name: "order-does-not-matter",
+    summary: "shuffled triangles are hit at the same t",
+    needs: BUILD_SCENE | INTERSECT | OCCLUDED,
 }
 
 impl Check for OrderDoesNotMatter {
-    const NAME: &'static str = "order-does-not-matter";
-    const SUMMARY: &'static str = "shuffled triangles are hit at the same t";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::INTERSECT | Capabilities::OCCLUDED
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let bounds = scene.bounds().unwrap_or(Aabb { min: DVec3::ZERO, max: DVec3::ONE });

@@ -7,8 +7,8 @@
 
 use super::slabs::{Wrong, because, wrong_as};
 use crate::checks::phrase::{figure, some_are};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{BoxHit, Capabilities, Ray};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{BoxHit, Ray};
 use crate::scene::Aabb;
 use crate::stats::Tolerance;
 use crate::text::{Arrow, Several, Vector};
@@ -16,13 +16,16 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 use serde::Deserialize;
 
-/// Rays meet boxes where their rows say.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct OverlapsBox {
-    /// For the rows that have no box of their own.
-    r#box: BoxEntry,
-    ray: Several<RayRow>,
+check! {
+    /// Rays meet boxes where their rows say.
+    pub(crate) struct OverlapsBox {
+        /// For the rows that have no box of their own.
+        r#box: BoxEntry,
+        ray: Several<RayRow>,
+    }
+    name: "overlaps-box",
+    summary: "rows of rays against boxes, with exact arithmetic as the judge",
+    needs: INTERSECT_BOX,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -77,13 +80,6 @@ impl OverlapsBox {
 }
 
 impl Check for OverlapsBox {
-    const NAME: &'static str = "overlaps-box";
-    const SUMMARY: &'static str = "rows of rays against boxes, with exact arithmetic as the judge";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::INTERSECT_BOX
-    }
-
     fn validate(&self) -> Result<(), String> {
         for (number, row) in self.ray.iter().enumerate() {
             let truth = Overlap::exact(&self.bounds(row), &row.ray());

@@ -8,29 +8,24 @@
 use super::random_segments::{RAYS_EACH, Trial, Truth};
 use super::slabs::{because, wrong_as};
 use crate::checks::phrase::{figure, percent, some_are};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{BoxHit, Capabilities, Ray};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{BoxHit, Ray};
 use crate::scene::Aabb;
 use crate::stats::Tolerance;
 use crate::text::Count;
-use serde::Deserialize;
 
-/// No box is missed that a segment meets.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct BoxesAreNeverMissed {
-    /// Random segments at the default budget, a thousand at each random box.
-    rays: Count,
+check! {
+    /// No box is missed that a segment meets.
+    pub(crate) struct BoxesAreNeverMissed {
+        /// Random segments at the default budget, a thousand at each random box.
+        rays: Count,
+    }
+    name: "boxes-are-never-missed",
+    summary: "random segments against random boxes: no false miss",
+    needs: INTERSECT_BOX,
 }
 
 impl Check for BoxesAreNeverMissed {
-    const NAME: &'static str = "boxes-are-never-missed";
-    const SUMMARY: &'static str = "random segments against random boxes: no false miss";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::INTERSECT_BOX
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let margin = Tolerance::SLAB.of(context.info.precision);
         let boxes = context.budget.samples(self.rays.0).div_ceil(RAYS_EACH as u64);

@@ -2,31 +2,25 @@
 
 use super::explanation::shared;
 use super::question::{Build, LeafSizes};
-use super::trial::{NEEDS, Trial, Tried};
+use super::trial::{Trial, Tried};
 use crate::checks::phrase::figure;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::Capabilities;
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::text::Count;
-use serde::Deserialize;
 
-/// Closest and any hits of the case's scene agree with brute force for every split rule.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct SameHitsAsBruteForce {
-    /// Rays, and as many segments.
-    rays: Count,
-    /// Each split rule is tried with each of these.
-    leaf_sizes: LeafSizes,
+check! {
+    /// Closest and any hits of the case's scene agree with brute force for every split rule.
+    pub(crate) struct SameHitsAsBruteForce {
+        /// Rays, and as many segments.
+        rays: Count,
+        /// Each split rule is tried with each of these.
+        leaf_sizes: LeafSizes,
+    }
+    name: "same-hits-as-brute-force",
+    summary: "closest and any hits with a hierarchy against the loop",
+    needs: BUILD_SCENE | INTERSECT | OCCLUDED | BRUTE_FORCE,
 }
 
 impl Check for SameHitsAsBruteForce {
-    const NAME: &'static str = "same-hits-as-brute-force";
-    const SUMMARY: &'static str = "closest and any hits with a hierarchy against the loop";
-
-    fn needs(&self) -> Capabilities {
-        NEEDS
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         if scene.primitive_count() == 0 {

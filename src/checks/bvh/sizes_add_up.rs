@@ -3,29 +3,24 @@
 
 use super::question::{Build, LeafSizes};
 use crate::checks::phrase::figure;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{BuildStats, Capabilities, CoreError};
-use serde::Deserialize;
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{BuildStats, CoreError};
 
 /// The widest node there is.
 const WIDEST: f64 = 16.0;
 
-/// Nodes, leaves and depth fit each other and the scene.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct SizesAddUp {
-    /// Each split rule is tried with each of these.
-    leaf_sizes: LeafSizes,
+check! {
+    /// Nodes, leaves and depth fit each other and the scene.
+    pub(crate) struct SizesAddUp {
+        /// Each split rule is tried with each of these.
+        leaf_sizes: LeafSizes,
+    }
+    name: "sizes-add-up",
+    summary: "nodes, leaves and depth of hierarchies fit each other",
+    needs: BUILD_SCENE,
 }
 
 impl Check for SizesAddUp {
-    const NAME: &'static str = "sizes-add-up";
-    const SUMMARY: &'static str = "nodes, leaves and depth of hierarchies fit each other";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let mut built = Vec::new();

@@ -6,31 +6,26 @@ use super::question::scene_of;
 use super::reference::{ReferenceBvh, SLACK, Walk};
 use crate::cause::{Cause, bvh};
 use crate::checks::phrase::figure;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, Capabilities, Hit};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, Hit};
 use crate::text::Count;
-use serde::Deserialize;
 
 /// Even a hierarchy that never divides along the length passes by more than half of the triangles.
 const UNUSED: f64 = 0.5;
 
-/// The number of tests is that of a plain hierarchy, or not much larger.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct TestsPerRay {
-    arrangement: Arrangement,
-    /// From each side.
-    rays: Count,
+check! {
+    /// The number of tests is that of a plain hierarchy, or not much larger.
+    pub(crate) struct TestsPerRay {
+        arrangement: Arrangement,
+        /// From each side.
+        rays: Count,
+    }
+    name: "tests-per-ray",
+    summary: "tests per ray where layers hide each other, or boxes are long",
+    needs: BUILD_SCENE | INTERSECT | TRAVERSAL_STATS,
 }
 
 impl Check for TestsPerRay {
-    const NAME: &'static str = "tests-per-ray";
-    const SUMMARY: &'static str = "tests per ray where layers hide each other, or boxes are long";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::INTERSECT | Capabilities::TRAVERSAL_STATS
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let count = usize::try_from(self.rays.0).unwrap_or(usize::MAX);
         let views = match self.arrangement {

@@ -5,7 +5,7 @@ use super::explanation::explain;
 use super::question::{Build, generic_rays, rays_at_vertices, segments};
 use crate::cause::Cause;
 use crate::checks::{CheckError, Context};
-use crate::contract::{Acceleration, BuildStats, BuiltScene, Capabilities, Hit, Ray};
+use crate::contract::{Acceleration, BuildStats, BuiltScene, Hit, Ray};
 use crate::math::rng::Seed;
 use crate::scene::{Aabb, SceneDescription, Shape};
 use glam::DVec3;
@@ -15,12 +15,6 @@ const ON_PRIMITIVE: f64 = 1e-5;
 
 /// Rays by which brute force itself is tried: a mistake there shows in many of them.
 const OVERWRITTEN_RAYS: usize = 500;
-
-/// What a comparison with brute force asks of a core.
-pub(crate) const NEEDS: Capabilities = Capabilities::BUILD_SCENE
-    .union(Capabilities::INTERSECT)
-    .union(Capabilities::OCCLUDED)
-    .union(Capabilities::BRUTE_FORCE);
 
 /// A scene, what is asked of it, and what brute force says.
 pub struct Trial<'a> {

@@ -4,8 +4,7 @@ use super::reference::SLACK;
 use super::tests_by_size::{ALL_TESTED, ANY_HIT_SLACK, Size, cause, growth, measure_size, rays_at};
 use crate::cause::{Cause, bvh};
 use crate::checks::phrase::figure;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::Capabilities;
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::math::rng::Seed;
 use crate::scene::Mesh;
 use crate::scene::procedural::{bumpy_sphere, soup};
@@ -14,12 +13,15 @@ use serde::Deserialize;
 
 /// Tests a ray may not grow faster than this power of the number of triangles: the loop has 1, hierarchies about 0.2.
 const STEEPEST: f64 = 0.5;
-/// The number of tests grows slowly with the mesh.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct VisitsFewNodes {
-    mesh: Meshes,
-    rays: Count,
+check! {
+    /// The number of tests grows slowly with the mesh.
+    pub(crate) struct VisitsFewNodes {
+        mesh: Meshes,
+        rays: Count,
+    }
+    name: "visits-few-nodes",
+    summary: "tests per ray against the size of the mesh",
+    needs: BUILD_SCENE | INTERSECT | OCCLUDED | TRAVERSAL_STATS,
 }
 
 /// A mesh of any size.
@@ -42,16 +44,6 @@ impl Meshes {
 }
 
 impl Check for VisitsFewNodes {
-    const NAME: &'static str = "visits-few-nodes";
-    const SUMMARY: &'static str = "tests per ray against the size of the mesh";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE
-            | Capabilities::INTERSECT
-            | Capabilities::OCCLUDED
-            | Capabilities::TRAVERSAL_STATS
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let count = usize::try_from(self.rays.0).unwrap_or(usize::MAX);
         let mut sizes = Vec::new();

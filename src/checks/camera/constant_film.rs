@@ -5,35 +5,30 @@ use super::film_mistakes::{MISTAKES, Place, TILES, whole_tiles_only};
 use crate::cause::{Cause, adaptive, image};
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, Capabilities, Film};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, Film};
 use crate::stats::{Compared, Tolerance, judge_exact};
 use crate::text::{Between, Lit, Several, Size};
-use serde::Deserialize;
 
 /// How far a pixel may be from what a mistake writes, relative: different mistakes are several
 /// times as far apart.
 const EXPLAINED: f64 = 1e-3;
 
-/// A scene that sends the same radiance into every pixel, in films of several sizes.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct ConstantFilm {
-    /// What every ray brings home: different in every channel, none of them 0.
-    radiance: Lit,
-    /// Columns and rows.
-    sizes: Several<Size>,
-    samples_per_pixel: Several<Between<1, 65536>>,
+check! {
+    /// A scene that sends the same radiance into every pixel, in films of several sizes.
+    pub(crate) struct ConstantFilm {
+        /// What every ray brings home: different in every channel, none of them 0.
+        radiance: Lit,
+        /// Columns and rows.
+        sizes: Several<Size>,
+        samples_per_pixel: Several<Between<1, 65536>>,
+    }
+    name: "constant-film",
+    summary: "equal samples make equal pixels, in films of all sizes",
+    needs: BUILD_SCENE | RENDER,
 }
 
 impl Check for ConstantFilm {
-    const NAME: &'static str = "constant-film";
-    const SUMMARY: &'static str = "equal samples make equal pixels, in films of all sizes";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let seed = context.seed;

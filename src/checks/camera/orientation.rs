@@ -4,32 +4,27 @@
 use crate::cause::{Cause, image};
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, Capabilities, Film};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, Film};
 use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
 use crate::text::{Lit, Size};
-use serde::Deserialize;
 
-/// Four colours stand in their quarters of the picture.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct PictureOrientation {
-    /// Columns and rows: different, so that they cannot be mistaken for each other.
-    size: Size,
-    top_left: Lit,
-    top_right: Lit,
-    bottom_left: Lit,
-    bottom_right: Lit,
+check! {
+    /// Four colours stand in their quarters of the picture.
+    pub(crate) struct PictureOrientation {
+        /// Columns and rows: different, so that they cannot be mistaken for each other.
+        size: Size,
+        top_left: Lit,
+        top_right: Lit,
+        bottom_left: Lit,
+        bottom_right: Lit,
+    }
+    name: "picture-orientation",
+    summary: "four colours come out in their quarters of the picture",
+    needs: BUILD_SCENE | RENDER,
 }
 
 impl Check for PictureOrientation {
-    const NAME: &'static str = "picture-orientation";
-    const SUMMARY: &'static str = "four colours come out in their quarters of the picture";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER
-    }
-
     fn validate(&self) -> Result<(), String> {
         let Size([width, height]) = self.size;
         if width == height || width.min(height) < 4 {
@@ -179,7 +174,8 @@ mod tests {
 
     fn found(core: FakeFilm) -> Finding {
         let check = check();
-        let colour = move |at: DVec2, _: DVec2| check.colour_at([at.x as u32, at.y as u32]);
+        let painted = check.clone();
+        let colour = move |at: DVec2, _: DVec2| painted.colour_at([at.x as u32, at.y as u32]);
         let core = FakeFilm { radiance: Box::new(colour), ..core };
         let scene = SceneDescription { camera: Some(FakeFilm::camera()), ..Default::default() };
         try_judge(&check, &mut core.core(), Some(scene)).unwrap()

@@ -8,35 +8,30 @@ use super::pattern::{CELLS, FILM, SAMPLES, lit_pixels, scene, share};
 use super::pixel_laws::{MISTAKES, Tally};
 use crate::checks::phrase::percent;
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, BuiltScene, Capabilities};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, BuiltScene};
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, MeanReport, judge_means};
 use crate::text::{Count, Percent};
-use serde::Deserialize;
 
 /// How far the shares of a mistake may be from those measured: those of two mistakes differ by
 /// twice that.
 const EXPLAINED: f64 = 0.02;
 
-/// Fifths of a pixel, in columns, rows and diagonals, get a fifth of the samples each.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct PixelSamples {
-    /// The smallest error of a fifth's share that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Fifths of a pixel, in columns, rows and diagonals, get a fifth of the samples each.
+    pub(crate) struct PixelSamples {
+        /// The smallest error of a fifth's share that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "pixel-samples",
+    summary: "where the samples of a pixel lie, read from a picture",
+    needs: BUILD_SCENE | RENDER,
 }
 
 impl Check for PixelSamples {
-    const NAME: &'static str = "pixel-samples";
-    const SUMMARY: &'static str = "where the samples of a pixel lie, read from a picture";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = scene();
         let rendering = Rendering::of(&scene, FILM, [0, 0], SAMPLES)?;

@@ -5,8 +5,8 @@
 use super::projection::{Formula, MISTAKES, Mistake, projection};
 use crate::cause::{self, Cause};
 use crate::checks::phrase::{degrees, some_are};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, Ray};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::Ray;
 use crate::math::rng::{Seed, uniform};
 use crate::math::sphere::angle_between;
 use crate::scene::Camera;
@@ -19,12 +19,15 @@ use std::f64::consts::PI;
 /// Film points in general position, beside the four corners and the centre.
 const GENERIC_POINTS: usize = 48;
 
-/// Rays leave the camera through the film points they are asked for.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct RaysThroughFilm {
-    /// Cameras in general position: no angle, axis or coordinate that hides a mistake.
-    camera: Several<CameraRow>,
+check! {
+    /// Rays leave the camera through the film points they are asked for.
+    pub(crate) struct RaysThroughFilm {
+        /// Cameras in general position: no angle, axis or coordinate that hides a mistake.
+        camera: Several<CameraRow>,
+    }
+    name: "rays-through-film",
+    summary: "camera rays against the projection formula",
+    needs: GENERATE_RAYS,
 }
 
 /// A camera as a case writes it.
@@ -59,13 +62,6 @@ impl CameraRow {
 }
 
 impl Check for RaysThroughFilm {
-    const NAME: &'static str = "rays-through-film";
-    const SUMMARY: &'static str = "camera rays against the projection formula";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::GENERATE_RAYS
-    }
-
     fn validate(&self) -> Result<(), String> {
         let is_camera = |row: &CameraRow| {
             let view = row.target.0 - row.position.0;

@@ -6,34 +6,29 @@ use super::strata_pattern::{Reading, SAMPLES, STRATA, law, places, read, scene};
 use crate::cause::{Cause, camera};
 use crate::checks::phrase::percent;
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, BuiltScene, Capabilities};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, BuiltScene};
 use crate::math::rng::Seed;
 use crate::stats::{CountReport, Counts, follows_law, judge_counts};
 use crate::text::{Count, Percent};
-use serde::Deserialize;
 
 /// Pictures that are looked at before any are counted: where cells are uneven, that is enough.
 const FIRST_LOOK: u64 = 8;
 
-/// Four samples lie in the four quarters of each pixel, evenly spread within them.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct StratifiedSamples {
-    /// The smallest error of the density within a cell that must be seen, root mean square.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Four samples lie in the four quarters of each pixel, evenly spread within them.
+    pub(crate) struct StratifiedSamples {
+        /// The smallest error of the density within a cell that must be seen, root mean square.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "stratified-samples",
+    summary: "one sample in each cell of a pixel, and anywhere in it",
+    needs: BUILD_SCENE | RENDER | STRATIFIED_PIXELS,
 }
 
 impl Check for StratifiedSamples {
-    const NAME: &'static str = "stratified-samples";
-    const SUMMARY: &'static str = "one sample in each cell of a pixel, and anywhere in it";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER | Capabilities::STRATIFIED_PIXELS
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = scene();
         let rendering = Rendering::of(&scene, FILM, [0, 0], SAMPLES)?.stratified();

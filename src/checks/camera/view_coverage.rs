@@ -4,41 +4,36 @@
 use crate::cause::image;
 use crate::checks::phrase::{figure, percent};
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, Capabilities, Film};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, Film};
 use crate::stats::{Band, Claim, MeanReport, Verdict, judge_means};
 use crate::text::{Count, Percent, Size};
-use serde::Deserialize;
 
 /// Samples of a pixel in each run; more than one, since some cores send a lone sample through the
 /// centre.
 const SAMPLES: u32 = 4;
 
-/// A lamp of radiance 1 before nothing covers a given share of the picture, around a given point of
-/// it.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct ViewCoverage {
-    /// Columns and rows. Pixels stand for their centres, so that they should be small.
-    size: Size,
-    /// Of the picture.
-    share: f64,
-    /// In film coordinates, (0, 0) bottom left.
-    centroid: [f64; 2],
-    /// The smallest error, of the share or of the whole film's width, that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// A lamp of radiance 1 before nothing covers a given share of the picture, around a given point of
+    /// it.
+    pub(crate) struct ViewCoverage {
+        /// Columns and rows. Pixels stand for their centres, so that they should be small.
+        size: Size,
+        /// Of the picture.
+        share: f64,
+        /// In film coordinates, (0, 0) bottom left.
+        centroid: [f64; 2],
+        /// The smallest error, of the share or of the whole film's width, that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "view-coverage",
+    summary: "how much of the picture a lamp covers, and where",
+    needs: BUILD_SCENE | RENDER,
 }
 
 impl Check for ViewCoverage {
-    const NAME: &'static str = "view-coverage";
-    const SUMMARY: &'static str = "how much of the picture a lamp covers, and where";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER
-    }
-
     fn validate(&self) -> Result<(), String> {
         let is_inside = |share: &f64| 0.0 < *share && *share < 1.0;
         let numbers = [self.share, self.centroid[0], self.centroid[1]];

@@ -2,29 +2,26 @@
 
 use super::by_codes;
 use super::matches_reference::MatchesReference;
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::{Check, CheckError, Context, Finding, check};
 use crate::contract::{Acceleration, Capabilities};
 use crate::image::encoding::Encoding;
-use serde::Deserialize;
 
-/// Renders agree with a reference after they have been made pictures of 8 bits, as they are shown
-/// and handed in.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct MatchesAsPng {
-    /// How light becomes codes.
-    encoding: Encoding,
-    /// What is rendered, and with what it has to agree.
-    picture: MatchesReference,
+check! {
+    /// Renders agree with a reference after they have been made pictures of 8 bits, as they are shown
+    /// and handed in.
+    pub(crate) struct MatchesAsPng {
+        /// How light becomes codes.
+        encoding: Encoding,
+        /// What is rendered, and with what it has to agree.
+        picture: MatchesReference,
+    }
+    name: "matches-as-png",
+    summary: "renders as 8-bit pictures against a Mitsuba reference, code by code",
 }
 
 impl Check for MatchesAsPng {
-    const NAME: &'static str = "matches-as-png";
-    const SUMMARY: &'static str =
-        "renders as 8-bit pictures against a Mitsuba reference, code by code";
-
-    fn needs(&self) -> Capabilities {
-        self.picture.needs()
+    fn needs_besides(&self) -> Capabilities {
+        self.picture.needs_besides()
     }
 
     fn validate(&self) -> Result<(), String> {

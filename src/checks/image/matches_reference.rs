@@ -1,7 +1,7 @@
 //! A render against a Mitsuba reference, with the noise of both in the account.
 
 use super::{by_codes, clues};
-use crate::checks::{Check, CheckError, Context, Finding, Measure, PictureRole, camera_of};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, PictureRole, camera_of, check};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, Film, IntegratorSettings,
     RenderSettings,
@@ -18,32 +18,30 @@ use crate::stats::{
 };
 use crate::text::number::{apart, percent, with_interval};
 use crate::text::{Between, Bounces, Percent};
-use serde::Deserialize;
 use std::sync::Arc;
 
 /// Standard errors at the ends of the scale of the error picture.
 const ERROR_SCALE: f32 = 6.0;
 
-/// Independent renders agree with a reference, at every scale from a pixel to the whole picture.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct MatchesReference {
-    /// The folder below `references/`.
-    reference: String,
-    bounces: Bounces,
-    #[serde(default)]
-    direct: DirectSampling,
-    /// Of each run, at the default budget.
-    samples_per_pixel: Between<1, 65536>,
-    /// The error of the whole picture that must be seen.
-    detects: Percent,
+check! {
+    /// Independent renders agree with a reference, at every scale from a pixel to the whole picture.
+    pub(crate) struct MatchesReference {
+        /// The folder below `references/`.
+        reference: String,
+        bounces: Bounces,
+        #[serde(default)]
+        direct: DirectSampling,
+        /// Of each run, at the default budget.
+        samples_per_pixel: Between<1, 65536>,
+        /// The error of the whole picture that must be seen.
+        detects: Percent,
+    }
+    name: "matches-reference",
+    summary: "independent renders against a Mitsuba reference, at every scale",
 }
 
 impl Check for MatchesReference {
-    const NAME: &'static str = "matches-reference";
-    const SUMMARY: &'static str = "independent renders against a Mitsuba reference, at every scale";
-
-    fn needs(&self) -> Capabilities {
+    fn needs_besides(&self) -> Capabilities {
         self.needs_beside(Capabilities::RENDER)
     }
 

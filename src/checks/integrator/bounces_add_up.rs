@@ -2,35 +2,33 @@
 
 use super::estimate::{RayEntry, estimate, needs, settings};
 use crate::checks::phrase::percent;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
 use crate::stats::{Band, Claim, Verdict, judge_means};
 use crate::text::{Between, Count, Percent};
-use serde::Deserialize;
 
 /// Samples of the estimate that relative errors are relative to.
 const SCALE_SAMPLES: u64 = 65_536;
 
-/// Radiance over bounces `0..=last` is the sum of the bounces `0`, `1`, … `last` alone.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct BouncesAddUp {
-    ray: RayEntry,
-    /// The last bounce.
-    last: Between<1, 1000>,
-    #[serde(default)]
-    direct: DirectSampling,
-    /// The smallest difference that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Radiance over bounces `0..=last` is the sum of the bounces `0`, `1`, … `last` alone.
+    pub(crate) struct BouncesAddUp {
+        ray: RayEntry,
+        /// The last bounce.
+        last: Between<1, 1000>,
+        #[serde(default)]
+        direct: DirectSampling,
+        /// The smallest difference that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "bounces-add-up",
+    summary: "isolated bounces sum to the accumulated radiance",
 }
 
 impl Check for BouncesAddUp {
-    const NAME: &'static str = "bounces-add-up";
-    const SUMMARY: &'static str = "isolated bounces sum to the accumulated radiance";
-
-    fn needs(&self) -> Capabilities {
+    fn needs_besides(&self) -> Capabilities {
         needs(&settings([self.last.0; 2], self.direct))
     }
 

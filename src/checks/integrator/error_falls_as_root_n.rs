@@ -2,7 +2,7 @@
 
 use crate::cause;
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of, check};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling};
 use crate::image::luminance;
 use crate::math::rng::Seed;
@@ -10,37 +10,35 @@ use crate::scene::Camera;
 use crate::stats::{Allowance, ErrorLevel, Sampling, SlopeReport, Verdict, judge_slope};
 use crate::text::number::figure;
 use crate::text::{Between, Bounces, Count, Lit, Percent, Size};
-use serde::Deserialize;
 
-/// Renders small pictures of which every pixel has the same known radiance, at growing sample counts.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct ErrorFallsAsRootN {
-    size: Size,
-    bounces: Bounces,
-    #[serde(default)]
-    direct: DirectSampling,
-    /// Samples per pixel, growing; each at least twice the one before.
-    samples: Vec<Between<1, 65536>>,
-    /// Pictures at each count; of fewer the noise of the error is unknown.
-    runs: Between<8, 4096>,
-    /// Samples of all pictures at one count: pictures of more samples have fewer rows, down to one.
-    at_most: Count,
-    /// What every pixel is.
-    radiance: Lit,
-    /// The deviation of the slope from −1/2 that must be seen, as a share of 1.
-    detects: Percent,
+check! {
+    /// Renders small pictures of which every pixel has the same known radiance, at growing sample counts.
+    pub(crate) struct ErrorFallsAsRootN {
+        size: Size,
+        bounces: Bounces,
+        #[serde(default)]
+        direct: DirectSampling,
+        /// Samples per pixel, growing; each at least twice the one before.
+        samples: Vec<Between<1, 65536>>,
+        /// Pictures at each count; of fewer the noise of the error is unknown.
+        runs: Between<8, 4096>,
+        /// Samples of all pictures at one count: pictures of more samples have fewer rows, down to one.
+        at_most: Count,
+        /// What every pixel is.
+        radiance: Lit,
+        /// The deviation of the slope from −1/2 that must be seen, as a share of 1.
+        detects: Percent,
+    }
+    name: "error-falls-as-root-n",
+    summary: "error against sample count has slope -1/2 and no plateau",
+    needs: BUILD_SCENE | RENDER,
 }
 
 impl Check for ErrorFallsAsRootN {
-    const NAME: &'static str = "error-falls-as-root-n";
-    const SUMMARY: &'static str = "error against sample count has slope -1/2 and no plateau";
-
-    fn needs(&self) -> Capabilities {
-        let needs = Capabilities::BUILD_SCENE | Capabilities::RENDER;
+    fn needs_besides(&self) -> Capabilities {
         match self.direct {
-            DirectSampling::Lights => needs,
-            DirectSampling::Hemisphere => needs | Capabilities::HEMISPHERE_SAMPLING,
+            DirectSampling::Lights => Capabilities::empty(),
+            DirectSampling::Hemisphere => Capabilities::HEMISPHERE_SAMPLING,
         }
     }
 

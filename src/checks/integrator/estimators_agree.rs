@@ -2,7 +2,7 @@
 
 use super::estimate::{RayEntry, estimate, needs, settings};
 use crate::checks::phrase::percent;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray,
 };
@@ -14,19 +14,21 @@ use serde::Deserialize;
 /// Samples of the estimate that relative errors are relative to.
 const SCALE_SAMPLES: u64 = 65_536;
 
-/// Along each ray, every estimator has the mean of the first.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct EstimatorsAgree {
-    /// The rays to compare along.
-    ray: Several<RayEntry>,
-    bounces: Bounces,
-    /// At least two; the first is what the others are compared with.
-    estimator: Vec<Estimator>,
-    /// The smallest difference that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Along each ray, every estimator has the mean of the first.
+    pub(crate) struct EstimatorsAgree {
+        /// The rays to compare along.
+        ray: Several<RayEntry>,
+        bounces: Bounces,
+        /// At least two; the first is what the others are compared with.
+        estimator: Vec<Estimator>,
+        /// The smallest difference that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "estimators-agree",
+    summary: "hemisphere and light sampling, few and many samples: one mean",
 }
 
 /// A way to gather light.
@@ -55,10 +57,7 @@ impl Estimator {
 }
 
 impl Check for EstimatorsAgree {
-    const NAME: &'static str = "estimators-agree";
-    const SUMMARY: &'static str = "hemisphere and light sampling, few and many samples: one mean";
-
-    fn needs(&self) -> Capabilities {
+    fn needs_besides(&self) -> Capabilities {
         self.estimator
             .iter()
             .fold(Capabilities::empty(), |all, e| all | needs(&e.settings(self.bounces.0)))

@@ -6,7 +6,7 @@ use super::foretold::MistakeEntry;
 use super::question::{DARK_SAMPLES, Question};
 use crate::cause::{contract, light};
 use crate::checks::phrase::{figure, percent, ratio_of};
-use crate::checks::{Check, CheckError, Context, Finding, Measure, breach};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, breach, check};
 use crate::contract::{
     Acceleration, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
     IntegratorSettings, Ray,
@@ -18,24 +18,26 @@ use crate::text::number::apart;
 use crate::text::{Between, Bounces, Colour, Count, Percent, Several};
 use serde::Deserialize;
 
-/// Each row: the mean radiance along a ray is a given number.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct MeanRadiance {
-    /// For every row that has none of its own.
-    ray: Option<RayEntry>,
-    #[serde(default)]
-    direct: DirectSampling,
-    #[serde(default = "one")]
-    samples_per_light: Between<1, 4096>,
-    /// The smallest error that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
-    row: Several<Row>,
-    /// What known mistakes would give.
-    #[serde(default)]
-    mistake: Vec<MistakeEntry>,
+check! {
+    /// Each row: the mean radiance along a ray is a given number.
+    pub(crate) struct MeanRadiance {
+        /// For every row that has none of its own.
+        ray: Option<RayEntry>,
+        #[serde(default)]
+        direct: DirectSampling,
+        #[serde(default = "one")]
+        samples_per_light: Between<1, 4096>,
+        /// The smallest error that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+        row: Several<Row>,
+        /// What known mistakes would give.
+        #[serde(default)]
+        mistake: Vec<MistakeEntry>,
+    }
+    name: "mean-radiance",
+    summary: "mean radiance along a ray against a closed form",
 }
 
 /// One number.
@@ -64,10 +66,7 @@ const fn one() -> Between<1, 4096> {
 }
 
 impl Check for MeanRadiance {
-    const NAME: &'static str = "mean-radiance";
-    const SUMMARY: &'static str = "mean radiance along a ray against a closed form";
-
-    fn needs(&self) -> Capabilities {
+    fn needs_besides(&self) -> Capabilities {
         self.row.iter().fold(Capabilities::empty(), |all, row| all | needs(&self.settings(row)))
     }
 

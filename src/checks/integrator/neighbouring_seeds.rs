@@ -4,35 +4,30 @@
 use crate::cause::{Cause, integrator};
 use crate::checks::phrase::figure;
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, Capabilities, Film};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, Film};
 use crate::image::luminance;
 use crate::stats::{CorrelationReport, Verdict, judge_uncorrelated};
 use crate::text::{Between, Bounces, Size};
-use serde::Deserialize;
 
 /// Seeds that follow each other.
 const SEEDS: u64 = 16;
 /// Noise that is this much alike is the same noise, seen through another pixel.
 const REPEATED: f64 = 0.3;
 
-/// Renders a noisy picture with consecutive seeds.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct NeighbouringSeeds {
-    size: Size,
-    bounces: Bounces,
-    samples_per_pixel: Between<1, 65536>,
+check! {
+    /// Renders a noisy picture with consecutive seeds.
+    pub(crate) struct NeighbouringSeeds {
+        size: Size,
+        bounces: Bounces,
+        samples_per_pixel: Between<1, 65536>,
+    }
+    name: "neighbouring-seeds",
+    summary: "the noise of consecutive seeds is not one picture, shifted",
+    needs: BUILD_SCENE | RENDER,
 }
 
 impl Check for NeighbouringSeeds {
-    const NAME: &'static str = "neighbouring-seeds";
-    const SUMMARY: &'static str = "the noise of consecutive seeds is not one picture, shifted";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let rendering =

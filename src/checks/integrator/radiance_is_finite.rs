@@ -4,30 +4,25 @@
 //! grazing light, roughness near zero, rays along planes, a camera inside glass.
 
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, breach};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, breach, check};
 use crate::contract::{Acceleration, Breach, Capabilities, CoreError, DirectSampling};
 use crate::scene::SceneDescription;
 use crate::text::{Between, Bounces, Several, Size};
-use serde::Deserialize;
 
-/// Renders each scene with light sampling and, where the core has it, hemisphere sampling.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct RadianceIsFinite {
-    scenes: Several<String>,
-    size: Size,
-    samples_per_pixel: Between<1, 65536>,
-    bounces: Bounces,
+check! {
+    /// Renders each scene with light sampling and, where the core has it, hemisphere sampling.
+    pub(crate) struct RadianceIsFinite {
+        scenes: Several<String>,
+        size: Size,
+        samples_per_pixel: Between<1, 65536>,
+        bounces: Bounces,
+    }
+    name: "radiance-is-finite",
+    summary: "no NaN, infinite or negative pixel in scenes that invite them",
+    needs: BUILD_SCENE | RENDER,
 }
 
 impl Check for RadianceIsFinite {
-    const NAME: &'static str = "radiance-is-finite";
-    const SUMMARY: &'static str = "no NaN, infinite or negative pixel in scenes that invite them";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER
-    }
-
     fn scenes(&self) -> &[String] {
         &self.scenes
     }

@@ -3,31 +3,29 @@
 
 use super::estimate::{RayEntry, needs, settings};
 use super::linearity::Trial;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{Capabilities, DirectSampling};
 use crate::text::number::apart;
 use crate::text::{Bounces, Count, Percent};
-use serde::Deserialize;
 
-/// Superposition and scaling along a ray.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct RadianceIsLinear {
-    ray: RayEntry,
-    bounces: Bounces,
-    #[serde(default)]
-    direct: DirectSampling,
-    /// The smallest difference that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Superposition and scaling along a ray.
+    pub(crate) struct RadianceIsLinear {
+        ray: RayEntry,
+        bounces: Bounces,
+        #[serde(default)]
+        direct: DirectSampling,
+        /// The smallest difference that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "radiance-is-linear",
+    summary: "twice the light, the sum of two lights, a scene twice as large",
 }
 
 impl Check for RadianceIsLinear {
-    const NAME: &'static str = "radiance-is-linear";
-    const SUMMARY: &'static str = "twice the light, the sum of two lights, a scene twice as large";
-
-    fn needs(&self) -> Capabilities {
+    fn needs_besides(&self) -> Capabilities {
         needs(&settings(self.bounces.0, self.direct))
     }
 

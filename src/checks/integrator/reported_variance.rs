@@ -7,42 +7,36 @@
 use crate::cause::{Cause, adaptive};
 use crate::checks::phrase::figure;
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, BuiltScene, Capabilities};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, BuiltScene};
 use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::stats::{
     Band, Claim, Effort, MeanReport, ReportedVariance, TwoVariances, Verdict, judge_means,
 };
 use crate::text::{Between, Bounces, Count, Factor, Size};
-use serde::Deserialize;
 
 /// Pictures whose pixels are compared with each other.
 const PICTURES: u32 = 8;
 
-/// Every picture comes with the variance of its pixels, and it is right within a factor of two.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct ReportsItsVariance {
-    size: Size,
-    bounces: Bounces,
-    /// Fewer than 4 hardly know their variance.
-    samples_per_pixel: Between<4, 65536>,
-    /// The smallest factor, either way, that must be seen.
-    detects: Factor,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Every picture comes with the variance of its pixels, and it is right within a factor of two.
+    pub(crate) struct ReportsItsVariance {
+        size: Size,
+        bounces: Bounces,
+        /// Fewer than 4 hardly know their variance.
+        samples_per_pixel: Between<4, 65536>,
+        /// The smallest factor, either way, that must be seen.
+        detects: Factor,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "reported-variance",
+    summary: "the variance that comes with a picture against that between pictures",
+    needs: BUILD_SCENE | RENDER | REPORTED_VARIANCE,
 }
 
 impl Check for ReportsItsVariance {
-    const NAME: &'static str = "reported-variance";
-    const SUMMARY: &'static str =
-        "the variance that comes with a picture against that between pictures";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER | Capabilities::REPORTED_VARIANCE
-    }
-
     fn validate(&self) -> Result<(), String> {
         if self.detects.0.log2() > Band::FACTOR_OF_TWO.relative() {
             return Ok(());
@@ -199,7 +193,7 @@ mod tests {
     use crate::checks::camera::fake::FakeFilm;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
-    use crate::contract::{Film, RenderSettings};
+    use crate::contract::{Capabilities, Film, RenderSettings};
     use crate::math::rng::uniform;
     use crate::scene::SceneDescription;
 

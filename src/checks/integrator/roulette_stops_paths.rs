@@ -6,28 +6,29 @@
 use super::estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
 use crate::cause::{Cause, integrator as cause};
 use crate::checks::phrase::{figure, percent};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Roulette,
 };
 use crate::math::rng::Seed;
 use crate::stats::{Band, Effort, ShareReport, Verdict, judge_share};
 use crate::text::{Between, Count, Percent, Several};
-use serde::Deserialize;
 
-/// The share of paths that bring light at each isolated bounce, under each roulette.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct RouletteStopsPaths {
-    ray: RayEntry,
-    /// The last bounce that is looked at; the first is 1.
-    /// Below 3 no law can be told from another.
-    last: Between<3, 1000>,
-    roulette: Several<RouletteEntry>,
-    /// The smallest error of a share that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// The share of paths that bring light at each isolated bounce, under each roulette.
+    pub(crate) struct RouletteStopsPaths {
+        ray: RayEntry,
+        /// The last bounce that is looked at; the first is 1.
+        /// Below 3 no law can be told from another.
+        last: Between<3, 1000>,
+        roulette: Several<RouletteEntry>,
+        /// The smallest error of a share that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "roulette-stops-paths",
+    summary: "Russian roulette: the share of paths that reaches each bounce",
 }
 
 /// The probability that a path brings light at a bounce.
@@ -68,10 +69,7 @@ const MISTAKES: &[(&Cause, Law)] = &[
 ];
 
 impl Check for RouletteStopsPaths {
-    const NAME: &'static str = "roulette-stops-paths";
-    const SUMMARY: &'static str = "Russian roulette: the share of paths that reaches each bounce";
-
-    fn needs(&self) -> Capabilities {
+    fn needs_besides(&self) -> Capabilities {
         let one = self.roulette.first().copied();
         needs(&IntegratorSettings { roulette: one.map(Into::into), ..self.settings(1) })
     }

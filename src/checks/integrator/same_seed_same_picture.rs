@@ -2,28 +2,23 @@
 
 use crate::cause::{self, Cause};
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, Capabilities, Film};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, Film};
 use crate::text::{Between, Bounces, Size};
-use serde::Deserialize;
 
-/// Renders a picture again, and again on one thread.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct SameSeedSamePicture {
-    size: Size,
-    bounces: Bounces,
-    samples_per_pixel: Between<1, 65536>,
+check! {
+    /// Renders a picture again, and again on one thread.
+    pub(crate) struct SameSeedSamePicture {
+        size: Size,
+        bounces: Bounces,
+        samples_per_pixel: Between<1, 65536>,
+    }
+    name: "same-seed-same-picture",
+    summary: "the same seed gives the same bits, on one thread or many",
+    needs: BUILD_SCENE | RENDER | DETERMINISTIC,
 }
 
 impl Check for SameSeedSamePicture {
-    const NAME: &'static str = "same-seed-same-picture";
-    const SUMMARY: &'static str = "the same seed gives the same bits, on one thread or many";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER | Capabilities::DETERMINISTIC
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let seed = context.seed.0;

@@ -2,33 +2,28 @@
 
 use crate::cause::{self, Cause};
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, Capabilities, Film};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, Film};
 use crate::image::luminance;
 use crate::stats::{CorrelationReport, Verdict, judge_uncorrelated};
 use crate::text::number::figure;
 use crate::text::{Between, Bounces, Size};
-use serde::Deserialize;
 
-/// Renders a noisy picture with many seeds.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct SeedsMatter {
-    size: Size,
-    bounces: Bounces,
-    samples_per_pixel: Between<1, 65536>,
-    /// How many; differences are taken in pairs.
-    seeds: Between<4, 4096>,
+check! {
+    /// Renders a noisy picture with many seeds.
+    pub(crate) struct SeedsMatter {
+        size: Size,
+        bounces: Bounces,
+        samples_per_pixel: Between<1, 65536>,
+        /// How many; differences are taken in pairs.
+        seeds: Between<4, 4096>,
+    }
+    name: "seeds-matter",
+    summary: "different seeds give different noise; pixels are independent",
+    needs: BUILD_SCENE | RENDER,
 }
 
 impl Check for SeedsMatter {
-    const NAME: &'static str = "seeds-matter";
-    const SUMMARY: &'static str = "different seeds give different noise; pixels are independent";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::RENDER
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let rendering =

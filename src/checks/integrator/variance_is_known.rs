@@ -7,32 +7,34 @@ use crate::checks::integrator::{
     MistakeEntry, RayEntry, RouletteEntry, draw_estimates, needs, settings,
 };
 use crate::checks::phrase::{figure, ratio_of};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings};
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, Effort, Moments, Sides, judge_means};
 use crate::text::{Between, Bounces, Count, Lit, Percent, Several};
 use serde::Deserialize;
 
-/// Each row: the variance of one estimate along a ray is a given number.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct VarianceIsKnown {
-    ray: RayEntry,
-    bounces: Bounces,
-    #[serde(default)]
-    direct: DirectSampling,
-    /// `at-most` where a core may know better ways.
-    #[serde(default)]
-    sides: Sides,
-    /// The smallest error of a variance that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
-    row: Several<Row>,
-    /// What known mistakes would give.
-    #[serde(default)]
-    mistake: Vec<MistakeEntry>,
+check! {
+    /// Each row: the variance of one estimate along a ray is a given number.
+    pub(crate) struct VarianceIsKnown {
+        ray: RayEntry,
+        bounces: Bounces,
+        #[serde(default)]
+        direct: DirectSampling,
+        /// `at-most` where a core may know better ways.
+        #[serde(default)]
+        sides: Sides,
+        /// The smallest error of a variance that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+        row: Several<Row>,
+        /// What known mistakes would give.
+        #[serde(default)]
+        mistake: Vec<MistakeEntry>,
+    }
+    name: "variance-is-known",
+    summary: "the variance of one estimate along a ray against theory",
 }
 
 /// One variance.
@@ -52,10 +54,7 @@ const fn one() -> Between<1, 4096> {
 }
 
 impl Check for VarianceIsKnown {
-    const NAME: &'static str = "variance-is-known";
-    const SUMMARY: &'static str = "the variance of one estimate along a ray against theory";
-
-    fn needs(&self) -> Capabilities {
+    fn needs_besides(&self) -> Capabilities {
         self.row.iter().fold(Capabilities::empty(), |all, row| all | needs(&self.settings(row)))
     }
 

@@ -7,38 +7,29 @@ use super::seen_points::{INTENSITY, MISTAKES, Point, Seen};
 use crate::cause::light as cause;
 use crate::checks::integrator::settings;
 use crate::checks::phrase::percent;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of};
-use crate::contract::{Acceleration, Capabilities, DirectSampling, Hit, Ray};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of, check};
+use crate::contract::{Acceleration, DirectSampling, Hit, Ray};
 use crate::math::rng::{Seed, uniform};
 use crate::scene::{Light, Rgb, SceneDescription, Surface};
 use crate::stats::{Rarity, Tolerance, Verdict, judge_rare};
 use crate::text::{Count, Several};
 use glam::DVec2;
-use serde::Deserialize;
 
 /// Seen under a flatter angle than this cosine, a surface may well hide behind its own rounding.
 const GRAZING: f64 = 0.01;
-/// Random rays of the cameras of some scenes.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct LampAtTheEye {
-    scenes: Several<String>,
-    /// Rays through the film of each scene.
-    rays: Count,
+check! {
+    /// Random rays of the cameras of some scenes.
+    pub(crate) struct LampAtTheEye {
+        scenes: Several<String>,
+        /// Rays through the film of each scene.
+        rays: Count,
+    }
+    name: "lamp-at-the-eye",
+    summary: "a lamp at the eye lights all that is seen: no surface shadows itself",
+    needs: BUILD_SCENE | GENERATE_RAYS | INTERSECT | RADIANCE,
 }
 
 impl Check for LampAtTheEye {
-    const NAME: &'static str = "lamp-at-the-eye";
-    const SUMMARY: &'static str =
-        "a lamp at the eye lights all that is seen: no surface shadows itself";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE
-            | Capabilities::GENERATE_RAYS
-            | Capabilities::INTERSECT
-            | Capabilities::RADIANCE
-    }
-
     fn scenes(&self) -> &[String] {
         &self.scenes
     }

@@ -5,35 +5,27 @@ use crate::checks::numbers::Numbers;
 use crate::checks::sampling::distribution::Drawn;
 use crate::checks::sampling::extremes::{self, Extremes, Range};
 use crate::checks::sampling::replay::{self, Replayed};
-use crate::checks::{Check, CheckError, Context, Finding};
-use crate::contract::{
-    Acceleration, Breach, BreachKind, BuiltScene, Capabilities, LightSample, Result,
-};
+use crate::checks::{Check, CheckError, Context, Finding, check};
+use crate::contract::{Acceleration, Breach, BreachKind, BuiltScene, LightSample, Result};
 use crate::math::rng::Seed;
 use crate::scene::Light;
 use crate::text::{Several, Vector};
 use glam::DVec3;
-use serde::Deserialize;
 
 /// A sample and its density come out of the same call: nothing else is evaluated.
 const SAME: f64 = 0.0;
 
-/// Samples of every area light from some points that see its front.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct LightNumbers {
-    from: Several<Vector>,
+check! {
+    /// Samples of every area light from some points that see its front.
+    pub(crate) struct LightNumbers {
+        from: Several<Vector>,
+    }
+    name: "light-numbers",
+    summary: "samples of area lights follow from their numbers, the extreme ones too",
+    needs: BUILD_SCENE | SAMPLE_LIGHT | CALLERS_RANDOMNESS,
 }
 
 impl Check for LightNumbers {
-    const NAME: &'static str = "light-numbers";
-    const SUMMARY: &'static str =
-        "samples of area lights follow from their numbers, the extreme ones too";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::SAMPLE_LIGHT | Capabilities::CALLERS_RANDOMNESS
-    }
-
     fn run(&self, context: &mut Context<'_>) -> std::result::Result<Finding, CheckError> {
         let scene = context.scene()?;
         let numbers = Numbers::new(context.seed, replay::COUNT);

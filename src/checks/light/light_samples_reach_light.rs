@@ -7,8 +7,8 @@ use super::density::{self, area_of};
 use super::traced::Traced;
 use crate::cause;
 use crate::checks::numbers::Numbers;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, BuiltScene, Capabilities, LightSample};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, BuiltScene, LightSample};
 use crate::math::ratios::names_of;
 use crate::math::rng::Seed;
 use crate::scene::{Light, SceneDescription};
@@ -20,15 +20,18 @@ use std::f64::consts::PI;
 
 /// Samples whose end is looked for.
 pub(super) const TRACED: usize = 4096;
-/// Samples an area light from some points.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct LightSamplesReachLight {
-    /// The smallest error of a mean that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
-    point: Several<Point>,
+check! {
+    /// Samples an area light from some points.
+    pub(crate) struct LightSamplesReachLight {
+        /// The smallest error of a mean that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+        point: Several<Point>,
+    }
+    name: "light-samples-reach-light",
+    summary: "sampled directions meet the light; 1/pdf is its solid angle",
+    needs: BUILD_SCENE | SAMPLE_LIGHT | INTERSECT,
 }
 
 /// Where the light is sampled from, and how large it looks there.
@@ -45,13 +48,6 @@ pub(super) struct Point {
 }
 
 impl Check for LightSamplesReachLight {
-    const NAME: &'static str = "light-samples-reach-light";
-    const SUMMARY: &'static str = "sampled directions meet the light; 1/pdf is its solid angle";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::SAMPLE_LIGHT | Capabilities::INTERSECT
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let light = the_area_light(&scene)?;

@@ -5,35 +5,30 @@ use super::delta_samples::Sampled;
 use crate::cause::{Cause, light as cause};
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::figure;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, BuiltScene, Capabilities, LightSample};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, BuiltScene, LightSample};
 use crate::math::ratios::names_of;
 use crate::math::rng::Seed;
 use crate::scene::Light;
 use crate::stats::{Band, Claim, Effort, Tolerance, judge_means};
 use crate::text::{Count, Percent};
 use glam::DVec3;
-use serde::Deserialize;
 use std::f64::consts::PI;
 
-/// Samples every light of the scene that is no shape.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct OpenLightSamples {
-    /// The smallest error of the mean of a sky that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Samples every light of the scene that is no shape.
+    pub(crate) struct OpenLightSamples {
+        /// The smallest error of the mean of a sky that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "open-light-samples",
+    summary: "samples of points, suns and even skies",
+    needs: BUILD_SCENE | SAMPLE_LIGHT,
 }
 
 impl Check for OpenLightSamples {
-    const NAME: &'static str = "open-light-samples";
-    const SUMMARY: &'static str = "samples of points, suns and even skies";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::SAMPLE_LIGHT
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let falloff = context.info.conventions.point_light_falloff;

@@ -8,29 +8,27 @@ use super::distribution::{Distribution, DistributionEntry};
 use super::pairs::{CELLS, correlation, count_pairs, sampler_of, strongest};
 use crate::cause::{Cause, sampling};
 use crate::checks::phrase::{figure, percent};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::Capabilities;
 use crate::stats::{CellProbabilities, CountReport, Stage, Verdict, judge_counts};
 use crate::text::{Count, Percent};
-use serde::Deserialize;
 
-/// Height and azimuth of a sample and the height of the next, in 8 × 8 × 8 cells.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct ConsecutiveSamples {
-    /// A sampler of the hemisphere: what is even in it is known.
-    distribution: DistributionEntry,
-    /// The smallest dependence that must be seen, as a root mean square error of the cells.
-    detects: Percent,
-    /// Pairs; past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Height and azimuth of a sample and the height of the next, in 8 × 8 × 8 cells.
+    pub(crate) struct ConsecutiveSamples {
+        /// A sampler of the hemisphere: what is even in it is known.
+        distribution: DistributionEntry,
+        /// The smallest dependence that must be seen, as a root mean square error of the cells.
+        detects: Percent,
+        /// Pairs; past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "consecutive-samples",
+    summary: "consecutive samples are independent, by chi-square of pairs",
 }
 
 impl Check for ConsecutiveSamples {
-    const NAME: &'static str = "consecutive-samples";
-    const SUMMARY: &'static str = "consecutive samples are independent, by chi-square of pairs";
-
-    fn needs(&self) -> Capabilities {
+    fn needs_besides(&self) -> Capabilities {
         self.distribution.needs()
     }
 

@@ -3,29 +3,25 @@
 use super::distribution::{Distribution, DistributionEntry};
 use super::extremes::{Extremes, Range, finding};
 use super::of_distributions::OfDistributions;
-use crate::checks::{CheckError, Context, Finding};
-use crate::contract::{Capabilities, Randomness};
+use crate::checks::{CheckError, Context, Finding, check};
+use crate::contract::Randomness;
 use crate::stats::Tolerance;
-use serde::Deserialize;
 
-/// Every pair of extreme numbers gives a direction above the horizon, with its density.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct ExtremeNumbers {
-    distribution: DistributionEntry,
+check! {
+    /// Every pair of extreme numbers gives a direction above the horizon, with its density.
+    pub(crate) struct ExtremeNumbers {
+        distribution: DistributionEntry,
+    }
+    name: "extreme-numbers",
+    summary: "samples of random numbers that are 0, or nearly 1",
+    needs: CALLERS_RANDOMNESS,
 }
 
 impl OfDistributions for ExtremeNumbers {
-    const NAME: &'static str = "extreme-numbers";
-    const SUMMARY: &'static str = "samples of random numbers that are 0, or nearly 1";
     type Judged = Extremes;
 
     fn distribution(&self) -> &DistributionEntry {
         &self.distribution
-    }
-
-    fn needs_besides(&self) -> Capabilities {
-        Capabilities::CALLERS_RANDOMNESS
     }
 
     fn judge(

@@ -6,7 +6,7 @@ use super::distribution::{Distribution, DistributionEntry, Drawn};
 use super::of_distributions::OfDistributions;
 use crate::cause::{Cause, sampling};
 use crate::checks::phrase::{degrees, figure};
-use crate::checks::{CheckError, Context, Finding, Measure};
+use crate::checks::{CheckError, Context, Finding, Measure, check};
 use crate::contract::Core;
 use crate::math::harmonics::{COUNT, NAMES, harmonics};
 use crate::math::quadrature::Diligence;
@@ -15,7 +15,6 @@ use crate::math::sphere::angle_between;
 use crate::stats::{Band, Claim, Effort, MeanReport, SphereCells, Verdict, judge_means};
 use crate::text::{Count, Percent};
 use glam::{DMat3, DVec3};
-use serde::Deserialize;
 
 /// Rings and sectors over which the density is integrated.
 const CELLS: (usize, usize) = (4, 8);
@@ -23,20 +22,20 @@ const QUADRATURE: Diligence = Diligence { tolerance: 1e-7, most_evaluations: 2_0
 /// How far moments may be from those of a turned density, beyond their interval.
 const EXPLAINED: f64 = 2e-3;
 
-/// E\[Yₗₘ\] over samples is ∫ pdf Yₗₘ, for degrees 1 to 3.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct MomentsFollowPdf {
-    distribution: DistributionEntry,
-    /// The smallest error of a moment that must be seen; moments lie between −1 and 1.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// E\[Yₗₘ\] over samples is ∫ pdf Yₗₘ, for degrees 1 to 3.
+    pub(crate) struct MomentsFollowPdf {
+        distribution: DistributionEntry,
+        /// The smallest error of a moment that must be seen; moments lie between −1 and 1.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "moments-follow-pdf",
+    summary: "means of spherical harmonics over samples against their density",
 }
 
 impl OfDistributions for MomentsFollowPdf {
-    const NAME: &'static str = "moments-follow-pdf";
-    const SUMMARY: &'static str = "means of spherical harmonics over samples against their density";
     type Judged = Judged;
 
     fn distribution(&self) -> &DistributionEntry {

@@ -5,28 +5,23 @@ use super::distribution::{Distribution, DistributionEntry};
 use super::of_distributions::OfDistributions;
 use super::replay::{COUNT, Replayed};
 use crate::checks::numbers::Numbers;
-use crate::checks::{CheckError, Context, Finding};
-use crate::contract::Capabilities;
-use serde::Deserialize;
+use crate::checks::{CheckError, Context, Finding, check};
 
-/// Samples follow from the numbers they are given.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct NumbersAsGiven {
-    distribution: DistributionEntry,
+check! {
+    /// Samples follow from the numbers they are given.
+    pub(crate) struct NumbersAsGiven {
+        distribution: DistributionEntry,
+    }
+    name: "numbers-as-given",
+    summary: "samples follow from their own numbers, and use both",
+    needs: CALLERS_RANDOMNESS,
 }
 
 impl OfDistributions for NumbersAsGiven {
-    const NAME: &'static str = "numbers-as-given";
-    const SUMMARY: &'static str = "samples follow from their own numbers, and use both";
     type Judged = Replayed;
 
     fn distribution(&self) -> &DistributionEntry {
         &self.distribution
-    }
-
-    fn needs_besides(&self) -> Capabilities {
-        Capabilities::CALLERS_RANDOMNESS
     }
 
     fn judge(

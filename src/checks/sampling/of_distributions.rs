@@ -1,27 +1,16 @@
 //! What checks have in common that judge each distribution of their case for itself.
 
 use super::distribution::{Distribution, DistributionEntry};
-use crate::checks::{Check, CheckError, Context, Finding};
+use crate::checks::{Check, CheckError, Context, Declared, Finding};
 use crate::contract::Capabilities;
-use serde::de::DeserializeOwned;
 
 /// A check of the directions that a sampler or a BSDF draws.
-pub(crate) trait OfDistributions: DeserializeOwned + Send + Sync + 'static {
-    /// As in [`Check`].
-    const NAME: &'static str;
-    /// As in [`Check`].
-    const SUMMARY: &'static str;
-
+pub(crate) trait OfDistributions: Declared {
     /// What came of one distribution.
     type Judged;
 
     /// The distributions of the case.
     fn distribution(&self) -> &DistributionEntry;
-
-    /// What the core must be able to do besides.
-    fn needs_besides(&self) -> Capabilities {
-        Capabilities::empty()
-    }
 
     /// Asks for one distribution.
     ///
@@ -38,11 +27,8 @@ pub(crate) trait OfDistributions: DeserializeOwned + Send + Sync + 'static {
 }
 
 impl<C: OfDistributions> Check for C {
-    const NAME: &'static str = C::NAME;
-    const SUMMARY: &'static str = C::SUMMARY;
-
-    fn needs(&self) -> Capabilities {
-        self.distribution().needs() | self.needs_besides()
+    fn needs_besides(&self) -> Capabilities {
+        self.distribution().needs()
     }
 
     fn validate(&self) -> Result<(), String> {

@@ -4,19 +4,18 @@ use super::distribution::{Distribution, DistributionEntry};
 use super::mass::Mass;
 use super::of_distributions::OfDistributions;
 use crate::checks::phrase::figure;
-use crate::checks::{CheckError, Context, Finding};
-use serde::Deserialize;
+use crate::checks::{CheckError, Context, Finding, check};
 
-/// The core's own density, integrated over the whole sphere.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct PdfIntegratesToOne {
-    distribution: DistributionEntry,
+check! {
+    /// The core's own density, integrated over the whole sphere.
+    pub(crate) struct PdfIntegratesToOne {
+        distribution: DistributionEntry,
+    }
+    name: "pdf-integrates-to-one",
+    summary: "quadrature of a sampler's density over the sphere",
 }
 
 impl OfDistributions for PdfIntegratesToOne {
-    const NAME: &'static str = "pdf-integrates-to-one";
-    const SUMMARY: &'static str = "quadrature of a sampler's density over the sphere";
     type Judged = Mass;
 
     fn distribution(&self) -> &DistributionEntry {

@@ -11,30 +11,25 @@ use super::of_distributions::OfDistributions;
 use super::products::{POINTS, Products};
 use super::way::Way;
 use crate::checks::phrase::figure;
-use crate::checks::{CheckError, Context, Finding};
-use crate::contract::{Capabilities, Precision};
+use crate::checks::{CheckError, Context, Finding, check};
+use crate::contract::Precision;
 use crate::stats::Tolerance;
-use serde::Deserialize;
 
-/// Density times Jacobian is 1.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct SampleJacobian {
-    distribution: DistributionEntry,
+check! {
+    /// Density times Jacobian is 1.
+    pub(crate) struct SampleJacobian {
+        distribution: DistributionEntry,
+    }
+    name: "sample-jacobian",
+    summary: "density times the area that the sampler's map makes of the unit square",
+    needs: CALLERS_RANDOMNESS,
 }
 
 impl OfDistributions for SampleJacobian {
-    const NAME: &'static str = "sample-jacobian";
-    const SUMMARY: &'static str =
-        "density times the area that the sampler's map makes of the unit square";
     type Judged = Vec<Products>;
 
     fn distribution(&self) -> &DistributionEntry {
         &self.distribution
-    }
-
-    fn needs_besides(&self) -> Capabilities {
-        Capabilities::CALLERS_RANDOMNESS
     }
 
     fn judge(

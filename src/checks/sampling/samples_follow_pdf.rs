@@ -5,25 +5,24 @@ use super::counted::Judged;
 use super::density::Density;
 use super::distribution::{Distribution, DistributionEntry};
 use super::of_distributions::OfDistributions;
-use crate::checks::{CheckError, Context, Finding};
+use crate::checks::{CheckError, Context, Finding, check};
 use crate::stats::judge_count_source;
 use crate::text::{Count, Percent};
-use serde::Deserialize;
 
-/// Counts of samples against the integral of the density over cells.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct SamplesFollowPdf {
-    distribution: DistributionEntry,
-    /// The smallest error of the density, root mean square, that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// Counts of samples against the integral of the density over cells.
+    pub(crate) struct SamplesFollowPdf {
+        distribution: DistributionEntry,
+        /// The smallest error of the density, root mean square, that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "samples-follow-pdf",
+    summary: "chi-square of samples against their density",
 }
 
 impl OfDistributions for SamplesFollowPdf {
-    const NAME: &'static str = "samples-follow-pdf";
-    const SUMMARY: &'static str = "chi-square of samples against their density";
     type Judged = Judged;
 
     fn distribution(&self) -> &DistributionEntry {

@@ -9,12 +9,11 @@ use super::distribution::{Distribution, DistributionEntry, Drawn};
 use super::of_distributions::OfDistributions;
 use crate::cause::Cause;
 use crate::checks::phrase::figure;
-use crate::checks::{CheckError, Context, Finding, Measure};
+use crate::checks::{CheckError, Context, Finding, Measure, check};
 use crate::math::ratios::names_of;
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, MeanReport, Verdict, judge_means};
 use crate::text::{Count, Percent};
-use serde::Deserialize;
 use std::f64::consts::TAU;
 
 /// Powers of the cosine that are integrated.
@@ -22,21 +21,21 @@ const POWERS: [i32; 2] = [3, 4];
 /// Weights are called constant if they differ by less than this.
 const SAME: f64 = 0.02;
 
-/// E[cosⁿθ / pdf] = 2π/(n + 1).
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct WeightsIntegrate {
-    /// A sampler, or a surface whose samples fill the hemisphere.
-    distribution: DistributionEntry,
-    /// The smallest error of an integral that must be seen.
-    detects: Percent,
-    /// Past this the verdict is inconclusive, never a pass.
-    at_most: Count,
+check! {
+    /// E[cosⁿθ / pdf] = 2π/(n + 1).
+    pub(crate) struct WeightsIntegrate {
+        /// A sampler, or a surface whose samples fill the hemisphere.
+        distribution: DistributionEntry,
+        /// The smallest error of an integral that must be seen.
+        detects: Percent,
+        /// Past this the verdict is inconclusive, never a pass.
+        at_most: Count,
+    }
+    name: "weights-integrate",
+    summary: "means of cos³/pdf and cos⁴/pdf are integrals that are known",
 }
 
 impl OfDistributions for WeightsIntegrate {
-    const NAME: &'static str = "weights-integrate";
-    const SUMMARY: &'static str = "means of cos³/pdf and cos⁴/pdf are integrals that are known";
     type Judged = Judged;
 
     fn distribution(&self) -> &DistributionEntry {

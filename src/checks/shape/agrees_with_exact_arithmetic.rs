@@ -4,32 +4,26 @@ use super::encounter::{Encounter, explanation};
 use super::exact_triangle::{GridTriangle, Meeting};
 use crate::cause::Cause;
 use crate::checks::phrase::{figure, some_are};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, Hit, Precision};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Hit, Precision};
 use crate::stats::judge_exact;
 use crate::text::Count;
-use serde::Deserialize;
 
 /// Rays at each triangle.
 const RAYS_EACH: usize = 10;
 
-/// A core hits what exact arithmetic hits, misses what it misses, at the right t.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct AgreesWithExactArithmetic {
-    /// Random rays, ten at each random triangle.
-    rays: Count,
+check! {
+    /// A core hits what exact arithmetic hits, misses what it misses, at the right t.
+    pub(crate) struct AgreesWithExactArithmetic {
+        /// Random rays, ten at each random triangle.
+        rays: Count,
+    }
+    name: "agrees-with-exact-arithmetic",
+    summary: "random rays and triangles of all shapes against exact arithmetic",
+    needs: INTERSECT_PRIMITIVE,
 }
 
 impl Check for AgreesWithExactArithmetic {
-    const NAME: &'static str = "agrees-with-exact-arithmetic";
-    const SUMMARY: &'static str =
-        "random rays and triangles of all shapes against exact arithmetic";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::INTERSECT_PRIMITIVE
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let triangles = self.rays.0.div_ceil(RAYS_EACH as u64);
         let mut encounters = Vec::new();

@@ -4,23 +4,18 @@
 use super::awkward::{Question, questions};
 use crate::cause::shape;
 use crate::checks::phrase::some_are;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{BreachKind, Capabilities, CoreError, Hit};
-use serde::Deserialize;
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{BreachKind, CoreError, Hit};
 
-/// Degenerate triangles are missed, and every other question gets an answer.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct DegenerateTriangles {}
+check! {
+    /// Degenerate triangles are missed, and every other question gets an answer.
+    pub(crate) struct DegenerateTriangles {}
+    name: "degenerate-triangles",
+    summary: "triangles without area, rays in their plane: no crash, no NaN",
+    needs: INTERSECT_PRIMITIVE,
+}
 
 impl Check for DegenerateTriangles {
-    const NAME: &'static str = "degenerate-triangles";
-    const SUMMARY: &'static str = "triangles without area, rays in their plane: no crash, no NaN";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::INTERSECT_PRIMITIVE
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut outcomes = Vec::new();
         for question in questions(&mut context.seed.stream()) {

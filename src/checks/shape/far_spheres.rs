@@ -3,32 +3,27 @@
 use super::exact_sphere::{Encounter, Formula};
 use super::sphere_range::{Answer, Judged, Range, complaint, explain};
 use crate::checks::phrase::figure;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, CoreError, Hit, Precision};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{CoreError, Hit, Precision};
 use crate::text::{Count, Several};
 use glam::DVec3;
-use serde::Deserialize;
 
-/// Spheres are hit where they are, from any distance.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct FarSpheres {
-    /// From the origin of the rays to the centre, in radii; 0 is inside.
-    distances: Several<f64>,
-    /// At each distance.
-    rays: Count,
-    /// Whose roundings are allowed.
-    formula: Formula,
+check! {
+    /// Spheres are hit where they are, from any distance.
+    pub(crate) struct FarSpheres {
+        /// From the origin of the rays to the centre, in radii; 0 is inside.
+        distances: Several<f64>,
+        /// At each distance.
+        rays: Count,
+        /// Whose roundings are allowed.
+        formula: Formula,
+    }
+    name: "far-spheres",
+    summary: "hits of spheres at growing distances against exact arithmetic",
+    needs: INTERSECT_PRIMITIVE,
 }
 
 impl Check for FarSpheres {
-    const NAME: &'static str = "far-spheres";
-    const SUMMARY: &'static str = "hits of spheres at growing distances against exact arithmetic";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::INTERSECT_PRIMITIVE
-    }
-
     fn validate(&self) -> Result<(), String> {
         let is_distance = |distance: &f64| (0.0..=1e6).contains(distance);
         if self.distances.iter().all(is_distance) {

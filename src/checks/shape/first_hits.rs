@@ -4,31 +4,26 @@
 
 use super::view::{Pixel, View};
 use crate::checks::oracle::nearest;
-use crate::checks::{Check, CheckError, Context, Finding, PictureRole, camera_of};
-use crate::contract::{Acceleration, Capabilities, Hit, Ray};
+use crate::checks::{Check, CheckError, Context, Finding, PictureRole, camera_of, check};
+use crate::contract::{Acceleration, Hit, Ray};
 use crate::image::Image;
 use crate::scene::{Camera, SceneDescription};
 use crate::text::Size;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use serde::Deserialize;
 
-/// Depth, normals and shapes of a picture.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct FirstHits {
-    /// Columns and rows.
-    size: Size,
+check! {
+    /// Depth, normals and shapes of a picture.
+    pub(crate) struct FirstHits {
+        /// Columns and rows.
+        size: Size,
+    }
+    name: "first-hits",
+    summary: "depth, normals and shapes at pixel centres",
+    needs: BUILD_SCENE | INTERSECT | GENERATE_RAYS,
 }
 
 impl Check for FirstHits {
-    const NAME: &'static str = "first-hits";
-    const SUMMARY: &'static str = "depth, normals and shapes at pixel centres";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::INTERSECT | Capabilities::GENERATE_RAYS
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let camera = camera_of(&scene)?;

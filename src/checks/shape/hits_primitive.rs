@@ -3,8 +3,8 @@
 use super::imitation::{Answer, explanations, intersection};
 use crate::cause::Cause;
 use crate::checks::phrase::{figure, percent, some_are};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, Hit, Precision, Primitive, Ray};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Hit, Precision, Primitive, Ray};
 use crate::stats::Tolerance;
 use crate::text::{Arrow, Positive, Vector};
 use glam::DVec3;
@@ -15,13 +15,16 @@ const TYPED: f64 = 1e-6;
 /// Wrong rays that a statement spells out.
 const SPELT_OUT: usize = 3;
 
-/// Rays meet a primitive where their rows say, and nowhere else.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct HitsPrimitive {
-    triangle: Option<TriangleEntry>,
-    sphere: Option<SphereEntry>,
-    ray: Vec<RayRow>,
+check! {
+    /// Rays meet a primitive where their rows say, and nowhere else.
+    pub(crate) struct HitsPrimitive {
+        triangle: Option<TriangleEntry>,
+        sphere: Option<SphereEntry>,
+        ray: Vec<RayRow>,
+    }
+    name: "hits-primitive",
+    summary: "rows of rays against one triangle or sphere",
+    needs: INTERSECT_PRIMITIVE,
 }
 
 /// Vertices counter-clockwise, and the shading normals at them; none for a flat triangle.
@@ -116,13 +119,6 @@ impl HitsPrimitive {
 }
 
 impl Check for HitsPrimitive {
-    const NAME: &'static str = "hits-primitive";
-    const SUMMARY: &'static str = "rows of rays against one triangle or sphere";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::INTERSECT_PRIMITIVE
-    }
-
     fn validate(&self) -> Result<(), String> {
         let primitive = self.primitive().ok_or("give either a `triangle` or a `sphere`")?;
         if self.ray.iter().all(|row| row.robustness) {

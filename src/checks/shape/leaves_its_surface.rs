@@ -7,32 +7,27 @@
 use super::body::{Body, FROM, RandomBody};
 use crate::cause::shape;
 use crate::checks::phrase::{figure, percent};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, Hit, Ray};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Hit, Ray};
 use crate::math::rng::Stream;
 use crate::math::sphere::on_sphere;
 use crate::stats::Tolerance;
 use crate::text::Count;
-use serde::Deserialize;
 
 /// Rays onto each primitive, each followed by one away from it.
 const RAYS_EACH: usize = 100;
-/// Rays spawned at a surface leave it.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct LeavesItsSurface {
-    /// Rays away from spheres, and as many from triangles.
-    rays: Count,
+check! {
+    /// Rays spawned at a surface leave it.
+    pub(crate) struct LeavesItsSurface {
+        /// Rays away from spheres, and as many from triangles.
+        rays: Count,
+    }
+    name: "leaves-its-surface",
+    summary: "rays away from a hit do not meet the same primitive again",
+    needs: INTERSECT_PRIMITIVE,
 }
 
 impl Check for LeavesItsSurface {
-    const NAME: &'static str = "leaves-its-surface";
-    const SUMMARY: &'static str = "rays away from a hit do not meet the same primitive again";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::INTERSECT_PRIMITIVE
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let kinds: [(&str, RandomBody); 2] =
             [("spheres", Body::sphere), ("triangles", Body::triangle)];

@@ -8,15 +8,14 @@ use super::leaks::causes;
 use crate::cause::Cause;
 use crate::checks::bvh::comparison::closest_hits;
 use crate::checks::phrase::{figure, percent};
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Acceleration, Capabilities, Ray};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Acceleration, Ray};
 use crate::math::rng::{Seed, Stream, uniform};
 use crate::math::sphere::on_sphere;
 use crate::scene::{Aabb, SceneDescription};
 use crate::stats::{RareReport, Rarity, Verdict, judge_rare};
 use crate::text::Count;
 use glam::DVec3;
-use serde::Deserialize;
 
 /// Rays asked in one call.
 const BATCH: u64 = 1 << 16;
@@ -24,22 +23,18 @@ const BATCH: u64 = 1 << 16;
 const INNER: f64 = 0.4;
 /// Rays at vertices for every hundred others: shown, not graded, since a rounding decides.
 const AT_VERTICES: u64 = 100;
-/// No ray from the middle of a closed mesh escapes.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct NoRayLeaks {
-    /// In random directions, at the default budget.
-    rays: Count,
+check! {
+    /// No ray from the middle of a closed mesh escapes.
+    pub(crate) struct NoRayLeaks {
+        /// In random directions, at the default budget.
+        rays: Count,
+    }
+    name: "no-ray-leaks",
+    summary: "rays from inside a closed surface all meet it",
+    needs: BUILD_SCENE | INTERSECT,
 }
 
 impl Check for NoRayLeaks {
-    const NAME: &'static str = "no-ray-leaks";
-    const SUMMARY: &'static str = "rays from inside a closed surface all meet it";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::BUILD_SCENE | Capabilities::INTERSECT
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let inside = Inside::of(&scene)?;

@@ -7,27 +7,22 @@
 use super::lattice::Pair;
 use crate::cause::shape;
 use crate::checks::phrase::percent;
-use crate::checks::{Check, CheckError, Context, Finding, Measure};
-use crate::contract::{Capabilities, Hit, Primitive};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::contract::{Hit, Primitive};
 use crate::text::Count;
-use serde::Deserialize;
 
-/// Pairs of triangles, each with a ray at the edge between them and one into either.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(crate) struct SharedEdges {
-    /// At the default budget.
-    pairs: Count,
+check! {
+    /// Pairs of triangles, each with a ray at the edge between them and one into either.
+    pub(crate) struct SharedEdges {
+        /// At the default budget.
+        pairs: Count,
+    }
+    name: "shared-edges",
+    summary: "a ray exactly at a shared edge meets one of its triangles",
+    needs: INTERSECT_PRIMITIVE,
 }
 
 impl Check for SharedEdges {
-    const NAME: &'static str = "shared-edges";
-    const SUMMARY: &'static str = "a ray exactly at a shared edge meets one of its triangles";
-
-    fn needs(&self) -> Capabilities {
-        Capabilities::INTERSECT_PRIMITIVE
-    }
-
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let mut stream = context.seed.stream();
         let mut missed = Missed::default();

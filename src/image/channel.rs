@@ -3,15 +3,11 @@
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A channel of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Channel {
-    /// The first of a pixel.
     Red,
-    /// The second.
     Green,
-    /// The third.
     Blue,
 }
 
@@ -19,7 +15,6 @@ pub enum Channel {
 pub(crate) const CHANNELS: [Channel; 3] = [Channel::Red, Channel::Green, Channel::Blue];
 
 impl Channel {
-    /// Its place in a pixel.
     pub(crate) const fn index(self) -> usize {
         self as usize
     }

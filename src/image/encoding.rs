@@ -112,9 +112,7 @@ impl std::fmt::Display for Rounding {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Encoding {
-    /// From linear light to a share of white.
     pub(crate) curve: Curve,
-    /// What becomes of the fraction of a code.
     #[serde(default)]
     pub(crate) rounding: Rounding,
     /// What light is multiplied with before.

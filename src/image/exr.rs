@@ -33,16 +33,13 @@ pub(crate) struct Channel {
     pub name: String,
     /// Row-major from the top left.
     pub values: Vec<f32>,
-    /// How they are stored.
     pub storage: Storage,
 }
 
 /// What is in an OpenEXR file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exr {
-    /// Pixels in a row.
     pub(crate) width: usize,
-    /// Rows.
     pub(crate) height: usize,
     /// In the order of the file: by name.
     pub(crate) channels: Vec<Channel>,
@@ -66,7 +63,6 @@ impl Exr {
         self
     }
 
-    /// The same with one text attribute more.
     pub(crate) fn with_attribute(mut self, name: &str, text: impl Into<String>) -> Self {
         self.attributes.insert(name.to_owned(), text.into());
         self
@@ -97,7 +93,6 @@ impl Exr {
         }
     }
 
-    /// The channel of this name.
     pub(crate) fn channel(&self, name: &str) -> Result<&Channel, ImageError> {
         self.channels.iter().find(|channel| channel.name == name).ok_or_else(|| {
             ImageError::NoChannel {

@@ -26,7 +26,6 @@ pub(crate) struct Loaded {
     pub(crate) alpha: Option<Plane>,
     /// How the numbers were taken.
     pub(crate) encoding: Curve,
-    /// Of a file of whole numbers.
     pub(crate) codes: Option<Codes>,
     /// Other channels of an OpenEXR file, such as standard errors.
     pub(crate) extra: Option<exr::Exr>,
@@ -103,7 +102,6 @@ fn load_other(path: &Path, encoding: Curve) -> Result<Loaded, ImageError> {
     }
 }
 
-/// A picture of whole numbers.
 fn of_codes(decoded: &DynamicImage, encoding: Curve) -> Loaded {
     let largest = match decoded {
         DynamicImage::ImageLuma16(_)

@@ -26,7 +26,6 @@ impl PaddedRow {
         &mut self.values[self.radius..][..width]
     }
 
-    /// Repeats the first and the last pixel of the row beyond it.
     pub(crate) fn repeat_ends(&mut self) {
         let (radius, end) = (self.radius, self.values.len() - self.radius);
         let [first, last] = [self.values[radius], self.values[end - 1]];

@@ -6,7 +6,6 @@ use super::{Image, ImageError};
 /// A rectangle of pixels: first column, first row from the top, columns, rows.
 pub(crate) type Rectangle = [usize; 4];
 
-/// Pixels that do not count.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Mask {
     rectangles: Vec<Rectangle>,
@@ -15,7 +14,6 @@ pub(crate) struct Mask {
 }
 
 impl Mask {
-    /// Of rectangles that do not count.
     pub(crate) fn of_rectangles(rectangles: &[Rectangle]) -> Self {
         Self { rectangles: rectangles.to_vec(), picture: None }
     }

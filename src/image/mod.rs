@@ -59,7 +59,6 @@ impl Image {
         }
     }
 
-    /// Whether both have the same width and height.
     pub(crate) fn same_size(&self, other: &Image) -> bool {
         (self.width, self.height) == (other.width, other.height)
     }

@@ -12,7 +12,6 @@ const CHUNK: usize = 1 << 14;
 /// An image and its reference, of the same size.
 #[derive(Debug)]
 pub struct Pair<'a> {
-    /// The image.
     pub(crate) image: &'a Image,
     /// What it is held against.
     pub(crate) reference: &'a Image,
@@ -22,11 +21,8 @@ pub struct Pair<'a> {
 /// One number for each pixel, row-major from the top left.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Plane {
-    /// Pixels in a row.
     pub(crate) width: usize,
-    /// Rows.
     pub(crate) height: usize,
-    /// `width · height` numbers.
     pub(crate) values: Vec<f32>,
 }
 
@@ -73,7 +69,6 @@ impl<'a> Pair<'a> {
         })
     }
 
-    /// The mean of `error` over all pixels.
     pub(crate) fn mean(&self, error: impl Fn([f32; 3], [f32; 3]) -> f64 + Sync) -> f64 {
         let chunks =
             self.image.pixels.par_chunks(CHUNK).zip(self.reference.pixels.par_chunks(CHUNK));
@@ -84,7 +79,6 @@ impl<'a> Pair<'a> {
         sums.iter().sum::<f64>() / self.image.pixels.len() as f64
     }
 
-    /// `error` of every pixel.
     pub(crate) fn each(&self, error: impl Fn([f32; 3], [f32; 3]) -> f64 + Sync) -> Vec<f64> {
         let pairs = self.image.pixels.par_iter().zip(&self.reference.pixels);
         pairs.map(|(image, reference)| error(*image, *reference)).collect()

@@ -7,11 +7,8 @@ use image::{ExtendedColorType, ImageEncoder};
 /// An image as a screen shows it: sRGB, row-major from the top left.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Picture {
-    /// Pixels in a row.
     pub(crate) width: usize,
-    /// Rows.
     pub(crate) height: usize,
-    /// `width · height` colours.
     pub(crate) pixels: Vec<[u8; 3]>,
 }
 
@@ -36,7 +33,6 @@ pub(crate) fn encode(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
     Ok(bytes)
 }
 
-/// Writes a PNG file.
 #[cfg(test)]
 pub(crate) fn write(path: &std::path::Path, picture: &Picture) -> Result<(), super::ImageError> {
     use super::ImageError;

@@ -6,11 +6,8 @@ use glam::DVec3;
 #[cfg(test)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Frame {
-    /// First tangent, world space.
     pub(crate) tangent: DVec3,
-    /// Second tangent, world space.
     pub(crate) bitangent: DVec3,
-    /// Third axis, world space.
     pub(crate) normal: DVec3,
 }
 
@@ -29,12 +26,10 @@ impl Frame {
         }
     }
 
-    /// A world direction in this frame.
     pub(crate) fn to_local(&self, world: DVec3) -> DVec3 {
         DVec3::new(world.dot(self.tangent), world.dot(self.bitangent), world.dot(self.normal))
     }
 
-    /// A direction of this frame in the world.
     pub(crate) fn to_world(&self, local: DVec3) -> DVec3 {
         local.x * self.tangent + local.y * self.bitangent + local.z * self.normal
     }

@@ -48,7 +48,6 @@ const BATCH: usize = 64;
 /// The value of an integral, and how far it may be from the truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Integral {
-    /// Estimate.
     pub(crate) value: f64,
     /// Bound on its error, as far as the rule can tell.
     pub(crate) error: f64,
@@ -124,9 +123,7 @@ fn kronrod(from: f64, to: f64, f: &mut impl FnMut(f64) -> f64) -> Integral {
 /// An axis-parallel rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rectangle {
-    /// Corner of the smallest coordinates.
     pub(crate) low: DVec2,
-    /// Corner of the largest coordinates.
     pub(crate) high: DVec2,
 }
 
@@ -168,7 +165,6 @@ impl Default for Diligence {
     }
 }
 
-/// A part of a rectangle.
 #[derive(Clone, Copy)]
 struct Part {
     owner: usize,

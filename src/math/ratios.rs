@@ -34,7 +34,6 @@ const WIDEST: f64 = 1.15;
 /// A ratio and what it is called.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct NamedRatio {
-    /// The number.
     pub(crate) value: f64,
     /// As it is written, such as `1/π`.
     pub(crate) name: String,

@@ -32,7 +32,6 @@ fn transform(matrix: &[[f32; 3]; 3], [x, y, z]: [f32; 3]) -> [f32; 3] {
     [row(matrix[0]), row(matrix[1]), row(matrix[2])]
 }
 
-/// XYZ relative to white.
 #[inline(always)]
 fn relative_xyz(rgb: [f32; 3]) -> [f32; 3] {
     let [x, y, z] = transform(&TO_XYZ, rgb);

@@ -37,16 +37,13 @@ pub(crate) struct ConcentricSpheres {
     pub(crate) emission: f64,
     /// Radius of the inner over that of the outer sphere.
     pub(crate) radius_ratio: f64,
-    /// Of the inner sphere.
     pub(crate) inner_albedo: f64,
-    /// Of the outer sphere.
     pub(crate) outer_albedo: f64,
 }
 
 /// Radiance leaving both spheres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct InnerAndOuter {
-    /// Leaving the inner sphere.
     pub(crate) inner: f64,
     /// Leaving the outer sphere, emission included.
     pub(crate) outer: f64,

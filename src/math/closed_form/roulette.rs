@@ -5,7 +5,6 @@
 pub(crate) struct RouletteFurnace {
     /// Radiance emitted everywhere.
     pub(crate) emission: f64,
-    /// Of every surface.
     pub(crate) albedo: f64,
     /// Probability of going on at each bounce it is played at; what goes on is divided by it.
     pub(crate) survival: f64,

@@ -16,7 +16,6 @@ pub(crate) fn over(low: DVec2, high: DVec2, f: impl Fn(DVec2) -> f64) -> f64 {
     sums[0].value
 }
 
-/// The integral over the unit square.
 pub(crate) fn over_unit_square(f: impl Fn(DVec2) -> f64) -> f64 {
     over(DVec2::ZERO, DVec2::ONE, f)
 }

@@ -7,7 +7,7 @@ use super::cells::{COMPONENTS, Component};
 use super::report::GlobalRatio;
 use super::target::Target;
 use crate::stats::law::{Spread, student_upper};
-use crate::stats::plan::INTERVAL_LEVEL;
+use crate::stats::plan::level::INTERVAL_LEVEL;
 
 /// The mean light of pictures, over runs.
 pub(super) struct Brightness {
@@ -16,7 +16,6 @@ pub(super) struct Brightness {
 }
 
 impl Brightness {
-    /// Of pictures of so many pixels.
     pub(super) fn of(pixels: usize) -> Self {
         Self { pixels, runs: Spread::default() }
     }

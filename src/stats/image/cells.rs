@@ -5,6 +5,7 @@
 //! otherwise decide alone, and its noisy edge with it.
 
 use crate::image::{Image, luminance};
+use crate::stats::plan::level::SCALES;
 use serde::Serialize;
 
 /// Red, green, blue and luminance.
@@ -46,7 +47,7 @@ pub enum Scale {
 
 impl Scale {
     /// From the finest to the coarsest.
-    pub(crate) const ALL: [Scale; 5] =
+    pub(crate) const ALL: [Scale; SCALES] =
         [Scale::Pixel, Scale::Tile8, Scale::Tile32, Scale::Rows, Scale::Whole];
 
     /// Width and height of a cell that is not cut off by the border.
@@ -86,13 +87,9 @@ pub(crate) struct Grid {
 /// The pixels of a cell: column and row of the top left one, width and height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Extent {
-    /// First column.
     pub(crate) x: usize,
-    /// First row, from the top.
     pub(crate) y: usize,
-    /// Columns.
     pub(crate) width: usize,
-    /// Rows.
     pub(crate) height: usize,
 }
 

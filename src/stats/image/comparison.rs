@@ -91,7 +91,6 @@ impl Side {
         is_one.then_some(Self { variance: Some(variance), is_variance_given: true, ..self })
     }
 
-    /// Columns and rows.
     pub(crate) fn size(&self) -> [usize; 2] {
         size(&self.image)
     }
@@ -124,13 +123,11 @@ impl Side {
 /// All that a comparison found out.
 #[derive(Debug, Serialize)]
 pub struct Comparison {
-    /// Whether the pictures show the same.
     pub(crate) verdict: Verdict,
     /// Columns and rows.
     pub(crate) size: [usize; 2],
     /// Pixels that count.
     pub(crate) pixels: usize,
-    /// By what they differ.
     pub(crate) difference: DifferenceReport,
     /// How the codes of an 8-bit picture were compared, if it could be done by their law.
     pub(crate) codes: Option<CodesCompared>,
@@ -139,23 +136,19 @@ pub struct Comparison {
     /// Bounces that are missing or there too often, if the reference holds its bounces apart and that
     /// explains more than any mistake.
     pub(crate) bounces: Option<BouncesOff>,
-    /// How far apart they are.
     pub(crate) metrics: Vec<Measured>,
 }
 
 /// What was done with codes.
 #[derive(Debug, Serialize)]
 pub struct CodesCompared {
-    /// What the codes say of their own encoding.
     pub(crate) deciphered: Deciphered,
-    /// Where the noise of the picture is known from.
     pub(crate) noise: NoiseSource,
 }
 
 /// A metric of the pixels that count.
 #[derive(Debug, Serialize)]
 pub(crate) struct Measured {
-    /// The metric.
     pub(crate) name: &'static str,
     /// None where a pixel is no number.
     pub(crate) value: Option<f64>,

@@ -77,7 +77,6 @@ impl LitRuns {
         self.darker_than_chance(SUSPECTED)
     }
 
-    /// Pixels that are dead.
     pub(super) fn dead(&self) -> Vec<[usize; 2]> {
         self.darker_than_chance(DEAD)
     }
@@ -130,7 +129,6 @@ impl LitRuns {
         f64::from(self.runs) * error * error
     }
 
-    /// The pixels up to `reach` away, and the pixel itself.
     fn around(&self, pixel: usize, reach: usize) -> impl Iterator<Item = usize> {
         around((self.width, self.height), pixel, reach)
     }

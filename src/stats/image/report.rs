@@ -34,28 +34,21 @@ impl Impossible {
 pub struct ImpossiblePixels {
     /// What is wrong with the first.
     pub(crate) kind: Impossible,
-    /// Its column.
     pub(crate) x: usize,
     /// Its row, from the top.
     pub(crate) y: usize,
     /// How many there are in that run.
     pub(crate) pixels: usize,
-    /// The stage of that run.
     pub(crate) stage: Stage,
-    /// Its number in the stage.
     pub(crate) run: u32,
 }
 
 /// A cell, as the screen sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CellScore {
-    /// Size of the cell.
     pub(crate) scale: Scale,
-    /// Red, green, blue or luminance.
     pub(crate) component: Component,
-    /// Its pixels.
     pub(crate) extent: Extent,
-    /// Measured.
     pub(crate) mean: f64,
     /// Of the reference; 0 for the difference of two renders.
     pub(crate) expected: f64,
@@ -71,14 +64,12 @@ pub(crate) struct Confirmation {
     /// How far the frozen combination of cells lies outside its band, in standard errors of these
     /// runs or of the other confirmation's, whichever are larger.
     pub(crate) t: f64,
-    /// Whether that is too far.
     pub(crate) rejects: bool,
 }
 
 /// What one scale says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaleReport {
-    /// Size of the cells.
     pub(crate) scale: Scale,
     /// How many, times components.
     pub(crate) cells: usize,
@@ -97,11 +88,8 @@ pub struct ScaleReport {
 /// reference is in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GlobalRatio {
-    /// Red, green, blue or luminance.
     pub(crate) component: Component,
-    /// Measured over expected.
     pub(crate) ratio: f64,
-    /// Ends of its interval.
     pub(crate) interval: [f64; 2],
 }
 
@@ -145,14 +133,12 @@ impl Report for ImageReport {
     /// The luminance of the whole picture, over that of the reference; NaN of an impossible picture.
     fn judgement(&self) -> Judgement {
         let luminance = self.ratios.iter().find(|ratio| ratio.component == Component::Luminance);
+        let ratio = luminance.map_or(f64::NAN, |luminance| luminance.ratio);
         Judgement {
-            verdict: self.verdict,
-            measured: luminance.map_or(f64::NAN, |luminance| luminance.ratio),
-            expected: 1.0,
-            allowed: 0.0,
             interval: luminance.map(|luminance| luminance.interval),
             smallest_detectable_error: Some(self.resolution),
             hypothesis: Some(Hypothesis::new(TestKind::Picture, self.suspected())),
+            ..Judgement::new(self.verdict, ratio, 1.0)
         }
     }
 }

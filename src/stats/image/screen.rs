@@ -18,22 +18,12 @@
 //!
 //! Not here: 8-bit pictures, whose codes follow another law.
 
-use super::cells::{Cells, Scale};
+use super::cells::Cells;
+use super::draw::{ImageDraw, ImageEffort, Levels};
 use super::screening::Screening;
 use super::target::Target;
 use crate::image::Image;
-use crate::math::rng::Seed;
 use crate::stats::{ImageReport, Stage};
-
-/// Probability that the screen suspects a picture without cause.
-pub(in crate::stats) const SCREEN_LEVEL: f64 = 1e-3;
-/// Level of each confirmation, at each scale.
-pub(super) const CONFIRM_LEVEL: f64 = 2e-5;
-/// Probability that the reference is off by more than its band, at each scale.
-pub(super) const REFERENCE_LEVEL: f64 = 1e-9;
-/// Probability that a correct core fails one picture.
-pub(in crate::stats) const IMAGE_FALSE_ALARM: f64 =
-    Scale::ALL.len() as f64 * (CONFIRM_LEVEL * CONFIRM_LEVEL + REFERENCE_LEVEL);
 
 /// What a picture should be, and how well that is known.
 #[derive(Clone, Copy, Debug)]
@@ -42,57 +32,6 @@ pub struct Reference<'a> {
     pub mean: &'a Image,
     /// Standard error of that mean; the noise of its pixels is independent.
     pub standard_error: &'a Image,
-}
-
-/// What a picture is worth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImageEffort {
-    /// The relative error of the whole picture that must be seen.
-    pub(crate) detects: f64,
-    /// Samples a pixel of each run, which the caller draws; 1 if that is not known.
-    pub(crate) samples: u32,
-    /// Runs of the screen: all that a correct core pays.
-    pub(crate) screen_runs: u32,
-    /// Runs of each of two confirmations.
-    pub(crate) confirm_runs: u32,
-}
-
-impl ImageEffort {
-    /// The effort that sees an error of `detects` of the whole picture, if the runs have samples
-    /// enough.
-    pub fn new(detects: f64, samples: u32) -> Self {
-        Self { detects, samples, screen_runs: 16, confirm_runs: 32 }
-    }
-}
-
-/// A request for one run: a whole picture with its own seed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ImageDraw {
-    /// [`Stage::First`] screens, [`Stage::Second`] and [`Stage::Third`] confirm.
-    pub(crate) stage: Stage,
-    /// Number of the run in its stage.
-    pub(crate) run: u32,
-}
-
-impl ImageDraw {
-    /// The seed of this run below the seed of its check.
-    pub fn seed(&self, check: Seed) -> Seed {
-        self.stage.seed(check).child(self.run)
-    }
-}
-
-/// How easily a picture is suspected and a suspicion confirmed.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Levels {
-    /// [`SCREEN_LEVEL`], over all cells.
-    pub(super) screen: f64,
-    /// [`CONFIRM_LEVEL`], of each confirmation at each scale.
-    pub(super) confirm: f64,
-}
-
-impl Levels {
-    /// Those that count.
-    pub(super) const DEFAULT: Self = Self { screen: SCREEN_LEVEL, confirm: CONFIRM_LEVEL };
 }
 
 /// Judges the pictures that `draw` renders against a reference of the same size.

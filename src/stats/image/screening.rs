@@ -4,14 +4,14 @@ use super::brightness::Brightness;
 use super::cell_noise::CellNoise;
 use super::cells::{COMPONENTS, Component, Scale};
 use super::dead_pixels::LitRuns;
+use super::draw::{ImageDraw, ImageEffort, Levels};
 use super::report::{
     CellScore, Confirmation, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
 };
-use super::screen::{ImageDraw, ImageEffort, Levels};
 use super::target::{Frozen, Target};
 use crate::image::Image;
 use crate::stats::law::Spread;
-use crate::stats::plan::MISS_LEVEL;
+use crate::stats::plan::level::MISS_LEVEL;
 use crate::stats::{Moments, Stage, Verdict, normal_upper, student_upper};
 
 /// Cells of a scale that are confirmed together.
@@ -19,7 +19,6 @@ const MOST_FROZEN: usize = 64;
 /// Cells of a scale that are reported.
 const MOST_REPORTED: usize = 16;
 
-/// The runs of one stage.
 struct Sampled {
     spread: Spread,
     brightness: Brightness,
@@ -210,15 +209,8 @@ impl<'a, E> Screening<'a, E> {
         let dead_pixels = self.lit.dead();
         let resolution = self.resolution(&screened.spread);
         let rejected = !dead_pixels.is_empty() || scales.iter().any(|scale| scale.rejects);
-        let verdict = if rejected {
-            Verdict::Fail
-        } else if resolution <= self.effort.detects {
-            Verdict::Pass
-        } else {
-            Verdict::Inconclusive
-        };
         ImageReport {
-            verdict,
+            verdict: Verdict::of_test(rejected, resolution <= self.effort.detects),
             impossible: None,
             dead_pixels,
             worst_scale: worst_scale(&scales),

@@ -6,7 +6,8 @@
 //! cargo test --lib stats::image::simulation -- --ignored --nocapture
 //! ```
 
-use super::screen::{Levels, judge_image_at};
+use super::draw::Levels;
+use super::screen::judge_image_at;
 use crate::image::Image;
 use crate::math::rng::{Seed, Stream, uniform};
 use crate::stats::{ImageDraw, ImageEffort, ImageReport, Reference, Verdict, share_interval};

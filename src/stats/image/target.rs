@@ -1,7 +1,7 @@
 //! What the cells of a picture should be, and the cells that are looked at again.
 
 use super::cells::{COMPONENTS, Cells, Scale};
-use super::screen::REFERENCE_LEVEL;
+use crate::stats::plan::level::REFERENCE_LEVEL;
 use crate::stats::{Band, normal_upper};
 
 /// Darker than this, relative to the typical brightness, the band does not shrink further: what an
@@ -34,7 +34,6 @@ impl Target {
         Self { cells, expected, scale, errors: errors.to_vec(), bands }
     }
 
-    /// The same with wider bands.
     pub(super) fn with_slack(mut self, slack: &[f64]) -> Self {
         self.bands.iter_mut().zip(slack).for_each(|(band, slack)| *band += slack);
         self

@@ -55,17 +55,14 @@ impl SphereCells {
         Self { kinks: kinks.to_vec(), ..self }
     }
 
-    /// Number of cells.
     pub(crate) fn len(&self) -> usize {
         self.ring_count() * self.sectors
     }
 
-    /// Rings, from −z to +z.
     pub(crate) fn ring_count(&self) -> usize {
         self.rings.len() - 1
     }
 
-    /// Sectors in each ring.
     pub(crate) fn sector_count(&self) -> usize {
         self.sectors
     }
@@ -78,7 +75,6 @@ impl SphereCells {
         ([self.rings[ring], self.rings[ring + 1]], [from, from + width])
     }
 
-    /// The cell of a unit direction.
     pub(crate) fn cell_of(&self, direction: DVec3) -> usize {
         let z = if (-HORIZON..0.0).contains(&direction.z) { 0.0 } else { direction.z };
         let ring = self.rings.partition_point(|&edge| edge <= z);
@@ -140,14 +136,12 @@ impl SphereCells {
 /// How many samples fell where.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Counts {
-    /// In each cell.
     pub(crate) cells: Vec<u64>,
     /// Samples that failed: the cell "absorbed".
     pub(crate) absorbed: u64,
 }
 
 impl Counts {
-    /// All samples.
     pub(crate) fn total(&self) -> u64 {
         self.absorbed + self.cells.iter().sum::<u64>()
     }
@@ -156,7 +150,6 @@ impl Counts {
 /// The probability of each cell, and how well it is known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellProbabilities {
-    /// Of each cell.
     pub(crate) cells: Vec<f64>,
     /// Bound on the quadrature error of each.
     pub(crate) errors: Vec<f64>,

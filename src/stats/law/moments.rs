@@ -11,7 +11,6 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Takes in one value.
     pub(crate) fn push(&mut self, value: f64) {
         self.count += 1;
         let before = value - self.mean;
@@ -19,7 +18,6 @@ impl Moments {
         self.squares += before * (value - self.mean);
     }
 
-    /// How many values.
     pub(crate) fn count(&self) -> u64 {
         self.count
     }

@@ -15,9 +15,7 @@ use crate::math::quadrature::Integral;
 /// A stream of independent samples that are either low or high.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoValues {
-    /// One value.
     pub(crate) low: f64,
-    /// The other.
     pub(crate) high: f64,
     /// The probability of the other.
     pub(crate) chance: f64,
@@ -35,7 +33,6 @@ pub struct StoppingLaw {
 }
 
 impl TwoValues {
-    /// The true mean.
     pub(crate) fn mean(&self) -> f64 {
         self.low + self.chance * (self.high - self.low)
     }
@@ -92,7 +89,6 @@ impl StoppingLaw {
         Self { stops, mean: first_moment, deviation: variance.sqrt() }
     }
 
-    /// Expectation of the number of samples.
     pub(crate) fn expected_count(&self) -> f64 {
         self.stops.iter().enumerate().map(|(n, probability)| n as f64 * probability).sum()
     }

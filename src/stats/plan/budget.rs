@@ -37,7 +37,6 @@ impl Effort {
         worthwhile.then_some(Self { detects: Self::GROSS, ..self })
     }
 
-    /// The same with another cap on the first stage's samples.
     pub(crate) fn with_most_samples(self, most_samples: u64) -> Self {
         Self { most_samples, ..self }
     }
@@ -47,7 +46,6 @@ impl Effort {
         Self { runs: runs.max(Self::FEWEST_RUNS), ..self }
     }
 
-    /// The same with samples in multiples of `grain`.
     pub(crate) fn in_steps_of(self, grain: u64) -> Self {
         Self { grain: grain.max(1), ..self }
     }
@@ -63,17 +61,14 @@ pub struct Allowance {
 }
 
 impl Allowance {
-    /// What `effort` becomes under this allowance.
     pub(crate) fn scale(self, effort: Effort) -> Effort {
         Effort { coarse_first: self.stops_at_failure, ..self.budget.scale(effort) }
     }
 
-    /// [`Budget::samples`]
     pub(crate) fn samples(self, default: u64) -> u64 {
         self.budget.samples(default)
     }
 
-    /// [`Budget::coarseness`]
     pub(crate) const fn coarseness(self) -> f64 {
         self.budget.coarseness()
     }

@@ -31,7 +31,6 @@ impl Band {
     /// How far a picture may be displaced, pixels: what no eye and no float notices.
     pub(crate) const ALIGNMENT: Band = Band(0.01);
 
-    /// One evaluation in this precision.
     pub(crate) const fn math(precision: Precision) -> Band {
         match precision {
             Precision::Double => Self::DOUBLE_MATH,
@@ -72,7 +71,6 @@ pub struct Claim {
     /// claim whose estimator meets light less often than once in 10⁴ samples; elsewhere the other
     /// stages measure it.
     pub(crate) null_deviation: Option<f64>,
-    /// On which side the core may fail.
     pub(crate) sides: Sides,
 }
 

@@ -1,6 +1,6 @@
 //! Suspect on a few samples, confirm on many: the plan that every test in stages follows.
 //!
-//! A first stage tests at [`STAGE_LEVEL`]. What it rejects is tested again on fresh samples, 4 and
+//! A first stage tests at [`STAGE_LEVEL`](super::level::STAGE_LEVEL). What it rejects is tested again on fresh samples, 4 and
 //! then 16 times as many; only what all three reject fails. A single test at the same overall level
 //! would rest on tails of 10⁻⁹, where the central limit theorem is wrong by factors of thousands for
 //! the skewed sums that renderers make; a product of three moderate tails stays right, and a correct
@@ -10,11 +10,6 @@
 
 use super::{Hypothesis, TestKind};
 use crate::math::rng::Seed;
-
-/// Level of one stage on one side.
-pub const STAGE_LEVEL: f64 = 5e-4;
-/// Probability that three stages reject a true hypothesis, on one side.
-pub const ESCALATION_FALSE_ALARM: f64 = STAGE_LEVEL * STAGE_LEVEL * STAGE_LEVEL;
 
 /// A step of a test. Each has its own random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -105,7 +100,6 @@ impl<S: Scored> Escalation<S> {
         self.0.first().is_some_and(Scored::rejects)
     }
 
-    /// Whether all three reject.
     pub(crate) fn rejects(&self) -> bool {
         self.0.len() == Stage::DECIDING.len() && self.0.iter().all(Scored::rejects)
     }

@@ -5,16 +5,13 @@
 //! other (union bound). Whether the bound is true can be seen long before anything fails: first stages have to
 //! suspect correct cores just as often as their level says.
 
-use super::{ESCALATION_FALSE_ALARM, STAGE_LEVEL};
-use crate::stats::image::{CODES_FALSE_ALARM, IMAGE_FALSE_ALARM, SCREEN_LEVEL};
-use crate::stats::test::{
-    CORRELATION_FALSE_ALARM, MEAN_FALSE_ALARM, RARE_FALSE_ALARM, SLOPE_FALSE_ALARM,
+use super::level::{
+    CODES_FALSE_ALARM, CORRELATION_FALSE_ALARM, ESCALATION_FALSE_ALARM, IMAGE_FALSE_ALARM,
+    MEAN_FALSE_ALARM, RARE_FALSE_ALARM, SCREEN_LEVEL, SLOPE_FALSE_ALARM, STAGE_LEVEL,
+    SUITE_FALSE_ALARM,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
-/// What a whole suite may spend.
-pub const SUITE_FALSE_ALARM: f64 = 1e-6;
 
 /// How a hypothesis is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -117,7 +114,6 @@ impl Hypothesis {
 /// All hypotheses of one kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LedgerEntry {
-    /// How many.
     pub(crate) hypotheses: usize,
     /// What they may cost together.
     pub(crate) false_alarm: f64,
@@ -138,17 +134,14 @@ impl LedgerEntry {
 pub struct Ledger(BTreeMap<TestKind, LedgerEntry>);
 
 impl Ledger {
-    /// By kind.
     pub(crate) fn entries(&self) -> impl Iterator<Item = (TestKind, LedgerEntry)> {
         self.0.iter().map(|(kind, entry)| (*kind, *entry))
     }
 
-    /// How many hypotheses there are.
     pub(crate) fn hypotheses(&self) -> usize {
         self.0.values().map(|entry| entry.hypotheses).sum()
     }
 
-    /// How many hypotheses a first stage suspected.
     pub(crate) fn suspected(&self) -> usize {
         self.0.values().map(|entry| entry.suspected).sum()
     }

@@ -7,11 +7,8 @@ use super::{Hypothesis, Verdict};
 /// The judgement of one number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judgement {
-    /// Pass, fail or inconclusive.
     pub(crate) verdict: Verdict,
-    /// What the core gave.
     pub(crate) measured: f64,
-    /// What it should be.
     pub(crate) expected: f64,
     /// How far from `expected` is still right, in the same unit, without noise.
     pub(crate) allowed: f64,
@@ -22,6 +19,21 @@ pub struct Judgement {
     pub(crate) smallest_detectable_error: Option<f64>,
     /// What the ledger enters; none where chance has no part in it.
     pub(crate) hypothesis: Option<Hypothesis>,
+}
+
+impl Judgement {
+    /// Without room, noise or chance: what a test knows of those is put in their place.
+    pub(in crate::stats) const fn new(verdict: Verdict, measured: f64, expected: f64) -> Self {
+        Self {
+            verdict,
+            measured,
+            expected,
+            allowed: 0.0,
+            interval: None,
+            smallest_detectable_error: None,
+            hypothesis: None,
+        }
+    }
 }
 
 /// What a test found out.

@@ -21,6 +21,16 @@ impl Verdict {
         verdicts.into_iter().max().unwrap_or(Verdict::Inconclusive)
     }
 
+    /// Of a test with noise: `sees` whether it would have seen an error of the promised size. Write both so that NaN
+    /// makes them false.
+    pub(crate) fn of_test(rejects: bool, sees: bool) -> Verdict {
+        match (rejects, sees) {
+            (true, _) => Verdict::Fail,
+            (false, true) => Verdict::Pass,
+            (false, false) => Verdict::Inconclusive,
+        }
+    }
+
     /// Pass if the condition holds, else fail: for comparisons without noise. Write the condition
     /// so that NaN makes it false.
     pub(crate) fn pass_if(holds: bool) -> Verdict {

@@ -6,9 +6,6 @@ use crate::stats::plan::{Hypothesis, Judgement, Report, TestKind, Verdict};
 const SIGMAS: f64 = 7.0;
 /// Of fewer pairs chance explains even a coefficient of 1.
 const FEWEST_PAIRS: usize = 50;
-/// Probability that unrelated series are called related: two sides of 7 standard errors of a
-/// normal, with room.
-pub(in crate::stats) const CORRELATION_FALSE_ALARM: f64 = 1e-10;
 
 /// What came of comparing two series.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +16,6 @@ pub(crate) struct CorrelationReport {
     pub(crate) coefficient: f64,
     /// The largest that chance explains.
     pub(crate) limit: f64,
-    /// How many pairs were compared.
     pub(crate) pairs: usize,
 }
 
@@ -37,13 +33,9 @@ impl CorrelationReport {
 impl Report for CorrelationReport {
     fn judgement(&self) -> Judgement {
         Judgement {
-            verdict: self.verdict,
-            measured: self.coefficient,
-            expected: 0.0,
             allowed: self.limit,
-            interval: None,
-            smallest_detectable_error: None,
             hypothesis: Some(Hypothesis::new(TestKind::Correlation, false)),
+            ..Judgement::new(self.verdict, self.coefficient, 0.0)
         }
     }
 }

@@ -17,7 +17,8 @@ mod report;
 pub(crate) use report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};
 
 use crate::stats::law::{chi_square_tail, chi_square_upper, detectable_noncentrality};
-use crate::stats::plan::{Escalation, MISS_LEVEL, STAGE_LEVEL};
+use crate::stats::plan::Escalation;
+use crate::stats::plan::level::{MISS_LEVEL, STAGE_LEVEL};
 use crate::stats::{CellProbabilities, Counts, Effort, Stage, Verdict};
 
 /// Expected samples below which a cell is pooled.

@@ -57,9 +57,7 @@ impl Tolerance {
 /// A number that was asked for, and the one that is right.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Compared {
-    /// What the core answered.
     pub(crate) found: f64,
-    /// What is right.
     pub(crate) expected: f64,
     /// How far apart they may be, absolute.
     pub(crate) allowed: f64,
@@ -98,7 +96,6 @@ impl Compared {
 pub(crate) struct Worst {
     /// Its number in the order compared.
     pub(crate) index: usize,
-    /// What was compared.
     pub(crate) compared: Compared,
 }
 
@@ -107,9 +104,7 @@ pub(crate) struct Worst {
 pub(crate) struct ExactReport {
     /// Pass or fail; inconclusive if nothing was compared.
     pub(crate) verdict: Verdict,
-    /// Elements compared.
     pub(crate) compared: usize,
-    /// Elements that do not agree.
     pub(crate) disagree: usize,
     /// The element furthest beyond what is allowed, or nearest to it.
     pub(crate) worst: Option<Worst>,
@@ -121,13 +116,9 @@ impl Report for ExactReport {
         let nothing = Compared::within(f64::NAN, 0.0, 0.0);
         let Compared { found, expected, allowed } = self.worst.map_or(nothing, |w| w.compared);
         Judgement {
-            verdict: self.verdict,
-            measured: found,
-            expected,
             allowed,
-            interval: None,
             smallest_detectable_error: (expected != 0.0).then(|| allowed / expected.abs()),
-            hypothesis: None,
+            ..Judgement::new(self.verdict, found, expected)
         }
     }
 }

@@ -23,13 +23,9 @@ mod tests;
 pub(crate) use report::{MeanReport, StageScore};
 
 use crate::math::rng::Seed;
-use crate::stats::plan::{ESCALATION_FALSE_ALARM, STAGE_LEVEL};
+use crate::stats::plan::level::STAGE_LEVEL;
 use crate::stats::{Claim, Effort, Moments, Stage, Verdict};
 use state::{FEWEST_EFFECTIVE, MeanTest, Suspicion};
-
-/// Probability that a correct core fails one claim: two sides, and twice that because one stage whose
-/// variance came out wrong may be repeated.
-pub(in crate::stats) const MEAN_FALSE_ALARM: f64 = 2.0 * 2.0 * ESCALATION_FALSE_ALARM;
 
 /// Samples of the pilot, before it is found to be too small.
 const PILOT_SAMPLES: u64 = 4096;
@@ -39,7 +35,6 @@ const LARGEST_PILOT: u64 = 65_536;
 /// A request for one run of the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Draw {
-    /// The stage it belongs to.
     pub(crate) stage: Stage,
     /// How often the stage has been drawn before: pilots grow, and one stage may be repeated.
     pub(crate) attempt: u32,
@@ -173,7 +168,7 @@ impl<E> Judging<'_, E> {
     }
 
     /// The size at which a stage is drawn again because its variance is not what the stages before
-    /// it said. Once a test; the level in [`MEAN_FALSE_ALARM`] has been paid for it.
+    /// it said. Once a test; the level in [`MEAN_FALSE_ALARM`](crate::stats::plan::level::MEAN_FALSE_ALARM) has been paid for it.
     fn repeat_with(&self, stage: Stage, moments: &[Moments], samples: u64) -> Option<u64> {
         let room = if stage == Stage::First { 1 } else { 4 * stage.factor() };
         let most = self.effort.most_samples.saturating_mul(room);

@@ -11,17 +11,13 @@ mod share;
 mod slope;
 pub(crate) mod timing;
 
-pub(super) use correlation::CORRELATION_FALSE_ALARM;
 pub(crate) use correlation::{CorrelationReport, judge_uncorrelated};
 pub(crate) use counts::{
     CountDoubt, CountReport, CountSource, follows_law, judge_count_source, judge_counts,
 };
 pub(crate) use exact::{Compared, ExactReport, Tolerance, judge_exact};
-pub(super) use mean::MEAN_FALSE_ALARM;
 pub(crate) use mean::{MeanReport, judge_means};
-pub(super) use rare::RARE_FALSE_ALARM;
 pub(crate) use rare::{RareReport, Rarity, judge_rare};
 pub(crate) use reported_variance::{ReportedVariance, TwoVariances};
 pub(crate) use share::{ShareReport, judge_share};
-pub(super) use slope::SLOPE_FALSE_ALARM;
 pub(crate) use slope::{ErrorLevel, Sampling, SlopeReport, judge_slope};

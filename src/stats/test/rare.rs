@@ -3,11 +3,8 @@
 
 use crate::math::Precision;
 use crate::stats::law::{binomial_at_least, share_interval};
-use crate::stats::plan::{Hypothesis, Judgement, MISS_LEVEL, Report, TestKind, Verdict};
-
-/// Probability that a correct core fails: the level of the tail where some are allowed. Where none
-/// is, what a correct core in double precision does in 10⁶ trials with a probability of about that.
-pub(in crate::stats) const RARE_FALSE_ALARM: f64 = 1e-8;
+use crate::stats::plan::level::{MISS_LEVEL, RARE_FALSE_ALARM};
+use crate::stats::plan::{Hypothesis, Judgement, Report, TestKind, Verdict};
 
 /// How often something may happen to a correct core.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,9 +36,7 @@ impl Rarity {
 pub(crate) struct RareReport {
     /// Pass or fail; inconclusive without trials.
     pub(crate) verdict: Verdict,
-    /// How often it happened.
     pub(crate) hits: u64,
-    /// Of how many.
     pub(crate) trials: u64,
     /// The share that is allowed.
     pub(crate) allowed: f64,
@@ -54,13 +49,10 @@ pub(crate) struct RareReport {
 impl Report for RareReport {
     fn judgement(&self) -> Judgement {
         Judgement {
-            verdict: self.verdict,
-            measured: self.hits as f64 / self.trials as f64,
-            expected: 0.0,
             allowed: self.allowed,
             interval: Some(self.interval),
-            smallest_detectable_error: None,
             hypothesis: Some(Hypothesis::new(TestKind::Rare, false)),
+            ..Judgement::new(self.verdict, self.hits as f64 / self.trials as f64, 0.0)
         }
     }
 }

@@ -68,7 +68,6 @@ impl TwoVariances {
         (self.reported / self.measured).log2().clamp(-LARGEST, LARGEST)
     }
 
-    /// The mean over groups of pictures.
     pub(crate) fn mean_of(groups: &[Self]) -> Self {
         let mean =
             |part: fn(&Self) -> f64| groups.iter().map(part).sum::<f64>() / groups.len() as f64;

@@ -5,9 +5,9 @@
 //! core, so no variance has to be estimated and no limit theorem believed.
 
 use crate::stats::law::{binomial_at_least, binomial_at_most, normal_upper, share_interval};
+use crate::stats::plan::level::{MISS_LEVEL, STAGE_LEVEL};
 use crate::stats::plan::{
-    Band, Effort, Escalation, Judgement, MISS_LEVEL, Report, STAGE_LEVEL, Scored, Stage, TestKind,
-    Verdict,
+    Band, Effort, Escalation, Judgement, Report, Scored, Stage, TestKind, Verdict,
 };
 
 /// Samples of the smallest first stage.
@@ -16,9 +16,7 @@ const FEWEST_SAMPLES: f64 = 1000.0;
 /// One stage of counting hits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ShareStage {
-    /// Which stage.
     pub(crate) stage: Stage,
-    /// Samples drawn.
     pub(crate) trials: u64,
     /// Those that were "yes".
     pub(crate) hits: u64,
@@ -37,15 +35,11 @@ impl Scored for ShareStage {
 /// The judgement of a share. Its interval is that of the last stage drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ShareReport {
-    /// Pass, fail or inconclusive.
     pub(crate) verdict: Verdict,
-    /// The true share.
     pub(crate) expected: f64,
-    /// Measured.
     pub(crate) share: f64,
     /// Holds the share of the core with 99.9 % confidence.
     pub(crate) interval: [f64; 2],
-    /// Every stage drawn.
     pub(crate) stages: Escalation<ShareStage>,
     /// The smallest relative error that would have been caught with probability 0.999.
     pub(crate) resolution: f64,
@@ -54,13 +48,10 @@ pub(crate) struct ShareReport {
 impl Report for ShareReport {
     fn judgement(&self) -> Judgement {
         Judgement {
-            verdict: self.verdict,
-            measured: self.share,
-            expected: self.expected,
-            allowed: 0.0,
             interval: Some(self.interval),
             smallest_detectable_error: Some(self.resolution),
             hypothesis: Some(self.stages.hypothesis(TestKind::Share)),
+            ..Judgement::new(self.verdict, self.share, self.expected)
         }
     }
 }
@@ -132,15 +123,8 @@ fn report(
     let (first, last) = (stages[0], stages[stages.len() - 1]);
     let deviation = (expected * (1.0 - expected) / first.trials as f64).sqrt();
     let resolution = band.relative() + sigmas() * deviation / expected;
-    let verdict = if stages.rejects() {
-        Verdict::Fail
-    } else if resolution <= effort.detects {
-        Verdict::Pass
-    } else {
-        Verdict::Inconclusive
-    };
     ShareReport {
-        verdict,
+        verdict: Verdict::of_test(stages.rejects(), resolution <= effort.detects),
         expected,
         share: last.hits as f64 / last.trials as f64,
         interval: share_interval(last.hits, last.trials, STAGE_LEVEL),

@@ -19,9 +19,6 @@ const SIGMAS: f64 = 7.0;
 const THREE_NINES: f64 = 3.29;
 /// Standard errors more with which an error is seen with probability 0.999.
 const SIGMAS_TO_SEE: f64 = 3.09;
-/// Probability that a correct core fails: two sides of 7 standard errors, with room for a t of 60
-/// degrees of freedom.
-pub(in crate::stats) const SLOPE_FALSE_ALARM: f64 = 1e-8;
 
 /// The errors at one number of samples.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,9 +64,7 @@ pub(crate) enum Sampling {
     Stratified,
 }
 
-/// One point of the line.
 struct ErrorPoint {
-    /// Samples per pixel.
     samples: u64,
     /// Root mean square error over pixels and runs.
     error: f64,
@@ -80,7 +75,6 @@ struct ErrorPoint {
 /// The judgement of a series of errors.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SlopeReport {
-    /// Pass, fail or inconclusive.
     pub(crate) verdict: Verdict,
     /// Of log error on log samples.
     pub(crate) slope: f64,
@@ -97,13 +91,10 @@ impl Report for SlopeReport {
     fn judgement(&self) -> Judgement {
         let end = |side: f64| self.slope + side * THREE_NINES * self.standard_error;
         Judgement {
-            verdict: self.verdict,
-            measured: self.slope,
-            expected: INDEPENDENT,
-            allowed: 0.0,
             interval: Some([end(-1.0), end(1.0)]),
             smallest_detectable_error: Some(self.resolution / INDEPENDENT.abs()),
             hypothesis: Some(Hypothesis::new(TestKind::Slope, false)),
+            ..Judgement::new(self.verdict, self.slope, INDEPENDENT)
         }
     }
 }
@@ -117,15 +108,9 @@ pub(crate) fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f6
         Sampling::Stratified => slope - INDEPENDENT,
     };
     let resolution = BAND + (SIGMAS + SIGMAS_TO_SEE) * standard_error;
-    let verdict = if off > BAND + SIGMAS * standard_error || slope.is_nan() {
-        Verdict::Fail
-    } else if resolution <= detects {
-        Verdict::Pass
-    } else {
-        Verdict::Inconclusive
-    };
+    let rejects = off > BAND + SIGMAS * standard_error || slope.is_nan();
     SlopeReport {
-        verdict,
+        verdict: Verdict::of_test(rejects, resolution <= detects),
         slope,
         standard_error,
         resolution,

@@ -19,7 +19,6 @@ pub(crate) struct SpeedUp {
     pub(crate) ratio: f64,
     /// 95 % bootstrap interval of that median.
     pub(crate) interval: [f64; 2],
-    /// Pairs measured.
     pub(crate) pairs: usize,
     /// Pairs in which the second was faster.
     pub(crate) wins: usize,
@@ -54,7 +53,6 @@ const SIGN_LEVEL: f64 = 1e-4;
 /// Whether one of two things is so many times as fast as the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Faster {
-    /// How much faster the second is.
     pub(crate) speed_up: SpeedUp,
     /// Pairs in which it is by more than what was asked.
     pub(crate) above: usize,

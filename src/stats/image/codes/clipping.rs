@@ -3,10 +3,9 @@
 use super::Codes;
 use super::channel::{Channel, Standing};
 use crate::image::encoding::WHITE;
-use crate::stats::image::screen::Levels;
+use crate::stats::image::draw::Levels;
 use crate::stats::{ImageDraw, ImageEffort, Moments, Stage, student_upper};
 
-/// Whether pixels that should be clipped are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ClippingReport {
     /// Channels of pixels that should be clipped in most pictures.

@@ -48,7 +48,6 @@ pub struct Deciphered {
 }
 
 impl Deciphered {
-    /// Whether another encoding than the declared one was found.
     pub(crate) fn is_another(&self) -> bool {
         self.found.is_some_and(|found| found != self.declared)
     }

@@ -15,7 +15,6 @@ const FAR: f64 = 12.0;
 /// The law of a pixel's value: the mean of its samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PixelLaw {
-    /// Mean.
     pub(crate) mean: f64,
     /// Standard deviation between pictures.
     pub(crate) deviation: f64,
@@ -24,16 +23,13 @@ pub(crate) struct PixelLaw {
 /// What can be said of a pixel's code.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct CodeLaw {
-    /// Mean code.
     pub(crate) mean: f64,
-    /// Standard deviation of the code.
     pub(crate) deviation: f64,
     /// Codes gained if all light grows by a small factor, over the logarithm of that factor.
     pub(crate) slope: f64,
 }
 
 impl PixelLaw {
-    /// The law of the code that this pixel gets.
     pub(crate) fn codes(self, encoding: Encoding) -> CodeLaw {
         if !(self.deviation > 0.0 && self.mean > 0.0) {
             let mean = f64::from(encoding.code(self.mean));
@@ -91,7 +87,6 @@ impl PixelLaw {
         (self.mean / self.deviation).powi(2)
     }
 
-    /// The probability of a value of at least `light`.
     fn at_least(self, light: f64) -> f64 {
         let (shape, relative) = (self.shape(), light / self.mean);
         if shape > LARGE_SHAPE {

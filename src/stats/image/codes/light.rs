@@ -43,7 +43,6 @@ pub enum NoiseSource {
 pub struct LightOfCodes {
     /// How the light was encoded; if otherwise than declared, nothing else here means anything.
     pub(crate) deciphered: Deciphered,
-    /// Where the noise is known from.
     pub(crate) noise: NoiseSource,
     /// The light, the mean of all pictures.
     pub(crate) image: Image,

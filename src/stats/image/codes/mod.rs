@@ -33,7 +33,7 @@ pub(crate) use clipping::ClippingReport;
 pub use decipher::Deciphered;
 pub use light::{LightOfCodes, NoiseSource, light_of_codes};
 
-use super::screen::{CONFIRM_LEVEL, IMAGE_FALSE_ALARM, Levels};
+use super::draw::Levels;
 use super::screening::Screening;
 use crate::image::Image;
 use crate::image::encoding::Encoding;
@@ -46,12 +46,6 @@ use decipher::decipher;
 use model::Model;
 use observed::Observed;
 
-/// Probability that a correct core is said to encode otherwise than it does.
-const DECIPHERING_FALSE_ALARM: f64 = 1e-10;
-/// Probability that a correct core fails one picture of codes: cells, clipping, and an encoding that
-/// is taken for another.
-pub(in crate::stats) const CODES_FALSE_ALARM: f64 =
-    IMAGE_FALSE_ALARM + CONFIRM_LEVEL * CONFIRM_LEVEL + DECIPHERING_FALSE_ALARM;
 /// Pictures that tell the noise of the codes.
 const PILOT_RUNS: u32 = 16;
 /// Share of the channels that has to be comparable.
@@ -62,7 +56,6 @@ const FEWEST_COMPARED: f64 = 0.5;
 pub struct CodeReference<'a> {
     /// Mean radiance.
     pub(crate) mean: &'a Image,
-    /// Standard error of that mean.
     pub(crate) standard_error: &'a Image,
     /// Samples a pixel behind it, if that is known: from them follows how noisy a picture with fewer
     /// is, whether or not its codes show it.
@@ -89,9 +82,7 @@ pub struct CodeSettings {
 /// The judgement of 8-bit pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodeReport {
-    /// Pass, fail or inconclusive.
     pub(crate) verdict: Verdict,
-    /// What the codes say of their own encoding.
     pub(crate) deciphered: Deciphered,
     /// Cells of codes; relative errors are those of the light behind them. None if the encoding is
     /// another than declared: nothing can be compared then.

@@ -92,7 +92,6 @@ impl Model {
         picture.pixels.as_flattened()
     }
 
-    /// What the cells of the codes should be.
     pub(super) fn target(&self) -> Target {
         let expected = self.image(|channel| channel.expected);
         let cells = Cells::new(&expected);

@@ -28,9 +28,8 @@ mod tests;
 pub use pattern::Pattern;
 pub use report::{DifferenceReport, OddPixels, PatternReport};
 
-use super::screen::CONFIRM_LEVEL;
 use crate::image::Image;
-use crate::stats::plan::MISS_LEVEL;
+use crate::stats::plan::level::{CONFIRM_LEVEL, MISS_LEVEL};
 use crate::stats::{Verdict, student_upper};
 use pattern::{Score, confirm};
 use unit::{COMPONENTS, Units};
@@ -41,7 +40,6 @@ const STAGES: usize = 3;
 /// One picture, and how well it is known.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<'a> {
-    /// The picture.
     pub(crate) image: &'a Image,
     /// The variance of each value of `image`, if it is known.
     pub(crate) variance: Option<&'a Image>,
@@ -88,13 +86,8 @@ fn judge_at(
     let outliers = pixel::outliers(picture, reference, counted);
     let rejected = odd.is_some() || outliers.is_some() || patterns.iter().any(|p| p.rejects);
     let resolution = resolution(&units, level);
-    let verdict = match (rejected, resolution.is_finite()) {
-        (true, _) => Verdict::Fail,
-        (false, true) => Verdict::Pass,
-        (false, false) => Verdict::Inconclusive,
-    };
     DifferenceReport {
-        verdict,
+        verdict: Verdict::of_test(rejected, resolution.is_finite()),
         equal: false,
         impossible: odd,
         outliers,

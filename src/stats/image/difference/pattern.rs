@@ -153,7 +153,6 @@ impl Cell<'_> {
         sum / units().map(|unit| unit.scales[choice.measure]).sum::<f64>()
     }
 
-    /// The pixels of the cell.
     pub(super) fn extent(&self) -> Extent {
         let units = || self.stages.iter().flatten();
         let ends = |of: fn(&Unit) -> usize| {

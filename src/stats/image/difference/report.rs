@@ -14,7 +14,6 @@ pub struct OddPixels {
     pub(crate) x: usize,
     /// Its row, from the top.
     pub(crate) y: usize,
-    /// How many there are.
     pub(crate) pixels: usize,
     /// How far the farthest is off, in standard errors; negative if too dark.
     pub(crate) sigmas: Option<f64>,
@@ -23,9 +22,7 @@ pub struct OddPixels {
 /// What one pattern says.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PatternReport {
-    /// What was looked for.
     pub(crate) pattern: Pattern,
-    /// Cells that were judged.
     pub(crate) cells: usize,
     /// The cell that stood out most.
     pub(crate) worst: Option<Extent>,
@@ -59,7 +56,6 @@ pub struct DifferenceReport {
 }
 
 impl DifferenceReport {
-    /// Of pictures that are equal to the last bit.
     pub(super) fn of_equals() -> Self {
         Self {
             verdict: Verdict::Pass,
@@ -77,14 +73,7 @@ impl Report for DifferenceReport {
     /// The luminance of the whole picture, over that of the reference. No ledger: nothing is told
     /// apart but two files.
     fn judgement(&self) -> Judgement {
-        Judgement {
-            verdict: self.verdict,
-            measured: self.ratio,
-            expected: 1.0,
-            allowed: 0.0,
-            interval: None,
-            smallest_detectable_error: Some(self.resolution).filter(|error| error.is_finite()),
-            hypothesis: None,
-        }
+        let smallest_detectable_error = Some(self.resolution).filter(|error| error.is_finite());
+        Judgement { smallest_detectable_error, ..Judgement::new(self.verdict, self.ratio, 1.0) }
     }
 }

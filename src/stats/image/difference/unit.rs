@@ -15,7 +15,6 @@ pub(super) const MEASURES: usize = COMPONENTS + 2;
 /// Units with fewer pixels that count say nothing.
 const FEWEST_PIXELS: usize = SIDE * SIDE / 2;
 
-/// A unit of the picture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unit {
     pub(super) column: usize,
@@ -37,7 +36,6 @@ impl Unit {
     }
 }
 
-/// The units of a pair of pictures.
 pub(super) struct Units {
     pub(super) all: Vec<Unit>,
 }

@@ -53,9 +53,7 @@ const FACTOR_WORTH_NAMING: f64 = 0.001;
 /// A number, and where it lies with 99.9 % confidence.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Estimate {
-    /// The number.
     pub(crate) value: f64,
-    /// Ends of its interval.
     pub(crate) interval: [f64; 2],
 }
 
@@ -95,7 +93,6 @@ pub(crate) enum Misfit {
     DecodedTwice,
     /// Cut off at a level, pixels above it in the reference.
     Clipped {
-        /// The level.
         level: f64,
         /// How many pixels of the reference are brighter.
         pixels: usize,
@@ -113,11 +110,9 @@ pub(crate) enum Misfit {
     },
     /// Lines side by side times a factor.
     Stripe {
-        /// Columns or rows.
         lines: Lines,
         /// The first, from the top left.
         first: usize,
-        /// The last.
         last: usize,
         /// How bright they are beside what they should be.
         factor: Estimate,
@@ -138,7 +133,6 @@ pub(crate) enum Misfit {
 /// A mistake that was found.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Fit {
-    /// The mistake.
     pub(crate) misfit: Misfit,
     /// The share of what differed before that no longer does, from 0 to 1.
     pub(crate) explains: f64,

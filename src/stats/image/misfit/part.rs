@@ -32,7 +32,6 @@ impl Share {
 pub(crate) struct BouncesOff {
     /// 0 is what the camera sees glowing.
     pub(crate) first: usize,
-    /// The last of them.
     pub(crate) last: usize,
     /// How often they are missing.
     pub(crate) share: Share,

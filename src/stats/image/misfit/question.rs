@@ -15,7 +15,6 @@ const HOPELESS: f64 = 0.98;
 /// Pixels to each side whose brightness a weight goes by.
 const REACH: usize = 2;
 
-/// A picture and what it should be.
 pub(super) struct Question<'a> {
     pub(super) image: &'a Image,
     /// The reference, with the mistakes found so far.

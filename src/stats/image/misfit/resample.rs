@@ -86,7 +86,6 @@ impl<'a> Resampled<'a> {
         seen
     }
 
-    /// All of it.
     pub(super) fn image(&self) -> Image {
         let pixels = (0..self.image.pixels.len()).into_par_iter();
         Image { pixels: pixels.map(|pixel| self.pixel(pixel)).collect(), ..*self.image }

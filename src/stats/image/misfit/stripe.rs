@@ -13,13 +13,10 @@ const BESIDE: usize = 3;
 /// No pixel counts for more, where one in a grey of the expected brightness counts for at most 3.
 const MOST: f32 = 12.0;
 
-/// What a stripe is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Lines {
-    /// From top to bottom.
     Columns,
-    /// From left to right.
     Rows,
 }
 

@@ -9,13 +9,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Symmetry {
-    /// Left and right exchanged.
     LeftRight,
-    /// Top and bottom exchanged.
     UpsideDown,
-    /// Turned by 180 degrees.
     HalfTurn,
-    /// Rows and columns exchanged.
     Transposed,
     /// Rows and columns exchanged, from the other corner.
     AntiTransposed,
@@ -26,7 +22,6 @@ pub(crate) enum Symmetry {
 }
 
 impl Symmetry {
-    /// Every way.
     pub(crate) const ALL: [Self; 7] = [
         Self::LeftRight,
         Self::UpsideDown,

@@ -1,8 +1,8 @@
 //! Pictures that are right, wrong in many places or few, and known badly.
 
 use super::*;
-use crate::math::rng::{Stream, uniform};
-use crate::stats::{Impossible, Verdict};
+use crate::math::rng::{Seed, Stream, uniform};
+use crate::stats::{Impossible, Moments, Scale, Verdict};
 use std::convert::Infallible;
 
 const SIZE: usize = 64;
@@ -27,25 +27,36 @@ fn noise(stream: &mut Stream) -> f32 {
     (sum / f64::from(SAMPLES)) as f32
 }
 
-fn noisy(mean: &Image, stream: &mut Stream) -> Image {
-    Image::from_fn(mean.width, mean.height, |x, y| {
-        let gain = noise(stream);
-        mean.pixels[y * mean.width + x].map(|value| gain * value)
-    })
+/// A pixel of a noisy picture whose mean is `truth`.
+fn noisy(truth: &Image, x: usize, y: usize, stream: &mut Stream) -> [f32; 3] {
+    let gain = noise(stream);
+    truth.pixels[y * truth.width + x].map(|value| gain * value)
 }
 
-fn judge_against(reference: Reference<'_>, truth: &Image, seed: u64) -> ImageReport {
+/// Judges runs whose pixels are `pixel`, of so many samples, against `mean` with a standard error.
+fn judged(
+    [mean, standard_error]: [&Image; 2],
+    (detects, samples): (f64, u32),
+    seed: u64,
+    pixel: impl Fn(usize, usize, &mut Stream) -> [f32; 3],
+) -> ImageReport {
     let mut draw = |request: ImageDraw| {
-        Ok::<_, Infallible>(noisy(truth, &mut request.seed(Seed(seed)).stream()))
+        let mut stream = request.seed(Seed(seed)).stream();
+        let pixel = |x, y| pixel(x, y, &mut stream);
+        Ok::<_, Infallible>(Image::from_fn(mean.width, mean.height, pixel))
     };
-    let Ok(report) = judge_image(reference, &ImageEffort::new(0.02, SAMPLES), &mut draw);
+    let reference = Reference { mean, standard_error };
+    let Ok(report) = judge_image(reference, &ImageEffort::new(detects, samples), &mut draw);
     report
+}
+
+fn judge_against(reference: [&Image; 2], truth: &Image, seed: u64) -> ImageReport {
+    judged(reference, (0.02, SAMPLES), seed, |x, y, stream| noisy(truth, x, y, stream))
 }
 
 /// Judges a core whose mean picture is `truth` against the ramp, known exactly.
 fn judge(truth: &Image, seed: u64) -> ImageReport {
-    let (mean, standard_error) = (ramp(), no_error());
-    judge_against(Reference { mean: &mean, standard_error: &standard_error }, truth, seed)
+    judge_against([&ramp(), &no_error()], truth, seed)
 }
 
 fn with_gain(gain: impl Fn(usize, usize) -> f32) -> Image {
@@ -85,23 +96,17 @@ fn a_brighter_corner_fails_where_the_whole_picture_hides_it() {
 }
 
 #[test]
-fn one_hot_pixel_fails() {
-    let report = judge(&with_gain(|x, y| if (x, y) == (20, 30) { 20.0 } else { 1.0 }), 1);
-    assert_eq!(report.verdict, Verdict::Fail);
-    let pixel = &report.scales[0];
-    assert_eq!((pixel.worst[0].extent.x, pixel.worst[0].extent.y), (20, 30));
-}
-
-#[test]
-fn one_dead_pixel_fails() {
-    let report = judge(&with_gain(|x, y| if (x, y) == (20, 30) { 0.0 } else { 1.0 }), 1);
-    assert_eq!(report.verdict, Verdict::Fail);
-    assert_eq!(report.dead_pixels, [[20, 30]]);
-}
-
-#[test]
-fn a_black_picture_fails() {
-    assert_eq!(judge(&no_error(), 1).verdict, Verdict::Fail);
+fn one_hot_pixel_fails_and_one_dead_and_a_black_picture() {
+    let gain_of_one = |gain| with_gain(move |x, y| if (x, y) == (20, 30) { gain } else { 1.0 });
+    let [hot, dead, black] = [gain_of_one(20.0), gain_of_one(0.0), no_error()].map(|image| {
+        let report = judge(&image, 1);
+        assert_eq!(report.verdict, Verdict::Fail);
+        report
+    });
+    let extent = hot.scales[0].worst[0].extent;
+    assert_eq!((extent.x, extent.y), (20, 30));
+    assert_eq!(dead.dead_pixels, [[20, 30]]);
+    assert!(black.ratios[3].interval[1] < 1e-6);
 }
 
 #[test]
@@ -126,13 +131,13 @@ fn the_noise_of_the_reference_is_not_blamed_on_the_core() {
     let relative = 0.05;
     let mut stream = Seed(99).stream();
     let error = with_gain(|_, _| relative);
-    let mean = with_gain(|_, _| 1.0);
-    let mean = Image::from_fn(SIZE, SIZE, |x, y| {
+    let mut mean = ramp();
+    for pixel in &mut mean.pixels {
         // Twelve uniform variables: near enough to normal, with deviation 1.
         let normal = (0..12).map(|_| uniform(&mut stream)).sum::<f64>() - 6.0;
-        mean.pixels[y * SIZE + x].map(|value| value * (1.0 + relative * normal as f32))
-    });
-    let reference = Reference { mean: &mean, standard_error: &error };
+        *pixel = pixel.map(|value| value * (1.0 + relative * normal as f32));
+    }
+    let reference = [&mean, &error];
     for seed in 0..4 {
         assert_eq!(judge_against(reference, &ramp(), seed).verdict, Verdict::Pass);
     }
@@ -142,19 +147,15 @@ fn the_noise_of_the_reference_is_not_blamed_on_the_core() {
 
 #[test]
 fn a_reference_that_is_too_noisy_proves_nothing() {
-    let (mean, error) = (ramp(), with_gain(|_, _| 1.0));
-    let reference = Reference { mean: &mean, standard_error: &error };
-    let report = judge_against(reference, &ramp(), 1);
+    let report = judge_against([&ramp(), &ramp()], &ramp(), 1);
     assert_eq!(report.verdict, Verdict::Inconclusive);
 }
 
 #[test]
 fn noise_that_could_hide_the_error_is_inconclusive() {
-    let (mean, error) = (ramp(), no_error());
-    let mut draw =
-        |request: ImageDraw| Ok::<_, Infallible>(noisy(&mean, &mut request.seed(Seed(1)).stream()));
-    let reference = Reference { mean: &mean, standard_error: &error };
-    let Ok(report) = judge_image(reference, &ImageEffort::new(0.004, SAMPLES), &mut draw);
+    let mean = ramp();
+    let noisy = |x, y, stream: &mut Stream| noisy(&mean, x, y, stream);
+    let report = judged([&mean, &no_error()], (0.004, SAMPLES), 1, noisy);
     assert_eq!(report.verdict, Verdict::Inconclusive);
 }
 
@@ -162,23 +163,15 @@ fn noise_that_could_hide_the_error_is_inconclusive() {
 /// miss some of a thousand. The reference has 100 times the samples, spread so evenly that its
 /// error in a column is that share of what independent samples have.
 fn judge_rare(gain: f32, evenly: impl Fn(usize) -> f32) -> ImageReport {
-    let chance = 0.025;
+    let probability = 0.025;
     let mean = Image::new(SIZE, SIZE, [0.5; 3]);
     let stored = 100.0 * 16.0 * f64::from(SAMPLES);
-    let error = 0.5 * (1.0 / chance / stored).sqrt() as f32;
+    let error = 0.5 * (1.0 / probability / stored).sqrt() as f32;
     let error = Image::from_fn(SIZE, SIZE, |x, _| [evenly(x) * error; 3]);
-    let mut draw = |request: ImageDraw| {
-        let mut stream = request.seed(Seed(7)).stream();
-        let lit = |stream: &mut Stream| {
-            let hits = (0..SAMPLES).filter(|_| uniform(stream) < chance).count();
-            hits as f32 / SAMPLES as f32 / chance as f32
-        };
-        let pixel = |_, _| [0.5 * gain * lit(&mut stream); 3];
-        Ok::<_, Infallible>(Image::from_fn(SIZE, SIZE, pixel))
-    };
-    let reference = Reference { mean: &mean, standard_error: &error };
-    let Ok(report) = judge_image(reference, &ImageEffort::new(0.1, SAMPLES), &mut draw);
-    report
+    judged([&mean, &error], (0.1, SAMPLES), 7, |_, _, stream| {
+        let hits = (0..SAMPLES).filter(|_| uniform(stream) < probability).count();
+        [0.5 * gain * (hits as f32 / SAMPLES as f32 / probability as f32); 3]
+    })
 }
 
 #[test]
@@ -196,32 +189,27 @@ fn rare_light_that_a_screen_misses_is_not_suspected_and_wrong_light_is() {
 
 #[test]
 fn slivers_that_a_screen_misses_are_not_suspected_though_the_reference_knows_them_exactly() {
-    // A lamp of 20 before a wall of 0.2, and a fiftieth of the pixels beside it.
+    // An emitter of 20 before a wall of 0.2, and a fiftieth of the pixels beside it.
     let cover = |x: usize| match x {
         0..8 => 1.0,
         8 => 0.02,
         _ => 0.0,
     };
     let mean = Image::from_fn(SIZE, SIZE, |x, _| [0.2 + 20.0 * cover(x) as f32; 3]);
-    let error = no_error();
-    let mut draw = |request: ImageDraw| {
-        let mut stream = request.seed(Seed(3)).stream();
-        let mut pixel = |x, _| {
-            let hits = (0..2).filter(|_| uniform(&mut stream) < cover(x)).count();
-            [0.2 + 10.0 * hits as f32; 3]
-        };
-        let image = Image::from_fn(SIZE, SIZE, &mut pixel);
-        Ok::<_, Infallible>(image)
-    };
-    let reference = Reference { mean: &mean, standard_error: &error };
-    let Ok(report) = judge_image(reference, &ImageEffort::new(0.05, 2), &mut draw);
+    let report = judged([&mean, &no_error()], (0.05, 2), 3, |x, _, stream| {
+        let hits = (0..2).filter(|_| uniform(stream) < cover(x)).count();
+        [0.2 + 10.0 * hits as f32; 3]
+    });
     assert_eq!((report.runs, report.verdict), (16, Verdict::Pass), "{:?}", report.scales[0]);
 }
 
 fn judge_pair(left: &Image, right: &Image) -> ImageReport {
     let mut draw = |request: ImageDraw| {
         let seed = request.seed(Seed(1));
-        let render = |truth, side: &str| noisy(truth, &mut seed.child(side).stream());
+        let render = |truth: &Image, side: &str| {
+            let mut stream = seed.child(side).stream();
+            Image::from_fn(SIZE, SIZE, |x, y| noisy(truth, x, y, &mut stream))
+        };
         Ok::<_, Infallible>([render(left, "left"), render(right, "right")])
     };
     let Ok(report) = judge_image_pair(&ImageEffort::new(0.03, SAMPLES), &mut draw);
@@ -249,16 +237,10 @@ fn judge_large(gain: impl Fn(usize) -> f32, seed: u64) -> ImageReport {
     let ramp = |x: usize| [0.2 + 0.6 * x as f32 / 256.0; 3];
     let mean = Image::from_fn(256, 256, |x, _| ramp(x));
     let error = Image::new(256, 256, [0.0; 3]);
-    let mut draw = |request: ImageDraw| {
-        let mut stream = request.seed(Seed(seed)).stream();
-        let mut gamma =
-            || -0.5 * ((1.0 - uniform(&mut stream)) * (1.0 - uniform(&mut stream))).ln();
-        let pixel = |x, _| ramp(x).map(|value| gain(x) * gamma() as f32 * value);
-        Ok::<_, Infallible>(Image::from_fn(256, 256, pixel))
-    };
-    let reference = Reference { mean: &mean, standard_error: &error };
-    let Ok(report) = judge_image(reference, &ImageEffort::new(0.02, 2), &mut draw);
-    report
+    judged([&mean, &error], (0.02, 2), seed, |x, _, stream| {
+        let gamma = -0.5 * ((1.0 - uniform(stream)) * (1.0 - uniform(stream))).ln();
+        ramp(x).map(|value| gain(x) * gamma as f32 * value)
+    })
 }
 
 #[test]
@@ -290,20 +272,15 @@ fn fireflies_do_not_fail_a_right_picture() {
     let mut mean = no_error();
     let mut error = no_error();
     for (mean, error) in mean.pixels.iter_mut().zip(&mut error.pixels) {
-        let moments: crate::stats::Moments =
-            (0..passes).map(|_| caustic(&mut stream, 64)).collect();
+        let moments: Moments = (0..passes).map(|_| caustic(&mut stream, 64)).collect();
         *mean = [moments.mean() as f32; 3];
         *error = [moments.standard_error() as f32; 3];
     }
-    let reference = Reference { mean: &mean, standard_error: &error };
     let mut suspected = 0;
     for seed in 0..100 {
-        let mut draw = |request: ImageDraw| {
-            let mut stream = request.seed(Seed(seed)).stream();
-            let pixel = |_, _| [caustic(&mut stream, SAMPLES) as f32; 3];
-            Ok::<_, Infallible>(Image::from_fn(SIZE, SIZE, pixel))
-        };
-        let Ok(report) = judge_image(reference, &ImageEffort::new(0.5, SAMPLES), &mut draw);
+        let report = judged([&mean, &error], (0.5, SAMPLES), seed, |_, _, stream| {
+            [caustic(stream, SAMPLES) as f32; 3]
+        });
         assert_ne!(report.verdict, Verdict::Fail, "{:?}", report.scales);
         suspected += u32::from(report.runs > 16);
     }

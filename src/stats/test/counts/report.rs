@@ -6,9 +6,7 @@ use crate::stats::{Report, Stage, TestKind, Verdict};
 /// One stage of counting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CountStage {
-    /// Which stage.
     pub(crate) stage: Stage,
-    /// Samples drawn.
     pub(crate) samples: u64,
     /// X² = Σ (O − E)² / E over pooled cells.
     pub(crate) statistic: f64,
@@ -20,7 +18,6 @@ pub(crate) struct CountStage {
     pub(crate) p_value: f64,
     /// N Σ δ²/p: how much of the statistic may be quadrature.
     pub(crate) quadrature_error: f64,
-    /// Whether the stage rejects.
     pub(crate) rejects: bool,
 }
 
@@ -35,7 +32,6 @@ impl Scored for CountStage {
 pub(crate) struct ForbiddenSamples {
     /// The cell of most of them.
     pub(crate) cell: usize,
-    /// How many fell in it.
     pub(crate) samples: u64,
 }
 
@@ -51,7 +47,6 @@ pub(crate) enum CountDoubt {
 /// The judgement of a sampler against its density. Counts are those of the last stage drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CountReport {
-    /// Pass, fail or inconclusive.
     pub(crate) verdict: Verdict,
     /// Why it is inconclusive.
     pub(crate) doubt: Option<CountDoubt>,
@@ -70,9 +65,7 @@ pub(crate) struct CountReport {
     pub(crate) samples: u64,
     /// What the first stage lacks, if more samples would help.
     pub(crate) samples_missing: Option<u64>,
-    /// Counted in each cell.
     pub(crate) observed: Vec<u64>,
-    /// Expected in each cell.
     pub(crate) expected: Vec<f64>,
     /// (O − E)/√E of each cell, for pictures.
     pub(crate) residuals: Vec<f64>,
@@ -92,13 +85,10 @@ impl Report for CountReport {
             last.map_or(f64::NAN, |s| value(s) / s.freedom.max(1.0))
         };
         Judgement {
-            verdict: self.verdict,
-            measured: per_freedom(|stage| stage.statistic),
-            expected: 1.0,
             allowed: per_freedom(|stage| stage.critical) - 1.0,
-            interval: None,
             smallest_detectable_error: Some(self.resolution),
             hypothesis: Some(self.stages.hypothesis(TestKind::Counts)),
+            ..Judgement::new(self.verdict, per_freedom(|stage| stage.statistic), 1.0)
         }
     }
 }

@@ -6,7 +6,6 @@ use crate::stats::{Hypothesis, Report, Stage, TestKind, Verdict};
 /// One stage, seen by one claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct StageScore {
-    /// Which stage.
     pub(crate) stage: Stage,
     /// Samples over all its runs.
     pub(crate) samples: u64,
@@ -32,13 +31,11 @@ impl Scored for StageScore {
 /// stage drawn: the earlier ones chose whether it would be, the last one is fresh.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MeanReport {
-    /// Pass, fail or inconclusive.
     pub(crate) verdict: Verdict,
     /// The true mean, as claimed.
     pub(crate) expected: f64,
     /// Half width of the null hypothesis, in the unit of the mean.
     pub(crate) band: f64,
-    /// Measured.
     pub(crate) mean: f64,
     /// Of `mean`, from the spread of independent runs.
     pub(crate) standard_error: f64,
@@ -71,9 +68,6 @@ impl MeanReport {
 impl Report for MeanReport {
     fn judgement(&self) -> Judgement {
         Judgement {
-            verdict: self.verdict,
-            measured: self.mean,
-            expected: self.expected,
             allowed: self.band,
             interval: Some(self.interval),
             smallest_detectable_error: Some(self.resolution).filter(|error| error.is_finite()),
@@ -81,6 +75,7 @@ impl Report for MeanReport {
                 false_alarm: self.false_alarm,
                 ..self.stages.hypothesis(TestKind::Mean)
             }),
+            ..Judgement::new(self.verdict, self.mean, self.expected)
         }
     }
 }

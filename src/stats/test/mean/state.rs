@@ -1,8 +1,9 @@
 //! What the test of a mean knows of one claim between its stages.
 
 use super::noise::{Noise, sample_variance};
-use super::{MEAN_FALSE_ALARM, MeanReport, StageScore};
-use crate::stats::plan::{Escalation, INTERVAL_LEVEL, MISS_LEVEL};
+use super::{MeanReport, StageScore};
+use crate::stats::plan::Escalation;
+use crate::stats::plan::level::{INTERVAL_LEVEL, MEAN_FALSE_ALARM, MISS_LEVEL};
 use crate::stats::{Claim, Effort, Moments, Stage, Verdict, normal_upper, student_upper};
 
 /// Standard errors that the first stage is planned for: 3.45 to reject (Student, 63 degrees of
@@ -31,7 +32,6 @@ pub(crate) enum Suspicion {
     GrosslyHigh,
     /// Grossly too little, unless rare events have not happened yet.
     GrosslyLow,
-    /// Neither.
     Slight,
 }
 
@@ -95,7 +95,6 @@ impl MeanTest {
         self.effective(variance, samples) >= PILOT_EFFECTIVE
     }
 
-    /// Learns from the last pilot.
     pub(super) fn take_pilot(&mut self, pilot: &Moments, samples: u64) {
         let departure = self.claim.departure(pilot.mean()).abs();
         self.is_expected_to_depart = departure > PILOT_SIGMAS * pilot.standard_error();
@@ -166,7 +165,6 @@ impl MeanTest {
         })
     }
 
-    /// Takes the decision of a stage.
     pub(super) fn score(&mut self, stage: Stage, moments: &Moments, samples: u64) {
         let score = self.scored(stage, moments, samples);
         self.is_finite &= score.mean.is_finite();
@@ -220,7 +218,6 @@ impl MeanTest {
         (self.claim.band_width() + sigmas * error) / self.claim.scale
     }
 
-    /// What came out.
     pub(super) fn report(&self, effort: &Effort, drawn: u64) -> MeanReport {
         let last = self.stages.last();
         let first_samples = self.stages.first().map_or(0, |score| score.samples);
@@ -231,13 +228,8 @@ impl MeanTest {
         let resolution = self.resolution();
         let effective_samples = self.effective(self.variance(), first_samples);
         let sees = resolution <= effort.detects && effective_samples >= FEWEST_EFFECTIVE;
-        let verdict = match self.stages.rejects() || !self.is_finite {
-            true => Verdict::Fail,
-            false if sees => Verdict::Pass,
-            false => Verdict::Inconclusive,
-        };
         MeanReport {
-            verdict,
+            verdict: Verdict::of_test(self.stages.rejects() || !self.is_finite, sees),
             expected: self.claim.expected,
             band: self.claim.band_width(),
             mean,

@@ -5,7 +5,7 @@
 use furnace::contract::Capabilities;
 use furnace::contract::abi;
 use furnace::contract::crossing::{Layout, Part};
-use furnace::contract::questions::{QUESTIONS, Question};
+use furnace::contract::question::{QUESTIONS, Question};
 use regex_lite::Regex;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -4,7 +4,7 @@ use super::hosting::HostingArguments;
 use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Case, next_steps};
-use crate::contract::questions::QUESTIONS;
+use crate::contract::question::QUESTIONS;
 use crate::contract::{Capabilities, Conventions, CoreError, CoreInfo, Precision};
 use crate::cores::{CORES, CoreSpec, HostError, Hosted, Hosting};
 use crate::worker::StartError;

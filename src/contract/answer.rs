@@ -3,8 +3,8 @@
 //!
 //! Not here: whether an answer is *right*, which is what checks are for.
 
-use super::crossing::{Element, Part, Sent, Wanted};
-use super::{Breach, BreachKind, Capabilities, CoreError, Film, Place, Result, read_flags};
+use super::crossing::{Element, Part, Sent, Value, Wanted};
+use super::{Breach, BreachKind, Capabilities, CoreError, Result};
 use crate::image::png::Picture;
 use bytemuck::Pod;
 use glam::DVec3;
@@ -55,55 +55,6 @@ pub trait Answer {
 
 /// Writes the arrays of an answer.
 pub(crate) type Fill<'a> = &'a mut dyn FnMut(&mut [Wanted<'_>]) -> Result<()>;
-
-/// A number or some numbers: what stands for "not written", and how it is in single precision.
-pub trait Value: Copy {
-    /// What no computation makes.
-    const UNTOUCHED: Self;
-
-    /// Rounded to single precision, if it has a fraction.
-    #[must_use]
-    fn rounded(self) -> Self;
-}
-
-impl Value for f64 {
-    /// A NaN that no computation makes.
-    const UNTOUCHED: Self = Self::from_bits(0x7ff8_f00d_f00d_f00d);
-
-    fn rounded(self) -> Self {
-        Self::from(self as f32)
-    }
-}
-
-impl Value for f32 {
-    const UNTOUCHED: Self = Self::from_bits(0x7fd0_f00d);
-
-    fn rounded(self) -> Self {
-        self
-    }
-}
-
-/// Whole numbers are not rounded.
-macro_rules! whole {
-    ($($type:ty: $untouched:expr),*) => {
-        $(impl Value for $type {
-            const UNTOUCHED: Self = $untouched;
-
-            fn rounded(self) -> Self {
-                self
-            }
-        })*
-    };
-}
-whole! { u8: u8::MAX, u32: u32::MAX - 1, u64: u64::MAX - 1 }
-
-impl<T: Value, const N: usize> Value for [T; N] {
-    const UNTOUCHED: Self = [T::UNTOUCHED; N];
-
-    fn rounded(self) -> Self {
-        self.map(T::rounded)
-    }
-}
 
 /// What is wrong with one element, before its number is known.
 pub(crate) type Form = std::result::Result<(), Breach>;
@@ -205,75 +156,23 @@ impl Batch for [bool] {
     }
 }
 
-impl Answer for Film {
-    const PARTS: &'static [Part] = &[
-        Part::array::<[f32; 3]>("pixels"),
-        Part::array::<u32>("sample-counts"),
-        Part::array::<[f32; 3]>("variances"),
-    ];
-
-    fn blank(asked: &Asked<'_>) -> Box<Self> {
-        let mut film = Box::<Self>::default();
-        film.untouch(asked);
-        film
-    }
-
-    fn untouch(&mut self, asked: &Asked<'_>) {
-        let [width, height] = asked.size;
-        let count = width * height;
-        *self = Self {
-            width: width as u32,
-            height: height as u32,
-            pixels: vec![Value::UNTOUCHED; count],
-            sample_counts: vec![Value::UNTOUCHED; count],
-            variances: vec![Value::UNTOUCHED; if reports(asked.capabilities) { count } else { 0 }],
+/// Reads flags that cross the boundary as bytes.
+///
+/// # Errors
+/// If one is neither 0 nor 1.
+pub fn read_flags(bytes: &[u8], flags: &mut [bool]) -> Result<()> {
+    for (index, (flag, byte)) in flags.iter_mut().zip(bytes).enumerate() {
+        *flag = match byte {
+            0 => false,
+            1 => true,
+            _ => {
+                let breach = Breach::of("it", BreachKind::NotAFlag(u32::from(*byte)));
+                let breach = breach.in_element("occluded", index, bytes.len());
+                return Err(breach.into());
+            }
         };
     }
-
-    fn accept(&mut self, asked: &Asked<'_>) -> Result<()> {
-        let [width, height] = asked.size;
-        let count = width * height;
-        if self.pixels.len() != count || self.sample_counts.len() != count {
-            return Err(CoreError::breach(format!(
-                "the picture has {} pixels and {} sample counts; {width} x {height} is {count}",
-                self.pixels.len(),
-                self.sample_counts.len(),
-            )));
-        }
-        each_pixel(&self.pixels, width, "pixel", "radiance")?;
-        each(&self.sample_counts, "sample count", |count| touched("it", *count))?;
-        if !reports(asked.capabilities) {
-            self.variances.clear();
-        } else if self.variances.len() != count {
-            let found = self.variances.len();
-            return Err(CoreError::breach(format!(
-                "the picture has {found} variances of {count} pixels"
-            )));
-        }
-        each_pixel(&self.variances, width, "variance of pixel", "it")
-    }
-
-    fn sent(&self, _: &'static str, can: Capabilities) -> Vec<Sent<'_>> {
-        let counts = Sent::new("sample-counts", &self.sample_counts);
-        let mut arrays = vec![Sent::new("pixels", &self.pixels), counts];
-        if reports(can) {
-            arrays.push(Sent::new("variances", &self.variances));
-        }
-        arrays
-    }
-
-    fn receive(&mut self, _: &'static str, can: Capabilities, fill: Fill<'_>) -> Result<()> {
-        let counts = Wanted::new("sample-counts", &mut self.sample_counts);
-        let mut arrays = vec![Wanted::new("pixels", &mut self.pixels), counts];
-        if reports(can) {
-            arrays.push(Wanted::new("variances", &mut self.variances));
-        }
-        fill(&mut arrays)
-    }
-}
-
-fn reports(capabilities: Capabilities) -> bool {
-    capabilities.contains(Capabilities::REPORTED_VARIANCE)
+    Ok(())
 }
 
 impl Answer for Picture {
@@ -308,31 +207,15 @@ impl Answer for Picture {
     }
 }
 
-fn each<T>(elements: &[T], what: &'static str, check: impl Fn(&T) -> Form) -> Result<()> {
+pub(super) fn each<T>(
+    elements: &[T],
+    what: &'static str,
+    check: impl Fn(&T) -> Form,
+) -> Result<()> {
     let of = elements.len();
     elements.iter().enumerate().try_for_each(|(index, element)| {
         check(element).map_err(|breach| breach.in_element(what, index, of).into())
     })
-}
-
-/// Whether every value of the pixels of a film is written, finite and not negative.
-fn each_pixel(
-    values: &[[f32; 3]],
-    width: usize,
-    what: &'static str,
-    field: &'static str,
-) -> Result<()> {
-    values.iter().enumerate().try_for_each(|(index, value)| {
-        let place = || Place::Pixel { what: what.into(), x: index % width, y: index / width };
-        let breach = |breach| CoreError::from(Breach { place: place(), ..breach });
-        valid_pixel(field, *value).map_err(breach)
-    })
-}
-
-fn valid_pixel(field: &'static str, value: [f32; 3]) -> Form {
-    let is_touched = value.iter().all(|value| value.to_bits() != f32::UNTOUCHED.to_bits());
-    holds(is_touched, field, || BreachKind::Untouched)?;
-    colour(field, value.map(f64::from))
 }
 
 /// Three numbers that are finite and not negative.

@@ -1,11 +1,11 @@
 //! The elements of batches: rays, hits, samples. Plain `repr(C)` data, the same in Rust and in C.
 
+use super::BreachKind;
 use super::answer::{
     Answered, Asked, Form, colour, finite, finite_vector, flag, holds, not_nan, not_negative,
     touched, unit,
 };
 use super::crossing::elements;
-use super::{Breach, BreachKind, Capabilities, Result};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -34,19 +34,6 @@ impl Ray {
     /// The point at parameter `t`.
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + t * self.direction
-    }
-}
-
-elements! { "ray": Ray { origin, t_min, direction, t_max }; }
-
-impl Answered for Ray {
-    const NOUN: &'static str = "ray";
-
-    fn check(&self, _: &Asked<'_>) -> Form {
-        finite_vector("origin", self.origin)?;
-        unit("direction", self.direction)?;
-        not_nan("t_min", self.t_min)?;
-        not_nan("t_max", self.t_max)
     }
 }
 
@@ -89,26 +76,6 @@ impl Hit {
     }
 }
 
-elements! { "hit": Hit { t, shape, primitive, geometric_normal, shading_normal, uv }; }
-
-impl Answered for Hit {
-    const NOUN: &'static str = "hit";
-
-    fn check(&self, asked: &Asked<'_>) -> Form {
-        if !self.is_hit() {
-            return Ok(());
-        }
-        touched("primitive", self.primitive)?;
-        let &Self { shape, primitive, .. } = self;
-        let primitives = asked.primitives_of_shape.get(shape as usize).copied().unwrap_or(0);
-        let ghost = || BreachKind::NoSuchPrimitive { shape, primitive };
-        holds((primitive as usize) < primitives, "primitive", ghost)?;
-        finite("t", self.t)?;
-        unit("geometric_normal", self.geometric_normal)?;
-        unit("shading_normal", self.shading_normal)
-    }
-}
-
 /// Where a ray segment meets a box.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -121,16 +88,6 @@ pub struct BoxHit {
     pub hit: u32,
     /// Always 0.
     pub reserved: u32,
-}
-
-elements! { "box-hit": BoxHit { t_enter, t_exit, hit, reserved }; }
-
-impl Answered for BoxHit {
-    const NOUN: &'static str = "box hit";
-
-    fn check(&self, _: &Asked<'_>) -> Form {
-        flag("hit", self.hit)
-    }
 }
 
 /// A single shape, tested without any scene.
@@ -193,17 +150,6 @@ pub struct DirectionSample {
     pub pdf: f64,
 }
 
-elements! { "direction-sample": DirectionSample { direction, pdf }; }
-
-impl Answered for DirectionSample {
-    const NOUN: &'static str = "sample";
-
-    fn check(&self, _: &Asked<'_>) -> Form {
-        unit("direction", self.direction)?;
-        not_negative("pdf", self.pdf)
-    }
-}
-
 /// A pair of directions to evaluate a BSDF for.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -214,8 +160,6 @@ pub struct BsdfQuery {
     pub wi: DVec3,
 }
 
-elements! { "bsdf-query": BsdfQuery { wo, wi }; }
-
 /// What a BSDF answers for a pair of directions.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -224,17 +168,6 @@ pub struct BsdfValue {
     pub f: [f64; 3],
     /// Density per steradian around `wi`, given `wo`.
     pub pdf: f64,
-}
-
-elements! { "bsdf-value": BsdfValue { f, pdf }; }
-
-impl Answered for BsdfValue {
-    const NOUN: &'static str = "value";
-
-    fn check(&self, _: &Asked<'_>) -> Form {
-        colour("f", self.f)?;
-        not_negative("pdf", self.pdf)
-    }
 }
 
 /// A sampled incident direction.
@@ -257,23 +190,6 @@ pub struct BsdfSample {
 impl BsdfSample {
     /// A sample that failed.
     pub const NONE: Self = Self { wi: DVec3::Z, f: [0.0; 3], pdf: 0.0, is_delta: 0, is_valid: 0 };
-}
-
-elements! { "bsdf-sample": BsdfSample { wi, f, pdf, is_delta, is_valid }; }
-
-impl Answered for BsdfSample {
-    const NOUN: &'static str = "sample";
-
-    fn check(&self, _: &Asked<'_>) -> Form {
-        flag("is_valid", self.is_valid)?;
-        if self.is_valid == 0 {
-            return Ok(());
-        }
-        flag("is_delta", self.is_delta)?;
-        unit("wi", self.wi)?;
-        colour("f", self.f)?;
-        not_negative("pdf", self.pdf)
-    }
 }
 
 /// A sampled direction towards a light.
@@ -307,24 +223,6 @@ impl LightSample {
     };
 }
 
-elements! { "light-sample": LightSample { wi, distance, radiance, pdf, is_delta, is_valid }; }
-
-impl Answered for LightSample {
-    const NOUN: &'static str = "sample";
-
-    fn check(&self, _: &Asked<'_>) -> Form {
-        flag("is_valid", self.is_valid)?;
-        if self.is_valid == 0 {
-            return Ok(());
-        }
-        flag("is_delta", self.is_delta)?;
-        unit("wi", self.wi)?;
-        not_nan("distance", self.distance)?;
-        colour("radiance", self.radiance)?;
-        not_negative("pdf", self.pdf)
-    }
-}
-
 /// Random numbers for one batch, all in [0, 1). `points[i]` and `lobes[i]` belong to element i; a core without
 /// [`Capabilities::CALLERS_RANDOMNESS`] ignores them and seeds itself.
 #[derive(Clone, Copy, Debug)]
@@ -349,20 +247,68 @@ pub struct AdaptiveMean {
     pub reserved: u32,
 }
 
-elements! { "adaptive-mean": AdaptiveMean { mean, used, reserved }; }
+elements! {
+    "ray": Ray { origin, t_min, direction, t_max };
+    "hit": Hit { t, shape, primitive, geometric_normal, shading_normal, uv };
+    "box-hit": BoxHit { t_enter, t_exit, hit, reserved };
+    "direction-sample": DirectionSample { direction, pdf };
+    "bsdf-query": BsdfQuery { wo, wi };
+    "bsdf-value": BsdfValue { f, pdf };
+    "bsdf-sample": BsdfSample { wi, f, pdf, is_delta, is_valid };
+    "light-sample": LightSample { wi, distance, radiance, pdf, is_delta, is_valid };
+    "adaptive-mean": AdaptiveMean { mean, used, reserved };
+}
 
-impl Answered for AdaptiveMean {
-    const NOUN: &'static str = "mean";
+/// What each field has to be; `if` a flag, only where that is set.
+macro_rules! answered {
+    ($($noun:literal: $type:ty $(, if $valid:ident)? { $($field:ident: $form:ident),* };)*) => { $(
+        impl Answered for $type {
+            const NOUN: &'static str = $noun;
 
-    fn check(&self, _: &Asked<'_>) -> Form {
-        finite("mean", self.mean)?;
-        touched("used", self.used)
+            fn check(&self, _: &Asked<'_>) -> Form {
+                $(flag(stringify!($valid), self.$valid)?;
+                if self.$valid == 0 {
+                    return Ok(());
+                })?
+                $($form(stringify!($field), self.$field)?;)*
+                Ok(())
+            }
+        }
+    )* };
+}
+answered! {
+    "ray": Ray { origin: finite_vector, direction: unit, t_min: not_nan, t_max: not_nan };
+    "box hit": BoxHit { hit: flag };
+    "sample": DirectionSample { direction: unit, pdf: not_negative };
+    "value": BsdfValue { f: colour, pdf: not_negative };
+    "sample": BsdfSample, if is_valid { is_delta: flag, wi: unit, f: colour, pdf: not_negative };
+    "sample": LightSample, if is_valid {
+        is_delta: flag, wi: unit, distance: not_nan, radiance: colour, pdf: not_negative
+    };
+    "mean": AdaptiveMean { mean: finite, used: touched };
+}
+
+impl Answered for Hit {
+    const NOUN: &'static str = "hit";
+
+    fn check(&self, asked: &Asked<'_>) -> Form {
+        if !self.is_hit() {
+            return Ok(());
+        }
+        touched("primitive", self.primitive)?;
+        let &Self { shape, primitive, .. } = self;
+        let primitives = asked.primitives_of_shape.get(shape as usize).copied().unwrap_or(0);
+        let ghost = || BreachKind::NoSuchPrimitive { shape, primitive };
+        holds((primitive as usize) < primitives, "primitive", ghost)?;
+        finite("t", self.t)?;
+        unit("geometric_normal", self.geometric_normal)?;
+        unit("shading_normal", self.shading_normal)
     }
 }
 
-/// A density.
+/// The pdf of a direction.
 impl Answered for f64 {
-    const NOUN: &'static str = "density";
+    const NOUN: &'static str = "direction";
 
     fn check(&self, _: &Asked<'_>) -> Form {
         not_negative("pdf", *self)
@@ -375,56 +321,5 @@ impl Answered for [f64; 3] {
 
     fn check(&self, _: &Asked<'_>) -> Form {
         colour("radiance", *self)
-    }
-}
-
-/// Reads flags that cross the boundary as bytes.
-///
-/// # Errors
-/// If one is neither 0 nor 1.
-pub fn read_flags(bytes: &[u8], flags: &mut [bool]) -> Result<()> {
-    for (index, (flag, byte)) in flags.iter_mut().zip(bytes).enumerate() {
-        *flag = match byte {
-            0 => false,
-            1 => true,
-            _ => {
-                let breach = Breach::of("it", BreachKind::NotAFlag(u32::from(*byte)));
-                let breach = breach.in_element("occluded", index, bytes.len());
-                return Err(breach.into());
-            }
-        };
-    }
-    Ok(())
-}
-
-/// A picture: row-major from the top left, linear RGB radiance.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Film {
-    /// Pixels in a row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// `width · height` values.
-    pub pixels: Vec<[f32; 3]>,
-    /// Camera samples spent on each pixel, `width · height` values.
-    pub sample_counts: Vec<u32>,
-    /// Estimated variance of each value of `pixels`, in radiance squared: of the mean that is written there, not
-    /// of one sample; 0 where one sample says nothing. `width · height` values of a core with
-    /// [`Capabilities::REPORTED_VARIANCE`], none of others.
-    pub variances: Vec<[f32; 3]>,
-}
-
-impl Film {
-    /// A film that nothing has been written to, as a core with these capabilities is handed it.
-    pub fn blank(width: u32, height: u32, capabilities: Capabilities) -> Self {
-        let count = width as usize * height as usize;
-        let reports = capabilities.contains(Capabilities::REPORTED_VARIANCE);
-        Self {
-            width,
-            height,
-            pixels: vec![[f32::NAN; 3]; count],
-            sample_counts: vec![0; count],
-            variances: vec![[f32::NAN; 3]; if reports { count } else { 0 }],
-        }
     }
 }

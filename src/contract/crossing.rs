@@ -1,14 +1,8 @@
 //! How questions leave the process: their names, members of a JSON object, and arrays of plain elements.
 //!
-//! Each type of argument says once how it crosses ([`Argument`]). Not here: the bytes of a frame, and whoever is at
-//! the other end (`worker`). `docs/protocol.md` is this for people who write a core in another language.
+//! Not here: how each type of argument crosses ([`super::argument`]), the bytes of a frame, and whoever is at the other
+//! end (`worker`). `docs/protocol.md` is this for people who write a core in another language.
 
-use super::answer::Value;
-use super::{
-    AdaptiveSettings, Capabilities, IntegratorSettings, Primitive, Randomness, RenderSettings,
-    Sampler,
-};
-use crate::scene::{Aabb, Camera, Material, Surface};
 use bytemuck::Pod;
 use glam::{DVec2, DVec3};
 use serde::de::DeserializeOwned;
@@ -54,6 +48,55 @@ pub struct Layout {
     pub fields: &'static [(&'static str, usize)],
 }
 
+/// A number or some numbers: what stands for "not written", and how it is in single precision.
+pub trait Value: Copy {
+    /// What no computation makes.
+    const UNTOUCHED: Self;
+
+    /// Rounded to single precision, if it has a fraction.
+    #[must_use]
+    fn rounded(self) -> Self;
+}
+
+impl Value for f64 {
+    /// A NaN that no computation makes.
+    const UNTOUCHED: Self = Self::from_bits(0x7ff8_f00d_f00d_f00d);
+
+    fn rounded(self) -> Self {
+        Self::from(self as f32)
+    }
+}
+
+impl Value for f32 {
+    const UNTOUCHED: Self = Self::from_bits(0x7fd0_f00d);
+
+    fn rounded(self) -> Self {
+        self
+    }
+}
+
+/// Whole numbers are not rounded.
+macro_rules! whole {
+    ($($type:ty: $untouched:expr),*) => {
+        $(impl Value for $type {
+            const UNTOUCHED: Self = $untouched;
+
+            fn rounded(self) -> Self {
+                self
+            }
+        })*
+    };
+}
+whole! { u8: u8::MAX, u32: u32::MAX - 1, u64: u64::MAX - 1 }
+
+impl<T: Value, const N: usize> Value for [T; N] {
+    const UNTOUCHED: Self = [T::UNTOUCHED; N];
+
+    fn rounded(self) -> Self {
+        self.map(T::rounded)
+    }
+}
+
 /// An element of arrays: the same bytes on both sides.
 pub trait Element: Pod + Value {
     /// How it lies in memory.
@@ -70,8 +113,8 @@ macro_rules! elements {
                 fields: &[$($((stringify!($field), std::mem::offset_of!($type, $field))),*)?],
             };
         }
-        $(impl $crate::contract::answer::Value for $type {
-            const UNTOUCHED: Self = Self { $($field: $crate::contract::answer::Value::UNTOUCHED),* };
+        $(impl $crate::contract::crossing::Value for $type {
+            const UNTOUCHED: Self = Self { $($field: $crate::contract::crossing::Value::UNTOUCHED),* };
 
             fn rounded(self) -> Self {
                 Self { $($field: self.$field.rounded()),* }
@@ -100,7 +143,7 @@ elements! {
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
     members: Map<String, Json>,
-    arrays: Vec<Sent<'a>>,
+    pub(super) arrays: Vec<Sent<'a>>,
 }
 
 impl<'a> Request<'a> {
@@ -140,13 +183,6 @@ impl<'a> Request<'a> {
         self
     }
 
-    /// Adds what a question is asked with.
-    #[must_use]
-    pub fn with_argument(mut self, name: &'static str, it: impl Argument<'a>) -> Self {
-        it.pack(name, &mut self);
-        self
-    }
-
     /// The same with only some of the elements of each array that is not shared.
     #[must_use]
     pub(crate) fn part(&self, range: &Range<usize>) -> Request<'_> {
@@ -154,7 +190,7 @@ impl<'a> Request<'a> {
         Request { members: self.members.clone(), arrays }
     }
 
-    fn member(&mut self, name: &str, member: impl Serialize) {
+    pub(super) fn member(&mut self, name: &str, member: impl Serialize) {
         // What crosses are plain structs, which are always JSON.
         self.members.insert(name.to_owned(), serde_json::to_value(member).unwrap_or_default());
     }
@@ -225,7 +261,7 @@ impl<'a> Received<'a> {
     }
 
     /// The next array, which has this name and just so many elements.
-    fn take_exactly<T: Element, const N: usize>(
+    pub(super) fn take_exactly<T: Element, const N: usize>(
         &mut self,
         name: &str,
     ) -> Result<[T; N], Malformed> {
@@ -358,248 +394,5 @@ impl<'a> Wanted<'a> {
     /// Where its bytes go.
     pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         self.bytes
-    }
-}
-
-/// What a question is asked with.
-pub trait Argument<'a>: Copy {
-    /// What is kept of it at the other end, with the arrays of a body that lives for `'b`.
-    type Kept<'b>;
-
-    /// What of it crosses.
-    const PARTS: &'static [Part];
-
-    /// Puts it into a request.
-    fn pack(self, name: &'static str, request: &mut Request<'a>);
-
-    /// Takes it out again.
-    ///
-    /// # Errors
-    /// If it is not there.
-    fn keep<'b>(name: &str, received: &mut Received<'b>) -> Result<Self::Kept<'b>, Malformed>;
-
-    /// As the core is handed it.
-    fn lend<'b: 'a>(kept: &'a Self::Kept<'b>) -> Self;
-
-    /// The size of the answer, if it says one: as in [`super::answer::Asked`].
-    fn size(self) -> Option<[usize; 2]> {
-        None
-    }
-
-    /// What a core needs to understand it: what is younger than the contract is not shown to cores that do not say
-    /// that they know it.
-    fn needs(self) -> Capabilities {
-        Capabilities::empty()
-    }
-}
-
-/// The size of the answer to a question with arguments of these sizes.
-pub(crate) fn size_of_answer<const N: usize>(sizes: [Option<[usize; 2]>; N]) -> [usize; 2] {
-    sizes.into_iter().flatten().next_back().unwrap_or([0, 1])
-}
-
-/// Members of the header.
-macro_rules! members {
-    ($($of:ty: $kept:ty, |$it:ident| $lent:expr $(, $method:ident = $by:path => $answer:ty)?;)*) => { $(
-        impl<'a> Argument<'a> for $of {
-            type Kept<'b> = $kept;
-            const PARTS: &'static [Part] = &[Part::member("")];
-
-            fn pack(self, name: &'static str, request: &mut Request<'a>) {
-                request.member(name, self);
-            }
-
-            fn keep<'b>(name: &str, received: &mut Received<'b>) -> Result<$kept, Malformed> {
-                received.member(name)
-            }
-
-            fn lend<'b: 'a>($it: &'a $kept) -> Self {
-                $lent
-            }
-
-            $(fn $method(self) -> $answer {
-                $by(self)
-            })?
-        }
-    )* };
-}
-members! {
-    u32: u32, |number| *number;
-    f64: f64, |number| *number;
-    Sampler: Sampler, |sampler| *sampler;
-    &'a Camera: Camera, |camera| camera;
-    &'a IntegratorSettings: IntegratorSettings, |settings| settings;
-    &'a Material: Material, |material| material, needs = needed_by => Capabilities;
-    &'a RenderSettings: RenderSettings, |settings| settings,
-        size = size_of_picture => Option<[usize; 2]>;
-}
-
-/// What a core has to know before it is shown a material.
-pub(crate) fn needed_by(material: &Material) -> Capabilities {
-    match material.surface {
-        Surface::RoughGlass { .. } => Capabilities::ROUGH_GLASS,
-        _ => Capabilities::empty(),
-    }
-}
-
-fn size_of_picture(settings: &RenderSettings) -> Option<[usize; 2]> {
-    Some([settings.width as usize, settings.height as usize])
-}
-
-/// Its fields are members themselves.
-impl<'a> Argument<'a> for AdaptiveSettings {
-    type Kept<'b> = Self;
-    const PARTS: &'static [Part] =
-        &[Part::member("samples-per-batch"), Part::member("max-tolerance")];
-
-    fn pack(self, _: &'static str, request: &mut Request<'a>) {
-        request.member("samples-per-batch", self.samples_per_batch);
-        request.member("max-tolerance", self.max_tolerance);
-    }
-
-    fn keep<'b>(_: &str, received: &mut Received<'b>) -> Result<Self, Malformed> {
-        let samples_per_batch = received.member("samples-per-batch")?;
-        Ok(Self { samples_per_batch, max_tolerance: received.member("max-tolerance")? })
-    }
-
-    fn lend<'b: 'a>(kept: &'a Self) -> Self {
-        *kept
-    }
-}
-
-impl<'a, T: Element> Argument<'a> for &'a [T] {
-    type Kept<'b> = &'b [T];
-    const PARTS: &'static [Part] = &[Part::array::<T>("")];
-
-    fn pack(self, name: &'static str, request: &mut Request<'a>) {
-        request.arrays.push(Sent::new(name, self));
-    }
-
-    fn keep<'b>(name: &str, received: &mut Received<'b>) -> Result<&'b [T], Malformed> {
-        received.take(name)
-    }
-
-    fn lend<'b: 'a>(kept: &'a &'b [T]) -> Self {
-        kept
-    }
-
-    fn size(self) -> Option<[usize; 2]> {
-        Some([self.len(), 1])
-    }
-}
-
-impl<'a> Argument<'a> for Randomness<'a> {
-    type Kept<'b> = Randomness<'b>;
-    const PARTS: &'static [Part] =
-        &[Part::member("seed"), Part::array::<DVec2>("points"), Part::array::<f64>("lobes")];
-
-    fn pack(self, _: &'static str, request: &mut Request<'a>) {
-        request.member("seed", self.seed);
-        request.arrays.push(Sent::new("points", self.points));
-        request.arrays.push(Sent::new("lobes", self.lobes));
-    }
-
-    fn keep<'b>(_: &str, received: &mut Received<'b>) -> Result<Randomness<'b>, Malformed> {
-        let seed = received.member("seed")?;
-        Ok(Randomness { points: received.take("points")?, lobes: received.take("lobes")?, seed })
-    }
-
-    fn lend<'b: 'a>(kept: &'a Randomness<'b>) -> Self {
-        *kept
-    }
-
-    fn size(self) -> Option<[usize; 2]> {
-        self.points.size()
-    }
-}
-
-/// Streams cross one after another, and how long each is.
-impl<'a> Argument<'a> for &'a [&'a [f64]] {
-    type Kept<'b> = Vec<&'b [f64]>;
-    const PARTS: &'static [Part] = &[Part::array::<f64>("values"), Part::array::<u64>("lengths")];
-
-    fn pack(self, _: &'static str, request: &mut Request<'a>) {
-        let lengths: Vec<_> = self.iter().map(|stream| stream.len() as u64).collect();
-        request.arrays.push(Sent::made("values", &self.concat()));
-        request.arrays.push(Sent::made("lengths", &lengths));
-    }
-
-    fn keep<'b>(_: &str, received: &mut Received<'b>) -> Result<Vec<&'b [f64]>, Malformed> {
-        let mut values = received.take::<f64>("values")?;
-        let lengths = received.take::<u64>("lengths")?;
-        let too_few = || Malformed("streams longer than their values".to_owned());
-        let mut streams = Vec::with_capacity(lengths.len());
-        for length in lengths {
-            let length = usize::try_from(*length).unwrap_or(usize::MAX);
-            let (stream, rest) = values.split_at_checked(length).ok_or_else(too_few)?;
-            streams.push(stream);
-            values = rest;
-        }
-        Ok(streams)
-    }
-
-    fn lend<'b: 'a>(kept: &'a Vec<&'b [f64]>) -> Self {
-        kept
-    }
-
-    fn size(self) -> Option<[usize; 2]> {
-        Some([self.len(), 1])
-    }
-}
-
-/// Either three corners with their normals, or a sphere; the request says which by its name.
-impl<'a> Argument<'a> for &'a Primitive {
-    type Kept<'b> = Primitive;
-    const PARTS: &'static [Part] = &[
-        Part::array::<DVec3>("positions"),
-        Part::array::<DVec3>("normals"),
-        Part::array::<[f64; 4]>("spheres"),
-    ];
-
-    fn pack(self, _: &'static str, request: &mut Request<'a>) {
-        match self {
-            Primitive::Triangle { positions, normals } => {
-                request.member("request", "intersect-triangle");
-                request.arrays.push(Sent::new("positions", positions).shared());
-                request.arrays.push(Sent::new("normals", normals).shared());
-            }
-            Primitive::Sphere { centre, radius } => {
-                request.member("request", "intersect-sphere");
-                let sphere = [[centre.x, centre.y, centre.z, *radius]];
-                request.arrays.push(Sent::made("spheres", &sphere).shared());
-            }
-        }
-    }
-
-    fn keep<'b>(_: &str, received: &mut Received<'b>) -> Result<Primitive, Malformed> {
-        if received.name() == "intersect-sphere" {
-            let [[x, y, z, radius]] = received.take_exactly("spheres")?;
-            return Ok(Primitive::Sphere { centre: DVec3::new(x, y, z), radius });
-        }
-        let positions = received.take_exactly("positions")?;
-        Ok(Primitive::Triangle { positions, normals: received.take_exactly("normals")? })
-    }
-
-    fn lend<'b: 'a>(kept: &'a Primitive) -> Self {
-        kept
-    }
-}
-
-/// Its smallest and its largest coordinates.
-impl<'a> Argument<'a> for &'a Aabb {
-    type Kept<'b> = Aabb;
-    const PARTS: &'static [Part] = &[Part::array::<DVec3>("")];
-
-    fn pack(self, name: &'static str, request: &mut Request<'a>) {
-        request.arrays.push(Sent::made(name, &[self.min, self.max]).shared());
-    }
-
-    fn keep<'b>(name: &str, received: &mut Received<'b>) -> Result<Aabb, Malformed> {
-        let [min, max] = received.take_exactly(name)?;
-        Ok(Aabb { min, max })
-    }
-
-    fn lend<'b: 'a>(kept: &'a Aabb) -> Self {
-        kept
     }
 }

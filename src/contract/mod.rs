@@ -19,18 +19,21 @@
 
 pub mod abi;
 pub mod answer;
+pub mod argument;
 mod batch;
 mod breach;
 mod capability;
 pub mod crossing;
 mod error;
+mod film;
+pub mod question;
 pub mod questions;
 mod settings;
 pub mod validate;
 
 pub use batch::{
-    AdaptiveMean, BoxHit, BsdfQuery, BsdfSample, BsdfValue, DirectionSample, Film, Hit,
-    LightSample, Primitive, Randomness, Ray, Sampler, TraversalStats, read_flags,
+    AdaptiveMean, BoxHit, BsdfQuery, BsdfSample, BsdfValue, DirectionSample, Hit, LightSample,
+    Primitive, Randomness, Ray, Sampler, TraversalStats,
 };
 pub use breach::{Breach, BreachKind, Place};
 pub use capability::{
@@ -38,6 +41,7 @@ pub use capability::{
     SmithTerm,
 };
 pub use error::{CoreError, Result};
+pub use film::Film;
 pub use settings::{
     Acceleration, AdaptiveSettings, BuildStats, DirectSampling, IntegratorSettings, RenderSettings,
     Roulette, Split,
@@ -45,7 +49,7 @@ pub use settings::{
 
 pub use crate::math::Precision;
 
-use questions::*;
+use question::*;
 
 /// The method of a question, for cores that do not answer it.
 macro_rules! unsupported {
@@ -72,15 +76,14 @@ pub trait Core: Send {
     each_question! { Core unsupported () }
 
     /// Take the scene in, and build whatever structure speeds it up.
-    fn build_scene(
-        &mut self,
-        scene: &SceneDescription,
-        acceleration: Acceleration,
-    ) -> Result<Box<dyn BuiltScene + '_>> {
-        let _ = (scene, acceleration);
+    fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
+        let _ = (scene, how);
         Err(CoreError::Unsupported(Capabilities::BUILD_SCENE))
     }
 }
+
+/// A scene as a core hands it over. It borrows the core.
+pub type Built<'a> = Box<dyn BuiltScene + 'a>;
 
 /// A scene the core has taken in: the only way to reach a traversal or a render, so that "intersect before
 /// build" cannot be written. Its questions are those of [`mod@questions`] that need one.

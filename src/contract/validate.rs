@@ -6,9 +6,9 @@
 //! defend themselves. Not here: whether an answer is *right*, which is what checks are for.
 
 use super::answer::{Answer, Asked};
-use super::crossing::{Argument, needed_by, size_of_answer};
-use super::questions::*;
-use super::{Acceleration, BuildStats, BuiltScene, Core, CoreInfo};
+use super::argument::{Argument, needed_by, size_of_answer};
+use super::question::*;
+use super::{Acceleration, BuildStats, Built, BuiltScene, Core, CoreInfo};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// A core whose answers have the contract's form, or else are errors.
@@ -20,7 +20,7 @@ pub struct Validated<'a> {
 
 /// A built scene whose answers have the contract's form, or else are errors.
 struct ValidatedScene<'a> {
-    scene: Box<dyn BuiltScene + 'a>,
+    scene: Built<'a>,
     capabilities: Capabilities,
     primitives_of_shape: Vec<usize>,
 }
@@ -62,17 +62,13 @@ impl Core for Validated<'_> {
 
     each_question! { Core validated (core) }
 
-    fn build_scene(
-        &mut self,
-        scene: &SceneDescription,
-        acceleration: Acceleration,
-    ) -> Result<Box<dyn BuiltScene + '_>> {
+    fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
         let capabilities = self.capabilities;
         let needed = scene.materials.iter().map(needed_by).collect();
         knows(capabilities, needed)?;
         let of_meshes = scene.meshes.iter().map(|mesh| mesh.indices.len());
         let primitives_of_shape = of_meshes.chain(scene.spheres.iter().map(|_| 1)).collect();
-        let scene = guarded("build_scene", || self.core.build_scene(scene, acceleration))?;
+        let scene = guarded("build_scene", || self.core.build_scene(scene, how))?;
         Ok(Box::new(ValidatedScene { scene, capabilities, primitives_of_shape }))
     }
 }
@@ -197,11 +193,7 @@ mod tests {
             CoreInfo { capabilities: Capabilities::REPORTED_VARIANCE, ..Default::default() }
         }
 
-        fn build_scene(
-            &mut self,
-            _: &SceneDescription,
-            _: Acceleration,
-        ) -> Result<Box<dyn BuiltScene + '_>> {
+        fn build_scene(&mut self, _: &SceneDescription, _: Acceleration) -> Result<Built<'_>> {
             Ok(Box::new(Reports(self.0.clone())))
         }
     }

@@ -12,8 +12,10 @@ mod declaration;
 use crate::contract::abi::given::{self, Given, SceneTables, struct_size};
 use crate::contract::abi::{self, CoreTable, Traits};
 use crate::contract::answer::Batch;
-use crate::contract::questions::*;
-use crate::contract::{Acceleration, BuildStats, BuiltScene, Core, CoreInfo, Precision, Split};
+use crate::contract::question::*;
+use crate::contract::{
+    Acceleration, BuildStats, Built, BuiltScene, Core, CoreInfo, Precision, Split,
+};
 use counted::CountedScene;
 use libloading::Library;
 use std::ffi::{CStr, c_char, c_void};
@@ -291,16 +293,11 @@ impl Core for Dylib {
         ask!(self, INTERSECT_BOX, intersect_box(min, max, rays, out, count))
     }
 
-    fn build_scene(
-        &mut self,
-        scene: &SceneDescription,
-        acceleration: Acceleration,
-    ) -> Result<Box<dyn BuiltScene + '_>> {
-        self.can_build(acceleration)?;
+    fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
+        self.can_build(how)?;
         let counted = self.counted_tests(scene);
         let tests = counted.as_deref().map(tests_of);
-        let settings =
-            given::build(acceleration, tests.as_ref().map_or(ptr::null(), ptr::from_ref));
+        let settings = given::build(how, tests.as_ref().map_or(ptr::null(), ptr::from_ref));
         let tables = SceneTables::new(scene);
         let scene = tables.as_abi();
         let (mut built, mut stats) = (ptr::null_mut(), BuildStats::default());

@@ -4,8 +4,8 @@
 //! of that batch until the element is found that it dies of.
 
 use crate::contract::answer::Answer as Filled;
-use crate::contract::questions::*;
-use crate::contract::{Acceleration, BuildStats, BuiltScene, Core, CoreInfo};
+use crate::contract::question::*;
+use crate::contract::{Acceleration, BuildStats, Built, BuiltScene, Core, CoreInfo};
 use crate::worker::message::{Answer, Request, Told, Wanted};
 use crate::worker::narrow::narrow;
 use crate::worker::{Confinement, Launch, StartError, Worker, build_request};
@@ -127,12 +127,8 @@ impl Core for Remote {
 
     each_question! { Core sent_and_heard () }
 
-    fn build_scene(
-        &mut self,
-        scene: &SceneDescription,
-        acceleration: Acceleration,
-    ) -> Result<Box<dyn BuiltScene + '_>> {
-        let build = build_request(scene, acceleration);
+    fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
+        let build = build_request(scene, how);
         match self.worker.ask(&build, &mut [])? {
             Answer::Built { stats } => {
                 self.built = Some(build);

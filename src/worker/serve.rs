@@ -4,8 +4,8 @@ use super::frame::{self, Body, FrameError};
 use super::message::{Answer, Received, Sent, Told, encode, parse};
 use super::{Channel, scene};
 use crate::contract::answer::{Answer as Filled, Asked};
-use crate::contract::crossing::{Argument, size_of_answer};
-use crate::contract::questions::*;
+use crate::contract::argument::{Argument, size_of_answer};
+use crate::contract::question::*;
 use crate::contract::{BuiltScene, Core};
 use std::io::{Read, Write};
 

@@ -8,7 +8,7 @@ use super::{Build, Built, Camera as CameraInC, Conventions, Render, Scene, Statu
 use crate::contract::BuildStats;
 use crate::contract::answer::Batch;
 use crate::contract::crossing::Layout;
-use crate::contract::questions::*;
+use crate::contract::question::*;
 use std::ffi::{c_char, c_void};
 use std::mem::offset_of;
 

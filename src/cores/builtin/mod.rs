@@ -34,7 +34,7 @@ mod world;
 mod closed_forms;
 
 use crate::contract::{
-    Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
+    Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue, Built,
     BuiltScene, Capabilities, Conventions, Core, CoreInfo, DirectionSample, Hit, Precision,
     Primitive, Randomness, Ray, Result, Sampler,
 };
@@ -186,12 +186,8 @@ impl Core for Builtin {
         Ok(())
     }
 
-    fn build_scene(
-        &mut self,
-        scene: &SceneDescription,
-        acceleration: Acceleration,
-    ) -> Result<Box<dyn BuiltScene + '_>> {
-        Ok(Box::new(BuiltinScene::new(scene, acceleration)?))
+    fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
+        Ok(Box::new(BuiltinScene::new(scene, how)?))
     }
 }
 

@@ -18,8 +18,8 @@ pub(crate) use process::found;
 pub(crate) use program::{AdapterError, Program};
 
 use crate::contract::{
-    Acceleration, BuildStats, BuiltScene, Capabilities, Core, CoreError, CoreInfo, Film, Precision,
-    RenderSettings, Result,
+    Acceleration, BuildStats, Built, BuiltScene, Capabilities, Core, CoreError, CoreInfo, Film,
+    Precision, RenderSettings, Result,
 };
 use crate::image::encoding::Encoding;
 use crate::image::png::Picture as Codes;
@@ -52,11 +52,7 @@ impl Core for CommandCore {
     }
 
     /// Nothing happens yet: the scene is written with each picture, for its camera is part of it.
-    fn build_scene(
-        &mut self,
-        scene: &SceneDescription,
-        _acceleration: Acceleration,
-    ) -> Result<Box<dyn BuiltScene + '_>> {
+    fn build_scene(&mut self, scene: &SceneDescription, _: Acceleration) -> Result<Built<'_>> {
         Ok(Box::new(BuiltCommand { program: &self.0, scene: scene.clone() }))
     }
 }

@@ -1,7 +1,7 @@
 //! What a C core declares: the functions it has, its traits, its conventions.
 
 use crate::contract::abi::{self, Traits};
-use crate::contract::questions::each_question;
+use crate::contract::question::each_question;
 use crate::contract::{
     Capabilities, Conventions, EmissionSides, Falloff, GlassFresnel, GlassRadiance, SmithTerm,
 };

@@ -61,9 +61,9 @@ mod testing;
 
 use crate::contract::{
     Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
-    BuildStats, BuiltScene, Capabilities, Conventions, Core, CoreError, CoreInfo, DirectionSample,
-    Film, Hit, IntegratorSettings, LightSample, Precision, Primitive, Randomness, Ray,
-    RenderSettings, Result, Sampler, TraversalStats,
+    BuildStats, Built, BuiltScene, Capabilities, Conventions, Core, CoreError, CoreInfo,
+    DirectionSample, Film, Hit, IntegratorSettings, LightSample, Precision, Primitive, Randomness,
+    Ray, RenderSettings, Result, Sampler, TraversalStats,
 };
 use crate::scene::{Aabb, Camera, Material, SceneDescription};
 use glam::{DVec2, DVec3};
@@ -186,12 +186,8 @@ impl Core for Textbook {
         Ok(())
     }
 
-    fn build_scene(
-        &mut self,
-        scene: &SceneDescription,
-        acceleration: Acceleration,
-    ) -> Result<Box<dyn BuiltScene + '_>> {
-        Ok(Box::new(BuiltWorld { world: World::new(scene, acceleration, &self.steps) }))
+    fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
+        Ok(Box::new(BuiltWorld { world: World::new(scene, how, &self.steps) }))
     }
 }
 

@@ -1,14 +1,14 @@
 //! The answers of a core, rounded to f32.
 
 use crate::contract::answer::Answer;
-use crate::contract::questions::*;
-use crate::contract::{Acceleration, BuildStats, BuiltScene, Core, CoreInfo};
+use crate::contract::question::*;
+use crate::contract::{Acceleration, BuildStats, Built, BuiltScene, Core, CoreInfo};
 
 /// A core whose answers are those of another, rounded.
 pub(crate) struct Single<C>(pub(crate) C);
 
 /// A scene in such a core.
-struct SingleScene<'a>(Box<dyn BuiltScene + 'a>);
+struct SingleScene<'a>(Built<'a>);
 
 /// Lets the other answer, and rounds that.
 macro_rules! rounded {
@@ -31,12 +31,8 @@ impl<C: Core> Core for Single<C> {
 
     each_question! { Core rounded () }
 
-    fn build_scene(
-        &mut self,
-        scene: &SceneDescription,
-        acceleration: Acceleration,
-    ) -> Result<Box<dyn BuiltScene + '_>> {
-        Ok(Box::new(SingleScene(self.0.build_scene(scene, acceleration)?)))
+    fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
+        Ok(Box::new(SingleScene(self.0.build_scene(scene, how)?)))
     }
 }
 

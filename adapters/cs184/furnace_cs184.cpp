@@ -1,13 +1,15 @@
 // furnace_cs184.cpp: the course's path tracer (CS184, homework 3 / project 3-1, spring 2021 and later) as a core of
-// furnace. Add this file to the course's own build, see README.md.
+// furnace. CMakeLists.txt builds it with a submission that stays as it is, see README.md.
 //
 // What is judged are the seven files that students write: camera, bsdf, pathtracer, triangle, sphere, bbox, bvh. What the
 // course gives is replaced where it would stand in the way:
 //
-// - samplers: here, seeded by the bench. Leave the course's sampler.cpp out.
+// - samplers and coin flips: here and in course/, seeded by the bench. The course's sampler.cpp is left out.
 // - lights: here, with the pdf with respect to solid angle; the course's own area light forgets one factor of distance.
 // - primitives: wrapped, so that tests are counted, surfaces scatter on both sides and emitters are one-sided.
 // - images: radiance as the sample buffer has it, before any tone curve.
+//
+// What the submission has not written yet answers as the skeleton does: it is found out once (`Written`), and not asked.
 #include "furnace_core.hpp"
 
 #include "CGL/CGL.h"
@@ -21,10 +23,14 @@
 #include "scene/triangle.h"
 
 #include <algorithm>
+#include <array>
+#include <csetjmp>
+#include <csignal>
 #include <deque>
 #include <memory>
 #include <random>
 #include <string>
+#include <sys/time.h>
 #include <vector>
 
 // ---- random numbers -----------------------------------------------------------------------------
@@ -54,6 +60,8 @@ constexpr double pi = 3.14159265358979323846;
 } // namespace
 
 namespace CGL {
+
+double number_of_the_bench() { return stream().next(); }
 
 Vector2D UniformGridSampler2D::get_sample() const {
    const double x = stream().next();
@@ -100,6 +108,26 @@ using CGL::SceneObjects::Primitive;
 using CGL::SceneObjects::SceneLight;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// What of the homework is there. The rest answers as the skeleton does.
+struct Written {
+   bool camera = true, triangle = true, sphere = true, box = true; // parts 1 and 2
+   bool hierarchy = true;                                          // more than one leaf
+   bool pixels = true;                                             // the loop over a pixel's samples
+   bool path = true; // est_radiance_global_illumination shows light, not normals
+   bool f = true, sample_f = true;
+   bool emission = true, direct = true, by_light = true, by_hemisphere = true; // part 3
+   bool indirect = true, adaptive = true;                                      // parts 4 and 5
+};
+
+Written &written() {
+   static Written written;
+   return written;
+}
+
+void ask_for(bool written, const char *what) {
+   if (!written) throw furnace::Unsupported(std::string("not written yet: ") + what);
+}
 
 // ---- from one side to the other -----------------------------------------------------------------
 
@@ -205,7 +233,11 @@ struct Counts {
    // Rays of this depth see no light: those of the camera, where single bounces are asked for. Whether a
    // submission adds directly visible emission to every single bounce is left open by the course.
    size_t blind_depth = SIZE_MAX;
+   // Before part 3 a ray shows the normal that it meets: a normal that shows as the light there should.
+   bool normals_show_light = false;
 };
+
+Vector3D normal_that_shows(const Vector3D &light) { return 2 * light - Vector3D(1); }
 
 // A primitive of the scene around one of the student's.
 struct Facet : Primitive {
@@ -236,6 +268,7 @@ struct Facet : Primitive {
       hit->n = orientation() * hit->n;
       // The course shades one side; scenes here are seen from both.
       if (!from_front) hit->n = -hit->n;
+      if (counts->normals_show_light) hit->n = normal_that_shows(hit->bsdf->get_emission());
       return true;
    }
    BSDF *get_bsdf() const override { return &material->dark; }
@@ -402,7 +435,11 @@ struct AreaLamp : SceneLight {
    }
 };
 
+// As in the course's scenes, points of a light lie off its triangles: a file's triangles are read in single precision,
+// its lights in double. Half of each triangle lies in front of them, half behind; rays that end `EPS_F` short reach both.
 struct MeshLamp : AreaLamp {
+   static constexpr double off = 5e-8;
+
    const std::vector<furnace_vec3> corners; // three a triangle
    std::vector<double>             up_to;
 
@@ -419,9 +456,10 @@ struct MeshLamp : AreaLamp {
       const size_t       found = std::upper_bound(up_to.begin(), up_to.end(), where) - up_to.begin();
       const furnace_vec3 *triangle = &corners[3 * std::min(found, last)];
       const double       root = std::sqrt(stream().next()), along = stream().next();
+      const furnace_vec3 normal = normal_of(triangle);
       return {(1 - root) * triangle[0] + root * (1 - along) * triangle[1] +
-                  root * along * triangle[2],
-              normal_of(triangle)};
+                  root * along * triangle[2] + off * (2 * along - 1) * normal,
+              normal};
    }
 };
 
@@ -507,7 +545,9 @@ CGL::Camera any_camera() {
 struct OnePixel {
    CGL::Camera              camera = any_camera();
    std::vector<Primitive *> primitives;
-   CGL::SceneObjects::Scene scene{{}, {}};
+   // Dark: the course's scenes have lights, and right code may divide by their number.
+   PointLamp                lamp{Vector3D(0, 0, 100), Vector3D()};
+   CGL::SceneObjects::Scene scene{{}, {&lamp}};
    std::unique_ptr<BVHAccel> bvh;
    PathTracer               tracer;
 
@@ -543,6 +583,50 @@ size_t depth_of_camera_rays(size_t last_bounce) {
    return at_seven == 7 ? last_bounce : at_seven;
 }
 
+// Every ray of the camera meets the next luminance of a stream, as light.
+struct Luminances : Stage {
+   const double   *values;
+   size_t          count;
+   mutable size_t  next = 0;
+   mutable bool    counted = false;
+   mutable Surface surface{Vector3D(), Vector3D()};
+
+   Luminances(const double *values, size_t count) : Stage(1), values(values), count(count) {}
+   bool intersect(const Ray &ray, Intersection *hit) const override {
+      const size_t number = counted ? next - 1 : next++;
+      surface.glow = Vector3D(number < count ? values[number] : 0);
+      ray.max_t = hit->t = 4.5;
+      hit->n = written().path ? -ray.d : normal_that_shows(surface.glow);
+      hit->primitive = this;
+      hit->bsdf = &surface;
+      return true;
+   }
+};
+
+// A sample begins where a point of the pixel is drawn.
+struct Counter : CGL::Sampler2D {
+   Luminances                      *met;
+   std::unique_ptr<CGL::Sampler2D> inner;
+
+   Counter(Luminances *met, CGL::Sampler2D *inner) : met(met), inner(inner) {}
+   CGL::Vector2D get_sample() const override {
+      met->counted = true;
+      ++met->next;
+      return inner->get_sample();
+   }
+};
+
+furnace_adaptive_mean adaptive_mean_of(const furnace_adaptive &settings, const double *luminances,
+                                       size_t count) {
+   Luminances met(luminances, count);
+   OnePixel   stage(&met);
+   stage.tracer.gridSampler = new Counter(&met, stage.tracer.gridSampler);
+   set_adaptive(stage.tracer, &settings, count);
+   stage.tracer.raytrace_pixel(0, 0);
+   return {stage.tracer.sampleBuffer.data[0].x,
+           static_cast<uint32_t>(stage.tracer.sampleCountBuffer[0]), 0};
+}
+
 struct Built {
    std::vector<std::unique_ptr<Material>>   materials;
    std::vector<std::unique_ptr<Primitive>>  owned;
@@ -562,6 +646,7 @@ struct Built {
       for (uint32_t i = 0; i < given.material_count; ++i)
          materials.emplace_back(material_or_black(given.materials[i]));
       for (uint32_t i = 0; i < given.mesh_count; ++i) add_mesh(given.meshes[i], i);
+      if (given.sphere_count) ask_for(written().sphere, "the intersection of spheres (part 1)");
       for (uint32_t i = 0; i < given.sphere_count; ++i)
          add(new SphereFacet(facet(given.mesh_count + i, 0, given.spheres[i].material),
                              given.spheres[i]));
@@ -615,13 +700,16 @@ struct Built {
 
    furnace_rgb radiance(const furnace_ray &ray, const furnace_integrator &settings, size_t) {
       configure(settings);
+      const uint32_t first = settings.first_bounce, last = settings.last_bounce;
+      const Ray      asked = theirs(ray);
+      if (last == 0) return our_colour(emitted(asked));
+      if (last == 1 && first == 1 && written().direct) return our_colour(direct(asked));
+      ask_for_paths(last);
+      if (first == 0) return our_colour(up_to(asked, last));
+      if (first == 1) return our_colour(up_to(asked, last) - emitted(asked));
+      if (!HasAccumulate<PathTracer>::value) return our_colour(more(asked, first - 1, last));
       Vector3D sum;
-      for_each_range(settings, [&](uint32_t last) {
-         tracer.max_ray_depth = last;
-         Ray asked = theirs(ray);
-         asked.depth = depth_of_camera_rays(last);
-         sum += last == 0 ? emitted(asked) : tracer.est_radiance_global_illumination(asked);
-      });
+      for (uint32_t bounce = first; bounce <= last; ++bounce) sum += alone(asked, bounce);
       return our_colour(sum);
    }
 
@@ -629,19 +717,27 @@ struct Built {
                uint32_t *sample_counts) {
       CGL::Camera camera = theirs(given);
       configure(*settings.integrator);
+      if (settings.integrator->last_bounce > 0) ask_for_paths(settings.integrator->last_bounce);
+      counts.normals_show_light = !written().path;
       tracer.camera = &camera;
       tracer.set_frame_size(settings.width, settings.height);
       set_adaptive(tracer, settings.adaptive, settings.samples_per_pixel);
       std::fill_n(pixels, 3 * size_t(settings.width) * settings.height, 0.0f);
-      for_each_range(*settings.integrator, [&](uint32_t last) {
-         tracer.max_ray_depth = std::max(1u, last);
-         Surface::all_black() = last == 0;
+      const uint32_t first = settings.integrator->first_bounce, last = settings.integrator->last_bounce;
+      if (first > 0 && !HasAccumulate<PathTracer>::value)
+         throw furnace::Unsupported("images of single bounces: this skeleton adds them up");
+      for (uint32_t bounce = first == 0 ? last : first; bounce <= last; ++bounce) {
+         isolate(first > 0, bounce);
+         tracer.max_ray_depth = std::max(1u, bounce);
+         Surface::all_black() = bounce == 0;
          for (size_t y = 0; y < settings.height; ++y)
             for (size_t x = 0; x < settings.width; ++x) tracer.raytrace_pixel(x, y);
          Surface::all_black() = false;
          add_pixels(settings, pixels, sample_counts);
-      });
+      }
+      isolate(false, last);
       tracer.camera = nullptr;
+      counts.normals_show_light = false;
    }
 
  private:
@@ -665,6 +761,7 @@ struct Built {
    }
 
    void add_mesh(const furnace_mesh &mesh, uint32_t shape) {
+      ask_for(written().triangle, "the intersection of triangles (part 1)");
       for (uint32_t i = 0; i < mesh.triangle_count; ++i) {
          furnace_vec3 positions[3], normals[3];
          for (int corner = 0; corner < 3; ++corner)
@@ -736,28 +833,64 @@ struct Built {
       const auto is_delta = [](const SceneLight *light) { return light->is_delta_light(); };
       if (settings.by_hemisphere && std::any_of(lights.begin(), lights.end(), is_delta))
          throw furnace::Unsupported("point lights with hemisphere sampling");
+      if (settings.last_bounce > 0)
+         ask_for(settings.by_hemisphere ? written().by_hemisphere : written().by_light,
+                 settings.by_hemisphere ? "hemisphere sampling (part 3)" : "light sampling (part 3)");
       tracer.ns_area_light = settings.samples_per_light;
       tracer.direct_hemisphere_sample = settings.by_hemisphere;
    }
 
-   // Bounces 0 to n at once; others one by one, where the skeleton can.
-   template <class Ask> void for_each_range(const furnace_integrator &settings, Ask &&ask) {
-      const bool all = settings.first_bounce == 0;
-      if (!accumulate(tracer, all, 0) && !all)
-         throw furnace::Unsupported("single bounces: this skeleton adds them up");
-      for (uint32_t last = all ? settings.last_bounce : settings.first_bounce;
-           last <= settings.last_bounce; ++last) {
-         const size_t depth = depth_of_camera_rays(last);
-         counts.blind_depth = all || depth == 0 ? SIZE_MAX : depth;
-         ask(last);
-         counts.blind_depth = SIZE_MAX;
-      }
+   // Only the light of the last bounce, where the skeleton can; camera rays are then blind to light.
+   void isolate(bool alone, uint32_t last) {
+      accumulate(tracer, !alone, 0);
+      const size_t depth = depth_of_camera_rays(last);
+      counts.blind_depth = alone && depth > 0 ? depth : SIZE_MAX;
+   }
+
+   void ask_for_paths(uint32_t last) const {
+      ask_for(written().path, "light along paths: normals are shown (part 3)");
+      if (last > 1) ask_for(written().indirect, "indirect light (part 4)");
    }
 
    // Bounce 0 alone. Few submissions are right at a depth of 0, and the course does not insist.
    Vector3D emitted(const Ray &ray) {
+      ask_for(written().emission, "zero_bounce_radiance (part 3)");
       Intersection hit;
       return bvh->intersect(ray, &hit) ? tracer.zero_bounce_radiance(ray, hit) : Vector3D();
+   }
+
+   // Bounce 1 alone.
+   Vector3D direct(Ray ray) {
+      tracer.max_ray_depth = 1;
+      ray.depth = depth_of_camera_rays(1);
+      Intersection hit;
+      return bvh->intersect(ray, &hit) ? tracer.one_bounce_radiance(ray, hit) : Vector3D();
+   }
+
+   Vector3D up_to(Ray ray, uint32_t last) {
+      tracer.max_ray_depth = last;
+      ray.depth = depth_of_camera_rays(last);
+      return tracer.est_radiance_global_illumination(ray);
+   }
+
+   // A later bounce alone, where the skeleton can.
+   Vector3D alone(const Ray &ray, uint32_t bounce) {
+      isolate(true, bounce);
+      const Vector3D light = up_to(ray, bounce);
+      isolate(false, bounce);
+      return light;
+   }
+
+   // What bounces after `known` add to those up to it. Equal random numbers make equal paths, if the numbers that go on
+   // are drawn last.
+   Vector3D more(const Ray &ray, uint32_t known, uint32_t last) {
+      const Stream   before = stream();
+      const Vector3D less = up_to(ray, known);
+      stream() = before;
+      const Vector3D all = up_to(ray, last), rest = all - less;
+      if (std::min({rest.x, rest.y, rest.z}) < -1e-9 * all.norm())
+         throw furnace::Unsupported("single bounces: they are added up, along other paths at each depth");
+      return Vector3D(std::max(0.0, rest.x), std::max(0.0, rest.y), std::max(0.0, rest.z));
    }
 
    // The course's images are upside down.
@@ -843,13 +976,7 @@ struct Course {
 
    furnace_adaptive_mean adaptive_mean(const furnace_adaptive &settings, const double *luminances,
                                        size_t count) {
-      Luminances met(luminances, count);
-      OnePixel   stage(&met);
-      stage.tracer.gridSampler = new Counter(&met, stage.tracer.gridSampler);
-      set_adaptive(stage.tracer, &settings, count);
-      stage.tracer.raytrace_pixel(0, 0);
-      return {stage.tracer.sampleBuffer.data[0].x,
-              static_cast<uint32_t>(stage.tracer.sampleCountBuffer[0]), 0};
+      return adaptive_mean_of(settings, luminances, count);
    }
 
    std::unique_ptr<Built> build(const furnace_scene &scene, const furnace_build &settings) {
@@ -877,45 +1004,243 @@ struct Course {
       const bool is_uniform = std::fabs(pdf * 2 * pi - 1) < 1e-6;
       return is_uniform ? 1 / (2 * pi) : std::fabs(z) / pi;
    }
+};
 
-   // Every ray of the camera meets the next luminance of a stream, as light.
-   struct Luminances : Stage {
-      const double   *values;
-      size_t          count;
-      mutable size_t  next = 0;
-      mutable bool    counted = false;
+// ---- what is written ----------------------------------------------------------------------------
+
+sigjmp_buf escape;
+void       leave(int) { siglongjmp(escape, 1); }
+
+// Whether the submission answers as the skeleton does. What dies or does not come to an end is written, and is judged
+// where a case asks it.
+template <class Ask> bool is_skeleton(Ask &&ask) {
+   static char         room[1 << 16]; // an endless recursion leaves no room on the stack
+   constexpr std::array signals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM};
+   const itimerval     half_a_second{{0, 0}, {0, 500000}}, never{};
+   struct sigaction    leaving{}, before[signals.size()];
+   stack_t             apart{}, stack_before{};
+   volatile bool       skeleton = false;
+   apart.ss_sp = room, apart.ss_size = sizeof room;
+   sigaltstack(&apart, &stack_before);
+   leaving.sa_handler = leave, leaving.sa_flags = SA_ONSTACK;
+   for (size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &leaving, &before[i]);
+   if (sigsetjmp(escape, 1) == 0) {
+      setitimer(ITIMER_REAL, &half_a_second, nullptr);
+      try {
+         skeleton = ask();
+      } catch (...) {
+      }
+   } else {
+      skeleton = false;
+   }
+   setitimer(ITIMER_REAL, &never, nullptr);
+   for (size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
+   sigaltstack(&stack_before, nullptr);
+   return skeleton;
+}
+
+bool is(const Vector3D &value, double x, double y, double z) {
+   return value.x == x && value.y == y && value.z == z;
+}
+
+// A point of a grey floor, seen from above, under a coloured lamp and far inside a grey sphere.
+struct Probe {
+   Sky                                       sphere{Vector3D()};
+   OnePixel                                  stage{&sphere};
+   PointLamp                                 lamp{Vector3D(0, 0, 1), Vector3D(0.3, 0.5, 0.7)};
+   CGL::SceneObjects::Scene                  scene{{}, {&lamp}};
+   Surface                                   floor{Vector3D(0.5), Vector3D(0.25, 0.5, 0.75)};
+   Intersection                              hit;
+   Ray                                       ray{Vector3D(0, 0, 1), Vector3D(0, 0, -1)};
+
+   Probe() {
+      sphere.surface.diffuse = CGL::DiffuseBSDF(Vector3D(0.5));
+      hit.t = 1, hit.n = Vector3D(0, 0, 1), hit.primitive = &sphere, hit.bsdf = &floor;
+      ray.min_t = 0, ray.max_t = INF_D;
+      stage.tracer.scene = &scene;
+   }
+
+   // The skeleton answers 1 to everything about light, and black where light is to bounce again.
+   template <class Ask> static bool is_white(Ask &&ask) {
+      return is_skeleton([&] {
+         Probe probe;
+         return is(ask(probe, probe.stage.tracer), 1, 1, 1);
+      });
+   }
+   bool is_black_after(size_t depth) {
+      stage.tracer.max_ray_depth = 3;
+      ray.depth = depth;
+      return is(stage.tracer.at_least_one_bounce_radiance(ray, hit), 0, 0, 0);
+   }
+};
+
+bool shows_normals() {
+   struct Slanted : Stage {
       mutable Surface surface{Vector3D(), Vector3D()};
 
-      Luminances(const double *values, size_t count) : Stage(1), values(values), count(count) {}
+      Slanted() : Stage(1) {}
       bool intersect(const Ray &ray, Intersection *hit) const override {
-         const size_t number = counted ? next - 1 : next++;
-         surface.glow = Vector3D(number < count ? values[number] : 0);
          ray.max_t = hit->t = 4.5;
-         hit->n = -ray.d;
+         hit->n = Vector3D(0.6, 0, 0.8);
          hit->primitive = this;
          hit->bsdf = &surface;
          return true;
       }
+   } met;
+   OnePixel stage(&met);
+   Ray      ray = stage.camera.generate_ray(0.5, 0.5);
+   ray.o = Vector3D(0, 0, 5), ray.d = Vector3D(0, 0, -1), ray.min_t = 0, ray.max_t = INF_D, ray.depth = 1;
+   return (stage.tracer.est_radiance_global_illumination(ray) - Vector3D(0.8, 0.5, 0.9)).norm() < 1e-9;
+}
+
+// Rays past the thing, along all axes, and one through it.
+template <class Hits> bool is_hit_by_all(Hits &&hits) {
+   const Vector3D away(1, 1.5, 2), axes[] = {Vector3D(1, 0, 0), Vector3D(0, 1, 0), Vector3D(0, 0, 1)};
+   const auto     along = [](const Vector3D &from, const Vector3D &direction) {
+      Ray ray(from, direction.unit());
+      ray.min_t = 0, ray.max_t = 1e9, ray.depth = 0;
+      return ray;
    };
+   for (const Vector3D &axis : axes)
+      if (!hits(along(100 * away, axis))) return false;
+   return hits(along(Vector3D(0.2, 0.2, 5), Vector3D(0.01, 0.01, -1)));
+}
 
-   // A sample begins where a point of the pixel is drawn.
-   struct Counter : CGL::Sampler2D {
-      Luminances                      *met;
-      std::unique_ptr<CGL::Sampler2D> inner;
+bool is_met_by_all(const Primitive &primitive) {
+   return is_hit_by_all([&](const Ray &ray) {
+      Intersection hit;
+      return primitive.has_intersection(ray) && primitive.intersect(ray, &hit);
+   });
+}
 
-      Counter(Luminances *met, CGL::Sampler2D *inner) : met(met), inner(inner) {}
-      CGL::Vector2D get_sample() const override {
-         met->counted = true;
-         ++met->next;
-         return inner->get_sample();
-      }
-   };
-};
+bool keeps_all_in_one_leaf() {
+   std::array<Nothing, 64>  things;
+   std::vector<Primitive *> primitives;
+   for (size_t i = 0; i < things.size(); ++i) {
+      things[i].box = BBox(Vector3D(double(i), 0, 0), Vector3D(i + 0.5, 0.5, 0.5));
+      primitives.push_back(&things[i]);
+   }
+   const BVHNode *root = BVHAccel(primitives, 4).get_root();
+   return root && root->isLeaf();
+}
 
-constexpr uint32_t traits = FURNACE_BRUTE_FORCE | FURNACE_HEMISPHERE_SAMPLING |
-                            FURNACE_ADAPTIVE_SAMPLING | FURNACE_COUNTS_TRAVERSAL |
-                            (HasAccumulate<PathTracer>::value ? FURNACE_ISOLATED_BOUNCES : 0);
+bool leaves_the_pixel_alone() {
+   Nothing  nothing;
+   OnePixel stage(&nothing);
+   set_adaptive(stage.tracer, nullptr, 1);
+   stage.tracer.raytrace_pixel(0, 0);
+   return is(stage.tracer.sampleBuffer.data[0], 0.2, 1.0, 0.8);
+}
+
+bool never_stops() {
+   std::array<double, 512> constant, calm;
+   for (size_t i = 0; i < calm.size(); ++i) constant[i] = 0.5, calm[i] = i % 2 ? 0.5 : 0.501;
+   const furnace_adaptive settings{sizeof settings, 32, 0.05};
+   return adaptive_mean_of(settings, constant.data(), 512).used == 512 &&
+          adaptive_mean_of(settings, calm.data(), 512).used == 512;
+}
+
+void find_written(Written &is) {
+   const auto corner = [](double x, double y) { return any_camera().generate_ray(x, y).d; };
+   is.camera = !is_skeleton([&] { return (corner(0.1, 0.2) - corner(0.9, 0.7)).norm2() == 0; });
+   is.triangle = !is_skeleton([] {
+      const furnace_vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, up[] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+      return is_met_by_all(triangle_of(corners, up, nullptr));
+   });
+   is.sphere = !is_skeleton([] {
+      CGL::SceneObjects::SphereObject object(Vector3D(), 1, nullptr);
+      return is_met_by_all(CGL::SceneObjects::Sphere(&object, Vector3D(), 1));
+   });
+   is.box = !is_skeleton([] {
+      return is_hit_by_all([](const Ray &ray) {
+         double t0 = ray.min_t, t1 = ray.max_t;
+         return BBox(Vector3D(0.0), Vector3D(1.0)).intersect(ray, t0, t1);
+      });
+   });
+   is.hierarchy = !is_skeleton(keeps_all_in_one_leaf);
+   is.pixels = !is_skeleton(leaves_the_pixel_alone);
+   is.path = !is_skeleton(shows_normals);
+   is.f = !Probe::is_white([](Probe &probe, PathTracer &) {
+      return probe.floor.f(Vector3D(0, 0, 1), Vector3D(0, 0, 1));
+   });
+   is.sample_f = !is_skeleton([] {
+      Vector3D wi;
+      double   pdf = -7;
+      Surface(Vector3D(0.5), Vector3D()).sample_f(Vector3D(0, 0, 1), &wi, &pdf);
+      return pdf == -7;
+   });
+   is.emission = !Probe::is_white([](Probe &probe, PathTracer &tracer) {
+      return tracer.zero_bounce_radiance(probe.ray, probe.hit);
+   });
+   is.direct = !Probe::is_white([](Probe &probe, PathTracer &tracer) {
+      return tracer.one_bounce_radiance(probe.ray, probe.hit);
+   });
+   is.by_light = !Probe::is_white([](Probe &probe, PathTracer &tracer) {
+      return tracer.estimate_direct_lighting_importance(probe.ray, probe.hit);
+   });
+   is.by_hemisphere = !Probe::is_white([](Probe &probe, PathTracer &tracer) {
+      return tracer.estimate_direct_lighting_hemisphere(probe.ray, probe.hit);
+   });
+   is.indirect = !is_skeleton([] {
+      Probe probe;
+      for (int i = 0; i < 32; ++i)
+         if (!probe.is_black_after(0) || !probe.is_black_after(3)) return false;
+      return true;
+   });
+   is.adaptive = is.pixels && !is_skeleton(never_stops);
+}
+
+std::string version_of(const Written &is) {
+   const std::pair<bool, const char *> parts[] = {
+       {is.camera, "camera rays"},        {is.pixels, "pixels"},
+       {is.triangle, "triangles"},        {is.sphere, "spheres"},
+       {is.hierarchy, "the hierarchy"},   {is.box, "boxes"},
+       {is.f, "f"},                       {is.sample_f, "sample_f"},
+       {is.emission, "emission"},         {is.by_hemisphere, "hemisphere sampling"},
+       {is.by_light, "light sampling"},   {is.direct, "one bounce"},
+       {is.path, "light along paths"},    {is.indirect, "indirect light"},
+       {is.adaptive, "adaptive sampling"}};
+   std::string missing;
+   for (const auto &part : parts)
+      if (!part.first) missing += (missing.empty() ? "" : ", ") + std::string(part.second);
+   return missing.empty() ? "homework 3" : "homework 3 (not written yet: " + missing + ")";
+}
+
+uint32_t traits_of(const Written &is) {
+   uint32_t traits = FURNACE_ISOLATED_BOUNCES;
+   if (is.hierarchy) traits |= FURNACE_BRUTE_FORCE | FURNACE_COUNTS_TRAVERSAL;
+   if (is.by_hemisphere) traits |= FURNACE_HEMISPHERE_SAMPLING;
+   if (is.adaptive) traits |= FURNACE_ADAPTIVE_SAMPLING;
+   return traits;
+}
+
+// The core without what is not written.
+const furnace_core *core_of(const furnace_core &whole, const Written &is) {
+   static furnace_core core;
+   core = whole;
+   if (!is.camera) core.generate_rays = nullptr;
+   if (!is.triangle) core.intersect_triangle = nullptr;
+   if (!is.sphere) core.intersect_sphere = nullptr;
+   if (!is.box) core.intersect_box = nullptr;
+   if (!is.f) core.eval_bsdf = nullptr;
+   if (!is.sample_f) core.sample_bsdf = nullptr;
+   if (!is.adaptive) core.adaptive_mean = nullptr;
+   if (!is.emission && !is.direct && !is.path) core.radiance = nullptr;
+   if (!is.camera || !is.pixels) core.render = nullptr;
+   if (!is.triangle && !is.sphere) {
+      core.build = nullptr, core.release = nullptr, core.intersect = nullptr;
+      core.occluded = nullptr, core.radiance = nullptr, core.render = nullptr;
+   }
+   return &core;
+}
 
 } // namespace
 
-FURNACE_CORE(Course, "cs184", "homework 3", traits)
+extern "C" FURNACE_EXPORT const furnace_core *furnace_core_entry(uint32_t bench_abi) {
+   static bool              known = (find_written(written()), true);
+   static const std::string version = version_of(written());
+   const furnace_core      *whole =
+       known ? furnace::detail::entry<Course>(bench_abi, "cs184", version.c_str(), traits_of(written()))
+             : nullptr;
+   return whole ? core_of(*whole, written()) : nullptr;
+}

@@ -326,7 +326,12 @@ enum { /* furnace_core.traits: what no function pointer can say */
    FURNACE_SINGLE_PRECISION = 1u << 10,   /* computes in float: tolerances are wider */
    FURNACE_KNOWS_ROUGH_GLASS = 1u << 11,  /* knows FURNACE_ROUGH_GLASS: without it, it is not shown */
    FURNACE_REPORTED_VARIANCE = 1u << 12,  /* render fills furnace_render.variances */
-   FURNACE_STRATIFIED_PIXELS = 1u << 13   /* render honours `stratified` */
+   FURNACE_STRATIFIED_PIXELS = 1u << 13,  /* render honours `stratified` */
+   /* Promises. What follows is free: a core that promises nothing is told what was found, and not graded by it. */
+   FURNACE_INDEPENDENT_PIXELS = 1u << 14,  /* the noise of one pixel says nothing of another's */
+   FURNACE_INDEPENDENT_SAMPLES = 1u << 15, /* own directions and points are independent of each other */
+   FURNACE_PLAIN_ESTIMATORS = 1u << 16     /* uniform hemisphere, uniform points on lights, roulette as told
+                                            * and no other: the variance is the one courses derive */
 };
 
 enum { /* furnace_conventions; 0 is the default of every field */

@@ -3,6 +3,7 @@
 
 use super::{Case, Foundation, PARTS, Role, SceneChoice, Tier};
 use crate::checks::{self, PrepareError, RENAMED};
+use crate::contract::Capabilities;
 use crate::text::{Diagnostic, Source, Spanned, Words, did_you_mean, listed};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
@@ -24,6 +25,7 @@ struct Head {
     #[serde(default)]
     rests_on: Vec<Foundation>,
     role: Option<Role>,
+    promise: Option<Spanned<String>>,
     check: Spanned<String>,
     scene: Option<Spanned<SceneEntry>>,
     /// The check's own; it reads it with its own words.
@@ -61,6 +63,7 @@ pub(crate) fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diag
         proves: head.proves,
         rests_on: head.rests_on,
         role: head.role,
+        promise: promise(source, head.promise.as_ref())?,
         scene: head.scene.map(|scene| scene_choice(source, scene)).transpose()?,
         check,
         prepared,
@@ -82,6 +85,20 @@ fn refuse_unknown_parts(source: &Source, tags: &[Spanned<Words>]) -> Result<(), 
             Err(source.diagnostic(tag.span(), problem).with_hint(hint))
         }
     }
+}
+
+/// What a core has to promise to be graded by the case; empty: nothing.
+fn promise(source: &Source, word: Option<&Spanned<String>>) -> Result<Capabilities, Diagnostic> {
+    let Some(word) = word else { return Ok(Capabilities::empty()) };
+    let promises = Capabilities::PROMISES.names();
+    if promises.contains(word.get_ref()) {
+        return Ok(
+            Capabilities::from_names(std::slice::from_ref(word.get_ref())).unwrap_or_default()
+        );
+    }
+    let problem = format!("there is no promise `{}`", word.get_ref());
+    let hint = format!("the promises are {}", listed(promises.iter().map(String::as_str)));
+    Err(source.diagnostic(word.span(), problem).with_hint(hint))
 }
 
 fn find_check(
@@ -153,6 +170,22 @@ row = [{ bounces = [0, 5], radiance = [1, 1, 1] }]
             Ok(_) => panic!("`{wrong}` is taken for right"),
             Err(diagnostic) => diagnostic.line(),
         }
+    }
+
+    #[test]
+    fn a_promise_that_there_is_not_is_told_with_those_there_are() {
+        let word = |word: &str| format!("source = \"x\"\npromise = \"{word}\"");
+        assert_eq!(line_of_complaint("source = \"x\"", &word("deterministic")), 4);
+    }
+
+    #[test]
+    fn what_a_core_has_not_promised_is_not_held_against_it() {
+        let promising =
+            CASE.replace("source = \"x\"", "source = \"x\"\npromise = \"plain-estimators\"");
+        let source = Source::new("cases/integrator/x.toml", promising);
+        let case = parse("integrator/x", Path::new("x"), &source).unwrap();
+        assert_eq!(case.tier_on(Capabilities::all()), Tier::Graded);
+        assert_eq!(case.tier_on(Capabilities::all() - Capabilities::PROMISES), Tier::Informational);
     }
 
     #[test]

@@ -22,6 +22,7 @@ pub(crate) use scene_choice::SceneChoice;
 pub(crate) use tier::Tier;
 
 use crate::checks::{CheckKind, Prepared};
+use crate::contract::Capabilities;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -45,6 +46,8 @@ pub struct Case {
     pub rests_on: Vec<Foundation>,
     /// What it shows to the rules of the diagnosis, if they ask for it.
     pub role: Option<Role>,
+    /// What a core has to promise to be graded by it: the contract leaves it free. Empty: nothing.
+    pub(crate) promise: Capabilities,
     /// The scene it is tried in, if it names one.
     pub scene: Option<SceneChoice>,
     /// Which check judges.
@@ -58,6 +61,11 @@ pub struct Case {
 }
 
 impl Case {
+    /// What its result counts for on a core that can and promises so much.
+    pub(crate) fn tier_on(&self, core: Capabilities) -> Tier {
+        if core.contains(self.promise) { self.tier } else { Tier::Informational }
+    }
+
     /// The part of a path tracer it is about.
     pub(crate) fn part(&self) -> Option<&'static Part> {
         Part::of_case(&self.id)

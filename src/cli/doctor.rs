@@ -202,6 +202,18 @@ const ADVICE: &[(Capabilities, &str)] = &[
         Capabilities::DETERMINISTIC,
         "give the same bits for the same seed, and say FURNACE_DETERMINISTIC",
     ),
+    (
+        Capabilities::INDEPENDENT_PIXELS,
+        "if each pixel draws random numbers of its own, say FURNACE_INDEPENDENT_PIXELS",
+    ),
+    (
+        Capabilities::INDEPENDENT_SAMPLES,
+        "if samples are drawn one independently of the other, say FURNACE_INDEPENDENT_SAMPLES",
+    ),
+    (
+        Capabilities::PLAIN_ESTIMATORS,
+        "if directions and points on lights are uniform and roulette is as told, say FURNACE_PLAIN_ESTIMATORS",
+    ),
 ];
 
 #[cfg(test)]

@@ -44,12 +44,21 @@ pub(crate) fn explain(arguments: &ExplainArguments) -> Answer {
     Ok(ExitCode::Good)
 }
 
+/// ` where the core promises plain-estimators`; nothing for what every core is held to.
+fn on_promise(case: &Case) -> String {
+    let promises = case.promise.names();
+    if promises.is_empty() {
+        return String::new();
+    }
+    format!(" where the core promises {}", promises.join(", "))
+}
+
 fn told(project: &Project, case: &Arc<Case>) -> Result<String, Failure> {
     let part = case.part().map_or(String::new(), |p| format!("part {}, {}", p.number, p.title));
     let mut lines = vec![
         format!("{}\n", case.id),
         labelled("claim", &case.title),
-        labelled("about", &format!("{part}; {}", case.tier.word())),
+        labelled("about", &format!("{part}; {}{}", case.tier.word(), on_promise(case))),
         labelled("background", &case.teaches),
         labelled("checked", &format!("{} ({})", case.check.summary, case.check.name)),
         labelled("source", &case.source),

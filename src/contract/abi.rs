@@ -98,6 +98,9 @@ bitflags! {
         const KNOWS_ROUGH_GLASS = 1 << 11;
         const REPORTED_VARIANCE = 1 << 12;
         const STRATIFIED_PIXELS = 1 << 13;
+        const INDEPENDENT_PIXELS = 1 << 14;
+        const INDEPENDENT_SAMPLES = 1 << 15;
+        const PLAIN_ESTIMATORS = 1 << 16;
     }
 }
 

@@ -42,6 +42,13 @@ macro_rules! capabilities {
                 const CALLERS_RANDOMNESS = 1 << 32;
                 /// The same settings and seed give the same bits.
                 const DETERMINISTIC = 1 << 33;
+                /// A promise: the noise of one pixel says nothing of the noise of another.
+                const INDEPENDENT_PIXELS = 1 << 34;
+                /// A promise: the core's own directions and points are drawn independently of each other.
+                const INDEPENDENT_SAMPLES = 1 << 35;
+                /// A promise: estimators as courses teach them (uniform hemisphere, uniform points on lights, roulette
+                /// as told and no other), so that their variance is known.
+                const PLAIN_ESTIMATORS = 1 << 36;
             }
         }
     };
@@ -49,6 +56,10 @@ macro_rules! capabilities {
 questions! { capabilities, () }
 
 impl Capabilities {
+    /// What the contract leaves free unless a core promises it: whoever promises nothing is told, and not graded.
+    pub(crate) const PROMISES: Self =
+        Self::INDEPENDENT_PIXELS.union(Self::INDEPENDENT_SAMPLES).union(Self::PLAIN_ESTIMATORS);
+
     /// The names of the single capabilities in `self`, as users write them: `generate-rays`.
     pub fn names(self) -> Vec<String> {
         self.iter_names().map(|(name, _)| name.to_lowercase().replace('_', "-")).collect()

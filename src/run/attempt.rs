@@ -4,7 +4,7 @@ use super::bench::Bench;
 use super::outcome::Outcome;
 use super::plan::Trial;
 use super::record::{self, SceneStamp, TrialRecord, TrialTiming};
-use crate::case::Case;
+use crate::case::{Case, Tier};
 use crate::checks::{CheckError, Context, Finding, Picture};
 use crate::contract::validate::Validated;
 use crate::contract::{Capabilities, Core, CoreError};
@@ -31,6 +31,7 @@ pub fn run_trial(bench: &Bench, trial: &Trial) -> Ended {
     let started = Instant::now();
     let (attempt, printed) = attempt_hosted(bench, trial);
     let mut record = record_of(bench, trial, attempt.outcome);
+    record.tier = attempt.tier;
     record.scene = attempt.scene;
     record.keep_printed(&printed);
     record.timing.seconds = started.elapsed().as_secs_f64();
@@ -53,9 +54,12 @@ fn attempt_hosted(bench: &Bench, trial: &Trial) -> (Attempt, String) {
             (attempt, hosted.printed())
         }
         Err(HostError::Start(StartError::Core { error, printed })) => {
-            (Attempt::without_core(CheckError::Core(error)), printed)
+            (Attempt::without_core(&trial.case, CheckError::Core(error)), printed)
         }
-        Err(error) => (Attempt::without_core(CheckError::Broken(error.to_string())), String::new()),
+        Err(error) => (
+            Attempt::without_core(&trial.case, CheckError::Broken(error.to_string())),
+            String::new(),
+        ),
     }
 }
 
@@ -93,6 +97,8 @@ fn record_of(bench: &Bench, trial: &Trial, outcome: Outcome) -> TrialRecord {
 pub struct Attempt {
     /// How it ended.
     pub outcome: Outcome,
+    /// What it counts for on this core.
+    pub tier: Tier,
     /// The scene it was tried in.
     pub(crate) scene: Option<SceneStamp>,
     /// What the check wants people to see.
@@ -101,8 +107,9 @@ pub struct Attempt {
 
 impl Attempt {
     /// Of a core that did not come up.
-    fn without_core(error: CheckError) -> Self {
-        Self { outcome: Outcome::of(Err(error)), scene: None, pictures: Vec::new() }
+    fn without_core(case: &Case, error: CheckError) -> Self {
+        let outcome = Outcome::of(Err(error));
+        Self { outcome, tier: case.tier, scene: None, pictures: Vec::new() }
     }
 }
 
@@ -110,11 +117,12 @@ impl Attempt {
 pub fn attempt(bench: &Bench, case: &Case, core: &mut dyn Core) -> Attempt {
     let mut pictures = Vec::new();
     let mut scene = None;
+    let tier = case.tier_on(core.info().capabilities);
     let result = load_scene(bench, case).and_then(|loaded| {
         scene = loaded.as_deref().map(stamp);
         judge(bench, case, core, loaded, &mut pictures)
     });
-    Attempt { outcome: Outcome::of(result), scene, pictures }
+    Attempt { outcome: Outcome::of(result), tier, scene, pictures }
 }
 
 fn load_scene(bench: &Bench, case: &Case) -> Result<Option<Arc<SceneDescription>>, CheckError> {

@@ -39,6 +39,8 @@ class Core:
     # What no method can say: "brute-force", "split-rules", "hemisphere-sampling",
     # "isolated-bounces", "roulette", "adaptive-sampling", "rough-glass", "reported-variance",
     # "stratified-pixels", "traversal-stats", "callers-randomness", "deterministic".
+    # Promises, graded only where they are made: "independent-pixels", "independent-samples",
+    # "plain-estimators".
     traits = frozenset()
     # What the core has freely chosen, where it is not the usual: "point-light-falloff": "none",
     # "emission": "both", "smith-term": "height-correlated", "glass-fresnel": "schlick"

@@ -69,7 +69,8 @@ const CAPABILITIES: Capabilities = Capabilities::GENERATE_RAYS
     .union(Capabilities::REPORTED_VARIANCE)
     .union(Capabilities::STRATIFIED_PIXELS)
     .union(Capabilities::CALLERS_RANDOMNESS)
-    .union(Capabilities::DETERMINISTIC);
+    .union(Capabilities::DETERMINISTIC)
+    .union(Capabilities::PROMISES);
 
 /// The fast core. It keeps nothing between calls.
 #[derive(Clone, Copy, Debug, Default)]

@@ -80,6 +80,9 @@ pub(crate) fn capabilities(table: &abi::CoreTable) -> Capabilities {
         (renders && has(Traits::STRATIFIED_PIXELS), Capabilities::STRATIFIED_PIXELS),
         (has(Traits::CALLERS_RANDOMNESS), Capabilities::CALLERS_RANDOMNESS),
         (has(Traits::DETERMINISTIC), Capabilities::DETERMINISTIC),
+        (has(Traits::INDEPENDENT_PIXELS), Capabilities::INDEPENDENT_PIXELS),
+        (has(Traits::INDEPENDENT_SAMPLES), Capabilities::INDEPENDENT_SAMPLES),
+        (has(Traits::PLAIN_ESTIMATORS), Capabilities::PLAIN_ESTIMATORS),
     ];
     others.into_iter().filter(|(can, _)| *can).fold(found, |all, (_, one)| all | one)
 }

@@ -137,7 +137,7 @@ impl Encoding {
         exposure: std::f64::consts::SQRT_2,
     };
 
-    /// The code of this light; 0 of what is no number.
+    /// The code of this light; 0 of NaN.
     pub(crate) fn code(self, light: f64) -> u8 {
         // In [0, 256): the cast drops the fraction and cannot overflow.
         (WHITE * self.curve.encode(self.exposure * light) + self.half()) as u8

@@ -33,9 +33,6 @@ pub(crate) struct Loaded {
 
 /// Reads a file. Numbers of PNG are taken as `encoding`, sRGB if none is said; all others are
 /// linear.
-///
-/// # Errors
-/// If the file is missing, damaged, or of another kind.
 pub(crate) fn load(path: &Path, encoding: Option<Curve>) -> Result<Loaded, ImageError> {
     match Kind::of(path)? {
         Kind::OpenExr => load_exr(path),

@@ -21,14 +21,11 @@ impl Mask {
     /// Of an image that is black where pixels do not count.
     pub(crate) fn from_picture(image: &Image) -> Self {
         let counted = image.pixels.iter().map(|pixel| *pixel != [0.0; 3]).collect();
-        let picture = Some(([image.width, image.height], counted));
-        Self { rectangles: Vec::new(), picture }
+        Self { rectangles: Vec::new(), picture: Some((image.size(), counted)) }
     }
 
-    /// Which pixels of an image of this size count, row by row.
-    ///
-    /// # Errors
-    /// If the mask is an image of another size, or nothing counts.
+    /// Which pixels of an image of this size count, row by row; an error if the mask is an image of another size, or
+    /// nothing counts.
     pub(crate) fn counted(&self, [width, height]: [usize; 2]) -> Result<Vec<bool>, ImageError> {
         let mut counted = match &self.picture {
             None => vec![true; width * height],

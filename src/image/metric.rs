@@ -35,7 +35,7 @@ impl Metric {
         Self { name, of_equals: 0.0, is_slow: false, measure }
     }
 
-    /// The number. A pixel that is no number makes it NaN, or counts as the largest error there is.
+    /// The number. A pixel that is not a number makes it NaN, or counts as the largest error there is.
     pub fn measure(&self, pair: &Pair<'_>) -> f64 {
         (self.measure)(pair)
     }

@@ -60,7 +60,17 @@ impl Image {
     }
 
     pub(crate) fn same_size(&self, other: &Image) -> bool {
-        (self.width, self.height) == (other.width, other.height)
+        self.size() == other.size()
+    }
+
+    /// Columns and rows.
+    pub(crate) fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// The image of what `colour` makes of each pixel, row by row from the top left.
+    pub(crate) fn map(&self, colour: impl FnMut([f32; 3]) -> [f32; 3]) -> Self {
+        Self { pixels: self.pixels.iter().copied().map(colour).collect(), ..*self }
     }
 }
 

@@ -50,7 +50,7 @@ impl<'a> Pair<'a> {
     /// # Errors
     /// If the images differ in size, or have no pixels.
     pub fn new(image: &'a Image, reference: &'a Image) -> Result<Self, ImageError> {
-        let sizes = [image, reference].map(|picture| [picture.width, picture.height]);
+        let sizes = [image, reference].map(Image::size);
         if sizes[0] != sizes[1] {
             return Err(ImageError::DifferentSizes { sizes });
         }

@@ -4,19 +4,12 @@
 use super::{Image, ImageError};
 use std::path::Path;
 
-/// Reads a file.
-///
-/// # Errors
-/// If it is missing, cut off, or no portable float map.
 pub(crate) fn read(path: &Path) -> Result<Image, ImageError> {
     let bytes = std::fs::read(path).map_err(|error| ImageError::unreadable(path, error))?;
     decode(&bytes).map_err(|problem| ImageError::unreadable(path, problem))
 }
 
 /// Writes a file, least significant byte first.
-///
-/// # Errors
-/// If the file system says no.
 #[cfg(test)]
 pub(crate) fn write(path: &Path, image: &Image) -> Result<(), ImageError> {
     let mut bytes = format!("PF\n{} {}\n-1.0\n", image.width, image.height).into_bytes();

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// An orthonormal, right-handed frame whose third axis is the normal.
+/// An orthonormal, right-handed frame whose third axis is the normal; its axes in world space.
 #[cfg(test)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Frame {

@@ -203,10 +203,9 @@ pub(crate) fn integrate_rectangles<E>(
         open = halved(&mut known, diligence.tolerance, affordable / (POINTS * POINTS));
     }
     let sum = |parts: Vec<Estimate>| {
-        parts.iter().fold(Integral::default(), |mut sum, part| {
-            sum += part.integral;
-            sum
-        })
+        let mut sum = Integral::default();
+        parts.iter().for_each(|part| sum += part.integral);
+        sum
     };
     Ok(known.into_iter().map(sum).collect())
 }
@@ -297,7 +296,7 @@ fn estimate(part: Part, values: &[f64]) -> Estimate {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use std::convert::Infallible;
     use std::f64::consts::PI;
@@ -324,19 +323,25 @@ mod tests {
         assert!((declared.value - 0.29).abs() < 1e-15);
     }
 
-    fn over_unit_square(f: impl Fn(DVec2) -> f64, diligence: Diligence) -> Integral {
-        let square = Rectangle { low: DVec2::ZERO, high: DVec2::ONE };
+    const SQUARE: Rectangle = Rectangle { low: DVec2::ZERO, high: DVec2::ONE };
+
+    /// The integral of a function that never fails.
+    pub(crate) fn over(
+        area: Rectangle,
+        diligence: Diligence,
+        mut f: impl FnMut(DVec2) -> f64,
+    ) -> Integral {
         let mut batch = |points: &[DVec2], values: &mut [f64]| {
             points.iter().zip(values).for_each(|(p, v)| *v = f(*p));
             Ok::<_, Infallible>(())
         };
-        let Ok(sums) = integrate_rectangles(&[square], diligence, &mut batch);
+        let Ok(sums) = integrate_rectangles(&[area], diligence, &mut batch);
         sums[0]
     }
 
     #[test]
     fn a_rectangle_agrees_with_the_product_of_lines() {
-        let found = over_unit_square(|p| p.x.exp() * (3.0 * p.y).cos(), Diligence::default());
+        let found = over(SQUARE, Diligence::default(), |p| p.x.exp() * (3.0 * p.y).cos());
         let expected = (1f64.exp() - 1.0) * 3f64.sin() / 3.0;
         assert!((found.value - expected).abs() < 1e-12, "{found:?}");
     }
@@ -344,23 +349,19 @@ mod tests {
     #[test]
     fn a_narrow_lobe_between_the_nodes_is_found() {
         let lobe = |p: DVec2| (-(p - DVec2::new(0.71, 0.33)).length_squared() / 2e-4).exp();
-        let found = over_unit_square(lobe, Diligence::default());
+        let found = over(SQUARE, Diligence::default(), lobe);
         assert!((found.value - 2e-4 * PI).abs() < 1e-6, "{found:?}");
     }
 
     #[test]
     fn a_kink_along_a_curve_costs_the_parts_that_lie_on_it() {
         let mut asked = 0;
-        let mut batch = |points: &[DVec2], values: &mut [f64]| {
-            asked += points.len();
-            let depth = |p: &DVec2| (1.0 - p.length_squared()).abs();
-            points.iter().zip(values).for_each(|(p, v)| *v = depth(p));
-            Ok::<_, Infallible>(())
-        };
-        let square = Rectangle { low: DVec2::ZERO, high: DVec2::ONE };
-        let Ok(found) = integrate_rectangles(&[square], Diligence::default(), &mut batch);
+        let found = over(SQUARE, Diligence::default(), |p| {
+            asked += 1;
+            (1.0 - p.length_squared()).abs()
+        });
         let expected = PI / 4.0 - 1.0 / 3.0;
-        assert!((found[0].value - expected).abs() < 1e-6 && found[0].error <= 1e-6, "{found:?}");
+        assert!((found.value - expected).abs() < 1e-6 && found.error <= 1e-6, "{found:?}");
         assert!(asked < 1_000_000, "{asked}");
     }
 
@@ -368,7 +369,7 @@ mod tests {
     fn a_jump_that_costs_too_much_is_admitted_in_the_error() {
         let disk = |p: DVec2| f64::from(u8::from(p.length() < 1.0));
         let hurried = Diligence { tolerance: 1e-9, most_evaluations: 20_000 };
-        let found = over_unit_square(disk, hurried);
+        let found = over(SQUARE, hurried, disk);
         assert!(found.error > 1e-9);
         assert!((found.value - PI / 4.0).abs() <= found.error, "{found:?}");
     }

@@ -6,7 +6,7 @@
 //!   goes on from stage to stage (`Escalation`), what every test answers
 //!   ([`Report`]), and what a run has spent of the probability of blaming a correct core
 //!   ([`Ledger`]).
-//! - `test`: tests of numbers. Means ([`judge_means`]), counts against a density
+//! - `test`: tests of numbers. Means ([`judge_means`]), counts against a pdf
 //!   ([`judge_counts`]), shares ([`judge_share`]), slopes ([`judge_slope`]), independence
 //!   ([`judge_uncorrelated`]), rare events ([`judge_rare`]), and comparisons without noise
 //!   ([`judge_exact`]).

@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn a_black_picture_and_one_with_a_single_lamp_have_exposures_too() {
+    fn a_black_picture_and_one_with_a_single_light_have_exposures_too() {
         let mut image = Image::new(8, 8, [0.0; 3]);
         assert!(exposures(&image).iter().all(|stops| stops.is_finite()));
         image.pixels[5] = [3.0; 3];

@@ -18,57 +18,28 @@ fn waves(width: usize, height: usize, shift: f64, level: f64) -> Image {
     })
 }
 
-/// A pair from the formula, with NVIDIA's mean and pixels.
-struct Row {
-    width: usize,
-    height: usize,
-    shift: f64,
-    level: f64,
-    mean: f64,
-    pixels: [f64; 4],
-}
-
 const PIXELS: [[usize; 2]; 4] = [[0, 0], [11, 7], [20, 16], [22, 3]];
-
-fn assert_agrees(map: fn(&Pair<'_>) -> Plane, row: &Row) {
-    let Row { width, height, shift, level, .. } = *row;
-    let (image, reference) = (waves(width, height, shift, level), waves(width, height, 0.0, level));
-    let found = map(&Pair::new(&image, &reference).unwrap());
-    assert!((mean(&found) - row.mean).abs() < TOLERANCE, "mean {}, {}", mean(&found), row.mean);
-    for ([x, y], expected) in PIXELS.into_iter().zip(row.pixels) {
-        let error = f64::from(found.row(y)[x]);
-        assert!((error - expected).abs() < TOLERANCE, "({x}, {y}): {error}, {expected}");
-    }
-}
 
 #[test]
 fn it_is_the_number_of_nvidia() {
-    let dim = Row {
-        width: 40,
-        height: 30,
-        shift: 0.05,
-        level: 1.0,
-        mean: 0.108336,
-        pixels: [0.048865, 0.140711, 0.140448, 0.132537],
+    let dim = (0.108336, [0.048865, 0.140711, 0.140448, 0.132537]);
+    let clipped = (0.441682, [0.182567, 0.569366, 0.567277, 0.563280]);
+    let bright = (0.196304, [0.078480, 0.181532, 0.173275, 0.218941]);
+    let flip_of_waves = |map: fn(&Pair<'_>) -> Plane, size: [usize; 2], shift, level| {
+        let [image, reference] = [shift, 0.0].map(|shift| waves(size[0], size[1], shift, level));
+        map(&Pair::new(&image, &reference).unwrap())
     };
-    let clipped = Row {
-        width: 23,
-        height: 17,
-        shift: 0.3,
-        level: 1.4,
-        mean: 0.441682,
-        pixels: [0.182567, 0.569366, 0.567277, 0.563280],
-    };
-    let bright = Row {
-        shift: 0.1,
-        level: 30.0,
-        mean: 0.196304,
-        pixels: [0.078480, 0.181532, 0.173275, 0.218941],
-        ..dim
-    };
-    assert_agrees(flip, &dim);
-    assert_agrees(flip, &clipped);
-    assert_agrees(high_dynamic_range_flip, &bright);
+    for (found, (of_mean, of_pixels)) in [
+        (flip_of_waves(flip, [40, 30], 0.05, 1.0), dim),
+        (flip_of_waves(flip, [23, 17], 0.3, 1.4), clipped),
+        (flip_of_waves(high_dynamic_range_flip, [40, 30], 0.1, 30.0), bright),
+    ] {
+        assert!((mean(&found) - of_mean).abs() < TOLERANCE, "mean {}, {of_mean}", mean(&found));
+        for ([x, y], expected) in PIXELS.into_iter().zip(of_pixels) {
+            let error = f64::from(found.row(y)[x]);
+            assert!((error - expected).abs() < TOLERANCE, "({x}, {y}): {error}, {expected}");
+        }
+    }
 }
 
 #[test]

@@ -14,7 +14,7 @@ fn cap_fraction(half_angle: f64) -> f64 {
     0.5 * (1.0 - half_angle.cos())
 }
 
-/// Radiance of these bounces in a spherical cavity that glows only on a cap, at any point outside
+/// Radiance of these bounces in a spherical cavity that emits only on a cap, at any point outside
 /// the cap.
 ///
 /// Between two points inside a sphere of radius R, cos θ cos θ′ / (π r²) = 1 / (4πR²): light

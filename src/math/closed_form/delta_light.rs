@@ -21,12 +21,13 @@ mod tests {
     use super::super::witness::assert_close;
     use super::*;
 
-    /// A small ball of radiance 1 has intensity πr².
+    /// A small sphere of radiance 1 has intensity πr².
     #[test]
-    fn a_point_light_is_the_limit_of_a_small_ball() {
+    fn a_point_light_is_the_limit_of_a_small_sphere() {
         let (radius, height, distance) = (1e-3, 1.5, 0.9);
-        let from_ball = sphere(radius, f64::hypot(height, distance), f64::atan2(distance, height));
+        let from_sphere =
+            sphere(radius, f64::hypot(height, distance), f64::atan2(distance, height));
         let intensity = PI * radius * radius;
-        assert_close(point_light(intensity, 0.37, height, distance), 0.37 * from_ball, 1e-9);
+        assert_close(point_light(intensity, 0.37, height, distance), 0.37 * from_sphere, 1e-9);
     }
 }

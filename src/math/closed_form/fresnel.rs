@@ -35,7 +35,7 @@ pub(crate) fn schlick_of_view(cos_incident: f64, eta: f64) -> f64 {
     at_normal + (1.0 - at_normal) * (1.0 - cos_incident).powi(5)
 }
 
-/// What a clear parallel slab lets through, all internal reflections included, of faces that reflect
+/// What a clear parallel slab transmits, all internal reflections included, of faces that reflect
 /// so much from outside and from inside: (1 − Fₒ) (1 − Fᵢ) Σ Fᵢ²ᵏ = (1 − Fₒ)/(1 + Fᵢ).
 #[cfg(test)]
 pub(crate) fn slab_transmittance(outside: f64, inside: f64) -> f64 {

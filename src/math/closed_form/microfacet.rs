@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn facets_cover_the_surface_once() {
+    fn microfacets_cover_the_surface_once() {
         for alpha in [0.1, 0.3, 1.0] {
             let covered = hemisphere(|h| distribution(h.z, alpha) * h.z);
             assert_close(covered, 1.0, 1e-7);
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn visible_facets_cover_what_is_seen_once() {
+    fn visible_microfacets_cover_what_is_seen_once() {
         for (alpha, degrees) in [(0.3, 45f64), (0.6, 75.0)] {
             let wo = direction(degrees.to_radians(), 0.0);
             let seen = hemisphere(|h| {

@@ -19,8 +19,7 @@ pub(crate) struct Shares {
 }
 
 impl Shares {
-    /// Of an interface of roughness `alpha`, seen at this cosine; `eta`: index beyond over the index
-    /// here.
+    /// Of an interface of roughness `alpha`, seen at this cosine; `eta` is eta_t / eta_i.
     ///
     /// With microfacet normals distributed by D cos, a share is the mean of F G (o·m) / (cos θo cos θm),
     /// or of 1 − F in place of F, over the microfacets that send light to its side. For each θm they are

@@ -6,7 +6,7 @@ pub(crate) struct RouletteFurnace {
     /// Radiance emitted everywhere.
     pub(crate) emission: f64,
     pub(crate) albedo: f64,
-    /// Probability of going on at each bounce it is played at; what goes on is divided by it.
+    /// Survival probability at each bounce it is played at; what survives is divided by it.
     pub(crate) survival: f64,
     /// Bounces that are always traced.
     pub(crate) guaranteed: u32,

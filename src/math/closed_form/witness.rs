@@ -1,19 +1,13 @@
 //! Quadrature for the tests of the closed forms: the defining integrals, evaluated without
 //! cleverness.
 
-use crate::math::quadrature::{Diligence, Rectangle, integrate_rectangles};
+use crate::math::quadrature::{Diligence, Rectangle, tests};
 use glam::{DVec2, DVec3};
-use std::convert::Infallible;
 
 /// The integral of `f` over the rectangle from `low` to `high`, to about 1e-9.
 pub(crate) fn over(low: DVec2, high: DVec2, f: impl Fn(DVec2) -> f64) -> f64 {
     let diligence = Diligence { tolerance: 1e-9, most_evaluations: 4_000_000 };
-    let mut batch = |points: &[DVec2], values: &mut [f64]| {
-        points.iter().zip(values).for_each(|(point, value)| *value = f(*point));
-        Ok::<_, Infallible>(())
-    };
-    let Ok(sums) = integrate_rectangles(&[Rectangle { low, high }], diligence, &mut batch);
-    sums[0].value
+    tests::over(Rectangle { low, high }, diligence, f).value
 }
 
 pub(crate) fn over_unit_square(f: impl Fn(DVec2) -> f64) -> f64 {

@@ -1,6 +1,6 @@
 //! How bright a whole picture is beside what it should be: what people ask first.
 //!
-//! All light counts here, that of lamps in view too, so that the numbers are what adding up two
+//! All light counts here, that of emitters in view too, so that the numbers are what adding up two
 //! pictures gives. The cells that are judged count bright pixels less; no verdict hangs on this.
 
 use super::cells::{COMPONENTS, Component};

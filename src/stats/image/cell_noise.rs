@@ -11,7 +11,7 @@
 //! - At an edge samples fall to either side by chance, and a reference that spreads its samples
 //!   evenly over the pixel knows nothing of that. A sample between a and b whose mean is m has a
 //!   variance of at most (m − a)(b − m) (Bhatia and Davis 2000); a and b are the darkest and the
-//!   brightest of the pixels around, for a sliver of a lamp may fill no pixel but at its end.
+//!   brightest of the pixels around, for a sliver of an emitter may fill no pixel but at its end.
 //!
 //! What is known needs no more sigmas than a normal variable, Student's t many more: each counts
 //! with its own, and the larger decides.

@@ -1,10 +1,11 @@
 //! Pictures cut into cells of several sizes, so that errors of any extent stand out at one of them.
 //!
 //! A cell's value is a weighted mean over its pixels. The weights come from the reference alone and
-//! fall with brightness: a lamp in view, a hundred times brighter than what it lights, would
+//! fall with brightness: an emitter in view, a hundred times brighter than what it lights, would
 //! otherwise decide alone, and its noisy edge with it.
 
 use crate::image::{Image, luminance};
+use crate::stats::law::upper_median;
 use crate::stats::plan::level::SCALES;
 use serde::Serialize;
 
@@ -134,7 +135,8 @@ impl Grid {
     /// The standard error of each cell's mean, from those of its pixels, which are independent of
     /// each other.
     fn standard_errors(&self, weights: &[f64], errors: &Image) -> Vec<f64> {
-        let squares = |pixel: usize| error_components(errors.pixels[pixel]).map(|e| e * e);
+        // How the noise of the channels hangs together is not known: that of the luminance is at most this.
+        let squares = |pixel: usize| components(errors.pixels[pixel]).map(|e| e * e);
         let weighted: Vec<f64> = weights.iter().map(|weight| weight * weight).collect();
         let (means, count) = (self.means(&weighted, squares), self.weight_ratio(weights));
         means.iter().enumerate().map(|(i, m)| (m * count[i / COMPONENTS]).sqrt()).collect()
@@ -164,15 +166,10 @@ pub(super) fn around(
     rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
 }
 
-fn components(pixel: [f32; 3]) -> [f64; COMPONENTS] {
+/// The components of a colour, in their order.
+pub(super) fn components(pixel: [f32; 3]) -> [f64; COMPONENTS] {
     let [red, green, blue] = pixel.map(f64::from);
     [red, green, blue, luminance(pixel)]
-}
-
-/// Standard errors of the components. How the noise of the channels hangs together is not known, so
-/// that of the luminance is at most this.
-fn error_components(errors: [f32; 3]) -> [f64; COMPONENTS] {
-    components(errors)
 }
 
 /// The cells of all scales over pictures of one size.
@@ -187,7 +184,8 @@ impl Cells {
     pub(super) fn new(guide: &Image) -> Self {
         let grids = Scale::ALL.map(|scale| Grid::new(scale, guide.width, guide.height));
         let levels: Vec<f64> = guide.pixels.iter().map(|pixel| luminance(*pixel)).collect();
-        let typical = median(&levels).max(f64::MIN_POSITIVE);
+        let lit = levels.iter().copied().filter(|level| *level > 0.0);
+        let typical = upper_median(lit).unwrap_or(1.0);
         let weights = levels.into_iter().map(|level| typical / (level.max(0.0) + typical));
         Self { grids: grids.to_vec(), weights: weights.collect() }
     }
@@ -206,21 +204,14 @@ impl Cells {
 
     /// Where the values of each scale lie among all.
     pub(super) fn ranges(&self) -> Vec<std::ops::Range<usize>> {
-        let mut start = 0;
-        let lengths = self.grids.iter().map(|grid| grid.len() * COMPONENTS);
-        lengths
-            .map(|length| {
-                start += length;
-                start - length..start
-            })
-            .collect()
+        let mut end = 0;
+        let range = |grid: &Grid| {
+            let start = end;
+            end += grid.len() * COMPONENTS;
+            start..end
+        };
+        self.grids.iter().map(range).collect()
     }
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut sorted: Vec<f64> = values.iter().copied().filter(|value| *value > 0.0).collect();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(1.0)
 }
 
 #[cfg(test)]
@@ -255,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lamp_in_view_does_not_decide_alone() {
+    fn an_emitter_in_view_does_not_decide_alone() {
         let mut image = Image::new(32, 32, [0.1; 3]);
         image.pixels[5] = [1000.0; 3];
         let cells = Cells::new(&image);

@@ -45,19 +45,17 @@ impl Side {
             image: loaded.image,
             alpha: loaded.alpha,
             bounces,
-            variance: standard_error.map(|errors| each(errors, |error| error * error)),
+            variance: standard_error
+                .map(|errors| errors.map(|error| error.map(|error| error * error))),
             is_variance_given: false,
             rounding,
         }
     }
 
-    /// The mean of several renders of one picture.
-    ///
-    /// # Errors
-    /// [`ImageError::DifferentSizes`]
+    /// The mean of several renders of one picture; [`ImageError::DifferentSizes`] if they are not.
     pub(crate) fn mean_of(runs: &[Loaded]) -> Result<Self, ImageError> {
-        let [width, height] = runs.first().map_or([0; 2], |run| size(&run.image));
-        if let Some(other) = runs.iter().map(|run| size(&run.image)).find(|s| *s != [width, height])
+        let [width, height] = runs.first().map_or([0; 2], |run| run.image.size());
+        if let Some(other) = runs.iter().map(|run| run.image.size()).find(|s| *s != [width, height])
         {
             return Err(ImageError::DifferentSizes { sizes: [[width, height], other] });
         }
@@ -86,20 +84,20 @@ impl Side {
     /// The same with a picture of the variance of every value; none if it has another size or is negative.
     pub(crate) fn with_variance(self, variance: Image) -> Option<Self> {
         let is_variance = |value: &f32| *value >= 0.0 && value.is_finite();
-        let fits = size(&variance) == size(&self.image);
+        let fits = variance.size() == self.image.size();
         let is_one = fits && variance.pixels.as_flattened().iter().all(is_variance);
         is_one.then_some(Self { variance: Some(variance), is_variance_given: true, ..self })
     }
 
     pub(crate) fn size(&self) -> [usize; 2] {
-        size(&self.image)
+        self.image.size()
     }
 
     /// The light behind the codes of this side, if it has no more than 8 bits and the other is
     /// radiance that is known with its errors: decoded, noise would look like darkness.
     fn light_against(&self, reference: &Self, encoding: Encoding) -> Option<LightOfCodes> {
         let errors = reference.variance.as_ref().filter(|_| !reference.is_coded)?;
-        let standard_error = each(errors, f32::sqrt);
+        let standard_error = errors.map(|variance| variance.map(f32::sqrt));
         let known = CodeReference {
             mean: &reference.image,
             standard_error: &standard_error,
@@ -150,7 +148,7 @@ pub struct CodesCompared {
 #[derive(Debug, Serialize)]
 pub(crate) struct Measured {
     pub(crate) name: &'static str,
-    /// None where a pixel is no number.
+    /// None where a pixel is not a number.
     pub(crate) value: Option<f64>,
 }
 
@@ -278,20 +276,12 @@ fn counted(
 /// Half a step of the codes, as light, at every value.
 fn rounding(loaded: &Loaded, largest: u32) -> Image {
     let half = 0.5 / f64::from(largest);
-    each(&loaded.image, |value| {
+    let step = |value: f32| {
         let share = loaded.encoding.encode(f64::from(value));
         let light = |share: f64| loaded.encoding.decode(share.clamp(0.0, 1.0));
         #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
         let step = (light(share + half) - light(share - half)) as f32;
         0.5 * step
-    })
-}
-
-fn each(image: &Image, value: impl Fn(f32) -> f32) -> Image {
-    let pixels = image.pixels.iter().map(|pixel| pixel.map(&value)).collect();
-    Image { pixels, ..*image }
-}
-
-fn size(image: &Image) -> [usize; 2] {
-    [image.width, image.height]
+    };
+    loaded.image.map(|pixel| pixel.map(step))
 }

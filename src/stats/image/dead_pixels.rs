@@ -10,7 +10,7 @@
 //!   for a factor, v: how many runs its samples are worth is told by like pixels, whose variance
 //!   is known of both; the largest factor of all counts.
 //!
-//! Neighbours alone would blame a right core for a sliver of a lamp: its light comes in few samples,
+//! Neighbours alone would blame a right core for a sliver of an emitter: its light comes in few samples,
 //! and its mean may yet be that of a wall. There the reference is noisy, and is asked. A reference
 //! whose samples are spread evenly over a pixel may know a sliver too well; but a sliver has an edge
 //! to what it is a sliver of, so pixels beside others of another brightness are not judged.
@@ -19,9 +19,9 @@ use super::cells::around;
 use crate::image::{Image, luminance};
 use crate::stats::Moments;
 
-/// Chance below which a pixel is suspected after the screen.
+/// Probability below which a pixel is suspected after the screen.
 const SUSPECTED: f64 = 1e-6;
-/// Chance below which it is dead.
+/// Probability below which it is dead.
 const DEAD: f64 = 1e-15;
 /// Neighbours are looked for this far away, in pixels.
 const REACH: usize = 4;
@@ -83,13 +83,13 @@ impl LitRuns {
 
     fn darker_than_chance(&self, level: f64) -> Vec<[usize; 2]> {
         let black = (0..self.lit.len()).filter(|&i| self.lit[i] == 0 && self.levels[i] > 0.0);
-        let dead = black.filter(|&pixel| self.chance(pixel) <= level);
+        let dead = black.filter(|&pixel| self.probability(pixel) <= level);
         dead.take(MOST_REPORTED).map(|i| [i % self.width, i / self.width]).collect()
     }
 
     /// At most the probability that a right core's pixel is black in all runs; 1 where that is not
     /// known.
-    fn chance(&self, pixel: usize) -> f64 {
+    fn probability(&self, pixel: usize) -> f64 {
         let is_inside = self.around(pixel, 1).all(|i| self.are_alike(i, pixel));
         if self.runs < 2 || !is_inside {
             return 1.0;
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sliver_of_a_lamp_as_bright_as_the_wall_beside_it_is_not_dead() {
+    fn a_sliver_of_an_emitter_as_bright_as_the_wall_beside_it_is_not_dead() {
         // Of 10,000 samples of the reference, as many light the wall pixels, and 100 the sliver; of
         // the 20 samples of a run one in five holds it.
         let sliver = |i, stream: &mut Stream| if i == PIXEL { 0.0 } else { wall(stream) };

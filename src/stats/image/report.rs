@@ -19,13 +19,26 @@ pub enum Impossible {
 
 impl Impossible {
     /// What is wrong with a value, if anything is.
-    pub(super) fn of(value: f32) -> Option<Self> {
+    fn of(value: f32) -> Option<Self> {
         match value {
             v if v.is_nan() => Some(Self::NotANumber),
             v if v.is_infinite() => Some(Self::Infinite),
             v if v < 0.0 => Some(Self::Negative),
             _ => None,
         }
+    }
+
+    /// What is wrong with the first impossible pixel among those that count, its column and row, and how many there
+    /// are.
+    pub(super) fn first_in(
+        image: &Image,
+        counts: impl Fn(usize) -> bool,
+    ) -> Option<(Self, [usize; 2], usize)> {
+        let wrong = |pixel: &[f32; 3]| pixel.iter().find_map(|value| Self::of(*value));
+        let pixels = image.pixels.iter().enumerate().filter(|(i, _)| counts(*i));
+        let mut found = pixels.filter_map(|(i, pixel)| Some((i, wrong(pixel)?)));
+        let (first, kind) = found.next()?;
+        Some((kind, [first % image.width, first / image.width], 1 + found.count()))
     }
 }
 

@@ -136,7 +136,8 @@ impl<'a, E> Screening<'a, E> {
     ) -> Result<Vec<f64>, Interrupted<E>> {
         for image in &images {
             assert_eq!((image.width, image.height), self.size, "all pictures of one size");
-            if let Some(pixels) = impossible(image, stage, run) {
+            if let Some((kind, [x, y], pixels)) = Impossible::first_in(image, |_| true) {
+                let pixels = ImpossiblePixels { kind, x, y, pixels, stage, run };
                 return Err(Interrupted::Impossible(pixels, image.clone()));
             }
         }
@@ -272,15 +273,6 @@ fn confirm(level: f64, second: &Moments, third: &Moments) -> [Confirmation; 2] {
         let rejects = t > student_upper(level, freedom);
         Confirmation { t: t.clamp(-1e9, 1e9), rejects }
     })
-}
-
-/// The first impossible pixel of a picture.
-fn impossible(image: &Image, stage: Stage, run: u32) -> Option<ImpossiblePixels> {
-    let wrong = |pixel: &[f32; 3]| pixel.iter().find_map(|value| Impossible::of(*value));
-    let mut found = image.pixels.iter().enumerate().filter_map(|(i, p)| Some((i, wrong(p)?)));
-    let (first, kind) = found.next()?;
-    let (x, y) = (first % image.width, first / image.width);
-    Some(ImpossiblePixels { kind, x, y, pixels: 1 + found.count(), stage, run })
 }
 
 /// The scale whose weaker confirmation is the strongest, among those that reject.

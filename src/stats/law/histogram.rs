@@ -1,4 +1,4 @@
-//! Directions counted in cells of equal solid angle, and what a density says the counts should be.
+//! Directions counted in cells of equal solid angle, and what a pdf says the counts should be.
 //!
 //! The cells are rings in cos θ around +z, cut into sectors of φ. The sectors are turned by an
 //! angle of one's choice, so that no sampler's own seams coincide with theirs in every stage.
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 const HORIZON: f64 = 1e-6;
 
 /// Writes its values, per steradian, for many unit directions.
-pub(crate) type BatchDensity<'a, E> = dyn FnMut(&[DVec3], &mut [f64]) -> Result<(), E> + 'a;
+pub(crate) type BatchPdf<'a, E> = dyn FnMut(&[DVec3], &mut [f64]) -> Result<(), E> + 'a;
 
 /// A division of the sphere into cells: ring by ring from −z to +z, sector by sector within.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub struct SphereCells {
     sectors: usize,
     /// Azimuth at which the first sector begins, radians.
     offset: f64,
-    /// Polar angles at which the density has a kink, as cos θ.
+    /// Polar angles at which the pdf has a kink, as cos θ.
     kinks: Vec<f64>,
 }
 
@@ -50,7 +50,7 @@ impl SphereCells {
         Self { offset, ..self }
     }
 
-    /// The same cells for a density with kinks on the circles of these cos θ.
+    /// The same cells for a pdf with kinks on the circles of these cos θ.
     pub(crate) fn with_kinks(self, kinks: &[f64]) -> Self {
         Self { kinks: kinks.to_vec(), ..self }
     }
@@ -96,12 +96,12 @@ impl SphereCells {
         counts
     }
 
-    /// The probability of each cell under a density per steradian. What is missing to 1 is the
+    /// The probability of each cell under a pdf per steradian. What is missing to 1 is the
     /// probability that a sample fails. `pdf` answers for many directions at a time.
     pub(crate) fn probabilities<E>(
         &self,
         diligence: Diligence,
-        pdf: &mut BatchDensity<'_, E>,
+        pdf: &mut BatchPdf<'_, E>,
     ) -> Result<CellProbabilities, E> {
         let (owners, areas): (Vec<_>, Vec<_>) =
             (0..self.len()).flat_map(|cell| self.pieces(cell)).unzip();
@@ -110,13 +110,24 @@ impl SphereCells {
             directions.clear();
             directions.extend(points.iter().map(|p| direction(p.x, p.y)));
             pdf(&directions, values)?;
-            // dω = sin θ dθ dφ. In θ, unlike in cos θ, a smooth density is smooth at the poles.
+            // dω = sin θ dθ dφ. In θ, unlike in cos θ, a smooth pdf is smooth at the poles.
             points.iter().zip(values).for_each(|(p, value)| *value *= p.x.sin());
             Ok(())
         })?;
         let mut cells = vec![Integral::default(); self.len()];
         owners.into_iter().zip(pieces).for_each(|(cell, piece)| cells[cell] += piece);
         Ok(CellProbabilities::new(cells))
+    }
+
+    /// The same of a pdf that answers for one direction and never fails.
+    #[cfg(test)]
+    pub(crate) fn probabilities_of(&self, pdf: impl Fn(DVec3) -> f64) -> CellProbabilities {
+        let mut batch = |directions: &[DVec3], values: &mut [f64]| {
+            directions.iter().zip(values).for_each(|(d, v)| *v = pdf(*d));
+            Ok::<_, std::convert::Infallible>(())
+        };
+        let Ok(probabilities) = self.probabilities(Diligence::default(), &mut batch);
+        probabilities
     }
 
     /// A cell in (θ, φ), cut at the kinks.
@@ -155,12 +166,12 @@ pub struct CellProbabilities {
     pub(crate) errors: Vec<f64>,
     /// That a sample fails: what is missing to 1, never negative.
     pub(crate) absorbed: f64,
-    /// The integral of the density.
+    /// The integral of the pdf.
     pub(crate) mass: f64,
 }
 
 impl CellProbabilities {
-    /// From the integral of the density over each cell.
+    /// From the integral of the pdf over each cell.
     pub(crate) fn new(cells: Vec<Integral>) -> Self {
         let mass: f64 = cells.iter().map(|cell| cell.value).sum();
         Self {
@@ -182,17 +193,8 @@ impl CellProbabilities {
 mod tests {
     use super::*;
     use crate::math::rng::{Seed, uniform};
-    use std::convert::Infallible;
+    use std::cell::Cell;
     use std::f64::consts::{FRAC_1_PI, PI};
-
-    fn probabilities(cells: &SphereCells, pdf: impl Fn(DVec3) -> f64) -> CellProbabilities {
-        let mut batch = |directions: &[DVec3], values: &mut [f64]| {
-            directions.iter().zip(values).for_each(|(d, v)| *v = pdf(*d));
-            Ok::<_, Infallible>(())
-        };
-        let Ok(probabilities) = cells.probabilities(Diligence::default(), &mut batch);
-        probabilities
-    }
 
     #[test]
     fn the_middle_of_each_cell_is_in_it() {
@@ -216,9 +218,9 @@ mod tests {
     }
 
     #[test]
-    fn the_cosine_density_fills_rings_by_the_difference_of_squares() {
+    fn the_cosine_pdf_fills_rings_by_the_difference_of_squares() {
         let cells = SphereCells::hemisphere(10, 20).turned_by(0.7);
-        let found = probabilities(&cells, |d| d.z.max(0.0) * FRAC_1_PI);
+        let found = cells.probabilities_of(|d| d.z.max(0.0) * FRAC_1_PI);
         for (cell, p) in found.cells.iter().enumerate() {
             let ([low, high], _) = cells.bounds(cell);
             let expected = (high.max(0.0).powi(2) - low.max(0.0).powi(2)) / 20.0;
@@ -228,23 +230,21 @@ mod tests {
     }
 
     #[test]
-    fn what_the_density_lacks_is_absorbed() {
+    fn what_the_pdf_lacks_is_absorbed() {
         let cells = SphereCells::sphere(4, 8);
-        let found = probabilities(&cells, |_| 0.75 / (4.0 * PI));
+        let found = cells.probabilities_of(|_| 0.75 / (4.0 * PI));
         assert!((found.absorbed - 0.25).abs() < 1e-12);
     }
 
     #[test]
     fn a_declared_kink_costs_nothing() {
         let evaluations = |cells: SphereCells| {
-            let mut asked = 0;
-            let mut pdf = |directions: &[DVec3], values: &mut [f64]| {
-                asked += directions.len();
-                directions.iter().zip(values).for_each(|(d, v)| *v = (d.z - 0.333).max(0.0));
-                Ok::<_, Infallible>(())
-            };
-            let Ok(_) = cells.probabilities(Diligence::default(), &mut pdf);
-            asked
+            let asked = Cell::new(0);
+            cells.probabilities_of(|d| {
+                asked.set(asked.get() + 1);
+                (d.z - 0.333).max(0.0)
+            });
+            asked.get()
         };
         let cells = SphereCells::hemisphere(4, 8);
         assert!(evaluations(cells.clone().with_kinks(&[0.333])) < evaluations(cells));

@@ -66,6 +66,13 @@ pub fn detectable_noncentrality(freedom: f64, level: f64, miss: f64) -> f64 {
     high
 }
 
+/// The middle value, or the upper of the middle two; none of none.
+pub(crate) fn upper_median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    let rank = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(rank, f64::total_cmp).1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

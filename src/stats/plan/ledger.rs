@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 pub enum TestKind {
     /// A mean, in three stages.
     Mean,
-    /// Counts against a density, by χ² in three stages.
+    /// Counts against a pdf, by χ² in three stages.
     Counts,
     /// A share of yes-or-no samples, by binomial tails in three stages.
     Share,
@@ -40,7 +40,7 @@ impl TestKind {
     pub(crate) const fn singular(self) -> &'static str {
         match self {
             Self::Mean => "mean",
-            Self::Counts => "density",
+            Self::Counts => "pdf",
             Self::Share => "share",
             Self::Picture => "picture",
             Self::Codes => "picture of codes",
@@ -54,7 +54,7 @@ impl TestKind {
     pub const fn plural(self) -> &'static str {
         match self {
             Self::Mean => "means",
-            Self::Counts => "densities",
+            Self::Counts => "pdfs",
             Self::Share => "shares",
             Self::Picture => "pictures",
             Self::Codes => "pictures of codes",

@@ -1,8 +1,8 @@
-//! Whether samples follow a density: χ² on counts, in three stages ([`Escalation`]).
+//! Whether samples follow a pdf: χ² on counts, in three stages ([`Escalation`]).
 //!
 //! Cells in which fewer than [`FEWEST_EXPECTED`] samples are expected are pooled,
 //! because with starved cells the far tail of the statistic is ten times too fat. A sample where
-//! the density is zero fails without statistics: in a cell of probability 0, and where the density
+//! the pdf is zero fails without statistics: in a cell of probability 0, and where the pdf
 //! of the sample itself is 0 if that probability is an integral.
 //!
 //! Expectations come from quadrature and may be wrong by δ. The statistic is judged as if the error
@@ -40,7 +40,7 @@ pub(crate) trait CountSource {
     /// `samples` fresh samples, counted in the cells of this stage.
     fn draw(&mut self, stage: Stage, samples: u64) -> Result<Counts, Self::Error>;
     /// How many of the samples last drawn in a cell of probability 0 can be no chance. All, if the
-    /// law is known; quadrature may have missed a sliver of a density, so that whoever integrates
+    /// law is known; quadrature may have missed a sliver of a pdf, so that whoever integrates
     /// one has to look at the samples themselves.
     fn forbidden(&self, _cell: usize, samples: u64) -> u64 {
         samples
@@ -80,11 +80,7 @@ impl<E> CountSource for Fixed<'_, E> {
     }
 }
 
-/// Judges counts that a source draws stage by stage.
-///
-/// # Panics
-///
-/// If the source counts in another number of cells than it has probabilities for.
+/// Judges counts that a source draws stage by stage, in as many cells as it has probabilities for.
 pub(crate) fn judge_count_source<S: CountSource>(
     effort: &Effort,
     source: &mut S,
@@ -125,7 +121,7 @@ impl Drawn {
     }
 }
 
-/// Samples of the first stage that see a density error of `effort.detects`, whatever the quadrature
+/// Samples of the first stage that see a pdf error of `effort.detects`, whatever the quadrature
 /// error hides.
 fn planned_samples(expected: &CellProbabilities, effort: &Effort) -> u64 {
     let populated = expected.cells.iter().filter(|p| **p > 0.0).count();
@@ -209,7 +205,7 @@ fn quadrature_error(expected: &CellProbabilities, samples: f64) -> f64 {
     cells.map(|(p, error)| (samples * error).powi(2) / (samples * p).max(FEWEST_EXPECTED)).sum()
 }
 
-/// Samples where the density is zero, which no chance explains; `forbidden` tells how many of those
+/// Samples where the pdf is zero, which no chance explains; `forbidden` tells how many of those
 /// in a cell of probability 0.
 fn forbidden_samples(
     expected: &CellProbabilities,
@@ -281,7 +277,7 @@ fn residual(observed: u64, expected: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { (difference / expected.sqrt()).min(LARGEST_RESIDUAL) }
 }
 
-/// The density error that the first stage sees. The quadrature error may have worked against it.
+/// The pdf error that the first stage sees. The quadrature error may have worked against it.
 fn resolution(first: &CountStage) -> f64 {
     let noncentrality = detectable_noncentrality(first.freedom, STAGE_LEVEL, MISS_LEVEL);
     (noncentrality.sqrt() + 2.0 * first.quadrature_error.sqrt()) / (first.samples as f64).sqrt()

@@ -26,14 +26,14 @@ impl Tolerance {
     /// By how much two ways around a box may differ that do not touch: a box test rounds each
     /// crossing twice.
     pub(crate) const SLAB: Self = Self { double: 1e-12, single: 1e-6 };
-    /// A density or a BSDF evaluated twice for the same directions, relative.
+    /// A pdf or a BSDF evaluated twice for the same directions, relative.
     pub(crate) const SAME_VALUE: Self = Self { double: 1e-6, single: 1e-4 };
-    /// A density or a BSDF against its formula, relative: cancellation near grazing costs single
+    /// A pdf or a BSDF against its formula, relative: cancellation near grazing costs single
     /// precision digits.
     pub(crate) const FORMULA: Self = Self { double: 1e-6, single: 1e-3 };
     /// An integral over the sphere, by quadrature of the core's own values.
     pub(crate) const INTEGRAL: Self = Self { double: 1e-6, single: 1e-5 };
-    /// Density times Jacobian of a sampler by central differences, half the points.
+    /// Pdf times Jacobian of a sampler by central differences, half the points.
     pub(crate) const JACOBIAN_MEDIAN: Self = Self { double: 1e-6, single: 1e-2 };
     /// The same, 99 points of 100.
     pub(crate) const JACOBIAN_TAIL: Self = Self { double: 1e-3, single: 1e-1 };

@@ -60,10 +60,6 @@ pub(crate) type DrawMeans<'a, E> = dyn FnMut(Draw) -> Result<Vec<f64>, E> + 'a;
 /// Where gross errors are looked for first ([`Effort::coarse_first`]), one that is found ends the test
 /// of all claims; otherwise they are judged as if nobody had looked. The two tests share random
 /// numbers, which the sum of their error probabilities allows.
-///
-/// # Panics
-///
-/// If `draw` answers another number of means than there are claims.
 pub(crate) fn judge_means<E>(
     claims: &[Claim],
     effort: &Effort,

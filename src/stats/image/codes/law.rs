@@ -73,7 +73,7 @@ impl PixelLaw {
             }
             sums.mean += width * probability;
             sums.square += width * (2.0 * middle - 1.0) * probability;
-            sums.slope += width * self.density_of_log(light);
+            sums.slope += width * self.pdf_of_log(light);
             code -= width;
         }
         // All codes below are certain.
@@ -97,8 +97,8 @@ impl PixelLaw {
         if light > 0.0 { gamma_ur(shape, shape * relative) } else { 1.0 }
     }
 
-    /// The density of the logarithm of the value.
-    fn density_of_log(self, light: f64) -> f64 {
+    /// The pdf of the logarithm of the value.
+    fn pdf_of_log(self, light: f64) -> f64 {
         let shape = self.shape();
         let scaled = shape * light / self.mean;
         (shape * scaled.ln() - scaled - ln_gamma(shape)).exp()
@@ -117,7 +117,7 @@ impl Sums {
     fn add_end(&mut self, law: PixelLaw, encoding: Encoding, stride: f64) {
         let end = WHITE + 0.5;
         let light = encoding.edge(end);
-        let falls = law.density_of_log(light) / encoding.slope(light);
+        let falls = law.pdf_of_log(light) / encoding.slope(light);
         let left = (stride * stride - 1.0) / 24.0;
         self.mean -= left * falls;
         self.square += left * (2.0 * law.at_least(light) - (2.0 * end - 1.0) * falls);

@@ -64,10 +64,6 @@ impl LightOfCodes {
 
 /// Reads the light off the codes of pictures of one thing. `variance` is that of every value of
 /// their mean, if it is known.
-///
-/// # Panics
-///
-/// If there is no picture, or one has another size than the reference.
 pub fn light_of_codes(
     reference: CodeReference<'_>,
     pictures: &[&Codes],

@@ -113,10 +113,6 @@ impl Report for CodeReport {
 /// Judges the pictures that `draw` renders and encodes against a reference of the same size.
 /// Pictures of [`Stage::Pilot`] come first.
 ///
-/// # Errors
-///
-/// Those of `draw`.
-///
 /// # Panics
 ///
 /// If a picture has another size than the reference.

@@ -7,6 +7,7 @@ use crate::image::Image;
 use crate::image::encoding::Encoding;
 use crate::stats::image::cells::Cells;
 use crate::stats::image::target::Target;
+use crate::stats::law::upper_median;
 use rayon::prelude::*;
 
 /// The channels of all pixels.
@@ -83,10 +84,6 @@ impl Model {
     }
 
     /// The codes of a picture.
-    ///
-    /// # Panics
-    ///
-    /// If it has another size.
     pub(super) fn codes_of<'a>(&self, picture: &'a Codes) -> &'a [u8] {
         assert_eq!((picture.width, picture.height), self.size, "all pictures of one size");
         picture.pixels.as_flattened()
@@ -113,7 +110,5 @@ impl Model {
 /// The median of one over the other, where both are positive; 0 where none are.
 fn median_ratio(values: &[f64], others: &[f32]) -> f64 {
     let pairs = values.iter().zip(others).filter(|(value, other)| **value > 0.0 && **other > 0.0);
-    let mut ratios: Vec<f64> = pairs.map(|(value, other)| value / f64::from(*other)).collect();
-    ratios.sort_by(f64::total_cmp);
-    ratios.get(ratios.len() / 2).copied().unwrap_or(0.0)
+    upper_median(pairs.map(|(value, other)| value / f64::from(*other))).unwrap_or(0.0)
 }

@@ -33,18 +33,23 @@ fn picture(light: &Image, encoding: Encoding, stream: &mut Stream) -> Codes {
     Codes { width: light.width, height: light.height, pixels }
 }
 
-fn judge_against(error: f32, light: &Image, encoding: Encoding, seed: u64) -> CodeReport {
-    let (mean, error) = (ramp(), Image::new(SIZE, SIZE, [error; 3]));
-    let reference = CodeReference { mean: &mean, standard_error: &error, samples: Some(1 << 16) };
+/// Judges the pictures that `draw` makes against the ramp, known to `error` from so many samples a pixel.
+fn judged(error: &Image, samples: u64, mut draw: impl FnMut(ImageDraw) -> Codes) -> CodeReport {
+    let (mean, samples) = (&ramp(), Some(samples));
+    let reference = CodeReference { mean, standard_error: error, samples };
     let settings = CodeSettings { declared: GAMMA, effort: ImageEffort::new(0.02, SAMPLES) };
-    let Ok(report) = judge_codes(reference, &settings, &mut |draw| {
-        Ok::<_, Infallible>(picture(light, encoding, &mut draw.seed(Seed(seed)).stream()))
-    });
+    let Ok(report) =
+        judge_codes(reference, &settings, &mut |request| Ok::<_, Infallible>(draw(request)));
     report
 }
 
+/// Judges pictures of a core whose light is `light`.
+fn rendered(error: &Image, light: &Image, encoding: Encoding) -> CodeReport {
+    judged(error, 1 << 16, |draw| picture(light, encoding, &mut draw.seed(Seed(1)).stream()))
+}
+
 fn judge(light: &Image, encoding: Encoding) -> CodeReport {
-    judge_against(0.0, light, encoding, 1)
+    rendered(&Image::new(SIZE, SIZE, [0.0; 3]), light, encoding)
 }
 
 fn with_gain(gain: impl Fn(usize, usize) -> f32) -> Image {
@@ -114,19 +119,9 @@ fn a_bright_renderer_is_not_taken_for_another_encoding() {
 
 #[test]
 fn pictures_without_noise_are_compared_to_the_step() {
-    let silent = |light: &Image| {
-        let pixels = light.pixels.iter().map(|p| p.map(|v| GAMMA.code(f64::from(v)))).collect();
-        Codes { width: SIZE, height: SIZE, pixels }
-    };
     let judge = |gain: f32| {
-        let (mean, error) = (ramp(), Image::new(SIZE, SIZE, [1e-5; 3]));
-        let reference = CodeReference { mean: &mean, standard_error: &error, samples: Some(64) };
-        let effort = ImageEffort::new(0.02, 64);
-        let settings = CodeSettings { declared: GAMMA, effort };
-        let picture = silent(&with_gain(|_, _| gain));
-        let Ok(report) =
-            judge_codes(reference, &settings, &mut |_| Ok::<_, Infallible>(picture.clone()));
-        report.verdict
+        let picture = GAMMA.picture(&with_gain(|_, _| gain));
+        judged(&Image::new(SIZE, SIZE, [1e-5; 3]), 64, |_| picture.clone()).verdict
     };
     assert_eq!(judge(1.0), Verdict::Pass);
     assert_eq!(judge(1.0005), Verdict::Pass);
@@ -136,17 +131,9 @@ fn pictures_without_noise_are_compared_to_the_step() {
 #[test]
 fn pixels_that_fireflies_reach_are_not_compared() {
     // In one of 2000 samples 1000 times the light: an 8-bit picture shows none of it.
-    let mean = ramp();
     let deviation = |value: f32| value * 0.5 * 1000.0 / 2000f32.sqrt();
-    let error =
-        Image::from_fn(SIZE, SIZE, |x, y| mean.pixels[y * SIZE + x].map(|v| deviation(v) / 256.0));
-    let reference = CodeReference { mean: &mean, standard_error: &error, samples: Some(1 << 16) };
-    let effort = ImageEffort::new(0.02, SAMPLES);
-    let settings = CodeSettings { declared: GAMMA, effort };
-    let dark = with_gain(|_, _| 0.5);
-    let Ok(report) = judge_codes(reference, &settings, &mut |draw| {
-        Ok::<_, Infallible>(picture(&dark, GAMMA, &mut draw.seed(Seed(1)).stream()))
-    });
+    let error = ramp().map(|pixel| pixel.map(|value| deviation(value) / 256.0));
+    let report = rendered(&error, &with_gain(|_, _| 0.5), GAMMA);
     assert_eq!(report.verdict, Verdict::Inconclusive);
     assert!(report.compared < 0.1, "{}", report.compared);
 }

@@ -28,11 +28,12 @@ mod tests;
 pub use pattern::Pattern;
 pub use report::{DifferenceReport, OddPixels, PatternReport};
 
+use super::cells::COMPONENTS;
 use crate::image::Image;
 use crate::stats::plan::level::{CONFIRM_LEVEL, MISS_LEVEL};
 use crate::stats::{Verdict, student_upper};
 use pattern::{Score, confirm};
-use unit::{COMPONENTS, Units};
+use unit::Units;
 
 /// Stages that units are dealt to: one to choose, two to confirm.
 const STAGES: usize = 3;
@@ -57,10 +58,6 @@ impl<'a> Sample<'a> {
 
 /// Judges whether `picture` shows what `reference` shows. `counted` says which pixels do; all, if
 /// none.
-///
-/// # Panics
-///
-/// If the pictures differ in size.
 pub(crate) fn judge_difference(
     picture: Sample<'_>,
     reference: Sample<'_>,

@@ -1,9 +1,10 @@
 //! What differences are looked for: light, in cells of several sizes, and edges that lie elsewhere.
 
 use super::STAGES;
-use super::unit::{COMPONENTS, MEASURES, SIDE, Unit, Units};
+use super::unit::{MEASURES, SIDE, Unit, Units};
 use crate::stats::Moments;
 use crate::stats::image::Extent;
+use crate::stats::image::cells::COMPONENTS;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -113,14 +114,17 @@ impl Cell<'_> {
 
     /// How far the mean of a measure may be from nothing.
     pub(super) fn band(&self, stage: usize, measure: usize) -> f64 {
-        let units = &self.stages[stage];
-        units.iter().map(|unit| unit.bands[measure]).sum::<f64>() / units.len() as f64
+        self.mean(stage, |unit| unit.bands[measure])
     }
 
     /// What the mean of a measure is relative to.
     pub(super) fn scale(&self, stage: usize, measure: usize) -> f64 {
+        self.mean(stage, |unit| unit.scales[measure])
+    }
+
+    fn mean(&self, stage: usize, of: impl Fn(&Unit) -> f64) -> f64 {
         let units = &self.stages[stage];
-        units.iter().map(|unit| unit.scales[measure]).sum::<f64>() / units.len() as f64
+        units.iter().map(|unit| of(unit)).sum::<f64>() / units.len() as f64
     }
 
     /// The standard error that the known noise gives the mean of a measure; 0 where none is known.

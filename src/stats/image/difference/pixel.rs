@@ -13,15 +13,9 @@ const REACH: usize = 2;
 
 /// The first impossible value among the pixels that count, and how many there are.
 pub(super) fn impossible(image: &Image, counted: Option<&[bool]>) -> Option<OddPixels> {
-    let kind = |pixel: &[f32; 3]| pixel.iter().find_map(|value| Impossible::of(*value));
-    let wrong = |(i, pixel): (usize, &[f32; 3])| {
-        let counts = counted.is_none_or(|counted| counted[i]);
-        if counts { kind(pixel).map(|kind| (i, kind)) } else { None }
-    };
-    let mut found = image.pixels.iter().enumerate().filter_map(wrong);
-    let (first, kind) = found.next()?;
-    let (x, y) = (first % image.width, first / image.width);
-    Some(OddPixels { impossible: Some(kind), x, y, pixels: 1 + found.count(), sigmas: None })
+    let counts = |pixel: usize| counted.is_none_or(|counted| counted[pixel]);
+    let (kind, [x, y], pixels) = Impossible::first_in(image, counts)?;
+    Some(OddPixels { impossible: Some(kind), x, y, pixels, sigmas: None })
 }
 
 /// Pixels that are darker than the known noise of both allows in any of them. Light is never

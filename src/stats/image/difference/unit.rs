@@ -3,12 +3,12 @@
 use super::{STAGES, Sample};
 use crate::image::{Image, luminance};
 use crate::stats::Band;
+use crate::stats::image::cells::{COMPONENTS, components};
+use crate::stats::law::upper_median;
 use rayon::prelude::*;
 
 /// Width and height of a unit, pixels.
 pub(super) const SIDE: usize = 8;
-/// Red, green, blue, luminance.
-pub(super) const COMPONENTS: usize = 4;
 /// What is measured of a unit: the components of the difference, and how far the luminance follows
 /// the slopes of the reference to the right and down.
 pub(super) const MEASURES: usize = COMPONENTS + 2;
@@ -94,9 +94,8 @@ impl Levels {
             if count > 0.0 { sum / count } else { f64::NAN }
         };
         let means: Vec<f64> = (0..columns * rows).into_par_iter().map(mean).collect();
-        let mut lit: Vec<f64> = means.iter().copied().filter(|mean| *mean > 0.0).collect();
-        lit.sort_by(f64::total_cmp);
-        let typical = lit.get(lit.len() / 2).copied().unwrap_or(1.0);
+        let lit = means.iter().copied().filter(|mean| *mean > 0.0);
+        let typical = upper_median(lit).unwrap_or(1.0);
         Self { means, columns, rows, typical }
     }
 
@@ -134,15 +133,8 @@ impl Seen<'_> {
 
     /// What a unit says; none if too few of its pixels count.
     fn unit(&self, column: usize, row: usize, weight: f64) -> Option<Unit> {
-        let nothing = [0.0; MEASURES];
-        let mut unit = Unit {
-            column,
-            row,
-            sums: nothing,
-            bands: nothing,
-            scales: nothing,
-            variances: nothing,
-        };
+        let [sums, bands, scales, variances] = [[0.0; MEASURES]; 4];
+        let mut unit = Unit { column, row, sums, bands, scales, variances };
         let mut pixels = 0;
         for pixel in self.pixels(column, row) {
             self.add(&mut unit, pixel, weight);
@@ -193,9 +185,8 @@ impl Seen<'_> {
     fn slopes(&self, pixel: usize) -> [f64; 2] {
         let (x, y) = (pixel % self.width, pixel / self.width);
         let inside = x > 0 && y > 0 && x + 1 < self.width && y + 1 < self.height;
-        let neighbours = |step: usize| [pixel - step, pixel + step];
         let slope = |step: usize| {
-            let [before, after] = neighbours(step);
+            let [before, after] = [pixel - step, pixel + step];
             if !(self.counts(before) && self.counts(after)) {
                 return 0.0;
             }
@@ -204,11 +195,6 @@ impl Seen<'_> {
         };
         if inside { [slope(1), slope(self.width)] } else { [0.0; 2] }
     }
-}
-
-fn components(pixel: [f32; 3]) -> [f64; COMPONENTS] {
-    let [red, green, blue] = pixel.map(f64::from);
-    [red, green, blue, luminance(pixel)]
 }
 
 /// Of the luminance, the largest that the channels allow: how their noise hangs together is not

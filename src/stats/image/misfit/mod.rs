@@ -154,10 +154,6 @@ pub(crate) struct Knowledge<'a> {
 
 /// The mistakes that turn `reference` into `image`, the greatest first; none where nothing known
 /// explains the difference.
-///
-/// # Panics
-///
-/// If the pictures differ in size.
 pub(crate) fn explain(image: &Image, reference: &Image, knowledge: &Knowledge<'_>) -> Vec<Fit> {
     assert!(image.same_size(reference), "two pictures of one size");
     let weights = question::weights(image, reference, knowledge);
@@ -183,7 +179,7 @@ pub(crate) fn explain(image: &Image, reference: &Image, knowledge: &Knowledge<'_
     fits
 }
 
-/// Black where the picture is no number: such pixels do not count, and must not spoil others.
+/// Black where the picture is not a number: such pixels do not count, and must not spoil others.
 fn finite(image: &Image) -> Cow<'_, Image> {
     if image.pixels.par_iter().all(|pixel| pixel.iter().all(|value| value.is_finite())) {
         return Cow::Borrowed(image);

@@ -30,7 +30,7 @@ impl Share {
 /// Bounces whose light is what a picture lacks, or has once too often.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct BouncesOff {
-    /// 0 is what the camera sees glowing.
+    /// 0 is the emission that the camera sees.
     pub(crate) first: usize,
     pub(crate) last: usize,
     /// How often they are missing.
@@ -40,10 +40,6 @@ pub(crate) struct BouncesOff {
 /// The bounce, or all bounces from one on, whose light is what the picture lacks or has once too
 /// often; none if nothing that differs is explained by that. `bounces` shows each alone, from
 /// bounce 0.
-///
-/// # Panics
-///
-/// If the pictures differ in size.
 pub(crate) fn bounces_off(
     image: &Image,
     reference: &Image,

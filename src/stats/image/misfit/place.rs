@@ -18,7 +18,7 @@ const STEPS: usize = 12;
 /// A step shorter than this, in pixels at the border of the picture, is the last.
 const CONVERGED: f64 = 1e-4;
 /// Relative slope a pixel from where on an edge says no more for being sharper: what pixels make of
-/// it depends on where they cut it, and no interpolation knows. Else one lamp in view would decide.
+/// it depends on where they cut it, and no interpolation knows. Else one emitter in view would decide.
 const SHARP: f64 = 0.2;
 /// What interpolation is not exact to, pixels.
 const ALLOWANCE: f64 = 0.01;

@@ -2,6 +2,7 @@
 
 use super::Knowledge;
 use crate::image::{Image, luminance};
+use crate::stats::law::upper_median;
 use rayon::prelude::*;
 
 /// Width and height of a unit: differences are summed up over units, whose noise is independent.
@@ -30,7 +31,8 @@ pub(super) struct Question<'a> {
 /// noise hardly moves its weight, so that products of both have the right mean.
 pub(super) fn weights(image: &Image, reference: &Image, knowledge: &Knowledge<'_>) -> Vec<f32> {
     let levels: Vec<f64> = reference.pixels.par_iter().map(|pixel| luminance(*pixel)).collect();
-    let typical = middle(&levels);
+    let lit = levels.iter().copied().filter(|level| *level > 0.0 && level.is_finite());
+    let typical = upper_median(lit).unwrap_or(1.0);
     let levels = around(&levels, reference.width);
     #[expect(clippy::cast_possible_truncation, reason = "weights are used in single precision")]
     let weight = |(i, level): (usize, &f64)| {
@@ -55,7 +57,7 @@ impl Question<'_> {
     #[inline(always)]
     pub(super) fn difference(&self, pixel: usize, image: f32, candidate: f32) -> f32 {
         let weight = self.weights[pixel];
-        // A pixel that does not count may be no number.
+        // A pixel that does not count may be NaN.
         if weight > 0.0 { (weight * (image - candidate)).clamp(-MOST, MOST) } else { 0.0 }
     }
 
@@ -85,20 +87,20 @@ impl Question<'_> {
             if self.weights[pixel] <= 0.0 {
                 return 0.0;
             }
-            let (a, b) = (self.image.pixels[pixel], candidate(pixel));
-            let square = |c: usize| f64::from(self.difference(pixel, a[c], b[c])).powi(2);
-            square(0) + square(1) + square(2)
+            self.energy(pixel, self.image.pixels[pixel], candidate(pixel))
         })
+    }
+
+    #[inline(always)]
+    fn energy(&self, pixel: usize, image: [f32; 3], candidate: [f32; 3]) -> f64 {
+        let square = |c: usize| f64::from(self.difference(pixel, image[c], candidate[c])).powi(2);
+        square(0) + square(1) + square(2)
     }
 
     /// The energy that noise alone adds to the difference; 0 where nothing is known of it.
     pub(super) fn noise_energy(&self) -> f64 {
         let Some(errors) = self.knowledge.standard_error else { return 0.0 };
-        let of_pixel = |pixel: usize| {
-            let square =
-                |c: usize| f64::from(self.difference(pixel, errors.pixels[pixel][c], 0.0)).powi(2);
-            square(0) + square(1) + square(2)
-        };
+        let of_pixel = |pixel: usize| self.energy(pixel, errors.pixels[pixel], [0.0; 3]);
         self.each_unit(of_pixel).iter().sum()
     }
 
@@ -155,15 +157,4 @@ fn around(levels: &[f64], width: usize) -> Vec<f64> {
         (0..width).map(mean).collect::<Vec<_>>()
     };
     (0..height).into_par_iter().flat_map_iter(of_row).collect()
-}
-
-/// The upper median of what is positive and finite; 1 of none.
-fn middle(levels: &[f64]) -> f64 {
-    let lit = levels.iter().copied().filter(|level| *level > 0.0 && level.is_finite());
-    let mut lit: Vec<f64> = lit.collect();
-    if lit.is_empty() {
-        return 1.0;
-    }
-    let rank = lit.len() / 2;
-    *lit.select_nth_unstable_by(rank, f64::total_cmp).1
 }

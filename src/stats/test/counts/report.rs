@@ -14,7 +14,7 @@ pub(crate) struct CountStage {
     pub(crate) freedom: f64,
     /// What X² has to exceed to reject, quadrature error included.
     pub(crate) critical: f64,
-    /// Probability of a larger X², were the density right.
+    /// Probability of a larger X², were the pdf right.
     pub(crate) p_value: f64,
     /// N Σ δ²/p: how much of the statistic may be quadrature.
     pub(crate) quadrature_error: f64,
@@ -38,13 +38,13 @@ pub(crate) struct ForbiddenSamples {
 /// Why counts prove nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CountDoubt {
-    /// The integral of the density over the cells is not known well enough.
+    /// The integral of the pdf over the cells is not known well enough.
     QuadratureNotConverged,
     /// An error of the promised size could have hidden in the noise.
     TooFewSamples,
 }
 
-/// The judgement of a sampler against its density. Counts are those of the last stage drawn.
+/// The judgement of a sampler against its pdf. Counts are those of the last stage drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CountReport {
     pub(crate) verdict: Verdict,
@@ -52,11 +52,11 @@ pub(crate) struct CountReport {
     pub(crate) doubt: Option<CountDoubt>,
     /// Every stage drawn; a clean sampler has one.
     pub(crate) stages: Escalation<CountStage>,
-    /// Samples in cells where the density is zero.
+    /// Samples in cells where the pdf is zero.
     pub(crate) forbidden: Option<ForbiddenSamples>,
     /// A cell whose probability is negative or not a number.
     pub(crate) improper_cell: Option<usize>,
-    /// The smallest root-mean-square relative error of the density (weighted by the expectation)
+    /// The smallest root-mean-square relative error of the pdf (weighted by the expectation)
     /// that would have been caught with probability 0.999.
     pub(crate) resolution: f64,
     /// The error that had to be.
@@ -73,7 +73,7 @@ pub(crate) struct CountReport {
     pub(crate) absorbed_observed: u64,
     /// Samples that should have failed.
     pub(crate) absorbed_expected: f64,
-    /// The integral of the density over all cells.
+    /// The integral of the pdf over all cells.
     pub(crate) mass: f64,
 }
 

@@ -4,10 +4,10 @@
 //! The fast tests relax the level of a stage so that a few thousand tests see failures; the large
 //! ones are ignored by default and repeat the simulations that the design rests on.
 
+use super::tests::runs;
 use super::*;
-use crate::math::rng::{Seed, Stream, uniform};
+use crate::math::rng::{Stream, uniform};
 use crate::stats::{Band, Verdict};
-use std::convert::Infallible;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// A law of samples with known mean and deviation.
@@ -75,11 +75,7 @@ fn judge(
     seed: Seed,
     gain: f64,
 ) -> MeanReport {
-    let mut draw = |draw: Draw| {
-        let mut stream = draw.seed(seed).stream();
-        let sum: f64 = (0..draw.samples).map(|_| (law.sample)(&mut stream)).sum();
-        Ok::<_, Infallible>(vec![gain * sum / draw.samples as f64])
-    };
+    let mut draw = runs(seed, gain, law.sample);
     let Ok(mut reports) = judge_means_at(level, &[claim], effort, &mut draw);
     reports.remove(0)
 }
@@ -159,11 +155,7 @@ fn an_error_as_large_as_the_printed_resolution_is_caught() {
 fn samples_to_a_verdict(law: &Law, gain: f64, coarse_first: bool) -> u64 {
     let effort = Effort { coarse_first, ..Effort::new(0.02) };
     let of_seed = |number| {
-        let mut draw = |draw: Draw| {
-            let mut stream = draw.seed(Seed(number)).stream();
-            let sum: f64 = (0..draw.samples).map(|_| (law.sample)(&mut stream)).sum();
-            Ok::<_, Infallible>(vec![gain * sum / draw.samples as f64])
-        };
+        let mut draw = runs(Seed(number), gain, law.sample);
         let claim = Claim::value(law.mean, Band::RADIANCE);
         let Ok(reports) = judge_means(&[claim], &effort, &mut draw);
         let wrong = gain != 1.0;

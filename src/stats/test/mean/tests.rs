@@ -5,6 +5,19 @@ use crate::math::rng::{Stream, uniform};
 use crate::stats::{Band, Verdict};
 use std::convert::Infallible;
 
+/// Runs of a core whose samples are `gain` times `sample(stream)`.
+pub(super) fn runs(
+    seed: Seed,
+    gain: f64,
+    sample: impl Fn(&mut Stream) -> f64,
+) -> impl FnMut(Draw) -> Result<Vec<f64>, Infallible> {
+    move |draw| {
+        let mut stream = draw.seed(seed).stream();
+        let sum: f64 = (0..draw.samples).map(|_| sample(&mut stream)).sum();
+        Ok(vec![gain * sum / draw.samples as f64])
+    }
+}
+
 /// A core whose samples are `sample(stream)`, judged on one claim.
 fn judge(
     claim: Claim,
@@ -12,13 +25,13 @@ fn judge(
     seed: Seed,
     sample: impl Fn(&mut Stream) -> f64,
 ) -> MeanReport {
-    let mut draw = |draw: Draw| {
-        let mut stream = draw.seed(seed).stream();
-        let sum: f64 = (0..draw.samples).map(|_| sample(&mut stream)).sum();
-        Ok::<_, Infallible>(vec![sum / draw.samples as f64])
-    };
-    let Ok(mut reports) = judge_means(&[claim], effort, &mut draw);
+    let Ok(mut reports) = judge_means(&[claim], effort, &mut runs(seed, 1.0, sample));
     reports.remove(0)
+}
+
+/// The same on a claim of radiance, with the usual effort.
+fn judged(expected: f64, sample: impl Fn(&mut Stream) -> f64) -> MeanReport {
+    judge(Claim::value(expected, Band::RADIANCE), &Effort::new(0.02), SEED, sample)
 }
 
 fn exponential(mean: f64) -> impl Fn(&mut Stream) -> f64 {
@@ -29,8 +42,7 @@ const SEED: Seed = Seed(2026);
 
 #[test]
 fn a_right_core_passes_and_the_pass_says_what_it_would_have_seen() {
-    let report =
-        judge(Claim::value(1.0, Band::RADIANCE), &Effort::new(0.02), SEED, exponential(1.0));
+    let report = judged(1.0, exponential(1.0));
     assert_eq!(report.verdict, Verdict::Pass);
     assert!(report.resolution <= 0.02, "{report:?}");
     assert!(report.resolution > 0.01, "more samples than were needed: {report:?}");
@@ -40,8 +52,7 @@ fn a_right_core_passes_and_the_pass_says_what_it_would_have_seen() {
 #[test]
 fn an_error_of_the_promised_size_fails_on_either_side() {
     for wrong in [0.98, 1.02] {
-        let report =
-            judge(Claim::value(1.0, Band::RADIANCE), &Effort::new(0.02), SEED, exponential(wrong));
+        let report = judged(1.0, exponential(wrong));
         assert_eq!(report.verdict, Verdict::Fail, "{wrong}");
         assert_eq!(report.stages.len(), 3);
         assert!(report.stages.iter().all(|stage| stage.rejects));
@@ -61,24 +72,15 @@ fn a_constant_needs_hardly_any_samples() {
         judge(Claim::value(0.5, Band::DOUBLE_MATH), &Effort::new(0.02), SEED, |_| 0.5 + 1e-9);
     assert_eq!(report.verdict, Verdict::Pass);
     assert!(report.samples < 10_000, "{report:?}");
-    let wrong = judge(Claim::value(0.5, Band::RADIANCE), &Effort::new(0.02), SEED, |_| 0.51);
-    assert_eq!(wrong.verdict, Verdict::Fail);
+    assert_eq!(judged(0.5, |_| 0.51).verdict, Verdict::Fail);
 }
 
 #[test]
-fn a_black_core_fails() {
-    let report = judge(Claim::value(0.2, Band::RADIANCE), &Effort::new(0.02), SEED, |_| 0.0);
-    assert_eq!(report.verdict, Verdict::Fail);
-    assert_eq!(report.ratio, Some([0.0, 0.0]));
-}
-
-#[test]
-fn one_nan_fails() {
-    let nan_once = |stream: &mut Stream| {
-        if uniform(stream) < 1e-3 { f64::NAN } else { 1.0 }
-    };
-    let report = judge(Claim::value(1.0, Band::RADIANCE), &Effort::new(0.02), SEED, nan_once);
-    assert_eq!(report.verdict, Verdict::Fail);
+fn a_black_core_fails_and_so_does_one_nan() {
+    let black = judged(0.2, |_| 0.0);
+    assert_eq!((black.verdict, black.ratio), (Verdict::Fail, Some([0.0, 0.0])));
+    let nan_once = judged(1.0, |stream| if uniform(stream) < 1e-3 { f64::NAN } else { 1.0 });
+    assert_eq!(nan_once.verdict, Verdict::Fail);
 }
 
 #[test]
@@ -92,7 +94,7 @@ fn a_light_hit_once_in_ten_thousand_samples_is_not_taken_for_darkness() {
 }
 
 /// Samples that are 10 once in ten, more often or less.
-fn lamp(share: f64) -> impl Fn(&mut Stream) -> f64 {
+fn light(share: f64) -> impl Fn(&mut Stream) -> f64 {
     move |stream| if uniform(stream) < share { 10.0 } else { 0.0 }
 }
 
@@ -104,8 +106,8 @@ fn hasty() -> Effort {
 fn gross_errors_on_either_side_take_a_tenth_of_the_samples_where_that_is_wanted() {
     let claim = Claim::value(1.0, Band::RADIANCE);
     for share in [0.03, 0.3] {
-        let hasty = judge(claim, &hasty(), SEED, lamp(share));
-        let thorough = judge(claim, &Effort::new(0.02), SEED, lamp(share));
+        let hasty = judge(claim, &hasty(), SEED, light(share));
+        let thorough = judged(1.0, light(share));
         assert_eq!([hasty.verdict, thorough.verdict], [Verdict::Fail; 2], "{share}");
         assert!(10 * hasty.samples < thorough.samples, "{share}: {hasty:?}");
         assert!(hasty.false_alarm > thorough.false_alarm);
@@ -116,8 +118,8 @@ fn gross_errors_on_either_side_take_a_tenth_of_the_samples_where_that_is_wanted(
 fn a_core_without_gross_errors_is_judged_as_ever() {
     for share in [0.1, 0.103] {
         let claim = Claim::value(1.0, Band::RADIANCE);
-        let hasty = judge(claim, &hasty(), SEED, lamp(share));
-        let thorough = judge(claim, &Effort::new(0.02), SEED, lamp(share));
+        let hasty = judge(claim, &hasty(), SEED, light(share));
+        let thorough = judged(1.0, light(share));
         assert_eq!((hasty.verdict, hasty.interval), (thorough.verdict, thorough.interval));
     }
 }

@@ -19,12 +19,10 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// A text that is already in memory.
     pub(crate) fn new(name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> Self {
         Self { name: name.into(), text: text.into() }
     }
 
-    /// The text of a file.
     pub(crate) fn read(path: &Path) -> std::io::Result<Self> {
         Ok(Self::new(path.display().to_string(), std::fs::read_to_string(path)?))
     }
@@ -58,24 +56,19 @@ impl Source {
 /// A complaint about a place in a text. Displays as a snippet with a caret.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The text it is about.
     pub(crate) source: Source,
-    /// The bytes it is about.
     pub(crate) span: Range<usize>,
     /// What is wrong: a lowercase fragment, names in backticks.
     pub(crate) message: String,
-    /// What to do about it.
     pub(crate) hint: Option<String>,
 }
 
 impl Diagnostic {
-    /// The same complaint with advice.
     pub(crate) fn with_hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
     }
 
-    /// The same complaint with advice if there is any.
     pub(crate) fn with_hint_if_any(mut self, hint: Option<String>) -> Self {
         self.hint = hint.or(self.hint);
         self

@@ -13,17 +13,11 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 /// The text of a file as a `T`.
-///
-/// # Errors
-/// If it is no TOML, or not the TOML of a `T`.
 pub(crate) fn read_toml<T: DeserializeOwned>(text: &str) -> Result<T, TomlError> {
     read_table(&DeTable::parse(text)?)
 }
 
 /// What stands under `key` as a `T`.
-///
-/// # Errors
-/// Those of [`read_toml`], and if there is no such key.
 pub(crate) fn read_key<T: DeserializeOwned>(text: &str, key: &'static str) -> Result<T, TomlError> {
     let document = DeTable::parse(text)?;
     let value = document.get_ref().get(key).ok_or_else(|| TomlError::missing_field(key))?;
@@ -31,9 +25,6 @@ pub(crate) fn read_key<T: DeserializeOwned>(text: &str, key: &'static str) -> Re
 }
 
 /// A parsed text as a `T`.
-///
-/// # Errors
-/// If it is not the TOML of a `T`.
 pub(crate) fn read_table<T: DeserializeOwned>(
     table: &toml::Spanned<DeTable<'_>>,
 ) -> Result<T, TomlError> {
@@ -54,12 +45,10 @@ impl<T> Spanned<T> {
         self.span.clone()
     }
 
-    /// The value.
     pub(crate) fn get_ref(&self) -> &T {
         &self.value
     }
 
-    /// The value without its place.
     pub(crate) fn into_inner(self) -> T {
         self.value
     }
@@ -83,12 +72,10 @@ impl<T> From<Placed<T>> for Spanned<T> {
 pub(crate) struct TomlError(Box<(String, Option<Range<usize>>)>);
 
 impl TomlError {
-    /// What is wrong.
     pub(crate) fn message(&self) -> &str {
         &self.0.0
     }
 
-    /// The bytes of the text at fault.
     pub(crate) fn span(&self) -> Option<Range<usize>> {
         self.0.1.clone()
     }
@@ -330,7 +317,6 @@ impl<'de> Deserializer<'de> for Node<'de> {
     }
 }
 
-/// The one kind of list.
 struct Items<'a>(std::vec::IntoIter<Node<'a>>);
 
 impl<'a> Items<'a> {
@@ -359,7 +345,6 @@ impl<'de> SeqAccess<'de> for Items<'de> {
     }
 }
 
-/// The one kind of map.
 struct Entries<'a>(std::vec::IntoIter<(Node<'a>, Node<'a>)>, Option<Node<'a>>);
 
 impl<'a> Entries<'a> {
@@ -501,10 +486,8 @@ mod tests {
         assert_eq!(file.corner, Some([1.0, 2.5, f64::NEG_INFINITY]));
         assert_eq!(file.rest["list"].to_string(), "[true, 16, { deep = \"word\" }]");
         for (written, kind) in [("'plain'", Kind::Plain), ("{ wrapped = 3 }", Kind::Wrapped(3.0))] {
-            assert_eq!(
-                read_toml::<File>(&format!("name = ''\nkind = {written}")).unwrap().kind,
-                kind
-            );
+            let file = read_toml::<File>(&format!("name = ''\nkind = {written}")).unwrap();
+            assert_eq!(file.kind, kind);
         }
     }
 
@@ -517,54 +500,29 @@ mod tests {
         assert_eq!(missing.to_string(), "missing field `whole`");
     }
 
+    /// What stands in a file after its name, what is said of it, and what that underlines.
+    const COMPLAINTS: &str = r#"
+kind = 'plane'                          | unknown variant `plane`, expected one of `plain`, `wrapped`, `named` | 'plane'
+kind = 7                                | wanted string or table | 7
+kind = { plain = 1, named = 2 }         | wanted exactly 1 element, more than 1 element | { plain = 1, named = 2 }
+kind = 'wrapped'                        | invalid type: unit variant, expected newtype variant | 'wrapped'
+kind = { named = { radios = 1 } }       | unknown field `radios`, expected `radius` | radios
+kind = { wrapped = 1e999 }              | floating-point number overflowed | 1e999
+kind = 'plain'; corner = [0, 'up', 0]   | invalid type: string "up", expected f64 | 'up'
+kind = 'plain'; corner = [0, 1]         | invalid length 2, expected an array of length 3 | [0, 1]
+kind = 'plain'; corner = 1979-05-27     | invalid type: date, expected an array of length 3 | 1979-05-27
+kind = 'plain'; colour = 1              | unknown field `colour`, expected one of `name`, `kind`, `corner`, `rest` | colour
+"#;
+
     #[test]
     fn a_complaint_underlines_what_it_is_about() {
-        let with = |rest: &str| format!("name = 'a'\n{rest}");
-        for (rest, message, place) in [
-            (
-                "kind = 'plane'",
-                "unknown variant `plane`, expected one of `plain`, `wrapped`, `named`",
-                "'plane'",
-            ),
-            ("kind = 7", "wanted string or table", "7"),
-            (
-                "kind = { plain = 1, named = 2 }",
-                "wanted exactly 1 element, more than 1 element",
-                "{ plain = 1, named = 2 }",
-            ),
-            (
-                "kind = 'wrapped'",
-                "invalid type: unit variant, expected newtype variant",
-                "'wrapped'",
-            ),
-            (
-                "kind = { named = { radios = 1 } }",
-                "unknown field `radios`, expected `radius`",
-                "radios",
-            ),
-            ("kind = { wrapped = 1e999 }", "floating-point number overflowed", "1e999"),
-            (
-                "kind = 'plain'\ncorner = [0, 'up', 0]",
-                "invalid type: string \"up\", expected f64",
-                "'up'",
-            ),
-            (
-                "kind = 'plain'\ncorner = [0, 1]",
-                "invalid length 2, expected an array of length 3",
-                "[0, 1]",
-            ),
-            (
-                "kind = 'plain'\ncorner = 1979-05-27",
-                "invalid type: date, expected an array of length 3",
-                "1979-05-27",
-            ),
-            (
-                "kind = 'plain'\ncolour = 1",
-                "unknown field `colour`, expected one of `name`, `kind`, `corner`, `rest`",
-                "colour",
-            ),
-        ] {
-            assert_eq!(complaint(&with(rest)), (message.to_owned(), place));
+        for row in COMPLAINTS.trim().lines() {
+            let [rest, message, place] = row.split('|').map(str::trim).collect::<Vec<_>>()[..]
+            else {
+                panic!("{row}")
+            };
+            let text = format!("name = 'a'\n{}", rest.replace("; ", "\n"));
+            assert_eq!(complaint(&text), (message.to_owned(), place));
         }
         assert_eq!(complaint("name = 'a'").0, "missing field `kind`");
     }

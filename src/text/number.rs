@@ -73,7 +73,6 @@ pub(crate) fn to_step(value: f64, step: f64) -> String {
     at_digit(value, step, 1)
 }
 
-/// A share as per cent, with its sign.
 pub(crate) fn signed_percent(share: f64) -> String {
     let sign = if share > 0.0 { "+" } else { "" };
     format!("{sign}{}", percent(share))

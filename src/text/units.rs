@@ -207,75 +207,57 @@ fn checked<E: de::Error>(colour: [f64; 3]) -> Result<Colour, E> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::text::read_key;
+    use serde::de::DeserializeOwned;
 
-    #[derive(Debug, serde::Deserialize)]
-    struct Holder<T> {
-        x: T,
+    /// What a string says, or what stands after `=`.
+    fn read<T: DeserializeOwned>(written: &str) -> Result<T, String> {
+        let text = match written.strip_prefix('=') {
+            Some(value) => format!("x = {value}"),
+            None => format!("x = '{written}'"),
+        };
+        read_key(&text, "x").map_err(|error| error.message().to_owned())
     }
 
-    fn read<'de, T: Deserialize<'de>>(value: &'de str) -> Result<T, String> {
-        let table = toml::de::DeTable::parse(value).map_err(|error| error.message().to_owned())?;
-        Holder::deserialize(toml::Deserializer::from(table))
-            .map(|holder: Holder<T>| holder.x)
-            .map_err(|error| error.message().to_owned())
-    }
-
-    #[test]
-    fn angles_carry_their_unit() {
-        assert_eq!(read("x = '180 deg'"), Ok(Angle(std::f64::consts::PI)));
-        assert_eq!(read("x = '-0.5 rad'"), Ok(Angle(-0.5)));
-        assert_eq!(read("x = '40deg'"), Ok(Angle(40f64.to_radians())));
-    }
-
-    #[test]
-    fn an_angle_without_a_unit_is_refused_with_an_example() {
-        for wrong in
-            ["x = 45", "x = 45.0", "x = '45'", "x = '45 degrees'", "x = 'deg'", "x = 'inf deg'"]
-        {
-            let message = read::<Angle>(wrong).unwrap_err();
-            assert!(message.contains("45 deg"), "{wrong}: {message}");
+    /// What is refused, each with words of the message.
+    fn assert_refused<T: DeserializeOwned + fmt::Debug>(wrong: &[&str], words: &str) {
+        for wrong in wrong {
+            let message = read::<T>(wrong).unwrap_err();
+            assert!(message.contains(words), "{wrong}: {message}");
         }
+    }
+
+    #[test]
+    fn angles_carry_their_unit_and_are_refused_without_one_with_an_example() {
+        assert_eq!(read("180 deg"), Ok(Angle(std::f64::consts::PI)));
+        assert_eq!(read("-0.5 rad"), Ok(Angle(-0.5)));
+        assert_eq!(read("40deg"), Ok(Angle(40f64.to_radians())));
+        assert_refused::<Angle>(&["=45", "=45.0", "45", "45 degrees", "deg", "inf deg"], "45 deg");
     }
 
     #[test]
     fn percentages_are_shares_of_one() {
-        assert_eq!(read("x = '1 %'"), Ok(Percent(0.01)));
-        assert_eq!(read("x = '0.5%'"), Ok(Percent(0.005)));
-        for wrong in ["x = 0.01", "x = '0 %'", "x = '-1 %'", "x = '100 %'", "x = '500 %'"] {
-            assert!(read::<Percent>(wrong).unwrap_err().contains("1 %"), "{wrong}");
-        }
+        assert_eq!(read("1 %"), Ok(Percent(0.01)));
+        assert_eq!(read("0.5%"), Ok(Percent(0.005)));
+        assert_refused::<Percent>(&["=0.01", "0 %", "-1 %", "100 %", "500 %"], "1 %");
     }
 
     #[test]
-    fn counts_have_thousands_and_millions_and_may_name_what_they_count() {
-        assert_eq!(read("x = 4096"), Ok(Count(4096)));
-        assert_eq!(read("x = '400 k'"), Ok(Count(400_000)));
-        assert_eq!(read("x = '2.5 M paths'"), Ok(Count(2_500_000)));
-        assert_eq!(read("x = '64 samples'"), Ok(Count(64)));
-    }
-
-    #[test]
-    fn a_count_is_whole_positive_and_counts_something_known() {
-        assert!(read::<Count>("x = -1").is_err());
-        assert!(read::<Count>("x = '0 paths'").is_err());
-        assert!(read::<Count>("x = '101 M rays'").is_err());
-        assert!(read::<Count>("x = 1.5").is_err());
-        assert!(read::<Count>("x = '0.0001 k'").is_err());
-        assert!(read::<Count>("x = '4 thousand'").unwrap_err().contains("`thousand`"));
+    fn counts_are_whole_and_positive_and_may_name_what_they_count() {
+        assert_eq!(read("=4096"), Ok(Count(4096)));
+        assert_eq!(read("400 k"), Ok(Count(400_000)));
+        assert_eq!(read("2.5 M paths"), Ok(Count(2_500_000)));
+        assert_eq!(read("64 samples"), Ok(Count(64)));
+        assert_refused::<Count>(&["=-1", "0 paths", "101 M rays", "=1.5", "0.0001 k"], "");
+        assert_refused::<Count>(&["4 thousand"], "`thousand`");
     }
 
     #[test]
     fn colours_are_one_number_or_three() {
-        assert_eq!(read("x = 1"), Ok(Colour([1.0; 3])));
-        assert_eq!(read("x = [0.1, 0, 3]"), Ok(Colour([0.1, 0.0, 3.0])));
-        for wrong in ["x = [1, 2]", "x = [1, 2, 3, 4]", "x = 'red'"] {
-            assert!(read::<Colour>(wrong).unwrap_err().contains("red, green, blue"), "{wrong}");
-        }
-        for wrong in ["x = -1", "x = [nan, 0, 0]", "x = [0, inf, 0]"] {
-            assert!(
-                read::<Colour>(wrong).unwrap_err().contains("must be finite and not negative"),
-                "{wrong}"
-            );
-        }
+        assert_eq!(read("=1"), Ok(Colour([1.0; 3])));
+        assert_eq!(read("=[0.1, 0, 3]"), Ok(Colour([0.1, 0.0, 3.0])));
+        assert_refused::<Colour>(&["=[1, 2]", "=[1, 2, 3, 4]", "red"], "red, green, blue");
+        let impossible = ["=-1", "=[nan, 0, 0]", "=[0, inf, 0]"];
+        assert_refused::<Colour>(&impossible, "must be finite and not negative");
     }
 }

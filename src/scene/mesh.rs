@@ -25,14 +25,12 @@ pub enum Format {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Shading {
-    /// Those of the triangles.
     Flat,
     /// Those of the vertices: the mean over the triangles around each.
     Smooth,
 }
 
 impl Shading {
-    /// Drops or computes the vertex normals of `mesh`.
     pub(crate) fn apply(self, mesh: &mut Mesh) {
         mesh.normals = match self {
             Self::Flat => Vec::new(),

@@ -46,17 +46,13 @@ pub struct SceneDescription {
     pub lights: Vec<Light>,
 }
 
-/// A shape of the scene, by its number.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Shape<'a> {
-    /// A triangle mesh.
     Mesh(&'a Mesh),
-    /// A sphere.
     Sphere(&'a Sphere),
 }
 
 impl SceneDescription {
-    /// How many shapes there are.
     pub(crate) fn shape_count(&self) -> usize {
         self.meshes.len() + self.spheres.len()
     }
@@ -73,7 +69,6 @@ impl SceneDescription {
         }
     }
 
-    /// The material of shape `number`.
     pub(crate) fn material_of(&self, number: u32) -> &Material {
         let material = match self.shape(number) {
             Shape::Mesh(mesh) => mesh.material,

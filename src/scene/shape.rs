@@ -18,7 +18,6 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The corners of triangle `number`.
     pub(crate) fn corners(&self, number: usize) -> [DVec3; 3] {
         self.indices[number].map(|index| self.positions[index as usize])
     }
@@ -33,7 +32,6 @@ impl Mesh {
         }
     }
 
-    /// Area of triangle `number`.
     pub(crate) fn area(&self, number: usize) -> f64 {
         let [a, b, c] = self.corners(number);
         (b - a).cross(c - a).length() / 2.0

@@ -7,19 +7,19 @@ use glam::DVec3;
 use serde::Deserialize;
 use std::f64::consts::PI;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Entry {
-    position: Vector,
-    look_at: Spanned<Vector>,
-    /// Upwards in the image; y unless said otherwise.
-    up: Option<Direction>,
-    horizontal_fov: Spanned<Angle>,
-    /// Square pixels unless said otherwise.
-    vertical_fov: Option<Spanned<Angle>>,
-    film: [Between<1, 65536>; 2],
-    near: Option<Positive>,
-    far: Option<Positive>,
+tables! {
+    pub(super) struct Entry {
+        position: Vector,
+        look_at: Spanned<Vector>,
+        /// Upwards in the image; y unless said otherwise.
+        up: Option<Direction>,
+        horizontal_fov: Spanned<Angle>,
+        /// Square pixels unless said otherwise.
+        vertical_fov: Option<Spanned<Angle>>,
+        film: [Between<1, 65536>; 2],
+        near: Option<Positive>,
+        far: Option<Positive>,
+    }
 }
 
 impl Entry {

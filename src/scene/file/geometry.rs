@@ -16,187 +16,111 @@ pub(super) enum Geometry {
     Spheres(Vec<Sphere>),
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Quad {
-    corner: Option<Vector>,
-    centre: Option<Vector>,
-    edges: [Vector; 2],
+tables! {
+    pub(super) struct Quad { corner: Option<Vector>, centre: Option<Vector>, edges: [Vector; 2] }
+    pub(super) struct Block { min: Vector, max: Vector, #[serde(default)] inward: bool }
+    pub(super) struct Triangles {
+        positions: Vec<Vector>,
+        indices: Vec<[u32; 3]>,
+        #[serde(default)] normals: Vec<Direction>,
+    }
+    pub(super) struct Ball {
+        #[serde(default)] centre: Vector,
+        radius: Positive,
+        #[serde(default)] inward: bool,
+    }
+    pub(super) struct Icosphere {
+        #[serde(default)] centre: Vector,
+        radius: Positive,
+        subdivisions: Between<0, 9>,
+    }
+    pub(super) struct BumpySphere { subdivisions: Between<0, 9> }
+    pub(super) struct Sphereflake {
+        depth: Between<0, 6>,
+        /// Icospheres of so many subdivisions instead of spheres.
+        subdivisions: Option<Between<0, 4>>,
+    }
+    pub(super) struct Teapot { segments: Between<1, 256> }
+    pub(super) struct Soup { triangles: Between<1, 10_000_000>, #[serde(default)] seed: u32 }
+    pub(super) struct Pathological {
+        layout: Layout,
+        triangles: Between<1, 10_000_000>,
+        #[serde(default)] seed: u32,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Block {
-    min: Vector,
-    max: Vector,
-    #[serde(default)]
-    inward: bool,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Triangles {
-    positions: Vec<Vector>,
-    indices: Vec<[u32; 3]>,
-    #[serde(default)]
-    normals: Vec<Direction>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Ball {
-    #[serde(default)]
-    centre: Vector,
-    radius: Positive,
-    #[serde(default)]
-    inward: bool,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Icosphere {
-    #[serde(default)]
-    centre: Vector,
-    radius: Positive,
-    subdivisions: Between<0, 9>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct BumpySphere {
-    subdivisions: Between<0, 9>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Sphereflake {
-    depth: Between<0, 6>,
-    /// Icospheres of so many subdivisions instead of spheres.
-    subdivisions: Option<Between<0, 4>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Teapot {
-    segments: Between<1, 256>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Soup {
-    triangles: Between<1, 10_000_000>,
-    #[serde(default)]
-    seed: u32,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Pathological {
-    layout: Layout,
-    triangles: Between<1, 10_000_000>,
-    #[serde(default)]
-    seed: u32,
-}
-
-impl Quad {
-    pub(crate) fn make(self) -> Result<Geometry, String> {
-        let edges = self.edges.map(|edge| edge.0);
+impl Geometry {
+    pub(super) fn quad(Quad { corner, centre, edges }: Quad) -> Result<Self, String> {
+        let edges = edges.map(|edge| edge.0);
         if edges[0].cross(edges[1]) == DVec3::ZERO {
             return Err(
                 "invalid quad: its edges must not be parallel, nor of zero length".to_owned()
             );
         }
-        let from_centre = self.centre.map(|centre| centre.0 - (edges[0] + edges[1]) / 2.0);
-        let corner = exactly_one(
-            "the place of a quad",
-            [("corner", self.corner.map(|corner| corner.0)), ("centre", from_centre)],
-        )?;
-        Ok(Geometry::Mesh(procedural::parallelogram(corner, edges)))
+        let from_centre = centre.map(|centre| centre.0 - (edges[0] + edges[1]) / 2.0);
+        let places = [("corner", corner.map(|corner| corner.0)), ("centre", from_centre)];
+        let corner = exactly_one("the place of a quad", places)?;
+        Ok(Self::Mesh(procedural::parallelogram(corner, edges)))
     }
-}
 
-impl Block {
-    pub(crate) fn make(self) -> Result<Geometry, String> {
-        let (min, max) = (self.min.0, self.max.0);
-        if min.cmplt(max).all() {
-            Ok(Geometry::Mesh(procedural::block(min, max, self.inward)))
+    pub(super) fn block(Block { min, max, inward }: Block) -> Result<Self, String> {
+        if min.0.cmplt(max.0).all() {
+            Ok(Self::Mesh(procedural::block(min.0, max.0, inward)))
         } else {
             Err("invalid box: every coordinate of `min` must be below that of `max`".to_owned())
         }
     }
-}
 
-impl Triangles {
-    pub(crate) fn make(self) -> Result<Geometry, String> {
+    pub(super) fn triangles(triangles: Triangles) -> Result<Self, String> {
         let mesh = Mesh {
-            positions: self.positions.into_iter().map(|position| position.0).collect(),
-            normals: self.normals.into_iter().map(|normal| normal.0).collect(),
-            indices: self.indices,
+            positions: triangles.positions.into_iter().map(|position| position.0).collect(),
+            normals: triangles.normals.into_iter().map(|normal| normal.0).collect(),
+            indices: triangles.indices,
             ..Mesh::default()
         };
         mesh::check(&mesh).map_err(|problem: MeshError| problem.to_string())?;
-        Ok(Geometry::Mesh(mesh))
+        Ok(Self::Mesh(mesh))
     }
-}
 
-impl Ball {
-    pub(crate) fn make(self) -> Geometry {
-        Geometry::Spheres(vec![sphere(self.centre.0, self.radius.0, self.inward)])
+    pub(super) fn ball(Ball { centre, radius, inward }: Ball) -> Self {
+        Self::Spheres(vec![sphere(centre.0, radius.0, inward)])
+    }
+
+    pub(super) fn icosphere(Icosphere { centre, radius, subdivisions }: Icosphere) -> Self {
+        let mut mesh = procedural::icosphere(subdivisions.0);
+        for position in &mut mesh.positions {
+            *position = centre.0 + radius.0 * *position;
+        }
+        Self::Mesh(mesh)
+    }
+
+    pub(super) fn bumpy_sphere(BumpySphere { subdivisions }: BumpySphere) -> Self {
+        Self::Mesh(procedural::bumpy_sphere(subdivisions.0))
+    }
+
+    pub(super) fn sphereflake(Sphereflake { depth, subdivisions }: Sphereflake) -> Self {
+        if let Some(Between(subdivisions)) = subdivisions {
+            return Self::Mesh(procedural::sphereflake(depth.0, subdivisions));
+        }
+        let spheres = procedural::sphereflake_spheres(depth.0).into_iter();
+        Self::Spheres(spheres.map(|(centre, radius)| sphere(centre, radius, false)).collect())
+    }
+
+    pub(super) fn teapot(Teapot { segments }: Teapot) -> Self {
+        Self::Mesh(procedural::teapot(segments.0))
+    }
+
+    pub(super) fn soup(soup: Soup) -> Self {
+        Self::Mesh(procedural::soup(soup.triangles.0, seed(soup.seed)))
+    }
+
+    pub(super) fn pathological(mesh: Pathological) -> Self {
+        Self::Mesh(procedural::pathological(mesh.layout, mesh.triangles.0, seed(mesh.seed)))
     }
 }
 
 fn sphere(centre: DVec3, radius: f64, inward: bool) -> Sphere {
     Sphere { name: String::new(), centre, radius, inward, material: 0 }
-}
-
-impl Icosphere {
-    pub(crate) fn make(self) -> Geometry {
-        let mut mesh = procedural::icosphere(self.subdivisions.0);
-        for position in &mut mesh.positions {
-            *position = self.centre.0 + self.radius.0 * *position;
-        }
-        Geometry::Mesh(mesh)
-    }
-}
-
-impl BumpySphere {
-    pub(crate) fn make(self) -> Geometry {
-        Geometry::Mesh(procedural::bumpy_sphere(self.subdivisions.0))
-    }
-}
-
-impl Sphereflake {
-    pub(crate) fn make(self) -> Geometry {
-        match self.subdivisions {
-            Some(Between(subdivisions)) => {
-                Geometry::Mesh(procedural::sphereflake(self.depth.0, subdivisions))
-            }
-            None => {
-                let spheres = procedural::sphereflake_spheres(self.depth.0);
-                let place = |(centre, radius)| sphere(centre, radius, false);
-                Geometry::Spheres(spheres.into_iter().map(place).collect())
-            }
-        }
-    }
-}
-
-impl Teapot {
-    pub(crate) fn make(self) -> Geometry {
-        Geometry::Mesh(procedural::teapot(self.segments.0))
-    }
-}
-
-impl Soup {
-    pub(crate) fn make(self) -> Geometry {
-        Geometry::Mesh(procedural::soup(self.triangles.0, seed(self.seed)))
-    }
-}
-
-impl Pathological {
-    pub(crate) fn make(self) -> Geometry {
-        let mesh = procedural::pathological(self.layout, self.triangles.0, seed(self.seed));
-        Geometry::Mesh(mesh)
-    }
 }
 
 /// Seeds of scenes are their own: the suite's version does not move a triangle.

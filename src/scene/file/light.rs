@@ -5,41 +5,18 @@ use crate::scene::Light;
 use crate::text::{Colour, Diagnostic, Direction, Spanned, Vector};
 use serde::Deserialize;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Entry {
-    point: Option<Point>,
-    directional: Option<Directional>,
-    constant_sky: Option<ConstantSky>,
-    gradient_sky: Option<GradientSky>,
-}
+tables! {
+    pub(super) struct Entry {
+        point: Option<Point>,
+        directional: Option<Directional>,
+        constant_sky: Option<ConstantSky>,
+        gradient_sky: Option<GradientSky>,
+    }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct Point {
-    position: Vector,
-    intensity: Colour,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct Directional {
-    direction: Direction,
-    irradiance: Colour,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct ConstantSky {
-    radiance: Colour,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct GradientSky {
-    up: Direction,
-    horizon: Colour,
-    zenith: Colour,
+    struct Point { position: Vector, intensity: Colour }
+    struct Directional { direction: Direction, irradiance: Colour }
+    struct ConstantSky { radiance: Colour }
+    struct GradientSky { up: Direction, horizon: Colour, zenith: Colour }
 }
 
 pub(super) fn resolve_all(

@@ -12,47 +12,33 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Entry {
-    diffuse: Option<Reflectance>,
-    mirror: Option<Reflectance>,
-    glass: Option<Glass>,
-    conductor: Option<Conductor>,
-    rough_glass: Option<RoughGlass>,
-    emission: Option<Colour>,
-    cap: Option<Spanned<CapEntry>>,
-}
+tables! {
+    pub(super) struct Entry {
+        diffuse: Option<Reflectance>,
+        mirror: Option<Reflectance>,
+        glass: Option<Glass>,
+        conductor: Option<Conductor>,
+        rough_glass: Option<RoughGlass>,
+        emission: Option<Colour>,
+        cap: Option<Spanned<CapEntry>>,
+    }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct Glass {
-    index: Positive,
-    reflectance: Option<Reflectance>,
-    transmittance: Option<Reflectance>,
-}
+    struct Glass {
+        index: Positive,
+        reflectance: Option<Reflectance>,
+        transmittance: Option<Reflectance>,
+    }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct Conductor {
-    reflectance: Reflectance,
-    roughness: Roughness,
-}
+    struct Conductor { reflectance: Reflectance, roughness: Roughness }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct RoughGlass {
-    index: Bending,
-    roughness: Roughness,
-    reflectance: Option<Reflectance>,
-    transmittance: Option<Reflectance>,
-}
+    struct RoughGlass {
+        index: Bending,
+        roughness: Roughness,
+        reflectance: Option<Reflectance>,
+        transmittance: Option<Reflectance>,
+    }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct CapEntry {
-    axis: Direction,
-    half_angle: Angle,
+    struct CapEntry { axis: Direction, half_angle: Angle }
 }
 
 /// The materials of a file, numbered by the alphabet, and which of them were asked for.
@@ -60,7 +46,6 @@ pub(super) struct Materials(Vec<Named>);
 
 struct Named {
     material: Material,
-    /// Where the file defines it.
     span: Range<usize>,
     is_used: Cell<bool>,
 }
@@ -113,13 +98,11 @@ impl Materials {
 
 impl Entry {
     fn surface(&self) -> Result<Surface, String> {
-        let white = Reflectance([1.0; 3]);
-        let diffuse = |share: &Reflectance| Surface::Diffuse { reflectance: share.0 };
-        let mirror = |share: &Reflectance| Surface::Mirror { reflectance: share.0 };
+        let whole = |share: Option<Reflectance>| share.map_or([1.0; 3], |share| share.0);
         let glass = |glass: &Glass| Surface::Glass {
             index: glass.index.0,
-            reflectance: glass.reflectance.unwrap_or(white).0,
-            transmittance: glass.transmittance.unwrap_or(white).0,
+            reflectance: whole(glass.reflectance),
+            transmittance: whole(glass.transmittance),
         };
         let conductor = |conductor: &Conductor| Surface::Conductor {
             reflectance: conductor.reflectance.0,
@@ -128,12 +111,12 @@ impl Entry {
         let rough_glass = |glass: &RoughGlass| Surface::RoughGlass {
             index: glass.index.0,
             roughness: glass.roughness.0,
-            reflectance: glass.reflectance.unwrap_or(white).0,
-            transmittance: glass.transmittance.unwrap_or(white).0,
+            reflectance: whole(glass.reflectance),
+            transmittance: whole(glass.transmittance),
         };
         let kinds = [
-            ("diffuse", self.diffuse.as_ref().map(diffuse)),
-            ("mirror", self.mirror.as_ref().map(mirror)),
+            ("diffuse", self.diffuse.map(|share| Surface::Diffuse { reflectance: share.0 })),
+            ("mirror", self.mirror.map(|share| Surface::Mirror { reflectance: share.0 })),
             ("glass", self.glass.as_ref().map(glass)),
             ("conductor", self.conductor.as_ref().map(conductor)),
             ("rough-glass", self.rough_glass.as_ref().map(rough_glass)),

@@ -26,6 +26,16 @@
 //! sphere   = { centre = [0, 0, 0], radius = 1, inward = true }
 //! ```
 
+/// Tables of a scene file: unknown keys are mistakes, words are joined by hyphens.
+macro_rules! tables {
+    ($($(#[$meta:meta])* $vis:vis struct $name:ident { $($fields:tt)* })*) => {$(
+        $(#[$meta])*
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+        $vis struct $name { $($fields)* }
+    )*};
+}
+
 mod camera;
 mod geometry;
 mod light;
@@ -45,22 +55,16 @@ use toml::de::DeTable;
 /// Values that a case gives to parameters of a scene, by name.
 pub type Overrides = toml::Table;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct SceneFile {
-    /// For people.
-    #[serde(rename = "title")]
-    _title: String,
-    /// Where the scene, or the number it is known by, comes from.
-    #[serde(rename = "source")]
-    _source: String,
-    camera: Option<camera::Entry>,
-    #[serde(default)]
-    material: BTreeMap<String, Spanned<material::Entry>>,
-    #[serde(default)]
-    shape: Vec<Spanned<shape::Entry>>,
-    #[serde(default)]
-    light: Vec<Spanned<light::Entry>>,
+tables! {
+    struct SceneFile {
+        #[serde(rename = "title")] _title: String,
+        /// Where the scene, or the number it is known by, comes from.
+        #[serde(rename = "source")] _source: String,
+        camera: Option<camera::Entry>,
+        #[serde(default)] material: BTreeMap<String, Spanned<material::Entry>>,
+        #[serde(default)] shape: Vec<Spanned<shape::Entry>>,
+        #[serde(default)] light: Vec<Spanned<light::Entry>>,
+    }
 }
 
 /// What every part of the vocabulary needs in order to resolve itself or to complain.

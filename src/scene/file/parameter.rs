@@ -19,10 +19,8 @@ pub(super) struct Parameters(BTreeMap<String, Parameter>);
 struct Parameter {
     /// The value, as TOML.
     text: String,
-    /// Where the file declares it.
     span: Range<usize>,
     is_used: Cell<bool>,
-    /// Whether its value is not the scene's own.
     is_overridden: bool,
 }
 

@@ -14,44 +14,37 @@ use serde::Deserialize;
 use std::collections::HashSet;
 use std::ops::Range;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Entry {
-    name: Spanned<String>,
-    material: Spanned<String>,
-    transform: Option<Spanned<Transform>>,
-    shading: Option<Spanned<Shading>>,
+tables! {
+    pub(super) struct Entry {
+        name: Spanned<String>,
+        material: Spanned<String>,
+        transform: Option<Spanned<Transform>>,
+        shading: Option<Spanned<Shading>>,
 
-    quad: Option<Spanned<Quad>>,
-    r#box: Option<Spanned<Block>>,
-    triangles: Option<Spanned<Triangles>>,
-    obj: Option<Spanned<String>>,
-    ply: Option<Spanned<String>>,
-    stl: Option<Spanned<String>>,
-    sphere: Option<Ball>,
-    icosphere: Option<Icosphere>,
-    bumpy_sphere: Option<BumpySphere>,
-    sphereflake: Option<Sphereflake>,
-    teapot: Option<Teapot>,
-    soup: Option<Soup>,
-    pathological: Option<Pathological>,
-}
+        quad: Option<Spanned<Quad>>,
+        r#box: Option<Spanned<Block>>,
+        triangles: Option<Spanned<Triangles>>,
+        obj: Option<Spanned<String>>,
+        ply: Option<Spanned<String>>,
+        stl: Option<Spanned<String>>,
+        sphere: Option<Ball>,
+        icosphere: Option<Icosphere>,
+        bumpy_sphere: Option<BumpySphere>,
+        sphereflake: Option<Sphereflake>,
+        teapot: Option<Teapot>,
+        soup: Option<Soup>,
+        pathological: Option<Pathological>,
+    }
 
-/// Applied in this order: scale, rotate, translate.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct Transform {
-    scale: Option<Positive>,
-    rotate: Option<Rotation>,
-    #[serde(default)]
-    translate: Vector,
-}
+    /// Applied in this order: scale, rotate, translate.
+    #[derive(Default)]
+    struct Transform {
+        scale: Option<Positive>,
+        rotate: Option<Rotation>,
+        #[serde(default)] translate: Vector,
+    }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-struct Rotation {
-    axis: Direction,
-    angle: Angle,
+    struct Rotation { axis: Direction, angle: Angle }
 }
 
 /// Appends the shapes of the file to `scene`.
@@ -121,19 +114,19 @@ impl Entry {
             name.map(|name| from_file(name, format, context))
         };
         let kinds = [
-            ("quad", checked(self.quad.take(), Quad::make, context)),
-            ("box", checked(self.r#box.take(), Block::make, context)),
-            ("triangles", checked(self.triangles.take(), Triangles::make, context)),
+            ("quad", checked(self.quad.take(), Geometry::quad, context)),
+            ("box", checked(self.r#box.take(), Geometry::block, context)),
+            ("triangles", checked(self.triangles.take(), Geometry::triangles, context)),
             ("obj", file(self.obj.take(), Format::Obj)),
             ("ply", file(self.ply.take(), Format::Ply)),
             ("stl", file(self.stl.take(), Format::Stl)),
-            ("sphere", self.sphere.take().map(|ball| Ok(ball.make()))),
-            ("icosphere", self.icosphere.take().map(|sphere| Ok(sphere.make()))),
-            ("bumpy-sphere", self.bumpy_sphere.take().map(|sphere| Ok(sphere.make()))),
-            ("sphereflake", self.sphereflake.take().map(|flake| Ok(flake.make()))),
-            ("teapot", self.teapot.take().map(|teapot| Ok(teapot.make()))),
-            ("soup", self.soup.take().map(|soup| Ok(soup.make()))),
-            ("pathological", self.pathological.take().map(|mesh| Ok(mesh.make()))),
+            ("sphere", self.sphere.take().map(Geometry::ball).map(Ok)),
+            ("icosphere", self.icosphere.take().map(Geometry::icosphere).map(Ok)),
+            ("bumpy-sphere", self.bumpy_sphere.take().map(Geometry::bumpy_sphere).map(Ok)),
+            ("sphereflake", self.sphereflake.take().map(Geometry::sphereflake).map(Ok)),
+            ("teapot", self.teapot.take().map(Geometry::teapot).map(Ok)),
+            ("soup", self.soup.take().map(Geometry::soup).map(Ok)),
+            ("pathological", self.pathological.take().map(Geometry::pathological).map(Ok)),
         ];
         exactly_one("a shape", kinds).map_err(|problem| context.wrong(span, problem))?
     }
@@ -151,7 +144,6 @@ fn checked<T>(
     })
 }
 
-/// Whether a mesh can emit as its material says.
 fn check_light(mesh: &Mesh, material: &Material) -> Result<(), String> {
     let Some(emission) = material.emission else { return Ok(()) };
     if emission.cap.is_some() {

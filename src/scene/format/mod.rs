@@ -30,14 +30,12 @@ pub(crate) enum Format {
     Mitsuba,
     /// The COLLADA of the course, with its CGL profile, and the camera file for its `-c`.
     Collada,
-    /// pbrt-v4.
     Pbrt,
     /// Wavefront OBJ and MTL: triangles and their materials.
     Obj,
 }
 
 impl Format {
-    /// Every format, with the word for it.
     pub(crate) const ALL: [(&str, Self); 4] = [
         ("mitsuba", Self::Mitsuba),
         ("collada", Self::Collada),
@@ -80,27 +78,13 @@ pub struct Request {
     pub seed: u64,
 }
 
-/// Why a scene was not written.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum ExportError {
     /// The format has no words for something in the scene.
     #[error("{format} cannot hold scene `{scene}`: {what}")]
-    CannotHold {
-        /// In which format.
-        format: Format,
-        /// Which scene.
-        scene: String,
-        /// Which thing of it, and why not.
-        what: String,
-    },
-    /// A file cannot be written.
+    CannotHold { format: Format, scene: String, what: String },
     #[error("cannot write {path}: {error}")]
-    Io {
-        /// Which file.
-        path: PathBuf,
-        /// What the system says.
-        error: std::io::Error,
-    },
+    Io { path: PathBuf, error: std::io::Error },
 }
 
 /// Where the parts of a written scene are.
@@ -113,9 +97,6 @@ pub(crate) struct Written {
 }
 
 /// Writes `scene` into `folder`, which exists.
-///
-/// # Errors
-/// If the format cannot hold the scene, or a file cannot be written.
 pub(crate) fn write(
     scene: &SceneDescription,
     format: Format,
@@ -135,11 +116,9 @@ pub(crate) fn write(
 #[derive(Debug)]
 pub(crate) struct Exported {
     files: Vec<(String, Content)>,
-    /// The file of the camera.
     camera: Option<&'static str>,
 }
 
-/// What is in a file.
 #[derive(Debug)]
 enum Content {
     Text(String),
@@ -154,9 +133,6 @@ impl Exported {
     }
 
     /// Writes the files into `folder`, which exists.
-    ///
-    /// # Errors
-    /// If one cannot be written.
     pub(crate) fn write_to(&self, folder: &Path) -> Result<Written, ExportError> {
         for (name, content) in &self.files {
             let path = folder.join(name);

@@ -4,7 +4,6 @@ use crate::scene::Mesh;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// A mesh in the making.
 #[derive(Default)]
 pub(super) struct Builder {
     mesh: Mesh,
@@ -26,7 +25,6 @@ impl Builder {
         self.triangle([a, c, d]);
     }
 
-    /// What has been added so far.
     pub(crate) fn finish(self) -> Mesh {
         self.mesh
     }

@@ -71,7 +71,6 @@ fn centred_triangle(stream: &mut Stream) -> [DVec3; 3] {
         .map(|order| order * half + 0.5)
 }
 
-/// A point of the unit cube.
 fn uniform_point(stream: &mut Stream) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|_| uniform(stream)))
 }

@@ -43,35 +43,21 @@ pub struct Reference {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("reference `{name}` {problem}\nhint: `{}`", self.command())]
 pub struct ReferenceError {
-    /// The reference.
     pub(crate) name: String,
-    /// What is the matter with it.
     pub(crate) problem: ReferenceProblem,
 }
 
 /// What can be the matter with a reference.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum ReferenceProblem {
-    /// Never made.
     #[error("does not exist: there is no `{}`", .0.display())]
     Missing(PathBuf),
-    /// Cut off, or not what it should be.
     #[error("is damaged: {0}")]
     Damaged(String),
-    /// Of another size than the camera's film.
     #[error("is {found:?} pixels in size, but the scene's film is {film:?}")]
-    WrongSize {
-        /// Columns and rows of the image.
-        found: [usize; 2],
-        /// Columns and rows of the film.
-        film: [usize; 2],
-    },
-    /// Of a scene that has changed since.
+    WrongSize { found: [usize; 2], film: [usize; 2] },
     #[error("is of another scene: `{scene}` has changed since it was made")]
-    OtherScene {
-        /// The scene.
-        scene: String,
-    },
+    OtherScene { scene: String },
 }
 
 impl ReferenceError {

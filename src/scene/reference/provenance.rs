@@ -8,25 +8,19 @@ use std::fmt::Write;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Provenance {
-    /// The scene's name.
     pub(crate) scene: String,
     /// Its [content hash](crate::scene::hash::content_hash) when the reference was made.
     pub(crate) scene_hash: String,
     /// First and last bounce that are added up: 0 is directly visible emission.
     pub(crate) bounces: [u32; 2],
-    /// Columns and rows.
     pub(crate) film: [u32; 2],
-    /// Who rendered it.
     pub(crate) renderer: String,
-    /// Which version.
     pub(crate) version: String,
     /// Which of its back ends.
     pub(crate) variant: String,
-    /// Which sampler.
     pub(crate) sampler: String,
     /// Independent passes. The standard error is taken between them.
     pub(crate) passes: u32,
-    /// Samples a pixel in each.
     pub(crate) samples_per_pass: u32,
     /// First and last seed of each unbroken range; every pass has a seed of its own.
     pub(crate) seeds: Vec<[u32; 2]>,
@@ -36,7 +30,6 @@ pub struct Provenance {
     pub(crate) high_relative_error: f64,
     /// SHA-256 of `reference.exr`.
     pub(crate) picture_hash: String,
-    /// What was typed.
     pub(crate) command: String,
     /// Day it was made, UTC.
     pub(crate) date: String,
@@ -57,7 +50,6 @@ fn is_zero(number: &u32) -> bool {
 }
 
 impl Provenance {
-    /// Samples a pixel in all.
     pub(crate) fn samples_per_pixel(&self) -> u64 {
         u64::from(self.passes) * u64::from(self.samples_per_pass)
     }

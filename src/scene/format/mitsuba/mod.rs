@@ -18,9 +18,6 @@ use crate::scene::{Camera, SceneDescription};
 use xml::Xml;
 
 /// `scene.xml` and the files it names, asking for bounces 0 to `last_bounce` added up.
-///
-/// # Errors
-/// If Mitsuba has no words for something in the scene.
 pub(crate) fn export(scene: &SceneDescription, last_bounce: u32) -> Result<Exported, ExportError> {
     let complaint = Complaint { format: Format::Mitsuba, scene };
     let camera = complaint.square_camera()?;

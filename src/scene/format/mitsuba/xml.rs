@@ -5,7 +5,6 @@ use crate::scene::format::xml::XmlWriter;
 use crate::scene::format::{matrix, numbers};
 use glam::{DAffine3, DVec3};
 
-/// A document in the making.
 #[derive(Default)]
 pub(super) struct Xml(XmlWriter);
 

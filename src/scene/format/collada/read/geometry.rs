@@ -9,7 +9,6 @@ use std::collections::BTreeSet;
 /// Meanings of an index that the course counts when it steps through the list of indices.
 const COUNTED: [&str; 3] = ["VERTEX", "NORMAL", "TEXCOORD"];
 
-/// Polygons, as the file lists them.
 struct Polygons {
     corners: Vec<Vec<u32>>,
     /// How many have more than three corners.

@@ -9,7 +9,6 @@ use glam::DVec3;
 /// A light this near to an emissive mesh, in diagonals of the mesh, lies in it.
 const WITHIN: f64 = 0.01;
 
-/// Makes a scene of a file.
 pub(super) fn light(name: &str, file: File, film: [u32; 2]) -> Reading {
     let mut scene = SceneDescription {
         name: name.to_owned(),

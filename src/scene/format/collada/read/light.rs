@@ -6,7 +6,6 @@ use glam::{DMat4, DVec3, DVec4};
 
 /// A light of the file, in world space.
 pub(super) struct Lamp {
-    /// The node's name.
     pub(super) name: String,
     /// Radiance of an area light; what a point light sends in every direction and, with the course's
     /// classes, to every distance; irradiance of a directional light.
@@ -34,7 +33,6 @@ pub(super) enum Kind {
     Spot,
 }
 
-/// Reads a `light` that stands in the scene with `transform`.
 pub(super) fn read<'a>(
     reader: &Reader<'a>,
     name: &str,

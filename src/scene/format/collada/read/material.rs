@@ -16,7 +16,6 @@ fn grey() -> Surface {
 /// How a surface scatters and emits, without its name.
 type Look = (Surface, Option<Emission>);
 
-/// Reads a `material`.
 pub(super) fn read<'a>(reader: &Reader<'a>, material: Element<'a>) -> Result<Material> {
     let name = reader.name_of(material)?.to_owned();
     let effect = reader.need(material, "instance_effect")?;

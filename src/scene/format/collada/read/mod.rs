@@ -43,7 +43,6 @@ pub const FILM: [u32; 2] = [800, 600];
 /// A scene, and what it does not say as the course says it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// The scene.
     pub(crate) scene: SceneDescription,
     /// One sentence each.
     pub(crate) differences: Vec<String>,
@@ -64,9 +63,6 @@ pub fn load(path: &Path, film: [u32; 2]) -> Result<Reading, SceneError> {
 }
 
 /// Reads a text; `name` is what the scene will be called.
-///
-/// # Errors
-/// If the text is none that the course's program renders.
 pub(crate) fn parse(name: &str, source: &Source, film: [u32; 2]) -> Result<Reading, SceneError> {
     let document = xml::parse(source)?;
     let reader = xml::Reader::new(source, &document);

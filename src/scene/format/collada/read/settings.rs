@@ -7,7 +7,6 @@ use crate::text::Source;
 use glam::{DMat3, DVec3};
 use std::path::Path;
 
-/// How many numbers there are.
 const COUNT: usize = 30;
 
 /// Reads a camera file for an image of `film` pixels.

@@ -7,10 +7,8 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::str::FromStr;
 
-/// An element of the document.
 pub(super) type Element<'a> = roxmltree::Node<'a, 'a>;
 
-/// What reading anything gives.
 pub(super) type Result<T> = std::result::Result<T, Diagnostic>;
 
 /// A document, and every element that has an id.
@@ -20,7 +18,6 @@ pub(super) struct Reader<'a> {
     ids: HashMap<&'a str, Element<'a>>,
 }
 
-/// The tree of a text.
 pub(super) fn parse(source: &Source) -> Result<roxmltree::Document<'_>> {
     roxmltree::Document::parse(&source.text).map_err(|problem| {
         let at = offset_of(&source.text, problem.pos());
@@ -44,7 +41,6 @@ impl<'a> Reader<'a> {
         Self { source, root, ids: ids.collect() }
     }
 
-    /// A complaint about an element.
     pub(super) fn wrong(&self, element: Element<'_>, message: impl Into<String>) -> Diagnostic {
         self.source.diagnostic(start_tag(element, &self.source.text), message)
     }
@@ -163,7 +159,6 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Children of a name, in order.
 pub(super) fn children<'a>(
     element: Element<'a>,
     name: &'a str,
@@ -171,7 +166,6 @@ pub(super) fn children<'a>(
     element.children().filter(move |child| child.tag_name().name() == name)
 }
 
-/// The first child of a name.
 pub(super) fn first_child<'a>(element: Element<'a>, name: &str) -> Option<Element<'a>> {
     element.children().find(|child| child.tag_name().name() == name)
 }
@@ -185,9 +179,7 @@ fn start_tag(element: Element<'_>, text: &str) -> Range<usize> {
 
 /// A number as it stands in the text.
 pub(super) trait Number: FromStr + Copy {
-    /// For messages.
     const WHAT: &str;
-    /// Whether it can be reckoned with.
     fn is_a_number(&self) -> bool;
 }
 

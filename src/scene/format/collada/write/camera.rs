@@ -8,7 +8,6 @@ use crate::scene::format::numbers;
 use crate::scene::format::xml::XmlWriter;
 use glam::DAffine3;
 
-/// Writes the library of cameras.
 pub(super) fn write(xml: &mut XmlWriter, camera: &Camera) -> Vec<Node> {
     xml.open("library_cameras", &[]);
     xml.open("camera", &[("id", "eye-camera"), ("name", "eye")]);

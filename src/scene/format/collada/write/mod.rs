@@ -42,7 +42,6 @@ pub(crate) fn export(scene: &SceneDescription) -> Result<Exported, ExportError> 
     Ok(Exported { camera: Some("camera.txt"), ..Exported::of_texts(files) })
 }
 
-/// What stands in the scene.
 struct Node {
     id: String,
     transform: DAffine3,

@@ -6,9 +6,6 @@ use std::path::Path;
 /// Puts `bytes` in the place of whatever stands at `path`, and makes its folder. They are written beside it,
 /// brought to the disk and renamed, so that a reader sees all of the old file or all of the new one, and a crash
 /// leaves one of the two.
-///
-/// # Errors
-/// If the file system says no.
 pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));

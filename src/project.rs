@@ -23,9 +23,6 @@ impl Project {
 
     /// The project that the user stands in: `FURNACE_HOME`, or the nearest folder above the current one that
     /// has `cases` and `scenes`.
-    ///
-    /// # Errors
-    /// If there is none.
     pub(crate) fn find() -> Result<Self, NoProject> {
         if let Some(home) = std::env::var_os("FURNACE_HOME") {
             return Ok(Self::at(home));

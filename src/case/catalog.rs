@@ -77,8 +77,8 @@ fn load(folder: &Path, path: &Path) -> Result<Result<Case, String>, CatalogError
 }
 
 fn unknown_folder() -> String {
-    let folders = Subject::ALL.map(Subject::folder);
-    format!("a case belongs in one of the folders {}", crate::text::listed(folders))
+    let folders = crate::text::listed(Subject::all().map(Subject::folder));
+    format!("a case belongs in one of the folders {folders}")
 }
 
 /// `cases/bvh/claim.toml` is `bvh/claim`, on every system.

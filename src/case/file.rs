@@ -42,9 +42,6 @@ enum SceneEntry {
 }
 
 /// Makes the case `id` of the text of its file.
-///
-/// # Errors
-/// A diagnostic that points at the line at fault.
 pub(crate) fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diagnostic> {
     let head: Head = source.parse_toml()?;
     refuse_unknown_parts(source, &head.tags)?;

@@ -10,87 +10,58 @@ use crate::scene::{Light, SceneDescription, Shape, Surface};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// Something that other things rest on. The order is that of the course: a foundation rests on earlier ones only.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Foundation {
-    /// Different seeds give different, independent numbers: whatever is judged by its mean rests on it.
-    Seeds,
-    /// Rays leave the camera through their film points.
-    Camera,
-    /// A ray meets a triangle where it should.
-    Triangles,
-    /// Normals are interpolated between the vertices of a smooth mesh.
-    ShadingNormals,
-    /// A ray meets a sphere where it should.
-    Spheres,
-    /// No box is missed: what is in it would be lost.
-    Boxes,
-    /// No box is hit for nothing: that loses time alone.
-    TightBoxes,
-    /// The BVH finds the hits that brute force finds.
-    Hits,
-    /// Uniform directions of the hemisphere, and their pdf.
-    UniformDirections,
-    /// Cosine-weighted directions, and their pdf.
-    CosineDirections,
-    /// f, pdf and samples of diffuse surfaces.
-    Diffuse,
-    /// The mirror.
-    Mirror,
-    /// Glass.
-    Glass,
-    /// Rough metal.
-    Metal,
-    /// Rough glass.
-    RoughGlass,
-    /// Directly visible emission.
-    Emission,
-    /// A mesh lights a surface in general position.
-    DirectLight,
-    /// Mesh lights.
-    MeshLight,
-    /// Sphere lights.
-    SphereLight,
-    /// Points that shine.
-    PointLight,
-    /// The sun.
-    DirectionalLight,
-    /// Skies.
-    Sky,
-    /// Paths of many bounces.
-    Bounces,
+/// Every foundation, and how people read it.
+macro_rules! foundations {
+    ($($(#[$meta:meta])* $name:ident = $word:literal,)*) => {
+        /// Something that other things rest on. The order is that of the course: a foundation rests on earlier ones only.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum Foundation { $($(#[$meta])* $name,)* }
+
+        impl Foundation {
+            pub(crate) const fn word(self) -> &'static str {
+                match self { $(Self::$name => $word,)* }
+            }
+        }
+    };
 }
 
-impl Foundation {
-    /// As people read it.
-    pub(crate) const fn word(self) -> &'static str {
-        match self {
-            Self::Seeds => "random numbers",
-            Self::Camera => "camera rays",
-            Self::Triangles => "triangles",
-            Self::ShadingNormals => "shading normals",
-            Self::Spheres => "spheres",
-            Self::Boxes => "boxes",
-            Self::TightBoxes => "boxes that a ray misses",
-            Self::Hits => "hits in the BVH",
-            Self::UniformDirections => "uniform directions",
-            Self::CosineDirections => "cosine-weighted directions",
-            Self::Diffuse => "diffuse surfaces",
-            Self::Mirror => "the mirror",
-            Self::Glass => "glass",
-            Self::Metal => "rough metal",
-            Self::RoughGlass => "rough glass",
-            Self::Emission => "emission",
-            Self::DirectLight => "direct light",
-            Self::MeshLight => "mesh lights",
-            Self::SphereLight => "sphere lights",
-            Self::PointLight => "point lights",
-            Self::DirectionalLight => "directional lights",
-            Self::Sky => "skies",
-            Self::Bounces => "paths of many bounces",
-        }
-    }
+foundations! {
+    /// Different seeds give different, independent numbers: whatever is judged by its mean rests on it.
+    Seeds = "random numbers",
+    /// Rays leave the camera through their film points.
+    Camera = "camera rays",
+    /// A ray meets a triangle where it should.
+    Triangles = "triangles",
+    /// Normals are interpolated between the vertices of a smooth mesh.
+    ShadingNormals = "shading normals",
+    /// A ray meets a sphere where it should.
+    Spheres = "spheres",
+    /// No box is missed: what is in it would be lost.
+    Boxes = "boxes",
+    /// No box is hit for nothing: that loses time alone.
+    TightBoxes = "boxes that a ray misses",
+    /// The BVH finds the hits that brute force finds.
+    Hits = "hits in the BVH",
+    /// Uniform directions of the hemisphere, and their pdf.
+    UniformDirections = "uniform directions",
+    /// Cosine-weighted directions, and their pdf.
+    CosineDirections = "cosine-weighted directions",
+    Diffuse = "diffuse surfaces",
+    Mirror = "the mirror",
+    Glass = "glass",
+    Metal = "rough metal",
+    RoughGlass = "rough glass",
+    /// Directly visible.
+    Emission = "emission",
+    /// A mesh lights a surface in general position.
+    DirectLight = "direct light",
+    MeshLight = "mesh lights",
+    SphereLight = "sphere lights",
+    PointLight = "point lights",
+    DirectionalLight = "directional lights",
+    Sky = "skies",
+    Bounces = "paths of many bounces",
 }
 
 /// What `case` rests on, in `scene` if it names one. Never what it proves itself, nor what comes later.

@@ -8,7 +8,6 @@ use std::sync::Arc;
 /// Capabilities to implement together, and what that is worth.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct NextStep {
-    /// What is missing.
     pub(crate) missing: Capabilities,
     /// The cases that lack nothing else.
     pub(crate) cases: Vec<String>,

@@ -25,19 +25,10 @@ pub(crate) enum Subject {
 
 impl Subject {
     /// Every subject, in the order in which one rests on another.
-    pub(crate) const ALL: [Self; 9] = [
-        Self::Camera,
-        Self::Shape,
-        Self::Bvh,
-        Self::Sampling,
-        Self::Bsdf,
-        Self::Light,
-        Self::Integrator,
-        Self::Adaptive,
-        Self::Image,
-    ];
+    pub(crate) fn all() -> impl Iterator<Item = Self> {
+        PARTS.iter().flat_map(|part| part.subjects).copied()
+    }
 
-    /// The name of its folder.
     pub(crate) const fn folder(self) -> &'static str {
         match self {
             Self::Camera => "camera",
@@ -55,18 +46,16 @@ impl Subject {
     /// What the case called `case` is about.
     pub(crate) fn of_case(case: &str) -> Option<Self> {
         let folder = case.split('/').next()?;
-        Self::ALL.into_iter().find(|subject| subject.folder() == folder)
+        Self::all().find(|subject| subject.folder() == folder)
     }
 }
 
-/// A part of a path tracer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Part {
     /// 1 to 5 as in the course; 6 is images as a whole.
     pub number: u32,
     /// As reports call it.
     pub title: &'static str,
-    /// What belongs to it.
     pub subjects: &'static [Subject],
 }
 
@@ -101,7 +90,7 @@ impl Part {
     /// Where a case stands in the order of subjects.
     pub(crate) fn position(case: &str) -> usize {
         let subject = Subject::of_case(case);
-        Subject::ALL.iter().position(|known| Some(*known) == subject).unwrap_or(usize::MAX)
+        Subject::all().position(|known| Some(known) == subject).unwrap_or(usize::MAX)
     }
 }
 
@@ -114,7 +103,7 @@ mod tests {
         let number = |case| Part::of_case(case).map(|part| part.number);
         assert_eq!(number("camera/rays-go-through-the-film"), Some(1));
         assert_eq!(number("elsewhere/claim"), None);
-        assert!(Subject::ALL.iter().all(|subject| number(subject.folder()).is_some()));
+        assert!(Subject::all().all(|subject| number(subject.folder()).is_some()));
     }
 
     #[test]

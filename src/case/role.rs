@@ -20,7 +20,6 @@ pub enum Role {
     SidewaysWall,
     /// Emission inside glass of index 1.5.
     LightInsideGlass,
-    /// A point light at several distances.
     PointLight,
     /// An area light seen directly, from both sides.
     VisibleLight,
@@ -38,35 +37,9 @@ pub enum Role {
     OpenLightByHemisphere,
     /// An area light behind an occluder that hides a part of it.
     OccludedInPart,
-    /// A light behind a wall.
     OccludedInFull,
     /// The variance of one light sample under [`Self::OpenLight`].
     LightSamplingVariance,
-}
-
-impl Role {
-    /// Every role.
-    #[cfg(test)]
-    pub(crate) const ALL: &[Self] = &[
-        Self::Furnace,
-        Self::FurnaceByHemisphere,
-        Self::FurnaceUnderRoulette,
-        Self::Mirrors,
-        Self::Cavity,
-        Self::SidewaysWall,
-        Self::LightInsideGlass,
-        Self::PointLight,
-        Self::VisibleLight,
-        Self::TiltedLight,
-        Self::SlantedLight,
-        Self::TiltedLightByHemisphere,
-        Self::SlantedLightByHemisphere,
-        Self::OpenLight,
-        Self::OpenLightByHemisphere,
-        Self::OccludedInPart,
-        Self::OccludedInFull,
-        Self::LightSamplingVariance,
-    ];
 }
 
 #[cfg(test)]
@@ -75,11 +48,19 @@ mod tests {
     use crate::case::load_all;
     use std::path::Path;
 
+    /// Serde names all of them when it is given none.
+    fn every_role() -> Vec<Role> {
+        let role = |word: &str| toml::Value::from(word).try_into::<Role>();
+        let message = role("none").unwrap_err().to_string();
+        message.split('`').skip(3).step_by(2).map(|word| role(word).unwrap()).collect()
+    }
+
     #[test]
     fn one_case_has_each_role() {
         let cases = load_all(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases")).unwrap();
-        for role in Role::ALL {
-            let holders = cases.iter().filter(|case| case.role == Some(*role)).count();
+        assert!(every_role().len() > 15);
+        for role in every_role() {
+            let holders = cases.iter().filter(|case| case.role == Some(role)).count();
             assert_eq!(holders, 1, "{role:?}");
         }
     }
@@ -91,7 +72,7 @@ mod tests {
         let texts: Vec<_> = files.map(|path| std::fs::read_to_string(path).unwrap()).collect();
         let rules: Vec<_> =
             texts.iter().filter_map(|text| text.split("#[cfg(test)]").next()).collect();
-        for role in Role::ALL {
+        for role in every_role() {
             let name = format!("Role::{role:?}");
             assert!(rules.iter().any(|text| text.contains(&name)), "{name}");
         }

@@ -13,7 +13,6 @@ pub struct SceneChoice {
     pub(crate) name: String,
     /// Values instead of those in the scene's `[parameters]`.
     pub(crate) parameters: toml::Table,
-    /// The case's file.
     pub(super) source: Source,
 }
 

@@ -13,12 +13,10 @@ pub enum Tier {
     Graded,
     /// Where even textbook code goes wrong: shown, and nothing is held against the core.
     Robustness,
-    /// A number that is good to know.
     Informational,
 }
 
 impl Tier {
-    /// As people read it.
     pub(crate) const fn word(self) -> &'static str {
         match self {
             Self::Graded => "graded",
@@ -27,7 +25,6 @@ impl Tier {
         }
     }
 
-    /// Whether a failure counts against the core.
     pub const fn is_graded(self) -> bool {
         matches!(self, Self::Graded)
     }

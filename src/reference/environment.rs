@@ -21,7 +21,6 @@ const LLVM_FOLDERS: [&str; 7] = [
     "/usr/local/opt/llvm/lib",
 ];
 
-/// How to get Mitsuba.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct MitsubaOptions {
     /// Install it into `references/.venv` if it is not there.

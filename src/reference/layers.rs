@@ -20,9 +20,6 @@ const BOUNCE_BITS: u32 = 6;
 impl References {
     /// Adds layers to the reference `name`, whose picture stays what it is. Without a back end that
     /// renders the same paths at every depth, which LLVM's does, only what is seen first.
-    ///
-    /// # Errors
-    /// If there is no such reference, or Mitsuba fails.
     pub(crate) fn add_layers(
         &self,
         name: &str,
@@ -66,7 +63,6 @@ impl References {
     }
 }
 
-/// That the bounces are those of the picture.
 fn check_sum(name: &str, bounces: &[Image], mean: &Image) -> Result<(), MakeError> {
     let light = |image: &Image| image.pixels.iter().map(|pixel| luminance(*pixel)).sum::<f64>();
     let ratio = bounces.iter().map(light).sum::<f64>() / light(mean);

@@ -8,22 +8,16 @@ use std::sync::Arc;
 /// A reference that there is a recipe for.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Listed {
-    /// Its name.
     pub(crate) name: String,
-    /// How to make it.
     pub(crate) recipe: super::Recipe,
-    /// Whether it can be compared with.
     pub(crate) state: State,
 }
 
 /// Whether a reference can be compared with.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum State {
-    /// It can.
     Good(Box<Reference>),
-    /// It has to be made.
     Bad(ReferenceError),
-    /// Its scene cannot be had.
     NoScene(SceneError),
 }
 

@@ -45,15 +45,12 @@ impl fmt::Display for Variant {
 pub(super) struct Job {
     /// Holds `scene.xml`.
     pub(crate) folder: PathBuf,
-    /// Columns and rows.
     pub(crate) film: [u32; 2],
-    /// Samples a pixel in each pass.
     pub(crate) samples: u32,
     /// The last bounce, if a pass holds each bounce alone, one below the other.
     pub(crate) last_bounce: Option<u32>,
 }
 
-/// What Mitsuba said about itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Spent {
     /// Its version; empty if it did not run.

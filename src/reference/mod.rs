@@ -47,24 +47,18 @@ pub(crate) struct References {
 pub(crate) enum Progress {
     /// A Python environment with Mitsuba is being installed.
     CreatingEnvironment {
-        /// Where.
         folder: PathBuf,
     },
-    /// A back end of Mitsuba is being tried.
     TryingVariant {
         /// Its name, and the LLVM library if it needs one.
         variant: String,
     },
-    /// Passes are done.
     Rendering {
-        /// So many.
         done: u32,
-        /// Of so many.
         of: u32,
     },
 }
 
-/// Hears of progress.
 pub(crate) type Listener<'a> = &'a mut dyn FnMut(Progress);
 
 impl References {

@@ -7,18 +7,13 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// How to make a reference.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Recipe {
-    /// The scene's name.
     pub(crate) scene: String,
-    /// Values for parameters of the scene.
     pub(crate) parameters: Overrides,
     /// The last bounce that is added up.
     pub(crate) bounces: u32,
-    /// Independent passes.
     pub(crate) passes: u32,
-    /// Samples a pixel in each.
     pub(crate) samples_per_pass: u32,
 }
 
@@ -61,7 +56,6 @@ pub(super) fn read_all(folder: &Path) -> Result<BTreeMap<String, Recipe>, MakeEr
     parse(&source).map_err(|diagnostic| MakeError::Recipes(Box::new(diagnostic)))
 }
 
-/// The recipe of one reference.
 pub(super) fn read(folder: &Path, name: &str) -> Result<Recipe, MakeError> {
     let mut recipes = read_all(folder)?;
     recipes.remove(name).ok_or_else(|| {

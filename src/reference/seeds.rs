@@ -20,27 +20,22 @@ impl Seeds {
         Some(seeds)
     }
 
-    /// First and last of each range.
     pub(crate) fn ranges(&self) -> &[[u32; 2]] {
         &self.0
     }
 
-    /// How many.
     pub(crate) fn count(&self) -> u32 {
         self.0.iter().map(|[first, last]| last - first + 1).sum()
     }
 
-    /// Every one.
     pub(crate) fn iter(&self) -> impl Iterator<Item = u32> {
         self.0.iter().flat_map(|&[first, last]| first..=last)
     }
 
-    /// Whether a seed is among them.
     pub(crate) fn contains(&self, seed: u32) -> bool {
         self.0.iter().any(|&[first, last]| (first..=last).contains(&seed))
     }
 
-    /// A seed of both sets.
     pub(crate) fn first_in_both(&self, other: &Self) -> Option<u32> {
         other.iter().find(|seed| self.contains(*seed))
     }

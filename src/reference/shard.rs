@@ -63,7 +63,6 @@ impl Shard {
         Ok(())
     }
 
-    /// Writes a file, whole or not at all.
     pub(crate) fn write(&self, path: &Path) -> Result<(), MakeError> {
         let failed = |problem: &dyn std::fmt::Display| MakeError::file(path, problem);
         let head = Head {

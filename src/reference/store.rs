@@ -14,7 +14,6 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 impl References {
-    /// Where the sums of reference `name` are kept.
     pub(super) fn sums_path(&self, name: &str) -> PathBuf {
         self.folder.join(".work").join(format!("{name}.sums"))
     }
@@ -119,7 +118,6 @@ fn today() -> String {
     stamp
 }
 
-/// Three significant digits.
 fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }

@@ -61,7 +61,6 @@ pub(super) enum Rank {
 }
 
 impl Sums {
-    /// No passes yet.
     pub(crate) fn new(width: usize, height: usize) -> Self {
         Self { width, passes: 0, moments: vec![[Moments::default(); 3]; width * height] }
     }
@@ -113,7 +112,6 @@ impl Sums {
         Some(sums)
     }
 
-    /// The mean, rounded to 16 bits of precision.
     pub(crate) fn mean(&self) -> Image {
         self.mean_rounded(MEAN_BITS)
     }

@@ -4,7 +4,6 @@ use super::make::remove;
 use super::{Listener, MakeError, MitsubaOptions, References, environment};
 use crate::stats::{self, ImageDraw, ImageEffort, ImageReport, Stage, judge_image};
 
-/// What came out.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Verification {
     /// The same judgement a core's picture gets.

@@ -21,10 +21,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What was made.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Made {
-    /// A reference.
     Reference(Box<Reference>),
     /// The sums of some of its passes, in this file.
     Part(PathBuf),

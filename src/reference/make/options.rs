@@ -16,7 +16,6 @@ pub(crate) struct MakeOptions {
     pub(crate) seeds: Option<Range<u32>>,
     /// Files of sums: render nothing, and add these up, with those of the reference there is.
     pub(crate) merge: Vec<PathBuf>,
-    /// How to get Mitsuba.
     pub(crate) mitsuba: MitsubaOptions,
     /// Passes, instead of the recipe's.
     pub(crate) passes: Option<u32>,

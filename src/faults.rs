@@ -8,7 +8,6 @@ use crate::cores::CoreSpec;
 use crate::cores::textbook::different::{DIFFERENT, Different};
 use crate::cores::textbook::fault::{self, Fault};
 use crate::diagnosis::Diagnosis;
-use crate::math::rng::Seed;
 use crate::project::Project;
 use crate::run::record::CoreRecord;
 use crate::run::{Outcome, Plan, Request, TrialRecord, diagnose, run_in_memory};
@@ -187,14 +186,8 @@ impl Matrix {
     }
 
     fn records(&self, change: &str) -> Result<Vec<TrialRecord>, NothingSelected> {
-        let request = Request {
-            cores: vec![core(change)],
-            filters: Vec::new(),
-            budget: self.budget,
-            seed: Seed::SUITE,
-            jobs: self.jobs,
-            fail_fast: false,
-        };
+        let (cores, budget, jobs) = (vec![core(change)], self.budget, self.jobs);
+        let request = Request { cores, budget, jobs, ..Request::default() };
         Plan::new(self.project.clone(), request, &self.cases).map(|plan| run_in_memory(&plan))
     }
 

@@ -5,7 +5,6 @@
 
 use furnace::case::{self, Case};
 use furnace::cores::{CORES, CoreSpec, Hosting};
-use furnace::math::rng::Seed;
 use furnace::project::Project;
 use furnace::run::{Bench, Plan, Request, Status, Trial, run_trial};
 use furnace::stats::Verdict;
@@ -29,11 +28,9 @@ fn plan() -> Result<Plan, String> {
     let cases = case::load_all(&project.cases()).map_err(|error| error.to_string())?;
     let request = Request {
         cores: cores()?,
-        filters: Vec::new(),
         budget: from_environment("FURNACE_BUDGET")?.unwrap_or_default(),
-        seed: Seed::SUITE,
         jobs: 0,
-        fail_fast: false,
+        ..Request::default()
     };
     let program = env!("CARGO_BIN_EXE_furnace").into();
     let plan = Plan::new(project, request, &cases).map_err(|error| error.to_string())?;

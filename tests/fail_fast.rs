@@ -3,12 +3,10 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use furnace::case;
-use furnace::math::rng::Seed;
 use furnace::project::Project;
 use furnace::report::text::{Style, summary};
 use furnace::report::{RunTree, html};
 use furnace::run::{self, Plan, Request, Status, TrialRecord, run_in_memory};
-use furnace::stats::Budget;
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -52,14 +50,8 @@ fn project() -> (TempDir, Project) {
 
 fn plan(project: &Project, fail_fast: bool) -> Plan {
     let cases = case::load_all(&project.cases()).unwrap();
-    let request = Request {
-        cores: vec!["textbook".parse().unwrap()],
-        filters: Vec::new(),
-        budget: Budget::Default,
-        seed: Seed::SUITE,
-        jobs: 1,
-        fail_fast,
-    };
+    let cores = vec!["textbook".parse().unwrap()];
+    let request = Request { cores, fail_fast, ..Request::default() };
     Plan::new(project.clone(), request, &cases).unwrap()
 }
 

@@ -18,7 +18,7 @@ use furnace::cores::CORES;
 use furnace::math::rng::Seed;
 use furnace::project::Project;
 use furnace::run::{Plan, Request, Status, TrialRecord, run_in_memory};
-use furnace::stats::{Budget, TestKind, binomial_at_least, share_interval};
+use furnace::stats::{TestKind, binomial_at_least, share_interval};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -156,10 +156,9 @@ fn draw(seed: u32, with_pictures: bool) -> Drawn {
     let request = Request {
         cores: CORES.iter().map(|kind| kind.name.parse().unwrap()).collect(),
         filters: filters(with_pictures),
-        budget: Budget::Default,
         seed: Seed::SUITE.child("false alarms").child(seed),
         jobs: 0,
-        fail_fast: false,
+        ..Request::default()
     };
     let records = run_in_memory(&Plan::new(project, request, &cases).unwrap());
     Drawn::of(&records, clock.elapsed().as_secs_f64())

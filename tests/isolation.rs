@@ -10,7 +10,6 @@ mod support;
 
 use furnace::case;
 use furnace::cores::Hosting;
-use furnace::math::rng::Seed;
 use furnace::project::Project;
 use furnace::run::{Outcome, Plan, Request, RunError, Status, TrialRecord, record};
 use furnace::stats::Budget;
@@ -205,28 +204,14 @@ impl Lair {
         path.to_string_lossy().into_owned()
     }
 
-    fn assert_renderers_end(&self, renderers: &[(&str, Ending)]) {
-        let cores: Vec<_> = renderers.iter().map(|(deed, _)| self.renderer(deed)).collect();
-        let trials = self.run(&cores, &[PICTURE]).unwrap();
-        for (core, (deed, (status, words))) in cores.iter().zip(renderers) {
-            let trial = trials.iter().find(|trial| trial.core == *core).unwrap();
-            let statement = trial.outcome.statement();
-            assert_eq!(trial.outcome.status(), *status, "{deed}: {statement}\n{}", trial.printed);
-            assert!(statement.contains(words), "{deed}: `{words}` is not in: {statement}");
-        }
-        assert_eq!(fs::read_to_string(self.result()).unwrap(), "as it was");
-        assert_nobody_is_left(self);
-    }
-
     fn plan(&self, cores: &[String], filters: &[&str]) -> Plan {
         let cases = case::load_all(&self.project.cases()).unwrap();
         let request = Request {
             cores: cores.iter().map(|core| core.parse().unwrap()).collect(),
             filters: filters.iter().map(ToString::to_string).collect(),
             budget: Budget::Quick,
-            seed: Seed::SUITE,
             jobs: 2,
-            fail_fast: false,
+            ..Request::default()
         };
         let limits =
             Limits { seconds: Some(2.0), memory: Some(512 << 20), file: 16 << 20, processes: 16 };
@@ -282,43 +267,38 @@ fn python() -> Option<&'static str> {
 
 /// Whether a worker is shut in here; says so where it is not.
 fn is_shut_in() -> bool {
-    let landlock = cfg!(target_os = "linux")
-        && fs::read_to_string("/proc/sys/kernel/osrelease").is_ok()
-        && furnace_worker_is_shut_in();
-    if !landlock {
+    let program = env!("CARGO_BIN_EXE_furnace").into();
+    let hosting = Hosting { program, isolates_own: true, ..Hosting::default() };
+    let hosted = hosting.host(&"textbook".parse().unwrap()).unwrap();
+    let is_shut_in = cfg!(target_os = "linux") && hosted.confinement().unwrap().lacking.is_empty();
+    if !is_shut_in {
         eprintln!("skipped: this system cannot shut a worker in");
     }
-    landlock
+    is_shut_in
 }
 
-fn furnace_worker_is_shut_in() -> bool {
-    let hosting = Hosting {
-        program: env!("CARGO_BIN_EXE_furnace").into(),
-        isolates_own: true,
-        ..Hosting::default()
-    };
-    let hosted = hosting.host(&"textbook".parse().unwrap()).unwrap();
-    hosted.confinement().unwrap().lacking.is_empty()
-}
-
-/// Every core ends as it should where it strikes, and passes where it does not.
-fn assert_endings(lair: &Lair, cores: &[(String, Ending)]) {
-    let specs: Vec<_> = cores.iter().map(|(spec, _)| spec.clone()).collect();
-    let trials = lair.run(&specs, &[STRUCK, SPARED]).unwrap();
-    for (spec, (status, words)) in cores {
-        let of = |case: &str| {
-            let found = trials.iter().find(|trial| trial.core == *spec && trial.case == case);
-            found.unwrap_or_else(|| panic!("no trial of {case} on {spec}"))
-        };
-        let struck = of(STRUCK);
-        let statement = struck.outcome.statement();
-        assert_eq!(struck.outcome.status(), *status, "{spec}: {statement}\n{}", struck.printed);
-        assert!(statement.contains(words), "{spec}: `{words}` is not in: {statement}");
-        let spared = of(SPARED);
-        assert_eq!(spared.outcome.status(), Status::Pass, "{spec}: {:?}", spared.outcome);
+/// Every core ends as it should where it strikes, and passes where it does not, if that is asked.
+fn assert_endings(
+    endings: &[(&str, Ending)],
+    core: impl Fn(&Lair, &str) -> String,
+    cases: &[&str],
+) {
+    let lair = Lair::new();
+    let specs: Vec<_> = endings.iter().map(|(deed, _)| core(&lair, deed)).collect();
+    let trials = lair.run(&specs, cases).unwrap();
+    for (spec, (deed, (status, words))) in specs.iter().zip(endings) {
+        for case in cases {
+            let found = trials.iter().find(|trial| trial.core == *spec && trial.case == *case);
+            let trial = found.unwrap_or_else(|| panic!("no trial of {case} on {spec}"));
+            let is_spared = *case == SPARED;
+            let (status, words) = if is_spared { (Status::Pass, "") } else { (*status, *words) };
+            let statement = trial.outcome.statement();
+            assert_eq!(trial.outcome.status(), status, "{deed}: {statement}\n{}", trial.printed);
+            assert!(statement.contains(words), "{deed}: `{words}` is not in: {statement}");
+        }
     }
     assert_eq!(fs::read_to_string(lair.result()).unwrap(), "as it was");
-    assert_nobody_is_left(lair);
+    assert_nobody_is_left(&lair);
 }
 
 /// No process of a core is left, neither ours nor one that got away.
@@ -338,54 +318,39 @@ fn processes() -> impl Iterator<Item = String> {
 fn a_library_can_harm_nothing_but_its_own_trial() {
     let _alone = ALONE.lock();
     let library = compiled("hostile");
-    let lair = Lair::new();
-    let cores: Vec<_> =
-        LIBRARIES.iter().map(|(deed, ending)| (lair.core_of(&library, deed), *ending)).collect();
-    assert_endings(&lair, &cores);
+    assert_endings(LIBRARIES, |lair, deed| lair.core_of(&library, deed), &[STRUCK, SPARED]);
 }
 
 #[test]
 fn a_library_reaches_neither_secrets_nor_results_nor_anybody_else() {
     let _alone = ALONE.lock();
     let library = compiled("hostile");
-    if !is_shut_in() {
-        return;
+    if is_shut_in() {
+        assert_endings(PRISONERS, |lair, deed| lair.core_of(&library, deed), &[STRUCK, SPARED]);
     }
-    let lair = Lair::new();
-    let cores: Vec<_> =
-        PRISONERS.iter().map(|(deed, ending)| (lair.core_of(&library, deed), *ending)).collect();
-    assert_endings(&lair, &cores);
 }
 
 #[test]
 fn a_program_can_harm_nothing_but_its_own_trial() {
     let _alone = ALONE.lock();
-    if python().is_none() {
-        return;
+    if python().is_some() {
+        assert_endings(PROGRAMS, Lair::program, &[STRUCK, SPARED]);
     }
-    let lair = Lair::new();
-    let cores: Vec<_> =
-        PROGRAMS.iter().map(|(deed, ending)| (lair.program(deed), *ending)).collect();
-    assert_endings(&lair, &cores);
 }
 
 #[test]
 fn a_program_reaches_neither_secrets_nor_the_network() {
     let _alone = ALONE.lock();
-    if python().is_none() || !is_shut_in() {
-        return;
+    if python().is_some() && is_shut_in() {
+        assert_endings(IMPRISONED_PROGRAMS, Lair::program, &[STRUCK, SPARED]);
     }
-    let lair = Lair::new();
-    let cores: Vec<_> =
-        IMPRISONED_PROGRAMS.iter().map(|(deed, ending)| (lair.program(deed), *ending)).collect();
-    assert_endings(&lair, &cores);
 }
 
 #[test]
 fn a_renderer_can_harm_nothing_but_its_own_trial() {
     let _alone = ALONE.lock();
     if python().is_some() {
-        Lair::new().assert_renderers_end(RENDERERS);
+        assert_endings(RENDERERS, Lair::renderer, &[PICTURE]);
     }
 }
 
@@ -393,7 +358,7 @@ fn a_renderer_can_harm_nothing_but_its_own_trial() {
 fn a_renderer_reaches_neither_secrets_nor_results_nor_anybody_else() {
     let _alone = ALONE.lock();
     if python().is_some() && is_shut_in() {
-        Lair::new().assert_renderers_end(IMPRISONED_RENDERERS);
+        assert_endings(IMPRISONED_RENDERERS, Lair::renderer, &[PICTURE]);
     }
 }
 
@@ -426,14 +391,13 @@ fn a_core_that_dies_of_being_loaded_is_one_line_and_not_the_end() {
     let lair = Lair::new();
     let crash = lair.core_of(&library, "loadcrash");
     let hang = lair.core_of(&library, "loadhang");
-    let cores = [crash.clone(), hang.clone(), "textbook".to_owned()];
+    let cores = [crash, hang, "textbook".to_owned()];
     let trials = lair.run(&cores, &[STRUCK]).unwrap();
-    let status =
-        |core: &str| trials.iter().find(|trial| trial.core == core).unwrap().outcome.status();
-    assert_eq!(
-        [status(&crash), status(&hang), status("textbook")],
-        [Status::Crashed, Status::TimedOut, Status::Pass]
-    );
+    let endings = [Status::Crashed, Status::TimedOut, Status::Pass];
+    for (core, status) in cores.iter().zip(endings) {
+        let trial = trials.iter().find(|trial| trial.core == *core).unwrap();
+        assert_eq!(trial.outcome.status(), status, "{core}");
+    }
     assert_nobody_is_left(&lair);
 }
 

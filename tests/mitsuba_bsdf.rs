@@ -24,7 +24,6 @@ use furnace::math::sphere::on_sphere;
 use furnace::project::Project;
 use furnace::run::{Outcome, Plan, Request, Status, attempt};
 use furnace::scene::{Material, Surface};
-use furnace::stats::Budget;
 use glam::DVec3;
 use std::io::{Read, Write};
 use std::process::{Child, Command, Stdio};
@@ -141,17 +140,9 @@ fn judged(kind: &str, normals: &str, angle: &str) -> Outcome {
     );
     std::fs::write(cases.join("bsdf/asked.toml"), text).unwrap();
     let case = case::load_one(&cases, "bsdf/asked").unwrap();
-    let request = Request {
-        cores: Vec::new(),
-        filters: Vec::new(),
-        budget: Budget::Default,
-        seed: Seed::SUITE,
-        jobs: 1,
-        fail_fast: false,
-    };
-    let plan = Plan::new(Project::at(folder.path()), request, &[Arc::clone(&case)]).unwrap();
-    let bench = plan.bench();
-    let outcome = attempt(&bench, &case, &mut Mitsuba::new(kind, normals)).outcome;
+    let project = Project::at(folder.path());
+    let plan = Plan::new(project, Request::default(), &[Arc::clone(&case)]).unwrap();
+    let outcome = attempt(&plan.bench(), &case, &mut Mitsuba::new(kind, normals)).outcome;
     println!("{kind} {normals} at {angle}°: {}: {}", outcome.status().word(), outcome.statement());
     outcome
 }

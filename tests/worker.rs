@@ -7,7 +7,6 @@ mod support;
 
 use furnace::case;
 use furnace::cores::Hosting;
-use furnace::math::rng::Seed;
 use furnace::project::Project;
 use furnace::run::{Plan, Request, Status, TrialRecord, run_in_memory};
 use furnace::stats::Budget;
@@ -22,9 +21,8 @@ fn run(core: &str, filters: &[&str], isolates_own: bool) -> Vec<TrialRecord> {
         cores: vec![core.parse().unwrap()],
         filters: filters.iter().map(ToString::to_string).collect(),
         budget: Budget::Quick,
-        seed: Seed::SUITE,
         jobs: 2,
-        fail_fast: false,
+        ..Request::default()
     };
     let program = env!("CARGO_BIN_EXE_furnace").into();
     let hosting = Hosting { program, isolates_own, ..Hosting::default() };

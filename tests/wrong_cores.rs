@@ -8,11 +8,9 @@ use furnace::contract::{
     LightSample, Randomness, Ray, RenderSettings, Result, TraversalStats,
 };
 use furnace::cores::CoreSpec;
-use furnace::math::rng::Seed;
 use furnace::project::Project;
 use furnace::run::{Bench, Outcome, Plan, Request, Status, attempt};
 use furnace::scene::{Camera, SceneDescription};
-use furnace::stats::Budget;
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -118,10 +116,7 @@ fn cases(filters: &[&str]) -> (Bench, Vec<Arc<Case>>) {
     let request = Request {
         cores: vec![core("builtin")],
         filters: filters.iter().map(ToString::to_string).collect(),
-        budget: Budget::Default,
-        seed: Seed::SUITE,
-        jobs: 1,
-        fail_fast: false,
+        ..Request::default()
     };
     let plan = Plan::new(project, request, &all).unwrap();
     let cases = plan.trials.iter().map(|trial| Arc::clone(&trial.case)).collect();

@@ -24,14 +24,7 @@ fn outcome_after(spoil: impl Fn(&Path)) -> Outcome {
         fs::copy(path(&project.references(), NAME), path(folder.path(), NAME)).unwrap();
     }
     spoil(folder.path());
-    let request = Request {
-        cores: vec!["builtin".parse().unwrap()],
-        filters: Vec::new(),
-        budget: furnace::stats::Budget::Default,
-        seed: furnace::math::rng::Seed::SUITE,
-        jobs: 1,
-        fail_fast: false,
-    };
+    let request = Request { cores: vec!["builtin".parse().unwrap()], ..Request::default() };
     let case = load_one(&project.cases(), CASE).unwrap();
     let plan = Plan::new(project, request.clone(), &[Arc::clone(&case)]).unwrap();
     let mut bench = plan.bench();

@@ -46,11 +46,8 @@ pub struct Row {
 /// A median with its 95 % interval.
 #[derive(Clone, Copy)]
 pub struct Interval {
-    /// The lower end.
     pub low: f64,
-    /// The median.
     pub median: f64,
-    /// The upper end.
     pub high: f64,
 }
 

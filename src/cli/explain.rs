@@ -5,11 +5,9 @@ use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Case, Filter, foundations};
 use crate::cores::CoreSpec;
 use crate::cores::textbook::fault;
-use crate::math::rng::Seed;
 use crate::project::Project;
 use crate::report::text::wrap;
 use crate::run::{Outcome, Plan, Request, run_trial};
-use crate::stats::Budget;
 use crate::text::number::{duration, probability};
 use clap::Args;
 use std::sync::Arc;
@@ -97,14 +95,7 @@ fn rests_on(project: &Project, case: &Case) -> Option<String> {
 /// What it can see and what it spends, as it turns out on a core that is right.
 fn sees(project: &Project, case: &Arc<Case>) -> Result<Vec<String>, Failure> {
     let core: CoreSpec = "textbook".parse().map_err(Failure::broken)?;
-    let request = Request {
-        cores: vec![core],
-        filters: Vec::new(),
-        budget: Budget::default(),
-        seed: Seed::SUITE,
-        jobs: 1,
-        fail_fast: false,
-    };
+    let request = Request { cores: vec![core], ..Request::default() };
     let plan = Plan::new(project.clone(), request, &[Arc::clone(case)]);
     let plan = plan.map_err(Failure::nothing)?;
     let Some(trial) = plan.trials.first() else { return Ok(Vec::new()) };

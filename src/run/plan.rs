@@ -26,6 +26,15 @@ pub struct Request {
     pub fail_fast: bool,
 }
 
+/// Every case, one at a time, on cores that are still to be named.
+impl Default for Request {
+    fn default() -> Self {
+        let (cores, filters) = (Vec::new(), Vec::new());
+        let (budget, seed) = (Budget::Default, Seed::SUITE);
+        Self { cores, filters, budget, seed, jobs: 1, fail_fast: false }
+    }
+}
+
 /// Trials, and everything they need.
 pub struct Plan {
     /// Where cases, scenes and references are.

@@ -149,7 +149,6 @@ fn of_case(bench: &Bench, case: &Case) -> BTreeSet<Foundation> {
 mod tests {
     use super::*;
     use crate::case;
-    use crate::math::rng::Seed;
     use crate::project::Project;
     use crate::run::Request;
     use crate::stats::Budget;
@@ -165,9 +164,8 @@ mod tests {
             cores: vec!["textbook".parse().unwrap()],
             filters: filters.iter().map(|&word| word.to_owned()).collect(),
             budget: Budget::Quick,
-            seed: Seed::SUITE,
             jobs: 2,
-            fail_fast: false,
+            ..Request::default()
         };
         Plan::new(project, request, &cases).unwrap()
     }

@@ -21,11 +21,9 @@ mod tally;
 use bank::{Bank, Studio, Teller};
 use furnace::case;
 use furnace::image::metric::METRICS;
-use furnace::math::rng::Seed;
 use furnace::project::Project;
 use furnace::run::{Outcome, Plan, Request, attempt};
 use furnace::scene::reference::load;
-use furnace::stats::Budget;
 use mistake::Mistake;
 use rayon::prelude::*;
 use rules::{Scores, deviations, energy, scores};
@@ -57,10 +55,7 @@ fn a_thousand_comparisons_of_right_and_wrong_pictures() {
     let request = Request {
         cores: vec!["builtin".parse().unwrap()],
         filters: vec![CASE.to_owned()],
-        budget: Budget::Default,
-        seed: Seed::SUITE,
-        jobs: 1,
-        fail_fast: false,
+        ..Request::default()
     };
     let plan = Plan::new(project.clone(), request, &cases).unwrap();
     let (bench, case) = (plan.bench(), Arc::clone(&plan.trials[0].case));

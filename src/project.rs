@@ -46,8 +46,7 @@ impl Project {
         self.root.join("references")
     }
 
-    /// What no core may read: what is asked, what is true, what was found, and where copies of that
-    /// are kept.
+    /// What no core may read: what is asked, what is true, what was found, and where copies of that are kept.
     pub(crate) fn secrets(&self) -> Vec<PathBuf> {
         ["cases", "references", "reports", "suites", ".git"]
             .map(|folder| self.root.join(folder))

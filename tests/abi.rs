@@ -27,20 +27,11 @@ use support::{compile, compile_core, compiler, cpp_compiler};
 const STRICT: &[&str] = &["-pedantic", "-Wall", "-Wextra", "-Werror"];
 
 #[test]
-fn the_c_header_is_c99_without_padding() {
+fn the_headers_are_c99_and_cpp17_and_that_of_c_has_no_padding() {
+    let cpp = cpp_compiler();
     let cc = compiler("CC", "cc", "C");
     compile_header(&cc, "furnace_core.h", "c", &["-std=c99", "-Wpadded"]);
-}
-
-#[test]
-fn the_c_header_is_cpp17_without_padding() {
-    let cpp = cpp_compiler();
     compile_header(&cpp, "furnace_core.h", "c++", &["-std=c++17", "-Wpadded"]);
-}
-
-#[test]
-fn the_cpp_header_is_cpp17() {
-    let cpp = cpp_compiler();
     compile_header(&cpp, "furnace_core.hpp", "c++", &["-std=c++17"]);
 }
 
@@ -48,8 +39,8 @@ fn compile_header(compiler: &Path, header: &str, language: &str, more: &[&str]) 
     let folder = tempfile::tempdir().unwrap();
     let source = write(folder.path(), "header.txt", &format!("#include \"{header}\"\n"));
     let object = folder.path().join("header.o").to_string_lossy().into_owned();
-    let what = ["-x", language, "-c", &source.to_string_lossy(), "-o", &object].map(str::to_owned);
-    let what: Vec<_> = what.iter().map(String::as_str).collect();
+    let source = source.to_string_lossy();
+    let what = ["-x", language, "-c", &source, "-o", &object];
     compile(compiler, &[STRICT, more, &what].concat());
 }
 

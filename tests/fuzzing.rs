@@ -36,53 +36,21 @@ const PATIENCE: Duration = Duration::from_secs(60);
 const LONGEST: usize = 64 << 10;
 
 /// Numbers that lengths, counts and coordinates are not expected to be.
+#[rustfmt::skip]
 const NUMBERS: &[&str] = &[
-    "0",
-    "-1",
-    "1e308",
-    "1e-320",
-    "-0.0",
-    "nan",
-    "inf",
-    "4294967295",
-    "4294967296",
-    "2147483648",
-    "18446744073709551615",
-    "99999999999999999999",
-    "1e9",
-    "0.5",
-    "",
+    "0", "-1", "1e308", "1e-320", "-0.0", "nan", "inf", "4294967295", "4294967296",
+    "2147483648", "18446744073709551615", "99999999999999999999", "1e9", "0.5", "",
 ];
 
-#[test]
-fn protocol() {
-    fuzz("protocol");
+macro_rules! fuzzed {
+    ($($reader:ident),*) => {$(
+        #[test]
+        fn $reader() {
+            fuzz(stringify!($reader));
+        }
+    )*};
 }
-
-#[test]
-fn toml() {
-    fuzz("toml");
-}
-
-#[test]
-fn collada() {
-    fuzz("collada");
-}
-
-#[test]
-fn obj() {
-    fuzz("obj");
-}
-
-#[test]
-fn ply() {
-    fuzz("ply");
-}
-
-#[test]
-fn exr_pictures() {
-    fuzz("exr");
-}
+fuzzed!(protocol, toml, collada, obj, ply, exr);
 
 #[test]
 fn a_file_that_announces_more_pixels_than_it_can_hold_is_unreadable() {

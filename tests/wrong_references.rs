@@ -32,7 +32,8 @@ fn outcome_after(spoil: impl Fn(&Path)) -> Outcome {
     attempt(&bench, &case, request.cores[0].make().unwrap().as_mut()).outcome
 }
 
-fn assert_broken(outcome: &Outcome, words: &str) {
+fn assert_broken_by(spoil: impl Fn(&Path), words: &str) {
+    let outcome = outcome_after(spoil);
     let Outcome::Broken { why } = outcome else { panic!("not broken but {outcome:?}") };
     assert!(why.contains(words), "`{words}` is not in: {why}");
     assert!(why.contains("furnace reference make point-light-plane"), "no command in: {why}");
@@ -45,49 +46,44 @@ fn the_unspoilt_copy_is_not_broken() {
 
 #[test]
 fn a_missing_reference_is_broken() {
-    let outcome = outcome_after(|folder| fs::remove_dir_all(folder.join(NAME)).unwrap());
-    assert_broken(&outcome, "does not exist");
+    assert_broken_by(|folder| fs::remove_dir_all(folder.join(NAME)).unwrap(), "does not exist");
 }
 
 #[test]
 fn a_truncated_reference_is_broken() {
-    let outcome = outcome_after(|folder| {
+    let truncate = |folder: &Path| {
         let path = picture_path(folder, NAME);
         let bytes = fs::read(&path).unwrap();
         fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
-    });
-    assert_broken(&outcome, "is damaged");
+    };
+    assert_broken_by(truncate, "is damaged");
 }
 
 #[test]
 fn a_reference_of_another_size_is_broken() {
-    let outcome = outcome_after(|folder| {
-        let small = exr::Exr::from_image(&Image::new(16, 16, [0.5; 3])).with_colours(
-            "se.",
-            &Image::new(16, 16, [0.01; 3]),
-            exr::Storage::Single,
-        );
+    let shrink = |folder: &Path| {
+        let error = Image::new(16, 16, [0.01; 3]);
+        let small = exr::Exr::from_image(&Image::new(16, 16, [0.5; 3]));
         let path = picture_path(folder, NAME);
         let before = fingerprint(&fs::read(&path).unwrap());
-        exr::write(&path, &small).unwrap();
+        exr::write(&path, &small.with_colours("se.", &error, exr::Storage::Single)).unwrap();
         let after = fingerprint(&fs::read(&path).unwrap());
         let provenance = provenance_path(folder, NAME);
         let text = fs::read_to_string(&provenance).unwrap();
         assert!(text.contains(&before), "the provenance does not know its picture");
         fs::write(&provenance, text.replace(&before, &after)).unwrap();
-    });
-    assert_broken(&outcome, "16");
+    };
+    assert_broken_by(shrink, "16");
 }
 
 #[test]
 fn a_reference_of_another_scene_is_broken() {
-    let outcome = outcome_after(|folder| {
+    let exchange = |folder: &Path| {
         let path = provenance_path(folder, NAME);
         let text = fs::read_to_string(&path).unwrap();
-        let spoilt = text
-            .lines()
-            .map(|line| if line.starts_with("scene-hash") { "scene-hash = \"00\"" } else { line });
-        fs::write(&path, spoilt.collect::<Vec<_>>().join("\n")).unwrap();
-    });
-    assert_broken(&outcome, "of another scene");
+        let (before, hash) = text.split_once("scene-hash = ").unwrap();
+        let (_, after) = hash.split_once('\n').unwrap();
+        fs::write(&path, format!("{before}scene-hash = \"00\"\n{after}")).unwrap();
+    };
+    assert_broken_by(exchange, "of another scene");
 }

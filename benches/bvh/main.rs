@@ -15,6 +15,7 @@ mod table;
 
 use clock::ThreadTime;
 use criterion::{Criterion, SamplingMode, Throughput};
+use furnace::cores::builtin::Builtin;
 use std::time::Duration;
 use structures::RULES;
 use subjects::Subject;
@@ -36,8 +37,8 @@ fn main() {
         .without_plots()
         .configure_from_args();
     let mut rows = Vec::new();
-    for subject in subjects::all().filter(|subject| is_wanted(subject.name)) {
-        let subject = subject.make();
+    for (name, make) in subjects::ALL.iter().filter(|(name, _)| is_wanted(name)) {
+        let subject = Subject::new(name, make());
         time_alone(&mut criterion, &subject);
         if is_measuring {
             rows.push(paired::measure(&subject));
@@ -58,10 +59,10 @@ fn time_alone(criterion: &mut Criterion<ThreadTime>, subject: &Subject) {
         let rays = &subject.rays[..count];
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(rule.name, |bencher| {
-            structures::with_built(&subject.scene, rule, |built| {
-                let mut hits = structures::no_hits(count);
-                bencher.iter(|| structures::trace(built, rays, &mut hits));
-            });
+            let mut core = Builtin::new();
+            let mut built = structures::build(&mut core, &subject.scene, rule);
+            let mut hits = structures::no_hits(count);
+            bencher.iter(|| structures::trace(built.as_mut(), rays, &mut hits));
         });
     }
     group.finish();

@@ -5,6 +5,7 @@ use crate::clock;
 use crate::structures::{self, RULES, Rule};
 use crate::subjects::Subject;
 use furnace::contract::{BuiltScene, Hit, Ray};
+use furnace::cores::builtin::Builtin;
 use furnace::math::rng::{Seed, Stream, uniform};
 
 /// Every structure is timed once a round.
@@ -17,9 +18,7 @@ const RESAMPLES: usize = 2000;
 
 /// One subject's part of the table.
 pub struct Measured {
-    /// Shape and size.
     pub subject: &'static str,
-    /// In the mesh.
     pub triangles: usize,
     /// One row for each of [`RULES`].
     pub rows: Vec<Row>,
@@ -27,7 +26,6 @@ pub struct Measured {
 
 /// One structure's row of the table.
 pub struct Row {
-    /// How it was built.
     pub rule: Rule,
     /// Median over the rounds.
     pub seconds_per_ray: f64,
@@ -44,7 +42,7 @@ pub struct Row {
 }
 
 /// A median with its 95 % interval.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub struct Interval {
     pub low: f64,
     pub median: f64,
@@ -63,17 +61,9 @@ pub fn measure(subject: &Subject) -> Measured {
 fn measure_here(subject: &Subject) -> Measured {
     let triangles = subject.scene.primitive_count();
     let mut cores = structures::cores();
-    let mut contestants: Vec<Contestant<'_>> = RULES
-        .iter()
-        .zip(&mut cores)
-        .map(|(&rule, core)| {
-            let start = clock::now();
-            let (built, stats) = structures::build(core, &subject.scene, rule);
-            let build_seconds = (clock::now() - start).as_secs_f64();
-            let bytes_per_triangle = stats.bytes as f64 / triangles as f64;
-            Contestant::new(rule, built, subject, build_seconds, bytes_per_triangle)
-        })
-        .collect();
+    let pairs = RULES.iter().zip(&mut cores);
+    let mut contestants: Vec<Contestant<'_>> =
+        pairs.map(|(rule, core)| Contestant::new(*rule, core, subject)).collect();
     compare_hits(&contestants, subject.name);
     let mut stream = Seed::SUITE.child("rounds").child(subject.name).stream();
     for _ in 0..ROUNDS {
@@ -88,27 +78,23 @@ fn measure_here(subject: &Subject) -> Measured {
 
 /// One structure in the race.
 struct Contestant<'a> {
-    rule: Rule,
+    /// Without what the race is for: its times.
+    row: Row,
     built: Box<dyn BuiltScene + 'a>,
     rays: &'a [Ray],
     hits: Vec<Hit>,
-    tests_per_ray: f64,
-    boxes_per_ray: f64,
-    build_seconds: f64,
-    bytes_per_triangle: f64,
     passes_a_turn: usize,
     /// Seconds per ray, one for each round.
     times: Vec<f64>,
 }
 
 impl<'a> Contestant<'a> {
-    fn new(
-        rule: Rule,
-        mut built: Box<dyn BuiltScene + 'a>,
-        subject: &'a Subject,
-        build_seconds: f64,
-        bytes_per_triangle: f64,
-    ) -> Self {
+    fn new(rule: Rule, core: &'a mut Builtin, subject: &'a Subject) -> Self {
+        let start = clock::now();
+        let mut built = structures::build(core, &subject.scene, rule);
+        let build_seconds = (clock::now() - start).as_secs_f64();
+        let bytes_per_triangle =
+            built.stats().bytes as f64 / subject.scene.primitive_count() as f64;
         let count = if rule.is_brute_force() { BRUTE_FORCE_RAYS } else { subject.rays.len() };
         let rays = &subject.rays[..count];
         let mut hits = structures::no_hits(count);
@@ -116,18 +102,17 @@ impl<'a> Contestant<'a> {
         let pass = clock::seconds(|| {
             structures::trace(built.as_mut(), rays, &mut hits);
         });
-        Self {
+        let row = Row {
             rule,
-            built,
-            rays,
-            hits,
+            seconds_per_ray: f64::NAN,
+            speed_up: Interval::default(),
             tests_per_ray: stats.primitive_tests as f64 / stats.rays as f64,
             boxes_per_ray: stats.box_tests as f64 / stats.rays as f64,
             build_seconds,
             bytes_per_triangle,
-            passes_a_turn: (SHORTEST_PASS / pass).ceil().clamp(1.0, 1000.0) as usize,
-            times: Vec::with_capacity(ROUNDS),
-        }
+        };
+        let passes_a_turn = (SHORTEST_PASS / pass).ceil().clamp(1.0, 1000.0) as usize;
+        Self { row, built, rays, hits, passes_a_turn, times: Vec::with_capacity(ROUNDS) }
     }
 
     fn take_a_turn(&mut self) {
@@ -143,15 +128,8 @@ impl<'a> Contestant<'a> {
     fn finish(self, brute_force: &[f64], stream: &mut Stream) -> Row {
         let ratios: Vec<f64> =
             brute_force.iter().zip(&self.times).map(|(slow, fast)| slow / fast).collect();
-        Row {
-            rule: self.rule,
-            seconds_per_ray: median(&mut self.times.clone()),
-            speed_up: bootstrap(&ratios, stream),
-            tests_per_ray: self.tests_per_ray,
-            boxes_per_ray: self.boxes_per_ray,
-            build_seconds: self.build_seconds,
-            bytes_per_triangle: self.bytes_per_triangle,
-        }
+        let seconds_per_ray = median(&mut self.times.clone());
+        Row { seconds_per_ray, speed_up: bootstrap(&ratios, stream), ..self.row }
     }
 }
 
@@ -161,7 +139,7 @@ fn compare_hits(contestants: &[Contestant<'_>], subject: &str) {
     for other in &contestants[1..] {
         let differs = brute_force.iter().zip(&other.hits).position(|(right, hit)| right != hit);
         if let Some(ray) = differs {
-            panic!("{subject}: {} and brute force differ at ray {ray}", other.rule.name);
+            panic!("{subject}: {} and brute force differ at ray {ray}", other.row.rule.name);
         }
     }
 }

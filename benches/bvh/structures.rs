@@ -1,8 +1,6 @@
 //! What is compared: brute force, and a hierarchy by each rule.
 
-use furnace::contract::{
-    Acceleration, BuildStats, BuiltScene, Core, Hit, Ray, Split, TraversalStats,
-};
+use furnace::contract::{Acceleration, BuiltScene, Core, Hit, Ray, Split, TraversalStats};
 use furnace::cores::builtin::Builtin;
 use furnace::scene::SceneDescription;
 
@@ -34,17 +32,6 @@ pub const RULES: [Rule; 5] = [
     Rule::bvh("surface-area", Split::SurfaceArea),
 ];
 
-/// Builds by `rule` and hands the scene to `work`.
-pub fn with_built<T>(
-    scene: &SceneDescription,
-    rule: Rule,
-    work: impl FnOnce(&mut dyn BuiltScene) -> T,
-) -> T {
-    let mut core = Builtin::new();
-    let mut built = core.build_scene(scene, rule.acceleration).expect("builtin builds any mesh");
-    work(built.as_mut())
-}
-
 /// A core for each rule, so that all of them can hold a scene at once.
 pub fn cores() -> [Builtin; RULES.len()] {
     [Builtin::new(); RULES.len()]
@@ -55,10 +42,8 @@ pub fn build<'a>(
     core: &'a mut Builtin,
     scene: &SceneDescription,
     rule: Rule,
-) -> (Box<dyn BuiltScene + 'a>, BuildStats) {
-    let built = core.build_scene(scene, rule.acceleration).expect("builtin builds any mesh");
-    let stats = built.stats();
-    (built, stats)
+) -> Box<dyn BuiltScene + 'a> {
+    core.build_scene(scene, rule.acceleration).expect("builtin builds any mesh")
 }
 
 /// Room for the answers to `count` rays.

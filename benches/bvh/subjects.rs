@@ -9,16 +9,8 @@ use glam::{DVec2, DVec3, dvec3};
 /// Rays of one pass.
 const RAYS: usize = 16_384;
 
-/// A mesh that has not been made yet.
-pub struct Recipe {
-    /// Shape and size.
-    pub name: &'static str,
-    mesh: fn() -> Mesh,
-}
-
 /// A mesh and the rays through it.
 pub struct Subject {
-    /// Shape and size.
     pub name: &'static str,
     /// The mesh alone.
     pub scene: SceneDescription,
@@ -26,32 +18,26 @@ pub struct Subject {
     pub rays: Vec<Ray>,
 }
 
-/// Makes a mesh of some size.
-type MakeMesh = fn() -> Mesh;
+/// All subjects, small ones first: shape and size, and what makes the mesh.
+pub const ALL: [(&str, fn() -> Mesh); 7] = [
+    ("teapot-1k", || teapot(4)),
+    ("bumpy-sphere-5k", || bumpy_sphere(4)),
+    ("teapot-16k", || teapot(16)),
+    ("soup-32k", || soup(32_768, Seed(1))),
+    ("bumpy-sphere-82k", || bumpy_sphere(6)),
+    ("sphereflake-262k", || sphereflake(3, 2)),
+    ("bumpy-sphere-1.3M", || bumpy_sphere(8)),
+];
 
-/// All subjects, small ones first.
-pub fn all() -> impl Iterator<Item = Recipe> {
-    let recipes: [(&str, MakeMesh); 7] = [
-        ("teapot-1k", || teapot(4)),
-        ("bumpy-sphere-5k", || bumpy_sphere(4)),
-        ("teapot-16k", || teapot(16)),
-        ("soup-32k", || soup(32_768, Seed(1))),
-        ("bumpy-sphere-82k", || bumpy_sphere(6)),
-        ("sphereflake-262k", || sphereflake(3, 2)),
-        ("bumpy-sphere-1.3M", || bumpy_sphere(8)),
-    ];
-    recipes.into_iter().map(|(name, mesh)| Recipe { name, mesh })
-}
-
-impl Recipe {
-    /// Makes the mesh and the rays, the same every time.
-    pub fn make(self) -> Subject {
+impl Subject {
+    /// The rays are the same every time.
+    pub fn new(name: &'static str, mesh: Mesh) -> Self {
         let surface = Surface::Diffuse { reflectance: [0.5; 3] };
         let material = Material { name: "grey".to_owned(), surface, emission: None };
-        let (meshes, materials) = (vec![(self.mesh)()], vec![material]);
+        let (meshes, materials) = (vec![mesh], vec![material]);
         let scene = SceneDescription { meshes, materials, ..SceneDescription::default() };
         let bounds = scene.bounds().expect("a subject has triangles");
-        Subject { name: self.name, scene, rays: rays(&bounds) }
+        Self { name, scene, rays: rays(&bounds) }
     }
 }
 

@@ -69,12 +69,6 @@ fn in_words(Interval { low, median, high }: Interval) -> (String, String) {
 }
 
 fn three_digits(number: f64) -> String {
-    let decimals = if number < 10.0 {
-        2
-    } else if number < 100.0 {
-        1
-    } else {
-        0
-    };
+    let decimals = [10.0, 100.0].iter().filter(|limit| number < **limit).count();
     format!("{number:.decimals$}")
 }

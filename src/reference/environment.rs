@@ -1,5 +1,4 @@
-//! Python with Mitsuba in it: found, or installed where the user says so; and the back end that
-//! works here.
+//! Python with Mitsuba in it: found, or installed where the user says so; and the back end that works here.
 
 use super::mitsuba::{Job, Mitsuba, Variant};
 use super::{Listener, MakeError, Progress};
@@ -38,8 +37,7 @@ fn python(references: &Path, create: bool, progress: Listener<'_>) -> Result<Pat
     }
     let requirements = references.join("requirements.txt");
     if !create {
-        let text = std::fs::read_to_string(&requirements)
-            .map_err(|problem| MakeError::file(&requirements, &problem))?;
+        let text = std::fs::read_to_string(&requirements).map_err(MakeError::at(&requirements))?;
         let requirements = text.split_whitespace().collect::<Vec<_>>().join(" and ");
         return Err(MakeError::NoEnvironment { folder, requirements });
     }

@@ -58,6 +58,11 @@ pub(crate) enum MakeError {
 }
 
 impl MakeError {
+    /// For `map_err` of what is done with a file.
+    pub(super) fn at<E: std::fmt::Display>(path: &Path) -> impl FnOnce(E) -> Self {
+        move |problem| Self::file(path, &problem)
+    }
+
     pub(super) fn file(path: &Path, problem: &dyn std::fmt::Display) -> Self {
         Self::File { path: path.to_owned(), problem: problem.to_string() }
     }

@@ -87,8 +87,7 @@ impl Mitsuba {
     /// Whether this back end renders the scene at all, found out with a pass of one sample.
     pub(crate) fn probe(&mut self, job: &Job) -> Result<(), MakeError> {
         const SEED: u32 = 0;
-        let folder =
-            tempfile::tempdir().map_err(|problem| MakeError::file(&job.folder, &problem))?;
+        let folder = tempfile::tempdir().map_err(MakeError::at(&job.folder))?;
         self.version = self.run(job, folder.path(), 1, &[SEED], &mut |_| ())?.version;
         Ok(())
     }
@@ -123,8 +122,7 @@ impl Mitsuba {
         on_pass: &mut dyn FnMut(&str),
     ) -> Result<Spent, MakeError> {
         let log_path = output.join("mitsuba.log");
-        let log =
-            File::create(&log_path).map_err(|problem| MakeError::file(&log_path, &problem))?;
+        let log = File::create(&log_path).map_err(MakeError::at(&log_path))?;
         let mut command = Command::new(&self.python);
         command.arg("-").arg(job.folder.join("scene.xml")).arg(&self.variant.name);
         command.arg(samples.to_string()).arg(output);

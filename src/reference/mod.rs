@@ -1,13 +1,12 @@
 //! Makes references with Mitsuba, lists them, and asks Mitsuba again whether they still hold.
 //!
-//! What to make is written in `references/recipes.toml`: the scene, the last bounce, how many
-//! passes of how many samples. [`References::make`] renders those passes in a process of Mitsuba's
-//! own, each with its own seed and into its own file, so that a run which is killed goes on where
-//! it was; then it adds the passes and their squares up, exactly, and takes mean and variance. The
-//! sums stay in `references/.work`: by them a reference is extended by more passes, or merged from
-//! parts that several machines have rendered. Each bounce alone, depth and normals are added beside
-//! the picture. Why passes: Mitsuba adds up in single precision, which drifts beyond 2⁸ samples, and
-//! its own second moments are of another colour space.
+//! What to make is written in `references/recipes.toml`: the scene, the last bounce, how many passes of how many
+//! samples. [`References::make`] renders those passes in a process of Mitsuba's own, each with its own seed and into
+//! its own file, so that a run which is killed goes on where it was; then it adds the passes and their squares up,
+//! exactly, and takes mean and variance. The sums stay in `references/.work`: by them a reference is extended by more
+//! passes, or merged from parts that several machines have rendered. Each bounce alone, depth and normals are added
+//! beside the picture. Why passes: Mitsuba adds up in single precision, which drifts beyond 2⁸ samples, and its own
+//! second moments are of another colour space.
 //!
 //! Not here: reading a reference in order to compare with it (`scene::reference`), and printing:
 //! whoever asks hears of [`Progress`].

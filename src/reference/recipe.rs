@@ -52,7 +52,7 @@ struct Entry {
 /// Reads all recipes of a folder of references, by name.
 pub(super) fn read_all(folder: &Path) -> Result<BTreeMap<String, Recipe>, MakeError> {
     let path = folder.join("recipes.toml");
-    let source = Source::read(&path).map_err(|problem| MakeError::file(&path, &problem))?;
+    let source = Source::read(&path).map_err(MakeError::at(&path))?;
     parse(&source).map_err(|diagnostic| MakeError::Recipes(Box::new(diagnostic)))
 }
 

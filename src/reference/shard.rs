@@ -64,23 +64,22 @@ impl Shard {
     }
 
     pub(crate) fn write(&self, path: &Path) -> Result<(), MakeError> {
-        let failed = |problem: &dyn std::fmt::Display| MakeError::file(path, problem);
         let head = Head {
             seeds: self.seeds.ranges().to_vec(),
             cpu_seconds: self.cpu_seconds,
             about: self.about.clone(),
         };
-        let head = toml::to_string(&head).map_err(|problem| failed(&problem))?;
+        let head = toml::to_string(&head).map_err(MakeError::at(path))?;
         let content =
             [FIRST_LINE.as_bytes(), head.as_bytes(), LAST_LINE.as_bytes(), self.sums.bytes()];
-        disk::replace(path, &content.concat()).map_err(|problem| failed(&problem))
+        disk::replace(path, &content.concat()).map_err(MakeError::at(path))
     }
 
     /// Reads a file that [`Shard::write`] wrote.
     pub(crate) fn read(path: &Path) -> Result<Self, MakeError> {
-        let failed = |problem: &dyn std::fmt::Display| MakeError::file(path, problem);
-        let content = std::fs::read(path).map_err(|problem| failed(&problem))?;
-        Self::parsed(&content).ok_or_else(|| failed(&"not a file of sums of passes, or truncated"))
+        let content = std::fs::read(path).map_err(MakeError::at(path))?;
+        Self::parsed(&content)
+            .ok_or_else(|| MakeError::file(path, &"not a file of sums of passes, or truncated"))
     }
 
     fn parsed(content: &[u8]) -> Option<Self> {

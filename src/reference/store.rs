@@ -64,8 +64,7 @@ impl References {
     /// Writes a reference with the layers that it has, and its fingerprint into its provenance.
     pub(super) fn write(&self, reference: &mut Reference) -> Result<(), MakeError> {
         let path = picture_path(&self.folder, &reference.name);
-        // One attribute only: the encoder writes several in any order, and the bytes would not be
-        // the same twice.
+        // One attribute only: the encoder writes several in any order, and the bytes would not be the same twice.
         let file = Exr::from_image(&reference.mean)
             .with_colours(ERROR_PREFIX, &reference.standard_error, Storage::Half)
             .with_attribute("furnace", reference.provenance.header());
@@ -73,7 +72,7 @@ impl References {
         reference.provenance.picture_hash = fingerprint(&content);
         let provenance = provenance_path(&self.folder, &reference.name);
         write_provenance(&provenance, &reference.provenance)?;
-        disk::replace(&path, &content).map_err(|problem| MakeError::file(&path, &problem))
+        disk::replace(&path, &content).map_err(MakeError::at(&path))
     }
 }
 
@@ -106,9 +105,9 @@ impl Plan {
 }
 
 fn write_provenance(path: &Path, provenance: &Provenance) -> Result<(), MakeError> {
-    let body = toml::to_string(provenance).map_err(|problem| MakeError::file(path, &problem))?;
+    let body = toml::to_string(provenance).map_err(MakeError::at(path))?;
     let text = format!("# Written by `furnace reference make`; not for editing.\n{body}");
-    disk::replace(path, text.as_bytes()).map_err(|problem| MakeError::file(path, &problem))
+    disk::replace(path, text.as_bytes()).map_err(MakeError::at(path))
 }
 
 /// Today in UTC, as 2026-01-31.

@@ -4,8 +4,7 @@
 use crate::image::Image;
 use bytemuck::{Pod, Zeroable};
 
-/// Precision of a stored mean, as in OpenEXR's 24-bit floats. The rest is noise, and would fill
-/// half the file.
+/// Precision of a stored mean, as in OpenEXR's 24-bit floats. The rest is noise, and would fill half the file.
 const MEAN_BITS: u32 = 16;
 
 /// The largest error of rounding a mean, relative to it: 1.5e-5.

@@ -47,8 +47,7 @@ impl References {
     }
 }
 
-/// The seeds of all runs of a stage: rendered together, for starting Mitsuba takes longer than a
-/// pass.
+/// The seeds of all runs of a stage: rendered together, for starting Mitsuba takes longer than a pass.
 fn seeds_of(stage: Stage, effort: &ImageEffort) -> Vec<u32> {
     let (block, runs) = match stage {
         Stage::Second => (1, effort.confirm_runs),

@@ -1,6 +1,7 @@
 //! Why a scene cannot be had.
 
-use crate::text::Diagnostic;
+use crate::text::{Diagnostic, Source};
+use std::path::Path;
 
 /// Why a scene cannot be had. Displays with file, line and caret where a file is at fault.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -15,6 +16,17 @@ pub enum SceneError {
     WrongParameter { parameter: String, diagnostic: Box<Diagnostic> },
     #[error("cannot read `{path}`: {problem}")]
     Unreadable { path: String, problem: String },
+}
+
+impl SceneError {
+    pub(in crate::scene) fn unreadable(path: &Path, problem: &std::io::Error) -> Self {
+        Self::Unreadable { path: path.display().to_string(), problem: problem.to_string() }
+    }
+}
+
+/// The text of a file of a scene.
+pub(in crate::scene) fn read_source(path: &Path) -> Result<Source, SceneError> {
+    Source::read(path).map_err(|problem| SceneError::unreadable(path, &problem))
 }
 
 impl From<Diagnostic> for SceneError {

@@ -1,6 +1,5 @@
-//! The content hash that references are pinned to: a change of anything that changes the image
-//! changes it, and nothing else does. Names, comments, the order of materials and materials without
-//! use do not count.
+//! The content hash that references are pinned to: a change of anything that changes the image changes it, and nothing
+//! else does. Names, comments, the order of materials and materials without use do not count.
 
 use super::{Camera, Cap, Light, Material, Mesh, Rgb, SceneDescription, Sphere, Surface};
 use glam::DVec3;

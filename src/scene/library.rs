@@ -1,9 +1,10 @@
 //! The scenes of a folder, each read once.
 
+use super::error::read_source;
 use super::file::{self, Overrides};
 use super::format::collada;
 use super::{SceneDescription, SceneError};
-use crate::text::{Source, did_you_mean, listed};
+use crate::text::{did_you_mean, listed};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -41,10 +42,7 @@ impl Library {
 
     /// The names of all scenes, in the order of the alphabet.
     pub(crate) fn names(&self) -> Result<Vec<String>, SceneError> {
-        let unreadable = |problem: std::io::Error| SceneError::Unreadable {
-            path: self.folder.display().to_string(),
-            problem: problem.to_string(),
-        };
+        let unreadable = |problem| SceneError::unreadable(&self.folder, &problem);
         let mut names = Vec::new();
         for entry in std::fs::read_dir(&self.folder).map_err(unreadable)? {
             let path = entry.map_err(unreadable)?.path();
@@ -92,17 +90,13 @@ pub fn load_file(path: &Path, overrides: &Overrides) -> Result<SceneDescription,
     if path.extension().is_some_and(|extension| extension == "dae") {
         return load_collada(path, overrides);
     }
-    let source = Source::read(path).map_err(|problem| SceneError::Unreadable {
-        path: path.display().to_string(),
-        problem: problem.to_string(),
-    })?;
+    let source = read_source(path)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let folder = path.parent().unwrap_or(Path::new(""));
     file::parse(&name, &source, folder, overrides)
 }
 
-/// A `.dae` file with its two parameters: the size of the image, and a camera file beside it, the course's
-/// `-c`.
+/// A `.dae` file with its two parameters: the size of the image, and a camera file beside it, the course's `-c`.
 fn load_collada(path: &Path, overrides: &Overrides) -> Result<SceneDescription, SceneError> {
     let (mut film, mut camera) = (collada::FILM, None);
     for (parameter, value) in overrides {

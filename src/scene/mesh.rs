@@ -1,5 +1,4 @@
-//! Meshes from files, through libraries, and checked: what comes out of here can be handed to any
-//! core.
+//! Meshes from files, through libraries, and checked: what comes out of here can be handed to any core.
 //!
 //! Not here: where a mesh stands in the scene, and what it is made of.
 
@@ -39,8 +38,7 @@ impl Shading {
     }
 }
 
-/// The mesh in a file: all its parts as one, polygons cut into fans, vertex normals if the file has
-/// them.
+/// The mesh in a file: all its parts as one, polygons cut into fans, vertex normals if the file has them.
 pub fn load(path: &Path, format: Format) -> Result<Mesh, MeshError> {
     let mut mesh = match format {
         Format::Obj => obj::read(path),
@@ -89,8 +87,7 @@ pub(crate) fn smooth_normals(mesh: &Mesh) -> Vec<DVec3> {
             }
         }
     }
-    // A vertex without triangles, or between two that face each other, is never shaded by its own
-    // normal.
+    // A vertex without triangles, or between two that face each other, is never shaded by its own normal.
     normals.into_iter().map(|normal| normal.normalize_or(DVec3::Y)).collect()
 }
 
@@ -119,12 +116,21 @@ mod tests {
         assert!(mesh.normals.iter().all(|normal| *normal == DVec3::Z), "made unit length");
     }
 
+    /// A PLY file of vertices with coordinates of `kind` and one face.
+    fn ply(kind: &str, vertices: &[&str], face: &str) -> String {
+        let axes = ["x", "y", "z"].map(|axis| format!("property {kind} {axis}\n")).concat();
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex {}\n{axes}element face 1\n\
+             property list uchar int vertex_indices\nend_header\n{}\n{face}\n",
+            vertices.len(),
+            vertices.join("\n")
+        )
+    }
+
     #[test]
     fn a_ply_keeps_its_doubles() {
-        let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n\
-                    property double z\nelement face 1\nproperty list uchar int vertex_indices\n\
-                    end_header\n0.1 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
-        let mesh = loaded(text, Format::Ply).unwrap();
+        let text = ply("double", &["0.1 0 0", "1 0 0", "1 1 0", "0 1 0"], "4 0 1 2 3");
+        let mesh = loaded(&text, Format::Ply).unwrap();
         assert_eq!(mesh.positions[0].x, 0.1);
         assert_eq!(mesh.indices, [[0, 1, 2], [0, 2, 3]]);
         assert!(mesh.normals.is_empty());
@@ -132,55 +138,41 @@ mod tests {
 
     #[test]
     fn an_stl_shares_its_vertices() {
-        let facet = |a: &str, b: &str, c: &str| {
-            format!(
-                "facet normal 0 0 1\nouter loop\nvertex {a}\nvertex {b}\nvertex {c}\nendloop\n\
-                 endfacet\n"
-            )
+        let facet = |corners: [&str; 3]| {
+            let vertices = corners.map(|corner| format!("vertex {corner}\n")).concat();
+            format!("facet normal 0 0 1\nouter loop\n{vertices}endloop\nendfacet\n")
         };
-        let text = format!(
-            "solid s\n{}{}endsolid s\n",
-            facet("0 0 0", "1 0 0", "1 1 0"),
-            facet("0 0 0", "1 1 0", "0 1 0")
-        );
-        let mesh = loaded(&text, Format::Stl).unwrap();
+        let facets = facet(["0 0 0", "1 0 0", "1 1 0"]) + &facet(["0 0 0", "1 1 0", "0 1 0"]);
+        let mesh = loaded(&format!("solid s\n{facets}endsolid s\n"), Format::Stl).unwrap();
         assert_eq!((mesh.positions.len(), mesh.indices.len()), (4, 2));
     }
 
     #[test]
-    fn an_index_beyond_the_last_vertex_is_named() {
-        let text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
-                    property float z\nelement face 1\nproperty list uchar int vertex_indices\n\
-                    end_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 7\n";
-        let message = loaded(text, Format::Ply).unwrap_err();
-        assert_eq!(message, "triangle 0 refers to vertex 7, but there are only 3 vertices");
-        let message = loaded("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", Format::Obj).unwrap_err();
-        assert!(message.ends_with("line 4 names vertex 9, and there are 3"), "{message}");
+    fn what_is_wrong_with_a_file_is_named() {
         // Counted back from the last normal; a list that is not there is not looked into.
         let corners = |face| format!("v 0 0 0\nv 1 0 0\nvn 0 0 1\nv 1 1 0\nf {face}\n");
         assert!(loaded(&corners("1/5/-1 2/5/-1 -1/5/1"), Format::Obj).is_ok());
-        let message = loaded(&corners("1//1 2//1 3//-9"), Format::Obj).unwrap_err();
-        assert!(message.ends_with("line 5 names normal -9, and there are 1"), "{message}");
-    }
-
-    #[test]
-    fn a_coordinate_that_is_not_a_number_is_refused() {
-        let message = loaded("v 0 0 nan\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", Format::Obj).unwrap_err();
-        assert!(message.contains("vertex 0"), "{message}");
-    }
-
-    #[test]
-    fn a_normal_without_direction_is_refused() {
-        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 0\nf 1//1 2//1 3//1\n";
-        let message = loaded(text, Format::Obj).unwrap_err();
-        assert!(message.contains("is zero"), "{message}");
-    }
-
-    #[test]
-    fn an_empty_a_broken_and_a_missing_file_are_three_errors() {
-        assert_eq!(loaded("", Format::Obj).unwrap_err(), "has no triangles");
-        assert!(loaded("ply\nrubbish\n", Format::Ply).unwrap_err().contains("PLY"));
-        assert!(loaded("solid?", Format::Stl).unwrap_err().contains("STL"));
+        for (text, format, words) in [
+            (
+                &*ply("float", &["0 0 0", "1 0 0", "1 1 0"], "3 0 1 7"),
+                Format::Ply,
+                "triangle 0 refers to vertex 7, but there are only 3 vertices",
+            ),
+            (
+                "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n",
+                Format::Obj,
+                "line 4 names vertex 9, and there are 3",
+            ),
+            (&corners("1//1 2//1 3//-9"), Format::Obj, "line 5 names normal -9, and there are 1"),
+            ("v 0 0 nan\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", Format::Obj, "vertex 0"),
+            ("v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 0\nf 1//1 2//1 3//1\n", Format::Obj, "is zero"),
+            ("", Format::Obj, "has no triangles"),
+            ("ply\nrubbish\n", Format::Ply, "PLY"),
+            ("solid?", Format::Stl, "STL"),
+        ] {
+            let message = loaded(text, format).unwrap_err();
+            assert!(message.contains(words), "{words}: {message}");
+        }
         let missing = load(Path::new("no/such.obj"), Format::Obj).unwrap_err();
         assert!(matches!(missing, MeshError::Unreadable(_)));
     }

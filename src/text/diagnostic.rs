@@ -32,8 +32,7 @@ impl Source {
         Diagnostic { source: self.clone(), span, message: message.into(), hint: None }
     }
 
-    /// The text as TOML of a given shape. Unknown keys and variants come back with the word that
-    /// was probably meant.
+    /// The text as TOML of a given shape. Unknown keys and variants come back with the word that was probably meant.
     pub(crate) fn parse_toml<T: DeserializeOwned>(&self) -> Result<T, Diagnostic> {
         read_toml(&self.text).map_err(|error| self.toml_diagnostic(error))
     }

@@ -177,13 +177,46 @@ fn without_negative_zero(text: String) -> String {
 mod tests {
     use super::*;
 
+    /// Each number, written one way or another, and how that reads.
     #[test]
-    fn as_many_digits_as_the_step_makes_meaningful() {
-        assert_eq!(to_step(0.370_012_3, 0.001), "0.3700");
-        assert_eq!(to_step(1.0, 2e-5), "1.000000");
-        assert_eq!(to_step(12_345.678, 50.0), "12346");
-        assert_eq!(to_step(3.2e-6, 1e-8), "3.200e-6");
-        assert_eq!(to_step(-0.000_001, 0.01), "0.000");
+    fn numbers_read_as_people_write_them() {
+        for (written, expected) in [
+            // As many digits as the step makes meaningful.
+            (to_step(0.370_012_3, 0.001), "0.3700"),
+            (to_step(1.0, 2e-5), "1.000000"),
+            (to_step(12_345.678, 50.0), "12346"),
+            (to_step(3.2e-6, 1e-8), "3.200e-6"),
+            (to_step(-0.000_001, 0.01), "0.000"),
+            // The ends of an interval differ.
+            (with_interval(1.5534, [1.5519, 1.5549]), "1.553 (99.9 % CI 1.552 to 1.555)"),
+            (with_interval(0.7, [0.699, 0.7019]), "0.700 (99.9 % CI 0.699 to 0.702)"),
+            (with_interval(1e-9, [1e-9, 2e-9]), "1.0e-9 (99.9 % CI 1.0e-9 to 2.0e-9)"),
+            (with_interval(0.25, [0.25, 0.25]), "0.25"),
+            (plus_minus(0.7, 0.000_412), "0.7000 ± 0.0004"),
+            (plus_minus(12_345.6, 78.0), "12346 ± 78"),
+            // What is not a number is called so.
+            (with_interval(f64::NAN, [f64::NAN; 2]), "NaN"),
+            (to_step(f64::NAN, 1.0), "NaN"),
+            (to_step(f64::NEG_INFINITY, 1.0), "-inf"),
+            (significant(f64::INFINITY, 3), "inf"),
+            (percent(f64::NAN), "NaN"),
+            (duration(f64::NAN), "NaN s"),
+            // Whole numbers stay whole.
+            (to_step(887.0, 0.0), "887"),
+            (significant(-0.0, 3), "0"),
+            (to_step(3.0, 3.0), "3"),
+            // Per cents are figures of hundredths.
+            (percent(0.095), "9.5 %"),
+            (percent(0.000_021), "0.0021 %"),
+            (signed_percent(0.3), "+30 %"),
+            (signed_percent(-0.095), "-9.5 %"),
+            (percent(12.0), "1200 %"),
+            // Probabilities show their power of ten.
+            (probability(1.83e-7), "1.8e-7"),
+            (probability(0.0), "0"),
+        ] {
+            assert_eq!(written, expected);
+        }
     }
 
     #[test]
@@ -201,63 +234,22 @@ mod tests {
 
     #[test]
     fn what_is_held_against_each_other_looks_different_where_it_differs() {
-        assert_eq!(apart([0.777_12, 0.5]), ["0.777", "0.5"]);
-        assert_eq!(apart([1.000_412_7, 1.0]), ["1.00041", "1"]);
-        assert_eq!(apart([2.0, 2.0]), ["2", "2"]);
-        assert_eq!(apart([1e-9, 3.25]), ["1e-9", "3.25"]);
-        assert_eq!(
-            [0.993_21, 1.00002, 0.0, 3.144_59].map(ratio),
-            ["0.9932", "1.00002", "0", "3.14"]
-        );
-        assert_eq!(apart([f64::NAN, 0.5]), ["NaN", "0.5"]);
-    }
-
-    #[test]
-    fn the_ends_of_an_interval_differ() {
-        let written = with_interval(1.5534, [1.5519, 1.5549]);
-        assert_eq!(written, "1.553 (99.9 % CI 1.552 to 1.555)");
-        assert_eq!(with_interval(0.7, [0.699, 0.7019]), "0.700 (99.9 % CI 0.699 to 0.702)");
-        assert_eq!(with_interval(1e-9, [1e-9, 2e-9]), "1.0e-9 (99.9 % CI 1.0e-9 to 2.0e-9)");
-        assert_eq!(with_interval(0.25, [0.25, 0.25]), "0.25");
-        assert_eq!(with_interval(f64::NAN, [f64::NAN; 2]), "NaN");
-        assert_eq!(plus_minus(0.7, 0.000_412), "0.7000 ± 0.0004");
-        assert_eq!(plus_minus(12_345.6, 78.0), "12346 ± 78");
-    }
-
-    #[test]
-    fn what_is_not_a_number_is_called_so() {
-        assert_eq!(to_step(f64::NAN, 1.0), "NaN");
-        assert_eq!(to_step(f64::NEG_INFINITY, 1.0), "-inf");
-        assert_eq!(significant(f64::INFINITY, 3), "inf");
-        assert_eq!(percent(f64::NAN), "NaN");
-        assert_eq!(duration(f64::NAN), "NaN s");
-    }
-
-    #[test]
-    fn whole_numbers_stay_whole() {
-        assert_eq!(to_step(887.0, 0.0), "887");
-        assert_eq!(significant(-0.0, 3), "0");
-        assert_eq!(to_step(3.0, 3.0), "3");
-    }
-
-    #[test]
-    fn per_cents_are_figures_of_hundredths() {
-        assert_eq!(percent(0.095), "9.5 %");
-        assert_eq!(percent(0.000_021), "0.0021 %");
-        assert_eq!(signed_percent(0.3), "+30 %");
-        assert_eq!(signed_percent(-0.095), "-9.5 %");
-        assert_eq!(percent(12.0), "1200 %");
+        for (values, written) in [
+            ([0.777_12, 0.5], ["0.777", "0.5"]),
+            ([1.000_412_7, 1.0], ["1.00041", "1"]),
+            ([2.0, 2.0], ["2", "2"]),
+            ([1e-9, 3.25], ["1e-9", "3.25"]),
+            ([f64::NAN, 0.5], ["NaN", "0.5"]),
+        ] {
+            assert_eq!(apart(values), written);
+        }
+        let ratios = ["0.9932", "1.00002", "0", "3.14"];
+        assert_eq!([0.993_21, 1.00002, 0.0, 3.144_59].map(ratio), ratios);
     }
 
     #[test]
     fn durations_change_their_unit() {
         let read: Vec<_> = [0.0123, 1.42, 99.9, 169.0, 3780.0].map(duration).into();
         assert_eq!(read, ["12 ms", "1.4 s", "99.9 s", "2 m 49 s", "1 h 03 m"]);
-    }
-
-    #[test]
-    fn probabilities_show_their_power_of_ten() {
-        assert_eq!(probability(1.83e-7), "1.8e-7");
-        assert_eq!(probability(0.0), "0");
     }
 }

@@ -1,10 +1,8 @@
 //! The word that was probably meant.
 
-/// `did you mean …?` for the valid word closest to `word`, if one is close enough to be worth
-/// naming.
+/// `did you mean …?` for the valid word closest to `word`, if one is close enough to be worth naming.
 ///
-/// Damerau-Levenshtein distance of at most a third of the length: two slips in `positon`, none in
-/// `at`.
+/// Damerau-Levenshtein distance of at most a third of the length: two slips in `positon`, none in `at`.
 pub(crate) fn did_you_mean<'a>(
     word: &str,
     valid: impl IntoIterator<Item = &'a str>,

@@ -5,12 +5,11 @@
 //! cargo test --test picture_power -- --ignored --nocapture
 //! ```
 //!
-//! writes `docs/simulations/picture-power.md`. The runs of a comparison are drawn from a bank of
-//! independent renders by the built-in core, without replacement, so that no verdict uses one twice;
-//! different comparisons share the bank. `POWER_TIMES` says how often, `POWER_BANK` how many
-//! renders, `POWER_TOLD` for how many the message is read and the metrics are measured. What is
-//! known of each mistake is kept below `target/tmp`, so that the same program goes on where it was
-//! cut off.
+//! writes `docs/simulations/picture-power.md`. The runs of a comparison are drawn from a bank of independent renders by
+//! the built-in core, without replacement, so that no verdict uses one twice; different comparisons share the bank.
+//! `POWER_TIMES` says how often, `POWER_BANK` how many renders, `POWER_TOLD` for how many the message is read and the
+//! metrics are measured. What is known of each mistake is kept below `target/tmp`, so that the same program goes on
+//! where it was cut off.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod bank;

@@ -1,5 +1,4 @@
-//! What each rule said over and over again, kept from one attempt to the next, and the table of it
-//! all.
+//! What each rule said over and over again, kept from one attempt to the next, and the table of it all.
 
 use super::mistake::Mistake;
 use super::{LAST, SAMPLES, SCENE};

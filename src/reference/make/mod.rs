@@ -183,8 +183,7 @@ impl References {
         Ok((stored, self.plan(name, recipe, purpose)?))
     }
 
-    /// Writes a scene for Mitsuba into a working folder of its own, or finds it there from an
-    /// earlier attempt.
+    /// Writes a scene for Mitsuba into a working folder of its own, or finds it there from an earlier attempt.
     pub(super) fn plan(
         &self,
         name: &str,
@@ -202,7 +201,7 @@ impl References {
         let key = format!("{} {} {samples}", content_hash(&scene), recipe.bounces);
         let key = &fingerprint(key.as_bytes())[..12];
         let folder = self.folder.join(".work").join(format!("{purpose}-{name}-{key}"));
-        std::fs::create_dir_all(&folder).map_err(|problem| MakeError::file(&folder, &problem))?;
+        std::fs::create_dir_all(&folder).map_err(MakeError::at(&folder))?;
         exported.write_to(&folder)?;
         let job = Job { folder, film, samples, last_bounce: None };
         Ok(Plan { name: name.to_owned(), recipe, scene, job })
@@ -270,5 +269,5 @@ impl Plan {
 }
 
 pub(super) fn remove(folder: &Path) -> Result<(), MakeError> {
-    std::fs::remove_dir_all(folder).map_err(|problem| MakeError::file(folder, &problem))
+    std::fs::remove_dir_all(folder).map_err(MakeError::at(folder))
 }

@@ -1,7 +1,6 @@
 //! `scenes/<name>.toml` → [`SceneDescription`].
 //!
-//! One file a part of the vocabulary: `camera`, `material`, `shape`, `light`. `parameter`
-//! puts values in for `"$name"`.
+//! One file a part of the vocabulary: `camera`, `material`, `shape`, `light`. `parameter` puts values in for `"$name"`.
 //!
 //! ```toml
 //! title  = "A sphere that emits inside"
@@ -120,8 +119,7 @@ fn resolve(
     Ok(scene.with_area_lights())
 }
 
-/// The one entry that is there: the file says `diffuse = …` or `mirror = …`, never both and never
-/// neither.
+/// The one entry that is there: the file says `diffuse = …` or `mirror = …`, never both and never neither.
 fn exactly_one<T>(
     what: &str,
     entries: impl IntoIterator<Item = (&'static str, Option<T>)>,

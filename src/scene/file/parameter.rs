@@ -1,5 +1,4 @@
-//! `[parameters]`: values that the rest of the file refers to as `"$name"`, and that a case may
-//! override.
+//! `[parameters]`: values that the rest of the file refers to as `"$name"`, and that a case may override.
 //!
 //! They are put in before the file is given its meaning, so any value of any kind can be one, and a
 //! wrong one is underlined where it is used.

@@ -24,6 +24,8 @@ pub(super) fn export(scene: &SceneDescription, request: Request) -> Result<Expor
     Ok(Exported::of_texts([("scene.pbrt", writer.text)]))
 }
 
+const WHITE: Rgb = [1.0; 3];
+
 struct Writer<'a> {
     text: String,
     scene: &'a SceneDescription,
@@ -139,20 +141,15 @@ impl Writer<'_> {
                 let reflectance = self.grey(reflectance, &format!("material `{name}`"))?;
                 Ok(format!("Material \"diffuse\" {}", rgb("reflectance", reflectance)))
             }
-            Surface::Glass {
-                index,
-                reflectance: [1.0, 1.0, 1.0],
-                transmittance: [1.0, 1.0, 1.0],
-            } => Ok(format!("Material \"dielectric\" \"float eta\" [ {index} ]")),
-            Surface::RoughGlass {
-                index,
-                roughness,
-                reflectance: [1.0, 1.0, 1.0],
-                transmittance: [1.0, 1.0, 1.0],
-            } => Ok(format!(
-                "Material \"dielectric\" \"float eta\" [ {index} ] \"float roughness\" [ {roughness} ] \
+            Surface::Glass { index, reflectance: WHITE, transmittance: WHITE } => {
+                Ok(format!("Material \"dielectric\" \"float eta\" [ {index} ]"))
+            }
+            Surface::RoughGlass { index, roughness, reflectance: WHITE, transmittance: WHITE } => {
+                Ok(format!(
+                    "Material \"dielectric\" \"float eta\" [ {index} ] \"float roughness\" [ {roughness} ] \
                  \"bool remaproughness\" [ false ]"
-            )),
+                ))
+            }
             Surface::Glass { .. } | Surface::RoughGlass { .. } => {
                 Err(self.complaint.about(format!("glass `{name}` is tinted, and pbrt's is clear")))
             }

@@ -1,7 +1,7 @@
 //! What is written, read again by whoever reads such files here.
 
 use super::*;
-use crate::scene::{Library, Light, Overrides, Surface, mesh};
+use crate::scene::{Library, Light, Material, Overrides, Surface, mesh};
 use glam::DVec3;
 
 const REQUEST: Request = Request { last_bounce: 3, samples: 16, seed: 7 };
@@ -10,12 +10,35 @@ fn library() -> Library {
     Library::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"))
 }
 
-fn written(name: &str, format: Format) -> Result<(tempfile::TempDir, Written), String> {
-    let scene = library().load(name, &Overrides::new()).unwrap();
+type Files = (tempfile::TempDir, Written);
+
+fn written(name: &str, format: Format) -> Result<Files, String> {
+    written_after(name, format, |_| ())
+}
+
+/// A scene, changed, and written.
+fn written_after(
+    name: &str,
+    format: Format,
+    change: impl Fn(&mut SceneDescription),
+) -> Result<Files, String> {
+    let mut scene = SceneDescription::clone(&library().load(name, &Overrides::new()).unwrap());
+    change(&mut scene);
     let folder = tempfile::tempdir().unwrap();
     let written = write(&scene, format, REQUEST, folder.path());
     written.map(|written| (folder, written)).map_err(|error| error.to_string())
 }
+
+/// Every surface is of one kind and dark.
+fn all(surface: Surface) -> impl Fn(&mut SceneDescription) {
+    move |scene| {
+        let dark =
+            |material: &mut Material| (material.surface, material.emission) = (surface, None);
+        scene.materials.iter_mut().for_each(dark);
+    }
+}
+
+const GREY: Surface = Surface::Diffuse { reflectance: [0.5; 3] };
 
 /// The scene as our own reader reads back what is written for the course.
 fn through_collada(name: &str) -> (SceneDescription, SceneDescription) {
@@ -115,19 +138,6 @@ fn narrowed(surface: Surface) -> Surface {
     }
 }
 
-/// A scene, changed, and written.
-fn written_after(
-    name: &str,
-    format: Format,
-    change: impl Fn(&mut SceneDescription),
-) -> Result<(tempfile::TempDir, Written), String> {
-    let mut scene = SceneDescription::clone(&library().load(name, &Overrides::new()).unwrap());
-    change(&mut scene);
-    let folder = tempfile::tempdir().unwrap();
-    let written = write(&scene, format, REQUEST, folder.path());
-    written.map(|written| (folder, written)).map_err(|error| error.to_string())
-}
-
 #[test]
 fn an_obj_comes_back_through_the_library_that_reads_obj() {
     let dark = |scene: &mut SceneDescription| scene.lights.clear();
@@ -147,11 +157,8 @@ fn an_obj_comes_back_through_the_library_that_reads_obj() {
 #[test]
 fn pbrt_gets_its_depth_its_seed_and_its_left_handed_camera() {
     let grey = |scene: &mut SceneDescription| {
-        let light = Light::Point { position: DVec3::Y, intensity: [3.0; 3] };
-        scene.lights = vec![light];
-        for material in &mut scene.materials {
-            material.surface = Surface::Diffuse { reflectance: [0.5; 3] };
-        }
+        scene.lights = vec![Light::Point { position: DVec3::Y, intensity: [3.0; 3] }];
+        all(GREY)(scene);
     };
     let (_folder, written) = written_after("point-light-plane", Format::Pbrt, grey).unwrap();
     let text = std::fs::read_to_string(&written.scene).unwrap();
@@ -170,12 +177,9 @@ fn pbrt_gets_its_depth_its_seed_and_its_left_handed_camera() {
 fn rough_glass_is_said_to_mitsuba_and_pbrt_and_to_nobody_else() {
     let rough = |scene: &mut SceneDescription| {
         scene.lights.clear();
-        for material in &mut scene.materials {
-            let (index, roughness, colour) = (1.5, 0.25, [1.0; 3]);
-            let (reflectance, transmittance) = (colour, colour);
-            material.surface = Surface::RoughGlass { index, roughness, reflectance, transmittance };
-            material.emission = None;
-        }
+        let (reflectance, transmittance) = ([1.0; 3], [1.0; 3]);
+        let (index, roughness) = (1.5, 0.25);
+        all(Surface::RoughGlass { index, roughness, reflectance, transmittance })(scene);
     };
     for (format, words) in [
         (Format::Mitsuba, "<bsdf type=\"roughdielectric\">"),
@@ -196,16 +200,11 @@ fn rough_glass_is_said_to_mitsuba_and_pbrt_and_to_nobody_else() {
 
 #[test]
 fn the_course_has_no_rough_metal_and_nothing_that_glows_and_reflects() {
-    let metal = |scene: &mut SceneDescription| {
-        scene.materials[0].surface = Surface::Conductor { reflectance: [1.0; 3], roughness: 0.5 };
-        scene.materials[0].emission = None;
-    };
+    let metal = all(Surface::Conductor { reflectance: [1.0; 3], roughness: 0.5 });
     let message = written_after("point-light-plane", Format::Collada, metal).unwrap_err();
     assert!(message.contains("is a rough conductor"), "{message}");
     let grey = |scene: &mut SceneDescription| {
-        for material in &mut scene.materials {
-            material.surface = Surface::Diffuse { reflectance: [0.5; 3] };
-        }
+        scene.materials.iter_mut().for_each(|material| material.surface = GREY);
     };
     let message = written_after("area-light-plane", Format::Collada, grey).unwrap_err();
     assert!(message.contains("emits and reflects"), "{message}");

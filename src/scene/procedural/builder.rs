@@ -29,9 +29,8 @@ impl Builder {
         self.mesh
     }
 
-    /// The number of the vertex at `point`. Points are the same if their bits are, −0 being 0:
-    /// whoever wants a closed surface computes the points of a seam in the same way from both
-    /// sides.
+    /// The number of the vertex at `point`. Points are the same if their bits are, −0 being 0: whoever wants a closed
+    /// surface computes the points of a seam in the same way from both sides.
     fn vertex(&mut self, point: DVec3) -> u32 {
         let key = (point + DVec3::ZERO).to_array().map(f64::to_bits);
         let positions = &mut self.mesh.positions;

@@ -1,5 +1,4 @@
-//! Meshes that BVHs stumble over: soups, and arrangements that leave a split rule nothing to
-//! split by.
+//! Meshes that BVHs stumble over: soups, and arrangements that leave a split rule nothing to split by.
 
 use crate::math::rng::{Seed, Stream, uniform};
 use crate::scene::Mesh;
@@ -33,8 +32,7 @@ pub fn soup(triangles: u32, seed: Seed) -> Mesh {
     }))
 }
 
-/// `triangles` triangles in the unit cube, arranged as `layout` says. `seed` matters where chance
-/// does.
+/// `triangles` triangles in the unit cube, arranged as `layout` says. `seed` matters where chance does.
 pub fn pathological(layout: Layout, triangles: u32, seed: Seed) -> Mesh {
     let stream = &mut seed.stream();
     let step = f64::from(triangles.max(1)).recip();
@@ -62,9 +60,8 @@ pub fn pathological(layout: Layout, triangles: u32, seed: Seed) -> Mesh {
     }
 }
 
-/// A triangle around the middle of the unit cube: along every axis its corners are at −h, 0 and h,
-/// in another order, so that the mean of its corners and the centre of its box are the same for
-/// every h.
+/// A triangle around the middle of the unit cube: along every axis its corners are at −h, 0 and h, in another order, so
+/// that the mean of its corners and the centre of its box are the same for every h.
 fn centred_triangle(stream: &mut Stream) -> [DVec3; 3] {
     let half = uniform_point(stream) * 0.5;
     [DVec3::new(-1.0, 0.0, 1.0), DVec3::new(0.0, 1.0, -1.0), DVec3::new(1.0, -1.0, 0.0)]

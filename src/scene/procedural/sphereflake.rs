@@ -1,8 +1,7 @@
 //! Haines's sphereflake: spheres upon spheres upon spheres.
 //!
-//! E. Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987: every sphere
-//! carries nine of a third of its radius, six around its equator and three above it, as seen from
-//! its own parent.
+//! E. Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987: every sphere carries nine of a
+//! third of its radius, six around its equator and three above it, as seen from its own parent.
 
 use super::sphere::icosphere;
 use crate::scene::Mesh;
@@ -33,8 +32,7 @@ pub fn sphereflake(depth: u32, subdivisions: u32) -> Mesh {
     flake
 }
 
-/// The nine children of a sphere with centre, radius, and the rotation that takes +y to its own
-/// axis.
+/// The nine children of a sphere with centre, radius, and the rotation that takes +y to its own axis.
 fn children(&(centre, radius, axis): &(DVec3, f64, DQuat)) -> Vec<(DVec3, f64, DQuat)> {
     let around = (0..6).map(|k| (0.0, f64::from(k) * FRAC_PI_3));
     let above = (0..3).map(|k| (FRAC_PI_3, (f64::from(k) + 0.25) * TAU / 3.0));

@@ -1,10 +1,9 @@
 //! The Utah teapot, tessellated.
 //!
-//! Martin Newell's 32 bicubic Bézier patches (1975; the bottom is Frank Crow's, 1987), y up, body
-//! radius 2, height 3.15. Rim, body, lid and bottom are surfaces of revolution, four patches each;
-//! handle and spout are tubes of two patches to each side. So 6 profiles and 14 sections say all
-//! that 306 control points do. One liberty: the knob's top ring is as round as all others (its y
-//! was 0.45 where the circle gives 0.448).
+//! Martin Newell's 32 bicubic Bézier patches (1975; the bottom is Frank Crow's, 1987), y up, body radius 2, height
+//! 3.15. Rim, body, lid and bottom are surfaces of revolution, four patches each; handle and spout are tubes of two
+//! patches to each side. So 6 profiles and 14 sections say all that 306 control points do. One liberty: the knob's top
+//! ring is as round as all others (its y was 0.45 where the circle gives 0.448).
 
 use super::builder::Builder;
 use crate::scene::Mesh;
@@ -13,8 +12,7 @@ use glam::DVec3;
 /// A quarter circle as Newell drew it: (1, 0), (1, κ), (κ, 1), (0, 1).
 const KAPPA: f64 = 0.56;
 
-/// Control points (radius, height) of each surface of revolution, from the inside out or from top
-/// to bottom.
+/// Control points (radius, height) of each surface of revolution, from the inside out or from top to bottom.
 const PROFILES: [[(f64, f64); 4]; 6] = [
     [(1.4, 2.4), (1.3375, 2.53125), (1.4375, 2.53125), (1.5, 2.4)], // rim
     [(1.5, 2.4), (1.75, 1.875), (2.0, 1.35), (2.0, 0.9)],           // body
@@ -24,8 +22,7 @@ const PROFILES: [[(f64, f64); 4]; 6] = [
     [(1.5, 0.15), (1.5, 0.075), (1.425, 0.0), (0.0, 0.0)], // bottom
 ];
 
-/// A section through handle or spout: (x, height) at its one end, at its other end, and its half
-/// width.
+/// A section through handle or spout: (x, height) at its one end, at its other end, and its half width.
 type Section = ((f64, f64), (f64, f64), f64);
 
 const HANDLE: [Section; 7] = [
@@ -98,8 +95,7 @@ fn revolved(profile: &[(f64, f64); 4], quarter: u32) -> Patch {
     })
 }
 
-/// One half of a section's outline: over `side` from the first end to the second, or back over the
-/// other side.
+/// One half of a section's outline: over `side` from the first end to the second, or back over the other side.
 fn half_section((one, other, half_width): Section, side: f64) -> [DVec3; 4] {
     let corner = |(x, height): (f64, f64), z: f64| DVec3::new(x, height, z);
     let z = -side * half_width;
@@ -145,8 +141,7 @@ mod tests {
                 }
             }
             let open: i32 = balance.values().map(|excess| excess.abs()).sum();
-            // Under the lid two rings of four patches; handle and spout have two ends of two
-            // patches.
+            // Under the lid two rings of four patches; handle and spout have two ends of two patches.
             assert_eq!(open, 16 * segments as i32);
         }
     }

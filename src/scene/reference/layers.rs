@@ -1,5 +1,4 @@
-//! What a reference holds beside its image: each bounce alone, and what stands at the centre of
-//! each pixel.
+//! What a reference holds beside its image: each bounce alone, and what stands at the centre of each pixel.
 //!
 //! Bounces are channels `bounce.0.R` and so on: 0 is directly visible emission. What is seen
 //! first are `depth.Z`, the distance from the camera, infinite where nothing is hit, and

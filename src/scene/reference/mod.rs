@@ -105,15 +105,18 @@ pub fn load(
     Ok(Reference { name: name.to_owned(), mean, standard_error, layers, provenance })
 }
 
+fn damaged(problem: impl std::fmt::Display) -> ReferenceProblem {
+    ReferenceProblem::Damaged(problem.to_string())
+}
+
 /// The provenance of reference `name`, whatever its scene has become.
 pub(crate) fn read_provenance(folder: &Path, name: &str) -> Result<Provenance, ReferenceProblem> {
     let path = provenance_path(folder, name);
     if !path.is_file() {
         return Err(ReferenceProblem::Missing(path));
     }
-    let damaged = |problem: &dyn std::fmt::Display| ReferenceProblem::Damaged(problem.to_string());
-    let source = Source::read(&path).map_err(|problem| damaged(&problem))?;
-    source.parse_toml().map_err(|problem| damaged(&problem))
+    let source = Source::read(&path).map_err(damaged)?;
+    source.parse_toml().map_err(damaged)
 }
 
 fn read_picture(
@@ -126,28 +129,26 @@ fn read_picture(
     if !path.is_file() {
         return Err(ReferenceProblem::Missing(path));
     }
-    let damaged = |problem: &dyn std::fmt::Display| ReferenceProblem::Damaged(problem.to_string());
-    let file = exr::read(&path).map_err(|problem| damaged(&problem))?;
+    let file = exr::read(&path).map_err(damaged)?;
     let found = [file.width, file.height];
     if found != film {
         return Err(ReferenceProblem::WrongSize { found, film });
     }
-    let content = std::fs::read(&path).map_err(|problem| damaged(&problem))?;
+    let content = std::fs::read(&path).map_err(damaged)?;
     if fingerprint(&content) != provenance.picture_hash {
-        return Err(damaged(&"the image does not match its provenance"));
+        return Err(damaged("the image does not match its provenance"));
     }
     Ok(file)
 }
 
 fn mean_and_error(file: &Exr) -> Result<(Image, Image), ReferenceProblem> {
-    let damaged = |problem: &dyn std::fmt::Display| ReferenceProblem::Damaged(problem.to_string());
-    let mean = file.image().map_err(|problem| damaged(&problem))?;
-    let standard_error = file.colours(ERROR_PREFIX).map_err(|problem| damaged(&problem))?;
+    let mean = file.image().map_err(damaged)?;
+    let standard_error = file.colours(ERROR_PREFIX).map_err(damaged)?;
     let values = mean.pixels.iter().chain(&standard_error.pixels).flatten();
     if values.copied().all(|value| value >= 0.0 && value.is_finite()) {
         Ok((mean, standard_error))
     } else {
-        Err(damaged(&"it has values that are negative or NaN"))
+        Err(damaged("it has values that are negative or NaN"))
     }
 }
 

@@ -1,21 +1,23 @@
 //! Lights that are not shapes. Area lights go with their shapes.
 
-use super::xml::Xml;
 use crate::image::Image;
 use crate::scene::format::Content;
+use crate::scene::format::xml::XmlWriter;
 use crate::scene::{Light, SceneDescription};
 use glam::{DAffine3, DQuat, DVec3};
 use std::f64::consts::PI;
 
-/// Rows of a gradient sky's image. Mitsuba puts the first and the last at the poles and
-/// interpolates: with so many, and the middle one on the horizon, it is off by (π/1024)²/8 = 1.2e-6
-/// at most.
+/// Rows of a gradient sky's image. Mitsuba puts the first and the last at the poles and interpolates: with so many, and
+/// the middle one on the horizon, it is off by (π/1024)²/8 = 1.2e-6 at most.
 const SKY_ROWS: usize = 1025;
 
 const SKY_FILE: &str = "sky.exr";
 
 /// Writes every light, and returns the image of the sky if there is one.
-pub(super) fn write_all(xml: &mut Xml, scene: &SceneDescription) -> Option<(String, Content)> {
+pub(super) fn write_all(
+    xml: &mut XmlWriter,
+    scene: &SceneDescription,
+) -> Option<(String, Content)> {
     let mut sky = None;
     for light in &scene.lights {
         match *light {

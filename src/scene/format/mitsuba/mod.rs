@@ -13,15 +13,15 @@ mod light;
 mod shape;
 mod xml;
 
+use super::xml::XmlWriter;
 use super::{Complaint, Content, ExportError, Exported, Format};
 use crate::scene::{Camera, SceneDescription};
-use xml::Xml;
 
 /// `scene.xml` and the files it names, asking for bounces 0 to `last_bounce` added up.
 pub(crate) fn export(scene: &SceneDescription, last_bounce: u32) -> Result<Exported, ExportError> {
     let complaint = Complaint { format: Format::Mitsuba, scene };
     let camera = complaint.square_camera()?;
-    let mut xml = Xml::default();
+    let mut xml = XmlWriter::default();
     xml.open("scene", &[("version", "3.9.1")]);
     write_integrator(&mut xml, last_bounce);
     write_sensor(&mut xml, camera);
@@ -33,7 +33,7 @@ pub(crate) fn export(scene: &SceneDescription, last_bounce: u32) -> Result<Expor
     Ok(Exported { files, camera: None })
 }
 
-fn write_integrator(xml: &mut Xml, last_bounce: u32) {
+fn write_integrator(xml: &mut XmlWriter, last_bounce: u32) {
     xml.open("integrator", &[("type", "path")]);
     xml.integer("max_depth", last_bounce + 1);
     xml.integer("rr_depth", 1_000_000);
@@ -42,7 +42,7 @@ fn write_integrator(xml: &mut Xml, last_bounce: u32) {
     xml.close();
 }
 
-fn write_sensor(xml: &mut Xml, camera: &Camera) {
+fn write_sensor(xml: &mut XmlWriter, camera: &Camera) {
     xml.open("sensor", &[("type", "perspective")]);
     xml.string("fov_axis", "x");
     xml.float("fov", camera.horizontal_fov.to_degrees());
@@ -62,8 +62,7 @@ fn write_sensor(xml: &mut Xml, camera: &Camera) {
     xml.string("component_format", "float32");
     xml.leaf("rfilter", &[("type", "box")]);
     xml.close();
-    // Unbiased and with a third of the variance of `independent`; `stratified` and `ldsampler` are
-    // biased.
+    // Unbiased and with a third of the variance of `independent`; `stratified` and `ldsampler` are biased.
     xml.leaf("sampler", &[("type", SAMPLER)]);
     xml.close();
 }

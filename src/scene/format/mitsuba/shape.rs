@@ -1,13 +1,13 @@
 //! Shapes with their materials and emission.
 
-use super::xml::Xml;
+use crate::scene::format::xml::XmlWriter;
 use crate::scene::format::{Complaint, Content, ExportError, ply};
 use crate::scene::{Material, Rectangle, Rgb, Sphere, Surface};
 use glam::{DAffine3, DMat3};
 
 /// Writes every shape, and returns the meshes that got a file of their own.
 pub(super) fn write_all(
-    xml: &mut Xml,
+    xml: &mut XmlWriter,
     complaint: Complaint<'_>,
 ) -> Result<Vec<(String, Content)>, ExportError> {
     let scene = complaint.scene;
@@ -37,7 +37,7 @@ pub(super) fn write_all(
     Ok(attachments)
 }
 
-fn write_sphere(xml: &mut Xml, sphere: &Sphere) {
+fn write_sphere(xml: &mut XmlWriter, sphere: &Sphere) {
     xml.open("shape", &[("type", "sphere"), ("id", &sphere.name)]);
     xml.point("center", sphere.centre);
     xml.float("radius", sphere.radius);
@@ -55,7 +55,7 @@ fn to_world(rectangle: Rectangle) -> DAffine3 {
 }
 
 fn write_material(
-    xml: &mut Xml,
+    xml: &mut XmlWriter,
     shape: &str,
     material: &Material,
     complaint: Complaint<'_>,
@@ -80,7 +80,7 @@ fn write_material(
     Ok(())
 }
 
-fn write_surface(xml: &mut Xml, surface: &Surface) {
+fn write_surface(xml: &mut XmlWriter, surface: &Surface) {
     match *surface {
         Surface::Diffuse { reflectance } => {
             xml.open("bsdf", &[("type", "diffuse")]);
@@ -112,7 +112,7 @@ fn write_surface(xml: &mut Xml, surface: &Surface) {
     xml.close();
 }
 
-fn write_interface(xml: &mut Xml, index: f64, [reflectance, transmittance]: [Rgb; 2]) {
+fn write_interface(xml: &mut XmlWriter, index: f64, [reflectance, transmittance]: [Rgb; 2]) {
     xml.float("int_ior", index);
     xml.float("ext_ior", 1.0);
     xml.rgb("specular_reflectance", reflectance);

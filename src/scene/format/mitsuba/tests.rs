@@ -76,42 +76,51 @@ fn a_whole_scene_is_written_as_mitsuba_reads_it() {
 }
 
 #[test]
-fn glass_is_in_vacuum_and_not_two_sided() {
-    let scene = exported("glass-sphere-in-sky").unwrap();
-    let xml = xml(&scene);
-    assert!(xml.contains(r#"<float name="int_ior" value="1.5"/>"#), "{xml}");
-    assert!(xml.contains(r#"<float name="ext_ior" value="1"/>"#), "{xml}");
-    assert!(!xml.contains("twosided"), "{xml}");
-    assert!(xml.contains(r#"<emitter type="constant">"#), "{xml}");
+fn each_scene_says_what_makes_it_the_same_question() {
+    let said: [(&str, &[&str]); 5] = [
+        (
+            "glass-sphere-in-sky",
+            &[
+                r#"<float name="int_ior" value="1.5"/>"#,
+                r#"<float name="ext_ior" value="1"/>"#,
+                r#"<emitter type="constant">"#,
+            ],
+        ),
+        (
+            "veach-plates",
+            &[
+                r#"<bsdf type="roughconductor">"#,
+                r#"<string name="distribution" value="ggx"/>"#,
+                r#"<float name="alpha" value="0.15"/>"#,
+            ],
+        ),
+        (
+            "sphere-furnace",
+            &[r#"<boolean name="flip_normals" value="true"/>"#, r#"<emitter type="area">"#],
+        ),
+        ("soup", &[r#"<boolean name="face_normals" value="true"/>"#]),
+        ("teapot", &[r#"<boolean name="face_normals" value="false"/>"#]),
+    ];
+    for (name, lines) in said {
+        let scene = exported(name).unwrap();
+        let xml = xml(&scene);
+        lines.iter().for_each(|line| assert!(xml.contains(line), "{name}: {line} in {xml}"));
+    }
 }
 
 #[test]
-fn metals_are_single_scattering_and_two_sided() {
-    let scene = exported("veach-plates").unwrap();
-    let xml = xml(&scene);
-    assert!(xml.contains(r#"<bsdf type="roughconductor">"#));
-    assert!(xml.contains(r#"<string name="distribution" value="ggx"/>"#));
-    assert!(xml.contains(r#"<float name="alpha" value="0.15"/>"#));
-    assert_eq!(xml.matches("twosided").count(), 8, "every shape but none of glass");
+fn glass_is_one_sided_and_metals_are_two_sided() {
+    let sides = |name| xml(&exported(name).unwrap()).matches("twosided").count();
+    assert_eq!(sides("glass-sphere-in-sky"), 0);
+    assert_eq!(sides("veach-plates"), 8, "every shape but none of glass");
 }
 
 #[test]
-fn a_room_looks_inwards() {
-    let scene = exported("sphere-furnace").unwrap();
-    let xml = xml(&scene);
-    assert!(xml.contains(r#"<boolean name="flip_normals" value="true"/>"#), "{xml}");
-    assert!(xml.contains(r#"<emitter type="area">"#), "{xml}");
-}
-
-#[test]
-fn flat_meshes_stay_flat_and_smooth_ones_smooth() {
+fn flat_meshes_have_no_normals_and_smooth_ones_have() {
     let flat = exported("soup").unwrap();
-    assert!(xml(&flat).contains(r#"<boolean name="face_normals" value="true"/>"#));
     assert_eq!(flat.files[1].0, "mesh-0.ply");
     assert!(!ply_header(&flat).contains("float nx"));
-    let smooth = exported("teapot").unwrap();
-    assert!(xml(&smooth).contains(r#"<boolean name="face_normals" value="false"/>"#));
-    assert!(ply_header(&smooth).contains("float nx"));
+    assert!(ply_header(&exported("teapot").unwrap()).contains("float nx"));
 }
 
 fn ply_header(scene: &Exported) -> String {
@@ -150,10 +159,10 @@ fn a_gradient_sky_is_a_picture_with_its_zenith_on_top() {
 
 #[test]
 fn what_mitsuba_cannot_do_is_said() {
-    let message = exported("cap-cavity").unwrap_err().to_string();
-    assert!(message.contains("its closed form is its reference"), "{message}");
-    let message = exported("sphere-in-view").unwrap_err().to_string();
-    assert!(message.contains("pixels are not square, and Mitsuba's are"), "{message}");
-    let message = export(&SceneDescription::default(), 1).unwrap_err().to_string();
-    assert!(message.ends_with("it has no camera"), "{message}");
+    let message = |scene: Result<Exported, ExportError>| scene.unwrap_err().to_string();
+    assert!(message(exported("cap-cavity")).contains("its closed form is its reference"));
+    let oblong = message(exported("sphere-in-view"));
+    assert!(oblong.contains("pixels are not square, and Mitsuba's are"), "{oblong}");
+    let empty = message(export(&SceneDescription::default(), 1));
+    assert!(empty.ends_with("it has no camera"), "{empty}");
 }

@@ -5,68 +5,46 @@ use crate::scene::format::xml::XmlWriter;
 use crate::scene::format::{matrix, numbers};
 use glam::{DAffine3, DVec3};
 
-#[derive(Default)]
-pub(super) struct Xml(XmlWriter);
-
-impl Xml {
-    /// Begins an element that others go into.
-    pub(crate) fn open(&mut self, element: &'static str, attributes: &[(&str, &str)]) {
-        self.0.open(element, attributes);
-    }
-
-    /// Ends the element begun last.
-    pub(crate) fn close(&mut self) {
-        self.0.close();
-    }
-
-    /// An element that nothing goes into.
-    pub(crate) fn leaf(&mut self, element: &str, attributes: &[(&str, &str)]) {
-        self.0.leaf(element, attributes);
-    }
-
-    pub(crate) fn integer(&mut self, name: &str, value: u32) {
+impl XmlWriter {
+    pub(super) fn integer(&mut self, name: &str, value: u32) {
         self.leaf("integer", &[("name", name), ("value", &value.to_string())]);
     }
 
-    pub(crate) fn float(&mut self, name: &str, value: f64) {
+    pub(super) fn float(&mut self, name: &str, value: f64) {
         self.leaf("float", &[("name", name), ("value", &value.to_string())]);
     }
 
-    pub(crate) fn string(&mut self, name: &str, value: &str) {
+    pub(super) fn string(&mut self, name: &str, value: &str) {
         self.leaf("string", &[("name", name), ("value", value)]);
     }
 
-    pub(crate) fn boolean(&mut self, name: &str, value: bool) {
+    pub(super) fn boolean(&mut self, name: &str, value: bool) {
         self.leaf("boolean", &[("name", name), ("value", &value.to_string())]);
     }
 
-    pub(crate) fn rgb(&mut self, name: &str, value: Rgb) {
+    pub(super) fn rgb(&mut self, name: &str, value: Rgb) {
         self.leaf("rgb", &[("name", name), ("value", &numbers(value))]);
     }
 
-    pub(crate) fn point(&mut self, name: &str, value: DVec3) {
+    pub(super) fn point(&mut self, name: &str, value: DVec3) {
         self.vector("point", name, value);
     }
 
-    pub(crate) fn direction(&mut self, name: &str, value: DVec3) {
+    pub(super) fn direction(&mut self, name: &str, value: DVec3) {
         self.vector("vector", name, value);
     }
 
-    pub(crate) fn look_at(&mut self, origin: DVec3, target: DVec3, up: DVec3) {
+    pub(super) fn look_at(&mut self, origin: DVec3, target: DVec3, up: DVec3) {
         let [origin, target, up] =
             [origin, target, up].map(|v| numbers(v.to_array()).replace(' ', ", "));
         self.leaf("lookat", &[("origin", &origin), ("target", &target), ("up", &up)]);
     }
 
     /// The transform `to_world`, row by row.
-    pub(crate) fn transform(&mut self, transform: DAffine3) {
+    pub(super) fn transform(&mut self, transform: DAffine3) {
         self.open("transform", &[("name", "to_world")]);
         self.leaf("matrix", &[("value", &matrix(transform))]);
         self.close();
-    }
-
-    pub(crate) fn finish(self) -> String {
-        self.0.finish()
     }
 
     fn vector(&mut self, element: &str, name: &str, value: DVec3) {

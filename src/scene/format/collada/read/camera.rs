@@ -1,9 +1,10 @@
 //! Where the course's program takes its images from without a window. The position in the file
 //! plays no part: only the direction does, and the box around the scene.
 
-use super::xml::{Element, Reader, Result};
+use super::node::Instance;
+use super::xml::{Reader, Result};
 use crate::scene::{Aabb, Camera};
-use glam::{DMat3, DMat4, DVec3, DVec4};
+use glam::{DMat3, DVec3, DVec4};
 use std::f64::consts::PI;
 
 /// The size of the window that the field of view is fitted to.
@@ -37,11 +38,8 @@ impl Default for Lens {
 
 impl Lens {
     /// Reads a `camera` that stands in the scene with `transform`.
-    pub(super) fn read<'a>(
-        reader: &Reader<'a>,
-        camera: Element<'a>,
-        transform: &DMat4,
-    ) -> Result<Self> {
+    pub(super) fn read<'a>(reader: &Reader<'a>, instance: &Instance<'a>) -> Result<Self> {
+        let (camera, transform) = (instance.element, instance.transform);
         reader.name_of(camera)?;
         let perspective = reader.need(camera, "optics/technique_common/perspective")?;
         let number = |name, otherwise| match reader.find(perspective, name)? {
@@ -57,7 +55,7 @@ impl Lens {
                 single(2.0 * degrees((half.tan() / f64::from(aspect)).atan()))
             }
         };
-        let towards_camera = (*transform * DVec4::new(0.0, 0.0, -1.0, 1.0)).truncate();
+        let towards_camera = (transform * DVec4::new(0.0, 0.0, -1.0, 1.0)).truncate();
         let lens = Self {
             horizontal_fov,
             vertical_fov,
@@ -70,18 +68,15 @@ impl Lens {
     }
 
     fn check(&self) -> std::result::Result<(), String> {
-        for fov in [self.horizontal_fov, self.vertical_fov] {
-            if !(fov > 0.0 && fov < 180.0) {
-                return Err(format!(
-                    "invalid field of view of {fov} degrees: must be between 0 and 180"
-                ));
-            }
-        }
-        if !(self.near >= 0.0 && self.near < self.far) {
+        let Self { horizontal_fov, vertical_fov, near, far, .. } = self;
+        let is_angle = |fov: &&f32| **fov > 0.0 && **fov < 180.0;
+        if let Some(fov) = [horizontal_fov, vertical_fov].into_iter().find(|fov| !is_angle(fov)) {
             return Err(format!(
-                "invalid clip distances {} and {}: near must be below far",
-                self.near, self.far
+                "invalid field of view of {fov} degrees: must be between 0 and 180"
             ));
+        }
+        if !(*near >= 0.0 && near < far) {
+            return Err(format!("invalid clip distances {near} and {far}: near must be below far"));
         }
         if !self.towards_camera.is_finite() {
             return Err(

@@ -1,5 +1,6 @@
 //! Meshes and spheres of the file, in world space.
 
+use super::node::Instance;
 use super::normals::vertex_normals;
 use super::xml::{Element, Reader, Result, children, first_child};
 use crate::scene::{Mesh, Sphere};
@@ -22,14 +23,10 @@ pub(super) struct ReadMesh {
 }
 
 /// Reads a `geometry` with a `mesh`; material 0.
-pub(super) fn read_mesh<'a>(
-    reader: &Reader<'a>,
-    name: &str,
-    geometry: Element<'a>,
-    transform: &DMat4,
-) -> Result<ReadMesh> {
-    reader.name_of(geometry)?;
-    let element = reader.need(geometry, "mesh")?;
+pub(super) fn read_mesh<'a>(reader: &Reader<'a>, geometry: &Instance<'a>) -> Result<ReadMesh> {
+    let Instance { name, element, transform } = geometry;
+    reader.name_of(*element)?;
+    let element = reader.need(*element, "mesh")?;
     let vertices = reader.need(element, "vertices")?;
     let positions = read_positions(reader, element, vertices, transform)?;
     let list = polygon_list(reader, element)?;
@@ -44,7 +41,7 @@ pub(super) fn read_mesh<'a>(
         ));
     }
     let indices = polygons.corners.iter().map(|corners| course_triangle(corners)).collect();
-    let name = name.to_owned();
+    let name = (*name).to_owned();
     let mut mesh = Mesh { name, positions, normals, indices, material: 0 };
     turn_to_normals(&mut mesh);
     Ok(ReadMesh { mesh, differences })
@@ -104,13 +101,12 @@ fn in_world(transform: &DMat4, local: [f64; 3]) -> DVec3 {
 
 /// The first `polylist` or else the first `triangles`: the course looks at no other list.
 fn polygon_list<'a>(reader: &Reader<'a>, mesh: Element<'a>) -> Result<Element<'a>> {
-    ["polylist", "triangles"].into_iter().find_map(|name| first_child(mesh, name)).ok_or_else(
-        || {
-            reader
-                .wrong(mesh, "has neither a `polylist` nor `triangles`")
-                .with_hint("the course reads no other kind of list")
-        },
-    )
+    let list = ["polylist", "triangles"].into_iter().find_map(|name| first_child(mesh, name));
+    list.ok_or_else(|| {
+        reader
+            .wrong(mesh, "has neither a `polylist` nor `triangles`")
+            .with_hint("the course reads no other kind of list")
+    })
 }
 
 fn read_polygons<'a>(
@@ -201,29 +197,27 @@ fn triangle_sizes<'a>(reader: &Reader<'a>, list: Element<'a>, count: usize) -> R
 }
 
 /// Reads a `geometry` that is a sphere of the CGL profile; material 0.
-pub(super) fn read_sphere<'a>(
-    reader: &Reader<'a>,
-    name: &str,
-    geometry: Element<'a>,
-    transform: &DMat4,
-) -> Result<Sphere> {
-    reader.name_of(geometry)?;
-    let technique = reader.technique(geometry, "CGL").ok_or_else(|| {
-        reader.wrong(geometry, "is neither a mesh nor a sphere of the CGL profile")
+pub(super) fn read_sphere<'a>(reader: &Reader<'a>, geometry: &Instance<'a>) -> Result<Sphere> {
+    let Instance { name, element, transform } = *geometry;
+    reader.name_of(element)?;
+    let technique = reader.technique(element, "CGL").ok_or_else(|| {
+        reader.wrong(element, "is neither a mesh nor a sphere of the CGL profile")
     })?;
     let element = reader.need(technique, "sphere/radius")?;
     let radius = f64::from(reader.narrowed(element)?);
-    let scale = (*transform * DVec4::X).truncate().length();
+    let scale = (transform * DVec4::X).truncate().length();
     let sphere = Sphere {
         name: name.to_owned(),
-        centre: in_world(transform, [0.0; 3]),
+        centre: in_world(&transform, [0.0; 3]),
         radius: radius * scale,
         inward: false,
         material: 0,
     };
-    if sphere.centre.is_finite() && sphere.radius.is_finite() && sphere.radius > 0.0 {
-        Ok(sphere)
-    } else {
-        Err(reader.wrong(element, format!("invalid radius {}: must be positive", sphere.radius)))
+    match sphere.centre.is_finite() && sphere.radius.is_finite() && sphere.radius > 0.0 {
+        true => Ok(sphere),
+        false => {
+            Err(reader
+                .wrong(element, format!("invalid radius {}: must be positive", sphere.radius)))
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! The lights of the file, as the course declares them: apart from the surfaces that are seen to emit.
 
+use super::node::Instance;
 use super::xml::{Element, Reader, Result};
 use crate::scene::Rgb;
 use glam::{DMat4, DVec3, DVec4};
@@ -33,12 +34,8 @@ pub(super) enum Kind {
     Spot,
 }
 
-pub(super) fn read<'a>(
-    reader: &Reader<'a>,
-    name: &str,
-    light: Element<'a>,
-    transform: &DMat4,
-) -> Result<Lamp> {
+pub(super) fn read<'a>(reader: &Reader<'a>, instance: &Instance<'a>) -> Result<Lamp> {
+    let Instance { name, element: light, transform } = *instance;
     reader.name_of(light)?;
     let technique = reader
         .technique(light, "CGL")
@@ -47,7 +44,7 @@ pub(super) fn read<'a>(
     let kind = technique.children().find(Element::is_element);
     let kind = kind.ok_or_else(|| reader.wrong(technique, "does not describe the light"))?;
     let colour = reader.colour(reader.need(kind, "color")?)?;
-    Ok(Lamp { name: name.to_owned(), colour, kind: read_kind(reader, kind, transform)? })
+    Ok(Lamp { name: name.to_owned(), colour, kind: read_kind(reader, kind, &transform)? })
 }
 
 fn read_kind<'a>(reader: &Reader<'a>, kind: Element<'a>, transform: &DMat4) -> Result<Kind> {

@@ -1,5 +1,4 @@
-//! What a `material` is made of: the CGL profile if there is one, else the diffuse colour that every
-//! COLLADA file has.
+//! What a `material` is made of: the CGL profile if there is one, else the diffuse colour that every COLLADA file has.
 
 use super::xml::{Element, Reader, Result};
 use crate::scene::{Emission, Material, Rgb, Surface};

@@ -9,10 +9,9 @@
 //! Where `furnace` cannot say what the course says, a file is either refused or read with a
 //! [`Reading::differences`]. The notable ones:
 //!
-//! - The course declares its lights apart from the surfaces that are seen to emit, and they need not
-//!   agree: in its boxes the light is turned by a right angle, and may be of another brightness. Here a
-//!   light that lies in an emissive mesh *is* that mesh: what is seen is what shines. An area light
-//!   without such a mesh gets one.
+//! - The course declares its lights apart from the surfaces that are seen to emit, and they need not agree: in its
+//!   boxes the light is turned by a right angle, and may be of another brightness. Here a light that lies in an
+//!   emissive mesh *is* that mesh: what is seen is what shines. An area light without such a mesh gets one.
 //! - Glowing surfaces shine from both sides in the course, point lights do not weaken with
 //!   distance: these are [`Conventions`](crate::contract::Conventions) of a core, not of a scene.
 //! - The front of a triangle is the side of its shading normals, whatever its winding.
@@ -33,6 +32,7 @@ pub(super) use normals::vertex_normals;
 pub(super) use settings::degrees_for;
 pub use settings::load_camera;
 
+use crate::scene::error::read_source;
 use crate::scene::{SceneDescription, SceneError};
 use crate::text::Source;
 use std::path::Path;
@@ -54,10 +54,7 @@ pub struct Reading {
 /// # Errors
 /// If the file cannot be read, or is none that the course's program renders.
 pub fn load(path: &Path, film: [u32; 2]) -> Result<Reading, SceneError> {
-    let source = Source::read(path).map_err(|problem| SceneError::Unreadable {
-        path: path.display().to_string(),
-        problem: problem.to_string(),
-    })?;
+    let source = read_source(path)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     parse(&name, &source, film)
 }

@@ -22,6 +22,13 @@ pub(super) struct File {
     pub(super) differences: Vec<String>,
 }
 
+/// What a node instances: the node's name, and where it stands.
+pub(super) struct Instance<'a> {
+    pub(super) name: &'a str,
+    pub(super) element: Element<'a>,
+    pub(super) transform: DMat4,
+}
+
 struct Walk<'r, 'a> {
     reader: &'r Reader<'a>,
     file: File,
@@ -72,7 +79,7 @@ impl<'a> Walk<'_, 'a> {
             self.check_nesting(child, &transform)?;
             self.visit(child, &transform, depth + 1)?;
         }
-        self.instance(node, name, &transform)
+        self.instance(node, |element| Instance { name, element, transform })
     }
 
     /// With AVX the course's program multiplies by the *transposed* transform of the parent, without
@@ -87,14 +94,18 @@ impl<'a> Walk<'_, 'a> {
         ))
     }
 
-    fn instance(&mut self, node: Element<'a>, name: &str, transform: &DMat4) -> Result<()> {
+    fn instance(
+        &mut self,
+        node: Element<'a>,
+        instance: impl Fn(Element<'a>) -> Instance<'a>,
+    ) -> Result<()> {
         let reader = self.reader;
         if let Some(camera) = reader.find(node, "instance_camera")? {
-            self.file.lens = Lens::read(reader, camera, transform)?;
+            self.file.lens = Lens::read(reader, &instance(camera))?;
         } else if let Some(light) = reader.find(node, "instance_light")? {
-            self.file.lamps.push(light::read(reader, name, light, transform)?);
+            self.file.lamps.push(light::read(reader, &instance(light))?);
         } else if let Some(geometry) = reader.find(node, "instance_geometry")? {
-            self.geometry(node, name, geometry, transform)?;
+            self.geometry(node, &instance(geometry))?;
         } else {
             let message = "this node instances nothing, and the course's program crashes on that";
             return Err(reader.wrong(node, message).with_hint(
@@ -104,20 +115,14 @@ impl<'a> Walk<'_, 'a> {
         Ok(())
     }
 
-    fn geometry(
-        &mut self,
-        node: Element<'a>,
-        name: &str,
-        geometry: Element<'a>,
-        transform: &DMat4,
-    ) -> Result<()> {
+    fn geometry(&mut self, node: Element<'a>, geometry: &Instance<'a>) -> Result<()> {
         let material = self.material(node)?;
-        if first_child(geometry, "mesh").is_some() {
-            let read = geometry::read_mesh(self.reader, name, geometry, transform)?;
+        if first_child(geometry.element, "mesh").is_some() {
+            let read = geometry::read_mesh(self.reader, geometry)?;
             self.file.meshes.push(Mesh { material, ..read.mesh });
             self.file.differences.extend(read.differences);
         } else {
-            let sphere = geometry::read_sphere(self.reader, name, geometry, transform)?;
+            let sphere = geometry::read_sphere(self.reader, geometry)?;
             self.file.spheres.push(Sphere { material, ..sphere });
         }
         Ok(())

@@ -2,6 +2,7 @@
 //! whatever the scene's file says of the camera.
 
 use super::camera::radians;
+use crate::scene::error::read_source;
 use crate::scene::{Camera, SceneError};
 use crate::text::Source;
 use glam::{DMat3, DVec3};
@@ -14,11 +15,7 @@ const COUNT: usize = 30;
 /// # Errors
 /// If the file cannot be read, or is not 30 finite numbers that make a camera.
 pub fn load_camera(path: &Path, film: [u32; 2]) -> Result<Camera, SceneError> {
-    let source = Source::read(path).map_err(|problem| SceneError::Unreadable {
-        path: path.display().to_string(),
-        problem: problem.to_string(),
-    })?;
-    parse(&source, film)
+    parse(&read_source(path)?, film)
 }
 
 pub(super) fn parse(source: &Source, film: [u32; 2]) -> Result<Camera, SceneError> {
@@ -53,8 +50,7 @@ pub(super) fn parse(source: &Source, film: [u32; 2]) -> Result<Camera, SceneErro
     }
 }
 
-/// The angle in degrees from which the course makes an angle in radians, or the nearest: about one in ten has
-/// none.
+/// The angle in degrees from which the course makes an angle in radians, or the nearest: about one in ten has none.
 pub(crate) fn degrees_for(angle: f64) -> f64 {
     let nearest = angle.to_degrees();
     let neighbours = [nearest, nearest.next_up(), nearest.next_down()];

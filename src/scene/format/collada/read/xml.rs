@@ -1,5 +1,4 @@
-//! The XML of a COLLADA file: looking things up as the course's reader does, and saying where they are
-//! missing.
+//! The XML of a COLLADA file: looking things up as the course's reader does, and saying where they are missing.
 
 use crate::scene::Rgb;
 use crate::text::{Diagnostic, Source};
@@ -177,29 +176,24 @@ fn start_tag(element: Element<'_>, text: &str) -> Range<usize> {
     range.start..range.start + length
 }
 
-/// A number as it stands in the text.
+/// A number as it stands in the text: what messages call it, and whether it can be reckoned with.
 pub(super) trait Number: FromStr + Copy {
     const WHAT: &str;
     fn is_a_number(&self) -> bool;
 }
 
-impl Number for f64 {
-    const WHAT: &str = "a number";
-    fn is_a_number(&self) -> bool {
-        self.is_finite()
-    }
+macro_rules! numbers {
+    ($($type:ty: $what:literal, $is_a_number:expr;)*) => {$(
+        impl Number for $type {
+            const WHAT: &str = $what;
+            fn is_a_number(&self) -> bool {
+                $is_a_number(self)
+            }
+        }
+    )*};
 }
-
-impl Number for f32 {
-    const WHAT: &str = "a number of single precision";
-    fn is_a_number(&self) -> bool {
-        self.is_finite()
-    }
-}
-
-impl Number for u32 {
-    const WHAT: &str = "an index";
-    fn is_a_number(&self) -> bool {
-        true
-    }
+numbers! {
+    f64: "a number", |number: &f64| number.is_finite();
+    f32: "a number of single precision", |number: &f32| number.is_finite();
+    u32: "an index", |_| true;
 }

@@ -1,10 +1,9 @@
 //! The COLLADA that the course's program reads: its CGL profile, `<matrix>` transforms, and a camera file.
 //!
-//! That program makes normals of its own: it averages over what shares a vertex, and turns them round at the
-//! rim of an open mesh. A flat mesh is therefore written as triangles that share nothing, wound the
-//! other way, which comes out as flat faces that look the right way. Positions are read in single precision
-//! there. The front side of a light is what shines; the course's own light class is given the same
-//! rectangle.
+//! That program makes normals of its own: it averages over what shares a vertex, and turns them round at the rim of an
+//! open mesh. A flat mesh is therefore written as triangles that share nothing, wound the other way, which comes out as
+//! flat faces that look the right way. Positions are read in single precision there. The front side of a light is what
+//! shines; the course's own light class is given the same rectangle.
 
 mod camera;
 mod material;

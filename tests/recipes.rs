@@ -35,6 +35,12 @@ const KINDS: &[Kind] = &[
         beside: &["src/cores/textbook/fault/", "src/checks/integrator/foretold.rs"],
     },
     Kind {
+        heading: "Add a cause",
+        table: "src/diagnosis/mod.rs",
+        row: r"run: (?<word>(?<file>\w+)::suspect)",
+        beside: &[],
+    },
+    Kind {
         heading: "Plant a fault",
         table: "src/cores/textbook/fault/<subject>.rs",
         row: r#"\n    (?<word>"[a-z0-9-]+"): ""#,

@@ -3,7 +3,7 @@
 
 use super::command::{Program, found};
 use crate::text::listed;
-use crate::worker::Guest;
+use crate::worker::CoreOrigin;
 use std::path::Path;
 
 /// What shared libraries are called.
@@ -19,7 +19,7 @@ const PROGRAM: &str = "exec:";
 ///
 /// # Errors
 /// A hint, if there is no such library or program.
-pub(crate) fn guest(word: &str) -> Option<Result<Guest, String>> {
+pub(crate) fn origin(word: &str) -> Option<Result<CoreOrigin, String>> {
     if let Some(command) = word.strip_prefix(PROGRAM) {
         return Some(program(command));
     }
@@ -31,20 +31,20 @@ pub(crate) fn guest(word: &str) -> Option<Result<Guest, String>> {
     LIBRARIES.contains(&extension).then(|| library(path))
 }
 
-fn library(path: &Path) -> Result<Guest, String> {
+fn library(path: &Path) -> Result<CoreOrigin, String> {
     let found = path.canonicalize();
-    found.map(Guest::Library).map_err(|error| format!("{}: {error}", path.display()))
+    found.map(CoreOrigin::Library).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-fn renderer(path: &Path) -> Result<Guest, String> {
+fn renderer(path: &Path) -> Result<CoreOrigin, String> {
     let program = Program::load(path).map_err(|error| error.to_string())?;
     let adapter = std::path::absolute(path).map_err(|error| error.to_string())?;
-    Ok(Guest::Renderer { adapter, words: program.words() })
+    Ok(CoreOrigin::Renderer { adapter, words: program.words() })
 }
 
 /// The words of a command; the program and files among them by their whole paths, since a worker
 /// runs in a folder of its own.
-fn program(command: &str) -> Result<Guest, String> {
+fn program(command: &str) -> Result<CoreOrigin, String> {
     let words = shell_words::split(command).map_err(|error| error.to_string())?;
     let [program, arguments @ ..] = words.as_slice() else {
         return Err(format!("a command must follow `{PROGRAM}`, as in 'exec: python3 core.py'"));
@@ -54,7 +54,7 @@ fn program(command: &str) -> Result<Guest, String> {
     })?;
     let mut words = vec![program.to_string_lossy().into_owned()];
     words.extend(arguments.iter().map(|word| absolute(word)));
-    Ok(Guest::Program(words))
+    Ok(CoreOrigin::Program(words))
 }
 
 fn absolute(word: &str) -> String {
@@ -70,8 +70,8 @@ mod tests {
 
     #[test]
     fn names_of_our_own_are_nobody_elses() {
-        assert_eq!(guest("builtin"), None);
-        assert_eq!(guest("textbook:no-pi"), None);
+        assert_eq!(origin("builtin"), None);
+        assert_eq!(origin("textbook:no-pi"), None);
     }
 
     #[test]
@@ -79,9 +79,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("libcore.so");
         std::fs::write(&path, "").unwrap();
-        let expected = Guest::Library(path.canonicalize().unwrap());
-        assert_eq!(guest(&path.to_string_lossy()), Some(Ok(expected)));
-        assert!(guest("no/such/lib.so").unwrap().unwrap_err().starts_with("no/such/lib.so: "));
+        let expected = CoreOrigin::Library(path.canonicalize().unwrap());
+        assert_eq!(origin(&path.to_string_lossy()), Some(Ok(expected)));
+        assert!(origin("no/such/lib.so").unwrap().unwrap_err().starts_with("no/such/lib.so: "));
     }
 
     #[test]
@@ -95,13 +95,13 @@ mod tests {
             "--scale".to_owned(),
             "2 3".to_owned(),
         ];
-        assert_eq!(guest(&command), Some(Ok(Guest::Program(words.to_vec()))));
+        assert_eq!(origin(&command), Some(Ok(CoreOrigin::Program(words.to_vec()))));
     }
 
     #[test]
     fn a_program_that_is_nowhere_is_said_so() {
-        let complaint = guest("exec: no-such-program --fast").unwrap().unwrap_err();
+        let complaint = origin("exec: no-such-program --fast").unwrap().unwrap_err();
         assert!(complaint.contains("program not found: `no-such-program`"), "{complaint}");
-        assert!(guest("exec:").unwrap().unwrap_err().contains("a command must follow"));
+        assert!(origin("exec:").unwrap().unwrap_err().contains("a command must follow"));
     }
 }

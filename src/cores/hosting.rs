@@ -4,7 +4,7 @@ use super::CoreSpec;
 use super::dylib::LoadError;
 use super::remote::Remote;
 use crate::contract::Core;
-use crate::worker::{Confinement, Guest, Launch, Limits, StartError};
+use crate::worker::{Confinement, CoreOrigin, Launch, Limits, StartError, WorkerSpec};
 use std::path::PathBuf;
 
 /// How cores are hosted in a run.
@@ -69,7 +69,7 @@ impl Hosting {
     /// # Errors
     /// If it fails to start.
     pub fn host(&self, spec: &CoreSpec) -> Result<Hosted, HostError> {
-        if *spec.guest() == Guest::Resident && !self.isolates_own {
+        if *spec.origin() == CoreOrigin::BuiltIn && !self.isolates_own {
             return Ok(Hosted::Here(spec.make()?));
         }
         Ok(Hosted::Away(Box::new(Remote::start(&self.launch(spec))?)))
@@ -84,12 +84,15 @@ impl Hosting {
         let real = |path: &PathBuf| path.canonicalize().or_else(|_| std::path::absolute(path)).ok();
         Launch {
             program: self.program.clone(),
-            spec: spec.to_string(),
-            guest: spec.guest().clone(),
-            limits: Limits { seconds, ..self.limits },
-            hidden: self.hidden.iter().filter_map(real).collect(),
-            readable: self.readable.iter().filter_map(real).collect(),
-            confined: self.confined,
+            worker: WorkerSpec {
+                core: spec.to_string(),
+                origin: spec.origin().clone(),
+                limits: Limits { seconds, ..self.limits },
+                scratch: PathBuf::new(),
+                hidden: self.hidden.iter().filter_map(real).collect(),
+                readable: self.readable.iter().filter_map(real).collect(),
+                confined: self.confined,
+            },
             variables: renderer.map(|program| program.variables()).unwrap_or_default(),
         }
     }

@@ -14,7 +14,7 @@ pub use hosting::{HostError, Hosted, Hosting};
 
 use crate::contract::Core;
 use crate::text::did_you_mean;
-use crate::worker::Guest;
+use crate::worker::CoreOrigin;
 use command::{AdapterError, Program};
 use dylib::{Dylib, LoadError};
 use std::fmt;
@@ -49,7 +49,7 @@ pub static CORES: &[CoreKind] = &[
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CoreSpec {
     word: String,
-    guest: Guest,
+    origin: CoreOrigin,
 }
 
 /// The words after `--core` name no core.
@@ -69,10 +69,10 @@ impl CoreSpec {
     /// # Panics
     /// Never: a specification is only made of a core that exists.
     pub fn make(&self) -> Result<Box<dyn Core>, LoadError> {
-        match &self.guest {
-            Guest::Resident => Ok(self.resident()),
-            Guest::Library(path) => Ok(Box::new(Dylib::load(path)?)),
-            Guest::Program(_) | Guest::Renderer { .. } => {
+        match &self.origin {
+            CoreOrigin::BuiltIn => Ok(self.resident()),
+            CoreOrigin::Library(path) => Ok(Box::new(Dylib::load(path)?)),
+            CoreOrigin::Program(_) | CoreOrigin::Renderer { .. } => {
                 Err(LoadError::IsProgram(self.word.clone()))
             }
         }
@@ -94,8 +94,8 @@ impl CoreSpec {
     }
 
     /// What kind of core it is.
-    pub(crate) const fn guest(&self) -> &Guest {
-        &self.guest
+    pub(crate) const fn origin(&self) -> &CoreOrigin {
+        &self.origin
     }
 
     /// As the user typed it.
@@ -117,7 +117,7 @@ impl FromStr for CoreSpec {
 
     fn from_str(word: &str) -> Result<Self, UnknownCore> {
         if CORES.iter().any(|kind| kind.name == word) {
-            return Ok(Self { word: word.to_owned(), guest: Guest::Resident });
+            return Ok(Self { word: word.to_owned(), origin: CoreOrigin::BuiltIn });
         }
         if let Some(change) = word.strip_prefix(CHANGED) {
             return changed(word, change);
@@ -125,9 +125,9 @@ impl FromStr for CoreSpec {
         let names: Vec<_> = CORES.iter().map(|kind| format!("`{}`", kind.name)).collect();
         let forms = "or path/to/lib.so, or an adapter's .toml, or 'exec: COMMAND'";
         let hint = || format!("the cores are {}, {forms}", names.join(" and "));
-        let guest = foreign::guest(word).unwrap_or_else(|| Err(hint()));
-        match guest {
-            Ok(guest) => Ok(Self { word: word.to_owned(), guest }),
+        let origin = foreign::origin(word).unwrap_or_else(|| Err(hint()));
+        match origin {
+            Ok(origin) => Ok(Self { word: word.to_owned(), origin }),
             Err(hint) => Err(UnknownCore { word: word.to_owned(), hint }),
         }
     }
@@ -136,7 +136,7 @@ impl FromStr for CoreSpec {
 /// A copy of the plain core, if there is one with these changes.
 fn changed(word: &str, changes: &str) -> Result<CoreSpec, UnknownCore> {
     let hint = match variant::core(changes) {
-        Ok(_) => return Ok(CoreSpec { word: word.to_owned(), guest: Guest::Resident }),
+        Ok(_) => return Ok(CoreSpec { word: word.to_owned(), origin: CoreOrigin::BuiltIn }),
         Err(NoVariant::Unknown(name)) => did_you_mean(name, variant::names())
             .unwrap_or_else(|| "`furnace list faults` shows every fault".to_owned()),
         Err(clash) => format!("{clash}: only one of them can be on"),

@@ -162,5 +162,19 @@ impl Drop for RemoteScene<'_> {
 }
 
 fn out_of_place(answer: &Answer) -> CoreError {
-    CoreError::breach(format!("it answered {answer:?}, which does not match the request"))
+    CoreError::breach(format!("it answered `{}`, which does not match the request", answer.word()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_answer_out_of_place_is_called_what_the_protocol_calls_it() {
+        let answers = [Answer::Done, Answer::Refused { why: "no \"glass\"".to_owned() }];
+        for (answer, word) in answers.iter().zip(["done", "refused"]) {
+            let told = out_of_place(answer).to_string();
+            assert!(told.contains(&format!("it answered `{word}`, which")), "{told}");
+        }
+    }
 }

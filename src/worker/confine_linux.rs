@@ -1,34 +1,32 @@
 //! All that only Linux can do for a worker: Landlock for files, seccomp for the rest, and orphans
 //! that come back to whoever has to end them.
 
-use super::child::{Errand, Guest};
-use super::confine::{Confinement, readable};
-use super::guard::Usage;
+use super::readable::readable;
+use super::spec::{Confinement, CoreOrigin, WorkerSpec};
 use landlock::{
     ABI, Access, AccessFs, AccessNet, CompatLevel, Compatible, Ruleset, RulesetAttr,
     RulesetCreatedAttr, RulesetError, RulesetStatus, Scope, path_beneath_rules,
 };
-use rustix::process::{Pid, Signal, getpid};
+use rustix::process::{Signal, getpid};
 use seccompiler::{
     BpfProgram, SeccompAction, SeccompCmpArgLen as Length, SeccompCmpOp as Compare,
     SeccompCondition, SeccompFilter, SeccompRule,
 };
 use std::collections::BTreeMap;
 use std::os::unix::process::CommandExt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
-use std::time::Duration;
 
 /// The newest version of Landlock that this was written for; older kernels do what they can.
 const NEWEST: ABI = ABI::V6;
 
-/// Shuts this process in, for good.
-pub(crate) fn shut_in(errand: &Errand, confinement: &mut Confinement) {
+/// Sandboxes this process, for good.
+pub(crate) fn sandbox(worker: &WorkerSpec, confinement: &mut Confinement) {
     // A worker does not outlive its bench.
     let _ = rustix::process::set_parent_process_death_signal(Some(Signal::KILL));
     let Confinement { in_force, lacking } = confinement;
     let kernel = |error: String| format!("{error}; this kernel cannot keep it from");
-    match shut_files(errand) {
+    match shut_files(worker) {
         Ok(RulesetStatus::FullyEnforced) => {
             in_force.push("reads itself and the system's libraries (Landlock)".to_owned());
             in_force.push("writes its scratch folder alone (Landlock)".to_owned());
@@ -40,10 +38,10 @@ pub(crate) fn shut_in(errand: &Errand, confinement: &mut Confinement) {
         Ok(RulesetStatus::NotEnforced) => lacking.push(kernel("no Landlock".to_owned()) + " files"),
         Err(error) => lacking.push(kernel(format!("Landlock: {error}")) + " files"),
     }
-    match shut_calls(&errand.guest) {
+    match shut_calls(&worker.origin) {
         Ok(()) => {
             in_force.push("no network (seccomp)".to_owned());
-            in_force.push(match errand.guest.starts_processes() {
+            in_force.push(match worker.origin.may_start_processes() {
                 true => "no process leaves its group (seccomp)".to_owned(),
                 false => "no processes (seccomp)".to_owned(),
             });
@@ -55,16 +53,16 @@ pub(crate) fn shut_in(errand: &Errand, confinement: &mut Confinement) {
 }
 
 /// Reads, writes and signals end at the walls.
-fn shut_files(errand: &Errand) -> Result<RulesetStatus, RulesetError> {
+fn shut_files(worker: &WorkerSpec) -> Result<RulesetStatus, RulesetError> {
     let all = AccessFs::from_all(NEWEST);
-    let scratch = [PathBuf::from("/dev/null"), errand.scratch.clone()];
+    let scratch = [PathBuf::from("/dev/null"), worker.scratch.clone()];
     let status = Ruleset::default()
         .set_compatibility(CompatLevel::BestEffort)
         .handle_access(all)?
         .handle_access(AccessNet::from_all(NEWEST))?
         .scope(Scope::from_all(NEWEST))?
         .create()?
-        .add_rules(path_beneath_rules(readable(errand), AccessFs::from_read(NEWEST)))?
+        .add_rules(path_beneath_rules(readable(worker), AccessFs::from_read(NEWEST)))?
         .add_rules(path_beneath_rules(scratch, all))?
         .restrict_self()?;
     Ok(status.ruleset)
@@ -141,12 +139,12 @@ const STARTING_HERE: &[libc::c_long] = &[];
 
 type Rules = BTreeMap<libc::c_long, Vec<SeccompRule>>;
 
-fn shut_calls(guest: &Guest) -> Result<(), seccompiler::Error> {
+fn shut_calls(origin: &CoreOrigin) -> Result<(), seccompiler::Error> {
     let mut rules: Rules = unconditional(FORBIDDEN).chain(unconditional(FORBIDDEN_HERE)).collect();
     // Reading a limit and setting it are one call; setting one hands over something.
     let sets_a_limit = condition(2, Length::Qword, Compare::Ne, 0)?;
     rules.insert(libc::SYS_prlimit64, vec![SeccompRule::new(vec![sets_a_limit])?]);
-    if !guest.starts_processes() {
+    if !origin.may_start_processes() {
         rules.extend(unconditional(STARTING).chain(unconditional(STARTING_HERE)));
         rules.extend(rules_of_a_single_process()?);
         // Its flags lie in memory, where no filter looks; libraries then fall back on `clone`.
@@ -205,74 +203,4 @@ pub(crate) fn end_with_us(command: &mut Command) {
     let leash = || Ok(rustix::process::set_parent_process_death_signal(Some(Signal::KILL))?);
     // SAFETY: it is one system call, which takes neither locks nor memory.
     unsafe { command.pre_exec(leash) };
-}
-
-/// What a worker and all it has started use at the moment.
-pub(crate) fn usage(group: Pid, is_program: bool) -> Usage {
-    let leader = group.as_raw_nonzero().get().unsigned_abs();
-    if !is_program {
-        return usage_of(leader, group).unwrap_or_default();
-    }
-    let processes = std::fs::read_dir("/proc").into_iter().flatten().flatten();
-    let numbers = processes.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
-    numbers.filter_map(|process| usage_of(process, group)).fold(Usage::default(), Usage::and)
-}
-
-/// What one process uses, if it is of the group.
-fn usage_of(process: u32, group: Pid) -> Option<Usage> {
-    let folder = PathBuf::from(format!("/proc/{process}"));
-    let fields = stat(&folder.join("stat"))?;
-    let number = |index: usize| fields.get(index)?.parse::<u64>().ok();
-    let is_member = number(2)? == u64::from(group.as_raw_nonzero().get().unsigned_abs());
-    is_member.then_some(())?;
-    let ticks = number(11)? + number(12)?;
-    let seconds = ticks as f64 / rustix::param::clock_ticks_per_second() as f64;
-    Some(Usage {
-        processes: 1,
-        bytes: number(21)? * rustix::param::page_size() as u64,
-        computed: Duration::from_secs_f64(seconds),
-        would_compute: has_runnable_thread(&folder),
-    })
-}
-
-fn has_runnable_thread(process: &Path) -> bool {
-    let threads = std::fs::read_dir(process.join("task")).into_iter().flatten().flatten();
-    let mut states =
-        threads.filter_map(|thread| stat(&thread.path().join("stat"))?.into_iter().next());
-    // Waiting for a disk is no idleness either.
-    states.any(|state| state == "R" || state == "D")
-}
-
-/// The fields of a `stat` file from the state on: `pid (name) state parent group …`. A name may have
-/// blanks and brackets.
-fn stat(path: &Path) -> Option<Vec<String>> {
-    let text = std::fs::read_to_string(path).ok()?;
-    Some(text.rsplit_once(')')?.1.split_whitespace().map(str::to_owned).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_group_is_measured() {
-        let mut child = Command::new("sleep").arg("10").process_group(0).spawn().unwrap();
-        let usage = usage(Pid::from_child(&child), true);
-        child.kill().unwrap();
-        child.wait().unwrap();
-        assert_eq!(usage.processes, 1);
-    }
-
-    #[test]
-    fn who_computes_is_told_from_who_sleeps() {
-        let group = getpid();
-        let before = usage_of(std::process::id(), rustix::process::getpgrp()).unwrap();
-        let begun = std::time::Instant::now();
-        while begun.elapsed() < Duration::from_millis(200) {
-            std::hint::spin_loop();
-        }
-        let after = usage_of(std::process::id(), rustix::process::getpgrp()).unwrap();
-        assert!(after.would_compute && after.bytes > 0, "{after:?} of {group:?}");
-        assert!(after.computed >= before.computed);
-    }
 }

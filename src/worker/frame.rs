@@ -32,7 +32,7 @@ pub enum FrameError {
     /// The other side has closed the channel, between two frames or within one.
     #[error("the channel was closed")]
     Closed,
-    /// The system says no.
+    /// An I/O error.
     #[error("the channel failed: {0}")]
     Io(io::Error),
     /// What came is no frame.
@@ -97,7 +97,7 @@ pub(crate) fn encode(
 /// Sends what [`encode`] has made.
 ///
 /// # Errors
-/// If the other side is gone, or the system says no.
+/// If the other side is gone, or an I/O error.
 pub(crate) fn send(channel: &mut impl Write, frame: &[u8]) -> Result<(), FrameError> {
     channel.write_all(frame)?;
     Ok(channel.flush()?)

@@ -1,6 +1,7 @@
 //! Holds a worker to its limits, ends it with everything it has started, and says how it ended.
 
-use super::process::Limits;
+use super::spec::Limits;
+use super::usage::{Usage, usage};
 use crate::contract::CoreError;
 use std::io;
 use std::process::{Child, ExitStatus};
@@ -43,32 +44,6 @@ struct State {
     sentence: Option<Sentence>,
     /// How it ended.
     status: Option<ExitStatus>,
-}
-
-/// What a worker uses at a moment, with all that it has started.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Usage {
-    /// Processes.
-    pub(crate) processes: usize,
-    /// Memory they occupy together.
-    pub(crate) bytes: u64,
-    /// Processor time that those there are have had so far.
-    pub(crate) computed: Duration,
-    /// Whether some thread computes, or waits only for its turn.
-    pub(crate) would_compute: bool,
-}
-
-#[cfg(target_os = "linux")]
-impl Usage {
-    /// Of two processes together.
-    pub(crate) fn and(self, other: Self) -> Self {
-        Self {
-            processes: self.processes + other.processes,
-            bytes: self.bytes + other.bytes,
-            computed: self.computed + other.computed,
-            would_compute: self.would_compute || other.would_compute,
-        }
-    }
 }
 
 /// Which limit a worker has broken.
@@ -229,11 +204,10 @@ fn is_about_memory(printed: &str) -> bool {
 }
 
 #[cfg(unix)]
-use unix::{bury, death, has_ended, kill, usage};
+use unix::{bury, death, has_ended, kill};
 
 #[cfg(unix)]
 mod unix {
-    use super::Usage;
     use rustix::process::{
         Pid, Signal, WaitId, WaitIdOptions, WaitOptions, kill_process_group, waitid, waitpgid,
     };
@@ -255,16 +229,6 @@ mod unix {
     /// Waits for those it had started, who are ours since it ended.
     pub(crate) fn bury(child: &Child) {
         while let Ok(Some(_)) = waitpgid(Pid::from_child(child), WaitOptions::empty()) {}
-    }
-
-    #[cfg(target_os = "linux")]
-    pub(crate) fn usage(child: &Child, is_program: bool) -> Usage {
-        crate::worker::confine_linux::usage(Pid::from_child(child), is_program)
-    }
-
-    #[cfg(not(target_os = "linux"))]
-    pub(crate) fn usage(_: &Child, _: bool) -> Usage {
-        Usage::default()
     }
 
     /// How a process ended, in words.
@@ -295,11 +259,10 @@ mod unix {
 }
 
 #[cfg(not(unix))]
-use elsewhere::{bury, death, has_ended, kill, usage};
+use elsewhere::{bury, death, has_ended, kill};
 
 #[cfg(not(unix))]
 mod elsewhere {
-    use super::Usage;
     use std::process::{Child, ExitStatus};
 
     /// Ends the process; what it has started goes on.
@@ -314,10 +277,6 @@ mod elsewhere {
     }
 
     pub(crate) fn bury(_: &Child) {}
-
-    pub(crate) fn usage(_: &Child, _: bool) -> Usage {
-        Usage::default()
-    }
 
     pub(crate) fn death(status: ExitStatus) -> String {
         match status.code() {

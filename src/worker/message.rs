@@ -4,8 +4,8 @@
 //! `docs/protocol.md` is this for people who write a core in another language; `tests/contract.rs` holds the two
 //! together.
 
-use super::confine::Confinement;
 use super::frame::{self, FrameError};
+use super::spec::Confinement;
 use crate::contract::{Breach, BuildStats, Capabilities, CoreError, CoreInfo, TraversalStats};
 use crate::image::encoding::Encoding;
 use crate::scene::{Camera, Light, Material};
@@ -119,6 +119,12 @@ pub enum Answer {
 }
 
 impl Answer {
+    /// What the protocol calls it.
+    pub(crate) fn word(&self) -> String {
+        let told = serde_json::to_value(self).unwrap_or_default();
+        told["answer"].as_str().unwrap_or_default().to_owned()
+    }
+
     /// The answer that carries an error across.
     pub(crate) fn of_error(error: CoreError) -> Self {
         match error {

@@ -4,7 +4,7 @@
 //! A core is asked through frames on a private channel (`frame`, `message`; `client` asks, `serve`
 //! answers). `process` starts the worker that the core lives in, holds it to its limits (`guard`),
 //! keeps what it prints (`output`) and says how it ended; `child` is the other end of that, which
-//! shuts itself in (`confine`) before any foreign code runs. `narrow` finds the element of a batch
+//! confines itself (`confine`) before any foreign code runs. `narrow` finds the element of a batch
 //! that a core dies of.
 //!
 //! Not here: which cores there are (`cores`), and what their answers are worth (`checks`).
@@ -22,18 +22,21 @@ pub mod message;
 pub(crate) mod narrow;
 mod output;
 mod process;
+#[cfg(target_os = "linux")]
+mod readable;
 mod scene;
 mod serve;
+mod spec;
+mod usage;
 
-pub(crate) use child::{Errand, Guest};
 pub use client::{Client, Silence};
-pub(crate) use confine::Confinement;
 #[cfg(target_os = "linux")]
 pub(crate) use confine_linux::end_with_us;
-pub use process::{Launch, Limits, StartError, Worker};
+pub use process::{Launch, StartError, Worker};
 pub use scene::build_request;
-pub use serve::refuse;
-pub use serve::serve;
+pub use serve::{refuse, serve};
+pub use spec::Limits;
+pub(crate) use spec::{Confinement, CoreOrigin, WorkerSpec};
 
 use std::io::{Read, Write};
 

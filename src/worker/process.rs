@@ -1,14 +1,12 @@
 //! One worker: a process with a core in it, from its start to its end.
 
 use super::Channel;
-use super::child::{Errand, Guest};
 use super::client::{Client, Silence};
-use super::confine::Confinement;
 use super::guard::{Guard, Watch};
 use super::message::{Answer, Request, Wanted};
 use super::output::Output;
+use super::spec::{Confinement, Limits, WorkerSpec};
 use crate::contract::{CoreError, CoreInfo};
-use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::PathBuf;
 use std::process::{Child, Command};
@@ -19,51 +17,13 @@ use tempfile::TempDir;
 /// How long to wait for the last words of a core that has crashed.
 const PATIENCE: Duration = Duration::from_millis(200);
 
-/// What one worker may use up.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Limits {
-    /// Seconds that the bench waits for it in one trial, all its answers together, or as long as it
-    /// takes.
-    pub seconds: Option<f64>,
-    /// Bytes of memory a process, or as many as it likes.
-    pub memory: Option<u64>,
-    /// Bytes of one file.
-    pub file: u64,
-    /// Processes at a time, of a program; a library has one.
-    pub processes: usize,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self { seconds: Some(120.0), memory: Some(4 << 30), file: 256 << 20, processes: 64 }
-    }
-}
-
-impl Limits {
-    /// [`Self::seconds`] as the standard library has it.
-    pub(crate) fn time(&self) -> Duration {
-        let seconds = self.seconds.unwrap_or(f64::INFINITY);
-        Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
-    }
-}
-
 /// How the workers of a core are started, always the same way.
 #[derive(Clone, Debug)]
 pub struct Launch {
     /// The `furnace` program.
     pub(crate) program: PathBuf,
-    /// The core, as the user named it.
-    pub(crate) spec: String,
-    /// What kind of core that is.
-    pub(crate) guest: Guest,
-    /// What each worker may use up.
-    pub(crate) limits: Limits,
-    /// What it may never read, wherever it lies: cases, references, results.
-    pub(crate) hidden: Vec<PathBuf>,
-    /// What the user lets it read besides itself and the system.
-    pub(crate) readable: Vec<PathBuf>,
-    /// Whether it is shut in at all.
-    pub(crate) confined: bool,
+    /// What each worker is started for, but for its scratch folder.
+    pub(crate) worker: WorkerSpec,
     /// For its environment, besides what every worker keeps.
     pub(crate) variables: Vec<(String, String)>,
 }
@@ -79,7 +39,7 @@ pub enum StartError {
         /// What the system says.
         error: io::Error,
     },
-    /// The core did not come up.
+    /// The core failed to start.
     #[error("{error}")]
     Core {
         /// How it ended, or what it refused.
@@ -127,7 +87,7 @@ impl Worker {
     /// Starts the process and waits until the core says who it is.
     ///
     /// # Errors
-    /// If there is no process, or the core does not come up.
+    /// If there is no process, or the core fails to start.
     pub(crate) fn start(launch: &Launch) -> Result<Self, StartError> {
         let failed = |error| StartError::Bench { program: launch.program.clone(), error };
         let scratch = TempDir::with_prefix("furnace-").map_err(failed)?;
@@ -136,8 +96,8 @@ impl Worker {
         command.stderr(writer.try_clone().map_err(failed)?);
         let Started { child, channel, hang_up } =
             start_with_channel(command, writer).map_err(failed)?;
-        let is_program = launch.guest.starts_processes();
-        let guard = Guard::new(child, launch.limits, is_program, hang_up);
+        let WorkerSpec { origin, limits, .. } = &launch.worker;
+        let guard = Guard::new(child, *limits, origin.may_start_processes(), hang_up);
         let mut worker = Self {
             client: Client::new(channel),
             _watch: guard.watch(),
@@ -148,7 +108,7 @@ impl Worker {
             dead: None,
             _scratch: scratch,
         };
-        match worker.meet(&launch.limits) {
+        match worker.meet(limits) {
             Ok(()) => Ok(worker),
             Err(error) => Err(StartError::Core { error, printed: worker.printed() }),
         }
@@ -167,9 +127,8 @@ impl Worker {
         match self.ask(&Request::new("hello"), &mut [])? {
             Answer::Core { core } => self.info = core,
             other => {
-                return Err(CoreError::breach(format!(
-                    "when it was greeted, it answered {other:?}"
-                )));
+                let what = format!("when it was greeted, it answered `{}`", other.word());
+                return Err(CoreError::breach(what));
             }
         }
         Ok(())
@@ -238,17 +197,9 @@ impl Drop for Worker {
 impl Launch {
     fn command(&self, scratch: &TempDir) -> io::Result<Command> {
         let scratch = scratch.path().canonicalize()?;
-        let errand = Errand {
-            spec: self.spec.clone(),
-            guest: self.guest.clone(),
-            limits: self.limits,
-            scratch: scratch.clone(),
-            hidden: self.hidden.clone(),
-            readable: self.readable.clone(),
-            confined: self.confined,
-        };
+        let worker = WorkerSpec { scratch: scratch.clone(), ..self.worker.clone() };
         let mut command = Command::new(&self.program);
-        command.arg("worker").arg(serde_json::to_string(&errand)?).env_clear();
+        command.arg("worker").arg(serde_json::to_string(&worker)?).env_clear();
         command
             .envs(KEPT_VARIABLES.iter().filter_map(|name| Some((name, std::env::var_os(name)?))));
         command.envs(self.variables.iter().map(|(name, value)| (name, value)));

@@ -1,0 +1,169 @@
+//! What a sandboxed core may read: itself, and the system's libraries, but nothing that is hidden from it.
+
+use super::spec::{CoreOrigin, WorkerSpec};
+use std::path::{Path, PathBuf};
+
+/// Folders of the system that any program may need. Of `/etc` and `/proc` only what says something
+/// about the machine.
+const SYSTEM: &[&str] = &[
+    "/usr",
+    "/bin",
+    "/sbin",
+    "/lib",
+    "/lib32",
+    "/lib64",
+    "/opt",
+    "/nix/store",
+    "/gnu/store",
+    "/etc/alternatives",
+    "/etc/ld.so.cache",
+    "/etc/ld.so.conf",
+    "/etc/ld.so.conf.d",
+    "/etc/ld.so.preload",
+    "/etc/localtime",
+    "/etc/nsswitch.conf",
+    "/etc/passwd",
+    "/etc/group",
+    "/proc/self",
+    "/proc/cpuinfo",
+    "/proc/meminfo",
+    "/proc/stat",
+    "/proc/filesystems",
+    "/proc/sys/vm",
+    "/sys/devices/system",
+    "/sys/fs/cgroup",
+    "/dev/null",
+    "/dev/zero",
+    "/dev/random",
+    "/dev/urandom",
+];
+
+/// Variables with folders in which the user keeps libraries.
+const LIBRARY_VARIABLES: &[&str] = &["LD_LIBRARY_PATH", "PYTHONPATH", "VIRTUAL_ENV"];
+
+/// What the core may read: files, and folders with all that is in them.
+pub(crate) fn readable(worker: &WorkerSpec) -> Vec<PathBuf> {
+    let hidden = &worker.hidden;
+    let mut paths: Vec<_> =
+        SYSTEM.iter().flat_map(|path| without_hidden(Path::new(path), hidden)).collect();
+    let folders = LIBRARY_VARIABLES.iter().filter_map(std::env::var_os);
+    let folders: Vec<_> = folders.flat_map(|value| split_paths(&value)).collect();
+    paths.extend(folders.iter().flat_map(|path| without_hidden(path, hidden)));
+    paths.extend(worker.readable.iter().flat_map(|path| without_hidden(path, hidden)));
+    match &worker.origin {
+        CoreOrigin::BuiltIn => {}
+        CoreOrigin::Library(library) => paths.extend(with_folder(library, hidden)),
+        CoreOrigin::Program(words) => paths.extend(of_program(words, hidden)),
+        CoreOrigin::Renderer { adapter, words } => {
+            paths.extend(with_folder(adapter, hidden));
+            paths.extend(of_program(words, hidden));
+        }
+    }
+    paths.retain(|path| path.exists());
+    paths.dedup();
+    paths
+}
+
+fn split_paths(value: &std::ffi::OsStr) -> Vec<PathBuf> {
+    std::env::split_paths(value).filter(|path| path.is_absolute()).collect()
+}
+
+/// What a command needs: the program and where it is installed, and every file among its words with
+/// the folder it lies in.
+fn of_program(words: &[String], hidden: &[PathBuf]) -> Vec<PathBuf> {
+    let mut paths = Vec::new();
+    if let Some(program) = words.first().map(PathBuf::from) {
+        let real = program.canonicalize().unwrap_or_else(|_| program.clone());
+        for program in [program, real] {
+            paths.extend(with_folder(&program, hidden));
+            // `prefix/bin/python3` comes with `prefix/lib`.
+            let prefix = program.parent().and_then(Path::parent);
+            paths.extend(prefix.filter(|p| is_harmless(p, hidden)).map(Path::to_owned));
+        }
+    }
+    let named = words.iter().skip(1).map(PathBuf::from).filter(|path| path.is_absolute());
+    paths.extend(named.flat_map(|path| with_folder(&path, hidden)));
+    paths
+}
+
+/// A file and what lies beside it; the file alone, if its folder holds what is hidden.
+fn with_folder(file: &Path, hidden: &[PathBuf]) -> Vec<PathBuf> {
+    let folder = if file.is_dir() { Some(file) } else { file.parent() };
+    let folder = folder.filter(|folder| is_harmless(folder, hidden));
+    let file = (!is_within(file, hidden) && file.is_file()).then_some(file);
+    file.into_iter().chain(folder).map(Path::to_owned).collect()
+}
+
+/// Whether nothing that is hidden lies in a folder, nor the folder in it.
+fn is_harmless(folder: &Path, hidden: &[PathBuf]) -> bool {
+    folder != Path::new("/")
+        && !is_within(folder, hidden)
+        && !hidden.iter().any(|secret| secret.starts_with(folder))
+}
+
+fn is_within(path: &Path, hidden: &[PathBuf]) -> bool {
+    hidden.iter().any(|secret| path.starts_with(secret))
+}
+
+/// A path; where something hidden lies below it, all that is in it but that.
+fn without_hidden(path: &Path, hidden: &[PathBuf]) -> Vec<PathBuf> {
+    let real = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    if is_within(&real, hidden) {
+        return Vec::new();
+    }
+    if !hidden.iter().any(|secret| secret.starts_with(&real)) {
+        return vec![real];
+    }
+    let inside = std::fs::read_dir(&real).into_iter().flatten().flatten();
+    inside.flat_map(|entry| without_hidden(&entry.path(), hidden)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    /// `project/cases/a.toml`, `project/core.so`, `project/build/core.so`
+    fn project() -> (tempfile::TempDir, PathBuf, Vec<PathBuf>) {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path().canonicalize().unwrap().join("project");
+        for file in ["cases/a.toml", "core.so", "build/core.so"] {
+            let file = root.join(file);
+            fs::create_dir_all(file.parent().unwrap()).unwrap();
+            fs::write(file, "").unwrap();
+        }
+        let hidden = vec![root.join("cases")];
+        (folder, root, hidden)
+    }
+
+    #[test]
+    fn a_core_is_read_with_what_lies_beside_it() {
+        let (_folder, root, hidden) = project();
+        let core = root.join("build/core.so");
+        assert_eq!(with_folder(&core, &hidden), [core, root.join("build")]);
+    }
+
+    #[test]
+    fn a_core_beside_the_cases_is_read_alone() {
+        let (_folder, root, hidden) = project();
+        assert_eq!(with_folder(&root.join("core.so"), &hidden), [root.join("core.so")]);
+        assert!(with_folder(&root.join("cases/a.toml"), &hidden).is_empty());
+    }
+
+    #[test]
+    fn a_folder_of_the_system_is_read_but_for_what_is_hidden_in_it() {
+        let (folder, root, hidden) = project();
+        let mut open = without_hidden(folder.path(), &hidden);
+        open.sort();
+        assert_eq!(open, [root.join("build"), root.join("core.so")]);
+    }
+
+    #[test]
+    fn a_program_is_read_with_where_it_is_installed() {
+        let (_folder, root, hidden) = project();
+        let words = [root.join("build/core.so").to_string_lossy().into_owned()];
+        let paths = of_program(&words, &hidden);
+        assert!(paths.contains(&root.join("build")));
+        assert!(!paths.contains(&root), "the prefix holds the cases");
+    }
+}

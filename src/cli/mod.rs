@@ -116,8 +116,9 @@ pub fn main() -> ExitCode {
         Err(error) => return usage(&error),
     };
     let answer = match arguments.verb {
-        None => run::run_unless_a_verb_is_meant(&arguments.run, &verbs()),
-        Some(Verb::Run(arguments)) => run::run(&arguments),
+        None => run::refuse_a_misplaced_verb(&arguments.run, &verbs())
+            .and_then(|()| run_or_watch(&arguments.run)),
+        Some(Verb::Run(arguments)) => run_or_watch(&arguments),
         Some(Verb::List(arguments)) => list::list(&arguments),
         Some(Verb::Explain(arguments)) => explain::explain(&arguments),
         Some(Verb::Faults(arguments)) => faults::faults(&arguments),
@@ -134,6 +135,10 @@ pub fn main() -> ExitCode {
         complain(failure.message);
         failure.code
     })
+}
+
+fn run_or_watch(arguments: &run::RunArguments) -> Answer {
+    if arguments.watch { watch::watch(arguments) } else { run::run(arguments) }
 }
 
 /// Every word that a command may begin with.

@@ -3,11 +3,11 @@
 use super::hosting::HostingArguments;
 use super::progress::Progress;
 use super::say::{say, say_line};
-use super::watch;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, CatalogError};
 use crate::cores::{CORES, CoreSpec};
 use crate::math::rng::Seed;
+use crate::project::Project;
 use crate::report;
 use crate::run::{self, Plan, Request, RunError, RunRecord, record};
 use crate::stats::Budget;
@@ -37,7 +37,7 @@ pub(crate) struct RunArguments {
     fail_fast: bool,
     /// Try again whenever a case, a scene or the core's file changes, what failed last first; ctrl-c ends.
     #[arg(long, conflicts_with_all = ["resume", "verbose", "strict"])]
-    watch: bool,
+    pub(crate) watch: bool,
     /// Resume an interrupted run; its request is read from its folder.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "cores", "budget", "seed", "fail_fast"])]
     resume: Option<PathBuf>,
@@ -56,16 +56,18 @@ pub(crate) struct RunArguments {
     #[command(flatten)]
     hosting: HostingArguments,
     #[command(flatten)]
-    project: ProjectArguments,
+    pub(crate) project: ProjectArguments,
 }
 
-/// The run that is asked for without a verb. A word that is nearly a verb is one, mistyped or late: it must not cost
-/// minutes of trials.
-pub(crate) fn run_unless_a_verb_is_meant(arguments: &RunArguments, verbs: &[String]) -> Answer {
+/// Refuses a run without a verb where a word is nearly one, mistyped or late: it must not cost minutes of trials.
+pub(crate) fn refuse_a_misplaced_verb(
+    arguments: &RunArguments,
+    verbs: &[String],
+) -> Result<(), Failure> {
     let verbs = || verbs.iter().map(String::as_str);
     let meant =
         arguments.filters.iter().find_map(|word| Some((word, did_you_mean(word, verbs())?)));
-    let Some((word, hint)) = meant else { return run(arguments) };
+    let Some((word, hint)) = meant else { return Ok(()) };
     let problem = match verbs().any(|verb| verb == word) {
         true => format!("`{word}` is a verb, and a verb comes first: `furnace {word} ...`"),
         false => format!("there is no verb `{word}`\nhint: {hint}"),
@@ -77,15 +79,11 @@ pub(crate) fn run_unless_a_verb_is_meant(arguments: &RunArguments, verbs: &[Stri
 /// Tries the cases, prints the summary, writes the report.
 pub(crate) fn run(arguments: &RunArguments) -> Answer {
     let project = arguments.project.find()?;
-    if arguments.watch {
-        let runs = arguments.report.clone().unwrap_or_else(|| project.runs());
-        return watch::watch(arguments, &project, &runs);
-    }
     let cases = case::load_all(&project.cases()).map_err(|error| match error {
         CatalogError::Io { .. } => Failure::broken(error),
         CatalogError::Malformed(_) => Failure::request(error),
     })?;
-    let runs = arguments.report.clone().unwrap_or_else(|| project.runs());
+    let runs = arguments.runs(&project);
     let request = match &arguments.resume {
         Some(folder) => request_of(folder, arguments.jobs)?,
         None => arguments.request(),
@@ -106,6 +104,11 @@ pub(crate) fn run(arguments: &RunArguments) -> Answer {
 }
 
 impl RunArguments {
+    /// Where runs go.
+    pub(crate) fn runs(&self, project: &Project) -> PathBuf {
+        self.report.clone().unwrap_or_else(|| project.runs())
+    }
+
     /// What is to be run.
     pub(crate) fn request(&self) -> Request {
         let all = || CORES.iter().filter_map(|kind| kind.name.parse().ok()).collect();

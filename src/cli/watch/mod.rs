@@ -23,8 +23,9 @@ use std::time::{Duration, SystemTime};
 const PAUSE: Duration = Duration::from_millis(400);
 
 /// Tries, waits for a change, and so on.
-pub(crate) fn watch(arguments: &RunArguments, project: &Project, runs: &Path) -> Answer {
-    let request = arguments.request();
+pub(crate) fn watch(arguments: &RunArguments) -> Answer {
+    let project = &arguments.project.find()?;
+    let (request, runs) = (arguments.request(), &arguments.runs(project));
     let watched = watched(project, &request);
     say_line!("  watching {}; runs go to {}; ctrl-c ends", listed(&watched), runs.display());
     let mut memory = Memory::default();

@@ -171,6 +171,8 @@ fn the_same_run_twice_in_one_go_or_killed_half_way_gives_the_same_sidecars() {
     let status = furnace(&resume.iter().map(String::as_str).collect::<Vec<_>>()).status().unwrap();
     assert!(status.success(), "the resumed run ended with {status}");
     let resumed = results(&folder);
+    let run = std::fs::read_to_string(folder.join("run.json")).unwrap();
+    assert!(run.contains("\"diagnosis\""), "a run that has ended says what is wrong: {run}");
     assert_eq!(resumed.keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>());
     for (name, bytes) in &expected {
         assert!(resumed[name] == *bytes, "{name} differs after the run was resumed");

@@ -153,7 +153,7 @@ pub(crate) static LAWS: &[Law] = &[
     ),
     Law::new(
         &integrator::WEIGHT_REPLACED,
-        "from bounce 3 on there is albedo² of what glows",
+        "from bounce 3 on the emission is weighted by albedo² alone",
         |c, rows| c.sum(rows, |bounce| c.albedo.powi(-indirect(bounce.saturating_sub(1)))),
     ),
     Law::new(

@@ -287,7 +287,7 @@ mod tests {
         let made = Made::new().with(FURNACES[0], furnace(rr));
         let diagnosis = diagnose(&made.evidence());
         let headline = &diagnosis.headlines[0];
-        assert_eq!(headline.cause.name, integrator::ROULETTE_NOT_DIVIDED.name);
+        assert_eq!(headline.cause, integrator::ROULETTE_NOT_DIVIDED.name);
         assert!(
             headline.evidence[1].ends_with("with f = 0.7000 ± 0.0009"),
             "{:?}",
@@ -301,7 +301,7 @@ mod tests {
         let half = |c: &Channel, rows: [u32; 2]| c.sum(rows, |k| 0.5_f64.powi(indirect(k)));
         let diagnosis = diagnose(&Made::new().with(FURNACES[0], furnace(half)).evidence());
         let headline = &diagnosis.headlines[0];
-        assert_eq!(headline.cause.name, integrator::INDIRECT_FACTOR.name);
+        assert_eq!(headline.cause, integrator::INDIRECT_FACTOR.name);
         assert!(headline.evidence.iter().any(|s| s.ends_with("is 1/2")), "{headline:?}");
     }
 

@@ -16,8 +16,8 @@ const SQUARED_DISTANCES: [(&str, f64); 3] =
     [("below and beside", 3.06), ("nearly below", 2.27), ("far away", 12.91)];
 /// Lights seen from both sides.
 const SEEN_LIGHT: Role = Role::VisibleLight;
-/// A lamp in glass of index 1.5.
-const LAMP_IN_GLASS: Role = Role::LightInsideGlass;
+/// A light source in glass of index 1.5.
+const LIGHT_IN_GLASS: Role = Role::LightInsideGlass;
 const INDEX_SQUARED: f64 = 2.25;
 
 /// Every choice that another choice would explain.
@@ -57,7 +57,7 @@ fn falloff(evidence: &Evidence<'_>) -> Option<Suspicion> {
     Some(suspicion(cause, evidence.case(POINT_LIGHT), sentence))
 }
 
-/// From behind the lamp has the radiance that it has in front.
+/// From behind the light has the radiance that it has in front.
 fn emission(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let finding = evidence.failed_finding(SEEN_LIGHT)?;
     if evidence.conventions.emission != EmissionSides::Front {
@@ -71,14 +71,14 @@ fn emission(evidence: &Evidence<'_>) -> Option<Suspicion> {
         _ => false,
     });
     same.then(|| {
-        let sentence = "from behind, the lamp is as bright as from the front".to_owned();
+        let sentence = "from behind, the light is as bright as from the front".to_owned();
         suspicion(&convention::TWO_SIDED_EMISSION, evidence.case(SEEN_LIGHT), sentence)
     })
 }
 
-/// Without scaling a lamp in glass is the index squared brighter.
+/// Without scaling a light in glass is the index squared brighter.
 fn glass(evidence: &Evidence<'_>) -> Option<Suspicion> {
-    let finding = evidence.failed_finding(LAMP_IN_GLASS)?;
+    let finding = evidence.failed_finding(LIGHT_IN_GLASS)?;
     if evidence.conventions.glass_radiance != GlassRadiance::Scaled {
         return None;
     }
@@ -86,10 +86,10 @@ fn glass(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let all = !readings.is_empty() && readings.iter().all(|r| r.admits(INDEX_SQUARED));
     all.then(|| {
         let sentence = format!(
-            "the lamp in glass is {} of what it should be: 1.5² = 2.25",
+            "the light in glass is {} of what it should be: 1.5² = 2.25",
             figure(readings[0].ratio)
         );
-        suspicion(&convention::UNSCALED_RADIANCE, evidence.case(LAMP_IN_GLASS), sentence)
+        suspicion(&convention::UNSCALED_RADIANCE, evidence.case(LIGHT_IN_GLASS), sentence)
     })
 }
 
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn lamps_that_glow_behind_are_two_sided() {
+    fn lights_that_emit_behind_are_two_sided() {
         let rows = [("the light, from below", 5.0), ("the light, from behind", 0.0)];
         let measures = rows.iter().flat_map(|(row, expected)| {
             CHANNELS.map(|c| Measure::exact("", 5.0, *expected, 1e-4).of_row(row).of_channel(c))
@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn glass_that_does_not_scale_is_told_by_the_index_squared() {
         let measures = CHANNELS.map(|c| mean("bounces 0 to 40", c, 0.4267, 2.25, 0.004));
-        let made = Made::new().with(LAMP_IN_GLASS, means(measures.into()));
+        let made = Made::new().with(LIGHT_IN_GLASS, means(measures.into()));
         assert_eq!(first(&made), Some(convention::UNSCALED_RADIANCE.name));
     }
 

@@ -41,7 +41,7 @@ fn wrong_directions(evidence: &Evidence<'_>) -> Option<Suspicion> {
     })
 }
 
-/// Where a room faces sideways, a cosine with +z weighs the ball in its middle otherwise; averaged over all
+/// Where a room faces sideways, a cosine with +z weighs the sphere in its middle otherwise; averaged over all
 /// directions, as in the furnace and the cavity, it is the same.
 fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let finding = evidence.failed_finding(SIDE)?;
@@ -53,7 +53,7 @@ fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
     (averages && admits_one(1) && !admits_one(2)).then(|| Suspicion {
         cause: &integrator::BOUNCE_WORLD_COSINE,
         cases: std::iter::once(evidence.case(SIDE).to_owned())
-            .chain(delta_cases(evidence))
+            .chain(specular_cases(evidence))
             .collect(),
         evidence: vec![
             "at a wall that faces sideways bounce 1 is right and bounce 2 is not".to_owned(),
@@ -68,15 +68,10 @@ fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
     })
 }
 
-/// Failing cases of mirrors and smooth glass, whose only direction has a cosine too.
-fn delta_cases(evidence: &Evidence<'_>) -> Vec<String> {
-    let about = ["mirror", "glass"];
-    let is_rough = |case: &str| case.contains("rough-glass");
+/// Failing cases with mirrors and smooth glass, whose only direction has a cosine too.
+fn specular_cases(evidence: &Evidence<'_>) -> impl Iterator<Item = String> {
     let failures = evidence.failures().filter(|seen| seen.is_about(Subject::Integrator));
-    failures
-        .filter(|seen| about.iter().any(|word| seen.case.contains(word)) && !is_rough(seen.case))
-        .map(|seen| seen.case.to_owned())
-        .collect()
+    failures.filter(|seen| seen.is_specular).map(|seen| seen.case.to_owned())
 }
 
 #[cfg(test)]
@@ -84,7 +79,7 @@ mod tests {
     use super::*;
     use crate::checks::Finding;
     use crate::diagnosis::diagnose;
-    use crate::diagnosis::testing::{Made, mean, means, passing};
+    use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::image::Channel;
 
     #[test]
@@ -99,7 +94,14 @@ mod tests {
         };
         let name = |made: Made| diagnose(&made.evidence()).first().map(|cause| cause.name);
         assert_eq!(name(made(passing())), Some(integrator::BOUNCE_WORLD_COSINE.name));
-        assert_eq!(name(made(crate::diagnosis::testing::failing("too"))), None);
+        let made_specular = made(passing())
+            .with("integrator/rough", failing("too bright"))
+            .with("integrator/pane", failing("too bright"))
+            .in_a_specular_scene("integrator/pane");
+        let diagnosis = diagnose(&made_specular.evidence());
+        let explains = &diagnosis.headlines[0].explains;
+        assert!(explains.contains(&"integrator/pane".to_owned()) && explains.len() == 2);
+        assert_eq!(name(made(failing("too"))), None);
     }
 
     #[test]

@@ -27,6 +27,8 @@ pub(crate) struct Observation<'a> {
     pub(crate) tier: Tier,
     /// What it shows to the rules, if they ask for it.
     pub(crate) role: Option<Role>,
+    /// Whether its scene has a mirror or smooth glass.
+    pub(crate) is_specular: bool,
     /// How it stands.
     pub(crate) standing: Standing,
     /// What the check found, if it came to that.

@@ -12,7 +12,7 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 /// The two scenes, by light sampling with 7 and 5 samples.
 const BY_LIGHTS: [Role; 2] = [Role::TiltedLight, Role::SlantedLight];
-/// The same by the hemisphere.
+/// The same by hemisphere sampling.
 const BY_HEMISPHERE: [Role; 2] = [Role::TiltedLightByHemisphere, Role::SlantedLightByHemisphere];
 /// The row of all four.
 const ROW: &str = "bounce 1";
@@ -29,7 +29,7 @@ const fn signature(cause: &'static Cause, first: f64, second: f64) -> Signature 
     Signature { cause, ratios: [first, second] }
 }
 
-/// Mistakes of whatever gathers light.
+/// Mistakes of light sampling and of hemisphere sampling.
 static OF_BOTH: &[Signature] = &[
     signature(&bsdf::WITHOUT_PI, PI, PI),
     signature(&light::EMISSION_OVER_PI, FRAC_1_PI, FRAC_1_PI),

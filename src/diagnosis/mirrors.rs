@@ -1,4 +1,4 @@
-//! Mirror and glass where everything else is right: the path alone can meet what glows there.
+//! Mirror and glass where everything else is right: only the path itself can meet a light there.
 
 use super::readings::Reading;
 use super::{Evidence, Suspicion};
@@ -29,7 +29,7 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     vec![Suspicion {
         cause: &integrator::NO_EMISSION_AFTER_SPECULAR,
         cases,
-        evidence: vec!["what glows is 0 of what it should be behind mirrors".to_owned()],
+        evidence: vec!["emission seen in mirrors is 0 of what it should be".to_owned()],
         ruled_out: vec!["a bounce short (the furnace is right)".to_owned()],
         weight: 1.0,
     }]

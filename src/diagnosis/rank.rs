@@ -4,17 +4,23 @@
 use super::{Evidence, Observation, Suspicion};
 use crate::case::{Part, Tier};
 use crate::cause::{self, Cause};
+use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// Sentences of evidence that a headline keeps.
 const EVIDENCE: usize = 4;
 
-/// One cause and all that it explains.
-#[derive(Clone, Debug, PartialEq)]
+/// One cause and all that it explains, as `run.json` keeps it: in the words of the furnace that found it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Headline {
-    /// The mistake.
-    pub(crate) cause: &'static Cause,
+    /// The name of the mistake in the glossary.
+    pub(crate) cause: String,
+    /// The mistake as one sentence without full stop.
+    pub(crate) mistake: String,
+    pub(crate) look_at: String,
+    pub(crate) fix: String,
     /// What the failures count for.
     pub(crate) tier: Tier,
     /// What speaks for it.
@@ -32,7 +38,8 @@ pub(crate) struct Headline {
 }
 
 /// What is wrong with a core.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Diagnosis {
     /// The causes, the one to look at first in front.
     pub(crate) headlines: Vec<Headline>,
@@ -43,7 +50,7 @@ pub(crate) struct Diagnosis {
 impl Diagnosis {
     /// The cause to look at first.
     pub(crate) fn first(&self) -> Option<&'static Cause> {
-        self.headlines.first().map(|headline| headline.cause)
+        cause::find(&self.headlines.first()?.cause)
     }
 }
 
@@ -59,7 +66,7 @@ struct Candidate {
 /// Takes the best candidate, then the best for what is left, until nothing is left; what counts comes before what
 /// does not.
 pub(crate) fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagnosis {
-    let mut candidates = gather(suspicions);
+    let mut candidates = collect(suspicions);
     let case = |seen: &Observation<'_>| seen.case.to_owned();
     let suspected = |case: &String| candidates.iter().any(|c| c.cases.contains_key(case));
     let (mut left, orphans): (Vec<_>, Vec<_>) = evidence.failures().map(case).partition(suspected);
@@ -79,7 +86,7 @@ pub(crate) fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagn
     Diagnosis { headlines, unexplained }
 }
 
-fn gather(suspicions: Vec<Suspicion>) -> Vec<Candidate> {
+fn collect(suspicions: Vec<Suspicion>) -> Vec<Candidate> {
     let mut candidates: Vec<Candidate> = Vec::new();
     for suspicion in suspicions {
         let known = candidates.iter().position(|c| c.cause.name == suspicion.cause.name);
@@ -99,7 +106,7 @@ fn gather(suspicions: Vec<Suspicion>) -> Vec<Candidate> {
     candidates
 }
 
-/// A mistake of the hierarchy that has a name explains the cases of the vague cause of the same part too.
+/// A mistake of the BVH that has a name explains the cases of the vague cause of the same part too.
 fn absorb_the_vague(told: &mut Candidate, candidates: &mut Vec<Candidate>) {
     if cause::is_of_hierarchy(told.cause) {
         for vague in candidates.extract_if(.., |candidate| cause::is_vague(candidate.cause)) {
@@ -166,8 +173,19 @@ fn headline(
     sentences.truncate(EVIDENCE);
     ruled_out.dedup();
     ruled_out.truncate(EVIDENCE);
-    let may_follow = Vec::new();
-    Headline { cause, tier, evidence: sentences, ruled_out, explains, may_follow, blocked, command }
+    Headline {
+        cause: cause.name.to_owned(),
+        mistake: cause.headline.to_owned(),
+        look_at: cause.look_at.to_owned(),
+        fix: cause.fix.to_owned(),
+        tier,
+        evidence: sentences,
+        ruled_out,
+        explains,
+        may_follow: Vec::new(),
+        blocked,
+        command,
+    }
 }
 
 /// What no cause explains may follow from the one that explains the most, of those that show no later than it; of equals
@@ -219,11 +237,11 @@ mod tests {
             .blocked("image/e", "bsdf/a");
         let diagnosis = diagnose(&made.evidence());
         let [first, second] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
-        assert_eq!(first.cause.name, bsdf::WITHOUT_PI.name);
+        assert_eq!(first.cause, bsdf::WITHOUT_PI.name);
         assert_eq!(first.explains, ["bsdf/a", "light/b"]);
         assert_eq!(first.may_follow, ["light/c"], "an earlier failure does not follow from it");
         assert_eq!(first.blocked, 1);
-        assert_eq!(second.cause.name, integrator::ROULETTE_NOT_DIVIDED.name);
+        assert_eq!(second.cause, integrator::ROULETTE_NOT_DIVIDED.name);
         assert_eq!(diagnosis.unexplained, ["camera/d"]);
     }
 
@@ -253,8 +271,8 @@ mod tests {
             .beside_the_grade("light/c");
         let diagnosis = diagnose(&made.evidence());
         let [first, second] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
-        assert_eq!((first.cause.name, first.tier), (bsdf::WITHOUT_PI.name, Tier::Graded));
-        assert_eq!(second.cause.name, shape::SPHERE_CANCELLATION.name);
+        assert_eq!((&first.cause[..], first.tier), (bsdf::WITHOUT_PI.name, Tier::Graded));
+        assert_eq!(second.cause, shape::SPHERE_CANCELLATION.name);
         assert_eq!((second.tier, &second.command[..]), (Tier::Robustness, "shape/a"));
     }
 
@@ -265,12 +283,12 @@ mod tests {
             .with("bvh/b", failing("b").because(&bvh::RANGE_OVERWRITTEN, "y"));
         let diagnosis = diagnose(&made.evidence());
         let [only] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
-        assert_eq!(only.cause.name, bvh::RANGE_OVERWRITTEN.name);
+        assert_eq!(only.cause, bvh::RANGE_OVERWRITTEN.name);
         assert_eq!((only.explains.len(), diagnosis.unexplained.len()), (2, 0));
     }
 
     #[test]
-    fn leaks_that_nothing_else_explains_are_the_hierarchys() {
+    fn leaks_that_nothing_else_explains_are_of_the_bvh() {
         let made = Made::new()
             .with("shape/a", failing("a").because(&bvh::HITS_LOST, "the loop meets them"))
             .with("bvh/b", failing("b"));

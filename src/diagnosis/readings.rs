@@ -20,7 +20,7 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
-    /// The reading of a measure; none where nothing was expected, or the numbers are no numbers.
+    /// The reading of a measure; none where nothing was expected, or a number is NaN.
     pub(crate) fn of(measure: &Measure) -> Option<Self> {
         let ratio = measure.measured / measure.expected;
         let around = |value: f64| [value - SLACK * value.abs(), value + SLACK * value.abs()];

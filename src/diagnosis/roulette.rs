@@ -27,7 +27,7 @@ impl Play {
         Some(Self { stop: stop.parse().ok()?, guaranteed })
     }
 
-    /// How often roulette was played before the light of `bounce` is gathered.
+    /// How often roulette was played before the light of `bounce` is added.
     fn played(&self, bounce: i32) -> i32 {
         (bounce - 1 - self.guaranteed).max(0)
     }

@@ -15,28 +15,28 @@ const OPEN: Role = Role::OpenLight;
 /// Light behind something.
 const BLOCKER: Role = Role::OccludedInPart;
 const WALL: Role = Role::OccludedInFull;
-/// Lights found by the hemisphere, looked at from far and from near.
+/// Lights found by hemisphere sampling, looked at from far and from near.
 const FOUND: [Role; 2] = [Role::TiltedLightByHemisphere, Role::SlantedLightByHemisphere];
 
 /// The variance of one light sample under [`OPEN`].
 const NOISE: Role = Role::LightSamplingVariance;
-/// Light that no shadow ray of a lamp takes part in.
-const WITHOUT_LAMPS: [Role; 2] = [Role::OpenLightByHemisphere, Role::PointLight];
-/// Relative error forgiven of a variance beyond its interval: σ² is 0.9 % of L² for uniform points on the lamp, and less
+/// Light that no shadow ray to an area light takes part in.
+const WITHOUT_AREA_LIGHTS: [Role; 2] = [Role::OpenLightByHemisphere, Role::PointLight];
+/// Relative error forgiven of a variance beyond its interval: σ² is 0.9 % of L² for uniform points on the light, and less
 /// for better maps.
 const VARIANCE_SLACK: f64 = 0.02;
 
-/// Shadows that are missing, rays that are too short, and shadows of the lamps themselves.
+/// Shadows that are missing, rays that are too short, and lights that shadow themselves.
 pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let rules = [no_shadows, range_kept, shadowed_at_times];
     rules.into_iter().filter_map(|rule| rule(evidence)).collect()
 }
 
 /// Light samples arrive whole or not at all, whichever they are: rounding decides whether their shadow rays meet the
-/// lamp. Where a share p of them arrives, the mean is p L and the variance of one sample p σ² + p (1 − p) L².
+/// light. Where a share p of them arrives, the mean is p L and the variance of one sample p σ² + p (1 − p) L².
 fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let (open, noise) = (evidence.failed_finding(OPEN)?, evidence.failed_finding(NOISE)?);
-    if !WITHOUT_LAMPS.iter().all(|role| evidence.has_passed(*role)) {
+    if !WITHOUT_AREA_LIGHTS.iter().all(|role| evidence.has_passed(*role)) {
         return None;
     }
     let channels = CHANNELS.map(|channel| {
@@ -57,14 +57,14 @@ fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
         cause: &light::EMITTER_SHADOWS_ITSELF,
         cases: dark.chain([evidence.case(NOISE)]).map(str::to_owned).collect(),
         evidence: vec![format!(
-            "{} of the light of a lamp arrives, and the variance of a sample is {}, as where so many of them arrive \
+            "{} of the emitted light arrives, and the variance of a sample is {}, as where so many of them arrive \
              whole and the others not at all",
             figure(mean.measured / mean.expected),
             figure(variance.measured)
         )],
         ruled_out: vec![
-            "a wrong density or cosine (samples would be too dark, not missing)".to_owned(),
-            "the lamp's own light (the hemisphere finds all of it)".to_owned(),
+            "a wrong pdf or cosine (samples would be too dark, not missing)".to_owned(),
+            "a wrong emission (hemisphere sampling finds all of it)".to_owned(),
         ],
         weight: 1.0,
     })
@@ -103,7 +103,7 @@ fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
     })
 }
 
-/// Right from afar and dark from nearby: rays go no further than the eye was away.
+/// Right from afar and dark from nearby: rays go no further than the camera was away.
 fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let is_dark = |role: &&Role| {
         evidence.failed_finding(**role).is_some_and(|finding| {
@@ -123,7 +123,7 @@ fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
         cause: &light::T_MAX_NOT_RESET,
         cases,
         evidence: vec![
-            "a light 1.6 units away is found by rays of an eye 2.3 away, and not of one 0.6 away"
+            "a light 1.6 units away is found by rays of a camera 2.3 away, and not of one 0.6 away"
                 .to_owned(),
         ],
         ruled_out: vec!["a wrong strength of lights (from afar it is right)".to_owned()],
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn lamps_that_lose_whole_samples_shadow_themselves() {
+    fn lights_that_lose_whole_samples_shadow_themselves() {
         // What a submission of 2025 comes to: 0.388 of the light, and 27 times the variance.
         let [lit, noise] = [[0.218083, 0.187433, 0.167393], [4.187e-4, 3.093e-4, 2.467e-4]];
         let finding = |row: &str, expected: [f64; 3], ratio: f64| {
@@ -162,7 +162,7 @@ mod tests {
             let made = Made::new()
                 .with(OPEN, finding("bounce 1", lit, 0.3878))
                 .with(NOISE, finding("one point", noise, variance));
-            WITHOUT_LAMPS.into_iter().fold(made, |made, case| made.with(case, passing()))
+            WITHOUT_AREA_LIGHTS.into_iter().fold(made, |made, case| made.with(case, passing()))
         };
         assert_eq!(first(&made(27.25)), Some(light::EMITTER_SHADOWS_ITSELF.name));
         assert_eq!(first(&made(0.3878 * 0.3878)), None, "all samples too dark alike");

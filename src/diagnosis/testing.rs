@@ -40,14 +40,15 @@ pub(crate) struct Made {
     findings: Vec<(Name, Finding)>,
     blocked: Vec<(String, String)>,
     robustness: Vec<String>,
+    specular: Vec<String>,
     /// What the core declares.
     pub(crate) conventions: Conventions,
 }
 
 impl Made {
     pub(crate) fn new() -> Self {
-        let conventions = Conventions::default();
-        Self { findings: Vec::new(), blocked: Vec::new(), robustness: Vec::new(), conventions }
+        let (findings, blocked, conventions) = Default::default();
+        Self { findings, blocked, robustness: Vec::new(), specular: Vec::new(), conventions }
     }
 
     /// The same with the finding of another case.
@@ -59,6 +60,12 @@ impl Made {
     /// The same with a case that counts nothing.
     pub(crate) fn beside_the_grade(mut self, case: &str) -> Self {
         self.robustness.push(case.to_owned());
+        self
+    }
+
+    /// The same with a case whose scene has a mirror or smooth glass.
+    pub(crate) fn in_a_specular_scene(mut self, case: &str) -> Self {
+        self.specular.push(case.to_owned());
         self
     }
 
@@ -75,12 +82,13 @@ impl Made {
                 Verdict::Fail => Standing::Failed,
                 Verdict::Inconclusive => Standing::Unknown,
             };
-            let tier = if self.robustness.iter().any(|beside| beside == case) {
-                Tier::Robustness
-            } else {
-                Tier::Graded
+            let tier = match self.robustness.contains(case) {
+                true => Tier::Robustness,
+                false => Tier::Graded,
             };
-            Observation { tier, role: *role, ..observation(case, standing, Some(finding)) }
+            let (role, is_specular) = (*role, self.specular.contains(case));
+            let finding = Some(finding);
+            Observation { tier, role, is_specular, ..observation(case, standing, finding) }
         });
         let blocked = self
             .blocked
@@ -95,8 +103,8 @@ fn observation<'a>(
     standing: Standing,
     finding: Option<&'a Finding>,
 ) -> Observation<'a> {
-    let (tier, role) = (Tier::Graded, None);
-    Observation { case, tier, role, standing, finding, rerun: case, seconds: 1.0 }
+    let (tier, role, is_specular) = (Tier::Graded, None, false);
+    Observation { case, tier, role, is_specular, standing, finding, rerun: case, seconds: 1.0 }
 }
 
 /// A finding that fails.

@@ -3,7 +3,7 @@
 use super::tree::RunTree;
 use crate::case::Tier;
 use crate::checks::{Finding, Measure, PictureRole};
-use crate::contract::{Conventions, Precision};
+use crate::contract::{Capabilities, CoreInfo, Precision};
 use crate::image::{CHANNELS, Channel, Image, exr};
 use crate::math::rng::{Seed, uniform};
 use crate::run::record::{
@@ -181,21 +181,18 @@ impl Example {
 
     /// As it would read back; its folder does not exist.
     pub(crate) fn tree(self) -> RunTree {
-        RunTree { run: self.run, trials: self.trials, folder: "no-such-folder".into() }
+        let folder = "no-such-folder".into();
+        RunTree { run: self.run, trials: self.trials, folder }.diagnosed()
     }
 }
 
 fn core(spec: &str, precision: Precision) -> CoreRecord {
-    CoreRecord {
-        spec: spec.to_owned(),
-        name: spec.to_owned(),
-        version: "0.1.0".to_owned(),
-        precision,
-        capabilities: ["generate-rays", "render"].map(str::to_owned).to_vec(),
-        conventions: Conventions::default(),
-        confinement: None,
-        problem: None,
-    }
+    let (name, version) = (spec.to_owned(), "0.1.0".to_owned());
+    let capabilities = Capabilities::GENERATE_RAYS | Capabilities::RENDER;
+    CoreRecord::new(
+        spec,
+        &CoreInfo { name, version, precision, capabilities, ..Default::default() },
+    )
 }
 
 /// A trial that passes.
@@ -216,7 +213,7 @@ pub(crate) fn trial(core: &str, case: &str) -> TrialRecord {
         role: None,
         case_hash: format!("{:064x}", seed.child("case").0),
         scene: is_random
-            .then(|| SceneStamp { name: name.to_owned(), hash: format!("{:064x}", seed.0) }),
+            .then(|| SceneStamp { name: name.to_owned(), hash: format!("{:064x}", seed.0), is_specular: false }),
         budget: Budget::Default,
         seed: seed.0,
         outcome: Outcome::Judged { finding: if is_random { agreeing(seed) } else { exact(seed) } },

@@ -8,7 +8,7 @@
 
 use crate::case::Part;
 use crate::diagnosis::Diagnosis;
-use crate::run::record::{self, CoreRecord, PictureFile, read_json, sidecar_path};
+use crate::run::record::{self, PictureFile, read_json, sidecar_path};
 use crate::run::{self, RecordError, RunRecord, TrialRecord};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -102,7 +102,15 @@ impl RunTree {
             .map(|path| load_trial(&run, folder, path))
             .collect::<Result<Vec<_>, _>>()?;
         trials.sort_by_cached_key(|trial| place(&run, trial));
-        Ok(Self { run, trials, folder: folder.to_owned() })
+        Ok(Self { run, trials, folder: folder.to_owned() }.diagnosed())
+    }
+
+    /// Diagnoses what a run that was cut off, or one of an earlier furnace, does not say of itself.
+    pub(crate) fn diagnosed(mut self) -> Self {
+        for core in self.run.cores.iter_mut().filter(|core| core.diagnosis.is_none()) {
+            core.diagnosis = Some(run::diagnose(core, &self.trials));
+        }
+        self
     }
 
     /// The trials of the core that was asked as `spec`.
@@ -116,9 +124,9 @@ impl RunTree {
     }
 
     /// What is wrong with each core, in the order they were asked.
-    pub(crate) fn diagnoses(&self) -> Vec<(&str, Diagnosis)> {
-        let of = |core: &'_ CoreRecord| run::diagnose(core, &self.trials);
-        self.run.cores.iter().map(|core| (core.spec.as_str(), of(core))).collect()
+    pub(crate) fn diagnoses(&self) -> Vec<(&str, &Diagnosis)> {
+        let cores = self.run.cores.iter();
+        cores.filter_map(|core| Some((core.spec.as_str(), core.diagnosis.as_ref()?))).collect()
     }
 
     /// The cores that failed to start, in the order they were asked.
@@ -254,6 +262,19 @@ mod tests {
         let tree = RunTree::load(folder.path()).unwrap();
         assert_eq!(tree.missing(), tree.run.trials - 3);
         assert!(!tree.is_finished());
+    }
+
+    #[test]
+    fn a_run_that_says_what_is_wrong_is_believed_and_any_other_is_diagnosed() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut example = Example::mixed();
+        let said = Diagnosis { unexplained: vec!["as/it-was".to_owned()], ..Default::default() };
+        example.run.cores[0].diagnosis = Some(said.clone());
+        example.write_records(folder.path());
+        let tree = RunTree::load(folder.path()).unwrap();
+        let [(_, builtin), (_, textbook)] = tree.diagnoses()[..] else { panic!("two cores") };
+        assert_eq!(*builtin, said);
+        assert!(textbook.unexplained.contains(&"shape/the-nearer-root-wins".to_owned()));
     }
 
     #[test]

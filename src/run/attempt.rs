@@ -132,7 +132,8 @@ fn load_scene(bench: &Bench, case: &Case) -> Result<Option<Arc<SceneDescription>
 }
 
 fn stamp(scene: &SceneDescription) -> SceneStamp {
-    SceneStamp { name: scene.name.clone(), hash: content_hash(scene) }
+    let is_specular = scene.materials.iter().any(|material| material.surface.is_specular());
+    SceneStamp { name: scene.name.clone(), hash: content_hash(scene), is_specular }
 }
 
 /// Asks whether the core can, and lets the check run.

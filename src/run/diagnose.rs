@@ -24,6 +24,7 @@ fn observation(trial: &TrialRecord) -> Observation<'_> {
         case: &trial.case,
         tier: trial.tier,
         role: trial.role,
+        is_specular: trial.scene.as_ref().is_some_and(|scene| scene.is_specular),
         standing,
         finding: trial.outcome.finding(),
         rerun: &trial.rerun,

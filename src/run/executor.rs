@@ -70,6 +70,7 @@ fn work(bench: &Bench, plan: &Plan, schedule: &Schedule<'_>, sender: &mpsc::Send
 }
 
 /// Runs the trials of `plan` whose numbers are in `todo`, and writes each sidecar as soon as its trial has ended.
+/// Answers them all.
 ///
 /// # Errors
 /// If a file cannot be written: the run stops there, and what was written stays.
@@ -80,8 +81,9 @@ pub(crate) fn run_into(
     earlier: &[(usize, Status)],
     folder: &Path,
     events: &mut dyn FnMut(Event<'_>),
-) -> Result<(), RecordError> {
+) -> Result<Vec<TrialRecord>, RecordError> {
     let schedule = Schedule::new(plan, bench, todo, earlier);
+    let mut records = Vec::new();
     run_trials(plan, bench, &schedule, &mut |message| match message {
         Message::Started(trial) => {
             events(Event::Started { core: trial.core.as_str(), case: &trial.case.id });
@@ -90,9 +92,11 @@ pub(crate) fn run_into(
         Message::Ended(ended) => {
             let trial = write_trial(folder, *ended)?;
             events(Event::Ended { trial: &trial });
+            records.push(trial);
             Ok(())
         }
-    })
+    })?;
+    Ok(records)
 }
 
 /// Runs all of `plan` and keeps the records in memory, in the order of the plan. Nothing is written.

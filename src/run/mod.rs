@@ -73,7 +73,11 @@ pub(crate) fn resume(
     folder: &Path,
     events: &mut dyn FnMut(Event<'_>),
 ) -> Result<(), RunError> {
-    let record: RunRecord = record::read_json(&folder.join("run.json"))?;
+    let path = folder.join("run.json");
+    let mut record: RunRecord = record::read_json(&path)?;
+    // It holds of the trials of then.
+    record.cores.iter_mut().for_each(|core| core.diagnosis = None);
+    record::write_json(&path, &record)?;
     carry_out(plan, &plan.bench(), record, folder, events)
 }
 
@@ -85,25 +89,27 @@ fn carry_out(
     events: &mut dyn FnMut(Event<'_>),
 ) -> Result<(), RunError> {
     let clock = Instant::now();
-    let done: Vec<_> = (0..plan.trials.len())
-        .filter_map(|number| Some((number, status_of(&plan.trials[number], folder)?)))
-        .collect();
-    let is_done = |number: &usize| done.iter().any(|(done, _)| done == number);
-    let todo: Vec<_> = (0..plan.trials.len()).filter(|number| !is_done(number)).collect();
-    let already_done = done.len();
-    events(Event::Planned { run: &record, folder, already_done });
-    executor::run_into(plan, bench, &todo, &done, folder, events)?;
+    let earlier: Vec<_> = plan.trials.iter().map(|trial| result_of(trial, folder)).collect();
+    let todo: Vec<_> = (0..earlier.len()).filter(|number| earlier[*number].is_none()).collect();
+    let mut records: Vec<_> = earlier.iter().flatten().cloned().collect();
+    events(Event::Planned { run: &record, folder, already_done: records.len() });
+    let statuses = earlier.iter().map(|record| Some(record.as_ref()?.outcome.status()));
+    let done: Vec<_> = statuses.enumerate().filter_map(|(n, s)| Some((n, s?))).collect();
+    records.extend(executor::run_into(plan, bench, &todo, &done, folder, events)?);
+    for core in &mut record.cores {
+        core.diagnosis = Some(diagnose(core, &records));
+    }
     let before = record.timing.seconds.unwrap_or(0.0);
     record.timing.seconds = Some(before + clock.elapsed().as_secs_f64());
     record::write_json(&folder.join("run.json"), &record)?;
     Ok(())
 }
 
-/// How this very trial ended, if the folder holds its result.
-fn status_of(trial: &Trial, folder: &Path) -> Option<Status> {
+/// The result of this very trial, if the folder holds it.
+fn result_of(trial: &Trial, folder: &Path) -> Option<TrialRecord> {
     let path = record::sidecar_path(folder, trial.core.as_str(), &trial.case.id);
     let done = record::read_json::<TrialRecord>(&path).ok()?;
-    (done.case_hash == trial.case.hash).then(|| done.outcome.status())
+    (done.case_hash == trial.case.hash).then_some(done)
 }
 
 /// Asks every core who it is. One that dies of that is known to `bench`, and the run goes on.

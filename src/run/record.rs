@@ -1,7 +1,7 @@
 //! The on-disk contract of a run: `run.json` and one JSON sidecar a trial, both versioned.
 //!
 //! ```text
-//! reports/runs/<run>/run.json                       who, what, when
+//! reports/runs/<run>/run.json                       who, what, when, and what is wrong
 //!                   /<core>/<folder>/<claim>.json   one trial
 //!                   /<core>/<folder>/<claim>.0.exr  its pictures
 //! ```
@@ -13,6 +13,7 @@ use super::outcome::{Outcome, Status};
 use crate::case::{Role, Tier};
 use crate::checks::PictureRole;
 use crate::contract::{Conventions, CoreInfo, Precision};
+use crate::diagnosis::Diagnosis;
 use crate::disk;
 use crate::stats::Budget;
 use crate::worker::Confinement;
@@ -90,6 +91,9 @@ pub(crate) struct CoreRecord {
     /// Why nothing is known of it, if it died before it said who it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) problem: Option<String>,
+    /// What is wrong with it. None while the run has not ended.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) diagnosis: Option<Diagnosis>,
 }
 
 impl CoreRecord {
@@ -104,21 +108,15 @@ impl CoreRecord {
             conventions: info.conventions,
             confinement: None,
             problem: None,
+            diagnosis: None,
         }
     }
 
     /// The record of a core that failed to start.
     pub(crate) fn unknown(spec: &str, problem: String) -> Self {
-        Self {
-            spec: spec.to_owned(),
-            name: spec.to_owned(),
-            version: String::new(),
-            precision: Precision::Double,
-            capabilities: Vec::new(),
-            conventions: Conventions::default(),
-            confinement: None,
-            problem: Some(problem),
-        }
+        let (name, precision) = (spec.to_owned(), Precision::Double);
+        let info = CoreInfo { name, precision, ..CoreInfo::default() };
+        Self { problem: Some(problem), ..Self::new(spec, &info) }
     }
 }
 
@@ -220,6 +218,9 @@ pub struct SceneStamp {
     pub(crate) name: String,
     /// Content hash of the resolved scene, hex.
     pub(crate) hash: String,
+    /// Whether one of its surfaces is a mirror or smooth glass.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) is_specular: bool,
 }
 
 /// How long a trial took.

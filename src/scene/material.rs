@@ -60,6 +60,13 @@ pub enum Surface {
     },
 }
 
+impl Surface {
+    /// Whether light leaves in directions of a delta distribution: a mirror, or smooth glass.
+    pub(crate) const fn is_specular(&self) -> bool {
+        matches!(self, Self::Mirror { .. } | Self::Glass { .. })
+    }
+}
+
 /// How a surface emits, from its front side only (the side of the geometric normal).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

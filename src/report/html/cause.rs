@@ -20,13 +20,13 @@ pub(crate) fn card(tree: &RunTree, core: &str, headline: &Headline, kicker: &str
                 b { (kicker) } " on " b { (core) }
                 @if let Some(part) = part { " · part " (part.number) ", " (part.title) }
             }
-            h3.said { (sentence(headline.cause.headline)) }
+            h3.said { (sentence(&headline.mistake)) }
             @if let Some(plot) = bounces::plot(tree, core, headline) { (plot) }
             dl.cause {
                 (list("seen", &headline.evidence))
                 (list("ruled out", &headline.ruled_out))
-                dt { "where" } dd { (sentence(headline.cause.look_at)) }
-                dt { "fix" } dd { (headline.cause.fix) }
+                dt { "where" } dd { (sentence(&headline.look_at)) }
+                dt { "fix" } dd { (headline.fix) }
                 dt { "explains" } dd { (explained(core, headline)) }
             }
             (command(&headline.command))

@@ -57,8 +57,8 @@ pub(crate) fn absent(core: AbsentCore<'_>, style: Style) -> Vec<String> {
 }
 
 /// Whether a cause has been told that the trial shows, or may follow from.
-fn is_explained(diagnoses: &[(&str, Diagnosis)], trial: &TrialRecord) -> bool {
-    let told = |(core, diagnosis): &(&str, Diagnosis)| {
+fn is_explained(diagnoses: &[(&str, &Diagnosis)], trial: &TrialRecord) -> bool {
+    let told = |(core, diagnosis): &(&str, &Diagnosis)| {
         *core == trial.core && !diagnosis.unexplained.contains(&trial.case)
     };
     diagnoses.iter().any(told)

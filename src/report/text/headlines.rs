@@ -11,8 +11,8 @@ const MOST: usize = 3;
 const CASES: usize = 4;
 
 /// The causes of every core, the one to look at first in front.
-pub(crate) fn all(diagnoses: &[(&str, Diagnosis)], style: Style) -> Vec<String> {
-    let of_core = |(core, diagnosis): &(&str, Diagnosis)| {
+pub(crate) fn all(diagnoses: &[(&str, &Diagnosis)], style: Style) -> Vec<String> {
+    let of_core = |(core, diagnosis): &(&str, &Diagnosis)| {
         let told = diagnosis.headlines.iter().take(MOST);
         told.flat_map(|headline| block(core, headline, style)).collect::<Vec<_>>()
     };
@@ -34,7 +34,7 @@ fn block(core: &str, headline: &Headline, style: Style) -> Vec<String> {
         format!("  {word}  {} on {core}: {cases}{grade}", count(headline)),
         String::new(),
     ];
-    let sentence = format!("{}.", capitalised(headline.cause.headline));
+    let sentence = format!("{}.", capitalised(&headline.mistake));
     let sentence = indented(&sentence).into_iter();
     lines.extend(sentence.map(|line| style.paint(Paint::Strong, &line)));
     lines.push(String::new());
@@ -42,8 +42,8 @@ fn block(core: &str, headline: &Headline, style: Style) -> Vec<String> {
     for ruled_out in &headline.ruled_out {
         lines.extend(labelled("not", ruled_out));
     }
-    lines.extend(labelled("where", headline.cause.look_at));
-    lines.extend(labelled("fix", headline.cause.fix));
+    lines.extend(labelled("where", &headline.look_at));
+    lines.extend(labelled("fix", &headline.fix));
     lines.push(format!("{:INDENT$}try     {}", "", clean(&headline.command)));
     lines
 }

@@ -6,6 +6,8 @@ use super::pair::Plane;
 use super::png::Picture;
 use super::{Image, ImageError, exr, pfm};
 use image::{DynamicImage, ImageReader};
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// The codes of a file of whole numbers.
@@ -34,33 +36,18 @@ pub(crate) struct Loaded {
 /// Reads a file. Numbers of PNG are taken as `encoding`, sRGB if none is said; all others are
 /// linear.
 pub(crate) fn load(path: &Path, encoding: Option<Curve>) -> Result<Loaded, ImageError> {
-    match Kind::of(path)? {
-        Kind::OpenExr => load_exr(path),
-        Kind::FloatMap => Ok(linear(pfm::read(path)?)),
-        Kind::Other => load_other(path, encoding.unwrap_or(Curve::Srgb)),
+    match first_bytes(path)?.as_slice() {
+        [0x76, 0x2f, 0x31, 0x01] => load_exr(path),
+        [b'P', b'F' | b'f', ..] => Ok(linear(pfm::read(path)?)),
+        _ => load_other(path, encoding.unwrap_or(Curve::Srgb)),
     }
 }
 
-enum Kind {
-    OpenExr,
-    FloatMap,
-    Other,
-}
-
-impl Kind {
-    fn of(path: &Path) -> Result<Self, ImageError> {
-        use std::io::Read;
-        let mut start = Vec::new();
-        let file =
-            std::fs::File::open(path).map_err(|error| ImageError::unreadable(path, error))?;
-        let read = file.take(4).read_to_end(&mut start);
-        read.map_err(|error| ImageError::unreadable(path, error))?;
-        Ok(match start.as_slice() {
-            [0x76, 0x2f, 0x31, 0x01] => Self::OpenExr,
-            [b'P', b'F' | b'f', ..] => Self::FloatMap,
-            _ => Self::Other,
-        })
-    }
+fn first_bytes(path: &Path) -> Result<Vec<u8>, ImageError> {
+    let mut start = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(4).read_to_end(&mut start));
+    read.map_err(|error| ImageError::unreadable(path, error))?;
+    Ok(start)
 }
 
 fn linear(image: Image) -> Loaded {

@@ -9,34 +9,17 @@
 
 use glam::DVec2;
 
-/// Non-negative nodes of the 15-point Kronrod rule on [−1, 1]; those with odd index are Gauss
-/// nodes.
-const NODES: [f64; 8] = [
-    0.991_455_371_120_812_6,
-    0.949_107_912_342_758_5,
-    0.864_864_423_359_769_1,
-    0.741_531_185_599_394_4,
-    0.586_087_235_467_691_1,
-    0.405_845_151_377_397_2,
-    0.207_784_955_007_898_47,
-    0.0,
-];
-const KRONROD_WEIGHTS: [f64; 8] = [
-    0.022_935_322_010_529_224,
-    0.063_092_092_629_978_55,
-    0.104_790_010_322_250_18,
-    0.140_653_259_715_525_92,
-    0.169_004_726_639_267_9,
-    0.190_350_578_064_785_4,
-    0.204_432_940_075_298_9,
-    0.209_482_141_084_727_83,
-];
-/// Weights of the 7-point Gauss rule, at the odd nodes.
-const GAUSS_WEIGHTS: [f64; 4] = [
-    0.129_484_966_168_869_7,
-    0.279_705_391_489_276_64,
-    0.381_830_050_505_118_9,
-    0.417_959_183_673_469_4,
+/// Non-negative nodes of the 15-point Kronrod rule on [−1, 1], their weights, and those of the 7-point Gauss rule, whose
+/// nodes are every second one.
+const RULE: [(f64, f64, f64); 8] = [
+    (0.991_455_371_120_812_6, 0.022_935_322_010_529_224, 0.0),
+    (0.949_107_912_342_758_5, 0.063_092_092_629_978_55, 0.129_484_966_168_869_7),
+    (0.864_864_423_359_769_1, 0.104_790_010_322_250_18, 0.0),
+    (0.741_531_185_599_394_4, 0.140_653_259_715_525_92, 0.279_705_391_489_276_64),
+    (0.586_087_235_467_691_1, 0.169_004_726_639_267_9, 0.0),
+    (0.405_845_151_377_397_2, 0.190_350_578_064_785_4, 0.381_830_050_505_118_9),
+    (0.207_784_955_007_898_47, 0.204_432_940_075_298_9, 0.0),
+    (0.0, 0.209_482_141_084_727_83, 0.417_959_183_673_469_4),
 ];
 /// Nodes of the full rule.
 const POINTS: usize = 15;
@@ -62,10 +45,9 @@ impl std::ops::AddAssign for Integral {
 
 /// Node `index` of the full rule on [−1, 1], with its Kronrod and its Gauss weight.
 fn node(index: usize) -> (f64, f64, f64) {
-    let from_end = index.min(POINTS - 1 - index);
+    let (at, kronrod, gauss) = RULE[index.min(POINTS - 1 - index)];
     let side = if index < 7 { -1.0 } else { 1.0 };
-    let gauss = if from_end % 2 == 1 { GAUSS_WEIGHTS[from_end / 2] } else { 0.0 };
-    (side * NODES[from_end], KRONROD_WEIGHTS[from_end], gauss)
+    (side * at, kronrod, gauss)
 }
 
 /// QUADPACK's rescaling: the difference of the two rules, pessimistic where they nearly agree.

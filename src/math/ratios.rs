@@ -61,37 +61,24 @@ pub(crate) fn names_of(interval: [f64; 2], also: &[(f64, &str)]) -> Vec<NamedRat
 mod tests {
     use super::*;
 
-    fn names(low: f64, high: f64) -> Vec<String> {
-        names_of([low, high], &[]).into_iter().map(|ratio| ratio.name).collect()
-    }
-
     #[test]
-    fn a_missing_one_over_pi_is_named() {
-        assert_eq!(names(3.12, 3.16), ["π"]);
-        assert_eq!(names(0.315, 0.322), ["1/π"]);
-        assert_eq!(names(0.0, 0.0), ["0"]);
-    }
-
-    #[test]
-    fn a_ratio_without_a_name_gets_none() {
-        assert!(names(0.86, 0.89).is_empty());
-    }
-
-    #[test]
-    fn what_may_be_right_gets_no_name() {
-        assert!(names(0.99, 1.01).is_empty());
-        assert!(names(1.0, 1.0).is_empty());
-    }
-
-    #[test]
-    fn a_wide_interval_names_nothing() {
-        assert!(names(0.4, 4.0).is_empty());
-        assert!(names(f64::NAN, f64::NAN).is_empty());
-    }
-
-    #[test]
-    fn the_nearest_of_two_comes_first() {
-        assert_eq!(names(0.62, 0.67), ["2/π", "2/3"]);
+    fn ratios_have_the_names_of_what_they_may_be_the_nearest_first() {
+        for (interval, expected) in [
+            ([3.12, 3.16], &["π"][..]),
+            ([0.315, 0.322], &["1/π"]),
+            ([0.0, 0.0], &["0"]),
+            ([0.62, 0.67], &["2/π", "2/3"]),
+            // Without a name, maybe right, and too wide.
+            ([0.86, 0.89], &[]),
+            ([0.99, 1.01], &[]),
+            ([1.0, 1.0], &[]),
+            ([0.4, 4.0], &[]),
+            ([f64::NAN; 2], &[]),
+        ] {
+            let found = names_of(interval, &[]);
+            let names: Vec<_> = found.iter().map(|ratio| &ratio.name).collect();
+            assert_eq!(names, expected, "{interval:?}");
+        }
     }
 
     #[test]

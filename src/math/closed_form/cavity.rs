@@ -108,12 +108,8 @@ mod tests {
 
     #[test]
     fn concentric_spheres_come_to_rest_where_radiosity_says() {
-        let spheres = ConcentricSpheres {
-            emission: 1.0,
-            radius_ratio: 0.5,
-            inner_albedo: 0.7,
-            outer_albedo: 0.4,
-        };
+        let (radius_ratio, inner_albedo, outer_albedo) = (0.5, 0.7, 0.4);
+        let spheres = ConcentricSpheres { emission: 1.0, radius_ratio, inner_albedo, outer_albedo };
         // L₂ = Lₑ / (1 − ρ₂ (F₂₂ + F₂₁ ρ₁)), L₁ = ρ₁ L₂.
         let outer = 1.0 / (1.0 - 0.4 * (0.75 + 0.25 * 0.7));
         assert_close(spheres.up_to(200).outer, outer, 1e-12);

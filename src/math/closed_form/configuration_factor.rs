@@ -69,7 +69,7 @@ pub(crate) fn gradient_sky(a: f64, b: f64, tilt: f64) -> f64 {
 mod tests {
     use super::super::witness::{assert_close, kernel, over, over_unit_square};
     use super::*;
-    use crate::math::frame::{Frame, direction};
+    use crate::math::frame::direction;
     use glam::DVec2;
 
     /// The defining integral over a triangle, through Duffy's map of the square.
@@ -99,10 +99,13 @@ mod tests {
 
     /// ∫ cos θ dω / π over the cone of directions that meet the sphere.
     fn sphere_by_quadrature(radius: f64, distance: f64, theta: f64) -> f64 {
-        let frame = Frame::around(direction(theta, 0.0));
+        let axis = direction(theta, 0.0);
+        let (tangent, bitangent) = axis.any_orthonormal_pair();
         let widest = (radius / distance).asin();
         over(DVec2::ZERO, DVec2::new(widest, 2.0 * PI), |p| {
-            frame.to_world(direction(p.x, p.y)).z.max(0.0) * p.x.sin() / PI
+            let local = direction(p.x, p.y);
+            let world = local.x * tangent + local.y * bitangent + local.z * axis;
+            world.z.max(0.0) * p.x.sin() / PI
         })
     }
 

@@ -16,13 +16,11 @@ pub(crate) fn reflectance(cos_incident: f64, eta: f64) -> f64 {
 /// Schlick's approximation (1994): R₀ + (1 − R₀)(1 − cos θ)⁵ with the cosine on the side of lower index; 1
 /// under total internal reflection.
 pub(crate) fn schlick(cos_incident: f64, eta: f64) -> f64 {
-    let at_normal = ((eta - 1.0) / (eta + 1.0)).powi(2);
     let sine_squared = (1.0 - cos_incident * cos_incident) / (eta * eta);
     if sine_squared >= 1.0 {
         return 1.0;
     }
-    let cosine = if eta < 1.0 { (1.0 - sine_squared).sqrt() } else { cos_incident };
-    at_normal + (1.0 - at_normal) * (1.0 - cosine).powi(5)
+    schlick_at(if eta < 1.0 { (1.0 - sine_squared).sqrt() } else { cos_incident }, eta)
 }
 
 /// The same with the cosine at hand on either side, as courses teach it: no longer the same both
@@ -31,8 +29,12 @@ pub(crate) fn schlick_of_view(cos_incident: f64, eta: f64) -> f64 {
     if reflectance(cos_incident, eta) == 1.0 {
         return 1.0;
     }
+    schlick_at(cos_incident, eta)
+}
+
+fn schlick_at(cosine: f64, eta: f64) -> f64 {
     let at_normal = ((eta - 1.0) / (eta + 1.0)).powi(2);
-    at_normal + (1.0 - at_normal) * (1.0 - cos_incident).powi(5)
+    at_normal + (1.0 - at_normal) * (1.0 - cosine).powi(5)
 }
 
 /// What a clear parallel slab transmits, all internal reflections included, of faces that reflect

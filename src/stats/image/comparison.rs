@@ -108,7 +108,6 @@ impl Side {
         (!codes.is_empty()).then(|| light_of_codes(known, &codes, variance, encoding))
     }
 
-    /// As the test takes it.
     fn sample(&self) -> Sample<'_> {
         Sample {
             image: &self.image,
@@ -122,7 +121,6 @@ impl Side {
 #[derive(Debug, Serialize)]
 pub struct Comparison {
     pub(crate) verdict: Verdict,
-    /// Columns and rows.
     pub(crate) size: [usize; 2],
     /// Pixels that count.
     pub(crate) pixels: usize,
@@ -235,7 +233,6 @@ fn explanation(
     }
 }
 
-/// The metrics of the pixels that count.
 fn metrics(
     picture: &Image,
     reference: &Image,

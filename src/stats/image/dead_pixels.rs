@@ -34,8 +34,7 @@ const MOST_REPORTED: usize = 64;
 
 /// What each pixel was in the runs so far.
 pub(super) struct LitRuns {
-    width: usize,
-    height: usize,
+    size: (usize, usize),
     /// What the pixels should be, luminance.
     levels: Vec<f64>,
     /// Variance of that over its square.
@@ -54,8 +53,7 @@ impl LitRuns {
         let levels: Vec<f64> = guide.pixels.iter().map(|pixel| luminance(*pixel)).collect();
         let noise = levels.iter().zip(errors).map(|(level, error)| (error / level).powi(2));
         Self {
-            width: guide.width,
-            height: guide.height,
+            size: (guide.width, guide.height),
             noise: noise.collect(),
             seen: vec![Moments::default(); levels.len()],
             lit: vec![0; levels.len()],
@@ -84,18 +82,19 @@ impl LitRuns {
     fn darker_than_chance(&self, level: f64) -> Vec<[usize; 2]> {
         let black = (0..self.lit.len()).filter(|&i| self.lit[i] == 0 && self.levels[i] > 0.0);
         let dead = black.filter(|&pixel| self.probability(pixel) <= level);
-        dead.take(MOST_REPORTED).map(|i| [i % self.width, i / self.width]).collect()
+        dead.take(MOST_REPORTED).map(|i| [i % self.size.0, i / self.size.0]).collect()
     }
 
     /// At most the probability that a right core's pixel is black in all runs; 1 where that is not
     /// known.
     fn probability(&self, pixel: usize) -> f64 {
-        let is_inside = self.around(pixel, 1).all(|i| self.are_alike(i, pixel));
+        let is_inside = around(self.size, pixel, 1).all(|i| self.are_alike(i, pixel));
         if self.runs < 2 || !is_inside {
             return 1.0;
         }
-        let alike: Vec<usize> =
-            self.around(pixel, REACH).filter(|&i| i != pixel && self.are_alike(i, pixel)).collect();
+        let alike: Vec<usize> = around(self.size, pixel, REACH)
+            .filter(|&i| i != pixel && self.are_alike(i, pixel))
+            .collect();
         if (alike.len() as u64) < FEWEST_NEIGHBOURS {
             return 1.0;
         }
@@ -127,10 +126,6 @@ impl LitRuns {
     fn seen_noise(&self, pixel: usize) -> f64 {
         let error = self.seen[pixel].standard_error() / self.levels[pixel];
         f64::from(self.runs) * error * error
-    }
-
-    fn around(&self, pixel: usize, reach: usize) -> impl Iterator<Item = usize> {
-        around((self.width, self.height), pixel, reach)
     }
 }
 

@@ -38,16 +38,10 @@ impl Moments {
     }
 }
 
-impl Extend<f64> for Moments {
-    fn extend<T: IntoIterator<Item = f64>>(&mut self, values: T) {
-        values.into_iter().for_each(|value| self.push(value));
-    }
-}
-
 impl FromIterator<f64> for Moments {
     fn from_iter<T: IntoIterator<Item = f64>>(values: T) -> Self {
         let mut moments = Self::default();
-        moments.extend(values);
+        values.into_iter().for_each(|value| moments.push(value));
         moments
     }
 }

@@ -70,10 +70,8 @@ impl StoppingLaw {
         let mut n = 0;
         while n < cap {
             let step = batch.min(cap - n);
-            going = match step == batch {
-                true => convolved(&going, &whole_batch),
-                false => convolved(&going, &stream.binomial(step)),
-            };
+            let law = if step == batch { &whole_batch } else { &stream.binomial(step) };
+            going = convolved(&going, law);
             n += step;
             for (highs, probability) in going.iter_mut().enumerate() {
                 if n == cap || rule(n, highs) {

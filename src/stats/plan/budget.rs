@@ -54,7 +54,6 @@ impl Effort {
 /// What a trial may spend: a budget, and whether its first failure ends it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Allowance {
-    /// How small an error is looked for.
     pub(crate) budget: Budget,
     /// Whether one failure is enough: `--fail-fast`.
     pub(crate) stops_at_failure: bool,

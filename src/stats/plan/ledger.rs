@@ -36,32 +36,27 @@ pub enum TestKind {
 }
 
 impl TestKind {
-    /// As people read it, of one.
-    pub(crate) const fn singular(self) -> &'static str {
+    /// As people read it, of one and of many.
+    const fn names(self) -> [&'static str; 2] {
         match self {
-            Self::Mean => "mean",
-            Self::Counts => "pdf",
-            Self::Share => "share",
-            Self::Picture => "picture",
-            Self::Codes => "picture of codes",
-            Self::Slope => "slope",
-            Self::Correlation => "correlation",
-            Self::Rare => "rare event",
+            Self::Mean => ["mean", "means"],
+            Self::Counts => ["pdf", "pdfs"],
+            Self::Share => ["share", "shares"],
+            Self::Picture => ["picture", "pictures"],
+            Self::Codes => ["picture of codes", "pictures of codes"],
+            Self::Slope => ["slope", "slopes"],
+            Self::Correlation => ["correlation", "correlations"],
+            Self::Rare => ["rare event", "rare events"],
         }
+    }
+
+    pub(crate) const fn singular(self) -> &'static str {
+        self.names()[0]
     }
 
     /// As people read it, of many.
     pub const fn plural(self) -> &'static str {
-        match self {
-            Self::Mean => "means",
-            Self::Counts => "pdfs",
-            Self::Share => "shares",
-            Self::Picture => "pictures",
-            Self::Codes => "pictures of codes",
-            Self::Slope => "slopes",
-            Self::Correlation => "correlations",
-            Self::Rare => "rare events",
-        }
+        self.names()[1]
     }
 
     /// The probability that a correct core fails one such hypothesis.
@@ -157,19 +152,11 @@ impl Ledger {
     }
 }
 
-impl Extend<Hypothesis> for Ledger {
-    fn extend<T: IntoIterator<Item = Hypothesis>>(&mut self, hypotheses: T) {
-        hypotheses
-            .into_iter()
-            .for_each(|hypothesis| self.0.entry(hypothesis.kind).or_default().enter(hypothesis));
-    }
-}
-
 impl FromIterator<Hypothesis> for Ledger {
     fn from_iter<T: IntoIterator<Item = Hypothesis>>(hypotheses: T) -> Self {
-        let mut ledger = Self::default();
-        ledger.extend(hypotheses);
-        ledger
+        let mut entries = BTreeMap::<_, LedgerEntry>::new();
+        hypotheses.into_iter().for_each(|one| entries.entry(one.kind).or_default().enter(one));
+        Self(entries)
     }
 }
 
@@ -177,14 +164,14 @@ impl FromIterator<Hypothesis> for Ledger {
 mod tests {
     use super::*;
 
-    fn of(kind: TestKind, count: usize) -> Ledger {
-        std::iter::repeat_n(Hypothesis::new(kind, false), count).collect()
+    fn means(count: usize) -> impl Iterator<Item = Hypothesis> {
+        std::iter::repeat_n(Hypothesis::new(TestKind::Mean, false), count)
     }
 
     #[test]
     fn a_suite_of_a_thousand_means_and_twelve_pictures_is_within_its_budget() {
-        let mut ledger = of(TestKind::Mean, 1000);
-        ledger.extend([Hypothesis::new(TestKind::Picture, true); 12]);
+        let pictures = [Hypothesis::new(TestKind::Picture, true); 12];
+        let ledger: Ledger = means(1000).chain(pictures).collect();
         assert!(ledger.is_within_budget(), "{ledger:?}");
         assert_eq!((ledger.hypotheses(), ledger.suspected()), (1012, 12));
         let kinds: Vec<_> =
@@ -194,7 +181,7 @@ mod tests {
 
     #[test]
     fn more_is_not_and_nonsense_is_never() {
-        assert!(!of(TestKind::Mean, 10_000).is_within_budget());
+        assert!(!Ledger::from_iter(means(10_000)).is_within_budget());
         let nonsense =
             Hypothesis { false_alarm: f64::NAN, ..Hypothesis::new(TestKind::Mean, false) };
         assert!(!Ledger::from_iter([nonsense]).is_within_budget());

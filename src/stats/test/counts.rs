@@ -219,22 +219,12 @@ fn forbidden_samples(
     hits.map(|(cell, samples)| ForbiddenSamples { cell, samples }).max_by_key(|f| f.samples)
 }
 
-/// What the stages say together.
-fn decide(
-    first: &CountStage,
-    rejected: bool,
-    resolution: f64,
-    detects: f64,
-) -> (Verdict, Option<CountDoubt>) {
-    let converged = first.quadrature_error <= LARGEST_QUADRATURE_ERROR;
-    if rejected {
-        (Verdict::Fail, None)
-    } else if !converged {
-        (Verdict::Inconclusive, Some(CountDoubt::QuadratureNotConverged))
-    } else if resolution <= detects {
-        (Verdict::Pass, None)
-    } else {
-        (Verdict::Inconclusive, Some(CountDoubt::TooFewSamples))
+/// Why counts that are not rejected prove nothing, if that is so.
+fn doubt(first: &CountStage, resolution: f64, detects: f64) -> Option<CountDoubt> {
+    match (first.quadrature_error <= LARGEST_QUADRATURE_ERROR, resolution <= detects) {
+        (false, _) => Some(CountDoubt::QuadratureNotConverged),
+        (true, false) => Some(CountDoubt::TooFewSamples),
+        (true, true) => None,
     }
 }
 
@@ -244,11 +234,11 @@ fn report(stages: Escalation<CountStage>, effort: &Effort, drawn: Drawn) -> Coun
     let resolution = resolution(&first);
     let improper_cell = expected.cells.iter().position(|p| !(*p >= 0.0 && p.is_finite()));
     let rejected = stages.rejects() || forbidden.is_some() || improper_cell.is_some();
-    let (verdict, doubt) = decide(&first, rejected, resolution, detects);
+    let doubt = doubt(&first, resolution, detects).filter(|_| !rejected);
     let total = counts.total() as f64;
     let wanted: Vec<f64> = expected.cells.iter().map(|p| p * total).collect();
     CountReport {
-        verdict,
+        verdict: Verdict::of_test(rejected, doubt.is_none()),
         doubt,
         forbidden,
         improper_cell,

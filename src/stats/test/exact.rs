@@ -144,40 +144,33 @@ pub(crate) fn judge_exact(elements: impl IntoIterator<Item = Compared>) -> Exact
 mod tests {
     use super::*;
 
+    fn judged(found: [f64; 3]) -> ExactReport {
+        judge_exact(found.map(|found| Compared::within(found, 1.0, 0.1)))
+    }
+
     #[test]
     fn all_have_to_agree_and_the_worst_is_named() {
-        let report = judge_exact([
-            Compared::within(1.0, 1.0, 0.1),
-            Compared::within(1.3, 1.0, 0.1),
-            Compared::within(1.2, 1.0, 0.1),
-        ]);
-        assert_eq!(report.verdict, Verdict::Fail);
-        assert_eq!((report.compared, report.disagree), (3, 2));
-        assert_eq!(report.worst.map(|worst| worst.index), Some(1));
-    }
-
-    #[test]
-    fn nan_disagrees_and_is_the_worst() {
-        let report = judge_exact([
-            Compared::within(9.0, 1.0, 0.1),
-            Compared::within(f64::NAN, 1.0, 0.1),
-            Compared::within(1.0, 1.0, f64::NAN),
-        ]);
-        assert_eq!(report.verdict, Verdict::Fail);
-        assert_eq!(report.disagree, 3);
-        assert_eq!(report.worst.map(|worst| worst.index), Some(1));
-    }
-
-    #[test]
-    fn equal_infinities_agree_and_different_ones_do_not() {
-        assert!(Compared::within(f64::INFINITY, f64::INFINITY, 0.0).agrees());
-        assert!(!Compared::within(f64::INFINITY, f64::NEG_INFINITY, 1.0).agrees());
-        assert!(!Compared::within(f64::INFINITY, 1.0, 1.0).agrees());
-    }
-
-    #[test]
-    fn nothing_compared_is_not_a_pass() {
+        for (found, disagree) in [([1.0, 1.3, 1.2], 2), ([9.0, f64::NAN, 1.0], 2)] {
+            let report = judged(found);
+            assert_eq!(report.verdict, Verdict::Fail);
+            assert_eq!((report.compared, report.disagree), (3, disagree));
+            assert_eq!(report.worst.map(|worst| worst.index), Some(1));
+        }
+        assert_eq!(judged([1.0; 3]).verdict, Verdict::Pass);
         assert_eq!(judge_exact([]).verdict, Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn nan_disagrees_as_different_infinities_do_and_equal_ones_agree() {
+        const INFINITY: f64 = f64::INFINITY;
+        for (found, expected, allowed, agrees) in [
+            (1.0, 1.0, f64::NAN, false),
+            (INFINITY, INFINITY, 0.0, true),
+            (INFINITY, -INFINITY, 1.0, false),
+            (INFINITY, 1.0, 1.0, false),
+        ] {
+            assert_eq!(Compared::within(found, expected, allowed).agrees(), agrees, "{found}");
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@
 use crate::stats::law::{binomial_at_least, binomial_at_most, normal_upper, share_interval};
 use crate::stats::plan::level::{MISS_LEVEL, STAGE_LEVEL};
 use crate::stats::plan::{
-    Band, Effort, Escalation, Judgement, Report, Scored, Stage, TestKind, Verdict,
+    Band, Claim, Effort, Escalation, Judgement, Report, Scored, Stage, TestKind, Verdict,
 };
 
 /// Samples of the smallest first stage.
@@ -41,7 +41,6 @@ pub(crate) struct ShareReport {
     /// Holds the share of the core with 99.9 % confidence.
     pub(crate) interval: [f64; 2],
     pub(crate) stages: Escalation<ShareStage>,
-    /// The smallest relative error that would have been caught with probability 0.999.
     pub(crate) resolution: f64,
 }
 
@@ -64,16 +63,16 @@ pub(crate) fn judge_share<E>(
     effort: &Effort,
     draw: &mut dyn FnMut(Stage, u64) -> Result<u64, E>,
 ) -> Result<ShareReport, E> {
-    let planned = planned_samples(expected, band, effort.detects);
-    let first = planned.min(effort.most_samples as f64) as u64;
+    let claim = Claim::value(expected, band);
+    let first = planned_samples(&claim, effort.detects).min(effort.most_samples as f64) as u64;
     let mut stages: Escalation<ShareStage> = Escalation::default();
     while let Some(stage) = stages.next() {
         let trials = stage.factor() * first;
         let hits = draw(stage, trials)?;
         let suspected_high = stages.first().map(|first| is_high(first, expected));
-        stages.push(score(stage, hits, trials, expected, band, suspected_high));
+        stages.push(score(&claim, stage, [hits, trials], suspected_high));
     }
-    Ok(report(expected, band, effort, stages))
+    Ok(report(&claim, effort, stages))
 }
 
 fn is_high(stage: &ShareStage, expected: f64) -> bool {
@@ -81,14 +80,12 @@ fn is_high(stage: &ShareStage, expected: f64) -> bool {
 }
 
 fn score(
+    claim: &Claim,
     stage: Stage,
-    hits: u64,
-    trials: u64,
-    expected: f64,
-    band: Band,
+    [hits, trials]: [u64; 2],
     suspected_high: Option<bool>,
 ) -> ShareStage {
-    let width = band.relative() * expected;
+    let (expected, width) = (claim.expected, claim.band_width());
     let too_high = binomial_at_least(hits, trials, (expected + width).min(1.0));
     let too_low = binomial_at_most(hits, trials, (expected - width).max(0.0));
     let p_value = match suspected_high {
@@ -106,23 +103,20 @@ fn sigmas() -> f64 {
 
 /// Samples of the first stage that see a relative error of `detects`, on the side where the share
 /// varies more.
-fn planned_samples(expected: f64, band: Band, detects: f64) -> f64 {
+fn planned_samples(claim: &Claim, detects: f64) -> f64 {
+    let expected = claim.expected;
     let wrong = (expected * (1.0 + detects)).min(0.5f64.max(expected));
     let variance = (wrong * (1.0 - wrong)).max(expected * (1.0 - expected));
-    let room = (detects - band.relative()) * expected;
+    let room = (detects - claim.band.relative()) * expected;
     let needed = if room > 0.0 { (sigmas() / room).powi(2) * variance } else { f64::INFINITY };
     needed.max(FEWEST_SAMPLES).ceil()
 }
 
-fn report(
-    expected: f64,
-    band: Band,
-    effort: &Effort,
-    stages: Escalation<ShareStage>,
-) -> ShareReport {
+fn report(claim: &Claim, effort: &Effort, stages: Escalation<ShareStage>) -> ShareReport {
+    let expected = claim.expected;
     let (first, last) = (stages[0], stages[stages.len() - 1]);
     let deviation = (expected * (1.0 - expected) / first.trials as f64).sqrt();
-    let resolution = band.relative() + sigmas() * deviation / expected;
+    let resolution = claim.band.relative() + sigmas() * deviation / expected;
     ShareReport {
         verdict: Verdict::of_test(stages.rejects(), resolution <= effort.detects),
         expected,

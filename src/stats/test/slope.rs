@@ -32,7 +32,6 @@ pub(crate) struct ErrorLevel {
 }
 
 impl ErrorLevel {
-    /// From the pixels of several runs and the true values.
     pub(crate) fn from_runs(samples: u64, runs: &[Vec<f64>], truth: &[f64]) -> Self {
         let squared = |run: &Vec<f64>| {
             let squares: f64 = run.iter().zip(truth).map(|(x, mu)| (x - mu).powi(2)).sum();
@@ -64,14 +63,6 @@ pub(crate) enum Sampling {
     Stratified,
 }
 
-struct ErrorPoint {
-    samples: u64,
-    /// Root mean square error over pixels and runs.
-    error: f64,
-    /// Standard error of its natural logarithm.
-    log_error: f64,
-}
-
 /// The judgement of a series of errors.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SlopeReport {
@@ -101,7 +92,7 @@ impl Report for SlopeReport {
 
 /// Judges the slope of the errors; it must be seen if it is off by `detects`.
 pub(crate) fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f64) -> SlopeReport {
-    let points: Vec<ErrorPoint> = levels.iter().map(point).collect();
+    let points: Vec<_> = levels.iter().map(point).collect();
     let (slope, standard_error) = fit(&points);
     let off = match sampling {
         Sampling::Independent => (slope - INDEPENDENT).abs(),
@@ -118,25 +109,22 @@ pub(crate) fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f6
     }
 }
 
-fn point(level: &ErrorLevel) -> ErrorPoint {
+/// ln samples, ln of the root mean square error over pixels and runs, and how much that weighs: one over its variance.
+fn point(level: &ErrorLevel) -> [f64; 3] {
     let squared = level.error();
-    ErrorPoint {
-        samples: level.samples,
-        error: squared.mean().sqrt(),
-        // d ln √m = dm / 2m
-        log_error: 0.5 * squared.standard_error() / squared.mean(),
-    }
+    // d ln √m = dm / 2m
+    let log_error = 0.5 * squared.standard_error() / squared.mean();
+    let weight = log_error.powi(2).max(f64::MIN_POSITIVE).recip();
+    [(level.samples as f64).ln(), squared.mean().sqrt().ln(), weight]
 }
 
 /// Weighted least squares of ln error on ln samples: slope and standard error. NaN of fewer than
 /// two levels.
-fn fit(points: &[ErrorPoint]) -> (f64, f64) {
-    let weight = |point: &ErrorPoint| point.log_error.powi(2).max(f64::MIN_POSITIVE).recip();
-    let x = |point: &ErrorPoint| (point.samples as f64).ln();
-    let total: f64 = points.iter().map(weight).sum();
-    let centre = points.iter().map(|p| weight(p) * x(p)).sum::<f64>() / total;
-    let squares: f64 = points.iter().map(|p| weight(p) * (x(p) - centre).powi(2)).sum();
-    let products: f64 = points.iter().map(|p| weight(p) * (x(p) - centre) * p.error.ln()).sum();
+fn fit(points: &[[f64; 3]]) -> (f64, f64) {
+    let sum = |term: &dyn Fn(&[f64; 3]) -> f64| points.iter().map(term).sum::<f64>();
+    let centre = sum(&|[x, _, weight]| weight * x) / sum(&|[.., weight]| *weight);
+    let squares = sum(&|[x, _, weight]| weight * (x - centre).powi(2));
+    let products = sum(&|[x, y, weight]| weight * (x - centre) * y);
     (products / squares, squares.recip().sqrt())
 }
 

@@ -7,9 +7,7 @@ use crate::math::rng::{Seed, Stream};
 use crate::stats::{Verdict, binomial_at_least};
 use rand::Rng;
 
-/// Resamples of a bootstrap interval.
 const RESAMPLES: usize = 2000;
-/// Confidence of the interval.
 const CONFIDENCE: f64 = 0.95;
 
 /// How much faster one of two things is.

@@ -158,7 +158,7 @@ fn tile(
         let pixel = y * reference.mean.width + x;
         let light = f64::from(reference.mean.pixels[pixel][channel]);
         let error = f64::from(reference.standard_error.pixels[pixel][channel]);
-        let seen = observed.channel(3 * pixel + channel);
+        let seen = observed.codes[3 * pixel + channel];
         let is_usable = light > 0.0
             && USABLE.contains(&seen.code)
             && seen.code + AWAY_FROM_WHITE * seen.deviation < WHITE
@@ -270,8 +270,8 @@ fn power(tiles: &[Tile]) -> f64 {
     let count = tiles.len() as f64;
     let x = |tile: &Tile| tile.mean(|(light, _)| *light).ln();
     let y = |tile: &Tile| (tile.code / WHITE).ln();
-    let (mx, my) =
-        (tiles.iter().map(x).sum::<f64>() / count, tiles.iter().map(y).sum::<f64>() / count);
+    let mx = tiles.iter().map(x).sum::<f64>() / count;
+    let my = tiles.iter().map(y).sum::<f64>() / count;
     let products: f64 = tiles.iter().map(|tile| (x(tile) - mx) * (y(tile) - my)).sum();
     let squares: f64 = tiles.iter().map(|tile| (x(tile) - mx).powi(2)).sum();
     products / squares

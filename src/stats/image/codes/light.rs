@@ -95,7 +95,7 @@ pub fn light_of_codes(
         true => f64::from(means[index]) / channel.slope,
         false => 0.0,
     };
-    let error = |index: usize| observed.channel(index).error;
+    let error = |index: usize| observed.codes[index].error;
     let is_known = noise != NoiseSource::Scatter;
     let squared = |index, channel: &Channel| (per_code(index, channel) * error(index)).powi(2);
     LightOfCodes {
@@ -139,7 +139,7 @@ fn known(
         Seen { code: spread.mean(index), error: deviation / (runs as f64).sqrt(), deviation }
     };
     let codes = variance.pixels.as_flattened().iter().enumerate().map(seen).collect();
-    Observed::with(codes, f64::INFINITY)
+    Observed { codes, freedom: f64::INFINITY }
 }
 
 /// Noise as the scatter of the codes of a tile about their levels has it: what is off by a constant
@@ -169,5 +169,6 @@ fn scattered(
         let error = if is_told { moments.variance().sqrt() } else { 0.0 };
         Seen { code: spread.mean(index), error, deviation: error * (runs as f64).sqrt() }
     };
-    Observed::with((0..means.len()).map(seen).collect(), (TILE * TILE - 1) as f64)
+    let codes = (0..means.len()).map(seen).collect();
+    Observed { codes, freedom: (TILE * TILE - 1) as f64 }
 }

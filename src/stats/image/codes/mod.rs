@@ -73,7 +73,6 @@ impl CodeReference<'_> {
 /// How pictures are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CodeSettings {
-    /// How light is said to be encoded.
     pub(crate) declared: Encoding,
     /// What has to be seen, and on how many pictures.
     pub(crate) effort: ImageEffort,

@@ -28,7 +28,7 @@ impl Model {
         let errors = reference.standard_error.pixels.as_flattened();
         let level = |index: usize| (f64::from(means[index]), f64::from(errors[index]));
         let own = |index: usize| {
-            let (mean, codes) = (level(index).0, observed.channel(index).deviation);
+            let (mean, codes) = (level(index).0, observed.codes[index].deviation);
             if mean > 0.0 && codes > 0.0 { deviation_behind(mean, codes, encoding) } else { 0.0 }
         };
         let own: Vec<f64> = (0..means.len()).into_par_iter().map(own).collect();
@@ -38,7 +38,7 @@ impl Model {
         let channel = |index: usize| {
             let (mean, error) = level(index);
             let noise = Noise {
-                codes: observed.channel(index).deviation,
+                codes: observed.codes[index].deviation,
                 own: own[index],
                 freedom: observed.freedom,
                 foretold: share * error,
@@ -57,7 +57,12 @@ impl Model {
 
     /// A picture of something of every channel and its number.
     pub(super) fn map(&self, value: impl Fn(usize, &Channel) -> f64) -> Image {
-        self.picture(|index| value(index, &self.channels[index]))
+        let (width, height) = self.size;
+        Image::from_fn(width, height, |x, y| {
+            let first = 3 * (y * width + x);
+            // Single precision holds a code to 1e-5.
+            [first, first + 1, first + 2].map(|index| value(index, &self.channels[index]) as f32)
+        })
     }
 
     /// Which pixels stand so in all their channels.
@@ -69,17 +74,9 @@ impl Model {
 
     /// The codes that are compared, 0 elsewhere.
     pub(super) fn compared(&self, codes: impl Fn(usize) -> f64) -> Image {
-        self.picture(|index| match self.channels[index].standing {
+        self.map(|index, channel| match channel.standing {
             Standing::Compared => codes(index),
             _ => 0.0,
-        })
-    }
-
-    fn picture(&self, value: impl Fn(usize) -> f64) -> Image {
-        let (width, height) = self.size;
-        Image::from_fn(width, height, |x, y| {
-            // Single precision holds a code to 1e-5.
-            std::array::from_fn(|c| value(3 * (y * width + x) + c) as f32)
         })
     }
 

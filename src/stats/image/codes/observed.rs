@@ -5,7 +5,8 @@ use crate::stats::law::Spread;
 /// The code of every channel of every pixel, with its noise.
 #[derive(Clone, Debug)]
 pub(crate) struct Observed {
-    codes: Vec<Seen>,
+    /// By `3 · pixel + channel`.
+    pub(super) codes: Vec<Seen>,
     /// Degrees of freedom of each variance.
     pub(super) freedom: f64,
 }
@@ -30,15 +31,5 @@ impl Observed {
             deviation: runs.deviation(index),
         };
         Self { codes: (0..runs.len()).map(seen).collect(), freedom: runs.freedom() }
-    }
-
-    /// Of pictures whose noise is known in another way.
-    pub(super) fn with(codes: Vec<Seen>, freedom: f64) -> Self {
-        Self { codes, freedom }
-    }
-
-    /// A channel of a pixel: `3 · pixel + channel`.
-    pub(super) fn channel(&self, index: usize) -> Seen {
-        self.codes[index]
     }
 }

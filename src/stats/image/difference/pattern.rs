@@ -45,7 +45,6 @@ impl Pattern {
         }
     }
 
-    /// What is measured of each unit.
     const fn measures(self) -> Range<usize> {
         match self {
             Self::Edges => COMPONENTS..MEASURES,

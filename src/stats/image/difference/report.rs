@@ -8,7 +8,6 @@ use serde::Serialize;
 /// Pixels that are wrong on their own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OddPixels {
-    /// What no picture has, if it is that.
     pub(crate) impossible: Option<Impossible>,
     /// Column of the first, or of the one farthest off.
     pub(crate) x: usize,
@@ -46,7 +45,6 @@ pub struct DifferenceReport {
     pub(crate) impossible: Option<OddPixels>,
     /// Pixels that stand out of the known noise.
     pub(crate) outliers: Option<OddPixels>,
-    /// From the finest to the coarsest.
     pub(crate) patterns: Vec<PatternReport>,
     /// Luminance of the picture over that of the reference.
     pub(crate) ratio: f64,

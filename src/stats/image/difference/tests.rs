@@ -31,6 +31,12 @@ fn judged(image: &Image, reference: &Image) -> DifferenceReport {
     judge_difference(Sample::of(image), Sample::of(reference), None)
 }
 
+fn rejecting(report: &DifferenceReport, pattern: Pattern) -> &PatternReport {
+    let found = report.patterns.iter().find(|found| found.pattern == pattern).unwrap();
+    assert!(found.rejects, "{report:#?}");
+    found
+}
+
 #[test]
 fn two_renders_of_one_scene_are_not_told_apart() {
     for seed in 0..40 {
@@ -64,9 +70,7 @@ fn what_is_wrong_is_found_where_it_is() {
     assert_eq!(judged(&brighter, &reference).verdict, Verdict::Fail);
     let columns = |x: usize, _: usize, v: f64| if (96..112).contains(&x) { 1.3 * v } else { v };
     let report = judged(&render(0.2, 3, columns), &reference);
-    let found = report.patterns.iter().find(|found| found.pattern == Pattern::Columns).unwrap();
-    assert!(found.rejects, "{report:#?}");
-    let extent = found.worst.unwrap();
+    let extent = rejecting(&report, Pattern::Columns).worst.unwrap();
     assert!(extent.x <= 96 && extent.x + extent.width >= 112, "{extent:?}");
 }
 
@@ -74,9 +78,7 @@ fn what_is_wrong_is_found_where_it_is() {
 fn a_displacement_by_half_a_pixel_is_found_at_the_edges() {
     let reference = render(0.02, 1, right);
     let moved = |x: usize, y: usize, _: f64| 0.5 * (scene(x, y) + scene(x.saturating_sub(1), y));
-    let report = judged(&render(0.1, 2, moved), &reference);
-    let found = report.patterns.iter().find(|found| found.pattern == Pattern::Edges).unwrap();
-    assert!(found.rejects, "{report:#?}");
+    rejecting(&judged(&render(0.1, 2, moved), &reference), Pattern::Edges);
 }
 
 #[test]

@@ -81,7 +81,6 @@ impl Estimate {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Misfit {
-    /// Mirrored, rotated or transposed.
     Turned(Symmetry),
     /// All light times a factor, for each channel.
     Brighter([Estimate; 3]),

@@ -41,7 +41,7 @@ impl Place {
 
 /// The reference displaced, and displaced and magnified, as fits the picture best.
 pub(super) fn candidates(question: &Question<'_>, consider: &mut dyn FnMut((Misfit, Image))) {
-    let size = [question.width(), question.height()];
+    let size = question.image.size();
     if size[0].min(size[1]) < 2 * question::UNIT {
         return;
     }

@@ -45,14 +45,6 @@ pub(super) fn weights(image: &Image, reference: &Image, knowledge: &Knowledge<'_
 }
 
 impl Question<'_> {
-    pub(super) fn width(&self) -> usize {
-        self.image.width
-    }
-
-    pub(super) fn height(&self) -> usize {
-        self.image.height
-    }
-
     /// The difference of a channel as it counts.
     #[inline(always)]
     pub(super) fn difference(&self, pixel: usize, image: f32, candidate: f32) -> f32 {
@@ -83,11 +75,10 @@ impl Question<'_> {
 
     /// The same of a candidate that is not drawn yet.
     pub(super) fn energies_of(&self, candidate: impl Fn(usize) -> [f32; 3] + Sync) -> Vec<f64> {
-        self.each_unit(|pixel| {
-            if self.weights[pixel] <= 0.0 {
-                return 0.0;
+        self.fold_units(0.0, |sum, pixel| {
+            if self.weights[pixel] > 0.0 {
+                *sum += self.energy(pixel, self.image.pixels[pixel], candidate(pixel));
             }
-            self.energy(pixel, self.image.pixels[pixel], candidate(pixel))
         })
     }
 
@@ -100,13 +91,8 @@ impl Question<'_> {
     /// The energy that noise alone adds to the difference; 0 where nothing is known of it.
     pub(super) fn noise_energy(&self) -> f64 {
         let Some(errors) = self.knowledge.standard_error else { return 0.0 };
-        let of_pixel = |pixel: usize| self.energy(pixel, errors.pixels[pixel], [0.0; 3]);
-        self.each_unit(of_pixel).iter().sum()
-    }
-
-    /// The sums of `value` over units, row by row.
-    fn each_unit(&self, value: impl Fn(usize) -> f64 + Sync) -> Vec<f64> {
-        self.fold_units(0.0, |sum, pixel| *sum += value(pixel))
+        let add = |sum: &mut f64, pixel| *sum += self.energy(pixel, errors.pixels[pixel], [0.0; 3]);
+        self.fold_units(0.0, add).iter().sum()
     }
 
     /// What `add` makes of the pixels of every unit that is looked at, row by row.
@@ -115,7 +101,7 @@ impl Question<'_> {
         nothing: T,
         add: impl Fn(&mut T, usize) + Sync,
     ) -> Vec<T> {
-        let (width, height) = (self.width(), self.height());
+        let (width, height) = (self.image.width, self.image.height);
         let columns = width.div_ceil(UNIT);
         let is_looked_at = |unit: &usize| {
             let (column, row) = (unit % columns, unit / columns);

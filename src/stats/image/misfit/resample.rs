@@ -49,10 +49,8 @@ fn cubic(t: f32) -> [f32; 4] {
 
 /// The plane as seen through both axes; its border goes on beyond it.
 pub(super) fn resampled(plane: &Plane, across: Axis, down: Axis) -> Plane {
-    let along_rows =
-        resample_rows(&plane.values, [plane.width, plane.height], across, |a, b| a * b);
-    let values = resample_columns(&along_rows, [plane.width, plane.height], down);
-    Plane { width: plane.width, height: plane.height, values }
+    let along_rows = Plane { values: resample_rows(plane, across), ..*plane };
+    Plane { values: resample_columns(&along_rows, down), ..*plane }
 }
 
 /// A picture as seen through both axes; its border goes on beyond it.
@@ -92,31 +90,25 @@ impl<'a> Resampled<'a> {
     }
 }
 
-fn resample_rows(
-    values: &[f32],
-    [width, height]: [usize; 2],
-    axis: Axis,
-    times: impl Fn(f32, f32) -> f32 + Sync,
-) -> Vec<f32> {
+fn resample_rows(plane: &Plane, axis: Axis) -> Vec<f32> {
+    let width = plane.width;
     let taps: Vec<_> = (0..width).map(|x| axis.taps(x)).collect();
-    let mut out = vec![0.0; width * height];
-    out.par_chunks_mut(width).zip(values.par_chunks(width)).for_each(|(out, row)| {
-        for (out, (first, weights)) in out.iter_mut().zip(&taps) {
+    let mut out = vec![0.0; plane.values.len()];
+    out.par_chunks_mut(width).zip(plane.values.par_chunks(width)).for_each(|(out, row)| {
+        for (out, (first, [a, b, c, d])) in out.iter_mut().zip(&taps) {
             let value = |i: isize| row[within(first + i, width)];
-            let [a, b, c, d] = *weights;
-            *out =
-                times(a, value(0)) + times(b, value(1)) + times(c, value(2)) + times(d, value(3));
+            *out = a * value(0) + b * value(1) + c * value(2) + d * value(3);
         }
     });
     out
 }
 
-fn resample_columns(values: &[f32], [width, height]: [usize; 2], axis: Axis) -> Vec<f32> {
-    let mut out = vec![0.0; width * height];
-    out.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
+fn resample_columns(plane: &Plane, axis: Axis) -> Vec<f32> {
+    let mut out = vec![0.0; plane.values.len()];
+    out.par_chunks_mut(plane.width).enumerate().for_each(|(y, out)| {
         let (first, weights) = axis.taps(y);
         for (i, weight) in (0..).zip(weights) {
-            let row = &values[within(first + i, height) * width..][..width];
+            let row = plane.row(within(first + i, plane.height));
             out.iter_mut().zip(row).for_each(|(out, value)| *out += weight * value);
         }
     });

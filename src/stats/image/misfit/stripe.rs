@@ -36,9 +36,9 @@ pub(super) fn candidates(question: &Question<'_>, consider: &mut dyn FnMut((Misf
             continue;
         }
         let [factor] = estimates([value], [off.sqrt() / reference], [0.0]);
-        let picture = Image::from_fn(question.width(), question.height(), |x, y| {
+        let picture = Image::from_fn(question.image.width, question.image.height, |x, y| {
             let line = if lines == Lines::Columns { x } else { y };
-            let pixel = question.reference.pixels[y * question.width() + x];
+            let pixel = question.reference.pixels[y * question.image.width + x];
             let is_in = (first..=last).contains(&line);
             if is_in { pixel.map(|channel| channel * value as f32) } else { pixel }
         });
@@ -59,8 +59,8 @@ fn is_sharp(light: &[[f64; 2]], [first, last]: [usize; 2], factor: f64) -> bool 
 
 /// The weighted light of each line, in the picture and in the reference.
 fn light_of_lines(question: &Question<'_>, lines: Lines) -> Vec<[f64; 2]> {
-    let width = question.width();
-    let count = if lines == Lines::Columns { width } else { question.height() };
+    let width = question.image.width;
+    let count = if lines == Lines::Columns { width } else { question.image.height };
     let mut light = vec![[0.0; 2]; count];
     for (pixel, weight) in question.weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
         let line = if lines == Lines::Columns { pixel % width } else { pixel / width };

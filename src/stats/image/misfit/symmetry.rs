@@ -63,11 +63,11 @@ impl Symmetry {
 
 /// The reference laid in every way that keeps its size.
 pub(super) fn candidates(question: &Question<'_>, consider: &mut dyn FnMut((Misfit, Image))) {
-    let is_square = question.width() == question.height();
+    let is_square = question.image.width == question.image.height;
     for symmetry in Symmetry::ALL {
         let fits_film = is_square || !symmetry.exchanges_axes();
         let laid = |pixel: usize| {
-            let width = question.width();
+            let width = question.image.width;
             symmetry.seen_at(question.reference, pixel % width, pixel / width)
         };
         if fits_film && question.is_worth_a_look(laid) {

@@ -50,9 +50,7 @@ pub(crate) struct CountReport {
     pub(crate) verdict: Verdict,
     /// Why it is inconclusive.
     pub(crate) doubt: Option<CountDoubt>,
-    /// Every stage drawn; a clean sampler has one.
     pub(crate) stages: Escalation<CountStage>,
-    /// Samples in cells where the pdf is zero.
     pub(crate) forbidden: Option<ForbiddenSamples>,
     /// A cell whose probability is negative or not a number.
     pub(crate) improper_cell: Option<usize>,

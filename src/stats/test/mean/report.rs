@@ -9,7 +9,6 @@ pub(crate) struct StageScore {
     pub(crate) stage: Stage,
     /// Samples over all its runs.
     pub(crate) samples: u64,
-    /// Mean over its runs.
     pub(crate) mean: f64,
     /// Standard error of that mean, from the spread of this stage's own runs.
     pub(crate) standard_error: f64,
@@ -43,9 +42,7 @@ pub(crate) struct MeanReport {
     pub(crate) interval: [f64; 2],
     /// `interval` divided by what was expected; none for the mean of a difference.
     pub(crate) ratio: Option<[f64; 2]>,
-    /// Every stage drawn; a clean claim has one.
     pub(crate) stages: Escalation<StageScore>,
-    /// The smallest relative error that would have been caught with probability 0.999.
     pub(crate) resolution: f64,
     /// The relative error that had to be.
     pub(crate) detects: f64,

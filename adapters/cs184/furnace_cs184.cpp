@@ -1093,16 +1093,16 @@ bool shows_normals() {
    return (stage.tracer.est_radiance_global_illumination(ray) - Vector3D(0.8, 0.5, 0.9)).norm() < 1e-9;
 }
 
-// Rays past the thing, along all axes, and one through it.
+// Rays whose whole lines pass the thing far away, none of them along an axis, and one through it.
 template <class Hits> bool is_hit_by_all(Hits &&hits) {
-   const Vector3D away(1, 1.5, 2), axes[] = {Vector3D(1, 0, 0), Vector3D(0, 1, 0), Vector3D(0, 0, 1)};
+   const Vector3D past[] = {Vector3D(1, 0.1, -0.1), Vector3D(0.1, 1, -0.1), Vector3D(-0.1, 0.1, 1)};
    const auto     along = [](const Vector3D &from, const Vector3D &direction) {
       Ray ray(from, direction.unit());
       ray.min_t = 0, ray.max_t = 1e9, ray.depth = 0;
       return ray;
    };
-   for (const Vector3D &axis : axes)
-      if (!hits(along(100 * away, axis))) return false;
+   for (const Vector3D &direction : past)
+      if (!hits(along(Vector3D(100, 150, 200), direction))) return false;
    return hits(along(Vector3D(0.2, 0.2, 5), Vector3D(0.01, 0.01, -1)));
 }
 

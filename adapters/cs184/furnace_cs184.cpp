@@ -1113,11 +1113,13 @@ bool is_met_by_all(const Primitive &primitive) {
    });
 }
 
+// Things that no axis has in one place: a split along the wrong one is a split.
 bool keeps_all_in_one_leaf() {
    std::array<Nothing, 64>  things;
    std::vector<Primitive *> primitives;
    for (size_t i = 0; i < things.size(); ++i) {
-      things[i].box = BBox(Vector3D(double(i), 0, 0), Vector3D(i + 0.5, 0.5, 0.5));
+      const Vector3D corner(double(i), double(7 * i % 64), double(23 * i % 64));
+      things[i].box = BBox(corner, corner + Vector3D(0.5));
       primitives.push_back(&things[i]);
    }
    const BVHNode *root = BVHAccel(primitives, 4).get_root();

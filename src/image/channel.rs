@@ -1,14 +1,16 @@
 //! The channels of a colour.
 
+use crate::text::spoken;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Channel {
-    Red,
-    Green,
-    Blue,
+spoken! {
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Channel {
+        Red = "red",
+        Green = "green",
+        Blue = "blue",
+    }
 }
 
 /// All of them, in the order of a pixel.
@@ -17,15 +19,5 @@ pub(crate) const CHANNELS: [Channel; 3] = [Channel::Red, Channel::Green, Channel
 impl Channel {
     pub(crate) const fn index(self) -> usize {
         self as usize
-    }
-}
-
-impl fmt::Display for Channel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Red => "red",
-            Self::Green => "green",
-            Self::Blue => "blue",
-        })
     }
 }

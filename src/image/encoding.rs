@@ -4,6 +4,7 @@
 use super::Image;
 use super::png::Picture;
 use crate::text::number::figure;
+use crate::text::spoken;
 use serde::{Deserialize, Serialize};
 
 /// The largest code.
@@ -88,23 +89,16 @@ impl std::fmt::Display for Curve {
     }
 }
 
-/// What becomes of the fraction of a code.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Rounding {
-    /// The nearest code is taken.
-    #[default]
-    Nearest,
-    /// The fraction is dropped: half a code too dark on average.
-    Down,
-}
-
-impl std::fmt::Display for Rounding {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(match self {
-            Rounding::Nearest => "rounded",
-            Rounding::Down => "truncated",
-        })
+spoken! {
+    /// What becomes of the fraction of a code.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub(crate) enum Rounding {
+        /// The nearest code is taken.
+        #[default]
+        Nearest = "rounded",
+        /// The fraction is dropped: half a code too dark on average.
+        Down = "truncated",
     }
 }
 

@@ -7,6 +7,7 @@ mod diagnostic;
 mod document;
 pub(crate) mod number;
 mod range;
+mod spoken;
 mod suggestion;
 mod units;
 
@@ -17,5 +18,6 @@ pub(crate) use range::{
     Arrow, Bending, Between, Bounces, Chance, Direction, Factor, Lit, Polar, Positive, Reflectance,
     Roughness, Several, Size, Vector, Words,
 };
+pub(crate) use spoken::spoken;
 pub(crate) use suggestion::{did_you_mean, listed};
 pub(crate) use units::{Angle, Colour, Count, Percent};

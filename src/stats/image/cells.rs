@@ -7,6 +7,7 @@
 use crate::image::{Image, luminance};
 use crate::stats::law::upper_median;
 use crate::stats::plan::level::SCALES;
+use crate::text::spoken;
 use serde::Serialize;
 
 /// Red, green, blue and luminance.
@@ -31,19 +32,21 @@ impl Component {
         [Component::Red, Component::Green, Component::Blue, Component::Luminance];
 }
 
-/// The size of cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Scale {
-    /// One pixel.
-    Pixel,
-    /// 8 by 8 pixels.
-    Tile8,
-    /// 32 by 32 pixels.
-    Tile32,
-    /// 8 whole rows.
-    Rows,
-    /// Everything.
-    Whole,
+spoken! {
+    /// The size of cells.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Scale {
+        /// One pixel.
+        Pixel = "one pixel",
+        /// 8 by 8 pixels.
+        Tile8 = "8 × 8 pixels",
+        /// 32 by 32 pixels.
+        Tile32 = "32 × 32 pixels",
+        /// 8 whole rows.
+        Rows = "8 rows",
+        /// Everything.
+        Whole = "the whole picture",
+    }
 }
 
 impl Scale {
@@ -60,18 +63,6 @@ impl Scale {
             Scale::Rows => (width, 8),
             Scale::Whole => (width, height),
         }
-    }
-}
-
-impl std::fmt::Display for Scale {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(match self {
-            Scale::Pixel => "one pixel",
-            Scale::Tile8 => "8 × 8 pixels",
-            Scale::Tile32 => "32 × 32 pixels",
-            Scale::Rows => "8 rows",
-            Scale::Whole => "the whole picture",
-        })
     }
 }
 

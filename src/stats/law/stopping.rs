@@ -17,7 +17,7 @@ use crate::math::quadrature::Integral;
 pub struct TwoValues {
     pub(crate) low: f64,
     pub(crate) high: f64,
-    /// The probability of the other.
+    /// The probability of `high`.
     pub(crate) chance: f64,
 }
 

@@ -1,6 +1,7 @@
 //! How small an error has to be seen, and what it may cost. The one place that says what a budget
 //! means.
 
+use crate::text::spoken;
 use serde::{Deserialize, Serialize};
 
 /// What a claim is worth: the error it promises to catch, and the samples it may spend on that.
@@ -79,17 +80,19 @@ impl From<Budget> for Allowance {
     }
 }
 
-/// How thorough a run of the suite is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Budget {
-    /// While you work: errors of 5 % where the default sees 2 %.
-    Quick,
-    /// What a case promises.
-    #[default]
-    Default,
-    /// For a release: errors of 0.5 % where the default sees 2 %.
-    Strict,
+spoken! {
+    /// How thorough a run of the suite is.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Budget {
+        /// While you work: errors of 5 % where the default sees 2 %.
+        Quick = "quick",
+        /// What a case promises.
+        #[default]
+        Default = "default",
+        /// For a release: errors of 0.5 % where the default sees 2 %.
+        Strict = "strict",
+    }
 }
 
 impl Budget {
@@ -120,16 +123,6 @@ impl Budget {
     /// What a number of samples meant for the default budget becomes under this one.
     pub(crate) fn samples(self, default: u64) -> u64 {
         (default as f64 * self.samples_factor()).ceil() as u64
-    }
-}
-
-impl std::fmt::Display for Budget {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(match self {
-            Budget::Quick => "quick",
-            Budget::Default => "default",
-            Budget::Strict => "strict",
-        })
     }
 }
 

@@ -10,18 +10,21 @@
 
 use super::{Hypothesis, TestKind};
 use crate::math::rng::Seed;
+use crate::text::spoken;
 
-/// A step of a test. Each has its own random numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Stage {
-    /// Measures the noise, decides nothing.
-    Pilot,
-    /// Suspects.
-    First,
-    /// Confirms on 4 times the samples.
-    Second,
-    /// Confirms on 16 times the samples.
-    Third,
+spoken! {
+    /// A step of a test. Each has its own random numbers.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Stage {
+        /// Measures the noise, decides nothing.
+        Pilot = "pilot",
+        /// Suspects.
+        First = "stage 1",
+        /// Confirms on 4 times the samples.
+        Second = "stage 2",
+        /// Confirms on 16 times the samples.
+        Third = "stage 3",
+    }
 }
 
 impl Stage {
@@ -45,17 +48,6 @@ impl Stage {
     /// The seed of this stage below the seed of its check.
     pub(crate) fn seed(self, check: Seed) -> Seed {
         check.child(self)
-    }
-}
-
-impl std::fmt::Display for Stage {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(match self {
-            Stage::Pilot => "pilot",
-            Stage::First => "stage 1",
-            Stage::Second => "stage 2",
-            Stage::Third => "stage 3",
-        })
     }
 }
 

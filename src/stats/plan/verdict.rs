@@ -1,17 +1,20 @@
 //! The three things a check can say. A noisy agreement is not a pass.
 
+use crate::text::spoken;
 use serde::{Deserialize, Serialize};
 
-/// What a check says of the claim it judged. Ordered from good to bad, so that `max` is the worst.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// Not rejected, and an error of the promised size would have been seen.
-    Pass,
-    /// Not rejected, but the promised error could have hidden in the noise. Never counts as passed.
-    Inconclusive,
-    /// Rejected.
-    Fail,
+spoken! {
+    /// What a check says of the claim it judged. Ordered from good to bad, so that `max` is the worst.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Verdict {
+        /// Not rejected, and an error of the promised size would have been seen.
+        Pass = "pass",
+        /// Not rejected, but the promised error could have hidden in the noise. Never counts as passed.
+        Inconclusive = "inconclusive",
+        /// Rejected.
+        Fail = "fail",
+    }
 }
 
 impl Verdict {
@@ -35,16 +38,6 @@ impl Verdict {
     /// so that NaN makes it false.
     pub(crate) fn pass_if(holds: bool) -> Verdict {
         if holds { Verdict::Pass } else { Verdict::Fail }
-    }
-}
-
-impl std::fmt::Display for Verdict {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(match self {
-            Verdict::Pass => "pass",
-            Verdict::Inconclusive => "inconclusive",
-            Verdict::Fail => "fail",
-        })
     }
 }
 

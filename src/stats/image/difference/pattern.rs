@@ -5,6 +5,7 @@ use super::unit::{MEASURES, SIDE, Unit, Units};
 use crate::stats::Moments;
 use crate::stats::image::Extent;
 use crate::stats::image::cells::COMPONENTS;
+use crate::text::spoken;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -14,20 +15,22 @@ const MOST_CHOSEN: usize = 64;
 /// A cell with fewer units in a stage is not judged: their spread says too little.
 const FEWEST_UNITS: usize = 6;
 
-/// A kind of difference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Pattern {
-    /// Light in tiles of 64 by 64 pixels.
-    Tiles,
-    /// Light in bands of 16 rows.
-    Rows,
-    /// Light in bands of 16 columns.
-    Columns,
-    /// Light in the whole picture.
-    Whole,
-    /// Edges in the whole picture.
-    Edges,
+spoken! {
+    /// A kind of difference.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Pattern {
+        /// Light in tiles of 64 by 64 pixels.
+        Tiles = "light in tiles of 64 × 64 pixels",
+        /// Light in bands of 16 rows.
+        Rows = "light in bands of 16 rows",
+        /// Light in bands of 16 columns.
+        Columns = "light in bands of 16 columns",
+        /// Light in the whole picture.
+        Whole = "light in the whole picture",
+        /// Edges in the whole picture.
+        Edges = "where edges lie",
+    }
 }
 
 impl Pattern {
@@ -73,18 +76,6 @@ impl Pattern {
         choices.sort_by(|a, b| b.t.total_cmp(&a.t));
         choices.truncate(MOST_CHOSEN);
         choices
-    }
-}
-
-impl std::fmt::Display for Pattern {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(match self {
-            Self::Tiles => "light in tiles of 64 × 64 pixels",
-            Self::Rows => "light in bands of 16 rows",
-            Self::Columns => "light in bands of 16 columns",
-            Self::Whole => "light in the whole picture",
-            Self::Edges => "where edges lie",
-        })
     }
 }
 

@@ -48,7 +48,7 @@ fn two_renders_of_one_scene_are_not_told_apart() {
 
 /// At a level of 5 % for each confirmation, a pattern rejects one right picture in 400.
 #[test]
-#[ignore = "some minutes: cargo test --lib stats::difference -- --ignored --nocapture"]
+#[ignore = "some minutes: cargo test --lib stats::image::difference -- --ignored --nocapture"]
 fn false_alarms_are_no_more_than_the_levels_say() {
     let mut rejected = [0; Pattern::ALL.len()];
     let pictures = 2000;

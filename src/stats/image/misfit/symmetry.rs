@@ -3,22 +3,22 @@
 use super::Misfit;
 use super::question::Question;
 use crate::image::Image;
+use crate::text::spoken;
 use serde::{Deserialize, Serialize};
 
-/// A way to lay a picture onto itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Symmetry {
-    LeftRight,
-    UpsideDown,
-    HalfTurn,
-    Transposed,
-    /// Rows and columns exchanged, from the other corner.
-    AntiTransposed,
-    /// Turned by 90 degrees clockwise.
-    QuarterTurn,
-    /// Turned by 90 degrees counterclockwise.
-    QuarterTurnBack,
+spoken! {
+    /// A way to lay a picture onto itself.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub(crate) enum Symmetry {
+        LeftRight = "mirrored left to right",
+        UpsideDown = "upside down",
+        HalfTurn = "turned by 180°",
+        Transposed = "transposed",
+        AntiTransposed = "transposed from the other corner",
+        QuarterTurn = "turned by 90° clockwise",
+        QuarterTurnBack = "turned by 90° counterclockwise",
+    }
 }
 
 impl Symmetry {

@@ -1,22 +1,8 @@
 //! What was found, as sentences.
 
-use super::{BouncesOff, Estimate, Fit, Lines, Misfit, Symmetry};
+use super::{BouncesOff, Estimate, Fit, Lines, Misfit};
 use crate::text::number::{percent, plus_minus, significant};
 use std::fmt;
-
-impl fmt::Display for Symmetry {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::LeftRight => "mirrored left to right",
-            Self::UpsideDown => "upside down",
-            Self::HalfTurn => "turned by 180°",
-            Self::Transposed => "transposed",
-            Self::AntiTransposed => "transposed from the other corner",
-            Self::QuarterTurn => "turned by 90° clockwise",
-            Self::QuarterTurnBack => "turned by 90° counterclockwise",
-        })
-    }
-}
 
 impl fmt::Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

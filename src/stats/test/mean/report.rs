@@ -44,7 +44,7 @@ pub(crate) struct MeanReport {
     pub(crate) ratio: Option<[f64; 2]>,
     pub(crate) stages: Escalation<StageScore>,
     pub(crate) resolution: f64,
-    /// The relative error that had to be.
+    /// The relative error that had to be caught; `resolution` is the smallest that would have been.
     pub(crate) detects: f64,
     /// Samples drawn in all, pilot and repeated stages included.
     pub(crate) samples: u64,

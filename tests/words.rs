@@ -56,7 +56,7 @@ const AVOID: &[(&str, &str)] = &[
 const EXCEPT: &[&str] = &["bounding volume hierarchy", "probability density"];
 
 /// Rooms whose words their authors see to.
-const ELSEWHERE: &[&str] = &["src/checks/", "src/contract/", "src/cores/textbook/"];
+const ELSEWHERE: &[&str] = &["src/checks/"];
 
 /// A term of the field, and the file or folder whose text has it.
 const TERMS: &[(&str, &str)] = &[

@@ -1,5 +1,4 @@
-//! What an answer is made of: what it holds before a core has written it, what form it has to have, and how it
-//! crosses.
+//! What an answer is made of: what it holds before a core has written it, what form it has to have, and how it crosses.
 //!
 //! Not here: whether an answer is *right*, which is what checks are for.
 

@@ -10,8 +10,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// A ray segment: the points `origin + t · direction` for t in (t_min, t_max).
-/// 64 bytes: one cache line.
+/// A ray segment: the points `origin + t · direction` for t in (t_min, t_max). 64 bytes: one cache line.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Ray {
@@ -134,9 +133,9 @@ impl std::ops::AddAssign for TraversalStats {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sampler {
-    /// Uniform over the hemisphere around +z: density 1/2π.
+    /// Uniform over the hemisphere around +z: pdf 1/2π.
     UniformHemisphere,
-    /// Proportional to the cosine with +z: density cos θ/π.
+    /// Proportional to the cosine with +z: pdf cos θ/π.
     CosineHemisphere,
 }
 
@@ -146,7 +145,7 @@ pub enum Sampler {
 pub struct DirectionSample {
     /// Unit.
     pub direction: DVec3,
-    /// Density per steradian at `direction`.
+    /// Pdf per steradian at `direction`.
     pub pdf: f64,
 }
 
@@ -166,7 +165,7 @@ pub struct BsdfQuery {
 pub struct BsdfValue {
     /// Per steradian, RGB, without the cosine.
     pub f: [f64; 3],
-    /// Density per steradian around `wi`, given `wo`.
+    /// Pdf per steradian around `wi`, given `wo`.
     pub pdf: f64,
 }
 
@@ -179,7 +178,7 @@ pub struct BsdfSample {
     /// Per steradian, RGB, without the cosine. For a delta lobe: such that `f · |cos θi| / pdf` is the
     /// weight of the path.
     pub f: [f64; 3],
-    /// Density per steradian; for a delta lobe the probability of having chosen it.
+    /// Pdf per steradian; for a delta lobe the probability of having chosen it.
     pub pdf: f64,
     /// 1: the only direction of a delta lobe (mirror, glass).
     pub is_delta: u32,
@@ -203,7 +202,7 @@ pub struct LightSample {
     /// Arriving along `wi` if nothing is in between. Of a delta light: such that
     /// `radiance · f · cos` is the reflected radiance (irradiance at normal incidence).
     pub radiance: [f64; 3],
-    /// Density per steradian; 1 for a delta light.
+    /// Pdf per steradian; 1 for a delta light.
     pub pdf: f64,
     /// 1: a point or directional light.
     pub is_delta: u32,

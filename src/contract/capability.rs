@@ -113,7 +113,7 @@ pub struct CoreInfo {
 pub struct Conventions {
     /// How a point light weakens with distance.
     pub point_light_falloff: Falloff,
-    /// Which side of an emitting surface glows when it is seen.
+    /// Which side of an emitting surface emits when it is seen.
     pub emission: EmissionSides,
     /// The masking term of the microfacet model.
     pub smith_term: SmithTerm,
@@ -134,7 +134,7 @@ pub enum Falloff {
     None,
 }
 
-/// Which side of an emitting surface glows when it is seen.
+/// Which side of an emitting surface emits when it is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EmissionSides {
@@ -165,7 +165,7 @@ pub enum GlassFresnel {
     Exact,
     /// Schlick's approximation, as courses teach it: with the cosine of the view, outside and inside.
     Schlick,
-    /// Schlick's approximation with the cosine on the thin side, seen from inside too: the same both ways through a face.
+    /// Schlick's approximation with the cosine on the side of lower index, from inside too: the same both ways through a face.
     SchlickOutside,
 }
 

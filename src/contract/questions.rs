@@ -41,14 +41,14 @@ macro_rules! questions {
                 fn intersect_box(bounds: &Aabb, rays: &[Ray]; box_hits: &mut [BoxHit]) -> ();
             }
             Core (sample_direction: plain) {
-                /// One direction of the hemisphere around +z for each element of `random`, with its density.
+                /// One direction of the hemisphere around +z for each element of `random`, with its pdf.
                 SAMPLE_DIRECTION = 14
                 fn sample_direction(
                     sampler: Sampler, random: Randomness<'_>; samples: &mut [DirectionSample]
                 ) -> ();
             }
             Core (direction_pdf: plain) {
-                /// The density (per steradian) with which `sampler` draws each direction; 0 where it never goes.
+                /// The pdf (per steradian) with which `sampler` draws each direction; 0 where it never goes.
                 SAMPLE_DIRECTION
                 fn direction_pdf(sampler: Sampler, directions: &[DVec3]; pdf: &mut [f64]) -> ();
             }

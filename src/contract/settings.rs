@@ -23,7 +23,7 @@ impl Acceleration {
     pub const DEFAULT: Self = Self::Bvh { split: Split::CoresChoice, max_leaf_size: 4 };
 }
 
-/// How a node of the hierarchy is divided.
+/// How a node of the BVH is divided.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Split {
@@ -62,10 +62,10 @@ pub struct IntegratorSettings {
     /// Shadow rays to each area light or sky at each vertex; a delta light always gets one.
     /// With hemisphere sampling this many directions *per light* are drawn.
     pub samples_per_light: u32,
-    /// Which bounces to add up: `0..=0` what the camera sees glowing, `1..=1` light scattered once,
+    /// Which bounces to add up: `0..=0` emission that the camera sees, `1..=1` light scattered once,
     /// `0..=m` everything up to m scatterings.
     pub bounces: RangeInclusive<u32>,
-    /// How light is gathered at each vertex.
+    /// How direct light is sampled at each vertex.
     pub direct: DirectSampling,
     /// When paths end before the last bounce asked for.
     pub roulette: Option<Roulette>,
@@ -88,11 +88,11 @@ impl Default for IntegratorSettings {
     }
 }
 
-/// How light is gathered at each vertex that is not a mirror or glass.
+/// How direct light is sampled at each vertex that is not a mirror or glass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DirectSampling {
-    /// Uniform directions over the hemisphere, adding what glows where they arrive. Lights that no direction
+    /// Uniform directions over the hemisphere, adding what is emitted where they arrive. Lights that no direction
     /// can meet (point, directional) are sampled as in [`Self::Lights`].
     Hemisphere,
     /// Points on the lights. A core may combine them with BSDF samples on glossy surfaces.

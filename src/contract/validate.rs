@@ -2,7 +2,7 @@
 //!
 //! [`Validated`] stands between checks and a core: it fills every out slice with a marked NaN, so that "left
 //! untouched" is seen; it stops panics; and it refuses answers that are not of the contract's form: numbers that
-//! are not finite, directions that are not unit, densities below zero, shapes that do not exist. Checks need not
+//! are not finite, directions that are not unit, pdfs below zero, shapes that do not exist. Checks need not
 //! defend themselves. Not here: whether an answer is *right*, which is what checks are for.
 
 use super::answer::{Answer, Asked};

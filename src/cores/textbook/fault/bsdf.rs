@@ -41,7 +41,7 @@ faults! { part 3;
     "backlit-surface": "no test for cos θ > 0: light from behind is scattered too",
         fails ITSELF, told bsdf::LIGHT_FROM_BELOW,
         scatters_light_from = |_| true;
-    "diffuse-pdf-uniform": "cosine samples of the diffuse surface, density 1/2π",
+    "diffuse-pdf-uniform": "cosine samples of the diffuse surface, pdf 1/2π",
         fails DIFFUSE, told sampling::UNIFORM_PDF_FOR_COSINE,
         diffuse_density = || Sampler::UniformHemisphere;
     "albedo-averaged": "all channels have the mean albedo: right for grey scenes",
@@ -89,7 +89,7 @@ faults! { part 3;
     "metal-without-masking": "G = 1",
         fails "bsdf/rough-conductor-conserves-energy", told bsdf::MASKING_FORGOTTEN,
         metal_f = |facets| facets.density / (4.0 * facets.wo.z * facets.wi.z);
-    "metal-pdf-of-facets": "the density of the half vector, without 1/(4 wo·h)",
+    "metal-pdf-of-facets": "the pdf of the half vector, without 1/(4 wo·h)",
         fails "bsdf/rough-conductor-pdf-matches-the-jacobian", told bsdf::PDF_OF_HALF_VECTOR,
         metal_pdf = |Facets { density, masking_over_cosine: [masked, _], wo, normal, .. }| {
             density * masked * wo.dot(*normal).max(0.0)
@@ -101,7 +101,7 @@ faults! { part 3;
         fails "bsdf/rough-glass-pdf-matches-the-jacobian",
         told bsdf::REFRACTION_JACOBIAN_WITHOUT_INDEX,
         refraction_jacobian = |_, i_m, denominator| i_m.abs() / denominator;
-    "rough-glass-chance-forgotten": "Fresnel's share is in f, and not in the pdf",
+    "rough-glass-chance-forgotten": "the Fresnel reflectance is in f, and not in the pdf",
         fails "bsdf/rough-glass-pdf-integrates-to-its-valid-samples",
         told bsdf::LOBE_PROBABILITY_FORGOTTEN,
         lobe_probability = |_| 1.0;
@@ -112,7 +112,7 @@ faults! { part 3;
             lesson::rough_glass::upward((-(wo + glass.index * wi)).normalize())
         };
     "rough-glass-fresnel-of-surface":
-        "Fresnel's share is that of the surface's cosine, not of the facet's",
+        "the Fresnel reflectance is that of the surface's cosine, not of the microfacet's",
         fails "bsdf/rough-glass-conserves-energy", told bsdf::FRESNEL_OF_SURFACE,
         fresnel_cosine = |wo, _| wo.z.abs();
 }

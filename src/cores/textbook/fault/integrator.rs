@@ -33,13 +33,13 @@ faults! { part 4;
         fails FURNACE, told integrator::ZERO_DEPTH_LIT,
         last_bounce = |bounces| *bounces.end().max(&1),
         wants = |bounces, bounce| bounces.contains(&bounce) || bounce == 1 && *bounces.start() <= 1;
-    "emission-forgotten": "with bounces, what glows by itself is left out",
+    "emission-forgotten": "with bounces, the emission that the camera sees is left out",
         fails FURNACE, told integrator::EMISSION_LOST,
         wants = |bounces, bounce| bounces.contains(&bounce) && (bounce > 0 || *bounces.end() == 0);
     "emission-every-bounce": "zero_bounce in the recursion, on top of light sampling",
         fails FURNACE, told integrator::EMISSION_AGAIN,
         path_meets_light = |surface, is_last| !is_last || lesson::bsdf::is_delta(surface);
-    "mirror-shows-no-light": "what glows is not added after a mirror",
+    "mirror-shows-no-light": "emission is not added after a mirror",
         fails "integrator/three-mirrors-multiply-their-reflectance",
         told integrator::NO_EMISSION_AFTER_SPECULAR,
         path_meets_light = |_, _| false;

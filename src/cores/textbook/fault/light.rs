@@ -11,20 +11,20 @@ const RECTANGLE: &str = "light/rectangle-light-samples-reach-the-light";
 
 faults! { part 3;
     "light-pdf-by-distance":
-        "the density of a light sample lacks a factor of the distance, as in the course's base code",
+        "the pdf of a light sample lacks a factor of the distance, as in the course's base code",
         fails RECTANGLE, told light::LIGHT_DISTANCE_NOT_SQUARED,
         area_per_steradian = |distance_squared, cosine| distance_squared.sqrt() / cosine;
     "light-pdf-without-cosine": "distance²/area, without the cosine at the light",
         fails RECTANGLE, told light::LIGHT_COSINE_FORGOTTEN,
         area_per_steradian = |distance_squared, _| distance_squared;
-    "light-pdf-per-area": "1/area, as if it were a density over directions",
+    "light-pdf-per-area": "1/area, as if it were a pdf over directions",
         fails RECTANGLE, told light::LIGHT_PDF_PER_AREA,
         area_per_steradian = |_, _| 1.0;
     "light-area-forgotten": "distance²/cos θ, without the area",
         fails RECTANGLE, told light::LIGHT_AREA_FORGOTTEN,
         mesh_pdf = |area_per_steradian, _| area_per_steradian;
     "light-cosine-moved":
-        "the cosine at the light in the radiance, not in the density: the picture is right",
+        "the cosine at the light in the radiance, not in the pdf: the picture is right",
         fails RECTANGLE, told light::LIGHT_COSINE_FORGOTTEN,
         area_per_steradian = |distance_squared, _| distance_squared,
         mesh_radiance = |radiance, to_light, normal| {
@@ -70,14 +70,14 @@ faults! { part 3;
     "light-times-pdf": "× pdf in place of / pdf",
         fails "light/rectangle-light-slanted-matches-closed-form", told light::TIMES_PDF,
         light_estimate = |light, pdf| light * pdf;
-    "lamp-shadows-itself": "the shadow ray ends at the lamp, and meets it",
+    "lamp-shadows-itself": "the shadow ray ends at the light, and meets it",
         fails "light/rectangle-light-slanted-matches-closed-form", told light::EMITTER_SHADOWS_ITSELF,
         shadow_ray = |vertex, sample| {
             let t_max = sample.distance + vertex.clearance;
             Ray { t_max, ..shadow_ray(vertex, sample) }
         };
     "lamp-shadows-itself-at-times":
-        "the shadow ray starts EPS ahead and ends EPS before the lamp: rounding decides",
+        "the shadow ray starts EPS ahead and ends EPS before the light: rounding decides",
         fails "light/rectangle-light-overhead-matches-closed-form", told light::EMITTER_SHADOWS_ITSELF,
         shadow_ray = |vertex, sample| {
             let origin = vertex.point + vertex.clearance * sample.wi;

@@ -36,8 +36,7 @@ pub struct Fault {
     pub(super) steps: Steps,
 }
 
-/// A table of faults: `"name": "what the student wrote", fails CASE, told CAUSE, STEP = what stands
-/// in its place;`.
+/// A table of faults: `"name": "what the student wrote", fails CASE, told CAUSE, STEP = what stands in its place;`.
 macro_rules! faults {
     (part $part:literal; $(
         $name:literal: $summary:literal, fails $caught_by:expr, told $cause:expr,

@@ -22,21 +22,21 @@ faults! { part 3;
     "cosine-without-root": "cos θ = u where √u belongs",
         fails COSINE_MAP, told sampling::UNIFORM_FOR_COSINE,
         cosine_height = |u| 1.0 - u;
-    "uniform-pdf-doubled": "density 1/π for the uniform hemisphere",
+    "uniform-pdf-doubled": "pdf 1/π for the uniform hemisphere",
         fails UNIFORM_DENSITY, told sampling::PDF_DOUBLED,
         uniform_hemisphere_pdf = || FRAC_1_PI;
     "uniform-pdf-doubled-made-good":
-        "density 1/π, and a factor 2 in the estimator: the picture is right",
+        "pdf 1/π, and a factor 2 in the estimator: the picture is right",
         fails UNIFORM_DENSITY, told sampling::PDF_DOUBLED,
         uniform_hemisphere_pdf = || FRAC_1_PI,
         hemisphere_estimate = |light, pdf| 2.0 * (light / pdf);
-    "cosine-pdf-without-pi": "density cos θ for the cosine hemisphere",
+    "cosine-pdf-without-pi": "pdf cos θ for the cosine hemisphere",
         fails COSINE_DENSITY, told sampling::PDF_WITHOUT_PI,
         cosine_hemisphere_pdf = |direction| direction.z;
-    "cosine-pdf-uniform": "cosine samples with density 1/2π",
+    "cosine-pdf-uniform": "cosine samples with pdf 1/2π",
         fails COSINE_MAP, told sampling::UNIFORM_PDF_FOR_COSINE,
         cosine_hemisphere_pdf = |_| FRAC_1_PI / 2.0;
-    "pdf-below-horizon": "the density is |cos θ|/π below the horizon too",
+    "pdf-below-horizon": "the pdf is |cos θ|/π below the horizon too",
         fails COSINE_DENSITY, told sampling::PDF_BELOW_HORIZON,
         is_below_horizon = |_| false,
         cosine_hemisphere_pdf = |direction| direction.z.abs() * FRAC_1_PI;

@@ -1,9 +1,8 @@
 //! A core that is a shared library, called through the table of `include/furnace_core.h`.
 //!
-//! One of the two files with `unsafe`: everything that follows a foreign pointer is here. A library can do anything
-//! to the process it is loaded into, so a run loads it in a worker process (`cores::remote`) and never beside its
-//! own results. Not here: what the answers are worth (`contract::validate`), and what happens if none comes
-//! (`worker`).
+//! One of the two files with `unsafe`: everything that follows a foreign pointer is here. A library can do anything to
+//! the process it is loaded into, so a run loads it in a worker process (`cores::remote`) and never beside its own
+//! results. Not here: what the answers are worth (`contract::validate`), and what happens if none comes (`worker`).
 #![expect(unsafe_code, reason = "a shared library is called through C")]
 
 mod counted;

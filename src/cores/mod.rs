@@ -10,6 +10,11 @@ mod hosting;
 pub(crate) mod remote;
 pub(crate) mod textbook;
 
+#[cfg(test)]
+mod closed_forms;
+#[cfg(test)]
+mod stage;
+
 pub use hosting::{HostError, Hosted, Hosting};
 
 use crate::contract::Core;

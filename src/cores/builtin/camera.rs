@@ -11,7 +11,6 @@ pub(crate) struct Pinhole {
 }
 
 impl Pinhole {
-    /// Takes the tangents of half the fields of view once.
     pub(crate) fn new(camera: &Camera) -> Self {
         let half_size =
             DVec2::new((camera.horizontal_fov / 2.0).tan(), (camera.vertical_fov / 2.0).tan());

@@ -15,7 +15,6 @@ use super::world::{Eye, World};
 use crate::contract::{IntegratorSettings, Ray};
 use glam::{DVec3, Vec3};
 
-/// Traces paths, one after the other.
 pub(crate) struct Integrator<'a> {
     pub(super) eye: Eye<'a>,
     pub(super) settings: &'a IntegratorSettings,
@@ -32,7 +31,6 @@ enum Sight {
     Share(GlossyDirection),
 }
 
-/// A path on its way.
 struct Path {
     ray: Ray,
     /// Back along the ray, unit.
@@ -43,7 +41,6 @@ struct Path {
 }
 
 impl<'a> Integrator<'a> {
-    /// Paths in `world`, none traced yet.
     pub(crate) fn new(world: &'a World, settings: &'a IntegratorSettings) -> Self {
         Self { eye: Eye::new(world), settings, stream: Stream::new(settings.seed, 0, 0) }
     }

@@ -8,10 +8,8 @@ use crate::scene::{self, Emission, Mesh, Rgb, SceneDescription, Shape, Sphere};
 use glam::{DVec2, DVec3, dvec3};
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
-/// A light, ready to be sampled.
 #[derive(Clone, Debug)]
 pub enum Light {
-    /// Shines from a point.
     Point {
         /// World space.
         position: DVec3,
@@ -27,9 +25,7 @@ pub enum Light {
     },
     /// Shines from everywhere.
     Sky(scene::Light),
-    /// A mesh light.
     Mesh(MeshLight),
-    /// A sphere light.
     Sphere(SphereLight),
 }
 
@@ -45,7 +41,6 @@ pub(crate) struct Aim {
 const INVALID: LightSample = LightSample { distance: f64::INFINITY, ..LightSample::NONE };
 
 impl Light {
-    /// Prepares light `light` of `scene`.
     pub(crate) fn new(scene: &SceneDescription, light: &scene::Light) -> Self {
         match *light {
             scene::Light::Point { position, intensity } => Self::Point { position, intensity },

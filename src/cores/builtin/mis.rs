@@ -13,11 +13,9 @@ pub(crate) fn power_heuristic(own: f64, other: f64) -> f64 {
 /// Where a BSDF sample came from, for the weight of the emission that it hits.
 #[derive(Clone, Copy)]
 pub(crate) struct GlossyDirection {
-    /// The vertex that it left.
     pub(crate) from: DVec3,
     /// Where that takes light from.
     pub(crate) reach: Reach,
-    /// The pdf of the direction.
     pub(crate) pdf: f64,
 }
 

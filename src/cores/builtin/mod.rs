@@ -31,7 +31,7 @@ mod vertex;
 mod world;
 
 #[cfg(test)]
-mod closed_forms;
+mod tests;
 
 use crate::contract::{
     Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue, Built,

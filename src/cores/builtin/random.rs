@@ -9,7 +9,6 @@ use glam::DVec2;
 /// The increment of the counter: 2⁶⁴ divided by the golden ratio, made odd.
 const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// A stream of random numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct Stream {
     counter: u64,

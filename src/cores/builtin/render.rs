@@ -14,7 +14,6 @@ use rayon::prelude::*;
 /// Rays or pixels that one thread takes at a time.
 const PORTION: usize = 64;
 
-/// One estimate for each ray.
 pub(crate) fn radiance(
     world: &World,
     rays: &[Ray],
@@ -29,7 +28,6 @@ pub(crate) fn radiance(
     for_each(world, settings, &mut radiance[..count], estimate)
 }
 
-/// An image.
 pub(crate) fn render(
     world: &World,
     camera: &Camera,
@@ -49,7 +47,6 @@ pub(crate) fn render(
     Ok(())
 }
 
-/// A pixel that is done.
 #[derive(Clone, Copy, Default)]
 struct Pixel {
     mean: [f32; 3],

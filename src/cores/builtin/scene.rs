@@ -13,7 +13,6 @@ use crate::contract::{
 use crate::scene::{Camera, Light, Mesh, SceneDescription};
 use glam::DVec3;
 
-/// A scene with its tree.
 pub(crate) struct BuiltinScene {
     world: World,
 }

@@ -6,11 +6,8 @@ use super::trace::Surface;
 use crate::contract::Ray;
 use glam::{DVec3, Vec3, vec3};
 
-/// Where a path scatters.
 pub(crate) struct Vertex<'a> {
-    /// On the surface.
     pub(crate) position: DVec3,
-    /// How it scatters.
     pub(crate) bsdf: &'a Bsdf,
     /// Towards where the path came from, local frame.
     pub(crate) wo: Vec3,
@@ -47,13 +44,11 @@ impl<'a> Vertex<'a> {
         if self.bsdf.is_interface() { Reach::Everywhere } else { Reach::Above(self.normal) }
     }
 
-    /// A local direction in world space.
     pub(crate) fn to_world(&self, w: Vec3) -> DVec3 {
         let [first, second, up] = self.frame;
         (first * w.x + second * w.y + up * w.z).as_dvec3()
     }
 
-    /// A world direction in the local frame.
     pub(crate) fn to_local(&self, w: DVec3) -> Vec3 {
         to_local(&self.frame, w.as_vec3())
     }

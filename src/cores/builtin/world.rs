@@ -12,14 +12,11 @@ use glam::{DVec3, Vec3};
 
 /// Everything that stays the same while rays are traced.
 pub(crate) struct World {
-    /// What is hit.
     pub(crate) geometry: Geometry,
-    /// How it is found.
     pub(crate) tree: Tree,
     /// What shines, in the order of the scene.
     pub(crate) lights: Vec<Light>,
     materials: Vec<(Bsdf, Option<Emission>)>,
-    /// The material of each shape.
     shape_materials: Vec<usize>,
     /// The area light of each shape that is one.
     shape_lights: Vec<Option<usize>>,
@@ -49,12 +46,10 @@ impl World {
         }
     }
 
-    /// How the surface scatters.
     pub(crate) fn bsdf(&self, surface: &Surface) -> &Bsdf {
         &self.materials[self.shape_materials[surface.shape as usize]].0
     }
 
-    /// The light that the surface is part of.
     pub(crate) fn light_of(&self, surface: &Surface) -> Option<&Light> {
         self.shape_lights[surface.shape as usize].map(|number| &self.lights[number])
     }
@@ -81,25 +76,21 @@ impl World {
 
 /// Rays in a world, one after the other.
 pub(crate) struct Eye<'a> {
-    /// What they meet.
     pub(crate) world: &'a World,
     tracer: Tracer<'a>,
 }
 
 impl<'a> Eye<'a> {
-    /// Nothing traced yet.
     pub(crate) fn new(world: &'a World) -> Self {
         Self { world, tracer: Tracer::new(&world.tree) }
     }
 
-    /// The nearest surface along `ray`.
     pub(crate) fn nearest(&mut self, ray: &Ray) -> Option<Surface> {
         let segment = Segment::new(ray);
         let candidate = self.tracer.nearest(&segment)?;
         Some(self.world.geometry.surface(&segment, candidate))
     }
 
-    /// Whether anything lies on `ray`.
     pub(crate) fn is_blocked(&mut self, ray: &Ray) -> bool {
         self.tracer.is_blocked(&Segment::new(ray))
     }

@@ -45,7 +45,6 @@ pub(crate) struct Adapter {
     pub(crate) about: String,
     /// What scenes are written in.
     pub(crate) scene: Format,
-    /// What is started.
     pub(crate) program: Executable,
     /// What it is given; words in braces are replaced.
     pub(crate) arguments: Vec<String>,
@@ -60,7 +59,6 @@ pub(crate) struct Adapter {
     pub(crate) depth_offset: u32,
     /// Seconds until a picture is given up.
     pub(crate) time_limit: u32,
-    /// What it writes.
     pub(crate) output: Output,
     /// How two pictures become independent.
     pub(crate) runs: Runs,
@@ -90,15 +88,12 @@ pub(crate) struct Executable {
     pub(crate) needs: String,
 }
 
-/// The picture.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct Output {
     /// Its file; the ending says which format: `.exr`, `.pfm`, `.hdr` or `.png`.
     pub(crate) file: String,
-    /// From radiance to what is stored.
     pub(crate) encoding: Encoding,
-    /// Which row comes first.
     #[serde(default)]
     pub(crate) first_row: FirstRow,
 }
@@ -161,33 +156,21 @@ pub(crate) struct Abilities {
     pub(crate) deterministic: bool,
 }
 
-/// Something in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Feature {
-    /// A mirror.
     Mirror,
-    /// Glass.
     Glass,
     /// Glass whose reflectance or transmittance is not one.
     TintedGlass,
-    /// A rough metal.
     RoughMetal,
-    /// Rough glass.
     RoughGlass,
-    /// A point light.
     PointLight,
-    /// A directional light.
     DirectionalLight,
-    /// A sky of one radiance.
     ConstantSky,
-    /// A sky that is brighter above.
     GradientSky,
-    /// A sphere light.
     SphereLight,
-    /// An emitter that also reflects.
     GlowingSurface,
-    /// A sphere that looks inward.
     InwardSphere,
 }
 
@@ -197,7 +180,6 @@ pub(crate) enum Feature {
 pub(crate) struct LogPatterns {
     /// Seconds of rendering, by whichever clock the program has.
     pub(crate) seconds: Option<Pattern>,
-    /// Rays traced.
     pub(crate) rays: Option<Pattern>,
     /// Boxes and primitives tested for one ray.
     pub(crate) tests_per_ray: Option<Pattern>,

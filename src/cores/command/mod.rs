@@ -1,5 +1,4 @@
-//! A core that is any program which turns a scene into a picture, described by a file of
-//! `adapters/command/`.
+//! A core that is any program which turns a scene into a picture, described by a file of `adapters/command/`.
 //!
 //! It lives in a worker, which starts the program anew for every picture, in a folder of its own. The program gets
 //! the scene in one of the formats of [`crate::scene::format`]. It can be asked for pictures only. One that

@@ -9,7 +9,6 @@ use std::path::Path;
 /// A picture, and which pixels say only that they are bright.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Picture {
-    /// Linear.
     pub(crate) image: Image,
     /// Codes of 255 stand for anything from there up.
     pub(crate) clipped: Vec<bool>,

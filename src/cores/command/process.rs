@@ -14,10 +14,8 @@ const LONGEST_LOG: u64 = 1 << 22;
 /// How often it is looked whether a program has ended.
 const GLANCE: Duration = Duration::from_millis(2);
 
-/// How a program ended.
 #[derive(Debug)]
 pub enum Ended {
-    /// By itself.
     Exited(ExitStatus),
     /// It was killed, with all it had started.
     OutOfTime,

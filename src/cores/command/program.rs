@@ -28,15 +28,8 @@ pub(crate) struct Program {
 /// Why an adapter cannot be had.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum AdapterError {
-    /// The file cannot be read.
     #[error("{path} cannot be read: {error}")]
-    Unreadable {
-        /// Which file.
-        path: PathBuf,
-        /// What the system says.
-        error: std::io::Error,
-    },
-    /// The file says something wrong.
+    Unreadable { path: PathBuf, error: std::io::Error },
     #[error("{0}")]
     Wrong(Box<Diagnostic>),
 }
@@ -44,18 +37,14 @@ pub(crate) enum AdapterError {
 /// What a program made, and what it said about it.
 #[derive(Clone, Debug)]
 pub(crate) struct Rendered {
-    /// What it made.
     pub(crate) picture: Picture,
-    /// What its words tell.
     pub(crate) log: Log,
 }
 
 /// Numbers from a program's own words; none where it says nothing, or nothing is declared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Log {
-    /// Of rendering.
     pub(crate) seconds: Option<f64>,
-    /// Rays traced.
     pub(crate) rays: Option<f64>,
     /// Boxes and primitives tested for one ray.
     pub(crate) tests_per_ray: Option<f64>,
@@ -97,7 +86,6 @@ impl Program {
         [program].into_iter().chain(kept).collect()
     }
 
-    /// What its file says.
     pub(crate) fn adapter(&self) -> &Adapter {
         &self.adapter
     }

@@ -1,8 +1,7 @@
 //! Ray tests that belong to the bench and count themselves, lent to foreign cores.
 //!
-//! A core that uses these for its traversal cannot miscount, and its hits are right whatever its own triangle
-//! routine does; what is measured is its BVH alone. Plain and independent of every core: it has to be right,
-//! not fast.
+//! A core that uses these for its traversal cannot miscount, and its hits are right whatever its own triangle routine
+//! does; what is measured is its BVH alone. Plain and independent of every core: it has to be right, not fast.
 
 use crate::contract::{BoxHit, Hit, Ray, TraversalStats};
 use crate::scene::{Mesh, SceneDescription, Sphere};
@@ -19,7 +18,6 @@ pub(crate) struct CountedScene {
 }
 
 impl CountedScene {
-    /// Of the shapes of `scene`.
     pub(crate) fn new(scene: &SceneDescription) -> Self {
         Self {
             meshes: scene.meshes.clone(),
@@ -49,7 +47,6 @@ impl CountedScene {
         Some(Hit { shape, primitive, ..hit })
     }
 
-    /// Tests one box.
     pub(crate) fn hit_box(&self, min: DVec3, max: DVec3, ray: &Ray) -> Option<BoxHit> {
         self.box_tests.fetch_add(1, Ordering::Relaxed);
         let (mut t_enter, mut t_exit) = (f64::NEG_INFINITY, f64::INFINITY);

@@ -12,7 +12,6 @@ pub(crate) const Z_95: f64 = 1.96;
 /// σ with a few percent of μ cannot notice.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Tally {
-    /// Samples so far.
     pub(crate) count: u32,
     /// s₁, of their luminances.
     pub(crate) sum: f64,
@@ -20,7 +19,6 @@ pub(crate) struct Tally {
     pub(crate) sum_of_squares: f64,
 }
 
-/// Adds one sample's luminance.
 pub(crate) fn count_in(tally: &mut Tally, luminance: f64) {
     tally.count += 1;
     tally.sum += luminance;
@@ -43,13 +41,11 @@ pub(crate) fn half_width(variance: f64, n: f64) -> f64 {
     Z_95 * (variance / n).sqrt()
 }
 
-/// How wide that may be.
 pub(crate) fn tolerance(max_tolerance: f64, mean: f64) -> f64 {
     max_tolerance * mean
 }
 
-/// Whether the mean is known well enough. A black pixel is; a pixel that is not a number never
-/// is.
+/// Whether the mean is known well enough. A black pixel is; a pixel that is not a number never is.
 fn has_converged(tally: &Tally, max_tolerance: f64, steps: &Steps) -> bool {
     let n = f64::from(tally.count);
     let half_width = steps.half_width(steps.variance(tally), n);

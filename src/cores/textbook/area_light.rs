@@ -12,7 +12,6 @@ use crate::scene::{Emission, Mesh, Rgb, Sphere};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// A mesh that emits.
 #[derive(Clone, Debug)]
 pub(crate) struct MeshLight {
     /// Those of its triangles that have area.
@@ -24,7 +23,6 @@ pub(crate) struct MeshLight {
 }
 
 impl MeshLight {
-    /// Prepares a mesh that emits `radiance`.
     pub(crate) fn new(mesh: &Mesh, radiance: Rgb) -> Self {
         let corners = (0..mesh.indices.len()).map(|triangle| mesh.corners(triangle));
         let triangles: Vec<Triangle> = corners.filter_map(Triangle::new).collect();
@@ -107,7 +105,6 @@ pub(crate) fn area_per_steradian(distance_squared: f64, cosine: f64) -> f64 {
     distance_squared / cosine
 }
 
-/// A sphere that emits.
 #[derive(Clone, Debug)]
 pub(crate) struct BallLight {
     ball: Ball,
@@ -117,13 +114,11 @@ pub(crate) struct BallLight {
 }
 
 impl BallLight {
-    /// Prepares a sphere.
     pub(crate) fn new(sphere: &Sphere, emission: Emission) -> Self {
         let Sphere { centre, radius, inward, .. } = *sphere;
         Self { ball: Ball { centre, radius }, inward, emission }
     }
 
-    /// A direction from `from` towards an emitting point.
     pub(crate) fn sample(&self, from: DVec3, point: DVec2, steps: &Steps) -> Option<LightSample> {
         if self.fills_cone(from) {
             self.sample_cone(from, point)
@@ -148,8 +143,7 @@ impl BallLight {
         is_outside && !self.inward && self.emission.cap.is_none()
     }
 
-    /// 1 − cos of the half angle under which the ball is seen, without subtracting nearly equal
-    /// numbers.
+    /// 1 − cos of the half angle under which the ball is seen, without subtracting nearly equal numbers.
     fn cone_height(&self, from: DVec3) -> f64 {
         let radius_squared = self.ball.radius * self.ball.radius;
         let sine_squared = radius_squared / from.distance_squared(self.ball.centre);
@@ -204,8 +198,7 @@ impl BallLight {
     }
 }
 
-/// The unit vector `height` below +z, at `turn` of a full turn. Near the tip it keeps all its
-/// digits.
+/// The unit vector `height` below +z, at `turn` of a full turn. Near the tip it keeps all its digits.
 fn direction_below_tip(height: f64, turn: f64) -> DVec3 {
     let sine = (height * (2.0 - height)).max(0.0).sqrt();
     let (sin_phi, cos_phi) = (2.0 * PI * turn).sin_cos();

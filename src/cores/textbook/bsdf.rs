@@ -1,8 +1,7 @@
 //! Parts 3 and 4: how surfaces scatter. Directions are local and both point away from the surface.
 //!
-//! Diffuse, mirror and conductor surfaces are two-sided: seen from below, both directions are
-//! turned over first. Glass is not: which side is outside matters there. Not here: the formulas of
-//! `glass`, of `ggx` and of `rough_glass`.
+//! Diffuse, mirror and conductor surfaces are two-sided: seen from below, both directions are turned over first. Glass
+//! is not: which side is outside matters there. Not here: the formulas of `glass`, of `ggx` and of `rough_glass`.
 
 use super::glass::Glass;
 use super::rough_glass::RoughGlass;
@@ -83,8 +82,7 @@ pub(crate) fn diffuse_density() -> Sampler {
     Sampler::CosineHemisphere
 }
 
-/// One incident direction for `wo`; `point` chooses the direction, `lobe` between reflection and
-/// refraction.
+/// One incident direction for `wo`; `point` chooses the direction, `lobe` between reflection and refraction.
 pub(crate) fn sample(
     surface: &Surface,
     wo: DVec3,
@@ -141,8 +139,7 @@ pub(crate) fn reflect(w: DVec3) -> DVec3 {
     DVec3::new(-w.x, -w.y, w.z)
 }
 
-/// The only direction of a delta lobe, chosen with `probability`, that carries `weight` of the
-/// radiance along it.
+/// The only direction of a delta lobe, chosen with `probability`, that carries `weight` of the radiance along it.
 ///
 /// f is such that f·|cos θ| is the weight: the cosine of the rendering equation has no part in a
 /// mirror. Along the surface there is no such f.
@@ -155,9 +152,9 @@ pub(crate) fn delta(wi: DVec3, weight: Rgb, probability: f64) -> Option<BsdfSamp
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cores::stage::grey;
     use crate::cores::textbook::random::Random;
     use crate::cores::textbook::steps::LESSON;
-    use crate::cores::textbook::testing::grey;
 
     const ROUGHNESSES: [f64; 4] = [1e-4, 0.1, 0.3, 1.0];
 

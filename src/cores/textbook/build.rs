@@ -1,7 +1,6 @@
 //! Part 2: building a bounding volume hierarchy, from the root down.
 //!
-//! The rule that divides a node comes from `split`; that the build ends, and how deep it gets, is
-//! decided here.
+//! The rule that divides a node comes from `split`; that the build ends, and how deep it gets, is decided here.
 
 use super::split::{self, Item};
 use super::steps::Steps;
@@ -9,21 +8,16 @@ use crate::contract::Split;
 use crate::scene::Aabb;
 use std::ops::Range;
 
-/// A node of the hierarchy.
 #[derive(Debug)]
 pub(crate) struct Node {
-    /// Holds everything below.
     pub(crate) bounds: Aabb,
-    /// What is below.
     pub(crate) content: Content,
 }
 
-/// What is below a node.
 #[derive(Debug)]
 pub(crate) enum Content {
     /// The primitives in this range.
     Leaf(Range<usize>),
-    /// The numbers of the children.
     Inner([usize; 2]),
 }
 
@@ -65,21 +59,16 @@ fn max_rule_depth(primitives: usize) -> usize {
     32 + primitives.max(1).ilog2() as usize
 }
 
-/// A hierarchy under construction.
 pub(crate) struct Builder<'a> {
-    /// The rule that is asked for.
     pub(crate) split: Split,
-    /// No leaf holds more.
     pub(crate) max_leaf_size: usize,
     max_rule_depth: usize,
     nodes: Vec<Node>,
-    /// The lesson's.
     pub(crate) steps: &'a Steps,
 }
 
 impl Builder<'_> {
-    /// Builds the node over `items`, the first of which stands at `first` in the order of leaves.
-    /// Answers its number.
+    /// Builds the node over `items`, the first of which stands at `first` in the order of leaves. Answers its number.
     fn node(&mut self, items: &mut [Item], first: usize, depth: usize) -> usize {
         let number = self.nodes.len();
         let content = Content::Leaf(self.steps.leaf(first, items.len()));

@@ -1,8 +1,6 @@
-//! Part 2: walking a bounding volume hierarchy, and the loop over everything that must agree with
-//! it.
+//! Part 2: walking a bounding volume hierarchy, and the loop over everything that must agree with it.
 //!
-//! Primitives lie in the order of the leaves. Without nodes every query is the loop: that is brute
-//! force.
+//! Primitives lie in the order of the leaves. Without nodes every query is the loop: that is brute force.
 
 use super::build::{Content, Node, build};
 use super::intersect::{Ball, Crossing, Triangle};
@@ -13,12 +11,9 @@ use crate::scene::Aabb;
 use glam::DVec3;
 use std::ops::Range;
 
-/// The form of a primitive.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Form {
-    /// A triangle of a mesh.
     Triangle(Triangle),
-    /// A sphere.
     Ball(Ball),
 }
 
@@ -44,10 +39,8 @@ impl Form {
     }
 }
 
-/// A triangle or a sphere of the scene.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Primitive {
-    /// What is tested.
     pub(crate) form: Form,
     /// Number of its shape in the scene.
     pub(crate) shape: u32,
@@ -66,7 +59,6 @@ pub(crate) struct Bvh<'a> {
 }
 
 impl<'a> Bvh<'a> {
-    /// Takes the primitives in.
     pub(crate) fn new(
         primitives: Vec<Primitive>,
         acceleration: Acceleration,
@@ -104,8 +96,7 @@ impl<'a> Bvh<'a> {
         search.found
     }
 
-    /// Visits the nearer child first, and the other only if it begins before what was found by
-    /// then.
+    /// Visits the nearer child first, and the other only if it begins before what was found by then.
     fn closest_below(&self, node: &Node, search: &mut Search<'_>) {
         match &node.content {
             Content::Leaf(leaf) => {
@@ -174,7 +165,6 @@ impl<'a> Bvh<'a> {
         })
     }
 
-    /// What the build made.
     pub(crate) fn build_stats(&self) -> BuildStats {
         let is_leaf = |node: &&Node| matches!(node.content, Content::Leaf(_));
         BuildStats {
@@ -210,12 +200,10 @@ pub(crate) struct Search<'a> {
     /// The nearest crossing so far, and the index of its primitive.
     pub(crate) found: Option<(usize, Crossing)>,
     stats: &'a mut TraversalStats,
-    /// The lesson's.
     pub(crate) steps: &'a Steps,
 }
 
 impl Search<'_> {
-    /// Where the segment enters the box, if it does.
     fn enters(&mut self, bounds: &Aabb) -> Option<f64> {
         self.stats.box_tests += 1;
         self.steps.enter(self, bounds)
@@ -393,8 +381,7 @@ mod tests {
         assert_eq!(brute.build_stats(), BuildStats::default());
     }
 
-    /// A traversal that visits the far child first tests 1.7 times as many, one that never shortens
-    /// the ray 2.6 times.
+    /// A traversal that visits the far child first tests 1.7 times as many, one that never shortens the ray 2.6 times.
     #[test]
     fn few_primitives_are_tested_and_growth_is_slow() {
         let rays: Vec<Ray> =

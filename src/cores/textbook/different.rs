@@ -33,176 +33,97 @@ pub struct Different {
 /// For choices that are free.
 pub(super) const NOTHING: fn(&mut CoreInfo) = |_| ();
 
-/// Every choice.
-pub(crate) const DIFFERENT: &[Different] = &[
-    Different {
-        name: "uniform-bounces",
-        summary: "the diffuse surface draws uniform directions, with their density",
-        parts: &[3, 4, 5],
-        steps: Steps {
-            diffuse_sampler: Some(|| Sampler::UniformHemisphere),
-            diffuse_density: Some(|| Sampler::UniformHemisphere),
-            ..LESSON
+/// A table of choices: `"name": "what it does", parts [OF THE COURSE] declares what it has to say, STEP = what stands in
+/// its place;`.
+macro_rules! different {
+    ($(
+        $name:literal: $summary:literal, parts $parts:tt $(declares $declares:expr)?
+        $(, $step:ident = $other:expr)*;
+    )*) => {
+        pub(crate) const DIFFERENT: &[Different] = &[$(Different {
+            name: $name,
+            summary: $summary,
+            parts: &$parts,
+            steps: Steps { $($step: Some($other),)* ..LESSON },
+            declares: different!(declares $($declares)?),
+        }),*];
+    };
+    (declares) => { NOTHING };
+    (declares $declares:expr) => { $declares };
+}
+different! {
+    "uniform-bounces": "the diffuse surface draws uniform directions, with their pdf",
+        parts [3, 4, 5],
+        diffuse_sampler = || Sampler::UniformHemisphere,
+        diffuse_density = || Sampler::UniformHemisphere;
+    "other-roulette": "dark paths are cut short by roulette of the core's own",
+        parts [4, 5],
+        survival_probability = survival_of_own_roulette;
+    "larger-offset": "rays keep clear of surfaces by 1e-6 in place of 1e-10",
+        parts [3, 4, 5],
+        clearance = |longest| 1e4 * vertex::CLEARANCE * longest;
+    "stratified-pixels": "the samples of a pixel fill it evenly",
+        parts [1, 4, 5],
+        pixel_point = evenly_in_pixel;
+    "stratified-lights": "the samples of a light are stratified",
+        parts [3, 4, 5],
+        light_point = |random, number, of| {
+            let point = random.point();
+            point.with_x((f64::from(number) + point.x) / f64::from(of))
+        };
+    "median-split": "nodes are halved, whatever rule is asked for",
+        parts [2],
+        rule = |_| Split::Median;
+    "reversed-leaves": "the primitives of a leaf are tested from the last to the first",
+        parts [2],
+        closest_among = |bvh, range, search| {
+            range.rev().for_each(|primitive| bvh.test(primitive, search))
+        };
+    "single-precision": "every answer is rounded to f32, and the core says so",
+        parts [1, 2, 3, 4, 5] declares |info| info.precision = Precision::Single;
+    "schlick-glass": "Schlick's approximation of the view's cosine, declared",
+        parts [3, 4] declares |info| info.conventions.glass_fresnel = GlassFresnel::Schlick,
+        fresnel = |cosine, ratio| schlick_reflectance(cosine, cosine, ratio);
+    "schlick-glass-outside": "Schlick's approximation of the cosine on the side of lower index, declared",
+        parts [3, 4] declares |info| info.conventions.glass_fresnel = GlassFresnel::SchlickOutside,
+        fresnel = schlick_outside;
+    "correlated-smith": "the height-correlated Smith term, declared",
+        parts [3, 4] declares |info| info.conventions.smith_term = SmithTerm::HeightCorrelated,
+        metal_f = |Facets { density, roughness, wo, wi, .. }| {
+            density * height_correlated_masking(*roughness, *wo, *wi) / (4.0 * wo.z * wi.z)
         },
-        declares: NOTHING,
-    },
-    Different {
-        name: "other-roulette",
-        summary: "dark paths are cut short by roulette of the core's own",
-        parts: &[4, 5],
-        steps: Steps { survival_probability: Some(survival_of_own_roulette), ..LESSON },
-        declares: NOTHING,
-    },
-    Different {
-        name: "larger-offset",
-        summary: "rays keep clear of surfaces by 1e-6 in place of 1e-10",
-        parts: &[3, 4, 5],
-        steps: Steps { clearance: Some(|longest| 1e4 * vertex::CLEARANCE * longest), ..LESSON },
-        declares: NOTHING,
-    },
-    Different {
-        name: "stratified-pixels",
-        summary: "the samples of a pixel fill it evenly",
-        parts: &[1, 4, 5],
-        steps: Steps { pixel_point: Some(evenly_in_pixel), ..LESSON },
-        declares: NOTHING,
-    },
-    Different {
-        name: "stratified-lights",
-        summary: "the samples of a light are stratified",
-        parts: &[3, 4, 5],
-        steps: Steps {
-            light_point: Some(|random, number, of| {
-                let point = random.point();
-                point.with_x((f64::from(number) + point.x) / f64::from(of))
-            }),
-            ..LESSON
-        },
-        declares: NOTHING,
-    },
-    Different {
-        name: "median-split",
-        summary: "nodes are halved, whatever rule is asked for",
-        parts: &[2],
-        steps: Steps { rule: Some(|_| Split::Median), ..LESSON },
-        declares: NOTHING,
-    },
-    Different {
-        name: "reversed-leaves",
-        summary: "the primitives of a leaf are tested from the last to the first",
-        parts: &[2],
-        steps: Steps {
-            closest_among: Some(|bvh, range, search| {
-                range.rev().for_each(|primitive| bvh.test(primitive, search))
-            }),
-            ..LESSON
-        },
-        declares: NOTHING,
-    },
-    Different {
-        name: "single-precision",
-        summary: "every answer is rounded to f32, and the core says so",
-        parts: &[1, 2, 3, 4, 5],
-        steps: LESSON,
-        declares: |info| info.precision = Precision::Single,
-    },
-    Different {
-        name: "schlick-glass",
-        summary: "Schlick's approximation of the view's cosine, declared",
-        parts: &[3, 4],
-        steps: Steps {
-            fresnel: Some(|cosine, ratio| schlick_reflectance(cosine, cosine, ratio)),
-            ..LESSON
-        },
-        declares: |info| info.conventions.glass_fresnel = GlassFresnel::Schlick,
-    },
-    Different {
-        name: "schlick-glass-outside",
-        summary: "Schlick's approximation of the cosine on the thin side, declared",
-        parts: &[3, 4],
-        steps: Steps { fresnel: Some(schlick_outside), ..LESSON },
-        declares: |info| info.conventions.glass_fresnel = GlassFresnel::SchlickOutside,
-    },
-    Different {
-        name: "correlated-smith",
-        summary: "the height-correlated Smith term, declared",
-        parts: &[3, 4],
-        steps: Steps {
-            metal_f: Some(|Facets { density, roughness, wo, wi, .. }| {
-                density * height_correlated_masking(*roughness, *wo, *wi) / (4.0 * wo.z * wi.z)
-            }),
-            masking_over_cosines: Some(|roughness, wo, wi| {
-                height_correlated_masking(roughness, wo, wi) / (wo.z * wi.z)
-            }),
-            ..LESSON
-        },
-        declares: |info| info.conventions.smith_term = SmithTerm::HeightCorrelated,
-    },
-    Different {
-        name: "two-sided-emission",
-        summary: "lamps glow on both sides when they are seen, declared",
-        parts: &[1, 3, 4],
-        steps: Steps { emits_towards: Some(|_, _| true), ..LESSON },
-        declares: |info| info.conventions.emission = EmissionSides::Both,
-    },
-    Different {
-        name: "no-falloff",
-        summary: "point lights do not weaken with distance, declared",
-        parts: &[3, 4],
-        steps: Steps { point_light_radiance: Some(|intensity, _| intensity), ..LESSON },
-        declares: |info| info.conventions.point_light_falloff = Falloff::None,
-    },
-    Different {
-        name: "unscaled-glass",
-        summary: "radiance crosses glass unchanged, declared",
-        parts: &[3, 4],
-        steps: Steps {
-            radiance_scale: Some(|_| 1.0),
-            rough_radiance_scale: Some(|ratio| ratio * ratio),
-            ..LESSON
-        },
-        declares: |info| info.conventions.glass_radiance = GlassRadiance::Unscaled,
-    },
-    Different {
-        name: "own-numbers",
-        summary: "the core draws its own random numbers, and says so",
-        parts: &[3],
-        steps: Steps {
-            callers_numbers: Some(|given, index| {
-                let mut own = Random::for_ray(given.seed, index);
-                (own.point(), own.number())
-            }),
-            ..LESSON
-        },
-        declares: |info| info.capabilities -= Capabilities::CALLERS_RANDOMNESS,
-    },
-    Different {
-        name: "other-generator",
-        summary: "random numbers come from another generator",
-        parts: &[1, 3, 4, 5],
-        steps: Steps {
-            number: Some(|random| {
-                random.name = random.name.wrapping_add(1);
-                (scramble(random.name) >> 11) as f64 * 0.5 * f64::EPSILON
-            }),
-            ..LESSON
-        },
-        declares: NOTHING,
-    },
-    Different {
-        name: "extra-dimensions",
-        summary: "every second random number is thrown away",
-        parts: &[1, 3, 4, 5],
-        steps: Steps {
-            number: Some(|random| {
-                random::number(random);
-                random::number(random)
-            }),
-            ..LESSON
-        },
-        declares: NOTHING,
-    },
-];
+        masking_over_cosines = |roughness, wo, wi| {
+            height_correlated_masking(roughness, wo, wi) / (wo.z * wi.z)
+        };
+    "two-sided-emission": "emitters emit on both sides when they are seen, declared",
+        parts [1, 3, 4] declares |info| info.conventions.emission = EmissionSides::Both,
+        emits_towards = |_, _| true;
+    "no-falloff": "point lights do not weaken with distance, declared",
+        parts [3, 4] declares |info| info.conventions.point_light_falloff = Falloff::None,
+        point_light_radiance = |intensity, _| intensity;
+    "unscaled-glass": "radiance crosses glass unchanged, declared",
+        parts [3, 4] declares |info| info.conventions.glass_radiance = GlassRadiance::Unscaled,
+        radiance_scale = |_| 1.0,
+        rough_radiance_scale = |ratio| ratio * ratio;
+    "own-numbers": "the core draws its own random numbers, and says so",
+        parts [3] declares |info| info.capabilities -= Capabilities::CALLERS_RANDOMNESS,
+        callers_numbers = |given, index| {
+            let mut own = Random::for_ray(given.seed, index);
+            (own.point(), own.number())
+        };
+    "other-generator": "random numbers come from another generator",
+        parts [1, 3, 4, 5],
+        number = |random| {
+            random.name = random.name.wrapping_add(1);
+            (scramble(random.name) >> 11) as f64 * 0.5 * f64::EPSILON
+        };
+    "extra-dimensions": "every second random number is thrown away",
+        parts [1, 3, 4, 5],
+        number = |random| {
+            random::number(random);
+            random::number(random)
+        };
+}
 
 /// Where none is asked for, dark paths are cut short.
 fn survival_of_own_roulette(roulette: Option<Roulette>, surface: &Surface, path: Progress) -> f64 {
@@ -229,8 +150,7 @@ pub(super) fn schlick_outside(cosine: f64, ratio: f64) -> f64 {
     schlick_reflectance(cosine, if ratio < 1.0 { beyond } else { cosine }, ratio)
 }
 
-/// Schlick's approximation of some cosine, for light that arrives at `cosine`; total reflection
-/// stays total.
+/// Schlick's approximation of some cosine, for light that arrives at `cosine`; total reflection stays total.
 fn schlick_reflectance(cosine: f64, of: f64, ratio: f64) -> f64 {
     if refracted_cosine(cosine, ratio).is_none() {
         return 1.0;

@@ -1,8 +1,7 @@
 //! Part 3: light that is scattered once, at a point that is given.
 //!
-//! Two estimators of one integral: uniform hemisphere sampling, and light sampling (next event
-//! estimation). Not here: paths (`integrator`). Mirror and glass gather nothing here: what they
-//! show is met by following the path.
+//! Two estimators of one integral: uniform hemisphere sampling, and light sampling (next event estimation). Not here:
+//! paths (`integrator`). Mirror and glass gather nothing here: what they show is met by following the path.
 
 use super::bsdf;
 use super::frame::Frame;
@@ -210,8 +209,7 @@ pub(crate) fn light_estimate(light: DVec3, pdf: f64) -> DVec3 {
     light / pdf
 }
 
-/// Over the samples of one light that were drawn; of a delta light that is one, whatever was asked
-/// for.
+/// Over the samples of one light that were drawn; of a delta light that is one, whatever was asked for.
 pub(crate) fn light_mean(total: DVec3, drawn: u32, _asked_for: u32) -> DVec3 {
     total / f64::from(drawn)
 }

@@ -54,8 +54,7 @@ pub(crate) fn metal_f(facets: &Facets) -> f64 {
     facets.density * masking_wo * masking_wi / 4.0
 }
 
-/// The density of visible normals, G₁(wo) D(h) max(0, wo·h) / cos θo, over the Jacobian 4 wo·h of
-/// the reflection.
+/// The density of visible normals, G₁(wo) D(h) max(0, wo·h) / cos θo, over the Jacobian 4 wo·h of the reflection.
 pub(crate) fn metal_pdf(facets: &Facets) -> f64 {
     facets.density * facets.masking_over_cosine[0] / 4.0
 }
@@ -82,8 +81,7 @@ pub(crate) fn masking_over_cosine(roughness: f64, w: DVec3) -> f64 {
     2.0 / (w.z + (w.z * w.z + alpha_squared * sine_squared).sqrt())
 }
 
-/// Heitz 2018, listing 1: stretch to the unit hemisphere, sample its projected area as seen from
-/// `wo`, unstretch.
+/// Heitz 2018, listing 1: stretch to the unit hemisphere, sample its projected area as seen from `wo`, unstretch.
 pub(crate) fn visible_facet(roughness: f64, wo: DVec3, point: DVec2) -> DVec3 {
     let view = DVec3::new(roughness * wo.x, roughness * wo.y, wo.z).normalize();
     let across = DVec3::new(-view.y, view.x, 0.0).try_normalize().unwrap_or(DVec3::X);
@@ -124,9 +122,8 @@ mod tests {
         (0..side).flat_map(move |i| (0..side).map(move |j| DVec2::new(step(i), step(j))))
     }
 
-    /// ∫ integrand(wi, value) dωi over the upper hemisphere. The map is that of facets with density
-    /// D cos θ, so that narrow lobes get their share of points; what is integrated knows nothing of
-    /// it.
+    /// ∫ integrand(wi, value) dωi over the upper hemisphere. The map is that of facets with density D cos θ, so that
+    /// narrow lobes get their share of points; what is integrated knows nothing of it.
     fn integrate(roughness: f64, wo: DVec3, integrand: impl Fn(DVec3, &BsdfValue) -> f64) -> f64 {
         let of_point = |point: DVec2| {
             // The square takes away a singularity at grazing facets.
@@ -187,8 +184,7 @@ mod tests {
         }
     }
 
-    /// Moments of the samples against moments of the density they claim: mass, height, direction,
-    /// width.
+    /// Moments of the samples against moments of the density they claim: mass, height, direction, width.
     #[test]
     fn samples_follow_their_density() {
         let moments: [fn(DVec3) -> f64; 4] = [|_| 1.0, |wi| wi.z, |wi| wi.x, |wi| wi.y * wi.y];
@@ -200,8 +196,7 @@ mod tests {
                 let sampled = sampled / f64::from(SIDE * SIDE);
                 let claimed = integrate(roughness, wo, |wi, value| value.pdf * moment(wi));
                 let error = (sampled - claimed).abs();
-                // For the view from above the horizon runs along a row of the grid, which may be
-                // counted or not.
+                // For the view from above the horizon runs along a row of the grid, which may be counted or not.
                 assert!(
                     error < 1.0 / f64::from(SIDE),
                     "{roughness} {degrees} moment {number}: {sampled} {claimed}"

@@ -6,7 +6,6 @@ use crate::contract::BsdfSample;
 use crate::scene::Rgb;
 use glam::DVec3;
 
-/// A smooth interface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Glass {
     /// Of the inside; outside is vacuum.

@@ -1,10 +1,9 @@
 //! Part 4: paths of any number of bounces.
 //!
-//! Light of bounce k has been scattered exactly k times on its way to the viewer, mirror and glass
-//! included; bounce 0 is what is emitted where the ray arrives. At the k-th vertex of the path, the
-//! first being number 1, the light of bounce k is gathered from the lights; so what is emitted
-//! where the path itself goes on is not added again. Mirror and glass are the exception: no light
-//! can be sampled there, and the path alone can meet one.
+//! Light of bounce k has been scattered exactly k times on its way to the viewer, mirror and glass included; bounce 0
+//! is what is emitted where the ray arrives. At the k-th vertex of the path, the first being number 1, the light of
+//! bounce k is gathered from the lights; so what is emitted where the path itself goes on is not added again. Mirror
+//! and glass are the exception: no light can be sampled there, and the path alone can meet one.
 
 use super::bsdf;
 use super::direct::{one_bounce, zero_bounce};
@@ -18,10 +17,8 @@ use crate::scene::Surface;
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
-/// Estimates radiance along rays.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Integrator<'a> {
-    /// What rays see.
     pub(crate) world: &'a World<'a>,
     /// How many bounces, by which estimator, with which roulette.
     pub(crate) settings: &'a IntegratorSettings,
@@ -39,14 +36,12 @@ pub(crate) struct Progress {
 
 /// How a path goes on from a vertex.
 pub(crate) struct Continuation {
-    /// To the next vertex.
     pub(crate) ray: Ray,
     /// f · |cos θ| / pdf, over the probability of going on at all.
     weight: DVec3,
 }
 
 impl<'a> Integrator<'a> {
-    /// For rays into `world`, traced as `settings` say.
     pub(crate) fn new(world: &'a World<'a>, settings: &'a IntegratorSettings) -> Self {
         Self { world, settings, steps: world.steps() }
     }
@@ -122,7 +117,6 @@ pub(crate) fn wants(bounces: &RangeInclusive<u32>, bounce: u32) -> bool {
     bounces.contains(&bounce)
 }
 
-/// The last bounce that is asked for.
 pub(crate) fn last_bounce(bounces: &RangeInclusive<u32>) -> u32 {
     *bounces.end()
 }
@@ -158,9 +152,8 @@ pub(crate) fn next_throughput(throughput: DVec3, weight: DVec3) -> DVec3 {
     throughput * weight
 }
 
-/// Roulette is played at each continuation but the first `guaranteed` ones. The light of bounce
-/// k needs k − 1 continuations where no mirror is in the way: with `guaranteed` = 1, bounces 1
-/// and 2 never depend on roulette.
+/// Roulette is played at each continuation but the first `guaranteed` ones. The light of bounce k needs k − 1
+/// continuations where no mirror is in the way: with `guaranteed` = 1, bounces 1 and 2 never depend on roulette.
 pub(crate) fn survival_probability(
     roulette: Option<Roulette>,
     _surface: &Surface,

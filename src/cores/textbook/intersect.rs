@@ -12,7 +12,6 @@ use glam::{DVec2, DVec3};
 /// Where a ray meets a triangle or a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Crossing {
-    /// Ray parameter.
     pub(crate) t: f64,
     /// Triangle: the weights of vertices 1 and 2. Sphere: zero.
     pub(crate) uv: DVec2,
@@ -52,7 +51,6 @@ impl Triangle {
         self.edges[0].cross(self.edges[1]).normalize()
     }
 
-    /// In square units.
     pub(crate) fn area(&self) -> f64 {
         self.edges[0].cross(self.edges[1]).length() / 2.0
     }
@@ -62,7 +60,6 @@ impl Triangle {
         self.corner + uv.x * self.edges[0] + uv.y * self.edges[1]
     }
 
-    /// The smallest box around it.
     pub(crate) fn bounds(&self) -> Aabb {
         let [b, c] = self.edges.map(|edge| self.corner + edge);
         Aabb { min: self.corner.min(b).min(c), max: self.corner.max(b).max(c) }
@@ -100,10 +97,9 @@ pub(crate) fn triangle_reached(ray: &Ray, t: f64) -> bool {
 /// How far rounding can put u and v off; `None` if the determinant is nothing but rounding,
 /// because the ray is parallel to the triangle.
 ///
-/// Two triangles that share an edge compute on which side of it a ray passes in different ways.
-/// Were there no room for rounding, a ray through the edge could miss both: a crack along the
-/// diagonal of every floor. The room is relative to all lengths involved, so that neither small
-/// nor far triangles vanish or grow.
+/// Two triangles that share an edge compute on which side of it a ray passes in different ways. Were there no room for
+/// rounding, a ray through the edge could miss both: a crack along the diagonal of every floor. The room is relative to
+/// all lengths involved, so that neither small nor far triangles vanish or grow.
 pub(crate) fn weight_error(
     triangle: &Triangle,
     ray: &Ray,
@@ -136,7 +132,6 @@ pub(crate) struct Ball {
 pub(crate) struct Quadratic {
     /// The direction's length, squared.
     pub(crate) a: f64,
-    /// b/2.
     pub(crate) half_b: f64,
     /// Positive outside the sphere.
     pub(crate) c: f64,
@@ -150,7 +145,6 @@ impl Ball {
         (radius > 0.0 && centre.is_finite()).then_some(Self { centre, radius })
     }
 
-    /// The smallest box around it.
     pub(crate) fn bounds(&self) -> Aabb {
         Aabb { min: self.centre - self.radius, max: self.centre + self.radius }
     }

@@ -1,8 +1,7 @@
 //! Part 3: where light comes from, and directions towards it.
 //!
-//! Every density is per steradian as seen from the point that asks. Area lights shine from their
-//! front alone. Not here: whether anything stands in between (`direct`), and how shapes that emit
-//! are sampled (`area_light`).
+//! Every density is per steradian as seen from the point that asks. Area lights shine from their front alone. Not here:
+//! whether anything stands in between (`direct`), and how shapes that emit are sampled (`area_light`).
 
 use super::area_light::{BallLight, MeshLight};
 use super::sampling;
@@ -16,16 +15,13 @@ use glam::{DVec2, DVec3};
 pub(crate) enum Lamp {
     /// Point, directional or sky: nothing to prepare.
     Simple(Light),
-    /// A mesh that emits.
     Mesh(MeshLight),
-    /// A sphere that emits.
     Ball(BallLight),
     /// A shape that was declared a light but does not emit.
     Dark,
 }
 
 impl Lamp {
-    /// Prepares `light` of `scene`.
     pub(crate) fn new(light: &Light, scene: &SceneDescription) -> Self {
         let Light::Area { shape } = *light else { return Self::Simple(*light) };
         let Some(emission) = scene.material_of(shape).emission else { return Self::Dark };
@@ -74,8 +70,7 @@ impl Lamp {
         }
     }
 
-    /// The density with which [`Self::sample`] draws a direction into the sky; zero for other
-    /// lights.
+    /// The density with which [`Self::sample`] draws a direction into the sky; zero for other lights.
     pub(crate) fn sky_pdf(&self, steps: &Steps) -> f64 {
         match self {
             Self::Simple(Light::ConstantSky { .. } | Light::GradientSky { .. }) => steps.sky_pdf(),
@@ -145,9 +140,9 @@ pub(crate) fn sky_pdf() -> f64 {
 mod tests {
     use super::*;
     use crate::contract::Ray;
+    use crate::cores::stage::{Stage, diffuse, grey};
     use crate::cores::textbook::random::Random;
     use crate::cores::textbook::steps::LESSON;
-    use crate::cores::textbook::testing::{Stage, diffuse, grey};
     use std::f64::consts::PI;
 
     /// The last light of a stage.
@@ -158,7 +153,7 @@ mod tests {
 
     fn rectangle(x: f64, y: f64, z: f64) -> Lamp {
         let corners = [(-x, -y), (-x, y), (x, y), (x, -y)].map(|(x, y)| DVec3::new(x, y, z));
-        lamp(Stage::empty().polygon(&corners, diffuse(0.0).glowing(1.0)))
+        lamp(Stage::empty().polygon(&corners, diffuse(0.0).emitting(1.0)))
     }
 
     fn samples(lamp: &Lamp, from: DVec3, count: usize) -> Vec<Option<LightSample>> {
@@ -193,11 +188,11 @@ mod tests {
         let expected = 4.0 * (a * b / product.sqrt()).asin();
         assert_solid_angle(&rectangle(a / 2.0, b / 2.0, d), DVec3::ZERO, expected);
 
-        let ball = lamp(Stage::empty().ball(DVec3::Z * 1.5, 0.4, diffuse(0.0).glowing(1.0)));
+        let ball = lamp(Stage::empty().sphere(DVec3::Z * 1.5, 0.4, diffuse(0.0).emitting(1.0)));
         let cosine = (1.0 - (0.4_f64 / 1.5).powi(2)).sqrt();
         assert_solid_angle(&ball, DVec3::ZERO, 2.0 * PI * (1.0 - cosine));
 
-        let room = lamp(Stage::empty().room(1.0, diffuse(0.0).glowing(1.0)));
+        let room = lamp(Stage::empty().room(1.0, diffuse(0.0).emitting(1.0)));
         assert_solid_angle(&room, DVec3::new(0.3, -0.2, 0.1), 4.0 * PI);
 
         let sky = Lamp::Simple(Light::ConstantSky { radiance: grey(1.0) });
@@ -206,7 +201,7 @@ mod tests {
 
     #[test]
     fn a_cap_is_as_large_as_its_share_of_the_directions_from_the_centre() {
-        let look = diffuse(0.0).glowing_cap(1.0, 40.0_f64.to_radians());
+        let look = diffuse(0.0).emitting_cap(1.0, 40.0_f64.to_radians());
         let cap = lamp(Stage::empty().room(2.0, look));
         let share = (1.0 - 40.0_f64.to_radians().cos()) / 2.0;
         assert_solid_angle(&cap, DVec3::ZERO, 4.0 * PI * share);
@@ -214,13 +209,13 @@ mod tests {
 
     #[test]
     fn samples_lead_to_the_light_and_carry_the_density_of_their_direction() {
-        let look = diffuse(0.0).glowing(1.0);
-        let far_ball = Stage::empty().ball(DVec3::new(3.0, 4.0, 5.0), 0.01, look);
+        let look = diffuse(0.0).emitting(1.0);
+        let far_ball = Stage::empty().sphere(DVec3::new(3.0, 4.0, 5.0), 0.01, look);
         let from = DVec3::new(0.2, 0.1, -0.3);
         for stage in [
             Stage::empty().room(2.0, look),
-            Stage::empty().room(2.0, diffuse(0.0).glowing_cap(1.0, 0.7)),
-            Stage::empty().ball(DVec3::new(1.0, 1.0, 1.0), 0.5, look),
+            Stage::empty().room(2.0, diffuse(0.0).emitting_cap(1.0, 0.7)),
+            Stage::empty().sphere(DVec3::new(1.0, 1.0, 1.0), 0.5, look),
             far_ball,
         ] {
             let (lamp, world) = (lamp(stage.clone()), stage.world());
@@ -236,7 +231,7 @@ mod tests {
 
     #[test]
     fn nothing_is_sampled_from_behind() {
-        let ball = Stage::empty().ball(DVec3::ZERO, 1.0, diffuse(0.0).glowing(1.0));
+        let ball = Stage::empty().sphere(DVec3::ZERO, 1.0, diffuse(0.0).emitting(1.0));
         for sample in samples(&lamp(ball), DVec3::new(0.3, 0.2, 0.1), 100) {
             assert_eq!(sample, None);
         }
@@ -253,7 +248,7 @@ mod tests {
             indices: vec![[0, 0, 1], [0, 1, 2], [2, 2, 2], [0, 2, 3], [3, 3, 0]],
             ..Default::default()
         };
-        let lamp = lamp(Stage::empty().mesh(mesh, diffuse(0.0).glowing(1.0)));
+        let lamp = lamp(Stage::empty().mesh(mesh, diffuse(0.0).emitting(1.0)));
         for lobe in [0.0, 0.49, 0.5, 1.0 - f64::EPSILON / 2.0] {
             let sample =
                 lamp.sample(DVec3::Z, DVec2::splat(0.5), lobe, &LESSON).expect("it is in front");

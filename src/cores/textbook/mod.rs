@@ -1,10 +1,8 @@
-//! The plain core: a path tracer in f64, written the way a course teaches it, one function per
-//! task.
+//! The plain core: a path tracer in f64, written the way a course teaches it, one function per task.
 //!
-//! It is the second witness for the fast core, the model to read before writing an adapter, and the
-//! ground on which students' mistakes are planted. So it prefers the formula of the lecture to the
-//! faster one, and each place where a student goes wrong is a function of its own, a *step*.
-//! Nothing here is shared with other cores.
+//! It is the second witness for the fast core, the model to read before writing an adapter, and the ground on which
+//! students' mistakes are planted. So it prefers the formula of the lecture to the faster one, and each place where a
+//! student goes wrong is a function of its own, a *step*. Nothing here is shared with other cores.
 //!
 //! Read it in the order of the course, each file from the top:
 //!
@@ -20,11 +18,10 @@
 //! see it, and `vertex` a point of a path in it; `random` gives every path its own stream, so that
 //! answers do not depend on threads.
 //!
-//! Where the lesson says `steps.half_size(angle)` it means the function `half_size` below; `steps`
-//! is the table of them all. A copy of this core has other functions in some places: mistakes that
-//! students make (`fault`), or choices that are as right (`different`); `variant` makes the copies.
-//! Of those three the lesson knows nothing. An argument that a step does not look at, `_number`, is
-//! what somebody else's version of it needs.
+//! Where the lesson says `steps.half_size(angle)` it means the function `half_size` below; `steps` is the table of them
+//! all. A copy of this core has other functions in some places: mistakes that students make (`fault`), or choices that
+//! are as right (`different`); `variant` makes the copies. Of those three the lesson knows nothing. An argument that a
+//! step does not look at, `_number`, is what somebody else's version of it needs.
 
 mod adaptive;
 mod area_light;
@@ -54,11 +51,6 @@ pub(crate) mod variant;
 mod vertex;
 mod world;
 
-#[cfg(test)]
-mod closed_forms;
-#[cfg(test)]
-mod testing;
-
 use crate::contract::{
     Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
     BuildStats, Built, BuiltScene, Capabilities, Conventions, Core, CoreError, CoreInfo,
@@ -80,7 +72,6 @@ pub(crate) struct Textbook {
 }
 
 impl Textbook {
-    /// The plain core, ready to be asked.
     pub(crate) fn new() -> Self {
         let info = CoreInfo {
             name: "textbook".to_owned(),
@@ -187,29 +178,24 @@ impl Core for Textbook {
     }
 
     fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
-        Ok(Box::new(BuiltWorld { world: World::new(scene, how, &self.steps) }))
+        Ok(Box::new(World::new(scene, how, &self.steps)))
     }
 }
 
-/// A scene the core has taken in.
-struct BuiltWorld<'a> {
-    world: World<'a>,
-}
-
-impl BuiltScene for BuiltWorld<'_> {
+impl BuiltScene for World<'_> {
     fn stats(&self) -> BuildStats {
-        self.world.build_stats()
+        self.build_stats()
     }
 
     fn intersect(&mut self, rays: &[Ray], hits: &mut [Hit]) -> Result<TraversalStats> {
         let mut stats = TraversalStats::default();
-        answer(rays, hits, |ray| self.world.closest_hit(ray, &mut stats).unwrap_or(Hit::MISS));
+        answer(rays, hits, |ray| self.closest_hit(ray, &mut stats).unwrap_or(Hit::MISS));
         Ok(stats)
     }
 
     fn occluded(&mut self, rays: &[Ray], occluded: &mut [bool]) -> Result<TraversalStats> {
         let mut stats = TraversalStats::default();
-        answer(rays, occluded, |ray| self.world.any_hit(ray, &mut stats));
+        answer(rays, occluded, |ray| self.any_hit(ray, &mut stats));
         Ok(stats)
     }
 
@@ -220,11 +206,11 @@ impl BuiltScene for BuiltWorld<'_> {
         random: Randomness<'_>,
         samples: &mut [LightSample],
     ) -> Result<()> {
-        let lights = self.world.lights();
+        let lights = self.lights();
         let light = lights.get(light as usize).ok_or_else(|| {
             CoreError::Refused(format!("there is no light {light}, the scene has {}", lights.len()))
         })?;
-        let steps = self.world.steps();
+        let steps = self.steps();
         for (index, (from, sample)) in from.iter().zip(samples).enumerate() {
             let (point, lobe) = steps.callers_numbers(&random, index);
             *sample = light.sample(*from, point, lobe, steps).unwrap_or(LightSample::NONE);
@@ -238,8 +224,8 @@ impl BuiltScene for BuiltWorld<'_> {
         settings: &IntegratorSettings,
         radiance: &mut [[f64; 3]],
     ) -> Result<()> {
-        let integrator = Integrator::new(&self.world, settings);
-        let steps = self.world.steps();
+        let integrator = Integrator::new(self, settings);
+        let steps = self.steps();
         let seed = steps.seed(settings.seed);
         render::fill(settings.threads, radiance, |index| {
             let mut random = Random::for_ray(seed, index).drawn_by(steps);
@@ -253,7 +239,7 @@ impl BuiltScene for BuiltWorld<'_> {
         settings: &RenderSettings,
         film: &mut Film,
     ) -> Result<()> {
-        render::render(&self.world, camera, settings, film)
+        render::render(self, camera, settings, film)
     }
 }
 
@@ -274,9 +260,9 @@ mod tests {
     use super::*;
     use crate::contract::validate::Validated;
     use crate::contract::{DirectSampling, Split};
+    use crate::cores::stage::{Stage, clear_glass, diffuse, grey, looks};
     use crate::scene::{Light, Surface};
     use random::Random;
-    use testing::{Stage, clear_glass, diffuse, grey, looks};
 
     const COUNT: usize = 500;
 
@@ -292,11 +278,11 @@ mod tests {
         let sky = Light::GradientSky { up: DVec3::Z, horizon: grey(0.1), zenith: grey(0.6) };
         Stage::empty()
             .floor()
-            .ball(DVec3::new(0.0, 0.0, 1.0), 0.5, clear_glass())
-            .ball(DVec3::new(1.5, 0.0, 1.0), 0.5, mirror)
-            .ball(DVec3::new(-1.5, 0.0, 1.0), 0.5, metal)
-            .ball(DVec3::new(0.0, 1.5, 2.0), 0.3, diffuse(0.4).glowing(3.0))
-            .room(20.0, diffuse(0.5).glowing_cap(1.0, 0.5))
+            .sphere(DVec3::new(0.0, 0.0, 1.0), 0.5, clear_glass())
+            .sphere(DVec3::new(1.5, 0.0, 1.0), 0.5, mirror)
+            .sphere(DVec3::new(-1.5, 0.0, 1.0), 0.5, metal)
+            .sphere(DVec3::new(0.0, 1.5, 2.0), 0.3, diffuse(0.4).emitting(3.0))
+            .room(20.0, diffuse(0.5).emitting_cap(1.0, 0.5))
             .light(Light::Point { position: DVec3::new(1.0, 1.0, 3.0), intensity: grey(2.0) })
             .light(Light::Directional { direction: DVec3::NEG_Z, irradiance: grey(0.5) })
             .light(Light::ConstantSky { radiance: grey(0.2) })

@@ -1,5 +1,4 @@
-//! Random numbers: every path has its own stream, named by what it is for and never by which thread
-//! draws it.
+//! Random numbers: every path has its own stream, named by what it is for and never by which thread draws it.
 
 use super::steps::{LESSON, Steps};
 use crate::contract::Randomness;
@@ -12,7 +11,6 @@ use rand::SeedableRng;
 pub(crate) struct Random<'a> {
     /// What the stream starts from.
     pub(crate) name: u64,
-    /// The generator.
     pub(crate) stream: Stream,
     steps: &'a Steps,
 }

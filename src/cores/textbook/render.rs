@@ -15,7 +15,6 @@ use crate::scene::Camera;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// Renders `world` into `film`.
 pub(crate) fn render(
     world: &World<'_>,
     camera: &Camera,
@@ -71,7 +70,6 @@ struct Picture<'a> {
 }
 
 impl Picture<'_> {
-    /// Pixel number `index`.
     fn pixel(&self, index: usize) -> Pixel {
         let (mut total, mut spread) = (DVec3::ZERO, Spread::default());
         let tally = self.spend_samples(|sample| {
@@ -116,7 +114,6 @@ impl Picture<'_> {
     }
 }
 
-/// The sum of the samples, divided by their number.
 pub(crate) fn pixel_mean(total: DVec3, samples: f64) -> DVec3 {
     total / samples
 }
@@ -165,7 +162,7 @@ fn luminance(radiance: DVec3) -> f64 {
 mod tests {
     use super::*;
     use crate::contract::{AdaptiveSettings, Capabilities, IntegratorSettings};
-    use crate::cores::textbook::testing::{Stage, diffuse};
+    use crate::cores::stage::{Stage, diffuse};
 
     const WIDTH: u32 = 20;
     const HEIGHT: u32 = 14;
@@ -191,7 +188,7 @@ mod tests {
     fn glowing_rectangle(x: [f64; 2], y: [f64; 2]) -> Stage {
         let corners = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])];
         let corners = corners.map(|(x, y)| DVec3::new(x, y, -4.0));
-        Stage::empty().polygon(&corners, diffuse(0.3).glowing(1.0))
+        Stage::empty().polygon(&corners, diffuse(0.3).emitting(1.0))
     }
 
     fn mean(film: &Film) -> f64 {
@@ -222,7 +219,7 @@ mod tests {
     fn noisy() -> World<'static> {
         glowing_rectangle([-0.5, 0.5], [-0.3, 0.8])
             .room(6.0, diffuse(0.5))
-            .ball(DVec3::new(0.3, -0.4, -3.0), 0.4, diffuse(0.7))
+            .sphere(DVec3::new(0.3, -0.4, -3.0), 0.4, diffuse(0.7))
             .world()
     }
 
@@ -255,7 +252,7 @@ mod tests {
     #[test]
     fn an_early_stop_divides_by_the_samples_that_were_taken() {
         let adaptive = Some(AdaptiveSettings { samples_per_batch: 8, max_tolerance: 0.05 });
-        let world = Stage::empty().room(1.0, diffuse(0.37).glowing(0.7)).world();
+        let world = Stage::empty().room(1.0, diffuse(0.37).emitting(0.7)).world();
         let film = film(&world, &RenderSettings { adaptive, ..settings(100) });
         assert!(film.sample_counts.iter().all(|count| *count == 8));
         let expected = 0.7 * (1.0 + 0.37 + 0.37 * 0.37);

@@ -1,5 +1,4 @@
-//! A rough interface between vacuum (the side of the normal) and glass: GGX facets, each a smooth
-//! interface.
+//! A rough interface between vacuum (the side of the normal) and glass: GGX facets, each a smooth interface.
 //!
 //! Formulas: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", with
 //! i = wi, o = wo and m = the facet's normal, which has z > 0 here whichever side light comes from.
@@ -12,7 +11,6 @@ use crate::contract::{BsdfSample, BsdfValue};
 use crate::scene::Rgb;
 use glam::{DVec2, DVec3};
 
-/// A rough interface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RoughGlass {
     /// Of the inside; outside is vacuum.
@@ -48,8 +46,7 @@ impl RoughGlass {
         BsdfValue { f: self.reflectance.map(|r| r * value), pdf }
     }
 
-    /// Walter's equation 21, with the indices divided by the one on the side of `wo`, and 17 for
-    /// the Jacobian.
+    /// Walter's equation 21, with the indices divided by the one on the side of `wo`, and 17 for the Jacobian.
     fn refraction(&self, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
         let ratio = self.ratio(wo);
         let facet = steps.refraction_facet(self, wo, wi);
@@ -67,9 +64,8 @@ impl RoughGlass {
         BsdfValue { f: self.transmittance.map(|t| t * value), pdf }
     }
 
-    /// One incident direction for `wo`: a facet that is seen, which reflects with the probability
-    /// of Fresnel's reflectance and refracts otherwise. What comes out on the wrong side of the
-    /// surface is lost.
+    /// One incident direction for `wo`: a facet that is seen, which reflects with the probability of Fresnel's
+    /// reflectance and refracts otherwise. What comes out on the wrong side of the surface is lost.
     pub(crate) fn sample(
         &self,
         wo: DVec3,

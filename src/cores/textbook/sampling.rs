@@ -1,7 +1,6 @@
 //! Part 3: directions of the hemisphere around +z, with their densities.
 //!
-//! Both are smooth maps of the unit square, so that a harness can check |∂ω/∂u| · pdf = 1 at every
-//! point.
+//! Both are smooth maps of the unit square, so that a harness can check |∂ω/∂u| · pdf = 1 at every point.
 
 use super::steps::Steps;
 use crate::contract::{DirectionSample, Sampler};

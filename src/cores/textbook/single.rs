@@ -7,7 +7,6 @@ use crate::contract::{Acceleration, BuildStats, Built, BuiltScene, Core, CoreInf
 /// A core whose answers are those of another, rounded.
 pub(crate) struct Single<C>(pub(crate) C);
 
-/// A scene in such a core.
 struct SingleScene<'a>(Built<'a>);
 
 /// Lets the other answer, and rounds that.

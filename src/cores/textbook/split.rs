@@ -1,8 +1,7 @@
 //! Part 2: how a node of the hierarchy is divided in two.
 //!
-//! Every rule reorders the items of a node and answers how many of them go left. A rule may fail to
-//! separate anything (all centroids in one place): then it answers 0 or all of them, and the
-//! builder halves the node instead.
+//! Every rule reorders the items of a node and answers how many of them go left. A rule may fail to separate anything
+//! (all centroids in one place): then it answers 0 or all of them, and the builder halves the node instead.
 
 use super::steps::Steps;
 use crate::contract::Split;
@@ -15,7 +14,6 @@ use std::ops::Range;
 pub(crate) struct Item {
     /// Its number in the scene.
     pub(crate) primitive: usize,
-    /// A box that holds it.
     pub(crate) bounds: Aabb,
     /// The middle of that box.
     pub(crate) centroid: DVec3,
@@ -56,12 +54,10 @@ pub(crate) fn halve(items: &mut [Item], steps: &Steps) -> usize {
     middle
 }
 
-/// The axis along which a box is longest.
 pub(crate) fn longest_axis(extent: DVec3) -> usize {
     extent.max_position()
 }
 
-/// The box around all boxes.
 pub(crate) fn union(boxes: impl Iterator<Item = Aabb>) -> Aabb {
     boxes.fold(EMPTY, |all, one| Aabb { min: all.min.min(one.min), max: all.max.max(one.max) })
 }
@@ -69,7 +65,6 @@ pub(crate) fn union(boxes: impl Iterator<Item = Aabb>) -> Aabb {
 /// The box that adds nothing to a union.
 const EMPTY: Aabb = Aabb { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
-/// The box around all centroids.
 pub(crate) fn centroid_bounds(items: &[Item]) -> Aabb {
     union(items.iter().map(|item| Aabb { min: item.centroid, max: item.centroid }))
 }

@@ -1,5 +1,4 @@
-//! The table of contents of the lesson: its steps, each an ordinary function of the file that the
-//! row names.
+//! The table of contents of the lesson: its steps, each an ordinary function of the file that the row names.
 //!
 //! `steps.half_size(x)` does what `camera::half_size(x)` says, unless the table has another
 //! function in that place. Only `fault` and `different` put one there; the rest of the core asks the

@@ -11,19 +11,10 @@ const AND: char = '+';
 /// Why there is no copy with these changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum NoVariant<'a> {
-    /// Nothing has this name.
     #[error("no fault and no choice is called `{0}`")]
     Unknown(&'a str),
-    /// Two changes cannot be on together.
     #[error("`{first}` and `{second}` both replace the step `{step}` of the lesson")]
-    Clash {
-        /// The name in front.
-        first: &'static str,
-        /// The name that follows.
-        second: &'static str,
-        /// Its function in the lesson.
-        step: &'static str,
-    },
+    Clash { first: &'static str, second: &'static str, step: &'static str },
 }
 
 /// One change: a fault, or a choice.

@@ -7,10 +7,8 @@ use crate::contract::{Hit, LightSample, Ray};
 use crate::scene::Surface;
 use glam::DVec3;
 
-/// What a ray sees at its end.
 #[derive(Debug)]
 pub(crate) enum View<'a> {
-    /// The nearest surface.
     Surface(Vertex<'a>),
     /// Nothing: the sky in this direction (unit).
     Sky(DVec3),
@@ -23,15 +21,12 @@ pub(crate) struct Vertex<'a> {
     pub(crate) point: DVec3,
     /// Geometric, unit, on the side that emits.
     pub(crate) normal: DVec3,
-    /// The shading frame.
     pub(crate) frame: Frame,
     /// Back along the path, local, unit.
     pub(crate) wo: DVec3,
-    /// How it scatters.
     pub(crate) surface: &'a Surface,
     /// Radiance it emits back along the path.
     pub(crate) emitted: DVec3,
-    /// The light that the surface is.
     pub(crate) light: Option<&'a Lamp>,
     /// Rays that leave the point start this far away.
     pub(crate) clearance: f64,
@@ -48,8 +43,7 @@ pub(crate) fn ray_from(vertex: &Vertex<'_>, direction: DVec3) -> Ray {
     Ray { t_min: vertex.clearance, ..Ray::new(vertex.point, direction) }
 }
 
-/// The ray to the point of a light that was sampled. It stops short of the light, which would
-/// shadow itself.
+/// The ray to the point of a light that was sampled. It stops short of the light, which would shadow itself.
 pub(crate) fn shadow_ray(vertex: &Vertex<'_>, sample: &LightSample) -> Ray {
     let distance = sample.distance;
     let stop_short = vertex.clearance.max(CLEARANCE * distance);
@@ -74,10 +68,10 @@ pub(crate) fn frame_normal(surface: &Surface, hit: &Hit, to_viewer: DVec3) -> DV
 mod tests {
     use super::*;
     use crate::contract::{Sampler, TraversalStats};
+    use crate::cores::stage::{Stage, clear_glass, diffuse};
     use crate::cores::textbook::random::Random;
     use crate::cores::textbook::sampling;
     use crate::cores::textbook::steps::LESSON;
-    use crate::cores::textbook::testing::{Stage, clear_glass, diffuse};
     use crate::scene::Mesh;
 
     /// Far from the origin, and on a large triangle, where rounding is worst.
@@ -88,7 +82,7 @@ mod tests {
         let floor = corners.map(|(x, y)| offset + DVec3::new(x, y + 0.3 * x, x - 0.7 * y));
         let ball = offset + DVec3::new(0.0, 0.0, 2.0);
         let world =
-            Stage::empty().polygon(&floor, diffuse(0.5)).ball(ball, 1.0, diffuse(0.5)).world();
+            Stage::empty().polygon(&floor, diffuse(0.5)).sphere(ball, 1.0, diffuse(0.5)).world();
         let mut random = Random::for_ray(1, 0);
         for _ in 0..10_000 {
             let target = offset + 3.0 * (random.point() - 0.5).extend(0.0);

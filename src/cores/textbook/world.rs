@@ -10,7 +10,6 @@ use crate::contract::{self, Acceleration, BuildStats, Hit, Ray, TraversalStats};
 use crate::scene::{self, Emission, Light, Rgb, SceneDescription, Surface};
 use glam::{DVec2, DVec3};
 
-/// A scene the core has taken in.
 #[derive(Debug)]
 pub(crate) struct World<'a> {
     bvh: Bvh<'a>,
@@ -30,12 +29,10 @@ struct Shape {
     normals: Vec<DVec3>,
     /// The vertices of each triangle, where there are normals.
     indices: Vec<[u32; 3]>,
-    /// The light that this shape is.
     light: Option<usize>,
 }
 
 impl<'a> World<'a> {
-    /// Takes the scene in.
     pub(crate) fn new(
         scene: &SceneDescription,
         acceleration: Acceleration,
@@ -49,33 +46,27 @@ impl<'a> World<'a> {
         }
     }
 
-    /// The steps of the lesson, as this scene is asked.
     pub(crate) fn steps(&self) -> &'a Steps {
         self.steps
     }
 
-    /// The lights, by number.
     pub(crate) fn lights(&self) -> &[Lamp] {
         &self.lights
     }
 
-    /// What the build made.
     pub(crate) fn build_stats(&self) -> BuildStats {
         self.bvh.build_stats()
     }
 
-    /// The nearest hit.
     pub(crate) fn closest_hit(&self, ray: &Ray, stats: &mut TraversalStats) -> Option<Hit> {
         let (index, crossing) = self.bvh.closest(ray, stats)?;
         Some(self.hit(self.bvh.primitive(index), ray, crossing))
     }
 
-    /// Whether anything lies on the segment.
     pub(crate) fn any_hit(&self, ray: &Ray, stats: &mut TraversalStats) -> bool {
         self.bvh.any(ray, stats)
     }
 
-    /// What a ray sees.
     pub(crate) fn look(&self, ray: &Ray) -> View<'_> {
         let direction = ray.direction.normalize();
         match self.bvh.closest(ray, &mut TraversalStats::default()) {
@@ -149,8 +140,7 @@ impl Shape {
         }
     }
 
-    /// The normals of the vertices, weighted like their positions; `None` for flat faces and
-    /// spheres.
+    /// The normals of the vertices, weighted like their positions; `None` for flat faces and spheres.
     fn shading_normal(&self, triangle: u32, uv: DVec2, steps: &Steps) -> Option<DVec3> {
         let corners = self.indices.get(triangle as usize)?;
         steps.interpolated_normal(corners.map(|corner| self.normals[corner as usize]), uv)
@@ -224,9 +214,16 @@ fn forms(shape: scene::Shape<'_>) -> Vec<Option<Form>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cores::stage::{Stage, diffuse};
     use crate::cores::textbook::steps::LESSON;
-    use crate::cores::textbook::testing::{Stage, diffuse};
     use crate::scene::Mesh;
+
+    impl Stage {
+        /// As rays see it.
+        pub(crate) fn world(self) -> World<'static> {
+            World::new(&self.scene(), Acceleration::DEFAULT, &LESSON)
+        }
+    }
 
     fn hit_from(world: &World<'_>, from: DVec3, direction: DVec3) -> Hit {
         let ray = Ray::new(from, direction);
@@ -266,17 +263,16 @@ mod tests {
         let mut above_the_floor = smooth_triangle();
         above_the_floor.positions.iter_mut().for_each(|position| *position += DVec3::Z);
         let world = Stage::empty()
-            .ball(DVec3::X * 5.0, 1.0, diffuse(0.5))
+            .sphere(DVec3::X * 5.0, 1.0, diffuse(0.5))
             .mesh(above_the_floor, diffuse(0.5))
             .floor()
-            .ball(DVec3::X * -5.0, 1.0, diffuse(0.5))
+            .sphere(DVec3::X * -5.0, 1.0, diffuse(0.5))
             .world();
         let number = |x: f64, y: f64| {
             let hit = hit_from(&world, DVec3::new(x, y, 3.0), DVec3::NEG_Z);
             (hit.shape, hit.primitive)
         };
-        // The triangle without area keeps its number; the floor's second triangle is beyond its
-        // diagonal.
+        // The triangle without area keeps its number; the floor's second triangle is beyond its diagonal.
         assert_eq!(number(0.2, 0.2), (0, 1));
         assert_eq!((number(0.0, -4.0), number(0.0, 4.0)), ((1, 0), (1, 1)));
         assert_eq!((number(5.0, 0.0), number(-5.0, 0.0)), ((2, 0), (3, 0)));
@@ -291,7 +287,7 @@ mod tests {
 
     #[test]
     fn emission_leaves_the_front_alone() {
-        let world = Stage::empty().room(1.0, diffuse(0.5).glowing(2.0)).world();
+        let world = Stage::empty().room(1.0, diffuse(0.5).emitting(2.0)).world();
         let emitted = |from: DVec3| match world.look(&Ray::new(from, DVec3::NEG_X)) {
             View::Surface(vertex) => vertex.emitted.x,
             View::Sky(_) => f64::NAN,

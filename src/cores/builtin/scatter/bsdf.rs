@@ -17,19 +17,13 @@ use std::f32::consts::FRAC_1_PI;
 pub(crate) enum Bsdf {
     /// f = reflectance/π.
     Diffuse {
-        /// Share of light that is scattered.
         reflectance: Vec3,
     },
-    /// Reflection about the normal.
     Mirror {
-        /// Share of light that is reflected.
         reflectance: Vec3,
     },
-    /// A smooth interface.
     Glass(Glass),
-    /// GGX microfacets.
     Conductor(Conductor),
-    /// GGX microfacets that light passes.
     RoughGlass(RoughGlass),
 }
 
@@ -39,7 +33,6 @@ pub(crate) fn rgb(colour: Rgb) -> Vec3 {
 }
 
 impl Bsdf {
-    /// Takes the constants over.
     pub(crate) fn new(surface: &Surface) -> Self {
         match *surface {
             Surface::Diffuse { reflectance } => Self::Diffuse { reflectance: rgb(reflectance) },

@@ -8,14 +8,12 @@ use super::warp::sin_cos_of_turns;
 use glam::{Vec2, Vec3, vec3};
 use std::f32::consts::FRAC_1_PI;
 
-/// Facets of one roughness.
 #[derive(Clone, Debug)]
 pub(crate) struct Facets {
     roughness: f32,
 }
 
 impl Facets {
-    /// Of the width α.
     pub(crate) const fn new(roughness: f32) -> Self {
         Self { roughness }
     }

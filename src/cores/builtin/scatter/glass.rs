@@ -4,7 +4,6 @@
 use super::scattering::Scattering;
 use glam::{Vec3, vec3};
 
-/// A smooth interface.
 #[derive(Clone, Debug)]
 pub(crate) struct Glass {
     index: f32,

@@ -12,7 +12,6 @@ use super::facets::Facets;
 use super::scattering::Scattering;
 use glam::{Vec2, Vec3, vec3};
 
-/// A rough interface.
 #[derive(Clone, Debug)]
 pub(crate) struct RoughGlass {
     index: f32,

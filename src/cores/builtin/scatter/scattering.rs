@@ -2,7 +2,6 @@
 
 use glam::Vec3;
 
-/// A sampled direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scattering {
     /// Towards the light, local frame, unit.

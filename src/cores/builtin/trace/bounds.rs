@@ -9,14 +9,11 @@ const MARGIN: f32 = f32::EPSILON * 2.0;
 /// A closed box, two vector registers wide. The empty box has `min = +∞` and `max = −∞`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bounds {
-    /// Smallest coordinates.
     pub(crate) min: Vec3A,
-    /// Largest coordinates.
     pub(crate) max: Vec3A,
 }
 
 impl Bounds {
-    /// The box around nothing.
     pub(crate) const EMPTY: Self = Self { min: Vec3A::INFINITY, max: Vec3A::NEG_INFINITY };
 
     /// The box around points that are exact in single precision or within rounding of it, with a margin.
@@ -27,12 +24,10 @@ impl Bounds {
         Self { min: tight.min - margin, max: tight.max + margin }
     }
 
-    /// The smallest box around `self` and `point`.
     pub(crate) fn with(self, point: Vec3A) -> Self {
         Self { min: self.min.min(point), max: self.max.max(point) }
     }
 
-    /// The smallest box around both.
     pub(crate) fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
@@ -48,12 +43,10 @@ impl Bounds {
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 
-    /// The point in the middle.
     pub(crate) fn centre(self) -> Vec3A {
         0.5 * (self.min + self.max)
     }
 
-    /// The axis along which the box is longest.
     pub(crate) fn longest_axis(self) -> usize {
         self.extent().max_position()
     }

@@ -16,13 +16,10 @@ const PARALLEL_SIZE: usize = 4096;
 /// A node of the binary BVH. Its first child, if any, is the next node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
-    /// Around everything below.
     pub(crate) bounds: Bounds,
-    /// What is below.
     pub(crate) content: Content,
 }
 
-/// What is below a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Content {
     /// Items `first .. first + count`, all of one kind.
@@ -33,18 +30,12 @@ pub(crate) enum Content {
         count: usize,
     },
     /// Two children: the next node, and the one `second` further on.
-    Inner {
-        /// Distance to the second child.
-        second: usize,
-    },
+    Inner { second: usize },
 }
 
-/// How a BVH is to be built.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
-    /// The rule.
     pub split: Split,
-    /// Most items in a leaf.
     pub max_leaf_size: usize,
 }
 

@@ -33,7 +33,6 @@ struct Triangle {
     is_smooth: bool,
 }
 
-/// Where a ray meets a shape.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
     /// In units of the segment's scaled direction.
@@ -46,7 +45,6 @@ pub struct Surface {
     pub(crate) shading_normal: DVec3,
     /// Of a triangle: barycentric weights of corners 1 and 2.
     pub(crate) uv: DVec2,
-    /// Number of the shape.
     pub(crate) shape: u32,
     /// Number of the triangle in its mesh, 0 for a sphere.
     pub(crate) primitive: u32,

@@ -44,7 +44,6 @@ impl Summary {
         })
     }
 
-    /// Whether there are triangles and spheres.
     pub(crate) fn is_mixed(&self) -> bool {
         self.balls != 0 && self.balls != self.count
     }

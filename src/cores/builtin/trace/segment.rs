@@ -33,9 +33,7 @@ pub(crate) struct Segment {
     pub(crate) t_after: f32,
     /// `t` must not be greater than this.
     pub(crate) t_last: f32,
-    /// What the box test needs.
     pub(crate) slabs: Slabs,
-    /// What the triangle test needs.
     pub(crate) shear: Shear,
 }
 

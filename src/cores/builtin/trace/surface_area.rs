@@ -22,7 +22,6 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    /// Whether the item goes to the first part.
     #[inline]
     pub(crate) fn is_left(&self, item: &Item) -> bool {
         self.binning.bin(item, self.axis) < self.bin
@@ -102,7 +101,6 @@ impl Binning {
     }
 }
 
-/// The cheapest cut along one axis.
 fn best_along(axis: usize, binning: Binning, bins: &[Bin; MOST_BINS]) -> Option<Cut> {
     let mut right = [Bin::EMPTY; MOST_BINS];
     let mut all = Bin::EMPTY;

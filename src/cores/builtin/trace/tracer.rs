@@ -11,7 +11,6 @@ pub(crate) struct Tracer<'a> {
     tree: &'a Tree,
     stack: Stack,
     has_simd: bool,
-    /// Tests so far.
     pub(crate) stats: TraversalStats,
 }
 
@@ -26,7 +25,6 @@ impl<'a> Tracer<'a> {
         Self { tree, stack: Stack::new(), has_simd: false, stats: TraversalStats::default() }
     }
 
-    /// The nearest primitive on the segment.
     pub(crate) fn nearest(&mut self, segment: &Segment) -> Option<Candidate> {
         let (tree, stack, stats) = (self.tree, &mut self.stack, &mut self.stats);
         if self.has_simd {
@@ -36,7 +34,6 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Whether there is any primitive on the segment.
     pub(crate) fn is_blocked(&mut self, segment: &Segment) -> bool {
         let (tree, stack, stats) = (self.tree, &mut self.stack, &mut self.stats);
         if self.has_simd {

@@ -51,7 +51,6 @@ impl Candidate {
 pub(crate) struct Stack(Box<[Entry; CAPACITY]>);
 
 impl Stack {
-    /// Nothing to visit.
     pub(crate) fn new() -> Self {
         Self(Box::new([Entry(0); CAPACITY]))
     }

@@ -5,7 +5,6 @@ use super::bounds::Bounds;
 use crate::contract::BuildStats;
 use glam::{DVec3, Vec3};
 
-/// Children of a node.
 pub(crate) const WIDTH: usize = 8;
 /// Triangles in a block.
 pub(crate) const LANES: usize = 4;
@@ -28,7 +27,6 @@ pub(crate) struct Tree {
 }
 
 impl Tree {
-    /// What the build made.
     pub(crate) fn stats(&self) -> BuildStats {
         let bytes = size_of_val(self.nodes.as_slice())
             + size_of_val(self.blocks.as_slice())
@@ -50,11 +48,8 @@ pub(crate) struct Child(pub(crate) u32);
 /// A [`Child`], taken apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Target {
-    /// Number of a node.
     Node(usize),
-    /// Number of a leaf's first block.
     Triangles(usize),
-    /// Number of a leaf's first ball.
     Balls(usize),
 }
 
@@ -66,7 +61,6 @@ impl Child {
     /// No child. Its box is empty, so no ray comes here.
     pub(crate) const NONE: Self = Self(u32::MAX);
 
-    /// An inner node.
     pub(crate) fn node(index: usize) -> Self {
         Self(Self::checked(index))
     }
@@ -81,7 +75,6 @@ impl Child {
         Self(Self::checked(index) | Self::LEAF | Self::BALLS)
     }
 
-    /// What is referred to.
     #[inline(always)]
     pub(crate) fn target(self) -> Target {
         let index = (self.0 & Self::INDEX) as usize;
@@ -108,7 +101,6 @@ pub(crate) struct WideNode {
     pub(crate) planes: [[f32; WIDTH]; 6],
     /// One for each box.
     pub(crate) children: [Child; WIDTH],
-    /// How many children there are.
     pub(crate) child_count: u32,
 }
 
@@ -116,7 +108,6 @@ impl WideNode {
     const LOWER: [f32; WIDTH] = [f32::INFINITY; WIDTH];
     const UPPER: [f32; WIDTH] = [f32::NEG_INFINITY; WIDTH];
 
-    /// No children yet.
     pub(crate) const EMPTY: Self = Self {
         planes: [Self::LOWER, Self::UPPER, Self::LOWER, Self::UPPER, Self::LOWER, Self::UPPER],
         children: [Child::NONE; WIDTH],
@@ -183,7 +174,6 @@ impl TriangleBlock {
         self.numbers[0] & MORE != 0
     }
 
-    /// How many triangles there are.
     #[inline(always)]
     pub(crate) fn triangle_count(&self) -> u64 {
         1 + u64::from(self.numbers[0] / NUMBERS % LANES as u32)
@@ -193,20 +183,16 @@ impl TriangleBlock {
 /// A sphere, in double precision: its quadratic cancels too much in single.
 #[derive(Clone, Debug)]
 pub(crate) struct Ball {
-    /// World space.
     pub(crate) centre: DVec3,
-    /// Scene units.
     pub(crate) radius: f64,
     number: u32,
 }
 
 impl Ball {
-    /// A sphere with its primitive number.
     pub(crate) fn new(number: u32, centre: DVec3, radius: f64, more: bool) -> Self {
         Self { centre, radius, number: number | flag(more) }
     }
 
-    /// The primitive number.
     #[inline(always)]
     pub(crate) fn number(&self) -> u32 {
         self.number & !MORE

@@ -195,26 +195,6 @@ mod tests {
         film.pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / film.pixels.len() as f64
     }
 
-    #[test]
-    fn s18_a_rectangle_covers_its_share_of_the_picture() {
-        let world = glowing_rectangle([-0.9, 0.5], [-0.3, 0.8]).world();
-        let share: f64 = 0.158_087_53;
-        // Only pixels that an edge crosses are noisy: about one in eight, so that the binomial
-        // error of all samples is some three standard errors.
-        let error = (share * (1.0 - share) / (280.0 * 256.0)).sqrt();
-        let mean = mean(&film(&world, &settings(256)));
-        assert!((mean - share).abs() < 1.5 * error, "{mean} {share} ± {error}");
-    }
-
-    #[test]
-    fn up_is_up_and_right_is_right() {
-        let top_right = glowing_rectangle([0.5, 3.0], [0.5, 3.0]).world();
-        let film = film(&top_right, &settings(4));
-        let is_bright = |x: usize, y: usize| film.pixels[y * WIDTH as usize + x][0] == 1.0;
-        assert!(is_bright(19, 0));
-        assert!(!is_bright(0, 0) && !is_bright(19, 13) && !is_bright(0, 13));
-    }
-
     /// A lit scene with noise in every pixel.
     fn noisy() -> World<'static> {
         glowing_rectangle([-0.5, 0.5], [-0.3, 0.8])

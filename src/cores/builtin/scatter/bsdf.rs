@@ -142,27 +142,4 @@ mod tests {
             assert_eq!(value, (Vec3::ZERO, 0.0), "{surface:?}");
         }
     }
-
-    #[test]
-    fn a_mirror_reflects_about_the_normal() {
-        let bsdf = Bsdf::new(&Surface::Mirror { reflectance: [0.83; 3] });
-        let sample = bsdf.sample(vec3(0.6, 0.0, 0.8), Vec2::ZERO, 0.0).expect("a direction");
-        assert_eq!((sample.wi, sample.weight), (vec3(-0.6, 0.0, 0.8), Vec3::splat(0.83)));
-        assert_eq!(bsdf.evaluate(vec3(0.6, 0.0, 0.8), sample.wi), (Vec3::ZERO, 0.0));
-    }
-
-    #[test]
-    fn reflection_is_reciprocal() {
-        for surface in [
-            Surface::Diffuse { reflectance: GREY },
-            Surface::Conductor { reflectance: GREY, roughness: 0.2 },
-        ] {
-            let bsdf = Bsdf::new(&surface);
-            for (one, other) in [(10.0, 70.0), (5.0, 85.0), (40.0, 41.0)] {
-                let (a, b) = (direction(one), direction(-other));
-                let (forth, back) = (bsdf.evaluate(a, b).0, bsdf.evaluate(b, a).0);
-                assert!(((forth - back) / forth).length() < 2e-6, "{surface:?} {one} {other}");
-            }
-        }
-    }
 }

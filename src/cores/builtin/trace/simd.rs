@@ -53,7 +53,7 @@ pub(crate) fn walk<const ANY: bool>(
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use super::super::segment::{Segment, Shear, Slabs};
-    use super::super::traverse::{self, Candidate, Kernel, Stack};
+    use super::super::traverse::{self, Candidate, Kernel, Met, Stack};
     use super::super::tree::{LANES, Tree, TriangleBlock, WIDTH, WideNode};
     use crate::contract::TraversalStats;
     use std::arch::x86_64::*;
@@ -73,12 +73,7 @@ mod x86 {
 
     impl Kernel for Avx2 {
         #[inline(always)]
-        fn boxes(
-            node: &WideNode,
-            slabs: &Slabs,
-            t_after: f32,
-            t_beyond: f32,
-        ) -> (u32, [f32; WIDTH]) {
+        fn boxes(node: &WideNode, slabs: &Slabs, t_after: f32, t_beyond: f32) -> Met<WIDTH> {
             // SAFETY: inlined into `walk`, whose caller has made sure of the features.
             unsafe { boxes(node, slabs, t_after, t_beyond) }
         }
@@ -89,7 +84,7 @@ mod x86 {
             shear: &Shear,
             t_after: f32,
             t_last: f32,
-        ) -> (u32, [f32; LANES]) {
+        ) -> Met<LANES> {
             // SAFETY: inlined into `walk`, whose caller has made sure of the features.
             unsafe { triangles(block, shear, t_after, t_last) }
         }
@@ -97,7 +92,7 @@ mod x86 {
 
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    fn boxes(node: &WideNode, slabs: &Slabs, t_after: f32, t_beyond: f32) -> (u32, [f32; WIDTH]) {
+    fn boxes(node: &WideNode, slabs: &Slabs, t_after: f32, t_beyond: f32) -> Met<WIDTH> {
         let mut enter = _mm256_set1_ps(t_after);
         let mut exit = _mm256_set1_ps(t_beyond);
         for axis in 0..3 {
@@ -117,12 +112,7 @@ mod x86 {
     /// The same operations in the same order as [`traverse::Portable`], and no fused multiplication.
     #[inline]
     #[target_feature(enable = "avx2,fma")]
-    fn triangles(
-        block: &TriangleBlock,
-        shear: &Shear,
-        t_after: f32,
-        t_last: f32,
-    ) -> (u32, [f32; LANES]) {
+    fn triangles(block: &TriangleBlock, shear: &Shear, t_after: f32, t_last: f32) -> Met<LANES> {
         let origin = shear.origin.map(|coordinate| _mm_set1_ps(coordinate));
         let factors = shear.factors.map(|factor| _mm_set1_ps(factor));
         let [x_rows, y_rows, z_rows] = shear.axes.map(|axis| &block.corners[usize::from(axis)]);

@@ -11,18 +11,16 @@ use crate::contract::TraversalStats;
 /// Entries of the stack. A node pushes at most seven, and `build` bounds the depth at 96.
 const CAPACITY: usize = 1024;
 
+/// Which of `N` are met, one bit each, and where.
+pub(crate) type Met<const N: usize> = (u32, [f32; N]);
+
 /// The two tests, in whatever arithmetic.
 pub(crate) trait Kernel {
-    /// Which of the eight boxes the segment meets, one bit each, and where it enters them.
-    fn boxes(node: &WideNode, slabs: &Slabs, t_after: f32, t_beyond: f32) -> (u32, [f32; WIDTH]);
+    /// Which of the eight boxes the segment meets, and where it enters them.
+    fn boxes(node: &WideNode, slabs: &Slabs, t_after: f32, t_beyond: f32) -> Met<WIDTH>;
 
-    /// Which of the four triangles are hit with `t_after < t ≤ t_last`, one bit each, and where.
-    fn triangles(
-        block: &TriangleBlock,
-        shear: &Shear,
-        t_after: f32,
-        t_last: f32,
-    ) -> (u32, [f32; LANES]);
+    /// Which of the four triangles are hit with `t_after < t ≤ t_last`, and where.
+    fn triangles(block: &TriangleBlock, shear: &Shear, t_after: f32, t_last: f32) -> Met<LANES>;
 }
 
 /// What a walk finds, to be refined by `Geometry::surface`.
@@ -221,7 +219,7 @@ pub(crate) struct Portable;
 
 impl Kernel for Portable {
     #[inline(always)]
-    fn boxes(node: &WideNode, slabs: &Slabs, t_after: f32, t_beyond: f32) -> (u32, [f32; WIDTH]) {
+    fn boxes(node: &WideNode, slabs: &Slabs, t_after: f32, t_beyond: f32) -> Met<WIDTH> {
         let (mut enter, mut exit) = ([t_after; WIDTH], [t_beyond; WIDTH]);
         for axis in 0..3 {
             let [first, last] = slabs.rows(axis).map(|row| &node.planes[row]);
@@ -241,12 +239,7 @@ impl Kernel for Portable {
     }
 
     #[inline(always)]
-    fn triangles(
-        block: &TriangleBlock,
-        shear: &Shear,
-        t_after: f32,
-        t_last: f32,
-    ) -> (u32, [f32; LANES]) {
+    fn triangles(block: &TriangleBlock, shear: &Shear, t_after: f32, t_last: f32) -> Met<LANES> {
         let [x_axis, y_axis, z_axis] = shear.axes.map(usize::from);
         let mut ts = [0.0; LANES];
         let mut hits = [false; LANES];

@@ -231,7 +231,6 @@ pub(crate) fn not_negative(field: &'static str, value: f64) -> Form {
     holds(value >= 0.0, field, || BreachKind::Negative(value))
 }
 
-/// A number that is finite.
 pub(crate) fn finite(field: &'static str, value: f64) -> Form {
     not_nan(field, value)?;
     holds(value.is_finite(), field, || BreachKind::Infinite)
@@ -243,12 +242,10 @@ pub(crate) fn not_nan(field: &'static str, value: f64) -> Form {
     holds(!value.is_nan(), field, || BreachKind::NotANumber)
 }
 
-/// A vector of finite numbers.
 pub(crate) fn finite_vector(field: &'static str, value: DVec3) -> Form {
     value.to_array().iter().try_for_each(|component| finite(field, *component))
 }
 
-/// A vector of length 1.
 pub(crate) fn unit(field: &'static str, value: DVec3) -> Form {
     finite_vector(field, value)?;
     let length = value.length();

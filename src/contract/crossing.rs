@@ -42,7 +42,6 @@ impl Part {
 pub struct Layout {
     /// What the protocol calls it.
     pub name: &'static str,
-    /// Its bytes.
     pub size: usize,
     /// Its fields and where they begin, if they have names.
     pub fields: &'static [(&'static str, usize)],
@@ -154,7 +153,6 @@ impl<'a> Request<'a> {
         Self { members, arrays: Vec::new() }
     }
 
-    /// What it is called.
     pub(crate) fn name(&self) -> &str {
         self.members["request"].as_str().unwrap_or_default()
     }
@@ -169,14 +167,12 @@ impl<'a> Request<'a> {
         &self.arrays
     }
 
-    /// Adds a member.
     #[must_use]
     pub(crate) fn with(mut self, name: &str, member: impl Serialize) -> Self {
         self.member(name, member);
         self
     }
 
-    /// Adds an array.
     #[must_use]
     pub(crate) fn with_array(mut self, array: Sent<'a>) -> Self {
         self.arrays.push(array);
@@ -216,7 +212,6 @@ impl<'a> Received<'a> {
         Ok(Self { members, headers, taken: 0, bytes: body })
     }
 
-    /// What it is called.
     pub(crate) fn name(&self) -> &str {
         self.members.get("request").and_then(Json::as_str).unwrap_or_default()
     }
@@ -315,12 +310,10 @@ impl<B: Deref<Target = [u8]>> Array<B> {
         ArrayHeader(self.name.replace('_', "-"), self.element.to_owned(), self.count as u64)
     }
 
-    /// Its bytes.
     pub(crate) fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
-    /// How many elements there are.
     pub(crate) const fn count(&self) -> usize {
         self.count
     }

@@ -18,14 +18,14 @@ pub struct Hosting {
     pub hidden: Vec<PathBuf>,
     /// What the user lets cores read besides themselves and the system.
     pub readable: Vec<PathBuf>,
-    /// Whether workers are shut in at all.
+    /// Whether workers are sandboxed at all.
     pub confined: bool,
     /// Whether our own cores live in workers too.
     pub isolates_own: bool,
 }
 
 impl Default for Hosting {
-    /// Workers of this program, shut in.
+    /// Workers of this program, sandboxed.
     fn default() -> Self {
         Self {
             program: std::env::current_exe().unwrap_or_else(|_| "furnace".into()),

@@ -46,7 +46,6 @@ pub(crate) struct SceneTables<'a> {
 }
 
 impl<'a> SceneTables<'a> {
-    /// The tables of `scene`.
     pub(crate) fn new(scene: &'a SceneDescription) -> Self {
         let mut names = vec![c_name(&scene.name)];
         let mut name = |text: &str| {
@@ -297,7 +296,6 @@ fn sampler(sampler: Sampler) -> u32 {
     }
 }
 
-/// How to build.
 pub(crate) fn build(acceleration: Acceleration, counted: *const abi::CountedTests) -> abi::Build {
     let (accelerate, split, max_leaf_size) = match acceleration {
         Acceleration::BruteForce => (0, abi::SPLIT_CORES_CHOICE, 0),

@@ -84,12 +84,6 @@ impl Textbook {
     }
 }
 
-impl Default for Textbook {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl Core for Textbook {
     fn info(&self) -> CoreInfo {
         self.info.clone()

@@ -42,6 +42,7 @@ impl Part {
 pub struct Layout {
     /// What the protocol calls it.
     pub name: &'static str,
+    /// Its bytes.
     pub size: usize,
     /// Its fields and where they begin, if they have names.
     pub fields: &'static [(&'static str, usize)],

@@ -14,7 +14,7 @@ const FIRST_LINE: &str = "furnace-sums 1\n";
 const LAST_LINE: &str = "---\n";
 
 /// What passes are of. Only those alike in all of this are added up.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(super) struct About {
     pub(crate) scene: String,
@@ -102,13 +102,9 @@ mod tests {
     fn shard(first: u32, last: u32) -> Shard {
         let about = About {
             scene: "room".to_owned(),
-            scene_hash: "0123".to_owned(),
-            bounces: [0, 2],
             film: [32, 32],
-            samples_per_pass: 8,
-            sampler: "multijitter".to_owned(),
             version: "3.9.1".to_owned(),
-            variant: "scalar_rgb".to_owned(),
+            ..About::default()
         };
         let mut sums = Sums::new(32, 32);
         (first..=last).for_each(|seed| sums.push(&Image::new(32, 32, [seed as f32 / 7.0; 3])));

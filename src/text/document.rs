@@ -3,9 +3,10 @@
 //! Derived code is compiled once for each kind of map and list that it may meet. Here there is one
 //! of each, for a hundred and ninety types; the parser's own deserialiser has four.
 
+use serde::de::value::SeqDeserializer;
 use serde::de::{
     self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, Error as _, Expected,
-    MapAccess, SeqAccess, Unexpected, VariantAccess, Visitor,
+    IntoDeserializer, MapAccess, Unexpected, VariantAccess, Visitor,
 };
 use serde::{Deserialize, forward_to_deserialize_any};
 use std::fmt;
@@ -214,7 +215,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
             Content::Unsigned(number) => visitor.visit_u64(number),
             Content::Float(number) => visitor.visit_f64(number),
             Content::Boolean(value) => visitor.visit_bool(value),
-            Content::List(items) => visitor.visit_seq(Items::of(items)),
+            Content::List(items) => visitor.visit_seq(list(items)),
             Content::Map(table) => visitor.visit_map(Entries::of(table)),
             Content::Overflow(_) => return Err(self.other_than(&visitor)),
         };
@@ -242,7 +243,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, TomlError> {
         match self.content {
             Content::List(items) => {
-                visitor.visit_seq(Items::of(items)).map_err(|error| error.within(self.span))
+                visitor.visit_seq(list(items)).map_err(|error| error.within(self.span))
             }
             _ => Err(self.other_than(&visitor)),
         }
@@ -263,7 +264,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
         visitor: V,
     ) -> Result<V::Value, TomlError> {
         match name {
-            PLACED => visitor.visit_seq(Items::placed(self)),
+            PLACED => visitor.visit_seq(placed(self)),
             _ => self.deserialize_seq(visitor),
         }
     }
@@ -316,33 +317,23 @@ impl<'de> Deserializer<'de> for Node<'de> {
         bool u8 u16 u32 u64 i8 i16 i32 i64 u128 i128 f32 f64 char bytes byte_buf unit unit_struct
     }
 }
+type List<'a> = SeqDeserializer<std::vec::IntoIter<Node<'a>>, TomlError>;
 
-struct Items<'a>(std::vec::IntoIter<Node<'a>>);
+impl<'de> IntoDeserializer<'de, TomlError> for Node<'de> {
+    type Deserializer = Self;
 
-impl<'a> Items<'a> {
-    fn of(items: &'a [toml::Spanned<DeValue<'a>>]) -> Self {
-        Self(items.iter().map(Node::of).collect::<Vec<_>>().into_iter())
-    }
-
-    fn placed(node: Node<'a>) -> Self {
-        let end = |place: usize| Node { content: Content::Unsigned(place as u64), span: 0..0 };
-        Self(vec![end(node.span.start), end(node.span.end), node].into_iter())
+    fn into_deserializer(self) -> Self {
+        self
     }
 }
 
-impl<'de> SeqAccess<'de> for Items<'de> {
-    type Error = TomlError;
+fn list<'a>(items: &'a [toml::Spanned<DeValue<'a>>]) -> List<'a> {
+    SeqDeserializer::new(items.iter().map(Node::of).collect::<Vec<_>>().into_iter())
+}
 
-    fn next_element_seed<T: DeserializeSeed<'de>>(
-        &mut self,
-        seed: T,
-    ) -> Result<Option<T::Value>, TomlError> {
-        self.0.next().map(|node| seed.deserialize(node)).transpose()
-    }
-
-    fn size_hint(&self) -> Option<usize> {
-        Some(self.0.len())
-    }
+fn placed(node: Node<'_>) -> List<'_> {
+    let end = |place: usize| Node { content: Content::Unsigned(place as u64), span: 0..0 };
+    SeqDeserializer::new(vec![end(node.span.start), end(node.span.end), node].into_iter())
 }
 
 struct Entries<'a>(std::vec::IntoIter<(Node<'a>, Node<'a>)>, Option<Node<'a>>);

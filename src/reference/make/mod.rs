@@ -239,8 +239,7 @@ impl Plan {
             film: self.job.film,
             samples_per_pass: self.recipe.samples_per_pass,
             sampler: SAMPLER.to_owned(),
-            version: String::new(),
-            variant: String::new(),
+            ..About::default()
         }
     }
 

@@ -31,14 +31,8 @@ fn written(width: usize, height: usize, mean: f32) -> TempDir {
         passes: 64,
         samples_per_pass: 64,
         seeds: vec![[0, 63]],
-        median_relative_error: 0.125,
-        high_relative_error: 0.125,
         picture_hash: fingerprint(&std::fs::read(&path).unwrap()),
-        command: "furnace reference make room".to_owned(),
-        date: "2026-01-31".to_owned(),
-        cpu_seconds: 1.5,
-        bounce_passes: 0,
-        parameters: Default::default(),
+        ..Provenance::default()
     };
     let text = toml::to_string(&provenance).unwrap();
     std::fs::write(provenance_path(folder.path(), "room"), text).unwrap();

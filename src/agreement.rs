@@ -8,7 +8,7 @@
 use crate::contract::{
     Acceleration, CoreError, DirectSampling, Film, IntegratorSettings, RenderSettings,
 };
-use crate::cores::command::{Picture, Program};
+use crate::cores::command::Picture;
 use crate::cores::{CoreSpec, Hosting};
 use crate::image::{Image, luminance};
 use crate::project::Project;
@@ -48,7 +48,6 @@ pub struct Row {
     pub(crate) seconds: Option<f64>,
 }
 
-/// A relative difference and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Difference {
     /// Of the renderer from the reference.
@@ -117,7 +116,6 @@ pub fn compare(
     Ok(row(&reference, &shots))
 }
 
-/// Pictures of one scene.
 struct Shots {
     pictures: Vec<Picture>,
     seconds: Vec<f64>,
@@ -136,26 +134,15 @@ fn render_all(
     for run in 0..effort.runs {
         let settings = settings(camera, reference, effort, run);
         match &program {
-            Some(program) => shots.add(program, scene, camera, &settings)?,
+            Some(program) => {
+                let rendered = program.render(scene, &camera, &settings)?;
+                shots.pictures.push(rendered.picture);
+                shots.seconds.extend(rendered.log.seconds);
+            }
             None => shots.pictures.push(render(core, scene, camera, &settings)?),
         }
     }
     Ok(shots)
-}
-
-impl Shots {
-    fn add(
-        &mut self,
-        program: &Program,
-        scene: &SceneDescription,
-        camera: Camera,
-        settings: &RenderSettings,
-    ) -> Result<(), CoreError> {
-        let rendered = program.render(scene, &camera, settings)?;
-        self.pictures.push(rendered.picture);
-        self.seconds.extend(rendered.log.seconds);
-        Ok(())
-    }
 }
 
 fn settings(camera: Camera, reference: &Reference, effort: Effort, run: u32) -> RenderSettings {
@@ -230,7 +217,6 @@ fn larger(a: f64, b: f64) -> f64 {
     if a.abs() > b.abs() { a } else { b }
 }
 
-/// Pixels by block.
 fn blocks_of(width: usize, pixels: &[usize]) -> Vec<Vec<usize>> {
     let across = width.div_ceil(BLOCK);
     let block_of = |pixel: &usize| pixel / width / BLOCK * across + pixel % width / BLOCK;

@@ -19,11 +19,9 @@ use std::time::Instant;
 /// What changed cores are put to.
 #[derive(Clone, Debug)]
 pub struct Matrix {
-    /// Where scenes are.
     project: Project,
     /// The cases, pictures against references left out.
     cases: Vec<Arc<Case>>,
-    /// How much each case may spend.
     budget: Budget,
     /// Trials at the same time; 0 means one a hardware thread.
     jobs: usize,
@@ -113,7 +111,6 @@ impl Matrix {
         Self { project, cases, budget, jobs }
     }
 
-    /// The same with only the cases that are asked for.
     pub(crate) fn with_cases(&self, wanted: impl Fn(&Case) -> bool) -> Self {
         let cases = self.cases.iter().filter(|case| wanted(case)).cloned().collect();
         Self { cases, ..self.clone() }
@@ -141,16 +138,12 @@ impl Matrix {
         if alike.is_good() { Ok(alike) } else { folder.try_fault(fault) }
     }
 
-    /// The cases of the same folder as the one named for the fault.
     fn folder_of(&self, fault: &Fault) -> Self {
         let subject = Subject::of_case(fault.caught_by);
         self.with_cases(|case| Subject::of_case(&case.id) == subject)
     }
 
-    /// Puts a fault to the cases.
-    ///
-    /// # Errors
-    /// If there are none.
+    /// Puts a fault to the cases. Fails if there are none.
     pub(crate) fn try_fault(&self, fault: &Fault) -> Result<Tried, NothingSelected> {
         let clock = Instant::now();
         let records = self.records(fault.name)?;

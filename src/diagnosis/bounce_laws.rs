@@ -54,7 +54,6 @@ impl Law {
         Self { cause, words, predict, direct: 1.0 }
     }
 
-    /// A law that direct light shows too.
     const fn with_direct(self, direct: f64) -> Self {
         Self { direct, ..self }
     }
@@ -69,7 +68,6 @@ pub(crate) fn indirect(bounce: u32) -> i32 {
 /// cos³ θ/π³ over the hemisphere.
 const TIMES_PDF: f64 = 1.0 / (2.0 * PI * PI);
 
-/// Every law.
 pub(crate) static LAWS: &[Law] = &[
     Law::new(
         &integrator::ONE_BOUNCE_SHORT,

@@ -6,7 +6,6 @@ use crate::cause;
 /// By how much each clue weighs less than the one before it.
 const NEXT: f64 = 0.7;
 
-/// Every clue of every failing case.
 pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let mut suspicions = Vec::new();
     for failure in evidence.failures().chain(evidence.failures_of_robustness()) {

@@ -14,9 +14,7 @@ use crate::text::number::figure;
 const POINT_LIGHT: Role = Role::PointLight;
 const SQUARED_DISTANCES: [(&str, f64); 3] =
     [("below and beside", 3.06), ("nearly below", 2.27), ("far away", 12.91)];
-/// Lights seen from both sides.
 const SEEN_LIGHT: Role = Role::VisibleLight;
-/// A light source in glass of index 1.5.
 const LIGHT_IN_GLASS: Role = Role::LightInsideGlass;
 const INDEX_SQUARED: f64 = 2.25;
 
@@ -97,12 +95,7 @@ fn glass(evidence: &Evidence<'_>) -> Option<Suspicion> {
 mod tests {
     use super::*;
     use crate::checks::{Finding, Measure};
-    use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, mean, means};
-
-    fn first(made: &Made) -> Option<&'static str> {
-        diagnose(&made.evidence()).first().map(|cause| cause.name)
-    }
 
     fn point_lights(power: i32) -> Finding {
         let rows = SQUARED_DISTANCES.iter().flat_map(|(row, squared)| {
@@ -115,11 +108,11 @@ mod tests {
     #[test]
     fn a_light_without_falloff_differs_from_what_is_declared() {
         let made = Made::new().with(POINT_LIGHT, point_lights(1));
-        assert_eq!(first(&made), Some(convention::NO_FALLOFF.name));
+        assert_eq!(made.first(), Some(convention::NO_FALLOFF.name));
         let mut other = Made::new().with(POINT_LIGHT, point_lights(-1));
-        assert_eq!(first(&other), None);
+        assert_eq!(other.first(), None);
         other.conventions.point_light_falloff = Falloff::None;
-        assert_eq!(first(&other), Some(convention::INVERSE_SQUARE.name));
+        assert_eq!(other.first(), Some(convention::INVERSE_SQUARE.name));
     }
 
     #[test]
@@ -129,14 +122,14 @@ mod tests {
             CHANNELS.map(|c| Measure::exact("", 5.0, *expected, 1e-4).of_row(row).of_channel(c))
         });
         let made = Made::new().with(SEEN_LIGHT, means(measures.collect()));
-        assert_eq!(first(&made), Some(convention::TWO_SIDED_EMISSION.name));
+        assert_eq!(made.first(), Some(convention::TWO_SIDED_EMISSION.name));
     }
 
     #[test]
     fn glass_that_does_not_scale_is_told_by_the_index_squared() {
         let measures = CHANNELS.map(|c| mean("bounces 0 to 40", c, 0.4267, 2.25, 0.004));
         let made = Made::new().with(LIGHT_IN_GLASS, means(measures.into()));
-        assert_eq!(first(&made), Some(convention::UNSCALED_RADIANCE.name));
+        assert_eq!(made.first(), Some(convention::UNSCALED_RADIANCE.name));
     }
 
     #[test]

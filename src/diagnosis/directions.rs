@@ -9,7 +9,6 @@ use crate::cause::integrator;
 
 /// The cavity that sees directions, which a furnace cannot.
 const CAVITY: Role = Role::Cavity;
-/// A wall that faces sideways.
 const SIDE: Role = Role::SidewaysWall;
 /// Directions of bounces, and the cosine they are weighted with.
 pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
@@ -82,34 +81,31 @@ mod tests {
     use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::image::Channel;
 
+    /// Bounce 1 is right and bounce 2 is not.
+    fn second_bounce_wrong() -> Finding {
+        let rows = [("bounce 1", 1.0), ("bounce 2", 0.8)];
+        means(rows.map(|(row, ratio)| mean(row, Channel::Red, 0.2, ratio, 0.004)).into())
+    }
+
     #[test]
     fn a_wall_that_faces_sideways_shows_a_cosine_with_the_world() {
-        let rows = [("bounce 1", 1.0), ("bounce 2", 0.8)];
-        let side = rows.map(|(row, ratio)| mean(row, Channel::Red, 0.2, ratio, 0.004));
         let made = |cavity: Finding| {
-            Made::new()
-                .with(FURNACES[0], passing())
-                .with(CAVITY, cavity)
-                .with(SIDE, means(side.to_vec()))
+            let made = Made::new().with(FURNACES[0], passing()).with(CAVITY, cavity);
+            made.with(SIDE, second_bounce_wrong())
         };
-        let name = |made: Made| diagnose(&made.evidence()).first().map(|cause| cause.name);
-        assert_eq!(name(made(passing())), Some(integrator::BOUNCE_WORLD_COSINE.name));
-        let made_specular = made(passing())
+        assert_eq!(made(passing()).first(), Some(integrator::BOUNCE_WORLD_COSINE.name));
+        assert_eq!(made(failing("too")).first(), None);
+        let with_glass = made(passing())
             .with("integrator/rough", failing("too bright"))
             .with("integrator/pane", failing("too bright"))
             .in_a_specular_scene("integrator/pane");
-        let diagnosis = diagnose(&made_specular.evidence());
-        let explains = &diagnosis.headlines[0].explains;
+        let explains = &diagnose(&with_glass.evidence()).headlines[0].explains;
         assert!(explains.contains(&"integrator/pane".to_owned()) && explains.len() == 2);
-        assert_eq!(name(made(failing("too"))), None);
     }
 
     #[test]
     fn a_cavity_that_is_wrong_where_the_furnace_is_right_is_about_directions() {
-        let rows = [("bounce 1", 1.0), ("bounce 2", 0.8)];
-        let measures = rows.map(|(row, ratio)| mean(row, Channel::Red, 0.2, ratio, 0.004));
-        let made = Made::new().with(FURNACES[0], passing()).with(CAVITY, means(measures.into()));
-        let name = diagnose(&made.evidence()).first().map(|cause| cause.name);
-        assert_eq!(name, Some(integrator::BOUNCE_DIRECTIONS.name));
+        let made = Made::new().with(FURNACES[0], passing()).with(CAVITY, second_bounce_wrong());
+        assert_eq!(made.first(), Some(integrator::BOUNCE_DIRECTIONS.name));
     }
 }

@@ -5,12 +5,9 @@ use crate::checks::{Finding, Measure};
 use crate::contract::Conventions;
 use crate::image::Channel;
 
-/// How a case stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Standing {
-    /// The core passed it.
     Passed,
-    /// The core failed it.
     Failed,
     /// It was not tried, since the named case failed.
     Blocked(String),
@@ -18,29 +15,23 @@ pub(crate) enum Standing {
     Unknown,
 }
 
-/// One case and what came of it.
 #[derive(Clone, Debug)]
 pub(crate) struct Observation<'a> {
     /// Folder and claim.
     pub(crate) case: &'a str,
-    /// What it counts for.
     pub(crate) tier: Tier,
     /// What it shows to the rules, if they ask for it.
     pub(crate) role: Option<Role>,
     /// Whether its scene has a mirror or smooth glass.
     pub(crate) is_specular: bool,
-    /// How it stands.
     pub(crate) standing: Standing,
-    /// What the check found, if it came to that.
     pub(crate) finding: Option<&'a Finding>,
-    /// The command that repeats it.
     pub(crate) rerun: &'a str,
     /// Seconds it took.
     pub(crate) seconds: f64,
 }
 
 impl Observation<'_> {
-    /// Whether the case is about `subject`.
     pub(crate) fn is_about(&self, subject: Subject) -> bool {
         Subject::of_case(self.case) == Some(subject)
     }
@@ -50,7 +41,6 @@ impl Observation<'_> {
 #[derive(Clone, Debug)]
 pub(crate) struct Evidence<'a> {
     observations: Vec<Observation<'a>>,
-    /// What the core declares to have chosen.
     pub(crate) conventions: Conventions,
 }
 
@@ -76,7 +66,6 @@ impl<'a> Evidence<'a> {
             .filter(|seen| seen.standing == Standing::Failed && seen.tier == Tier::Robustness)
     }
 
-    /// The case of a role, if it was selected.
     fn of(&self, role: Role) -> Option<&Observation<'a>> {
         self.observations.iter().find(|seen| seen.role == Some(role))
     }
@@ -86,18 +75,16 @@ impl<'a> Evidence<'a> {
         self.of(role).map_or("", |seen| seen.case)
     }
 
-    /// What came of the case of a role, if it was tried.
     pub(crate) fn finding(&self, role: Role) -> Option<&'a Finding> {
         self.of(role)?.finding
     }
 
-    /// The same if it failed.
+    /// The finding of the case of a role, if it failed.
     pub(crate) fn failed_finding(&self, role: Role) -> Option<&'a Finding> {
         let seen = self.of(role)?;
         (seen.standing == Standing::Failed).then_some(seen.finding)?
     }
 
-    /// Whether the case of a role was tried and passed.
     pub(crate) fn has_passed(&self, role: Role) -> bool {
         self.of(role).is_some_and(|seen| seen.standing == Standing::Passed)
     }
@@ -107,7 +94,6 @@ impl<'a> Evidence<'a> {
         self.finding(role).is_some() && self.failed_finding(role).is_none()
     }
 
-    /// How many cases were not tried since one of `cases` failed.
     pub(crate) fn blocked_by(&self, cases: &[String]) -> usize {
         let is_blocked = |seen: &&Observation<'_>| match &seen.standing {
             Standing::Blocked(by) => cases.contains(by),
@@ -117,7 +103,6 @@ impl<'a> Evidence<'a> {
     }
 }
 
-/// The number of a row and a channel.
 pub(crate) fn measure<'f>(
     finding: &'f Finding,
     row: &str,

@@ -14,7 +14,6 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 const BY_LIGHTS: [Role; 2] = [Role::TiltedLight, Role::SlantedLight];
 /// The same by hemisphere sampling.
 const BY_HEMISPHERE: [Role; 2] = [Role::TiltedLightByHemisphere, Role::SlantedLightByHemisphere];
-/// The row of all four.
 const ROW: &str = "bounce 1";
 /// How much less a mistake weighs if it is not the only one that fits.
 const SHARED: f64 = 0.6;
@@ -29,7 +28,6 @@ const fn signature(cause: &'static Cause, first: f64, second: f64) -> Signature 
     Signature { cause, ratios: [first, second] }
 }
 
-/// Mistakes of light sampling and of hemisphere sampling.
 static OF_BOTH: &[Signature] = &[
     signature(&bsdf::WITHOUT_PI, PI, PI),
     signature(&light::EMISSION_OVER_PI, FRAC_1_PI, FRAC_1_PI),
@@ -41,7 +39,6 @@ static OF_BOTH: &[Signature] = &[
     signature(&light::NOT_DIVIDED_BY_SAMPLES, 7.0, 5.0),
 ];
 
-/// Mistakes of light sampling.
 static OF_LIGHTS: &[Signature] = &[
     signature(&light::EMITTER_SHADOWS_ITSELF, 0.0, 0.0),
     signature(&light::WORLD_COSINE, 0.87589, 0.83780),
@@ -54,7 +51,6 @@ static OF_LIGHTS: &[Signature] = &[
     signature(&light::PDF_FORGOTTEN, 9.79518, 18.5864),
 ];
 
-/// Mistakes of hemisphere sampling.
 static OF_HEMISPHERE: &[Signature] = &[
     // Local directions taken for world ones have their cosine with +z, and the light in view.
     signature(&light::HEMISPHERE_IN_WORLD, 0.87589, 0.83780),
@@ -71,7 +67,6 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     suspicions
 }
 
-/// What explains one pair of cases.
 fn explain(
     evidence: &Evidence<'_>,
     roles: &[Role; 2],
@@ -116,7 +111,6 @@ fn fits(signature: &Signature, readings: &[Vec<Reading>; 2]) -> bool {
     readings.iter().zip(signature.ratios).all(admitted)
 }
 
-/// The reading whose interval is narrowest.
 fn best(readings: &[Reading]) -> Reading {
     let narrower = |a: &Reading, b: &Reading| a.half_width() <= b.half_width();
     readings[1..].iter().fold(readings[0], |best, r| if narrower(&best, r) { best } else { *r })
@@ -166,9 +160,8 @@ mod tests {
         for (roles, special) in [(&BY_LIGHTS, OF_LIGHTS), (&BY_HEMISPHERE, OF_HEMISPHERE)] {
             for signature in OF_BOTH.iter().chain(special) {
                 let made = pair(roles, signature.ratios.map(|ratio| 1.001 * ratio));
+                assert_eq!(made.first(), Some(signature.cause.name));
                 let diagnosis = diagnose(&made.evidence());
-                let name = diagnosis.first().map(|cause| cause.name);
-                assert_eq!(name, Some(signature.cause.name));
                 assert_eq!(diagnosis.headlines[0].explains.len(), 2);
             }
         }

@@ -27,10 +27,8 @@ pub(crate) use rank::{Diagnosis, Headline};
 
 use crate::cause::Cause;
 
-/// A reason to suspect a cause.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Suspicion {
-    /// The mistake.
     pub(crate) cause: &'static Cause,
     /// The failing cases that it would explain.
     pub(crate) cases: Vec<String>,
@@ -42,7 +40,6 @@ pub(crate) struct Suspicion {
     pub(crate) weight: f64,
 }
 
-/// A way to come from findings to causes.
 pub(crate) struct Rule {
     /// As `furnace list rules` shows it.
     pub(crate) name: &'static str,

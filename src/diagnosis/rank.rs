@@ -21,9 +21,7 @@ pub(crate) struct Headline {
     pub(crate) mistake: String,
     pub(crate) look_at: String,
     pub(crate) fix: String,
-    /// What the failures count for.
     pub(crate) tier: Tier,
-    /// What speaks for it.
     pub(crate) evidence: Vec<String>,
     /// What else could have been, and why it is not.
     pub(crate) ruled_out: Vec<String>,
@@ -31,30 +29,25 @@ pub(crate) struct Headline {
     pub(crate) explains: Vec<String>,
     /// Failing cases of the same and later parts that nothing explains: they may follow from it.
     pub(crate) may_follow: Vec<String>,
-    /// Cases that were not tried because of these.
     pub(crate) blocked: usize,
     /// The command that repeats the quickest of the failing cases.
     pub(crate) command: String,
 }
 
-/// What is wrong with a core.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Diagnosis {
     /// The causes, the one to look at first in front.
     pub(crate) headlines: Vec<Headline>,
-    /// Failing cases that no cause explains.
     pub(crate) unexplained: Vec<String>,
 }
 
 impl Diagnosis {
-    /// The cause to look at first.
     pub(crate) fn first(&self) -> Option<&'static Cause> {
         cause::find(&self.headlines.first()?.cause)
     }
 }
 
-/// Everything that points to one cause.
 struct Candidate {
     cause: &'static Cause,
     evidence: Vec<String>,
@@ -149,7 +142,6 @@ fn part_of_mistake(cause: &Cause) -> u32 {
     if cause::is_of_hierarchy(cause) { Part::HIERARCHY } else { 0 }
 }
 
-/// The number of the best candidate; of equals the first.
 fn best_of(candidates: &[Candidate], left: &[String]) -> Option<usize> {
     let merits = candidates.iter().enumerate();
     let merits = merits.filter_map(|(number, c)| Some((number, Merit::of(c, left)?)));

@@ -10,7 +10,6 @@ use crate::text::number::{figure, plus_minus};
 /// measured and once for what a rule predicts from the radiance of another question.
 const SLACK: f64 = 2.0 * Band::RADIANCE.relative();
 
-/// One ratio that was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reading {
     /// Measured over expected.
@@ -38,12 +37,10 @@ impl Reading {
         is_proper.then_some(Self { ratio, interval })
     }
 
-    /// Whether a prediction lies inside.
     pub(crate) fn admits(&self, prediction: f64) -> bool {
         self.interval[0] <= prediction && prediction <= self.interval[1]
     }
 
-    /// Half the width of the interval.
     pub(crate) fn half_width(&self) -> f64 {
         0.5 * (self.interval[1] - self.interval[0])
     }
@@ -53,6 +50,12 @@ impl Reading {
         let measured = plus_minus(self.ratio, self.half_width());
         format!("{measured} (predicted {})", figure(predicted))
     }
+}
+
+/// Whether all that failed of a finding admits one ratio.
+pub(crate) fn fails_as(finding: &Finding, ratio: f64) -> bool {
+    let mut wrong = finding.failed_measures().filter_map(Reading::of).peekable();
+    wrong.peek().is_some() && wrong.all(|reading| reading.admits(ratio))
 }
 
 /// The readings of a row of a finding, channel by channel; `None` for a channel that expects nothing.

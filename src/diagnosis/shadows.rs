@@ -12,7 +12,6 @@ use crate::text::number::figure;
 
 /// Direct light that nothing blocks.
 const OPEN: Role = Role::OpenLight;
-/// Light behind something.
 const BLOCKER: Role = Role::OccludedInPart;
 const WALL: Role = Role::OccludedInFull;
 /// Lights found by hemisphere sampling, looked at from far and from near.
@@ -134,20 +133,15 @@ fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, mean, means, passing};
-
-    fn first(made: &Made) -> Option<&'static str> {
-        diagnose(&made.evidence()).first().map(|cause| cause.name)
-    }
 
     #[test]
     fn light_behind_a_wall_is_a_missing_shadow_where_open_light_is_right() {
         let lit = || means(vec![Measure::exact("behind", 0.2, 0.0, 0.0)]);
         let bright = || means(vec![mean("row", CHANNELS[0], 0.1, 1.6, 1e-3)]);
         let made = || Made::new().with(WALL, lit()).with(BLOCKER, bright());
-        assert_eq!(first(&made().with(OPEN, passing())), Some(light::NO_SHADOWS.name));
-        assert_eq!(first(&made()), None);
+        assert_eq!(made().with(OPEN, passing()).first(), Some(light::NO_SHADOWS.name));
+        assert_eq!(made().first(), None);
     }
 
     #[test]
@@ -164,8 +158,8 @@ mod tests {
                 .with(NOISE, finding("one point", noise, variance));
             WITHOUT_AREA_LIGHTS.into_iter().fold(made, |made, case| made.with(case, passing()))
         };
-        assert_eq!(first(&made(27.25)), Some(light::EMITTER_SHADOWS_ITSELF.name));
-        assert_eq!(first(&made(0.3878 * 0.3878)), None, "all samples too dark alike");
+        assert_eq!(made(27.25).first(), Some(light::EMITTER_SHADOWS_ITSELF.name));
+        assert_eq!(made(0.3878 * 0.3878).first(), None, "all samples too dark alike");
     }
 
     #[test]
@@ -177,10 +171,8 @@ mod tests {
             };
             means(rows.into_iter().flat_map(row).collect())
         };
-        assert_eq!(
-            first(&Made::new().with(FOUND[0], finding(0.0))),
-            Some(light::T_MAX_NOT_RESET.name)
-        );
-        assert_eq!(first(&Made::new().with(FOUND[0], finding(0.5))), None);
+        let made = |near| Made::new().with(FOUND[0], finding(near));
+        assert_eq!(made(0.0).first(), Some(light::T_MAX_NOT_RESET.name));
+        assert_eq!(made(0.5).first(), None);
     }
 }

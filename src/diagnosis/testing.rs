@@ -1,6 +1,6 @@
 //! Made-up findings for the tests of rules.
 
-use super::{Evidence, Observation, Standing};
+use super::{Evidence, Observation, Standing, diagnose};
 use crate::case::{Role, Tier};
 use crate::checks::{Finding, Measure};
 use crate::contract::Conventions;
@@ -35,13 +35,11 @@ impl From<Role> for Name {
     }
 }
 
-/// Cases and what came of them.
 pub(crate) struct Made {
     findings: Vec<(Name, Finding)>,
     blocked: Vec<(String, String)>,
     robustness: Vec<String>,
     specular: Vec<String>,
-    /// What the core declares.
     pub(crate) conventions: Conventions,
 }
 
@@ -51,7 +49,6 @@ impl Made {
         Self { findings, blocked, robustness: Vec::new(), specular: Vec::new(), conventions }
     }
 
-    /// The same with the finding of another case.
     pub(crate) fn with(mut self, case: impl Into<Name>, finding: Finding) -> Self {
         self.findings.push((case.into(), finding));
         self
@@ -69,10 +66,14 @@ impl Made {
         self
     }
 
-    /// The same with a case that was not tried.
     pub(crate) fn blocked(mut self, case: &str, by: &str) -> Self {
         self.blocked.push((case.to_owned(), by.to_owned()));
         self
+    }
+
+    /// The name of the cause that the rules put first.
+    pub(crate) fn first(&self) -> Option<&'static str> {
+        diagnose(&self.evidence()).first().map(|cause| cause.name)
     }
 
     pub(crate) fn evidence(&self) -> Evidence<'_> {
@@ -107,12 +108,10 @@ fn observation<'a>(
     Observation { case, tier, role, is_specular, standing, finding, rerun: case, seconds: 1.0 }
 }
 
-/// A finding that fails.
 pub(crate) fn failing(statement: &str) -> Finding {
     Finding::failure(statement)
 }
 
-/// A finding that passes.
 pub(crate) fn passing() -> Finding {
     Finding::of("right", "", vec![Measure::exact("t", 1.0, 1.0, 0.0)])
 }
@@ -135,7 +134,6 @@ pub(crate) fn mean(
     }
 }
 
-/// A finding of such means.
 pub(crate) fn means(measures: Vec<Measure>) -> Finding {
     Finding::of("means", "", measures)
 }

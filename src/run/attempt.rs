@@ -99,9 +99,7 @@ pub struct Attempt {
     pub outcome: Outcome,
     /// What it counts for on this core.
     pub tier: Tier,
-    /// The scene it was tried in.
     pub(crate) scene: Option<SceneStamp>,
-    /// What the check wants people to see.
     pub(crate) pictures: Vec<Picture>,
 }
 

@@ -13,18 +13,13 @@ use std::sync::Arc;
 /// What every trial of a run shares.
 #[derive(Clone, Debug)]
 pub struct Bench {
-    /// The scenes.
     pub(crate) scenes: Arc<Library>,
     /// The folder of references.
     pub references: PathBuf,
-    /// How much may be spent.
     pub(crate) allowance: Allowance,
-    /// The seed of the run.
     pub(crate) seed: Seed,
-    /// Where cores live.
     pub(crate) hosting: Hosting,
-    /// Cores that died before they said who they are: how, and what they printed. Nothing else is
-    /// asked of them.
+    /// Cores that died before they said who they are: how, and what they printed. Nothing else is asked of them.
     pub(crate) unfit: BTreeMap<String, (CoreError, String)>,
 }
 

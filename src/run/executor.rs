@@ -14,17 +14,13 @@ use std::sync::mpsc;
 
 /// What the threads of a run tell the one that listens.
 pub(crate) enum Message {
-    /// A trial began.
     Started(Trial),
     /// A trial ended, or was blocked.
     Ended(Box<Ended>),
 }
 
-/// Runs the trials of a schedule, several at a time, and hands each to `sink` as soon as it has ended. `sink` is
-/// called from this thread alone.
-///
-/// # Errors
-/// The first of `sink`: the run stops there.
+/// Runs the trials of a schedule, several at a time, and hands each to `sink` as soon as it has ended. `sink` is called
+/// from this thread alone. Fails with the first of `sink`: the run stops there.
 pub(crate) fn run_trials<E>(
     plan: &Plan,
     bench: &Bench,
@@ -70,10 +66,7 @@ fn work(bench: &Bench, plan: &Plan, schedule: &Schedule<'_>, sender: &mpsc::Send
 }
 
 /// Runs the trials of `plan` whose numbers are in `todo`, and writes each sidecar as soon as its trial has ended.
-/// Answers them all.
-///
-/// # Errors
-/// If a file cannot be written: the run stops there, and what was written stays.
+/// Answers them all. Fails if a file cannot be written: the run stops there, and what was written stays.
 pub(crate) fn run_into(
     plan: &Plan,
     bench: &Bench,

@@ -64,10 +64,8 @@ pub fn run(
     Ok(folder)
 }
 
-/// Goes on with a run that was cut off: what has a sidecar of the same case is kept.
-///
-/// # Errors
-/// If the folder is not a run, or a file cannot be written.
+/// Goes on with a run that was cut off: what has a sidecar of the same case is kept. Fails if the folder is not a run,
+/// or a file cannot be written.
 pub(crate) fn resume(
     plan: &Plan,
     folder: &Path,

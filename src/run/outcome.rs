@@ -93,9 +93,18 @@ impl Status {
         }
     }
 
-    /// Whether it counts against the core.
     pub(crate) const fn is_failure(self) -> bool {
         matches!(self, Self::Fail | Self::Crashed | Self::TimedOut)
+    }
+}
+
+impl From<Verdict> for Status {
+    fn from(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Pass => Self::Pass,
+            Verdict::Fail => Self::Fail,
+            Verdict::Inconclusive => Self::Inconclusive,
+        }
     }
 }
 
@@ -130,11 +139,7 @@ impl Outcome {
     /// The one word for it.
     pub fn status(&self) -> Status {
         match self {
-            Self::Judged { finding } => match finding.verdict {
-                Verdict::Pass => Status::Pass,
-                Verdict::Fail => Status::Fail,
-                Verdict::Inconclusive => Status::Inconclusive,
-            },
+            Self::Judged { finding } => finding.verdict.into(),
             Self::Skipped { .. } => Status::Skipped,
             Self::Blocked { .. } => Status::Blocked,
             Self::Crashed { .. } => Status::Crashed,

@@ -105,7 +105,6 @@ impl Plan {
         self.hosting.clone().hiding(self.project.secrets())
     }
 
-    /// Trials at the same time.
     pub(crate) fn jobs(&self) -> usize {
         match self.request.jobs {
             0 => std::thread::available_parallelism().map_or(1, usize::from),

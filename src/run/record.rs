@@ -30,7 +30,6 @@ pub(crate) const VERSION: u32 = 2;
 pub struct RunRecord {
     /// [`VERSION`]
     pub(crate) version: u32,
-    /// Version of furnace that ran.
     pub(crate) furnace: String,
     /// The cores, in the order they were asked.
     pub(crate) cores: Vec<CoreRecord>,
@@ -38,28 +37,21 @@ pub struct RunRecord {
     pub(crate) filters: Vec<String>,
     /// How much was spent, and so how small an error was looked for.
     pub(crate) budget: Budget,
-    /// The seed of the whole run.
     pub(crate) seed: u64,
-    /// How many trials were planned.
     pub(crate) trials: usize,
-    /// Whether the run was to stop at the first graded failure. Trials without a sidecar were not
-    /// run then.
+    /// Whether the run was to stop at the first graded failure. Trials without a sidecar were not run then.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) fail_fast: bool,
-    /// The machine.
     pub(crate) machine: Machine,
-    /// When, and how long.
     pub(crate) timing: RunTiming,
 }
 
 impl RunRecord {
-    /// Whether this core was asked for and failed to start.
     pub(crate) fn is_absent(&self, spec: &str) -> bool {
         self.cores.iter().any(|core| core.spec == spec && core.problem.is_some())
     }
 }
 
-/// When a run was, and how long it took.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RunTiming {
@@ -75,13 +67,9 @@ pub(crate) struct RunTiming {
 pub(crate) struct CoreRecord {
     /// What the user typed after `--core`; also the folder's name.
     pub(crate) spec: String,
-    /// What it calls itself.
     pub(crate) name: String,
-    /// Its own version.
     pub(crate) version: String,
-    /// The arithmetic it computes in.
     pub(crate) precision: Precision,
-    /// What it can be asked.
     pub(crate) capabilities: Vec<String>,
     /// What it has freely chosen.
     pub(crate) conventions: Conventions,
@@ -97,7 +85,6 @@ pub(crate) struct CoreRecord {
 }
 
 impl CoreRecord {
-    /// The record of a core that answers `info`.
     pub(crate) fn new(spec: &str, info: &CoreInfo) -> Self {
         Self {
             spec: spec.to_owned(),
@@ -120,7 +107,6 @@ impl CoreRecord {
     }
 }
 
-/// The machine a run was made on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Machine {
@@ -128,12 +114,10 @@ pub(crate) struct Machine {
     pub(crate) system: String,
     /// `x86_64`, `aarch64`
     pub(crate) architecture: String,
-    /// Hardware threads.
     pub(crate) threads: usize,
 }
 
 impl Machine {
-    /// This one.
     pub(crate) fn this() -> Self {
         Self {
             system: std::env::consts::OS.to_owned(),
@@ -189,7 +173,6 @@ pub struct TrialRecord {
 }
 
 impl TrialRecord {
-    /// Whether it counts against the core.
     pub(crate) fn fails_the_core(&self) -> bool {
         self.tier.is_graded() && self.outcome.status().is_failure()
     }
@@ -276,10 +259,7 @@ pub(crate) fn sidecar_path(run: &Path, core: &str, case: &str) -> PathBuf {
     run.join(folder_of_core(core)).join(format!("{case}.json"))
 }
 
-/// Writes `value` as JSON, whole or not at all.
-///
-/// # Errors
-/// If the file system says no.
+/// Writes `value` as JSON, whole or not at all. Fails if the file system says no.
 pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), RecordError> {
     let failed = |error: std::io::Error| RecordError::Io { path: path.to_owned(), error };
     let mut bytes = serde_json::to_vec_pretty(value).map_err(|error| failed(error.into()))?;

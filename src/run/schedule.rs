@@ -8,12 +8,9 @@ use crate::case::{Case, Foundation, foundations};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// What a thread that asks for work is told.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Next {
-    /// Try the trial of this number.
     Try(usize),
-    /// The trial of this number is blocked by a case that failed.
     Blocked(usize, String),
 }
 
@@ -88,13 +85,11 @@ impl<'a> Schedule<'a> {
         }
     }
 
-    /// A trial that was handed out has ended.
     pub(crate) fn ended(&self, number: usize, status: Status) {
         self.lock().fates[number] = Fate::Ended(blocker(&self.plan.trials[number], status));
         self.changed.notify_all();
     }
 
-    /// Nobody is handed anything any more.
     pub(crate) fn stop(&self) {
         self.lock().stopped = true;
         self.changed.notify_all();

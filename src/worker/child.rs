@@ -14,24 +14,19 @@ pub(crate) use inherited::Inherited;
 /// `stdio` where there are none to inherit.
 pub(crate) const CHANNEL_VARIABLE: &str = "FURNACE_CHANNEL";
 
-/// Why a worker did not get as far as its core.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum ChildError {
-    /// An I/O error.
     #[error(transparent)]
     Io(#[from] io::Error),
     /// The bench is gone.
     #[error(transparent)]
     Frame(#[from] FrameError),
-    /// There is nothing to run.
     #[error("the command is empty")]
     NoProgram,
 }
 
 /// Takes the channel away from whatever foreign code will find, confines the process, and tells the bench what holds.
-///
-/// # Errors
-/// If there is no channel.
+/// Fails if there is no channel.
 pub(crate) fn begin(worker: &WorkerSpec) -> Result<Inherited, ChildError> {
     let mut channel = inherited::take()?;
     let mut buffer = Vec::new();
@@ -41,10 +36,7 @@ pub(crate) fn begin(worker: &WorkerSpec) -> Result<Inherited, ChildError> {
 }
 
 /// Becomes the program; comes back only if that failed, or where a process cannot become another, when the program has
-/// ended.
-///
-/// # Errors
-/// If the program cannot be started.
+/// ended. Fails if the program cannot be started.
 pub(crate) fn run_program(words: &[String], channel: Inherited) -> Result<i32, ChildError> {
     let [program, arguments @ ..] = words else { return Err(ChildError::NoProgram) };
     let mut command = Command::new(program);

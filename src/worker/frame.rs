@@ -1,5 +1,4 @@
-//! The bytes of one message: a prefix of 24 bytes, a header in JSON, and arrays as they lie in
-//! memory.
+//! The bytes of one message: a prefix of 24 bytes, a header in JSON, and arrays as they lie in memory.
 //!
 //! ```text
 //! offset  size  what, little-endian
@@ -11,16 +10,13 @@
 //!   24+H     B  the body: the arrays that the header lists, each filled up to a multiple of 8
 //! ```
 //!
-//! Not here: what headers say (`message`). Whoever sends is not trusted: no length is believed
-//! before it is bounded.
+//! Not here: what headers say (`message`). Whoever sends is not trusted: no length is believed before it is bounded.
 
 use crate::contract::crossing::{ALIGNMENT, Malformed, padded};
 use std::io::{self, Read, Write};
 
-/// The first bytes of every frame.
 pub(crate) const MAGIC: [u8; 4] = *b"FRN1";
 
-/// Bytes before the header.
 const PREFIX: usize = 24;
 
 /// The longest header that is read: the names of a scene's shapes, or a long complaint.
@@ -59,18 +55,13 @@ impl From<io::Error> for FrameError {
 /// What a frame announces of itself, and its header.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Opening {
-    /// Number of the request.
     pub(crate) number: u64,
-    /// The header's text.
     pub(crate) header: Vec<u8>,
     /// Bytes of the body, which have not been read yet.
     pub(crate) body: u64,
 }
 
-/// Puts a whole frame into `buffer`, in place of what was there.
-///
-/// # Errors
-/// If the header is longer than any reader takes.
+/// Puts a whole frame into `buffer`, in place of what was there. Fails if the header is longer than any reader takes.
 pub(crate) fn encode(
     buffer: &mut Vec<u8>,
     number: u64,
@@ -94,19 +85,13 @@ pub(crate) fn encode(
     Ok(())
 }
 
-/// Sends what [`encode`] has made.
-///
-/// # Errors
-/// If the other side is gone, or an I/O error.
+/// Sends what [`encode`] has made. Fails if the other side is gone, or on an I/O error.
 pub(crate) fn send(channel: &mut impl Write, frame: &[u8]) -> Result<(), FrameError> {
     channel.write_all(frame)?;
     Ok(channel.flush()?)
 }
 
-/// Reads a frame up to its body.
-///
-/// # Errors
-/// If the channel ends, or what comes is no frame.
+/// Reads a frame up to its body. Fails if the channel ends, or what comes is no frame.
 pub(crate) fn open(channel: &mut impl Read) -> Result<Opening, FrameError> {
     let mut prefix = [0; PREFIX];
     channel.read_exact(&mut prefix)?;
@@ -132,18 +117,14 @@ fn number_at(bytes: &[u8; PREFIX], offset: usize, size: usize) -> u64 {
     digits.fold(0, |number, byte| number << 8 | u64::from(*byte))
 }
 
-/// Reads one array of a body, and what it is filled up with.
-///
-/// # Errors
-/// If the channel ends.
+/// Reads one array of a body, and what it is filled up with. Fails if the channel ends.
 pub(crate) fn read_array(channel: &mut impl Read, array: &mut [u8]) -> Result<(), FrameError> {
     channel.read_exact(array)?;
     let mut filling = [0; ALIGNMENT];
     Ok(channel.read_exact(&mut filling[..padded(array.len()) - array.len()])?)
 }
 
-/// Words of memory that are taken at a time: a body that announces more than it sends costs little
-/// more than it sends.
+/// Words of memory that are taken at a time: a body that announces more than it sends costs little more than it sends.
 const PIECE: usize = 1 << 17;
 
 /// A body that was read whole, aligned so that its arrays can be looked at where they lie.
@@ -151,10 +132,7 @@ const PIECE: usize = 1 << 17;
 pub(crate) struct Body(Vec<u64>);
 
 impl Body {
-    /// Reads a body into the memory of the last one.
-    ///
-    /// # Errors
-    /// If the channel ends, or the length is no multiple of 8.
+    /// Reads a body into the memory of the last one. Fails if the channel ends, or the length is no multiple of 8.
     pub(crate) fn read(&mut self, channel: &mut impl Read, bytes: u64) -> Result<(), FrameError> {
         let words = usize::try_from(bytes / ALIGNMENT as u64).unwrap_or(usize::MAX);
         if !bytes.is_multiple_of(ALIGNMENT as u64) || words == usize::MAX {
@@ -172,7 +150,6 @@ impl Body {
         }
     }
 
-    /// The bytes.
     pub(crate) fn bytes(&self) -> &[u8] {
         bytemuck::cast_slice(&self.0)
     }

@@ -20,7 +20,6 @@ const FAREWELL: Duration = Duration::from_secs(1);
 /// that computes a little now and then does not go on for ever.
 const PATIENCE: u32 = 20;
 
-/// What keeps a worker within its limits.
 pub(crate) struct Guard {
     limits: Limits,
     /// Whether it may start processes, which are then counted.
@@ -32,7 +31,6 @@ pub(crate) struct Guard {
 
 struct State {
     child: Child,
-    /// Whether the bench waits for an answer.
     is_asked: bool,
     /// The time that is charged to it; see [`Guard::charge`].
     charged: Duration,
@@ -40,13 +38,10 @@ struct State {
     waited: Duration,
     /// When it was last looked at, and what it had used by then.
     seen: (Instant, Usage),
-    /// Why it was ended, if it was.
     sentence: Option<Sentence>,
-    /// How it ended.
     status: Option<ExitStatus>,
 }
 
-/// Which limit a worker has broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sentence {
     Time,
@@ -90,12 +85,10 @@ impl Guard {
         Watch(sender)
     }
 
-    /// The bench begins to wait.
     pub(crate) fn asked(&self) {
         self.lock().is_asked = true;
     }
 
-    /// The bench has been answered.
     pub(crate) fn answered(&self) {
         self.lock().is_asked = false;
     }
@@ -138,8 +131,7 @@ impl Guard {
         }
     }
 
-    /// Ends the worker, if it has not ended, with all it has started; nothing of it is left
-    /// afterwards.
+    /// Ends the worker, if it has not ended, with all it has started; nothing of it is left afterwards.
     pub(crate) fn end(&self) -> io::Result<ExitStatus> {
         let mut state = self.lock();
         if let Some(status) = state.status {
@@ -231,7 +223,6 @@ mod unix {
         while let Ok(Some(_)) = waitpgid(Pid::from_child(child), WaitOptions::empty()) {}
     }
 
-    /// How a process ended, in words.
     pub(crate) fn death(status: ExitStatus) -> String {
         match (status.signal(), status.code()) {
             (Some(signal), _) => format!("signal {signal}{}", meaning(signal)),

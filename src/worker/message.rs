@@ -19,7 +19,6 @@ pub use crate::contract::crossing::{ArrayHeader, Element, Received, Request, Sen
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) struct SceneHeader {
-    /// As its file calls it.
     pub(crate) name: String,
     /// Where pictures are taken from, if the scene says so.
     pub(crate) camera: Option<Camera>,
@@ -27,7 +26,6 @@ pub(crate) struct SceneHeader {
     pub(crate) materials: Vec<Material>,
     /// In the order in which their vertices and triangles lie in the arrays.
     pub(crate) meshes: Vec<MeshHeader>,
-    /// Names of the spheres.
     pub(crate) spheres: Vec<String>,
     /// Every light, area lights included.
     pub(crate) lights: Vec<Light>,
@@ -37,9 +35,7 @@ pub(crate) struct SceneHeader {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) struct MeshHeader {
-    /// As the scene file calls it.
     pub(crate) name: String,
-    /// Number of the material.
     pub(crate) material: u32,
     /// How many of `positions` are its own.
     pub(crate) vertices: u64,
@@ -137,10 +133,8 @@ impl Answer {
         }
     }
 
-    /// The same on the other side: what is no error is handed back.
-    ///
-    /// # Errors
-    /// What the core answered, if it is an error.
+    /// The same on the other side: what is no error is handed back. Fails with what the core answered, if it is an
+    /// error.
     pub(crate) fn into_result(self) -> Result<Self, CoreError> {
         Err(match self {
             Self::Unsupported { capabilities } => CoreError::Unsupported(capabilities),
@@ -163,7 +157,6 @@ pub(crate) trait Told: Sized {
     fn of(answer: &Answer) -> Option<Self>;
 }
 
-/// Nothing.
 impl Told for () {
     fn into_answer(self) -> Answer {
         Answer::Done
@@ -197,7 +190,6 @@ impl Told for Encoding {
 /// A request or an answer with the list of its arrays.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Header<M> {
-    /// The request or the answer.
     #[serde(flatten)]
     pub(crate) message: M,
     /// In the order in which they lie in the body.
@@ -222,10 +214,7 @@ pub fn encode<M: Serialize>(
     frame::encode(buffer, number, &header, &arrays)
 }
 
-/// Reads a header.
-///
-/// # Errors
-/// If it is not JSON, or says what nobody knows.
+/// Reads a header. Fails if it is not JSON, or says what nobody knows.
 pub(crate) fn parse<T: DeserializeOwned>(header: &[u8]) -> Result<T, FrameError> {
     serde_json::from_slice(header)
         .map_err(|error| FrameError::Malformed(format!("its header says {error}")))

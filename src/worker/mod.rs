@@ -1,11 +1,10 @@
 //! Why a process: a core is foreign code. It crashes, hangs, prints, eats memory, and some would
 //! cheat; whatever it does has to stay one trial's result.
 //!
-//! A core is asked through frames on a private channel (`frame`, `message`; `client` asks, `serve`
-//! answers). `process` starts the worker that the core lives in, holds it to its limits (`guard`),
-//! keeps what it prints (`output`) and says how it ended; `child` is the other end of that, which
-//! confines itself (`confine`) before any foreign code runs. `narrow` finds the element of a batch
-//! that a core dies of.
+//! A core is asked through frames on a private channel (`frame`, `message`; `client` asks, `serve` answers). `process`
+//! starts the worker that the core lives in, holds it to its limits (`guard`), keeps what it prints (`output`) and says
+//! how it ended; `child` is the other end of that, which confines itself (`confine`) before any foreign code runs.
+//! `narrow` finds the element of a batch that a core dies of.
 //!
 //! Not here: which cores there are (`cores`), and what their answers are worth (`checks`).
 

@@ -42,21 +42,17 @@ mod tests {
     }
 
     #[test]
-    fn of_two_culprits_one_is_found() {
-        let found = narrow(8, |range| Some(range.contains(&3) || range.contains(&6)));
-        assert_eq!(found, Some(3..4));
-    }
-
-    #[test]
-    fn what_crashes_only_together_is_told_as_a_range() {
-        let found = narrow(8, |range| Some(range.contains(&5) && range.contains(&6)));
-        assert_eq!(found, Some(4..8));
-    }
-
-    #[test]
-    fn a_crash_that_does_not_come_again_is_not_explained() {
-        assert_eq!(narrow(8, |_| Some(false)), None);
-        assert_eq!(narrow(8, |_| None), None);
+    fn what_crashes_is_told_as_one_element_or_a_range_or_not_at_all() {
+        type Crashes = fn(Range<usize>) -> Option<bool>;
+        let rows: [(Crashes, Option<Range<usize>>); 4] = [
+            (|range| Some(range.contains(&3) || range.contains(&6)), Some(3..4)),
+            (|range| Some(range.contains(&5) && range.contains(&6)), Some(4..8)),
+            (|_| Some(false), None),
+            (|_| None, None),
+        ];
+        for (row, (crashes, found)) in rows.into_iter().enumerate() {
+            assert_eq!(narrow(8, crashes), found, "row {row}");
+        }
     }
 
     #[test]

@@ -6,7 +6,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// How much of it is kept.
 const KEPT: usize = 64 << 10;
 
 /// The last of what a process has printed, on both of its streams.

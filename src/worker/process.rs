@@ -50,24 +50,9 @@ pub enum StartError {
 }
 
 /// Variables that a worker keeps; whatever else the bench knows, secrets above all, is not for it.
-const KEPT_VARIABLES: &[&str] = &[
-    "PATH",
-    "LANG",
-    "LC_ALL",
-    "LD_LIBRARY_PATH",
-    "DYLD_LIBRARY_PATH",
-    "PYTHONPATH",
-    "VIRTUAL_ENV",
-    "PYENV_VERSION",
-    "OMP_NUM_THREADS",
-    "OPENBLAS_NUM_THREADS",
-    "MKL_NUM_THREADS",
-    "ASAN_OPTIONS",
-    "UBSAN_OPTIONS",
-    "RUST_BACKTRACE",
-    "SystemRoot",
-    "PATHEXT",
-];
+const KEPT_VARIABLES: &str = "PATH LANG LC_ALL LD_LIBRARY_PATH DYLD_LIBRARY_PATH PYTHONPATH VIRTUAL_ENV PYENV_VERSION \
+    OMP_NUM_THREADS OPENBLAS_NUM_THREADS MKL_NUM_THREADS ASAN_OPTIONS UBSAN_OPTIONS \
+    RUST_BACKTRACE SystemRoot PATHEXT";
 
 /// A process with a core in it. It ends, with all it has started, when this is dropped.
 pub struct Worker {
@@ -84,10 +69,8 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Starts the process and waits until the core says who it is.
-    ///
-    /// # Errors
-    /// If there is no process, or the core fails to start.
+    /// Starts the process and waits until the core says who it is. Fails if there is no process, or the core fails to
+    /// start.
     pub(crate) fn start(launch: &Launch) -> Result<Self, StartError> {
         let failed = |error| StartError::Bench { program: launch.program.clone(), error };
         let scratch = TempDir::with_prefix("furnace-").map_err(failed)?;
@@ -134,10 +117,8 @@ impl Worker {
         Ok(())
     }
 
-    /// Asks the core, and fills `wanted`.
-    ///
-    /// # Errors
-    /// What the core answers, if it is an error, or how it ended. After that it only says the same.
+    /// Asks the core, and fills `wanted`. Fails with what the core answers, if it is an error, or how it ended. After
+    /// that it only says the same.
     pub(crate) fn ask(
         &mut self,
         request: &Request<'_>,
@@ -168,12 +149,10 @@ impl Worker {
         })
     }
 
-    /// Who the core is.
     pub(crate) const fn info(&self) -> &CoreInfo {
         &self.info
     }
 
-    /// What the system enforces on it.
     pub(crate) const fn confinement(&self) -> &Confinement {
         &self.confinement
     }
@@ -200,8 +179,8 @@ impl Launch {
         let worker = WorkerSpec { scratch: scratch.clone(), ..self.worker.clone() };
         let mut command = Command::new(&self.program);
         command.arg("worker").arg(serde_json::to_string(&worker)?).env_clear();
-        command
-            .envs(KEPT_VARIABLES.iter().filter_map(|name| Some((name, std::env::var_os(name)?))));
+        let kept = KEPT_VARIABLES.split_whitespace();
+        command.envs(kept.filter_map(|name| Some((name, std::env::var_os(name)?))));
         command.envs(self.variables.iter().map(|(name, value)| (name, value)));
         // What a core writes at home or for a while goes to the folder that it may write.
         command.envs(["HOME", "TMPDIR", "TMP", "TEMP"].map(|name| (name, &scratch)));

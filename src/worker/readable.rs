@@ -3,40 +3,12 @@
 use super::spec::{CoreOrigin, WorkerSpec};
 use std::path::{Path, PathBuf};
 
-/// Folders of the system that any program may need. Of `/etc` and `/proc` only what says something
-/// about the machine.
-const SYSTEM: &[&str] = &[
-    "/usr",
-    "/bin",
-    "/sbin",
-    "/lib",
-    "/lib32",
-    "/lib64",
-    "/opt",
-    "/nix/store",
-    "/gnu/store",
-    "/etc/alternatives",
-    "/etc/ld.so.cache",
-    "/etc/ld.so.conf",
-    "/etc/ld.so.conf.d",
-    "/etc/ld.so.preload",
-    "/etc/localtime",
-    "/etc/nsswitch.conf",
-    "/etc/passwd",
-    "/etc/group",
-    "/proc/self",
-    "/proc/cpuinfo",
-    "/proc/meminfo",
-    "/proc/stat",
-    "/proc/filesystems",
-    "/proc/sys/vm",
-    "/sys/devices/system",
-    "/sys/fs/cgroup",
-    "/dev/null",
-    "/dev/zero",
-    "/dev/random",
-    "/dev/urandom",
-];
+/// Folders of the system that any program may need. Of `/etc` and `/proc` only what says something about the machine.
+const SYSTEM: &str = "/usr /bin /sbin /lib /lib32 /lib64 /opt /nix/store /gnu/store /etc/alternatives \
+    /etc/ld.so.cache /etc/ld.so.conf /etc/ld.so.conf.d /etc/ld.so.preload /etc/localtime \
+    /etc/nsswitch.conf /etc/passwd /etc/group /proc/self /proc/cpuinfo /proc/meminfo \
+    /proc/stat /proc/filesystems /proc/sys/vm /sys/devices/system /sys/fs/cgroup /dev/null \
+    /dev/zero /dev/random /dev/urandom";
 
 /// Variables with folders in which the user keeps libraries.
 const LIBRARY_VARIABLES: &[&str] = &["LD_LIBRARY_PATH", "PYTHONPATH", "VIRTUAL_ENV"];
@@ -44,8 +16,10 @@ const LIBRARY_VARIABLES: &[&str] = &["LD_LIBRARY_PATH", "PYTHONPATH", "VIRTUAL_E
 /// What the core may read: files, and folders with all that is in them.
 pub(crate) fn readable(worker: &WorkerSpec) -> Vec<PathBuf> {
     let hidden = &worker.hidden;
-    let mut paths: Vec<_> =
-        SYSTEM.iter().flat_map(|path| without_hidden(Path::new(path), hidden)).collect();
+    let mut paths: Vec<_> = SYSTEM
+        .split_whitespace()
+        .flat_map(|path| without_hidden(Path::new(path), hidden))
+        .collect();
     let folders = LIBRARY_VARIABLES.iter().filter_map(std::env::var_os);
     let folders: Vec<_> = folders.flat_map(|value| split_paths(&value)).collect();
     paths.extend(folders.iter().flat_map(|path| without_hidden(path, hidden)));

@@ -42,10 +42,7 @@ fn header(scene: &SceneDescription) -> SceneHeader {
     }
 }
 
-/// The scene that was sent.
-///
-/// # Errors
-/// If the arrays are not what the header says.
+/// The scene that was sent. Fails if the arrays are not what the header says.
 pub(crate) fn decode(received: &mut Received<'_>) -> Result<SceneDescription, FrameError> {
     let header: SceneHeader = received.member("scene")?;
     let mut positions = received.take::<DVec3>("positions")?;

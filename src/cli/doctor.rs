@@ -27,7 +27,6 @@ pub(crate) struct DoctorArguments {
     project: ProjectArguments,
 }
 
-/// Examines cores one after another.
 pub(crate) fn doctor(arguments: &DoctorArguments) -> Answer {
     let project = arguments.project.find()?;
     let cases = case::load_all(&project.cases()).map_err(Failure::request)?;

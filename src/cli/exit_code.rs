@@ -60,24 +60,17 @@ mod tests {
     use Status::{Broken, Fail, Inconclusive, Pass, Skipped};
 
     #[test]
-    fn a_failure_outweighs_what_is_broken() {
-        assert_eq!(ExitCode::of([Pass, Broken, Fail], false), ExitCode::Failed);
-    }
-
-    #[test]
-    fn what_was_not_decided_counts_only_when_strict() {
-        assert_eq!(ExitCode::of([Pass, Inconclusive, Skipped], false), ExitCode::Good);
-        assert_eq!(ExitCode::of([Pass, Inconclusive], true), ExitCode::Broken);
-        assert_eq!(ExitCode::of([Pass, Skipped], true), ExitCode::Broken);
-    }
-
-    #[test]
-    fn nothing_is_not_good() {
-        assert_eq!(ExitCode::of([], false), ExitCode::NothingSelected);
-    }
-
-    #[test]
-    fn a_broken_case_is_never_good() {
-        assert_eq!(ExitCode::of([Pass, Broken], false), ExitCode::Broken);
+    fn the_worst_of_a_run_decides_and_what_was_not_decided_counts_only_when_strict() {
+        let rows: [(&[Status], bool, ExitCode); 6] = [
+            (&[Pass, Broken, Fail], false, ExitCode::Failed),
+            (&[Pass, Inconclusive, Skipped], false, ExitCode::Good),
+            (&[Pass, Inconclusive], true, ExitCode::Broken),
+            (&[Pass, Skipped], true, ExitCode::Broken),
+            (&[], false, ExitCode::NothingSelected),
+            (&[Pass, Broken], false, ExitCode::Broken),
+        ];
+        for (statuses, strict, code) in rows {
+            assert_eq!(ExitCode::of(statuses.iter().copied(), strict), code, "{statuses:?}");
+        }
     }
 }

@@ -27,7 +27,6 @@ pub(crate) struct ExplainArguments {
     project: ProjectArguments,
 }
 
-/// Tells what the selected cases are about.
 pub(crate) fn explain(arguments: &ExplainArguments) -> Answer {
     let project = arguments.project.find()?;
     let cases = case::load_all(&project.cases()).map_err(Failure::request)?;

@@ -31,7 +31,6 @@ pub(crate) struct ExportArguments {
     project: ProjectArguments,
 }
 
-/// Writes the files and says where they are.
 pub(crate) fn export(arguments: &ExportArguments) -> Answer {
     let project = arguments.project.find()?;
     let library = Library::new(project.scenes());

@@ -34,7 +34,6 @@ pub(crate) struct FaultsArguments {
     project: ProjectArguments,
 }
 
-/// What `--json` prints.
 #[derive(Serialize)]
 struct Document {
     faults: Vec<Tried>,
@@ -48,8 +47,8 @@ pub(crate) fn faults(arguments: &FaultsArguments) -> Answer {
     let matrix = Matrix::new(project, &cases, arguments.budget, arguments.jobs);
     let (faults, different) = select(&arguments.filters).map_err(Failure::nothing)?;
     let document = Document {
-        faults: try_faults(&matrix, &faults, arguments).map_err(Failure::nothing)?,
-        different: try_different(&matrix, &different, arguments).map_err(Failure::nothing)?,
+        faults: try_faults(&matrix, &faults, arguments)?,
+        different: try_different(&matrix, &different, arguments)?,
     };
     let is_good = document.faults.iter().all(Tried::is_good)
         && document.different.iter().all(Spared::is_good);
@@ -61,49 +60,51 @@ pub(crate) fn faults(arguments: &FaultsArguments) -> Answer {
     Ok(if is_good { ExitCode::Good } else { ExitCode::Failed })
 }
 
-/// Rows appear as they come: the table is its own progress.
 fn try_faults(
     matrix: &Matrix,
     faults: &[&'static Fault],
     arguments: &FaultsArguments,
-) -> Result<Vec<Tried>, NothingSelected> {
-    let json = arguments.json;
-    if !json && !faults.is_empty() {
-        say_line!("{:NAME$} part  caught  named  seconds  by", "fault");
-    }
-    let tried = |fault: &&'static Fault| {
-        let tried = match arguments.brief {
-            true => matrix.try_fault_briefly(fault),
-            false => matrix.try_fault(fault),
-        }?;
-        if !json {
-            say_line!("{}", fault_row(&tried, fault));
-        }
-        Ok(tried)
+) -> Result<Vec<Tried>, Failure> {
+    let head = format!("{:NAME$} part  caught  named  seconds  by", "fault");
+    let attempt = |fault: &Fault| match arguments.brief {
+        true => matrix.try_fault_briefly(fault),
+        false => matrix.try_fault(fault),
     };
-    faults.iter().map(tried).collect()
+    table(&head, faults, arguments, attempt, fault_row)
 }
 
 fn try_different(
     matrix: &Matrix,
     cores: &[&'static Different],
     arguments: &FaultsArguments,
-) -> Result<Vec<Spared>, NothingSelected> {
-    let json = arguments.json;
-    if !json && !cores.is_empty() {
-        say_line!("\n{:NAME$} spared  seconds  by", "right but different");
-    }
-    let spared = |core: &&'static Different| {
-        let spared = match arguments.brief {
-            true => matrix.touched_by(core).try_different(core),
-            false => matrix.try_different(core),
-        }?;
-        if !json {
-            say_line!("{}", different_row(&spared));
-        }
-        Ok(spared)
+) -> Result<Vec<Spared>, Failure> {
+    let head = format!("\n{:NAME$} spared  seconds  by", "right but different");
+    let attempt = |core: &Different| match arguments.brief {
+        true => matrix.touched_by(core).try_different(core),
+        false => matrix.try_different(core),
     };
-    cores.iter().map(spared).collect()
+    table(&head, cores, arguments, attempt, |spared, _| different_row(spared))
+}
+
+/// Rows appear as they come: the table is its own progress.
+fn table<S, T>(
+    head: &str,
+    subjects: &[&S],
+    arguments: &FaultsArguments,
+    attempt: impl Fn(&S) -> Result<T, NothingSelected>,
+    row: impl Fn(&T, &S) -> String,
+) -> Result<Vec<T>, Failure> {
+    if !arguments.json && !subjects.is_empty() {
+        say_line!("{head}");
+    }
+    let tried = |subject: &&S| {
+        let tried = attempt(subject).map_err(Failure::nothing)?;
+        if !arguments.json {
+            say_line!("{}", row(&tried, subject));
+        }
+        Ok(tried)
+    };
+    subjects.iter().map(tried).collect()
 }
 
 fn fault_row(tried: &Tried, fault: &Fault) -> String {

@@ -26,7 +26,6 @@ pub(crate) struct HostingArguments {
     isolate: bool,
 }
 
-/// Bytes, or no limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Memory(Option<u64>);
 

@@ -34,7 +34,6 @@ enum What {
     Rules,
 }
 
-/// Prints a table.
 pub(crate) fn list(arguments: &ListArguments) -> Answer {
     let words = &arguments.filters;
     match arguments.what {

@@ -29,7 +29,6 @@ use std::path::PathBuf;
 /// What every verb answers: how the process ends, or why it cannot.
 type Answer = Result<ExitCode, Failure>;
 
-/// Why a verb stopped.
 #[derive(Debug)]
 pub(crate) struct Failure {
     code: ExitCode,
@@ -37,12 +36,10 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
-    /// The request or a case is wrong.
     fn request(error: impl std::fmt::Display) -> Self {
         Self { code: ExitCode::BadRequest, message: error.to_string() }
     }
 
-    /// Nothing is selected.
     fn nothing(error: impl std::fmt::Display) -> Self {
         Self { code: ExitCode::NothingSelected, message: error.to_string() }
     }

@@ -1,7 +1,7 @@
-//! What is shown while a run goes on, on standard error: a live display on a terminal, a line a
-//! trial elsewhere, nothing if the user wants quiet. Results go to standard output, and not from
-//! here.
+//! What is shown while a run goes on, on standard error: a live display on a terminal, a line a trial elsewhere,
+//! nothing if the user wants quiet. Results go to standard output, and not from here.
 
+use crate::report::digest::Tally;
 use crate::report::text::{Paint, Style, clean, paint_of};
 use crate::run::{Event, RunRecord, Status, TrialRecord};
 use crate::text::number::{count, duration};
@@ -11,7 +11,6 @@ use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::time::Duration;
 
-/// The bar of the whole run.
 const WHOLE: &str =
     "  {pos}/{len} trials  {wide_bar}  {elapsed} elapsed, about {eta} left\n  {msg}";
 /// The line of a trial that runs now.
@@ -20,7 +19,7 @@ const RUNNING: &str = "  {elapsed:>5}  {msg}";
 /// Listens to a run and shows how it goes.
 pub(crate) struct Progress {
     display: Display,
-    tally: BTreeMap<Status, usize>,
+    tally: Tally,
     ended: usize,
     planned: usize,
     longest_core: usize,
@@ -58,11 +57,10 @@ impl Progress {
     }
 
     fn on(display: Display) -> Self {
-        let (tally, absent) = (BTreeMap::new(), BTreeSet::new());
+        let (tally, absent) = (Tally::default(), BTreeSet::new());
         Self { display, tally, ended: 0, planned: 0, longest_core: 0, absent }
     }
 
-    /// Shows what happened.
     pub(crate) fn hear(&mut self, event: Event<'_>) {
         match event {
             Event::Planned { run, folder, already_done } => self.planned(run, folder, already_done),
@@ -98,9 +96,9 @@ impl Progress {
 
     fn ended(&mut self, trial: &TrialRecord) {
         self.ended += 1;
-        *self.tally.entry(trial.outcome.status()).or_default() += 1;
-        let place =
-            format!("{:>width$}/{}", self.ended, self.planned, width = digits(self.planned));
+        self.tally.add(trial.outcome.status());
+        let planned = self.planned.to_string();
+        let place = format!("{:>width$}/{planned}", self.ended, width = planned.len());
         let is_told = self.absent.contains(&trial.core);
         match &mut self.display {
             Display::Lines(_) if is_told => {}
@@ -109,14 +107,13 @@ impl Progress {
                 print(out, &format!("{place}  {}", line(trial, self.longest_core, Style::PLAIN)));
             }
             Display::Live(live) => {
-                live.end(trial, words(&self.tally), self.longest_core, is_told);
+                live.end(trial, self.tally.words(), self.longest_core, is_told);
             }
         }
         self.close_at_the_end();
     }
 
-    /// Takes the bars away before anything else is printed: whatever stands below them would be
-    /// erased.
+    /// Takes the bars away before anything else is printed: whatever stands below them would be erased.
     fn close_at_the_end(&mut self) {
         if self.ended >= self.planned && matches!(self.display, Display::Live(_)) {
             self.display = Display::Quiet;
@@ -179,7 +176,6 @@ fn template(text: &str) -> ProgressStyle {
     style.progress_chars("##-")
 }
 
-/// What is about to be done.
 fn opening(run: &RunRecord, folder: &Path, already_done: usize) -> String {
     let cores: Vec<_> = run.cores.iter().map(|core| clean(&core.spec)).collect();
     let trials = count(run.trials, "trial");
@@ -199,15 +195,6 @@ fn line(trial: &TrialRecord, longest_core: usize, style: Style) -> String {
     }
     let statement = clean(&trial.outcome.statement()).replace('\n', "; ");
     format!("{head}: {}", style.paint(Paint::Faint, &statement))
-}
-
-fn words(tally: &BTreeMap<Status, usize>) -> String {
-    let words: Vec<_> = tally.iter().map(|(status, n)| format!("{n} {}", status.word())).collect();
-    words.join(", ")
-}
-
-fn digits(number: usize) -> usize {
-    number.to_string().len()
 }
 
 /// A closed standard error must not end the run.

@@ -89,7 +89,6 @@ impl MitsubaArguments {
     }
 }
 
-/// Does what was asked.
 pub(crate) fn reference(arguments: &ReferenceArguments) -> Answer {
     let project = arguments.project.find()?;
     let references = References::new(project.references(), Library::new(project.scenes()));
@@ -213,7 +212,6 @@ fn list(references: &References) -> Answer {
     Ok(if all_good { ExitCode::Good } else { ExitCode::Broken })
 }
 
-/// A range like 0..64.
 fn range(text: &str) -> Result<Range<u32>, String> {
     let parsed = text.split_once("..").and_then(|(start, end)| {
         let [start, end] = [start, end].map(|number| number.trim().parse().ok());

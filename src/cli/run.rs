@@ -104,12 +104,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Answer {
 }
 
 impl RunArguments {
-    /// Where runs go.
     pub(crate) fn runs(&self, project: &Project) -> PathBuf {
         self.report.clone().unwrap_or_else(|| project.runs())
     }
 
-    /// What is to be run.
     pub(crate) fn request(&self) -> Request {
         let all = || CORES.iter().filter_map(|kind| kind.name.parse().ok()).collect();
         Request {

@@ -10,31 +10,28 @@ use crate::stats::{Ledger, TestKind};
 use crate::text::number::count;
 use std::collections::BTreeMap;
 
-/// How many trials ended in which way.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Tally(BTreeMap<Status, usize>);
 
 impl Tally {
-    /// Counts.
     pub(crate) fn of<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Self {
-        let mut counts = BTreeMap::new();
-        for trial in trials {
-            *counts.entry(trial.outcome.status()).or_default() += 1;
-        }
-        Self(counts)
+        let mut tally = Self::default();
+        trials.into_iter().for_each(|trial| tally.add(trial.outcome.status()));
+        tally
     }
 
-    /// How many ended so.
+    pub(crate) fn add(&mut self, status: Status) {
+        *self.0.entry(status).or_default() += 1;
+    }
+
     pub(crate) fn count(&self, status: Status) -> usize {
         self.0.get(&status).copied().unwrap_or(0)
     }
 
-    /// How many there are.
     pub(crate) fn total(&self) -> usize {
         self.0.values().sum()
     }
 
-    /// How many count against a core.
     pub(crate) fn failures(&self) -> usize {
         self.0.iter().filter(|(status, _)| status.is_failure()).map(|(_, count)| count).sum()
     }
@@ -76,14 +73,11 @@ impl Tally {
 pub(crate) struct PartGroup<'a> {
     /// As the course numbers it; none for folders that belong to no part.
     pub(crate) number: Option<u32>,
-    /// As reports call it.
     pub(crate) title: &'static str,
-    /// The trials.
     pub(crate) trials: Vec<&'a TrialRecord>,
 }
 
 impl PartGroup<'_> {
-    /// Seconds spent on its trials.
     pub(crate) fn seconds(&self) -> f64 {
         self.trials.iter().map(|trial| trial.timing.seconds).sum()
     }
@@ -126,8 +120,7 @@ pub(crate) fn by_part<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> 
     groups
 }
 
-/// Trials with that status, the earliest part first, so that a cause stands before its
-/// consequences.
+/// Trials with that status, the earliest part first, so that a cause stands before its consequences.
 pub(crate) fn in_order_of_parts(tree: &RunTree, status: Status) -> Vec<&TrialRecord> {
     let mut trials: Vec<_> =
         tree.trials.iter().filter(|trial| trial.outcome.status() == status).collect();
@@ -181,38 +174,25 @@ pub(crate) fn worst_resolution<'a>(
     of_kind.filter_map(|measure| measure.resolution).max_by(f64::total_cmp)
 }
 
-/// A trial that passed, and the largest relative error that it would have let through.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Weakness<'a> {
-    /// The trial.
-    pub(crate) trial: &'a TrialRecord,
-    /// The largest resolution of its measures.
-    pub(crate) resolution: f64,
-}
-
-/// The passes, the one that proves least first. Passes whose measures state no resolution are left
-/// out.
+/// The passes with the largest relative error that each would have let through, the one that proves least first.
+/// Passes whose measures state no resolution are left out.
 pub(crate) fn weakest_first<'a>(
     trials: impl IntoIterator<Item = &'a TrialRecord>,
-) -> Vec<Weakness<'a>> {
+) -> Vec<(&'a TrialRecord, f64)> {
     let passes = trials.into_iter().filter(|trial| trial.outcome.status() == Status::Pass);
-    let mut sorted: Vec<_> = passes
-        .filter_map(|trial| resolution(trial).map(|resolution| Weakness { trial, resolution }))
-        .collect();
-    sorted.sort_by(|a, b| b.resolution.total_cmp(&a.resolution));
+    let mut sorted: Vec<_> = passes.filter_map(|trial| Some((trial, resolution(trial)?))).collect();
+    sorted.sort_by(|a, b| b.1.total_cmp(&a.1));
     sorted
 }
 
-/// The largest relative error that any measure of the trial would have let through; NaN is beyond
-/// every bound.
+/// The largest relative error that any measure of the trial would have let through; NaN is beyond every bound.
 fn resolution(trial: &TrialRecord) -> Option<f64> {
     let measures = trial.outcome.finding()?.measures.iter();
     let resolutions = measures.filter_map(|measure| measure.resolution);
     resolutions.map(|r| if r.is_nan() { f64::INFINITY } else { r }).reduce(f64::max)
 }
 
-/// The smallest error that a trial would have caught, as its check words it; where there is none,
-/// why.
+/// The smallest error that a trial would have caught, as its check words it; where there is none, why.
 pub(crate) fn resolution_in_words(trial: &TrialRecord) -> String {
     match trial.outcome.finding() {
         Some(finding) if !finding.resolution.is_empty() => finding.resolution.clone(),
@@ -221,7 +201,6 @@ pub(crate) fn resolution_in_words(trial: &TrialRecord) -> String {
     }
 }
 
-/// The trials, those that took longest first.
 pub(crate) fn slowest_first<'a>(
     trials: impl IntoIterator<Item = &'a TrialRecord>,
 ) -> Vec<&'a TrialRecord> {
@@ -230,7 +209,6 @@ pub(crate) fn slowest_first<'a>(
     sorted
 }
 
-/// One case and what every core made of it.
 #[derive(Clone, Debug)]
 pub(crate) struct CaseGroup<'a> {
     /// One trial a core that has one, in the order the cores were asked. Never empty.
@@ -244,13 +222,18 @@ impl<'a> CaseGroup<'a> {
     }
 }
 
-/// Every case once, in the order of parts.
 pub(crate) fn by_case(tree: &RunTree) -> Vec<CaseGroup<'_>> {
     let mut cases: BTreeMap<_, Vec<_>> = BTreeMap::new();
     for trial in &tree.trials {
         cases.entry((Part::position(&trial.case), &trial.case)).or_default().push(trial);
     }
     cases.into_values().map(|trials| CaseGroup { trials }).collect()
+}
+
+/// A sentence begins with a capital.
+pub(crate) fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
 #[cfg(test)]

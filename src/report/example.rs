@@ -46,9 +46,7 @@ const CASES: [(&str, &str, bool); 12] = [
 
 /// A run that is not yet on disk.
 pub(crate) struct Example {
-    /// `run.json`
     pub(crate) run: RunRecord,
-    /// The sidecars.
     pub(crate) trials: Vec<TrialRecord>,
     /// Width and height of pictures, pixels.
     pub(crate) picture_size: (usize, usize),
@@ -76,53 +74,43 @@ impl Example {
 
     /// [`Example::green`] with every other way to end.
     pub(crate) fn mixed() -> Self {
+        let crash = "signal 11 (segmentation fault)".to_owned();
+        let missing = "references/cornell-spheres/mean.exr is missing\n\
+                       hint: furnace reference make cornell-spheres";
+        let nan = vec![Measure::exact("t", f64::NAN, 1.0, 1e-6)];
+        let furnace = "integrator/furnace-bounce-by-bounce";
+        let intersect = || "intersect".to_owned();
+        let ends = [
+            ("builtin", FAILING, wrong_roulette()),
+            ("builtin", "image/cornell-spheres", wrong_picture()),
+            (
+                "textbook",
+                "bvh/a-flat-box-is-hit",
+                Outcome::Crashed { how: crash, during: intersect() },
+            ),
+            (
+                "textbook",
+                "bvh/same-hits-as-brute-force",
+                Outcome::TimedOut { limit: 30.0, during: intersect() },
+            ),
+            ("textbook", FAILING, Outcome::Blocked { by: furnace.to_owned() }),
+            ("textbook", furnace, undecided()),
+            (
+                "textbook",
+                "adaptive/adaptive-counts-are-true",
+                Outcome::Skipped { missing: vec!["adaptive-sampling".to_owned()] },
+            ),
+            ("textbook", "image/cornell-spheres", Outcome::Broken { why: missing.to_owned() }),
+            (
+                "textbook",
+                "shape/the-nearer-root-wins",
+                Outcome::Judged { finding: Finding::of(HOSTILE, HOSTILE, nan) },
+            ),
+        ];
         let mut example = Self::green();
-        example.set("builtin", FAILING, wrong_roulette());
-        example.set("builtin", "image/cornell-spheres", wrong_picture());
-        example.set(
-            "textbook",
-            "bvh/a-flat-box-is-hit",
-            Outcome::Crashed {
-                how: "signal 11 (segmentation fault)".to_owned(),
-                during: "intersect".to_owned(),
-            },
-        );
-        example.set(
-            "textbook",
-            "bvh/same-hits-as-brute-force",
-            Outcome::TimedOut { limit: 30.0, during: "intersect".to_owned() },
-        );
-        example.set(
-            "textbook",
-            FAILING,
-            Outcome::Blocked { by: "integrator/furnace-bounce-by-bounce".to_owned() },
-        );
-        example.set("textbook", "integrator/furnace-bounce-by-bounce", undecided());
-        example.set(
-            "textbook",
-            "adaptive/adaptive-counts-are-true",
-            Outcome::Skipped { missing: vec!["adaptive-sampling".to_owned()] },
-        );
-        example.set(
-            "textbook",
-            "image/cornell-spheres",
-            Outcome::Broken {
-                why: "references/cornell-spheres/mean.exr is missing\n\
-                  hint: furnace reference make cornell-spheres"
-                    .to_owned(),
-            },
-        );
-        example.set(
-            "textbook",
-            "shape/the-nearer-root-wins",
-            Outcome::Judged {
-                finding: Finding::of(
-                    HOSTILE,
-                    HOSTILE,
-                    vec![Measure::exact("t", f64::NAN, 1.0, 1e-6)],
-                ),
-            },
-        );
+        for (core, case, outcome) in ends {
+            example.set(core, case, outcome);
+        }
         example
     }
 
@@ -153,13 +141,11 @@ impl Example {
         Self { run, trials, picture_size: (24, 16) }
     }
 
-    /// Gives the trial of `case` on `core` another end.
     pub(crate) fn set(&mut self, core: &str, case: &str, outcome: Outcome) {
         let trial = self.trials.iter_mut().find(|t| t.core == core && t.case == case).unwrap();
         trial.outcome = outcome;
     }
 
-    /// Writes `run.json`, the sidecars and the pictures.
     pub(crate) fn write(&self, folder: &Path) {
         self.write_records(folder);
         for trial in &self.trials {
@@ -195,7 +181,6 @@ fn core(spec: &str, precision: Precision) -> CoreRecord {
     )
 }
 
-/// A trial that passes.
 pub(crate) fn trial(core: &str, case: &str) -> TrialRecord {
     let seed = Seed::SUITE.child(core).child(case);
     let known = CASES.iter().find(|(name, ..)| case.starts_with(name));
@@ -322,8 +307,7 @@ fn pictures(name: &str) -> Vec<PictureFile> {
     .to_vec()
 }
 
-/// A box with a red and a green wall and a lamp, noisy where it was rendered, dark where it is to
-/// fail.
+/// A box with a red and a green wall and a lamp, noisy where it was rendered, dark where it is to fail.
 fn draw(trial: &TrialRecord, role: PictureRole, (width, height): (usize, usize)) -> Image {
     let mut image = Image::new(width, height, [0.0; 3]);
     let is_wrong = trial.outcome == wrong_picture();

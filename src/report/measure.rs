@@ -7,11 +7,8 @@ use crate::text::number::{percent, signed_percent, to_step};
 /// The numbers of a [`Measure`], ready to be shown side by side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct MeasureWords {
-    /// What was measured, with its unit.
     pub(crate) name: String,
-    /// What the core gave.
     pub(crate) measured: String,
-    /// What it should be.
     pub(crate) expected: String,
     /// How far from `expected` is still right.
     pub(crate) allowed: String,
@@ -26,7 +23,6 @@ pub(crate) struct MeasureWords {
 }
 
 impl MeasureWords {
-    /// Puts a measure into words.
     pub(crate) fn of(measure: &Measure) -> Self {
         let step = finest_step(measure);
         let number = |value| to_step(value, step);
@@ -49,7 +45,6 @@ impl MeasureWords {
     }
 }
 
-/// The smallest relative error that would have been caught.
 fn caught(resolution: f64) -> String {
     if resolution == 0.0 { "any".to_owned() } else { percent(resolution) }
 }

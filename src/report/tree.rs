@@ -1,10 +1,8 @@
-//! Loads the folder of a run: `run.json` and the sidecars below it. The only way a report learns
-//! anything.
+//! Loads the folder of a run: `run.json` and the sidecars below it. The only way a report learns anything.
 //!
-//! A version or a word that is not known, a sidecar in the wrong place, a picture outside the
-//! folder: each stops the reading with an error that names the file, for a report of
-//! half-understood results would be believed. Not here: pictures, which are read when they are
-//! drawn, and whose absence is shown in their place.
+//! A version or a word that is not known, a sidecar in the wrong place, a picture outside the folder: each stops the
+//! reading with an error that names the file, for a report of half-understood results would be believed. Not here:
+//! pictures, which are read when they are drawn, and whose absence is shown in their place.
 
 use crate::case::Part;
 use crate::diagnosis::Diagnosis;
@@ -19,8 +17,7 @@ use walkdir::WalkDir;
 pub struct RunTree {
     /// `run.json`
     pub run: RunRecord,
-    /// Every sidecar there is: cores in the order they were asked; of each, cases in the order of
-    /// parts.
+    /// Every sidecar there is: cores in the order they were asked; of each, cases in the order of parts.
     pub trials: Vec<TrialRecord>,
     /// Where all this stands.
     pub folder: PathBuf,
@@ -31,7 +28,6 @@ pub struct RunTree {
 pub(crate) struct AbsentCore<'a> {
     /// What the user typed after `--core`.
     pub(crate) spec: &'a str,
-    /// Why.
     pub(crate) problem: &'a str,
     /// A trial that shows it, with what the core printed.
     pub(crate) witness: &'a TrialRecord,
@@ -79,7 +75,6 @@ pub enum TreeError {
     Walk(#[from] walkdir::Error),
 }
 
-/// The one field that every version has.
 #[derive(Deserialize)]
 struct Versioned {
     version: u32,
@@ -113,7 +108,6 @@ impl RunTree {
         self
     }
 
-    /// The trials of the core that was asked as `spec`.
     pub(crate) fn trials_of<'a>(&'a self, spec: &'a str) -> impl Iterator<Item = &'a TrialRecord> {
         self.trials.iter().filter(move |trial| trial.core == spec)
     }
@@ -123,7 +117,6 @@ impl RunTree {
         self.trials.iter().filter(|trial| trial.tier.is_graded())
     }
 
-    /// What is wrong with each core, in the order they were asked.
     pub(crate) fn diagnoses(&self) -> Vec<(&str, &Diagnosis)> {
         let cores = self.run.cores.iter();
         cores.filter_map(|core| Some((core.spec.as_str(), core.diagnosis.as_ref()?))).collect()
@@ -149,7 +142,6 @@ impl RunTree {
         Self { run, trials, folder: self.folder.clone() }
     }
 
-    /// How many planned trials have no result.
     pub(crate) fn missing(&self) -> usize {
         self.run.trials.saturating_sub(self.trials.len())
     }
@@ -164,7 +156,6 @@ impl RunTree {
         self.missing() == 0 && self.run.timing.seconds.is_some()
     }
 
-    /// Where a picture of a trial stands.
     pub(crate) fn picture_path(&self, trial: &TrialRecord, picture: &PictureFile) -> PathBuf {
         sidecar_path(&self.folder, &trial.core, &trial.case).with_file_name(&picture.file)
     }
@@ -228,13 +219,24 @@ mod tests {
     use super::*;
     use crate::report::example::{self, Example};
     use crate::run::record::write_json;
+    use tempfile::TempDir;
+
+    /// The folder of [`Example::mixed`].
+    fn mixed() -> TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        Example::mixed().write_records(folder.path());
+        folder
+    }
+
+    fn sidecar(folder: &TempDir) -> PathBuf {
+        sidecar_path(folder.path(), "builtin", example::FAILING)
+    }
 
     /// The message with which the folder is refused.
     fn refusal(folder: &Path) -> String {
         RunTree::load(folder).unwrap_err().to_string()
     }
 
-    /// Rewrites the text of a file.
     fn edit(path: &Path, from: &str, to: &str) {
         let text = std::fs::read_to_string(path).unwrap();
         assert!(text.contains(from), "{from} is not in {text}");
@@ -243,8 +245,7 @@ mod tests {
 
     #[test]
     fn a_run_reads_back_in_the_order_of_cores_and_parts() {
-        let folder = tempfile::tempdir().unwrap();
-        Example::mixed().write(folder.path());
+        let folder = mixed();
         let tree = RunTree::load(folder.path()).unwrap();
         assert_eq!(tree.trials.len(), tree.run.trials);
         assert!(tree.is_finished());
@@ -258,7 +259,7 @@ mod tests {
         let mut example = Example::mixed();
         example.run.timing.seconds = None;
         example.trials.truncate(3);
-        example.write(folder.path());
+        example.write_records(folder.path());
         let tree = RunTree::load(folder.path()).unwrap();
         assert_eq!(tree.missing(), tree.run.trials - 3);
         assert!(!tree.is_finished());
@@ -285,10 +286,8 @@ mod tests {
 
     #[test]
     fn another_version_is_refused_by_name_whatever_else_it_holds() {
-        let folder = tempfile::tempdir().unwrap();
-        let example = Example::mixed();
-        example.write(folder.path());
-        let path = sidecar_path(folder.path(), "builtin", example::FAILING);
+        let folder = mixed();
+        let path = sidecar(&folder);
         edit(&path, "\"version\": 2", "\"version\": 3, \"novelty\": 3");
         let message = refusal(folder.path());
         assert!(message.contains(&path.display().to_string()), "{message}");
@@ -297,9 +296,8 @@ mod tests {
 
     #[test]
     fn an_unknown_word_is_refused_and_the_file_named() {
-        let folder = tempfile::tempdir().unwrap();
-        Example::mixed().write(folder.path());
-        let path = sidecar_path(folder.path(), "builtin", example::FAILING);
+        let folder = mixed();
+        let path = sidecar(&folder);
         edit(&path, "\"kind\": \"judged\"", "\"kind\": \"waved-through\"");
         let message = refusal(folder.path());
         assert!(message.contains(&path.display().to_string()), "{message}");
@@ -308,20 +306,18 @@ mod tests {
 
     #[test]
     fn a_sidecar_in_the_wrong_place_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        Example::mixed().write(folder.path());
-        let path = sidecar_path(folder.path(), "builtin", example::FAILING);
+        let folder = mixed();
+        let path = sidecar(&folder);
         std::fs::copy(&path, path.with_file_name("other.json")).unwrap();
         assert!(refusal(folder.path()).contains("other.json does not belong"));
     }
 
     #[test]
     fn a_core_that_was_not_asked_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut example = Example::mixed();
-        example.write(folder.path());
-        example.run.cores.truncate(1);
-        write_json(&folder.path().join("run.json"), &example.run).unwrap();
+        let folder = mixed();
+        let mut run = Example::mixed().run;
+        run.cores.truncate(1);
+        write_json(&folder.path().join("run.json"), &run).unwrap();
         assert!(refusal(folder.path()).contains("names no core `textbook`"));
     }
 
@@ -329,11 +325,8 @@ mod tests {
     fn a_picture_cannot_reach_out_of_the_folder() {
         let folder = tempfile::tempdir().unwrap();
         let mut example = Example::mixed();
-        for trial in &mut example.trials {
-            for picture in &mut trial.pictures {
-                picture.file = "../../../elsewhere.exr".to_owned();
-            }
-        }
+        let pictures = example.trials.iter_mut().flat_map(|trial| &mut trial.pictures);
+        pictures.for_each(|picture| picture.file = "../../../elsewhere.exr".to_owned());
         example.write_records(folder.path());
         assert!(refusal(folder.path()).contains("is not a file beside it"));
     }

@@ -1,5 +1,4 @@
-//! `furnace compare`: whether an image shows what another shows, and if not, which mistake turns
-//! one into the other.
+//! `furnace compare`: whether an image shows what another shows, and if not, which mistake turns one into the other.
 
 mod side;
 mod words;
@@ -49,14 +48,12 @@ pub(crate) struct CompareArguments {
 }
 
 impl CompareArguments {
-    /// How codes are said to be made.
     fn encoding(&self) -> Encoding {
         let rounding = if self.truncated { Rounding::Down } else { Rounding::Nearest };
         Encoding { rounding, ..Encoding::of(self.encoding) }
     }
 }
 
-/// Compares, and says how it went.
 pub(crate) fn compare(arguments: &CompareArguments) -> Answer {
     let comparison = measure(arguments)?;
     if arguments.json {

@@ -39,6 +39,14 @@ fn file(folder: &Path, name: &str, image: &Image) -> String {
     path.to_str().unwrap().to_owned()
 }
 
+/// A reference that brings its own errors, as a file.
+fn with_errors(folder: &Path, reference: &Image, errors: &Image) -> PathBuf {
+    let path = folder.join("reference.exr");
+    let exr = Exr::from_image(reference).with_colours(ERROR_PREFIX, errors, Storage::Half);
+    exr::write(&path, &exr).unwrap();
+    path
+}
+
 #[test]
 fn a_second_render_passes_and_a_brighter_one_is_named() {
     let folder = tempfile::tempdir().unwrap();
@@ -60,10 +68,7 @@ fn a_reference_brings_its_own_errors_and_several_renders_theirs() {
     let folder = tempfile::tempdir().unwrap();
     let reference = render(1, 0.01, 1.0);
     let errors = Image::from_fn(192, 128, |x, y| [(0.006 * scene(x, y)) as f32; 3]);
-    let path = folder.path().join("reference.exr");
-    let with_errors =
-        Exr::from_image(&reference).with_colours(ERROR_PREFIX, &errors, Storage::Half);
-    exr::write(&path, &with_errors).unwrap();
+    let path = with_errors(folder.path(), &reference, &errors);
     let runs: Vec<String> = (10..18)
         .map(|seed| {
             let mut image = render(seed, 0.1, 1.0);
@@ -108,10 +113,7 @@ fn a_reference_that_holds_its_bounces_apart_tells_which_is_missing_or_there_twic
 fn coded(folder: &Path, seed: u64, factor: f64, encoding: Encoding) -> [String; 2] {
     let reference = render(1, 0.005, 1.0);
     let errors = Image::from_fn(192, 128, |x, y| [(0.003 * scene(x, y)) as f32; 3]);
-    let exact = folder.join("reference.exr");
-    let with_errors =
-        Exr::from_image(&reference).with_colours(ERROR_PREFIX, &errors, Storage::Half);
-    exr::write(&exact, &with_errors).unwrap();
+    let exact = with_errors(folder, &reference, &errors);
     let path = folder.join(format!("{seed}.png"));
     png::write(&path, &encoding.picture(&render(seed, 0.3, factor))).unwrap();
     [&path, &exact].map(|path| path.to_str().unwrap().to_owned())

@@ -8,7 +8,6 @@ use crate::stats::{
 use crate::text::number::{figure, percent, ratio, signed_percent, significant};
 use std::fmt::Write;
 
-/// What is printed.
 pub(super) fn told(comparison: &Comparison) -> String {
     let mut text = format!("{}: {}\n", comparison.verdict, sentence(comparison));
     // Writing into a string cannot fail.

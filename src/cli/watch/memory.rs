@@ -12,22 +12,18 @@ const SHOWN_ENDS: usize = 3;
 /// Trials that are named in one line.
 const NAMED_TRIALS: usize = 3;
 
-/// What a cycle tries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scope {
-    /// Everything that is selected.
     All,
     /// What failed last.
     Failures,
 }
 
-/// How trials have ended, cycle after cycle.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
     trials: BTreeMap<Name, History>,
 }
 
-/// Case and core.
 type Name = (String, String);
 
 #[derive(Debug, Default)]
@@ -52,7 +48,6 @@ impl Memory {
         Scope::Failures
     }
 
-    /// Whether nothing failed when it was last tried.
     pub(crate) fn is_clean(&self) -> bool {
         !self.trials.values().any(|history| history.fails)
     }

@@ -1,8 +1,7 @@
 //! `furnace run --watch`: tries again whenever a case, a scene or a core's file changes, until ctrl-c.
 //!
-//! What failed last is tried alone, so that an answer takes seconds; once it passes, everything is
-//! tried. Each cycle is a run like any other, with its folder and its page, and one line on the
-//! terminal.
+//! What failed last is tried alone, so that an answer takes seconds; once it passes, everything is tried. Each cycle is
+//! a run like any other, with its folder and its page, and one line on the terminal.
 
 mod files;
 mod memory;
@@ -44,7 +43,6 @@ pub(crate) fn watch(arguments: &RunArguments) -> Answer {
     }
 }
 
-/// What a cycle leaves to do.
 enum Cycle {
     AllTried,
     FailuresRepaired,

@@ -13,7 +13,6 @@ const HEIGHT: f64 = 170.0;
 const LEFT: f64 = 46.0;
 const BOTTOM: f64 = 30.0;
 
-/// A point of the plot.
 struct Point {
     bounce: u32,
     ratio: f64,

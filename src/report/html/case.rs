@@ -8,7 +8,7 @@ use crate::case::Part;
 use crate::checks::{Finding, Measure};
 use crate::report::digest::{CaseGroup, by_case};
 use crate::report::measure::{MeasureWords, worst_first};
-use crate::run::{Status, TrialRecord};
+use crate::run::TrialRecord;
 use crate::stats::Verdict;
 use crate::text::number::duration;
 use maud::{Markup, html};
@@ -16,7 +16,6 @@ use maud::{Markup, html};
 /// Measures shown before the rest is folded away.
 const MEASURES: usize = 16;
 
-/// A section a case.
 pub(super) static PAGE: Page = Page { id: "cases", title: "Cases", body };
 
 fn body(view: &View<'_>) -> Option<Markup> {
@@ -48,7 +47,6 @@ fn section(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
     }
 }
 
-/// What all cores share.
 fn about(trial: &TrialRecord) -> Markup {
     html! {
         dl.about {
@@ -68,7 +66,6 @@ fn hash(hex: &str) -> Markup {
     html! { code.faint title=(hex) { (short) } }
 }
 
-/// One core's result.
 fn judgement(trial: &TrialRecord) -> Markup {
     html! {
         article id=(anchor(trial)) tabindex="-1" {
@@ -89,8 +86,7 @@ fn judgement(trial: &TrialRecord) -> Markup {
     }
 }
 
-/// Every measure: in their own order if they are few, else the worst first and the rest folded
-/// away.
+/// Every measure: in their own order if they are few, else the worst first and the rest folded away.
 fn all_measures(finding: &Finding) -> Markup {
     if finding.measures.len() <= MEASURES {
         return measures(&finding.measures);
@@ -106,7 +102,6 @@ fn all_measures(finding: &Finding) -> Markup {
     }
 }
 
-/// Measured against expected, one row a measure.
 pub(crate) fn measures<'a>(measures: impl IntoIterator<Item = &'a Measure>) -> Markup {
     let measures: Vec<_> = measures.into_iter().collect();
     let noisy = measures.iter().any(|measure| measure.interval.is_some());
@@ -145,16 +140,8 @@ fn row(measure: &Measure, noisy: bool) -> Markup {
             td.number { (ratio) }
             @if noisy { td.number { (words.interval) } td.plot { (plot(measure)) } }
             td.number { (words.resolution) }
-            td { (badge(status_of(measure.verdict))) }
+            td { (badge(measure.verdict.into())) }
         }
-    }
-}
-
-fn status_of(verdict: Verdict) -> Status {
-    match verdict {
-        Verdict::Pass => Status::Pass,
-        Verdict::Fail => Status::Fail,
-        Verdict::Inconclusive => Status::Inconclusive,
     }
 }
 

@@ -5,13 +5,13 @@ use super::bounces;
 use super::parts::{command, escaped};
 use crate::case::Part;
 use crate::diagnosis::Headline;
+use crate::report::digest::capitalised;
 use crate::report::tree::RunTree;
 use maud::{Markup, html};
 
 /// Cases named of those that a cause explains.
 const CASES: usize = 8;
 
-/// The card of a cause.
 pub(crate) fn card(tree: &RunTree, core: &str, headline: &Headline, kicker: &str) -> Markup {
     let part = headline.explains.first().and_then(|case| Part::of_case(case));
     html! {
@@ -68,7 +68,5 @@ fn cases(core: &str, cases: &[String]) -> Markup {
 
 /// With a capital and a full stop.
 fn sentence(words: &str) -> String {
-    let mut letters = words.chars();
-    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
-    format!("{first}{}.", letters.as_str())
+    format!("{}.", capitalised(words))
 }

@@ -1,5 +1,4 @@
-//! From the EXR files of a run to PNG pictures that stand in the page itself, small enough for it
-//! to stay light.
+//! From the EXR files of a run to PNG pictures that stand in the page itself, small enough for it to stay light.
 
 use crate::checks::PictureRole;
 use crate::image::Image;
@@ -19,8 +18,7 @@ const PHOTOGRAPH_WEIGHT: f64 = 2.8;
 const CHART_WEIGHT: f64 = 1.1;
 /// Pictures of failures are never made smaller than this, pixels.
 const FAILURE_SIDE: usize = 256;
-/// Steps between the middle and the end of a colour scale: no eye tells more apart, and the page is
-/// half as heavy.
+/// Steps between the middle and the end of a colour scale: no eye tells more apart, and the page is half as heavy.
 const COLOUR_STEPS: f64 = 24.0;
 
 /// How the pictures of one viewer are developed: all alike, so that they can be compared.
@@ -33,17 +31,13 @@ pub(crate) struct Look {
 }
 
 impl Look {
-    /// The exposure of `picture`, in half stops, so that pictures of about the same brightness are
-    /// shown alike.
+    /// The exposure of `picture`, in half stops, so that pictures of about the same brightness are shown alike.
     pub(crate) fn for_picture(picture: Option<&Image>, side: usize) -> Self {
         let stops = picture.map_or(0.0, exposure_of);
         Self { stops: (stops * 2.0).floor() / 2.0, side }
     }
 
-    /// The picture as an address that holds all of it.
-    ///
-    /// # Errors
-    /// If the picture is empty.
+    /// The picture as an address that holds all of it. Fails if the picture is empty.
     pub(crate) fn address(self, image: &Image, role: PictureRole) -> Result<String, String> {
         let small = image.shrunk_to(self.side);
         let picture = match scale(role) {
@@ -89,8 +83,7 @@ fn false_colour(image: &Image, scale: Scale) -> Picture {
     heatmap(&values, image.width, scale, 1)
 }
 
-/// The side to which the pictures of a case are made smaller, so that all of the run's fit the
-/// page.
+/// The side to which the pictures of a case are made smaller, so that all of the run's fit the page.
 pub(crate) fn longest_side(tree: &RunTree, case_failed: bool) -> usize {
     let weight: f64 = tree.trials.iter().map(|trial| weight(tree, trial)).sum();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
@@ -98,8 +91,7 @@ pub(crate) fn longest_side(tree: &RunTree, case_failed: bool) -> usize {
     if case_failed { side.max(FAILURE_SIDE) } else { side }
 }
 
-/// Bytes for each pixel that the pictures of a trial add to the page. Equal references stand there
-/// once.
+/// Bytes for each pixel that the pictures of a trial add to the page. Equal references stand there once.
 fn weight(tree: &RunTree, trial: &TrialRecord) -> f64 {
     let is_first = tree.run.cores.first().is_some_and(|core| core.spec == trial.core);
     let of_picture = |file: &PictureFile| match file.role {

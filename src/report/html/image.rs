@@ -1,5 +1,4 @@
-//! Pictures of a case: reference, renders and errors in one viewer, to flip, to wipe, or side by
-//! side.
+//! Pictures of a case: reference, renders and errors in one viewer, to flip, to wipe, or side by side.
 
 use super::View;
 use super::develop::{Look, gradient, longest_side, scale};
@@ -13,14 +12,12 @@ use crate::text::number::count;
 use maud::{Markup, html};
 use std::path::Path;
 
-/// A picture of a trial, read.
 struct Shot<'a> {
     trial: &'a TrialRecord,
     file: &'a PictureFile,
     image: Result<Image, String>,
 }
 
-/// A picture as the viewer shows it.
 struct Frame<'a> {
     shot: Shot<'a>,
     label: String,
@@ -62,10 +59,11 @@ fn frames<'a>(view: &View<'_>, case: &CaseGroup<'a>, round: usize) -> Vec<Frame<
     }
     without_equal_references(&mut shots);
     shots.sort_by_key(|shot| rank(shot.file.role));
-    let mut keys = Keys::default();
-    let frame =
-        |shot: Shot<'a>| Frame { label: label(&shot), key: keys.next(shot.file.role), shot };
-    shots.into_iter().map(frame).collect()
+    let role = |number: usize| shots[number].file.role;
+    let alike = |number: usize| (0..number).filter(|n| role(*n) == role(number)).count();
+    let keys: Vec<_> = (0..shots.len()).map(|number| key(role(number), alike(number))).collect();
+    let frame = |(shot, key)| Frame { label: label(&shot), key, shot };
+    shots.into_iter().zip(keys).map(frame).collect()
 }
 
 /// Cores that were held against the same reference share one picture of it.
@@ -102,25 +100,16 @@ fn label(shot: &Shot<'_>) -> String {
     }
 }
 
-/// Keys of the viewer: 1 is the reference, 2 and 3 what was rendered, 4 and 5 its error.
-#[derive(Default)]
-struct Keys {
-    references: usize,
-    renders: usize,
-    errors: usize,
-}
-
-impl Keys {
-    fn next(&mut self, role: PictureRole) -> Option<char> {
-        let (taken, keys) = match role {
-            PictureRole::Reference => (&mut self.references, "1"),
-            PictureRole::Render => (&mut self.renders, "23"),
-            PictureRole::SignedError => (&mut self.errors, "45"),
-            PictureRole::SampleRate => return None,
-        };
-        *taken += 1;
-        keys.chars().nth(*taken - 1)
-    }
+/// The viewer's key for a picture that comes after so many of its role: 1 is the reference, 2 and 3 what was rendered,
+/// 4 and 5 its error.
+fn key(role: PictureRole, before: usize) -> Option<char> {
+    let keys = match role {
+        PictureRole::Reference => "1",
+        PictureRole::Render => "23",
+        PictureRole::SignedError => "45",
+        PictureRole::SampleRate => "",
+    };
+    keys.chars().nth(before)
 }
 
 /// What the viewer says to those who only hear it.

@@ -11,7 +11,6 @@ const MARGIN: f64 = 8.0;
 /// What is narrower cannot be seen.
 const NARROWEST: f64 = 2.0;
 
-/// A linear scale from values to places.
 struct Scale {
     low: f64,
     high: f64,
@@ -84,8 +83,7 @@ mod tests {
     fn an_interval_is_drawn_beside_its_band() {
         let drawing = plot(&measure(Some([0.349, 0.351]))).into_string();
         assert!(drawing.contains("interval [0.3490, 0.3510]"), "{drawing}");
-        // The interval ends left of the band: 0.349 is the low end of the scale, 0.371 the high
-        // one.
+        // The interval ends left of the band: 0.349 is the low end of the scale, 0.371 the high one.
         assert!(drawing.contains("M8.0 11H22.9"), "{drawing}");
     }
 

@@ -1,5 +1,4 @@
-//! Error rates: what every trial has spent of the chance to fail a correct core, and what it would
-//! have caught.
+//! Error rates: what every trial has spent of the chance to fail a correct core, and what it would have caught.
 
 use super::parts::link;
 use super::{Page, View};
@@ -9,7 +8,6 @@ use crate::stats::{LedgerEntry, SUITE_FALSE_ALARM, TestKind};
 use crate::text::number::{percent, probability, significant};
 use maud::{Markup, html};
 
-/// Error budget and resolution.
 pub(super) static PAGE: Page =
     Page { id: "ledger", title: "Error rates and smallest detectable errors", body };
 
@@ -54,7 +52,6 @@ fn sums(view: &View<'_>) -> Markup {
     }
 }
 
-/// The entries of one core, and their sum.
 fn book(view: &View<'_>, core: &str) -> Markup {
     let ledger = ledger(view.tree.trials_of(core));
     html! {

@@ -1,5 +1,4 @@
-//! The page for the browser: one file that works from disk, without a network, and says the same
-//! without scripts.
+//! The page for the browser: one file that works from disk, without a network, and says the same without scripts.
 //!
 //! The first screen answers what is wrong and what to do next; everything below is evidence. A
 //! section is a `Page` in a file of its own and a line in `PAGES`. Text from cores and cases is
@@ -26,24 +25,18 @@ use crate::run::Status;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::path::{Path, PathBuf};
 
-/// A section of the page.
 struct Page {
-    /// Its anchor.
     id: &'static str,
-    /// Its heading.
     title: &'static str,
     /// What stands below the heading; none where the run has nothing to show there.
     body: fn(&View<'_>) -> Option<Markup>,
 }
 
-/// Every section, in the order of the page.
 static PAGES: &[&Page] =
     &[&overview::PAGE, &start::PAGE, &trials::PAGE, &case::PAGE, &ledger::PAGE, &provenance::PAGE];
 
-/// What a section is made of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View<'a> {
-    /// The run.
     pub(crate) tree: &'a RunTree,
     /// The folder of the page, which links are relative to.
     pub(crate) folder: &'a Path,

@@ -1,15 +1,15 @@
-//! The head of the page, and the first screen: how many of what, and one cell a trial, part by
-//! part.
+//! The head of the page, and the first screen: how many of what, and one cell a trial, part by part.
 
 use super::parts::{badge, cell, command, link};
 use super::{Page, View};
-use crate::report::digest::{PartGroup, Tally, by_part, dearest_ledger, weakest_first};
+use crate::report::digest::{
+    PartGroup, Tally, by_part, capitalised, dearest_ledger, weakest_first,
+};
 use crate::run::{Status, TrialRecord};
 use crate::text::number::{count, duration, percent, probability};
 use maud::{Markup, html};
 use std::time::{Duration, UNIX_EPOCH};
 
-/// What passed, by part and core.
 pub(super) static PAGE: Page = Page { id: "overview", title: "Overview", body };
 
 fn body(view: &View<'_>) -> Option<Markup> {
@@ -27,7 +27,7 @@ pub(crate) fn header(view: &View<'_>, headline: &str) -> Markup {
     let run = &view.tree.run;
     html! {
         header {
-            h1 { (sentence(headline)) }
+            h1 { (capitalised(headline)) }
             p.facts {
                 @for (number, core) in run.cores.iter().enumerate() {
                     @if number > 0 { " and " }
@@ -40,13 +40,6 @@ pub(crate) fn header(view: &View<'_>, headline: &str) -> Markup {
             button #theme.scripted type="button" { "light / dark" }
         }
     }
-}
-
-/// The first letter large.
-fn sentence(text: &str) -> String {
-    let mut characters = text.chars();
-    let first = characters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
-    first + characters.as_str()
 }
 
 /// `2026-11-21 03:14 UTC`
@@ -99,10 +92,10 @@ fn score(view: &View<'_>) -> Markup {
                     a href="#ledger" title=(FALSE_ALARM) { "false alarm" }
                     span.number { "≤ " (probability(dearest_ledger(view.tree).spent())) }
                 }
-                @if let Some(weakest) = weakest_first(view.tree.graded()).first() {
+                @if let Some((trial, resolution)) = weakest_first(view.tree.graded()).first() {
                     li.fact {
-                        a href=(link(weakest.trial)) title=(WEAKEST_PASS) { "weakest pass" }
-                        span.number { (percent(weakest.resolution)) }
+                        a href=(link(trial)) title=(WEAKEST_PASS) { "weakest pass" }
+                        span.number { (percent(*resolution)) }
                     }
                 }
             }

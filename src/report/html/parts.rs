@@ -3,7 +3,6 @@
 use crate::run::{Status, TrialRecord};
 use maud::{Markup, html};
 
-/// The class that the style sheet knows a status by.
 pub(crate) fn class(status: Status) -> &'static str {
     match status {
         Status::TimedOut => "timed-out",
@@ -25,7 +24,6 @@ pub(crate) fn glyph(status: Status) -> &'static str {
     }
 }
 
-/// Mark and word.
 pub(crate) fn badge(status: Status) -> Markup {
     html! { span class={ "status " (class(status)) } { (glyph(status)) " " (status.word()) } }
 }
@@ -44,12 +42,10 @@ pub(crate) fn case_anchor(trial: &TrialRecord) -> String {
     trial.case.clone()
 }
 
-/// The anchor of a case on one core.
 pub(crate) fn anchor(trial: &TrialRecord) -> String {
     format!("{}@{}", trial.case, trial.core)
 }
 
-/// A link to [`anchor`].
 pub(crate) fn link(trial: &TrialRecord) -> String {
     format!("#{}", escaped(&anchor(trial)))
 }
@@ -65,7 +61,6 @@ pub(crate) fn escaped(text: &str) -> String {
     text.bytes().map(escape).collect()
 }
 
-/// A command, with a button that copies it.
 pub(crate) fn command(text: &str) -> Markup {
     html! {
         div.command {

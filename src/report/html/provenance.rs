@@ -9,7 +9,6 @@ use crate::text::number::duration;
 use crate::worker::Confinement;
 use maud::{Markup, html};
 
-/// The run itself.
 pub(super) static PAGE: Page = Page { id: "run", title: "This run", body };
 
 fn body(view: &View<'_>) -> Option<Markup> {
@@ -77,8 +76,7 @@ fn walls(confinement: &Confinement) -> Markup {
     }
 }
 
-/// Name and choice of every convention, by the words that files use, so that a new one needs no
-/// line here.
+/// Name and choice of every convention, by the words that files use, so that a new one needs no line here.
 fn conventions(conventions: Conventions) -> Vec<(String, String)> {
     let Ok(serde_json::Value::Object(fields)) = serde_json::to_value(conventions) else {
         return Vec::new();

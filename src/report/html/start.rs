@@ -15,14 +15,11 @@ use maud::{Markup, html};
 
 /// Measures in the card; the case has them all.
 const MEASURES: usize = 4;
-/// Causes that have a card.
 const CAUSES: usize = 4;
-/// Further failures that the card names.
 const FURTHER: usize = 6;
 /// Rows of the small tables of a green run.
 const ROWS: usize = 5;
 
-/// What to look at first.
 pub(super) static PAGE: Page = Page { id: "start", title: "Start here", body };
 
 fn body(view: &View<'_>) -> Option<Markup> {
@@ -122,13 +119,7 @@ fn further(others: &[&TrialRecord]) -> Markup {
         @if !others.is_empty() {
             p.kicker { "Next, in the order in which one part rests on another" }
             ul.further {
-                @for trial in others.iter().take(FURTHER) {
-                    li {
-                        (badge(trial.outcome.status())) " "
-                        a href=(link(trial)) { (trial.case) } " on " (trial.core)
-                        ": " span.said { (trial.outcome.statement()) }
-                    }
-                }
+                @for trial in others.iter().take(FURTHER) { (item(trial)) }
                 @if others.len() > FURTHER {
                     li { a href="#trials" { "and " (others.len() - FURTHER) " more" } }
                 }
@@ -160,25 +151,28 @@ fn unknown(view: &View<'_>) -> Markup {
     let silent = |trial: &&TrialRecord| trial.outcome.status() != Status::Pass;
     html! {
         ul.further {
-            @for trial in view.tree.graded().filter(silent).take(2 * FURTHER) {
-                li {
-                    (badge(trial.outcome.status())) " "
-                    a href=(link(trial)) { (trial.case) } " on " (trial.core)
-                    ": " span.said { (trial.outcome.statement()) }
-                }
-            }
+            @for trial in view.tree.graded().filter(silent).take(2 * FURTHER) { (item(trial)) }
         }
     }
 }
 
-/// The passes that prove least.
+fn item(trial: &TrialRecord) -> Markup {
+    html! {
+        li {
+            (badge(trial.outcome.status())) " "
+            a href=(link(trial)) { (trial.case) } " on " (trial.core)
+            ": " span.said { (trial.outcome.statement()) }
+        }
+    }
+}
+
 fn weakest(view: &View<'_>) -> Markup {
     html! {
         div {
             h4 { "Weakest passes, with the smallest detectable error of each" }
             table.small {
-                @for weakest in weakest_first(view.tree.graded()).iter().take(ROWS) {
-                    tr { (named(weakest.trial)) td.number { (percent(weakest.resolution)) } }
+                @for (trial, resolution) in weakest_first(view.tree.graded()).iter().take(ROWS) {
+                    tr { (named(trial)) td.number { (percent(*resolution)) } }
                 }
             }
         }

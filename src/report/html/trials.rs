@@ -7,7 +7,6 @@ use crate::run::TrialRecord;
 use crate::text::number::duration;
 use maud::{Markup, html};
 
-/// Every trial in a line.
 pub(super) static PAGE: Page = Page { id: "trials", title: "All trials", body };
 
 fn body(view: &View<'_>) -> Option<Markup> {

@@ -1,7 +1,7 @@
 //! What did not pass, one block each: first what counts against a core, then what is not known.
 
 use super::headlines;
-use super::layout::{INDENT, indented, labelled};
+use super::layout::{INDENT, command, head, indented, labelled};
 use super::style::{Paint, Style, clean, cut, paint_of, wrap};
 use crate::case::Part;
 use crate::checks::{Finding, Measure};
@@ -22,7 +22,6 @@ const MEASURES: usize = 4;
 /// Lines shown of what a core printed before it crashed.
 const LAST_WORDS: usize = 3;
 
-/// Every block about trials.
 pub(crate) fn all(tree: &RunTree, style: Style) -> Vec<String> {
     let diagnoses = tree.diagnoses();
     let mut lines = headlines::all(&diagnoses, style);
@@ -46,13 +45,11 @@ pub(crate) fn all(tree: &RunTree, style: Style) -> Vec<String> {
 
 /// A core that fails to start: why, and how to try that alone.
 pub(crate) fn absent(core: AbsentCore<'_>, style: Style) -> Vec<String> {
-    let status = core.witness.outcome.status();
-    let word = style.paint(paint_of(status), &status.word().to_uppercase());
-    let head = format!("  {word}  {} fails to start: no trial could run", clean(core.spec));
-    let mut lines = vec![String::new(), head];
+    let what = format!("{} fails to start: no trial could run", clean(core.spec));
+    let mut lines = head_of(core.witness.outcome.status(), &what, style);
     lines.extend(indented(core.problem));
     lines.extend(last_words(core.witness));
-    lines.push(format!("{:INDENT$}try     {}", "", clean(&core.command())));
+    lines.push(command(&core.command()));
     lines
 }
 
@@ -73,7 +70,7 @@ fn full_block(trial: &TrialRecord, style: Style) -> Vec<String> {
     lines.extend(last_words(trial));
     lines.extend(labelled("claim", &claim(trial)));
     lines.extend(labelled("theory", &trial.teaches));
-    lines.push(next(trial));
+    lines.push(command(&trial.rerun));
     lines
 }
 
@@ -84,31 +81,29 @@ fn of_the_same_causes(trials: &[&TrialRecord], style: Style) -> Vec<String> {
         of_cores.entry(&trial.core).or_default().push(&trial.case);
     }
     let paragraph = |(core, cases): (&str, Vec<&str>)| {
-        let word = style.paint(Paint::Bad, "FAIL");
-        let head = format!("  {word}  {} more of these causes on {}", cases.len(), clean(core));
+        let what = format!("{} more of these causes on {}", cases.len(), clean(core));
         let names = indented(&clean(&cases.join(", ")));
-        [String::new(), head].into_iter().chain(names).collect::<Vec<_>>()
+        head(style, Paint::Bad, "FAIL", &what).into_iter().chain(names).collect::<Vec<_>>()
     };
     of_cores.into_iter().flat_map(paragraph).collect()
 }
 
 /// Verdict and size: `grep FAIL -A1` finds both.
 fn brief_block(trial: &TrialRecord, style: Style) -> Vec<String> {
-    let status = trial.outcome.status();
-    let word = status.word().to_uppercase();
-    let head = format!("{} on {}", clean(&trial.case), clean(&trial.core));
-    let mut lines =
-        vec![String::new(), format!("  {}  {head}", style.paint(paint_of(status), &word))];
+    let what = format!("{} on {}", clean(&trial.case), clean(&trial.core));
+    let mut lines = head_of(trial.outcome.status(), &what, style);
     lines.extend(indented(&trial.outcome.statement()));
     lines
 }
 
-/// A failure beside the grade.
+fn head_of(status: Status, what: &str, style: Style) -> Vec<String> {
+    head(style, paint_of(status), &status.word().to_uppercase(), what)
+}
+
 fn note(trial: &TrialRecord, style: Style) -> Vec<String> {
-    let word = style.paint(Paint::Unknown, "NOTE");
     let (case, core) = (clean(&trial.case), clean(&trial.core));
-    let head = format!("  {word}  {case} on {core} ({}, not graded)", trial.tier.word());
-    let mut lines = vec![String::new(), head];
+    let what = format!("{case} on {core} ({}, not graded)", trial.tier.word());
+    let mut lines = head(style, Paint::Unknown, "NOTE", &what);
     lines.extend(indented(&trial.outcome.statement()));
     lines
 }
@@ -131,7 +126,7 @@ fn undecided_block(trial: &TrialRecord, style: Style) -> Vec<String> {
     {
         lines.extend(indented(resolution));
     }
-    lines.push(next(trial));
+    lines.push(command(&trial.rerun));
     lines
 }
 
@@ -141,10 +136,6 @@ fn claim(trial: &TrialRecord) -> String {
         Some(part) => format!("{} ({})", trial.title, part.title),
         None => trial.title.clone(),
     }
-}
-
-fn next(trial: &TrialRecord) -> String {
-    format!("{:INDENT$}try     {}", "", clean(&trial.rerun))
 }
 
 /// The worst measures as a table, and how many there are besides.
@@ -202,17 +193,13 @@ fn grouped(tree: &RunTree, status: Status, style: Style) -> Vec<String> {
     for trial in in_order_of_parts(tree, status) {
         reasons.entry((&trial.core, reason(&trial.outcome))).or_default().push(&trial.case);
     }
-    let word = style.paint(paint_of(status), &status.word().to_uppercase());
     let paragraph = |((core, reason), cases): ((&str, String), Vec<&str>)| {
         let what = format!("{} on {}: {reason}", cases.len(), clean(core));
         let mut what = wrap(&what, status.word().len() + 4).into_iter();
-        let head = format!("  {word}  {}", what.next().unwrap_or_default());
-        let rest = what.map(|line| format!("{:INDENT$}{line}", ""));
-        [String::new(), head]
-            .into_iter()
-            .chain(rest)
-            .chain(indented(&cases.join(", ")))
-            .collect::<Vec<_>>()
+        let mut lines = head_of(status, &what.next().unwrap_or_default(), style);
+        lines.extend(what.map(|line| format!("{:INDENT$}{line}", "")));
+        lines.extend(indented(&cases.join(", ")));
+        lines
     };
     reasons.into_iter().flat_map(paragraph).collect()
 }

@@ -1,9 +1,11 @@
 //! Causes before symptoms: what is wrong in one sentence, what speaks for it, what was ruled out, where to look, and
 //! one command.
 
-use super::layout::{INDENT, indented, labelled};
+use super::layout::{command, head, indented, labelled};
 use super::style::{Paint, Style, clean};
 use crate::diagnosis::{Diagnosis, Headline};
+use crate::report::digest::capitalised;
+use crate::text::number;
 
 /// Causes told; a core that is wrong everywhere is not helped by a page of them.
 const MOST: usize = 3;
@@ -21,40 +23,30 @@ pub(crate) fn all(diagnoses: &[(&str, &Diagnosis)], style: Style) -> Vec<String>
 
 /// `grep FAIL -A2` finds verdict and cause.
 fn block(core: &str, headline: &Headline, style: Style) -> Vec<String> {
-    let (word, grade) = match headline.tier.is_graded() {
-        true => (style.paint(Paint::Bad, "FAIL"), String::new()),
-        false => (
-            style.paint(Paint::Unknown, "NOTE"),
-            format!(" ({}, not graded)", headline.tier.word()),
-        ),
+    let what = format!("{} on {}: {}", count(headline), clean(core), cases(headline));
+    let mut lines = match headline.tier.is_graded() {
+        true => head(style, Paint::Bad, "FAIL", &what),
+        false => {
+            let what = format!("{what} ({}, not graded)", headline.tier.word());
+            head(style, Paint::Unknown, "NOTE", &what)
+        }
     };
-    let (core, cases) = (clean(core), cases(headline));
-    let mut lines = vec![
-        String::new(),
-        format!("  {word}  {} on {core}: {cases}{grade}", count(headline)),
-        String::new(),
-    ];
-    let sentence = format!("{}.", capitalised(&headline.mistake));
-    let sentence = indented(&sentence).into_iter();
-    lines.extend(sentence.map(|line| style.paint(Paint::Strong, &line)));
+    lines.push(String::new());
+    let sentence = indented(&format!("{}.", capitalised(&headline.mistake)));
+    lines.extend(sentence.iter().map(|line| style.paint(Paint::Strong, line)));
     lines.push(String::new());
     lines.extend(headline.evidence.iter().flat_map(|evidence| labelled("seen", evidence)));
-    for ruled_out in &headline.ruled_out {
-        lines.extend(labelled("not", ruled_out));
-    }
+    lines.extend(headline.ruled_out.iter().flat_map(|ruled_out| labelled("not", ruled_out)));
     lines.extend(labelled("where", &headline.look_at));
     lines.extend(labelled("fix", &headline.fix));
-    lines.push(format!("{:INDENT$}try     {}", "", clean(&headline.command)));
+    lines.push(command(&headline.command));
     lines
 }
 
 /// `one cause explains 3 failures`, and how many more may follow or were not tried.
 fn count(headline: &Headline) -> String {
-    let explained = headline.explains.len();
-    let mut words = match explained {
-        1 => "one cause explains 1 failure".to_owned(),
-        _ => format!("one cause explains {explained} failures"),
-    };
+    let mut words =
+        format!("one cause explains {}", number::count(headline.explains.len(), "failure"));
     if !headline.may_follow.is_empty() {
         words += &format!(", {} more may follow from it", headline.may_follow.len());
     }
@@ -70,13 +62,4 @@ fn cases(headline: &Headline) -> String {
         named.push("…".to_owned());
     }
     named.join(", ")
-}
-
-/// A sentence begins with a capital.
-fn capitalised(words: &str) -> String {
-    let mut letters = words.chars();
-    match letters.next() {
-        Some(first) => first.to_uppercase().chain(letters).collect(),
-        None => String::new(),
-    }
 }

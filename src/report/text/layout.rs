@@ -1,9 +1,19 @@
 //! How the lines of a block stand: their indent, and labels before them.
 
-use super::style::wrap;
+use super::style::{Paint, Style, clean, wrap};
 
 /// Where the text of a block begins.
 pub(crate) const INDENT: usize = 8;
+
+/// An empty line and the first line of a block: `  FAIL  bvh/a on builtin`.
+pub(crate) fn head(style: Style, paint: Paint, word: &str, what: &str) -> Vec<String> {
+    vec![String::new(), format!("  {}  {what}", style.paint(paint, word))]
+}
+
+/// The last line of a block.
+pub(crate) fn command(command: &str) -> String {
+    format!("{:INDENT$}try     {}", "", clean(command))
+}
 
 /// A paragraph below the first line of a block.
 pub(crate) fn indented(text: &str) -> Vec<String> {

@@ -1,5 +1,4 @@
-//! The summary that a run ends with on the terminal: verdict, size, place, next command, in that
-//! order.
+//! The summary that a run ends with on the terminal: verdict, size, place, next command, in that order.
 //!
 //! A pure function of the run's folder: no clock, no core, no look at the terminal beyond the
 //! [`Style`] it is given.
@@ -9,7 +8,9 @@ mod headlines;
 mod layout;
 mod style;
 
-pub use style::{COLUMNS, Paint, Style, clean, mark, paint_of, wrap};
+pub use style::Style;
+use style::mark;
+pub(crate) use style::{Paint, clean, paint_of, wrap};
 
 use super::digest::{
     PartGroup, Tally, by_case, by_part, dearest_ledger, resolution_in_words, weakest_first,
@@ -120,7 +121,6 @@ fn legend(tree: &RunTree, style: Style) -> Vec<String> {
     vec![String::new(), style.paint(Paint::Faint, &format!("    {}", words.join("   ")))]
 }
 
-/// What every trial would have caught, case by case.
 fn resolutions(tree: &RunTree, style: Style) -> Vec<String> {
     let heading = style.paint(Paint::Strong, "what each case would have caught");
     let mut lines = vec![String::new(), format!("  {heading}")];
@@ -195,22 +195,21 @@ fn entries(ledger: &Ledger) -> String {
         format!("{} {name} {}", entry.hypotheses, probability(entry.false_alarm))
     };
     let entries: Vec<_> = ledger.entries().map(entry).collect();
-    let claims = match ledger.hypotheses() {
+    let hypotheses = match ledger.hypotheses() {
         1 => "1 hypothesis".to_owned(),
         many => format!("{many} hypotheses"),
     };
-    let suspected = match ledger.suspected() {
-        0 => "none".to_owned(),
-        some => some.to_string(),
-    };
-    format!("{claims}: {}; {suspected} needed a second look", entries.join(", "))
+    let suspected = Some(ledger.suspected()).filter(|count| *count > 0);
+    let suspected = suspected.map_or("none".to_owned(), |count| count.to_string());
+    format!("{hypotheses}: {}; {suspected} needed a second look", entries.join(", "))
 }
 
-/// The pass that proves least.
 fn weakest(tree: &RunTree) -> Vec<String> {
-    let Some(weakest) = weakest_first(tree.graded()).into_iter().next() else { return Vec::new() };
-    let (case, core) = (clean(&weakest.trial.case), clean(&weakest.trial.core));
-    let caught = clean(&resolution_in_words(weakest.trial));
+    let Some((trial, _)) = weakest_first(tree.graded()).into_iter().next() else {
+        return Vec::new();
+    };
+    let (case, core) = (clean(&trial.case), clean(&trial.core));
+    let caught = clean(&resolution_in_words(trial));
     let text = format!("weakest pass: {case} on {core} {caught}");
     wrap(&text, 2).into_iter().map(|line| format!("  {line}")).collect()
 }

@@ -1,10 +1,9 @@
-//! How the summary looks: colours where they help, marks that say the same without them, lines of
-//! 88 columns.
+//! How the summary looks: colours where they help, marks that say the same without them, lines of 88 columns.
 
 use crate::run::Status;
 
 /// No line is longer, but for commands and paths, which must stay whole.
-pub const COLUMNS: usize = 88;
+pub(crate) const COLUMNS: usize = 88;
 
 /// What the terminal can show, and how much the user wants to read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,16 +16,13 @@ pub struct Style {
 
 /// What a piece of text is, as far as colour goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Paint {
-    /// As it should be.
+pub(crate) enum Paint {
     Good,
     /// Counts against a core.
     Bad,
     /// Nothing is known.
     Unknown,
-    /// Of lesser interest.
     Faint,
-    /// A heading.
     Strong,
 }
 
@@ -34,7 +30,6 @@ impl Style {
     /// Plain text: files, pipes, tests.
     pub const PLAIN: Self = Self { colour: false, verbose: false };
 
-    /// `text` in its colour.
     pub(crate) fn paint(self, paint: Paint, text: &str) -> String {
         if !self.colour || text.is_empty() {
             return text.to_owned();
@@ -51,7 +46,7 @@ impl Style {
 }
 
 /// The one character that stands for a trial in a bar of cells.
-pub const fn mark(status: Status) -> char {
+pub(crate) const fn mark(status: Status) -> char {
     match status {
         Status::Pass => '#',
         Status::Fail => 'x',
@@ -65,7 +60,7 @@ pub const fn mark(status: Status) -> char {
 }
 
 /// What colour a status has.
-pub const fn paint_of(status: Status) -> Paint {
+pub(crate) const fn paint_of(status: Status) -> Paint {
     match status {
         Status::Pass => Paint::Good,
         Status::Fail | Status::Crashed | Status::TimedOut => Paint::Bad,
@@ -74,10 +69,9 @@ pub const fn paint_of(status: Status) -> Paint {
     }
 }
 
-/// Breaks `text` at spaces so that lines stay within the columns when they are indented by
-/// `indent`. Lines of the text stay lines. What would move the cursor or change colours is made
-/// visible.
-pub fn wrap(text: &str, indent: usize) -> Vec<String> {
+/// Breaks `text` at spaces so that lines stay within the columns when they are indented by `indent`. Lines of the text
+/// stay lines. What would move the cursor or change colours is made visible.
+pub(crate) fn wrap(text: &str, indent: usize) -> Vec<String> {
     let width = COLUMNS.saturating_sub(indent).max(20);
     clean(text).lines().flat_map(|line| wrap_line(line, width)).collect()
 }
@@ -100,7 +94,7 @@ fn wrap_line(line: &str, width: usize) -> Vec<String> {
 }
 
 /// `text` without control characters: what comes from a core must not steer the terminal.
-pub fn clean(text: &str) -> String {
+pub(crate) fn clean(text: &str) -> String {
     let visible = |c: char| if c.is_control() && c != '\n' { '\u{fffd}' } else { c };
     text.chars().map(visible).collect()
 }

@@ -1,5 +1,6 @@
 //! The summary as people see it.
 
+use super::style::COLUMNS;
 use super::*;
 use crate::cause::bvh;
 use crate::checks::Finding;
@@ -10,7 +11,6 @@ fn plain(example: Example) -> String {
     summary(&example.tree(), Style::PLAIN)
 }
 
-/// The text without its colours.
 fn uncoloured(text: &str) -> String {
     let mut pieces = text.split('\x1b');
     let first = pieces.next().unwrap_or_default().to_owned();

@@ -40,10 +40,16 @@ impl Context<'_> {
     ///
     /// # Errors
     /// [`CheckError::Broken`] if it names none.
-    pub(crate) fn scene(&self) -> Result<Arc<SceneDescription>, CheckError> {
+    pub(crate) fn scene(&self) -> Result<Arc<SceneDescription>> {
         self.scene.clone().ok_or_else(|| {
             CheckError::Broken("the case names no scene; add `scene = \"…\"`".to_owned())
         })
+    }
+
+    /// A scene that the settings name.
+    pub(crate) fn load(&self, name: &str) -> Result<Arc<SceneDescription>> {
+        let broken = |error: crate::scene::SceneError| CheckError::Broken(error.to_string());
+        self.scenes.load(name, &toml::Table::new()).map_err(broken)
     }
 
     /// Keeps a picture for the report.
@@ -56,7 +62,7 @@ impl Context<'_> {
 ///
 /// # Errors
 /// [`CheckError::Broken`] if it has none.
-pub(crate) fn camera_of(scene: &SceneDescription) -> Result<Camera, CheckError> {
+pub(crate) fn camera_of(scene: &SceneDescription) -> Result<Camera> {
     scene
         .camera
         .ok_or_else(|| CheckError::Broken(format!("scene `{}` has no `[camera]`", scene.name)))
@@ -86,6 +92,9 @@ pub enum PictureRole {
     /// Samples spent on each pixel, as a share of the cap.
     SampleRate,
 }
+
+/// What asking a core comes to: an error if it does not answer.
+pub(crate) type Result<T, E = CheckError> = std::result::Result<T, E>;
 
 /// Why a check came to no finding.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

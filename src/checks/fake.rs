@@ -53,7 +53,7 @@ impl Default for Fake {
             primitive: Box::new(intersection),
             bounds: Box::new(|_, _| panic!("no boxes")),
             direction: Box::new(|_, _| panic!("no directions")),
-            pdf: Box::new(|_| panic!("no densities")),
+            pdf: Box::new(|_| panic!("no pdfs")),
             value: Box::new(|_, _| panic!("no BSDFs")),
             sample: Box::new(|_, _, _, _| panic!("no samples of BSDFs")),
             mean: Box::new(|_, _| panic!("no adaptive means")),

@@ -29,7 +29,7 @@ mod surface;
 #[cfg(test)]
 mod testing;
 
-pub(crate) use context::{CheckError, Context, Picture, PictureRole, camera_of};
+pub(crate) use context::{CheckError, Context, Picture, PictureRole, Result, camera_of};
 pub(crate) use declared::{Declared, check};
 pub(crate) use finding::{Finding, Measure};
 

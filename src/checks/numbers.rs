@@ -1,8 +1,8 @@
 //! The random numbers that a batch of sampling calls is handed.
 
-use crate::contract::Randomness;
+use crate::contract::{BuiltScene, LightSample, Randomness, Result};
 use crate::math::rng::{Seed, uniform};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// Numbers for one batch, drawn from one seed.
 #[derive(Clone)]
@@ -22,6 +22,18 @@ impl Numbers {
         let points = (0..count).map(|_| DVec2::new(uniform(stream), uniform(stream))).collect();
         let lobes = (0..count).map(|_| uniform(stream)).collect();
         Self { points, lobes, seed }
+    }
+
+    /// Samples of a light, one from each point, by as many of these numbers.
+    pub(crate) fn sample_light(
+        &self,
+        scene: &mut dyn BuiltScene,
+        light: u32,
+        from: &[DVec3],
+    ) -> Result<Vec<LightSample>> {
+        let mut samples = vec![LightSample::NONE; from.len()];
+        scene.sample_light(light, from, self.randomness(), &mut samples)?;
+        Ok(samples)
     }
 
     /// As a core is handed them.

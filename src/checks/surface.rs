@@ -2,7 +2,7 @@
 //! `{ glass = { index = 1.5 } }`, `{ conductor = { reflectance = 1, roughness = 0.3 } }`,
 //! `{ rough-glass = { index = 1.5, roughness = 0.3 } }`.
 
-use crate::contract::{BsdfQuery, BsdfValue, Capabilities, Core, Result};
+use crate::contract::{BsdfQuery, BsdfSample, BsdfValue, Capabilities, Core, Randomness, Result};
 use crate::math::rng::Stream;
 use crate::math::sphere::{on_hemisphere, on_sphere};
 use crate::scene::{Material, Surface};
@@ -11,7 +11,7 @@ use glam::DVec3;
 use serde::Deserialize;
 use std::fmt;
 
-/// A surface that does not glow.
+/// A surface without emission.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) enum SurfaceEntry {
@@ -36,7 +36,7 @@ pub(crate) struct GlassEntry {
     /// Multiplies what is reflected.
     #[serde(default = "white")]
     pub(crate) reflectance: Reflectance,
-    /// Multiplies what is let through.
+    /// Multiplies what is transmitted.
     #[serde(default = "white")]
     pub(crate) transmittance: Reflectance,
 }
@@ -62,7 +62,7 @@ pub(crate) struct RoughGlassEntry {
     /// Multiplies what is reflected.
     #[serde(default = "white")]
     pub(crate) reflectance: Reflectance,
-    /// Multiplies what is let through.
+    /// Multiplies what is transmitted.
     #[serde(default = "white")]
     pub(crate) transmittance: Reflectance,
 }
@@ -107,6 +107,14 @@ impl SurfaceEntry {
         surfaces.iter().fold(Capabilities::empty(), |all, surface| all | surface.needs())
     }
 
+    /// An error about the first that a core evaluates as zero everywhere, which says why.
+    pub(crate) fn refuse_delta(surfaces: &[Self], why: &str) -> std::result::Result<(), String> {
+        match surfaces.iter().find(|surface| surface.is_delta()) {
+            Some(delta) => Err(format!("{delta} {why}")),
+            None => Ok(()),
+        }
+    }
+
     /// Whether light passes, so that samples may lie on either side, and viewers too.
     pub(crate) fn lets_pass(self) -> bool {
         lets_pass(&self.material().surface)
@@ -140,9 +148,6 @@ impl fmt::Display for SurfaceEntry {
 }
 
 /// What a core says of a material at pairs of directions.
-///
-/// # Errors
-/// If it does not answer.
 pub(crate) fn evaluated(
     core: &mut dyn Core,
     material: &Material,
@@ -151,6 +156,18 @@ pub(crate) fn evaluated(
     let mut values = vec![BsdfValue { f: [0.0; 3], pdf: 0.0 }; queries.len()];
     core.eval_bsdf(material, queries, &mut values)?;
     Ok(values)
+}
+
+/// One sample for each view.
+pub(crate) fn sampled(
+    core: &mut dyn Core,
+    material: &Material,
+    wo: &[DVec3],
+    random: Randomness<'_>,
+) -> Result<Vec<BsdfSample>> {
+    let mut samples = vec![BsdfSample::NONE; wo.len()];
+    core.sample_bsdf(material, wo, random, &mut samples)?;
+    Ok(samples)
 }
 
 /// Whether light that is scattered to one side may come from the other.

@@ -73,6 +73,15 @@ pub(crate) fn failure(finding: &Finding) -> &str {
     &finding.statement
 }
 
+/// The causes that a failure names, the likeliest first.
+///
+/// # Panics
+/// If it is none.
+pub(crate) fn causes(finding: &Finding) -> Vec<&str> {
+    failure(finding);
+    finding.clues.iter().map(|clue| clue.cause.as_str()).collect()
+}
+
 /// Asserts that a finding passes and says what it would have caught.
 ///
 /// # Panics

@@ -1,5 +1,7 @@
 //! Adaptive sampling.
 
+mod answered_stream;
+mod known_stream;
 mod random_stream;
 mod rule;
 mod sample_counts;

@@ -3,7 +3,7 @@
 use super::rule::{Rule, Sums, WRONG_RULES, stops};
 use crate::cause::{Cause, adaptive};
 use crate::checks::phrase::{figure, percent};
-use crate::checks::{CheckError, Measure};
+use crate::checks::{CheckError, Measure, Result};
 use crate::contract::{AdaptiveMean, AdaptiveSettings, Core, Precision};
 use crate::math::rng::{Seed, uniform};
 use crate::stats::{
@@ -108,11 +108,7 @@ pub(super) struct Judged {
 }
 
 impl Trial<'_> {
-    pub(super) fn judge(
-        &mut self,
-        of_counts: &Effort,
-        of_mean: &Effort,
-    ) -> Result<Judged, CheckError> {
+    pub(super) fn judge(&mut self, of_counts: &Effort, of_mean: &Effort) -> Result<Judged> {
         let law = self.entry.law(stops, self.entry.batch, 0.0);
         let counts = self.judge_counts(of_counts)?;
         let claim = Claim::value(law.mean, Band::math(self.precision));
@@ -138,7 +134,7 @@ impl Trial<'_> {
     }
 
     /// Whether the counts follow the law of the rule.
-    fn judge_counts(&mut self, effort: &Effort) -> Result<CountReport, CheckError> {
+    fn judge_counts(&mut self, effort: &Effort) -> Result<CountReport> {
         let expected = self.entry.cells(stops, self.entry.batch, self.precision);
         let seed = self.seed.child("counts");
         judge_counts(&expected, effort, &mut |stage, samples| {
@@ -160,7 +156,7 @@ impl Trial<'_> {
         seed: Seed,
         count: u64,
         take: &mut dyn FnMut(&AdaptiveMean),
-    ) -> Result<(), CheckError> {
+    ) -> Result<()> {
         let (cap, values) = (self.entry.cap as usize, self.entry.values());
         let mut draws = seed.stream();
         let mut samples = Vec::new();

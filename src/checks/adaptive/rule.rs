@@ -44,7 +44,6 @@ pub(crate) struct Sums {
 }
 
 impl Sums {
-    /// Of some samples.
     pub(crate) fn of(samples: &[f64]) -> Self {
         let squares = samples.iter().map(|x| x * x).sum();
         Self { n: samples.len() as f64, sum: samples.iter().sum(), squares }
@@ -57,7 +56,6 @@ impl Sums {
         Self { n: n as f64, sum: lows * low + highs * high, squares }
     }
 
-    /// Their mean.
     pub(crate) fn mean(&self) -> f64 {
         self.sum / self.n
     }

@@ -1,7 +1,7 @@
 //! Adaptive pictures: sample counts in range, and means divided by the samples that were used.
 
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, Picture, PictureRole, check};
+use crate::checks::{Check, Context, Finding, Measure, Picture, PictureRole, Result, check};
 use crate::contract::{Acceleration, AdaptiveSettings, Film};
 use crate::image::{CHANNELS, Image};
 use crate::stats::Verdict;
@@ -11,7 +11,6 @@ use crate::text::{Bounces, Lit, Percent, Size};
 const EXACT_PIXEL: f64 = 1e-5;
 
 check! {
-    /// Renders a scene adaptively and looks at the counts.
     pub(crate) struct SampleCounts {
         size: Size,
         bounces: Bounces,
@@ -37,7 +36,7 @@ impl Check for SampleCounts {
         Ok(())
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let settings =
             AdaptiveSettings { samples_per_batch: self.batch, max_tolerance: self.tolerance.0 };

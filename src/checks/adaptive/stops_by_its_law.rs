@@ -6,18 +6,16 @@
 use super::random_stream::{Judged, StreamEntry, Trial};
 use crate::cause::adaptive;
 use crate::checks::phrase::percent;
-use crate::checks::{Check, CheckError, Context, Finding, check};
+use crate::checks::{Check, Context, Finding, Result, check};
 use crate::stats::Verdict;
 use crate::text::{Count, Percent, Several};
 
 check! {
-    /// Random streams of two values stop by the exact law of the rule.
     pub(crate) struct StopsByItsLaw {
         /// The smallest error of the law of the counts that must be seen, root mean square.
         detects: Percent,
         /// The smallest error of the mean that must be seen.
         mean_detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
         stream: Several<StreamEntry>,
     }
@@ -31,7 +29,7 @@ impl Check for StopsByItsLaw {
         self.stream.iter().try_for_each(StreamEntry::validate)
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let precision = context.info.precision;
         let effort = |detects: Percent| context.effort(detects, self.at_most);
         let (of_counts, of_mean) = (effort(self.detects), effort(self.mean_detects));
@@ -76,15 +74,11 @@ fn passing_statement(judged: &[Judged]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::rule::Rule;
-    use super::super::rule::Sums;
-    use super::super::rule::WRONG_RULES;
-    use super::super::rule::stops;
+    use super::super::rule::{Rule, Sums, WRONG_RULES, stops};
     use super::*;
     use crate::checks::fake::Fake;
-    use crate::checks::testing::{assert_passes, check_of, failure, judge};
-    use crate::contract::AdaptiveMean;
-    use crate::contract::AdaptiveSettings;
+    use crate::checks::testing::{assert_passes, causes, check_of, failure, judge};
+    use crate::contract::{AdaptiveMean, AdaptiveSettings};
 
     const CASE: &str =
         include_str!("../../../cases/adaptive/stop-counts-follow-their-distribution.toml");
@@ -143,8 +137,7 @@ mod tests {
     fn every_wrong_rule_is_named() {
         for (cause, rule) in WRONG_RULES {
             let finding = found(Stopping { rule: *rule, ..RIGHT });
-            let (statement, clues) = (failure(&finding).to_owned(), &finding.clues);
-            assert!(clues.len() == 1 && clues[0].cause == cause.name, "{statement} {clues:?}");
+            assert_eq!(causes(&finding), [cause.name], "{finding:?}");
         }
     }
 
@@ -158,9 +151,7 @@ mod tests {
     #[test]
     fn counts_that_are_the_cap_beside_right_means_are_named() {
         let finding = found_by(&check_of(CASE), Stopping { says_cap: true, ..RIGHT });
-        failure(&finding);
-        let clues: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
-        assert_eq!(clues, [adaptive::COUNTS_ARE_CAP.name]);
+        assert_eq!(causes(&finding), [adaptive::COUNTS_ARE_CAP.name]);
     }
 
     #[test]

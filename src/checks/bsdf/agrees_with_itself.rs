@@ -2,17 +2,16 @@
 
 use super::drawn::Drawn;
 use crate::checks::surface::SurfaceEntry;
-use crate::checks::{Check, CheckError, Context, Finding, check};
+use crate::checks::{Check, Context, Finding, Result, check};
 use crate::contract::Capabilities;
 use crate::text::Several;
 
 check! {
-    /// Sampled directions are evaluated again.
     pub(crate) struct AgreesWithItself {
         surface: Several<SurfaceEntry>,
     }
     name: "bsdf-agrees-with-itself",
-    summary: "sampled values and densities are those that are evaluated",
+    summary: "sampled values and pdfs are those that are evaluated",
     needs: EVAL_BSDF | SAMPLE_BSDF,
 }
 
@@ -21,7 +20,7 @@ impl Check for AgreesWithItself {
         SurfaceEntry::all_need(&self.surface)
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let mut judged = Vec::new();
         for surface in self.surface.iter() {
             judged.push(Drawn::new(context, *surface)?.judge(context)?);
@@ -63,7 +62,7 @@ mod tests {
     #[test]
     fn another_density_in_samples_is_seen() {
         let fake = Lambertian { sampled_pdf: 0.999, ..Lambertian::default() };
-        assert!(failure(&found(fake)).contains("another density"));
+        assert!(failure(&found(fake)).contains("another pdf"));
     }
 
     #[test]
@@ -96,7 +95,7 @@ mod tests {
     #[test]
     fn a_steep_density_is_forgiven_what_rounding_changes_and_no_more() {
         assert_passes(&steep(1.0));
-        assert!(failure(&steep(1.1)).contains("another density"));
+        assert!(failure(&steep(1.1)).contains("another pdf"));
     }
 
     #[test]

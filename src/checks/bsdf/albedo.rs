@@ -48,7 +48,6 @@ impl Albedo {
         }
     }
 
-    /// All of it.
     pub(crate) fn sum(self) -> f64 {
         match self {
             Self::OfOneSide(albedo) => albedo,

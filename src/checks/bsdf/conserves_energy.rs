@@ -5,7 +5,7 @@ use super::wrong_value::{DIRECTIONS, mistake_of};
 use crate::cause::Cause;
 use crate::checks::phrase::{degrees, figure};
 use crate::checks::surface::{SurfaceEntry, evaluated, kink, seen_from};
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
 use crate::contract::{BsdfQuery, Capabilities};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
@@ -16,7 +16,6 @@ use crate::text::{Polar, Several};
 const CELLS: (usize, usize) = (4, 8);
 
 check! {
-    /// Integrates f · cos over the sphere, from several views.
     pub(crate) struct ConservesEnergy {
         surface: Several<SurfaceEntry>,
         seen_from: Several<Polar>,
@@ -32,13 +31,10 @@ impl Check for ConservesEnergy {
     }
 
     fn validate(&self) -> Result<(), String> {
-        match self.surface.iter().find(|surface| surface.is_delta()) {
-            Some(delta) => Err(format!("{delta} is zero wherever it is evaluated")),
-            None => Ok(()),
-        }
+        SurfaceEntry::refuse_delta(&self.surface, "is zero wherever it is evaluated")
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let mut measures = Vec::new();
         for surface in self.surface.iter() {
             for Polar(angle) in self.seen_from.iter() {
@@ -59,7 +55,7 @@ impl Check for ConservesEnergy {
 
 impl ConservesEnergy {
     /// What is wrong with the surfaces, if it is the same with all of them that something is wrong with.
-    fn mistakes(&self, context: &mut Context<'_>) -> Result<Vec<&'static Cause>, CheckError> {
+    fn mistakes(&self, context: &mut Context<'_>) -> Result<Vec<&'static Cause>> {
         let mut causes = Vec::new();
         for surface in self.surface.iter() {
             causes.extend(mistake_of(context, *surface)?);
@@ -82,7 +78,7 @@ fn albedo_measures(
     context: &mut Context<'_>,
     surface: SurfaceEntry,
     angle: f64,
-) -> Result<Vec<Measure>, CheckError> {
+) -> Result<Vec<Measure>> {
     let relative = Tolerance::FORMULA.of(context.info.precision);
     let expected = Albedo::expected(surface, angle, context.info.conventions);
     let (material, wo) = (surface.material(), seen_from(angle));

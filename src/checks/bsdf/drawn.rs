@@ -4,8 +4,8 @@ use crate::cause::{Cause, bsdf};
 use crate::checks::form::Form;
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::some_are;
-use crate::checks::surface::{SurfaceEntry, evaluated};
-use crate::checks::{CheckError, Context, Measure};
+use crate::checks::surface::{SurfaceEntry, evaluated, sampled};
+use crate::checks::{Context, Measure, Result};
 use crate::contract::{BsdfQuery, BsdfSample, BsdfValue};
 use crate::math::frame::direction;
 use crate::math::rng::{Stream, uniform};
@@ -49,22 +49,18 @@ pub(super) fn views(surface: SurfaceEntry, stream: &mut Stream) -> Vec<DVec3> {
 }
 
 impl Drawn {
-    pub(super) fn new(
-        context: &mut Context<'_>,
-        surface: SurfaceEntry,
-    ) -> Result<Self, CheckError> {
+    pub(super) fn new(context: &mut Context<'_>, surface: SurfaceEntry) -> Result<Self> {
         let seed = context.seed.child(surface);
         let mut stream = seed.stream();
         let each = |view: DVec3| std::iter::repeat_n(view, SAMPLES_PER_VIEW);
         let views: Vec<_> = views(surface, &mut stream).into_iter().flat_map(each).collect();
         let numbers = Numbers::new(seed.child("numbers"), views.len());
-        let mut samples = vec![BsdfSample::NONE; views.len()];
         let random = numbers.randomness();
-        context.core.sample_bsdf(&surface.material(), &views, random, &mut samples)?;
+        let samples = sampled(context.core, &surface.material(), &views, random)?;
         Ok(Self { surface, views, samples })
     }
 
-    pub(super) fn judge(&self, context: &mut Context<'_>) -> Result<Judged, CheckError> {
+    pub(super) fn judge(&self, context: &mut Context<'_>) -> Result<Judged> {
         if self.surface.is_delta() {
             return self.judge_delta(context);
         }
@@ -88,13 +84,13 @@ impl Drawn {
         let name = self.surface.to_string();
         let dark = |below| Measure::none("directions below the horizon with a value", below);
         let measures =
-            [Measure::worst("density of a sample", &pdf), Measure::worst("value of a sample", &f)];
+            [Measure::worst("pdf of a sample", &pdf), Measure::worst("value of a sample", &f)];
         let measures = measures.into_iter().chain(below.map(dark)).map(|m| m.of_row(&name));
         let measures = measures.collect();
         let below = below.unwrap_or(0);
         let complaint = if pdf.disagree > 0 {
             Some(format!(
-                "{} drawn with another density than evaluated",
+                "{} drawn with another pdf than evaluated",
                 some_are(pdf.disagree, pdf.compared, "samples")
             ))
         } else if f.disagree > 0 {
@@ -104,7 +100,7 @@ impl Drawn {
             ))
         } else {
             (below > 0)
-                .then(|| format!("{below} directions below the horizon have a value or a density"))
+                .then(|| format!("{below} directions below the horizon have a value or a pdf"))
         };
         let cause = match (pdf.disagree, f.disagree) {
             (0, 0) if below > 0 => Some(&bsdf::LIGHT_FROM_BELOW),
@@ -116,7 +112,7 @@ impl Drawn {
     }
 
     /// A mirror or glass says so, and is nothing to whoever evaluates it.
-    fn judge_delta(&self, context: &mut Context<'_>) -> Result<Judged, CheckError> {
+    fn judge_delta(&self, context: &mut Context<'_>) -> Result<Judged> {
         let unmarked = self.valid().filter(|(_, sample)| sample.is_delta == 0).count();
         let mut stream = context.seed.child("elsewhere").stream();
         let elsewhere: Vec<_> =
@@ -143,7 +139,7 @@ impl Drawn {
         &self,
         context: &mut Context<'_>,
         pairs: impl Iterator<Item = (DVec3, DVec3)>,
-    ) -> Result<Vec<BsdfValue>, CheckError> {
+    ) -> Result<Vec<BsdfValue>> {
         let queries: Vec<_> = pairs.map(|(wo, wi)| BsdfQuery { wo, wi }).collect();
         Ok(evaluated(context.core, &self.surface.material(), &queries)?)
     }
@@ -156,7 +152,7 @@ impl Drawn {
         valid: &[(DVec3, BsdfSample)],
         values: &[BsdfValue],
         compared: &mut [[Compared; 4]],
-    ) -> Result<(), CheckError> {
+    ) -> Result<()> {
         let rounding = Tolerance::DIRECTION.of(context.info.precision);
         let differing: Vec<_> = (0..valid.len())
             .filter(|number| !compared[*number].iter().all(Compared::agrees))
@@ -178,7 +174,7 @@ impl Drawn {
     }
 
     /// A surface that reflects only has no value below the horizon. `None` where light passes.
-    fn lit_below_horizon(&self, context: &mut Context<'_>) -> Result<Option<usize>, CheckError> {
+    fn lit_below_horizon(&self, context: &mut Context<'_>) -> Result<Option<usize>> {
         if self.surface.lets_pass() {
             return Ok(None);
         }

@@ -1,7 +1,8 @@
-//! A Lambertian core that can be wrong in the ways these checks are for.
+//! A Lambertian core, and one of mirrors and glass, that can be wrong in the ways these checks are for.
 
+use super::interface::{Interface, Mistake};
 use crate::checks::fake::Fake;
-use crate::contract::{BsdfSample, BsdfValue};
+use crate::contract::{BsdfSample, BsdfValue, Conventions};
 use crate::math::sphere::at_height;
 use crate::scene::{Material, Surface};
 use glam::DVec3;
@@ -41,7 +42,6 @@ impl Lambertian {
         BsdfValue { f: reflectance.map(|r| r * factor), pdf: wi.z.abs() * FRAC_1_PI }
     }
 
-    /// The core.
     pub(crate) fn core(self) -> Fake {
         Fake {
             value: Box::new(move |material, query| self.value(material, query.wo, query.wi)),
@@ -53,5 +53,41 @@ impl Lambertian {
             }),
             ..Fake::default()
         }
+    }
+}
+
+/// Chooses between the lobes of an interface by their probability.
+#[derive(Clone, Copy)]
+pub(crate) struct Smooth {
+    pub(crate) mistake: Option<&'static Mistake>,
+    pub(crate) conventions: Conventions,
+    pub(crate) spoil: fn(&mut BsdfSample),
+}
+
+impl Default for Smooth {
+    fn default() -> Self {
+        Self { mistake: None, conventions: Conventions::default(), spoil: |_| () }
+    }
+}
+
+impl Smooth {
+    pub(crate) fn sample(&self, material: &Material, wo: DVec3, chosen: f64) -> BsdfSample {
+        let interface = Interface::new(material.surface, self.conventions);
+        let lobes = match self.mistake {
+            None => interface.lobes(wo),
+            Some(mistake) => interface.mistaken(wo, mistake),
+        };
+        let share = lobes.reflected.map_or(0.0, |lobe| lobe.probability);
+        let lobe = if chosen < share { lobes.reflected } else { lobes.refracted };
+        let Some(lobe) = lobe else { return BsdfSample::NONE };
+        let mut sample = BsdfSample {
+            wi: lobe.wi,
+            f: lobe.carried.map(|carried| carried / lobe.wi.z.abs()),
+            pdf: lobe.probability,
+            is_delta: 1,
+            is_valid: 1,
+        };
+        (self.spoil)(&mut sample);
+        sample
     }
 }

@@ -8,7 +8,7 @@ use super::ggx_pair::{MISTAKES, Mistake, Pair};
 use crate::cause::Cause;
 use crate::checks::phrase::{figure, percent, some_are};
 use crate::checks::surface::{SurfaceEntry, evaluated};
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{BsdfQuery, BsdfValue, SmithTerm};
 use crate::math::sphere::on_hemisphere;
 use crate::scene::Surface;
@@ -23,7 +23,6 @@ const GRAZING: f64 = 1e-3;
 const LIKENESS: f64 = 100.0;
 
 check! {
-    /// Rough conductors, at random pairs of directions.
     pub(crate) struct FollowsGgx {
         surface: Several<SurfaceEntry>,
     }
@@ -36,12 +35,12 @@ impl Check for FollowsGgx {
     fn validate(&self) -> Result<(), String> {
         let other = self.surface.iter().find(|s| !matches!(s, SurfaceEntry::Conductor(_)));
         match other {
-            Some(other) => Err(format!("{other} has no facets; give conductors")),
+            Some(other) => Err(format!("{other} has no microfacets; give conductors")),
             None => Ok(()),
         }
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let smith = context.info.conventions.smith_term;
         let mut tried = Vec::new();
         for surface in self.surface.iter() {
@@ -63,7 +62,7 @@ impl Tried {
         context: &mut Context<'_>,
         surface: SurfaceEntry,
         smith: SmithTerm,
-    ) -> Result<Option<Self>, CheckError> {
+    ) -> Result<Option<Self>> {
         let material = surface.material();
         let Surface::Conductor { reflectance, roughness } = material.surface else {
             return Ok(None);

@@ -7,12 +7,12 @@ mod drawn;
 #[cfg(test)]
 mod fake;
 mod follows_ggx;
-mod ggx_pair;
+pub(super) mod ggx_pair;
 mod interface;
-pub(super) mod metal;
 mod reciprocal;
 mod reflects_and_refracts;
 pub(super) mod rough_glass;
+mod smooth_trial;
 mod smooth_view;
 mod weights_make_the_albedo;
 mod wrong_value;

@@ -2,7 +2,7 @@
 
 use crate::checks::phrase::some_are;
 use crate::checks::surface::{SurfaceEntry, evaluated};
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
 use crate::contract::{BsdfQuery, BsdfValue, Capabilities, GlassRadiance};
 use crate::scene::Rgb;
 use crate::stats::{Compared, Tolerance, judge_exact};
@@ -14,7 +14,6 @@ const PAIRS: usize = 10_000;
 const GRAZING: f64 = 1e-3;
 
 check! {
-    /// Light and eye are exchanged.
     pub(crate) struct Reciprocal {
         surface: Several<SurfaceEntry>,
     }
@@ -29,13 +28,10 @@ impl Check for Reciprocal {
     }
 
     fn validate(&self) -> Result<(), String> {
-        match self.surface.iter().find(|surface| surface.is_delta()) {
-            Some(delta) => Err(format!("{delta} is zero wherever it is evaluated")),
-            None => Ok(()),
-        }
+        SurfaceEntry::refuse_delta(&self.surface, "is zero wherever it is evaluated")
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let allowed = Tolerance::FORMULA.of(context.info.precision);
         let mut measures = Vec::new();
         let mut complaints = Vec::new();
@@ -60,7 +56,7 @@ impl Check for Reciprocal {
 fn there_and_back(
     context: &mut Context<'_>,
     surface: SurfaceEntry,
-) -> Result<(Vec<Rgb>, Vec<Rgb>), CheckError> {
+) -> Result<(Vec<Rgb>, Vec<Rgb>)> {
     let mut stream = context.seed.child(surface).stream();
     let mut direction = || surface.direction(&mut stream);
     let there: Vec<_> = (0..PAIRS)

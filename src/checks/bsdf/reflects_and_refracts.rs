@@ -4,23 +4,13 @@
 //! carries (Fresnel's share times the colour), and the chance of choosing it, which the core may pick but has to say.
 
 use super::interface::{Interface, MISTAKES};
-use super::smooth_view::{Allowed, SmoothView, is_reflection};
-use crate::cause::{Cause, bsdf as cause};
-use crate::checks::numbers::Numbers;
+use super::smooth_trial::Trial;
+use super::smooth_view::{Allowed, SmoothView, chance_clue, mark_clue};
 use crate::checks::phrase::{degrees, percent};
-use crate::checks::surface::{SurfaceEntry, seen_from};
-use crate::checks::{Check, CheckError, Context, Finding, check};
-use crate::contract::{BsdfSample, Core};
-use crate::math::rng::Seed;
-use crate::scene::Material;
-use crate::stats::{Band, Effort, ShareReport, Tolerance, judge_share};
+use crate::checks::surface::SurfaceEntry;
+use crate::checks::{Check, Context, Finding, Result, check};
+use crate::stats::{Band, Tolerance};
 use crate::text::{Count, Percent, Polar, Several};
-use glam::DVec3;
-
-/// Samples of each view that are looked at one by one: a lobe of 4 % is missed with probability 1e-72.
-const EXAMINED: usize = 4096;
-/// Samples drawn in one batch.
-const BATCH: u64 = 1 << 16;
 
 check! {
     /// Samples a mirror or glass from some angles; beyond 90° the viewer is inside.
@@ -29,7 +19,6 @@ check! {
         seen_from: Several<Polar>,
         /// The smallest error of the share of samples reflected.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
     }
     name: "reflects-and-refracts",
@@ -45,7 +34,7 @@ impl Check for ReflectsAndRefracts {
         }
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let precision = context.info.precision;
         let material = self.surface.material();
         let trial = Trial {
@@ -61,165 +50,52 @@ impl Check for ReflectsAndRefracts {
         let seed = context.seed;
         let view = |Polar(angle): &Polar| trial.view(context.core, *angle, seed.child(angle));
         let views = self.seen_from.iter().map(view).collect::<Result<Vec<_>, _>>()?;
-        Ok(trial.explained(trial.finding(self.surface, &views), &views))
+        Ok(explained(&trial, finding(&trial, self.surface, &views), &views))
     }
 }
 
-/// What is asked of every view.
-struct Trial {
-    material: Material,
-    interface: Interface,
-    allowed: Allowed,
-    effort: Effort,
-    band: Band,
+fn finding(trial: &Trial, surface: SurfaceEntry, views: &[SmoothView]) -> Finding {
+    let right = format!("{surface} does what it should in {} views", views.len());
+    let complaint = views.iter().find_map(SmoothView::complaint);
+    let resolution = format!(
+        "would have caught a direction {} off, and an error of {} of what is reflected",
+        degrees(trial.allowed.direction),
+        percent(trial.allowed.formula)
+    );
+    let measures = views.iter().flat_map(SmoothView::measures).collect();
+    Finding::of(right, resolution, measures)
+        .complaining(complaint.map(|complaint| format!("{surface} {complaint}")))
 }
 
-impl Trial {
-    fn view(&self, core: &mut dyn Core, angle: f64, seed: Seed) -> Result<SmoothView, CheckError> {
-        let wo = seen_from(angle);
-        let mut view = SmoothView {
-            name: format!("at {}", degrees(angle)),
-            wo,
-            right: self.interface.lobes(wo),
-            samples: self.samples(core, wo, seed.child("examined"), EXAMINED)?,
-            chance: None,
-            allowed: self.allowed,
-        };
-        if let Some(stated) = view.stated_chance() {
-            view.chance = Some(self.chance(core, wo, stated, seed)?);
+/// With the mistakes that predict every sample of every view.
+fn explained(trial: &Trial, mut finding: Finding, views: &[SmoothView]) -> Finding {
+    if !finding.failed() {
+        return finding;
+    }
+    for mistake in MISTAKES {
+        let mistaken = |view: &SmoothView| trial.interface.mistaken(view.wo, mistake);
+        let differs = views.iter().any(|view| mistaken(view) != view.right);
+        if differs && views.iter().all(|view| view.is_predicted_by(mistaken(view))) {
+            let evidence = format!("predicts every sample of {} views", views.len());
+            finding = finding.because(mistake.cause, evidence);
         }
-        Ok(view)
     }
-
-    fn samples(
-        &self,
-        core: &mut dyn Core,
-        wo: DVec3,
-        seed: Seed,
-        count: usize,
-    ) -> Result<Vec<BsdfSample>, CheckError> {
-        let mut samples = vec![BsdfSample::NONE; count];
-        let numbers = Numbers::new(seed, count);
-        core.sample_bsdf(&self.material, &vec![wo; count], numbers.randomness(), &mut samples)?;
-        Ok(samples)
-    }
-
-    /// Whether samples are reflected as often as they say.
-    fn chance(
-        &self,
-        core: &mut dyn Core,
-        wo: DVec3,
-        stated: f64,
-        seed: Seed,
-    ) -> Result<ShareReport, CheckError> {
-        judge_share(stated, self.band, &self.effort, &mut |stage, trials| {
-            let mut reflected = 0;
-            for batch in 0..trials.div_ceil(BATCH) {
-                let count = BATCH.min(trials - batch * BATCH);
-                let count = usize::try_from(count).unwrap_or(usize::MAX);
-                let samples = self.samples(core, wo, seed.child(stage).child(batch), count)?;
-                reflected += samples.iter().filter(|s| is_reflection(s, wo)).count() as u64;
-            }
-            Ok(reflected)
-        })
-    }
-
-    fn finding(&self, surface: SurfaceEntry, views: &[SmoothView]) -> Finding {
-        let right = format!("{surface} does what it should in {} views", views.len());
-        let complaint = views.iter().find_map(SmoothView::complaint);
-        let resolution = format!(
-            "would have caught a direction {} off, and an error of {} of what is reflected",
-            degrees(self.allowed.direction),
-            percent(self.allowed.formula)
-        );
-        let measures = views.iter().flat_map(SmoothView::measures).collect();
-        Finding::of(right, resolution, measures)
-            .complaining(complaint.map(|complaint| format!("{surface} {complaint}")))
-    }
-
-    /// With the mistakes that predict every sample of every view.
-    fn explained(&self, mut finding: Finding, views: &[SmoothView]) -> Finding {
-        if !finding.failed() {
-            return finding;
-        }
-        for mistake in MISTAKES {
-            let mistaken = |view: &SmoothView| self.interface.mistaken(view.wo, mistake);
-            let differs = views.iter().any(|view| mistaken(view) != view.right);
-            if differs && views.iter().all(|view| view.is_predicted_by(mistaken(view))) {
-                let evidence = format!("predicts every sample of {} views", views.len());
-                finding = finding.because(mistake.cause, evidence);
-            }
-        }
-        finding.because_of(chance_clue(views).into_iter().chain(mark_clue(views)))
-    }
-}
-
-/// What is wrong with the chances of the two ways, if only they are.
-fn chance_clue(views: &[SmoothView]) -> Option<(&'static Cause, String)> {
-    let sure: Vec<_> = views.iter().filter_map(SmoothView::is_sure_of_both).collect();
-    if !sure.is_empty() && sure.iter().all(|sure| *sure) {
-        let evidence = format!("pdf is 1 in {} views that go both ways", sure.len());
-        return Some((&cause::DELTA_PROBABILITY_IS_ONE, evidence));
-    }
-    let (stated, share) = views.iter().find_map(SmoothView::other_chance)?;
-    let (stated, share) = (percent(stated), percent(share));
-    let evidence = format!("{share} of samples are reflections where pdf says {stated}");
-    Some((&cause::LOBE_PROBABILITY_MISMATCH, evidence))
-}
-
-/// Right samples that no view has marked.
-fn mark_clue(views: &[SmoothView]) -> Option<(&'static Cause, String)> {
-    let evidence = format!("is-delta is 0 in {} views, and all else is right", views.len());
-    views.iter().all(SmoothView::lacks_its_mark).then_some((&cause::MIRROR_NOT_DELTA, evidence))
+    finding.because_of(chance_clue(views).into_iter().chain(mark_clue(views)))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::interface::Mistake;
+    use super::super::fake::Smooth;
     use super::*;
+    use crate::cause::bsdf as cause;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
-    use crate::contract::{Conventions, GlassFresnel, GlassRadiance};
+    use crate::contract::{BsdfSample, Conventions, GlassFresnel, GlassRadiance};
     use crate::stats::Verdict;
+    use glam::DVec3;
 
     const GLASS: &str = include_str!("../../../cases/bsdf/glass-follows-snell-and-fresnel.toml");
     const MIRROR: &str = include_str!("../../../cases/bsdf/mirror-reflects-its-reflectance.toml");
-
-    /// Chooses between the lobes of an interface by their probability.
-    #[derive(Clone, Copy)]
-    struct Smooth {
-        mistake: Option<&'static Mistake>,
-        conventions: Conventions,
-        spoil: fn(&mut BsdfSample),
-    }
-
-    impl Default for Smooth {
-        fn default() -> Self {
-            Self { mistake: None, conventions: Conventions::default(), spoil: |_| () }
-        }
-    }
-
-    impl Smooth {
-        fn sample(&self, material: &Material, wo: DVec3, chosen: f64) -> BsdfSample {
-            let interface = Interface::new(material.surface, self.conventions);
-            let lobes = match self.mistake {
-                None => interface.lobes(wo),
-                Some(mistake) => interface.mistaken(wo, mistake),
-            };
-            let share = lobes.reflected.map_or(0.0, |lobe| lobe.probability);
-            let lobe = if chosen < share { lobes.reflected } else { lobes.refracted };
-            let Some(lobe) = lobe else { return BsdfSample::NONE };
-            let mut sample = BsdfSample {
-                wi: lobe.wi,
-                f: lobe.carried.map(|carried| carried / lobe.wi.z.abs()),
-                pdf: lobe.probability,
-                is_delta: 1,
-                is_valid: 1,
-            };
-            (self.spoil)(&mut sample);
-            sample
-        }
-    }
 
     fn found(case: &str, smooth: Smooth) -> Finding {
         // The chance of a reflection is not what takes time to judge here.

@@ -1,6 +1,7 @@
 //! What a core made of one view of a mirror or of glass, next to what is right.
 
 use super::interface::{Lobe, Lobes};
+use crate::cause::{Cause, bsdf as cause};
 use crate::checks::Measure;
 use crate::checks::phrase::{degrees, figure, percent};
 use crate::contract::BsdfSample;
@@ -216,6 +217,25 @@ impl SmoothView {
         let (stated, share) = (percent(chance.expected), percent(chance.share));
         Some(format!("{share} of samples are reflected, and pdf says {stated}"))
     }
+}
+
+/// What is wrong with the chances of the two ways, if only they are.
+pub(super) fn chance_clue(views: &[SmoothView]) -> Option<(&'static Cause, String)> {
+    let sure: Vec<_> = views.iter().filter_map(SmoothView::is_sure_of_both).collect();
+    if !sure.is_empty() && sure.iter().all(|sure| *sure) {
+        let evidence = format!("pdf is 1 in {} views that go both ways", sure.len());
+        return Some((&cause::DELTA_PROBABILITY_IS_ONE, evidence));
+    }
+    let (stated, share) = views.iter().find_map(SmoothView::other_chance)?;
+    let (stated, share) = (percent(stated), percent(share));
+    let evidence = format!("{share} of samples are reflections where pdf says {stated}");
+    Some((&cause::LOBE_PROBABILITY_MISMATCH, evidence))
+}
+
+/// Right samples that no view has marked.
+pub(super) fn mark_clue(views: &[SmoothView]) -> Option<(&'static Cause, String)> {
+    let evidence = format!("is-delta is 0 in {} views, and all else is right", views.len());
+    views.iter().all(SmoothView::lacks_its_mark).then_some((&cause::MIRROR_NOT_DELTA, evidence))
 }
 
 /// Whether a sample stays on the side of the viewer.

@@ -3,21 +3,18 @@
 use super::albedo::Albedo;
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::{degrees, figure};
-use crate::checks::surface::{SurfaceEntry, seen_from};
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
-use crate::contract::{BsdfSample, Capabilities, Core};
+use crate::checks::surface::{SurfaceEntry, sampled, seen_from};
+use crate::checks::{Check, Context, Finding, Measure, Result, check};
+use crate::contract::{Capabilities, Core};
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, judge_means};
 use crate::text::{Count, Percent, Polar, Several};
 
 check! {
-    /// Means over the samples of each surface from each view.
     pub(crate) struct WeightsMakeTheAlbedo {
         surface: Several<SurfaceEntry>,
         seen_from: Several<Polar>,
-        /// The smallest error of a mean that must be seen.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
     }
     name: "weights-make-the-albedo",
@@ -31,13 +28,10 @@ impl Check for WeightsMakeTheAlbedo {
     }
 
     fn validate(&self) -> Result<(), String> {
-        match self.surface.iter().find(|surface| surface.is_delta()) {
-            Some(delta) => Err(format!("{delta} has weights of its own: `reflects-and-refracts`")),
-            None => Ok(()),
-        }
+        SurfaceEntry::refuse_delta(&self.surface, "has weights of its own: `reflects-and-refracts`")
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let effort = context.effort(self.detects, self.at_most);
         let band = Band::math(context.info.precision);
         let conventions = context.info.conventions;
@@ -71,11 +65,10 @@ fn mean_weight(
     angle: f64,
     seed: Seed,
     count: usize,
-) -> Result<Vec<f64>, CheckError> {
+) -> Result<Vec<f64>> {
     let views = vec![seen_from(angle); count];
-    let mut samples = vec![BsdfSample::NONE; count];
     let numbers = Numbers::new(seed, count);
-    core.sample_bsdf(&surface.material(), &views, numbers.randomness(), &mut samples)?;
+    let samples = sampled(core, &surface.material(), &views, numbers.randomness())?;
     let valid = samples.iter().filter(|sample| sample.is_valid == 1);
     let sum: f64 = valid.map(|sample| sample.f[1] * sample.wi.z.abs() / sample.pdf).sum();
     Ok(vec![sum / count as f64])

@@ -1,11 +1,12 @@
 //! The mistake that makes the values of a BSDF, from many pairs of directions.
 
-use super::metal;
+use super::albedo::masking;
+use super::ggx_pair::{self, Pair};
 use super::rough_glass::RoughGlass;
 use crate::cause::{Cause, bsdf};
 use crate::checks::form::Form;
 use crate::checks::surface::{SurfaceEntry, evaluated};
-use crate::checks::{CheckError, Context};
+use crate::checks::{Context, Result};
 use crate::contract::{BsdfQuery, BsdfValue};
 use crate::scene::{Rgb, Surface};
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -20,7 +21,7 @@ const AVERAGED: f64 = 1e-4;
 pub(super) fn mistake_of(
     context: &mut Context<'_>,
     surface: SurfaceEntry,
-) -> Result<Option<&'static Cause>, CheckError> {
+) -> Result<Option<&'static Cause>> {
     let mut stream = context.seed.child("form of a value").stream();
     let mut direction = || surface.direction(&mut stream);
     let queries: Vec<_> =
@@ -38,8 +39,12 @@ pub(super) fn mistake_of(
             Form::of(&shares).and_then(mistake)
         }
         Surface::Conductor { reflectance, roughness } => {
-            let smith = context.info.conventions.smith_term;
-            metal::mistake_of_value((reflectance[1], roughness), smith, &queries, &values)
+            let masking = masking(context.info.conventions.smith_term);
+            let pair = |(BsdfQuery { wo, wi }, value): (BsdfQuery, &BsdfValue)| {
+                (Pair { wo, wi, reflectance, roughness, masking }, value.f[1])
+            };
+            let pairs: Vec<_> = queries.into_iter().zip(&values).map(pair).collect();
+            ggx_pair::mistake_of_value(&pairs)
         }
         Surface::RoughGlass { index, roughness, reflectance, transmittance } => {
             let conventions = context.info.conventions;

@@ -5,7 +5,7 @@ use super::film_mistakes::Place;
 use crate::checks::fake::Fake;
 use crate::contract::{Film, RenderSettings};
 use crate::math::rng::{Seed, Stream, uniform};
-use crate::scene::Camera;
+use crate::scene::{Camera, SceneDescription};
 use glam::{DVec2, DVec3};
 
 /// What a ray through a point brings home: in pixels, from the top left; the second is the film's
@@ -55,6 +55,11 @@ impl FakeFilm {
     /// Some camera: the fake looks at nothing but the film.
     pub(crate) fn camera() -> Camera {
         Camera::look_at(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, [16, 12])
+    }
+
+    /// A scene of nothing but that camera.
+    pub(crate) fn scene() -> SceneDescription {
+        SceneDescription { camera: Some(Self::camera()), ..SceneDescription::default() }
     }
 
     fn mean(&self, place: Place, stream: &mut Stream) -> [f64; 3] {

@@ -1,26 +1,22 @@
 //! What is accumulated over some bounces is the sum of those bounces, isolated.
 
-use super::estimate::{RayEntry, estimate, needs, settings};
+use super::estimate::{RayEntry, estimate, judge_difference, needs, settings};
 use crate::checks::phrase::percent;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
-use crate::stats::{Band, Claim, Verdict, judge_means};
+use crate::stats::Verdict;
 use crate::text::{Between, Count, Percent};
 
 /// Samples of the estimate that relative errors are relative to.
 const SCALE_SAMPLES: u64 = 65_536;
 
 check! {
-    /// Radiance over bounces `0..=last` is the sum of the bounces `0`, `1`, … `last` alone.
     pub(crate) struct BouncesAddUp {
         ray: RayEntry,
-        /// The last bounce.
         last: Between<1, 1000>,
         #[serde(default)]
         direct: DirectSampling,
-        /// The smallest difference that must be seen.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
     }
     name: "bounces-add-up",
@@ -32,7 +28,7 @@ impl Check for BouncesAddUp {
         needs(&settings([self.last.0; 2], self.direct))
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let (seed, ray) = (context.seed, self.ray.ray());
         let effort = context.effort(self.detects, self.at_most);
@@ -42,18 +38,14 @@ impl Check for BouncesAddUp {
             (0..=self.last.0).map(|bounce| settings([bounce, bounce], self.direct)).collect();
         let scale =
             estimate(built.as_mut(), ray, &accumulated, seed.child("scale"), SCALE_SAMPLES)?.mean;
-        let claims = scale.map(|scale| Claim::difference(scale, Band::RADIANCE));
-        let reports = judge_means(&claims, &effort, &mut |draw| {
-            let seed = draw.seed(seed);
+        let reports = judge_difference(scale, &effort, seed, &mut |seed, samples| {
             let all = seed.child("all");
-            let mut difference =
-                estimate(built.as_mut(), ray, &accumulated, all, draw.samples)?.mean;
+            let mut difference = estimate(built.as_mut(), ray, &accumulated, all, samples)?.mean;
             for (bounce, settings) in isolated.iter().enumerate() {
-                let alone =
-                    estimate(built.as_mut(), ray, settings, seed.child(bounce), draw.samples)?;
+                let alone = estimate(built.as_mut(), ray, settings, seed.child(bounce), samples)?;
                 (0..3).for_each(|c| difference[c] -= alone.mean[c]);
             }
-            Ok::<_, CheckError>(difference.to_vec())
+            Ok(difference)
         })?;
         let difference = Measure::of_channels("accumulated minus sum", &reports);
         let share = |c: usize| (reports[c].mean / scale[c]).abs();

@@ -42,9 +42,6 @@ impl ConventionEntry {
     }
 
     /// What is wrong with it.
-    ///
-    /// # Errors
-    /// A sentence for the author of the case.
     pub(crate) fn validate(&self) -> Result<(), String> {
         match self.is_declared_by(&Conventions::default()) {
             true => {

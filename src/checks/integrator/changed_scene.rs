@@ -33,20 +33,27 @@ pub(super) fn brightened(scene: &SceneDescription) -> SceneDescription {
 pub(super) fn only(scene: &SceneDescription, kept: usize) -> SceneDescription {
     let mut scene = scene.clone();
     let light = scene.lights[kept];
-    let glowing = match light {
+    let emissive = match light {
         Light::Area { shape } => Some(shape),
         _ => None,
     };
     for shape in 0..scene.shape_count() as u32 {
-        if glowing != Some(shape) {
+        if emissive != Some(shape) {
             darken(&mut scene, shape);
         }
     }
-    scene.lights = if glowing.is_some() { Vec::new() } else { vec![light] };
+    scene.lights = if emissive.is_some() { Vec::new() } else { vec![light] };
     scene.with_area_lights()
 }
 
-/// Gives a shape a copy of its material that does not glow.
+/// The scene with this light alone, and no emission.
+pub(crate) fn lit_by(scene: &SceneDescription, light: Light) -> SceneDescription {
+    let mut scene = SceneDescription { lights: vec![light], ..scene.clone() };
+    scene.materials.iter_mut().for_each(|material| material.emission = None);
+    scene
+}
+
+/// Gives a shape a copy of its material that does not emit.
 fn darken(scene: &mut SceneDescription, shape: u32) {
     let mut material = scene.material_of(shape).clone();
     if material.emission.take().is_none() {

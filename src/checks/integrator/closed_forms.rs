@@ -1,7 +1,7 @@
 //! The numbers that cases state, worked out again from their scenes.
 
 use super::by_convention::ConventionEntry;
-use super::{RayEntry, RouletteEntry};
+use super::estimate::{RayEntry, RouletteEntry};
 use crate::checks::bsdf::albedo::masking;
 use crate::checks::oracle::{Met, nearest};
 use crate::contract::{Conventions, Falloff, GlassFresnel, GlassRadiance, Ray};

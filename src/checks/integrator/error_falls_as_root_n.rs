@@ -1,8 +1,9 @@
 //! Error against sample count: the slope of log error on log samples is −1/2.
 
+use super::estimate::needs_direct;
 use crate::cause;
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, camera_of, check};
+use crate::checks::{Check, Context, Finding, Measure, Result, camera_of, check};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling};
 use crate::image::luminance;
 use crate::math::rng::Seed;
@@ -36,10 +37,7 @@ check! {
 
 impl Check for ErrorFallsAsRootN {
     fn needs_besides(&self) -> Capabilities {
-        match self.direct {
-            DirectSampling::Lights => Capabilities::empty(),
-            DirectSampling::Hemisphere => Capabilities::HEMISPHERE_SAMPLING,
-        }
+        needs_direct(self.direct)
     }
 
     fn validate(&self) -> Result<(), String> {
@@ -49,7 +47,7 @@ impl Check for ErrorFallsAsRootN {
         Ok(())
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let camera = camera_of(&scene)?;
         let seed = context.seed;
@@ -65,26 +63,19 @@ impl Check for ErrorFallsAsRootN {
     }
 }
 
-/// A number of samples, and the rows of the pictures that are made with it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Level {
-    samples: u32,
-    rows: u32,
-}
-
 impl ErrorFallsAsRootN {
-    /// The counts that a budget can afford: the first three, and those of which it can pay a row.
-    fn levels(&self, budget: Allowance) -> Vec<Level> {
+    /// The counts that a budget can afford, each with the rows of its pictures: the first three, and those of which
+    /// it can pay a row.
+    fn levels(&self, budget: Allowance) -> Vec<(u32, u32)> {
         let most = budget.samples(self.at_most.0);
         let Size([width, height]) = self.size;
         let rows = |samples: u32| {
             let row = u64::from(samples) * u64::from(self.runs.0) * u64::from(width);
             u32::try_from(most / row).unwrap_or(u32::MAX).min(height)
         };
-        let levels =
-            self.samples.iter().map(|&Between(samples)| Level { samples, rows: rows(samples) });
-        let affordable = levels.enumerate().filter(|(number, level)| *number < 3 || level.rows > 0);
-        affordable.map(|(_, level)| Level { rows: level.rows.max(1), ..level }).collect()
+        let levels = self.samples.iter().map(|&Between(samples)| (samples, rows(samples)));
+        let affordable = levels.enumerate().filter(|(number, (_, rows))| *number < 3 || *rows > 0);
+        affordable.map(|(_, (samples, rows))| (samples, rows.max(1))).collect()
     }
 
     /// The errors at one sample count.
@@ -92,29 +83,18 @@ impl ErrorFallsAsRootN {
         &self,
         scene: &mut dyn BuiltScene,
         camera: &Camera,
-        level: Level,
+        (samples, rows): (u32, u32),
         seed: Seed,
-    ) -> Result<ErrorLevel, CheckError> {
-        let seed = seed.child(level.samples);
-        let runs = (0..self.runs.0)
-            .map(|run| self.luminances(scene, camera, level, seed.child(run)))
-            .collect::<Result<Vec<_>, _>>()?;
+    ) -> Result<ErrorLevel> {
+        let size = [self.size.0[0], rows];
+        let rendering = Rendering::through(*camera, size, self.bounces.0, samples).by(self.direct);
+        let luminances = |run: u32| {
+            let film = rendering.film(scene, seed.child(samples).child(run).0, 0)?;
+            Ok(film.pixels.into_iter().map(luminance).collect())
+        };
+        let runs = (0..self.runs.0).map(luminances).collect::<Result<Vec<Vec<_>>>>()?;
         let truth = vec![luminance(self.radiance.0.map(|value| value as f32)); runs[0].len()];
-        Ok(ErrorLevel::from_runs(u64::from(level.samples), &runs, &truth))
-    }
-
-    fn luminances(
-        &self,
-        scene: &mut dyn BuiltScene,
-        camera: &Camera,
-        level: Level,
-        seed: Seed,
-    ) -> Result<Vec<f64>, CheckError> {
-        let size = [self.size.0[0], level.rows];
-        let film = Rendering::through(*camera, size, self.bounces.0, level.samples)
-            .by(self.direct)
-            .film(scene, seed.0, 0)?;
-        Ok(film.pixels.iter().copied().map(luminance).collect())
+        Ok(ErrorLevel::from_runs(u64::from(samples), &runs, &truth))
     }
 }
 
@@ -144,7 +124,6 @@ mod tests {
     use super::*;
     use crate::checks::camera::fake::FakeFilm;
     use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
-    use crate::scene::SceneDescription;
     use crate::stats::Budget;
     use glam::DVec2;
 
@@ -161,8 +140,7 @@ mod tests {
 
     /// What is found of a core whose samples are uniform between 0 and 2.
     fn found(core: FakeFilm) -> Finding {
-        let camera = Some(FakeFilm::camera());
-        let scene = SceneDescription { camera, ..SceneDescription::default() };
+        let scene = FakeFilm::scene();
         let radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send> =
             Box::new(|at, _| [2.0 * at.x.fract(); 3]);
         let check = check_of::<ErrorFallsAsRootN>(CASE);
@@ -192,10 +170,7 @@ mod tests {
     #[test]
     fn pictures_of_many_samples_are_small_and_a_budget_does_without_the_dearest() {
         let check = check_of::<ErrorFallsAsRootN>(CASE);
-        let of = |budget: Budget| {
-            let levels = check.levels(budget.into());
-            levels.iter().map(|level| (level.samples, level.rows)).collect::<Vec<_>>()
-        };
+        let of = |budget: Budget| check.levels(budget.into());
         assert_eq!(of(Budget::Default), [(4, 8), (16, 8), (64, 4), (256, 1)]);
         assert_eq!(of(Budget::Quick), [(4, 8), (16, 2), (64, 1)]);
     }

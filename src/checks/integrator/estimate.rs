@@ -1,10 +1,12 @@
 //! What the checks of radiance share: the words of their `[expect]`, and means over seeded runs.
 
+use crate::checks;
 use crate::contract::{
     BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray, Result, Roulette,
 };
 use crate::math::rng::{Seed, Stream, uniform};
-use crate::text::{Arrow, Chance, Vector};
+use crate::stats::{Band, Claim, Effort, MeanReport, judge_means};
+use crate::text::{Arrow, Between, Chance, Vector};
 use serde::Deserialize;
 
 /// Rays asked in one call: enough to keep threads busy, little enough for any memory.
@@ -19,7 +21,6 @@ pub(crate) struct RayEntry {
 }
 
 impl RayEntry {
-    /// The ray, with a unit direction.
     pub(crate) fn ray(self) -> Ray {
         Ray::new(self.from.0, self.toward.0.normalize())
     }
@@ -46,7 +47,6 @@ impl PatchEntry {
 /// Where estimates are asked for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Aim {
-    /// Along one ray.
     Ray(Ray),
     /// At random points of a surface.
     Patch(PatchEntry),
@@ -92,14 +92,25 @@ pub(crate) fn settings(bounces: [u32; 2], direct: DirectSampling) -> IntegratorS
     IntegratorSettings { bounces: bounces[0]..=bounces[1], direct, ..Default::default() }
 }
 
+/// For `#[serde(default)]`.
+pub(crate) const fn one() -> Between<1, 4096> {
+    Between(1)
+}
+
+/// What a core needs to sample direct light so.
+pub(crate) const fn needs_direct(direct: DirectSampling) -> Capabilities {
+    match direct {
+        DirectSampling::Lights => Capabilities::empty(),
+        DirectSampling::Hemisphere => Capabilities::HEMISPHERE_SAMPLING,
+    }
+}
+
 /// What a core needs for these settings.
 pub(crate) fn needs(settings: &IntegratorSettings) -> Capabilities {
-    let mut needs = Capabilities::BUILD_SCENE | Capabilities::RADIANCE;
+    let mut needs =
+        Capabilities::BUILD_SCENE | Capabilities::RADIANCE | needs_direct(settings.direct);
     if *settings.bounces.start() > 0 {
         needs |= Capabilities::ISOLATED_BOUNCES;
-    }
-    if settings.direct == DirectSampling::Hemisphere {
-        needs |= Capabilities::HEMISPHERE_SAMPLING;
     }
     if settings.roulette.is_some() {
         needs |= Capabilities::ROULETTE;
@@ -137,9 +148,7 @@ pub(crate) fn draw_estimates(
 /// Mean and largest channel value of `samples` estimates along `ray`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Estimate {
-    /// Mean radiance of each channel.
     pub(crate) mean: [f64; 3],
-    /// The largest single estimate of each channel.
     pub(crate) largest: [f64; 3],
 }
 
@@ -162,6 +171,17 @@ pub(crate) fn estimate(
         }
     })?;
     Ok(Estimate { mean: sum.map(|sum| sum / samples as f64), largest })
+}
+
+/// Whether a difference of means is 0, to an error that is relative to `scale`.
+pub(crate) fn judge_difference(
+    scale: [f64; 3],
+    effort: &Effort,
+    seed: Seed,
+    draw: &mut dyn FnMut(Seed, u64) -> checks::Result<[f64; 3]>,
+) -> checks::Result<Vec<MeanReport>> {
+    let claims = scale.map(|scale| Claim::difference(scale, Band::RADIANCE));
+    judge_means(&claims, effort, &mut |step| Ok(draw(step.seed(seed), step.samples)?.to_vec()))
 }
 
 #[cfg(test)]

@@ -1,13 +1,13 @@
 //! Two ways to estimate the same radiance have the same mean, whatever that is: no reference is needed.
 
-use super::estimate::{RayEntry, estimate, needs, settings};
+use super::estimate::{RayEntry, estimate, judge_difference, needs, settings};
 use crate::checks::phrase::percent;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray,
 };
 use crate::math::rng::Seed;
-use crate::stats::{Band, Claim, judge_means};
+use crate::stats::Effort;
 use crate::text::{Between, Bounces, Count, Percent, Several};
 use serde::Deserialize;
 
@@ -15,16 +15,12 @@ use serde::Deserialize;
 const SCALE_SAMPLES: u64 = 65_536;
 
 check! {
-    /// Along each ray, every estimator has the mean of the first.
     pub(crate) struct EstimatorsAgree {
-        /// The rays to compare along.
         ray: Several<RayEntry>,
         bounces: Bounces,
         /// At least two; the first is what the others are compared with.
         estimator: Vec<Estimator>,
-        /// The smallest difference that must be seen.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
     }
     name: "estimators-agree",
@@ -70,7 +66,7 @@ impl Check for EstimatorsAgree {
         Ok(())
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
@@ -97,22 +93,16 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    fn judge(
-        &self,
-        scene: &mut dyn BuiltScene,
-        effort: &crate::stats::Effort,
-    ) -> Result<Vec<Measure>, CheckError> {
+    fn judge(&self, scene: &mut dyn BuiltScene, effort: &Effort) -> Result<Vec<Measure>> {
         let first = self.check.estimator[0];
         let (ours, theirs) =
             (self.other.settings(self.check.bounces.0), first.settings(self.check.bounces.0));
         let scale =
             estimate(scene, self.ray, &theirs, self.seed.child("scale"), SCALE_SAMPLES)?.mean;
-        let claims = scale.map(|scale| Claim::difference(scale, Band::RADIANCE));
-        let reports = judge_means(&claims, effort, &mut |draw| {
-            let seed = draw.seed(self.seed);
-            let a = estimate(scene, self.ray, &ours, seed.child("a"), draw.samples)?.mean;
-            let b = estimate(scene, self.ray, &theirs, seed.child("b"), draw.samples)?.mean;
-            Ok::<_, CheckError>((0..3).map(|c| a[c] - b[c]).collect())
+        let reports = judge_difference(scale, effort, self.seed, &mut |seed, samples| {
+            let a = estimate(scene, self.ray, &ours, seed.child("a"), samples)?.mean;
+            let b = estimate(scene, self.ray, &theirs, seed.child("b"), samples)?.mean;
+            Ok([0, 1, 2].map(|c| a[c] - b[c]))
         })?;
         let name = format!("{} minus {}", self.other.name(), first.name());
         let measures = Measure::of_channels(&name, &reports).into_iter().zip(scale);

@@ -20,9 +20,6 @@ pub(crate) struct MistakeEntry {
 
 impl MistakeEntry {
     /// What is wrong with it, in a case of so many rows.
-    ///
-    /// # Errors
-    /// A sentence for the author of the case.
     pub(crate) fn validate(&self, rows: usize) -> Result<(), String> {
         if cause::find(&self.cause).is_none() {
             let known = did_you_mean(&self.cause, cause::all().map(|cause| cause.name));

@@ -1,14 +1,14 @@
 //! What twice the light, one light of two and twice the size make of the radiance along a ray.
 
 use super::changed_scene::{BRIGHTER, LARGER, brightened, enlarged, only};
-use super::estimate::estimate;
+use super::estimate::{estimate, judge_difference};
 use crate::cause::{Cause, light};
-use crate::checks::{CheckError, Measure};
+use crate::checks::{Measure, Result};
 use crate::contract::{Acceleration, Core, IntegratorSettings, Ray};
 use crate::image::CHANNELS;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
-use crate::stats::{Band, Claim, Effort, MeanReport, judge_means};
+use crate::stats::Effort;
 
 /// Samples of an estimate that relative errors are relative to, and of the bitwise comparison.
 pub(super) const SCALE_SAMPLES: u64 = 16_384;
@@ -31,7 +31,7 @@ impl Trial {
         ray: Ray,
         seed: Seed,
         samples: u64,
-    ) -> Result<[f64; 3], CheckError> {
+    ) -> Result<[f64; 3]> {
         let mut built = core.build_scene(scene, Acceleration::DEFAULT)?;
         Ok(estimate(built.as_mut(), ray, &self.settings, seed, samples)?.mean)
     }
@@ -41,7 +41,7 @@ impl Trial {
         &self,
         core: &mut dyn Core,
         scene: &SceneDescription,
-    ) -> Result<Vec<Measure>, CheckError> {
+    ) -> Result<Vec<Measure>> {
         let seed = self.seed.child("doubled");
         let once = self.mean(core, scene, self.ray, seed, SCALE_SAMPLES)?;
         let twice = self.mean(core, &brightened(scene), self.ray, seed, SCALE_SAMPLES)?;
@@ -57,13 +57,13 @@ impl Trial {
         &self,
         core: &mut dyn Core,
         scene: &SceneDescription,
-    ) -> Result<Vec<Measure>, CheckError> {
+    ) -> Result<Vec<Measure>> {
         if scene.lights.len() < 2 {
             return Ok(Vec::new());
         }
         let alone: Vec<_> = (0..scene.lights.len()).map(|light| only(scene, light)).collect();
         let scale = self.mean(core, scene, self.ray, self.seed.child("scale"), SCALE_SAMPLES)?;
-        let reports = self.judge(scale, &mut |seed, samples| {
+        let reports = judge_difference(scale, &self.effort, self.seed, &mut |seed, samples| {
             let mut difference = self.mean(core, scene, self.ray, seed.child("all"), samples)?;
             for (light, scene) in alone.iter().enumerate() {
                 let part = self.mean(core, scene, self.ray, seed.child(light), samples)?;
@@ -79,7 +79,7 @@ impl Trial {
         &self,
         core: &mut dyn Core,
         scene: &SceneDescription,
-    ) -> Result<Option<&'static Cause>, CheckError> {
+    ) -> Result<Option<&'static Cause>> {
         let seed = self.seed.child("cause");
         let all = self.mean(core, scene, self.ray, seed, SCALE_SAMPLES)?;
         let alone = (0..scene.lights.len())
@@ -89,8 +89,7 @@ impl Trial {
             (0..3).all(|c| (all[c] - predicted[c]).abs() <= LIKE * predicted[c])
         };
         let count = alone.len() as f64;
-        let mean: [f64; 3] =
-            std::array::from_fn(|c| alone.iter().map(|part| part[c]).sum::<f64>() / count);
+        let mean = [0, 1, 2].map(|c| alone.iter().map(|part| part[c]).sum::<f64>() / count);
         Ok(if alone.len() < 2 {
             None
         } else if is_like(mean) {
@@ -107,26 +106,15 @@ impl Trial {
         &self,
         core: &mut dyn Core,
         scene: &SceneDescription,
-    ) -> Result<Vec<Measure>, CheckError> {
+    ) -> Result<Vec<Measure>> {
         let large = enlarged(scene);
         let far = Ray { origin: LARGER * self.ray.origin, ..self.ray };
         let scale = self.mean(core, scene, self.ray, self.seed.child("scale"), SCALE_SAMPLES)?;
-        let reports = self.judge(scale, &mut |seed, samples| {
+        let reports = judge_difference(scale, &self.effort, self.seed, &mut |seed, samples| {
             let one = self.mean(core, scene, self.ray, seed.child("one"), samples)?;
             let two = self.mean(core, &large, far, seed.child("two"), samples)?;
-            Ok(std::array::from_fn(|c| two[c] - one[c]))
+            Ok([0, 1, 2].map(|c| two[c] - one[c]))
         })?;
         Ok(Measure::of_channels("twice as large minus as it is", &reports))
-    }
-
-    pub(super) fn judge(
-        &self,
-        scale: [f64; 3],
-        draw: &mut dyn FnMut(Seed, u64) -> Result<[f64; 3], CheckError>,
-    ) -> Result<Vec<MeanReport>, CheckError> {
-        let claims = scale.map(|scale| Claim::difference(scale, Band::RADIANCE));
-        judge_means(&claims, &self.effort, &mut |step| {
-            Ok(draw(step.seed(self.seed), step.samples)?.to_vec())
-        })
     }
 }

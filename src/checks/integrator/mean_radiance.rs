@@ -1,12 +1,12 @@
 //! Mean radiance along a ray against a number that is known.
 
 use super::by_convention::ConventionEntry;
-use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, needs, settings};
+use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, needs, one, settings};
 use super::foretold::MistakeEntry;
 use super::question::{DARK_SAMPLES, Question};
 use crate::cause::{contract, light};
 use crate::checks::phrase::{figure, percent, ratio_of};
-use crate::checks::{Check, CheckError, Context, Finding, Measure, breach, check};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, breach, check};
 use crate::contract::{
     Acceleration, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
     IntegratorSettings, Ray,
@@ -19,7 +19,6 @@ use crate::text::{Between, Bounces, Colour, Count, Percent, Several};
 use serde::Deserialize;
 
 check! {
-    /// Each row: the mean radiance along a ray is a given number.
     pub(crate) struct MeanRadiance {
         /// For every row that has none of its own.
         ray: Option<RayEntry>,
@@ -27,12 +26,9 @@ check! {
         direct: DirectSampling,
         #[serde(default = "one")]
         samples_per_light: Between<1, 4096>,
-        /// The smallest error that must be seen.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
         row: Several<Row>,
-        /// What known mistakes would give.
         #[serde(default)]
         mistake: Vec<MistakeEntry>,
     }
@@ -40,7 +36,6 @@ check! {
     summary: "mean radiance along a ray against a closed form",
 }
 
-/// One number.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Row {
@@ -61,10 +56,6 @@ struct Row {
     exact: bool,
 }
 
-const fn one() -> Between<1, 4096> {
-    Between(1)
-}
-
 impl Check for MeanRadiance {
     fn needs_besides(&self) -> Capabilities {
         self.row.iter().fold(Capabilities::empty(), |all, row| all | needs(&self.settings(row)))
@@ -82,7 +73,7 @@ impl Check for MeanRadiance {
         })
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;

@@ -15,14 +15,16 @@ mod neighbouring_seeds;
 mod question;
 mod radiance_is_finite;
 mod radiance_is_linear;
+mod real_variance;
 mod reported_variance;
+mod roulette_law;
 mod roulette_stops_paths;
 mod same_seed_same_picture;
 mod seeds_matter;
 mod variance_is_known;
 
-pub(crate) use estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
-pub(crate) use foretold::MistakeEntry;
+pub(crate) use changed_scene::lit_by;
+pub(crate) use estimate::settings;
 
 use super::CheckKind;
 

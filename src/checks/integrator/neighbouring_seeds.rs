@@ -4,7 +4,7 @@
 use crate::cause::{Cause, integrator};
 use crate::checks::phrase::figure;
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{Acceleration, Film};
 use crate::image::luminance;
 use crate::stats::{CorrelationReport, Verdict, judge_uncorrelated};
@@ -16,7 +16,6 @@ const SEEDS: u64 = 16;
 const REPEATED: f64 = 0.3;
 
 check! {
-    /// Renders a noisy picture with consecutive seeds.
     pub(crate) struct NeighbouringSeeds {
         size: Size,
         bounces: Bounces,
@@ -28,15 +27,14 @@ check! {
 }
 
 impl Check for NeighbouringSeeds {
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
-        let rendering =
-            Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
+        let picture = Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
         // Far from the largest seed, so that none of them wraps around.
         let first = context.seed.0 / 2;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let films = (0..SEEDS)
-            .map(|number| rendering.film(built.as_mut(), first + number, 0))
+            .map(|number| picture.film(built.as_mut(), first + number, 0))
             .collect::<Result<Vec<_>, _>>()?;
         let noise = Noise::of(&films);
         let shifts = self.shifts().map(|(pixels, words)| Shift::of(&noise, pixels, words));
@@ -104,14 +102,12 @@ impl Shift {
 
     /// The same numbers, a pixel further.
     fn cause(&self) -> Option<(&'static Cause, String)> {
-        let evidence = || {
-            let told = figure(self.report.coefficient);
-            format!(
-                "the noise of each seed comes again with the next, {}: correlation {told}",
-                self.words
-            )
-        };
-        (self.report.coefficient >= REPEATED).then(|| (&integrator::SEED_PLUS_PIXEL, evidence()))
+        let (words, told) = (self.words, figure(self.report.coefficient));
+        let evidence = format!(
+            "the noise of each seed comes again with the next, {words}: correlation {told}"
+        );
+        let repeats = self.report.coefficient >= REPEATED;
+        repeats.then_some((&integrator::SEED_PLUS_PIXEL, evidence))
     }
 }
 

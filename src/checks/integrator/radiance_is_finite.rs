@@ -4,7 +4,7 @@
 //! grazing light, roughness near zero, rays along planes, a camera inside glass.
 
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, breach, check};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, breach, check};
 use crate::contract::{Acceleration, Breach, Capabilities, CoreError, DirectSampling};
 use crate::scene::SceneDescription;
 use crate::text::{Between, Bounces, Several, Size};
@@ -27,14 +27,11 @@ impl Check for RadianceIsFinite {
         &self.scenes
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let mut measures = Vec::new();
         let mut breaches = Vec::new();
         for name in self.scenes.iter() {
-            let scene = context
-                .scenes
-                .load(name, &toml::Table::new())
-                .map_err(|error| CheckError::Broken(error.to_string()))?;
+            let scene = context.load(name)?;
             for direct in [DirectSampling::Lights, DirectSampling::Hemisphere] {
                 if !can(context, direct) {
                     continue;
@@ -67,7 +64,7 @@ impl RadianceIsFinite {
         context: &mut Context<'_>,
         scene: &SceneDescription,
         direct: DirectSampling,
-    ) -> Result<Option<Breach>, CheckError> {
+    ) -> Result<Option<Breach>> {
         let seed = context.seed.child(&scene.name).child(format!("{direct:?}")).0;
         let rendering =
             Rendering::of(scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?.by(direct);

@@ -3,21 +3,18 @@
 
 use super::estimate::{RayEntry, needs, settings};
 use super::linearity::Trial;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{Capabilities, DirectSampling};
 use crate::text::number::apart;
 use crate::text::{Bounces, Count, Percent};
 
 check! {
-    /// Superposition and scaling along a ray.
     pub(crate) struct RadianceIsLinear {
         ray: RayEntry,
         bounces: Bounces,
         #[serde(default)]
         direct: DirectSampling,
-        /// The smallest difference that must be seen.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
     }
     name: "radiance-is-linear",
@@ -29,7 +26,7 @@ impl Check for RadianceIsLinear {
         needs(&settings(self.bounces.0, self.direct))
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let trial = Trial {
             settings: settings(self.bounces.0, self.direct),

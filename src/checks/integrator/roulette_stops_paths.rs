@@ -4,9 +4,9 @@
 //! been stopped. What the survivors are worth is not looked at here: means say that.
 
 use super::estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
-use crate::cause::{Cause, integrator as cause};
+use super::roulette_law::{Law, MISTAKES, law};
 use crate::checks::phrase::{figure, percent};
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Roulette,
 };
@@ -15,58 +15,18 @@ use crate::stats::{Band, Effort, ShareReport, Verdict, judge_share};
 use crate::text::{Between, Count, Percent, Several};
 
 check! {
-    /// The share of paths that bring light at each isolated bounce, under each roulette.
     pub(crate) struct RouletteStopsPaths {
         ray: RayEntry,
         /// The last bounce that is looked at; the first is 1.
         /// Below 3 no law can be told from another.
         last: Between<3, 1000>,
         roulette: Several<RouletteEntry>,
-        /// The smallest error of a share that must be seen.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
     }
     name: "roulette-stops-paths",
     summary: "Russian roulette: the share of paths that reaches each bounce",
 }
-
-/// The probability that a path brings light at a bounce.
-type Law = fn(&Roulette, u32) -> f64;
-
-/// q to the number of coins thrown before this bounce: one after each vertex but the guaranteed ones.
-fn law(roulette: &Roulette, bounce: u32) -> f64 {
-    survival(roulette).powi(coins(bounce, 1 + roulette.guaranteed))
-}
-
-fn survival(roulette: &Roulette) -> f64 {
-    1.0 - roulette.stop
-}
-
-/// Bounces beyond the first `spared`.
-fn coins(bounce: u32, spared: u32) -> i32 {
-    i32::try_from(bounce.saturating_sub(spared)).unwrap_or(i32::MAX)
-}
-
-/// What common mistakes make of it.
-const MISTAKES: &[(&Cause, Law)] = &[
-    (&cause::ROULETTE_STOPS_DIRECT, |roulette, bounce| {
-        survival(roulette).powi(coins(bounce, roulette.guaranteed))
-    }),
-    (&cause::ROULETTE_SURVIVES_BY_STOP, |roulette, bounce| {
-        roulette.stop.powi(coins(bounce, 1 + roulette.guaranteed))
-    }),
-    (&cause::ROULETTE_GUARANTEE_FORGOTTEN, |roulette, bounce| {
-        survival(roulette).powi(coins(bounce, 1))
-    }),
-    (&cause::ROULETTE_GUARANTEES_ONE_MORE, |roulette, bounce| {
-        survival(roulette).powi(coins(bounce, 2 + roulette.guaranteed))
-    }),
-    (&cause::ROULETTE_PLAYED_ONCE, |roulette, bounce| {
-        survival(roulette).powi(coins(bounce, 1 + roulette.guaranteed).min(1))
-    }),
-    (&cause::ROULETTE_NOT_PLAYED, |_, _| 1.0),
-];
 
 impl Check for RouletteStopsPaths {
     fn needs_besides(&self) -> Capabilities {
@@ -74,7 +34,7 @@ impl Check for RouletteStopsPaths {
         needs(&IntegratorSettings { roulette: one.map(Into::into), ..self.settings(1) })
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
@@ -109,7 +69,7 @@ impl RouletteStopsPaths {
         bounce: u32,
         seed: Seed,
         effort: &Effort,
-    ) -> Result<Share, CheckError> {
+    ) -> Result<Share> {
         let settings = IntegratorSettings { roulette: Some(roulette), ..self.settings(bounce) };
         let expected = law(&roulette, bounce);
         let report = judge_share(expected, Band::RADIANCE, effort, &mut |stage, samples| {
@@ -173,7 +133,7 @@ impl Share {
 mod tests {
     use super::*;
     use crate::checks::fake::Fake;
-    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::checks::testing::{assert_passes, causes, check_of, failure, try_judge};
     use crate::contract::IntegratorSettings;
     use crate::math::rng::{Stream, uniform};
     use crate::scene::SceneDescription;
@@ -204,21 +164,15 @@ mod tests {
     #[test]
     fn every_mistake_fails_under_its_own_name() {
         for (cause, law) in MISTAKES {
-            let finding = found(*law);
-            failure(&finding);
-            assert_eq!(finding.clues.len(), 1, "{} {:?}", cause.name, finding.clues);
-            assert_eq!(finding.clues[0].cause, cause.name);
+            assert_eq!(causes(&found(*law)), [cause.name]);
         }
     }
 
     #[test]
     fn a_share_that_is_a_little_off_is_seen_and_has_no_name() {
         let finding = found(|roulette, bounce| 0.7 * law(roulette, bounce));
-        assert!(
-            failure(&finding).contains(" of paths bring light, not 100 %"),
-            "{}",
-            finding.statement
-        );
+        let statement = failure(&finding);
+        assert!(statement.contains(" of paths bring light, not 100 %"), "{statement}");
         assert!(finding.clues.is_empty());
     }
 }

@@ -2,12 +2,11 @@
 
 use crate::cause::{self, Cause};
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{Acceleration, Film};
 use crate::text::{Between, Bounces, Size};
 
 check! {
-    /// Renders a picture again, and again on one thread.
     pub(crate) struct SameSeedSamePicture {
         size: Size,
         bounces: Bounces,
@@ -19,18 +18,17 @@ check! {
 }
 
 impl Check for SameSeedSamePicture {
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let seed = context.seed.0;
-        let rendering =
-            Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
+        let picture = Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let first = rendering.film(built.as_mut(), seed, 0)?;
-        let again = rendering.film(built.as_mut(), seed, 0)?;
-        let alone = rendering.film(built.as_mut(), seed, 1)?;
+        let first = picture.film(built.as_mut(), seed, 0)?;
+        let again = picture.film(built.as_mut(), seed, 0)?;
+        let alone = picture.film(built.as_mut(), seed, 1)?;
         drop(built);
         let mut rebuilt = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let anew = rendering.film(rebuilt.as_mut(), seed, 0)?;
+        let anew = picture.film(rebuilt.as_mut(), seed, 0)?;
         let pixels = first.pixels.len();
         let measures: Vec<_> =
             [("rendered again", again), ("on one thread", alone), ("built anew", anew)]

@@ -2,7 +2,7 @@
 
 use crate::cause::{self, Cause};
 use crate::checks::rendering::Rendering;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{Acceleration, Film};
 use crate::image::luminance;
 use crate::stats::{CorrelationReport, Verdict, judge_uncorrelated};
@@ -10,7 +10,6 @@ use crate::text::number::figure;
 use crate::text::{Between, Bounces, Size};
 
 check! {
-    /// Renders a noisy picture with many seeds.
     pub(crate) struct SeedsMatter {
         size: Size,
         bounces: Bounces,
@@ -24,14 +23,13 @@ check! {
 }
 
 impl Check for SeedsMatter {
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
-        let rendering =
-            Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
+        let picture = Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let films = (0..self.seeds.0)
-            .map(|run| rendering.film(built.as_mut(), seed.child(run).0, 0))
+            .map(|run| picture.film(built.as_mut(), seed.child(run).0, 0))
             .collect::<Result<Vec<_>, _>>()?;
         let directions = [("side by side", [1, 0]), ("above each other", [0, 1])];
         let reports = directions.map(|(_, step)| neighbours(&films, step));

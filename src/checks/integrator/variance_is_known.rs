@@ -3,11 +3,10 @@
 //! What is judged is the mean of the unbiased sample variances of independent runs, a mean like any other; the ratio
 //! of two variances would need a normal law that radiance does not have.
 
-use crate::checks::integrator::{
-    MistakeEntry, RayEntry, RouletteEntry, draw_estimates, needs, settings,
-};
+use super::estimate::{RayEntry, RouletteEntry, draw_estimates, needs, one, settings};
+use super::foretold::MistakeEntry;
 use crate::checks::phrase::{figure, ratio_of};
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings};
 use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, Effort, Moments, Sides, judge_means};
@@ -15,7 +14,6 @@ use crate::text::{Between, Bounces, Count, Lit, Percent, Several};
 use serde::Deserialize;
 
 check! {
-    /// Each row: the variance of one estimate along a ray is a given number.
     pub(crate) struct VarianceIsKnown {
         ray: RayEntry,
         bounces: Bounces,
@@ -24,12 +22,9 @@ check! {
         /// `at-most` where a core may know better ways.
         #[serde(default)]
         sides: Sides,
-        /// The smallest error of a variance that must be seen.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
         row: Several<Row>,
-        /// What known mistakes would give.
         #[serde(default)]
         mistake: Vec<MistakeEntry>,
     }
@@ -37,7 +32,6 @@ check! {
     summary: "the variance of one estimate along a ray against theory",
 }
 
-/// One variance.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Row {
@@ -47,10 +41,6 @@ struct Row {
     roulette: Option<RouletteEntry>,
     /// Of one estimate.
     variance: Lit,
-}
-
-const fn one() -> Between<1, 4096> {
-    Between(1)
 }
 
 impl Check for VarianceIsKnown {
@@ -66,7 +56,7 @@ impl Check for VarianceIsKnown {
         self.mistake.iter().try_for_each(|mistake| mistake.validate(self.row.len()))
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
@@ -97,7 +87,7 @@ impl VarianceIsKnown {
         row: &Row,
         seed: Seed,
         effort: &Effort,
-    ) -> Result<Vec<Measure>, CheckError> {
+    ) -> Result<Vec<Measure>> {
         let settings = self.settings(row);
         let claim = |variance| Claim::value(variance, Band::VARIANCE).on_side(self.sides);
         let reports = judge_means(&row.variance.0.map(claim), effort, &mut |draw| {
@@ -135,25 +125,8 @@ mod tests {
     use super::*;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
-    use crate::contract::IntegratorSettings;
     use crate::math::rng::{Stream, uniform};
     use crate::scene::SceneDescription;
-
-    /// A uniform estimate around 1 of variance 1/12, and the mean of `samples_per_light` of them.
-    #[derive(Clone, Copy)]
-    struct Noisy {
-        width: f64,
-        /// All samples of an estimate are one and the same.
-        alike: bool,
-    }
-
-    impl Noisy {
-        fn estimate(self, stream: &mut Stream, settings: &IntegratorSettings) -> f64 {
-            let n = if self.alike { 1 } else { settings.samples_per_light };
-            let mut once = || 1.0 + self.width * (uniform(stream) - 0.5);
-            (0..n).map(|_| once()).sum::<f64>() / f64::from(n)
-        }
-    }
 
     const CASE: &str = r#"
         [expect]
@@ -168,32 +141,35 @@ mod tests {
         mistake = [{ cause = "samples-all-alike", gives = [0.0833333, 0.0833333] }]
     "#;
 
-    fn found(noisy: Noisy, case: &str) -> Finding {
+    /// Estimates are uniform around 1, of variance width²/12, or the mean of `samples_per_light` of them; or those
+    /// are `alike`, one and the same.
+    fn found(width: f64, alike: bool, case: &str) -> Finding {
         let check = check_of::<VarianceIsKnown>(case);
         let draw = move |stream: &mut Stream, settings: &IntegratorSettings| {
-            noisy.estimate(stream, settings)
+            let n = if alike { 1 } else { settings.samples_per_light };
+            let mut once = || 1.0 + width * (uniform(stream) - 0.5);
+            (0..n).map(|_| once()).sum::<f64>() / f64::from(n)
         };
         try_judge(&check, &mut Fake::drawing(draw), Some(SceneDescription::default())).unwrap()
     }
 
     #[test]
     fn the_variance_of_a_uniform_law_is_a_twelfth() {
-        assert_passes(&found(Noisy { width: 1.0, alike: false }, CASE));
+        assert_passes(&found(1.0, false, CASE));
     }
 
     #[test]
     fn half_again_as_much_is_seen_and_forgiven_where_less_is_allowed() {
-        let wide = Noisy { width: 1.5f64.sqrt(), alike: false };
-        assert!(failure(&found(wide, CASE)).starts_with("one, red: the variance is 1.5"));
-        let narrow = Noisy { width: 0.5, alike: false };
-        failure(&found(narrow, CASE));
+        let wide = found(1.5f64.sqrt(), false, CASE);
+        assert!(failure(&wide).starts_with("one, red: the variance is 1.5"));
+        failure(&found(0.5, false, CASE));
         let case = CASE.replace("bounces", "sides = \"at-most\"\nbounces");
-        assert_passes(&found(narrow, &case));
+        assert_passes(&found(0.5, false, &case));
     }
 
     #[test]
     fn samples_that_are_all_alike_are_named() {
-        let finding = found(Noisy { width: 1.0, alike: true }, CASE);
+        let finding = found(1.0, true, CASE);
         assert!(failure(&finding).contains("four, red: the variance is 4"), "{finding:?}");
         assert_eq!(finding.clues[0].cause, "samples-all-alike");
     }

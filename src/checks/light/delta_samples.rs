@@ -3,7 +3,7 @@
 use super::open_light_samples::Judged;
 use crate::cause::{Cause, convention, light as cause};
 use crate::checks::numbers::Numbers;
-use crate::checks::{CheckError, Measure};
+use crate::checks::{Measure, Result};
 use crate::contract::{BuiltScene, Falloff, LightSample};
 use crate::math::rng::{Seed, uniform};
 use crate::scene::Light;
@@ -22,18 +22,12 @@ pub(super) struct Sampled {
 }
 
 impl Sampled {
-    pub(super) fn new(
-        scene: &mut dyn BuiltScene,
-        light: u32,
-        seed: Seed,
-    ) -> Result<Self, CheckError> {
+    pub(super) fn new(scene: &mut dyn BuiltScene, light: u32, seed: Seed) -> Result<Self> {
         let stream = &mut seed.child("points").stream();
         let mut coordinate = || REACH * (2.0 * uniform(stream) - 1.0);
         let from: Vec<_> =
             (0..POINTS).map(|_| DVec3::new(coordinate(), coordinate(), coordinate())).collect();
-        let numbers = Numbers::new(seed, POINTS);
-        let mut samples = vec![LightSample::NONE; POINTS];
-        scene.sample_light(light, &from, numbers.randomness(), &mut samples)?;
+        let samples = Numbers::new(seed, POINTS).sample_light(scene, light, &from)?;
         Ok(Self { from, samples })
     }
 
@@ -61,7 +55,7 @@ impl Sampled {
                 0.0,
             ),
             Measure::worst("direction, how far off", &directions),
-            Measure::worst("radiance over density", &radiances),
+            Measure::worst("radiance over pdf", &radiances),
         ];
         if distances.compared > 0 {
             measures.push(Measure::worst("distance", &distances));

@@ -59,9 +59,8 @@ struct Asked<'a> {
 
 impl Asked<'_> {
     fn samples(&mut self, numbers: &Numbers) -> Result<Vec<Drawn>> {
-        let mut samples = vec![LightSample::NONE; numbers.points.len()];
-        let from = vec![self.from; samples.len()];
-        self.scene.sample_light(self.light, &from, numbers.randomness(), &mut samples)?;
+        let from = vec![self.from; numbers.points.len()];
+        let samples = numbers.sample_light(self.scene, self.light, &from)?;
         samples.iter().map(drawn).collect()
     }
 

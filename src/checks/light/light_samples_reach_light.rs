@@ -7,7 +7,7 @@ use super::density::{self, area_of};
 use super::traced::Traced;
 use crate::cause;
 use crate::checks::numbers::Numbers;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
 use crate::contract::{Acceleration, BuiltScene, LightSample};
 use crate::math::ratios::names_of;
 use crate::math::rng::Seed;
@@ -21,11 +21,8 @@ use std::f64::consts::PI;
 /// Samples whose end is looked for.
 pub(super) const TRACED: usize = 4096;
 check! {
-    /// Samples an area light from some points.
     pub(crate) struct LightSamplesReachLight {
-        /// The smallest error of a mean that must be seen.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
         point: Several<Point>,
     }
@@ -48,7 +45,7 @@ pub(super) struct Point {
 }
 
 impl Check for LightSamplesReachLight {
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let light = the_area_light(&scene)?;
         let area = area_of(&scene, light.1);
@@ -84,16 +81,16 @@ impl Check for LightSamplesReachLight {
         let backwards = shines_backwards.then_some(&cause::light::LIGHT_SHINES_BACKWARDS);
         let off = measures.iter().any(|m| m.failed() && m.interval.is_some());
         let density = if off { density::mistake(&met) } else { None };
-        Ok(Finding::measured("samples reach the light with the density they say", measures)
+        Ok(Finding::measured("samples reach the light with the pdf they say", measures)
             .or_else_caught(format!("would have caught one wrong sample among {TRACED}"))
             .complaining(complaints)
             .because_each(backwards, "there are lit samples where the light looks away")
-            .because_each(density, &format!("predicts the densities of {} samples", met.len())))
+            .because_each(density, &format!("predicts the pdfs of {} samples", met.len())))
     }
 }
 
 /// The number of the first area light, and of its shape.
-fn the_area_light(scene: &SceneDescription) -> Result<(u32, u32), CheckError> {
+fn the_area_light(scene: &SceneDescription) -> Result<(u32, u32)> {
     let area = |light: &Light| match light {
         Light::Area { shape } => Some(*shape),
         _ => None,
@@ -118,7 +115,7 @@ impl Point {
         light: u32,
         seed: Seed,
         count: u64,
-    ) -> Result<Vec<f64>, CheckError> {
+    ) -> Result<Vec<f64>> {
         let samples =
             self.samples(scene, light, seed, usize::try_from(count).unwrap_or(usize::MAX))?;
         let normal = self.normal.0;
@@ -135,12 +132,9 @@ impl Point {
         light: u32,
         seed: Seed,
         count: usize,
-    ) -> Result<Vec<LightSample>, CheckError> {
-        let numbers = Numbers::new(seed, count);
-        let mut samples = vec![LightSample::NONE; count];
+    ) -> Result<Vec<LightSample>> {
         let from = vec![self.from.0; count];
-        scene.sample_light(light, &from, numbers.randomness(), &mut samples)?;
-        Ok(samples)
+        Ok(Numbers::new(seed, count).sample_light(scene, light, &from)?)
     }
 }
 

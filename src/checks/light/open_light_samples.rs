@@ -5,8 +5,8 @@ use super::delta_samples::Sampled;
 use crate::cause::{Cause, light as cause};
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::figure;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
-use crate::contract::{Acceleration, BuiltScene, LightSample};
+use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
+use crate::contract::{Acceleration, BuiltScene};
 use crate::math::ratios::names_of;
 use crate::math::rng::Seed;
 use crate::scene::Light;
@@ -16,11 +16,9 @@ use glam::DVec3;
 use std::f64::consts::PI;
 
 check! {
-    /// Samples every light of the scene that is no shape.
     pub(crate) struct OpenLightSamples {
         /// The smallest error of the mean of a sky that must be seen.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
     }
     name: "open-light-samples",
@@ -29,7 +27,7 @@ check! {
 }
 
 impl Check for OpenLightSamples {
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let falloff = context.info.conventions.point_light_falloff;
         let tolerance = Tolerance::FORMULA.of(context.info.precision);
@@ -91,21 +89,14 @@ struct Sky {
 }
 
 impl Sky {
-    fn judge(
-        &self,
-        scene: &mut dyn BuiltScene,
-        effort: &Effort,
-        band: Band,
-    ) -> Result<Judged, CheckError> {
+    fn judge(&self, scene: &mut dyn BuiltScene, effort: &Effort, band: Band) -> Result<Judged> {
         let expected = 4.0 * PI * self.radiance[1];
         let claims = [Claim::value(expected, band)];
         let reports = judge_means(&claims, effort, &mut |draw| {
             let seed = draw.seed(self.seed);
             let count = usize::try_from(draw.samples).unwrap_or(usize::MAX);
-            let numbers = Numbers::new(seed, count);
-            let mut samples = vec![LightSample::NONE; count];
             let from = vec![DVec3::ZERO; count];
-            scene.sample_light(self.number, &from, numbers.randomness(), &mut samples)?;
+            let samples = Numbers::new(seed, count).sample_light(scene, self.number, &from)?;
             let valid = samples.iter().filter(|sample| sample.is_valid == 1);
             let sum: f64 = valid.map(|sample| sample.radiance[1] / sample.pdf).sum();
             Ok::<_, CheckError>(vec![sum / count as f64])
@@ -115,9 +106,7 @@ impl Sky {
             .first()
             .is_some_and(|named| named.value == 0.5);
         Ok(Judged {
-            measures: vec![
-                Measure::of("mean of radiance over density", &reports[0]).of_row("the sky"),
-            ],
+            measures: vec![Measure::of("mean of radiance over pdf", &reports[0]).of_row("the sky")],
             cause: is_half.then_some(&cause::ENVIRONMENT_PDF_OF_HEMISPHERE),
         })
     }
@@ -127,7 +116,7 @@ impl Sky {
 mod tests {
     use super::super::delta_samples::{Expected, expected};
     use super::*;
-    use crate::contract::Falloff;
+    use crate::contract::{Falloff, LightSample};
     use crate::stats::Verdict;
 
     fn sampled(light: &Light, spoil: impl Fn(&mut LightSample)) -> Sampled {

@@ -92,8 +92,8 @@ impl Seen<'_> {
 
     pub(super) fn darkness(&self) -> Option<String> {
         let (dark, all) = (self.dark(), self.points.len());
-        let some = some_are(dark, all, "points that the eye sees");
-        (dark > 0).then(|| format!("{}: {some} dark, with a lamp at the eye", self.scene))
+        let some = some_are(dark, all, "points that the camera sees");
+        (dark > 0).then(|| format!("{}: {some} dark, with a point light at the camera", self.scene))
     }
 
     pub(super) fn complaint(&self, tolerance: f64) -> Option<String> {

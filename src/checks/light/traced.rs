@@ -3,7 +3,7 @@
 use super::density::Geometry;
 use super::light_samples_reach_light::{Point, TRACED, is_lit};
 use crate::checks::phrase::some_are;
-use crate::checks::{CheckError, Measure};
+use crate::checks::{Measure, Result};
 use crate::contract::{BuiltScene, Hit, LightSample, Ray};
 use crate::math::rng::Seed;
 use crate::stats::{Compared, Verdict, judge_exact};
@@ -24,7 +24,7 @@ impl Traced {
         point: &Point,
         (light, shape): (u32, u32),
         seed: Seed,
-    ) -> Result<Self, CheckError> {
+    ) -> Result<Self> {
         let mut samples = point.samples(scene, light, seed.child("traced"), TRACED)?;
         samples.retain(is_lit);
         // From close before the light: what lies in between is the business of shadow rays.

@@ -1,7 +1,7 @@
 //! Samples of a distribution in cells of the sphere, as chi-square counts them.
 
 use super::distribution::{Distribution, Drawn};
-use crate::checks::CheckError;
+use crate::checks::{CheckError, Result};
 use crate::contract::Core;
 use crate::math::quadrature::Diligence;
 use crate::math::rng::{Seed, uniform};
@@ -42,7 +42,7 @@ impl<'a> Source<'a> {
     }
 
     /// Asks for the density of samples in empty cells: quadrature misses slivers.
-    fn count_forbidden(&mut self, samples: &[DVec3]) -> Result<(), CheckError> {
+    fn count_forbidden(&mut self, samples: &[DVec3]) -> Result<()> {
         let mut pdf = vec![0.0; samples.len()];
         self.distribution.pdf(self.core, samples, &mut pdf)?;
         for (direction, _) in samples.iter().zip(pdf).filter(|(_, pdf)| pdf.is_nan() || *pdf <= 0.0)
@@ -56,7 +56,7 @@ impl<'a> Source<'a> {
 impl CountSource for Source<'_> {
     type Error = CheckError;
 
-    fn expected(&mut self, stage: Stage) -> Result<CellProbabilities, CheckError> {
+    fn expected(&mut self, stage: Stage) -> Result<CellProbabilities> {
         let turn = TAU * uniform(&mut self.seed.child(stage).child("turn").stream());
         self.cells = cells(self.distribution, turn);
         let diligence =
@@ -69,7 +69,7 @@ impl CountSource for Source<'_> {
         Ok(probabilities)
     }
 
-    fn draw(&mut self, stage: Stage, samples: u64) -> Result<Counts, CheckError> {
+    fn draw(&mut self, stage: Stage, samples: u64) -> Result<Counts> {
         let mut counts = self.cells.count([]);
         let mut in_empty_cells = Vec::new();
         let seed = self.seed.child(stage);

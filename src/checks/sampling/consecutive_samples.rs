@@ -8,7 +8,7 @@ use super::distribution::{Distribution, DistributionEntry};
 use super::pairs::{CELLS, correlation, count_pairs, sampler_of, strongest};
 use crate::cause::{Cause, sampling};
 use crate::checks::phrase::{figure, percent};
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::Capabilities;
 use crate::stats::{CellProbabilities, CountReport, Stage, Verdict, judge_counts};
 use crate::text::{Count, Percent};
@@ -20,7 +20,6 @@ check! {
         distribution: DistributionEntry,
         /// The smallest dependence that must be seen, as a root mean square error of the cells.
         detects: Percent,
-        /// Pairs; past this the verdict is inconclusive, never a pass.
         at_most: Count,
     }
     name: "consecutive-samples",
@@ -41,7 +40,7 @@ impl Check for ConsecutiveSamples {
         }
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let effort = context.effort(self.detects, self.at_most);
         let expected = CellProbabilities::exact(vec![1.0 / CELLS as f64; CELLS]);
         let mut judged = Vec::new();

@@ -30,7 +30,7 @@ impl Judged {
             (Verdict::Pass, _) => None,
             (Verdict::Fail, _) => Some(format!("{}: {}", self.name, self.failure())),
             (_, Some(CountDoubt::QuadratureNotConverged)) => {
-                Some(format!("{}: the integral of its density is not known well enough", self.name))
+                Some(format!("{}: the integral of its pdf is not known well enough", self.name))
             }
             _ => {
                 let missing = self.report.samples_missing.unwrap_or(0);
@@ -42,17 +42,17 @@ impl Judged {
     pub(super) fn failure(&self) -> String {
         let report = &self.report;
         if let Some(cell) = report.improper_cell {
-            return format!("the density is no number around {}", self.place(cell));
+            return format!("the pdf is not a number around {}", self.place(cell));
         }
         if let Some(forbidden) = report.forbidden {
             let (samples, place) = (forbidden.samples, self.place(forbidden.cell));
-            return format!("{samples} samples around {place}, where the density is 0");
+            return format!("{samples} samples around {place}, where the pdf is 0");
         }
         if self.residual_of_failures() > self.worst_residual().1 {
             let (failed, expected) = (report.absorbed_observed, figure(report.absorbed_expected));
             return format!("{failed} samples of {} fail instead of {expected}", self.drawn());
         }
-        let words = format!("samples do not follow the density, {} off", percent(self.error()));
+        let words = format!("samples do not follow the pdf, {} off", percent(self.error()));
         match self.law() {
             Some(law) => format!("{words}; they are {}", law.words),
             None => format!("{words}; {}", self.worst_cell()),

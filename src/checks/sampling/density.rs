@@ -2,10 +2,11 @@
 
 use super::distribution::Distribution;
 use crate::cause::{Cause, sampling};
-use crate::checks::bsdf::metal::{Facets, mistake_of_density};
+use crate::checks::bsdf::ggx_pair::{Pair, mistake_of_density};
 use crate::checks::bsdf::rough_glass::RoughGlass;
 use crate::checks::form::Form;
 use crate::contract::{BsdfQuery, Conventions, Core, Result, Sampler};
+use crate::math::closed_form::microfacet::Masking;
 use crate::math::rng::Seed;
 use crate::math::sphere::on_hemisphere;
 use crate::scene::Surface;
@@ -55,9 +56,6 @@ pub(crate) struct Density {
 
 impl Density {
     /// Asks the core. None for distributions whose density is no simple one.
-    ///
-    /// # Errors
-    /// If the core does not answer.
     pub(crate) fn of(core: &mut dyn Core, distribution: &Distribution) -> Result<Option<Self>> {
         let Some(wanted) = Wanted::of(distribution) else { return Ok(None) };
         let mut stream = Seed::SUITE.child("form of a density").stream();
@@ -160,9 +158,10 @@ fn mistake_of_metal(
     pdf: &[f64],
 ) -> Option<&'static Cause> {
     let Distribution::Bsdf { material, wo, .. } = distribution else { return None };
-    let Surface::Conductor { roughness, .. } = material.surface else { return None };
-    let facets = directions.iter().map(|wi| Facets::of(roughness, *wo, *wi));
-    mistake_of_density(&facets.zip(pdf.iter().copied()).collect::<Vec<_>>())
+    let Surface::Conductor { reflectance, roughness } = material.surface else { return None };
+    let (wo, masking) = (*wo, Masking::Separable);
+    let pairs = directions.iter().map(|wi| Pair { wo, wi: *wi, reflectance, roughness, masking });
+    mistake_of_density(&pairs.zip(pdf.iter().copied()).collect::<Vec<_>>())
 }
 
 fn mistake_of_rough_glass<'a>(

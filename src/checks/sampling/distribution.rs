@@ -1,7 +1,7 @@
 //! Anything that draws directions with a density: the samplers of a course, and BSDFs seen from a direction.
 
 use crate::checks::numbers::Numbers;
-use crate::checks::surface::{SurfaceEntry, evaluated, kink, lets_pass, seen_from};
+use crate::checks::surface::{SurfaceEntry, evaluated, kink, lets_pass, sampled, seen_from};
 use crate::contract::{
     BsdfQuery, BsdfSample, Capabilities, Core, DirectionSample, Randomness, Result, Sampler,
 };
@@ -43,14 +43,11 @@ impl SamplerEntry {
 
 impl DistributionEntry {
     /// What is wrong with it.
-    ///
-    /// # Errors
-    /// A sentence for the author of the case.
     pub(crate) fn validate(&self) -> std::result::Result<(), String> {
         match (self.sampler, self.surface) {
             (Some(_), None) => Ok(()),
             (None, Some(surface)) if surface.is_delta() => {
-                Err(format!("{surface} has no density: its directions are certain"))
+                Err(format!("{surface} has no pdf: its directions are certain"))
             }
             (None, Some(_)) if self.seen_from.is_empty() => {
                 Err("`seen-from` is missing: from where is the surface seen?".to_owned())
@@ -140,9 +137,6 @@ impl Distribution {
     }
 
     /// The density at each direction, as evaluated.
-    ///
-    /// # Errors
-    /// If the core does not answer.
     pub(crate) fn pdf(
         &self,
         core: &mut dyn Core,
@@ -162,9 +156,6 @@ impl Distribution {
     }
 
     /// One sample for each element of `random`.
-    ///
-    /// # Errors
-    /// If the core does not answer.
     pub(crate) fn sample(&self, core: &mut dyn Core, random: Randomness<'_>) -> Result<Vec<Drawn>> {
         match self {
             Self::Sampler(sampler) => {
@@ -176,9 +167,7 @@ impl Distribution {
                 Ok(samples.iter().map(drawn).collect())
             }
             Self::Bsdf { material, wo, .. } => {
-                let views = vec![*wo; random.points.len()];
-                let mut samples = vec![BsdfSample::NONE; views.len()];
-                core.sample_bsdf(material, &views, random, &mut samples)?;
+                let samples = sampled(core, material, &vec![*wo; random.points.len()], random)?;
                 let drawn = |sample: &BsdfSample| Drawn {
                     direction: (sample.is_valid == 1).then_some(sample.wi),
                     pdf: sample.pdf,
@@ -188,10 +177,24 @@ impl Distribution {
         }
     }
 
+    /// Means of some functions of a sample and its density over one run; a failed sample counts as zero.
+    pub(crate) fn means<const N: usize>(
+        &self,
+        core: &mut dyn Core,
+        seed: Seed,
+        samples: u64,
+        values: impl Fn(DVec3, f64) -> [f64; N],
+    ) -> Result<Vec<f64>> {
+        let mut sums = [0.0; N];
+        self.draw(core, seed, samples, |drawn| {
+            for (direction, pdf) in drawn.iter().filter_map(|one| Some((one.direction?, one.pdf))) {
+                sums.iter_mut().zip(values(direction, pdf)).for_each(|(sum, value)| *sum += value);
+            }
+        })?;
+        Ok(sums.map(|sum| sum / samples as f64).to_vec())
+    }
+
     /// Draws `count` samples in batches and hands each batch to `take`.
-    ///
-    /// # Errors
-    /// If the core does not answer.
     pub(crate) fn draw(
         &self,
         core: &mut dyn Core,

@@ -3,12 +3,11 @@
 use super::distribution::{Distribution, DistributionEntry};
 use super::extremes::{Extremes, Range, finding};
 use super::of_distributions::OfDistributions;
-use crate::checks::{CheckError, Context, Finding, check};
+use crate::checks::{Context, Finding, Result, check};
 use crate::contract::Randomness;
 use crate::stats::Tolerance;
 
 check! {
-    /// Every pair of extreme numbers gives a direction above the horizon, with its density.
     pub(crate) struct ExtremeNumbers {
         distribution: DistributionEntry,
     }
@@ -24,11 +23,7 @@ impl OfDistributions for ExtremeNumbers {
         &self.distribution
     }
 
-    fn judge(
-        &self,
-        context: &mut Context<'_>,
-        distribution: &Distribution,
-    ) -> Result<Self::Judged, CheckError> {
+    fn judge(&self, context: &mut Context<'_>, distribution: &Distribution) -> Result<Extremes> {
         let allowed = Tolerance::SAME_VALUE.of(context.info.precision);
         let core = &mut *context.core;
         let ask = &mut |(point, lobe)| {
@@ -43,7 +38,7 @@ impl OfDistributions for ExtremeNumbers {
         Ok(Extremes::of(distribution.name(), Range::Hemisphere, allowed, ask)?)
     }
 
-    fn finding(extremes: &[Self::Judged]) -> Finding {
+    fn finding(extremes: &[Extremes]) -> Finding {
         finding(extremes)
     }
 }
@@ -73,7 +68,7 @@ mod tests {
     fn a_map_of_u_itself_ends_on_the_horizon_with_density_0() {
         let finding = found(|p| Some(at_height(p.x.sqrt(), TAU * p.y)), cosine_density);
         let statement = failure(&finding);
-        assert!(statement.contains("of the numbers 0, 0 and 0: the density of the sample is 0"));
+        assert!(statement.contains("of the numbers 0, 0 and 0: the pdf of the sample is 0"));
         assert_eq!(finding.clues[0].cause, "ends-of-range-forgotten");
     }
 

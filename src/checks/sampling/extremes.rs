@@ -30,13 +30,8 @@ fn all_numbers() -> impl Iterator<Item = Extreme> {
     pairs.flat_map(|point| NUMBERS.map(|lobe| (point, lobe)))
 }
 
-/// What came of one set of numbers.
-enum Answer {
-    /// What was drawn, and its density as evaluated.
-    Sample(Drawn, f64),
-    /// No answer of the contract's form.
-    Broken(String),
-}
+/// What was drawn by one set of numbers, and its pdf as evaluated; or how it breaks the contract.
+type Answer = Result<(Drawn, f64), String>;
 
 /// Where samples belong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +56,6 @@ impl Extremes {
     /// Asks for the sample of each set of numbers, and for its density as evaluated.
     ///
     /// # Errors
-    /// Those of `ask`, but for broken contracts, which are findings.
     pub(crate) fn of(
         name: String,
         range: Range,
@@ -71,59 +65,36 @@ impl Extremes {
         let mut answers = Vec::new();
         for numbers in all_numbers() {
             let answer = match ask(numbers) {
-                Ok((drawn, pdf)) => Answer::Sample(drawn, pdf),
-                Err(CoreError::BrokeContract(breach)) => Answer::Broken(breach.to_string()),
-                Err(other) => return Err(other),
+                Err(CoreError::BrokeContract(breach)) => Err(breach.to_string()),
+                answer => Ok(answer?),
             };
             answers.push((numbers, answer));
         }
-        Ok(Self::from_answers(name, range, &answers, allowed))
-    }
-
-    fn from_answers(
-        name: String,
-        range: Range,
-        answers: &[(Extreme, Answer)],
-        allowed: f64,
-    ) -> Self {
-        let mut judged = Self {
-            name,
-            measures: Vec::new(),
-            complaints: Vec::new(),
-            wrong: 0,
-            asked: answers.len(),
-        };
-        judged.count(answers, "samples that break the contract", &|answer| match answer {
-            Answer::Broken(complaint) => Some(complaint.clone()),
-            Answer::Sample(..) => None,
+        let (measures, complaints, asked) = (Vec::new(), Vec::new(), answers.len());
+        let mut judged = Self { name, measures, complaints, wrong: 0, asked };
+        let breach = |answer: &Answer| answer.clone().err();
+        judged.count(&answers, "samples that break the contract", &breach);
+        judged.count(&answers, "samples of pdf 0", &|answer| {
+            let (drawn, _) = answer.as_ref().ok()?;
+            let is_nothing = drawn.direction.is_some() && drawn.pdf == 0.0;
+            is_nothing.then(|| "the pdf of the sample is 0".to_owned())
         });
-        judged.count(answers, "samples of density 0", &|answer| match answer {
-            Answer::Sample(drawn, _) if drawn.direction.is_some() && drawn.pdf == 0.0 => {
-                Some("the density of the sample is 0".to_owned())
-            }
-            _ => None,
+        judged.count(&answers, "samples below the horizon", &|answer| {
+            let is_below = |direction: &DVec3| range == Range::Hemisphere && direction.z < 0.0;
+            let below = answer.as_ref().ok()?.0.direction.filter(is_below)?;
+            Some(format!("the direction is {below}, below the horizon"))
         });
-        judged.count(answers, "samples below the horizon", &|answer| match answer {
-            Answer::Sample(drawn, _) => {
-                let is_below = |direction: &DVec3| range == Range::Hemisphere && direction.z < 0.0;
-                let below = drawn.direction.filter(is_below)?;
-                Some(format!("the direction is {below}, below the horizon"))
-            }
-            Answer::Broken(_) => None,
-        });
-        let report = judge_exact(answers.iter().filter_map(|(_, answer)| match answer {
-            Answer::Sample(drawn, pdf) if drawn.direction.is_some() => {
-                Some(Compared::relative(drawn.pdf, *pdf, allowed))
-            }
-            _ => None,
-        }));
-        let what = "density of a sample against its evaluation";
+        let samples = answers.iter().filter_map(|(_, answer)| answer.as_ref().ok());
+        let samples = samples.filter(|(drawn, _)| drawn.direction.is_some());
+        let compared = samples.map(|(drawn, pdf)| Compared::relative(drawn.pdf, *pdf, allowed));
+        let report = judge_exact(compared);
+        let what = "pdf of a sample against its evaluation";
         judged.measures.push(Measure::worst(what, &report).of_row(&judged.name));
         if report.disagree > 0 {
-            let some = some_are(report.disagree, report.compared, "densities");
+            let some = some_are(report.disagree, report.compared, "pdfs");
             judged.complaints.push(format!("{some} not what is evaluated"));
         }
-        judged
+        Ok(judged)
     }
 
     /// Counts what is wrong in one way, and tells the first.
@@ -159,7 +130,7 @@ pub(crate) fn finding(extremes: &[Extremes]) -> Finding {
     let measures = extremes.iter().flat_map(|one| one.measures.clone()).collect();
     let wrong = extremes.iter().filter(|one| !one.complaints.is_empty());
     let asked: usize = extremes.iter().map(|one| one.asked).sum();
-    let right = format!("{asked} sets of numbers from 0 to nearly 1 give samples and densities");
+    let right = format!("{asked} sets of numbers from 0 to nearly 1 give samples and pdfs");
     let finding = Finding::of(right, "would have caught one wrong sample", measures)
         .complaining(wrong.map(|one| format!("{}: {}", one.name, one.complaints.join("; "))));
     let wrong: usize = extremes.iter().map(|one| one.wrong).sum();

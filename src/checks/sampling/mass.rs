@@ -4,7 +4,7 @@ use super::density::Density;
 use super::distribution::Distribution;
 use crate::cause::Cause;
 use crate::checks::phrase::{figure, percent};
-use crate::checks::{CheckError, Context, Measure};
+use crate::checks::{CheckError, Context, Measure, Result};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
 use crate::stats::{Band, Effort, ShareReport, SphereCells, Tolerance, judge_share};
@@ -28,10 +28,7 @@ pub(crate) struct Mass {
 }
 
 impl Mass {
-    pub(super) fn of(
-        context: &mut Context<'_>,
-        distribution: &Distribution,
-    ) -> Result<Self, CheckError> {
+    pub(super) fn of(context: &mut Context<'_>, distribution: &Distribution) -> Result<Self> {
         let allowed = Tolerance::INTEGRAL.of(context.info.precision);
         let cells =
             SphereCells::sphere(CELLS.0, CELLS.1).with_kinks(distribution.kink().as_slice());
@@ -66,7 +63,7 @@ impl Mass {
     pub(super) fn measure(&self) -> Measure {
         let measure = match &self.accepted {
             None => {
-                let name = "integral of the density";
+                let name = "integral of the pdf";
                 Measure::exact(name, self.value, 1.0, self.allowed + self.error)
             }
             Some(report) => Measure {
@@ -74,7 +71,7 @@ impl Mass {
                 expected: report.share.min(1.0),
                 allowed: report.resolution * report.share.min(1.0),
                 ..Measure::of(
-                    "integral of the density, against the share of samples that succeed",
+                    "integral of the pdf, against the share of samples that succeed",
                     report,
                 )
             },
@@ -88,7 +85,7 @@ impl Mass {
         if let Some(report) = &self.accepted {
             let share = percent(report.share);
             return Some(format!(
-                "the density of {} integrates to {measured}, but {share} of its samples succeed",
+                "the pdf of {} integrates to {measured}, but {share} of its samples succeed",
                 self.name
             ));
         }
@@ -98,7 +95,7 @@ impl Mass {
         let also = named.map_or_else(String::new, |name| format!(" ({name})"));
         let expected = measure.expected;
         Some(format!(
-            "the density of {} integrates to {measured}{also} instead of {expected}",
+            "the pdf of {} integrates to {measured}{also} instead of {expected}",
             self.name
         ))
     }
@@ -109,7 +106,7 @@ fn accepted_share(
     context: &mut Context<'_>,
     distribution: &Distribution,
     mass: f64,
-) -> Result<ShareReport, CheckError> {
+) -> Result<ShareReport> {
     let seed = context.seed.child(distribution.name());
     let band = Band::math(context.info.precision);
     let effort = context.budget.scale(Effort::new(SHARE_DETECTS));

@@ -10,6 +10,7 @@ pub(in crate::checks) mod extremes;
 #[cfg(test)]
 mod fake;
 mod mass;
+mod moments;
 mod moments_follow_pdf;
 mod numbers_as_given;
 mod of_distributions;

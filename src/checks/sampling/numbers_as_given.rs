@@ -5,10 +5,9 @@ use super::distribution::{Distribution, DistributionEntry};
 use super::of_distributions::OfDistributions;
 use super::replay::{COUNT, Replayed};
 use crate::checks::numbers::Numbers;
-use crate::checks::{CheckError, Context, Finding, check};
+use crate::checks::{Context, Finding, Result, check};
 
 check! {
-    /// Samples follow from the numbers they are given.
     pub(crate) struct NumbersAsGiven {
         distribution: DistributionEntry,
     }
@@ -24,17 +23,13 @@ impl OfDistributions for NumbersAsGiven {
         &self.distribution
     }
 
-    fn judge(
-        &self,
-        context: &mut Context<'_>,
-        distribution: &Distribution,
-    ) -> Result<Self::Judged, CheckError> {
+    fn judge(&self, context: &mut Context<'_>, distribution: &Distribution) -> Result<Replayed> {
         let numbers = Numbers::new(context.seed.child(distribution.name()), COUNT);
         let ask = &mut |numbers: &Numbers| distribution.sample(context.core, numbers.randomness());
         Ok(Replayed::of(distribution.name(), &numbers, ask)?)
     }
 
-    fn finding(replayed: &[Self::Judged]) -> Finding {
+    fn finding(replayed: &[Replayed]) -> Finding {
         let right = format!("{} samples follow from their own numbers", COUNT * replayed.len());
         let caught = "would have caught one sample that is not a function of its numbers";
         Finding::of(right, caught, replayed.iter().flat_map(Replayed::measures).collect())

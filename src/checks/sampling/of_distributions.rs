@@ -1,7 +1,7 @@
 //! What checks have in common that judge each distribution of their case for itself.
 
 use super::distribution::{Distribution, DistributionEntry};
-use crate::checks::{Check, CheckError, Context, Declared, Finding};
+use crate::checks::{Check, Context, Declared, Finding, Result};
 use crate::contract::Capabilities;
 
 /// A check of the directions that a sampler or a BSDF draws.
@@ -13,14 +13,8 @@ pub(crate) trait OfDistributions: Declared {
     fn distribution(&self) -> &DistributionEntry;
 
     /// Asks for one distribution.
-    ///
-    /// # Errors
-    /// If the core does not answer.
-    fn judge(
-        &self,
-        context: &mut Context<'_>,
-        distribution: &Distribution,
-    ) -> Result<Self::Judged, CheckError>;
+    fn judge(&self, context: &mut Context<'_>, distribution: &Distribution)
+    -> Result<Self::Judged>;
 
     /// What there is to say of all of them.
     fn finding(judged: &[Self::Judged]) -> Finding;
@@ -35,7 +29,7 @@ impl<C: OfDistributions> Check for C {
         self.distribution().validate()
     }
 
-    fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
+    fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let all = self.distribution().distributions();
         let judged = all.iter().map(|distribution| self.judge(context, distribution));
         Ok(C::finding(&judged.collect::<Result<Vec<_>, _>>()?))

@@ -1,7 +1,7 @@
 //! Pairs of consecutive samples, counted in cells, and how they are correlated.
 
 use super::distribution::{Distribution, Drawn};
-use crate::checks::{CheckError, Context};
+use crate::checks::{Context, Result};
 use crate::contract::Sampler;
 use crate::math::rng::Seed;
 use crate::stats::{CountReport, Counts};
@@ -34,7 +34,7 @@ pub(super) fn count_pairs(
     distribution: &Distribution,
     seed: Seed,
     pairs: u64,
-) -> Result<Counts, CheckError> {
+) -> Result<Counts> {
     let sampler = sampler_of(distribution);
     let part = |number: f64| ((number * PARTS as f64) as usize).min(PARTS - 1);
     let mut counts = Counts { cells: vec![0; CELLS], absorbed: 0 };

@@ -4,15 +4,14 @@ use super::distribution::{Distribution, DistributionEntry};
 use super::mass::Mass;
 use super::of_distributions::OfDistributions;
 use crate::checks::phrase::figure;
-use crate::checks::{CheckError, Context, Finding, check};
+use crate::checks::{Context, Finding, Result, check};
 
 check! {
-    /// The core's own density, integrated over the whole sphere.
     pub(crate) struct PdfIntegratesToOne {
         distribution: DistributionEntry,
     }
     name: "pdf-integrates-to-one",
-    summary: "quadrature of a sampler's density over the sphere",
+    summary: "quadrature of a sampler's pdf over the sphere",
 }
 
 impl OfDistributions for PdfIntegratesToOne {
@@ -22,28 +21,24 @@ impl OfDistributions for PdfIntegratesToOne {
         &self.distribution
     }
 
-    fn judge(
-        &self,
-        context: &mut Context<'_>,
-        distribution: &Distribution,
-    ) -> Result<Self::Judged, CheckError> {
+    fn judge(&self, context: &mut Context<'_>, distribution: &Distribution) -> Result<Mass> {
         Mass::of(context, distribution)
     }
 
-    fn finding(masses: &[Self::Judged]) -> Finding {
+    fn finding(masses: &[Mass]) -> Finding {
         Finding::measured(passing_statement(masses), masses.iter().map(Mass::measure))
             .complaining(masses.iter().filter_map(Mass::complaint))
             .because_each(
                 masses.iter().filter_map(|mass| mass.cause),
-                "has the form of the density at 200 directions",
+                "has the form of the pdf at 200 directions",
             )
     }
 }
 
 fn passing_statement(masses: &[Mass]) -> String {
     match masses {
-        [one] => format!("the density of {} integrates to {}", one.name, figure(one.value)),
-        all => format!("{} densities integrate to the share of samples that succeed", all.len()),
+        [one] => format!("the pdf of {} integrates to {}", one.name, figure(one.value)),
+        all => format!("{} pdfs integrate to the share of samples that succeed", all.len()),
     }
 }
 

@@ -7,7 +7,7 @@ use crate::cause::Cause;
 use crate::checks::form::Form;
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::figure;
-use crate::checks::{CheckError, Context, Measure};
+use crate::checks::{Context, Measure, Result};
 use crate::contract::{Precision, Randomness};
 use crate::math::ratios::names_of;
 use crate::stats::{Tolerance, Verdict};
@@ -44,7 +44,7 @@ impl Products {
         context: &mut Context<'_>,
         distribution: &Distribution,
         way: Way,
-    ) -> Result<Self, CheckError> {
+    ) -> Result<Self> {
         let precision = context.info.precision;
         let h = step(precision);
         let seed = context.seed.child(distribution.name());
@@ -110,7 +110,7 @@ impl Products {
     }
 
     pub(super) fn complaint(&self) -> Option<String> {
-        self.fails().then(|| format!("{}: density times Jacobian is {}", self.name, self.factor()))
+        self.fails().then(|| format!("{}: pdf times Jacobian is {}", self.name, self.factor()))
     }
 
     /// A wrong density, or else a wrong map.

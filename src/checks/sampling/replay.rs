@@ -20,29 +20,19 @@ const MOSTLY: f64 = 0.5;
 impl Numbers {
     /// The same backwards.
     fn reversed(&self) -> Self {
-        Self {
-            points: self.points.iter().rev().copied().collect(),
-            lobes: self.lobes.iter().rev().copied().collect(),
-            seed: self.seed,
-        }
+        let mut reversed = self.clone();
+        reversed.points.reverse();
+        reversed.lobes.reverse();
+        reversed
     }
 
-    /// One of the numbers of every sample, changed.
-    fn with_changed(&self, number: Number) -> Self {
-        let change = |value: &mut f64| *value = (*value + STEP).fract();
+    /// The first or the second number of every sample, changed.
+    fn with_changed(&self, number: usize) -> Self {
         let mut changed = self.clone();
-        match number {
-            Number::First => changed.points.iter_mut().for_each(|point| change(&mut point.x)),
-            Number::Second => changed.points.iter_mut().for_each(|point| change(&mut point.y)),
-        }
+        let points = changed.points.iter_mut();
+        points.for_each(|point| point[number] = (point[number] + STEP).fract());
         changed
     }
-}
-
-#[derive(Clone, Copy)]
-enum Number {
-    First,
-    Second,
 }
 
 /// What came of asking again and again.
@@ -60,9 +50,6 @@ pub(crate) struct Replayed {
 
 impl Replayed {
     /// Asks for the same samples, backwards, and with one number changed.
-    ///
-    /// # Errors
-    /// Those of `ask`.
     pub(crate) fn of<E>(
         name: String,
         numbers: &Numbers,
@@ -72,8 +59,7 @@ impl Replayed {
         let again = ask(numbers)?;
         let mut backwards = ask(&numbers.reversed())?;
         backwards.reverse();
-        let changed = [Number::First, Number::Second].map(|number| numbers.with_changed(number));
-        let moved = [ask(&changed[0])?, ask(&changed[1])?];
+        let moved = [ask(&numbers.with_changed(0))?, ask(&numbers.with_changed(1))?];
         let swapped = Numbers {
             points: numbers.points.iter().map(|point| DVec2::splat(point.x)).collect(),
             ..numbers.clone()

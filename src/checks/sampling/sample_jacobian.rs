@@ -11,17 +11,16 @@ use super::of_distributions::OfDistributions;
 use super::products::{POINTS, Products};
 use super::way::Way;
 use crate::checks::phrase::figure;
-use crate::checks::{CheckError, Context, Finding, check};
+use crate::checks::{Context, Finding, Result, check};
 use crate::contract::Precision;
 use crate::stats::Tolerance;
 
 check! {
-    /// Density times Jacobian is 1.
     pub(crate) struct SampleJacobian {
         distribution: DistributionEntry,
     }
     name: "sample-jacobian",
-    summary: "density times the area that the sampler's map makes of the unit square",
+    summary: "pdf times the area that the sampler's map makes of the unit square",
     needs: CALLERS_RANDOMNESS,
 }
 
@@ -36,14 +35,13 @@ impl OfDistributions for SampleJacobian {
         &self,
         context: &mut Context<'_>,
         distribution: &Distribution,
-    ) -> Result<Self::Judged, CheckError> {
+    ) -> Result<Vec<Products>> {
         Way::of(distribution).iter().map(|way| Products::of(context, distribution, *way)).collect()
     }
 
-    fn finding(judged: &[Self::Judged]) -> Finding {
+    fn finding(judged: &[Vec<Products>]) -> Finding {
         let products = || judged.iter().flatten();
-        let right =
-            format!("density times Jacobian is 1 at {} points", POINTS * products().count());
+        let right = format!("pdf times Jacobian is 1 at {} points", POINTS * products().count());
         let precision = products().next().map_or(Precision::Double, |one| one.precision);
         let allowed = Tolerance::JACOBIAN_MEDIAN.of(precision);
         let caught = format!("would have caught a factor of 1 ± {}", figure(allowed));
@@ -51,7 +49,7 @@ impl OfDistributions for SampleJacobian {
             .complaining(products().filter_map(Products::complaint))
             .because_each(
                 products().filter_map(Products::cause),
-                "predicts density and Jacobian at nearly all points",
+                "predicts pdf and Jacobian at nearly all points",
             )
     }
 }
@@ -135,7 +133,7 @@ mod tests {
         }));
         let finding = of_both_ways(|d| cosine_density(d.with_z(d.z.abs())));
         assert!(
-            failure(&finding).contains("lobe 0: density times Jacobian is 3.33 instead"),
+            failure(&finding).contains("lobe 0: pdf times Jacobian is 3.33 instead"),
             "{finding:?}"
         );
     }

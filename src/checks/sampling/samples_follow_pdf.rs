@@ -5,21 +5,19 @@ use super::counted::Judged;
 use super::density::Density;
 use super::distribution::{Distribution, DistributionEntry};
 use super::of_distributions::OfDistributions;
-use crate::checks::{CheckError, Context, Finding, check};
+use crate::checks::{Context, Finding, Result, check};
 use crate::stats::judge_count_source;
 use crate::text::{Count, Percent};
 
 check! {
-    /// Counts of samples against the integral of the density over cells.
     pub(crate) struct SamplesFollowPdf {
         distribution: DistributionEntry,
         /// The smallest error of the density, root mean square, that must be seen.
         detects: Percent,
-        /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,
     }
     name: "samples-follow-pdf",
-    summary: "chi-square of samples against their density",
+    summary: "chi-square of samples against their pdf",
 }
 
 impl OfDistributions for SamplesFollowPdf {
@@ -29,11 +27,7 @@ impl OfDistributions for SamplesFollowPdf {
         &self.distribution
     }
 
-    fn judge(
-        &self,
-        context: &mut Context<'_>,
-        distribution: &Distribution,
-    ) -> Result<Self::Judged, CheckError> {
+    fn judge(&self, context: &mut Context<'_>, distribution: &Distribution) -> Result<Judged> {
         let effort = context.effort(self.detects, self.at_most);
         let seed = context.seed.child(distribution.name());
         let mut source = Source::new(&mut *context.core, distribution, seed);
@@ -43,11 +37,11 @@ impl OfDistributions for SamplesFollowPdf {
         Ok(Judged { name: distribution.name(), report, cells, density })
     }
 
-    fn finding(judged: &[Self::Judged]) -> Finding {
+    fn finding(judged: &[Judged]) -> Finding {
         let samples: u64 = judged.iter().map(|judged| judged.report.samples).sum();
-        let right = format!("{samples} samples fall where their densities say");
+        let right = format!("{samples} samples fall where their pdfs say");
         Finding::measured(right, judged.iter().map(Judged::measure))
-            .in_terms(" of a density, root mean square")
+            .in_terms(" of a pdf, root mean square")
             .complaining(judged.iter().filter_map(Judged::complaint))
             .because_each(
                 judged.iter().filter_map(Judged::cause),
@@ -103,7 +97,7 @@ mod tests {
     #[test]
     fn one_number_used_twice_is_seen() {
         let statement = statement(|p| Some(at_height((1.0 - p.x).sqrt(), TAU * p.x)));
-        assert!(statement.contains("samples do not follow the density"), "{statement}");
+        assert!(statement.contains("samples do not follow the pdf"), "{statement}");
     }
 
     #[test]
@@ -112,7 +106,7 @@ mod tests {
             let up = at_height((1.0 - p.x).sqrt(), TAU * p.y);
             Some(if p.x < 0.01 { -up } else { up })
         });
-        assert!(statement.contains("the horizon and below, where the density is 0"), "{statement}");
+        assert!(statement.contains("the horizon and below, where the pdf is 0"), "{statement}");
     }
 
     /// In the middle of nothing, too small for quadrature.
@@ -125,7 +119,7 @@ mod tests {
         let map = |p: DVec2| if p.x < 1e-4 { Some(DVec3::new(0.6, 0.0, -0.8)) } else { cosine(p) };
         let density = |wi| if is_in_sliver(wi) { 1.0 } else { cosine_density(wi) };
         assert_passes(&judge(&check_of::<SamplesFollowPdf>(SAMPLER), &mut drawing(map, density)));
-        assert!(statement(map).contains("where the density is 0"), "{}", statement(map));
+        assert!(statement(map).contains("where the pdf is 0"), "{}", statement(map));
     }
 
     fn of_both_ways(reflected: f64) -> Finding {
@@ -142,7 +136,7 @@ mod tests {
     fn both_ways_are_counted_together() {
         assert_passes(&of_both_ways(0.3));
         let finding = of_both_ways(0.35);
-        assert!(failure(&finding).contains("samples do not follow the density"), "{finding:?}");
+        assert!(failure(&finding).contains("samples do not follow the pdf"), "{finding:?}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! numbers that choose it. A core may choose by whatever chance it likes; it has to say so in its density.
 
 use super::distribution::{Distribution, Drawn};
-use crate::checks::CheckError;
+use crate::checks::Result;
 use glam::DVec2;
 
 /// The chance of a way is found to 2⁻³⁰, and in single precision to a rounding.
@@ -55,15 +55,12 @@ impl Way {
     }
 
     /// The chance of the way at each point, `centre` being its samples there.
-    ///
-    /// # Errors
-    /// Those of `draw`.
     pub(crate) fn chances(
         self,
         points: &[DVec2],
         draw: &mut Draw<'_>,
         centre: &[Drawn],
-    ) -> Result<Vec<f64>, CheckError> {
+    ) -> Result<Vec<f64>> {
         if matches!(self, Self::Only) {
             return Ok(vec![1.0; points.len()]);
         }
@@ -88,7 +85,7 @@ impl Way {
 }
 
 /// One sample for each point and third number.
-pub(crate) type Draw<'a> = dyn FnMut(&[DVec2], &[f64]) -> Result<Vec<Drawn>, CheckError> + 'a;
+pub(crate) type Draw<'a> = dyn FnMut(&[DVec2], &[f64]) -> Result<Vec<Drawn>> + 'a;
 
 /// Whether two samples lie on the same side, or fail both.
 pub(crate) fn is_same_way(one: &Drawn, other: &Drawn) -> bool {

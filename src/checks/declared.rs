@@ -37,4 +37,13 @@ macro_rules! check {
         }
     };
 }
-pub(crate) use check;
+
+/// The `CHECKS` of a subject.
+macro_rules! checks {
+    ($($check:ty,)+) => {
+        pub(crate) static CHECKS: &[$crate::checks::CheckKind] =
+            &[$($crate::checks::CheckKind::of::<$check>()),+];
+    };
+}
+
+pub(crate) use {check, checks};

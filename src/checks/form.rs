@@ -36,6 +36,11 @@ impl Form {
         POWERS.into_iter().find_map(form)
     }
 
+    /// The same, so many times as large.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Self { constant: factor * self.constant, ..self }
+    }
+
     /// Whether it is the other one but for noise.
     pub(crate) fn is_like(self, other: Self) -> bool {
         self.power == other.power && self.is_times(1.0, other)

@@ -30,7 +30,7 @@ mod surface;
 mod testing;
 
 pub(crate) use context::{CheckError, Context, Picture, PictureRole, Result, camera_of};
-pub(crate) use declared::{Declared, check};
+pub(crate) use declared::{Declared, check, checks};
 pub(crate) use finding::{Finding, Measure};
 
 use crate::contract::Capabilities;

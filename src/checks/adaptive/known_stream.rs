@@ -20,8 +20,11 @@ pub(super) struct KnownStream {
     pub(super) stops_at: u32,
 }
 
-/// The mistakes that students make beside those in the rule itself, and what they answer.
-pub(super) const MISTAKES: &[(&Cause, fn(&KnownStream) -> Answer)] = &[
+/// What a mistake makes of a stream.
+pub(super) type Mistaken = fn(&KnownStream) -> Answer;
+
+/// The mistakes that students make beside those in the rule itself.
+pub(super) const MISTAKES: &[(&Cause, Mistaken)] = &[
     (&adaptive::LOOKS_AFTER_EVERY_SAMPLE, |stream| stream.prefix(stream.count(stops, 1))),
     (&adaptive::BATCH_IGNORED, |stream| stream.prefix(stream.count(stops, 32))),
     (&adaptive::REST_OF_BATCH_DROPPED, |stream| {

@@ -8,11 +8,10 @@ mod sample_counts;
 mod stops_by_its_law;
 mod stops_where_it_should;
 
-use super::CheckKind;
+use super::checks;
 
-/// The checks of this subject.
-pub(crate) static CHECKS: &[CheckKind] = &[
-    CheckKind::of::<stops_where_it_should::StopsWhereItShould>(),
-    CheckKind::of::<stops_by_its_law::StopsByItsLaw>(),
-    CheckKind::of::<sample_counts::SampleCounts>(),
-];
+checks! {
+    stops_where_it_should::StopsWhereItShould,
+    stops_by_its_law::StopsByItsLaw,
+    sample_counts::SampleCounts,
+}

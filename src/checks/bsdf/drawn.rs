@@ -10,7 +10,7 @@ use crate::contract::{BsdfQuery, BsdfSample, BsdfValue};
 use crate::math::frame::direction;
 use crate::math::rng::{Stream, uniform};
 use crate::math::sphere::{at_height, on_hemisphere};
-use crate::stats::{Compared, Tolerance, judge_exact};
+use crate::stats::{Compared, ExactReport, Tolerance, judge_exact};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -88,19 +88,17 @@ impl Drawn {
         let measures = measures.into_iter().chain(below.map(dark)).map(|m| m.of_row(&name));
         let measures = measures.collect();
         let below = below.unwrap_or(0);
-        let complaint = if pdf.disagree > 0 {
-            Some(format!(
-                "{} drawn with another pdf than evaluated",
-                some_are(pdf.disagree, pdf.compared, "samples")
-            ))
-        } else if f.disagree > 0 {
-            Some(format!(
-                "{} drawn with another value than evaluated",
-                some_are(f.disagree, f.compared, "channels")
-            ))
-        } else {
-            (below > 0)
-                .then(|| format!("{below} directions below the horizon have a value or a pdf"))
+        let other = |what: &str, report: &ExactReport, noun: &str| {
+            let some = some_are(report.disagree, report.compared, noun);
+            Some(format!("{some} drawn with another {what} than evaluated"))
+        };
+        let complaint = match (pdf.disagree, f.disagree, below) {
+            (0, 0, 0) => None,
+            (0, 0, _) => {
+                Some(format!("{below} directions below the horizon have a value or a pdf"))
+            }
+            (0, ..) => other("value", &f, "channels"),
+            _ => other("pdf", &pdf, "samples"),
         };
         let cause = match (pdf.disagree, f.disagree) {
             (0, 0) if below > 0 => Some(&bsdf::LIGHT_FROM_BELOW),

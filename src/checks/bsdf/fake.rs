@@ -59,7 +59,7 @@ impl Lambertian {
 /// Chooses between the lobes of an interface by their probability.
 #[derive(Clone, Copy)]
 pub(crate) struct Smooth {
-    pub(crate) mistake: Option<&'static Mistake>,
+    pub(crate) mistake: Option<Mistake>,
     pub(crate) conventions: Conventions,
     pub(crate) spoil: fn(&mut BsdfSample),
 }

@@ -36,7 +36,7 @@ pub(crate) struct Interface {
 
 /// How the lobes are worked out. A mistake changes one step.
 #[derive(Clone, Copy)]
-struct Working {
+pub(crate) struct Working {
     /// Of the index beyond over the index before: the ratio that Snell's law is given.
     bends_by: fn(f64) -> f64,
     /// Of the cosine of `wo` and that ratio.
@@ -52,7 +52,7 @@ struct Working {
 }
 
 /// What the value of a lobe is made of, in one channel.
-struct Share {
+pub(crate) struct Share {
     /// Reflectance or transmittance of the material.
     colour: f64,
     /// The share that the lobe has of all light, and of the samples.
@@ -69,57 +69,31 @@ impl Share {
     }
 }
 
-/// A mistake and the cause it is told as.
-pub(crate) struct Mistake {
-    /// Its entry in the glossary.
-    pub(crate) cause: &'static Cause,
-    change: fn(&mut Working),
-}
+/// A change of one step.
+pub(crate) type Mistake = fn(&mut Working);
 
 /// The mistakes that can be told apart by what they predict.
-pub(crate) static MISTAKES: &[Mistake] = &[
-    Mistake {
-        cause: &cause::ETA_SWAPPED,
-        change: |w| {
-            w.bends_by = f64::recip;
-            w.reflectance = |cosine, ratio| fresnel::reflectance(cosine, ratio.recip());
-            w.crossing = |ratio| ratio * ratio;
-        },
-    },
-    Mistake { cause: &cause::SNELL_INVERTED, change: |w| w.bends_by = f64::recip },
-    Mistake { cause: &cause::SCHLICK_UNDECLARED, change: |w| w.reflectance = fresnel::schlick },
-    Mistake {
-        cause: &cause::SCHLICK_UNDECLARED,
-        change: |w| w.reflectance = fresnel::schlick_of_view,
-    },
-    Mistake { cause: &cause::TOTAL_REFLECTION_FORGOTTEN, change: |w| w.reflects_totally = false },
-    Mistake { cause: &convention::UNSCALED_RADIANCE, change: |w| w.crossing = |_| 1.0 },
-    Mistake {
-        cause: &cause::GLASS_RADIANCE_SCALED_BACKWARDS,
-        change: |w| w.crossing = |ratio| ratio * ratio,
-    },
-    Mistake {
-        cause: &cause::GLASS_RADIANCE_SCALED_UNDECLARED,
-        change: |w| w.crossing = |ratio| (ratio * ratio).recip(),
-    },
-    Mistake {
-        cause: &cause::DELTA_COSINE_FORGOTTEN,
-        change: |w| w.carried = |share| share.carried() * share.cosine,
-    },
-    Mistake {
-        cause: &cause::DELTA_WEIGHT_TIMES_PROBABILITY,
-        change: |w| w.carried = |share| share.carried() * share.probability,
-    },
-    Mistake {
-        cause: &cause::GLASS_WEIGHT_WITHOUT_FRESNEL,
-        change: |w| w.carried = |share| share.colour * share.crossing,
-    },
-    Mistake {
-        cause: &cause::DELTA_COLOUR_MISSING,
-        change: |w| w.carried = |share| share.carried() / share.colour,
-    },
-    Mistake { cause: &cause::MIRROR_RETURNS_VIEW, change: |w| w.reflects_to = |wo| wo },
-    Mistake { cause: &cause::MIRROR_GOES_THROUGH, change: |w| w.reflects_to = |wo| -wo },
+pub(crate) static MISTAKES: &[(&Cause, Mistake)] = &[
+    (&cause::ETA_SWAPPED, |w| {
+        w.bends_by = f64::recip;
+        w.reflectance = |cosine, ratio| fresnel::reflectance(cosine, ratio.recip());
+        w.crossing = |ratio| ratio * ratio;
+    }),
+    (&cause::SNELL_INVERTED, |w| w.bends_by = f64::recip),
+    (&cause::SCHLICK_UNDECLARED, |w| w.reflectance = fresnel::schlick),
+    (&cause::SCHLICK_UNDECLARED, |w| w.reflectance = fresnel::schlick_of_view),
+    (&cause::TOTAL_REFLECTION_FORGOTTEN, |w| w.reflects_totally = false),
+    (&convention::UNSCALED_RADIANCE, |w| w.crossing = |_| 1.0),
+    (&cause::GLASS_RADIANCE_SCALED_BACKWARDS, |w| w.crossing = |ratio| ratio * ratio),
+    (&cause::GLASS_RADIANCE_SCALED_UNDECLARED, |w| w.crossing = |ratio| (ratio * ratio).recip()),
+    (&cause::DELTA_COSINE_FORGOTTEN, |w| w.carried = |share| share.carried() * share.cosine),
+    (&cause::DELTA_WEIGHT_TIMES_PROBABILITY, |w| {
+        w.carried = |share| share.carried() * share.probability
+    }),
+    (&cause::GLASS_WEIGHT_WITHOUT_FRESNEL, |w| w.carried = |share| share.colour * share.crossing),
+    (&cause::DELTA_COLOUR_MISSING, |w| w.carried = |share| share.carried() / share.colour),
+    (&cause::MIRROR_RETURNS_VIEW, |w| w.reflects_to = |wo| wo),
+    (&cause::MIRROR_GOES_THROUGH, |w| w.reflects_to = |wo| -wo),
 ];
 
 impl Lobes {
@@ -141,9 +115,9 @@ impl Interface {
     }
 
     /// With a mistake.
-    pub(crate) fn mistaken(&self, wo: DVec3, mistake: &Mistake) -> Lobes {
+    pub(crate) fn mistaken(&self, wo: DVec3, mistake: Mistake) -> Lobes {
         let mut working = self.working();
-        (mistake.change)(&mut working);
+        mistake(&mut working);
         self.worked_out(wo, &working)
     }
 
@@ -253,7 +227,7 @@ mod tests {
 
     #[test]
     fn every_mistake_changes_what_is_answered_somewhere() {
-        for mistake in MISTAKES {
+        for (cause, mistake) in MISTAKES {
             let conventions =
                 |glass_radiance| Conventions { glass_radiance, ..Conventions::default() };
             let changes = [GlassRadiance::Scaled, GlassRadiance::Unscaled].map(|radiance| {
@@ -263,10 +237,10 @@ mod tests {
                 let interface = Interface::new(surface, conventions(radiance));
                 TABLE.iter().any(|(degrees, ..)| {
                     let wo = seen_from(degrees.to_radians());
-                    interface.lobes(wo) != interface.mistaken(wo, mistake)
+                    interface.lobes(wo) != interface.mistaken(wo, *mistake)
                 })
             });
-            assert!(changes.contains(&true), "{}", mistake.cause.name);
+            assert!(changes.contains(&true), "{}", cause.name);
         }
     }
 }

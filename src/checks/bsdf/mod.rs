@@ -17,14 +17,13 @@ mod smooth_view;
 mod weights_make_the_albedo;
 mod wrong_value;
 
-use super::CheckKind;
+use super::checks;
 
-/// The checks of this subject.
-pub(crate) static CHECKS: &[CheckKind] = &[
-    CheckKind::of::<agrees_with_itself::AgreesWithItself>(),
-    CheckKind::of::<reciprocal::Reciprocal>(),
-    CheckKind::of::<conserves_energy::ConservesEnergy>(),
-    CheckKind::of::<weights_make_the_albedo::WeightsMakeTheAlbedo>(),
-    CheckKind::of::<follows_ggx::FollowsGgx>(),
-    CheckKind::of::<reflects_and_refracts::ReflectsAndRefracts>(),
-];
+checks! {
+    agrees_with_itself::AgreesWithItself,
+    reciprocal::Reciprocal,
+    conserves_energy::ConservesEnergy,
+    weights_make_the_albedo::WeightsMakeTheAlbedo,
+    follows_ggx::FollowsGgx,
+    reflects_and_refracts::ReflectsAndRefracts,
+}

@@ -3,9 +3,10 @@
 //! Three things have to fit for each view: the directions (the law of reflection, Snell's), what each of them
 //! carries (Fresnel's share times the colour), and the chance of choosing it, which the core may pick but has to say.
 
-use super::interface::{Interface, MISTAKES};
+use super::interface::{Interface, MISTAKES, Mistake};
 use super::smooth_trial::Trial;
 use super::smooth_view::{Allowed, SmoothView, chance_clue, mark_clue};
+use crate::cause::Cause;
 use crate::checks::phrase::{degrees, percent};
 use crate::checks::surface::SurfaceEntry;
 use crate::checks::{Check, Context, Finding, Result, check};
@@ -68,26 +69,26 @@ fn finding(trial: &Trial, surface: SurfaceEntry, views: &[SmoothView]) -> Findin
 }
 
 /// With the mistakes that predict every sample of every view.
-fn explained(trial: &Trial, mut finding: Finding, views: &[SmoothView]) -> Finding {
+fn explained(trial: &Trial, finding: Finding, views: &[SmoothView]) -> Finding {
     if !finding.failed() {
         return finding;
     }
-    for mistake in MISTAKES {
-        let mistaken = |view: &SmoothView| trial.interface.mistaken(view.wo, mistake);
-        let differs = views.iter().any(|view| mistaken(view) != view.right);
-        if differs && views.iter().all(|view| view.is_predicted_by(mistaken(view))) {
-            let evidence = format!("predicts every sample of {} views", views.len());
-            finding = finding.because(mistake.cause, evidence);
-        }
-    }
-    finding.because_of(chance_clue(views).into_iter().chain(mark_clue(views)))
+    let is_made = |(_, mistake): &&(&'static Cause, Mistake)| {
+        let mistaken = |view: &SmoothView| trial.interface.mistaken(view.wo, *mistake);
+        views.iter().any(|view| mistaken(view) != view.right)
+            && views.iter().all(|view| view.is_predicted_by(mistaken(view)))
+    };
+    let made = MISTAKES.iter().filter(is_made).map(|(cause, _)| *cause);
+    finding
+        .because_each(made, &format!("predicts every sample of {} views", views.len()))
+        .because_of(chance_clue(views).into_iter().chain(mark_clue(views)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::fake::Smooth;
     use super::*;
-    use crate::cause::bsdf as cause;
+    use crate::cause::bsdf;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::contract::{BsdfSample, Conventions, GlassFresnel, GlassRadiance};
@@ -131,18 +132,18 @@ mod tests {
 
     #[test]
     fn every_mistake_fails_under_its_own_name() {
-        for mistake in MISTAKES {
+        for (cause, mistake) in MISTAKES {
             let is_named = |case, glass_radiance| {
                 let conventions = Conventions { glass_radiance, ..Conventions::default() };
-                let smooth = Smooth { mistake: Some(mistake), conventions, ..Smooth::default() };
+                let smooth = Smooth { mistake: Some(*mistake), conventions, ..Smooth::default() };
                 let finding = found(case, smooth);
                 let clue = finding.clues.first().map(|clue| clue.cause.as_str());
-                finding.verdict == Verdict::Fail && clue == Some(mistake.cause.name)
+                finding.verdict == Verdict::Fail && clue == Some(cause.name)
             };
             let named = is_named(GLASS, GlassRadiance::Scaled)
                 || is_named(GLASS, GlassRadiance::Unscaled)
                 || is_named(MIRROR, GlassRadiance::Scaled);
-            assert!(named, "{}", mistake.cause.name);
+            assert!(named, "{}", cause.name);
         }
     }
 
@@ -153,7 +154,7 @@ mod tests {
             failure(&finding).split(": ").nth(1),
             Some("pdf says that light is refracted with probability 1, of 0 left")
         );
-        assert_eq!(finding.clues[0].cause, cause::DELTA_PROBABILITY_IS_ONE.name);
+        assert_eq!(finding.clues[0].cause, bsdf::DELTA_PROBABILITY_IS_ONE.name);
         failure(&spoilt(|sample| sample.pdf *= 0.99));
     }
 
@@ -161,7 +162,7 @@ mod tests {
     fn samples_that_are_not_marked_or_slightly_off_are_seen() {
         let unmarked = spoilt(|sample| sample.is_delta = 0);
         assert!(failure(&unmarked).contains("not marked as delta"));
-        assert_eq!(unmarked.clues[0].cause, cause::MIRROR_NOT_DELTA.name);
+        assert_eq!(unmarked.clues[0].cause, bsdf::MIRROR_NOT_DELTA.name);
         assert!(failure(&spoilt(|sample| sample.is_valid = 0)).contains("samples fail"));
         let bent = spoilt(|sample| sample.wi = (sample.wi + 1e-6 * DVec3::X).normalize());
         assert!(failure(&bent).contains("off its direction") && bent.clues.is_empty());

@@ -23,17 +23,16 @@ mod tests_per_ray;
 mod trial;
 mod visits_few_nodes;
 
-use super::CheckKind;
+use super::checks;
 
-/// The checks of this subject.
-pub(crate) static CHECKS: &[CheckKind] = &[
-    CheckKind::of::<overlaps_box::OverlapsBox>(),
-    CheckKind::of::<random_boxes::BoxesAreNeverMissed>(),
-    CheckKind::of::<same_hits_as_brute_force::SameHitsAsBruteForce>(),
-    CheckKind::of::<order_does_not_matter::OrderDoesNotMatter>(),
-    CheckKind::of::<sizes_add_up::SizesAddUp>(),
-    CheckKind::of::<builds_come_to_an_end::BuildsComeToAnEnd>(),
-    CheckKind::of::<visits_few_nodes::VisitsFewNodes>(),
-    CheckKind::of::<tests_per_ray::TestsPerRay>(),
-    CheckKind::of::<is_faster::IsFaster>(),
-];
+checks! {
+    overlaps_box::OverlapsBox,
+    random_boxes::BoxesAreNeverMissed,
+    same_hits_as_brute_force::SameHitsAsBruteForce,
+    order_does_not_matter::OrderDoesNotMatter,
+    sizes_add_up::SizesAddUp,
+    builds_come_to_an_end::BuildsComeToAnEnd,
+    visits_few_nodes::VisitsFewNodes,
+    tests_per_ray::TestsPerRay,
+    is_faster::IsFaster,
+}

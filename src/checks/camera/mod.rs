@@ -17,14 +17,13 @@ mod view_coverage;
 
 pub(in crate::checks) use projection::projection;
 
-use super::CheckKind;
+use super::checks;
 
-/// The checks of this subject.
-pub(crate) static CHECKS: &[CheckKind] = &[
-    CheckKind::of::<rays_through_film::RaysThroughFilm>(),
-    CheckKind::of::<constant_film::ConstantFilm>(),
-    CheckKind::of::<orientation::PictureOrientation>(),
-    CheckKind::of::<pixel_samples::PixelSamples>(),
-    CheckKind::of::<stratified_samples::StratifiedSamples>(),
-    CheckKind::of::<view_coverage::ViewCoverage>(),
-];
+checks! {
+    rays_through_film::RaysThroughFilm,
+    constant_film::ConstantFilm,
+    orientation::PictureOrientation,
+    pixel_samples::PixelSamples,
+    stratified_samples::StratifiedSamples,
+    view_coverage::ViewCoverage,
+}

@@ -5,10 +5,9 @@ mod clues;
 mod matches_as_png;
 mod matches_reference;
 
-use super::CheckKind;
+use super::checks;
 
-/// The checks of this subject.
-pub(crate) static CHECKS: &[CheckKind] = &[
-    CheckKind::of::<matches_reference::MatchesReference>(),
-    CheckKind::of::<matches_as_png::MatchesAsPng>(),
-];
+checks! {
+    matches_reference::MatchesReference,
+    matches_as_png::MatchesAsPng,
+}

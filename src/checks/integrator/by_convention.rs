@@ -22,22 +22,17 @@ pub(crate) struct ConventionEntry {
 impl ConventionEntry {
     /// Whether a core declares all that is named here.
     pub(crate) fn is_declared_by(&self, declared: &Conventions) -> bool {
-        is_met(self.point_light_falloff, declared.point_light_falloff)
-            && is_met(self.emission, declared.emission)
-            && is_met(self.smith_term, declared.smith_term)
-            && is_met(self.glass_fresnel, declared.glass_fresnel)
-            && is_met(self.glass_radiance, declared.glass_radiance)
+        self.over(*declared) == *declared
     }
 
-    /// The choices themselves, the usual ones where none is named.
-    #[cfg(test)]
-    pub(crate) fn conventions(&self) -> Conventions {
+    /// These choices, and those of `others` where none is named.
+    pub(crate) fn over(&self, others: Conventions) -> Conventions {
         Conventions {
-            point_light_falloff: self.point_light_falloff.unwrap_or_default(),
-            emission: self.emission.unwrap_or_default(),
-            smith_term: self.smith_term.unwrap_or_default(),
-            glass_fresnel: self.glass_fresnel.unwrap_or_default(),
-            glass_radiance: self.glass_radiance.unwrap_or_default(),
+            point_light_falloff: self.point_light_falloff.unwrap_or(others.point_light_falloff),
+            emission: self.emission.unwrap_or(others.emission),
+            smith_term: self.smith_term.unwrap_or(others.smith_term),
+            glass_fresnel: self.glass_fresnel.unwrap_or(others.glass_fresnel),
+            glass_radiance: self.glass_radiance.unwrap_or(others.glass_radiance),
         }
     }
 
@@ -50,10 +45,6 @@ impl ConventionEntry {
             false => Ok(()),
         }
     }
-}
-
-fn is_met<T: PartialEq>(named: Option<T>, declared: T) -> bool {
-    named.is_none_or(|named| named == declared)
 }
 
 #[cfg(test)]

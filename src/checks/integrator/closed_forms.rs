@@ -67,6 +67,10 @@ fn the_numbers_of_every_case_follow_from_its_scene() {
 }
 
 impl Stated {
+    fn new(what: impl Into<String>, number: f64, form: Option<f64>) -> Self {
+        Self { what: what.into(), number, form }
+    }
+
     /// What is wrong with the number. Where a case names a form there has to be one, but for what is dark.
     fn complaint(&self, case: &Case) -> Option<String> {
         let integrated = case.source.starts_with("Quadrature");
@@ -133,15 +137,14 @@ impl Case {
         let usual = [(Conventions::default(), colour(&row["radiance"]))];
         let others = row.get("by-convention").into_iter().flat_map(|entries| {
             let entries: Vec<ConventionEntry> = read(entries);
-            entries.into_iter().map(|entry| (entry.conventions(), entry.radiance.0))
+            entries.into_iter().map(|entry| (entry.over(Conventions::default()), entry.radiance.0))
         });
         let all = usual.into_iter().chain(others);
         all.flat_map(|(conventions, stated)| {
             let row = Row { scene: &self.scene, ray, bounces, conventions };
-            (0..3).map(move |c| Stated {
-                what: format!("bounces {bounces:?}, channel {c}"),
-                number: stated[c],
-                form: if stated[c] == 0.0 { None } else { row.radiance(c) },
+            (0..3).map(move |c| {
+                let form = if stated[c] == 0.0 { None } else { row.radiance(c) };
+                Stated::new(format!("bounces {bounces:?}, channel {c}"), stated[c], form)
             })
         })
         .collect()
@@ -166,8 +169,7 @@ impl Case {
         };
         let stated = colour(&row["variance"]);
         let name = row["name"].as_str().unwrap();
-        let number = |c| Stated { what: name.to_owned(), number: stated[c], form: Some(form(c)) };
-        (0..3).map(number).collect()
+        (0..3).map(|c| Stated::new(name, stated[c], Some(form(c)))).collect()
     }
 
     /// How large the light looks from a point.
@@ -175,7 +177,7 @@ impl Case {
         let [from, normal] = ["from", "normal"].map(|key| read::<Vector>(&point[key]).0);
         let stated = |what: &str, form: f64| {
             let number = point.get(what)?.as_float().unwrap();
-            Some(Stated { what: what.to_owned(), number, form: (number != 0.0).then_some(form) })
+            Some(Stated::new(what, number, (number != 0.0).then_some(form)))
         };
         let Some(&Light::Area { shape }) = self.scene.lights.first() else { return Vec::new() };
         let factor = form_factor(self.scene.shape(shape), from, normal);
@@ -193,9 +195,9 @@ impl Case {
                 (coverage::sphere_on_axis(ball.radius, distance, fields), [0.5; 2])
             }
             Shape::Mesh(mesh) => {
-                let middle = mesh.as_rectangle().unwrap().centre;
-                let [u, v] =
-                    mesh.as_rectangle().unwrap().sides.map(|side| side.abs().max_element());
+                let rectangle = mesh.as_rectangle().unwrap();
+                let middle = rectangle.centre;
+                let [u, v] = rectangle.sides.map(|side| side.abs().max_element());
                 let ends = |at: f64, side: f64| [at - side / 2.0, at + side / 2.0];
                 let (x, y) = (ends(middle.x, u), ends(middle.y, v));
                 let place =
@@ -205,14 +207,9 @@ impl Case {
             }
         };
         let [of_x, of_y]: [f64; 2] = read(&self.expect["centroid"]);
-        let numbers = [("share", self.expect["share"].as_float().unwrap(), share)];
-        let places = [("x", of_x, x), ("y", of_y, y)];
-        let stated = |(what, number, form): (&str, f64, f64)| Stated {
-            what: what.to_owned(),
-            number,
-            form: Some(form),
-        };
-        numbers.into_iter().chain(places).map(stated).collect()
+        let of_share = self.expect["share"].as_float().unwrap();
+        let numbers = [("share", of_share, share), ("x", of_x, x), ("y", of_y, y)];
+        numbers.map(|(what, number, form)| Stated::new(what, number, Some(form))).into()
     }
 }
 

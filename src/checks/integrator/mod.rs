@@ -26,20 +26,19 @@ mod variance_is_known;
 pub(crate) use changed_scene::lit_by;
 pub(crate) use estimate::settings;
 
-use super::CheckKind;
+use super::checks;
 
-/// The checks of this subject.
-pub(crate) static CHECKS: &[CheckKind] = &[
-    CheckKind::of::<mean_radiance::MeanRadiance>(),
-    CheckKind::of::<estimators_agree::EstimatorsAgree>(),
-    CheckKind::of::<radiance_is_linear::RadianceIsLinear>(),
-    CheckKind::of::<bounces_add_up::BouncesAddUp>(),
-    CheckKind::of::<roulette_stops_paths::RouletteStopsPaths>(),
-    CheckKind::of::<same_seed_same_picture::SameSeedSamePicture>(),
-    CheckKind::of::<seeds_matter::SeedsMatter>(),
-    CheckKind::of::<neighbouring_seeds::NeighbouringSeeds>(),
-    CheckKind::of::<radiance_is_finite::RadianceIsFinite>(),
-    CheckKind::of::<variance_is_known::VarianceIsKnown>(),
-    CheckKind::of::<error_falls_as_root_n::ErrorFallsAsRootN>(),
-    CheckKind::of::<reported_variance::ReportsItsVariance>(),
-];
+checks! {
+    mean_radiance::MeanRadiance,
+    estimators_agree::EstimatorsAgree,
+    radiance_is_linear::RadianceIsLinear,
+    bounces_add_up::BouncesAddUp,
+    roulette_stops_paths::RouletteStopsPaths,
+    same_seed_same_picture::SameSeedSamePicture,
+    seeds_matter::SeedsMatter,
+    neighbouring_seeds::NeighbouringSeeds,
+    radiance_is_finite::RadianceIsFinite,
+    variance_is_known::VarianceIsKnown,
+    error_falls_as_root_n::ErrorFallsAsRootN,
+    reported_variance::ReportsItsVariance,
+}

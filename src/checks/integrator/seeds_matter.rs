@@ -28,7 +28,8 @@ impl Check for SeedsMatter {
         let picture = Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let films = (0..self.seeds.0)
+        let n = self.seeds.0;
+        let films = (0..n)
             .map(|run| picture.film(built.as_mut(), seed.child(run).0, 0))
             .collect::<Result<Vec<_>, _>>()?;
         let directions = [("side by side", [1, 0]), ("above each other", [0, 1])];
@@ -39,15 +40,10 @@ impl Check for SeedsMatter {
         }));
         let doubt = reports.iter().find_map(CorrelationReport::doubt);
         let statement = match measures.iter().find(|measure| measure.failed()) {
-            None => doubt.unwrap_or_else(|| {
-                format!("{} seeds give {} different pictures", self.seeds.0, self.seeds.0)
-            }),
+            None => doubt.unwrap_or_else(|| format!("{n} seeds give {n} different pictures")),
             Some(measure) => {
-                format!(
-                    "the noise is not independent: {} is {}",
-                    measure.name(),
-                    figure(measure.measured)
-                )
+                let (name, is) = (measure.name(), figure(measure.measured));
+                format!("the noise is not independent: {name} is {is}")
             }
         };
         let limit = measures[1].allowed;

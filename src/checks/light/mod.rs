@@ -9,12 +9,11 @@ mod open_light_samples;
 mod seen_points;
 mod traced;
 
-use super::CheckKind;
+use super::checks;
 
-/// The checks of this subject.
-pub(crate) static CHECKS: &[CheckKind] = &[
-    CheckKind::of::<light_samples_reach_light::LightSamplesReachLight>(),
-    CheckKind::of::<light_numbers::LightNumbers>(),
-    CheckKind::of::<open_light_samples::OpenLightSamples>(),
-    CheckKind::of::<lamp_at_the_eye::LampAtTheEye>(),
-];
+checks! {
+    light_samples_reach_light::LightSamplesReachLight,
+    light_numbers::LightNumbers,
+    open_light_samples::OpenLightSamples,
+    lamp_at_the_eye::LampAtTheEye,
+}

@@ -86,24 +86,19 @@ impl Density {
             (Wanted::Uniform, _) | (Wanted::Either, 0) => Form::UNIFORM,
             _ => Form::COSINE,
         };
-        let is = |factor| form.is_times(factor, right);
         if form.is_like(right) {
-            (!self.is_dark_below).then_some(&sampling::PDF_BELOW_HORIZON)
-        } else if is(PI) {
-            Some(&sampling::PDF_WITHOUT_PI)
-        } else if is(0.5) {
-            Some(&sampling::PDF_HALVED)
-        } else if is(2.0) {
-            Some(&sampling::PDF_DOUBLED)
-        } else if is(TAU * TAU) || is(PI * PI) {
-            Some(&sampling::PDF_INVERTED)
-        } else if form.is_like(Form::UNIFORM) {
-            Some(&sampling::UNIFORM_PDF_FOR_COSINE)
-        } else if form.is_like(Form::COSINE) {
-            Some(&sampling::COSINE_PDF_FOR_UNIFORM)
-        } else {
-            None
+            return (!self.is_dark_below).then_some(&sampling::PDF_BELOW_HORIZON);
         }
+        let made = [
+            (right.times(PI), &sampling::PDF_WITHOUT_PI),
+            (right.times(0.5), &sampling::PDF_HALVED),
+            (right.times(2.0), &sampling::PDF_DOUBLED),
+            (right.times(TAU * TAU), &sampling::PDF_INVERTED),
+            (right.times(PI * PI), &sampling::PDF_INVERTED),
+            (Form::UNIFORM, &sampling::UNIFORM_PDF_FOR_COSINE),
+            (Form::COSINE, &sampling::COSINE_PDF_FOR_UNIFORM),
+        ];
+        made.into_iter().find(|(made, _)| form.is_like(*made)).map(|(_, cause)| cause)
     }
 
     /// The mistake that draws directions by this law of heights, where the density is right in itself.

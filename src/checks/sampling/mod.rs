@@ -23,16 +23,15 @@ mod samples_follow_pdf;
 mod way;
 mod weights_integrate;
 
-use super::CheckKind;
+use super::checks;
 
-/// The checks of this subject.
-pub(crate) static CHECKS: &[CheckKind] = &[
-    CheckKind::of::<numbers_as_given::NumbersAsGiven>(),
-    CheckKind::of::<extreme_numbers::ExtremeNumbers>(),
-    CheckKind::of::<pdf_integrates_to_one::PdfIntegratesToOne>(),
-    CheckKind::of::<sample_jacobian::SampleJacobian>(),
-    CheckKind::of::<samples_follow_pdf::SamplesFollowPdf>(),
-    CheckKind::of::<moments_follow_pdf::MomentsFollowPdf>(),
-    CheckKind::of::<weights_integrate::WeightsIntegrate>(),
-    CheckKind::of::<consecutive_samples::ConsecutiveSamples>(),
-];
+checks! {
+    numbers_as_given::NumbersAsGiven,
+    extreme_numbers::ExtremeNumbers,
+    pdf_integrates_to_one::PdfIntegratesToOne,
+    sample_jacobian::SampleJacobian,
+    samples_follow_pdf::SamplesFollowPdf,
+    moments_follow_pdf::MomentsFollowPdf,
+    weights_integrate::WeightsIntegrate,
+    consecutive_samples::ConsecutiveSamples,
+}

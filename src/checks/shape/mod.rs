@@ -24,16 +24,15 @@ pub(crate) use first_hits::first_hits;
 pub(in crate::checks) use imitation::as_hit;
 pub(in crate::checks) use imitation::{Answer, intersection};
 
-use super::CheckKind;
+use super::checks;
 
-/// The checks of this subject.
-pub(crate) static CHECKS: &[CheckKind] = &[
-    CheckKind::of::<hits_primitive::HitsPrimitive>(),
-    CheckKind::of::<agrees_with_exact_arithmetic::AgreesWithExactArithmetic>(),
-    CheckKind::of::<far_spheres::FarSpheres>(),
-    CheckKind::of::<degenerate_triangles::DegenerateTriangles>(),
-    CheckKind::of::<leaves_its_surface::LeavesItsSurface>(),
-    CheckKind::of::<shared_edges::SharedEdges>(),
-    CheckKind::of::<no_ray_leaks::NoRayLeaks>(),
-    CheckKind::of::<first_hits::FirstHits>(),
-];
+checks! {
+    hits_primitive::HitsPrimitive,
+    agrees_with_exact_arithmetic::AgreesWithExactArithmetic,
+    far_spheres::FarSpheres,
+    degenerate_triangles::DegenerateTriangles,
+    leaves_its_surface::LeavesItsSurface,
+    shared_edges::SharedEdges,
+    no_ray_leaks::NoRayLeaks,
+    first_hits::FirstHits,
+}

@@ -25,7 +25,7 @@ const KINDS: &[Kind] = &[
     Kind {
         heading: "Add a check",
         table: "src/checks/<subject>/mod.rs",
-        row: r"CheckKind::of::<(?<word>(?<file>\w+)::\w+)>",
+        row: r"\n    (?<word>(?<file>\w+)::\w+),",
         beside: &["src/checks/image/matches_as_png.rs"],
     },
     Kind {

@@ -55,9 +55,6 @@ const AVOID: &[(&str, &str)] = &[
 /// Where such a word is the field's own after all; the last one seeds random numbers.
 const EXCEPT: &[&str] = &["bounding volume hierarchy", "probability density", "form of a density"];
 
-/// Rooms whose words their authors see to.
-const ELSEWHERE: &[&str] = &["src/checks/bvh/", "src/checks/camera/"];
-
 /// A term of the field, and the file or folder whose text has it.
 const TERMS: &[(&str, &str)] = &[
     ("next event estimation", "src/cause/light.rs"),
@@ -144,8 +141,7 @@ fn read(path: &Path) -> Vec<(String, String)> {
         return Vec::new();
     };
     let is_unread = ["simulations/", "/tests/", "tests.rs"].iter().any(|part| name.contains(part));
-    let is_elsewhere = ELSEWHERE.iter().any(|room| name.starts_with(room));
-    if is_unread || is_elsewhere || !is_text(extension) {
+    if is_unread || !is_text(extension) {
         return Vec::new();
     }
     let text = fs::read_to_string(path).unwrap();

@@ -23,8 +23,7 @@ pub struct Context<'a> {
     pub(crate) references: &'a Path,
     /// Seed of the trial: the same for every core, so that a core gets the same verdict on every machine.
     pub(crate) seed: Seed,
-    /// How much may be spent, and so how small an error is looked for; and whether a gross one may
-    /// end the trial early.
+    /// How much may be spent, and so how small an error is looked for; and whether a gross one may end the trial early.
     pub(crate) budget: Allowance,
     /// Pictures for the report.
     pub(crate) pictures: Vec<Picture>,
@@ -68,12 +67,10 @@ pub(crate) fn camera_of(scene: &SceneDescription) -> Result<Camera> {
         .ok_or_else(|| CheckError::Broken(format!("scene `{}` has no `[camera]`", scene.name)))
 }
 
-/// A picture that a check wants people to see.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// What it shows.
     pub(crate) role: PictureRole,
-    /// A few words below it.
     pub(crate) caption: String,
     /// Linear RGB radiance.
     pub(crate) image: Image,

@@ -8,6 +8,8 @@ use crate::contract::{
     LightSample, Precision, Primitive, Randomness, Ray, RenderSettings, Result, Sampler,
     TraversalStats,
 };
+use crate::image::encoding::Encoding;
+use crate::image::png::Picture;
 use crate::math::rng::{Seed, Stream};
 use crate::scene::{Aabb, Camera, Material, SceneDescription};
 use glam::{DVec2, DVec3};
@@ -15,34 +17,25 @@ use glam::{DVec2, DVec3};
 /// See the module. A question that a test does not expect ends it.
 #[expect(clippy::type_complexity, reason = "each closure's type is the signature of its question")]
 pub(crate) struct Fake {
-    /// It can do everything, in double precision.
     pub(crate) info: CoreInfo,
-    /// A camera ray through a film point.
     pub(crate) ray: Box<dyn FnMut(&Camera, DVec2) -> Ray + Send>,
     /// A hit of a primitive; right by default.
     pub(crate) primitive: Box<dyn FnMut(&Primitive, &Ray) -> Option<Answer> + Send>,
-    /// A hit of a box.
     pub(crate) bounds: Box<dyn FnMut(&Aabb, &Ray) -> BoxHit + Send>,
     /// The sample of this number in a batch.
     pub(crate) direction: Box<dyn FnMut(&Randomness<'_>, usize) -> DirectionSample + Send>,
-    /// The density of a direction.
     pub(crate) pdf: Box<dyn FnMut(DVec3) -> f64 + Send>,
-    /// A BSDF and its density.
     pub(crate) value: Box<dyn FnMut(&Material, &BsdfQuery) -> BsdfValue + Send>,
-    /// A sample of a BSDF for a view and three random numbers.
     pub(crate) sample: Box<dyn FnMut(&Material, DVec3, DVec2, f64) -> BsdfSample + Send>,
     /// Where a stream of samples stops.
     pub(crate) mean: Box<dyn FnMut(AdaptiveSettings, &[f64]) -> AdaptiveMean + Send>,
-    /// The size of a hierarchy.
     pub(crate) stats: BuildStats,
-    /// The closest hit in the scene.
     pub(crate) hit: Box<dyn FnMut(&Ray) -> Hit + Send>,
-    /// A sample of a light from a point, for two random numbers.
     pub(crate) light: Box<dyn FnMut(DVec3, DVec2) -> LightSample + Send>,
     /// An estimate of radiance, the same in every channel, whatever the ray.
     pub(crate) radiance: Box<dyn FnMut(&mut Stream, &IntegratorSettings) -> f64 + Send>,
-    /// A picture.
     pub(crate) film: Box<dyn FnMut(&RenderSettings, &mut Film) + Send>,
+    pub(crate) codes: Box<dyn FnMut(&RenderSettings) -> (Encoding, Picture) + Send>,
 }
 
 impl Default for Fake {
@@ -62,19 +55,18 @@ impl Default for Fake {
             light: Box::new(|_, _| panic!("no lights")),
             radiance: Box::new(|_, _| panic!("no radiance")),
             film: Box::new(|_, _| panic!("no pictures")),
+            codes: Box::new(|_| panic!("no codes")),
         }
     }
 }
 
 impl Fake {
-    /// One that intersects primitives by this formula.
     pub(crate) fn intersecting(
         formula: impl FnMut(&Primitive, &Ray) -> Option<Answer> + Send + 'static,
     ) -> Self {
         Self { primitive: Box::new(formula), ..Self::default() }
     }
 
-    /// One whose estimates are drawn so.
     pub(crate) fn drawing(
         draw: impl FnMut(&mut Stream, &IntegratorSettings) -> f64 + Send + 'static,
     ) -> Self {
@@ -155,7 +147,6 @@ impl Core for Fake {
     }
 }
 
-/// Writes the answer to each question.
 fn fill<Question, Answer>(
     answers: &mut [Answer],
     questions: impl IntoIterator<Item = Question>,
@@ -201,5 +192,16 @@ impl BuiltScene for Built<'_> {
     fn render(&mut self, _: &Camera, settings: &RenderSettings, film: &mut Film) -> Result<()> {
         (self.0.film)(settings, film);
         Ok(())
+    }
+
+    fn render_codes(
+        &mut self,
+        _: &Camera,
+        settings: &RenderSettings,
+        codes: &mut Picture,
+    ) -> Result<Encoding> {
+        let (encoding, picture) = (self.0.codes)(settings);
+        *codes = picture;
+        Ok(encoding)
     }
 }

@@ -137,17 +137,14 @@ impl Measure {
         }
     }
 
-    /// The same of a row.
     pub(crate) fn of_row(self, row: impl Display) -> Self {
         Self { row: row.to_string(), ..self }
     }
 
-    /// The same of a channel.
     pub(crate) fn of_channel(self, channel: Channel) -> Self {
         Self { channel: Some(channel), ..self }
     }
 
-    /// The same, shown and not graded.
     pub(crate) fn not_graded(self) -> Self {
         Self { verdict: Verdict::Pass, ..self }
     }
@@ -162,15 +159,12 @@ impl Measure {
         }
     }
 
-    /// Whether the core is wrong in it.
     pub(crate) fn failed(&self) -> bool {
         self.verdict == Verdict::Fail
     }
 
-    /// The same with a unit.
-    pub(crate) fn in_unit(mut self, unit: &str) -> Self {
-        unit.clone_into(&mut self.unit);
-        self
+    pub(crate) fn in_unit(self, unit: &str) -> Self {
+        Self { unit: unit.to_owned(), ..self }
     }
 }
 
@@ -228,13 +222,7 @@ impl Finding {
 
     /// A failure with nothing to measure: the core's answer itself is wrong.
     pub(crate) fn failure(statement: impl Into<String>) -> Self {
-        Self {
-            verdict: Verdict::Fail,
-            statement: statement.into(),
-            measures: Vec::new(),
-            resolution: String::new(),
-            clues: Vec::new(),
-        }
+        Self { verdict: Verdict::Fail, ..Self::of(statement, "", Vec::new()) }
     }
 
     /// Adds a mistake that would have given just these answers, less likely than those added before.
@@ -260,7 +248,6 @@ impl Finding {
         self.because_of(causes.into_iter().map(|cause| (cause, evidence)))
     }
 
-    /// Whether the core is wrong.
     pub(crate) fn failed(&self) -> bool {
         self.verdict == Verdict::Fail
     }
@@ -275,7 +262,6 @@ impl Finding {
         self.hypotheses().map(|hypothesis| hypothesis.false_alarm).sum()
     }
 
-    /// The measures that did not pass.
     pub(crate) fn failed_measures(&self) -> impl Iterator<Item = &Measure> {
         self.measures.iter().filter(|measure| measure.failed())
     }
@@ -293,9 +279,6 @@ pub(crate) mod number {
     }
 
     /// Writes a number, or the word for one that JSON cannot write.
-    ///
-    /// # Errors
-    /// Those of the serializer.
     pub(crate) fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
         if value.is_finite() {
             serializer.serialize_f64(*value)
@@ -328,9 +311,6 @@ pub(crate) mod number {
         struct End(#[serde(with = "super")] f64);
 
         /// Writes an interval.
-        ///
-        /// # Errors
-        /// Those of the serializer.
         pub(crate) fn serialize<S: Serializer>(
             value: &Option<[f64; 2]>,
             serializer: S,
@@ -339,9 +319,6 @@ pub(crate) mod number {
         }
 
         /// Reads what [`serialize`] has written.
-        ///
-        /// # Errors
-        /// If it is not a pair of numbers.
         pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
             deserializer: D,
         ) -> Result<Option<[f64; 2]>, D::Error> {
@@ -357,14 +334,14 @@ mod tests {
     use crate::stats::{Compared, judge_exact};
 
     #[test]
-    fn a_nan_measure_fails() {
+    fn nan_fails_and_nothing_is_no_pass() {
         assert_eq!(Measure::exact("t", f64::NAN, 1.0, 1e9).verdict, Verdict::Fail);
+        assert_eq!(Finding::of("", "", Vec::new()).verdict, Verdict::Inconclusive);
     }
 
     #[test]
     fn the_worst_element_is_shown_with_the_verdict_on_all() {
-        let report =
-            judge_exact([Compared::within(1.0, 1.0, 0.1), Compared::within(3.0, 1.0, 0.1)]);
+        let report = judge_exact([1.0, 3.0].map(|found| Compared::within(found, 1.0, 0.1)));
         let measure = Measure::worst("t", &report).of_row("ray 1").of_channel(Channel::Red);
         assert_eq!(measure.name(), "ray 1: t, worst of 2 (number 2), red");
         assert_eq!((measure.measured, measure.verdict), (3.0, Verdict::Fail));
@@ -381,14 +358,9 @@ mod tests {
     }
 
     #[test]
-    fn a_finding_of_nothing_is_not_a_pass() {
-        assert_eq!(Finding::of("", "", Vec::new()).verdict, Verdict::Inconclusive);
-    }
-
-    #[test]
     fn an_interval_survives_json_even_without_end() {
-        let interval = Some([f64::NEG_INFINITY, f64::NAN]);
-        let measure = Measure { interval, ..Measure::exact("t", 1.0, 1.0, 0.5) };
+        let exact = Measure::exact("t", 1.0, 1.0, 0.5);
+        let measure = Measure { interval: Some([f64::NEG_INFINITY, f64::NAN]), ..exact };
         let text = serde_json::to_string(&measure).unwrap();
         let read = serde_json::from_str::<Measure>(&text).unwrap().interval.unwrap();
         assert!(read[0] == f64::NEG_INFINITY && read[1].is_nan(), "{text}");

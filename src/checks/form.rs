@@ -15,12 +15,10 @@ const FEWEST: usize = 20;
 pub(crate) struct Form {
     /// In the middle of all values.
     pub(crate) constant: f64,
-    /// p.
     pub(crate) power: i32,
 }
 
 impl Form {
-    /// The same everywhere.
     pub(crate) const fn constant(constant: f64) -> Self {
         Self { constant, power: 0 }
     }

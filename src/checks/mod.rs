@@ -1,9 +1,7 @@
-//! How answers are judged: one check a file, its name the `check = "…"` of cases, its struct their
-//! `[expect]`.
+//! How answers are judged: one check a file, its name the `check = "…"` of cases, its struct their `[expect]`.
 //!
-//! A check sees a `&mut dyn Core` and never a particular core; it draws its random numbers from the
-//! trial's seed; it leaves every verdict to [`crate::stats`]. To add one: write the file, and its lines
-//! in the `mod.rs` of its subject.
+//! A check sees a `&mut dyn Core` and never a particular core; it draws its random numbers from the trial's seed; it
+//! leaves every verdict to [`crate::stats`]. To add one: write the file, and its lines in the `mod.rs` of its subject.
 
 pub(crate) mod adaptive;
 pub(crate) mod breach;
@@ -22,6 +20,7 @@ pub(crate) mod light;
 mod numbers;
 mod oracle;
 mod phrase;
+mod ray_row;
 mod rendering;
 pub(crate) mod sampling;
 pub(crate) mod shape;
@@ -162,7 +161,6 @@ pub(crate) static RENAMED: &[(&str, &str)] = &[
     ("stops-behind-hits", "tests-per-ray"),   // arrangement = "layers"
 ];
 
-/// The check called `name`.
 pub(crate) fn find(name: &str) -> Option<&'static CheckKind> {
     all().find(|kind| kind.name == name)
 }

@@ -1,7 +1,7 @@
 //! The random numbers that a batch of sampling calls is handed.
 
 use crate::contract::{BuiltScene, LightSample, Randomness, Result};
-use crate::math::rng::{Seed, uniform};
+use crate::math::rng::{Seed, in_square, uniform};
 use glam::{DVec2, DVec3};
 
 /// Numbers for one batch, drawn from one seed.
@@ -16,10 +16,9 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// Draws the numbers of `count` samples.
     pub(crate) fn new(seed: Seed, count: usize) -> Self {
         let stream = &mut seed.stream();
-        let points = (0..count).map(|_| DVec2::new(uniform(stream), uniform(stream))).collect();
+        let points = (0..count).map(|_| in_square(stream)).collect();
         let lobes = (0..count).map(|_| uniform(stream)).collect();
         Self { points, lobes, seed }
     }
@@ -36,7 +35,6 @@ impl Numbers {
         Ok(samples)
     }
 
-    /// As a core is handed them.
     pub(crate) fn randomness(&self) -> Randomness<'_> {
         Randomness { points: &self.points, lobes: &self.lobes, seed: self.seed.0 }
     }

@@ -5,7 +5,6 @@ use super::shape::{Answer, intersection};
 use crate::contract::{Primitive, Ray};
 use crate::scene::{SceneDescription, Shape};
 
-/// What a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Met {
     /// Number of the shape in the scene.
@@ -16,7 +15,6 @@ pub(crate) struct Met {
     pub(crate) answer: Answer,
 }
 
-/// The nearest hit on the segment of `ray`.
 pub(crate) fn nearest(scene: &SceneDescription, ray: &Ray) -> Option<Met> {
     let mut ray = *ray;
     let mut met = None;
@@ -52,11 +50,7 @@ fn primitive(scene: &SceneDescription, shape: u32, number: usize) -> Primitive {
 
 fn facing(scene: &SceneDescription, shape: u32, answer: Answer) -> Answer {
     match scene.shape(shape) {
-        Shape::Sphere(sphere) if sphere.inward => Answer {
-            geometric_normal: -answer.geometric_normal,
-            shading_normal: -answer.shading_normal,
-            ..answer
-        },
+        Shape::Sphere(sphere) if sphere.inward => answer.turned(-1.0),
         _ => answer,
     }
 }

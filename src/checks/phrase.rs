@@ -10,6 +10,18 @@ pub(crate) fn some_are(some: usize, all: usize, noun: &str) -> String {
     format!("{some} of {all} {noun} {}", if some == 1 { "is" } else { "are" })
 }
 
+/// `t is 3 instead of 2`
+pub(crate) fn instead(measure: &Measure) -> String {
+    let (found, right) = (figure(measure.measured), figure(measure.expected));
+    format!("{} is {found} instead of {right}", measure.name())
+}
+
+/// `2895`: of 20000 that are right, the `one in so many` that would have shown a wrong one.
+pub(crate) fn one_in(right: usize) -> String {
+    // 6.9 = −ln 0.001: so rare a mistake shows in none of them once in a thousand times.
+    figure((right as f64 / 6.9).floor())
+}
+
 /// `0.318 (99.9 % CI 0.316 to 0.320)`: what was measured over what it should be.
 pub(crate) fn ratio_of(measure: &Measure) -> String {
     let over = |value: f64| value / measure.expected;

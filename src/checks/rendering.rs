@@ -4,7 +4,14 @@ use super::{CheckError, camera_of};
 use crate::contract::{
     AdaptiveSettings, BuiltScene, DirectSampling, Film, IntegratorSettings, RenderSettings,
 };
+use crate::image::encoding::Encoding;
+use crate::image::png::Picture;
 use crate::scene::{Camera, SceneDescription};
+
+/// Columns and rows of a film, in the order of its pixels.
+pub(crate) fn places([width, height]: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
+    (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]))
+}
 
 /// Everything about a picture but its seed.
 pub(crate) struct Rendering {
@@ -26,7 +33,6 @@ impl Rendering {
         Ok(Self::through(camera_of(scene)?, size, bounces, samples_per_pixel))
     }
 
-    /// A picture from another camera.
     pub(crate) fn through(
         camera: Camera,
         size: [u32; 2],
@@ -65,20 +71,32 @@ impl Rendering {
     }
 
     /// The picture of a seed; `threads` as in [`IntegratorSettings::threads`].
-    ///
-    /// # Errors
-    /// If the core does not render.
     pub(crate) fn film(
         &self,
         scene: &mut dyn BuiltScene,
         seed: u64,
         threads: u32,
     ) -> Result<Film, CheckError> {
+        let mut film = Film::default();
+        scene.render(&self.camera, &self.settings_of(seed, threads), &mut film)?;
+        Ok(film)
+    }
+
+    /// The same of a core that writes 8 bits.
+    pub(crate) fn codes(
+        &self,
+        scene: &mut dyn BuiltScene,
+        seed: u64,
+    ) -> Result<(Encoding, Picture), CheckError> {
+        let mut codes = Picture::default();
+        let encoding = scene.render_codes(&self.camera, &self.settings_of(seed, 0), &mut codes)?;
+        Ok((encoding, codes))
+    }
+
+    fn settings_of(&self, seed: u64, threads: u32) -> RenderSettings {
         let mut settings = self.settings.clone();
         settings.integrator.seed = seed;
         settings.integrator.threads = threads;
-        let mut film = Film::default();
-        scene.render(&self.camera, &settings, &mut film)?;
-        Ok(film)
+        settings
     }
 }

@@ -15,9 +15,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) enum SurfaceEntry {
-    /// Reflectance.
     Diffuse(Reflectance),
-    /// Reflectance.
     Mirror(Reflectance),
     /// A smooth interface.
     Glass(GlassEntry),
@@ -33,10 +31,9 @@ pub(crate) enum SurfaceEntry {
 pub(crate) struct GlassEntry {
     /// Inside; outside is vacuum.
     pub(crate) index: Positive,
-    /// Multiplies what is reflected.
+    /// Multiplies what is reflected, as `transmittance` what is transmitted.
     #[serde(default = "white")]
     pub(crate) reflectance: Reflectance,
-    /// Multiplies what is transmitted.
     #[serde(default = "white")]
     pub(crate) transmittance: Reflectance,
 }
@@ -45,7 +42,7 @@ pub(crate) struct GlassEntry {
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ConductorEntry {
-    /// Of a single facet.
+    /// Of a single microfacet.
     pub(crate) reflectance: Reflectance,
     /// The width parameter α.
     pub(crate) roughness: Roughness,
@@ -59,10 +56,9 @@ pub(crate) struct RoughGlassEntry {
     pub(crate) index: Bending,
     /// The width parameter α.
     pub(crate) roughness: Roughness,
-    /// Multiplies what is reflected.
+    /// Multiplies what is reflected, as `transmittance` what is transmitted.
     #[serde(default = "white")]
     pub(crate) reflectance: Reflectance,
-    /// Multiplies what is transmitted.
     #[serde(default = "white")]
     pub(crate) transmittance: Reflectance,
 }
@@ -72,18 +68,19 @@ const fn white() -> Reflectance {
 }
 
 impl SurfaceEntry {
-    /// As a core is asked for it.
     pub(crate) fn material(self) -> Material {
         let surface = match self {
             Self::Diffuse(Reflectance(reflectance)) => Surface::Diffuse { reflectance },
             Self::Mirror(Reflectance(reflectance)) => Surface::Mirror { reflectance },
-            Self::Glass(GlassEntry { index, reflectance, transmittance }) => {
-                let (reflectance, transmittance) = (reflectance.0, transmittance.0);
-                Surface::Glass { index: index.0, reflectance, transmittance }
-            }
-            Self::Conductor(ConductorEntry { reflectance, roughness }) => {
-                Surface::Conductor { reflectance: reflectance.0, roughness: roughness.0 }
-            }
+            Self::Glass(glass) => Surface::Glass {
+                index: glass.index.0,
+                reflectance: glass.reflectance.0,
+                transmittance: glass.transmittance.0,
+            },
+            Self::Conductor(metal) => Surface::Conductor {
+                reflectance: metal.reflectance.0,
+                roughness: metal.roughness.0,
+            },
             Self::RoughGlass(glass) => Surface::RoughGlass {
                 index: glass.index.0,
                 roughness: glass.roughness.0,
@@ -102,9 +99,8 @@ impl SurfaceEntry {
         }
     }
 
-    /// What all of `surfaces` need.
     pub(crate) fn all_need(surfaces: &[Self]) -> Capabilities {
-        surfaces.iter().fold(Capabilities::empty(), |all, surface| all | surface.needs())
+        surfaces.iter().map(|surface| surface.needs()).collect()
     }
 
     /// An error about the first that a core evaluates as zero everywhere, which says why.
@@ -125,7 +121,6 @@ impl SurfaceEntry {
         if self.lets_pass() { on_sphere(stream) } else { on_hemisphere(stream) }
     }
 
-    /// Whether a core evaluates it as zero everywhere.
     pub(crate) const fn is_delta(self) -> bool {
         matches!(self, Self::Mirror(_) | Self::Glass(_))
     }
@@ -137,9 +132,7 @@ impl fmt::Display for SurfaceEntry {
             Self::Diffuse(_) => f.write_str("a diffuse surface"),
             Self::Mirror(_) => f.write_str("a mirror"),
             Self::Glass(glass) => write!(f, "glass of index {}", glass.index.0),
-            Self::Conductor(conductor) => {
-                write!(f, "a conductor of roughness {}", conductor.roughness.0)
-            }
+            Self::Conductor(metal) => write!(f, "a conductor of roughness {}", metal.roughness.0),
             Self::RoughGlass(RoughGlassEntry { index, roughness, .. }) => {
                 write!(f, "glass of index {} and roughness {}", index.0, roughness.0)
             }
@@ -175,7 +168,7 @@ pub(crate) const fn lets_pass(surface: &Surface) -> bool {
     matches!(surface, Surface::RoughGlass { .. })
 }
 
-/// The height at which f and its density may jump, seen from this angle: rough glass refracts by facets that face
+/// The height at which f and its density may jump, seen from this angle: rough glass refracts by microfacets that face
 /// the side of the normal, and where the half vector has just turned over there are none.
 pub(crate) fn kink(surface: &Surface, angle: f64) -> Option<f64> {
     match surface {

@@ -11,9 +11,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// The check of a case with this text: a whole file of `cases/`, or its `[expect]` alone.
-///
-/// # Panics
-/// If the text is not what the check wants.
 pub(crate) fn check_of<C: Check>(text: &str) -> C {
     let expect: C = read_key(text, "expect").unwrap();
     expect.validate().unwrap();
@@ -32,9 +29,6 @@ pub(crate) fn info(precision: Precision) -> CoreInfo {
 }
 
 /// What the check says of the core, or why it says nothing.
-///
-/// # Errors
-/// Those of the check.
 pub(crate) fn try_judge<C: Check>(
     check: &C,
     core: &mut dyn Core,
@@ -57,35 +51,23 @@ pub(crate) fn try_judge<C: Check>(
 }
 
 /// What the check says of the core.
-///
-/// # Panics
-/// If it says nothing.
 pub(crate) fn judge<C: Check>(check: &C, core: &mut dyn Core) -> Finding {
     try_judge(check, core, None).unwrap()
 }
 
 /// The statement of a finding that has to be a failure.
-///
-/// # Panics
-/// If it is none.
 pub(crate) fn failure(finding: &Finding) -> &str {
     assert_eq!(finding.verdict, Verdict::Fail, "{finding:#?}");
     &finding.statement
 }
 
 /// The causes that a failure names, the likeliest first.
-///
-/// # Panics
-/// If it is none.
 pub(crate) fn causes(finding: &Finding) -> Vec<&str> {
     failure(finding);
     finding.clues.iter().map(|clue| clue.cause.as_str()).collect()
 }
 
 /// Asserts that a finding passes and says what it would have caught.
-///
-/// # Panics
-/// If it does not.
 pub(crate) fn assert_passes(finding: &Finding) {
     assert_eq!(finding.verdict, Verdict::Pass, "{finding:#?}");
     assert!(!finding.resolution.is_empty(), "a pass says what it would have caught");

@@ -5,6 +5,7 @@
 //! of one label changes everything. Seeds are never edited; [`Seed::SUITE`] changes with the
 //! suite's version.
 
+use glam::{DVec2, DVec3};
 use rand::{Rng, SeedableRng};
 use sha2::{Digest, Sha256};
 
@@ -40,4 +41,14 @@ impl Seed {
 pub fn uniform(stream: &mut Stream) -> f64 {
     // 53 bits: every multiple of 2⁻⁵³ below 1.
     (stream.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+}
+
+/// A point of the unit square.
+pub(crate) fn in_square(stream: &mut Stream) -> DVec2 {
+    DVec2::from_array(std::array::from_fn(|_| uniform(stream)))
+}
+
+/// A point of the unit cube.
+pub(crate) fn in_cube(stream: &mut Stream) -> DVec3 {
+    DVec3::from_array(std::array::from_fn(|_| uniform(stream)))
 }

@@ -1,9 +1,12 @@
 //! Arrangements of triangles that show what a BVH does wrong, and rays at them.
 
+use super::question::scene_of;
 use crate::contract::Ray;
-use crate::math::rng::{Seed, Stream, uniform};
+use crate::math::rng::{Seed, Stream, in_cube, in_square};
 use crate::math::sphere::on_sphere;
-use crate::scene::Mesh;
+use crate::scene::procedural::{Layout, pathological, soup};
+use crate::scene::{Mesh, SceneDescription};
+use crate::text::Count;
 use glam::DVec3;
 use serde::Deserialize;
 
@@ -64,10 +67,7 @@ pub(super) fn layers() -> Mesh {
 
 /// Steeply through all of them.
 fn ray_through_layers(from_above: bool, stream: &mut Stream) -> Ray {
-    let mut at = |z: f64| {
-        let inside = [(); 2].map(|()| f64::from(CELLS) * (0.1 + 0.8 * uniform(stream)));
-        DVec3::new(inside[0], inside[1], z)
-    };
+    let mut at = |z: f64| (f64::from(CELLS) * (0.1 + 0.8 * in_square(stream))).extend(z);
     let (low, high) = (at(-3.0), at(f64::from(LAYERS) + 3.0));
     let (from, to) = if from_above { (high, low) } else { (low, high) };
     Ray::new(from, (to - from).normalize())
@@ -96,7 +96,7 @@ fn long_box(axis: usize) -> Mesh {
 }
 
 fn point_in_box(axis: usize, stream: &mut Stream) -> DVec3 {
-    let mut point = DVec3::from_array(std::array::from_fn(|_| uniform(stream)));
+    let mut point = in_cube(stream);
     point[axis] *= LENGTH;
     point
 }
@@ -108,4 +108,28 @@ fn ray_across(axis: usize, stream: &mut Stream) -> Ray {
     direction[axis] = 0.0;
     let direction = direction.normalize_or(DVec3::ONE);
     Ray::new(target - 3.0 * direction, direction)
+}
+
+/// Arrangements of so many triangles, and of next to none, that leave a split rule nothing to split by.
+pub(super) fn without_a_split(triangles: Count) -> Vec<(&'static str, SceneDescription)> {
+    let triangles = u32::try_from(triangles.0).unwrap_or(u32::MAX);
+    let layouts = LAYOUTS.map(|(layout, name)| (name, pathological(layout, triangles, Seed(1))));
+    let few = FEW.map(|(count, name)| (name, soup(count, Seed(1))));
+    let all = layouts.into_iter().chain(few);
+    all.map(|(name, mesh)| (name, scene_or_nothing(mesh))).collect()
+}
+
+const LAYOUTS: [(Layout, &str); 5] = [
+    (Layout::IdenticalCentroids, IN_ONE_PLACE[0]),
+    (Layout::CoincidentTriangles, IN_ONE_PLACE[1]),
+    (Layout::CoplanarLine, "a line of coplanar triangles"),
+    (Layout::SizeRatio, "sizes of 1 to a million"),
+    (Layout::GridOnOneAxis, "a grid on one axis"),
+];
+/// Those that have all their centroids in one place.
+pub(super) const IN_ONE_PLACE: [&str; 2] = ["identical centroids", "coincident triangles"];
+const FEW: [(u32, &str); 3] = [(0, "no triangle"), (1, "one triangle"), (2, "two triangles")];
+
+fn scene_or_nothing(mesh: Mesh) -> SceneDescription {
+    if mesh.indices.is_empty() { SceneDescription::default() } else { scene_of(mesh) }
 }

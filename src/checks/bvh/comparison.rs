@@ -1,12 +1,13 @@
-//! A hierarchy's answers against those of the loop over every primitive, ray by ray.
+//! A BVH's answers against those of the loop over every primitive, ray by ray.
 //!
 //! The same routine of the core meets the same primitive either way, so t has to be the same to the bit, whatever the
 //! precision. Two primitives at the same t are a tie; otherwise the primitive has to be the same too.
 
-use crate::checks::CheckError;
-use crate::contract::{BuiltScene, Hit, Ray};
+use crate::checks::{CheckError, Context};
+use crate::contract::{Acceleration, BuiltScene, Hit, Ray};
+use crate::scene::SceneDescription;
 
-/// What is asked with and without a hierarchy.
+/// What is asked with and without a BVH.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Questions {
     /// Closest hits.
@@ -15,23 +16,17 @@ pub(crate) struct Questions {
     pub(crate) segments: Vec<Ray>,
 }
 
-/// What a hierarchy answers.
 #[derive(Clone, Debug)]
 pub(crate) struct Answers {
-    /// To [`Questions::rays`].
     pub(crate) rays: Vec<Hit>,
-    /// To [`Questions::segments`].
     pub(crate) segments: Vec<Hit>,
-    /// The same, any hit.
     pub(crate) occluded: Vec<bool>,
 }
 
 /// What the loop answers; whether a segment is occluded follows.
 #[derive(Clone, Debug)]
 pub(crate) struct Truth {
-    /// Of [`Questions::rays`].
     pub(crate) rays: Vec<Hit>,
-    /// Of [`Questions::segments`].
     pub(crate) segments: Vec<Hit>,
     /// Whether each segment would be occluded if it had no end.
     pub(crate) endless: Vec<bool>,
@@ -39,10 +34,6 @@ pub(crate) struct Truth {
     pub(crate) overwritten: usize,
 }
 
-/// The closest hits of some rays.
-///
-/// # Errors
-/// If the core does not answer.
 pub(crate) fn closest_hits(
     scene: &mut dyn BuiltScene,
     rays: &[Ray],
@@ -52,11 +43,17 @@ pub(crate) fn closest_hits(
     Ok(hits)
 }
 
+/// Those with or without a BVH of the core.
+pub(crate) fn hits_with(
+    context: &mut Context<'_>,
+    scene: &SceneDescription,
+    acceleration: Acceleration,
+    rays: &[Ray],
+) -> Result<Vec<Hit>, CheckError> {
+    closest_hits(context.core.build_scene(scene, acceleration)?.as_mut(), rays)
+}
+
 impl Questions {
-    /// Asks them.
-    ///
-    /// # Errors
-    /// If the core does not answer.
     pub(crate) fn ask(&self, scene: &mut dyn BuiltScene) -> Result<Answers, CheckError> {
         let rays = closest_hits(scene, &self.rays)?;
         let segments = closest_hits(scene, &self.segments)?;
@@ -65,20 +62,19 @@ impl Questions {
         Ok(Answers { rays, segments, occluded })
     }
 
-    /// How many single answers that makes.
     pub(crate) fn answers(&self) -> usize {
         self.rays.len() + 2 * self.segments.len()
     }
 }
 
-/// How the answers with a hierarchy differ from those without.
+/// How the answers with a BVH differ from those without.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Differences {
-    /// Brute force hits, the hierarchy misses.
+    /// Brute force hits, the BVH misses.
     pub(crate) lost: usize,
-    /// The hierarchy hits, but something nearer is there.
+    /// The BVH hits, but something nearer is there.
     pub(crate) farther: usize,
-    /// The hierarchy hits where brute force misses, or before what is nearest.
+    /// The BVH hits where brute force misses, or before what is nearest.
     pub(crate) invented: usize,
     /// Outside the segment that was asked for. Its very ends are a core's own affair: brute force says what they are.
     pub(crate) outside: usize,
@@ -91,7 +87,6 @@ pub(crate) struct Differences {
 }
 
 impl Differences {
-    /// All of them.
     pub(crate) fn total(&self) -> usize {
         self.kinds().iter().map(|(count, _)| count).sum()
     }
@@ -101,8 +96,8 @@ impl Differences {
         let mut kinds = self.kinds().to_vec();
         kinds.retain(|(count, _)| *count > 0);
         kinds.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
-        let words: Vec<_> = kinds.iter().map(|(count, what)| format!("{count} {what}")).collect();
-        words.join(", ")
+        let words = |(count, what): (usize, &str)| format!("{count} {what}");
+        kinds.into_iter().map(words).collect::<Vec<_>>().join(", ")
     }
 
     fn kinds(&self) -> [(usize, &'static str); 7] {
@@ -131,11 +126,6 @@ impl Differences {
             self.misnamed += 1;
         }
     }
-
-    fn take_occlusion(&mut self, found: bool, right: bool) {
-        self.unoccluded += usize::from(right && !found);
-        self.occluded += usize::from(found && !right);
-    }
 }
 
 /// Compares answers; `is_there` tells whether a ray meets the primitive of a hit at the hit's t.
@@ -152,7 +142,8 @@ pub(crate) fn compare(
         differences.take_hit(ray, found, right, is_there(ray, found));
     }
     for (found, right) in found.occluded.iter().zip(&right.segments) {
-        differences.take_occlusion(*found, right.is_hit());
+        differences.unoccluded += usize::from(right.is_hit() && !found);
+        differences.occluded += usize::from(*found && !right.is_hit());
     }
     differences
 }
@@ -185,12 +176,7 @@ mod tests {
         assert_eq!(differs(hit(10.0, 1), hit(10.0, 1)).total(), 0);
         assert_eq!(differs(hit(f64::NAN, 1), hit(1.0, 1)).outside, 1);
         assert_eq!(differs(hit(2.0, 2), hit(2.0, 1)).misnamed, 1);
-    }
-
-    #[test]
-    fn the_last_bit_of_t_counts() {
-        let next = f64::from_bits(2f64.to_bits() + 1);
-        assert_eq!(differs(hit(next, 1), hit(2.0, 1)).total(), 1);
+        assert_eq!(differs(hit(2f64.next_up(), 1), hit(2.0, 1)).farther, 1, "by the last bit");
     }
 
     #[test]

@@ -1,7 +1,7 @@
-//! What a hierarchy does wrong, from the pattern of its wrong answers: which of the two queries errs, in which
+//! What a BVH does wrong, from the pattern of its wrong answers: which of the two queries errs, in which
 //! direction, and whether some primitives are never found at all.
 
-use super::comparison::{Answers, Differences, Questions, Truth};
+use super::comparison::{Answers, Differences, Truth};
 use crate::cause::{Cause, bvh};
 use crate::contract::Hit;
 use std::collections::BTreeSet;
@@ -10,18 +10,12 @@ use std::collections::BTreeSet;
 const ASKED_OFTEN: usize = 2;
 
 /// The mistake that makes just such a pattern. Nothing is said where two mistakes would.
-pub(crate) fn explain(
-    questions: &Questions,
-    found: &Answers,
-    right: &Truth,
-    differences: &Differences,
-) -> Option<&'static Cause> {
-    let d = differences;
+pub(crate) fn explain(found: &Answers, right: &Truth, d: &Differences) -> Option<&'static Cause> {
     let closest = d.lost + d.farther + d.invented + d.outside + d.misnamed;
     match (closest, d.unoccluded, d.occluded) {
         (0, 0, 0) => None,
         _ if right.overwritten > 0 => Some(&bvh::HIT_OVERWRITTEN),
-        (0, 0, _) => Some(shadows_stopped_by_nothing(questions, found, right)),
+        (0, 0, _) => Some(shadows_stopped_by_nothing(found, right)),
         (0, _, 0) => Some(&bvh::SHADOW_SECOND_CHILD_SKIPPED),
         (all, 0, 0) if all == d.misnamed => Some(&bvh::LEAF_ORDER_NUMBERS),
         (all, _, 0) if all == d.lost + d.farther => hits_lost(found, right, d),
@@ -32,15 +26,8 @@ pub(crate) fn explain(
     }
 }
 
-fn shadows_stopped_by_nothing(
-    questions: &Questions,
-    found: &Answers,
-    right: &Truth,
-) -> &'static Cause {
-    let answers = found.occluded.iter().zip(&right.endless);
-    let follows = questions.segments.len() == right.endless.len()
-        && answers.clone().all(|(found, endless)| found == endless);
-    if follows { &bvh::SHADOW_END_IGNORED } else { &bvh::SHADOWS_HIT_BOXES }
+fn shadows_stopped_by_nothing(found: &Answers, right: &Truth) -> &'static Cause {
+    if found.occluded == right.endless { &bvh::SHADOW_END_IGNORED } else { &bvh::SHADOWS_HIT_BOXES }
 }
 
 /// Nearest hits are missed, and nothing else is wrong. A primitive that is in no leaf occludes nothing either.
@@ -71,12 +58,12 @@ fn some_are_never_found(found: &Answers, right: &Truth) -> bool {
     missed.len() >= ASKED_OFTEN * distinct.len() && distinct.is_disjoint(&ever)
 }
 
-/// The mistake that most of the wrong hierarchies share, with how many they are.
+/// The mistake that most of the wrong BVHs share, with how many they are.
 pub(crate) fn shared(causes: &[Option<&'static Cause>]) -> Option<(&'static Cause, String)> {
     let count = |cause: &Cause| causes.iter().flatten().filter(|other| **other == cause).count();
     let most = causes.iter().flatten().max_by_key(|cause| count(cause))?;
     let evidence = format!(
-        "is the pattern of the wrong answers of {} of {} wrong hierarchies",
+        "is the pattern of the wrong answers of {} of {} wrong BVHs",
         count(most),
         causes.len()
     );
@@ -85,6 +72,7 @@ pub(crate) fn shared(causes: &[Option<&'static Cause>]) -> Option<(&'static Caus
 
 #[cfg(test)]
 mod tests {
+    use super::super::comparison::{Questions, compare};
     use super::*;
     use crate::contract::Ray;
     use glam::DVec3;
@@ -93,70 +81,60 @@ mod tests {
         Hit { t, shape: 0, primitive, ..Hit::MISS }
     }
 
-    /// Ten rays at each of three primitives, and as many segments.
-    fn truth() -> Truth {
-        let hits: Vec<_> = (0..30).map(|i| hit(1.0 + f64::from(i), i as u32 % 3)).collect();
-        Truth { rays: hits.clone(), segments: hits, endless: vec![true; 30], overwritten: 0 }
-    }
-
-    fn right_answers(truth: &Truth) -> Answers {
-        let occluded = truth.segments.iter().map(Hit::is_hit).collect();
-        Answers { rays: truth.rays.clone(), segments: truth.segments.clone(), occluded }
-    }
-
+    /// Of thirty right answers and as many shadows, ten at each of three primitives, with this change.
     fn told(change: impl Fn(&mut Answers, &mut Truth)) -> Option<&'static Cause> {
-        let mut truth = truth();
-        let mut answers = right_answers(&truth);
+        let rays: Vec<_> = (0..30).map(|i| hit(1.0 + f64::from(i), i as u32 % 3)).collect();
+        let segments = rays.clone();
+        let mut answers =
+            Answers { rays: rays.clone(), segments: rays.clone(), occluded: vec![true; 30] };
+        let mut truth = Truth { rays, segments, endless: vec![true; 30], overwritten: 0 };
         change(&mut answers, &mut truth);
         let ray = Ray::new(DVec3::ZERO, DVec3::X);
         let questions = Questions { rays: vec![ray; 30], segments: vec![ray; 30] };
-        let differences =
-            super::super::comparison::compare(&questions, &answers, &truth, &|_, _| false);
-        explain(&questions, &answers, &truth, &differences)
+        let differences = compare(&questions, &answers, &truth, &|_, _| false);
+        explain(&answers, &truth, &differences)
+    }
+
+    /// Nothing is on the first segment, and all but the shadow ray say so.
+    fn stopped_by_nothing(answers: &mut Answers, truth: &mut Truth) {
+        truth.segments[0] = Hit::MISS;
+        answers.segments[0] = Hit::MISS;
     }
 
     #[test]
     fn each_pattern_has_its_mistake() {
+        let tell = |cause: &'static Cause, change: fn(&mut Answers, &mut Truth)| {
+            assert_eq!(told(change), Some(cause));
+        };
         assert_eq!(told(|_, _| ()), None);
-        let farther = told(|answers, _| answers.rays[3].t = 100.0);
-        assert_eq!(farther, Some(&bvh::SECOND_CHILD_SKIPPED));
-        assert_eq!(told(|answers, _| answers.rays[3] = Hit::MISS), Some(&bvh::RANGE_OVERWRITTEN));
-        let widened = told(|answers, _| {
+        tell(&bvh::SECOND_CHILD_SKIPPED, |answers, _| answers.rays[3].t = 100.0);
+        tell(&bvh::RANGE_OVERWRITTEN, |answers, _| answers.rays[3] = Hit::MISS);
+        tell(&bvh::RANGE_OVERWRITTEN, |answers, _| {
             answers.rays[3] = Hit::MISS;
             answers.rays[4].t = -1.0;
         });
-        assert_eq!(widened, Some(&bvh::RANGE_OVERWRITTEN));
-        let both = told(|answers, _| {
+        tell(&bvh::BOX_OF_CENTROIDS, |answers, _| {
             answers.rays[3] = Hit::MISS;
             answers.occluded[4] = false;
         });
-        assert_eq!(both, Some(&bvh::BOX_OF_CENTROIDS));
-        let never = told(|answers, _| {
+        tell(&bvh::PRIMITIVES_LOST, |answers, _| {
             let lost = answers.rays.iter_mut().chain(&mut answers.segments);
             lost.filter(|hit| hit.primitive == 1).for_each(|hit| *hit = Hit::MISS);
             answers.occluded[1] = false;
         });
-        assert_eq!(never, Some(&bvh::PRIMITIVES_LOST));
-        let renamed = told(|answers, _| answers.rays.iter_mut().for_each(|hit| hit.primitive += 1));
-        assert_eq!(renamed, Some(&bvh::LEAF_ORDER_NUMBERS));
-        let through = told(|answers, _| answers.occluded[0] = false);
-        assert_eq!(through, Some(&bvh::SHADOW_SECOND_CHILD_SKIPPED));
-        let endless = told(|answers, truth| {
-            truth.segments[0] = Hit::MISS;
-            answers.segments[0] = Hit::MISS;
+        tell(&bvh::LEAF_ORDER_NUMBERS, |answers, _| {
+            answers.rays.iter_mut().for_each(|hit| hit.primitive += 1);
         });
-        assert_eq!(endless, Some(&bvh::SHADOW_END_IGNORED));
-        let boxes = told(|answers, truth| {
-            truth.segments[0] = Hit::MISS;
-            answers.segments[0] = Hit::MISS;
+        tell(&bvh::SHADOW_SECOND_CHILD_SKIPPED, |answers, _| answers.occluded[0] = false);
+        tell(&bvh::SHADOW_END_IGNORED, stopped_by_nothing);
+        tell(&bvh::SHADOWS_HIT_BOXES, |answers, truth| {
+            stopped_by_nothing(answers, truth);
             truth.endless[0] = false;
         });
-        assert_eq!(boxes, Some(&bvh::SHADOWS_HIT_BOXES));
-        let overwritten = told(|answers, truth| {
+        tell(&bvh::HIT_OVERWRITTEN, |answers, truth| {
             answers.rays[0].t = 0.5;
             truth.overwritten = 2;
         });
-        assert_eq!(overwritten, Some(&bvh::HIT_OVERWRITTEN));
     }
 
     #[test]

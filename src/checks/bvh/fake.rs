@@ -1,5 +1,4 @@
-//! A core over the reference hierarchy that can be made to slip, for the tests of the checks in
-//! this folder.
+//! A core over the reference BVH that can be made to slip, for the tests of the checks in this folder.
 
 use super::reference::{ReferenceBvh, Walk, Walked, meets};
 use crate::checks::testing::info;
@@ -8,12 +7,10 @@ use crate::contract::{
     TraversalStats,
 };
 use crate::scene::{Aabb, Mesh, SceneDescription};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-/// What a fake core gets wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Slip {
-    /// Nothing.
     None,
     /// Closest hits end at the first triangle that is hit.
     KeepsTheFirstHit,
@@ -21,13 +18,11 @@ pub(crate) enum Slip {
     ShrinksBoxes,
     /// Shadow rays do not end at their light.
     ShadowsWithoutEnd,
-    /// Closest hits may lie beyond t_max.
     ForgetsTheEnd,
     /// Hits carry the number of the triangle in the order of the leaves.
     NamesTheLeafOrder,
-    /// The hierarchy is a list.
     IsAList,
-    /// A hierarchy that is never asked: every triangle is tested.
+    /// A BVH that is never asked: every triangle is tested.
     TestsEverything,
     /// The ray does not end at what was found.
     NeverShortens,
@@ -35,11 +30,8 @@ pub(crate) enum Slip {
     NeverOrders,
     /// Shadow rays look for the nearest hit among everything.
     SearchesShadows,
-    /// Triangles are not hit near their edges.
     ShrinksTriangles,
-    /// Triangles are not hit from behind.
     CullsBack,
-    /// The last triangle is lost.
     LosesTheLast,
     /// No mistake: t is compared in fewer digits than it is told in.
     ComparesFewDigits,
@@ -55,7 +47,6 @@ impl Slip {
     }
 }
 
-/// See the module.
 pub(crate) struct FakeCore(pub(crate) Slip);
 
 struct FakeScene {
@@ -94,27 +85,17 @@ impl FakeScene {
         if !self.brute && self.slip != Slip::TestsEverything {
             return self.bvh.walk(ray, walk);
         }
-        let mut found = Walked::default();
-        for number in 0..self.mesh.indices.len() {
-            found.tests += 1;
-            let end = found.nearest.map_or(ray.t_max, |(t, _)| t);
-            let t = meets(ray, &self.mesh.corners(number));
-            if let Some(t) = t.filter(|t| ray.t_min < *t && *t < end) {
-                found.nearest = Some((t, number as u32));
-            }
-        }
-        found
+        self.bvh.test_all(ray)
     }
 
     fn closest(&self, ray: &Ray) -> Walked {
+        let until = |t_max| Ray { t_max, ..*ray };
         match self.slip {
             Slip::KeepsTheFirstHit => self.walk(ray, Walk::AnyHit),
             Slip::NeverShortens => self.walk(ray, Walk::Unshortened),
             Slip::NeverOrders => self.walk(ray, Walk::Unordered),
-            Slip::ForgetsTheEnd => self.walk(&Ray { t_max: f64::INFINITY, ..*ray }, Walk::Ordered),
-            Slip::ComparesFewDigits => {
-                self.walk(&Ray { t_max: (1.0 + 3e-5) * ray.t_max, ..*ray }, Walk::Ordered)
-            }
+            Slip::ForgetsTheEnd => self.walk(&until(f64::INFINITY), Walk::Ordered),
+            Slip::ComparesFewDigits => self.walk(&until((1.0 + 3e-5) * ray.t_max), Walk::Ordered),
             _ => self.walk(ray, Walk::Ordered),
         }
     }
@@ -164,14 +145,8 @@ impl FakeScene {
             Slip::NamesTheLeafOrder => self.bvh.place_of(triangle),
             _ => triangle,
         };
-        Hit {
-            t,
-            shape: 0,
-            primitive,
-            geometric_normal: normal,
-            shading_normal: normal,
-            uv: DVec2::ZERO,
-        }
+        let (geometric_normal, shading_normal) = (normal, normal);
+        Hit { t, shape: 0, primitive, geometric_normal, shading_normal, ..Hit::MISS }
     }
 }
 

@@ -1,9 +1,8 @@
-//! How much faster than a loop over everything a hierarchy is, by the clock.
+//! How much faster than a loop over everything a BVH is, by the clock.
 //!
-//! A clock tells of the machine as much as of the core, so that it never fails one: what it shows is
-//! shown, and what it does not show is undecided. A hierarchy whose hits are not those of the loop
-//! fails, however fast it is. Work is graded by counts (`visits-few-nodes`). A decision in
-//! `docs/decisions` says why it is a case all the same.
+//! A clock tells of the machine as much as of the core, so that it never fails one: what it shows is shown, and what it
+//! does not show is undecided. A BVH whose hits are not those of the loop fails, however fast it is. Work is
+//! graded by counts (`visits-few-nodes`). A decision in `docs/decisions` says why it is a case all the same.
 //!
 //! Asking takes time too, with a core in another process more than with one in ours. It is in both
 //! times and makes their ratio smaller, never larger; what it takes is told beside the ratio.
@@ -25,7 +24,7 @@ const PASSES: usize = 3;
 const HARDLY: f64 = 1e-12;
 
 check! {
-    /// The same rays with the core's own hierarchy and with a loop over every primitive, in turn.
+    /// The same rays with the core's own BVH and with a loop over every primitive, in turn.
     pub(crate) struct IsFaster {
         /// Rays of one pass.
         rays: Count,
@@ -33,16 +32,15 @@ check! {
         at_least: Factor,
     }
     name: "is-faster",
-    summary: "the time with a hierarchy against that of the loop, for the same hits",
+    summary: "the time with a BVH against that of the loop, for the same hits",
     needs: BUILD_SCENE | INTERSECT | BRUTE_FORCE,
 }
 
 impl Check for IsFaster {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
-        let bounds = scene
-            .bounds()
-            .ok_or_else(|| CheckError::Broken("the scene has nothing to hit".to_owned()))?;
+        let nothing = || CheckError::Broken("the scene has nothing to hit".to_owned());
+        let bounds = scene.bounds().ok_or_else(nothing)?;
         let count = usize::try_from(self.rays.0).unwrap_or(usize::MAX);
         let rays = generic_rays(bounds, count, &mut context.seed.stream());
         let hardly = |ray: &Ray| Ray { t_max: ray.t_min + HARDLY, ..*ray };
@@ -84,10 +82,9 @@ fn timed(
     Ok((shortest, hits))
 }
 
-/// Whatever a hierarchy does that finds other hits, it is not the same faster.
+/// Whatever a BVH does that finds other hits, it is not the same faster.
 fn useless(different: usize, rays: usize) -> Finding {
-    let statement =
-        format!("{different} of {rays} hits with a hierarchy are not those of the loop");
+    let statement = format!("{different} of {rays} hits with a BVH are not those of the loop");
     let measure = Measure::exact("hits that differ from the loop's", different as f64, 0.0, 0.0);
     Finding::of(statement, "would have caught one wrong hit", vec![measure])
 }
@@ -97,7 +94,7 @@ fn finding(found: &Faster, at_least: f64, asking: f64) -> Finding {
     let [low, high] = speed_up.interval.map(figure);
     let times = format!("{} times as fast ({low} to {high})", figure(speed_up.ratio));
     let statement = format!(
-        "{times} with a hierarchy as without; more than {at_least} times in {above} of {} pairs",
+        "{times} with a BVH as without; more than {at_least} times in {above} of {} pairs",
         speed_up.pairs,
     );
     let measure = Measure {
@@ -107,7 +104,7 @@ fn finding(found: &Faster, at_least: f64, asking: f64) -> Finding {
         ..Measure::exact("speed-up (at least)", speed_up.ratio, at_least, 0.0)
     };
     let shown = format!(
-        "{times}; a sign test gives {}; asking alone takes {} of the time with a hierarchy",
+        "{times}; a sign test gives {}; asking alone takes {} of the time with a BVH",
         figure(*p_value),
         percent(asking),
     );
@@ -124,7 +121,7 @@ mod tests {
     use crate::stats::Verdict;
 
     #[test]
-    fn a_hierarchy_that_loses_hits_fails_however_fast_it_is() {
+    fn a_bvh_that_loses_hits_fails_however_fast_it_is() {
         let check: IsFaster = check_of("[expect]\nrays = 200\nat-least = 1.01");
         let scene = super::super::question::scene_of(procedural::soup(500, Seed(1)));
         let finding = try_judge(&check, &mut FakeCore(Slip::ShrinksBoxes), Some(scene)).unwrap();

@@ -1,9 +1,10 @@
-//! Bounding volume hierarchies: the same hits as without one, from a build that ends, with less
-//! work.
+//! Bounding volume hierarchies: the same hits as without one, from a build that ends, with less work.
 
 mod arrangement;
+mod box_row;
 mod builds_come_to_an_end;
 pub(in crate::checks) mod comparison;
+mod exact_overlap;
 mod explanation;
 #[cfg(test)]
 pub(in crate::checks) mod fake;

@@ -28,7 +28,6 @@ impl Answers {
     }
 }
 
-/// A scene with the triangles of each mesh in another order.
 pub(super) struct Order {
     pub(super) scene: SceneDescription,
     /// For each mesh, where each triangle of the first order stands now.
@@ -56,8 +55,8 @@ impl Order {
 
     /// Where the triangle of a hit in the first order stands now.
     pub(super) fn place(&self, hit: &Hit) -> u32 {
-        let place =
-            self.places.get(hit.shape as usize).and_then(|mesh| mesh.get(hit.primitive as usize));
+        let mesh = self.places.get(hit.shape as usize);
+        let place = mesh.and_then(|mesh| mesh.get(hit.primitive as usize));
         place.copied().unwrap_or(hit.primitive)
     }
 }
@@ -75,12 +74,10 @@ impl Difference {
     pub(super) fn between(first: &Answers, other: &Answers, order: &Order) -> Self {
         let mut difference = Self { hits: 0, occlusions: 0, lost: Vec::new() };
         for (a, b) in first.hits.iter().zip(&other.hits) {
-            let is_same =
-                a.is_hit() == b.is_hit() && (!a.is_hit() || a.t.to_bits() == b.t.to_bits());
-            difference.hits += usize::from(!is_same);
-            if is_same {
+            if a.is_hit() == b.is_hit() && (!a.is_hit() || a.t.to_bits() == b.t.to_bits()) {
                 continue;
             }
+            difference.hits += 1;
             let triangles = |hit: &Hit| order.places.get(hit.shape as usize).map_or(0, Vec::len);
             if a.is_hit() && (!b.is_hit() || a.t < b.t) {
                 difference.lost.push((order.place(a), triangles(a)));

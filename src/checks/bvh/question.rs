@@ -1,13 +1,12 @@
-//! What hierarchies are asked: rays of every kind, and every way to build.
+//! What BVHs are asked: rays of every kind, and every way to build.
 
 use crate::contract::{Acceleration, Capabilities, Hit, Ray, Split};
-use crate::math::rng::{Stream, uniform};
+use crate::math::rng::{Stream, in_cube, uniform};
 use crate::math::sphere::on_sphere;
 use crate::scene::{Aabb, Material, Mesh, SceneDescription, Surface};
 use crate::text::{Between, Several};
 use glam::DVec3;
 
-/// Every split rule that can be asked for.
 const RULES: [Split; 4] =
     [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea];
 
@@ -18,7 +17,7 @@ pub(crate) type LeafSizes = Several<Between<1, 65535>>;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Build {
     split: Split,
-    max_leaf_size: u32,
+    pub(crate) max_leaf_size: u32,
 }
 
 impl Build {
@@ -26,21 +25,12 @@ impl Build {
     pub(crate) fn all(capabilities: Capabilities, leaf_sizes: &LeafSizes) -> Vec<Self> {
         let rules = if capabilities.contains(Capabilities::SPLIT_RULES) { &RULES[..] } else { &[] };
         let splits = [Split::CoresChoice].into_iter().chain(rules.iter().copied());
-        splits
-            .flat_map(|split| {
-                leaf_sizes.iter().map(move |size| Self { split, max_leaf_size: size.0 })
-            })
-            .collect()
+        let of = |split| leaf_sizes.iter().map(move |size| Self { split, max_leaf_size: size.0 });
+        splits.flat_map(of).collect()
     }
 
-    /// As the contract asks for it.
     pub(crate) fn acceleration(self) -> Acceleration {
         Acceleration::Bvh { split: self.split, max_leaf_size: self.max_leaf_size }
-    }
-
-    /// At most this many primitives in a leaf.
-    pub(crate) const fn max_leaf_size(self) -> u32 {
-        self.max_leaf_size
     }
 
     /// `split at the median, leaves of 4`
@@ -56,7 +46,6 @@ impl Build {
     }
 }
 
-/// A scene of this mesh alone.
 pub(crate) fn scene_of(mesh: Mesh) -> SceneDescription {
     let white = Material {
         name: "white".into(),
@@ -97,8 +86,7 @@ pub(crate) fn rays_at_vertices(
     (0..count).map(ray).collect()
 }
 
-/// Some segment of each ray: it may begin before or behind the ray's hit, and end before or behind
-/// it.
+/// Some segment of each ray: it may begin before or behind the ray's hit, and end before or behind it.
 pub(crate) fn segments(rays: &[Ray], hits: &[Hit], bounds: Aabb, stream: &mut Stream) -> Vec<Ray> {
     let size = bounds.diagonal().max(1.0);
     let segment = |(ray, hit): (&Ray, &Hit)| {
@@ -112,8 +100,7 @@ pub(crate) fn segments(rays: &[Ray], hits: &[Hit], bounds: Aabb, stream: &mut St
 }
 
 fn point_in(bounds: Aabb, stream: &mut Stream) -> DVec3 {
-    let share = DVec3::from_array(std::array::from_fn(|_| uniform(stream)));
-    bounds.min + share * (bounds.max - bounds.min)
+    bounds.min + in_cube(stream) * (bounds.max - bounds.min)
 }
 
 fn from_outside(bounds: Aabb, stream: &mut Stream) -> Ray {
@@ -122,7 +109,6 @@ fn from_outside(bounds: Aabb, stream: &mut Stream) -> Ray {
     Ray::new(origin, (point_in(bounds, stream) - origin).normalize_or(DVec3::X))
 }
 
-/// One of three, at random.
 fn axis(stream: &mut Stream) -> usize {
     (uniform(stream) * 3.0) as usize
 }
@@ -135,7 +121,6 @@ fn along_axis(bounds: Aabb, stream: &mut Stream) -> Ray {
     Ray::new(point_in(bounds, stream) - bounds.diagonal().max(1.0) * direction, direction)
 }
 
-/// One component is zero.
 fn in_plane(bounds: Aabb, stream: &mut Stream) -> Ray {
     let mut direction = on_sphere(stream);
     direction[axis(stream)] = 0.0;

@@ -7,7 +7,7 @@
 
 use super::random_segments::{RAYS_EACH, Trial, Truth};
 use super::slabs::{because, wrong_as};
-use crate::checks::phrase::{figure, percent, some_are};
+use crate::checks::phrase::{figure, one_in, percent, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{BoxHit, Ray};
 use crate::scene::Aabb;
@@ -85,19 +85,15 @@ impl Tally {
         };
         let statement = match self.example {
             None => format!("none of {} boxes is missed; {for_nothing}", self.met),
-            Some((bounds, ray)) => format!(
-                "{} missed; for example {} to {} from {} towards {}; {for_nothing}",
-                some_are(self.missed, self.met, "boxes"),
-                bounds.min,
-                bounds.max,
-                ray.origin,
-                ray.direction
-            ),
+            Some((Aabb { min, max }, Ray { origin, direction, .. })) => {
+                let some = some_are(self.missed, self.met, "boxes");
+                let example = format!("{min} to {max} from {origin} towards {direction}");
+                format!("{some} missed; for example {example}; {for_nothing}")
+            }
         };
+        let (one_in, overlap) = (one_in(self.met), figure(margin));
         let resolution = format!(
-            "would have caught a miss in one of {} boxes, by an overlap of {} of t",
-            figure((self.met as f64 / 6.9).floor()),
-            figure(margin)
+            "would have caught a miss in one of {one_in} boxes, by an overlap of {overlap} of t"
         );
         let wrong = if self.missed > 0 { wrong_as(&self.answers) } else { None };
         let finding = Finding::of(statement, resolution, measures);
@@ -107,12 +103,11 @@ impl Tally {
 
 #[cfg(test)]
 mod tests {
-    use super::super::overlaps_box::Overlap;
+    use super::super::exact_overlap::Overlap;
     use super::super::slabs::{Slabs, hitting, single_mistakes};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::rng::Seed;
-    use crate::stats::Verdict;
 
     fn found(hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static) -> Finding {
         let check = check_of::<BoxesAreNeverMissed>("[expect]\nrays = \"50 k\"");
@@ -145,16 +140,13 @@ mod tests {
 
     #[test]
     fn every_mistake_that_loses_boxes_fails_under_its_name() {
-        let mut failed = 0;
-        for mistake in single_mistakes() {
-            let name = mistake.cause.name;
-            let finding = found(move |slabs, ray| mistake.hits(slabs, ray));
-            if finding.verdict == Verdict::Fail {
-                failed += 1;
-                assert_eq!(finding.clues[0].cause, name);
-            }
+        let findings = single_mistakes()
+            .map(|mistake| (mistake, found(move |slabs, ray| mistake.hits(slabs, ray))));
+        let failed: Vec<_> = findings.filter(|(_, finding)| finding.failed()).collect();
+        assert_eq!(failed.len(), 3, "not swapped, from inside, ends inside");
+        for (mistake, finding) in failed {
+            assert_eq!(finding.clues[0].cause, mistake.cause.name);
         }
-        assert_eq!(failed, 3, "not swapped, from inside, ends inside");
     }
 
     #[test]

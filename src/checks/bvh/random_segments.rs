@@ -1,15 +1,13 @@
 //! Random boxes, segments around them, and how they stand to each other.
 
 use crate::contract::Ray;
-use crate::math::rng::{Seed, Stream, uniform};
+use crate::math::rng::{Seed, Stream, in_cube, uniform};
 use crate::math::sphere::on_sphere;
 use crate::scene::Aabb;
 use glam::DVec3;
 
-/// Rays at each box.
 pub(super) const RAYS_EACH: usize = 1000;
 
-/// A box and segments around it.
 pub(super) struct Trial {
     pub(super) bounds: Aabb,
     pub(super) rays: Vec<Ray>,
@@ -20,7 +18,7 @@ impl Trial {
     pub(super) fn random(seed: Seed) -> Self {
         let stream = &mut seed.stream();
         let size = 2f64.powi((uniform(stream) * 21.0) as i32 - 10);
-        let corner = |stream: &mut Stream| size * (4.0 * cube_point(stream) - 2.0);
+        let corner = |stream: &mut Stream| size * (4.0 * in_cube(stream) - 2.0);
         let (a, b) = (single(corner(stream)), single(corner(stream)));
         let bounds = Aabb { min: a.min(b), max: a.max(b) };
         let rays = (0..RAYS_EACH).map(|_| segment(bounds, size, stream)).collect();
@@ -28,19 +26,15 @@ impl Trial {
     }
 }
 
-fn cube_point(stream: &mut Stream) -> DVec3 {
-    DVec3::from_array(std::array::from_fn(|_| uniform(stream)))
-}
-
-pub(super) fn single(vector: DVec3) -> DVec3 {
+fn single(vector: DVec3) -> DVec3 {
     vector.as_vec3().as_dvec3()
 }
 
 /// From anywhere around the box, towards a point of a box twice as large; every fourth runs in a
 /// plane of two axes or along one.
-pub(super) fn segment(bounds: Aabb, size: f64, stream: &mut Stream) -> Ray {
+fn segment(bounds: Aabb, size: f64, stream: &mut Stream) -> Ray {
     let middle = 0.5 * (bounds.min + bounds.max);
-    let target = middle + 2.0 * (cube_point(stream) - 0.5) * (bounds.max - bounds.min);
+    let target = middle + 2.0 * (in_cube(stream) - 0.5) * (bounds.max - bounds.min);
     let reach = size * 8.0 * uniform(stream);
     let origin = single(target + reach * on_sphere(stream));
     let mut direction = (target - origin).normalize_or(DVec3::X);

@@ -1,9 +1,9 @@
-//! With a hierarchy and without one, a core meets the same things at the same places.
+//! With a BVH and without one, a core meets the same things at the same places.
 
 use super::explanation::shared;
 use super::question::{Build, LeafSizes};
 use super::trial::{Trial, Tried};
-use crate::checks::phrase::figure;
+use crate::checks::phrase::one_in;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::text::Count;
 
@@ -16,7 +16,7 @@ check! {
         leaf_sizes: LeafSizes,
     }
     name: "same-hits-as-brute-force",
-    summary: "closest and any hits with a hierarchy against the loop",
+    summary: "closest and any hits with a BVH against the loop",
     needs: BUILD_SCENE | INTERSECT | OCCLUDED | BRUTE_FORCE,
 }
 
@@ -38,28 +38,26 @@ impl Check for SameHitsAsBruteForce {
 
 fn judge(tried: &[Tried], answers: usize, overwritten: usize) -> Finding {
     let mut measures: Vec<_> = tried.iter().flat_map(measures).collect();
-    let name = "hits without a hierarchy that are not the nearest";
+    let name = "hits without a BVH that are not the nearest";
     measures.push(Measure::none(name, overwritten));
     let wrong = tried.iter().filter(|tried| tried.differences.total() > 0);
     let count = wrong.clone().count();
     let causes: Vec<_> = wrong.clone().map(|tried| tried.cause).collect();
-    let hierarchies = tried.len();
+    let bvhs = tried.len();
     let statement = match wrong.max_by_key(|tried| tried.differences.total()) {
         None if overwritten > 0 => {
-            format!("{overwritten} hits without a hierarchy are not the nearest")
+            format!("{overwritten} hits without a BVH are not the nearest")
         }
-        None => format!("{answers} answers are the same with {hierarchies} hierarchies as without"),
+        None => format!("{answers} answers are the same with {bvhs} BVHs as without"),
         Some(worst) => format!(
-            "{count} of {hierarchies} hierarchies disagree with brute force; {}: {} of {answers} answers differ, {}",
+            "{count} of {bvhs} BVHs disagree with brute force; {}: {} of {answers} answers differ, {}",
             worst.build.name(),
             worst.differences.total(),
             worst.differences.words()
         ),
     };
-    // 6.9 = −ln 0.001: so rare a mistake shows in none of the answers once in a thousand times.
-    let rare = figure((answers as f64 / 6.9).floor());
-    Finding::of(statement, format!("would have caught one wrong answer in {rare}"), measures)
-        .because_of(shared(&causes))
+    let caught = format!("would have caught one wrong answer in {}", one_in(answers));
+    Finding::of(statement, caught, measures).because_of(shared(&causes))
 }
 
 /// The second is shown, not graded.
@@ -76,7 +74,7 @@ fn measures(tried: &Tried) -> [Measure; 2] {
 mod tests {
     use super::super::fake::{FakeCore, Slip};
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::checks::testing::{assert_passes, causes, check_of, failure, try_judge};
     use crate::math::rng::Seed;
     use crate::scene::procedural;
 
@@ -87,48 +85,24 @@ mod tests {
     }
 
     #[test]
-    fn a_hierarchy_without_mistakes_passes() {
+    fn a_bvh_without_mistakes_passes_whatever_its_triangle_test_rounds() {
         assert_passes(&found(Slip::None));
-    }
-
-    #[test]
-    fn roundings_of_the_triangle_test_are_nobodys_fault() {
         assert_passes(&found(Slip::ComparesFewDigits));
     }
 
     #[test]
-    fn the_first_hit_instead_of_the_nearest_is_seen() {
-        let finding = found(Slip::KeepsTheFirstHit);
-        let statement = failure(&finding);
-        assert!(statement.contains("10 of 10 hierarchies"), "{statement}");
-        assert!(statement.contains("hits beyond the nearest one"), "{statement}");
-        assert_eq!(finding.clues[0].cause, "second-child-skipped");
-    }
-
-    #[test]
-    fn a_box_that_is_too_small_loses_hits() {
-        let finding = found(Slip::ShrinksBoxes);
-        assert!(failure(&finding).contains("hits lost"), "{finding:?}");
-    }
-
-    #[test]
-    fn an_any_hit_that_ignores_the_end_of_the_segment_is_seen() {
-        let finding = found(Slip::ShadowsWithoutEnd);
-        let statement = failure(&finding);
-        assert!(statement.ends_with("shadow rays stopped by nothing"), "{statement}");
-        assert_eq!(finding.clues[0].cause, "shadow-end-ignored");
-    }
-
-    #[test]
-    fn hits_behind_the_end_of_the_segment_are_seen() {
-        let finding = found(Slip::ForgetsTheEnd);
-        assert!(failure(&finding).contains("hits outside the segment"), "{finding:?}");
-    }
-
-    #[test]
-    fn the_number_of_the_leaf_instead_of_the_triangle_is_seen() {
-        let finding = found(Slip::NamesTheLeafOrder);
-        assert!(failure(&finding).contains("hits with the wrong primitive"), "{finding:?}");
-        assert_eq!(finding.clues[0].cause, "leaf-order-numbers");
+    fn every_slip_is_seen_and_told() {
+        for (slip, told, cause) in [
+            (Slip::KeepsTheFirstHit, "hits beyond the nearest one", Some("second-child-skipped")),
+            (Slip::ShrinksBoxes, "hits lost", None),
+            (Slip::ShadowsWithoutEnd, "shadow rays stopped by nothing", Some("shadow-end-ignored")),
+            (Slip::ForgetsTheEnd, "hits outside the segment", None),
+            (Slip::NamesTheLeafOrder, "hits with the wrong primitive", Some("leaf-order-numbers")),
+        ] {
+            let finding = found(slip);
+            assert!(failure(&finding).contains(told), "{slip:?}: {}", finding.statement);
+            assert!(cause.is_none_or(|cause| causes(&finding) == [cause]), "{slip:?}");
+        }
+        assert!(found(Slip::KeepsTheFirstHit).statement.contains("10 of 10 BVHs"));
     }
 }

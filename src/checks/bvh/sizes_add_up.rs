@@ -1,4 +1,4 @@
-//! The size of a hierarchy, as the core tells it: leaves for all primitives, nodes for all leaves,
+//! The size of a BVH, as the core tells it: leaves for all primitives, nodes for all leaves,
 //! a depth that both allow.
 
 use super::question::{Build, LeafSizes};
@@ -16,7 +16,7 @@ check! {
         leaf_sizes: LeafSizes,
     }
     name: "sizes-add-up",
-    summary: "nodes, leaves and depth of hierarchies fit each other",
+    summary: "nodes, leaves and depth of BVHs fit each other",
     needs: BUILD_SCENE,
 }
 
@@ -29,14 +29,13 @@ impl Check for SizesAddUp {
             built.push(Sizes { build, stats, primitives: scene.primitive_count() });
         }
         if built.iter().all(|sizes| sizes.stats.nodes == 0) {
-            let words = "it does not say how large its hierarchies are";
+            let words = "it does not say how large its BVHs are";
             return Err(CoreError::Beyond(words.to_owned()).into());
         }
         Ok(finding(&built))
     }
 }
 
-/// What a core says of one hierarchy.
 struct Sizes {
     build: Build,
     stats: BuildStats,
@@ -55,14 +54,11 @@ impl Sizes {
 
     fn measures(&self) -> Vec<Measure> {
         let (leaves, depth) = (self.stats.leaves as f64, self.stats.max_depth as f64);
-        let held = leaves * f64::from(self.build.max_leaf_size());
+        let primitives = self.primitives as f64;
+        let held = leaves * f64::from(self.build.max_leaf_size);
         let mut measures = vec![
-            Measure::at_most("leaves", leaves, self.primitives as f64),
-            Measure::at_most(
-                "primitives, for the room in its leaves",
-                self.primitives as f64,
-                held,
-            ),
+            Measure::at_most("leaves", leaves, primitives),
+            Measure::at_most("primitives, for the room in its leaves", primitives, held),
             Measure::at_most("depth", depth, self.inner() + 1.0),
             Measure::at_most("logarithm of leaves, for the depth", leaves.log(WIDEST), depth - 1.0),
         ];
@@ -100,9 +96,9 @@ fn finding(built: &[Sizes]) -> Finding {
             sizes.primitives
         ),
         (None, Some(first)) => {
-            format!("{} hierarchies add up; the core's own has {}", built.len(), first.words())
+            format!("{} BVHs add up; the core's own has {}", built.len(), first.words())
         }
-        (None, None) => "no hierarchy was built".to_owned(),
+        (None, None) => "no BVH was built".to_owned(),
     };
     Finding::of(statement, "would have caught a number that the others forbid", measures)
 }
@@ -119,15 +115,12 @@ mod tests {
     fn found(nodes: u64, leaves: u64, max_depth: u64) -> Result<Finding, CheckError> {
         let check: SizesAddUp = check_of("[expect]\nleaf-sizes = [4]");
         let stats = BuildStats { nodes, leaves, max_depth, bytes: 0 };
-        try_judge(
-            &check,
-            &mut Fake { stats, ..Fake::default() },
-            Some(scene_of(soup(1000, Seed(1)))),
-        )
+        let mut core = Fake { stats, ..Fake::default() };
+        try_judge(&check, &mut core, Some(scene_of(soup(1000, Seed(1)))))
     }
 
     #[test]
-    fn binary_and_wide_hierarchies_pass() {
+    fn binary_and_wide_bvhs_pass() {
         assert_passes(&found(511, 256, 9).unwrap());
         assert_passes(&found(300, 262, 4).unwrap());
     }
@@ -136,12 +129,7 @@ mod tests {
     fn numbers_that_cannot_be_fail_and_are_told() {
         for (nodes, leaves, depth, words) in [
             (2001, 1001, 12, "leaves (at most) is 1001, more than 1000"),
-            (
-                199,
-                100,
-                9,
-                "primitives, for the room in its leaves (at most) is 1000, more than 400",
-            ),
+            (199, 100, 9, "the room in its leaves (at most) is 1000, more than 400"),
             (511, 256, 300, "depth (at most) is 300"),
             (511, 256, 2, "logarithm of leaves"),
             (600, 256, 9, "two children a node"),

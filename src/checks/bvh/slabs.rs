@@ -2,6 +2,10 @@
 
 use crate::cause::{Cause, bvh};
 use crate::checks::Finding;
+#[cfg(test)]
+use crate::checks::fake::Fake;
+#[cfg(test)]
+use crate::contract::BoxHit;
 use crate::contract::Ray;
 use crate::scene::Aabb;
 use glam::DVec3;
@@ -13,7 +17,6 @@ pub(crate) struct Slabs {
 }
 
 impl Slabs {
-    /// Those of a ray.
     pub(crate) fn new(bounds: &Aabb, ray: &Ray) -> Self {
         Self {
             lower: (bounds.min - ray.origin) / ray.direction,
@@ -51,9 +54,7 @@ impl Slabs {
 /// passes by.
 #[derive(Clone, Copy)]
 pub(crate) struct Span {
-    /// The largest of the entries.
     pub(crate) enters: f64,
-    /// The smallest of the exits.
     pub(crate) exits: f64,
 }
 
@@ -68,65 +69,41 @@ impl Span {
     }
 }
 
-/// A wrong way to put the crossings of the planes together.
-struct Crossing {
-    cause: &'static Cause,
-    span: fn(Slabs) -> Span,
-}
+/// What there is of a box between its planes.
+type Crossing = fn(Slabs) -> Span;
+/// Whether that is a hit of the ray's segment.
+type Conclusion = fn(Span, &Ray) -> bool;
 
-/// A wrong conclusion from them.
-struct Conclusion {
-    cause: &'static Cause,
-    hits: fn(Span, &Ray) -> bool,
-}
-
-const CROSSINGS: &[Crossing] = &[
-    Crossing { cause: &bvh::PLANES_NOT_SWAPPED, span: |slabs| slabs.span_not_swapped() },
-    Crossing {
-        cause: &bvh::PARALLEL_AXES_SKIPPED,
-        span: |slabs| slabs.without_parallel_axes().span(),
-    },
-    Crossing { cause: &bvh::BOX_WITHOUT_Z, span: |slabs| slabs.without_axis(2).span() },
-    Crossing { cause: &bvh::BOX_WITHOUT_Y, span: |slabs| slabs.without_axis(1).span() },
-    Crossing { cause: &bvh::BOX_WITHOUT_X, span: |slabs| slabs.without_axis(0).span() },
+/// Wrong ways to put the crossings of the planes together.
+const CROSSINGS: &[(&Cause, Crossing)] = &[
+    (&bvh::PLANES_NOT_SWAPPED, |slabs| slabs.span_not_swapped()),
+    (&bvh::PARALLEL_AXES_SKIPPED, |slabs| slabs.without_parallel_axes().span()),
+    (&bvh::BOX_WITHOUT_Z, |slabs| slabs.without_axis(2).span()),
+    (&bvh::BOX_WITHOUT_Y, |slabs| slabs.without_axis(1).span()),
+    (&bvh::BOX_WITHOUT_X, |slabs| slabs.without_axis(0).span()),
 ];
 
-const CONCLUSIONS: &[Conclusion] = &[
-    Conclusion { cause: &bvh::BOX_SEGMENT_IGNORED, hits: |span, _| span.is_proper() },
-    Conclusion {
-        cause: &bvh::BOX_START_IGNORED,
-        hits: |span, ray| span.is_proper() && span.enters <= ray.t_max,
-    },
-    Conclusion {
-        cause: &bvh::BOX_END_IGNORED,
-        hits: |span, ray| span.is_proper() && span.exits >= ray.t_min,
-    },
-    Conclusion {
-        cause: &bvh::BOX_MISSED_FROM_INSIDE,
-        hits: |span, ray| span.hits(ray) && span.enters >= ray.t_min,
-    },
-    Conclusion {
-        cause: &bvh::BOX_MISSED_BY_END_INSIDE,
-        hits: |span, ray| span.hits(ray) && span.exits <= ray.t_max,
-    },
-    Conclusion {
-        cause: &bvh::FLAT_BOX_MISSED,
-        hits: |span, ray| span.hits(ray) && span.enters < span.exits,
-    },
+/// Wrong conclusions from them.
+const CONCLUSIONS: &[(&Cause, Conclusion)] = &[
+    (&bvh::BOX_SEGMENT_IGNORED, |span, _| span.is_proper()),
+    (&bvh::BOX_START_IGNORED, |span, ray| span.is_proper() && span.enters <= ray.t_max),
+    (&bvh::BOX_END_IGNORED, |span, ray| span.is_proper() && span.exits >= ray.t_min),
+    (&bvh::BOX_MISSED_FROM_INSIDE, |span, ray| span.hits(ray) && span.enters >= ray.t_min),
+    (&bvh::BOX_MISSED_BY_END_INSIDE, |span, ray| span.hits(ray) && span.exits <= ray.t_max),
+    (&bvh::FLAT_BOX_MISSED, |span, ray| span.hits(ray) && span.enters < span.exits),
 ];
 
 /// An implementation that people write instead: one mistake, or one of each kind.
+#[derive(Clone, Copy)]
 pub(crate) struct Wrong {
-    span: fn(Slabs) -> Span,
-    hits: fn(Span, &Ray) -> bool,
-    /// What is wrong with it, in the glossary.
+    span: Crossing,
+    hits: Conclusion,
     pub(crate) cause: &'static Cause,
-    /// What is wrong besides.
+    /// The second mistake.
     pub(crate) besides: Option<&'static Cause>,
 }
 
 impl Wrong {
-    /// Whether it hits.
     pub(crate) fn hits(&self, slabs: Slabs, ray: &Ray) -> bool {
         (self.hits)((self.span)(slabs), ray)
     }
@@ -150,16 +127,18 @@ impl Wrong {
 
 /// Every single mistake.
 pub(crate) fn single_mistakes() -> impl Iterator<Item = Wrong> {
-    let crossings = CROSSINGS.iter().map(|crossing| Wrong {
-        span: crossing.span,
+    let crossings = CROSSINGS.iter();
+    let crossings = crossings.map(|(cause, span)| Wrong {
+        span: *span,
         hits: Span::hits,
-        cause: crossing.cause,
+        cause,
         besides: None,
     });
-    let conclusions = CONCLUSIONS.iter().map(|conclusion| Wrong {
+    let conclusions = CONCLUSIONS.iter();
+    let conclusions = conclusions.map(|(cause, hits)| Wrong {
         span: |slabs| slabs.span(),
-        hits: conclusion.hits,
-        cause: conclusion.cause,
+        hits: *hits,
+        cause,
         besides: None,
     });
     crossings.chain(conclusions)
@@ -167,15 +146,12 @@ pub(crate) fn single_mistakes() -> impl Iterator<Item = Wrong> {
 
 /// Every mistake of one kind with every one of the other.
 pub(crate) fn pairs_of_mistakes() -> impl Iterator<Item = Wrong> {
-    let with = |conclusion: &'static Conclusion| {
-        CROSSINGS.iter().map(|crossing| Wrong {
-            span: crossing.span,
-            hits: conclusion.hits,
-            cause: conclusion.cause,
-            besides: Some(crossing.cause),
+    CONCLUSIONS.iter().flat_map(|(cause, hits)| {
+        CROSSINGS.iter().map(|(other, span)| {
+            let besides = Some(*other);
+            Wrong { span: *span, hits: *hits, cause, besides }
         })
-    };
-    CONCLUSIONS.iter().flat_map(with)
+    })
 }
 
 /// The one implementation that hits the boxes which a core hits, and no others; of one mistake if there is such. None
@@ -197,13 +173,11 @@ pub(crate) fn because(finding: Finding, wrong: Option<&Wrong>, predicted: &str) 
 
 /// A core that hits boxes by a rule of its own.
 #[cfg(test)]
-pub(crate) fn hitting(
-    hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static,
-) -> crate::checks::fake::Fake {
+pub(crate) fn hitting(hits: impl Fn(Slabs, &Ray) -> bool + Send + 'static) -> Fake {
     let bounds = move |bounds: &Aabb, ray: &Ray| {
         let slabs = Slabs::new(bounds, ray);
         let Span { enters: t_enter, exits: t_exit } = slabs.span();
-        crate::contract::BoxHit { t_enter, t_exit, hit: hits(slabs, ray).into(), reserved: 0 }
+        BoxHit { t_enter, t_exit, hit: hits(slabs, ray).into(), reserved: 0 }
     };
-    crate::checks::fake::Fake { bounds: Box::new(bounds), ..Default::default() }
+    Fake { bounds: Box::new(bounds), ..Fake::default() }
 }

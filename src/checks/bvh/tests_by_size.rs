@@ -5,7 +5,7 @@ use super::reference::{ReferenceBvh, Walk};
 use crate::cause::{Cause, bvh};
 use crate::checks::{CheckError, Context};
 use crate::contract::{Acceleration, Hit, Ray};
-use crate::math::rng::{Seed, uniform};
+use crate::math::rng::{Seed, in_cube};
 use crate::math::sphere::on_sphere;
 use crate::scene::{Aabb, Mesh};
 use glam::DVec3;
@@ -27,23 +27,22 @@ pub(super) fn rays_at(mesh: &Mesh, count: usize, seed: Seed) -> Vec<Ray> {
     let (middle, half) = (0.5 * (min + max), 0.5 * (max - min));
     let mut ray = || {
         let origin = middle + 3.0 * half.max_element() * on_sphere(stream);
-        let within = DVec3::from_array(std::array::from_fn(|_| 1.6 * uniform(stream) - 0.8));
+        let within = 1.6 * in_cube(stream) - 0.8;
         Ray::new(origin, (middle + within * half - origin).normalize())
     };
     (0..count).map(|_| ray()).collect()
 }
 
 /// Triangles tested a ray, in one mesh.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Size {
     pub(super) triangles: f64,
     pub(super) closest: f64,
     pub(super) any: f64,
     /// Boxes tested a ray; 0 if the core does not count them.
     pub(super) boxes: f64,
-    /// Fewer tests than hits cannot be.
     pub(super) hits: f64,
-    /// The plain hierarchy's, for each way to walk.
+    /// The plain BVH's, for each way to walk.
     pub(super) ordered: f64,
     pub(super) unordered: f64,
     pub(super) unshortened: f64,
@@ -75,6 +74,11 @@ pub(super) fn measure_size(
 }
 
 impl Size {
+    /// Fewer tests than hits cannot be.
+    pub(super) fn is_real(&self) -> bool {
+        self.closest >= self.hits
+    }
+
     /// Shadow rays test too many, and not because everything does.
     fn shadows_search_on(&self) -> bool {
         let is_plain = self.closest <= self.unordered;

@@ -1,4 +1,4 @@
-//! One scene, with and without a hierarchy: what both checks of hits share.
+//! One scene, with and without a BVH: what both checks of hits share.
 
 use super::comparison::{Differences, Questions, Truth, closest_hits, compare};
 use super::explanation::explain;
@@ -24,15 +24,10 @@ pub struct Trial<'a> {
     shown: (Questions, Truth),
 }
 
-/// What came of one way to build.
 pub struct Tried {
-    /// The way.
     pub build: Build,
-    /// What the core says it has built.
     pub stats: BuildStats,
-    /// For rays in general position.
     pub differences: Differences,
-    /// For rays at vertices.
     pub at_vertices: Differences,
     /// The mistake that makes such differences.
     pub cause: Option<&'static Cause>,
@@ -40,9 +35,6 @@ pub struct Tried {
 
 impl<'a> Trial<'a> {
     /// Asks brute force: `count` rays in general position, as many segments, and a quarter of that at vertices.
-    ///
-    /// # Errors
-    /// If the core does not answer.
     pub(crate) fn prepare(
         context: &mut Context<'_>,
         scene: &'a SceneDescription,
@@ -85,10 +77,7 @@ impl<'a> Trial<'a> {
         Ok((Questions { rays, segments }, truth))
     }
 
-    /// Asks the core with one hierarchy.
-    ///
-    /// # Errors
-    /// If the core does not answer.
+    /// Asks the core with one BVH.
     pub(crate) fn put_to(
         &self,
         context: &mut Context<'_>,
@@ -100,7 +89,7 @@ impl<'a> Trial<'a> {
         let mut differences = |(questions, right): &(Questions, Truth)| {
             let found = questions.ask(built.as_mut())?;
             let differences = compare(questions, &found, right, &is_there);
-            Ok::<_, CheckError>((differences, explain(questions, &found, right, &differences)))
+            Ok::<_, CheckError>((differences, explain(&found, right, &differences)))
         };
         let ((differences, cause), (at_vertices, _)) =
             (differences(&self.graded)?, differences(&self.shown)?);
@@ -112,13 +101,13 @@ impl<'a> Trial<'a> {
         self.graded.1.overwritten
     }
 
-    /// Graded answers of each hierarchy.
+    /// Graded answers of each BVH.
     pub(crate) fn answers(&self) -> usize {
         self.graded.0.answers()
     }
 }
 
-/// How many hits are not the nearest, even without a hierarchy: the ray hits something else when it ends just before.
+/// How many hits are not the nearest, even without a BVH: the ray hits something else when it ends just before.
 /// That it hits the same again is a rounding: a core may look for the nearest in single precision and answer in double,
 /// and edge-on the two are further apart than any margin.
 fn overwritten(

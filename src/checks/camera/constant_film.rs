@@ -1,18 +1,12 @@
-//! Equal samples: every pixel of every film is that sample, whatever the size and the number of
-//! samples.
+//! Equal samples: every pixel of every film is that sample, whatever the size and the number of samples.
 
-use super::film_mistakes::{MISTAKES, Place, TILES, whole_tiles_only};
-use crate::cause::{Cause, adaptive, image};
+use super::exposed::{Exposed, causes, channels};
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
-use crate::contract::{Acceleration, Film};
+use crate::contract::Acceleration;
 use crate::stats::{Compared, Tolerance, judge_exact};
 use crate::text::{Between, Lit, Several, Size};
-
-/// How far a pixel may be from what a mistake writes, relative: different mistakes are several
-/// times as far apart.
-const EXPLAINED: f64 = 1e-3;
 
 check! {
     /// A scene that sends the same radiance into every pixel, in films of several sizes.
@@ -43,26 +37,6 @@ impl Check for ConstantFilm {
     }
 }
 
-/// A film and the samples that were asked for.
-struct Exposed {
-    samples: u32,
-    film: Film,
-}
-
-impl Exposed {
-    fn name(&self) -> String {
-        format!("{} × {}, {} samples", self.film.width, self.film.height, self.samples)
-    }
-
-    /// Every pixel with its place.
-    fn pixels(&self) -> impl Iterator<Item = (Place, [f64; 3])> {
-        let size = [self.film.width, self.film.height];
-        let rows = (0..size[1]).flat_map(move |y| (0..size[0]).map(move |x| [x, y]));
-        let place = move |at| Place { at, size, samples: self.samples };
-        rows.map(place).zip(self.film.pixels.iter().map(|pixel| pixel.map(f64::from)))
-    }
-}
-
 impl ConstantFilm {
     fn exposures(&self) -> impl Iterator<Item = ([u32; 2], u32)> {
         let samples = || self.samples_per_pixel.iter().map(|samples| samples.0);
@@ -70,113 +44,26 @@ impl ConstantFilm {
     }
 
     fn judge(&self, films: &[Exposed], allowed: f64) -> Finding {
-        let mut measures = Vec::new();
-        for exposed in films {
-            measures.push(self.worst_pixel(exposed, allowed));
-            measures.push(wrong_counts(exposed));
-        }
+        let Lit(radiance) = self.radiance;
+        let measures: Vec<_> = films
+            .iter()
+            .flat_map(|film| [worst_pixel(film, radiance, allowed), wrong_counts(film)])
+            .collect();
         let right = format!("all pixels of {} films are the sample they are made of", films.len());
         let resolution = format!("would have caught one pixel wrong by {}", figure(allowed));
         let finding = Finding::of(right, resolution, measures);
         if !finding.failed() {
             return finding;
         }
-        self.explain(finding.complaining([self.complaint(films, allowed)]), films, allowed)
-    }
-
-    fn compared<'a>(
-        &'a self,
-        exposed: &'a Exposed,
-        allowed: f64,
-    ) -> impl Iterator<Item = Compared> + 'a {
-        let Lit(radiance) = self.radiance;
-        exposed.pixels().flat_map(move |(_, pixel)| {
-            (0..3).map(move |c| Compared::relative(pixel[c], radiance[c], allowed))
-        })
-    }
-
-    fn worst_pixel(&self, exposed: &Exposed, allowed: f64) -> Measure {
-        let report = judge_exact(self.compared(exposed, allowed));
-        Measure::worst("channel of a pixel", &report).of_row(exposed.name())
-    }
-
-    /// The film with most wrong pixels, and the first of them.
-    fn complaint(&self, films: &[Exposed], allowed: f64) -> String {
-        let Lit(radiance) = self.radiance;
-        let is_wrong = |pixel: &[f64; 3]| {
-            (0..3).any(|c| !Compared::relative(pixel[c], radiance[c], allowed).agrees())
-        };
-        let wrong = |exposed: &&Exposed| exposed.pixels().filter(|(_, p)| is_wrong(p)).count();
-        let worst = films.iter().max_by_key(wrong).filter(|exposed| wrong(exposed) > 0);
-        let pixels = worst.and_then(|exposed| {
-            let (place, pixel) = exposed.pixels().find(|(_, pixel)| is_wrong(pixel))?;
-            let some = some_are(wrong(&exposed), exposed.film.pixels.len(), "pixels");
-            let [found, right] = [pixel, radiance].map(|rgb| rgb.map(figure).join(", "));
-            let [x, y] = place.at;
-            let name = exposed.name();
-            Some(format!("{name}: {some} wrong; ({x}, {y}) is ({found}) instead of ({right})"))
-        });
-        let counts = films.iter().find_map(|exposed| {
-            let found = exposed.film.sample_counts.iter().find(|n| **n != exposed.samples)?;
-            Some(format!("{}: a pixel's count says {found}", exposed.name()))
-        });
-        [pixels, counts].into_iter().flatten().collect::<Vec<_>>().join("; ")
-    }
-
-    fn explain(&self, mut finding: Finding, films: &[Exposed], allowed: f64) -> Finding {
-        let all: usize = films.iter().map(|exposed| exposed.film.pixels.len()).sum();
-        let pixels_wrong =
-            films.iter().flat_map(|e| self.compared(e, allowed)).any(|c| !c.agrees());
-        if pixels_wrong {
-            for (cause, words) in self.causes(films) {
-                finding = finding.because(cause, format!("{words}predicts all {all} pixels"));
-            }
-        }
-        for step in [1, -1] {
-            let is_off = |exposed: &Exposed| {
-                let expected = exposed.samples.checked_add_signed(step);
-                exposed.film.sample_counts.iter().all(|count| Some(*count) == expected)
-            };
-            if films.iter().all(is_off) {
-                let evidence = format!("all {all} counts are {step:+} off");
-                finding = finding.because(&image::COUNTS_OFF_BY_ONE, evidence);
-            }
-        }
-        match stops_early(films).filter(|_| !pixels_wrong) {
-            Some(count) => {
-                let evidence = format!("pixels of more samples than {count} stop at {count}");
-                finding.because(&adaptive::ADAPTIVE_ALWAYS, evidence)
-            }
-            None => finding,
-        }
-    }
-
-    /// The mistakes that write just these pixels.
-    fn causes(&self, films: &[Exposed]) -> Vec<(&'static Cause, String)> {
-        let Lit(radiance) = self.radiance;
-        let predicts = |develop: &dyn Fn([f64; 3], Place) -> [f64; 3]| {
-            films.iter().flat_map(Exposed::pixels).all(|(place, pixel)| {
-                let made = develop(radiance, place);
-                (0..3).all(|c| (pixel[c] - made[c]).abs() <= EXPLAINED * radiance[c])
-            })
-        };
-        let plain = MISTAKES.iter().filter(|mistake| predicts(&mistake.develop));
-        let tile = TILES
-            .iter()
-            .find(|tile| predicts(&|radiance, place| whole_tiles_only(radiance, place, **tile)));
-        let tile = tile
-            .map(|tile| (&image::PARTIAL_TILES_LEFT_OUT, format!("a tile of {tile} × {tile} ")));
-        plain.map(|mistake| (mistake.cause, String::new())).chain(tile).collect()
+        let complaint = complaint(films, radiance, allowed);
+        finding.complaining([complaint]).because_of(causes(films, radiance, allowed))
     }
 }
 
-/// The count at which every pixel stops that was to take more.
-fn stops_early(films: &[Exposed]) -> Option<u32> {
-    let wrong = films.iter().filter(|e| e.film.sample_counts.iter().any(|n| *n != e.samples));
-    let stop = *wrong.clone().next()?.film.sample_counts.first()?;
-    let is_stop = |exposed: &Exposed| exposed.film.sample_counts.iter().all(|n| *n == stop);
-    let most_asked = wrong.clone().map(|exposed| exposed.samples).min()?;
-    (stop > 1 && stop < most_asked && wrong.clone().all(is_stop)).then_some(stop)
+fn worst_pixel(exposed: &Exposed, radiance: [f64; 3], allowed: f64) -> Measure {
+    let pixels = exposed.pixels();
+    let report = judge_exact(pixels.flat_map(|(_, pixel)| channels(pixel, radiance, allowed)));
+    Measure::worst("channel of a pixel", &report).of_row(exposed.name())
 }
 
 fn wrong_counts(exposed: &Exposed) -> Measure {
@@ -186,12 +73,33 @@ fn wrong_counts(exposed: &Exposed) -> Measure {
     Measure::worst("count of samples", &report).of_row(exposed.name())
 }
 
+/// The film with most wrong pixels, and the first of them.
+fn complaint(films: &[Exposed], radiance: [f64; 3], allowed: f64) -> String {
+    let is_wrong =
+        |pixel: &[f64; 3]| channels(*pixel, radiance, allowed).iter().any(|c| !c.agrees());
+    let wrong = |exposed: &&Exposed| exposed.pixels().filter(|(_, p)| is_wrong(p)).count();
+    let worst = films.iter().max_by_key(wrong);
+    let pixels = worst.and_then(|exposed| {
+        let (place, pixel) = exposed.pixels().find(|(_, pixel)| is_wrong(pixel))?;
+        let some = some_are(wrong(&exposed), exposed.film.pixels.len(), "pixels");
+        let [found, right] = [pixel, radiance].map(|rgb| rgb.map(figure).join(", "));
+        let [x, y] = place.at;
+        let name = exposed.name();
+        Some(format!("{name}: {some} wrong; ({x}, {y}) is ({found}) instead of ({right})"))
+    });
+    let counts = films.iter().find_map(|exposed| {
+        let found = exposed.film.sample_counts.iter().find(|n| **n != exposed.samples)?;
+        Some(format!("{}: a pixel's count says {found}", exposed.name()))
+    });
+    [pixels, counts].into_iter().flatten().collect::<Vec<_>>().join("; ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::fake::{FakeFilm, Step};
+    use super::super::film_mistakes::{MISTAKES, Place, whole_tiles_only};
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
-    use crate::scene::SceneDescription;
+    use crate::checks::testing::{assert_passes, causes, check_of, failure};
 
     fn check() -> ConstantFilm {
         check_of(include_str!(
@@ -201,17 +109,11 @@ mod tests {
 
     fn found(core: FakeFilm) -> Finding {
         let Lit(radiance) = check().radiance;
-        let core = FakeFilm { radiance: Box::new(move |_, _| radiance), ..core };
-        let scene = SceneDescription { camera: Some(FakeFilm::camera()), ..Default::default() };
-        try_judge(&check(), &mut core.core(), Some(scene)).unwrap()
+        FakeFilm { radiance: Box::new(move |_, _| radiance), ..core }.judged_by(&check())
     }
 
     fn developed(develop: fn([f64; 3], Place) -> [f64; 3]) -> Finding {
         found(FakeFilm { develop, ..FakeFilm::default() })
-    }
-
-    fn causes(finding: &Finding) -> Vec<&str> {
-        finding.clues.iter().map(|clue| clue.cause.as_str()).collect()
     }
 
     #[test]
@@ -220,28 +122,9 @@ mod tests {
     }
 
     #[test]
-    fn pixels_that_stop_early_are_told_from_counts_that_are_off_by_one() {
-        let exposed = |samples: u32, count: u32| Exposed {
-            samples,
-            film: Film {
-                width: 1,
-                height: 1,
-                pixels: vec![[1.0; 3]],
-                sample_counts: vec![count],
-                variances: Vec::new(),
-            },
-        };
-        assert_eq!(stops_early(&[exposed(1, 1), exposed(64, 32)]), Some(32));
-        assert_eq!(stops_early(&[exposed(1, 0), exposed(64, 63)]), None);
-        assert_eq!(stops_early(&[exposed(1, 1), exposed(64, 64)]), None);
-    }
-
-    #[test]
     fn every_mistake_fails_under_its_own_name_alone() {
         for mistake in MISTAKES {
-            let finding = developed(mistake.develop);
-            failure(&finding);
-            assert_eq!(causes(&finding), [mistake.cause.name]);
+            assert_eq!(causes(&developed(mistake.develop)), [mistake.cause.name]);
         }
         let finding = developed(|radiance, place| whole_tiles_only(radiance, place, 16));
         assert_eq!(causes(&finding), ["partial-tiles-left-out"]);
@@ -261,8 +144,7 @@ mod tests {
             [3, 4] => radiance.map(|value| value * (1.0 - 1e-5)),
             _ => radiance,
         });
-        failure(&finding);
-        assert!(finding.clues.is_empty(), "{finding:?}");
+        assert!(causes(&finding).is_empty(), "{finding:?}");
     }
 
     #[test]

@@ -1,15 +1,16 @@
-//! A core that can only make pictures, and makes them of a function of the film: for the tests of
-//! this folder.
+//! A core that can only make pictures, and makes them of a function of the film: for the tests of this folder.
 
 use super::film_mistakes::Place;
 use crate::checks::fake::Fake;
+use crate::checks::rendering::places;
+use crate::checks::testing::try_judge;
+use crate::checks::{Check, Finding};
 use crate::contract::{Film, RenderSettings};
-use crate::math::rng::{Seed, Stream, uniform};
+use crate::math::rng::{Seed, Stream, in_square};
 use crate::scene::{Camera, SceneDescription};
 use glam::{DVec2, DVec3};
 
-/// What a ray through a point brings home: in pixels, from the top left; the second is the film's
-/// size.
+/// What a ray through a point brings home: in pixels, from the top left; the second is the film's size.
 pub(crate) type Radiance = fn(DVec2, DVec2) -> [f64; 3];
 /// At which index the pixel of column and row is stored, in a film of this size.
 pub(crate) type Index = fn([u32; 2], [u32; 2]) -> usize;
@@ -18,10 +19,8 @@ pub(crate) type Index = fn([u32; 2], [u32; 2]) -> usize;
 #[derive(Clone, Copy)]
 pub(crate) struct Step(pub i32);
 
-/// A renderer of a picture that is a function of the film point; each step can be replaced by a
-/// wrong one.
+/// A renderer of a picture that is a function of the film point; each step can be replaced by a wrong one.
 pub(crate) struct FakeFilm {
-    /// See [`Radiance`].
     pub(crate) radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send>,
     /// Where a sample with these random numbers lies, from the corner of its pixel.
     pub(crate) place: fn(DVec2) -> DVec2,
@@ -31,9 +30,7 @@ pub(crate) struct FakeFilm {
     pub(crate) develop: fn([f64; 3], Place) -> [f64; 3],
     /// How many samples are taken where so many are asked for.
     pub(crate) samples_used: fn(u32) -> u32,
-    /// See [`Index`].
     pub(crate) index: Index,
-    /// See [`Step`].
     pub(crate) count: Step,
 }
 
@@ -52,14 +49,15 @@ impl Default for FakeFilm {
 }
 
 impl FakeFilm {
-    /// Some camera: the fake looks at nothing but the film.
-    pub(crate) fn camera() -> Camera {
-        Camera::look_at(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, [16, 12])
+    /// A scene with some camera: the fake looks at nothing but the film.
+    pub(crate) fn scene() -> SceneDescription {
+        let camera = Camera::look_at(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, [16, 12]);
+        SceneDescription { camera: Some(camera), ..SceneDescription::default() }
     }
 
-    /// A scene of nothing but that camera.
-    pub(crate) fn scene() -> SceneDescription {
-        SceneDescription { camera: Some(Self::camera()), ..SceneDescription::default() }
+    /// What a check says of it.
+    pub(crate) fn judged_by<C: Check>(self, check: &C) -> Finding {
+        try_judge(check, &mut self.core(), Some(Self::scene())).unwrap()
     }
 
     fn mean(&self, place: Place, stream: &mut Stream) -> [f64; 3] {
@@ -67,8 +65,7 @@ impl FakeFilm {
         let size = DVec2::from(place.size.map(f64::from));
         let (mut sum, used) = ([0.0; 3], (self.samples_used)(place.samples));
         for number in 0..used {
-            let numbers = DVec2::new(uniform(stream), uniform(stream));
-            let numbers = (self.arrange)(number, numbers);
+            let numbers = (self.arrange)(number, in_square(stream));
             let sample = (self.radiance)(corner + (self.place)(numbers), size);
             sum = std::array::from_fn(|c| sum[c] + sample[c]);
         }
@@ -79,7 +76,7 @@ impl FakeFilm {
         let size = [settings.width, settings.height];
         let samples = settings.samples_per_pixel;
         let stream = &mut Seed(settings.integrator.seed).stream();
-        for at in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y])) {
+        for at in places(size) {
             let place = Place { at, size, samples };
             let pixel = (self.develop)(self.mean(place, stream), place);
             let index = (self.index)(at, size) % film.pixels.len();

@@ -15,9 +15,7 @@ pub struct Place {
 
 /// A mistake and what it writes where `radiance` belongs.
 pub(crate) struct FilmMistake {
-    /// In the glossary.
     pub(crate) cause: &'static Cause,
-    /// The pixel it makes.
     pub(crate) develop: fn([f64; 3], Place) -> [f64; 3],
 }
 
@@ -28,8 +26,9 @@ const fn mistake(cause: &'static Cause, develop: fn([f64; 3], Place) -> [f64; 3]
     FilmMistake { cause, develop }
 }
 
-fn scaled(radiance: [f64; 3], factor: f64) -> [f64; 3] {
-    radiance.map(|value| factor * value)
+/// Multiplied by a factor that depends on the number of samples.
+fn scaled(radiance: [f64; 3], place: Place, factor: fn(f64) -> f64) -> [f64; 3] {
+    radiance.map(|value| factor(f64::from(place.samples)) * value)
 }
 
 /// What a film holds if `develop` loses all that is outside `is_inside`.
@@ -39,21 +38,16 @@ fn only(radiance: [f64; 3], is_inside: bool) -> [f64; 3] {
 
 /// Every mistake but those with a size of their own ([`TILES`]).
 pub(crate) const MISTAKES: &[FilmMistake] = &[
-    mistake(&image::NOT_DIVIDED, |radiance, place| scaled(radiance, f64::from(place.samples))),
-    mistake(&image::DIVIDED_TWICE, |radiance, place| {
-        scaled(radiance, f64::from(place.samples).recip())
+    mistake(&image::NOT_DIVIDED, |radiance, place| scaled(radiance, place, |n| n)),
+    mistake(&image::DIVIDED_TWICE, |radiance, place| scaled(radiance, place, f64::recip)),
+    mistake(&image::DIVIDED_BY_ONE_MORE, |radiance, place| {
+        scaled(radiance, place, |n| n / (n + 1.0))
     }),
     mistake(&image::DIVIDED_BY_ONE_MORE, |radiance, place| {
-        let n = f64::from(place.samples);
-        scaled(radiance, n / (n + 1.0))
-    }),
-    mistake(&image::DIVIDED_BY_ONE_MORE, |radiance, place| {
-        let n = f64::from(place.samples);
-        scaled(radiance, (n - 1.0) / n)
+        scaled(radiance, place, |n| (n - 1.0) / n)
     }),
     mistake(&image::ONE_SAMPLE_TOO_MANY, |radiance, place| {
-        let n = f64::from(place.samples);
-        scaled(radiance, (n + 1.0) / n)
+        scaled(radiance, place, |n| (n + 1.0) / n)
     }),
     mistake(&image::CLAMPED, |radiance, _| radiance.map(|value| value.min(1.0))),
     mistake(&image::GAMMA_TWICE, |radiance, _| radiance.map(|value| value.powf(1.0 / 2.2))),

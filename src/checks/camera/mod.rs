@@ -2,15 +2,19 @@
 //! becomes of their sum.
 
 mod constant_film;
+mod exposed;
 #[cfg(test)]
 pub(in crate::checks) mod fake;
 mod film_mistakes;
 mod orientation;
+mod painting;
 mod pattern;
 mod pixel_laws;
 mod pixel_samples;
 mod projection;
 mod rays_through_film;
+mod shots;
+mod strata;
 mod strata_pattern;
 mod stratified_samples;
 mod view_coverage;

@@ -1,7 +1,7 @@
-//! Where people put the samples of a pixel instead of spreading them over it, and what the pattern
-//! shows of that.
+//! Where people put the samples of a pixel instead of spreading them over it, and what the pattern shows of that.
 
-use super::pattern::{CELLS, Decoded, FILM, SAMPLES, cell_at, decode, is_lit};
+use super::painting::{FILM, corner, places};
+use super::pattern::{CELLS, Decoded, SAMPLES, cell_at, decode, is_lit};
 use crate::cause::{Cause, camera};
 use glam::DVec2;
 
@@ -10,9 +10,7 @@ pub(crate) type Law = fn(DVec2) -> DVec2;
 
 /// A law that people write instead of the identity.
 pub(crate) struct PixelMistake {
-    /// In the glossary.
     pub(crate) cause: &'static Cause,
-    /// Its samples.
     pub(crate) law: Law,
 }
 
@@ -72,8 +70,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// The shares that a mistake predicts: of lit pixels line by line, then of the pixels beside
-    /// them, side by side.
+    /// The shares that a mistake predicts: of lit pixels line by line, then of the pixels beside them, side by side.
     pub(crate) fn shares(&self) -> Vec<f64> {
         let beside = (0..SIDES).map(|side| self.seen_beside[side] / self.beside[side]);
         self.own_shares().into_iter().chain(beside).collect()
@@ -107,26 +104,21 @@ impl Tally {
         let mut tally = Self::default();
         for (at, pixel) in places().zip(pixels) {
             match decode(*pixel) {
-                Some(decoded) => tally.take(at, &decoded),
+                Some(decoded) => tally.take(at, f64::from(SAMPLES), &decoded),
                 None => tally.unreadable += 1,
             }
         }
         tally
     }
 
-    fn take(&mut self, at: [u32; 2], decoded: &Decoded) {
-        let samples = f64::from(SAMPLES);
+    fn take(&mut self, at: [u32; 2], samples: f64, decoded: &Decoded) {
         if is_lit(at) {
             self.samples += samples;
-            for (line, counts) in self.lines.iter_mut().zip(decoded.lines) {
-                line.iter_mut().zip(counts).for_each(|(sum, count)| *sum += f64::from(count));
-            }
-        } else {
-            self.take_dark(at, samples, samples - f64::from(decoded.background));
+            let counts = decoded.lines.as_flattened().iter();
+            let sums = self.lines.as_flattened_mut().iter_mut();
+            return sums.zip(counts).for_each(|(sum, count)| *sum += f64::from(*count));
         }
-    }
-
-    fn take_dark(&mut self, at: [u32; 2], samples: f64, seen: f64) {
+        let seen = samples - f64::from(decoded.background);
         self.dark_samples += samples;
         self.strayed += seen;
         if let Some(side) = side(at) {
@@ -142,28 +134,12 @@ impl Tally {
         let numbers = || (0..GRID * GRID).map(|n| DVec2::new(middle(n % GRID), middle(n / GRID)));
         let mut tally = Self::default();
         for at in [LIT].into_iter().chain(BESIDE) {
-            for point in numbers().map(|u| DVec2::from(at.map(f64::from)) + law(u)) {
-                tally.take_expected(at, cell_at(point));
+            for point in numbers().map(|u| corner(at) + law(u)) {
+                tally.take(at, 1.0, &Decoded::of_sample(cell_at(point)));
             }
         }
         tally
     }
-
-    fn take_expected(&mut self, at: [u32; 2], cell: Option<[usize; 2]>) {
-        if !is_lit(at) {
-            return self.take_dark(at, 1.0, f64::from(u8::from(cell.is_some())));
-        }
-        self.samples += 1.0;
-        if let Some([column, row]) = cell {
-            let lines = [column, row, (column + CELLS - row) % CELLS, (column + row) % CELLS];
-            lines.iter().zip(&mut self.lines).for_each(|(line, counts)| counts[*line] += 1.0);
-        }
-    }
-}
-
-/// Columns and rows of the film, in the order of its pixels.
-fn places() -> impl Iterator<Item = [u32; 2]> {
-    (0..FILM[1]).flat_map(|y| (0..FILM[0]).map(move |x| [x, y]))
 }
 
 /// A lit pixel, and one beside it on each border: all others of their kind see the same.

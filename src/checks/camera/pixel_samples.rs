@@ -1,10 +1,10 @@
-//! The samples of a pixel cover it evenly, and nothing else, as a picture of a
-//! [`pattern`](super::pattern) shows.
+//! The samples of a pixel cover it evenly, and nothing else, as a picture of a [`pattern`](super::pattern) shows.
 //!
 //! Not here: the first sample of a pixel, which some cores send through its centre; pictures of one
 //! sample are not asked for.
 
-use super::pattern::{CELLS, FILM, SAMPLES, lit_pixels, scene, share};
+use super::painting::FILM;
+use super::pattern::{CELLS, SAMPLES, lit_pixels, scene, share};
 use super::pixel_laws::{MISTAKES, Tally};
 use crate::checks::phrase::percent;
 use crate::checks::rendering::Rendering;
@@ -14,8 +14,7 @@ use crate::math::rng::Seed;
 use crate::stats::{Band, Claim, MeanReport, judge_means};
 use crate::text::{Count, Percent};
 
-/// How far the shares of a mistake may be from those measured: those of two mistakes differ by
-/// twice that.
+/// How far the shares of a mistake may be from those measured: those of two mistakes differ by twice that.
 const EXPLAINED: f64 = 0.02;
 
 check! {
@@ -35,10 +34,8 @@ impl Check for PixelSamples {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = scene();
         let rendering = Rendering::of(&scene, FILM, [0, 0], SAMPLES)?;
-        let effort = context
-            .effort(self.detects, self.at_most)
-            .with_runs(32)
-            .in_steps_of(samples_of_a_picture());
+        let effort = context.effort(self.detects, self.at_most).with_runs(32);
+        let effort = effort.in_steps_of(samples_of_a_picture());
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut all = Tally::default();
@@ -115,11 +112,8 @@ fn explain(mut finding: Finding, all: &Tally) -> Finding {
         let errors = found.iter().zip(&expected).map(|(found, right)| (found - right).abs());
         let largest = errors.fold(0.0, |largest: f64, e| if e <= largest { largest } else { e });
         if largest <= EXPLAINED {
-            let evidence = format!(
-                "predicts the share of every fifth and of every border to {}",
-                percent(largest)
-            );
-            finding = finding.because(mistake.cause, evidence);
+            let what = "predicts the share of every fifth and of every border to";
+            finding = finding.because(mistake.cause, format!("{what} {}", percent(largest)));
         }
     }
     finding
@@ -131,12 +125,12 @@ mod tests {
     use super::super::pattern::radiance_at;
     use super::super::pixel_laws::Law;
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::checks::testing::{assert_passes, causes, check_of, failure};
 
     /// Coarser than the case, so that failing cores take a fraction of a second.
     fn found(core: FakeFilm) -> Finding {
         let check: PixelSamples = check_of("[expect]\ndetects = \"30 %\"\nat-most = \"5 k\"");
-        judge(&check, &mut FakeFilm { radiance: Box::new(|at, _| radiance_at(at)), ..core }.core())
+        FakeFilm { radiance: Box::new(|at, _| radiance_at(at)), ..core }.judged_by(&check)
     }
 
     fn placed(place: Law) -> Finding {
@@ -152,9 +146,7 @@ mod tests {
     fn every_mistake_fails_under_its_own_name_alone() {
         for mistake in MISTAKES {
             let finding = placed(mistake.law);
-            failure(&finding);
-            let causes: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
-            assert_eq!(causes, [mistake.cause.name], "{}", finding.statement);
+            assert_eq!(causes(&finding), [mistake.cause.name], "{}", finding.statement);
         }
     }
 

@@ -1,19 +1,18 @@
-//! A scene that tells in which quarter of its pixel each of four samples lies, and of one of them
-//! where in its quarter.
+//! A picture that tells in which quarter of its pixel each of four samples lies, and of one of them where in its
+//! quarter.
 //!
-//! Every quarter glows with its own power of 5 in red, so that the sum of four samples, written in
-//! base 5, has in each digit how many of them fell there. One quarter of each pixel, another one in
-//! the pixels beside it, glows in green too, three by three cells with numbers from 1 to 9. Only one
-//! sample of a pixel is looked at so closely, since a core may jitter all of them alike. Between the
-//! quarters is background: no rounding carries a sample from one to another.
+//! Every quarter emits its own power of 5 in red, so that the sum of four samples, written in base 5, has in each digit
+//! how many of them fell there. One quarter of each pixel, another one in the pixels beside it, emits green too, three
+//! by three cells with numbers from 1 to 9. Only one sample of a pixel is looked at so closely, since a core may jitter
+//! all of them alike. Between the quarters is background.
 
-use super::pattern::{FILM, MARGIN, background, glowing, quads, view};
-use crate::scene::{Mesh, SceneDescription};
+use super::painting::{Area, MARGIN, Painting, corner, digit, one, places, sum};
+use crate::scene::SceneDescription;
 use crate::stats::CellProbabilities;
 use glam::DVec2;
 
 /// Camera rays per pixel.
-pub(crate) const SAMPLES: u32 = 4;
+pub(crate) const SAMPLES: u32 = BASE - 1;
 /// Quarters in a row.
 const SIDE: usize = 2;
 /// Quarters of a pixel.
@@ -21,10 +20,9 @@ pub(crate) const STRATA: usize = SIDE * SIDE;
 /// Cells in a row of a quarter.
 const CELLS: usize = 3;
 
-const BASE: f64 = 5.0;
+const BASE: u32 = 5;
 const BACKGROUND_RADIANCE: [f64; 3] = [625.0, 0.0, 0.0];
-/// How far from a whole number a decoded sum may be.
-const WHOLE: f64 = 0.25;
+const _: () = assert!(BASE.pow(STRATA as u32) == 625);
 
 /// What a pixel shows of its samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,33 +50,21 @@ fn close(at: [u32; 2]) -> usize {
     (at[0] + 2 * at[1]) as usize % STRATA
 }
 
-fn plain_radiance(stratum: usize) -> [f64; 3] {
-    [BASE.powi(stratum as i32), 0.0, 0.0]
+/// In the quarter that is looked at closely, with the number of a cell.
+fn radiance(stratum: usize, cell: Option<usize>) -> [f64; 3] {
+    [one(BASE, stratum), cell.map_or(0.0, |cell| 1.0 + cell as f64), 0.0]
 }
 
-fn close_radiance(stratum: usize, cell: usize) -> [f64; 3] {
-    [BASE.powi(stratum as i32), 1.0 + cell as f64, 0.0]
-}
-
-/// Reads the pixel of this column and row; `None` if it is no mean of [`SAMPLES`] radiances of the
-/// pattern.
+/// Reads the pixel of this column and row; `None` if it is no mean of [`SAMPLES`] radiances of the pattern.
 pub(crate) fn read(at: [u32; 2], pixel: [f32; 3]) -> Option<Reading> {
-    let [red, green, _] = pixel.map(|mean| f64::from(mean) * f64::from(SAMPLES));
-    let (red, green) = (whole(red)?, whole(green)?);
-    let digit = |place: usize| (red / BASE.powi(place as i32)) as u32 % BASE as u32;
-    let strata = std::array::from_fn(digit);
-    let counted = strata.iter().sum::<u32>() + digit(STRATA);
+    let [red, green, _] = pixel.map(|mean| sum(mean, SAMPLES, BASE.pow(5)));
+    let (red, green) = (red?, green?);
+    let strata = std::array::from_fn(|place| digit(red, BASE, place));
+    let counted = strata.iter().sum::<u32>() + digit(red, BASE, STRATA);
     let alone = strata[close(at)] == 1;
     let cell = alone.then(|| (green as usize).wrapping_sub(1));
     let is_cell = cell.is_none_or(|cell| cell < CELLS * CELLS);
     (counted == SAMPLES && is_cell).then_some(Reading { strata, cell })
-}
-
-/// A sum of radiances, which are whole numbers.
-fn whole(sum: f64) -> Option<f64> {
-    let rounded = sum.round();
-    let is_sum = (sum - rounded).abs() <= WHOLE && (0.0..BASE.powi(5)).contains(&rounded);
-    is_sum.then_some(rounded)
 }
 
 /// The probabilities of the cells of a quarter for a sample whose two coordinates in it are uniform
@@ -107,47 +93,29 @@ fn cell_size() -> f64 {
     (stratum_size() - 2.0 * MARGIN) / CELLS as f64
 }
 
-/// The scene, seen by a camera that stands and looks in no special way.
 pub(crate) fn scene() -> SceneDescription {
-    let camera = view();
-    let mut meshes = vec![background(&camera)];
-    let mut materials = vec![glowing("background", BACKGROUND_RADIANCE)];
-    let mut add = |name: String, radiance, mesh: Mesh| {
-        let material = u32::try_from(materials.len()).unwrap_or(u32::MAX);
-        materials.push(glowing(&name, radiance));
-        meshes.push(Mesh { material, ..mesh });
-    };
+    let mut painting = Painting::new("strata-pattern", BACKGROUND_RADIANCE);
     for stratum in 0..STRATA {
-        let far = places().filter(|at| close(*at) != stratum);
-        let corners = far.map(|at| area(at, stratum, 0, CELLS));
-        add(format!("quarter {stratum}"), plain_radiance(stratum), quads(&camera, corners, 1.0));
+        let (near, far): (Vec<_>, Vec<_>) = places().partition(|at| close(*at) == stratum);
+        let areas = far.iter().map(|at| area(*at, stratum, 0, CELLS));
+        painting.paint(format!("quarter {stratum}"), radiance(stratum, None), areas);
         for cell in 0..CELLS * CELLS {
-            let near = places().filter(|at| close(*at) == stratum);
-            let corners = near.map(|at| area(at, stratum, cell, 1));
-            let radiance = close_radiance(stratum, cell);
-            add(format!("cell {cell} of {stratum}"), radiance, quads(&camera, corners, 1.0));
+            let areas = near.iter().map(|at| area(*at, stratum, cell, 1));
+            painting.paint(
+                format!("cell {cell} of {stratum}"),
+                radiance(stratum, Some(cell)),
+                areas,
+            );
         }
     }
-    let scene = SceneDescription {
-        name: "strata-pattern".to_owned(),
-        camera: Some(camera),
-        materials,
-        meshes,
-        ..Default::default()
-    };
-    scene.with_area_lights()
+    painting.scene()
 }
 
-/// Columns and rows of the film, in the order of its pixels.
-pub(crate) fn places() -> impl Iterator<Item = [u32; 2]> {
-    (0..FILM[1]).flat_map(|y| (0..FILM[0]).map(move |x| [x, y]))
-}
-
-/// Two corners of `cells` by `cells` cells of a quarter, from `first` on: film points in pixels.
-fn area(at: [u32; 2], stratum: usize, first: usize, cells: usize) -> [DVec2; 2] {
+/// `cells` by `cells` cells of a quarter, from `first` on.
+fn area(at: [u32; 2], stratum: usize, first: usize, cells: usize) -> Area {
     let place =
         |number: usize, side: usize| DVec2::new((number % side) as f64, (number / side) as f64);
-    let corner = DVec2::from(at.map(f64::from)) + stratum_size() * place(stratum, SIDE) + MARGIN;
+    let corner = corner(at) + stratum_size() * place(stratum, SIDE) + MARGIN;
     let corner = corner + cell_size() * place(first, CELLS);
     [corner, corner + cell_size() * cells as f64]
 }
@@ -156,37 +124,25 @@ fn area(at: [u32; 2], stratum: usize, first: usize, cells: usize) -> [DVec2; 2] 
 #[cfg(test)]
 pub(crate) fn radiance_at(point: DVec2) -> [f64; 3] {
     let at = point.floor().to_array().map(|c| c as u32);
-    let inside = |[low, high]: [DVec2; 2]| point.cmpge(low).all() && point.cmplt(high).all();
+    let inside = |[low, high]: Area| point.cmpge(low).all() && point.cmplt(high).all();
     let Some(stratum) = (0..STRATA).find(|stratum| inside(area(at, *stratum, 0, CELLS))) else {
         return BACKGROUND_RADIANCE;
     };
     if close(at) != stratum {
-        return plain_radiance(stratum);
+        return radiance(stratum, None);
     }
     let cell = (0..CELLS * CELLS).find(|cell| inside(area(at, stratum, *cell, 1)));
-    cell.map_or(BACKGROUND_RADIANCE, |cell| close_radiance(stratum, cell))
+    cell.map_or(BACKGROUND_RADIANCE, |cell| radiance(stratum, Some(cell)))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::painting::assert_shows;
     use super::*;
-    use crate::checks::camera::projection;
-    use crate::checks::oracle;
-    use crate::contract::Ray;
-    use crate::math::rng::{Seed, uniform};
 
     #[test]
     fn the_scene_shows_the_pattern() {
-        let (scene, mut stream) = (scene(), Seed(1).stream());
-        let camera = scene.camera.unwrap();
-        for _ in 0..100 {
-            let point = DVec2::new(uniform(&mut stream), uniform(&mut stream));
-            let pixels = point * DVec2::from(FILM.map(f64::from));
-            let direction = projection(&camera, DVec2::new(point.x, 1.0 - point.y));
-            let met = oracle::nearest(&scene, &Ray::new(camera.position, direction)).unwrap();
-            let emission = scene.material_of(met.shape).emission.unwrap();
-            assert_eq!(emission.radiance, radiance_at(pixels), "{pixels}");
-        }
+        assert_shows(&scene(), radiance_at);
     }
 
     #[test]

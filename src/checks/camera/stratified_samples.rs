@@ -1,15 +1,14 @@
 //! A core that says that its pixels are stratified puts one sample in each cell, anywhere in it, as
 //! a picture of a [`strata_pattern`](super::strata_pattern) shows.
 
-use super::pattern::FILM;
-use super::strata_pattern::{Reading, SAMPLES, STRATA, law, places, read, scene};
-use crate::cause::{Cause, camera};
-use crate::checks::phrase::percent;
+use super::painting::{FILM, places};
+use super::strata::{Tally, mistake};
+use super::strata_pattern::{SAMPLES, law, read, scene};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{Acceleration, BuiltScene};
 use crate::math::rng::Seed;
-use crate::stats::{CountReport, Counts, follows_law, judge_counts};
+use crate::stats::{CountReport, judge_counts};
 use crate::text::{Count, Percent};
 
 /// Pictures that are looked at before any are counted: where cells are uneven, that is enough.
@@ -59,61 +58,6 @@ fn pixels_of_a_picture() -> u64 {
     u64::from(FILM[0]) * u64::from(FILM[1])
 }
 
-/// What pixels have shown.
-#[derive(Clone, Debug)]
-struct Tally {
-    pixels: u64,
-    /// Of them, those in which no cell has two samples.
-    even: u64,
-    /// Those that are no mean of four samples of the scene.
-    unreadable: u64,
-    /// The first pixel that can be read to its last sample, and whether all such are like it.
-    pattern: Option<[u32; STRATA]>,
-    one_pattern: bool,
-    /// Where in its cell one sample of each pixel lies.
-    counts: Counts,
-}
-
-impl Default for Tally {
-    fn default() -> Self {
-        let counts = Counts { cells: vec![0; 9], absorbed: 0 };
-        Self { pixels: 0, even: 0, unreadable: 0, pattern: None, one_pattern: true, counts }
-    }
-}
-
-impl Tally {
-    fn take(&mut self, reading: Option<Reading>) {
-        self.pixels += 1;
-        let Some(reading) = reading else {
-            self.unreadable += 1;
-            return;
-        };
-        self.even += u64::from(reading.is_even());
-        match reading.cell {
-            Some(cell) => self.counts.cells[cell] += 1,
-            None => self.counts.absorbed += 1,
-        }
-        if reading.is_whole() {
-            let pattern = *self.pattern.get_or_insert(reading.strata);
-            self.one_pattern &= pattern == reading.strata;
-        }
-    }
-
-    fn add(&mut self, other: &Self) {
-        self.pixels += other.pixels;
-        self.even += other.even;
-        self.unreadable += other.unreadable;
-    }
-
-    fn uneven(&self) -> u64 {
-        self.pixels - self.even - self.unreadable
-    }
-
-    fn is_uneven(&self) -> bool {
-        self.even < self.pixels
-    }
-}
-
 fn take_picture(
     scene: &mut dyn BuiltScene,
     rendering: &Rendering,
@@ -139,7 +83,7 @@ fn finding(all: &Tally, report: Option<&CountReport>) -> Finding {
     let failed = measures.iter().any(Measure::failed);
     let finding = match report {
         Some(_) => Finding::measured(statement(all, failed), measures)
-            .in_terms(" of the density within a cell"),
+            .in_terms(" of the pdf within a cell"),
         None => Finding::of(statement(all, failed), caught, measures),
     };
     finding.because_of(failed.then(|| mistake(all, report)).flatten())
@@ -157,49 +101,13 @@ fn statement(all: &Tally, failed: bool) -> String {
     }
 }
 
-/// How far from what independent samples give the share of even pixels may be: five standard errors
-/// of the first look.
-const EXPLAINED: f64 = 0.035;
-
-/// The share of pixels in which four independent samples fall in four different cells: 4!/4⁴.
-const EVEN_BY_CHANCE: f64 = 24.0 / 256.0;
-
-/// The mistake that predicts what is seen, if there is one.
-fn mistake(all: &Tally, report: Option<&CountReport>) -> Option<(&'static Cause, String)> {
-    let Some(report) = report else { return uneven_mistake(all) };
-    let counts = Counts { cells: report.observed.clone(), absorbed: report.absorbed_observed };
-    if counts.cells[4] == counts.total() {
-        let evidence =
-            format!("all {} samples lie in the middle ninth of their cells", counts.total());
-        return Some((&camera::STRATUM_CENTRE, evidence));
-    }
-    let halves = [[0.0, 0.5], [0.25, 0.75], [0.5, 1.0]];
-    let [from, to] = halves.into_iter().find(|half| follows_law(&law(*half), &counts))?;
-    let evidence = format!("from {from} to {to} of a cell predicts the counts of all its ninths");
-    Some((&camera::STRATUM_HALF, evidence))
-}
-
-fn uneven_mistake(all: &Tally) -> Option<(&'static Cause, String)> {
-    if all.unreadable > 0 {
-        return None;
-    }
-    let even = all.even as f64 / all.pixels as f64;
-    if (even - EVEN_BY_CHANCE).abs() <= EXPLAINED {
-        let (chance, found) = (percent(EVEN_BY_CHANCE), percent(even));
-        let evidence = format!("{found} of the pixels are even, {chance} would be by chance");
-        return Some((&camera::STRATA_IGNORED, evidence));
-    }
-    let pattern = all.pattern.filter(|_| all.one_pattern)?;
-    let evidence = format!("the four cells of every pixel have {pattern:?} samples");
-    Some((&camera::STRATA_UNEVEN, evidence))
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::fake::FakeFilm;
     use super::super::strata_pattern::radiance_at;
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::cause::{Cause, camera};
+    use crate::checks::testing::{assert_passes, causes, check_of, failure};
     use glam::DVec2;
 
     /// Where sample number so-and-so lies in its pixel, with two uniform numbers.
@@ -211,9 +119,8 @@ mod tests {
 
     fn found(arrange: Arrange) -> Finding {
         let check: StratifiedSamples = check_of("[expect]\ndetects = \"15 %\"\nat-most = \"50 k\"");
-        let radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send> =
-            Box::new(|at, _| radiance_at(at));
-        judge(&check, &mut FakeFilm { radiance, arrange, ..FakeFilm::default() }.core())
+        let radiance = Box::new(|at, _| radiance_at(at));
+        FakeFilm { radiance, arrange, ..FakeFilm::default() }.judged_by(&check)
     }
 
     #[test]
@@ -234,9 +141,7 @@ mod tests {
         ];
         for (arrange, cause) in mistakes {
             let finding = found(arrange);
-            failure(&finding);
-            let causes: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
-            assert_eq!(causes, [cause.name], "{}", finding.statement);
+            assert_eq!(causes(&finding), [cause.name], "{}", finding.statement);
         }
     }
 

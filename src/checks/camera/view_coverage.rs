@@ -1,21 +1,18 @@
-//! How much of a picture a lamp covers, and where: field of view, aspect and position, without any
-//! shading.
+//! How much of a picture a light covers, and where: field of view, aspect and position, without any shading.
 
 use crate::cause::image;
 use crate::checks::phrase::{figure, percent};
-use crate::checks::rendering::Rendering;
+use crate::checks::rendering::{Rendering, places};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{Acceleration, Film};
 use crate::stats::{Band, Claim, MeanReport, Verdict, judge_means};
 use crate::text::{Count, Percent, Size};
 
-/// Samples of a pixel in each run; more than one, since some cores send a lone sample through the
-/// centre.
+/// Samples of a pixel in each run; more than one, since some cores send a lone sample through the centre.
 const SAMPLES: u32 = 4;
 
 check! {
-    /// A lamp of radiance 1 before nothing covers a given share of the picture, around a given point of
-    /// it.
+    /// A light of radiance 1 before nothing covers a given share of the picture, around a given point of it.
     pub(crate) struct ViewCoverage {
         /// Columns and rows. Pixels stand for their centres, so that they should be small.
         size: Size,
@@ -29,7 +26,7 @@ check! {
         at_most: Count,
     }
     name: "view-coverage",
-    summary: "how much of the picture a lamp covers, and where",
+    summary: "how much of the picture a light covers, and where",
     needs: BUILD_SCENE | RENDER,
 }
 
@@ -37,19 +34,16 @@ impl Check for ViewCoverage {
     fn validate(&self) -> Result<(), String> {
         let is_inside = |share: &f64| 0.0 < *share && *share < 1.0;
         let numbers = [self.share, self.centroid[0], self.centroid[1]];
-        if numbers.iter().all(is_inside) {
-            Ok(())
-        } else {
-            Err("`share` and `centroid` lie between 0 and 1".to_owned())
-        }
+        let are_inside = numbers.iter().all(is_inside);
+        are_inside.then_some(()).ok_or("`share` and `centroid` lie between 0 and 1".to_owned())
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = context.scene()?;
         let rendering = Rendering::of(&scene, self.size.0, [0, 0], SAMPLES)?;
         let of_a_film = u64::from(self.size.0[0]) * u64::from(self.size.0[1]) * u64::from(SAMPLES);
-        let effort =
-            context.effort(self.detects, self.at_most).with_runs(32).in_steps_of(of_a_film);
+        let effort = context.effort(self.detects, self.at_most);
+        let effort = effort.with_runs(32).in_steps_of(of_a_film);
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let reports = judge_means(&self.claims(), &effort, &mut |draw| {
@@ -69,9 +63,8 @@ impl Check for ViewCoverage {
 /// The mean of the picture, and of the picture times the film coordinates of its pixels.
 fn moments(film: &Film) -> [f64; 3] {
     let [width, height] = [film.width, film.height].map(f64::from);
-    let places = (0..film.height).flat_map(|y| (0..film.width).map(move |x| [x, y]));
     let mut sums = [0.0; 3];
-    for ([x, y], pixel) in places.zip(&film.pixels) {
+    for ([x, y], pixel) in places([film.width, film.height]).zip(&film.pixels) {
         let seen = f64::from(pixel[1]);
         sums[0] += seen;
         sums[1] += seen * (f64::from(x) + 0.5) / width;
@@ -91,12 +84,11 @@ impl ViewCoverage {
 
     fn finding(&self, reports: &[MeanReport]) -> Finding {
         let names = ["share of the picture", "share times film x", "share times film y"];
-        let measures =
-            names.into_iter().zip(reports).map(|(name, report)| Measure::of(name, report));
+        let measures = names.iter().zip(reports).map(|(name, report)| Measure::of(name, report));
         let share = reports[0].mean;
         let [x, y] = [reports[1].mean / share, reports[2].mean / share].map(figure);
         let covered =
-            format!("the lamp covers {} of the picture, around ({x}, {y})", percent(share));
+            format!("the light covers {} of the picture, around ({x}, {y})", percent(share));
         let finding = Finding::measured(&covered, measures).in_terms(" of the share");
         if !finding.failed() {
             return finding;
@@ -134,64 +126,53 @@ impl ViewCoverage {
 mod tests {
     use super::super::fake::{FakeFilm, Radiance};
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
-    use crate::scene::SceneDescription;
-    use glam::DVec2;
+    use crate::checks::testing::{assert_passes, causes, check_of, failure};
+    use glam::{DVec2, Vec2Swizzles};
 
     const CASE: &str = "[expect]\nsize = [32, 24]\nshare = 0.12\ncentroid = [0.35, 0.8]\n\
                         detects = \"3 %\"\nat-most = \"1 M\"";
 
-    /// A lamp that covers [0.2, 0.5] × [0.6, 1] of the film.
-    fn lamp(at: DVec2, size: DVec2) -> [f64; 3] {
+    /// A light that covers [0.2, 0.5] × [0.6, 1] of the film.
+    fn light(at: DVec2, size: DVec2) -> [f64; 3] {
         let film = DVec2::new(at.x / size.x, 1.0 - at.y / size.y);
         let covers = (0.2..0.5).contains(&film.x) && (0.6..=1.0).contains(&film.y);
         [f64::from(u8::from(covers)); 3]
     }
 
-    fn found(core: FakeFilm) -> Finding {
-        let check: ViewCoverage = check_of(CASE);
-        let scene = SceneDescription { camera: Some(FakeFilm::camera()), ..Default::default() };
-        try_judge(&check, &mut core.core(), Some(scene)).unwrap()
-    }
-
     fn seen(radiance: Radiance) -> Finding {
-        found(FakeFilm { radiance: Box::new(radiance), ..FakeFilm::default() })
+        let check: ViewCoverage = check_of(CASE);
+        FakeFilm { radiance: Box::new(radiance), ..FakeFilm::default() }.judged_by(&check)
     }
 
     #[test]
     fn the_right_view_passes() {
-        assert_passes(&seen(lamp));
+        assert_passes(&seen(light));
     }
 
     #[test]
     fn a_view_that_is_too_wide_fails_with_both_numbers() {
-        let finding = seen(|at, size| lamp(size / 2.0 + 1.1 * (at - size / 2.0), size));
+        let finding = seen(|at, size| light(size / 2.0 + 1.1 * (at - size / 2.0), size));
         let statement = failure(&finding);
-        assert!(statement.starts_with("the lamp covers 9.9"), "{statement}");
+        assert!(statement.starts_with("the light covers 9.9"), "{statement}");
         assert!(statement.ends_with("instead of 12 % around (0.35, 0.8)"), "{statement}");
     }
 
     #[test]
     fn mirrored_pictures_are_named() {
         let cases: [(Radiance, &str); 4] = [
-            (|at, size| lamp(DVec2::new(at.x, size.y - at.y), size), "picture-upside-down"),
-            (|at, size| lamp(DVec2::new(size.x - at.x, at.y), size), "picture-mirrored"),
-            (|at, size| lamp(size - at, size), "picture-turned-round"),
-            (
-                |at, size| lamp(DVec2::new(1.0 - at.y / size.y, 1.0 - at.x / size.x) * size, size),
-                "picture-transposed",
-            ),
+            (|at, size| light(DVec2::new(at.x, size.y - at.y), size), "picture-upside-down"),
+            (|at, size| light(DVec2::new(size.x - at.x, at.y), size), "picture-mirrored"),
+            (|at, size| light(size - at, size), "picture-turned-round"),
+            (|at, size| light((1.0 - (at / size).yx()) * size, size), "picture-transposed"),
         ];
         for (radiance, name) in cases {
             let finding = seen(radiance);
-            failure(&finding);
-            let causes: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
-            assert_eq!(causes, [name], "{}", finding.statement);
+            assert_eq!(causes(&finding), [name], "{}", finding.statement);
         }
     }
 
     #[test]
-    fn a_lamp_a_pixel_further_right_fails() {
-        failure(&seen(|at, size| lamp(at - DVec2::X, size)));
+    fn a_light_a_pixel_further_right_fails() {
+        failure(&seen(|at, size| light(at - DVec2::X, size)));
     }
 }

@@ -1,6 +1,7 @@
 //! Pictures of 8 bits against a reference: what the law of their codes says.
 
-use super::matches_reference::{Setup, error_picture, finding};
+use super::shot::Setup;
+use super::told::{error_picture, finding};
 use crate::cause::image;
 use crate::checks::{CheckError, Context, Finding, Measure, PictureRole};
 use crate::image::Image;
@@ -19,11 +20,8 @@ pub(super) struct Judged {
 }
 
 /// Judges the codes that `draw` renders.
-///
-/// # Errors
-/// Those of `draw`.
 pub(super) fn judge(
-    setup: &Setup<'_>,
+    setup: &Setup,
     declared: Encoding,
     draw: &mut dyn FnMut(ImageDraw) -> Result<Codes, CheckError>,
 ) -> Result<Judged, CheckError> {
@@ -39,7 +37,7 @@ pub(super) fn judge(
 
 impl Judged {
     /// The finding, with its pictures in the report.
-    pub(super) fn shown(self, setup: &Setup<'_>, context: &mut Context<'_>) -> Finding {
+    pub(super) fn shown(self, setup: &Setup, context: &mut Context<'_>) -> Finding {
         context.show(PictureRole::Reference, "Mitsuba", setup.reference.mean.clone());
         if let Some(image) = &self.report.image {
             let caption = format!(
@@ -50,11 +48,8 @@ impl Judged {
             context.show(PictureRole::Render, caption, as_light(&image.mean, self.declared));
             let exact = Image::new(image.mean.width, image.mean.height, [0.0; 3]);
             let error = error_picture(image, &self.report.expected, &exact);
-            context.show(
-                PictureRole::SignedError,
-                "codes off, 6 standard errors at the ends",
-                error,
-            );
+            let caption = "codes off, 6 standard errors at the ends";
+            context.show(PictureRole::SignedError, caption, error);
         }
         self.finding
     }

@@ -1,6 +1,6 @@
 //! Which mistake turns the reference into the picture: told where a fit explains what differs.
 
-use super::matches_reference::Shot;
+use super::shot::Shot;
 use crate::cause::{Cause, camera, image, integrator};
 use crate::checks::{CheckError, Finding};
 use crate::contract::BuiltScene;
@@ -9,7 +9,7 @@ use crate::math::rng::Seed;
 use crate::scene::reference::Reference;
 use crate::stats::ImageReport;
 use crate::stats::misfit::{
-    BouncesOff, Estimate, Fit, Knowledge, Misfit, Symmetry, bounces_off, explain,
+    BouncesOff, Estimate, Knowledge, Misfit, Symmetry, bounces_off, explain,
 };
 
 /// Of what differs, the share that a mistake has to explain to be told as its cause.
@@ -20,37 +20,30 @@ const BOUNCE_RUNS: u32 = 8;
 const LIMIT_RUNS: u32 = 16;
 /// Pixels that have to share the largest value of all.
 const FEWEST_AT_LIMIT: usize = 8;
-/// Pixels with a value, to a hundredth, that make it the value of a lamp.
-const FEWEST_OF_LAMP: usize = 4;
+/// Pixels with a value, to a hundredth, that make it the value of a light.
+const FEWEST_OF_LIGHT: usize = 4;
 
 /// Adds what the fits say to a failure.
 pub(super) fn explained(
     finding: Finding,
     report: &ImageReport,
     reference: &Reference,
-    shot: &Shot<'_>,
+    shot: &Shot,
     built: &mut dyn BuiltScene,
     seed: Seed,
 ) -> Result<Finding, CheckError> {
-    let noise = Image::from_fn(reference.mean.width, reference.mean.height, |x, y| {
-        let i = y * reference.mean.width + x;
-        std::array::from_fn(|c| {
-            report.standard_error.pixels[i][c].hypot(reference.standard_error.pixels[i][c])
-        })
-    });
+    let noises = report.standard_error.pixels.iter().zip(&reference.standard_error.pixels);
+    let noise = noises.map(|(a, b)| std::array::from_fn(|c| a[c].hypot(b[c]))).collect();
+    let noise = Image { pixels: noise, ..reference.mean };
     let knowledge = Knowledge { standard_error: Some(&noise), ..Knowledge::default() };
     let fits = explain(&report.mean, &reference.mean, &knowledge);
-    let limit = limit(report, reference, shot, built, seed.child("limit"))?;
-    let mut finding = match limit {
-        Some((level, pixels)) => finding.because(
-            &image::SAMPLES_CLAMPED,
-            format!(
-                "{pixels} pixels of {LIMIT_RUNS} pictures of one sample a pixel have exactly the value \
-                 {level}, and none is brighter"
-            ),
-        ),
-        None => finding,
-    };
+    let single = Shot { samples: 1, ..*shot };
+    let singles = renders(&single, LIMIT_RUNS, built, seed.child("limit"))?;
+    let limit = shared_limit(&singles, &report.mean, &reference.mean).map(|(level, pixels)| {
+        let of = format!("{pixels} pixels of {LIMIT_RUNS} pictures of one sample a pixel");
+        format!("{of} have exactly the value {level}, and none is brighter")
+    });
+    let mut finding = finding.because_of(limit.map(|told| (&image::SAMPLES_CLAMPED, told)));
     // A bounce that is off also looks like a factor: what explains more is told.
     let bounces = Bounces::of(reference, shot, built, seed.child("bounce"))?;
     let off = bounces_off(&report.mean, &reference.mean, &bounces.lights, &knowledge);
@@ -61,7 +54,7 @@ pub(super) fn explained(
     for fit in fits.iter().filter(|fit| fit.explains > EXPLAINS) {
         finding.statement += &format!("; the picture is {fit}");
         if let Some(cause) = cause_of(&fit.misfit) {
-            finding = finding.because(cause, evidence(fit));
+            finding = finding.because(cause, format!("the picture is the reference, {fit}"));
         }
     }
     Ok(finding)
@@ -89,7 +82,7 @@ impl Bounces {
     /// By the reference, or else by the core if it can, from bounce 0 on: none of a core that cannot.
     fn of(
         reference: &Reference,
-        shot: &Shot<'_>,
+        shot: &Shot,
         built: &mut dyn BuiltScene,
         seed: Seed,
     ) -> Result<Self, CheckError> {
@@ -97,9 +90,8 @@ impl Bounces {
         if !stored.is_empty() || !shot.isolates {
             return Ok(Self { lights: stored.clone(), by: "Mitsuba" });
         }
-        let [_, last] = shot.bounces();
         let alone = |bounce| alone(bounce, shot, built, seed.child(bounce));
-        let lights = (0..=last).map(alone).collect::<Result<_, _>>()?;
+        let lights = (0..=shot.bounces[1]).map(alone).collect::<Result<_, _>>()?;
         Ok(Self { lights, by: "the core itself" })
     }
 }
@@ -107,22 +99,26 @@ impl Bounces {
 /// The mean of some renders of one bounce.
 fn alone(
     bounce: u32,
-    shot: &Shot<'_>,
+    shot: &Shot,
     built: &mut dyn BuiltScene,
     seed: Seed,
 ) -> Result<Image, CheckError> {
-    let shot = shot.of_bounce(bounce);
-    let mut light = shot.render(built, seed.child(0))?;
-    for run in 1..BOUNCE_RUNS {
-        light.add(&shot.render(built, seed.child(run))?);
-    }
+    let shot = Shot { bounces: [bounce; 2], ..*shot };
+    let mut runs = renders(&shot, BOUNCE_RUNS, built, seed)?.into_iter();
+    let mut light = runs.next().unwrap_or_default();
+    runs.for_each(|run| light.add(&run));
     let mean = |pixel: &mut [f32; 3]| *pixel = pixel.map(|sum| sum / BOUNCE_RUNS as f32);
     light.pixels.iter_mut().for_each(mean);
     Ok(light)
 }
 
-fn evidence(fit: &Fit) -> String {
-    format!("the picture is the reference, {fit}")
+fn renders(
+    shot: &Shot,
+    runs: u32,
+    built: &mut dyn BuiltScene,
+    seed: Seed,
+) -> Result<Vec<Image>, CheckError> {
+    (0..runs).map(|run| shot.render(built, seed.child(run))).collect()
 }
 
 /// The cause that a fit stands for.
@@ -147,50 +143,33 @@ fn cause_of(misfit: &Misfit) -> Option<&'static Cause> {
 fn displaced(offsets: [&Estimate; 2]) -> &'static Cause {
     let is = |size: f64| {
         let fits = |offset: &Estimate| offset.allows(size) || offset.allows(-size);
-        let rests = |offset: &Estimate| offset.allows(0.0);
-        offsets.iter().all(|offset| fits(offset) || rests(offset))
-            && offsets.iter().any(|offset| fits(offset))
+        offsets.iter().all(|offset| fits(offset) || offset.allows(0.0))
+            && offsets.into_iter().any(fits)
     };
-    match () {
-        () if is(0.5) => &camera::HALF_A_PIXEL,
-        () if is(1.0) => &camera::WHOLE_PIXEL,
-        () => &image::DISPLACED,
+    match (is(0.5), is(1.0)) {
+        (true, _) => &camera::HALF_A_PIXEL,
+        (_, true) => &camera::WHOLE_PIXEL,
+        _ => &image::DISPLACED,
     }
 }
 
-/// The value that bright samples are cut off at, and how many pixels of single samples have it.
-fn limit(
-    report: &ImageReport,
-    reference: &Reference,
-    shot: &Shot<'_>,
-    built: &mut dyn BuiltScene,
-    seed: Seed,
-) -> Result<Option<(f32, usize)>, CheckError> {
-    let single = shot.with_samples(1);
-    let singles: Vec<_> = (0..LIMIT_RUNS)
-        .map(|run| single.render(built, seed.child(run)))
-        .collect::<Result<_, _>>()?;
-    Ok(shared_limit(&singles, &report.mean, &reference.mean))
-}
-
-/// The largest of single samples, if many pixels share it to the last bit and it is not the light
-/// of a lamp in view.
+/// The largest of single samples, if many pixels share it to the last bit and it is not the light of a light in view.
 fn shared_limit(singles: &[Image], mean: &Image, expected: &Image) -> Option<(f32, usize)> {
     let of_singles = |single: &Image| {
         let pairs = single.pixels.iter().zip(&expected.pixels);
-        // A pixel of a lamp has the lamp's value, and rightly so.
+        // A pixel of a light has the light's value, and rightly so.
         let lit = pairs.filter(|(one, expected)| largest(expected) < 0.5 * largest(one));
         lit.map(|(one, _)| largest(one)).collect::<Vec<_>>()
     };
     let brightest: Vec<f32> = singles.iter().flat_map(of_singles).collect();
     let level = brightest.iter().copied().fold(0.0, f32::max);
     let pixels = brightest.iter().filter(|value| **value == level).count();
-    // A lamp in view has its value in the mean as well, unless it should have more.
-    let is_lamp_pixel = |(mean, expected): &(&[f32; 3], &[f32; 3])| {
+    // A light in view has its value in the mean as well, unless it should have more.
+    let is_light_pixel = |(mean, expected): &(&[f32; 3], &[f32; 3])| {
         (largest(mean) / level - 1.0).abs() < 0.01 && largest(expected) < 1.01 * level
     };
-    let lamp_pixels = mean.pixels.iter().zip(&expected.pixels).filter(is_lamp_pixel).count();
-    let is_limit = level > 0.0 && pixels >= FEWEST_AT_LIMIT && lamp_pixels < FEWEST_OF_LAMP;
+    let light_pixels = mean.pixels.iter().zip(&expected.pixels).filter(is_light_pixel).count();
+    let is_limit = level > 0.0 && pixels >= FEWEST_AT_LIMIT && light_pixels < FEWEST_OF_LIGHT;
     is_limit.then_some((level, pixels))
 }
 
@@ -244,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn the_light_of_a_lamp_in_view_is_no_limit() {
+    fn the_light_of_a_light_in_view_is_no_limit() {
         let mut seen = [0.5f32; 16];
         seen[..4].fill(10.0);
         let mut single = [10.0f32; 16];

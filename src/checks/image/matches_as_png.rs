@@ -7,8 +7,7 @@ use crate::contract::{Acceleration, Capabilities};
 use crate::image::encoding::Encoding;
 
 check! {
-    /// Renders agree with a reference after they have been made pictures of 8 bits, as they are shown
-    /// and handed in.
+    /// Renders agree with a reference after they have been made pictures of 8 bits, as they are shown and handed in.
     pub(crate) struct MatchesAsPng {
         /// How light becomes codes.
         encoding: Encoding,
@@ -26,10 +25,8 @@ impl Check for MatchesAsPng {
 
     fn validate(&self) -> Result<(), String> {
         let gain = self.encoding.exposure;
-        match gain > 0.0 && gain.is_finite() {
-            true => Ok(()),
-            false => Err("`exposure` is a positive number".to_owned()),
-        }
+        let is_gain = gain > 0.0 && gain.is_finite();
+        is_gain.then_some(()).ok_or_else(|| "`exposure` is a positive number".to_owned())
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -48,91 +45,52 @@ impl Check for MatchesAsPng {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::testing::{assert_passes, check_of, failure, info, try_judge};
-    use crate::contract::{
-        BuildStats, BuiltScene, Core, CoreInfo, Film, Precision, RenderSettings, Result,
-    };
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::contract::RenderSettings;
     use crate::image::Image;
     use crate::image::encoding::{Curve, Rounding};
-    use crate::image::png::Picture;
     use crate::math::rng::{Seed, uniform};
-    use crate::scene::{Camera, Library, SceneDescription, reference};
+    use crate::scene::{Library, SceneDescription, reference};
     use std::path::Path;
 
     const SRGB: Encoding = Encoding::of(Curve::Srgb);
     const PICTURE: &str = "reference = 'area-light-plane'\nbounces = [0, 1]\nsamples-per-pixel = 8\n\
                            detects = '2 %'";
 
-    /// A core that renders noisy copies of the reference, and then spoils them.
-    struct Develops {
-        mean: Image,
-        gain: f64,
-        /// What it says of its codes, and what it does, if it writes nothing else.
-        writes: Option<[Encoding; 2]>,
+    /// A noisy copy of the reference: every pixel the mean of 32 exponential samples.
+    fn noisy(mean: &Image, gain: f64, settings: &RenderSettings) -> Image {
+        let mut stream = Seed(settings.integrator.seed).stream();
+        let pixel = |light: &[f32; 3]| {
+            let product: f64 = (0..32).map(|_| 1.0 - uniform(&mut stream)).product();
+            let gain = -gain * product.ln() / 32.0;
+            light.map(|light| (gain * f64::from(light)) as f32)
+        };
+        Image { pixels: mean.pixels.iter().map(pixel).collect(), ..*mean }
     }
 
-    impl Core for Develops {
-        fn info(&self) -> CoreInfo {
-            let render = match self.writes {
-                None => Capabilities::RENDER,
-                Some(_) => Capabilities::RENDER_CODES,
-            };
-            let capabilities = Capabilities::BUILD_SCENE | render;
-            CoreInfo { capabilities, ..info(Precision::Double) }
-        }
-
-        fn build_scene(
-            &mut self,
-            _: &SceneDescription,
-            _: Acceleration,
-        ) -> Result<Box<dyn BuiltScene + '_>> {
-            Ok(Box::new(Film8(self)))
-        }
-    }
-
-    struct Film8<'a>(&'a Develops);
-
-    impl Film8<'_> {
-        /// Every pixel the mean of 32 exponential samples.
-        fn picture(&self, settings: &RenderSettings) -> Image {
-            let mut stream = Seed(settings.integrator.seed).stream();
-            let pixel = |light: &[f32; 3]| {
-                let product: f64 = (0..32).map(|_| 1.0 - uniform(&mut stream)).product();
-                let gain = -self.0.gain * product.ln() / 32.0;
-                light.map(|light| (gain * f64::from(light)) as f32)
-            };
-            let mean = &self.0.mean;
-            Image { pixels: mean.pixels.iter().map(pixel).collect(), ..*mean }
-        }
-    }
-
-    impl BuiltScene for Film8<'_> {
-        fn stats(&self) -> BuildStats {
-            BuildStats::default()
-        }
-
-        fn render(&mut self, _: &Camera, settings: &RenderSettings, film: &mut Film) -> Result<()> {
-            film.pixels = self.picture(settings).pixels;
-            film.sample_counts.fill(settings.samples_per_pixel);
-            Ok(())
-        }
-
-        fn render_codes(
-            &mut self,
-            _: &Camera,
-            settings: &RenderSettings,
-            codes: &mut Picture,
-        ) -> Result<Encoding> {
-            let [said, done] = self.0.writes.unwrap();
-            *codes = done.picture(&self.picture(settings));
-            Ok(said)
-        }
-    }
-
+    /// Of a core that renders the reference, brighter by `gain`; or that writes codes, of which it tells that they are
+    /// made in the first way, and makes them in the second.
     fn found<C: Check>(check: &C, gain: f64, writes: Option<[Encoding; 2]>) -> Finding {
         let scene = Library::new("scenes").load("area-light-plane", &toml::Table::new()).unwrap();
         let reference = reference::load(Path::new("references"), "area-light-plane", &scene);
-        let mut core = Develops { mean: reference.unwrap().mean, gain, writes };
+        let mean = reference.unwrap().mean;
+        let mut core = Fake::default();
+        core.info.capabilities = Capabilities::BUILD_SCENE;
+        match writes {
+            None => {
+                core.info.capabilities |= Capabilities::RENDER;
+                core.film = Box::new(move |settings, film| {
+                    film.pixels = noisy(&mean, gain, settings).pixels;
+                    film.sample_counts.fill(settings.samples_per_pixel);
+                });
+            }
+            Some([said, done]) => {
+                core.info.capabilities |= Capabilities::RENDER_CODES;
+                let codes = move |image: &Image| (said, done.picture(image));
+                core.codes = Box::new(move |settings| codes(&noisy(&mean, gain, settings)));
+            }
+        }
         try_judge(check, &mut core, Some(SceneDescription::clone(&scene))).unwrap()
     }
 

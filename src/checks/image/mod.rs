@@ -4,6 +4,8 @@ mod by_codes;
 mod clues;
 mod matches_as_png;
 mod matches_reference;
+mod shot;
+mod told;
 
 use super::checks;
 

@@ -123,7 +123,7 @@ const NO_SLOPE: f64 = 0.05;
 mod tests {
     use super::*;
     use crate::checks::camera::fake::FakeFilm;
-    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::checks::testing::{assert_passes, check_of, failure};
     use crate::stats::Budget;
     use glam::DVec2;
 
@@ -140,11 +140,9 @@ mod tests {
 
     /// What is found of a core whose samples are uniform between 0 and 2.
     fn found(core: FakeFilm) -> Finding {
-        let scene = FakeFilm::scene();
         let radiance: Box<dyn Fn(DVec2, DVec2) -> [f64; 3] + Send> =
             Box::new(|at, _| [2.0 * at.x.fract(); 3]);
-        let check = check_of::<ErrorFallsAsRootN>(CASE);
-        try_judge(&check, &mut FakeFilm { radiance, ..core }.core(), Some(scene)).unwrap()
+        FakeFilm { radiance, ..core }.judged_by(&check_of::<ErrorFallsAsRootN>(CASE))
     }
 
     #[test]

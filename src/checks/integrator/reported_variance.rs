@@ -143,11 +143,10 @@ mod tests {
             "[expect]\nsize = [4, 3]\nbounces = [0, 1]\nsamples-per-pixel = 8\n\
              at-most = \"400 k\"\ndetects = 3",
         );
-        let scene = FakeFilm::scene();
         let mut core = Fake::default();
         core.info.capabilities = Capabilities::all();
         core.film = Box::new(move |settings, film| take(report, offset, settings, film));
-        try_judge(&check, &mut core, Some(scene)).unwrap()
+        try_judge(&check, &mut core, Some(FakeFilm::scene())).unwrap()
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! Random triangles and rays against exact arithmetic, where the answer does not depend on rounding.
 
 use super::encounter::{Encounter, explanation};
-use super::exact_triangle::{GridTriangle, Meeting};
+use super::exact_triangle::{GridRay, GridTriangle};
 use crate::cause::Cause;
-use crate::checks::phrase::{figure, some_are};
+use crate::checks::phrase::{figure, one_in, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
-use crate::contract::{Hit, Precision};
+use crate::contract::{Hit, Ray};
 use crate::stats::judge_exact;
 use crate::text::Count;
 
@@ -36,19 +36,19 @@ impl Check for AgreesWithExactArithmetic {
 
 fn encounters_with(context: &mut Context<'_>, number: u64) -> Result<Vec<Encounter>, CheckError> {
     let mut stream = context.seed.child(number).stream();
-    let precision: Precision = context.info.precision;
+    let precision = context.info.precision;
     let triangle = GridTriangle::random(&mut stream);
     let grid_rays: Vec<_> = (0..RAYS_EACH).map(|_| triangle.ray(&mut stream)).collect();
     let rays: Vec<_> = grid_rays.iter().map(|ray| triangle.world_ray(ray)).collect();
     let mut hits = vec![Hit::MISS; rays.len()];
     context.core.intersect_primitive(&triangle.primitive(), &rays, &mut hits)?;
-    let meetings = grid_rays.iter().map(|ray| triangle.meeting(ray, precision));
-    let encounter = |(meeting, (hit, t_max)): (Option<Meeting>, (&Hit, f64))| {
+    let encounter = |((grid_ray, ray), hit): ((&GridRay, &Ray), &Hit)| {
         let found = hit.is_hit().then_some(hit.t);
-        meeting.map(|meeting| Encounter { meeting, t_max, found })
+        let meeting = triangle.meeting(grid_ray, precision)?;
+        Some(Encounter { meeting, t_max: ray.t_max, found })
     };
-    let answers = hits.iter().zip(rays.iter().map(|ray| ray.t_max));
-    Ok(meetings.zip(answers).filter_map(encounter).filter(Encounter::is_clear).collect())
+    let answered = grid_rays.iter().zip(&rays).zip(&hits);
+    Ok(answered.filter_map(encounter).filter(Encounter::is_clear).collect())
 }
 
 fn judge(encounters: &[Encounter]) -> Finding {
@@ -69,9 +69,8 @@ fn judge(encounters: &[Encounter]) -> Finding {
     } else {
         failing_statement(encounters, [lost, invented, t.disagree], explained.as_ref())
     };
-    // 6.9 = −ln 0.001: that many mistaken rays are expected where none is seen in one case of a thousand.
-    let rare = encounters.len() as f64 / 6.9;
-    let resolution = format!("would have caught a mistake in one ray of {}", figure(rare.floor()));
+    let rare = one_in(encounters.len());
+    let resolution = format!("would have caught a mistake in one ray of {rare}");
     Finding::of(statement, resolution, measures).because_of(explained)
 }
 
@@ -82,12 +81,9 @@ fn failing_statement(
     explained: Option<&(&Cause, String)>,
 ) -> String {
     let wrong = some_are(counts.iter().sum(), encounters.len(), "clear rays");
-    let kinds: Vec<_> = counts
-        .iter()
-        .zip(["hits lost", "hits invented", "wrong t"])
-        .filter(|(count, _)| **count > 0)
-        .map(|(count, what)| format!("{count} {what}"))
-        .collect();
+    let kinds = counts.into_iter().zip(["hits lost", "hits invented", "wrong t"]);
+    let kinds = kinds.filter(|(count, _)| *count > 0);
+    let kinds: Vec<_> = kinds.map(|(count, what)| format!("{count} {what}")).collect();
     let why = match explained {
         Some((cause, evidence)) => format!(": {} ({evidence})", cause.headline),
         None => example(encounters),
@@ -107,7 +103,7 @@ fn example(encounters: &[Encounter]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::imitation::{Formula, intersection, mistake};
+    use super::super::imitation::{Answer, Formula, intersection, mistake};
     use super::*;
     use crate::cause::shape;
     use crate::checks::fake::Fake;
@@ -158,7 +154,7 @@ mod tests {
     fn a_t_that_is_off_by_a_millionth_fails() {
         let finding = found(|primitive, ray| {
             let answer = intersection(primitive, ray)?;
-            Some(super::super::imitation::Answer { t: answer.t * (1.0 + 1e-6), ..answer })
+            Some(Answer { t: answer.t * (1.0 + 1e-6), ..answer })
         });
         assert!(failure(&finding).contains("wrong t"), "{finding:?}");
     }

@@ -6,7 +6,7 @@ use crate::math::sphere::on_sphere;
 use glam::DVec3;
 
 /// Rays of each kind at each triangle.
-pub(super) const RAYS_EACH: usize = 200;
+const RAYS_EACH: usize = 200;
 
 /// Lengths of directions.
 const LENGTHS: [f64; 4] = [1e-3, 0.125, 30.0, 1e3];
@@ -33,39 +33,33 @@ pub(super) fn questions(stream: &mut Stream) -> Vec<Question> {
         ("a vertex that is NaN", [a, DVec3::NAN, c]),
         ("all vertices NaN", [DVec3::NAN; 3]),
     ];
-    let degenerate = without_area.map(|(name, vertices)| Question {
-        name,
-        primitive: triangle(vertices),
-        rays: rays_at(a, b, stream),
-        may_hit: false,
+    let degenerate = without_area.map(|(name, vertices)| {
+        let (primitive, rays) = (triangle(vertices), rays_at(a, b, stream));
+        Question { name, primitive, rays, may_hit: false }
     });
     let proper = [
         ("a ray in the plane of its triangle", in_plane(stream)),
         ("a ray along an edge", along_edges(stream)),
         ("a direction of any length", of_any_length(stream)),
     ];
-    let proper = proper.map(|(name, rays)| Question {
-        name,
-        primitive: triangle(PROPER),
-        rays,
-        may_hit: true,
-    });
+    let primitive = triangle(PROPER);
+    let proper = proper.map(|(name, rays)| Question { name, primitive, rays, may_hit: true });
     degenerate.into_iter().chain(proper).collect()
 }
 
 /// With a normal that is unit, whatever the vertices are.
-pub(super) fn triangle(positions: [DVec3; 3]) -> Primitive {
+fn triangle(positions: [DVec3; 3]) -> Primitive {
     Primitive::Triangle { positions, normals: [DVec3::Z; 3] }
 }
 
 /// At points between two vertices, from all sides.
 fn rays_at(a: DVec3, b: DVec3, stream: &mut Stream) -> Vec<Ray> {
-    let mut ray = |_| {
+    let ray = |_| {
         let target = a.lerp(b, uniform(stream));
         let origin = target + 2.0 * on_sphere(stream);
         Ray::new(origin, target - origin)
     };
-    (0..RAYS_EACH).map(&mut ray).collect()
+    (0..RAYS_EACH).map(ray).collect()
 }
 
 /// Between points of the plane; half of them start inside the triangle.

@@ -1,7 +1,7 @@
 //! Random primitives of any size, and rays at them.
 
 use crate::contract::{Primitive, Ray};
-use crate::math::rng::{Stream, uniform};
+use crate::math::rng::{Stream, in_cube, uniform};
 use crate::math::sphere::on_sphere;
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ pub(super) struct Body {
 }
 
 fn random_vector(stream: &mut Stream) -> DVec3 {
-    DVec3::from_array(std::array::from_fn(|_| 2.0 * uniform(stream) - 1.0))
+    2.0 * in_cube(stream) - 1.0
 }
 
 impl Body {

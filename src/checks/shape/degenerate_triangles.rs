@@ -79,24 +79,19 @@ fn judge(outcomes: &[Outcome]) -> Finding {
     explain(finding, outcomes)
 }
 
-fn explain(mut finding: Finding, outcomes: &[Outcome]) -> Finding {
-    let is_nan = |outcome: &&Outcome| {
+fn explain(finding: Finding, outcomes: &[Outcome]) -> Finding {
+    let is_nan = |outcome: &Outcome| {
         matches!(&outcome.complaint, Some(CoreError::BrokeContract(breach))
             if breach.kind == BreachKind::NotANumber)
     };
-    let nan = outcomes.iter().filter(is_nan).count();
-    if nan > 0 {
-        let kinds = outcomes.len();
-        let evidence = format!("{nan} of {kinds} kinds of questions are answered with NaN");
-        finding = finding.because(&shape::NAN_HIT_ACCEPTED, evidence);
-    }
-    let hit = outcomes.iter().filter(|outcome| outcome.wrong_hits() > 0).count();
-    if hit > 0 {
-        let kinds = outcomes.iter().filter(|outcome| !outcome.question.may_hit).count();
-        let evidence = format!("{hit} of {kinds} kinds of triangles without area are hit");
-        finding = finding.because(&shape::DEGENERATE_HIT, evidence);
-    }
+    let count = |is: &dyn Fn(&Outcome) -> bool| outcomes.iter().filter(|o| is(o)).count();
+    let (nan, hit) = (count(&is_nan), count(&|outcome| outcome.wrong_hits() > 0));
+    let (all, without_area) = (outcomes.len(), count(&|outcome| !outcome.question.may_hit));
+    let nan_told = format!("{nan} of {all} kinds of questions are answered with NaN");
+    let hit_told = format!("{hit} of {without_area} kinds of triangles without area are hit");
     finding
+        .because_of((nan > 0).then_some((&shape::NAN_HIT_ACCEPTED, nan_told)))
+        .because_of((hit > 0).then_some((&shape::DEGENERATE_HIT, hit_told)))
 }
 
 #[cfg(test)]
@@ -105,8 +100,7 @@ mod tests {
     use super::*;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
-    use crate::contract::Primitive;
-    use crate::contract::Ray;
+    use crate::contract::{Primitive, Ray};
     use glam::DVec3;
 
     fn found(formula: Formula) -> Finding {
@@ -120,8 +114,7 @@ mod tests {
         }));
     }
 
-    /// Rejects instead of accepting, so that NaN comes through, and does not look at the
-    /// determinant.
+    /// Rejects instead of accepting, so that NaN comes through, and does not look at the determinant.
     fn rejecting(primitive: &Primitive, ray: &Ray) -> Option<Answer> {
         let Primitive::Triangle { positions: [a, b, c], .. } = *primitive else { return None };
         let (e1, e2, from_a) = (b - a, c - a, ray.origin - a);
@@ -132,17 +125,14 @@ mod tests {
         if v < 0.0 || w < 0.0 || v + w > 1.0 || t < ray.t_min || t > ray.t_max {
             return None;
         }
-        Some(Answer { t, geometric_normal: DVec3::Z, shading_normal: DVec3::Z, weights: None })
+        Some(Answer::of_sphere(t, DVec3::Z))
     }
 
     #[test]
     fn nan_that_comes_through_is_told_with_its_triangle() {
         let finding = found(rejecting);
-        let statement = failure(&finding);
-        assert!(
-            statement.starts_with("three times the same vertex: the core broke"),
-            "{statement}"
-        );
+        let told = "three times the same vertex: the core broke";
+        assert!(failure(&finding).starts_with(told), "{finding:?}");
         assert_eq!(finding.clues[0].cause, "nan-hit-accepted");
     }
 
@@ -151,11 +141,8 @@ mod tests {
         let finding = found(|primitive, ray| {
             rejecting(primitive, ray).map(|answer| Answer { t: 1.0, ..answer })
         });
-        let statement = failure(&finding);
-        assert!(
-            statement.contains("three times the same vertex: 200 of 200 rays are hits"),
-            "{statement}"
-        );
+        let told = "three times the same vertex: 200 of 200 rays are hits";
+        assert!(failure(&finding).contains(told), "{finding:?}");
         assert_eq!(finding.clues[0].cause, "degenerate-triangle-hit");
     }
 

@@ -37,34 +37,27 @@ impl Encounter {
     }
 }
 
-/// A rule by which a wrong core decides what is a hit.
-struct Rule {
-    pub(super) cause: &'static Cause,
-    pub(super) hits: fn(&Encounter) -> bool,
-}
+/// How a wrong core decides what is a hit.
+type Rule = fn(&Encounter) -> bool;
 
-const RULES: &[Rule] = &[
-    Rule { cause: &shape::BACK_CULLED, hits: |e| e.should_hit() && e.meeting.determinant > 0.0 },
-    Rule { cause: &shape::FRONT_CULLED, hits: |e| e.should_hit() && e.meeting.determinant < 0.0 },
-    Rule {
-        cause: &shape::PARALLELOGRAM,
-        hits: |e| is_on_segment(e) && e.meeting.weights[1] >= 0.0 && e.meeting.weights[2] >= 0.0,
-    },
-    Rule {
-        cause: &shape::V_NOT_COMPARED,
-        hits: |e| is_on_segment(e) && e.meeting.weights[0] >= 0.0 && e.meeting.weights[2] >= 0.0,
-    },
-    Rule {
-        cause: &shape::W_NOT_COMPARED,
-        hits: |e| is_on_segment(e) && e.meeting.weights[0] >= 0.0 && e.meeting.weights[1] >= 0.0,
-    },
-    Rule { cause: &shape::SEGMENT_END_IGNORED, hits: |e| is_inside(e) && e.meeting.t > 0.0 },
-    Rule { cause: &shape::SEGMENT_IGNORED, hits: is_inside },
-    Rule { cause: &shape::HITS_BEHIND_ORIGIN, hits: |e| is_inside(e) && e.meeting.t < e.t_max },
+const RULES: &[(&Cause, Rule)] = &[
+    (&shape::BACK_CULLED, |e| e.should_hit() && e.meeting.determinant > 0.0),
+    (&shape::FRONT_CULLED, |e| e.should_hit() && e.meeting.determinant < 0.0),
+    (&shape::PARALLELOGRAM, |e| is_on_segment(e) && is_inside_of(e, [1, 2])),
+    (&shape::V_NOT_COMPARED, |e| is_on_segment(e) && is_inside_of(e, [0, 2])),
+    (&shape::W_NOT_COMPARED, |e| is_on_segment(e) && is_inside_of(e, [0, 1])),
+    (&shape::SEGMENT_END_IGNORED, |e| is_inside(e) && e.meeting.t > 0.0),
+    (&shape::SEGMENT_IGNORED, is_inside),
+    (&shape::HITS_BEHIND_ORIGIN, |e| is_inside(e) && e.meeting.t < e.t_max),
 ];
 
-pub(super) fn is_inside(e: &Encounter) -> bool {
-    e.meeting.weights.iter().all(|weight| *weight >= 0.0)
+fn is_inside(e: &Encounter) -> bool {
+    is_inside_of(e, [0, 1, 2])
+}
+
+/// Whether the weights of these vertices are not negative.
+fn is_inside_of<const N: usize>(e: &Encounter, vertices: [usize; N]) -> bool {
+    vertices.iter().all(|vertex| e.meeting.weights[*vertex] >= 0.0)
 }
 
 fn is_on_segment(e: &Encounter) -> bool {
@@ -76,14 +69,14 @@ pub(super) fn explanation(encounters: &[Encounter]) -> Option<(&'static Cause, S
     if encounters.iter().filter_map(Encounter::t_compared).any(|t| !t.agrees()) {
         return None;
     }
-    let follows = |rule: &&Rule| encounters.iter().all(|e| (rule.hits)(e) == e.found.is_some());
+    let follows = |hits: Rule| encounters.iter().all(|e| hits(e) == e.found.is_some());
     let evidence = || format!("predicts which of {} clear rays hit", encounters.len());
-    let rule = RULES.iter().find(follows).map(|rule| (rule.cause, evidence()));
+    let rule = RULES.iter().find(|(_, hits)| follows(*hits)).map(|(cause, _)| (*cause, evidence()));
     rule.or_else(|| threshold(encounters))
 }
 
 /// Hits are lost exactly where the determinant is small: its size says nothing about parallelism.
-pub(super) fn threshold(encounters: &[Encounter]) -> Option<(&'static Cause, String)> {
+fn threshold(encounters: &[Encounter]) -> Option<(&'static Cause, String)> {
     if encounters.iter().any(|e| e.is_wrong() && !e.should_hit()) {
         return None;
     }

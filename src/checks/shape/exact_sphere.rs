@@ -17,22 +17,20 @@ const ROOT_DIGITS: usize = 200;
 /// Rays pass within this many radii of the centre: one in six goes past.
 const REACH: f64 = 1.2;
 
-/// A sphere, a ray, and what has to come out of them.
+/// A sphere, a ray, and what has to come out of them; all lengths are the world's.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Encounter {
-    /// Always a sphere.
-    pub(crate) primitive: Primitive,
+    pub(crate) centre: DVec3,
     /// Its direction has any length.
     pub(crate) ray: Ray,
     /// t and the outward normal; `None` for a miss.
     pub(crate) hit: Option<(f64, DVec3)>,
-    /// From the ray's origin to the centre, in the world.
+    /// From the ray's origin to the centre.
     far: f64,
-    /// In the world.
     pub(crate) radius: f64,
-    /// Offset of the ray from the centre, in the world.
+    /// Of the ray from the centre.
     offset: f64,
-    /// Half the way through the sphere, in the world; 0 past it.
+    /// Half the way through the sphere; 0 past it.
     half_chord: f64,
 }
 
@@ -43,29 +41,26 @@ impl Encounter {
             Precision::Single => vector.as_vec3().as_dvec3(),
             Precision::Double => vector,
         };
-        let radius = held(DVec3::splat(2f64.powf(20.0 * uniform(stream) - 10.0))).x;
+        let held_number = |number: f64| held(DVec3::splat(number)).x;
+        let radius = held_number(2f64.powf(20.0 * uniform(stream) - 10.0));
         let centre = held(8.0 * radius * uniform(stream) * on_sphere(stream));
         let place = if distance < 1.0 { uniform(stream).cbrt() } else { distance };
         let origin = held(centre + place * radius * on_sphere(stream));
         let across = (origin - centre).cross(on_sphere(stream)).normalize_or(DVec3::X);
-        let passing = REACH * radius * uniform(stream);
-        let target =
-            if distance < 1.0 { origin + on_sphere(stream) } else { centre + passing * across };
+        let passing = centre + REACH * radius * uniform(stream) * across;
+        let target = if distance < 1.0 { origin + on_sphere(stream) } else { passing };
         let length = 2f64.powf(6.0 * uniform(stream) - 3.0);
         let direction = held(length * (target - origin).normalize_or(DVec3::Z));
         let ray = Ray::new(origin, direction);
         // Every fourth ray begins between the roots, every eighth behind both.
         let t_min = match (uniform(stream) * 8.0) as u32 {
-            0 | 1 => {
-                held(DVec3::splat((centre - origin).dot(direction) / direction.length_squared())).x
-            }
-            2 => held(DVec3::splat((distance + 2.0) * radius / length)).x,
+            0 | 1 => held_number((centre - origin).dot(direction) / direction.length_squared()),
+            2 => held_number((distance + 2.0) * radius / length),
             _ => 0.0,
         };
         Self::of(centre, radius, Ray { t_min, ..ray })
     }
 
-    /// The truth about a sphere and a ray.
     fn of(centre: DVec3, radius: f64, ray: Ray) -> Self {
         let exact = |vector: DVec3| vector.to_array().map(rational);
         let dot = |a: &[BigRational; 3], b: &[BigRational; 3]| {
@@ -82,7 +77,7 @@ impl Encounter {
         let squared_offset = &squared_far - &half_b * &half_b / &a;
         let root = |number: &BigRational| number.to_f64().unwrap_or(f64::NAN).max(0.0).sqrt();
         let mut encounter = Self {
-            primitive: Primitive::Sphere { centre, radius },
+            centre,
             ray,
             hit: None,
             far: root(&squared_far),
@@ -105,9 +100,8 @@ impl Encounter {
         encounter
     }
 
-    /// The distance of the origin in radii.
-    fn distance(&self) -> f64 {
-        self.far / self.radius
+    pub(crate) const fn primitive(&self) -> Primitive {
+        Primitive::Sphere { centre: self.centre, radius: self.radius }
     }
 
     /// Whether no rounding of the formula decides between a hit and a miss, or between two hits.
@@ -116,31 +110,23 @@ impl Encounter {
         let grazes = (self.radius - self.offset).abs();
         let room = if self.half_chord > 0.0 { grazes.min(self.half_chord) } else { grazes };
         let length = self.ray.direction.length();
-        let middle = -(self.ray.origin - self.centre()).dot(self.ray.direction) / length;
+        let middle = -(self.ray.origin - self.centre).dot(self.ray.direction) / length;
         let ends = [middle - self.half_chord, middle + self.half_chord]
             .map(|root| (root - self.ray.t_min * length).abs());
         rounding < 0.1 * room
             && ends.iter().all(|end| self.half_chord == 0.0 || rounding < 0.1 * end)
     }
 
-    fn centre(&self) -> DVec3 {
-        match self.primitive {
-            Primitive::Sphere { centre, .. } => centre,
-            Primitive::Triangle { .. } => DVec3::NAN,
-        }
-    }
-
     /// What the formula's roundings amount to, in the world.
     fn rounding(&self, formula: Formula, precision: Precision) -> f64 {
         let magnified = match formula {
-            Formula::Quadratic => self.distance().max(1.0),
+            Formula::Quadratic => (self.far / self.radius).max(1.0),
             Formula::Stable => 1.0,
         };
         Tolerance::ROUNDINGS.of(precision) * magnified * (self.far + self.radius)
     }
 
-    /// How far t may be off: roundings, more where the ray grazes, over the length of the
-    /// direction.
+    /// How far t may be off: roundings, more where the ray grazes, over the length of the direction.
     pub(crate) fn allowed(&self, formula: Formula, precision: Precision) -> f64 {
         let slant = 1.0 + self.offset / self.half_chord;
         self.rounding(formula, precision) * slant / self.ray.direction.length()
@@ -196,9 +182,8 @@ mod tests {
         let (t, normal) = encounter.hit.unwrap();
         assert!((t - 1.7).abs() < 1e-15);
         assert!(normal.distance(DVec3::new(-0.8, 0.6, 0.0)) < 1e-15);
-        assert!(
-            (encounter.offset - 1.2).abs() < 1e-15 && (encounter.half_chord - 1.6).abs() < 1e-15
-        );
+        assert!((encounter.offset - 1.2).abs() < 1e-15);
+        assert!((encounter.half_chord - 1.6).abs() < 1e-15);
         let behind = Encounter::of(DVec3::new(-9.0, 3.0, 3.0), 2.0, ray);
         assert_eq!(behind.hit, None);
     }
@@ -211,11 +196,9 @@ mod tests {
             let encounters: Vec<_> = (0..200).map(random).collect();
             let hits = encounters.iter().filter(|encounter| encounter.hit.is_some()).count();
             assert!((100..200).contains(&hits), "{distance}: {hits}");
-            for Encounter { primitive, ray, hit, .. } in encounters {
-                let Primitive::Sphere { centre, radius } = primitive else { unreachable!() };
-                for vector in
-                    [ray.origin, ray.direction, centre, DVec3::new(radius, ray.t_min, 0.0)]
-                {
+            for Encounter { centre, radius, ray, hit, .. } in encounters {
+                let numbers = DVec3::new(radius, ray.t_min, 0.0);
+                for vector in [ray.origin, ray.direction, centre, numbers] {
                     assert_eq!(vector.as_vec3().as_dvec3(), vector);
                 }
                 assert!(hit.is_none_or(|(_, normal)| (normal.length() - 1.0).abs() < 1e-9));

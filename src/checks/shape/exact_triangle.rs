@@ -3,9 +3,8 @@
 //! Coordinates are integers below 2²² times a power of two, so that single precision holds them without rounding, and
 //! every product of three of them fits an `i128`: no rounding takes part in the verdict.
 
-use crate::contract::Precision;
-use crate::contract::{Primitive, Ray};
-use crate::math::rng::{Stream, uniform};
+use crate::contract::{Precision, Primitive, Ray};
+use crate::math::rng::{Stream, in_cube, in_square, uniform};
 use crate::math::sphere::on_sphere;
 use crate::stats::Tolerance;
 use glam::DVec3;
@@ -41,8 +40,7 @@ pub(crate) struct GridRay {
     direction: Steps,
     /// The size of a step of the direction in the world.
     direction_scale: f64,
-    /// Of the segment, in units of the world's direction.
-    t_min: f64,
+    /// The end of the segment, in units of the world's direction.
     t_max: f64,
 }
 
@@ -55,19 +53,16 @@ pub(crate) struct Meeting {
     pub(crate) t: f64,
     /// e1 · (d × e2) in the world; negative where the ray comes from behind.
     pub(crate) determinant: f64,
-    /// What is right.
     pub(crate) truth: Truth,
 }
 
 /// What a core has to answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Truth {
-    /// Hits, with t within `allowed`.
+    /// Hits, with t within `allowed`, absolute.
     Hit {
-        /// Absolute.
         allowed: f64,
     },
-    /// Misses.
     Miss,
     /// So close to an edge or an end that rounding may decide.
     Ambiguous,
@@ -100,22 +95,20 @@ fn to_steps(vector: DVec3) -> Steps {
     vector.to_array().map(|component| i128::from(component.round() as i64))
 }
 
-/// A number of `range`, both ends included.
+/// An integer between these, both ends included.
 fn exponent(stream: &mut Stream, (low, high): (i32, i32)) -> i32 {
-    let count = f64::from(high - low + 1);
-    (low..=high).nth((uniform(stream) * count) as usize).unwrap_or(high)
+    low + (uniform(stream) * f64::from(high - low + 1)) as i32
 }
 
 /// Weights of the second and third vertex: half of them inside, the others around the triangle.
 fn target_weights(stream: &mut Stream) -> [f64; 2] {
-    let [v, w] = [uniform(stream), uniform(stream)];
-    if uniform(stream) < 0.5 {
-        [1.6 * v - 0.3, 1.6 * w - 0.3]
-    } else if v + w < 1.0 {
-        [v, w]
-    } else {
-        [1.0 - v, 1.0 - w]
-    }
+    let weights = in_square(stream);
+    let target = match (uniform(stream) < 0.5, weights.element_sum() < 1.0) {
+        (true, _) => 1.6 * weights - 0.3,
+        (false, true) => weights,
+        (false, false) => 1.0 - weights,
+    };
+    target.into()
 }
 
 impl GridTriangle {
@@ -127,13 +120,12 @@ impl GridTriangle {
         let aspect = LARGEST_ASPECT.min(edge / FEWEST_STEPS).powf(uniform(stream));
         let along = on_sphere(stream);
         let across = along.cross(on_sphere(stream)).normalize_or_zero();
-        let first = REACH / 2.0 * DVec3::from(std::array::from_fn(|_| 2.0 * uniform(stream) - 1.0));
+        let first = REACH / 2.0 * (2.0 * in_cube(stream) - 1.0);
         let apex = edge * (uniform(stream) * along + across / aspect);
         let vertices = [first, first + edge * along, first + apex].map(to_steps);
         Self { vertices, step }
     }
 
-    /// The triangle as a core sees it, with flat shading.
     pub(crate) fn primitive(&self) -> Primitive {
         let positions = self.vertices.map(|vertex| self.step * to_vector(vertex));
         let (e1, e2) = self.edges();
@@ -165,17 +157,13 @@ impl GridTriangle {
             1 => 1.5 * at_target,
             _ => f64::INFINITY,
         };
-        GridRay { origin, direction, direction_scale, t_min: 0.0, t_max }
+        GridRay { origin, direction, direction_scale, t_max }
     }
 
-    /// The ray as a core sees it.
     pub(crate) fn world_ray(&self, ray: &GridRay) -> Ray {
-        Ray {
-            origin: self.step * to_vector(ray.origin),
-            t_min: ray.t_min,
-            direction: ray.direction_scale * to_vector(ray.direction),
-            t_max: ray.t_max,
-        }
+        let origin = self.step * to_vector(ray.origin);
+        let direction = ray.direction_scale * to_vector(ray.direction);
+        Ray { t_max: ray.t_max, ..Ray::new(origin, direction) }
     }
 
     /// Where they meet; `None` for a ray along the plane.
@@ -198,39 +186,29 @@ impl GridTriangle {
             determinant: to_f64(determinant) * self.step * self.step * ray.direction_scale,
             truth: Truth::Ambiguous,
         };
-        let conditions = Conditions::new(lengths, to_f64(determinant), meeting.t / to_world);
+        let conditions = conditions(lengths, to_f64(determinant), meeting.t / to_world);
         meeting.truth = truth(&meeting, ray, conditions, precision);
         Some(meeting)
     }
 }
 
-/// How much a rounding of the input moves the answers.
-#[derive(Clone, Copy)]
-struct Conditions {
-    /// Of a barycentric weight, absolute.
-    weights: f64,
-    /// Of t, relative.
-    t: f64,
+/// How much a rounding of the input moves a barycentric weight, absolute, and t, relative: each term of a triple
+/// product carries roundings of the size of the product of its lengths (of e1, e2, origin − p0 and direction), and all
+/// are divided by the determinant.
+fn conditions([e1, e2, from_first, direction]: [f64; 4], determinant: f64, t: f64) -> [f64; 2] {
+    let slant = direction / determinant.abs();
+    let of_weights = slant * e1.max(e2) * (from_first + e1 + e2);
+    let of_t = slant * e1 * e2 * (1.0 + from_first / (t.abs() * direction));
+    [of_weights, of_t]
 }
 
-impl Conditions {
-    /// From the lengths of e1, e2, origin − p0 and direction: each term of a triple product carries roundings of the
-    /// size of the product of its lengths, and all are divided by the determinant.
-    fn new([e1, e2, from_first, direction]: [f64; 4], determinant: f64, t: f64) -> Self {
-        let slant = direction / determinant.abs();
-        Self {
-            weights: slant * e1.max(e2) * (from_first + e1 + e2),
-            t: slant * e1 * e2 * (1.0 + from_first / (t.abs() * direction)),
-        }
-    }
-}
-
-fn truth(meeting: &Meeting, ray: &GridRay, conditions: Conditions, precision: Precision) -> Truth {
-    let margin = AMBIGUOUS_ULPS * precision.epsilon() * conditions.weights;
-    let allowed = Tolerance::INTERSECTION.of(precision) * conditions.t.max(1.0) * meeting.t.abs();
+fn truth(meeting: &Meeting, ray: &GridRay, conditions: [f64; 2], precision: Precision) -> Truth {
+    let [of_weights, of_t] = conditions;
+    let margin = AMBIGUOUS_ULPS * precision.epsilon() * of_weights;
+    let allowed = Tolerance::INTERSECTION.of(precision) * of_t.max(1.0) * meeting.t.abs();
     let least = meeting.weights.into_iter().fold(f64::INFINITY, f64::min);
     // The distance to the nearer end of the segment, negative outside.
-    let inside = (meeting.t - ray.t_min).min(ray.t_max - meeting.t);
+    let inside = meeting.t.min(ray.t_max - meeting.t);
     if least < -margin || inside < -allowed {
         Truth::Miss
     } else if least > margin && inside > allowed {
@@ -252,7 +230,6 @@ mod tests {
             origin: [1, 1, 3],
             direction: [0, 0, -2],
             direction_scale: 0.25,
-            t_min: 0.0,
             t_max: f64::INFINITY,
         };
         (GridTriangle { vertices, step: 0.5 }, ray)
@@ -289,9 +266,8 @@ mod tests {
             let triangle = GridTriangle::random(&mut stream);
             let grid_ray = triangle.ray(&mut stream);
             let ray = triangle.world_ray(&grid_ray);
-            let Primitive::Triangle { positions, .. } = triangle.primitive() else {
-                unreachable!()
-            };
+            let primitive = triangle.primitive();
+            let Primitive::Triangle { positions, .. } = primitive else { unreachable!() };
             for vector in positions.into_iter().chain([ray.origin, ray.direction]) {
                 assert_eq!(vector.as_vec3().as_dvec3(), vector);
             }

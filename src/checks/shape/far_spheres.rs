@@ -3,8 +3,9 @@
 use super::exact_sphere::{Encounter, Formula};
 use super::sphere_range::{Answer, Judged, Range, complaint, explain};
 use crate::checks::phrase::figure;
-use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
+use crate::checks::{Check, CheckError, Context, Finding, check};
 use crate::contract::{CoreError, Hit, Precision};
+use crate::stats::Tolerance;
 use crate::text::{Count, Several};
 use glam::DVec3;
 
@@ -26,11 +27,10 @@ check! {
 impl Check for FarSpheres {
     fn validate(&self) -> Result<(), String> {
         let is_distance = |distance: &f64| (0.0..=1e6).contains(distance);
-        if self.distances.iter().all(is_distance) {
-            Ok(())
-        } else {
-            Err("`distances` needs numbers of radii from 0 to a million".to_owned())
-        }
+        let are_distances = self.distances.iter().all(is_distance);
+        are_distances
+            .then_some(())
+            .ok_or("`distances` needs numbers of radii from 0 to a million".to_owned())
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
@@ -53,7 +53,7 @@ impl Check for FarSpheres {
 fn ask(context: &mut Context<'_>, encounter: &Encounter) -> Result<Hit, CheckError> {
     let mut hit = [Hit::MISS];
     let core = &mut *context.core;
-    match core.intersect_primitive(&encounter.primitive, &[encounter.ray], &mut hit) {
+    match core.intersect_primitive(&encounter.primitive(), &[encounter.ray], &mut hit) {
         Err(CoreError::BrokeContract(_)) => {
             Ok(Hit { t: f64::NAN, geometric_normal: DVec3::NAN, primitive: 0, ..Hit::MISS })
         }
@@ -65,44 +65,37 @@ impl FarSpheres {
     fn judge(&self, ranges: &[Range], precision: Precision) -> Finding {
         let judged: Vec<_> =
             ranges.iter().map(|range| (range, range.judge(self.formula, precision))).collect();
-        let has_failed = |judged: &Judged| judged.measures.iter().any(Measure::failed);
-        let complaints: Vec<_> = judged
-            .iter()
-            .filter(|(_, judged)| has_failed(judged))
-            .map(|(range, judged)| complaint(range, judged, precision))
-            .collect();
+        let failed = judged.iter().filter(|(_, judged)| judged.failed());
+        let complaints = failed.map(|(range, judged)| complaint(range, judged, precision));
         let rays: usize = judged.iter().map(|(_, judged)| judged.clear).sum();
-        let measures: Vec<_> =
-            judged.iter().flat_map(|(_, judged)| judged.measures.clone()).collect();
+        let measures = judged.iter().flat_map(|(_, judged)| judged.measures.clone()).collect();
         let nearest = self.distances.iter().copied().fold(f64::INFINITY, f64::min).max(1.0);
+        let magnified = if self.formula == Formula::Quadratic { nearest } else { 1.0 };
         let resolution = format!(
             "would have caught an error of {} of the distance in one of {rays} rays",
-            figure(crate::stats::Tolerance::ROUNDINGS.of(precision) * self.magnified(nearest))
+            figure(Tolerance::ROUNDINGS.of(precision) * magnified)
         );
-        let right = self.passing_statement(&judged, precision);
+        let right = passing_statement(&judged, precision);
         let finding = Finding::of(right, resolution, measures).complaining(complaints);
         if finding.failed() { explain(finding, ranges, precision) } else { finding }
     }
+}
 
-    fn magnified(&self, distance: f64) -> f64 {
-        if self.formula == Formula::Quadratic { distance } else { 1.0 }
-    }
-
-    fn passing_statement(&self, judged: &[(&Range, Judged)], precision: Precision) -> String {
-        let rays: usize = judged.iter().map(|(_, judged)| judged.clear).sum();
-        let worst = judged.iter().map(|(range, j)| range.digits_lost(j.worst_t, precision));
-        let lost = worst.fold(0.0, f64::max);
-        format!(
-            "{rays} rays meet their spheres where they should; distance costs {lost:.0} of {:.0} digits",
-            -precision.epsilon().log10()
-        )
-    }
+fn passing_statement(judged: &[(&Range, Judged)], precision: Precision) -> String {
+    let rays: usize = judged.iter().map(|(_, judged)| judged.clear).sum();
+    let worst = judged.iter().map(|(range, j)| range.digits_lost(j.worst_t, precision));
+    format!(
+        "{rays} rays meet their spheres where they should; distance costs {:.0} of {:.0} digits",
+        worst.fold(0.0, f64::max),
+        -precision.epsilon().log10()
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::imitation::{Answer as Meeting, Formula as Intersection, intersection};
     use super::*;
+    use crate::checks::Measure;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::contract::{Primitive, Ray};
@@ -118,8 +111,7 @@ mod tests {
         let t = [middle - half, middle + half]
             .into_iter()
             .find(|t| ray.t_min < *t && *t < ray.t_max)?;
-        let normal = ((ray.at(t) - centre) / radius).normalize();
-        Some(Meeting { t, geometric_normal: normal, shading_normal: normal, weights: None })
+        Some(Meeting::of_sphere(t, ((ray.at(t) - centre) / radius).normalize()))
     }
 
     const ALL: &str = "distances = [0, 2, 1e2, 1e4, 1e6]\nrays = 300\nformula = ";
@@ -138,8 +130,7 @@ mod tests {
     /// The quadratic of the lecture, with its normal set right.
     fn quadratic(primitive: &Primitive, ray: &Ray) -> Option<Meeting> {
         let answer = intersection(primitive, ray)?;
-        let normal = answer.geometric_normal.normalize();
-        Some(Meeting { geometric_normal: normal, shading_normal: normal, ..answer })
+        Some(answer.with_normal(answer.geometric_normal.normalize()))
     }
 
     #[test]
@@ -171,8 +162,7 @@ mod tests {
     fn normals_are_looked_at_from_inside_too() {
         let finding = found("quadratic", |primitive, ray| {
             let answer = stable(primitive, ray)?;
-            let faces = if answer.geometric_normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
-            Some(Meeting { geometric_normal: faces * answer.geometric_normal, ..answer })
+            Some(answer.turned(-answer.geometric_normal.dot(ray.direction).signum()))
         });
         failure(&finding);
         let failed: Vec<_> = finding.failed_measures().map(Measure::name).collect();

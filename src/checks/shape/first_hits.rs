@@ -1,11 +1,12 @@
-//! What the pixels of a picture see first: depth, normals and shapes at pixel centres against a
-//! loop over everything in double precision. It finds what stands in the wrong place, or faces the
-//! wrong way, before radiance is blamed for it.
+//! What the pixels of a picture see first: depth, normals and shapes at pixel centres against a loop over everything in
+//! double precision. It finds what stands in the wrong place, or faces the wrong way, before radiance is blamed for it.
 
 use super::view::{Pixel, View};
+use crate::checks::bvh::comparison::hits_with;
 use crate::checks::oracle::nearest;
+use crate::checks::rendering::places;
 use crate::checks::{Check, CheckError, Context, Finding, PictureRole, camera_of, check};
-use crate::contract::{Acceleration, Hit, Ray};
+use crate::contract::{Acceleration, Ray};
 use crate::image::Image;
 use crate::scene::{Camera, SceneDescription};
 use crate::text::Size;
@@ -30,10 +31,7 @@ impl Check for FirstHits {
         let film = self.centres();
         let mut rays = vec![Ray::new(DVec3::ZERO, DVec3::ZERO); film.len()];
         context.core.generate_rays(&camera, &film, &mut rays)?;
-        let mut hits = vec![Hit::MISS; film.len()];
-        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        built.intersect(&rays, &mut hits)?;
-        drop(built);
+        let hits = hits_with(context, &scene, Acceleration::DEFAULT, &rays)?;
         let view = View { scene: &scene, camera, size: self.size.0 };
         let pixels: Vec<_> =
             film.iter().zip(hits).map(|(point, hit)| view.pixel(*point, hit)).collect();
@@ -46,11 +44,11 @@ impl FirstHits {
     /// Of all pixels, row by row from the top, in film coordinates.
     fn centres(&self) -> Vec<DVec2> {
         let [width, height] = self.size.0;
-        let centre = |x: u32, y: u32| {
+        let centre = |[x, y]: [u32; 2]| {
             let from_top = (f64::from(y) + 0.5) / f64::from(height);
             DVec2::new((f64::from(x) + 0.5) / f64::from(width), 1.0 - from_top)
         };
-        (0..height).flat_map(|y| (0..width).map(move |x| centre(x, y))).collect()
+        places(self.size.0).map(centre).collect()
     }
 
     /// Normals as colours.
@@ -90,7 +88,8 @@ mod tests {
     use crate::checks::camera::projection;
     use crate::checks::fake::Fake;
     use crate::checks::shape::as_hit;
-    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::checks::testing::{assert_passes, causes, check_of, failure, try_judge};
+    use crate::contract::Hit;
     use crate::scene::Library;
 
     fn scene(name: &str) -> SceneDescription {
@@ -117,12 +116,6 @@ mod tests {
         try_judge(&check, &mut core, Some(right)).unwrap()
     }
 
-    fn cause(spoil: fn(&Ray, &mut Hit)) -> String {
-        let finding = found(|_| (), spoil);
-        failure(&finding);
-        finding.clues.iter().map(|clue| clue.cause.clone()).collect::<Vec<_>>().join(" ")
-    }
-
     #[test]
     fn what_is_there_passes() {
         assert_passes(&found(|_| (), |_, _| ()));
@@ -131,11 +124,8 @@ mod tests {
     #[test]
     fn a_ball_that_is_missing_is_named() {
         let finding = found(|scene| scene.spheres[1].radius = 1e-6, |_, _| ());
-        let statement = failure(&finding);
-        assert!(
-            statement.contains("another shape's, for example back instead of right-ball"),
-            "{statement}"
-        );
+        let told = "another shape's, for example back instead of right-ball";
+        assert!(failure(&finding).contains(told), "{finding:?}");
     }
 
     #[test]
@@ -147,15 +137,18 @@ mod tests {
 
     #[test]
     fn normals_that_are_turned_have_names() {
-        assert_eq!(
-            cause(|_, hit| {
+        let finding = found(
+            |_| (),
+            |_, hit| {
                 hit.geometric_normal = -hit.geometric_normal;
                 hit.shading_normal = -hit.shading_normal;
-            }),
-            "normals-inside-out"
+            },
         );
-        let name =
-            cause(|_, hit| hit.shading_normal = (hit.shading_normal + DVec3::Y * 0.1).normalize());
-        assert_eq!(name, "");
+        assert_eq!(causes(&finding), ["normals-inside-out"]);
+        let finding = found(
+            |_| (),
+            |_, hit| hit.shading_normal = (hit.shading_normal + DVec3::Y * 0.1).normalize(),
+        );
+        assert!(causes(&finding).is_empty());
     }
 }

@@ -21,15 +21,35 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
+    /// A hit of a sphere, which is not divided into vertices.
+    pub(crate) const fn of_sphere(t: f64, normal: DVec3) -> Self {
+        Self { t, geometric_normal: normal, shading_normal: normal, weights: None }
+    }
+
+    /// With one normal in place of both.
+    #[cfg(test)]
+    pub(crate) const fn with_normal(self, normal: DVec3) -> Self {
+        Self { geometric_normal: normal, shading_normal: normal, ..self }
+    }
+
+    /// With both normals times `sign`.
+    pub(crate) fn turned(self, sign: f64) -> Self {
+        Self {
+            geometric_normal: sign * self.geometric_normal,
+            shading_normal: sign * self.shading_normal,
+            ..self
+        }
+    }
+
     /// As a case would write it: `t = 1, normal = [0, 0, 1], shading-normal = [0, 0, 1]`.
     pub(crate) fn in_words(&self) -> String {
         let [normal, shading] = [self.geometric_normal, self.shading_normal]
             .map(|n| n.to_array().map(figure).join(", "));
         let known = format!("t = {}, normal = [{normal}], shading-normal = [{shading}]", self.t);
-        self.weights.map_or_else(
-            || known.clone(),
-            |weights| format!("{known}, barycentric = [{}]", weights.map(figure).join(", ")),
-        )
+        match self.weights {
+            None => known,
+            Some(w) => format!("{known}, barycentric = [{}]", w.map(figure).join(", ")),
+        }
     }
 
     /// Whether a core gave this answer, to within `allowed` (relative for t).
@@ -49,10 +69,7 @@ pub(crate) type Formula = fn(&Primitive, &Ray) -> Option<Answer>;
 
 /// The right one: the first meeting point inside the primitive and inside the open segment.
 pub(crate) fn intersection(primitive: &Primitive, ray: &Ray) -> Option<Answer> {
-    meetings(primitive, ray)
-        .into_iter()
-        .find(|m| m.is_inside() && is_on(ray, m.t))
-        .map(Meeting::answer)
+    first(primitive, ray, |m| m.is_hit(ray))
 }
 
 fn is_on(ray: &Ray, t: f64) -> bool {
@@ -73,6 +90,10 @@ struct Meeting {
 impl Meeting {
     fn is_inside(&self) -> bool {
         self.weights.iter().all(|weight| *weight >= 0.0)
+    }
+
+    fn is_hit(&self, ray: &Ray) -> bool {
+        self.is_inside() && is_on(ray, self.t)
     }
 
     fn interpolated(&self, weights: [f64; 3]) -> DVec3 {
@@ -141,14 +162,6 @@ fn sphere_meetings(centre: DVec3, radius: f64, ray: &Ray) -> Vec<Meeting> {
     vec![meeting(-1.0), meeting(1.0)]
 }
 
-/// An implementation that people write instead.
-pub(crate) struct Mistake {
-    /// What was done.
-    pub(crate) cause: &'static Cause,
-    /// What it answers.
-    pub(crate) formula: Formula,
-}
-
 /// The mistakes that predict every one of these answers: `hits[i]` to `rays[i]`.
 pub(crate) fn explanations(
     primitive: &Primitive,
@@ -156,13 +169,13 @@ pub(crate) fn explanations(
     hits: &[Hit],
     allowed: f64,
 ) -> Vec<&'static Cause> {
-    let predicts = |mistake: &&Mistake| {
-        rays.iter().zip(hits).all(|(ray, hit)| match (mistake.formula)(primitive, ray) {
+    let predicts = |formula: Formula| {
+        rays.iter().zip(hits).all(|(ray, hit)| match formula(primitive, ray) {
             Some(answer) => hit.is_hit() && answer.is_like(hit, allowed),
             None => !hit.is_hit(),
         })
     };
-    MISTAKES.iter().filter(predicts).map(|mistake| mistake.cause).collect()
+    MISTAKES.iter().filter(|(_, formula)| predicts(*formula)).map(|(cause, _)| *cause).collect()
 }
 
 /// Accepts a meeting by another rule.
@@ -176,10 +189,10 @@ fn described(
     ray: &Ray,
     describe: impl Fn(Meeting) -> Answer,
 ) -> Option<Answer> {
-    meetings(primitive, ray).into_iter().find(|m| m.is_inside() && is_on(ray, m.t)).map(describe)
+    meetings(primitive, ray).into_iter().find(|m| m.is_hit(ray)).map(describe)
 }
 
-/// The right hit, with its shading normal interpolated by other weights.
+/// The right hit, with its shading normal interpolated by other weights, which are handed over too.
 fn shaded(primitive: &Primitive, ray: &Ray, order: [usize; 3]) -> Option<Answer> {
     described(primitive, ray, |meeting| {
         let weights = order.map(|vertex| meeting.weights[vertex]);
@@ -196,162 +209,87 @@ fn shaded_alone(primitive: &Primitive, ray: &Ray, order: [usize; 3]) -> Option<A
     })
 }
 
-const MISTAKES: &[Mistake] = &[
-    Mistake {
-        cause: &shape::SEGMENT_END_IGNORED,
-        formula: |p, ray| first(p, ray, |m| m.is_inside() && ray.t_min < m.t),
-    },
-    Mistake {
-        cause: &shape::SEGMENT_START_IGNORED,
-        formula: |p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max && m.t > 0.0),
-    },
-    Mistake { cause: &shape::SEGMENT_IGNORED, formula: |p, ray| first(p, ray, Meeting::is_inside) },
-    Mistake {
-        cause: &shape::HITS_BEHIND_ORIGIN,
-        formula: |p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max),
-    },
-    Mistake {
-        cause: &shape::BOTH_ROOTS_REQUIRED,
-        formula: |p, ray| {
-            let all = meetings(p, ray);
-            let accepted = all.iter().all(|m| m.is_inside() && is_on(ray, m.t));
-            all.first().filter(|_| accepted).map(|m| m.answer())
-        },
-    },
-    Mistake {
-        cause: &shape::FIRST_ROOT_UNCHECKED,
-        formula: |p, ray| {
-            let all = meetings(p, ray);
-            let accepted = all.iter().any(|m| m.is_inside() && is_on(ray, m.t));
-            all.first().filter(|_| accepted).map(|m| m.answer())
-        },
-    },
-    Mistake {
-        cause: &shape::QUADRATIC_PRECEDENCE,
-        formula: |p, ray| {
-            let Primitive::Sphere { centre, .. } = p else { return None };
-            let a = ray.direction.length_squared();
-            let all = meetings(p, ray).into_iter().map(|m| m.t * a * a);
-            let t = all.into_iter().find(|t| is_on(ray, *t))?;
-            let normal = (ray.at(t) - *centre).normalize_or_zero();
-            Some(Answer { t, geometric_normal: normal, shading_normal: normal, weights: None })
-        },
-    },
-    Mistake {
-        cause: &shape::NEAR_ROOT_ONLY,
-        formula: |p, ray| {
-            let nearest = meetings(p, ray).into_iter().next();
-            nearest.filter(|m| m.is_inside() && is_on(ray, m.t)).map(Meeting::answer)
-        },
-    },
-    Mistake {
-        cause: &shape::FAR_ROOT_TAKEN,
-        formula: |p, ray| {
-            let farthest = meetings(p, ray).into_iter().next_back();
-            farthest.filter(|m| m.is_inside() && is_on(ray, m.t)).map(Meeting::answer)
-        },
-    },
-    Mistake {
-        cause: &shape::QUADRATIC_WITHOUT_A,
-        formula: |p, ray| {
-            let Primitive::Sphere { centre, radius } = p else { return None };
-            let from_centre = ray.origin - *centre;
-            let half_b = from_centre.dot(ray.direction);
-            let c = from_centre.length_squared() - radius * radius;
-            let root = (half_b * half_b - c).sqrt();
-            let t = [-half_b - root, -half_b + root].into_iter().find(|t| is_on(ray, *t))?;
-            let normal = (ray.at(t) - *centre).normalize_or_zero();
-            Some(Answer { t, geometric_normal: normal, shading_normal: normal, weights: None })
-        },
-    },
-    Mistake {
-        cause: &shape::QUADRATIC_DIVIDES_BY_A,
-        formula: |p, ray| {
-            let normal_at = |t: f64| match p {
-                Primitive::Sphere { centre, .. } => (ray.at(t) - *centre).normalize_or_zero(),
-                Primitive::Triangle { .. } => DVec3::ZERO,
-            };
-            let doubled = meetings(p, ray).into_iter().map(|m| 2.0 * m.t);
-            let t = doubled.into_iter().find(|t| is_on(ray, *t))?;
-            let normal = normal_at(t);
-            Some(Answer { t, geometric_normal: normal, shading_normal: normal, weights: None })
-        },
-    },
-    Mistake {
-        cause: &shape::T_IN_SCENE_UNITS,
-        formula: |p, ray| {
-            let unit = ray.direction.length();
-            described(p, ray, |m| Answer { t: m.t * unit, ..m.answer() })
-        },
-    },
-    Mistake {
-        cause: &shape::PARALLELOGRAM,
-        formula: |p, ray| {
-            first(p, ray, |m| m.weights[1] >= 0.0 && m.weights[2] >= 0.0 && is_on(ray, m.t))
-        },
-    },
-    Mistake {
-        cause: &shape::WHOLE_PLANE_HIT,
-        formula: |p, ray| first(p, ray, |m| is_on(ray, m.t)),
-    },
-    Mistake {
-        cause: &shape::BACK_CULLED,
-        formula: |p, ray| {
-            let faces = |m: &Meeting| m.geometric.dot(ray.direction) < 0.0;
-            first(p, ray, |m| m.is_inside() && is_on(ray, m.t) && faces(m))
-        },
-    },
-    Mistake { cause: &shape::BARYCENTRICS_SWAPPED, formula: |p, ray| shaded(p, ray, [0, 2, 1]) },
-    Mistake { cause: &shape::NORMALS_SWAPPED, formula: |p, ray| shaded_alone(p, ray, [0, 2, 1]) },
-    Mistake { cause: &shape::BARYCENTRICS_MOVED_ON, formula: |p, ray| shaded(p, ray, [1, 2, 0]) },
-    Mistake { cause: &shape::NORMALS_MOVED_ON, formula: |p, ray| shaded_alone(p, ray, [1, 2, 0]) },
-    Mistake { cause: &shape::BARYCENTRICS_MOVED_BACK, formula: |p, ray| shaded(p, ray, [2, 0, 1]) },
-    Mistake {
-        cause: &shape::NORMALS_MOVED_BACK,
-        formula: |p, ray| shaded_alone(p, ray, [2, 0, 1]),
-    },
-    Mistake {
-        cause: &shape::FLAT_SHADING_NORMAL,
-        formula: |p, ray| {
-            described(p, ray, |m| Answer { shading_normal: m.geometric, ..m.answer() })
-        },
-    },
-    Mistake {
-        cause: &shape::GEOMETRIC_NORMAL_INTERPOLATED,
-        formula: |p, ray| {
-            described(p, ray, |m| Answer {
-                geometric_normal: m.interpolated(m.weights),
-                ..m.answer()
-            })
-        },
-    },
-    Mistake {
-        cause: &shape::NORMALS_FACE_RAY,
-        formula: |p, ray| {
-            described(p, ray, |m| {
-                let side = -m.geometric.dot(ray.direction).signum();
-                let answer = m.answer();
-                Answer {
-                    geometric_normal: side * answer.geometric_normal,
-                    shading_normal: side * answer.shading_normal,
-                    ..answer
-                }
-            })
-        },
-    },
-    Mistake {
-        cause: &shape::NORMALS_INSIDE_OUT,
-        formula: |p, ray| {
-            described(p, ray, |m| {
-                let answer = m.answer();
-                Answer {
-                    geometric_normal: -answer.geometric_normal,
-                    shading_normal: -answer.shading_normal,
-                    ..answer
-                }
-            })
-        },
-    },
+/// At the first of these t on the segment; on a sphere the normal is that of the point there.
+fn at_first(
+    primitive: &Primitive,
+    ray: &Ray,
+    mut roots: impl Iterator<Item = f64>,
+) -> Option<Answer> {
+    let t = roots.find(|t| is_on(ray, *t))?;
+    let normal = match primitive {
+        Primitive::Sphere { centre, .. } => (ray.at(t) - *centre).normalize_or_zero(),
+        Primitive::Triangle { .. } => DVec3::ZERO,
+    };
+    Some(Answer::of_sphere(t, normal))
+}
+
+/// Implementations that people write instead: what was done, and what it answers.
+pub(super) const MISTAKES: &[(&Cause, Formula)] = &[
+    (&shape::SEGMENT_END_IGNORED, |p, ray| first(p, ray, |m| m.is_inside() && ray.t_min < m.t)),
+    (&shape::SEGMENT_START_IGNORED, |p, ray| {
+        first(p, ray, |m| m.is_inside() && m.t < ray.t_max && m.t > 0.0)
+    }),
+    (&shape::SEGMENT_IGNORED, |p, ray| first(p, ray, Meeting::is_inside)),
+    (&shape::HITS_BEHIND_ORIGIN, |p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max)),
+    (&shape::BOTH_ROOTS_REQUIRED, |p, ray| {
+        let all = meetings(p, ray);
+        all.first().filter(|_| all.iter().all(|m| m.is_hit(ray))).map(|m| m.answer())
+    }),
+    (&shape::FIRST_ROOT_UNCHECKED, |p, ray| {
+        let all = meetings(p, ray);
+        all.first().filter(|_| all.iter().any(|m| m.is_hit(ray))).map(|m| m.answer())
+    }),
+    (&shape::QUADRATIC_PRECEDENCE, |p, ray| {
+        let Primitive::Sphere { .. } = p else { return None };
+        let a = ray.direction.length_squared();
+        at_first(p, ray, meetings(p, ray).into_iter().map(|m| m.t * a * a))
+    }),
+    (&shape::NEAR_ROOT_ONLY, |p, ray| {
+        meetings(p, ray).first().filter(|m| m.is_hit(ray)).map(|m| m.answer())
+    }),
+    (&shape::FAR_ROOT_TAKEN, |p, ray| {
+        meetings(p, ray).last().filter(|m| m.is_hit(ray)).map(|m| m.answer())
+    }),
+    (&shape::QUADRATIC_WITHOUT_A, |p, ray| {
+        let Primitive::Sphere { centre, radius } = p else { return None };
+        let from_centre = ray.origin - *centre;
+        let half_b = from_centre.dot(ray.direction);
+        let c = from_centre.length_squared() - radius * radius;
+        let root = (half_b * half_b - c).sqrt();
+        at_first(p, ray, [-half_b - root, -half_b + root].into_iter())
+    }),
+    (&shape::QUADRATIC_DIVIDES_BY_A, |p, ray| {
+        at_first(p, ray, meetings(p, ray).into_iter().map(|m| 2.0 * m.t))
+    }),
+    (&shape::T_IN_SCENE_UNITS, |p, ray| {
+        described(p, ray, |m| Answer { t: m.t * ray.direction.length(), ..m.answer() })
+    }),
+    (&shape::PARALLELOGRAM, |p, ray| {
+        first(p, ray, |m| m.weights[1] >= 0.0 && m.weights[2] >= 0.0 && is_on(ray, m.t))
+    }),
+    (&shape::WHOLE_PLANE_HIT, |p, ray| first(p, ray, |m| is_on(ray, m.t))),
+    (&shape::BACK_CULLED, |p, ray| {
+        first(p, ray, |m| m.is_hit(ray) && m.geometric.dot(ray.direction) < 0.0)
+    }),
+    (&shape::BARYCENTRICS_SWAPPED, |p, ray| shaded(p, ray, [0, 2, 1])),
+    (&shape::NORMALS_SWAPPED, |p, ray| shaded_alone(p, ray, [0, 2, 1])),
+    (&shape::BARYCENTRICS_MOVED_ON, |p, ray| shaded(p, ray, [1, 2, 0])),
+    (&shape::NORMALS_MOVED_ON, |p, ray| shaded_alone(p, ray, [1, 2, 0])),
+    (&shape::BARYCENTRICS_MOVED_BACK, |p, ray| shaded(p, ray, [2, 0, 1])),
+    (&shape::NORMALS_MOVED_BACK, |p, ray| shaded_alone(p, ray, [2, 0, 1])),
+    (&shape::FLAT_SHADING_NORMAL, |p, ray| {
+        described(p, ray, |m| Answer { shading_normal: m.geometric, ..m.answer() })
+    }),
+    (&shape::GEOMETRIC_NORMAL_INTERPOLATED, |p, ray| {
+        described(p, ray, |m| {
+            let answer = m.answer();
+            Answer { geometric_normal: answer.shading_normal, ..answer }
+        })
+    }),
+    (&shape::NORMALS_FACE_RAY, |p, ray| {
+        described(p, ray, |m| m.answer().turned(-m.geometric.dot(ray.direction).signum()))
+    }),
+    (&shape::NORMALS_INSIDE_OUT, |p, ray| described(p, ray, |m| m.answer().turned(-1.0))),
 ];
 
 /// The answer as a core would give it.
@@ -370,12 +308,8 @@ pub(crate) fn as_hit(answer: Option<Answer>) -> Hit {
     })
 }
 
-/// The formula of a mistake.
-///
-/// # Panics
-/// If there is none.
+/// The formula of a mistake that has one.
 #[cfg(test)]
 pub(crate) fn mistake(cause: &Cause) -> Formula {
-    let known = MISTAKES.iter().find(|mistake| mistake.cause == cause);
-    known.unwrap_or_else(|| panic!("no mistake `{}`", cause.name)).formula
+    MISTAKES.iter().find(|(known, _)| *known == cause).unwrap().1
 }

@@ -1,7 +1,7 @@
 //! What rays that leak out of a closed surface have in common.
 
 use crate::cause::{Cause, bvh, shape};
-use crate::checks::bvh::comparison::closest_hits;
+use crate::checks::bvh::comparison::hits_with;
 use crate::checks::oracle::{self, Met};
 use crate::checks::phrase::figure;
 use crate::checks::{CheckError, Context};
@@ -12,7 +12,7 @@ use crate::scene::SceneDescription;
 const LOOKED_AT: usize = 300;
 
 /// A leak this near an edge, in weights, is one of the edge.
-pub(super) const EDGE: f64 = 0.01;
+const EDGE: f64 = 0.01;
 
 /// What the leaks have in common.
 pub(super) fn causes(
@@ -32,10 +32,9 @@ pub(super) fn causes(
     }
     let farthest = met.iter().map(distance_to_edge).fold(0.0, f64::max);
     if met.len() == looked_at.len() && farthest < EDGE {
+        let (all, weight) = (met.len(), figure(farthest));
         let evidence = format!(
-            "all {} leaks that were looked at pass within a weight of {} of an edge",
-            met.len(),
-            figure(farthest)
+            "all {all} leaks that were looked at pass within a weight of {weight} of an edge"
         );
         return Ok(vec![(&shape::EDGES_EXCLUDED, evidence)]);
     }
@@ -43,16 +42,15 @@ pub(super) fn causes(
 }
 
 /// What every ray misses from inside is there from outside.
-pub(super) fn culled(
+fn culled(
     context: &mut Context<'_>,
     scene: &SceneDescription,
     leaks: &[Ray],
 ) -> Result<Option<(&'static Cause, String)>, CheckError> {
     let far = scene.bounds().map_or(0.0, |bounds| 2.0 * bounds.diagonal());
     let back = |ray: &Ray| Ray::new(ray.at(far), -ray.direction);
-    let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
     let rays: Vec<_> = leaks.iter().map(back).collect();
-    let hits = closest_hits(built.as_mut(), &rays)?;
+    let hits = hits_with(context, scene, Acceleration::DEFAULT, &rays)?;
     let evidence = "every ray misses the surface from inside, and meets it from outside";
     let is_culled = hits.iter().all(|hit| hit.is_hit());
     Ok(is_culled.then(|| (&shape::BACK_CULLED, evidence.to_owned())))
@@ -67,8 +65,7 @@ fn found_by_loop(
     if !context.info.capabilities.contains(Capabilities::BRUTE_FORCE) {
         return Ok(None);
     }
-    let mut brute = context.core.build_scene(scene, Acceleration::BruteForce)?;
-    let hits = closest_hits(brute.as_mut(), rays)?;
+    let hits = hits_with(context, scene, Acceleration::BruteForce, rays)?;
     Ok(Some(hits.iter().filter(|hit| hit.is_hit()).count()))
 }
 
@@ -84,15 +81,11 @@ fn missing_triangles(met: &[Met]) -> Option<(&'static Cause, String)> {
     triangles.dedup();
     let is_few = !triangles.is_empty() && 4 * triangles.len() <= met.len();
     is_few.then(|| {
-        let numbers: Vec<_> =
-            triangles.iter().take(3).map(|(_, number)| number.to_string()).collect();
+        let names = triangles.iter().take(3).map(|(_, number)| number.to_string());
+        let names = names.collect::<Vec<_>>().join(", ");
         let more = if triangles.len() > 3 { ", …" } else { "" };
-        let evidence = format!(
-            "all {} leaks that were looked at pass through {} triangles: {}{more}",
-            met.len(),
-            triangles.len(),
-            numbers.join(", ")
-        );
+        let through = format!("pass through {} triangles: {names}{more}", triangles.len());
+        let evidence = format!("all {} leaks that were looked at {through}", met.len());
         (&bvh::PRIMITIVES_LOST, evidence)
     })
 }

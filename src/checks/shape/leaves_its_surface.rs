@@ -6,7 +6,7 @@
 
 use super::body::{Body, FROM, RandomBody};
 use crate::cause::shape;
-use crate::checks::phrase::{figure, percent};
+use crate::checks::phrase::{figure, one_in, percent};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{Hit, Ray};
 use crate::math::rng::Stream;
@@ -89,27 +89,21 @@ fn spawned(ray: &Ray, hit: &Hit, t_min: f64, stream: &mut Stream) -> Ray {
 }
 
 fn judge(tallies: &[Tally]) -> Finding {
-    let measures: Vec<_> = tallies
-        .iter()
-        .map(|tally| {
-            let row = format!("{} {}", tally.spawned, tally.name);
-            Measure::none("rays that meet their own surface again", tally.met.len()).of_row(row)
-        })
-        .collect();
+    let measure = |tally: &Tally| {
+        let row = format!("{} {}", tally.spawned, tally.name);
+        Measure::none("rays that meet their own surface again", tally.met.len()).of_row(row)
+    };
+    let measures = tallies.iter().map(measure).collect();
     let spawned: usize = tallies.iter().map(|tally| tally.spawned).sum();
-    let rare = figure((spawned as f64 / 6.9).floor());
+    let rare = one_in(spawned);
     let right = format!("{spawned} rays leave the surface they start from");
     let finding = Finding::of(right, format!("would have caught one ray in {rare}"), measures)
         .complaining(tallies.iter().filter_map(complaint));
     let met: usize = tallies.iter().map(|tally| tally.met.len()).sum();
     let early: usize = tallies.iter().map(|tally| tally.before_start).sum();
-    match (met, early) {
-        (1.., early) if early == met => {
-            let evidence = format!("all {met} hits lie before t_min");
-            finding.because(&shape::SEGMENT_START_IGNORED, evidence)
-        }
-        _ => finding,
-    }
+    let is_start = met > 0 && early == met;
+    let evidence = format!("all {met} hits lie before t_min");
+    finding.because_of(is_start.then_some((&shape::SEGMENT_START_IGNORED, evidence)))
 }
 
 fn complaint(tally: &Tally) -> Option<String> {
@@ -128,19 +122,11 @@ mod tests {
     use super::*;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
-    use crate::contract::Primitive;
-
-    fn with_unit_normals(answer: Answer) -> Answer {
-        let normal = answer.geometric_normal.normalize();
-        Answer { geometric_normal: normal, shading_normal: normal, ..answer }
-    }
 
     fn found(formula: Formula) -> Finding {
-        let unit = move |p: &Primitive, ray: &Ray| formula(p, ray).map(with_unit_normals);
-        judge(
-            &check_of::<LeavesItsSurface>("[expect]\nrays = \"20 k\""),
-            &mut Fake::intersecting(unit),
-        )
+        let unit = |answer: Answer| answer.with_normal(answer.geometric_normal.normalize());
+        let mut core = Fake::intersecting(move |p, ray| formula(p, ray).map(unit));
+        judge(&check_of::<LeavesItsSurface>("[expect]\nrays = \"20 k\""), &mut core)
     }
 
     #[test]

@@ -1,8 +1,7 @@
 //! Rays from inside a closed surface: every one has to meet it.
 //!
-//! A triangle test that is a hair too strict loses rays at the edges that triangles share, and a
-//! hierarchy whose boxes are a hair too small loses them anywhere: cracks that let light through
-//! walls.
+//! A triangle test that is a hair too strict loses rays at the edges that triangles share, and a BVH whose boxes
+//! are a hair too small loses them anywhere: cracks that let light through walls.
 
 use super::leaks::causes;
 use crate::cause::Cause;
@@ -117,13 +116,11 @@ fn finding(report: &RareReport, at_vertices: f64, causes: Vec<(&Cause, String)>)
     let share = report.hits as f64 / report.trials as f64;
     let statement = match (report.verdict, report.hits) {
         (Verdict::Pass, 0) => format!("none of {} rays leaks", report.trials),
-        _ => format!(
-            "{} of {} rays from inside leak, {}; at most {} may",
-            report.hits,
-            report.trials,
-            percent(share),
-            percent(report.allowed)
-        ),
+        (_, hits) => {
+            let [share, allowed] = [share, report.allowed].map(percent);
+            let all = report.trials;
+            format!("{hits} of {all} rays from inside leak, {share}; at most {allowed} may")
+        }
     };
     let measures = vec![
         Measure::of("share of rays that leak", report),
@@ -140,19 +137,12 @@ mod tests {
     use super::*;
     use crate::checks::bvh::fake::{FakeCore, Slip};
     use crate::checks::bvh::question::scene_of;
-    use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
+    use crate::checks::testing::{assert_passes, causes, check_of, failure, try_judge};
     use crate::scene::procedural::bumpy_sphere;
 
     fn found(slip: Slip) -> Finding {
         let check: NoRayLeaks = check_of("[expect]\nrays = \"20 k\"");
         try_judge(&check, &mut FakeCore(slip), Some(scene_of(bumpy_sphere(3)))).unwrap()
-    }
-
-    fn cause(slip: Slip) -> String {
-        let finding = found(slip);
-        failure(&finding);
-        let causes: Vec<_> = finding.clues.iter().map(|clue| clue.cause.as_str()).collect();
-        causes.join(" ")
     }
 
     #[test]
@@ -165,10 +155,14 @@ mod tests {
 
     #[test]
     fn every_kind_of_leak_has_its_name() {
-        assert_eq!(cause(Slip::ShrinksTriangles), "edges-excluded");
-        assert_eq!(cause(Slip::ShrinksBoxes), "bvh-loses-hits");
-        assert_eq!(cause(Slip::CullsBack), "back-culled");
-        assert_eq!(cause(Slip::LosesTheLast), "primitives-lost");
+        for (slip, cause) in [
+            (Slip::ShrinksTriangles, "edges-excluded"),
+            (Slip::ShrinksBoxes, "bvh-loses-hits"),
+            (Slip::CullsBack, "back-culled"),
+            (Slip::LosesTheLast, "primitives-lost"),
+        ] {
+            assert_eq!(causes(&found(slip)), [cause]);
+        }
     }
 
     #[test]
@@ -176,9 +170,7 @@ mod tests {
         let finding = found(Slip::LosesTheLast);
         let statement = failure(&finding);
         assert!(statement.contains(" of 20000 rays from inside leak, 0.0"), "{statement}");
-        assert!(
-            finding.clues[0].evidence.ends_with("pass through 1 triangles: 1279"),
-            "{finding:?}"
-        );
+        let evidence = &finding.clues[0].evidence;
+        assert!(evidence.ends_with("pass through 1 triangles: 1279"), "{evidence}");
     }
 }

@@ -75,14 +75,10 @@ impl Missed {
             Measure::none("rays that fall through a triangle", self.inside),
         ];
         let finding = Finding::of(statement, "would have caught one ray", measures);
-        let share = self.at_edges as f64 / self.pairs as f64;
-        match finding.failed() && self.inside == 0 {
-            true => finding.because(
-                &shape::EDGES_EXCLUDED,
-                format!("{} of rays exactly at an edge meet neither triangle", percent(share)),
-            ),
-            false => finding,
-        }
+        let share = percent(self.at_edges as f64 / self.pairs as f64);
+        let evidence = format!("{share} of rays exactly at an edge meet neither triangle");
+        let are_edges = finding.failed() && self.inside == 0;
+        finding.because_of(are_edges.then_some((&shape::EDGES_EXCLUDED, evidence)))
     }
 }
 
@@ -95,10 +91,8 @@ mod tests {
     use crate::contract::Ray;
 
     fn found(formula: Formula) -> Finding {
-        judge(
-            &check_of::<SharedEdges>("[expect]\npairs = \"500\""),
-            &mut Fake::intersecting(formula),
-        )
+        let check: SharedEdges = check_of("[expect]\npairs = \"500\"");
+        judge(&check, &mut Fake::intersecting(formula))
     }
 
     /// Where one of the weights is at most `least`, there is no hit.

@@ -1,7 +1,7 @@
 //! The answers of a core to spheres at one distance.
 
 use super::exact_sphere::{Encounter, Formula};
-use crate::cause::{Cause, shape};
+use crate::cause::shape;
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::{Finding, Measure};
 use crate::contract::{Hit, Precision};
@@ -15,7 +15,7 @@ pub(super) struct Answer {
 
 impl Answer {
     /// The error of t; none if there is no t to compare.
-    pub(super) fn error(&self) -> Option<f64> {
+    fn error(&self) -> Option<f64> {
         let (t, _) = self.encounter.hit.filter(|_| self.found.is_hit())?;
         Some((self.found.t - t).abs())
     }
@@ -39,22 +39,24 @@ pub(super) struct Judged {
     pub(super) worst_t: f64,
 }
 
+impl Judged {
+    pub(super) fn failed(&self) -> bool {
+        self.measures.iter().any(Measure::failed)
+    }
+}
+
 impl Range {
-    pub(super) fn name(&self) -> String {
+    fn name(&self) -> String {
         match self.distance {
             distance if distance < 1.0 => "from inside".to_owned(),
             distance => format!("{} radii away", figure(distance)),
         }
     }
 
-    /// The answers in which rounding decides nothing.
-    pub(super) fn clear(&self, formula: Formula, precision: Precision) -> Vec<&Answer> {
-        let is_clear = |answer: &&Answer| answer.encounter.is_clear(formula, precision);
-        self.answers.iter().filter(is_clear).collect()
-    }
-
     pub(super) fn judge(&self, formula: Formula, precision: Precision) -> Judged {
-        let clear = self.clear(formula, precision);
+        // The answers in which rounding decides nothing.
+        let is_clear = |answer: &&Answer| answer.encounter.is_clear(formula, precision);
+        let clear: Vec<_> = self.answers.iter().filter(is_clear).collect();
         if clear.is_empty() {
             return Judged { measures: Vec::new(), wrong_sides: 0, clear: 0, worst_t: 0.0 };
         }
@@ -108,24 +110,19 @@ pub(super) fn complaint(range: &Range, judged: &Judged, precision: Precision) ->
 /// Errors that grow as the square of the distance are those of the quadratic's discriminant; errors
 /// of single precision everywhere are those of a float.
 pub(super) fn explain(finding: Finding, ranges: &[Range], precision: Precision) -> Finding {
-    let holds = |range: &Range, formula, precision| {
-        let judged = range.judge(formula, precision);
-        !judged.measures.iter().any(Measure::failed)
-    };
+    let holds = |range: &Range, formula, precision| !range.judge(formula, precision).failed();
     let nearest = ranges.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
     let near_is_right = nearest.is_some_and(|range| holds(range, Formula::Stable, precision));
     let fits = |formula, precision| ranges.iter().all(|range| holds(range, formula, precision));
     let all: usize = ranges.iter().map(|range| range.answers.len()).sum();
     let evidence = |what: &str| format!("all {all} rays are within {what}");
-    let found: Option<(&'static Cause, String)> =
-        if near_is_right && fits(Formula::Quadratic, precision) {
-            let what = "the roundings of b² − 4ac, which grow as the square of the distance";
-            Some((&shape::SPHERE_CANCELLATION, evidence(what)))
-        } else if precision == Precision::Double && fits(Formula::Stable, Precision::Single) {
-            let what = "the roundings of single precision";
-            Some((&shape::SINGLE_PRECISION_INSIDE, evidence(what)))
-        } else {
-            None
-        };
-    finding.because_of(found)
+    if near_is_right && fits(Formula::Quadratic, precision) {
+        let what = "the roundings of b² − 4ac, which grow as the square of the distance";
+        finding.because(&shape::SPHERE_CANCELLATION, evidence(what))
+    } else if precision == Precision::Double && fits(Formula::Stable, Precision::Single) {
+        let what = "the roundings of single precision";
+        finding.because(&shape::SINGLE_PRECISION_INSIDE, evidence(what))
+    } else {
+        finding
+    }
 }

@@ -10,9 +10,8 @@ use crate::scene::{Camera, SceneDescription, Shape};
 use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
 use glam::{DVec2, DVec3};
 
-/// Pixels whose view changes within this much of their centre, in pixels, lie on an edge and are
-/// not graded.
-pub(super) const EDGE: f64 = 0.05;
+/// Pixels whose view changes within this much of their centre, in pixels, lie on an edge and are not graded.
+const EDGE: f64 = 0.05;
 
 /// A share of graded pixels below which a picture is all edges.
 const FEWEST: f64 = 0.25;
@@ -103,79 +102,80 @@ impl View<'_> {
                 Compared::within(of(found).distance(right(met)), 0.0, allowed)
             }))
         };
-        let geometric = normals(|hit| hit.geometric_normal, |met| met.answer.geometric_normal);
-        let shading = normals(|hit| hit.shading_normal, |met| met.answer.shading_normal);
-        let shapes = format!("pixels that see another shape, of {}", clear.len());
-        let mut measures = vec![
-            Measure::none(shapes, wrong.len()),
-            Measure::worst("depth", &depth),
-            Measure::worst("geometric normal off by", &geometric),
-            Measure::worst("shading normal off by", &shading),
+        let reports = [
+            ("depth", "depths", depth),
+            (
+                "geometric normal off by",
+                "geometric normals",
+                normals(|hit| hit.geometric_normal, |met| met.answer.geometric_normal),
+            ),
+            (
+                "shading normal off by",
+                "shading normals",
+                normals(|hit| hit.shading_normal, |met| met.answer.shading_normal),
+            ),
         ];
+        let shapes = format!("pixels that see another shape, of {}", clear.len());
+        let mut measures = vec![Measure::none(shapes, wrong.len())];
+        measures.extend(reports.iter().map(|(name, _, report)| Measure::worst(name, report)));
         if (clear.len() as f64) < FEWEST * pixels.len() as f64 {
             measures.iter_mut().for_each(|measure| measure.verdict = Verdict::Inconclusive);
         }
-        let mut complaints = Vec::new();
-        if let Some(first) = wrong.first() {
+        let another = wrong.first().map(|first| {
             let name = |shape: Option<u32>| shape.map_or("nothing".to_owned(), |s| self.name_of(s));
             let found = name(first.found.is_hit().then_some(first.found.shape));
             let right = name(first.right.map(|met| met.shape));
             let some = some_are(wrong.len(), clear.len(), "pixels");
-            complaints
-                .push(format!("{some} another shape's, for example {found} instead of {right}"));
-        }
-        for (report, what) in
-            [(depth, "depths"), (geometric, "geometric normals"), (shading, "shading normals")]
-        {
-            if report.disagree > 0 {
-                complaints
-                    .push(format!("{} wrong", some_are(report.disagree, report.compared, what)));
-            }
-        }
+            format!("{some} another shape's, for example {found} instead of {right}")
+        });
+        let off = reports.iter().filter(|(_, _, report)| report.disagree > 0);
+        let off = off.map(|(_, what, report)| {
+            format!("{} wrong", some_are(report.disagree, report.compared, what))
+        });
+        let complaints: Vec<_> = another.into_iter().chain(off).collect();
         let right = format!("{} pixels see what stands before them", clear.len());
         let allowed = both().map(|(pixel, (_, met))| pixel.allowed(met, precision));
-        let resolution = format!(
-            "would have caught a surface {} away from its place",
-            figure(allowed.fold(0.0, f64::max))
-        );
+        let away = figure(allowed.fold(0.0, f64::max));
+        let resolution = format!("would have caught a surface {away} away from its place");
         let causes = if complaints.is_empty() { Vec::new() } else { causes(&clear) };
-        let evidence =
-            format!("predicts the normals of all {} pixels that see a surface", both().count());
-        Finding::of(right, resolution, measures)
-            .complaining(complaints)
-            .because_each(causes, &evidence)
+        let all = both().count();
+        Finding::of(right, resolution, measures).complaining(complaints).because_each(
+            causes,
+            &format!("predicts the normals of all {all} pixels that see a surface"),
+        )
     }
 }
 
 /// A way to get normals wrong: what comes out of the right ones for a ray.
-pub(super) type Normals = fn(&Met, &Ray) -> [DVec3; 2];
+type Normals = fn(&Met, &Ray) -> [DVec3; 2];
 
-pub(super) const MISTAKES: [(&Cause, Normals); 4] = [
-    (&shape::NORMALS_INSIDE_OUT, |met, _| {
-        [-met.answer.geometric_normal, -met.answer.shading_normal]
-    }),
+const MISTAKES: [(&Cause, Normals); 4] = [
+    (&shape::NORMALS_INSIDE_OUT, |met, _| right_normals(met).map(|normal| -normal)),
     (&shape::NORMALS_FACE_RAY, |met, ray| {
-        [met.answer.geometric_normal, met.answer.shading_normal]
+        right_normals(met)
             .map(|normal| if normal.dot(ray.direction) > 0.0 { -normal } else { normal })
     }),
     (&shape::FLAT_SHADING_NORMAL, |met, _| [met.answer.geometric_normal; 2]),
     (&shape::GEOMETRIC_NORMAL_INTERPOLATED, |met, _| [met.answer.shading_normal; 2]),
 ];
 
-/// How far a normal may be from what a mistake makes of it: mistakes are a hundred times as far
-/// apart.
+/// Geometric and shading.
+fn right_normals(met: &Met) -> [DVec3; 2] {
+    [met.answer.geometric_normal, met.answer.shading_normal]
+}
+
+/// How far a normal may be from what a mistake makes of it: mistakes are a hundred times as far apart.
 const EXPLAINED: f64 = 1e-3;
 
-pub(super) fn causes(pixels: &[&Pixel]) -> Vec<&'static Cause> {
+fn causes(pixels: &[&Pixel]) -> Vec<&'static Cause> {
     let both = || pixels.iter().filter_map(|pixel| Some((&pixel.ray, pixel.both()?)));
     let is_like = |found: &Hit, normals: [DVec3; 2]| {
         found.geometric_normal.distance(normals[0]) <= EXPLAINED
             && found.shading_normal.distance(normals[1]) <= EXPLAINED
     };
-    let right: Normals = |met, _| [met.answer.geometric_normal, met.answer.shading_normal];
     let fits =
         |normals: Normals| both().all(|(ray, (found, met))| is_like(found, normals(met, ray)));
-    if both().count() == 0 || fits(right) {
+    if both().count() == 0 || fits(|met, _| right_normals(met)) {
         return Vec::new();
     }
     MISTAKES.iter().filter(|(_, normals)| fits(*normals)).map(|(cause, _)| *cause).collect()

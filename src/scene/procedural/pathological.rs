@@ -1,6 +1,6 @@
 //! Meshes that BVHs stumble over: soups, and arrangements that leave a split rule nothing to split by.
 
-use crate::math::rng::{Seed, Stream, uniform};
+use crate::math::rng::{Seed, Stream, in_cube};
 use crate::scene::Mesh;
 use glam::DVec3;
 use serde::Deserialize;
@@ -27,8 +27,8 @@ pub fn soup(triangles: u32, seed: Seed) -> Mesh {
     let stream = &mut seed.stream();
     let size = f64::from(triangles.max(1)).cbrt().recip();
     triangles_from((0..triangles).map(|_| {
-        let centre = uniform_point(stream);
-        std::array::from_fn(|_| centre + size * (uniform_point(stream) - 0.5))
+        let centre = in_cube(stream);
+        std::array::from_fn(|_| centre + size * (in_cube(stream) - 0.5))
     }))
 }
 
@@ -54,8 +54,8 @@ pub fn pathological(layout: Layout, triangles: u32, seed: Seed) -> Mesh {
         }
         Layout::SizeRatio => triangles_from((0..triangles).map(|k| {
             let size = 1e-6f64.powf(along(k));
-            let corner = uniform_point(stream);
-            std::array::from_fn(|_| corner + size * (uniform_point(stream) - 0.5))
+            let corner = in_cube(stream);
+            std::array::from_fn(|_| corner + size * (in_cube(stream) - 0.5))
         })),
     }
 }
@@ -63,13 +63,9 @@ pub fn pathological(layout: Layout, triangles: u32, seed: Seed) -> Mesh {
 /// A triangle around the middle of the unit cube: along every axis its corners are at −h, 0 and h, in another order, so
 /// that the mean of its corners and the centre of its box are the same for every h.
 fn centred_triangle(stream: &mut Stream) -> [DVec3; 3] {
-    let half = uniform_point(stream) * 0.5;
+    let half = in_cube(stream) * 0.5;
     [DVec3::new(-1.0, 0.0, 1.0), DVec3::new(0.0, 1.0, -1.0), DVec3::new(1.0, -1.0, 0.0)]
         .map(|order| order * half + 0.5)
-}
-
-fn uniform_point(stream: &mut Stream) -> DVec3 {
-    DVec3::from_array(std::array::from_fn(|_| uniform(stream)))
 }
 
 /// Triangles that share no vertex.

@@ -1,0 +1,146 @@
+//! What a report on pictures says: in words, in numbers and as a picture.
+
+use crate::checks::{Finding, Measure};
+use crate::image::Image;
+use crate::stats::{
+    Component, GlobalRatio, Hypothesis, ImageReport, Impossible, Scale, ScaleReport, Verdict,
+};
+use crate::text::number::{apart, percent, with_interval};
+
+/// Standard errors at the ends of the scale of the error picture.
+pub(super) const ERROR_SCALE: f32 = 6.0;
+
+/// Difference over its standard error, core and reference together; ±1 is the end of the scale.
+pub(super) fn error_picture(report: &ImageReport, mean: &Image, standard_error: &Image) -> Image {
+    Image::from_fn(mean.width, mean.height, |x, y| {
+        let pixel = y * mean.width + x;
+        std::array::from_fn(|c| {
+            let of = |image: &Image| image.pixels[pixel][c];
+            let difference = of(&report.mean) - of(mean);
+            let noise = of(&report.standard_error).hypot(of(standard_error));
+            if noise > 0.0 { difference / noise / ERROR_SCALE } else { 0.0 }
+        })
+    })
+}
+
+/// What a report says in words and numbers; `hypothesis` is what the ledger enters.
+pub(super) fn finding(report: &ImageReport, hypothesis: Option<Hypothesis>) -> Finding {
+    let ratios = report.ratios.iter().map(|ratio| ratio_measure(ratio, report, hypothesis));
+    let measures = ratios.chain(report.scales.iter().map(scale_measure)).collect();
+    let error = percent(report.resolution);
+    let caught = format!("would have caught an error of {error} of the whole picture");
+    Finding { verdict: report.verdict, ..Finding::of(statement(report), caught, measures) }
+}
+
+/// How bright the whole picture is: what people ask first. Luminance stands for the test of the picture.
+fn ratio_measure(
+    ratio: &GlobalRatio,
+    report: &ImageReport,
+    hypothesis: Option<Hypothesis>,
+) -> Measure {
+    let name = component_name(ratio.component);
+    let is_luminance = ratio.component == Component::Luminance;
+    Measure {
+        interval: Some(ratio.interval),
+        resolution: is_luminance.then_some(report.resolution),
+        verdict: report.verdict,
+        hypothesis: hypothesis.filter(|_| is_luminance),
+        ..Measure::exact(name, ratio.ratio, 1.0, 0.0)
+            .of_row("brightness of the whole picture")
+            .in_unit("of the reference")
+    }
+}
+
+/// The most suspicious cell of a scale, or what fresh runs made of the suspicion: only they can fail it.
+fn scale_measure(scale: &ScaleReport) -> Measure {
+    let worst = scale.worst.first();
+    let screened = worst.map_or(0.0, |cell| cell.t);
+    let (name, measured) = match scale.confirmations {
+        None => (String::new(), screened),
+        Some([first, second]) => {
+            let weaker = if first.t.abs() < second.t.abs() { first.t } else { second.t };
+            (", confirmed on fresh runs".to_owned(), weaker)
+        }
+    };
+    let place = match worst {
+        Some(cell) if scale.rejects => format!(" at ({}, {})", cell.extent.x, cell.extent.y),
+        _ => String::new(),
+    };
+    let name = format!("worst {}{place}{name}", scale_name(scale.scale));
+    Measure {
+        verdict: Verdict::pass_if(!scale.rejects),
+        ..Measure::exact(name, measured, 0.0, scale.critical).in_unit("standard errors")
+    }
+}
+
+fn statement(report: &ImageReport) -> String {
+    if let Some(impossible) = report.impossible {
+        let kind = match impossible.kind {
+            Impossible::NotANumber => "NaN",
+            Impossible::Infinite => "infinite",
+            Impossible::Negative => "negative",
+        };
+        return format!(
+            "{} pixels are {kind}, the first at ({}, {}) from the top left",
+            impossible.pixels, impossible.x, impossible.y
+        );
+    }
+    if let Some([x, y]) = report.dead_pixels.first() {
+        return format!(
+            "{} pixels stay black in every run, the first at ({x}, {y}) from the top left",
+            report.dead_pixels.len()
+        );
+    }
+    match report.worst_scale {
+        Some(scale) => format!("{}; {}", brightness(report), confirmed(report, scale)),
+        None if report.verdict == Verdict::Pass => {
+            format!("agrees with the reference; {}", brightness(report))
+        }
+        None => format!(
+            "not yet known to agree: an error of {} could hide, {} has to be seen",
+            percent(report.resolution),
+            percent(report.detects)
+        ),
+    }
+}
+
+/// "the picture has 0.991 of the light it should have".
+fn brightness(report: &ImageReport) -> String {
+    let whole = report.ratios.iter().find(|ratio| ratio.component == Component::Luminance);
+    let Some(whole) = whole else { return "the picture is black".to_owned() };
+    // Of codes it is an extrapolation, which black ones carry below nothing.
+    let share = match whole.ratio <= 0.0 {
+        true => "none".to_owned(),
+        false => with_interval(whole.ratio, whole.interval),
+    };
+    format!("the picture has {share} of the light it should have")
+}
+
+/// Where fresh runs have confirmed the difference.
+fn confirmed(report: &ImageReport, scale: Scale) -> String {
+    let cell = report.scales.iter().find(|s| s.scale == scale).and_then(|s| s.worst.first());
+    let confirmed = format!("confirmed at the scale of a {}", scale_name(scale));
+    let Some(cell) = cell else { return confirmed };
+    let [mean, expected] = apart([cell.mean, cell.expected]);
+    let (component, [x, y]) = (component_name(cell.component), [cell.extent.x, cell.extent.y]);
+    format!("{confirmed}: {component} is {mean} instead of {expected} around pixel ({x}, {y})")
+}
+
+const fn scale_name(scale: Scale) -> &'static str {
+    match scale {
+        Scale::Pixel => "pixel",
+        Scale::Tile8 => "tile of 8 x 8",
+        Scale::Tile32 => "tile of 32 x 32",
+        Scale::Rows => "band of 8 rows",
+        Scale::Whole => "whole picture",
+    }
+}
+
+const fn component_name(component: Component) -> &'static str {
+    match component {
+        Component::Red => "red",
+        Component::Green => "green",
+        Component::Blue => "blue",
+        Component::Luminance => "luminance",
+    }
+}

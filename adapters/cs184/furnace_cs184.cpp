@@ -573,11 +573,13 @@ size_t depth_of_camera_rays(size_t last_bounce) {
       }
    };
    static const size_t at_seven = [] {
-      Probe    probe;
-      OnePixel stage(&probe);
+      const Stream before = stream();
+      Probe        probe;
+      OnePixel     stage(&probe);
       stage.tracer.max_ray_depth = 7;
       set_adaptive(stage.tracer, nullptr, 1);
       stage.tracer.raytrace_pixel(0, 0);
+      stream() = before;
       return probe.depth;
    }();
    return at_seven == 7 ? last_bounce : at_seven;

@@ -1045,9 +1045,9 @@ bool is(const Vector3D &value, double x, double y, double z) {
    return value.x == x && value.y == y && value.z == z;
 }
 
-// A point of a grey floor, seen from above, under a coloured lamp and far inside a grey sphere.
+// A point of a grey floor, seen from above, under a coloured lamp and far inside a grey sphere that glows.
 struct Probe {
-   Sky                                       sphere{Vector3D()};
+   Sky                                       sphere{Vector3D(0.3)};
    OnePixel                                  stage{&sphere};
    PointLamp                                 lamp{Vector3D(0, 0, 1), Vector3D(0.3, 0.5, 0.7)};
    CGL::SceneObjects::Scene                  scene{{}, {&lamp}};
@@ -1069,7 +1069,8 @@ struct Probe {
          return is(ask(probe, probe.stage.tracer), 1, 1, 1);
       });
    }
-   bool is_black_after(size_t depth) {
+   bool is_black_after(size_t depth, bool by_hemisphere) {
+      stage.tracer.direct_hemisphere_sample = by_hemisphere;
       stage.tracer.max_ray_depth = 3;
       ray.depth = depth;
       return is(stage.tracer.at_least_one_bounce_radiance(ray, hit), 0, 0, 0);
@@ -1187,8 +1188,8 @@ void find_written(Written &is) {
    });
    is.indirect = !is_skeleton([] {
       Probe probe;
-      for (int i = 0; i < 32; ++i)
-         if (!probe.is_black_after(0) || !probe.is_black_after(3)) return false;
+      for (int i = 0; i < 64; ++i)
+         if (!probe.is_black_after(i & 1 ? 3 : 0, i & 2)) return false;
       return true;
    });
    is.adaptive = is.pixels && !is_skeleton(never_stops);

@@ -262,12 +262,18 @@ typedef struct furnace_counted_tests {
                    const furnace_ray *ray, furnace_box_hit *hit);
 } furnace_counted_tests;
 
+struct furnace_built;      /* below: a scene that a core, or the bench, has taken in */
+struct furnace_components; /* below */
+
 typedef struct furnace_build {
    uint32_t struct_size;
    uint32_t accelerate;    /* 0: a loop over every primitive, brute force, the baseline of every BVH */
    uint32_t split;         /* FURNACE_SPLIT_CORES_CHOICE unless the core has FURNACE_SPLIT_RULES */
    uint32_t max_leaf_size; /* primitives in a leaf, as far as they can be told apart */
    const furnace_counted_tests *counted; /* null unless the core has FURNACE_COUNTED_TESTS */
+   /* The same scene as the bench has built it, for the functions of furnace_components.bench that
+    * want one; it lives as long as the built scene. Null if nothing is taken. */
+   struct furnace_built *bench;
 } furnace_build;
 
 typedef struct furnace_integrator {
@@ -348,6 +354,24 @@ enum { /* furnace_conventions; 0 is the default of every field */
    FURNACE_RADIANCE_UNSCALED = 1
 };
 
+/* Components of a path tracer that a core may take from the bench (furnace_core.components): with
+ * the bench's in place of a broken one, everything above it is judged as if it were right. */
+enum {
+   FURNACE_TAKES_RANDOM_NUMBERS = 1u << 0,
+   FURNACE_TAKES_CAMERA = 1u << 1,             /* generate_rays */
+   FURNACE_TAKES_TRIANGLE_TEST = 1u << 2,      /* intersect_triangle */
+   FURNACE_TAKES_SPHERE_TEST = 1u << 3,        /* intersect_sphere */
+   FURNACE_TAKES_BOX_TEST = 1u << 4,           /* intersect_box */
+   FURNACE_TAKES_TRAVERSAL = 1u << 5,          /* intersect, occluded */
+   FURNACE_TAKES_DIRECTION_SAMPLING = 1u << 6, /* sample_direction, direction_pdf */
+   FURNACE_TAKES_BSDF = 1u << 7,               /* eval_bsdf, sample_bsdf */
+   FURNACE_TAKES_LIGHT_SAMPLING = 1u << 8,     /* sample_light */
+   FURNACE_TAKES_EMISSION = 1u << 9,           /* radiance of bounces 0..0: what a ray sees emitted */
+   FURNACE_TAKES_DIRECT_LIGHTING = 1u << 10,   /* radiance of bounces 1..1, along the ray that arrived */
+   FURNACE_TAKES_PATH = 1u << 11,              /* radiance */
+   FURNACE_TAKES_PIXEL = 1u << 12              /* adaptive_mean */
+};
+
 /* What a core has freely chosen, declared so that it is not blamed for a choice. */
 typedef struct furnace_conventions {
    uint32_t point_light_falloff, emission, smith_term, glass_fresnel, glass_radiance;
@@ -360,7 +384,7 @@ typedef struct furnace_core {
    uint32_t abi;         /* FURNACE_ABI this core was compiled with */
    uint32_t struct_size; /* sizeof(furnace_core) as this core knows it */
    uint32_t traits;
-   uint32_t reserved;
+   uint32_t components; /* FURNACE_TAKES_...: what take_components can be asked for */
    furnace_conventions conventions;
    const char *name, *version;
    void *self; /* handed back as the first argument of every call */
@@ -420,8 +444,23 @@ typedef struct furnace_core {
     * core without FURNACE_ADAPTIVE_SAMPLING may leave them alone. */
    furnace_status (*render)(void *self, furnace_built *built, const furnace_camera *camera,
                             const furnace_render *settings, float *pixels, uint32_t *sample_counts);
+   /* From now on, work with the components named in `taken` of the bench's, and with your own for
+    * all others; it comes before anything else that is asked. Your own function for a component
+    * that is taken answers by the bench's too. */
+   furnace_status (*take_components)(void *self, const struct furnace_components *components);
    /* appended functions go here */
 } furnace_core;
+
+/* The bench's own components: the functions that stand beside FURNACE_TAKES_..., of a core that is
+ * right and follows your conventions. Call them with bench->self, and with furnace_build.bench where
+ * they want a scene, for one element or many, from any thread. Their random numbers follow from
+ * furnace_integrator.seed and the element's place in the batch: give each call a seed of its own.
+ * `bench` lives as long as your core; its other functions are null. */
+typedef struct furnace_components {
+   uint32_t struct_size;
+   uint32_t taken; /* FURNACE_TAKES_... */
+   const furnace_core *bench;
+} furnace_components;
 
 /* Return null if this core cannot serve a bench of that ABI. */
 FURNACE_EXPORT const furnace_core *furnace_core_entry(uint32_t bench_abi);

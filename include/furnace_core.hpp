@@ -37,6 +37,13 @@
 //     void render(const furnace_camera &, const furnace_render &, float *pixels,
 //                 uint32_t *sample_counts)  // and furnace_render::variances, if the core says so
 //
+// A core that can work with components of the bench in place of its own has
+//
+//     static constexpr uint32_t components = FURNACE_TAKES_BSDF | ...;
+//     void take_components(const furnace::Bench &)
+//
+// keeps the furnace::Bench, and asks it wherever `has` says so.
+//
 // Two more, where they help: `static furnace_conventions conventions()` declares what the core has
 // freely chosen, and `void seed(uint64_t)` is called before every batch that draws random numbers,
 // for cores that have a generator of their own.
@@ -101,6 +108,89 @@ struct Numbers {
    double       lobe;  // which lobe, or which triangle of a mesh light
 };
 
+// The bench's own components, one element a call. `built` is furnace_build.bench of the scene at hand.
+class Bench {
+ public:
+   Bench() = default;
+   explicit Bench(const furnace_components &given) : core(given.bench), taken(given.taken) {}
+
+   bool has(uint32_t component) const { return taken & component; }
+
+   furnace_ray generate_ray(const furnace_camera &camera, furnace_vec2 film) const {
+      return one<furnace_ray>(core->generate_rays, &camera, &film);
+   }
+   furnace_hit intersect_triangle(const furnace_vec3 *positions, const furnace_vec3 *normals,
+                                  const furnace_ray &ray) const {
+      return one<furnace_hit>(core->intersect_triangle, positions, normals, &ray);
+   }
+   furnace_hit intersect_sphere(furnace_vec3 centre, double radius, const furnace_ray &ray) const {
+      return one<furnace_hit>(core->intersect_sphere, &centre, radius, &ray);
+   }
+   furnace_box_hit intersect_box(furnace_vec3 min, furnace_vec3 max, const furnace_ray &ray) const {
+      return one<furnace_box_hit>(core->intersect_box, &min, &max, &ray);
+   }
+   furnace_direction_sample sample_direction(uint32_t sampler, const Numbers &numbers) const {
+      furnace_randomness random{&numbers.point, &numbers.lobe, 0};
+      return one<furnace_direction_sample>(core->sample_direction, sampler, &random);
+   }
+   double direction_pdf(uint32_t sampler, furnace_vec3 direction) const {
+      return one<double>(core->direction_pdf, sampler, &direction);
+   }
+   furnace_bsdf_value eval_bsdf(const furnace_material &material, furnace_vec3 wo,
+                                furnace_vec3 wi) const {
+      furnace_bsdf_query query{wo, wi};
+      return one<furnace_bsdf_value>(core->eval_bsdf, &material, &query);
+   }
+   furnace_bsdf_sample sample_bsdf(const furnace_material &material, furnace_vec3 wo,
+                                   const Numbers &numbers) const {
+      furnace_randomness random{&numbers.point, &numbers.lobe, 0};
+      return one<furnace_bsdf_sample>(core->sample_bsdf, &material, &wo, &random);
+   }
+   furnace_hit intersect(furnace_built *built, const furnace_ray &ray) const {
+      furnace_hit             hit{};
+      furnace_traversal_stats unused{};
+      good(core->intersect(core->self, built, &ray, &hit, 1, &unused));
+      return hit;
+   }
+   bool occluded(furnace_built *built, const furnace_ray &ray) const {
+      uint8_t                 is{};
+      furnace_traversal_stats unused{};
+      good(core->occluded(core->self, built, &ray, &is, 1, &unused));
+      return is != 0;
+   }
+   furnace_light_sample sample_light(furnace_built *built, uint32_t light, furnace_vec3 from,
+                                     const Numbers &numbers) const {
+      furnace_randomness random{&numbers.point, &numbers.lobe, 0};
+      return one<furnace_light_sample>(core->sample_light, built, light, &from, &random);
+   }
+   // Of these bounces, with random numbers of this seed; settings say the rest.
+   furnace_rgb radiance(furnace_built *built, const furnace_ray &ray, furnace_integrator settings,
+                        uint32_t first_bounce, uint32_t last_bounce, uint64_t seed) const {
+      settings.first_bounce = first_bounce, settings.last_bounce = last_bounce;
+      settings.seed = seed, settings.threads = 1;
+      return one<furnace_rgb>(core->radiance, built, &ray, &settings);
+   }
+   furnace_adaptive_mean adaptive_mean(const furnace_adaptive &rule, const double *luminances,
+                                       size_t count) const {
+      furnace_stream stream{luminances, count};
+      return one<furnace_adaptive_mean>(core->adaptive_mean, &rule, &stream);
+   }
+
+ private:
+   const furnace_core *core = nullptr;
+   uint32_t            taken = 0;
+
+   static void good(furnace_status status) {
+      if (status != FURNACE_OK) throw std::runtime_error("the bench cannot answer this");
+   }
+   template <class Answer, class Function, class... Arguments>
+   Answer one(Function function, Arguments... arguments) const {
+      Answer answer{};
+      good(function(core->self, arguments..., &answer, 1));
+      return answer;
+   }
+};
+
 // Throw it for a request that is beyond the core: the trial is skipped, not failed.
 struct Unsupported : std::runtime_error {
    using std::runtime_error::runtime_error;
@@ -134,6 +224,7 @@ FURNACE_METHOD(sample_bsdf, (some<const furnace_material &>(), furnace_vec3{},
                              some<const Numbers &>()))
 FURNACE_METHOD(adaptive_mean, (some<const furnace_adaptive &>(), some<const double *>(), size_t{}))
 FURNACE_METHOD(build, (some<const furnace_scene &>(), some<const furnace_build &>()))
+FURNACE_METHOD(take_components, (some<const Bench &>()))
 FURNACE_METHOD(stats, ())
 FURNACE_METHOD(intersect, (some<const furnace_ray &>(), some<furnace_traversal_stats &>()))
 FURNACE_METHOD(occluded, (some<const furnace_ray &>(), some<furnace_traversal_stats &>()))
@@ -228,6 +319,8 @@ template <class Core> class Table {
       };
       if constexpr (has_conventions<Core>::value) table.conventions = Core::conventions();
       fill_functions(table);
+      FURNACE_FILL(take_components, take_components, Core, &take_components)
+      if constexpr (has_take_components<Core>::value) table.components = Core::components;
       FURNACE_FILL(build, build, Core, &build)
       if constexpr (has_build<Core>::value) fill_built(table);
       return table;
@@ -298,6 +391,10 @@ template <class Core> class Table {
                                                            streams[i].count);
                       });
                    })
+   }
+
+   static furnace_status take_components(void *self, const furnace_components *components) {
+      return guarded(self, [=] { core(self).take_components(Bench(*components)); });
    }
 
    static furnace_status build(void *self, const furnace_scene *scene,

@@ -10,8 +10,8 @@ use furnace::contract::crossing::{Element, Layout};
 use furnace::contract::validate::Validated;
 use furnace::contract::{
     Acceleration, AdaptiveMean, BoxHit, BsdfQuery, BsdfSample, BsdfValue, BuildStats, Capabilities,
-    Core, CoreError, DirectionSample, Hit, IntegratorSettings, LightSample, Primitive, Randomness,
-    Ray, Sampler, TraversalStats,
+    Components, Core, CoreError, DirectionSample, Hit, IntegratorSettings, LightSample, Primitive,
+    Randomness, Ray, Sampler, TraversalStats,
 };
 use furnace::cores::dylib::Dylib;
 use furnace::scene::{Camera, Light, Material, Mesh, SceneDescription, Surface};
@@ -137,7 +137,9 @@ fn words_have_the_same_numbers_on_both_sides() {
     let traits = Traits::all().iter_names().map(|(name, flag)| (name, flag.bits()));
     let traits: Vec<_> = traits.map(|(name, bits)| (format!("FURNACE_{name}"), bits)).collect();
     let numbers = abi::NUMBERS.iter().map(|(name, number)| ((*name).to_owned(), *number));
-    let all: Vec<_> = numbers.chain(traits).collect();
+    let components = Components::all().iter_names().map(|(name, flag)| (name, flag.bits()));
+    let components = components.map(|(name, bits)| (format!("FURNACE_TAKES_{name}"), bits));
+    let all: Vec<_> = numbers.chain(traits).chain(components).collect();
     let expressions: Vec<_> = all.iter().map(|(name, _)| name.clone()).collect();
     for ((name, number), of_c) in all.iter().zip(values_in_c(&cc, &expressions)) {
         assert_eq!(*number as usize, of_c, "{name} in Rust and in C");
@@ -293,4 +295,29 @@ fn a_flag_that_is_neither_0_nor_1_breaks_the_contract() {
     let mut built = core.build_scene(&scene, Acceleration::DEFAULT).unwrap();
     let error = built.occluded(&[Ray::new(DVec3::ZERO, DVec3::Z); 2], &mut [false; 2]).unwrap_err();
     assert!(error.to_string().contains("occluded 1 of 2: it is 255"), "{error}");
+}
+
+#[test]
+fn what_a_core_is_lent_lives_as_long_as_the_scene() {
+    let mut core = load("keeper");
+    assert_eq!(core.info().components, Components::TRAVERSAL);
+    let down = |x: f64, y: f64| Ray::new(DVec3::new(x, y, 1.0), DVec3::NEG_Z);
+    let rays = [down(0.2, 0.3), down(0.7, 0.8)];
+    let mut hits_with = |taken: Components| {
+        core.take_components(taken).unwrap();
+        let mut built = core.build_scene(&scene(), Acceleration::DEFAULT).unwrap();
+        let mut hits = [Hit::MISS; 2];
+        let stats = built.intersect(&rays, &mut hits).unwrap();
+        (hits.map(|hit| hit.primitive), stats.primitive_tests)
+    };
+    assert_eq!(hits_with(Components::empty()), ([0, u32::MAX], 2), "counted, the first alone");
+    assert_eq!(hits_with(Components::TRAVERSAL).0, [0, 1], "the bench's own scene");
+}
+
+#[test]
+fn a_core_without_the_function_takes_nothing() {
+    let mut core = load("echo");
+    assert_eq!(core.info().components, Components::empty());
+    let refusal = core.take_components(Components::BSDF);
+    assert_eq!(refusal, Err(CoreError::Unsupported(Capabilities::empty())));
 }

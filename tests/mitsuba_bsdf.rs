@@ -15,8 +15,8 @@
 
 use furnace::case;
 use furnace::contract::{
-    BsdfQuery, BsdfSample, BsdfValue, Capabilities, Conventions, Core, CoreError, CoreInfo,
-    Precision, Randomness, Result,
+    BsdfQuery, BsdfSample, BsdfValue, Capabilities, Core, CoreError, CoreInfo, Precision,
+    Randomness, Result,
 };
 use furnace::cores::CoreSpec;
 use furnace::math::rng::Seed;
@@ -82,7 +82,7 @@ impl Core for Mitsuba {
                 | Capabilities::SAMPLE_BSDF
                 | Capabilities::CALLERS_RANDOMNESS,
             precision: Precision::Single,
-            conventions: Conventions::default(),
+            ..CoreInfo::default()
         }
     }
 

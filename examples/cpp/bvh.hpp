@@ -11,7 +11,7 @@ class Bvh {
    furnace_build_stats stats{};
 
    Bvh(const Geometry &geometry, const furnace_build &settings)
-       : geometry(geometry), split(settings.split),
+       : geometry(geometry), bench_built(settings.bench), split(settings.split),
          leaf_size(std::max(1u, settings.max_leaf_size)) {
       for (uint32_t i = 0; i < geometry.primitives.size(); ++i) order.push_back(i);
       if (!settings.accelerate) leaf_size = uint32_t(order.size());
@@ -22,11 +22,18 @@ class Bvh {
 
    // The nearest hit, and which primitive it is on; -1 for none.
    int64_t closest(const Ray &ray, furnace_hit &hit, Stats &stats) const {
+      if (bench.has(FURNACE_TAKES_TRAVERSAL)) {
+         hit = bench.intersect(bench_built, ray);
+         return geometry.find(hit);
+      }
       Search search = searched(ray, false, stats);
       hit = search.hit;
       return search.found;
    }
-   bool any(const Ray &ray, Stats &stats) const { return searched(ray, true, stats).found >= 0; }
+   bool any(const Ray &ray, Stats &stats) const {
+      if (bench.has(FURNACE_TAKES_TRAVERSAL)) return bench.occluded(bench_built, ray);
+      return searched(ray, true, stats).found >= 0;
+   }
 
  private:
    struct Node {
@@ -35,6 +42,7 @@ class Bvh {
       size_t right = 0;            // of an inner node; its left child follows it
    };
    const Geometry       &geometry;
+   furnace_built        *bench_built;
    uint32_t              split, leaf_size;
    std::vector<uint32_t> order;
    std::vector<Node>     nodes;

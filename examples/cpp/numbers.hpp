@@ -10,7 +10,7 @@
 
 namespace pathtracer {
 
-using furnace::cross, furnace::dot, furnace::length, furnace::unit, furnace::Numbers;
+using furnace::Bench, furnace::cross, furnace::dot, furnace::length, furnace::unit, furnace::Numbers;
 using Vec = furnace_vec3;
 using Rgb = furnace_rgb;
 using Ray = furnace_ray;
@@ -25,6 +25,9 @@ inline double largest(Vec v) { return std::max({std::abs(v.x), std::abs(v.y), st
 inline double at(const Vec &v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 inline Vec    point_on(const Ray &ray, double t) { return ray.origin + t * ray.direction; }
 
+// Components that the bench lends in place of ours, to tell which of ours is broken.
+inline Bench bench;
+
 // SplitMix64 (Steele, Lea and Flood 2014). Every ray and every sample of a pixel has a stream of
 // its own, so that no answer depends on threads.
 class Random {
@@ -33,7 +36,8 @@ class Random {
        : state(mix(mix(mix(seed) + stream) + sample)) {}
 
    double number() { return double(mix(state += 0x9e3779b97f4a7c15) >> 11) * 0x1p-53; }
-   Numbers numbers() {
+   uint64_t seed() { return mix(state += 0x9e3779b97f4a7c15); }
+   Numbers  numbers() {
       double x = number(), y = number();
       return {{x, y}, number()};
    }
@@ -70,6 +74,18 @@ inline Vec uniform_hemisphere(furnace_vec2 u) { return below_pole(u.x, u.y); }
 inline Vec cosine_hemisphere(furnace_vec2 u) {
    double radius = std::sqrt(u.x);
    return {radius * std::cos(2 * PI * u.y), radius * std::sin(2 * PI * u.y), std::sqrt(1 - u.x)};
+}
+
+inline double hemisphere_pdf(uint32_t sampler, Vec direction) {
+   if (bench.has(FURNACE_TAKES_DIRECTION_SAMPLING)) return bench.direction_pdf(sampler, direction);
+   if (direction.z <= 0) return 0;
+   return sampler == FURNACE_COSINE_HEMISPHERE ? direction.z / PI : 1 / (2 * PI);
+}
+inline furnace_direction_sample sample_hemisphere(uint32_t sampler, const Numbers &random) {
+   if (bench.has(FURNACE_TAKES_DIRECTION_SAMPLING)) return bench.sample_direction(sampler, random);
+   Vec direction = sampler == FURNACE_COSINE_HEMISPHERE ? cosine_hemisphere(random.point)
+                                                        : uniform_hemisphere(random.point);
+   return {direction, hemisphere_pdf(sampler, direction)};
 }
 
 } // namespace pathtracer

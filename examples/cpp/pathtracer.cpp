@@ -23,6 +23,7 @@ namespace pathtracer {
 // ---- images -------------------------------------------------------------------------------------
 
 Ray camera_ray(const furnace_camera &camera, furnace_vec2 film) {
+   if (bench.has(FURNACE_TAKES_CAMERA)) return bench.generate_ray(camera, film);
    double x = (2 * film.x - 1) * std::tan(camera.horizontal_fov / 2);
    double y = (2 * film.y - 1) * std::tan(camera.vertical_fov / 2);
    Vec    direction = unit(x * camera.right + y * camera.up - camera.backward);
@@ -45,6 +46,16 @@ struct Tally {
    }
 };
 
+// The bench stops a stream at a sample before its last one, or not at all: one more tells.
+bool may_stop(const Tally &tally, const furnace_adaptive &rule, std::vector<double> &luminances) {
+   if (!bench.has(FURNACE_TAKES_PIXEL)) return tally.may_stop(rule);
+   if (tally.count % std::max(1u, rule.samples_per_batch) != 0) return false;
+   luminances.push_back(0);
+   auto used = bench.adaptive_mean(rule, luminances.data(), luminances.size()).used;
+   luminances.pop_back();
+   return used == tally.count;
+}
+
 // Where sample `number` lies in its pixel: anywhere, or anywhere in its own cell of a grid.
 furnace_vec2 within_pixel(const furnace_render &settings, uint32_t number, furnace_vec2 jitter) {
    if (!settings.stratified) return jitter;
@@ -59,6 +70,7 @@ void Scene::render(const furnace_camera &camera, const furnace_render &settings,
       uint32_t x = index % settings.width, y = index / settings.width;
       Rgb      sum{0, 0, 0};
       Tally    tally, channels[3];
+      std::vector<double> luminances;
       while (tally.count < settings.samples_per_pixel) {
          Random  random(settings.integrator->seed, index, tally.count + 1);
          furnace_vec2 within = within_pixel(settings, tally.count, random.numbers().point);
@@ -66,9 +78,9 @@ void Scene::render(const furnace_camera &camera, const furnace_render &settings,
                                                 1 - (y + within.y) / settings.height});
          Rgb radiance = trace(ray, *settings.integrator, random);
          sum = sum + radiance;
-         tally.add(luminance(radiance));
+         tally.add(luminance(radiance)), luminances.push_back(luminance(radiance));
          channels[0].add(radiance.r), channels[1].add(radiance.g), channels[2].add(radiance.b);
-         if (settings.adaptive && tally.may_stop(*settings.adaptive)) break;
+         if (settings.adaptive && may_stop(tally, *settings.adaptive, luminances)) break;
       }
       Rgb mean = sum / tally.count;
       float *pixel = pixels + 3 * size_t(index);
@@ -94,6 +106,14 @@ void Scene::render(const furnace_camera &camera, const furnace_render &settings,
 // ---- what the bench talks to --------------------------------------------------------------------
 
 struct PathTracer {
+   // All but where random numbers come from.
+   static constexpr uint32_t components =
+       FURNACE_TAKES_CAMERA | FURNACE_TAKES_TRIANGLE_TEST | FURNACE_TAKES_SPHERE_TEST |
+       FURNACE_TAKES_BOX_TEST | FURNACE_TAKES_TRAVERSAL | FURNACE_TAKES_DIRECTION_SAMPLING |
+       FURNACE_TAKES_BSDF | FURNACE_TAKES_LIGHT_SAMPLING | FURNACE_TAKES_EMISSION |
+       FURNACE_TAKES_DIRECT_LIGHTING | FURNACE_TAKES_PATH | FURNACE_TAKES_PIXEL;
+   void take_components(const Bench &lent) { bench = lent; }
+
    furnace_ray generate_ray(const furnace_camera &camera, furnace_vec2 film) {
       return camera_ray(camera, film);
    }
@@ -111,13 +131,10 @@ struct PathTracer {
    }
 
    furnace_direction_sample sample_direction(uint32_t sampler, const Numbers &random) {
-      Vec direction = sampler == FURNACE_COSINE_HEMISPHERE ? cosine_hemisphere(random.point)
-                                                           : uniform_hemisphere(random.point);
-      return {direction, direction_pdf(sampler, direction)};
+      return sample_hemisphere(sampler, random);
    }
    double direction_pdf(uint32_t sampler, Vec direction) {
-      if (direction.z <= 0) return 0;
-      return sampler == FURNACE_COSINE_HEMISPHERE ? direction.z / PI : 1 / (2 * PI);
+      return hemisphere_pdf(sampler, direction);
    }
 
    furnace_bsdf_value eval_bsdf(const furnace_material &material, Vec wo, Vec wi) {
@@ -130,6 +147,7 @@ struct PathTracer {
 
    furnace_adaptive_mean adaptive_mean(const furnace_adaptive &rule, const double *luminances,
                                        size_t count) {
+      if (bench.has(FURNACE_TAKES_PIXEL)) return bench.adaptive_mean(rule, luminances, count);
       Tally tally;
       while (tally.count < count) {
          tally.add(luminances[tally.count]);

@@ -11,11 +11,15 @@ namespace pathtracer {
 // Rays keep this share of the largest length involved clear of the surface they leave.
 constexpr double CLEARANCE = 1e-10;
 
+// What of a path's settings matters to emission alone: nothing but their size.
+constexpr furnace_integrator EMISSION_ALONE{sizeof(furnace_integrator), 1, 0, 0, 0, 1, 0, 0, 0, 0};
+
 // What a ray sees: a point of a surface, or (without a material) the sky.
 struct Vertex {
    const furnace_material *material = nullptr;
    Vec                     point{}, normal{}; // geometric
    Frame                   frame{{0, 0, 1}};  // shading
+   Ray                     ray{};             // that arrived
    Vec                     direction{}, wo{}; // of the ray; back along it, local
    Rgb                     emission{};
    int64_t                 light = -1; // the light that the surface is
@@ -27,7 +31,7 @@ struct Vertex {
 class Scene {
  public:
    Scene(const furnace_scene &scene, const furnace_build &settings)
-       : geometry(scene), bvh(geometry, settings),
+       : geometry(scene), bvh(geometry, settings), bench_built(settings.bench),
          materials(scene.materials, scene.materials + scene.material_count) {
       for (auto &material : materials) material.name = nullptr; // it dies with the call
       for (uint32_t i = 0; i < scene.mesh_count; ++i)
@@ -52,7 +56,7 @@ class Scene {
 
    furnace_light_sample sample_light(uint32_t light, Vec from, const Numbers &random) const {
       if (light >= lights.size()) throw std::out_of_range("there is no such light");
-      return lights[light].sample(from, random);
+      return sample(lights[light], from, random);
    }
 
    Rgb radiance(const Ray &ray, const furnace_integrator &settings, size_t index) const {
@@ -65,12 +69,26 @@ class Scene {
  private:
    Geometry                      geometry;
    Bvh                           bvh;
+   furnace_built                *bench_built;
    std::vector<furnace_material> materials;
    std::vector<uint32_t>         material_of_shape;
    std::vector<int64_t>          light_of_shape;
    std::vector<Light>            lights;
 
+   furnace_light_sample sample(const Light &light, Vec from, const Numbers &random) const {
+      if (!bench.has(FURNACE_TAKES_LIGHT_SAMPLING)) return light.sample(from, random);
+      return bench.sample_light(bench_built, uint32_t(&light - lights.data()), from, random);
+   }
+
    Vertex look(const Ray &ray) const {
+      Vertex v = found(ray);
+      v.ray = ray;
+      if (bench.has(FURNACE_TAKES_EMISSION))
+         v.emission = bench.radiance(bench_built, ray, EMISSION_ALONE, 0, 0, 0);
+      return v;
+   }
+
+   Vertex found(const Ray &ray) const {
       Vertex      v;
       furnace_hit hit;
       Stats       unused{};
@@ -108,6 +126,9 @@ class Scene {
    // sampling (next event estimation) adds the next bounce; so emission that the path itself hits
    // counts only for the camera, and after delta lobes, towards which no light can be sampled.
    Rgb trace(const Ray &ray, const furnace_integrator &settings, Random &random) const {
+      if (bench.has(FURNACE_TAKES_PATH))
+         return bench.radiance(bench_built, ray, settings, settings.first_bounce,
+                               settings.last_bounce, random.seed());
       auto wanted = [&](uint32_t bounce) {
          return settings.first_bounce <= bounce && bounce <= settings.last_bounce;
       };
@@ -135,8 +156,12 @@ class Scene {
 
    // Light that is scattered at `v`, and only there.
    Rgb direct_light(const Vertex &v, const furnace_integrator &settings, Random &random) const {
+      if (bench.has(FURNACE_TAKES_DIRECT_LIGHTING))
+         return bench.radiance(bench_built, v.ray, settings, 1, 1, random.seed());
       uint32_t samples = std::max(1u, settings.samples_per_light), area_lights = 0;
-      bool     glossy = v.material->kind == FURNACE_CONDUCTOR;
+      // The bench's light samples have no pdf of ours to be weighed against.
+      bool glossy = v.material->kind == FURNACE_CONDUCTOR &&
+                    !bench.has(FURNACE_TAKES_LIGHT_SAMPLING);
       Rgb      sum{0, 0, 0};
       for (const Light &light : lights) {
          area_lights += !light.is_delta();
@@ -157,10 +182,10 @@ class Scene {
    }
 
    Rgb from_hemisphere(const Vertex &v, const Numbers &random) const {
-      Vec wi = uniform_hemisphere(random.point);
+      auto [wi, pdf] = sample_hemisphere(FURNACE_UNIFORM_HEMISPHERE, random);
       if (v.wo.z < 0) wi = -wi;
       Rgb f = eval_surface(*v.material, v.wo, wi).f;
-      return look(v.ray_to(wi)).emission * f * (std::abs(wi.z) * 2 * PI);
+      return look(v.ray_to(wi)).emission * f * (std::abs(wi.z) / pdf);
    }
 
    // On a glossy surface the lights and the narrow lobe are both sampled; the balance heuristic
@@ -168,7 +193,7 @@ class Scene {
    static double balance(double own, double other) { return own / (own + other); }
 
    Rgb from_light(const Vertex &v, const Light &light, const Numbers &random, bool glossy) const {
-      furnace_light_sample s = light.sample(v.point, random);
+      furnace_light_sample s = sample(light, v.point, random);
       if (!s.is_valid) return {0, 0, 0};
       Vec  wi = v.frame.to_local(s.wi);
       auto [f, pdf] = eval_surface(*v.material, v.wo, wi);

@@ -4,9 +4,19 @@
 
 #include "numbers.hpp"
 
+#include <map>
+
 namespace pathtracer {
 
 inline bool within(const Ray &ray, double t) { return ray.t_min < t && t < ray.t_max; }
+
+// The bench's hit of one primitive, whose numbers stay those of the scene.
+inline bool taken(furnace_hit found, furnace_hit &out) {
+   if (found.primitive == FURNACE_NONE) return false;
+   found.shape = out.shape, found.primitive = out.primitive;
+   out = found;
+   return true;
+}
 
 struct Box {
    Vec min{INFINITE, INFINITE, INFINITE}, max{-INFINITE, -INFINITE, -INFINITE};
@@ -30,6 +40,11 @@ struct Box {
    // ever or never: dividing by its zero would make NaN on a face. `slack` makes the box longer by
    // that share, for those who must not lose a hit to rounding.
    bool meets(const Ray &ray, double &enter, double &exit, double slack = 0) const {
+      if (bench.has(FURNACE_TAKES_BOX_TEST)) {
+         furnace_box_hit met = bench.intersect_box(min, max, ray);
+         enter = met.t_enter, exit = met.t_exit;
+         return met.hit;
+      }
       enter = -INFINITE, exit = INFINITE;
       for (int axis = 0; axis < 3; ++axis) {
          double from = at(ray.origin, axis), step = at(ray.direction, axis);
@@ -48,13 +63,14 @@ struct Box {
 };
 
 struct Triangle {
+   std::array<Vec, 3> positions;
    Vec    corner, edge1, edge2;
    Vec    cross_edges;     // along the normal, twice the area long
    double parallel;        // a determinant below this, for a unit ray, is rounding error
    std::array<Vec, 3> normals; // shading, at the corners
 
    Triangle(const Vec *p, const Vec *n)
-       : corner(p[0]), edge1(p[1] - p[0]), edge2(p[2] - p[0]), cross_edges(cross(edge1, edge2)),
+       : positions{p[0], p[1], p[2]}, corner(p[0]), edge1(p[1] - p[0]), edge2(p[2] - p[0]), cross_edges(cross(edge1, edge2)),
          parallel(1e-15 * length(edge1) * length(edge2)) {
       Vec flat = has_area() ? unit(cross_edges) : Vec{0, 0, 1};
       for (int i = 0; i < 3; ++i) normals[i] = n ? n[i] : flat;
@@ -66,6 +82,8 @@ struct Triangle {
 
    // Cramer's rule for origin + t direction = corner + u edge1 + v edge2.
    bool hit(const Ray &ray, furnace_hit &out) const {
+      if (bench.has(FURNACE_TAKES_TRIANGLE_TEST))
+         return taken(bench.intersect_triangle(positions.data(), normals.data(), ray), out);
       double determinant = -dot(ray.direction, cross_edges);
       if (!(std::abs(determinant) > parallel * length(ray.direction))) return false;
       Vec    from = ray.origin - corner, turned = cross(from, ray.direction);
@@ -94,6 +112,14 @@ struct Sphere {
    // From the point of the line that is nearest to the centre, half a chord back and forth: no
    // large squares are subtracted, however far away the ray begins.
    bool hit(const Ray &ray, furnace_hit &out) const {
+      if (bench.has(FURNACE_TAKES_SPHERE_TEST)) {
+         furnace_hit found = bench.intersect_sphere(centre, radius, ray);
+         if (inward) {
+            found.geometric_normal = -found.geometric_normal;
+            found.shading_normal = -found.shading_normal;
+         }
+         return taken(found, out);
+      }
       double squared = dot(ray.direction, ray.direction);
       double middle = dot(centre - ray.origin, ray.direction) / squared;
       Vec    off_axis = point_on(ray, middle) - centre;
@@ -128,6 +154,7 @@ struct Geometry {
    std::vector<Triangle>  triangles;
    std::vector<Sphere>    spheres;
    std::vector<Primitive> primitives;
+   std::map<std::pair<uint32_t, uint32_t>, size_t> numbers; // of primitives, by shape and number
 
    explicit Geometry(const furnace_scene &scene) {
       for (uint32_t shape = 0; shape < scene.mesh_count; ++shape) add_mesh(scene, shape);
@@ -136,6 +163,12 @@ struct Geometry {
          spheres.push_back({s.centre, s.radius, s.inward == 1});
          add(scene.mesh_count + i, 0, i, true, spheres.back().bounds());
       }
+   }
+
+   // The number of the primitive that is called so in the scene; -1 for a miss.
+   int64_t find(const furnace_hit &hit) const {
+      auto found = numbers.find({hit.shape, hit.primitive});
+      return found == numbers.end() ? -1 : int64_t(found->second);
    }
 
    bool hit(uint32_t number, const Ray &ray, furnace_hit &out) const {
@@ -164,6 +197,7 @@ struct Geometry {
       Box    padded = box; // a ray that rounding lets graze the primitive grazes the box too
       Vec    pad = 1e-14 * reach * Vec{1, 1, 1};
       padded.add(box.min - pad), padded.add(box.max + pad);
+      numbers[{shape, number}] = primitives.size();
       primitives.push_back({shape, number, index, is_sphere, reach, padded});
    }
 };

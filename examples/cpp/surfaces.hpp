@@ -68,6 +68,7 @@ inline furnace_bsdf_sample sample_glass(const furnace_material &m, Vec wo, doubl
 }
 
 inline furnace_bsdf_value eval_surface(const furnace_material &m, Vec wo, Vec wi) {
+   if (bench.has(FURNACE_TAKES_BSDF)) return bench.eval_bsdf(m, wo, wi);
    if (wo.z < 0) wo = -wo, wi = -wi; // all but glass scatter the same on both sides
    if (wo.z <= 0 || wi.z <= 0 || is_delta(m)) return NOTHING;
    if (m.kind == FURNACE_CONDUCTOR) return eval_conductor(m, wo, wi);
@@ -76,11 +77,12 @@ inline furnace_bsdf_value eval_surface(const furnace_material &m, Vec wo, Vec wi
 
 inline furnace_bsdf_sample sample_surface(const furnace_material &m, Vec wo,
                                           const Numbers &random) {
+   if (bench.has(FURNACE_TAKES_BSDF)) return bench.sample_bsdf(m, wo, random);
    if (m.kind == FURNACE_GLASS) return sample_glass(m, wo, random.lobe);
    if (m.kind == FURNACE_MIRROR) return only_way(mirrored(wo), m.reflectance, 1);
    Vec above = wo.z < 0 ? -wo : wo;
    Vec wi = m.kind == FURNACE_CONDUCTOR ? sample_conductor(m.roughness, above, random.point)
-                                        : cosine_hemisphere(random.point);
+                                        : sample_hemisphere(FURNACE_COSINE_HEMISPHERE, random).direction;
    auto [f, pdf] = eval_surface(m, above, wi);
    if (!(pdf > 0)) return FAILED;
    return {wo.z < 0 ? -wi : wi, f, pdf, 0, 1};

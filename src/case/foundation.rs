@@ -5,7 +5,7 @@
 //! found broken is blocked by it, not failed: its own result would blame the wrong line.
 
 use super::{Case, Subject};
-use crate::contract::Capabilities;
+use crate::contract::{Capabilities, Components};
 use crate::scene::{Light, SceneDescription, Shape, Surface};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -62,6 +62,48 @@ foundations! {
     DirectionalLight = "directional lights",
     Sky = "skies",
     Bounces = "paths of many bounces",
+}
+
+impl Foundation {
+    /// What stands for it: where it was found broken, and a core takes these from the bench, what rests on it can
+    /// be judged all the same.
+    pub(crate) const fn components(self) -> Components {
+        match self {
+            Self::Seeds => Components::RANDOM_NUMBERS,
+            Self::Camera => Components::CAMERA,
+            Self::Triangles | Self::ShadingNormals => Components::TRIANGLE_TEST,
+            Self::Spheres => Components::SPHERE_TEST,
+            Self::Boxes | Self::TightBoxes => Components::BOX_TEST,
+            Self::Hits => Components::TRAVERSAL,
+            Self::UniformDirections | Self::CosineDirections => Components::DIRECTION_SAMPLING,
+            Self::Diffuse | Self::Mirror | Self::Glass | Self::Metal | Self::RoughGlass => {
+                Components::BSDF
+            }
+            Self::Emission => Components::EMISSION,
+            Self::DirectLight
+            | Self::MeshLight
+            | Self::SphereLight
+            | Self::PointLight
+            | Self::DirectionalLight
+            | Self::Sky => Components::LIGHT_SAMPLING.union(Components::DIRECT_LIGHTING),
+            Self::Bounces => Components::PATH,
+        }
+    }
+}
+
+/// What `case` itself asks about: with these of the bench's, it would judge the bench.
+pub(crate) fn asked_about(case: &Case) -> Components {
+    match Subject::of_case(&case.id) {
+        Some(Subject::Camera) => Components::CAMERA,
+        Some(Subject::Shape) => Components::TRIANGLE_TEST | Components::SPHERE_TEST,
+        Some(Subject::Bvh) => Components::TRAVERSAL,
+        Some(Subject::Sampling) => Components::DIRECTION_SAMPLING,
+        Some(Subject::Bsdf) => Components::BSDF,
+        Some(Subject::Light) => Components::LIGHT_SAMPLING | Components::DIRECT_LIGHTING,
+        Some(Subject::Integrator) => Components::PATH,
+        Some(Subject::Adaptive) => Components::PIXEL,
+        Some(Subject::Image) | None => Components::empty(),
+    }
 }
 
 /// What `case` rests on, in `scene` if it names one. Never what it proves itself, nor what comes later.

@@ -14,7 +14,7 @@ mod tier;
 
 pub use catalog::{CatalogError, load_all, load_one};
 pub use filter::{Filter, NothingSelected};
-pub(crate) use foundation::{Foundation, foundations};
+pub(crate) use foundation::{Foundation, asked_about, foundations};
 pub(crate) use next_step::next_steps;
 pub(crate) use part::{PARTS, Part, Subject};
 pub(crate) use role::Role;

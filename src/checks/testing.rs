@@ -2,7 +2,7 @@
 
 use super::{Check, CheckError, Context, Finding};
 use crate::contract::validate::Validated;
-use crate::contract::{Capabilities, Conventions, Core, CoreInfo, Precision};
+use crate::contract::{Capabilities, Core, CoreInfo, Precision};
 use crate::math::rng::Seed;
 use crate::scene::{Library, SceneDescription};
 use crate::stats::{Budget, Verdict};
@@ -24,7 +24,7 @@ pub(crate) fn info(precision: Precision) -> CoreInfo {
         version: "0".into(),
         capabilities: Capabilities::all() - Capabilities::REPORTED_VARIANCE,
         precision,
-        conventions: Conventions::default(),
+        ..CoreInfo::default()
     }
 }
 

@@ -1,6 +1,7 @@
 //! What is shown while a run goes on, on standard error: a live display on a terminal, a line a trial elsewhere,
 //! nothing if the user wants quiet. Results go to standard output, and not from here.
 
+use crate::contract::Components;
 use crate::report::digest::Tally;
 use crate::report::text::{Paint, Style, clean, paint_of};
 use crate::run::{Event, RunRecord, Status, TrialRecord};
@@ -25,6 +26,8 @@ pub(crate) struct Progress {
     longest_core: usize,
     /// Cores that fail to start: they are told of once.
     absent: BTreeSet<String>,
+    /// Where to go on when the trials have ended; nowhere if the user wants quiet.
+    after: Option<Box<dyn Write>>,
 }
 
 enum Display {
@@ -53,12 +56,13 @@ impl Progress {
             }
             () => Display::Lines(Box::new(std::io::stderr())),
         };
-        Self::on(display)
+        let after = (!quiet).then(|| Box::new(std::io::stderr()) as Box<dyn Write>);
+        Self { after, ..Self::on(display) }
     }
 
     fn on(display: Display) -> Self {
         let (tally, absent) = (Tally::default(), BTreeSet::new());
-        Self { display, tally, ended: 0, planned: 0, longest_core: 0, absent }
+        Self { display, tally, ended: 0, planned: 0, longest_core: 0, absent, after: None }
     }
 
     pub(crate) fn hear(&mut self, event: Event<'_>) {
@@ -70,6 +74,18 @@ impl Progress {
                 }
             }
             Event::Ended { trial } => self.ended(trial),
+            Event::Transplanting { core, with } => self.transplanting(core, with),
+        }
+    }
+
+    /// The bars are gone by then: a line each tells that it goes on.
+    fn transplanting(&mut self, core: &str, with: Components) {
+        if let Some(out) = &mut self.after {
+            let what = match with.iter().count() {
+                1 | 2 => with.in_words(),
+                many => format!("{many} components together"),
+            };
+            print(out, &format!("failures of {} with the bench's {what}", clean(core)));
         }
     }
 

@@ -5,6 +5,7 @@ use super::progress::Progress;
 use super::say::{say, say_line};
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, CatalogError};
+use crate::contract::Components;
 use crate::cores::{CORES, CoreSpec};
 use crate::math::rng::Seed;
 use crate::project::Project;
@@ -35,11 +36,14 @@ pub(crate) struct RunArguments {
     /// Stop at the first failure.
     #[arg(long)]
     fail_fast: bool,
+    /// Components to take from the bench in place of the core's own: `--with box-test,bsdf`.
+    #[arg(long, value_name = "COMPONENTS", value_delimiter = ',', value_parser = component)]
+    with: Vec<Components>,
     /// Try again whenever a case, a scene or the core's file changes, what failed last first; ctrl-c ends.
     #[arg(long, conflicts_with_all = ["resume", "verbose", "strict"])]
     pub(crate) watch: bool,
     /// Resume an interrupted run; its request is read from its folder.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "cores", "budget", "seed", "fail_fast"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "cores", "budget", "seed", "fail_fast", "with"])]
     resume: Option<PathBuf>,
     /// Exit with code 3 if anything is inconclusive, skipped or blocked.
     #[arg(long)]
@@ -84,12 +88,13 @@ pub(crate) fn run(arguments: &RunArguments) -> Answer {
         CatalogError::Malformed(_) => Failure::request(error),
     })?;
     let runs = arguments.runs(&project);
-    let request = match &arguments.resume {
+    let (request, with) = match &arguments.resume {
         Some(folder) => request_of(folder, arguments.jobs)?,
-        None => arguments.request(),
+        None => (arguments.request(), arguments.with.iter().copied().collect()),
     };
     let hosting = arguments.hosting.hosting(&runs);
-    let plan = Plan::new(project, request, &cases).map_err(Failure::nothing)?.hosted(hosting);
+    let plan = Plan::new(project, request, &cases).map_err(Failure::nothing)?;
+    let plan = plan.hosted(hosting).taking(with);
     let mut progress = Progress::new(arguments.quiet);
     let mut listen = |event: run::Event<'_>| progress.hear(event);
     let folder = match &arguments.resume {
@@ -122,17 +127,27 @@ impl RunArguments {
 }
 
 /// What a run was asked, from its own folder.
-fn request_of(folder: &Path, jobs: usize) -> Result<Request, Failure> {
+fn request_of(folder: &Path, jobs: usize) -> Result<(Request, Components), Failure> {
     let record: RunRecord =
         record::read_json(&folder.join("run.json")).map_err(Failure::request)?;
     let cores = record.cores.iter().map(|core| core.spec.parse());
-    Ok(Request {
+    let request = Request {
         cores: cores.collect::<Result<_, _>>().map_err(Failure::request)?,
         filters: record.filters,
         budget: record.budget,
         seed: Seed(record.seed),
         jobs,
         fail_fast: record.fail_fast,
+    };
+    Ok((request, record.with))
+}
+
+/// The component of this name.
+fn component(word: &str) -> Result<Components, String> {
+    let hint = || did_you_mean(word, Components::all().names().iter().map(String::as_str));
+    Components::from_names(&[word.to_owned()]).map_err(|problem| match hint() {
+        Some(hint) => format!("{problem}\nhint: {hint}"),
+        None => format!("{problem}: there are {}", Components::all().names().join(", ")),
     })
 }
 

@@ -9,6 +9,7 @@
 
 pub(crate) mod given;
 mod table;
+pub(crate) mod taken;
 
 pub use table::{CORE, CoreTable};
 
@@ -217,6 +218,12 @@ structs! {
         split: u32,
         max_leaf_size: u32,
         counted: *const CountedTests,
+        bench: *mut Built,
+    }
+    Taken = "furnace_components" {
+        struct_size: u32,
+        taken: u32,
+        bench: *const CoreTable,
     }
     Integrator = "furnace_integrator" {
         struct_size: u32,

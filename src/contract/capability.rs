@@ -1,10 +1,10 @@
 //! What a core can be asked, and what it may freely choose.
 
+use super::Components;
 use super::questions::questions;
 use crate::math::Precision;
 use bitflags::bitflags;
-use serde::de::Error;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 /// The bits that the table of questions names, and those of what is not asked but honoured. Only their names cross.
 macro_rules! capabilities {
@@ -59,37 +59,46 @@ impl Capabilities {
     /// What the contract leaves free unless a core promises it: whoever promises nothing is told, and not graded.
     pub(crate) const PROMISES: Self =
         Self::INDEPENDENT_PIXELS.union(Self::INDEPENDENT_SAMPLES).union(Self::PLAIN_ESTIMATORS);
-
-    /// The names of the single capabilities in `self`, as users write them: `generate-rays`.
-    pub fn names(self) -> Vec<String> {
-        self.iter_names().map(|(name, _)| name.to_lowercase().replace('_', "-")).collect()
-    }
-
-    /// The capabilities of these names.
-    ///
-    /// # Errors
-    /// With the word that names none.
-    pub fn from_names(names: &[String]) -> Result<Self, String> {
-        names.iter().try_fold(Self::empty(), |all, name| {
-            let flag = Self::from_name(&name.to_uppercase().replace('-', "_"));
-            flag.map(|flag| all | flag).ok_or_else(|| format!("there is no capability `{name}`"))
-        })
-    }
 }
 
-/// They cross by their names.
-impl Serialize for Capabilities {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.names().serialize(serializer)
-    }
-}
+/// Flags that cross by their names, written as users write them.
+macro_rules! by_names {
+    ($flags:ident, $kind:literal) => {
+        impl $flags {
+            /// The names of the single flags in `self`, as users write them: `box-test`.
+            pub fn names(self) -> Vec<String> {
+                self.iter_names().map(|(name, _)| name.to_lowercase().replace('_', "-")).collect()
+            }
 
-impl<'de> Deserialize<'de> for Capabilities {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let names = Vec::<String>::deserialize(deserializer)?;
-        Self::from_names(&names).map_err(D::Error::custom)
-    }
+            /// The flags of these names.
+            ///
+            /// # Errors
+            /// With the word that names none.
+            pub fn from_names(names: &[String]) -> Result<Self, String> {
+                names.iter().try_fold(Self::empty(), |all, name| {
+                    let flag = Self::from_name(&name.to_uppercase().replace('-', "_"));
+                    let unknown = || format!("there is no {} `{name}`", $kind);
+                    flag.map(|flag| all | flag).ok_or_else(unknown)
+                })
+            }
+        }
+
+        impl serde::Serialize for $flags {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                self.names().serialize(serializer)
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $flags {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let names = Vec::<String>::deserialize(deserializer)?;
+                Self::from_names(&names).map_err(serde::de::Error::custom)
+            }
+        }
+    };
 }
+pub(super) use by_names;
+by_names! { Capabilities, "capability" }
 
 /// Who the core is. Shown on every report page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -100,6 +109,9 @@ pub struct CoreInfo {
     pub version: String,
     /// What it can be asked.
     pub capabilities: Capabilities,
+    /// What it can take from the bench.
+    #[serde(default, skip_serializing_if = "Components::is_empty")]
+    pub components: Components,
     /// The arithmetic it computes in.
     pub precision: Precision,
     /// What it has freely chosen.

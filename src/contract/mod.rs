@@ -23,6 +23,7 @@ pub mod argument;
 mod batch;
 mod breach;
 mod capability;
+mod components;
 pub mod crossing;
 mod error;
 mod film;
@@ -40,6 +41,7 @@ pub use capability::{
     Capabilities, Conventions, CoreInfo, EmissionSides, Falloff, GlassFresnel, GlassRadiance,
     SmithTerm,
 };
+pub use components::Components;
 pub use error::{CoreError, Result};
 pub use film::Film;
 pub use settings::{
@@ -72,6 +74,16 @@ macro_rules! unsupported {
 pub trait Core: Send {
     /// Who the core is, what it can do, and which conventions it follows.
     fn info(&self) -> CoreInfo;
+
+    /// From now on, work with these components of the bench in place of its own, and with its own for all others.
+    /// Asked before anything else, of cores whose [`CoreInfo::components`] has them.
+    ///
+    /// # Errors
+    /// [`CoreError::Unsupported`], unless the core can.
+    fn take_components(&mut self, components: Components) -> Result<()> {
+        let _ = components;
+        Err(CoreError::Unsupported(Capabilities::empty()))
+    }
 
     each_question! { Core unsupported () }
 

@@ -8,7 +8,7 @@
 use super::answer::{Answer, Asked};
 use super::argument::{Argument, needed_by, size_of_answer};
 use super::question::*;
-use super::{Acceleration, BuildStats, Built, BuiltScene, Core, CoreInfo};
+use super::{Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// A core whose answers have the contract's form, or else are errors.
@@ -58,6 +58,10 @@ macro_rules! validated {
 impl Core for Validated<'_> {
     fn info(&self) -> CoreInfo {
         self.core.info()
+    }
+
+    fn take_components(&mut self, components: Components) -> Result<()> {
+        guarded("take_components", || self.core.take_components(components))
     }
 
     each_question! { Core validated (core) }
@@ -176,6 +180,14 @@ mod tests {
         let scene = SceneDescription { materials: vec![material], ..Default::default() };
         let built = core.build_scene(&scene, Acceleration::BruteForce).map(|_| ());
         assert_eq!(built, Err(refusal));
+    }
+
+    #[test]
+    fn a_core_takes_nothing_from_the_bench_unless_it_says_so() {
+        let mut core = Answers(|_| ());
+        assert_eq!(core.info().components, Components::empty());
+        let refusal = Validated::new(&mut core).take_components(Components::BOX_TEST);
+        assert_eq!(refusal, Err(CoreError::Unsupported(Capabilities::empty())));
     }
 
     #[test]

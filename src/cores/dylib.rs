@@ -1,26 +1,31 @@
 //! A core that is a shared library, called through the table of `include/furnace_core.h`.
 //!
-//! One of the two files with `unsafe`: everything that follows a foreign pointer is here. A library can do anything to
-//! the process it is loaded into, so a run loads it in a worker process (`cores::remote`) and never beside its own
-//! results. Not here: what the answers are worth (`contract::validate`), and what happens if none comes (`worker`).
+//! One of the files with `unsafe`: everything that follows a foreign pointer is here, or in `lent`, through which the core
+//! asks back. A library can do anything to the process it is loaded into, so a run loads it in a worker process
+//! (`cores::remote`) and never beside its own results. Not here: what the answers are worth (`contract::validate`), and
+//! what happens if none comes (`worker`).
 #![expect(unsafe_code, reason = "a shared library is called through C")]
 
 mod counted;
 mod declaration;
+mod lent;
 
 use crate::contract::abi::given::{self, Given, SceneTables, struct_size};
 use crate::contract::abi::{self, CoreTable, Traits};
 use crate::contract::answer::Batch;
 use crate::contract::question::*;
 use crate::contract::{
-    Acceleration, BuildStats, Built, BuiltScene, Core, CoreInfo, Precision, Split,
+    Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo, Precision, Split,
 };
+use crate::cores::textbook::World;
 use counted::CountedScene;
+use lent::Lent;
 use libloading::Library;
 use std::ffi::{CStr, c_char, c_void};
 use std::mem::{MaybeUninit, offset_of};
 use std::path::{Path, PathBuf};
 use std::ptr::{self, NonNull};
+use std::rc::Rc;
 
 /// Why a library is no core.
 #[derive(Debug, thiserror::Error)]
@@ -67,6 +72,9 @@ const LARGEST_TABLE: usize = 1 << 16;
 pub struct Dylib {
     table: CoreTable,
     info: CoreInfo,
+    /// What it has taken from the bench, and the bench's own, lent to it from then on.
+    taken: Components,
+    lent: Option<Lent>,
     /// The code behind the table.
     _library: Library,
 }
@@ -103,7 +111,7 @@ impl Dylib {
         let table = unsafe { entry(abi::ABI) };
         let table = read_table(path, table)?;
         let info = core_info(path, &table)?;
-        Ok(Self { table, info, _library: library })
+        Ok(Self { table, info, taken: Components::empty(), lent: None, _library: library })
     }
 
     /// What a call came to.
@@ -133,9 +141,15 @@ impl Dylib {
     }
 
     /// The table of counted tests that a core with that trait is handed.
-    fn counted_tests(&self, scene: &SceneDescription) -> Option<Box<CountedScene>> {
+    fn counted_tests(&self, scene: &SceneDescription) -> Option<CountedTests> {
         let traits = Traits::from_bits_truncate(self.table.traits);
-        traits.contains(Traits::COUNTED_TESTS).then(|| Box::new(CountedScene::new(scene)))
+        traits.contains(Traits::COUNTED_TESTS).then(|| CountedTests::new(scene))
+    }
+
+    /// The scene as the bench takes it in, for a core that has taken anything from it.
+    fn bench_scene(&self, scene: &SceneDescription, how: Acceleration) -> Option<Rc<World<'_>>> {
+        let lent = self.lent.as_ref().filter(|_| !self.taken.is_empty());
+        lent.map(|lent| lent.built(scene, how))
     }
 
     /// Whether the core declares what an ordinary BVH request does not need.
@@ -192,6 +206,10 @@ fn core_info(path: &Path, table: &CoreTable) -> std::result::Result<CoreInfo, Lo
         name: text(table.name).unwrap_or_else(|| "(no name)".to_owned()),
         version: text(table.version).unwrap_or_else(|| "(no version)".to_owned()),
         capabilities: declaration::capabilities(table),
+        components: match table.take_components {
+            Some(_) => Components::from_bits_truncate(table.components),
+            None => Components::empty(),
+        },
         precision: if single { Precision::Single } else { Precision::Double },
         conventions,
     })
@@ -259,6 +277,22 @@ impl Core for Dylib {
         self.info.clone()
     }
 
+    fn take_components(&mut self, components: Components) -> Result<()> {
+        let lent = self.lent.get_or_insert_with(|| Lent::new(self.info.conventions));
+        let taken = abi::Taken {
+            struct_size: struct_size::<abi::Taken>(),
+            taken: components.bits(),
+            bench: lent.table(),
+        };
+        self.taken = components;
+        let Some(take) = self.table.take_components else {
+            return Err(CoreError::Unsupported(Capabilities::empty()));
+        };
+        // SAFETY: the header gives the function this type; what it is handed lives as long as the core.
+        let status = unsafe { take(self.table.this, &raw const taken) };
+        self.answered(Capabilities::empty(), status)
+    }
+
     each_question! { PlainCore called (;) }
 
     fn intersect_primitive(
@@ -295,8 +329,12 @@ impl Core for Dylib {
     fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
         self.can_build(how)?;
         let counted = self.counted_tests(scene);
-        let tests = counted.as_deref().map(tests_of);
-        let settings = given::build(how, tests.as_ref().map_or(ptr::null(), ptr::from_ref));
+        let bench = self.bench_scene(scene, how);
+        let settings = given::build(
+            how,
+            counted.as_ref().map_or(ptr::null(), |counted| Rc::as_ptr(&counted.table)),
+            bench.as_ref().map_or(ptr::null_mut(), lent::built_pointer),
+        );
         let tables = SceneTables::new(scene);
         let scene = tables.as_abi();
         let (mut built, mut stats) = (ptr::null_mut(), BuildStats::default());
@@ -308,7 +346,7 @@ impl Core for Dylib {
         )?;
         let built = NonNull::new(built)
             .ok_or_else(|| CoreError::breach("build returned FURNACE_OK without a scene"))?;
-        Ok(Box::new(BuiltDylib { core: self, built, stats, counted }))
+        Ok(Box::new(BuiltDylib { core: self, built, stats, counted, _bench: bench }))
     }
 }
 
@@ -318,7 +356,22 @@ struct BuiltDylib<'a> {
     built: NonNull<abi::Built>,
     stats: BuildStats,
     /// What the library was lent to count with; outlives what it built.
-    counted: Option<Box<CountedScene>>,
+    counted: Option<CountedTests>,
+    /// The same scene of the bench's own, lent as well.
+    _bench: Option<Rc<World<'a>>>,
+}
+
+/// The bench's ray tests of a scene, and the table through which a core calls them. C points to both.
+struct CountedTests {
+    scene: Rc<CountedScene>,
+    table: Rc<abi::CountedTests>,
+}
+
+impl CountedTests {
+    fn new(scene: &SceneDescription) -> Self {
+        let scene = Rc::new(CountedScene::new(scene));
+        Self { table: Rc::new(tests_of(&scene)), scene }
+    }
 }
 
 impl Drop for BuiltDylib<'_> {
@@ -334,7 +387,7 @@ impl BuiltDylib<'_> {
     /// The bench's own counts where the core was lent its tests, the core's word otherwise.
     fn counts(&self, reported: TraversalStats, rays: usize) -> TraversalStats {
         match &self.counted {
-            Some(counted) => counted.take_counts(rays as u64),
+            Some(counted) => counted.scene.take_counts(rays as u64),
             None => reported,
         }
     }
@@ -373,12 +426,11 @@ impl BuiltScene for BuiltDylib<'_> {
     }
 }
 
-/// The table through which a core calls back.
-fn tests_of(scene: &CountedScene) -> abi::CountedTests {
+fn tests_of(scene: &Rc<CountedScene>) -> abi::CountedTests {
     abi::CountedTests {
         struct_size: struct_size::<abi::CountedTests>(),
         reserved: 0,
-        bench: ptr::from_ref(scene).cast_mut().cast(),
+        bench: Rc::as_ptr(scene).cast_mut().cast(),
         primitive: counted_primitive,
         r#box: counted_box,
     }

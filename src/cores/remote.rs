@@ -5,7 +5,7 @@
 
 use crate::contract::answer::Answer as Filled;
 use crate::contract::question::*;
-use crate::contract::{Acceleration, BuildStats, Built, BuiltScene, Core, CoreInfo};
+use crate::contract::{Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo};
 use crate::worker::message::{Answer, Request, Told, Wanted};
 use crate::worker::narrow::narrow;
 use crate::worker::{Confinement, Launch, StartError, Worker, build_request};
@@ -19,6 +19,8 @@ const SEARCH: Duration = Duration::from_secs(10);
 pub struct Remote {
     launch: Launch,
     worker: Worker,
+    /// What made it take components of the bench, for workers that have to take them again.
+    taken: Option<Request<'static>>,
     /// What built the scene that there is, for workers that have to build it again.
     built: Option<Request<'static>>,
 }
@@ -29,7 +31,12 @@ impl Remote {
     /// # Errors
     /// If there is no process, or the core fails to start.
     pub(crate) fn start(launch: &Launch) -> std::result::Result<Self, StartError> {
-        Ok(Self { launch: launch.clone(), worker: Worker::start(launch)?, built: None })
+        Ok(Self {
+            launch: launch.clone(),
+            worker: Worker::start(launch)?,
+            taken: None,
+            built: None,
+        })
     }
 
     /// What the system enforces on it.
@@ -93,7 +100,8 @@ impl Remote {
     /// Whether a fresh worker dies of a part of the batch.
     fn dies_of(&self, request: &Request<'_>, wanted: &[Wanted<'_>], range: &Range<usize>) -> bool {
         let Ok(mut worker) = Worker::start(&self.launch) else { return false };
-        if self.built.as_ref().is_some_and(|build| worker.ask(build, &mut []).is_err()) {
+        let mut earlier = self.taken.iter().chain(&self.built);
+        if earlier.any(|request| worker.ask(request, &mut []).is_err()) {
             return false;
         }
         let memory = |array: &Wanted<'_>| vec![0; array.size_of_one() * range.len()];
@@ -123,6 +131,13 @@ macro_rules! sent_and_heard {
 impl Core for Remote {
     fn info(&self) -> CoreInfo {
         self.worker.info().clone()
+    }
+
+    fn take_components(&mut self, components: Components) -> Result<()> {
+        let request = Request::new("take_components").with("components", components);
+        self.worker.ask(&request, &mut [])?;
+        self.taken = Some(request);
+        Ok(())
     }
 
     each_question! { Core sent_and_heard () }

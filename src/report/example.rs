@@ -3,7 +3,7 @@
 use super::tree::RunTree;
 use crate::case::Tier;
 use crate::checks::{Finding, Measure, PictureRole};
-use crate::contract::{Capabilities, CoreInfo, Precision};
+use crate::contract::{Capabilities, Components, CoreInfo, Precision};
 use crate::image::{CHANNELS, Channel, Image, exr};
 use crate::math::rng::{Seed, uniform};
 use crate::run::record::{
@@ -131,6 +131,7 @@ impl Example {
             seed: 1,
             trials: trials.len(),
             fail_fast: false,
+            with: Components::empty(),
             machine: Machine {
                 system: "linux".to_owned(),
                 architecture: "x86_64".to_owned(),
@@ -197,6 +198,7 @@ pub(crate) fn trial(core: &str, case: &str) -> TrialRecord {
         tier: Tier::Graded,
         role: None,
         case_hash: format!("{:064x}", seed.child("case").0),
+        with: Components::empty(),
         scene: is_random
             .then(|| SceneStamp { name: name.to_owned(), hash: format!("{:064x}", seed.0), is_specular: false }),
         budget: Budget::Default,

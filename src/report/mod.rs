@@ -10,6 +10,7 @@ pub(crate) mod example;
 pub mod html;
 pub(crate) mod measure;
 pub mod text;
+mod transplants;
 pub(crate) mod tree;
 
 pub use text::{Style, summary};

@@ -4,10 +4,11 @@ use super::bench::Bench;
 use super::outcome::Outcome;
 use super::plan::Trial;
 use super::record::{self, SceneStamp, TrialRecord, TrialTiming};
+use super::schedule::Transplant;
 use crate::case::{Case, Tier};
 use crate::checks::{CheckError, Context, Finding, Picture};
 use crate::contract::validate::Validated;
-use crate::contract::{Capabilities, Core, CoreError};
+use crate::contract::{Capabilities, Components, Core, CoreError};
 use crate::cores::HostError;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
@@ -28,10 +29,28 @@ pub struct Ended {
 
 /// Runs one trial, whatever it rests on. Nothing is written.
 pub fn run_trial(bench: &Bench, trial: &Trial) -> Ended {
+    run_with(bench, trial, Components::empty())
+}
+
+/// Runs one trial with components of the bench in place of what is broken. It is blocked if the core cannot take them.
+pub(crate) fn run_transplanted(bench: &Bench, trial: &Trial, transplant: Transplant) -> Ended {
+    let Transplant { with, by } = transplant;
+    if !bench.takes(&trial.core).contains(with) {
+        return blocked(bench, trial, by);
+    }
+    run_with(bench, trial, with)
+}
+
+/// Runs one trial with components of the bench.
+pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended {
     let started = Instant::now();
-    let (attempt, printed) = attempt_hosted(bench, trial);
+    let (attempt, printed) = attempt_hosted(bench, trial, with);
     let mut record = record_of(bench, trial, attempt.outcome);
     record.tier = attempt.tier;
+    record.with = with;
+    if !with.is_empty() {
+        record.rerun += &format!(" --with {}", with.names().join(","));
+    }
     record.scene = attempt.scene;
     record.keep_printed(&printed);
     record.timing.seconds = started.elapsed().as_secs_f64();
@@ -39,7 +58,7 @@ pub fn run_trial(bench: &Bench, trial: &Trial) -> Ended {
 }
 
 /// Brings up the core of a trial, and puts the case to it. Also answers what the core printed.
-fn attempt_hosted(bench: &Bench, trial: &Trial) -> (Attempt, String) {
+fn attempt_hosted(bench: &Bench, trial: &Trial, with: Components) -> (Attempt, String) {
     let unfit = bench.unfit.get(trial.core.as_str());
     let hosted = match unfit {
         Some((error, printed)) => {
@@ -50,7 +69,10 @@ fn attempt_hosted(bench: &Bench, trial: &Trial) -> (Attempt, String) {
     };
     match hosted {
         Ok(mut hosted) => {
-            let attempt = attempt(bench, &trial.case, hosted.core_mut());
+            let attempt = match take(hosted.core_mut(), with) {
+                Ok(()) => attempt(bench, &trial.case, hosted.core_mut()),
+                Err(error) => Attempt::without_core(&trial.case, CheckError::Core(error)),
+            };
             (attempt, hosted.printed())
         }
         Err(HostError::Start(StartError::Core { error, printed })) => {
@@ -61,6 +83,17 @@ fn attempt_hosted(bench: &Bench, trial: &Trial) -> (Attempt, String) {
             String::new(),
         ),
     }
+}
+
+/// Puts components of the bench into the core; one that takes none is not even asked.
+fn take(core: &mut dyn Core, with: Components) -> Result<(), CoreError> {
+    if with.is_empty() {
+        return Ok(());
+    }
+    Validated::new(core).take_components(with).map_err(|error| match error {
+        CoreError::Unsupported(_) => CoreError::Beyond(format!("the bench's {}", with.in_words())),
+        other => other,
+    })
 }
 
 /// A trial that was not tried, since `by` failed.
@@ -82,6 +115,7 @@ fn record_of(bench: &Bench, trial: &Trial, outcome: Outcome) -> TrialRecord {
         role: case.role,
         case_hash: case.hash.clone(),
         scene: None,
+        with: Components::empty(),
         budget: bench.allowance.budget,
         seed: bench.seed_of(case).0,
         outcome,

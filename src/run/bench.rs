@@ -1,14 +1,14 @@
 //! What every trial of a run shares.
 
 use crate::case::Case;
-use crate::contract::CoreError;
-use crate::cores::Hosting;
+use crate::contract::{Components, CoreError};
+use crate::cores::{CoreSpec, Hosting};
 use crate::math::rng::Seed;
 use crate::scene::Library;
 use crate::stats::Allowance;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What every trial of a run shares.
 #[derive(Clone, Debug)]
@@ -21,11 +21,23 @@ pub struct Bench {
     pub(crate) hosting: Hosting,
     /// Cores that died before they said who they are: how, and what they printed. Nothing else is asked of them.
     pub(crate) unfit: BTreeMap<String, (CoreError, String)>,
+    /// What cores can take from the bench, of those that were asked.
+    pub(crate) takes: Arc<Mutex<BTreeMap<String, Components>>>,
 }
 
 impl Bench {
     /// The seed of a case: the same for every core.
     pub(crate) fn seed_of(&self, case: &Case) -> Seed {
         self.seed.child(&case.id)
+    }
+
+    /// What a core can take from the bench. It is started for that question once, where something has failed.
+    pub(crate) fn takes(&self, core: &CoreSpec) -> Components {
+        let mut takes = self.takes.lock().unwrap_or_else(PoisonError::into_inner);
+        let ask = || match self.hosting.host(core) {
+            Ok(mut hosted) => hosted.core_mut().info().components,
+            Err(_) => Components::empty(),
+        };
+        *takes.entry(core.to_string()).or_insert_with(ask)
     }
 }

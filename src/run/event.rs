@@ -1,6 +1,7 @@
 //! What a progress display hears while a run goes on.
 
 use super::record::{RunRecord, TrialRecord};
+use crate::contract::Components;
 use std::path::Path;
 
 /// Something happened in a run. Events come from one thread at a time.
@@ -21,6 +22,13 @@ pub enum Event<'a> {
         core: &'a str,
         /// Folder and claim.
         case: &'a str,
+    },
+    /// Failing cases are tried again with components of the bench.
+    Transplanting {
+        /// The core's specification.
+        core: &'a str,
+        /// In place of its own.
+        with: Components,
     },
     /// A trial ended, and its sidecar is on disk.
     Ended {

@@ -1,12 +1,12 @@
 //! Runs trials, several at a time; each result is written as soon as it is there.
 
-use super::attempt::{Ended, blocked, run_trial};
+use super::attempt::{Ended, blocked, run_transplanted, run_with};
 use super::bench::Bench;
 use super::event::Event;
-use super::outcome::Status;
+use super::outcome::Outcome;
 use super::plan::{Plan, Trial};
 use super::record::{self, PictureFile, RecordError, TrialRecord};
-use super::schedule::{Next, Schedule};
+use super::schedule::{Next, Schedule, Transplant};
 use crate::image::exr;
 use std::convert::Infallible;
 use std::path::Path;
@@ -44,21 +44,31 @@ pub(crate) fn run_trials<E>(
 /// One thread of a run: takes trials until none is left or nobody listens.
 fn work(bench: &Bench, plan: &Plan, schedule: &Schedule<'_>, sender: &mpsc::Sender<Message>) {
     while let Some(next) = schedule.next() {
-        let ended = match next {
-            Next::Try(number) => {
-                let trial = &plan.trials[number];
-                if sender.send(Message::Started(trial.clone())).is_err() {
+        let (number, transplant) = match next {
+            Next::Try(number) => (number, None),
+            Next::Transplanted(number, transplant) => (number, Some(transplant)),
+            Next::Blocked(number, by) => {
+                let ended = blocked(bench, &plan.trials[number], by);
+                if sender.send(Message::Ended(Box::new(ended))).is_err() {
                     return;
                 }
-                let ended = run_trial(bench, trial);
-                schedule.ended(number, ended.record.outcome.status());
-                if plan.request.fail_fast && ended.record.fails_the_core() {
-                    schedule.stop();
-                }
-                ended
+                continue;
             }
-            Next::Blocked(number, by) => blocked(bench, &plan.trials[number], by),
         };
+        let trial = &plan.trials[number];
+        if sender.send(Message::Started(trial.clone())).is_err() {
+            return;
+        }
+        let ended = match transplant {
+            None => run_with(bench, trial, plan.with),
+            Some(Transplant { with, by }) => {
+                run_transplanted(bench, trial, Transplant { with: with | plan.with, by })
+            }
+        };
+        schedule.ended(number, &ended.record.outcome);
+        if plan.request.fail_fast && ended.record.fails_the_core() {
+            schedule.stop();
+        }
         if sender.send(Message::Ended(Box::new(ended))).is_err() {
             return;
         }
@@ -71,7 +81,7 @@ pub(crate) fn run_into(
     plan: &Plan,
     bench: &Bench,
     todo: &[usize],
-    earlier: &[(usize, Status)],
+    earlier: &[(usize, Outcome)],
     folder: &Path,
     events: &mut dyn FnMut(Event<'_>),
 ) -> Result<Vec<TrialRecord>, RecordError> {

@@ -11,6 +11,7 @@ pub(crate) mod outcome;
 pub(crate) mod plan;
 pub mod record;
 mod schedule;
+mod search;
 
 pub use attempt::attempt;
 pub use attempt::{Attempt, Ended, run_trial};
@@ -21,6 +22,7 @@ pub use executor::run_in_memory;
 pub use outcome::{Outcome, Status};
 pub use plan::{Plan, Request, Trial};
 pub use record::{RecordError, RunRecord, TrialRecord};
+pub(crate) use search::{Transplanted, Transplants};
 
 use crate::contract::CoreError;
 use crate::cores::HostError;
@@ -91,11 +93,15 @@ fn carry_out(
     let todo: Vec<_> = (0..earlier.len()).filter(|number| earlier[*number].is_none()).collect();
     let mut records: Vec<_> = earlier.iter().flatten().cloned().collect();
     events(Event::Planned { run: &record, folder, already_done: records.len() });
-    let statuses = earlier.iter().map(|record| Some(record.as_ref()?.outcome.status()));
-    let done: Vec<_> = statuses.enumerate().filter_map(|(n, s)| Some((n, s?))).collect();
+    let outcomes = earlier.into_iter().map(|record| Some(record?.outcome));
+    let done: Vec<_> =
+        outcomes.enumerate().filter_map(|(n, outcome)| Some((n, outcome?))).collect();
     records.extend(executor::run_into(plan, bench, &todo, &done, folder, events)?);
     for core in &mut record.cores {
         core.diagnosis = Some(diagnose(core, &records));
+        if plan.searches && !plan.request.fail_fast && plan.with.is_empty() {
+            core.transplants = search::search(plan, bench, core, &records, events);
+        }
     }
     let before = record.timing.seconds.unwrap_or(0.0);
     record.timing.seconds = Some(before + clock.elapsed().as_secs_f64());
@@ -145,6 +151,7 @@ fn describe(plan: &Plan, cores: Vec<CoreRecord>, started: SystemTime) -> RunReco
         seed: plan.request.seed.0,
         trials: plan.trials.len(),
         fail_fast: plan.request.fail_fast,
+        with: plan.with,
         machine: Machine::this(),
         timing: RunTiming {
             started: started.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),

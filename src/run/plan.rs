@@ -2,6 +2,7 @@
 
 use super::bench::Bench;
 use crate::case::{Case, Filter, NothingSelected};
+use crate::contract::Components;
 use crate::cores::{CoreSpec, Hosting};
 use crate::math::rng::Seed;
 use crate::project::Project;
@@ -45,6 +46,10 @@ pub struct Plan {
     pub trials: Vec<Trial>,
     /// Where cores live.
     pub hosting: Hosting,
+    /// What every core is to take from the bench, whatever it is found to do wrong.
+    pub with: Components,
+    /// Whether a run with failures goes on to search for the components of the bench that mend them.
+    pub searches: bool,
 }
 
 /// One case on one core.
@@ -74,12 +79,25 @@ impl Plan {
                 selected.iter().map(|case| Trial { case: Arc::clone(case), core: core.clone() })
             })
             .collect();
-        Ok(Self { project, request, trials, hosting: Hosting::default() })
+        Ok(Self {
+            project,
+            request,
+            trials,
+            hosting: Hosting::default(),
+            with: Components::empty(),
+            searches: true,
+        })
     }
 
     /// The same with cores hosted so.
     pub fn hosted(mut self, hosting: Hosting) -> Self {
         self.hosting = hosting;
+        self
+    }
+
+    /// The same with these components of the bench in every core.
+    pub fn taking(mut self, with: Components) -> Self {
+        self.with = with;
         self
     }
 }
@@ -97,6 +115,7 @@ impl Plan {
             seed: self.request.seed,
             hosting: self.hosting(),
             unfit: BTreeMap::new(),
+            takes: Arc::default(),
         }
     }
 

@@ -10,9 +10,10 @@
 //! `timing`.
 
 use super::outcome::{Outcome, Status};
+use super::search::Transplants;
 use crate::case::{Role, Tier};
 use crate::checks::PictureRole;
-use crate::contract::{Conventions, CoreInfo, Precision};
+use crate::contract::{Components, Conventions, CoreInfo, Precision};
 use crate::diagnosis::Diagnosis;
 use crate::disk;
 use crate::stats::Budget;
@@ -42,6 +43,9 @@ pub struct RunRecord {
     /// Whether the run was to stop at the first graded failure. Trials without a sidecar were not run then.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) fail_fast: bool,
+    /// What every core was to take from the bench.
+    #[serde(default, skip_serializing_if = "Components::is_empty")]
+    pub(crate) with: Components,
     pub(crate) machine: Machine,
     pub(crate) timing: RunTiming,
 }
@@ -71,6 +75,9 @@ pub(crate) struct CoreRecord {
     pub(crate) version: String,
     pub(crate) precision: Precision,
     pub(crate) capabilities: Vec<String>,
+    /// What it can take from the bench.
+    #[serde(default, skip_serializing_if = "Components::is_empty")]
+    pub(crate) components: Components,
     /// What it has freely chosen.
     pub(crate) conventions: Conventions,
     /// What the system enforces on it; none for a core that lives in the bench's own process.
@@ -82,6 +89,9 @@ pub(crate) struct CoreRecord {
     /// What is wrong with it. None while the run has not ended.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) diagnosis: Option<Diagnosis>,
+    /// Which components of the bench mend its failures, if that was tried.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) transplants: Option<Transplants>,
 }
 
 impl CoreRecord {
@@ -92,10 +102,12 @@ impl CoreRecord {
             version: info.version.clone(),
             precision: info.precision,
             capabilities: info.capabilities.names(),
+            components: info.components,
             conventions: info.conventions,
             confinement: None,
             problem: None,
             diagnosis: None,
+            transplants: None,
         }
     }
 
@@ -155,6 +167,9 @@ pub struct TrialRecord {
     pub case_hash: String,
     /// The scene it names, if it names one.
     pub scene: Option<SceneStamp>,
+    /// What it took from the bench, since its own failed where the case rests on it.
+    #[serde(default, skip_serializing_if = "Components::is_empty")]
+    pub with: Components,
     /// How much was spent.
     pub budget: Budget,
     /// Seed of this trial.

@@ -22,6 +22,10 @@ pub fn serve(core: &mut dyn Core, channel: Channel) -> Served {
         outbox.number = number;
         match request.name() {
             "hello" => outbox.send(Answer::Core { core: core.info() }, &[])?,
+            "take-components" => match core.take_components(request.member("components")?) {
+                Ok(()) => outbox.send(Answer::Done, &[])?,
+                Err(error) => outbox.fail(error)?,
+            },
             "build" => {
                 let scene = scene::decode(&mut request)?;
                 let acceleration = request.member("acceleration")?;

@@ -62,6 +62,8 @@ fn cycle(
     };
     let scope = memory.restrict(&mut plan.trials);
     let started = SystemTime::now();
+    // Who watches waits for the next answer.
+    plan.searches = false;
     let folder = run::run(&plan, runs, &mut |_| ()).map_err(Failure::broken)?;
     let tree = RunTree::load(&folder).map_err(Failure::broken)?;
     report::html::write(&tree, &folder).map_err(Failure::broken)?;

@@ -296,13 +296,17 @@ fn sampler(sampler: Sampler) -> u32 {
     }
 }
 
-pub(crate) fn build(acceleration: Acceleration, counted: *const abi::CountedTests) -> abi::Build {
+pub(crate) fn build(
+    acceleration: Acceleration,
+    counted: *const abi::CountedTests,
+    bench: *mut abi::Built,
+) -> abi::Build {
     let (accelerate, split, max_leaf_size) = match acceleration {
         Acceleration::BruteForce => (0, abi::SPLIT_CORES_CHOICE, 0),
         Acceleration::Bvh { split, max_leaf_size } => (1, split_number(split), max_leaf_size),
     };
     let struct_size = struct_size::<abi::Build>();
-    abi::Build { struct_size, accelerate, split, max_leaf_size, counted }
+    abi::Build { struct_size, accelerate, split, max_leaf_size, counted, bench }
 }
 
 fn split_number(split: Split) -> u32 {

@@ -1,10 +1,10 @@
-//! The functions of a core, in the order of `furnace_core.h`: those of the table of questions, and five whose
-//! arguments C has in another form.
+//! The functions of a core, in the order of `furnace_core.h`: those of the table of questions, some with
+//! arguments that C has in another form, and what comes before every question.
 
 #![expect(missing_docs, reason = "the header documents the fields")]
 
 use super::given::Given;
-use super::{Build, Built, Camera as CameraInC, Conventions, Render, Scene, Status};
+use super::{Build, Built, Camera as CameraInC, Conventions, Render, Scene, Status, Taken};
 use crate::contract::BuildStats;
 use crate::contract::answer::Batch;
 use crate::contract::crossing::Layout;
@@ -33,6 +33,7 @@ functions! {
         scene: *const Scene, settings: *const Build, out: *mut *mut Built, stats: *mut BuildStats
     ) -> Status;
     Release(built: *mut Built);
+    TakeComponents(components: *const Taken) -> Status;
     RenderPicture(
         built: *mut Built, camera: *const CameraInC, settings: *const Render,
         pixels: *mut [f32; 3], sample_counts: *mut u32
@@ -67,13 +68,14 @@ macro_rules! core_table {
             abi: u32,
             struct_size: u32,
             traits: u32,
-            reserved: u32,
+            components: u32,
             conventions: Conventions,
             name: *const c_char,
             version: *const c_char,
             this: *mut c_void,
             last_error: Option<unsafe extern "C" fn(this: *mut c_void) -> *const c_char>,
             $($($c: Option<function!($kind $type $entry)>,)*)*
+            take_components: Option<TakeComponents>,
         }
     };
     ($($field:ident: $type:ty,)*) => {

@@ -35,8 +35,8 @@ mod tests;
 
 use crate::contract::{
     Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue, Built,
-    BuiltScene, Capabilities, Conventions, Core, CoreInfo, DirectionSample, Hit, Precision,
-    Primitive, Randomness, Ray, Result, Sampler,
+    BuiltScene, Capabilities, Components, Conventions, Core, CoreInfo, DirectionSample, Hit,
+    Precision, Primitive, Randomness, Ray, Result, Sampler,
 };
 use crate::scene::{self as description, Aabb, Camera, Material, SceneDescription};
 use camera::Pinhole;
@@ -89,6 +89,8 @@ impl Core for Builtin {
             name: "builtin".to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             capabilities: CAPABILITIES,
+            // Its components are inlined into one another, down to the SIMD kernel.
+            components: Components::empty(),
             precision: Precision::Single,
             conventions: Conventions::default(),
         }

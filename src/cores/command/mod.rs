@@ -17,8 +17,8 @@ pub(crate) use process::found;
 pub(crate) use program::{AdapterError, Program};
 
 use crate::contract::{
-    Acceleration, BuildStats, Built, BuiltScene, Capabilities, Core, CoreError, CoreInfo, Film,
-    Precision, RenderSettings, Result,
+    Acceleration, BuildStats, Built, BuiltScene, Capabilities, Components, Core, CoreError,
+    CoreInfo, Film, Precision, RenderSettings, Result,
 };
 use crate::image::encoding::Encoding;
 use crate::image::png::Picture as Codes;
@@ -45,6 +45,7 @@ impl Core for CommandCore {
             // What a program lacks is said of the scene that has it.
             capabilities: has
                 .fold(Capabilities::BUILD_SCENE | Capabilities::ROUGH_GLASS, Capabilities::union),
+            components: Components::empty(),
             precision: Precision::Single,
             conventions: adapter.conventions,
         }

@@ -51,23 +51,24 @@ pub(crate) mod variant;
 mod vertex;
 mod world;
 
+use crate::contract::question::*;
 use crate::contract::{
-    Acceleration, AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue,
-    BuildStats, Built, BuiltScene, Capabilities, Conventions, Core, CoreError, CoreInfo,
-    DirectionSample, Film, Hit, IntegratorSettings, LightSample, Precision, Primitive, Randomness,
-    Ray, RenderSettings, Result, Sampler, TraversalStats,
+    Acceleration, BuildStats, Built, BuiltScene, Components, Conventions, Core, CoreInfo, Precision,
 };
-use crate::scene::{Aabb, Camera, Material, SceneDescription};
-use glam::{DVec2, DVec3};
 use integrator::Integrator;
 use random::Random;
 use steps::{LESSON, Steps};
-use world::World;
+pub(crate) use world::World;
 
 /// The plain core, or a copy of it.
 #[derive(Clone, Debug)]
 pub(crate) struct Textbook {
+    /// As it is asked.
     steps: Steps,
+    /// As it is where it takes nothing from the bench.
+    own: Steps,
+    /// Without its faults: what the bench puts in their place.
+    right: Steps,
     info: CoreInfo,
 }
 
@@ -77,14 +78,50 @@ impl Textbook {
             name: "textbook".to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             capabilities: Capabilities::all(),
+            components: Components::all(),
             precision: Precision::Double,
             conventions: Conventions::default(),
         };
-        Self { steps: LESSON, info }
+        Self { steps: LESSON, own: LESSON, right: LESSON, info }
+    }
+
+    /// `scene`, taken in.
+    pub(crate) fn built(&self, scene: &SceneDescription, acceleration: Acceleration) -> World<'_> {
+        World::new(scene, acceleration, &self.steps)
     }
 }
 
+/// Lets a shared one answer.
+macro_rules! shared {
+    (() {
+        $(#[$doc:meta])* $can:ident $(= $bit:literal)?
+        fn $method:ident($($arg:ident: $ty:ty),*; $out:ident: &mut $answer:ty) -> $told:ty;
+    }) => {
+        fn $method(&mut self, $($arg: $ty,)* $out: &mut $answer) -> Result<$told> {
+            (&*self).$method($($arg,)* $out)
+        }
+    };
+}
+
 impl Core for Textbook {
+    fn info(&self) -> CoreInfo {
+        self.info.clone()
+    }
+
+    fn take_components(&mut self, components: Components) -> Result<()> {
+        self.steps = self.own.taking(components, &self.right);
+        Ok(())
+    }
+
+    each_question! { Core shared () }
+
+    fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
+        Ok(Box::new(self.built(scene, how)))
+    }
+}
+
+/// Nothing changes by being asked: many threads may ask one.
+impl Core for &Textbook {
     fn info(&self) -> CoreInfo {
         self.info.clone()
     }
@@ -170,13 +207,17 @@ impl Core for Textbook {
         answer(streams, means, |stream| adaptive::mean_of_stream(settings, stream, &self.steps));
         Ok(())
     }
-
-    fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
-        Ok(Box::new(World::new(scene, how, &self.steps)))
-    }
 }
 
 impl BuiltScene for World<'_> {
+    fn stats(&self) -> BuildStats {
+        self.build_stats()
+    }
+
+    each_question! { Scene shared () }
+}
+
+impl BuiltScene for &World<'_> {
     fn stats(&self) -> BuildStats {
         self.build_stats()
     }
@@ -200,11 +241,11 @@ impl BuiltScene for World<'_> {
         random: Randomness<'_>,
         samples: &mut [LightSample],
     ) -> Result<()> {
-        let lights = self.lights();
+        let lights = World::lights(self);
         let light = lights.get(light as usize).ok_or_else(|| {
             CoreError::Refused(format!("there is no light {light}, the scene has {}", lights.len()))
         })?;
-        let steps = self.steps();
+        let steps = World::steps(self);
         for (index, (from, sample)) in from.iter().zip(samples).enumerate() {
             let (point, lobe) = steps.callers_numbers(&random, index);
             *sample = light.sample(*from, point, lobe, steps).unwrap_or(LightSample::NONE);
@@ -219,7 +260,7 @@ impl BuiltScene for World<'_> {
         radiance: &mut [[f64; 3]],
     ) -> Result<()> {
         let integrator = Integrator::new(self, settings);
-        let steps = self.steps();
+        let steps = World::steps(self);
         let seed = steps.seed(settings.seed);
         render::fill(settings.threads, radiance, |index| {
             let mut random = Random::for_ray(seed, index).drawn_by(steps);

@@ -2,7 +2,7 @@
 
 use crate::contract::answer::Answer;
 use crate::contract::question::*;
-use crate::contract::{Acceleration, BuildStats, Built, BuiltScene, Core, CoreInfo};
+use crate::contract::{Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo};
 
 /// A core whose answers are those of another, rounded.
 pub(crate) struct Single<C>(pub(crate) C);
@@ -26,6 +26,10 @@ macro_rules! rounded {
 impl<C: Core> Core for Single<C> {
     fn info(&self) -> CoreInfo {
         self.0.info()
+    }
+
+    fn take_components(&mut self, components: Components) -> Result<()> {
+        self.0.take_components(components)
     }
 
     each_question! { Core rounded () }

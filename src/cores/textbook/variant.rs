@@ -3,7 +3,7 @@
 use super::different::{DIFFERENT, NOTHING};
 use super::steps::Steps;
 use super::{Textbook, fault, single};
-use crate::contract::{Core, CoreInfo, Precision};
+use crate::contract::{Conventions, Core, CoreInfo, Precision};
 
 /// What joins the names of changes that are on together.
 const AND: char = '+';
@@ -22,12 +22,23 @@ struct Change {
     name: &'static str,
     steps: &'static Steps,
     declares: fn(&mut CoreInfo),
+    is_right: bool,
 }
 
 fn changes() -> impl Iterator<Item = Change> {
-    let faults = fault::all().map(|fault| (fault.name, &fault.steps, NOTHING));
-    let choices = DIFFERENT.iter().map(|choice| (choice.name, &choice.steps, choice.declares));
-    faults.chain(choices).map(|(name, steps, declares)| Change { name, steps, declares })
+    let faults = fault::all().map(|fault| Change {
+        name: fault.name,
+        steps: &fault.steps,
+        declares: NOTHING,
+        is_right: false,
+    });
+    let choices = DIFFERENT.iter().map(|choice| Change {
+        name: choice.name,
+        steps: &choice.steps,
+        declares: choice.declares,
+        is_right: true,
+    });
+    faults.chain(choices)
 }
 
 /// The names of all changes: the words that may follow `textbook:`.
@@ -53,12 +64,37 @@ fn textbook(joined: &str) -> Result<Textbook, NoVariant<'_>> {
     for name in joined.split(AND) {
         let change = changes().find(|change| change.name == name);
         let change = change.ok_or(NoVariant::Unknown(name))?;
-        core.steps = core.steps.and(change.steps).map_err(|step| clash(&on, &change, step))?;
+        core.own = core.own.and(change.steps).map_err(|step| clash(&on, &change, step))?;
+        if change.is_right {
+            // No step of its own is taken already, or that had been a clash.
+            core.right = core.right.and(change.steps).unwrap_or(core.right);
+        }
         (change.declares)(&mut core.info);
         on.push(change);
     }
+    core.steps = core.own;
     core.info.name = format!("textbook:{joined}");
     Ok(core)
+}
+
+/// The core that is right and has chosen so.
+pub(crate) fn following(conventions: Conventions) -> Textbook {
+    let mut core = Textbook::new();
+    let plain = core.info.clone();
+    for choice in DIFFERENT {
+        let declared = |conventions| {
+            let mut info = CoreInfo { conventions, ..plain.clone() };
+            (choice.declares)(&mut info);
+            info.conventions
+        };
+        let says_something = declared(plain.conventions) != plain.conventions;
+        if says_something && declared(conventions) == conventions {
+            // What is declared by a field of its own replaces steps of its own.
+            core.steps = core.steps.and(&choice.steps).unwrap_or(core.steps);
+        }
+    }
+    core.info.conventions = conventions;
+    core
 }
 
 fn clash(on: &[Change], change: &Change, step: &'static str) -> NoVariant<'static> {
@@ -71,7 +107,9 @@ fn clash(on: &[Change], change: &Change, step: &'static str) -> NoVariant<'stati
 mod tests {
     use super::super::steps::LESSON;
     use super::*;
-    use crate::contract::{AdaptiveMean, AdaptiveSettings, BsdfQuery, BsdfValue, Ray, Sampler};
+    use crate::contract::{
+        AdaptiveMean, AdaptiveSettings, BsdfQuery, BsdfValue, Components, Ray, Sampler,
+    };
     use crate::scene::{Camera, Material, Surface};
     use glam::{DVec2, DVec3};
     use std::collections::BTreeSet;
@@ -127,6 +165,28 @@ mod tests {
                         the lesson";
         assert_eq!(clash.map(|clash| clash.to_string()), Some(expected.to_owned()));
         assert_eq!(core("fov-in-degrees+").err(), Some(NoVariant::Unknown("")));
+    }
+
+    #[test]
+    fn a_core_that_follows_conventions_has_the_steps_of_each() {
+        let declaring = "schlick-glass-outside+correlated-smith+no-falloff+unscaled-glass";
+        let chosen = textbook(declaring).expect("they replace different steps");
+        let following = following(chosen.info.conventions);
+        assert_eq!(following.steps.replaced(), chosen.steps.replaced());
+        assert_eq!(super::following(Conventions::default()).steps.replaced().0.len(), 0);
+    }
+
+    #[test]
+    fn a_fault_goes_with_its_component_and_a_choice_stays() {
+        let mut core =
+            textbook("brdf-without-pi+sphere-far-root+schlick-glass").expect("it exists");
+        let mut replaced_with = |components| {
+            core.take_components(components).expect("it takes all");
+            core.steps.replaced().0
+        };
+        assert_eq!(replaced_with(Components::BSDF).len(), 2, "a choice and the far root");
+        assert_eq!(replaced_with(Components::all()), ["fresnel"]);
+        assert_eq!(replaced_with(Components::empty()).len(), 3);
     }
 
     /// What a core says to a question of each part.

@@ -72,6 +72,9 @@ fn judgement(trial: &TrialRecord) -> Markup {
             h4 {
                 (badge(trial.outcome.status())) " " (trial.core)
                 span.faint { " · " (duration(trial.timing.seconds)) " · seed " (trial.seed) }
+                @if !trial.with.is_empty() {
+                    span.faint { " · with the bench's " (trial.with.in_words()) }
+                }
             }
             p.said { (trial.outcome.statement()) }
             @if let Some(finding) = trial.outcome.finding() {

@@ -8,6 +8,7 @@ use crate::case::Part;
 use crate::diagnosis::Headline;
 use crate::report::digest::{Tally, failures, slowest_first, weakest_first};
 use crate::report::measure::worst_first;
+use crate::report::transplants::sentences;
 use crate::report::tree::AbsentCore;
 use crate::run::{Status, TrialRecord};
 use crate::text::number::{duration, percent};
@@ -41,7 +42,7 @@ fn of_trials(view: &View<'_>) -> Option<Markup> {
     let causes = causes(view);
     match failures(view.tree).split_first() {
         Some(_) if causes.is_some() => causes,
-        Some((first, others)) => Some(failed(first, others)),
+        Some((first, others)) => Some(html! { (failed(first, others)) (transplants(view)) }),
         None if tally.total() == 0 => causes,
         None => {
             Some(html! { (not_failed(view, &tally)) @if let Some(causes) = causes { (causes) } })
@@ -85,11 +86,27 @@ fn causes(view: &View<'_>) -> Option<Markup> {
             @for (number, (core, headline)) in told.iter().take(CAUSES).enumerate() {
                 (cause::card(view.tree, core, headline, kicker(number, headline)))
             }
+            (transplants(view))
             @if !others.is_empty() {
                 div.card.first { (further(&others)) }
             }
         }
     })
+}
+
+/// What the bench's own components take away of the failures of each core.
+fn transplants(view: &View<'_>) -> Markup {
+    html! {
+        @for core in &view.tree.run.cores {
+            @let sentences = sentences(core);
+            @if !sentences.is_empty() {
+                div.card.first {
+                    p.kicker { b { "Proof. " } "Failures of " b { (core.name) } ", tried again" }
+                    ul { @for sentence in &sentences { li { (sentence) } } }
+                }
+            }
+        }
+    }
 }
 
 fn failed(first: &TrialRecord, others: &[&TrialRecord]) -> Markup {

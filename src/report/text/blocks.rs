@@ -8,7 +8,9 @@ use crate::checks::{Finding, Measure};
 use crate::diagnosis::Diagnosis;
 use crate::report::digest::{failures, in_order_of_parts, ungraded_failures};
 use crate::report::measure::{MeasureWords, worst_first};
+use crate::report::transplants::sentences;
 use crate::report::tree::{AbsentCore, RunTree};
+use crate::run::record::CoreRecord;
 use crate::run::{Outcome, Status, TrialRecord};
 use crate::stats::Verdict;
 use std::collections::BTreeMap;
@@ -25,6 +27,7 @@ const LAST_WORDS: usize = 3;
 pub(crate) fn all(tree: &RunTree, style: Style) -> Vec<String> {
     let diagnoses = tree.diagnoses();
     let mut lines = headlines::all(&diagnoses, style);
+    lines.extend(tree.run.cores.iter().flat_map(|core| transplants(core, style)));
     let (explained, alone): (Vec<_>, Vec<_>) =
         failures(tree).into_iter().partition(|trial| is_explained(&diagnoses, trial));
     let (shown, others) = explained.split_at(explained.len().min(BRIEF_BLOCKS));
@@ -41,6 +44,18 @@ pub(crate) fn all(tree: &RunTree, style: Style) -> Vec<String> {
     lines.extend(grouped(tree, Status::Blocked, style));
     lines.extend(grouped(tree, Status::Skipped, style));
     lines
+}
+
+/// What the bench's own components take away of a core's failures.
+fn transplants(core: &CoreRecord, style: Style) -> Vec<String> {
+    let sentences = sentences(core);
+    if sentences.is_empty() {
+        return Vec::new();
+    }
+    let word = style.paint(Paint::Strong, "PROOF");
+    let head = format!("  {word}  failures of {}, tried again", clean(&core.spec));
+    let told = sentences.iter().flat_map(|sentence| indented(&clean(sentence)));
+    [String::new(), head].into_iter().chain(told).collect()
 }
 
 /// A core that fails to start: why, and how to try that alone.

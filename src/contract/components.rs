@@ -1,0 +1,90 @@
+//! The components of a path tracer that a core may take from the bench, to be judged as if its own were right.
+//!
+//! What is transplanted is taken out of the question: a case that fails with a core's own box test and passes with
+//! the bench's is the box test's failure, by experiment. `docs/decisions/0012-transplants.md` says how.
+
+use super::capability::by_names;
+use bitflags::bitflags;
+
+bitflags! {
+    /// Components of a path tracer, each after those that it is made of.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub struct Components: u32 {
+        /// Where random numbers come from.
+        const RANDOM_NUMBERS = 1 << 0;
+        /// From a film point to a ray.
+        const CAMERA = 1 << 1;
+        /// A ray against one triangle, and the normals of the hit.
+        const TRIANGLE_TEST = 1 << 2;
+        /// A ray against one sphere, and the normal of the hit.
+        const SPHERE_TEST = 1 << 3;
+        /// A ray against one box.
+        const BOX_TEST = 1 << 4;
+        /// The nearest hit and any hit of a built scene.
+        const TRAVERSAL = 1 << 5;
+        /// Directions of the hemisphere, and their pdf.
+        const DIRECTION_SAMPLING = 1 << 6;
+        /// f, pdf and samples of every surface.
+        const BSDF = 1 << 7;
+        /// Directions towards lights, their radiance and pdf.
+        const LIGHT_SAMPLING = 1 << 8;
+        /// Emission that a ray meets.
+        const EMISSION = 1 << 9;
+        /// Light scattered once.
+        const DIRECT_LIGHTING = 1 << 10;
+        /// From bounce to bounce.
+        const PATH = 1 << 11;
+        /// From samples to a pixel, and when there are enough of them.
+        const PIXEL = 1 << 12;
+    }
+}
+by_names! { Components, "component" }
+
+impl Components {
+    /// As people read them: `box test and BSDF`.
+    pub(crate) fn in_words(self) -> String {
+        let words: Vec<_> = self.iter().map(Self::word).collect();
+        match words.split_last() {
+            Some((last, [])) => (*last).to_owned(),
+            Some((last, others)) => format!("{} and {last}", others.join(", ")),
+            None => String::new(),
+        }
+    }
+
+    /// The words for one.
+    fn word(self) -> &'static str {
+        match self {
+            Self::RANDOM_NUMBERS => "random numbers",
+            Self::CAMERA => "camera",
+            Self::TRIANGLE_TEST => "triangle test",
+            Self::SPHERE_TEST => "sphere test",
+            Self::BOX_TEST => "box test",
+            Self::TRAVERSAL => "traversal",
+            Self::DIRECTION_SAMPLING => "direction sampling",
+            Self::BSDF => "BSDF",
+            Self::LIGHT_SAMPLING => "light sampling",
+            Self::EMISSION => "emission",
+            Self::DIRECT_LIGHTING => "direct lighting",
+            Self::PATH => "path",
+            _ => "pixel",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn components_are_named_for_files_and_for_people() {
+        let two = Components::BOX_TEST | Components::BSDF;
+        assert_eq!(two.names(), ["box-test", "bsdf"]);
+        assert_eq!(Components::from_names(&two.names()), Ok(two));
+        assert_eq!(two.in_words(), "box test and BSDF");
+        let unknown = Components::from_names(&["box".to_owned()]);
+        assert_eq!(unknown, Err("there is no component `box`".to_owned()));
+        let words: std::collections::BTreeSet<_> =
+            Components::all().iter().map(Components::word).collect();
+        assert_eq!(words.len(), Components::all().iter().count());
+    }
+}

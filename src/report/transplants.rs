@@ -1,0 +1,92 @@
+//! What the bench's components have mended, in words; both reports say the same.
+
+use crate::run::record::CoreRecord;
+use crate::run::{Transplanted, Transplants};
+use crate::text::number::count;
+
+/// A sentence for each component, what they do together, and what none of them mends.
+pub(crate) fn sentences(core: &CoreRecord) -> Vec<String> {
+    let Some(transplants) = &core.transplants else { return Vec::new() };
+    let each = transplants.components.iter().map(|one| sentence(one, transplants));
+    each.chain(together(transplants)).chain(unmended(transplants)).collect()
+}
+
+/// `with the bench's box test in place of yours, 71 of 76 failures are gone`
+fn sentence(one: &Transplanted, of: &Transplants) -> String {
+    let component = one.component.in_words();
+    let (gone, failures) = (one.together.max(one.alone), of.failures);
+    let verb = if gone == 1 { "is" } else { "are" };
+    let mut words = format!(
+        "with the bench's {component} in place of yours, {gone} of {} {verb} gone",
+        count(failures, "failure")
+    );
+    if one.alone < one.together {
+        words += ", if the others are taken too";
+    }
+    if one.judged > 0 {
+        words += &format!(", and {} above it could be judged", count(one.judged, "case"));
+    }
+    words
+}
+
+fn together(of: &Transplants) -> Option<String> {
+    let set: crate::contract::Components = of.components.iter().map(|one| one.component).collect();
+    (of.components.len() > 1).then(|| {
+        let failures = count(of.failures, "failure");
+        format!("with the bench's {}, {} of {failures} are gone", set.in_words(), of.mended)
+    })
+}
+
+fn unmended(of: &Transplants) -> Option<String> {
+    let stays = match of.unmended.len() {
+        0 => return None,
+        1 => "1 failure stays".to_owned(),
+        many => format!("{many} failures stay"),
+    };
+    let why = match of.unfinished {
+        true => "the time for trying ran out",
+        false => "whatever is taken from the bench",
+    };
+    Some(format!("{stays}, {why}: {}", of.unmended.join(", ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::{Components, CoreInfo};
+
+    fn told(components: &[(Components, usize, usize, usize)], unmended: &[&str]) -> Vec<String> {
+        let one = |&(component, alone, together, judged): &(Components, usize, usize, usize)| {
+            Transplanted { component, alone, together, judged }
+        };
+        let mut core = CoreRecord::new("mine", &CoreInfo::default());
+        core.transplants = Some(Transplants {
+            failures: 76,
+            components: components.iter().map(one).collect(),
+            mended: 76 - unmended.len(),
+            unmended: unmended.iter().map(|&case| case.to_owned()).collect(),
+            unfinished: false,
+        });
+        sentences(&core)
+    }
+
+    #[test]
+    fn a_component_says_how_many_failures_it_takes_away() {
+        assert_eq!(
+            told(&[(Components::BOX_TEST, 71, 71, 12)], &["light/a", "light/b"]),
+            [
+                "with the bench's box test in place of yours, 71 of 76 failures are gone, and 12 cases above it could be \
+                 judged",
+                "2 failures stay, whatever is taken from the bench: light/a, light/b",
+            ]
+        );
+    }
+
+    #[test]
+    fn several_are_summed_up() {
+        let two = [(Components::BSDF, 70, 70, 0), (Components::BOX_TEST, 6, 6, 0)];
+        let told = told(&two, &[]);
+        assert_eq!(told.len(), 3);
+        assert_eq!(told[2], "with the bench's box test and BSDF, 76 of 76 failures are gone");
+    }
+}

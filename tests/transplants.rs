@@ -1,0 +1,122 @@
+//! What is broken is replaced by the bench's own, and everything above it is judged as if it were right.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod support;
+
+use furnace::case;
+use furnace::contract::Components;
+use furnace::cores::Hosting;
+use furnace::math::rng::Seed;
+use furnace::project::Project;
+use furnace::run::{Plan, Request, Status, TrialRecord, run_in_memory};
+use furnace::stats::Budget;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use support::{compile_core, cpp_compiler, root};
+
+fn plan(core: &str, filters: &[&str]) -> Plan {
+    let project = Project::at(env!("CARGO_MANIFEST_DIR"));
+    let cases = case::load_all(&project.cases()).unwrap();
+    let request = Request {
+        cores: vec![core.parse().unwrap()],
+        filters: filters.iter().map(|&word| word.to_owned()).collect(),
+        budget: Budget::Quick,
+        seed: Seed::SUITE,
+        jobs: 0,
+        fail_fast: false,
+    };
+    let program = env!("CARGO_BIN_EXE_furnace").into();
+    Plan::new(project, request, &cases).unwrap().hosted(Hosting { program, ..Hosting::default() })
+}
+
+/// The subjects of the cases that ended so.
+fn subjects(records: &[TrialRecord], status: Status) -> BTreeSet<&str> {
+    let ended = records.iter().filter(|record| record.outcome.status() == status);
+    ended.filter_map(|record| record.case.split('/').next()).collect()
+}
+
+#[test]
+fn two_mistakes_of_different_components_hide_nothing() {
+    let records =
+        run_in_memory(&plan("textbook:sphere-near-root-only+brdf-without-pi", &["!image"]));
+    let failed = subjects(&records, Status::Fail);
+    assert_eq!(subjects(&records, Status::Blocked), BTreeSet::new());
+    assert!(failed.is_subset(&["shape", "bsdf"].into()), "{failed:?}");
+    let with = |component| records.iter().filter(|record| record.with.contains(component)).count();
+    assert!(with(Components::SPHERE_TEST) > 10 && with(Components::BSDF) > 10);
+}
+
+#[test]
+fn a_third_mistake_above_two_others_is_seen() {
+    let three = "textbook:sphere-near-root-only+brdf-without-pi+roulette-not-divided";
+    let records = run_in_memory(&plan(three, &["!image"]));
+    let failures = records.iter().filter(|record| record.outcome.status() == Status::Fail);
+    let failures: Vec<_> = failures.map(|record| record.case.as_str()).collect();
+    assert!(failures.contains(&"integrator/russian-roulette-leaves-the-mean-unchanged"));
+    assert!(!failures.contains(&"integrator/furnace-matches-geometric-series"), "{failures:?}");
+}
+
+#[test]
+fn what_is_asked_for_is_taken_whatever_fails() {
+    let filter = "bsdf/diffuse-conserves-energy";
+    let wrong = plan("textbook:brdf-without-pi", &[filter]);
+    assert_eq!(run_in_memory(&wrong)[0].outcome.status(), Status::Fail);
+    let mended = run_in_memory(&wrong.taking(Components::BSDF));
+    assert_eq!(mended[0].outcome.status(), Status::Pass);
+    assert!(mended[0].rerun.ends_with(" --with bsdf"), "{}", mended[0].rerun);
+}
+
+#[test]
+fn a_core_that_takes_nothing_is_asked_for_nothing() {
+    let filter = "bsdf/diffuse-conserves-energy";
+    let refused = run_in_memory(&plan("builtin", &[filter]).taking(Components::BSDF));
+    assert_eq!(refused[0].outcome.statement(), "unsupported by the core: the bench's BSDF");
+}
+
+/// `examples/cpp` with one line in the place of another.
+fn mistaken(name: &str, file: &str, right: &str, wrong: &str) -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    for entry in std::fs::read_dir(root().join("examples/cpp")).unwrap() {
+        let path = entry.unwrap().path();
+        let mut text = std::fs::read_to_string(&path).unwrap();
+        if path.ends_with(file) {
+            assert!(text.contains(right), "{file} has no `{right}`");
+            text = text.replace(right, wrong);
+        }
+        std::fs::write(folder.join(path.file_name().unwrap()), text).unwrap();
+    }
+    let library: PathBuf = folder.join("core.so");
+    compile_core(&cpp_compiler(), &folder.join("pathtracer.cpp"), &library);
+    library.to_string_lossy().into_owned()
+}
+
+/// Something of every subject.
+const SOME: &[&str] = &["shape/ray", "bvh/", "sampling/", "bsdf/", "light/", "integrator/furnace"];
+
+#[test]
+fn a_mistake_behind_the_c_boundary_hides_nothing() {
+    let core =
+        mistaken("sphere", "shapes.hpp", "t = within(ray, middle - half_chord) ?", "t = true ?");
+    let records = run_in_memory(&plan(&core, SOME));
+    assert_eq!(subjects(&records, Status::Blocked), BTreeSet::new());
+    assert_eq!(subjects(&records, Status::Fail), ["shape"].into());
+    let with_sphere = |record: &&TrialRecord| record.with.contains(Components::SPHERE_TEST);
+    assert!(records.iter().filter(with_sphere).count() > 5);
+}
+
+#[test]
+fn a_right_core_stays_right_with_everything_of_the_bench() {
+    let right = mistaken("right", "shapes.hpp", "", "");
+    let all = Components::all() - Components::RANDOM_NUMBERS;
+    for taken in all.iter().chain([all]) {
+        let filters =
+            ["bvh/spheres", "light/sphere", "bsdf/rough", "integrator/furnace", "adaptive/"];
+        for record in run_in_memory(&plan(&right, &filters).taking(taken)) {
+            let status = record.outcome.status();
+            assert_ne!(status, Status::Fail, "{} with {:?}", record.case, taken.names());
+            assert_ne!(status, Status::Crashed, "{} with {:?}", record.case, taken.names());
+        }
+    }
+}

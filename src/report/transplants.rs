@@ -14,15 +14,18 @@ pub(crate) fn sentences(core: &CoreRecord) -> Vec<String> {
 /// `with the bench's box test in place of yours, 71 of 76 failures are gone`
 fn sentence(one: &Transplanted, of: &Transplants) -> String {
     let component = one.component.in_words();
-    let (gone, failures) = (one.together.max(one.alone), of.failures);
-    let verb = if gone == 1 { "is" } else { "are" };
-    let mut words = format!(
-        "with the bench's {component} in place of yours, {gone} of {} {verb} gone",
-        count(failures, "failure")
-    );
-    if one.alone < one.together {
-        words += ", if the others are taken too";
-    }
+    let gone = one.together;
+    let failures = count(of.failures, "failure");
+    let mut words = match (gone, one.alone < gone) {
+        (0, _) => format!("the bench's {component} is needed with the others"),
+        (1, false) => {
+            format!("with the bench's {component} in place of yours, 1 of {failures} is gone")
+        }
+        (_, false) => {
+            format!("with the bench's {component} in place of yours, {gone} of {failures} are gone")
+        }
+        _ => format!("with the bench's {component} and the others, {gone} of {failures} are gone"),
+    };
     if one.judged > 0 {
         words += &format!(", and {} above it could be judged", count(one.judged, "case"));
     }
@@ -37,17 +40,17 @@ fn together(of: &Transplants) -> Option<String> {
     })
 }
 
-fn unmended(of: &Transplants) -> Option<String> {
-    let stays = match of.unmended.len() {
-        0 => return None,
-        1 => "1 failure stays".to_owned(),
-        many => format!("{many} failures stay"),
+fn unmended(of: &Transplants) -> impl Iterator<Item = String> {
+    let stay = match of.unmended.len() {
+        0 => None,
+        1 => Some("1 failure stays".to_owned()),
+        many => Some(format!("{many} failures stay")),
     };
-    let why = match of.unfinished {
-        true => "the time for trying ran out",
-        false => "whatever is taken from the bench",
-    };
-    Some(format!("{stays}, {why}: {}", of.unmended.join(", ")))
+    let cases = of.unmended.join(", ");
+    let stay = stay.map(|stay| format!("{stay}, whatever is taken from the bench: {cases}"));
+    let untried =
+        (of.untried > 0).then(|| format!("of {} the time was too short to tell", of.untried));
+    stay.into_iter().chain(untried)
 }
 
 #[cfg(test)]
@@ -65,7 +68,7 @@ mod tests {
             components: components.iter().map(one).collect(),
             mended: 76 - unmended.len(),
             unmended: unmended.iter().map(|&case| case.to_owned()).collect(),
-            unfinished: false,
+            untried: 0,
         });
         sentences(&core)
     }

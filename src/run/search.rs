@@ -1,8 +1,8 @@
 //! Which components of the bench make the failures of a run go away: a cause by experiment.
 //!
-//! Each failing case is tried again with one component of the bench after another in place of the core's own, the
-//! lowest first; the components that mend the most are kept until no failure is left, or none is mended. Only for
-//! what no single one mends are all taken together, and then given back one by one.
+//! Components stand in an order, each after those that it is made of. Of each failing case the search finds the lowest
+//! one without which it still fails, however much below it is taken, by halving; then whether that one is enough alone,
+//! and if not, which of those below it are needed too.
 //!
 //! Not here: what is broken inside a component, which is what the cases of that component tell (`diagnosis`).
 
@@ -15,8 +15,10 @@ use super::record::{CoreRecord, TrialRecord};
 use crate::contract::Components;
 use crate::stats::{Allowance, Budget};
 use serde::{Deserialize, Serialize};
-use std::sync::Mutex;
+use std::cmp::Reverse;
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long the search may take for one core: about as long as the run before it, so that who waits for a wrong core
@@ -33,11 +35,16 @@ pub(crate) struct Transplants {
     pub(crate) components: Vec<Transplanted>,
     /// Failing cases that pass with all of them.
     pub(crate) mended: usize,
-    /// Failing cases that pass with none.
+    /// Failing cases that fail with everything that the core can take.
     pub(crate) unmended: Vec<String>,
-    /// Whether the time was over before everything was tried.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub(crate) unfinished: bool,
+    /// Failing cases of which the time was too short to tell.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub(crate) untried: usize,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+const fn is_zero(number: &usize) -> bool {
+    *number == 0
 }
 
 /// One component that mends failures.
@@ -48,7 +55,7 @@ pub(crate) struct Transplanted {
     pub(crate) component: Components,
     /// Failing cases that pass with it alone.
     pub(crate) alone: usize,
-    /// Of those that pass with the whole set, how many need it.
+    /// Failing cases that need it and pass with the whole set.
     pub(crate) together: usize,
     /// Cases above that were judged with it in the run.
     pub(crate) judged: usize,
@@ -65,43 +72,43 @@ pub(crate) fn search(
     let of_core = records.iter().filter(|record| record.core == core.spec);
     let ended: Vec<_> =
         of_core.filter_map(|record| Some((trial_of(plan, record)?, record))).collect();
-    let failing: Vec<_> = ended.iter().filter(|(_, record)| is_failure(record)).collect();
+    let mut failing: Vec<_> = ended.iter().filter(|(_, record)| is_failure(record)).collect();
     if failing.is_empty() || core.components.is_empty() {
         return None;
     }
+    // Should the time be too short, it is for the fewest.
+    failing.sort_by(|a, b| a.1.timing.seconds.total_cmp(&b.1.timing.seconds));
     let allowance = Allowance { budget: Budget::Quick, stops_at_failure: true };
     let bench = Bench { allowance, ..bench.clone() };
     let deadline = Instant::now() + LONGEST;
-    let passes = |(trial, record): &(&Trial, &TrialRecord), with: Components| {
-        let record = run_with(&bench, trial, record.with | with).record;
-        record.outcome.status() == Status::Pass
+    let passes = |number: usize, with: Components| {
+        let (trial, record) = failing[number];
+        let is_in_time = Instant::now() < deadline;
+        is_in_time.then(|| {
+            run_with(&bench, trial, record.with | with).record.outcome.status() == Status::Pass
+        })
     };
-    let mut mends = |with: Components, cases: &[usize]| {
-        if cases.is_empty() {
-            return Vec::new();
+    let mut tried = |with: Components, cases: &[usize]| {
+        if !cases.is_empty() {
+            events(Event::Transplanting { core: &core.spec, with });
         }
-        events(Event::Transplanting { core: &core.spec, with });
-        let one = |number: usize| Instant::now() < deadline && passes(failing[number], with);
-        in_parallel(plan.jobs(), cases, &one)
+        in_parallel(plan.jobs(), cases, &|number| passes(number, with))
     };
-    let found = smallest(core.components, failing.len(), &mut mends);
-    let case = |number: &usize| failing[*number].1.case.clone();
+    let found = smallest(core.components, failing.len(), &mut tried);
+    let judged =
+        |one: Components| ended.iter().filter(|(_, record)| record.with.contains(one)).count();
+    let of = |(component, alone, together)| Transplanted {
+        component,
+        alone,
+        together,
+        judged: judged(component),
+    };
     Some(Transplants {
         failures: failing.len(),
-        mended: failing.len() - found.unmended.len(),
-        unmended: found.unmended.iter().map(case).collect(),
-        unfinished: Instant::now() >= deadline,
-        components: found
-            .set
-            .into_iter()
-            .map(|mut transplanted| {
-                let with_it = |(_, record): &&(&Trial, &TrialRecord)| {
-                    record.with.contains(transplanted.component)
-                };
-                transplanted.judged = ended.iter().filter(with_it).count();
-                transplanted
-            })
-            .collect(),
+        components: found.set.into_iter().map(of).collect(),
+        mended: found.mended,
+        unmended: found.unmended.iter().map(|number| failing[*number].1.case.clone()).collect(),
+        untried: failing.len() - found.mended - found.unmended.len(),
     })
 }
 
@@ -114,17 +121,31 @@ fn is_failure(record: &TrialRecord) -> bool {
     record.outcome.status().is_failure()
 }
 
-/// Those of `cases` that `passes` says yes to.
+/// What came of trying some cases; those that there was no time for are in neither.
+#[derive(Debug, Default)]
+struct Tried {
+    passing: Vec<usize>,
+    failing: Vec<usize>,
+}
+
+/// Tries cases with these components.
+type Try<'a> = &'a mut dyn FnMut(Components, &[usize]) -> Tried;
+
+/// Tries `cases`, several at a time.
 fn in_parallel(
     jobs: usize,
     cases: &[usize],
-    passes: &(dyn Fn(usize) -> bool + Sync),
-) -> Vec<usize> {
-    let (next, passing) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    passes: &(dyn Fn(usize) -> Option<bool> + Sync),
+) -> Tried {
+    let (next, tried) = (AtomicUsize::new(0), Mutex::new(Tried::default()));
     let work = || {
         while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
-            if passes(*case) {
-                passing.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(*case);
+            let passes = passes(*case);
+            let mut tried = tried.lock().unwrap_or_else(PoisonError::into_inner);
+            match passes {
+                Some(true) => tried.passing.push(*case),
+                Some(false) => tried.failing.push(*case),
+                None => {}
             }
         }
     };
@@ -133,75 +154,82 @@ fn in_parallel(
             threads.spawn(work);
         }
     });
-    let mut passing = passing.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    passing.sort_unstable();
-    passing
+    tried.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What the search for the smallest set comes to; failing cases by their numbers.
+/// What the search comes to; failing cases by their numbers.
 #[derive(Debug, PartialEq)]
 struct Found {
-    set: Vec<Transplanted>,
+    /// Each component, how many cases it mends alone, and how many with the others.
+    set: Vec<(Components, usize, usize)>,
+    mended: usize,
     unmended: Vec<usize>,
 }
 
-/// Answers which of these failing cases pass with these components.
-type Mends<'a> = &'a mut dyn FnMut(Components, &[usize]) -> Vec<usize>;
-
-fn smallest(takes: Components, failures: usize, mends: Mends<'_>) -> Found {
-    let all: Vec<_> = (0..failures).collect();
-    let alone: Vec<_> = takes.iter().map(|one| (one, mends(one, &all))).collect();
-    let (mut set, left) = cover(&alone, all.clone());
-    let by_many = mends(takes, &left);
-    if !by_many.is_empty() {
-        set |= thinned(takes - set, set, &by_many, mends);
+fn smallest(takes: Components, failures: usize, try_cases: Try<'_>) -> Found {
+    let order: Vec<_> = takes.iter().collect();
+    let Tried { passing, failing: unmended } = try_cases(takes, &Vec::from_iter(0..failures));
+    let mut lowest = Vec::new();
+    halve(&order, 0..order.len(), passing, try_cases, &mut lowest);
+    let (mut set, mut found) = (Components::empty(), Vec::new());
+    for (place, cases) in &lowest {
+        let one = order[*place];
+        let Tried { passing: alone, failing: not_alone } = try_cases(one, cases);
+        let below = order[..*place].iter().copied().collect();
+        set |= one | needed(below, one, &not_alone, try_cases);
+        found.push((one, alone.len(), cases));
     }
-    let mended = mends(set, &all);
-    let needs = |one: Components, mends: Mends<'_>| match set == one {
-        true => mended.len(),
-        false => mended.len() - mends(set - one, &mended).len(),
-    };
-    let of =
-        |one: Components| alone.iter().find(|(other, _)| *other == one).map_or(0, |(_, m)| m.len());
-    let mut set: Vec<_> = set
-        .iter()
-        .map(|one| Transplanted {
-            component: one,
-            alone: of(one),
-            together: needs(one, mends),
-            judged: 0,
+    let all: Vec<_> = lowest.iter().flat_map(|(_, cases)| cases.iter().copied()).collect();
+    let mended = try_cases(set, &all).passing;
+    let of = |one: Components| {
+        let known = found.iter().find(|(other, ..)| *other == one);
+        known.map_or((one, 0, 0), |(_, alone, cases)| {
+            (one, *alone, cases.iter().filter(|case| mended.contains(case)).count())
         })
-        .collect();
-    set.sort_by_key(|transplanted| std::cmp::Reverse(transplanted.together));
-    let unmended = all.into_iter().filter(|case| !mended.contains(case)).collect();
-    Found { set, unmended }
+    };
+    let mut set: Vec<_> = set.iter().map(of).collect();
+    set.sort_by_key(|(_, _, together)| Reverse(*together));
+    Found { set, mended: mended.len(), unmended }
 }
 
-/// The one that mends the most of what is left, again and again; of equals the lowest. Also what none mends.
-fn cover(alone: &[(Components, Vec<usize>)], mut left: Vec<usize>) -> (Components, Vec<usize>) {
-    let mut set = Components::empty();
-    loop {
-        let mended = |of: &[usize]| left.iter().filter(|case| of.contains(case)).count();
-        let best = alone.iter().rev().max_by_key(|(_, of)| mended(of));
-        match best {
-            Some((one, of)) if mended(of) > 0 => {
-                set |= *one;
-                left.retain(|case| !of.contains(case));
-            }
-            _ => return (set, left),
+/// The place of the lowest component that each of `cases` needs, with everything below it taken. It lies in `range`:
+/// they pass with all up to its end, and fail with all up to its start.
+fn halve(
+    order: &[Components],
+    range: Range<usize>,
+    cases: Vec<usize>,
+    try_cases: Try<'_>,
+    found: &mut Vec<(usize, Vec<usize>)>,
+) {
+    match (cases.len(), range.len()) {
+        (0, _) => {}
+        (_, 1) => found.push((range.start, cases)),
+        _ => {
+            let middle = range.start + range.len() / 2;
+            let lower = order[..middle].iter().copied().collect();
+            let Tried { passing, failing } = try_cases(lower, &cases);
+            halve(order, range.start..middle, passing, try_cases, found);
+            halve(order, middle..range.end, failing, try_cases, found);
         }
     }
 }
 
-/// `more` without those that are not needed beside `set`: each is given back, the highest first.
-fn thinned(mut more: Components, set: Components, cases: &[usize], mends: Mends<'_>) -> Components {
-    let highest_first: Vec<_> = more.iter().collect();
-    for one in highest_first.into_iter().rev() {
-        if mends(set | (more - one), cases).len() == cases.len() {
-            more -= one;
+/// Which of `below` these cases need beside `one`: each is given back, the highest first.
+fn needed(
+    mut below: Components,
+    one: Components,
+    cases: &[usize],
+    try_cases: Try<'_>,
+) -> Components {
+    if cases.is_empty() {
+        return Components::empty();
+    }
+    for other in Vec::from_iter(below.iter()).into_iter().rev() {
+        if try_cases(one | (below - other), cases).passing.len() == cases.len() {
+            below -= other;
         }
     }
-    more
+    below
 }
 
 #[cfg(test)]
@@ -212,42 +240,49 @@ mod tests {
     const BSDF: Components = Components::BSDF;
     const PATH: Components = Components::PATH;
 
-    /// A core each of whose failing cases passes with all of these.
-    fn found(needs: &[Components]) -> Found {
-        let mut mends = |with: Components, cases: &[usize]| {
-            cases.iter().copied().filter(|case| with.contains(needs[*case])).collect()
+    /// A core each of whose failing cases passes with all of these; with nothing where there are none.
+    fn found(needs: &[Option<Components>]) -> Found {
+        let mut try_cases = |with: Components, cases: &[usize]| {
+            let passes = |case: &usize| needs[*case].is_some_and(|needs| with.contains(needs));
+            let (passing, failing) = cases.iter().partition(|case| passes(case));
+            Tried { passing, failing }
         };
-        smallest(Components::all(), needs.len(), &mut mends)
-    }
-
-    fn set(found: &Found) -> Vec<(Components, usize, usize)> {
-        found.set.iter().map(|one| (one.component, one.alone, one.together)).collect()
+        smallest(Components::all(), needs.len(), &mut try_cases)
     }
 
     #[test]
     fn one_component_that_mends_everything_is_all_there_is() {
-        assert_eq!(set(&found(&[BOX, BOX, BOX])), [(BOX, 3, 3)]);
+        assert_eq!(found(&[Some(BOX); 3]).set, [(BOX, 3, 3)]);
     }
 
     #[test]
     fn each_mistake_has_its_component_and_the_largest_comes_first() {
-        let found = found(&[BOX, BSDF, BSDF, PATH, BSDF]);
-        assert_eq!(set(&found), [(BSDF, 3, 3), (BOX, 1, 1), (PATH, 1, 1)]);
-        assert_eq!(found.unmended, [] as [usize; 0]);
+        let found = found(&[BOX, BSDF, BSDF, PATH, BSDF].map(Some));
+        assert_eq!(found.set, [(BSDF, 3, 3), (BOX, 1, 1), (PATH, 1, 1)]);
+        assert_eq!((found.mended, found.unmended.len()), (5, 0));
     }
 
     #[test]
     fn what_needs_two_is_mended_by_the_two_alone() {
-        let found = found(&[BOX | PATH, BOX | PATH]);
-        assert_eq!(set(&found), [(BOX, 0, 2), (PATH, 0, 2)]);
+        let found = found(&[Some(BOX | PATH); 2]);
+        assert_eq!(found.set, [(PATH, 0, 2), (BOX, 0, 0)]);
     }
 
     #[test]
     fn what_nothing_mends_is_said() {
-        let mut mends = |with: Components, cases: &[usize]| {
-            cases.iter().copied().filter(|case| *case == 1 && with.contains(BOX)).collect()
+        let found = found(&[None, Some(BOX), None]);
+        assert_eq!((found.set, found.unmended), (vec![(BOX, 1, 1)], vec![0, 2]));
+    }
+
+    #[test]
+    fn what_there_was_no_time_for_is_neither() {
+        let mut tries = 0;
+        let mut try_cases = |_: Components, cases: &[usize]| {
+            tries += 1;
+            let passing = if tries == 1 { cases.to_vec() } else { Vec::new() };
+            Tried { passing, failing: Vec::new() }
         };
-        let found = smallest(Components::all(), 3, &mut mends);
-        assert_eq!((set(&found), found.unmended), (vec![(BOX, 1, 1)], vec![0, 2]));
+        let found = smallest(Components::all(), 4, &mut try_cases);
+        assert_eq!(found, Found { set: Vec::new(), mended: 0, unmended: Vec::new() });
     }
 }

@@ -172,6 +172,8 @@ pub(crate) enum Feature {
     SphereLight,
     GlowingSurface,
     InwardSphere,
+    /// Light sampling of area lights by the pdf of directions; hemisphere sampling needs none.
+    AreaLightPdf,
 }
 
 /// Patterns with one group, a number.

@@ -106,7 +106,7 @@ impl Program {
         camera: &Camera,
         settings: &RenderSettings,
     ) -> Result<Rendered> {
-        if let Some(what) = self.lacking(scene) {
+        if let Some(what) = self.lacking(scene, settings.integrator.direct) {
             return Err(CoreError::Beyond(format!("{} has no {what}", self.adapter.name)));
         }
         let folder = tempfile::tempdir().map_err(|error| refused(&error))?;
@@ -197,9 +197,13 @@ impl Program {
     }
 
     /// What of the scene the program is known not to do.
-    fn lacking(&self, scene: &SceneDescription) -> Option<&'static str> {
+    fn lacking(&self, scene: &SceneDescription, direct: DirectSampling) -> Option<&'static str> {
         let lacks = |feature| self.adapter.lacks.contains(&feature);
-        features(scene).into_iter().find(|(feature, _)| lacks(*feature)).map(|(_, name)| name)
+        let sampled = direct == DirectSampling::Lights
+            && scene.lights.iter().any(|light| matches!(light, Light::Area { .. }));
+        let pdf = (Feature::AreaLightPdf, "area lights that are sampled by a pdf of directions");
+        let mut asked = sampled.then_some(pdf).into_iter().chain(features(scene));
+        asked.find(|(feature, _)| lacks(*feature)).map(|(_, name)| name)
     }
 
     fn run_of(&self, settings: &RenderSettings) -> Run {

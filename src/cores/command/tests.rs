@@ -143,6 +143,8 @@ fn what_is_beyond_the_program_or_the_format_is_skipped() {
     let lacks = ("\nruns", "\nlacks = [\"point-light\"]\nruns");
     let error = outcome(GOOD, lacks).unwrap_err();
     assert_eq!(error, CoreError::Beyond("sh has no point lights".to_owned()));
+    let lacks = ("\nruns", "\nlacks = [\"area-light-pdf\"]\nruns");
+    assert!(outcome(GOOD, lacks).is_ok(), "a point light has no pdf");
     let folder = tempfile::tempdir().unwrap();
     let error = render(&mut core(folder.path(), GOOD, ("", "")), "cap-cavity").unwrap_err();
     assert!(matches!(error, CoreError::Beyond(_)), "{error}");

@@ -21,6 +21,8 @@ const FULL_BLOCKS: usize = 5;
 const BRIEF_BLOCKS: usize = 6;
 /// Measures shown of a failure, the worst first.
 const MEASURES: usize = 4;
+/// Cases that were skipped for one reason which are named.
+const NAMES: usize = 3;
 /// Lines shown of what a core printed before it crashed.
 const LAST_WORDS: usize = 3;
 
@@ -208,12 +210,15 @@ fn grouped(tree: &RunTree, status: Status, style: Style) -> Vec<String> {
     for trial in in_order_of_parts(tree, status) {
         reasons.entry((&trial.core, reason(&trial.outcome))).or_default().push(&trial.case);
     }
+    let most = if status == Status::Skipped { NAMES } else { usize::MAX };
     let paragraph = |((core, reason), cases): ((&str, String), Vec<&str>)| {
         let what = format!("{} on {}: {reason}", cases.len(), clean(core));
         let mut what = wrap(&what, status.word().len() + 4).into_iter();
         let mut lines = head_of(status, &what.next().unwrap_or_default(), style);
         lines.extend(what.map(|line| format!("{:INDENT$}{line}", "")));
-        lines.extend(indented(&cases.join(", ")));
+        if cases.len() <= most {
+            lines.extend(indented(&cases.join(", ")));
+        }
         lines
     };
     reasons.into_iter().flat_map(paragraph).collect()

@@ -81,9 +81,12 @@ fn core_lines(tree: &RunTree, core: &CoreRecord, style: Style) -> Vec<String> {
 /// One part: its name, one cell a trial, how many pass, how long it took.
 fn part_lines(group: &PartGroup<'_>, bar: usize, style: Style) -> Vec<String> {
     let number = group.number.map_or_else(|| " ".to_owned(), |number| number.to_string());
-    let passes = Tally::of(group.trials.iter().copied()).count(Status::Pass);
-    let counts = format!("{passes} of {} pass", group.trials.len());
-    let mut rows = group.trials.chunks(LONGEST_BAR).map(|row| cells(row, bar, style));
+    // What a core cannot be asked says nothing about it.
+    let asked: Vec<_> =
+        group.trials.iter().copied().filter(|t| t.outcome.status() != Status::Skipped).collect();
+    let passes = Tally::of(asked.iter().copied()).count(Status::Pass);
+    let counts = format!("{passes} of {} pass", asked.len());
+    let mut rows = asked.chunks(LONGEST_BAR).map(|row| cells(row, bar, style));
     let first = rows.next().unwrap_or_default();
     let head = format!(
         "    {number} {:<25} {first}  {counts:>16} {:>9}",
@@ -112,7 +115,7 @@ fn legend(tree: &RunTree, style: Style) -> Vec<String> {
     let occurring = Tally::of(&tree.trials);
     let words: Vec<_> = occurring
         .iter()
-        .filter(|(status, _)| *status != Status::Pass)
+        .filter(|(status, _)| !matches!(status, Status::Pass | Status::Skipped))
         .map(|(status, _)| format!("{} {}", mark(status), status.word()))
         .collect();
     if words.is_empty() {

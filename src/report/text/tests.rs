@@ -73,7 +73,7 @@ fn a_failure_says_verdict_size_numbers_place_and_next_command() {
 #[test]
 fn every_way_to_end_is_named_with_its_trial() {
     let text = plain(Example::mixed());
-    let legend = "    x fail   ? inconclusive   - skipped   ~ blocked   ! crashed   @ timed out   \
+    let legend = "    x fail   ? inconclusive   ~ blocked   ! crashed   @ timed out   \
                   * broken\n";
     assert!(text.contains(legend), "{text}");
     for head in [

@@ -177,14 +177,19 @@ fn smallest(takes: Components, failures: usize, try_cases: Try<'_>) -> Found {
         let Tried { passing: alone, failing: not_alone } = try_cases(one, cases);
         let below = order[..*place].iter().copied().collect();
         set |= one | needed(below, one, &not_alone, try_cases);
-        found.push((one, alone.len(), cases));
+        found.push((one, alone, cases));
     }
     let all: Vec<_> = lowest.iter().flat_map(|(_, cases)| cases.iter().copied()).collect();
-    let mended = try_cases(set, &all).passing;
+    // Where there is no time left for all together, what was seen alone stands.
+    let Tried { passing: mut mended, failing: spoiled } = try_cases(set, &all);
+    let seen = found.iter().flat_map(|(_, alone, _)| alone.iter().copied());
+    mended.extend(seen.filter(|case| !spoiled.contains(case)));
+    mended.sort_unstable();
+    mended.dedup();
     let of = |one: Components| {
         let known = found.iter().find(|(other, ..)| *other == one);
         known.map_or((one, 0, 0), |(_, alone, cases)| {
-            (one, *alone, cases.iter().filter(|case| mended.contains(case)).count())
+            (one, alone.len(), cases.iter().filter(|case| mended.contains(case)).count())
         })
     };
     let mut set: Vec<_> = set.iter().map(of).collect();

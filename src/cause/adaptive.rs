@@ -91,4 +91,8 @@ causes! {
         "catastrophic cancellation: the variance is the difference of two nearly equal single-precision sums",
         at "the sums of samples and of their squares that a pixel keeps",
         fix "Keep the sums in double precision, or use Welford's running mean and variance (1962).";
+    LOOP_ENDLESS = "adaptive-loop-endless":
+        "the loop of adaptive sampling never ends: it does not stop at the maximum number of samples",
+        at "adaptive sampling, the condition of the loop over samples",
+        fix "End at the maximum number of samples, whatever the confidence interval is: NaN fails every comparison.";
 }

@@ -123,4 +123,12 @@ causes! {
         "the BVH degenerates into a list: box tests per ray grow linearly with the number of triangles",
         at "BVH construction, where a node is split",
         fix "Both sides of a split need their share of the primitives; a median split always gives it.";
+    RECURSION_ENDLESS = "bvh-recursion-endless":
+        "BVH construction recurses without end and overflows the stack, as where centroids are equal",
+        at "BVH construction, where primitives are divided between two children",
+        fix "If one side of a split is empty, divide the list in the middle, or make a leaf.";
+    ANY_HIT_CRASHES = "any-hit-crashes":
+        "the any-hit function of shadow rays crashes, the nearest-hit function does not",
+        at "the any-hit traversal of shadow rays",
+        fix "Visit children as the nearest-hit function does: leaves have none, and hit records may be null.";
 }

@@ -7,7 +7,7 @@
 use super::bounce_laws::{Channel, LAWS, Law, indirect};
 use super::evidence::measure;
 use super::readings::{Reading, channels, fails_as};
-use super::{Evidence, Suspicion};
+use super::{Degree, Evidence, Suspicion};
 use crate::case::{Role, Subject};
 use crate::cause::integrator;
 use crate::checks::Finding;
@@ -36,6 +36,7 @@ fn explain(evidence: &Evidence<'_>, role: Role) -> Vec<Suspicion> {
         evidence: vec![furnace.table(), law.words.to_owned()],
         ruled_out: furnace.ruled_out(law),
         weight,
+        degree: Degree::of_one_among(fitting.len()),
     };
     if fitting.is_empty() {
         let factor = furnace.constant_factor(case);
@@ -165,6 +166,7 @@ impl Furnace {
             evidence: vec![self.table(), "the same in all colours, and no power of k".to_owned()],
             ruled_out: vec!["a wrong weight of bounces (it would be a power of k)".to_owned()],
             weight: SHARED,
+            degree: Degree::LooksLike,
         })
     }
 
@@ -191,6 +193,7 @@ impl Furnace {
             evidence,
             ruled_out: vec!["the albedo twice or not at all (it would be coloured)".to_owned()],
             weight: SHARED,
+            degree: Degree::LooksLike,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What checks have recognised themselves: a formula that gives every wrong answer, a ratio with a name.
 
-use super::{Evidence, Suspicion};
+use super::{Degree, Evidence, Suspicion};
 use crate::cause;
 
 /// By how much each clue weighs less than the one before it.
@@ -20,6 +20,7 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
                 evidence: vec![format!("{}: {}", failure.case, clue.evidence)],
                 ruled_out: Vec::new(),
                 weight,
+                degree: Degree::of_one_among(finding.clues.len()),
             });
             weight *= NEXT;
         }

@@ -3,7 +3,7 @@
 
 use super::evidence::measure;
 use super::readings::{Reading, channels};
-use super::{Evidence, Suspicion};
+use super::{Degree, Evidence, Suspicion};
 use crate::case::Role;
 use crate::cause::{Cause, convention};
 use crate::contract::{EmissionSides, Falloff, GlassRadiance};
@@ -31,6 +31,7 @@ fn suspicion(cause: &'static Cause, case: &str, sentence: String) -> Suspicion {
         evidence: vec![sentence],
         ruled_out: Vec::new(),
         weight: 1.5,
+        degree: Degree::Named,
     }
 }
 

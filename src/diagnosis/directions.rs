@@ -3,7 +3,7 @@
 
 use super::bounces::{FURNACES, rows};
 use super::readings::channels;
-use super::{Evidence, Suspicion};
+use super::{Degree, Evidence, Suspicion};
 use crate::case::{Role, Subject};
 use crate::cause::integrator;
 
@@ -37,6 +37,7 @@ fn wrong_directions(evidence: &Evidence<'_>) -> Option<Suspicion> {
         ],
         ruled_out: vec!["a wrong weight of bounces (the furnace would see it)".to_owned()],
         weight: 1.0,
+        degree: Degree::LooksLike,
     })
 }
 
@@ -64,6 +65,7 @@ fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
         ],
         ruled_out: vec!["bounces in wrong directions (the cavity would see it)".to_owned()],
         weight: 1.0,
+        degree: Degree::LooksLike,
     })
 }
 

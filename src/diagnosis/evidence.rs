@@ -1,6 +1,6 @@
 //! What the rules see: the findings of one core in one run.
 
-use crate::case::{Part, Role, Subject, Tier};
+use crate::case::{Foundation, Part, Role, Subject, Tier};
 use crate::checks::{Finding, Measure};
 use crate::contract::Conventions;
 use crate::image::Channel;
@@ -15,6 +15,13 @@ pub(crate) enum Standing {
     Unknown,
 }
 
+/// How a core stopped answering.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ending<'a> {
+    Crashed { how: &'a str, during: &'a str },
+    TimedOut { during: &'a str },
+}
+
 #[derive(Clone, Debug)]
 pub(crate) struct Observation<'a> {
     /// Folder and claim.
@@ -24,7 +31,12 @@ pub(crate) struct Observation<'a> {
     pub(crate) role: Option<Role>,
     /// Whether its scene has a mirror or smooth glass.
     pub(crate) is_specular: bool,
+    /// What it rests on in the core: not what it took from the bench.
+    pub(crate) rests_on: Vec<Foundation>,
+    pub(crate) proves: &'a [Foundation],
     pub(crate) standing: Standing,
+    /// None where the core answered.
+    pub(crate) ending: Option<Ending<'a>>,
     pub(crate) finding: Option<&'a Finding>,
     pub(crate) rerun: &'a str,
     /// Seconds it took.
@@ -92,6 +104,16 @@ impl<'a> Evidence<'a> {
     /// Whether it was tried and did not fail: it passed, or noise left it open.
     pub(crate) fn has_withstood(&self, role: Role) -> bool {
         self.finding(role).is_some() && self.failed_finding(role).is_none()
+    }
+
+    pub(crate) fn rests_on(&self, case: &str) -> &[Foundation] {
+        self.observations.iter().find(|seen| seen.case == case).map_or(&[], |seen| &seen.rests_on)
+    }
+
+    /// What is proven by any of `cases`.
+    pub(crate) fn proven_by(&self, cases: &[String]) -> Vec<Foundation> {
+        let of_cases = self.observations.iter().filter(|seen| cases.iter().any(|c| c == seen.case));
+        of_cases.flat_map(|seen| seen.proves).copied().collect()
     }
 
     pub(crate) fn blocked_by(&self, cases: &[String]) -> usize {

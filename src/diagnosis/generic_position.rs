@@ -4,7 +4,7 @@
 //! tells them apart (1.795 and 1.922). The predictions are integrals over the light, checked by this file's test.
 
 use super::readings::{Reading, channels};
-use super::{Evidence, Suspicion};
+use super::{Degree, Evidence, Suspicion};
 use crate::case::Role;
 use crate::cause::{Cause, bsdf, light, sampling};
 use crate::text::number::figure;
@@ -90,6 +90,7 @@ fn explain(
         evidence: vec![sentence(signature, &readings)],
         ruled_out: ruled_out.clone(),
         weight,
+        degree: Degree::of_one_among(fitting.len()),
     };
     fitting.iter().map(suspicion).collect()
 }

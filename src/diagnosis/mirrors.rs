@@ -1,7 +1,7 @@
 //! Mirror and glass where everything else is right: only the path itself can meet a light there.
 
 use super::readings::fails_as;
-use super::{Evidence, Suspicion};
+use super::{Degree, Evidence, Suspicion};
 use crate::case::{Role, Subject};
 use crate::cause::integrator;
 use crate::checks::Finding;
@@ -29,6 +29,7 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
         evidence: vec!["emission seen in mirrors is 0 of what it should be".to_owned()],
         ruled_out: vec!["a bounce short (the furnace is right)".to_owned()],
         weight: 1.0,
+        degree: Degree::LooksLike,
     }]
 }
 

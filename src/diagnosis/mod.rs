@@ -11,7 +11,9 @@ mod bounce_laws;
 mod bounces;
 mod clues;
 mod conventions;
+mod differences;
 mod directions;
+mod endings;
 mod evidence;
 mod generic_position;
 mod mirrors;
@@ -22,10 +24,39 @@ mod shadows;
 #[cfg(test)]
 mod testing;
 
-pub(crate) use evidence::{Evidence, Observation, Standing};
+pub(crate) use evidence::{Ending, Evidence, Observation, Standing};
 pub(crate) use rank::{Diagnosis, Headline};
 
 use crate::cause::Cause;
+use serde::{Deserialize, Serialize};
+
+/// How sure a headline is of its cause.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Degree {
+    /// Where and by how much; no cause.
+    DiffersHere,
+    /// It fits, and others may too.
+    #[default]
+    LooksLike,
+    /// It alone predicts the numbers.
+    Named,
+}
+
+impl Degree {
+    /// Of one among `fitting` causes that predict the numbers.
+    pub(crate) const fn of_one_among(fitting: usize) -> Self {
+        if fitting == 1 { Self::Named } else { Self::LooksLike }
+    }
+
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            Self::DiffersHere => "differs here",
+            Self::LooksLike => "looks like",
+            Self::Named => "named",
+        }
+    }
+}
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Suspicion {
@@ -38,6 +69,7 @@ pub(crate) struct Suspicion {
     pub(crate) ruled_out: Vec<String>,
     /// How well it explains a case: 1 if it is the first thing to think of, less for each that comes before it.
     pub(crate) weight: f64,
+    pub(crate) degree: Degree,
 }
 
 pub(crate) struct Rule {

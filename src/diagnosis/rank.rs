@@ -1,7 +1,7 @@
 //! Suspicions become headlines: the earliest part that explains the most comes first, and failures that share a cause
 //! are told once.
 
-use super::{Evidence, Observation, Suspicion};
+use super::{Degree, Evidence, Observation, Suspicion, differences, endings};
 use crate::case::{Part, Tier};
 use crate::cause::{self, Cause};
 use serde::{Deserialize, Serialize};
@@ -10,13 +10,17 @@ use std::collections::BTreeMap;
 
 /// Sentences of evidence that a headline keeps.
 const EVIDENCE: usize = 4;
+/// Of the failures that rest on what a named cause breaks and that nothing else explains, it has to explain so many.
+const NAMED: f64 = 0.95;
 
 /// One cause and all that it explains, as `run.json` keeps it: in the words of the furnace that found it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Headline {
-    /// The name of the mistake in the glossary.
+    /// The name of the mistake in the glossary; empty where nothing in it explains these failures.
     pub(crate) cause: String,
+    #[serde(default)]
+    pub(crate) degree: Degree,
     /// The mistake as one sentence without full stop.
     pub(crate) mistake: String,
     pub(crate) look_at: String,
@@ -27,24 +31,67 @@ pub(crate) struct Headline {
     pub(crate) ruled_out: Vec<String>,
     /// The failing cases that it explains, the earliest part first.
     pub(crate) explains: Vec<String>,
-    /// Failing cases of the same and later parts that nothing explains: they may follow from it.
+    /// Failing cases that nothing explains and that rest on what these prove: they may follow from it.
     pub(crate) may_follow: Vec<String>,
     pub(crate) blocked: usize,
     /// The command that repeats the quickest of the failing cases.
     pub(crate) command: String,
 }
 
+impl Headline {
+    /// Graded failures that differ, and no cause yet.
+    pub(super) fn of(
+        evidence: &Evidence<'_>,
+        explains: Vec<String>,
+        mut sentences: Vec<String>,
+    ) -> Self {
+        sentences.dedup();
+        sentences.truncate(EVIDENCE);
+        Self {
+            degree: Degree::DiffersHere,
+            evidence: sentences,
+            blocked: evidence.blocked_by(&explains),
+            command: quickest(evidence, &explains),
+            explains,
+            ..Self::default()
+        }
+    }
+
+    /// The same with the words of a cause.
+    pub(super) fn because(self, cause: &Cause) -> Self {
+        Self {
+            cause: cause.name.to_owned(),
+            mistake: cause.headline.to_owned(),
+            look_at: cause.look_at.to_owned(),
+            fix: cause.fix.to_owned(),
+            ..self
+        }
+    }
+
+    /// One failure without a cause: its trial says all there is.
+    pub(crate) fn is_alone(&self) -> bool {
+        self.degree == Degree::DiffersHere && self.explains.len() == 1
+    }
+
+    fn keeps_its_name(&self) -> bool {
+        let (explained, others) = (self.explains.len() as f64, self.may_follow.len() as f64);
+        explained >= NAMED * (explained + others)
+    }
+}
+
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Diagnosis {
-    /// The causes, the one to look at first in front.
+    /// Crashes, then causes, then what merely differs: the one to look at first in front.
     pub(crate) headlines: Vec<Headline>,
+    /// Failing cases that no cause explains, though a headline may tell what they share.
     pub(crate) unexplained: Vec<String>,
 }
 
 impl Diagnosis {
+    /// The first cause of the glossary.
     pub(crate) fn first(&self) -> Option<&'static Cause> {
-        cause::find(&self.headlines.first()?.cause)
+        self.headlines.iter().find_map(|headline| cause::find(&headline.cause))
     }
 }
 
@@ -52,26 +99,31 @@ struct Candidate {
     cause: &'static Cause,
     evidence: Vec<String>,
     ruled_out: Vec<String>,
-    /// The failing cases, and how well each is explained.
-    cases: BTreeMap<String, f64>,
+    /// The failing cases, how well each is explained, and how surely.
+    cases: BTreeMap<String, (f64, Degree)>,
 }
 
 /// Takes the best candidate, then the best for what is left, until nothing is left; what counts comes before what
 /// does not.
 pub(crate) fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagnosis {
+    let mut headlines = endings::headlines(evidence);
     let mut candidates = collect(suspicions);
+    let answered = |seen: &&Observation<'_>| seen.ending.is_none();
     let case = |seen: &Observation<'_>| seen.case.to_owned();
     let suspected = |case: &String| candidates.iter().any(|c| c.cases.contains_key(case));
-    let (mut left, orphans): (Vec<_>, Vec<_>) = evidence.failures().map(case).partition(suspected);
+    let (mut left, orphans): (Vec<_>, Vec<_>) =
+        evidence.failures().filter(answered).map(case).partition(suspected);
     let mut beside: Vec<_> = evidence.failures_of_robustness().map(case).collect();
-    let mut headlines = Vec::new();
     while let Some(best) = best_of(&candidates, &left) {
         let mut candidate = candidates.swap_remove(best);
         absorb_the_vague(&mut candidate, &mut candidates);
         beside.retain(|case| !candidate.cases.contains_key(case));
         headlines.push(headline(evidence, Tier::Graded, candidate, &mut left));
     }
-    let unexplained = attribute(orphans, &mut headlines);
+    let orphans = attribute(evidence, orphans, &mut headlines);
+    headlines.extend(differences::headlines(evidence, &orphans));
+    let without_cause = headlines.iter().filter(|headline| headline.cause.is_empty());
+    let unexplained = without_cause.flat_map(|headline| headline.explains.clone()).collect();
     while let Some(best) = best_of(&candidates, &beside) {
         let candidate = candidates.swap_remove(best);
         headlines.push(headline(evidence, Tier::Robustness, candidate, &mut beside));
@@ -92,8 +144,9 @@ fn collect(suspicions: Vec<Suspicion>) -> Vec<Candidate> {
         candidate.evidence.extend(suspicion.evidence);
         candidate.ruled_out.extend(suspicion.ruled_out);
         for case in suspicion.cases {
-            let weight = candidate.cases.entry(case).or_insert(0.0);
+            let (weight, degree) = candidate.cases.entry(case).or_default();
             *weight = weight.max(suspicion.weight);
+            *degree = suspicion.degree.max(*degree);
         }
     }
     candidates
@@ -126,7 +179,7 @@ impl Merit {
         Some(Self {
             part: earliest.max(part_of_mistake(candidate.cause)),
             is_vague: cause::is_vague(candidate.cause),
-            weight: explained().map(|(_, weight)| weight).sum(),
+            weight: explained().map(|(_, (weight, _))| weight).sum(),
         })
     }
 
@@ -158,41 +211,39 @@ fn headline(
     let explains: Vec<String> =
         left.iter().filter(|case| candidate.cases.contains_key(*case)).cloned().collect();
     left.retain(|case| !explains.contains(case));
-    let blocked = evidence.blocked_by(&explains);
-    let command = quickest(evidence, &explains);
-    let Candidate { cause, evidence: mut sentences, mut ruled_out, .. } = candidate;
-    sentences.dedup();
-    sentences.truncate(EVIDENCE);
+    let degree = explains.iter().filter_map(|case| Some(candidate.cases.get(case)?.1)).max();
+    let Candidate { cause, evidence: sentences, mut ruled_out, .. } = candidate;
     ruled_out.dedup();
     ruled_out.truncate(EVIDENCE);
+    let degree = degree.unwrap_or_default();
     Headline {
-        cause: cause.name.to_owned(),
-        mistake: cause.headline.to_owned(),
-        look_at: cause.look_at.to_owned(),
-        fix: cause.fix.to_owned(),
         tier,
-        evidence: sentences,
+        degree,
         ruled_out,
-        explains,
-        may_follow: Vec::new(),
-        blocked,
-        command,
+        ..Headline::of(evidence, explains, sentences).because(cause)
     }
 }
 
-/// What no cause explains may follow from the one that explains the most, of those that show no later than it; of equals
-/// from the first. Answers what is left.
-fn attribute(orphans: Vec<String>, headlines: &mut [Headline]) -> Vec<String> {
+/// What no cause explains may follow from a headline whose cases prove what it rests on: of those from the one that
+/// explains the most, of equals from the first. Answers what is left.
+fn attribute(
+    evidence: &Evidence<'_>,
+    orphans: Vec<String>,
+    headlines: &mut [Headline],
+) -> Vec<String> {
+    let proven: Vec<_> = headlines.iter().map(|told| evidence.proven_by(&told.explains)).collect();
     let mut unexplained = Vec::new();
     for case in orphans {
-        let shows_before = |headline: &&mut Headline| {
-            headline.explains.iter().any(|other| Part::position(other) <= Part::position(&case))
-        };
-        let likely = headlines.iter_mut().rev().filter(shows_before);
-        match likely.max_by_key(|headline| headline.explains.len()) {
-            Some(headline) => headline.may_follow.push(case),
+        let rests_on = evidence.rests_on(&case);
+        let is_broken = |number: &usize| proven[*number].iter().any(|f| rests_on.contains(f));
+        let likely = (0..headlines.len()).rev().filter(is_broken);
+        match likely.max_by_key(|number| headlines[*number].explains.len()) {
+            Some(number) => headlines[number].may_follow.push(case),
             None => unexplained.push(case),
         }
+    }
+    for headline in headlines.iter_mut().filter(|headline| !headline.keeps_its_name()) {
+        headline.degree = headline.degree.min(Degree::LooksLike);
     }
     unexplained
 }
@@ -206,15 +257,37 @@ fn quickest(evidence: &Evidence<'_>, cases: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::case::Tier;
+    use crate::case::{Foundation, Tier};
     use crate::cause::{bsdf, bvh, integrator, light, shape};
-    use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, failing, passing};
+    use crate::diagnosis::{Degree, diagnose};
 
     #[test]
     fn nothing_failed_and_nothing_is_blamed() {
         let made = Made::new().with("bsdf/a", passing());
         assert_eq!(diagnose(&made.evidence()), super::Diagnosis::default());
+    }
+
+    #[test]
+    fn a_cause_that_alone_fits_is_named_and_one_among_others_is_looked_like() {
+        let both = failing("b").because(&bsdf::WITHOUT_PI, "y").because(&light::WORLD_COSINE, "z");
+        let shared = Made::new().with("light/a", both);
+        let degree = |made: &Made| diagnose(&made.evidence()).headlines[0].degree;
+        assert_eq!(degree(&shared), Degree::LooksLike);
+        let proven = shared.with("light/b", failing("a").because(&bsdf::WITHOUT_PI, "x"));
+        assert_eq!(degree(&proven), Degree::Named);
+    }
+
+    #[test]
+    fn a_cause_that_leaves_too_many_that_rest_on_it_loses_its_name() {
+        let made = Made::new()
+            .with("bsdf/a", failing("a").because(&bsdf::WITHOUT_PI, "x"))
+            .with("light/b", failing("who knows"))
+            .proving("bsdf/a", &[Foundation::Diffuse])
+            .resting("light/b", &[Foundation::Diffuse]);
+        let diagnosis = diagnose(&made.evidence());
+        assert_eq!(diagnosis.headlines[0].may_follow, ["light/b"]);
+        assert_eq!(diagnosis.headlines[0].degree, Degree::LooksLike);
     }
 
     #[test]
@@ -226,31 +299,38 @@ mod tests {
             .with("light/b", without_pi("b"))
             .with("light/c", failing("who knows"))
             .with("camera/d", failing("who knows"))
-            .blocked("image/e", "bsdf/a");
+            .blocked("image/e", "bsdf/a")
+            .proving("bsdf/a", &[Foundation::Diffuse])
+            .resting("light/c", &[Foundation::Diffuse]);
         let diagnosis = diagnose(&made.evidence());
-        let [first, second] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
+        let [first, second, third] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
         assert_eq!(first.cause, bsdf::WITHOUT_PI.name);
         assert_eq!(first.explains, ["bsdf/a", "light/b"]);
-        assert_eq!(first.may_follow, ["light/c"], "an earlier failure does not follow from it");
+        assert_eq!(first.may_follow, ["light/c"], "nothing else rests on it");
         assert_eq!(first.blocked, 1);
         assert_eq!(second.cause, integrator::ROULETTE_NOT_DIVIDED.name);
-        assert_eq!(diagnosis.unexplained, ["camera/d"]);
+        assert_eq!((&third.cause[..], third.degree), ("", Degree::DiffersHere));
+        assert_eq!(
+            (&third.explains, &diagnosis.unexplained),
+            (&diagnosis.unexplained, &vec!["camera/d".to_owned()])
+        );
     }
 
     #[test]
-    fn what_nothing_explains_may_follow_from_what_explains_the_most() {
+    fn what_nothing_explains_follows_only_from_what_it_rests_on() {
         let made = Made::new()
             .with("shape/a", failing("a").because(&shape::SPHERE_CANCELLATION, "x"))
             .with("light/b", failing("b").because(&bsdf::WITHOUT_PI, "y"))
             .with("light/c", failing("c").because(&bsdf::WITHOUT_PI, "y"))
             .with("integrator/d", failing("who knows"))
-            .with("bvh/e", failing("who knows"));
+            .with("adaptive/e", failing("who knows"))
+            .proving("shape/a", &[Foundation::Spheres])
+            .resting("integrator/d", &[Foundation::Spheres, Foundation::Glass]);
         let diagnosis = diagnose(&made.evidence());
-        let [first, second] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
-        assert_eq!(
-            (&first.may_follow[..], &second.may_follow[..]),
-            (&["bvh/e".to_owned()][..], &["integrator/d".to_owned()][..])
-        );
+        let [first, second, third] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
+        assert_eq!(first.may_follow, ["integrator/d"]);
+        assert!(second.may_follow.is_empty());
+        assert_eq!(third.explains, ["adaptive/e"]);
     }
 
     #[test]

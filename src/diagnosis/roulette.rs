@@ -2,7 +2,7 @@
 
 use super::evidence::measure;
 use super::readings::{Reading, channels};
-use super::{Evidence, Suspicion};
+use super::{Degree, Evidence, Suspicion};
 use crate::case::Role;
 use crate::cause::{Cause, integrator};
 use crate::checks::{Finding, Measure};
@@ -82,7 +82,11 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let Some(finding) = evidence.failed_finding(FURNACE) else { return Vec::new() };
     let rows = rows(finding);
     let fits = |law: &&Law| !rows.is_empty() && rows.iter().all(|row| row.admits(law));
-    LAWS.iter().filter(fits).map(|law| suspicion(evidence.case(FURNACE), law, &rows)).collect()
+    let fitting: Vec<_> = LAWS.iter().filter(fits).collect();
+    let degree = Degree::of_one_among(fitting.len());
+    let case = evidence.case(FURNACE);
+    let told = |law: &Law| Suspicion { degree, ..suspicion(case, law, &rows) };
+    fitting.into_iter().map(told).collect()
 }
 
 fn rows(finding: &Finding) -> Vec<Row> {
@@ -134,6 +138,7 @@ fn suspicion(case: &str, law: &Law, rows: &[Row]) -> Suspicion {
         evidence: vec![law.words.to_owned(), format!("red over right: {}", measured.join(" · "))],
         ruled_out: Vec::new(),
         weight: 1.0,
+        degree: Degree::Named,
     }
 }
 

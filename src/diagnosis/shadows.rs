@@ -2,7 +2,7 @@
 
 use super::evidence::measure;
 use super::readings::channels;
-use super::{Evidence, Suspicion};
+use super::{Degree, Evidence, Suspicion};
 use crate::case::{Role, Subject};
 use crate::cause::light;
 use crate::checks::{Finding, Measure};
@@ -66,6 +66,7 @@ fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
             "a wrong emission (hemisphere sampling finds all of it)".to_owned(),
         ],
         weight: 1.0,
+        degree: Degree::Named,
     })
 }
 
@@ -99,6 +100,7 @@ fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
         )],
         ruled_out: vec!["a wrong strength of lights (open light is right)".to_owned()],
         weight: 1.0,
+        degree: Degree::Named,
     })
 }
 
@@ -127,6 +129,7 @@ fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
         ],
         ruled_out: vec!["a wrong strength of lights (from afar it is right)".to_owned()],
         weight: 1.0,
+        degree: Degree::Named,
     })
 }
 

@@ -1,7 +1,7 @@
 //! Made-up findings for the tests of rules.
 
-use super::{Evidence, Observation, Standing, diagnose};
-use crate::case::{Role, Tier};
+use super::{Ending, Evidence, Observation, Standing, diagnose};
+use crate::case::{Foundation, Role, Tier};
 use crate::checks::{Finding, Measure};
 use crate::contract::Conventions;
 use crate::image::Channel;
@@ -40,13 +40,17 @@ pub(crate) struct Made {
     blocked: Vec<(String, String)>,
     robustness: Vec<String>,
     specular: Vec<String>,
+    resting: Vec<(String, Vec<Foundation>)>,
+    proving: Vec<(String, Vec<Foundation>)>,
+    ended: Vec<(String, Ending<'static>)>,
     pub(crate) conventions: Conventions,
 }
 
 impl Made {
     pub(crate) fn new() -> Self {
         let (findings, blocked, conventions) = Default::default();
-        Self { findings, blocked, robustness: Vec::new(), specular: Vec::new(), conventions }
+        let (robustness, specular, resting, proving, ended) = Default::default();
+        Self { findings, blocked, robustness, specular, resting, proving, ended, conventions }
     }
 
     pub(crate) fn with(mut self, case: impl Into<Name>, finding: Finding) -> Self {
@@ -63,6 +67,24 @@ impl Made {
     /// The same with a case whose scene has a mirror or smooth glass.
     pub(crate) fn in_a_specular_scene(mut self, case: &str) -> Self {
         self.specular.push(case.to_owned());
+        self
+    }
+
+    /// The same with what a case rests on.
+    pub(crate) fn resting(mut self, case: &str, on: &[Foundation]) -> Self {
+        self.resting.push((case.to_owned(), on.to_vec()));
+        self
+    }
+
+    /// The same with what a case proves.
+    pub(crate) fn proving(mut self, case: &str, foundations: &[Foundation]) -> Self {
+        self.proving.push((case.to_owned(), foundations.to_vec()));
+        self
+    }
+
+    /// The same with a case that the core did not answer.
+    pub(crate) fn ended(mut self, case: &str, ending: Ending<'static>) -> Self {
+        self.ended.push((case.to_owned(), ending));
         self
     }
 
@@ -95,8 +117,21 @@ impl Made {
             .blocked
             .iter()
             .map(|(case, by)| observation(case, Standing::Blocked(by.clone()), None));
-        Evidence::new(tried.chain(blocked).collect(), self.conventions)
+        let ended = self.ended.iter().map(|(case, ending)| Observation {
+            ending: Some(*ending),
+            ..observation(case, Standing::Failed, None)
+        });
+        let observed = tried.chain(blocked).chain(ended).map(|seen| Observation {
+            rests_on: of_case(&self.resting, seen.case).to_vec(),
+            proves: of_case(&self.proving, seen.case),
+            ..seen
+        });
+        Evidence::new(observed.collect(), self.conventions)
     }
+}
+
+fn of_case<'a>(known: &'a [(String, Vec<Foundation>)], case: &str) -> &'a [Foundation] {
+    known.iter().find(|(name, _)| name == case).map_or(&[], |(_, foundations)| foundations)
 }
 
 fn observation<'a>(
@@ -104,8 +139,19 @@ fn observation<'a>(
     standing: Standing,
     finding: Option<&'a Finding>,
 ) -> Observation<'a> {
-    let (tier, role, is_specular) = (Tier::Graded, None, false);
-    Observation { case, tier, role, is_specular, standing, finding, rerun: case, seconds: 1.0 }
+    Observation {
+        case,
+        tier: Tier::Graded,
+        role: None,
+        is_specular: false,
+        rests_on: Vec::new(),
+        proves: &[],
+        standing,
+        ending: None,
+        finding,
+        rerun: case,
+        seconds: 1.0,
+    }
 }
 
 pub(crate) fn failing(statement: &str) -> Finding {

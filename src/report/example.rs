@@ -197,6 +197,8 @@ pub(crate) fn trial(core: &str, case: &str) -> TrialRecord {
         check: "mean-radiance".to_owned(),
         tier: Tier::Graded,
         role: None,
+        rests_on: Vec::new(),
+        proves: Vec::new(),
         case_hash: format!("{:064x}", seed.child("case").0),
         with: Components::empty(),
         scene: is_random

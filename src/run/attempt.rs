@@ -113,6 +113,8 @@ fn record_of(bench: &Bench, trial: &Trial, outcome: Outcome) -> TrialRecord {
         check: case.check.name.to_owned(),
         tier: case.tier,
         role: case.role,
+        rests_on: super::schedule::of_case(bench, case).into_iter().collect(),
+        proves: case.proves.clone(),
         case_hash: case.hash.clone(),
         scene: None,
         with: Components::empty(),

@@ -2,7 +2,9 @@
 
 use super::record::CoreRecord;
 use super::{Outcome, Status, TrialRecord};
-use crate::diagnosis::{self, Diagnosis, Evidence, Observation, Standing};
+use crate::case::Foundation;
+use crate::contract::Components;
+use crate::diagnosis::{self, Diagnosis, Ending, Evidence, Observation, Standing};
 
 /// The causes of what failed on `core` among `trials`; those of other cores are left aside.
 pub(crate) fn diagnose<'a>(
@@ -25,10 +27,27 @@ fn observation(trial: &TrialRecord) -> Observation<'_> {
         tier: trial.tier,
         role: trial.role,
         is_specular: trial.scene.as_ref().is_some_and(|scene| scene.is_specular),
+        rests_on: of_the_core(&trial.rests_on, trial.with),
+        proves: &trial.proves,
         standing,
+        ending: ending(&trial.outcome),
         finding: trial.outcome.finding(),
         rerun: &trial.rerun,
         seconds: trial.timing.seconds,
+    }
+}
+
+/// Of what a case rests on, what was the core's own: by what it took from the bench it cannot fail.
+fn of_the_core(rests_on: &[Foundation], with: Components) -> Vec<Foundation> {
+    let is_own = |foundation: &Foundation| !with.contains(foundation.components());
+    rests_on.iter().copied().filter(is_own).collect()
+}
+
+fn ending(outcome: &Outcome) -> Option<Ending<'_>> {
+    match outcome {
+        Outcome::Crashed { how, during } => Some(Ending::Crashed { how, during }),
+        Outcome::TimedOut { during, .. } => Some(Ending::TimedOut { during }),
+        _ => None,
     }
 }
 
@@ -36,5 +55,17 @@ fn unknown(trial: &TrialRecord) -> Standing {
     match &trial.outcome {
         Outcome::Blocked { by } => Standing::Blocked(by.clone()),
         _ => Standing::Unknown,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_follows_from_what_was_taken_from_the_bench() {
+        let (hits, seeds) = (Foundation::Hits, Foundation::Seeds);
+        assert_eq!(of_the_core(&[seeds, hits], Components::empty()), [seeds, hits]);
+        assert_eq!(of_the_core(&[seeds, hits], hits.components()), [seeds]);
     }
 }

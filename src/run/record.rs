@@ -11,7 +11,7 @@
 
 use super::outcome::{Outcome, Status};
 use super::search::Transplants;
-use crate::case::{Role, Tier};
+use crate::case::{Foundation, Role, Tier};
 use crate::checks::PictureRole;
 use crate::contract::{Components, Conventions, CoreInfo, Precision};
 use crate::diagnosis::Diagnosis;
@@ -163,6 +163,12 @@ pub struct TrialRecord {
     /// What the case shows to the rules of the diagnosis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub role: Option<Role>,
+    /// What it rests on, by its file and its scene.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) rests_on: Vec<Foundation>,
+    /// What is proven where it passes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) proves: Vec<Foundation>,
     /// SHA-256 of the case file's text, hex.
     pub case_hash: String,
     /// The scene it names, if it names one.

@@ -18,6 +18,7 @@ pub(crate) fn card(tree: &RunTree, core: &str, headline: &Headline, kicker: &str
         div.card.first.beside[!headline.tier.is_graded()] {
             p.kicker {
                 b { (kicker) } " on " b { (core) }
+                " · " (headline.degree.word())
                 @if let Some(part) = part { " · part " (part.number) ", " (part.title) }
             }
             h3.said { (sentence(&headline.mistake)) }
@@ -25,8 +26,10 @@ pub(crate) fn card(tree: &RunTree, core: &str, headline: &Headline, kicker: &str
             dl.cause {
                 (list("seen", &headline.evidence))
                 (list("ruled out", &headline.ruled_out))
-                dt { "where" } dd { (sentence(&headline.look_at)) }
-                dt { "fix" } dd { (headline.fix) }
+                @if !headline.look_at.is_empty() {
+                    dt { "where" } dd { (sentence(&headline.look_at)) }
+                }
+                @if !headline.fix.is_empty() { dt { "fix" } dd { (headline.fix) } }
                 dt { "explains" } dd { (explained(core, headline)) }
             }
             (command(&headline.command))

@@ -16,7 +16,6 @@ use maud::{Markup, html};
 
 /// Measures in the card; the case has them all.
 const MEASURES: usize = 4;
-const CAUSES: usize = 4;
 const FURTHER: usize = 6;
 /// Rows of the small tables of a green run.
 const ROWS: usize = 5;
@@ -69,6 +68,7 @@ fn causes(view: &View<'_>) -> Option<Markup> {
     let mut told: Vec<_> = diagnoses
         .iter()
         .flat_map(|(core, diagnosis)| diagnosis.headlines.iter().map(move |h| (*core, h)))
+        .filter(|(_, headline)| !headline.is_alone())
         .collect();
     told.sort_by_key(|(_, headline)| !headline.tier.is_graded());
     let unexplained = |trial: &&TrialRecord| {
@@ -83,7 +83,7 @@ fn causes(view: &View<'_>) -> Option<Markup> {
     };
     (!told.is_empty()).then(|| {
         html! {
-            @for (number, (core, headline)) in told.iter().take(CAUSES).enumerate() {
+            @for (number, (core, headline)) in told.iter().enumerate() {
                 (cause::card(view.tree, core, headline, kicker(number, headline)))
             }
             (transplants(view))

@@ -195,7 +195,9 @@ fn a_core_that_fails_everything_is_told_at_length_only_of_the_first() {
     }
     let text = plain(example);
     assert_eq!(text.matches("CRASHED").count(), 12);
-    assert_eq!(text.matches("        try ").count(), 5);
+    assert!(text.contains("  FAIL  differs here: 12 failures without a known cause on builtin: "));
+    assert!(text.contains("The core crashes in `render`: abort."), "{text}");
+    assert_eq!(text.matches("        try ").count(), 6);
 }
 
 #[test]
@@ -223,4 +225,21 @@ fn a_long_part_goes_on_below_itself() {
     let expected = format!("2 BVH                       {bar}     40 of 40 pass");
     assert!(text.contains(&expected), "{text}");
     assert!(text.contains(&format!("\n{:32}##########\n", "")), "{text}");
+}
+
+#[test]
+fn text_counts_the_headlines_that_it_does_not_tell() {
+    let mut example = Example::green();
+    let subjects = ["shape", "bvh", "light", "integrator"];
+    let cases: Vec<_> = example.trials.iter().map(|trial| trial.case.clone()).collect();
+    let of_subjects = |case: &&String| subjects.iter().any(|subject| case.starts_with(subject));
+    for case in cases.iter().filter(of_subjects) {
+        example.set("builtin", case, Outcome::Judged { finding: Finding::failure("off") });
+    }
+    let text = plain(example);
+    assert!(
+        text.contains("\n  FAIL  3 of 4 headlines on builtin; all are in the report"),
+        "{text}"
+    );
+    assert_eq!(text.matches("  FAIL  differs here: 2 failures").count(), 3, "{text}");
 }

@@ -1,0 +1,166 @@
+//! Crashes, and answers that did not come in time: equal endings of the same request are one headline.
+
+use super::{Degree, Ending, Evidence, Headline, Observation};
+use crate::case::{Part, Subject};
+use crate::cause::{Cause, adaptive, bvh};
+use std::collections::BTreeMap;
+
+/// What crashes of one mistake have in common.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Kind<'a> {
+    /// `signal 11`, without what differs from case to case.
+    how: &'a str,
+    /// As the core's header spells it.
+    request: String,
+    is_timeout: bool,
+}
+
+impl<'a> Kind<'a> {
+    fn of(ending: Ending<'a>) -> Self {
+        let (how, during, is_timeout) = match ending {
+            Ending::Crashed { how, during } => (how, during, false),
+            Ending::TimedOut { during } => ("no answer in time", during, true),
+        };
+        let how = how.split(['(', ';', ':']).next().unwrap_or(how).trim();
+        Self { how, request: function(during), is_timeout }
+    }
+
+    fn mistake(&self) -> String {
+        match self.is_timeout {
+            true => format!("the core does not answer `{}` in time", self.request),
+            false => format!("the core crashes in `{}`: {}", self.request, self.how),
+        }
+    }
+}
+
+/// The function of a request, which may be followed by where in it: `intersect, ray 3 of 100`.
+fn function(during: &str) -> String {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
+    let mut words = during.split(|c| !is_part(c)).filter(|word| !word.is_empty());
+    let word = words.next().unwrap_or("a request").replace('-', "_");
+    match word.as_str() {
+        "build_scene" => "build".to_owned(),
+        "render_codes" => "render".to_owned(),
+        _ => word,
+    }
+}
+
+/// A headline for each kind of ending, the earliest part first.
+pub(crate) fn headlines(evidence: &Evidence<'_>) -> Vec<Headline> {
+    let mut kinds: BTreeMap<Kind<'_>, Vec<&Observation<'_>>> = BTreeMap::new();
+    for seen in evidence.failures() {
+        if let Some(ending) = seen.ending {
+            kinds.entry(Kind::of(ending)).or_default().push(seen);
+        }
+    }
+    let shadows_alone = kinds.keys().all(|kind| kind.request == "occluded");
+    let told = |(kind, cases): (&Kind<'_>, &Vec<_>)| {
+        headline(evidence, kind, cases, cause(kind, cases, shadows_alone))
+    };
+    let mut headlines: Vec<_> = kinds.iter().map(told).collect();
+    headlines.sort_by_key(|headline| headline.explains.first().map(|case| Part::position(case)));
+    headlines
+}
+
+fn cause(
+    kind: &Kind<'_>,
+    cases: &[&Observation<'_>],
+    shadows_alone: bool,
+) -> Option<&'static Cause> {
+    let is_adaptive = || cases.iter().all(|seen| seen.is_about(Subject::Adaptive));
+    match (kind.is_timeout, kind.request.as_str()) {
+        (true, "adaptive_mean") => Some(&adaptive::LOOP_ENDLESS),
+        (true, _) if is_adaptive() => Some(&adaptive::LOOP_ENDLESS),
+        (false, "build") if kind.how == "signal 11" => Some(&bvh::RECURSION_ENDLESS),
+        (false, "occluded") if shadows_alone => Some(&bvh::ANY_HIT_CRASHES),
+        _ => None,
+    }
+}
+
+fn headline(
+    evidence: &Evidence<'_>,
+    kind: &Kind<'_>,
+    cases: &[&Observation<'_>],
+    cause: Option<&'static Cause>,
+) -> Headline {
+    let explains = cases.iter().map(|seen| seen.case.to_owned()).collect();
+    let place = format!("`{}` in furnace_core.h", kind.request);
+    let sentences = cases.iter().filter_map(|seen| sentence(seen)).collect();
+    let told = Headline::of(evidence, explains, sentences);
+    match cause {
+        None => Headline { mistake: kind.mistake(), look_at: place, ..told },
+        Some(cause) => Headline {
+            degree: Degree::LooksLike,
+            look_at: format!("{}: {place}", cause.look_at),
+            ..told.because(cause)
+        },
+    }
+}
+
+fn sentence(seen: &Observation<'_>) -> Option<String> {
+    Some(match seen.ending? {
+        Ending::Crashed { how, during } => format!("{}: {how} during {during}", seen.case),
+        Ending::TimedOut { during } => format!("{}: no answer in time during {during}", seen.case),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cause::{bsdf, find};
+    use crate::diagnosis::testing::{Made, failing};
+    use crate::diagnosis::{Diagnosis, diagnose};
+
+    const SEGMENTATION: &str = "signal 11 (SIGSEGV: memory that is not its own)";
+
+    fn crash(during: &'static str) -> Ending<'static> {
+        Ending::Crashed { how: SEGMENTATION, during }
+    }
+
+    fn causes(diagnosis: &Diagnosis) -> Vec<&str> {
+        diagnosis.headlines.iter().map(|headline| headline.cause.as_str()).collect()
+    }
+
+    #[test]
+    fn equal_crashes_are_one_headline_above_everything_else() {
+        let made = Made::new()
+            .with("camera/a", failing("a").because(&bsdf::WITHOUT_PI, "x"))
+            .ended("bvh/b", crash("intersect, ray 3 of 100"))
+            .ended("light/c", crash("intersect"))
+            .ended("light/d", crash("radiance"));
+        let diagnosis = diagnose(&made.evidence());
+        assert_eq!(causes(&diagnosis), ["", "", bsdf::WITHOUT_PI.name]);
+        let first = &diagnosis.headlines[0];
+        assert_eq!(first.explains, ["bvh/b", "light/c"]);
+        assert_eq!(first.mistake, "the core crashes in `intersect`: signal 11");
+        assert_eq!(first.degree, Degree::DiffersHere);
+        assert_eq!(diagnosis.first(), Some(&bsdf::WITHOUT_PI));
+    }
+
+    #[test]
+    fn a_build_that_overflows_the_stack_looks_like_endless_recursion() {
+        let made = Made::new().ended("bvh/a", crash("build")).ended("light/b", crash("build"));
+        let diagnosis = diagnose(&made.evidence());
+        assert_eq!(causes(&diagnosis), [bvh::RECURSION_ENDLESS.name]);
+        assert_eq!(diagnosis.headlines[0].degree, Degree::LooksLike);
+        assert!(diagnosis.headlines[0].look_at.ends_with("`build` in furnace_core.h"));
+    }
+
+    #[test]
+    fn only_crashes_of_shadow_rays_alone_are_of_the_any_hit_function() {
+        let alone = Made::new().ended("bvh/a", crash("occluded"));
+        assert_eq!(causes(&diagnose(&alone.evidence())), [bvh::ANY_HIT_CRASHES.name]);
+        let both = alone.ended("bvh/b", crash("intersect"));
+        assert_eq!(causes(&diagnose(&both.evidence())), ["", ""]);
+    }
+
+    #[test]
+    fn an_adaptive_stream_without_an_answer_is_a_loop_that_never_ends() {
+        let made = Made::new()
+            .ended("adaptive/a", Ending::TimedOut { during: "adaptive-mean" })
+            .ended("light/b", Ending::TimedOut { during: "radiance" });
+        let diagnosis = diagnose(&made.evidence());
+        assert_eq!(causes(&diagnosis), ["", adaptive::LOOP_ENDLESS.name]);
+        assert!(find(adaptive::LOOP_ENDLESS.name).is_some());
+    }
+}

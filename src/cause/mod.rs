@@ -19,6 +19,8 @@ mod renamed;
 pub(crate) mod sampling;
 pub(crate) mod shape;
 
+use std::cmp::Ordering;
+
 /// A mistake that people make in path tracers.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Cause {
@@ -73,6 +75,33 @@ pub(crate) fn is_of_hierarchy(cause: &Cause) -> bool {
 /// Whether the cause says what is lost and not why: any other of its kind explains more.
 pub(crate) fn is_vague(cause: &Cause) -> bool {
     *cause == bvh::HITS_LOST
+}
+
+static DARKENING: &[&Cause] = &[
+    &image::CLAMPED,
+    &image::SAMPLES_CLAMPED,
+    &integrator::BOUNCE_MISSING,
+    &integrator::NO_INDIRECT,
+    &integrator::ONE_BOUNCE_SHORT,
+    &integrator::ROULETTE_NOT_DIVIDED,
+    &light::DELTA_DIVIDED,
+    &light::DIVIDED_BY_LIGHTS,
+    &light::LAST_LIGHT_ONLY,
+];
+
+static BRIGHTENING: &[&Cause] = &[
+    &integrator::EMISSION_AGAIN,
+    &integrator::ISOLATION_IGNORED,
+    &integrator::ONE_BOUNCE_LONG,
+    &light::NO_SHADOWS,
+    &light::NOT_DIVIDED_BY_SAMPLES,
+    &light::TWICE_AS_BRIGHT,
+];
+
+/// How light that is wrong by the cause compares with what is right, where it can go one way only.
+pub(crate) fn side(cause: &Cause) -> Option<Ordering> {
+    let sides = [(DARKENING, Ordering::Less), (BRIGHTENING, Ordering::Greater)];
+    sides.into_iter().find(|(causes, _)| causes.contains(&cause)).map(|(_, side)| side)
 }
 
 /// The cause called `name`, today or before it was renamed.

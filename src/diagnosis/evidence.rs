@@ -4,6 +4,7 @@ use crate::case::{Foundation, Part, Role, Subject, Tier};
 use crate::checks::{Finding, Measure};
 use crate::contract::Conventions;
 use crate::image::Channel;
+use std::cmp::Ordering;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Standing {
@@ -108,6 +109,17 @@ impl<'a> Evidence<'a> {
 
     pub(crate) fn rests_on(&self, case: &str) -> &[Foundation] {
         self.observations.iter().find(|seen| seen.case == case).map_or(&[], |seen| &seen.rests_on)
+    }
+
+    /// Whether all light of `case` that is wrong is wrong on the other side.
+    pub(crate) fn contradicts(&self, case: &str, side: Ordering) -> bool {
+        let seen = self.observations.iter().find(|seen| seen.case == case);
+        let Some(finding) = seen.and_then(|seen| seen.finding) else { return false };
+        let of_light = |measure: &&Measure| measure.channel.is_some() && measure.expected > 0.0;
+        let mut wrong = finding.failed_measures().filter(of_light).peekable();
+        let other_side = Some(side.reverse());
+        wrong.peek().is_some()
+            && wrong.all(|measure| measure.measured.partial_cmp(&measure.expected) == other_side)
     }
 
     /// What is proven by any of `cases`.

@@ -107,7 +107,7 @@ struct Candidate {
 /// does not.
 pub(crate) fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagnosis {
     let mut headlines = endings::headlines(evidence);
-    let mut candidates = collect(suspicions);
+    let mut candidates = collect(evidence, suspicions);
     let answered = |seen: &&Observation<'_>| seen.ending.is_none();
     let case = |seen: &Observation<'_>| seen.case.to_owned();
     let suspected = |case: &String| candidates.iter().any(|c| c.cases.contains_key(case));
@@ -131,9 +131,15 @@ pub(crate) fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagn
     Diagnosis { headlines, unexplained }
 }
 
-fn collect(suspicions: Vec<Suspicion>) -> Vec<Candidate> {
+fn collect(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Vec<Candidate> {
     let mut candidates: Vec<Candidate> = Vec::new();
-    for suspicion in suspicions {
+    for mut suspicion in suspicions {
+        let side = cause::side(suspicion.cause);
+        let contradicts = |case: &str| side.is_some_and(|side| evidence.contradicts(case, side));
+        suspicion.cases.retain(|case| !contradicts(case));
+        if suspicion.cases.is_empty() {
+            continue;
+        }
         let known = candidates.iter().position(|c| c.cause.name == suspicion.cause.name);
         let number = known.unwrap_or_else(|| {
             let (evidence, ruled_out, cases) = Default::default();
@@ -258,9 +264,10 @@ fn quickest(evidence: &Evidence<'_>, cases: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use crate::case::{Foundation, Tier};
-    use crate::cause::{bsdf, bvh, integrator, light, shape};
-    use crate::diagnosis::testing::{Made, failing, passing};
+    use crate::cause::{bsdf, bvh, image, integrator, light, shape};
+    use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::diagnosis::{Degree, diagnose};
+    use crate::image::Channel;
 
     #[test]
     fn nothing_failed_and_nothing_is_blamed() {
@@ -276,6 +283,16 @@ mod tests {
         assert_eq!(degree(&shared), Degree::LooksLike);
         let proven = shared.with("light/b", failing("a").because(&bsdf::WITHOUT_PI, "x"));
         assert_eq!(degree(&proven), Degree::Named);
+    }
+
+    #[test]
+    fn a_cause_that_only_darkens_loses_what_is_too_bright() {
+        let bright = |ratio| means(vec![mean("image", Channel::Red, 0.5, ratio, 0.01)]);
+        let clamped = |ratio| bright(ratio).because(&image::SAMPLES_CLAMPED, "fireflies");
+        let made = Made::new().with("image/a", clamped(1.12)).with("image/b", clamped(0.9));
+        let diagnosis = diagnose(&made.evidence());
+        assert_eq!(diagnosis.headlines[0].explains, ["image/b"]);
+        assert_eq!(diagnosis.unexplained, ["image/a"]);
     }
 
     #[test]

@@ -105,7 +105,7 @@ const IMPRISONED_PROGRAMS: &[(&str, Ending)] = &[
 ];
 
 /// A picture that is asked for.
-const PICTURE: &str = "image/point-light-plane-matches";
+const PICTURE: &str = "image/point-light-plane-matches-mitsuba";
 
 /// What each program that makes pictures comes to.
 const RENDERERS: &[(&str, Ending)] = &[

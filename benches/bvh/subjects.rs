@@ -18,8 +18,11 @@ pub struct Subject {
     pub rays: Vec<Ray>,
 }
 
+/// What makes a mesh.
+pub type Maker = fn() -> Mesh;
+
 /// All subjects, small ones first: shape and size, and what makes the mesh.
-pub const ALL: [(&str, fn() -> Mesh); 7] = [
+pub const ALL: [(&str, Maker); 7] = [
     ("teapot-1k", || teapot(4)),
     ("bumpy-sphere-5k", || bumpy_sphere(4)),
     ("teapot-16k", || teapot(16)),

@@ -51,7 +51,7 @@ struct Row {
     by_convention: Vec<ConventionEntry>,
     direct: Option<DirectSampling>,
     roulette: Option<RouletteEntry>,
-    /// The scene leaves nothing to chance: judged to rounding, on a few samples.
+    /// No path leaves what the camera sees, so that no core has a choice: judged to rounding, on a few samples.
     #[serde(default)]
     exact: bool,
 }
@@ -65,6 +65,11 @@ impl Check for MeanRadiance {
         self.mistake.iter().try_for_each(|mistake| mistake.validate(self.row.len()))?;
         self.row.iter().try_for_each(|row| {
             row.by_convention.iter().try_for_each(ConventionEntry::validate)?;
+            if row.exact && row.bounces.0 != [0, 0] {
+                return Err(
+                    "what a bounce brings is an estimate: only bounce 0 is `exact`".to_owned()
+                );
+            }
             match row.ray.or(self.ray) {
                 Some(_) => Ok(()),
                 None if row.over.is_some() => Ok(()),

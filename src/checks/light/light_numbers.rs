@@ -29,6 +29,7 @@ impl Check for LightNumbers {
     fn run(&self, context: &mut Context<'_>) -> std::result::Result<Finding, CheckError> {
         let scene = context.scene()?;
         let numbers = Numbers::new(context.seed, replay::COUNT);
+        let precision = context.info.precision;
         let area = (0..).zip(&scene.lights);
         let area = area.filter(|(_, light)| matches!(light, Light::Area { .. }));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
@@ -40,7 +41,7 @@ impl Check for LightNumbers {
                 let ask = &mut |numbers: &Numbers| asked.samples(numbers);
                 replayed.push(Replayed::of(name.clone(), &numbers, ask)?);
                 let ask = &mut |numbers| asked.sample(numbers);
-                extremes.push(Extremes::of(name, Range::Sphere, SAME, ask)?);
+                extremes.push(Extremes::of(name, Range::Sphere, precision, SAME, ask)?);
             }
         }
         if replayed.is_empty() {

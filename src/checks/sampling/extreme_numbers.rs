@@ -24,7 +24,8 @@ impl OfDistributions for ExtremeNumbers {
     }
 
     fn judge(&self, context: &mut Context<'_>, distribution: &Distribution) -> Result<Extremes> {
-        let allowed = Tolerance::SAME_VALUE.of(context.info.precision);
+        let precision = context.info.precision;
+        let allowed = Tolerance::SAME_VALUE.of(precision);
         let core = &mut *context.core;
         let ask = &mut |(point, lobe)| {
             let random = Randomness { points: &[point], lobes: &[lobe], seed: 0 };
@@ -35,7 +36,7 @@ impl OfDistributions for ExtremeNumbers {
             }
             Ok((drawn, pdf[0]))
         };
-        Ok(Extremes::of(distribution.name(), Range::Hemisphere, allowed, ask)?)
+        Ok(Extremes::of(distribution.name(), Range::Hemisphere, precision, allowed, ask)?)
     }
 
     fn finding(extremes: &[Extremes]) -> Finding {
@@ -64,9 +65,27 @@ mod tests {
         assert_passes(&found(uniform, uniform_density));
     }
 
+    /// Shirley and Chiu's concentric map of the square to the disk: its edges are the rim.
+    fn concentric(point: DVec2) -> Option<DVec3> {
+        let at = 2.0 * point - 1.0;
+        let (radius, eighths) = match at.x.abs() > at.y.abs() {
+            true => (at.x, at.y / at.x),
+            false => (at.y, 2.0 - at.x / at.y),
+        };
+        let height = (1.0 - radius * radius).max(0.0).sqrt();
+        Some(at_height(height, if radius == 0.0 { 0.0 } else { TAU / 8.0 * eighths }))
+    }
+
     #[test]
-    fn a_map_of_u_itself_ends_on_the_horizon_with_density_0() {
-        let finding = found(|p| Some(at_height(p.x.sqrt(), TAU * p.y)), cosine_density);
+    fn the_rim_of_the_disk_has_density_0_and_is_right() {
+        assert_passes(&found(concentric, cosine_density));
+        assert_passes(&found(|p| Some(at_height(p.x.sqrt(), TAU * p.y)), cosine_density));
+    }
+
+    #[test]
+    fn density_0_above_the_horizon_is_named() {
+        let only_low = |direction: DVec3| if direction.z > 0.9 { 0.0 } else { 0.1 };
+        let finding = found(cosine, only_low);
         let statement = failure(&finding);
         assert!(statement.contains("of the numbers 0, 0 and 0: the pdf of the sample is 0"));
         assert_eq!(finding.clues[0].cause, "ends-of-range-forgotten");

@@ -1,14 +1,15 @@
 //! Samples of the numbers at the ends of their range: 0, just above it, the middle, just below 1.
 //!
-//! A random number of exactly 0 comes once in four thousand million, which is once a picture. A
-//! sample of density 0 divides by it; a direction on the horizon is neither above nor below.
+//! A random number of exactly 0 comes once in four thousand million, which is once a picture. A sample of density 0
+//! divides by it, unless it lies on the rim of the hemisphere: where the cosine is 0 the density may be, as of the
+//! concentric map (Shirley and Chiu 1997), whose square has its edges there.
 
 use super::distribution::Drawn;
 use crate::cause::sampling;
 use crate::checks::phrase::some_are;
 use crate::checks::{Finding, Measure};
-use crate::contract::CoreError;
-use crate::stats::{Compared, Verdict, judge_exact};
+use crate::contract::{CoreError, Precision};
+use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
 use glam::{DVec2, DVec3};
 
 /// The ends of both precisions: 2⁻⁵³ and 2⁻²⁴, and the smallest number there is.
@@ -25,9 +26,16 @@ const NUMBERS: [f64; 7] = [
 /// Two numbers for the direction, one for the lobe.
 pub(crate) type Extreme = (DVec2, f64);
 
-fn all_numbers() -> impl Iterator<Item = Extreme> {
-    let pairs = NUMBERS.into_iter().flat_map(|x| NUMBERS.map(|y| DVec2::new(x, y)));
-    pairs.flat_map(|point| NUMBERS.map(|lobe| (point, lobe)))
+/// What a core of this precision can be handed: numbers that are below 1 in it.
+fn all_numbers(precision: Precision) -> impl Iterator<Item = Extreme> {
+    let is_below_1 = |number: &f64| precision == Precision::Double || (*number as f32) < 1.0;
+    let numbers: Vec<_> = NUMBERS.into_iter().filter(is_below_1).collect();
+    let all = numbers.clone();
+    let pairs = all.into_iter().flat_map({
+        let numbers = numbers.clone();
+        move |x| numbers.clone().into_iter().map(move |y| DVec2::new(x, y))
+    });
+    pairs.flat_map(move |point| numbers.clone().into_iter().map(move |lobe| (point, lobe)))
 }
 
 /// What was drawn by one set of numbers, and its pdf as evaluated; or how it breaks the contract.
@@ -59,11 +67,12 @@ impl Extremes {
     pub(crate) fn of(
         name: String,
         range: Range,
+        precision: Precision,
         allowed: f64,
         ask: &mut dyn FnMut(Extreme) -> Result<(Drawn, f64), CoreError>,
     ) -> Result<Self, CoreError> {
         let mut answers = Vec::new();
-        for numbers in all_numbers() {
+        for numbers in all_numbers(precision) {
             let answer = match ask(numbers) {
                 Err(CoreError::BrokeContract(breach)) => Err(breach.to_string()),
                 answer => Ok(answer?),
@@ -76,8 +85,12 @@ impl Extremes {
         judged.count(&answers, "samples that break the contract", &breach);
         judged.count(&answers, "samples of pdf 0", &|answer| {
             let (drawn, _) = answer.as_ref().ok()?;
-            let is_nothing = drawn.direction.is_some() && drawn.pdf == 0.0;
-            is_nothing.then(|| "the pdf of the sample is 0".to_owned())
+            let is_on_rim = |direction: DVec3| {
+                range == Range::Hemisphere
+                    && direction.z.abs() <= Tolerance::DIRECTION.of(precision)
+            };
+            let is_wrong = drawn.direction.is_some_and(|direction| !is_on_rim(direction));
+            (is_wrong && drawn.pdf == 0.0).then(|| "the pdf of the sample is 0".to_owned())
         });
         judged.count(&answers, "samples below the horizon", &|answer| {
             let is_below = |direction: &DVec3| range == Range::Hemisphere && direction.z < 0.0;
@@ -141,5 +154,20 @@ pub(crate) fn finding(extremes: &[Extremes]) -> Finding {
             finding.because(&sampling::ENDS_OF_RANGE, evidence)
         }
         _ => finding,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn single_precision_is_handed_what_is_below_1_in_it() {
+        let largest = |precision| {
+            let all = all_numbers(precision).flat_map(|(point, lobe)| [point.x, point.y, lobe]);
+            all.fold(0.0, f64::max)
+        };
+        assert_eq!(largest(Precision::Single) as f32, 1.0 - 0.5 * f32::EPSILON);
+        assert_eq!(largest(Precision::Double), 1.0 - f64::EPSILON / 2.0);
     }
 }

@@ -106,7 +106,15 @@ fn finding(report: &SlopeReport) -> Finding {
             figure(report.slope),
             figure(report.plateau_bias)
         ),
-        _ => format!("error falls as n^{}", figure(report.slope)),
+        _ => match report.tail {
+            None => format!("error falls as n^{}", figure(report.slope)),
+            Some(carriers) => format!(
+                "error seems to fall as n^{}, but a few samples carry the light: the error of a picture rests on {} \
+                 pixels",
+                figure(report.slope),
+                figure(carriers)
+            ),
+        },
     };
     let resolution =
         format!("would have caught a slope that is off by {}", figure(report.resolution));

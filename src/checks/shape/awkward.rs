@@ -19,6 +19,9 @@ pub(super) struct Question {
     pub(super) may_hit: bool,
 }
 
+/// Which rays divide 0 by 0 at a triangle that is one.
+pub(super) const IN_PLANE: &str = "a ray in the plane of its triangle";
+
 const PROPER: [DVec3; 3] =
     [DVec3::new(0.25, 0.5, -0.25), DVec3::new(1.5, 0.75, 0.5), DVec3::new(-0.5, 1.25, 1.0)];
 
@@ -38,7 +41,7 @@ pub(super) fn questions(stream: &mut Stream) -> Vec<Question> {
         Question { name, primitive, rays, may_hit: false }
     });
     let proper = [
-        ("a ray in the plane of its triangle", in_plane(stream)),
+        (IN_PLANE, in_plane(stream)),
         ("a ray along an edge", along_edges(stream)),
         ("a direction of any length", of_any_length(stream)),
     ];

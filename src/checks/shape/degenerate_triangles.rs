@@ -1,7 +1,7 @@
 //! Triangles that are none, rays that run in their plane, directions of any length: an answer is
 //! asked for, not a crash and not NaN, and what has no area is not hit.
 
-use super::awkward::{Question, questions};
+use super::awkward::{IN_PLANE, Question, questions};
 use crate::cause::shape;
 use crate::checks::phrase::some_are;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
@@ -86,11 +86,14 @@ fn explain(finding: Finding, outcomes: &[Outcome]) -> Finding {
     };
     let count = |is: &dyn Fn(&Outcome) -> bool| outcomes.iter().filter(|o| is(o)).count();
     let (nan, hit) = (count(&is_nan), count(&|outcome| outcome.wrong_hits() > 0));
+    let in_plane = count(&|outcome| outcome.question.name == IN_PLANE && is_nan(outcome));
     let (all, without_area) = (outcomes.len(), count(&|outcome| !outcome.question.may_hit));
-    let nan_told = format!("{nan} of {all} kinds of questions are answered with NaN");
+    let nan_told = format!(
+        "{nan} of {all} kinds of questions are answered with NaN, rays in the plane of a triangle too"
+    );
     let hit_told = format!("{hit} of {without_area} kinds of triangles without area are hit");
     finding
-        .because_of((nan > 0).then_some((&shape::NAN_HIT_ACCEPTED, nan_told)))
+        .because_of((in_plane > 0).then_some((&shape::NAN_HIT_ACCEPTED, nan_told)))
         .because_of((hit > 0).then_some((&shape::DEGENERATE_HIT, hit_told)))
 }
 
@@ -134,6 +137,21 @@ mod tests {
         let told = "three times the same vertex: the core broke";
         assert!(failure(&finding).starts_with(told), "{finding:?}");
         assert_eq!(finding.clues[0].cause, "nan-hit-accepted");
+    }
+
+    /// Tests `|det| < ε` first, as many do: what NaN makes of that comparison is accepted.
+    fn rejecting_small(primitive: &Primitive, ray: &Ray) -> Option<Answer> {
+        let Primitive::Triangle { positions: [a, b, c], .. } = *primitive else { return None };
+        let determinant = (b - a).dot(ray.direction.cross(c - a));
+        if determinant.abs() < 1e-12 { None } else { rejecting(primitive, ray) }
+    }
+
+    #[test]
+    fn nan_of_vertices_that_are_nan_is_no_ray_in_a_plane() {
+        let finding = found(rejecting_small);
+        let statement = failure(&finding);
+        assert!(statement.starts_with("a vertex that is NaN: the core broke"), "{statement}");
+        assert!(finding.clues.is_empty());
     }
 
     #[test]

@@ -26,6 +26,18 @@
  *     unless a field says otherwise. BSDF directions are in the local shading frame (normal = +z)
  *     and both point away from the surface; `f` excludes the cosine; every `pdf` is per steradian.
  *
+ * What verdicts rest on
+ *   - Radiance is judged by its mean: how an estimate is made, how noisy it is, and whether it is
+ *     below 0 (control variates), is the core's own business, as long as its variance is finite.
+ *     Where there is no light, every estimate is exactly 0; every pixel of a picture is at least 0.
+ *   - Different seeds give different random numbers, and the answers of one call to the same ray
+ *     are independent. Whether pixels, directions and points are independent of each other is free
+ *     (see the promises of furnace_core.traits).
+ *   - The value of a pixel is the plain mean of its samples, which are uniform over its square (box
+ *     filter). Adaptive sampling goes by 0.2126 R + 0.7152 G + 0.0722 B.
+ *   - Which side of a surface is lit is decided by its geometric normal; the shading normal gives
+ *     the cosine.
+ *
  * Growing: only structs that carry `struct_size` grow, at their end, and that field tells each side
  * how much the other knows; they always travel by pointer. Values and array elements are frozen.
  * FURNACE_ABI changes only when something existing does. Reserved fields are zero.

@@ -1,11 +1,11 @@
 //! The elements of batches: rays, hits, samples. Plain `repr(C)` data, the same in Rust and in C.
 
-use super::BreachKind;
 use super::answer::{
     Answered, Asked, Form, colour, finite, finite_vector, flag, holds, not_nan, not_negative,
     touched, unit,
 };
 use super::crossing::elements;
+use super::{Breach, BreachKind};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -314,11 +314,30 @@ impl Answered for f64 {
     }
 }
 
-/// The radiance along a ray.
+/// The radiance along a ray, as estimated: below 0, an estimate may still be right on average (control variates).
 impl Answered for [f64; 3] {
     const NOUN: &'static str = "radiance";
 
     fn check(&self, _: &Asked<'_>) -> Form {
-        colour("radiance", *self)
+        (0..).zip(self).try_for_each(|(channel, value)| {
+            let breach = |breach| Breach { channel: Some(channel), ..breach };
+            finite("radiance", *value).map_err(breach)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_estimate_of_radiance_may_be_below_0_and_has_to_be_a_number() {
+        let asked = Asked {
+            size: [1, 1],
+            capabilities: super::super::Capabilities::empty(),
+            primitives_of_shape: &[],
+        };
+        assert!([-0.25, 0.5, 0.0].check(&asked).is_ok());
+        assert!([0.0, f64::INFINITY, 0.0].check(&asked).is_err());
     }
 }

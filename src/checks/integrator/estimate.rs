@@ -145,7 +145,7 @@ pub(crate) fn draw_estimates(
     Ok(())
 }
 
-/// Mean and largest channel value of `samples` estimates along `ray`.
+/// Mean and largest channel value, of either sign, of `samples` estimates along `ray`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Estimate {
     pub(crate) mean: [f64; 3],
@@ -166,7 +166,7 @@ pub(crate) fn estimate(
         for value in radiance {
             for channel in 0..3 {
                 sum[channel] += value[channel];
-                largest[channel] = largest[channel].max(value[channel]);
+                largest[channel] = largest[channel].max(value[channel].abs());
             }
         }
     })?;

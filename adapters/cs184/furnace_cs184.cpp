@@ -1394,7 +1394,7 @@ std::string version_of(const Written &is) {
    const std::pair<bool, const char *> parts[] = {
        {is.camera, "camera rays"},        {is.pixels, "pixels"},
        {is.triangle, "triangles"},        {is.sphere, "spheres"},
-       {is.hierarchy, "the hierarchy"},   {is.box, "boxes"},
+       {is.hierarchy, "the BVH"},   {is.box, "boxes"},
        {is.f, "f"},                       {is.sample_f, "sample_f"},
        {is.emission, "emission"},         {is.by_hemisphere, "hemisphere sampling"},
        {is.by_light, "light sampling"},   {is.direct, "one bounce"},
@@ -1407,7 +1407,9 @@ std::string version_of(const Written &is) {
 }
 
 uint32_t traits_of(const Written &is) {
-   uint32_t traits = FURNACE_ISOLATED_BOUNCES;
+   // The course prescribes its estimators: uniform directions, the skeleton's points on lights.
+   uint32_t traits = FURNACE_ISOLATED_BOUNCES | FURNACE_INDEPENDENT_PIXELS |
+                     FURNACE_INDEPENDENT_SAMPLES | FURNACE_PLAIN_ESTIMATORS;
    if (is.hierarchy) traits |= FURNACE_BRUTE_FORCE | FURNACE_COUNTS_TRAVERSAL;
    if (is.by_hemisphere) traits |= FURNACE_HEMISPHERE_SAMPLING;
    if (is.adaptive) traits |= FURNACE_ADAPTIVE_SAMPLING;

@@ -7,7 +7,7 @@ use super::glass::refracted_cosine;
 use super::integrator::{Progress, survival_probability};
 use super::random::{self, Random, scramble};
 use super::steps::{LESSON, Steps};
-use super::{bsdf, vertex};
+use super::{area_light, bsdf, vertex};
 use crate::contract::{
     Capabilities, CoreInfo, EmissionSides, Falloff, GlassFresnel, GlassRadiance, Precision,
     Roulette, Sampler, SmithTerm, Split,
@@ -57,8 +57,20 @@ different! {
         diffuse_sampler = || Sampler::UniformHemisphere,
         diffuse_density = || Sampler::UniformHemisphere;
     "other-roulette": "dark paths are cut short by roulette of the core's own",
-        parts [4, 5],
+        parts [4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
         survival_probability = survival_of_own_roulette;
+    "hashed-seeds": "seeds are hashed before they are used",
+        parts [1, 3, 4, 5],
+        seed = scramble;
+    "other-azimuth": "directions are turned the other way round, from another axis",
+        parts [3, 4, 5],
+        turn = |point| 0.75 - point.y;
+    "cosine-of-root": "the cosine of a direction is the root of the number, and not of 1 less it",
+        parts [3, 4, 5],
+        cosine_height = f64::sqrt;
+    "swapped-numbers": "points on lights use the second number first",
+        parts [3, 4, 5],
+        triangle_point = |point| area_light::triangle_point(DVec2::new(point.y, point.x));
     "larger-offset": "rays keep clear of surfaces by 1e-6 in place of 1e-10",
         parts [3, 4, 5],
         clearance = |longest| 1e4 * vertex::CLEARANCE * longest;
@@ -66,7 +78,7 @@ different! {
         parts [1, 4, 5],
         pixel_point = evenly_in_pixel;
     "stratified-lights": "the samples of a light are stratified",
-        parts [3, 4, 5],
+        parts [3, 4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
         light_point = |random, number, of| {
             let point = random.point();
             point.with_x((f64::from(number) + point.x) / f64::from(of))

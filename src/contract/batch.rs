@@ -223,7 +223,7 @@ impl LightSample {
 }
 
 /// Random numbers for one batch, all in [0, 1). `points[i]` and `lobes[i]` belong to element i; a core without
-/// [`Capabilities::CALLERS_RANDOMNESS`] ignores them and seeds itself.
+/// [`super::Capabilities::CALLERS_RANDOMNESS`] ignores them and seeds itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Randomness<'a> {
     /// Two numbers an element: the direction or the point on the light.

@@ -51,6 +51,23 @@ impl Components {
         }
     }
 
+    /// What a core that takes `takes` has to take so that these are the bench's: themselves, or else the larger
+    /// components that are made of them and bring them along. None where neither is taken.
+    pub(crate) fn within(self, takes: Self) -> Option<Self> {
+        let stand_in = |one: Self| [one, one.larger()].into_iter().find(|it| takes.contains(*it));
+        self.iter().map(stand_in).collect()
+    }
+
+    /// The components that are made of one and bring the bench's along. Itself where there are none.
+    fn larger(self) -> Self {
+        match self {
+            Self::TRIANGLE_TEST | Self::SPHERE_TEST | Self::BOX_TEST => Self::TRAVERSAL,
+            Self::DIRECTION_SAMPLING => Self::BSDF.union(Self::DIRECT_LIGHTING),
+            Self::LIGHT_SAMPLING => Self::DIRECT_LIGHTING,
+            other => other,
+        }
+    }
+
     /// The words for one.
     fn word(self) -> &'static str {
         match self {
@@ -74,6 +91,17 @@ impl Components {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_core_without_light_sampling_takes_direct_lighting_for_it() {
+        let needed = Components::LIGHT_SAMPLING | Components::BSDF;
+        let takes = Components::BSDF | Components::DIRECT_LIGHTING;
+        assert_eq!(needed.within(takes), Some(takes));
+        assert_eq!(needed.within(Components::all()), Some(needed));
+        assert_eq!(needed.within(Components::BSDF), None);
+        assert_eq!(Components::BOX_TEST.within(Components::TRAVERSAL), Some(Components::TRAVERSAL));
+        assert_eq!(Components::RANDOM_NUMBERS.within(takes), None);
+    }
 
     #[test]
     fn components_are_named_for_files_and_for_people() {

@@ -5,7 +5,7 @@ use super::outcome::Outcome;
 use super::plan::Trial;
 use super::record::{self, SceneStamp, TrialRecord, TrialTiming};
 use super::schedule::Transplant;
-use crate::case::{Case, Tier};
+use crate::case::{Case, Tier, asked_about};
 use crate::checks::{CheckError, Context, Finding, Picture};
 use crate::contract::validate::Validated;
 use crate::contract::{Capabilities, Components, Core, CoreError};
@@ -35,10 +35,10 @@ pub fn run_trial(bench: &Bench, trial: &Trial) -> Ended {
 /// Runs one trial with components of the bench in place of what is broken. It is blocked if the core cannot take them.
 pub(crate) fn run_transplanted(bench: &Bench, trial: &Trial, transplant: Transplant) -> Ended {
     let Transplant { with, by } = transplant;
-    if !bench.takes(&trial.core).contains(with) {
-        return blocked(bench, trial, by);
+    match with.within(bench.takes(&trial.core)) {
+        Some(with) if !asked_about(&trial.case).intersects(with) => run_with(bench, trial, with),
+        _ => blocked(bench, trial, by),
     }
-    run_with(bench, trial, with)
 }
 
 /// Runs one trial with components of the bench.

@@ -20,11 +20,6 @@ pub(crate) struct CorrelationReport {
 }
 
 impl CorrelationReport {
-    /// The same of series that may be related as they like: any coefficient is right.
-    pub(crate) fn of_what_is_free(self) -> Self {
-        Self { verdict: Verdict::Pass, limit: 1.0, ..self }
-    }
-
     /// Why nothing can be said, if that is so.
     pub(crate) fn doubt(&self) -> Option<String> {
         let doubt = || match self.limit < 1.0 {

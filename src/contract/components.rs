@@ -3,7 +3,7 @@
 //! What is transplanted is taken out of the question: a case that fails with a core's own box test and passes with
 //! the bench's is the box test's failure, by experiment. `docs/decisions/0012-transplants.md` says how.
 
-use super::capability::by_names;
+use super::names::by_names;
 use bitflags::bitflags;
 
 bitflags! {

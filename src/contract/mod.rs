@@ -27,6 +27,7 @@ mod components;
 pub mod crossing;
 mod error;
 mod film;
+mod names;
 pub mod question;
 pub mod questions;
 mod settings;

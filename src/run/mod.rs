@@ -22,7 +22,7 @@ pub use executor::run_in_memory;
 pub use outcome::{Outcome, Status};
 pub use plan::{Plan, Request, Trial};
 pub use record::{RecordError, RunRecord, TrialRecord};
-pub(crate) use search::{Transplanted, Transplants};
+pub(crate) use record::{Transplanted, Transplants};
 
 use crate::contract::CoreError;
 use crate::cores::HostError;

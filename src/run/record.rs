@@ -10,7 +10,6 @@
 //! `timing`.
 
 use super::outcome::{Outcome, Status};
-use super::search::Transplants;
 use crate::case::{Foundation, Role, Tier};
 use crate::checks::PictureRole;
 use crate::contract::{Components, Conventions, CoreInfo, Precision};
@@ -117,6 +116,42 @@ impl CoreRecord {
         let info = CoreInfo { name, precision, ..CoreInfo::default() };
         Self { problem: Some(problem), ..Self::new(spec, &info) }
     }
+}
+
+/// What taking components from the bench has shown of a core.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Transplants {
+    /// How many failing cases were tried again.
+    pub(crate) failures: usize,
+    /// The smallest set of components found, the one that mends the most first.
+    pub(crate) components: Vec<Transplanted>,
+    /// Failing cases that pass with all of them.
+    pub(crate) mended: usize,
+    /// Failing cases that fail with everything that the core can take.
+    pub(crate) unmended: Vec<String>,
+    /// Failing cases of which the time was too short to tell.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub(crate) untried: usize,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+const fn is_zero(number: &usize) -> bool {
+    *number == 0
+}
+
+/// One component that mends failures.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Transplanted {
+    /// It.
+    pub(crate) component: Components,
+    /// Failing cases that pass with it alone.
+    pub(crate) alone: usize,
+    /// Failing cases that need it and pass with the whole set.
+    pub(crate) together: usize,
+    /// Cases above that were judged with it in the run.
+    pub(crate) judged: usize,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

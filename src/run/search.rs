@@ -11,10 +11,9 @@ use super::bench::Bench;
 use super::event::Event;
 use super::outcome::Status;
 use super::plan::{Plan, Trial};
-use super::record::{CoreRecord, TrialRecord};
+use super::record::{CoreRecord, Transplanted, Transplants, TrialRecord};
 use crate::contract::Components;
 use crate::stats::{Allowance, Budget};
-use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -24,42 +23,6 @@ use std::time::{Duration, Instant};
 /// How long the search may take for one core: about as long as the run before it, so that who waits for a wrong core
 /// waits at most twice.
 const LONGEST: Duration = Duration::from_secs(60);
-
-/// What taking components from the bench has shown of a core.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Transplants {
-    /// How many failing cases were tried again.
-    pub(crate) failures: usize,
-    /// The smallest set of components found, the one that mends the most first.
-    pub(crate) components: Vec<Transplanted>,
-    /// Failing cases that pass with all of them.
-    pub(crate) mended: usize,
-    /// Failing cases that fail with everything that the core can take.
-    pub(crate) unmended: Vec<String>,
-    /// Failing cases of which the time was too short to tell.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub(crate) untried: usize,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
-const fn is_zero(number: &usize) -> bool {
-    *number == 0
-}
-
-/// One component that mends failures.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Transplanted {
-    /// It.
-    pub(crate) component: Components,
-    /// Failing cases that pass with it alone.
-    pub(crate) alone: usize,
-    /// Failing cases that need it and pass with the whole set.
-    pub(crate) together: usize,
-    /// Cases above that were judged with it in the run.
-    pub(crate) judged: usize,
-}
 
 /// Tries the failing cases of a core again. None where nothing failed, or the core takes nothing.
 pub(crate) fn search(

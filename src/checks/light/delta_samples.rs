@@ -1,6 +1,5 @@
 //! Samples of point and directional lights, whose every number is known.
 
-use super::open_light_samples::Judged;
 use crate::cause::{Cause, convention, light as cause};
 use crate::checks::numbers::Numbers;
 use crate::checks::{Measure, Result};
@@ -14,6 +13,12 @@ use glam::DVec3;
 const POINTS: usize = 256;
 
 const REACH: f64 = 3.0;
+
+/// What there is to say of one light.
+pub(super) struct Judged {
+    pub(super) measures: Vec<Measure>,
+    pub(super) cause: Option<&'static Cause>,
+}
 
 /// One sample from each of some points.
 pub(super) struct Sampled {

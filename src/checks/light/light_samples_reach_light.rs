@@ -4,7 +4,7 @@
 //! times its form factor. A wrong Jacobian from area to solid angle shows in both.
 
 use super::density::{self, area_of};
-use super::traced::Traced;
+use super::traced::{Traced, is_lit};
 use crate::cause;
 use crate::checks::numbers::Numbers;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
@@ -19,7 +19,7 @@ use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// Samples whose end is looked for.
-pub(super) const TRACED: usize = 4096;
+const TRACED: usize = 4096;
 check! {
     pub(crate) struct LightSamplesReachLight {
         detects: Percent,
@@ -34,10 +34,10 @@ check! {
 /// Where the light is sampled from, and how large it looks there.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct Point {
-    pub(super) from: Vector,
+struct Point {
+    from: Vector,
     /// Of the surface there, unit.
-    pub(super) normal: Direction,
+    normal: Direction,
     /// Steradians. None where only a part of the light faces the point.
     solid_angle: Option<Positive>,
     /// Of the light as seen by the surface; 0 where the light looks away.
@@ -57,14 +57,15 @@ impl Check for LightSamplesReachLight {
         for (number, point) in self.point.iter().enumerate() {
             let seed = seed.child(number);
             let label = format!("point {}", number + 1);
-            let traced = Traced::new(built.as_mut(), point, light, seed)?;
+            let samples = point.samples(built.as_mut(), light.0, seed.child("traced"), TRACED)?;
+            let traced = Traced::new(built.as_mut(), point.from.0, samples, light.1)?;
             measures.push(traced.reached(&label, Tolerance::INTERSECTION.of(precision)));
             if point.form_factor.0 == 0.0 {
                 measures.push(traced.dark(&label));
                 shines_backwards |= !traced.samples.is_empty();
                 continue;
             }
-            met.extend(area.into_iter().flat_map(|area| traced.geometry(area, point)));
+            met.extend(area.into_iter().flat_map(|area| traced.geometry(area, point.normal.0)));
             let claims = point.claims(Band::math(precision));
             let plain: Vec<_> = claims.iter().map(|(_, claim)| *claim).collect();
             let reports = judge_means(&plain, &effort, &mut |draw| {
@@ -126,7 +127,7 @@ impl Point {
         Ok(self.solid_angle.map(|_| inverse / n).into_iter().chain([cosine / n]).collect())
     }
 
-    pub(super) fn samples(
+    fn samples(
         &self,
         scene: &mut dyn BuiltScene,
         light: u32,
@@ -136,10 +137,6 @@ impl Point {
         let from = vec![self.from.0; count];
         Ok(Numbers::new(seed, count).sample_light(scene, light, &from)?)
     }
-}
-
-pub(super) fn is_lit(sample: &LightSample) -> bool {
-    sample.is_valid == 1 && sample.pdf > 0.0 && sample.radiance != [0.0; 3]
 }
 
 fn complaint(label: &str, name: &str, report: &MeanReport) -> Option<String> {

@@ -1,8 +1,8 @@
 //! Samples of lights that are no shapes: points, the sun, skies. Direction, distance and radiance of the first two are
 //! known exactly; of an even sky the mean of radiance over density is 4π times its radiance, however it is sampled.
 
-use super::delta_samples::Sampled;
-use crate::cause::{Cause, light as cause};
+use super::delta_samples::{Judged, Sampled};
+use crate::cause::light as cause;
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
@@ -55,12 +55,6 @@ impl Check for OpenLightSamples {
         }
         Ok(finding(found))
     }
-}
-
-/// What there is to say of one light.
-pub(super) struct Judged {
-    pub(super) measures: Vec<Measure>,
-    pub(super) cause: Option<&'static Cause>,
 }
 
 fn finding(found: Vec<Judged>) -> Finding {

@@ -1,15 +1,18 @@
 //! Samples of an area light, and what their rays meet in the scene.
 
 use super::density::Geometry;
-use super::light_samples_reach_light::{Point, TRACED, is_lit};
 use crate::checks::phrase::some_are;
 use crate::checks::{Measure, Result};
 use crate::contract::{BuiltScene, Hit, LightSample, Ray};
-use crate::math::rng::Seed;
 use crate::stats::{Compared, Verdict, judge_exact};
+use glam::DVec3;
 
 /// Shadow rays start and the light is looked for this share of the distance away from either end.
 const SLACK: f64 = 1e-3;
+
+pub(super) fn is_lit(sample: &LightSample) -> bool {
+    sample.is_valid == 1 && sample.pdf > 0.0 && sample.radiance != [0.0; 3]
+}
 
 /// Some samples, and what their rays meet in the scene.
 pub(super) struct Traced {
@@ -21,16 +24,15 @@ pub(super) struct Traced {
 impl Traced {
     pub(super) fn new(
         scene: &mut dyn BuiltScene,
-        point: &Point,
-        (light, shape): (u32, u32),
-        seed: Seed,
+        from: DVec3,
+        mut samples: Vec<LightSample>,
+        shape: u32,
     ) -> Result<Self> {
-        let mut samples = point.samples(scene, light, seed.child("traced"), TRACED)?;
         samples.retain(is_lit);
         // From close before the light: what lies in between is the business of shadow rays.
         let ray = |sample: &LightSample| {
             let start = (1.0 - SLACK) * sample.distance;
-            Ray { t_min: start, ..Ray::new(point.from.0, sample.wi) }
+            Ray { t_min: start, ..Ray::new(from, sample.wi) }
         };
         let rays: Vec<_> = samples.iter().map(ray).collect();
         let mut hits = vec![Hit::MISS; rays.len()];
@@ -61,8 +63,7 @@ impl Traced {
     }
 
     /// Of the samples that met the light.
-    pub(super) fn geometry(&self, area: f64, point: &Point) -> Vec<(Geometry, f64)> {
-        let normal = point.normal.0;
+    pub(super) fn geometry(&self, area: f64, normal: DVec3) -> Vec<(Geometry, f64)> {
         Geometry::of(area, normal, &self.samples, &self.hits)
     }
 

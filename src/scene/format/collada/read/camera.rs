@@ -1,8 +1,7 @@
 //! Where the course's program takes its images from without a window. The position in the file
 //! plays no part: only the direction does, and the box around the scene.
 
-use super::node::Instance;
-use super::xml::{Reader, Result};
+use super::xml::{Instance, Reader, Result};
 use crate::scene::{Aabb, Camera};
 use glam::{DMat3, DVec3, DVec4};
 use std::f64::consts::PI;

@@ -1,8 +1,7 @@
 //! Meshes and spheres of the file, in world space.
 
-use super::node::Instance;
 use super::normals::vertex_normals;
-use super::xml::{Element, Reader, Result, children, first_child};
+use super::xml::{Element, Instance, Reader, Result, children, first_child};
 use crate::scene::{Mesh, Sphere};
 use glam::{DMat4, DVec3, DVec4};
 use std::collections::BTreeSet;

@@ -1,7 +1,6 @@
 //! The lights of the file, as the course declares them: apart from the surfaces that are seen to emit.
 
-use super::node::Instance;
-use super::xml::{Element, Reader, Result};
+use super::xml::{Element, Instance, Reader, Result};
 use crate::scene::Rgb;
 use glam::{DMat4, DVec3, DVec4};
 

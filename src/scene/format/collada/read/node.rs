@@ -2,7 +2,7 @@
 
 use super::camera::Lens;
 use super::light::Lamp;
-use super::xml::{Element, Reader, Result, children, first_child};
+use super::xml::{Element, Instance, Reader, Result, children, first_child};
 use super::{geometry, light, material};
 use crate::scene::{Material, Mesh, Sphere};
 use glam::DMat4;
@@ -20,13 +20,6 @@ pub(super) struct File {
     pub(super) spheres: Vec<Sphere>,
     pub(super) lamps: Vec<Lamp>,
     pub(super) differences: Vec<String>,
-}
-
-/// What a node instances: the node's name, and where it stands.
-pub(super) struct Instance<'a> {
-    pub(super) name: &'a str,
-    pub(super) element: Element<'a>,
-    pub(super) transform: DMat4,
 }
 
 struct Walk<'r, 'a> {

@@ -2,6 +2,7 @@
 
 use crate::scene::Rgb;
 use crate::text::{Diagnostic, Source};
+use glam::DMat4;
 use std::collections::HashMap;
 use std::ops::Range;
 use std::str::FromStr;
@@ -9,6 +10,13 @@ use std::str::FromStr;
 pub(super) type Element<'a> = roxmltree::Node<'a, 'a>;
 
 pub(super) type Result<T> = std::result::Result<T, Diagnostic>;
+
+/// What a node instances: the node's name, and where it stands.
+pub(super) struct Instance<'a> {
+    pub(super) name: &'a str,
+    pub(super) element: Element<'a>,
+    pub(super) transform: DMat4,
+}
 
 /// A document, and every element that has an id.
 pub(super) struct Reader<'a> {

@@ -1,0 +1,39 @@
+//! How sets of flags cross: by the names of those that are set, so that a bit may move.
+
+/// Flags that cross by their names, written as users write them.
+macro_rules! by_names {
+    ($flags:ident, $kind:literal) => {
+        impl $flags {
+            /// The names of the single flags in `self`, as users write them: `box-test`.
+            pub fn names(self) -> Vec<String> {
+                self.iter_names().map(|(name, _)| name.to_lowercase().replace('_', "-")).collect()
+            }
+
+            /// The flags of these names.
+            ///
+            /// # Errors
+            /// With the word that names none.
+            pub fn from_names(names: &[String]) -> Result<Self, String> {
+                names.iter().try_fold(Self::empty(), |all, name| {
+                    let flag = Self::from_name(&name.to_uppercase().replace('-', "_"));
+                    let unknown = || format!("there is no {} `{name}`", $kind);
+                    flag.map(|flag| all | flag).ok_or_else(unknown)
+                })
+            }
+        }
+
+        impl serde::Serialize for $flags {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                self.names().serialize(serializer)
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $flags {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let names = Vec::<String>::deserialize(deserializer)?;
+                Self::from_names(&names).map_err(serde::de::Error::custom)
+            }
+        }
+    };
+}
+pub(super) use by_names;

@@ -1,0 +1,270 @@
+//! What the bench sees of small random mistakes in code that was not written for it: mutants of `examples/cpp`, each put
+//! to the suite as a user would put it, without pictures.
+//!
+//! ```sh
+//! FURNACE_MUTANTS=0..200 cargo test --test mutants -- --ignored --nocapture
+//! FURNACE_SEED=7 ...                         # mutants in another order
+//! ```
+//!
+//! The order is random and that of the seed, so that ranges of it are samples; mutants that do not compile are passed
+//! over. How the survivors were classed stands beside the log in `docs/simulations`.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use furnace::math::rng::{Seed, uniform};
+use furnace::report::RunTree;
+use furnace::run::record::read_json;
+use furnace::run::{Status, TrialRecord};
+use regex_lite::Regex;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Mutation operators: a name, what is looked for (in code without comments; binary operators stand between blanks), and
+/// what comes in place of its group.
+const OPERATORS: &[(&str, &str, &str)] = &[
+    ("arithmetic", r" (\+) ", "-"),
+    ("arithmetic", r" (-) ", "+"),
+    ("arithmetic", r" (\*) ", "/"),
+    ("arithmetic", r" (/) ", "*"),
+    ("arithmetic", r" (%) ", "/"),
+    ("arithmetic", r" (\+=) ", "-="),
+    ("comparison", r" (<) ", "<="),
+    ("comparison", r" (<) ", ">"),
+    ("comparison", r" (<=) ", "<"),
+    ("comparison", r" (<=) ", ">="),
+    ("comparison", r" (>) ", ">="),
+    ("comparison", r" (>) ", "<"),
+    ("comparison", r" (>=) ", ">"),
+    ("comparison", r" (>=) ", "<="),
+    ("comparison", r" (==) ", "!="),
+    ("comparison", r" (!=) ", "=="),
+    ("constant", r"[^\w.](0(?:\.0)?)\b", "1"),
+    ("constant", r"[^\w.]([1-9]\d*(?:\.\d+)?(?:e-?\d+)?u?)\b", "(2 * $1)"),
+    ("constant", r"[^\w.](0\.\d+)\b", "(2 * $1)"),
+    ("constant", r"[^\w.]([1-9]\d*(?:\.\d+)?(?:e-?\d+)?u?)\b", "0"),
+    ("sign", r"(?:[(,=?:{] ?|return )(-)[\w(]", ""),
+    ("function", r"std::(min)\b", "max"),
+    ("function", r"std::(max)\b", "min"),
+    ("function", r"std::(sin)\b", "cos"),
+    ("function", r"std::(cos)\b", "sin"),
+    ("function", r"(std::sqrt)\(", ""),
+    ("function", r"(std::abs)\(", ""),
+    ("logic", r" (&&) ", "||"),
+    ("logic", r" (\|\|) ", "&&"),
+    ("logic", r"[( ](!)[\w(]", ""),
+    ("return", r"return ([^;{}]+);", "{}"),
+    ("return", r"return (true);", "false"),
+    ("return", r"return (false);", "true"),
+    ("statement", r"(?m)^ +([^;{}\n]+);\s*$", ""),
+    ("component", r"\.(x)\b", "y"),
+    ("component", r"\.(y)\b", "z"),
+    ("component", r"\.(z)\b", "x"),
+    ("component", r"\.(r)\b", "g"),
+    ("component", r"\.(g)\b", "b"),
+    ("component", r"\.(b)\b", "r"),
+];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The parts of the example, by file name.
+type Sources = BTreeMap<String, String>;
+
+fn sources() -> Sources {
+    let files = std::fs::read_dir(root().join("examples/cpp")).unwrap();
+    let paths = files.map(|entry| entry.unwrap().path());
+    let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
+    paths.map(|path| (name(&path), std::fs::read_to_string(&path).unwrap())).collect()
+}
+
+/// One change of one place.
+#[derive(Clone, Debug)]
+struct Mutant {
+    operator: &'static str,
+    file: String,
+    place: Range<usize>,
+    text: String,
+}
+
+impl Mutant {
+    fn apply(&self, sources: &Sources) -> Sources {
+        let mut changed = sources.clone();
+        changed.get_mut(&self.file).unwrap().replace_range(self.place.clone(), &self.text);
+        changed
+    }
+
+    /// The operator and the place, then the line before and after.
+    fn describe(&self, sources: &Sources) -> String {
+        let number = sources[&self.file][..self.place.start].matches('\n').count();
+        let line = |sources: &Sources| {
+            sources[&self.file].lines().nth(number).unwrap_or_default().trim().to_owned()
+        };
+        let (before, after) = (line(sources), line(&self.apply(sources)));
+        format!("{} {}:{}\n  - {before}\n  + {after}", self.operator, self.file, number + 1)
+    }
+}
+
+/// The text with blanks for comments and for lines that are no code of the renderer: the preprocessor's, and those where
+/// the bench lends a component.
+fn code_alone(text: &str) -> String {
+    let comment = Regex::new("//[^\n]*").unwrap();
+    let line = |line: &str| {
+        let code =
+            comment.replace(line, |found: &regex_lite::Captures<'_>| " ".repeat(found[0].len()));
+        let is_code = !code.starts_with('#') && !code.contains("bench");
+        if is_code { code.into_owned() } else { " ".repeat(line.len()) }
+    };
+    text.split('\n').map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn mutants_of(file: &str, text: &str) -> Vec<Mutant> {
+    let code = code_alone(text);
+    let mut mutants = Vec::new();
+    for &(operator, pattern, replacement) in OPERATORS {
+        for found in Regex::new(pattern).unwrap().captures_iter(&code) {
+            let group = found.get(1).unwrap();
+            // A value that is not returned is undefined behaviour, not a mistake.
+            if operator == "statement" && group.as_str().starts_with("return") {
+                continue;
+            }
+            mutants.push(Mutant {
+                operator,
+                file: file.to_owned(),
+                place: group.range(),
+                text: replacement.replace("$1", group.as_str()),
+            });
+        }
+    }
+    mutants
+}
+
+fn in_random_order(mutants: Vec<Mutant>, seed: Seed) -> Vec<Mutant> {
+    let mut random = seed.child("mutants").stream();
+    let mut keyed: Vec<_> = mutants.into_iter().map(|one| (uniform(&mut random), one)).collect();
+    keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    keyed.into_iter().map(|(_, mutant)| mutant).collect()
+}
+
+/// Where mutants are compiled and put to the suite.
+struct Workshop {
+    folder: PathBuf,
+    /// A copy, which nobody builds anew in the meantime.
+    furnace: PathBuf,
+    filters: Vec<String>,
+}
+
+/// What came of a mutant.
+struct Tried {
+    killed_by: Vec<String>,
+    told: String,
+}
+
+impl Workshop {
+    fn new(name: &str, filters: &[&str]) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        std::fs::create_dir_all(&folder).unwrap();
+        let furnace = folder.join("furnace");
+        std::fs::copy(env!("CARGO_BIN_EXE_furnace"), &furnace).unwrap();
+        let filters = filters.iter().map(ToString::to_string).collect();
+        Self { folder, furnace, filters }
+    }
+
+    fn library(&self) -> PathBuf {
+        self.folder.join("core.so")
+    }
+
+    fn compiles(&self, sources: &Sources) -> bool {
+        for (name, text) in sources {
+            std::fs::write(self.folder.join(name), text).unwrap();
+        }
+        let compiler = std::env::var_os("CXX").unwrap_or_else(|| "c++".into());
+        let ended = Command::new(compiler)
+            .args(["-std=c++17", "-O2", "-w", "-shared", "-fPIC", "-I"])
+            .arg(root().join("include"))
+            .arg(self.folder.join("pathtracer.cpp"))
+            .arg("-o")
+            .arg(self.library())
+            .output();
+        ended.unwrap().status.success()
+    }
+
+    /// Puts what was compiled to the suite.
+    fn try_out(&self) -> Tried {
+        let runs = self.folder.join("runs");
+        let _ = std::fs::remove_dir_all(&runs);
+        let ended = Command::new(&self.furnace)
+            .arg("run")
+            .args(&self.filters)
+            .args(["--budget", "quick", "--jobs", "1", "--time-limit", "10", "--quiet"])
+            .arg("--core")
+            .arg(self.library())
+            .arg("--report")
+            .arg(&runs)
+            .arg("--project")
+            .arg(root())
+            .output()
+            .unwrap();
+        let run = std::fs::read_dir(&runs).ok().and_then(|mut runs| runs.next());
+        let run = run.unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&ended.stderr)));
+        Tried::read(&run.unwrap().path())
+    }
+}
+
+fn kills(trial: &TrialRecord) -> bool {
+    use Status::{Blocked, Inconclusive, Pass, Skipped};
+    let is_fine = matches!(trial.outcome.status(), Pass | Inconclusive | Skipped | Blocked);
+    trial.tier.is_graded() && !is_fine
+}
+
+impl Tried {
+    fn read(run: &Path) -> Self {
+        let tree = RunTree::load(run).unwrap();
+        let fails = tree.trials.iter().filter(|trial| kills(trial));
+        let killed_by = fails.map(|trial| trial.case.clone()).collect();
+        let record: serde_json::Value = read_json(&run.join("run.json")).unwrap();
+        let first = &record["cores"][0]["diagnosis"]["headlines"][0];
+        let word = |key: &str| first[key].as_str().unwrap_or_default().to_owned();
+        let told = format!("{} {} {}", word("degree"), word("cause"), word("mistake"));
+        Self { killed_by, told: told.trim().to_owned() }
+    }
+
+    fn describe(&self) -> String {
+        let Some(first) = self.killed_by.first() else { return "  SURVIVED".to_owned() };
+        let others = self.killed_by.len() - 1;
+        format!("  killed by {first} and {others} more\n  first headline: {}", self.told)
+    }
+}
+
+/// `FURNACE_MUTANTS=40..80`
+fn range() -> Range<usize> {
+    let Ok(word) = std::env::var("FURNACE_MUTANTS") else { return 0..200 };
+    let (first, end) = word.split_once("..").unwrap();
+    first.parse().unwrap()..end.parse().unwrap()
+}
+
+#[test]
+#[ignore = "an hour: 200 mutants, each put to the whole suite without pictures"]
+fn what_the_suite_sees_of_mutants() {
+    let seed =
+        std::env::var("FURNACE_SEED").map_or(Seed::SUITE, |word| Seed(word.parse().unwrap()));
+    let workshop = Workshop::new("mutants", &["!image/"]);
+    let sources = sources();
+    let all = sources.iter().flat_map(|(file, text)| mutants_of(file, text)).collect();
+    let mutants = in_random_order(all, seed);
+    println!("{} mutants of examples/cpp, seed {}", mutants.len(), seed.0);
+    let (mut tried, mut killed) = (0, 0);
+    for number in range().take_while(|number| *number < mutants.len()) {
+        let mutant = &mutants[number];
+        if !workshop.compiles(&mutant.apply(&sources)) {
+            continue;
+        }
+        let found = workshop.try_out();
+        tried += 1;
+        killed += usize::from(!found.killed_by.is_empty());
+        println!("{number} {}\n{}", mutant.describe(&sources), found.describe());
+    }
+    println!("{killed} of {tried} killed");
+}

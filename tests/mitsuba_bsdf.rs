@@ -1,7 +1,7 @@
 //! Power on a defect of others: Mitsuba's BSDFs, driven through the contract.
 //!
 //! Seen from 86.65° Mitsuba 3.9.1 samples Beckmann's visible normals with roughness 0.5 otherwise than it states: of
-//! its rough dielectric the density integrates to 0.99981 and 0.99681 of the samples succeed; of its rough conductor
+//! its rough dielectric the pdf integrates to 0.99981 and 0.99681 of the samples succeed; of its rough conductor
 //! 0.99940 and 0.99640 (4 million samples, midpoint rule on 16 million directions, in Python without furnace). With
 //! GGX both agree. Mitsuba's own χ² test of the dielectric passes with the seeds that are committed to it.
 //!
@@ -149,7 +149,7 @@ fn judged(kind: &str, normals: &str, angle: &str) -> Outcome {
 
 #[test]
 #[ignore = "needs a Python that has Mitsuba"]
-fn beckmann_in_mitsuba_draws_by_another_density_than_it_states() {
+fn beckmann_in_mitsuba_draws_by_another_pdf_than_it_states() {
     // The direction of Mitsuba's own test, (0.8, 0.3, 0.05).
     for kind in ["roughdielectric", "roughconductor"] {
         assert_eq!(judged(kind, "beckmann", "86.65").status(), Status::Fail, "{kind}");

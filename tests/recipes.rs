@@ -120,7 +120,7 @@ fn strays(table: &str, row: &Captures<'_>, sources: &BTreeMap<String, String>) -
 #[test]
 fn a_thing_of_each_kind_is_known_to_the_files_of_its_recipe_alone() {
     let (recipes, sources) = (recipes(), texts(&["src"]));
-    let mut strangers = Vec::new();
+    let mut unnamed = Vec::new();
     for Kind { heading, table, row, beside } in KINDS {
         let folder = table.trim_end_matches("<subject>.rs");
         assert!(recipes[*heading].contains(folder), "`{heading}` does not name {folder}");
@@ -131,9 +131,9 @@ fn a_thing_of_each_kind_is_known_to_the_files_of_its_recipe_alone() {
             .collect();
         assert!(rows.len() > 1, "{heading}: no rows are found");
         let strays = rows.iter().flat_map(|(path, row)| strays(path, row, &sources));
-        strangers.extend(strays.filter(|stray| !beside.iter().any(|path| stray.starts_with(path))));
+        unnamed.extend(strays.filter(|stray| !beside.iter().any(|path| stray.starts_with(path))));
     }
-    assert!(strangers.is_empty(), "no recipe names these places:\n{}", strangers.join("\n"));
+    assert!(unnamed.is_empty(), "no recipe names these places:\n{}", unnamed.join("\n"));
 }
 
 /// Whether what stands between backticks is there, as far as it is a path, a verb, an option or a name of the code.

@@ -55,6 +55,24 @@ const AVOID: &[(&str, &str)] = &[
 /// Where such a word is the field's own after all; the last one seeds random numbers.
 const EXCEPT: &[&str] = &["bounding volume hierarchy", "probability density", "form of a density"];
 
+/// Of those, the ones that no name and no comment of the code may have either.
+const NOT_IN_CODE: &[&str] = &[
+    "lamp",
+    "lamps",
+    "glow",
+    "glows",
+    "glowing",
+    "gather",
+    "gathers",
+    "gathered",
+    "ball",
+    "balls",
+    "density",
+    "densities",
+    "hierarchy",
+    "strangers",
+];
+
 /// A term of the field, and the file or folder whose text has it.
 const TERMS: &[(&str, &str)] = &[
     ("next event estimation", "src/cause/light.rs"),
@@ -241,6 +259,43 @@ fn what_people_read_is_in_the_words_of_the_field() {
 }
 
 #[test]
+fn names_and_comments_are_in_the_words_of_the_field() {
+    let paths =
+        ["src", "tests", "benches", "fuzz/fuzz_targets"].map(|top| files_below(&root().join(top)));
+    let sources =
+        paths.iter().flatten().filter(|path| path.extension().is_some_and(|end| end == "rs"));
+    let mut complaints = String::new();
+    for path in sources.filter(|path| !path.ends_with("tests/words.rs")) {
+        for (number, line) in fs::read_to_string(path).unwrap().lines().enumerate() {
+            let code = EXCEPT.iter().fold(code(line), |code, term| code.replace(term, ""));
+            let is_said = |word: &&&str| parts(&code).any(|part| part == **word);
+            for word in NOT_IN_CODE.iter().filter(is_said) {
+                let _ = writeln!(complaints, "{}:{}: `{word}`", label(path), number + 1);
+            }
+        }
+    }
+    assert!(complaints.is_empty(), "\n{complaints}");
+}
+
+/// A line of a source without its strings, and with its names in small letters parted by `_`.
+fn code(line: &str) -> String {
+    let mut before = ' ';
+    let mut spaced = String::new();
+    for character in line.replace("\\\"", "").split('"').step_by(2).flat_map(str::chars) {
+        if character.is_uppercase() && before.is_lowercase() {
+            spaced.push('_');
+        }
+        spaced.push(character);
+        before = character;
+    }
+    spaced.to_lowercase()
+}
+
+fn parts(code: &str) -> impl Iterator<Item = &str> {
+    code.split(|c: char| !c.is_alphabetic())
+}
+
+#[test]
 fn the_words_of_the_field_lead_to_the_right_room() {
     let is_missing = |(term, room): &&(&str, &str)| {
         let said = |path: &PathBuf| fs::read_to_string(path).is_ok_and(|text| says(&text, term));
@@ -260,6 +315,10 @@ fn says(text: &str, term: &str) -> bool {
 #[test]
 fn the_test_finds_what_it_looks_for() {
     assert!(has("Two lamps.", "lamps") && !has("a clamp", "lamp") && !has("ball.hpp", "ball"));
+    assert!(
+        parts(&code("fn aim(at: &BallLight) // \"lamp\""))
+            .eq(["fn", "aim", "at", "", "", "ball", "light", "", "", "", "", ""])
+    );
     let source = "let a = \"a \\\" lamp\"; // \"not this\"\n/// nor this\nlet b = '\"'; f(\"and a\n  ball\")";
     let found: Vec<_> = strings(source, false).into_iter().map(|(_, text)| text).collect();
     assert_eq!(found[0], "a \\\" lamp");

@@ -23,7 +23,7 @@ enum Wrong {
     NanPixel,
     /// One pixel of each picture is left as it came.
     UntouchedPixel,
-    /// The density of light samples falls with the distance, not with its square.
+    /// The pdf of light samples falls with the distance, not with its square.
     LightPdfByDistance,
 }
 
@@ -170,7 +170,7 @@ fn an_untouched_pixel_is_told_from_a_nan() {
 }
 
 #[test]
-fn a_light_density_without_the_square_is_seen_in_the_solid_angle() {
+fn a_light_pdf_without_the_square_is_seen_in_the_solid_angle() {
     let area_lights = ["sphere", "rectangle", "triangle"]
         .map(|l| format!("light/{l}-light-samples-reach-the-light"));
     let area_lights = area_lights.each_ref().map(String::as_str);

@@ -1,4 +1,4 @@
-//! How much faster than brute force a hierarchy is, by mesh and by split rule: `cargo bench`.
+//! How much faster than brute force a BVH is, by mesh and by split rule: `cargo bench`.
 //!
 //! Criterion times each structure by itself and keeps baselines. The table at the end is our own: speed-ups are
 //! ratios of passes that were interleaved in random order, on the same rays, in the same thread, by its CPU time,

@@ -1,4 +1,4 @@
-//! What is compared: brute force, and a hierarchy by each rule.
+//! What is compared: brute force, and a BVH by each rule.
 
 use furnace::contract::{Acceleration, BuiltScene, Core, Hit, Ray, Split, TraversalStats};
 use furnace::cores::builtin::Builtin;

@@ -7,7 +7,7 @@ pub(crate) enum Subject {
     Camera,
     /// Rays against triangles and spheres.
     Shape,
-    /// Boxes, building and traversing the hierarchy.
+    /// Boxes, building and traversing the BVH.
     Bvh,
     /// Directions of the hemisphere.
     Sampling,
@@ -79,7 +79,7 @@ pub(crate) static PARTS: &[Part] = &[
 
 impl Part {
     /// The number of the part that builds and traverses the BVH.
-    pub(crate) const HIERARCHY: u32 = 2;
+    pub(crate) const BVH: u32 = 2;
 
     /// The part that a case belongs to, by its folder.
     pub(crate) fn of_case(case: &str) -> Option<&'static Part> {

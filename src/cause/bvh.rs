@@ -51,7 +51,7 @@ causes! {
         "traversal skips the second child once the first is hit",
         at "BVH traversal, where the children of a node are visited",
         fix "Visit both children and keep the closer hit; `a || b` skips b.";
-    HIERARCHY_NOT_USED = "bvh-not-used":
+    BVH_NOT_USED = "bvh-not-used":
         "the BVH is not used: every triangle is tested",
         at "BVH traversal and its leaves",
         fix "Test a node's box first, then only the primitives of the leaves that are reached.";

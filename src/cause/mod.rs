@@ -68,7 +68,7 @@ pub(crate) fn all() -> impl Iterator<Item = &'static Cause> {
 }
 
 /// Whether the mistake is one of the BVH: closed surfaces leak by it, though every triangle is hit.
-pub(crate) fn is_of_hierarchy(cause: &Cause) -> bool {
+pub(crate) fn is_of_bvh(cause: &Cause) -> bool {
     bvh::CAUSES.contains(&cause)
 }
 

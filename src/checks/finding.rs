@@ -197,7 +197,7 @@ impl Finding {
         Self::of(statement, weakest.map_or_else(String::new, caught), measures)
     }
 
-    /// The same, which says of what the error would have been: ` of a density, root mean square`.
+    /// The same, which says of what the error would have been: ` of a pdf, root mean square`.
     pub(crate) fn in_terms(mut self, of: &str) -> Self {
         self.resolution += of;
         self

@@ -1,4 +1,4 @@
-//! Answers that are a constant times a power of the cosine: what most wrong densities and values
+//! Answers that are a constant times a power of the cosine: what most wrong pdfs and values
 //! are, and how they are told apart.
 
 use std::f64::consts::FRAC_1_PI;
@@ -23,9 +23,9 @@ impl Form {
         Self { constant, power: 0 }
     }
 
-    /// The density of uniform directions of the hemisphere.
+    /// The pdf of uniform directions of the hemisphere.
     pub(crate) const UNIFORM: Self = Self::constant(0.5 * FRAC_1_PI);
-    /// The density of cosine-distributed directions.
+    /// The pdf of cosine-distributed directions.
     pub(crate) const COSINE: Self = Self { constant: FRAC_1_PI, power: 1 };
 
     /// The form of these values, each at its cosine, if they have one.

@@ -168,7 +168,7 @@ pub(crate) const fn lets_pass(surface: &Surface) -> bool {
     matches!(surface, Surface::RoughGlass { .. })
 }
 
-/// The height at which f and its density may jump, seen from this angle: rough glass refracts by microfacets that face
+/// The height at which f and its pdf may jump, seen from this angle: rough glass refracts by microfacets that face
 /// the side of the normal, and where the half vector has just turned over there are none.
 pub(crate) fn kink(surface: &Surface, angle: f64) -> Option<f64> {
     match surface {

@@ -160,7 +160,7 @@ fn collect(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Vec<Candidate
 
 /// A mistake of the BVH that has a name explains the cases of the vague cause of the same part too.
 fn absorb_the_vague(told: &mut Candidate, candidates: &mut Vec<Candidate>) {
-    if cause::is_of_hierarchy(told.cause) {
+    if cause::is_of_bvh(told.cause) {
         for vague in candidates.extract_if(.., |candidate| cause::is_vague(candidate.cause)) {
             told.cases.extend(vague.cases);
             told.evidence.extend(vague.evidence);
@@ -198,7 +198,7 @@ impl Merit {
 
 /// The part that a mistake is made in, where that is not the part in which it shows first.
 fn part_of_mistake(cause: &Cause) -> u32 {
-    if cause::is_of_hierarchy(cause) { Part::HIERARCHY } else { 0 }
+    if cause::is_of_bvh(cause) { Part::BVH } else { 0 }
 }
 
 fn best_of(candidates: &[Candidate], left: &[String]) -> Option<usize> {
@@ -366,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mistake_of_the_hierarchy_that_has_a_name_explains_the_leaks_of_part_one() {
+    fn a_mistake_of_the_bvh_that_has_a_name_explains_the_leaks_of_part_one() {
         let made = Made::new()
             .with("shape/a", failing("a").because(&bvh::HITS_LOST, "the loop meets them"))
             .with("bvh/b", failing("b").because(&bvh::RANGE_OVERWRITTEN, "y"));

@@ -311,7 +311,7 @@ fn pictures(name: &str) -> Vec<PictureFile> {
     .to_vec()
 }
 
-/// A box with a red and a green wall and a lamp, noisy where it was rendered, dark where it is to fail.
+/// A box with a red and a green wall and a light, noisy where it was rendered, dark where it is to fail.
 fn draw(trial: &TrialRecord, role: PictureRole, (width, height): (usize, usize)) -> Image {
     let mut image = Image::new(width, height, [0.0; 3]);
     let is_wrong = trial.outcome == wrong_picture();
@@ -343,8 +343,8 @@ fn walls(x: f64, y: f64, channel: usize) -> f64 {
         () if x > 0.82 => [0.05, 0.33, 0.08],
         () => [0.73, 0.72, 0.68],
     };
-    let lamp = (x - 0.5).abs() < 0.12 && (0.04..0.1).contains(&y);
+    let light = (x - 0.5).abs() < 0.12 && (0.04..0.1).contains(&y);
     let sphere = (x - 0.38).powi(2) + (y - 0.7).powi(2);
     let shade = if sphere < 0.02 { 0.25 + 8.0 * (0.02 - sphere) } else { 0.9 - 0.5 * y };
-    if lamp { 12.0 } else { wall[channel] * shade * (0.5 + x * (1.0 - x)) }
+    if light { 12.0 } else { wall[channel] * shade * (0.5 + x * (1.0 - x)) }
 }

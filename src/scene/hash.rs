@@ -147,10 +147,10 @@ mod tests {
         let material =
             |name: &str, surface, emission| Material { name: name.to_owned(), surface, emission };
         let cap = Some(Cap { axis: DVec3::Z, half_angle: 0.5 });
-        let glow = Some(Emission { radiance: [1.0; 3], cap });
+        let emission = Some(Emission { radiance: [1.0; 3], cap });
         let grey = Surface::Diffuse { reflectance: [0.5; 3] };
         let rough = Surface::Conductor { reflectance: [0.9; 3], roughness: 0.2 };
-        let ball = Sphere {
+        let sphere = Sphere {
             name: "ball".to_owned(),
             centre: DVec3::X,
             radius: 1.0,
@@ -160,9 +160,9 @@ mod tests {
         SceneDescription {
             name: "scene".to_owned(),
             camera: Some(Camera::look_at(DVec3::ZERO, DVec3::X, DVec3::Y, 1.0, [32, 32])),
-            materials: vec![material("glow", grey, glow), material("rough", rough, None)],
+            materials: vec![material("glow", grey, emission), material("rough", rough, None)],
             meshes: vec![Mesh { material: 1, ..procedural::icosphere(0) }],
-            spheres: vec![ball],
+            spheres: vec![sphere],
             lights: vec![Light::ConstantSky { radiance: [1.0; 3] }],
         }
         .with_area_lights()

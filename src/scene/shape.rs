@@ -72,7 +72,7 @@ pub struct Sphere {
     pub(crate) centre: DVec3,
     /// Scene units, positive.
     pub(crate) radius: f64,
-    /// Normals (and so the front side) point to the centre: a room, not a ball.
+    /// Normals (and so the front side) point to the centre: a room, not a sphere.
     pub(crate) inward: bool,
     /// Number of the material.
     pub(crate) material: u32,

@@ -36,7 +36,7 @@ impl Mistake {
             Self::HalfPixel => "displaced by half a pixel",
             Self::GammaTwice => "gamma applied once too often",
             Self::MissingBounce => "the sixth bounce is missing",
-            Self::Clamped => "samples clamped at 10, those of the lamp of 12 too",
+            Self::Clamped => "samples clamped at 10, those of the light of 12 too",
         }
     }
 

@@ -1,4 +1,4 @@
-//! What a BSDF samples is what it evaluates: the same value, the same density, nothing below the horizon.
+//! What a BSDF samples is what it evaluates: the same value, the same pdf, nothing below the horizon.
 
 use super::drawn::Drawn;
 use crate::checks::surface::SurfaceEntry;
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn another_density_in_samples_is_seen() {
+    fn another_pdf_in_samples_is_seen() {
         let fake = Lambertian { sampled_pdf: 0.999, ..Lambertian::default() };
         assert!(failure(&found(fake)).contains("another pdf"));
     }
@@ -71,7 +71,7 @@ mod tests {
         assert!(failure(&found(fake)).contains("another value"));
     }
 
-    /// A core in single precision whose density changes by 60 % within 1e-4 radians, and whose samples are
+    /// A core in single precision whose pdf changes by 60 % within 1e-4 radians, and whose samples are
     /// `factor` off.
     fn steep(factor: f64) -> Finding {
         let value = |material: &Material, wi: DVec3| {
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn a_steep_density_is_forgiven_what_rounding_changes_and_no_more() {
+    fn a_steep_pdf_is_forgiven_what_rounding_changes_and_no_more() {
         assert_passes(&steep(1.0));
         assert!(failure(&steep(1.1)).contains("another pdf"));
     }

@@ -142,7 +142,7 @@ impl Drawn {
         Ok(evaluated(context.core, &self.surface.material(), &queries)?)
     }
 
-    /// A sampled direction is rounded, and value and density are evaluated where it went to. Where they differ, as much
+    /// A sampled direction is rounded, and value and pdf are evaluated where it went to. Where they differ, as much
     /// more is allowed as they change within that rounding.
     fn forgive_rounding(
         &self,

@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 /// Right by default.
 #[derive(Clone, Copy)]
 pub(crate) struct Lambertian {
-    /// Multiplies the density of samples.
+    /// Multiplies the pdf of samples.
     pub(crate) sampled_pdf: f64,
     /// Multiplies the value of samples.
     pub(crate) sampled_value: f64,

@@ -41,7 +41,7 @@ impl Pair {
         self.distribution() * self.both_masked() / (4.0 * self.wo.z * self.wi.z)
     }
 
-    /// The density of normals of the microfacets that `wo` sees.
+    /// The pdf of visible normals: of the microfacets that `wo` sees.
     fn visible(&self) -> f64 {
         let seen = masking(self.wo.z, self.roughness) * self.wo.dot(self.half());
         self.distribution() * seen / self.wo.z
@@ -75,7 +75,7 @@ pub(crate) const MISTAKES: &[(&Cause, Mistake)] = &[
     (&cause::COSINE_IN_F, |pair| pair.wi.z),
 ];
 
-/// The density of facets of Beckmann and Spizzichino (1963).
+/// The normal distribution function of Beckmann and Spizzichino (1963).
 fn beckmann(cosine: f64, alpha: f64) -> f64 {
     let squared = cosine * cosine;
     let tangent = (1.0 - squared) / squared;
@@ -102,12 +102,12 @@ pub(crate) fn mistake_of_value(values: &[(Pair, f64)]) -> Option<&'static Cause>
     PLAIN.into_iter().find(is_made)
 }
 
-/// The mistake that makes every one of these densities. Two ways to sample are right.
-pub(crate) fn mistake_of_density(densities: &[(Pair, f64)]) -> Option<&'static Cause> {
+/// The mistake that makes every one of these pdfs. Two ways to sample are right.
+pub(crate) fn mistake_of_pdf(pdfs: &[(Pair, f64)]) -> Option<&'static Cause> {
     let of_normals: [fn(&Pair) -> f64; 2] = [Pair::visible, |p| p.distribution() * p.half().z];
     let predicts = |formula: &fn(&Pair) -> f64| {
         let same = |(pair, pdf): &(Pair, f64)| (pdf / formula(pair) - 1.0).abs() <= SAME;
-        !densities.is_empty() && densities.iter().all(same)
+        !pdfs.is_empty() && pdfs.iter().all(same)
     };
     of_normals.iter().any(predicts).then_some(&cause::PDF_OF_HALF_VECTOR)
 }
@@ -136,10 +136,10 @@ mod tests {
     }
 
     #[test]
-    fn a_density_of_normals_is_told_from_one_of_directions() {
-        let told = mistake_of_density(&with(Pair::visible));
+    fn a_pdf_of_normals_is_told_from_one_of_directions() {
+        let told = mistake_of_pdf(&with(Pair::visible));
         assert_eq!(told, Some(&cause::PDF_OF_HALF_VECTOR));
         let of_directions = with(|p| p.visible() / (4.0 * p.wo.dot(p.half())));
-        assert_eq!(mistake_of_density(&of_directions), None);
+        assert_eq!(mistake_of_pdf(&of_directions), None);
     }
 }

@@ -1,4 +1,4 @@
-//! f(a, b) = f(b, a), after Helmholtz; across an interface, of f over the index squared. Densities need not be.
+//! f(a, b) = f(b, a), after Helmholtz; across an interface, of f over the index squared. Pdfs need not be.
 
 use crate::checks::phrase::some_are;
 use crate::checks::surface::{SurfaceEntry, evaluated};
@@ -44,7 +44,7 @@ impl Check for Reciprocal {
             measures.push(Measure::worst("f there and back", &report).of_row(surface));
             if report.disagree > 0 {
                 let some = some_are(report.disagree, report.compared, "values");
-                complaints.push(format!("{surface}: {some} another with light and eye exchanged"));
+                complaints.push(format!("{surface}: {some} another with wi and wo exchanged"));
             }
         }
         let right = format!("{} surfaces are reciprocal", self.surface.len());
@@ -52,7 +52,7 @@ impl Check for Reciprocal {
     }
 }
 
-/// f at pairs of directions, and with light and eye exchanged, each over what exchanging changes.
+/// f at pairs of directions, and with wi and wo exchanged, each over what exchanging changes.
 fn there_and_back(
     context: &mut Context<'_>,
     surface: SurfaceEntry,
@@ -85,7 +85,7 @@ fn grazes_its_facet(surface: SurfaceEntry, BsdfQuery { wo, wi }: &BsdfQuery) -> 
 }
 
 /// What f across an interface is proportional to that is not the same both ways: the square of the index on the
-/// side of the eye where radiance is scaled by it, on the side of the light where it is not.
+/// side of wo where radiance is scaled by it, on the side of wi where it is not.
 fn index_squared(surface: SurfaceEntry, radiance: GlassRadiance, query: &BsdfQuery) -> f64 {
     let side = match radiance {
         GlassRadiance::Scaled => query.wo,
@@ -113,9 +113,9 @@ mod tests {
     }
 
     #[test]
-    fn a_value_that_depends_on_the_eye_alone_is_seen() {
+    fn a_value_that_depends_on_wo_alone_is_seen() {
         let fake = Lambertian { tilt: 1e-3, ..Lambertian::default() };
         let finding = judge(&check_of::<Reciprocal>(CASE), &mut fake.core());
-        assert!(failure(&finding).contains("light and eye exchanged"));
+        assert!(failure(&finding).contains("wi and wo exchanged"));
     }
 }

@@ -1,4 +1,4 @@
-//! Rough glass, right and wrong: f and density by Walter's formulas (2007), and what they become by the usual
+//! Rough glass, right and wrong: f and pdf by Walter's formulas (2007), and what they become by the usual
 //! mistakes.
 
 use super::albedo::masking as declared;
@@ -105,7 +105,7 @@ impl Facet {
     }
 
     /// Of samples that are drawn by the facets seen and by Fresnel's share.
-    fn density(&self) -> f64 {
+    fn pdf(&self) -> f64 {
         if !self.is_possible() {
             return 0.0;
         }
@@ -143,7 +143,7 @@ const VALUES: &[(&Cause, Factor)] = &[
     }),
 ];
 
-const DENSITIES: &[(&Cause, Factor)] = &[
+const PDFS: &[(&Cause, Factor)] = &[
     (&bsdf::REFRACTION_JACOBIAN_WITHOUT_INDEX, |f| {
         if f.passes { (f.ratio * f.ratio).recip() } else { 1.0 }
     }),
@@ -156,9 +156,9 @@ impl RoughGlass {
         self.mistake(pairs, Facet::value, VALUES)
     }
 
-    /// The mistake that makes every density. Samples may be drawn by other laws that are as right.
-    pub(crate) fn mistake_of_density(self, pairs: &[(BsdfQuery, f64)]) -> Option<&'static Cause> {
-        self.mistake(pairs, Facet::density, DENSITIES)
+    /// The mistake that makes every pdf. Samples may be drawn by other laws that are as right.
+    pub(crate) fn mistake_of_pdf(self, pairs: &[(BsdfQuery, f64)]) -> Option<&'static Cause> {
+        self.mistake(pairs, Facet::pdf, PDFS)
     }
 
     fn mistake(
@@ -222,8 +222,8 @@ mod tests {
         let value = |factor| with(Facet::value, RIGHT_INDEX, factor);
         assert_eq!(GLASS.mistake_of_value(&value(RIGHT)), None);
         assert_eq!(GLASS.mistake_of_value(&value(|_| 1.01)), None);
-        let density = with(Facet::density, RIGHT_INDEX, RIGHT);
-        assert_eq!(GLASS.mistake_of_density(&density), None);
+        let pdf = with(Facet::pdf, RIGHT_INDEX, RIGHT);
+        assert_eq!(GLASS.mistake_of_pdf(&pdf), None);
     }
 
     #[test]
@@ -232,17 +232,17 @@ mod tests {
             let found = with(Facet::value, RIGHT_INDEX, *factor);
             assert_eq!(GLASS.mistake_of_value(&found), Some(*cause));
         }
-        for (cause, factor) in DENSITIES {
-            let found = with(Facet::density, RIGHT_INDEX, *factor);
-            assert_eq!(GLASS.mistake_of_density(&found), Some(*cause));
+        for (cause, factor) in PDFS {
+            let found = with(Facet::pdf, RIGHT_INDEX, *factor);
+            assert_eq!(GLASS.mistake_of_pdf(&found), Some(*cause));
         }
         let half = Some(&bsdf::HALF_WITH_INDEX_OF_ENTERING);
         assert_eq!(GLASS.mistake_of_value(&with(Facet::value, OF_ENTERING, RIGHT)), half);
-        assert_eq!(GLASS.mistake_of_density(&with(Facet::density, OF_ENTERING, RIGHT)), half);
+        assert_eq!(GLASS.mistake_of_pdf(&with(Facet::pdf, OF_ENTERING, RIGHT)), half);
     }
 
     #[test]
-    fn light_and_eye_may_be_exchanged_over_the_index_squared() {
+    fn wi_and_wo_may_be_exchanged_over_the_index_squared() {
         for (query, f) in with(Facet::value, RIGHT_INDEX, RIGHT) {
             let BsdfQuery { wo, wi } = query;
             let back = Facet::of(GLASS, &BsdfQuery { wo: wi, wi: wo }, RIGHT_INDEX).value();

@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hundredth_in_the_value_or_in_the_density_is_seen() {
+    fn a_hundredth_in_the_value_or_in_the_pdf_is_seen() {
         let bright = found(Lambertian { sampled_value: 1.01, ..Lambertian::default() });
         assert!(failure(&bright).contains("is 0.505, and the albedo is 0.5"));
         failure(&found(Lambertian { sampled_pdf: 1.01, ..Lambertian::default() }));

@@ -1,4 +1,4 @@
-//! Bounding volume hierarchies: the same hits as without one, from a build that ends, with less work.
+//! Bounding volume hierarchies (BVHs): the same hits as without one, from a build that ends, with less work.
 
 mod arrangement;
 mod box_row;

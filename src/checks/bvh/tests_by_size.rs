@@ -100,7 +100,7 @@ pub(super) fn growth(sizes: &[Size], tests: impl Fn(&Size) -> f64) -> f64 {
 pub(super) fn cause(sizes: &[Size], slope: f64, failed: bool) -> Option<&'static Cause> {
     let shadows_search = sizes.last().is_some_and(Size::shadows_search_on);
     if failed && slope >= ALL_TESTED {
-        Some(&bvh::HIERARCHY_NOT_USED)
+        Some(&bvh::BVH_NOT_USED)
     } else if failed && shadows_search {
         Some(&bvh::SHADOWS_SEARCH_ON)
     } else {

@@ -88,10 +88,10 @@ impl TestsPerRay {
             |share: f64| tried.iter().all(|view| view.tests >= share * f64::from(TRIANGLES));
         let slow: Vec<_> = tried.iter().filter(|view| view.is_slow()).map(|v| v.name).collect();
         match (self.arrangement, slow.as_slice()) {
-            (Arrangement::Layers, _) if all_test(1.0) => Some(&bvh::HIERARCHY_NOT_USED),
+            (Arrangement::Layers, _) if all_test(1.0) => Some(&bvh::BVH_NOT_USED),
             (Arrangement::Layers, [_, _]) => Some(&bvh::SEGMENT_NOT_SHORTENED),
             (Arrangement::Layers, _) => Some(&bvh::CHILDREN_UNORDERED),
-            (Arrangement::LongBoxes, _) if all_test(UNUSED) => Some(&bvh::HIERARCHY_NOT_USED),
+            (Arrangement::LongBoxes, _) if all_test(UNUSED) => Some(&bvh::BVH_NOT_USED),
             (Arrangement::LongBoxes, ["along z"]) => Some(&bvh::Z_NEVER_SPLIT),
             (Arrangement::LongBoxes, [_, _, _]) => Some(&bvh::SHORTEST_AXIS),
             (Arrangement::LongBoxes, _) => None,

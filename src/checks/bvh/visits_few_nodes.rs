@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn what_grows_too_fast_fails_and_is_named() {
         for (slip, mesh, cause) in [
-            (Slip::TestsEverything, "bumpy-sphere", &bvh::HIERARCHY_NOT_USED),
+            (Slip::TestsEverything, "bumpy-sphere", &bvh::BVH_NOT_USED),
             // It tests few triangles.
             (Slip::IsAList, "bumpy-sphere", &bvh::UNBALANCED),
             (Slip::SearchesShadows, "soup", &bvh::SHADOWS_SEARCH_ON),

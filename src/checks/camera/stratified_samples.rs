@@ -17,7 +17,7 @@ const FIRST_LOOK: u64 = 8;
 check! {
     /// Four samples lie in the four quarters of each pixel, evenly spread within them.
     pub(crate) struct StratifiedSamples {
-        /// The smallest error of the density within a cell that must be seen, root mean square.
+        /// The smallest error of the pdf within a cell that must be seen, root mean square.
         detects: Percent,
         /// Past this the verdict is inconclusive, never a pass.
         at_most: Count,

@@ -190,9 +190,9 @@ impl Case {
         let camera = self.scene.camera.unwrap();
         let fields = [camera.horizontal_fov, camera.vertical_fov];
         let (share, [x, y]) = match self.scene.shape(0) {
-            Shape::Sphere(ball) => {
-                let distance = ball.centre.distance(camera.position);
-                (coverage::sphere_on_axis(ball.radius, distance, fields), [0.5; 2])
+            Shape::Sphere(sphere) => {
+                let distance = sphere.centre.distance(camera.position);
+                (coverage::sphere_on_axis(sphere.radius, distance, fields), [0.5; 2])
             }
             Shape::Mesh(mesh) => {
                 let rectangle = mesh.as_rectangle().unwrap();
@@ -257,9 +257,11 @@ impl Row<'_> {
                 let [outside, inside] = self.faces(cosine, *index);
                 Some(fresnel::slab_transmittance(outside, inside))
             }
-            (Surface::Glass { index, .. }, Shape::Sphere(ball)) => {
-                Some(self.ball(ball.centre.distance(ray.origin) < ball.radius, cosine, *index))
-            }
+            (Surface::Glass { index, .. }, Shape::Sphere(sphere)) => Some(self.sphere(
+                sphere.centre.distance(ray.origin) < sphere.radius,
+                cosine,
+                *index,
+            )),
             (Surface::Conductor { reflectance, roughness }, _) => {
                 let form = masking(self.conventions.smith_term);
                 Some(reflectance[c] * microfacet::albedo(cosine, *roughness, form))
@@ -322,8 +324,8 @@ impl Row<'_> {
             _ => f64::NAN,
         };
         let [first, last] = self.bounces;
-        let glows = self.scene.material_of(met.shape).emission;
-        let cap = glows.and_then(|glows| glows.cap);
+        let emitted = self.scene.material_of(met.shape).emission;
+        let cap = emitted.and_then(|emitted| emitted.cap);
         match (self.scene.shape_count(), cap) {
             (1, None) => furnace(emission(self.scene, 0, c), albedo(0), first..=last),
             (1, Some(cap)) => {
@@ -357,8 +359,8 @@ impl Row<'_> {
         [reflectance(cos_outside, index), reflectance(cos_inside, index.recip())]
     }
 
-    /// A ball of glass in a sky of radiance 1, or with a lamp of radiance 1 in its middle.
-    fn ball(&self, from_inside: bool, cosine: f64, index: f64) -> f64 {
+    /// A sphere of glass in a sky of radiance 1, or with a light of radiance 1 in its middle.
+    fn sphere(&self, from_inside: bool, cosine: f64, index: f64) -> f64 {
         let [outside, inside] = self.faces(cosine, index);
         match (from_inside, self.scene.shape_count()) {
             (true, _) => self.scaled(index * index),
@@ -380,9 +382,9 @@ fn form_factor(shape: Shape<'_>, point: DVec3, normal: DVec3) -> f64 {
             .filter(|[a, b, c]| (*b - *a).cross(*c - *a).dot(point - *a) > 0.0)
             .map(|corners| polygon(&corners.map(|corner| corner - point), normal))
             .sum(),
-        Shape::Sphere(ball) => {
-            let to = ball.centre - point;
-            sphere(ball.radius, to.length(), to.angle_between(normal))
+        Shape::Sphere(light) => {
+            let to = light.centre - point;
+            sphere(light.radius, to.length(), to.angle_between(normal))
         }
     }
 }
@@ -398,7 +400,7 @@ fn emission(scene: &SceneDescription, shape: u32, c: usize) -> f64 {
 }
 
 fn radius(scene: &SceneDescription, shape: u32) -> f64 {
-    if let Shape::Sphere(ball) = scene.shape(shape) { ball.radius } else { f64::NAN }
+    if let Shape::Sphere(sphere) = scene.shape(shape) { sphere.radius } else { f64::NAN }
 }
 
 fn triangles(mesh: &crate::scene::Mesh) -> impl Iterator<Item = [DVec3; 3]> + '_ {
@@ -414,8 +416,8 @@ fn solid_angle(shape: Shape<'_>, point: DVec3) -> f64 {
                 2.0 * a.dot(b.cross(c)).abs().atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a))
             })
             .sum(),
-        Shape::Sphere(ball) => {
-            let sine = ball.radius / ball.centre.distance(point);
+        Shape::Sphere(sphere) => {
+            let sine = sphere.radius / sphere.centre.distance(point);
             2.0 * PI * (1.0 - (1.0 - sine * sine).sqrt())
         }
     }

@@ -27,7 +27,7 @@ check! {
     summary: "hemisphere and light sampling, few and many samples: one mean",
 }
 
-/// A way to gather light.
+/// A way to estimate light.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Estimator {

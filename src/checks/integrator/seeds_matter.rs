@@ -96,7 +96,7 @@ fn correlations(films: &[Film]) -> Vec<(&'static str, CorrelationReport)> {
 }
 
 /// Correlation of the signs of the noise of pixels that are `step` apart. Differences of two seeds have no picture
-/// left in them, and signs count every pixel alike: the few at the edge of a lamp, a hundred times as noisy as the
+/// left in them, and signs count every pixel alike: the few at the edge of a light, a hundred times as noisy as the
 /// rest, would otherwise decide alone, and the standard error would not be 1/√n.
 fn neighbours(films: &[Film], step: [usize; 2]) -> CorrelationReport {
     let pairs: Vec<_> = films.chunks_exact(2).flat_map(|two| sign_pairs(two, step)).collect();
@@ -122,7 +122,7 @@ mod tests {
     use super::*;
     use crate::math::rng::{Seed, uniform};
 
-    /// Pictures with a lamp a hundred times as noisy as the rest; a share of each pixel's noise is its neighbour's.
+    /// Pictures with a light a hundred times as noisy as the rest; a share of each pixel's noise is its neighbour's.
     fn films(shared: f32) -> Vec<Film> {
         let mut stream = Seed(3).stream();
         let mut film = || {

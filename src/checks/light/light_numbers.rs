@@ -12,7 +12,7 @@ use crate::scene::Light;
 use crate::text::{Several, Vector};
 use glam::DVec3;
 
-/// A sample and its density come out of the same call: nothing else is evaluated.
+/// A sample and its pdf come out of the same call: nothing else is evaluated.
 const SAME: f64 = 0.0;
 
 check! {
@@ -106,8 +106,8 @@ mod tests {
     use crate::scene::{Library, SceneDescription};
     use glam::DVec2;
 
-    /// A lamp over the origin: a unit square at height 1, whose points are found by `place`.
-    fn lamp(place: fn(DVec2) -> DVec2) -> Fake {
+    /// A light over the origin: a unit square at height 1, whose points are found by `place`.
+    fn light(place: fn(DVec2) -> DVec2) -> Fake {
         let light = move |from: DVec3, point| {
             let to = place(point).extend(1.0) - from;
             let (wi, distance) = (to.normalize(), to.length());
@@ -121,16 +121,16 @@ mod tests {
         let check: LightNumbers = check_of("[expect]\nfrom = [[0, 0, 0]]");
         let scene = Library::new("scenes").load("rectangle-light", &toml::Table::new()).unwrap();
         let scene = SceneDescription::clone(&scene);
-        try_judge(&check, &mut lamp(place), Some(scene)).unwrap()
+        try_judge(&check, &mut light(place), Some(scene)).unwrap()
     }
 
     #[test]
-    fn a_lamp_sampled_by_both_numbers_passes() {
+    fn a_light_sampled_by_both_numbers_passes() {
         assert_passes(&found(|point| point - 0.5));
     }
 
     #[test]
-    fn a_lamp_sampled_along_its_diagonal_is_named() {
+    fn a_light_sampled_along_its_diagonal_is_named() {
         let finding = found(|point| DVec2::splat(point.x - 0.5));
         assert!(failure(&finding).contains("the second number moves 0 % of the samples"));
         assert_eq!(finding.clues[0].cause, "one-number-twice");

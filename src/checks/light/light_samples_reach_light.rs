@@ -1,9 +1,9 @@
-//! Sampled directions reach the light, at the distance they say, with a density that adds up.
+//! Sampled directions reach the light, at the distance they say, with a pdf that integrates to one.
 //!
 //! Two means need no BSDF and no shadow ray: the mean of 1/pdf is the solid angle of the light, that of cos/pdf is π
 //! times its form factor. A wrong Jacobian from area to solid angle shows in both.
 
-use super::density::{self, area_of};
+use super::area_pdf::{self, area_of};
 use super::traced::{Traced, is_lit};
 use crate::cause;
 use crate::checks::numbers::Numbers;
@@ -81,12 +81,12 @@ impl Check for LightSamplesReachLight {
         complaints.extend(failed.map(Measure::name));
         let backwards = shines_backwards.then_some(&cause::light::LIGHT_SHINES_BACKWARDS);
         let off = measures.iter().any(|m| m.failed() && m.interval.is_some());
-        let density = if off { density::mistake(&met) } else { None };
+        let pdf = if off { area_pdf::mistake(&met) } else { None };
         Ok(Finding::measured("samples reach the light with the pdf they say", measures)
             .or_else_caught(format!("would have caught one wrong sample among {TRACED}"))
             .complaining(complaints)
             .because_each(backwards, "there are lit samples where the light looks away")
-            .because_each(density, &format!("predicts the pdfs of {} samples", met.len())))
+            .because_each(pdf, &format!("predicts the pdfs of {} samples", met.len())))
     }
 }
 

@@ -1,10 +1,10 @@
 //! Lights, sampled from a point or seen at work.
 
+mod area_pdf;
 mod delta_samples;
-mod density;
-mod lamp_at_the_eye;
 mod light_numbers;
 mod light_samples_reach_light;
+mod no_self_shadowing;
 mod open_light_samples;
 mod seen_points;
 mod traced;
@@ -15,5 +15,5 @@ checks! {
     light_samples_reach_light::LightSamplesReachLight,
     light_numbers::LightNumbers,
     open_light_samples::OpenLightSamples,
-    lamp_at_the_eye::LampAtTheEye,
+    no_self_shadowing::NoSelfShadowing,
 }

@@ -1,5 +1,5 @@
 //! Samples of lights that are no shapes: points, the sun, skies. Direction, distance and radiance of the first two are
-//! known exactly; of an even sky the mean of radiance over density is 4π times its radiance, however it is sampled.
+//! known exactly; of a constant environment light the mean of radiance over pdf is 4π times its radiance, however it is sampled.
 
 use super::delta_samples::{Judged, Sampled};
 use crate::cause::light as cause;
@@ -22,7 +22,7 @@ check! {
         at_most: Count,
     }
     name: "open-light-samples",
-    summary: "samples of points, suns and even skies",
+    summary: "samples of point, directional and constant environment lights",
     needs: BUILD_SCENE | SAMPLE_LIGHT,
 }
 
@@ -138,17 +138,17 @@ mod tests {
         crate::cause::find(&clue.cause).map(|cause| cause.name)
     }
 
-    const LAMP: Light = Light::Point { position: DVec3::new(1.0, 2.0, 3.0), intensity: [2.0; 3] };
+    const POINT: Light = Light::Point { position: DVec3::new(1.0, 2.0, 3.0), intensity: [2.0; 3] };
     const SUN: Light = Light::Directional { direction: DVec3::NEG_Z, irradiance: [2.0; 3] };
 
     #[test]
     fn right_samples_pass_and_wrong_ones_are_named() {
-        assert_eq!(told(&LAMP, |_| ()), None);
+        assert_eq!(told(&POINT, |_| ()), None);
         assert_eq!(told(&SUN, |_| ()), None);
         assert_eq!(told(&SUN, |sample| sample.wi = -sample.wi), Some("directional-flipped"));
-        let same_everywhere = told(&LAMP, |sample| sample.radiance = [2.0; 3]);
+        let same_everywhere = told(&POINT, |sample| sample.radiance = [2.0; 3]);
         assert_eq!(same_everywhere, Some("falloff-undeclared"));
-        assert_eq!(told(&LAMP, |sample| sample.distance *= 1.01), Some("something"));
-        assert_eq!(told(&LAMP, |sample| sample.pdf = f64::NAN), Some("something"));
+        assert_eq!(told(&POINT, |sample| sample.distance *= 1.01), Some("something"));
+        assert_eq!(told(&POINT, |sample| sample.pdf = f64::NAN), Some("something"));
     }
 }

@@ -9,16 +9,16 @@ use crate::scene::Rgb;
 use crate::stats::{Compared, judge_exact};
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// Of the lamp, in general position.
+/// Of the light, in general position.
 pub(super) const INTENSITY: Rgb = [2.0, 3.0, 5.0];
 
 /// A mistake may magnify rounding, but not a hundredfold.
 const LIKENESS: f64 = 100.0;
 
-/// A point of a diffuse surface that the eye sees.
+/// A point of a diffuse surface that the camera sees.
 #[derive(Clone, Copy)]
 pub(super) struct Point {
-    /// From the eye.
+    /// From the camera.
     pub(super) distance: f64,
     /// Between view and shading normal.
     pub(super) cosine: f64,
@@ -26,7 +26,7 @@ pub(super) struct Point {
     pub(super) world_cosine: f64,
     pub(super) reflectance: Rgb,
     pub(super) falloff: Falloff,
-    /// What the core says it sends to the eye.
+    /// What the core says it sends to the camera.
     pub(super) radiance: Rgb,
 }
 

@@ -1,6 +1,6 @@
 //! Samples of an area light, and what their rays meet in the scene.
 
-use super::density::Geometry;
+use super::area_pdf::Geometry;
 use crate::checks::phrase::some_are;
 use crate::checks::{Measure, Result};
 use crate::contract::{BuiltScene, Hit, LightSample, Ray};

@@ -29,9 +29,9 @@ pub(super) struct Source<'a> {
     pub(super) distribution: &'a Distribution,
     pub(super) seed: Seed,
     pub(super) cells: SphereCells,
-    /// Whether the density of a cell integrates to 0.
+    /// Whether the pdf of a cell integrates to 0.
     pub(super) is_empty: Vec<bool>,
-    /// Samples in each cell whose own density is 0.
+    /// Samples in each cell whose own pdf is 0.
     pub(super) forbidden: Vec<u64>,
 }
 
@@ -41,7 +41,7 @@ impl<'a> Source<'a> {
         Self { core, distribution, seed, cells, is_empty: Vec::new(), forbidden: Vec::new() }
     }
 
-    /// Asks for the density of samples in empty cells: quadrature misses slivers.
+    /// Asks for the pdf of samples in empty cells: quadrature misses slivers.
     fn count_forbidden(&mut self, samples: &[DVec3]) -> Result<()> {
         let mut pdf = vec![0.0; samples.len()];
         self.distribution.pdf(self.core, samples, &mut pdf)?;

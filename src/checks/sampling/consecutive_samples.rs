@@ -2,7 +2,7 @@
 //! evenly, heights and azimuths against each other.
 //!
 //! Counts of single samples cannot see this: a generator whose numbers come in pairs has the right
-//! density and the wrong picture.
+//! pdf and the wrong picture.
 
 use super::distribution::{Distribution, DistributionEntry};
 use super::pairs::{CELLS, correlation, count_pairs, sampler_of, strongest};

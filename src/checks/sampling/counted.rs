@@ -1,7 +1,7 @@
-//! Counts of samples against their density, in words, and the laws that samples follow instead.
+//! Counts of samples against their pdf, in words, and the laws that samples follow instead.
 
 use super::cell_source::CELLS;
-use super::density::{Density, Law};
+use super::claimed_pdf::{ClaimedPdf, Law};
 use crate::cause::Cause;
 use crate::checks::Measure;
 use crate::checks::phrase::{figure, percent};
@@ -16,7 +16,7 @@ pub(crate) struct Judged {
     pub(super) name: String,
     pub(super) report: CountReport,
     pub(super) cells: SphereCells,
-    pub(super) density: Option<Density>,
+    pub(super) pdf: Option<ClaimedPdf>,
 }
 
 impl Judged {
@@ -76,7 +76,7 @@ impl Judged {
         sizes.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
     }
 
-    /// The root mean square error of the density that the statistic of the last stage stands for.
+    /// The root mean square error of the pdf that the statistic of the last stage stands for.
     pub(super) fn error(&self) -> f64 {
         let Some(stage) = self.report.stages.last() else { return f64::NAN };
         ((stage.statistic - stage.freedom).max(0.0) / stage.samples as f64).sqrt()
@@ -117,10 +117,10 @@ impl Judged {
         LAWS.iter().find(|law| follows(law.below, &rings[1..]))
     }
 
-    /// A wrong density, or else a wrong map.
+    /// A wrong pdf, or else a wrong map.
     pub(super) fn cause(&self) -> Option<&'static Cause> {
-        let density = self.density.filter(|_| self.report.verdict == Verdict::Fail)?;
-        density.mistake().or_else(|| density.mistake_of_map(self.law()?.law?))
+        let pdf = self.pdf.filter(|_| self.report.verdict == Verdict::Fail)?;
+        pdf.mistake().or_else(|| pdf.mistake_of_map(self.law()?.law?))
     }
 }
 

@@ -1,4 +1,4 @@
-//! Anything that draws directions with a density: the samplers of a course, and BSDFs seen from a direction.
+//! Anything that draws directions with a pdf: the samplers of a course, and BSDFs seen from a direction.
 
 use crate::checks::numbers::Numbers;
 use crate::checks::surface::{SurfaceEntry, evaluated, kink, lets_pass, sampled, seen_from};
@@ -97,7 +97,7 @@ pub(crate) enum Distribution {
     },
 }
 
-/// A sample, and the density that came with it.
+/// A sample, and the pdf that came with it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drawn {
     /// `None`: sampling failed.
@@ -128,7 +128,7 @@ impl Distribution {
         matches!(self, Self::Bsdf { material, .. } if lets_pass(&material.surface))
     }
 
-    /// The height at which the density may jump.
+    /// The height at which the pdf may jump.
     pub(crate) fn kink(&self) -> Option<f64> {
         match self {
             Self::Sampler(_) => None,
@@ -136,7 +136,7 @@ impl Distribution {
         }
     }
 
-    /// The density at each direction, as evaluated.
+    /// The pdf at each direction, as evaluated.
     pub(crate) fn pdf(
         &self,
         core: &mut dyn Core,
@@ -177,7 +177,7 @@ impl Distribution {
         }
     }
 
-    /// Means of some functions of a sample and its density over one run; a failed sample counts as zero.
+    /// Means of some functions of a sample and its pdf over one run; a failed sample counts as zero.
     pub(crate) fn means<const N: usize>(
         &self,
         core: &mut dyn Core,

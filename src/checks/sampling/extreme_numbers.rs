@@ -46,23 +46,23 @@ impl OfDistributions for ExtremeNumbers {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{cosine, cosine_density, drawing, uniform, uniform_density};
+    use super::super::fake::{cosine, cosine_pdf, drawing, uniform, uniform_pdf};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::sphere::at_height;
     use glam::{DVec2, DVec3};
     use std::f64::consts::TAU;
 
-    fn found(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Finding {
+    fn found(map: fn(DVec2) -> Option<DVec3>, pdf: fn(DVec3) -> f64) -> Finding {
         let check: ExtremeNumbers =
             check_of("[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }");
-        judge(&check, &mut drawing(map, density))
+        judge(&check, &mut drawing(map, pdf))
     }
 
     #[test]
     fn maps_of_one_minus_u_pass() {
-        assert_passes(&found(cosine, cosine_density));
-        assert_passes(&found(uniform, uniform_density));
+        assert_passes(&found(cosine, cosine_pdf));
+        assert_passes(&found(uniform, uniform_pdf));
     }
 
     /// Shirley and Chiu's concentric map of the square to the disk: its edges are the rim.
@@ -77,13 +77,13 @@ mod tests {
     }
 
     #[test]
-    fn the_rim_of_the_disk_has_density_0_and_is_right() {
-        assert_passes(&found(concentric, cosine_density));
-        assert_passes(&found(|p| Some(at_height(p.x.sqrt(), TAU * p.y)), cosine_density));
+    fn the_rim_of_the_disk_has_pdf_0_and_is_right() {
+        assert_passes(&found(concentric, cosine_pdf));
+        assert_passes(&found(|p| Some(at_height(p.x.sqrt(), TAU * p.y)), cosine_pdf));
     }
 
     #[test]
-    fn density_0_above_the_horizon_is_named() {
+    fn pdf_0_above_the_horizon_is_named() {
         let only_low = |direction: DVec3| if direction.z > 0.9 { 0.0 } else { 0.1 };
         let finding = found(cosine, only_low);
         let statement = failure(&finding);
@@ -94,13 +94,13 @@ mod tests {
     #[test]
     fn nan_at_an_end_is_told_with_its_numbers() {
         let finding =
-            found(|p| Some(at_height((1.0 - p.x).sqrt() + 0.0 / p.x, TAU * p.y)), cosine_density);
+            found(|p| Some(at_height((1.0 - p.x).sqrt() + 0.0 / p.x, TAU * p.y)), cosine_pdf);
         let statement = failure(&finding);
         assert!(statement.contains("of the numbers 0, 0 and 0: sample 0 of 1: "), "{statement}");
     }
 
     #[test]
-    fn a_density_that_is_not_evaluated_is_no_matter_of_extremes() {
+    fn a_pdf_that_is_not_evaluated_is_no_matter_of_extremes() {
         let finding = found(|p| cosine(p).map(|d| -d), |d| d.z.abs());
         failure(&finding);
         assert!(finding.clues.is_empty());

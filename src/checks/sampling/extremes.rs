@@ -1,7 +1,7 @@
 //! Samples of the numbers at the ends of their range: 0, just above it, the middle, just below 1.
 //!
-//! A random number of exactly 0 comes once in four thousand million, which is once a picture. A sample of density 0
-//! divides by it, unless it lies on the rim of the hemisphere: where the cosine is 0 the density may be, as of the
+//! A random number of exactly 0 comes once in four thousand million, which is once a picture. A sample of pdf 0
+//! divides by it, unless it lies on the rim of the hemisphere: where the cosine is 0 the pdf may be, as of the
 //! concentric map (Shirley and Chiu 1997), whose square has its edges there.
 
 use super::distribution::Drawn;
@@ -61,7 +61,7 @@ pub(crate) struct Extremes {
 }
 
 impl Extremes {
-    /// Asks for the sample of each set of numbers, and for its density as evaluated.
+    /// Asks for the sample of each set of numbers, and for its pdf as evaluated.
     ///
     /// # Errors
     pub(crate) fn of(

@@ -1,4 +1,4 @@
-//! Cores that sample by any map and claim any density, for the tests of the checks in this folder.
+//! Cores that sample by any map and claim any pdf, for the tests of the checks in this folder.
 
 use crate::checks::fake::Fake;
 use crate::contract::{BsdfSample, BsdfValue, DirectionSample};
@@ -6,46 +6,46 @@ use crate::math::sphere::at_height;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// Draws by `map` and claims `density`, whatever the sampler; BSDFs do the same with f = pdf. A map that gives no
+/// Draws by `map` and claims `pdf`, whatever the sampler; BSDFs do the same with f = pdf. A map that gives no
 /// direction fails.
-pub(crate) fn drawing(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Fake {
+pub(crate) fn drawing(map: fn(DVec2) -> Option<DVec3>, pdf: fn(DVec3) -> f64) -> Fake {
     Fake {
         direction: Box::new(move |random, number| {
             let direction = map(random.points[number]).unwrap_or(DVec3::Z);
-            DirectionSample { direction, pdf: density(direction) }
+            DirectionSample { direction, pdf: pdf(direction) }
         }),
-        sample: Box::new(move |_, _, point, _| sample(map(point), density)),
-        ..claiming(density)
+        sample: Box::new(move |_, _, point, _| sample(map(point), pdf)),
+        ..claiming(pdf)
     }
 }
 
-/// Reflects and refracts with the cosine, whatever its material and the viewer, and claims `density`.
-pub(crate) fn interface(reflected: f64, density: fn(DVec3) -> f64) -> Fake {
+/// Reflects and refracts with the cosine, whatever its material and the viewer, and claims `pdf`.
+pub(crate) fn interface(reflected: f64, pdf: fn(DVec3) -> f64) -> Fake {
     let draw = move |point, lobe| {
         let up = cosine(point)?;
         Some(if lobe < reflected { up } else { -up })
     };
     Fake {
-        sample: Box::new(move |_, _, point, lobe| sample(draw(point, lobe), density)),
-        ..claiming(density)
+        sample: Box::new(move |_, _, point, lobe| sample(draw(point, lobe), pdf)),
+        ..claiming(pdf)
     }
 }
 
-fn claiming(density: fn(DVec3) -> f64) -> Fake {
+fn claiming(pdf: fn(DVec3) -> f64) -> Fake {
     Fake {
-        pdf: Box::new(density),
+        pdf: Box::new(pdf),
         value: Box::new(move |_, query| {
-            let pdf = density(query.wi);
+            let pdf = pdf(query.wi);
             BsdfValue { f: [pdf; 3], pdf }
         }),
         ..Fake::default()
     }
 }
 
-fn sample(wi: Option<DVec3>, density: fn(DVec3) -> f64) -> BsdfSample {
+fn sample(wi: Option<DVec3>, pdf: fn(DVec3) -> f64) -> BsdfSample {
     let is_valid = wi.is_some().into();
     let wi = wi.unwrap_or(DVec3::Z);
-    let pdf = density(wi);
+    let pdf = pdf(wi);
     BsdfSample { wi, f: [pdf; 3], pdf, is_delta: 0, is_valid }
 }
 
@@ -60,11 +60,11 @@ pub(crate) fn uniform(point: DVec2) -> Option<DVec3> {
 }
 
 /// cos θ/π.
-pub(crate) fn cosine_density(direction: DVec3) -> f64 {
+pub(crate) fn cosine_pdf(direction: DVec3) -> f64 {
     direction.z.max(0.0) * FRAC_1_PI
 }
 
 /// 1/2π.
-pub(crate) fn uniform_density(direction: DVec3) -> f64 {
+pub(crate) fn uniform_pdf(direction: DVec3) -> f64 {
     if direction.z > 0.0 { 1.0 / TAU } else { 0.0 }
 }

@@ -1,6 +1,6 @@
-//! The integral of one density over the sphere, and what it has to be.
+//! The integral of one pdf over the sphere, and what it has to be.
 
-use super::density::Density;
+use super::claimed_pdf::ClaimedPdf;
 use super::distribution::Distribution;
 use crate::cause::Cause;
 use crate::checks::phrase::{figure, percent};
@@ -15,7 +15,7 @@ pub(super) const CELLS: (usize, usize) = (4, 8);
 /// The smallest error of the share of samples that succeed.
 const SHARE_DETECTS: f64 = 0.01;
 
-/// The integral of one density, and what it has to be.
+/// The integral of one pdf, and what it has to be.
 pub(crate) struct Mass {
     pub(super) name: String,
     pub(super) value: f64,
@@ -35,7 +35,7 @@ impl Mass {
         // Together the cells may not use up more than a tenth of what is allowed.
         let tolerance = 0.1 * allowed / cells.len() as f64;
         let diligence = match distribution.is_of_sphere() {
-            // Where total reflection begins, a density has a kink along a curve; some samples always fail.
+            // Where total reflection begins, a pdf has a kink along a curve; some samples always fail.
             true => Diligence::KINKED,
             false => Diligence { tolerance, ..Diligence::default() },
         };
@@ -50,7 +50,7 @@ impl Mass {
             true => Some(accepted_share(context, distribution, value)?),
             false => None,
         };
-        let cause = Density::of(context.core, distribution)?.and_then(Density::mistake);
+        let cause = ClaimedPdf::of(context.core, distribution)?.and_then(ClaimedPdf::mistake);
         Ok(Self { name: distribution.name(), value, error, allowed, accepted, cause }.named())
     }
 
@@ -101,7 +101,7 @@ impl Mass {
     }
 }
 
-/// Whether samples succeed as often as the density says.
+/// Whether samples succeed as often as the pdf says.
 fn accepted_share(
     context: &mut Context<'_>,
     distribution: &Distribution,

@@ -1,9 +1,9 @@
-//! Samplers of directions, those of BSDFs included, against the densities they claim.
+//! Samplers of directions, those of BSDFs included, against the pdfs they claim.
 
 mod cell_source;
+mod claimed_pdf;
 mod consecutive_samples;
 mod counted;
-mod density;
 pub(in crate::checks) mod distribution;
 mod extreme_numbers;
 pub(in crate::checks) mod extremes;

@@ -1,4 +1,4 @@
-//! Moments of the samples of one distribution, those of its density, and those of frames that are turned.
+//! Moments of the samples of one distribution, those of its pdf, and those of frames that are turned.
 
 use super::distribution::Distribution;
 use crate::cause::{Cause, sampling};
@@ -11,10 +11,10 @@ use crate::math::sphere::angle_between;
 use crate::stats::{Band, Claim, Effort, MeanReport, SphereCells, Verdict, judge_means};
 use glam::{DMat3, DVec3};
 
-/// Rings and sectors over which the density is integrated.
+/// Rings and sectors over which the pdf is integrated.
 const CELLS: (usize, usize) = (4, 8);
 const QUADRATURE: Diligence = Diligence { tolerance: 1e-7, most_evaluations: 2_000_000 };
-/// How far moments may be from those of a turned density, beyond their interval.
+/// How far moments may be from those of a turned pdf, beyond their interval.
 const EXPLAINED: f64 = 2e-3;
 
 /// What came of one distribution.

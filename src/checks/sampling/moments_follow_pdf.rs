@@ -1,4 +1,4 @@
-//! Means of low harmonics over the samples against those of the density: fifteen numbers that see a
+//! Means of low harmonics over the samples against those of the pdf: fifteen numbers that see a
 //! smooth error, such as a lobe that leans, long before counts in cells do, and say which way it
 //! leans.
 
@@ -46,32 +46,32 @@ impl OfDistributions for MomentsFollowPdf {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{cosine, cosine_density, drawing, uniform, uniform_density};
+    use super::super::fake::{cosine, cosine_pdf, drawing, uniform, uniform_pdf};
     use super::*;
     use crate::checks::testing::{assert_passes, causes, check_of, failure, judge};
     use glam::{DQuat, DVec2, DVec3};
 
     type Map = fn(DVec2) -> Option<DVec3>;
 
-    fn found(map: Map, density: fn(DVec3) -> f64) -> Finding {
+    fn found(map: Map, pdf: fn(DVec3) -> f64) -> Finding {
         let check: MomentsFollowPdf = check_of(
             "[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }\n\
              detects = \"1 %\"\nat-most = \"400 k\"",
         );
-        judge(&check, &mut drawing(map, density))
+        judge(&check, &mut drawing(map, pdf))
     }
 
     #[test]
     fn right_samplers_pass() {
-        assert_passes(&found(cosine, cosine_density));
-        assert_passes(&found(uniform, uniform_density));
+        assert_passes(&found(cosine, cosine_pdf));
+        assert_passes(&found(uniform, uniform_pdf));
     }
 
     #[test]
     fn a_lobe_that_leans_by_two_degrees_is_seen_and_told_which_way() {
         let finding = found(
             |point| cosine(point).map(|d| DQuat::from_rotation_y(2f64.to_radians()) * d),
-            cosine_density,
+            cosine_pdf,
         );
         let statement = failure(&finding);
         assert!(statement.contains("samples lean 2"), "{statement}");
@@ -87,14 +87,14 @@ mod tests {
             (|point| cosine(point).map(|d| -d), "samples-below-surface"),
         ];
         for (map, name) in cases {
-            let finding = found(map, cosine_density);
+            let finding = found(map, cosine_pdf);
             assert_eq!(causes(&finding), [name], "{}", finding.statement);
         }
     }
 
     #[test]
     fn another_law_of_heights_is_told_by_its_moment() {
-        let finding = found(uniform, cosine_density);
+        let finding = found(uniform, cosine_pdf);
         let statement = failure(&finding);
         // ∫ (3z² − 1)/2 is 0 over the hemisphere and 1/4 with the cosine.
         assert!(statement.contains("the mean of 3z² − 1 is "), "{statement}");

@@ -1,4 +1,4 @@
-//! A density integrates to one; where samples may fail, to the share of those that do not.
+//! A pdf integrates to one; where samples may fail, to the share of those that do not.
 
 use super::distribution::{Distribution, DistributionEntry};
 use super::mass::Mass;
@@ -44,7 +44,7 @@ fn passing_statement(masses: &[Mass]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{cosine, cosine_density, drawing, uniform_density};
+    use super::super::fake::{cosine, cosine_pdf, drawing, uniform_pdf};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::sphere::at_height;
@@ -55,20 +55,20 @@ mod tests {
     const SURFACE: &str =
         "[expect]\ndistribution = { surface = { diffuse = 0.5 }, seen-from = [\"30 deg\"] }";
 
-    fn found(text: &str, density: fn(glam::DVec3) -> f64) -> Finding {
-        judge(&check_of::<PdfIntegratesToOne>(text), &mut drawing(cosine, density))
+    fn found(text: &str, pdf: fn(glam::DVec3) -> f64) -> Finding {
+        judge(&check_of::<PdfIntegratesToOne>(text), &mut drawing(cosine, pdf))
     }
 
     #[test]
-    fn densities_that_integrate_to_one_pass() {
-        assert_passes(&found(SAMPLER, cosine_density));
-        assert_passes(&found(SAMPLER, uniform_density));
-        assert_passes(&found(SURFACE, cosine_density));
+    fn pdfs_that_integrate_to_one_pass() {
+        assert_passes(&found(SAMPLER, cosine_pdf));
+        assert_passes(&found(SAMPLER, uniform_pdf));
+        assert_passes(&found(SURFACE, cosine_pdf));
     }
 
     #[test]
     fn wrong_factors_are_named() {
-        let statement = |density| found(SAMPLER, density).statement;
+        let statement = |pdf| found(SAMPLER, pdf).statement;
         assert!(statement(|d| d.z.max(0.0)).contains("integrates to 3.14 (π) instead of 1"));
         assert!(statement(|d| d.z.abs() * FRAC_1_PI).contains("integrates to 2 instead of 1"));
         assert!(statement(|d| if d.z > 0.0 { 0.5 / TAU } else { 0.0 }).contains("0.5 (1/2)"));
@@ -77,17 +77,16 @@ mod tests {
 
     #[test]
     fn a_part_in_a_hundred_thousand_is_seen() {
-        failure(&found(SAMPLER, |d| (1.0 + 1e-5) * cosine_density(d)));
+        failure(&found(SAMPLER, |d| (1.0 + 1e-5) * cosine_pdf(d)));
     }
 
     #[test]
-    fn a_density_that_lacks_what_fails_is_right_and_one_that_does_not_is_wrong() {
+    fn a_pdf_that_lacks_what_fails_is_right_and_one_that_does_not_is_wrong() {
         let map =
             |p: glam::DVec2| (p.x < 0.9).then(|| at_height((1.0 - p.x / 0.9).sqrt(), TAU * p.y));
-        let judged =
-            |density| judge(&check_of::<PdfIntegratesToOne>(SURFACE), &mut drawing(map, density));
-        assert_passes(&judged(|d| 0.9 * cosine_density(d)));
-        let wrong = judged(|d| 0.8 * cosine_density(d));
+        let judged = |pdf| judge(&check_of::<PdfIntegratesToOne>(SURFACE), &mut drawing(map, pdf));
+        assert_passes(&judged(|d| 0.9 * cosine_pdf(d)));
+        let wrong = judged(|d| 0.8 * cosine_pdf(d));
         assert!(
             failure(&wrong).contains("integrates to 0.8, but 90 % of its samples succeed"),
             "{wrong:?}"

@@ -1,6 +1,6 @@
-//! Density times Jacobian at many points of one distribution.
+//! Pdf times Jacobian at many points of one distribution.
 
-use super::density::{Density, Law};
+use super::claimed_pdf::{ClaimedPdf, Law};
 use super::distribution::{Distribution, Drawn};
 use super::way::{Way, is_same_way};
 use crate::cause::Cause;
@@ -30,13 +30,13 @@ const fn step(precision: Precision) -> f64 {
     }
 }
 
-/// Density times Jacobian at many points.
+/// Pdf times Jacobian at many points.
 pub(crate) struct Products {
     pub(super) name: String,
     /// (product, cos θ), sorted by product; points whose neighbours fail are left out.
     pub(super) values: Vec<(f64, f64)>,
     pub(super) precision: Precision,
-    pub(super) density: Option<Density>,
+    pub(super) pdf: Option<ClaimedPdf>,
 }
 
 impl Products {
@@ -77,8 +77,8 @@ impl Products {
         };
         let mut values: Vec<_> = (0..points.len()).filter_map(product).collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let density = Density::of(context.core, distribution)?;
-        Ok(Self { name: distribution.name() + way.words(), values, precision, density })
+        let pdf = ClaimedPdf::of(context.core, distribution)?;
+        Ok(Self { name: distribution.name() + way.words(), values, precision, pdf })
     }
 
     /// The error that this share of the points does not exceed.
@@ -113,13 +113,13 @@ impl Products {
         self.fails().then(|| format!("{}: pdf times Jacobian is {}", self.name, self.factor()))
     }
 
-    /// A wrong density, or else a wrong map.
+    /// A wrong pdf, or else a wrong map.
     pub(super) fn cause(&self) -> Option<&'static Cause> {
-        let density = self.density.filter(|_| self.fails())?;
-        density.mistake().or_else(|| density.mistake_of_map(self.law(density)?))
+        let pdf = self.pdf.filter(|_| self.fails())?;
+        pdf.mistake().or_else(|| pdf.mistake_of_map(self.law(pdf)?))
     }
 
-    pub(super) fn law(&self, density: Density) -> Option<Law> {
+    pub(super) fn law(&self, pdf: ClaimedPdf) -> Option<Law> {
         if self.error_of_share(0.5) > 0.99 && self.values.iter().all(|(value, _)| *value < 0.01) {
             return Some(Law::Line);
         }
@@ -127,8 +127,8 @@ impl Products {
             |(value, cosine): &(f64, f64)| (value / (1.0 - cosine * cosine).sqrt(), *cosine);
         let by_angle: Vec<_> = self.values.iter().map(over_sine).collect();
         match Form::of(&self.values) {
-            Some(product) => density.law_of_product(product),
-            None => density.law_of_angle(Form::of(&by_angle)?),
+            Some(product) => pdf.law_of_product(product),
+            None => pdf.law_of_angle(Form::of(&by_angle)?),
         }
     }
 

@@ -1,10 +1,10 @@
-//! A sampler's map and its density fit together at every point: |∂ω/∂u × ∂ω/∂v| · pdf = 1.
+//! A sampler's map and its pdf fit together at every point: |∂ω/∂u × ∂ω/∂v| · pdf = 1.
 //!
 //! Where a third number chooses between ways, each way has a map of its own, and the product is the chance of that
 //! way: the share of third numbers that choose it, which is found by halving.
 //!
 //! No statistics: wherever the map from the unit square is smooth, how much it stretches area is the reciprocal of
-//! the density (an idea seen in the tests of lajolla). Needs a core that samples with the caller's numbers.
+//! the pdf (an idea seen in the tests of lajolla). Needs a core that samples with the caller's numbers.
 
 use super::distribution::{Distribution, DistributionEntry};
 use super::of_distributions::OfDistributions;
@@ -56,9 +56,7 @@ impl OfDistributions for SampleJacobian {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{
-        cosine, cosine_density, drawing, interface, uniform, uniform_density,
-    };
+    use super::super::fake::{cosine, cosine_pdf, drawing, interface, uniform, uniform_pdf};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::sphere::at_height;
@@ -67,15 +65,15 @@ mod tests {
     use glam::DVec3;
     use std::f64::consts::TAU;
 
-    fn found(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Finding {
+    fn found(map: fn(DVec2) -> Option<DVec3>, pdf: fn(DVec3) -> f64) -> Finding {
         let check: SampleJacobian =
             check_of("[expect]\ndistribution = { sampler = \"cosine-hemisphere\" }");
-        judge(&check, &mut drawing(map, density))
+        judge(&check, &mut drawing(map, pdf))
     }
 
     /// The statement and the first clue.
-    fn named(map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> (String, String) {
-        let finding = found(map, density);
+    fn named(map: fn(DVec2) -> Option<DVec3>, pdf: fn(DVec3) -> f64) -> (String, String) {
+        let finding = found(map, pdf);
         let clue = finding.clues.first().map_or_else(String::new, |clue| clue.cause.clone());
         (failure(&finding).to_owned(), clue)
     }
@@ -86,9 +84,9 @@ mod tests {
     }
 
     #[test]
-    fn maps_that_fit_their_densities_pass() {
-        assert_passes(&found(cosine, cosine_density));
-        assert_passes(&found(uniform, uniform_density));
+    fn maps_that_fit_their_pdfs_pass() {
+        assert_passes(&found(cosine, cosine_pdf));
+        assert_passes(&found(uniform, uniform_pdf));
     }
 
     #[test]
@@ -97,17 +95,17 @@ mod tests {
     }
 
     #[test]
-    fn the_wrong_density_for_the_map_is_a_cosine() {
-        let wrong_density = named(cosine, uniform_density);
-        assert_named(wrong_density, "is 1/2 / cos θ instead of 1", "uniform-pdf-for-cosine");
-        let wrong_map = named(uniform, cosine_density);
+    fn the_wrong_pdf_for_the_map_is_a_cosine() {
+        let wrong_pdf = named(cosine, uniform_pdf);
+        assert_named(wrong_pdf, "is 1/2 / cos θ instead of 1", "uniform-pdf-for-cosine");
+        let wrong_map = named(uniform, cosine_pdf);
         assert_named(wrong_map, "is 2 cos θ instead of 1", "uniform-for-cosine");
     }
 
     #[test]
     fn angles_that_are_drawn_uniformly_are_named() {
         let theta = |p: DVec2| Some(crate::math::frame::direction(0.25 * TAU * p.x, TAU * p.y));
-        let finding = found(theta, cosine_density);
+        let finding = found(theta, cosine_pdf);
         failure(&finding);
         assert_eq!(finding.clues[0].cause, "theta-uniform");
     }
@@ -115,23 +113,23 @@ mod tests {
     #[test]
     fn half_of_the_azimuths_is_a_factor_of_one_half() {
         let half = |p: DVec2| Some(at_height((1.0 - p.x).sqrt(), 0.5 * TAU * p.y));
-        assert_named(named(half, cosine_density), "is 1/2 instead of 1", "half-of-azimuths");
+        assert_named(named(half, cosine_pdf), "is 1/2 instead of 1", "half-of-azimuths");
     }
 
-    fn of_both_ways(density: fn(DVec3) -> f64) -> Finding {
+    fn of_both_ways(pdf: fn(DVec3) -> f64) -> Finding {
         let check: SampleJacobian = check_of(
             "[expect]\ndistribution = { surface = { rough-glass = { index = 1.5, roughness = 0.5 } }, \
              seen-from = [\"30 deg\"] }",
         );
-        judge(&check, &mut interface(0.3, density))
+        judge(&check, &mut interface(0.3, pdf))
     }
 
     #[test]
     fn ways_that_are_chosen_by_their_chance_pass_and_others_are_off_by_it() {
         assert_passes(&of_both_ways(|d| {
-            (if d.z > 0.0 { 0.3 } else { 0.7 }) * cosine_density(d.with_z(d.z.abs()))
+            (if d.z > 0.0 { 0.3 } else { 0.7 }) * cosine_pdf(d.with_z(d.z.abs()))
         }));
-        let finding = of_both_ways(|d| cosine_density(d.with_z(d.z.abs())));
+        let finding = of_both_ways(|d| cosine_pdf(d.with_z(d.z.abs())));
         assert!(
             failure(&finding).contains("lobe 0: pdf times Jacobian is 3.33 instead"),
             "{finding:?}"
@@ -140,7 +138,7 @@ mod tests {
 
     #[test]
     fn a_map_that_mostly_fails_proves_nothing() {
-        let finding = found(|_| None, cosine_density);
+        let finding = found(|_| None, cosine_pdf);
         // The contract has no failing sampler, so that the fake answers +z everywhere: area 0.
         assert_eq!(finding.verdict, Verdict::Fail);
     }

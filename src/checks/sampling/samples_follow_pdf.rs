@@ -1,8 +1,8 @@
-//! Samples fall where the density says, by χ² on cells of the sphere; failed samples are a cell of their own.
+//! Samples fall where the pdf says, by χ² on cells of the sphere; failed samples are a cell of their own.
 
 use super::cell_source::Source;
+use super::claimed_pdf::ClaimedPdf;
 use super::counted::Judged;
-use super::density::Density;
 use super::distribution::{Distribution, DistributionEntry};
 use super::of_distributions::OfDistributions;
 use crate::checks::{Context, Finding, Result, check};
@@ -12,7 +12,7 @@ use crate::text::{Count, Percent};
 check! {
     pub(crate) struct SamplesFollowPdf {
         distribution: DistributionEntry,
-        /// The smallest error of the density, root mean square, that must be seen.
+        /// The smallest error of the pdf, root mean square, that must be seen.
         detects: Percent,
         at_most: Count,
     }
@@ -33,8 +33,8 @@ impl OfDistributions for SamplesFollowPdf {
         let mut source = Source::new(&mut *context.core, distribution, seed);
         let report = judge_count_source(&effort, &mut source)?;
         let cells = source.cells;
-        let density = Density::of(context.core, distribution)?;
-        Ok(Judged { name: distribution.name(), report, cells, density })
+        let pdf = ClaimedPdf::of(context.core, distribution)?;
+        Ok(Judged { name: distribution.name(), report, cells, pdf })
     }
 
     fn finding(judged: &[Judged]) -> Finding {
@@ -52,7 +52,7 @@ impl OfDistributions for SamplesFollowPdf {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{cosine, cosine_density, drawing, interface, uniform};
+    use super::super::fake::{cosine, cosine_pdf, drawing, interface, uniform};
     use super::*;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::math::sphere::at_height;
@@ -68,7 +68,7 @@ mod tests {
 
     fn found(text: &str, map: fn(DVec2) -> Option<DVec3>) -> Finding {
         let check: SamplesFollowPdf = check_of(text);
-        judge(&check, &mut drawing(map, cosine_density))
+        judge(&check, &mut drawing(map, cosine_pdf))
     }
 
     fn statement(map: fn(DVec2) -> Option<DVec3>) -> String {
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_that_follow_their_density_pass_and_spend_of_the_budget() {
+    fn samples_that_follow_their_pdf_pass_and_spend_of_the_budget() {
         let finding = found(SAMPLER, cosine);
         assert_passes(&finding);
         assert!(finding.hypotheses().count() > 0);
@@ -117,8 +117,8 @@ mod tests {
     #[test]
     fn samples_in_a_sliver_that_quadrature_missed_are_not_forbidden() {
         let map = |p: DVec2| if p.x < 1e-4 { Some(DVec3::new(0.6, 0.0, -0.8)) } else { cosine(p) };
-        let density = |wi| if is_in_sliver(wi) { 1.0 } else { cosine_density(wi) };
-        assert_passes(&judge(&check_of::<SamplesFollowPdf>(SAMPLER), &mut drawing(map, density)));
+        let pdf = |wi| if is_in_sliver(wi) { 1.0 } else { cosine_pdf(wi) };
+        assert_passes(&judge(&check_of::<SamplesFollowPdf>(SAMPLER), &mut drawing(map, pdf)));
         assert!(statement(map).contains("where the pdf is 0"), "{}", statement(map));
     }
 
@@ -127,9 +127,8 @@ mod tests {
             "[expect]\ndistribution = { surface = { rough-glass = { index = 1.5, roughness = 0.5 } }, \
              seen-from = [\"30 deg\"] }\ndetects = \"5 %\"\nat-most = \"1 M samples\"",
         );
-        let density =
-            |d: DVec3| (if d.z > 0.0 { 0.3 } else { 0.7 }) * cosine_density(d.with_z(d.z.abs()));
-        judge(&check, &mut interface(reflected, density))
+        let pdf = |d: DVec3| (if d.z > 0.0 { 0.3 } else { 0.7 }) * cosine_pdf(d.with_z(d.z.abs()));
+        judge(&check, &mut interface(reflected, pdf))
     }
 
     #[test]
@@ -140,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_that_fail_without_the_density_knowing_are_seen() {
+    fn samples_that_fail_without_the_pdf_knowing_are_seen() {
         let finding = found(SURFACE, |p| (p.x > 0.05).then(|| cosine(p)).flatten());
         assert_eq!(finding.verdict, Verdict::Fail);
         let finding = found(SURFACE, |p| (p.y * 97.0 % 1.0 > 0.2).then(|| cosine(p)).flatten());

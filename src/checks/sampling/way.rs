@@ -1,5 +1,5 @@
 //! The ways of a sampler that chooses between them by a third number, and the chance of each: the share of third
-//! numbers that choose it. A core may choose by whatever chance it likes; it has to say so in its density.
+//! numbers that choose it. A core may choose by whatever chance it likes; it has to say so in its pdf.
 
 use super::distribution::{Distribution, Drawn};
 use crate::checks::Result;

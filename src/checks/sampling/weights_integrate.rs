@@ -1,10 +1,10 @@
-//! A density is a weight: the mean of g/pdf over samples is the integral of g, whatever is sampled.
+//! A pdf is a weight: the mean of g/pdf over samples is the integral of g, whatever is sampled.
 //!
 //! g = cos³θ and cos⁴θ of the upper hemisphere: their weights are bounded for uniform and for
 //! cosine-distributed directions alike. A wrong constant shows as one ratio, a wrong power of the
 //! cosine as two different ones; no surface and no light takes part.
 
-use super::density::{Density, Law};
+use super::claimed_pdf::{ClaimedPdf, Law};
 use super::distribution::{Distribution, DistributionEntry};
 use super::of_distributions::OfDistributions;
 use crate::cause::Cause;
@@ -53,8 +53,8 @@ impl OfDistributions for WeightsIntegrate {
             let core = &mut *context.core;
             Ok::<_, CheckError>(distribution.means(core, draw.seed(seed), draw.samples, weight)?)
         })?;
-        let density = Density::of(context.core, distribution)?;
-        Ok(Judged { name: distribution.name(), reports, density })
+        let pdf = ClaimedPdf::of(context.core, distribution)?;
+        Ok(Judged { name: distribution.name(), reports, pdf })
     }
 
     fn finding(judged: &[Judged]) -> Finding {
@@ -70,7 +70,7 @@ impl OfDistributions for WeightsIntegrate {
 pub(crate) struct Judged {
     name: String,
     reports: Vec<MeanReport>,
-    density: Option<Density>,
+    pdf: Option<ClaimedPdf>,
 }
 
 impl Judged {
@@ -106,16 +106,16 @@ impl Judged {
         Some(format!("{name}: means of g/pdf are {word} of the integrals of g"))
     }
 
-    /// A density that is wrong in itself, or one that belongs to another law of heights.
+    /// A pdf that is wrong in itself, or one that belongs to another law of heights.
     fn cause(&self) -> Option<(&'static Cause, String)> {
-        let density = self.density.filter(|_| self.failed())?;
+        let pdf = self.pdf.filter(|_| self.failed())?;
         let [third, fourth] = self.ratios();
         let told = format!("ratios of {} and {}", figure(third), figure(fourth));
         let is_near = |expected: [f64; 2]| {
             (third / expected[0] - 1.0).abs() <= SAME && (fourth / expected[1] - 1.0).abs() <= SAME
         };
         if is_near([third, third]) {
-            return Some((density.mistake()?, told));
+            return Some((pdf.mistake()?, told));
         }
         // ∫ cosⁿ p/q with p and q out of 1/2π and cos/π.
         let law = if is_near([2.0 / 3.0, 5.0 / 8.0]) {
@@ -125,29 +125,29 @@ impl Judged {
         } else {
             return None;
         };
-        Some((density.mistake_of_map(law).or_else(|| density.mistake())?, told))
+        Some((pdf.mistake_of_map(law).or_else(|| pdf.mistake())?, told))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake::{cosine, cosine_density, drawing, uniform, uniform_density};
+    use super::super::fake::{cosine, cosine_pdf, drawing, uniform, uniform_pdf};
     use super::*;
     use crate::checks::testing::{assert_passes, causes, check_of, failure, judge};
     use glam::DVec2;
 
-    fn found(sampler: &str, map: fn(DVec2) -> Option<DVec3>, density: fn(DVec3) -> f64) -> Finding {
+    fn found(sampler: &str, map: fn(DVec2) -> Option<DVec3>, pdf: fn(DVec3) -> f64) -> Finding {
         let check: WeightsIntegrate = check_of(&format!(
             "[expect]\ndistribution = {{ sampler = \"{sampler}\" }}\n\
              detects = \"3 %\"\nat-most = \"400 k\""
         ));
-        judge(&check, &mut drawing(map, density))
+        judge(&check, &mut drawing(map, pdf))
     }
 
     #[test]
-    fn right_densities_integrate() {
-        assert_passes(&found("cosine-hemisphere", cosine, cosine_density));
-        assert_passes(&found("uniform-hemisphere", uniform, uniform_density));
+    fn right_pdfs_integrate() {
+        assert_passes(&found("cosine-hemisphere", cosine, cosine_pdf));
+        assert_passes(&found("uniform-hemisphere", uniform, uniform_pdf));
     }
 
     #[test]
@@ -155,21 +155,21 @@ mod tests {
         let finding = found("cosine-hemisphere", cosine, |d| d.z.max(0.0));
         assert!(failure(&finding).ends_with("means of g/pdf are 1/π of the integrals of g"));
         assert_eq!(causes(&finding), ["pdf-without-pi"]);
-        let finding = found("uniform-hemisphere", uniform, |d| 0.5 * uniform_density(d));
+        let finding = found("uniform-hemisphere", uniform, |d| 0.5 * uniform_pdf(d));
         assert!(failure(&finding).contains("are 2 of"), "{}", finding.statement);
         assert_eq!(causes(&finding), ["pdf-halved"]);
     }
 
     #[test]
-    fn the_wrong_density_for_the_map_shows_in_two_ratios() {
-        let finding = found("uniform-hemisphere", uniform, cosine_density);
+    fn the_wrong_pdf_for_the_map_shows_in_two_ratios() {
+        let finding = found("uniform-hemisphere", uniform, cosine_pdf);
         let statement = failure(&finding);
         assert!(statement.contains("cos³/pdf is 0.66"), "{statement}");
         assert!(statement.contains("cos⁴/pdf 0.62"), "{statement}");
         assert_eq!(causes(&finding), ["cosine-pdf-for-uniform"]);
-        let finding = found("cosine-hemisphere", uniform, cosine_density);
+        let finding = found("cosine-hemisphere", uniform, cosine_pdf);
         assert_eq!(causes(&finding), ["uniform-for-cosine"]);
-        let finding = found("uniform-hemisphere", cosine, uniform_density);
+        let finding = found("uniform-hemisphere", cosine, uniform_pdf);
         assert_eq!(causes(&finding), ["cosine-for-uniform"]);
     }
 }

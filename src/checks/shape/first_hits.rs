@@ -122,14 +122,14 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_that_is_missing_is_named() {
+    fn a_sphere_that_is_missing_is_named() {
         let finding = found(|scene| scene.spheres[1].radius = 1e-6, |_, _| ());
         let told = "another shape's, for example back instead of right-ball";
         assert!(failure(&finding).contains(told), "{finding:?}");
     }
 
     #[test]
-    fn a_ball_that_stands_a_thousandth_further_back_is_seen() {
+    fn a_sphere_that_stands_a_thousandth_further_back_is_seen() {
         let finding = found(|scene| scene.spheres[0].centre.z -= 1e-3, |_, _| ());
         assert!(failure(&finding).contains(" depths are wrong"), "{}", finding.statement);
         assert!(finding.clues.is_empty());

@@ -15,24 +15,24 @@ impl Integrator<'_> {
     /// the directions of a glossy surface find for themselves.
     pub(super) fn direct_light(&mut self, vertex: &Vertex<'_>) -> Vec3 {
         let by_hemisphere = self.settings.direct == DirectSampling::Hemisphere;
-        let world = self.eye.world;
+        let world = self.caster.world;
         let mut radiance = Vec3::ZERO;
         for light in &world.lights {
             if light.is_delta() || !by_hemisphere {
-                radiance += self.gather_light(vertex, light);
+                radiance += self.sample_light(vertex, light);
             }
         }
-        if by_hemisphere { radiance + self.gather_directions(vertex) } else { radiance }
+        if by_hemisphere { radiance + self.sample_hemisphere(vertex) } else { radiance }
     }
 
     /// The mean over the samples that the light gets: one for a delta light.
-    fn gather_light(&mut self, vertex: &Vertex<'_>, light: &Light) -> Vec3 {
+    fn sample_light(&mut self, vertex: &Vertex<'_>, light: &Light) -> Vec3 {
         let samples = if light.is_delta() { 1 } else { self.settings.samples_per_light };
-        let sum: Vec3 = (0..samples).map(|_| self.gather_light_sample(vertex, light)).sum();
+        let sum: Vec3 = (0..samples).map(|_| self.light_sample(vertex, light)).sum();
         sum / samples.max(1) as f32
     }
 
-    fn gather_light_sample(&mut self, vertex: &Vertex<'_>, light: &Light) -> Vec3 {
+    fn light_sample(&mut self, vertex: &Vertex<'_>, light: &Light) -> Vec3 {
         let (point, lobe) = (self.stream.point(), self.stream.unit());
         let aim = light.aim_from_surface(vertex.position, vertex.light_reach(), point, lobe);
         let unoccluded = self.weigh(vertex, light, &aim.sample);
@@ -43,7 +43,7 @@ impl Integrator<'_> {
             Some(target) => vertex.reach(aim.sample.wi, target),
             None => vertex.leave(aim.sample.wi),
         };
-        if self.eye.is_blocked(&shadow_ray) { Vec3::ZERO } else { unoccluded }
+        if self.caster.is_blocked(&shadow_ray) { Vec3::ZERO } else { unoccluded }
     }
 
     /// Scattered radiance of a light sample, if its shadow ray is not occluded.
@@ -59,7 +59,7 @@ impl Integrator<'_> {
         // In double precision, because nearby points on a sphere see each other at grazing angles.
         let cosine = vertex.cosine(sample.wi);
         let share = if vertex.bsdf.is_glossy() && !light.is_delta() && self.combines() {
-            power_heuristic(self.light_density(sample.pdf), f64::from(pdf))
+            power_heuristic(self.light_pdf(sample.pdf), f64::from(pdf))
         } else {
             1.0
         };
@@ -68,19 +68,19 @@ impl Integrator<'_> {
     }
 
     /// Hemisphere sampling: uniform directions over the hemisphere, or the sphere, and the emission that they hit.
-    fn gather_directions(&mut self, vertex: &Vertex<'_>) -> Vec3 {
-        let reachable = self.eye.world.lights.iter().filter(|light| !light.is_delta()).count();
+    fn sample_hemisphere(&mut self, vertex: &Vertex<'_>) -> Vec3 {
+        let reachable = self.caster.world.lights.iter().filter(|light| !light.is_delta()).count();
         let samples = (self.settings.samples_per_light * reachable as u32).max(1);
-        let sum: Vec3 = (0..samples).map(|_| self.gather_direction(vertex)).sum();
+        let sum: Vec3 = (0..samples).map(|_| self.hemisphere_sample(vertex)).sum();
         sum / samples as f32
     }
 
-    fn gather_direction(&mut self, vertex: &Vertex<'_>) -> Vec3 {
+    fn hemisphere_sample(&mut self, vertex: &Vertex<'_>) -> Vec3 {
         let above = warp::uniform_hemisphere(warp::narrow_point(self.stream.point()));
-        let (local, density) = match vertex.light_reach() {
-            Reach::Above(_) => (above, warp::UNIFORM_DENSITY),
-            Reach::Everywhere if self.stream.unit() < 0.5 => (above, 0.5 * warp::UNIFORM_DENSITY),
-            Reach::Everywhere => (-above, 0.5 * warp::UNIFORM_DENSITY),
+        let (local, pdf) = match vertex.light_reach() {
+            Reach::Above(_) => (above, warp::UNIFORM_PDF),
+            Reach::Everywhere if self.stream.unit() < 0.5 => (above, 0.5 * warp::UNIFORM_PDF),
+            Reach::Everywhere => (-above, 0.5 * warp::UNIFORM_PDF),
         };
         let wi = vertex.to_world(local);
         if !vertex.is_consistent(wi, local) {
@@ -90,11 +90,11 @@ impl Integrator<'_> {
         if f == Vec3::ZERO {
             return Vec3::ZERO;
         }
-        let seen = match self.eye.nearest(&vertex.leave(wi)) {
-            Some(surface) => self.eye.world.emitted(&surface, -wi),
-            None => self.eye.world.sky(wi),
+        let seen = match self.caster.nearest(&vertex.leave(wi)) {
+            Some(surface) => self.caster.world.emitted(&surface, -wi),
+            None => self.caster.world.sky(wi),
         };
-        f * seen * (local.z.abs() / density)
+        f * seen * (local.z.abs() / pdf)
     }
 
     /// Whether light and BSDF samples are combined by multiple importance sampling.
@@ -103,7 +103,7 @@ impl Integrator<'_> {
     }
 
     /// The pdf of all samples of a light together.
-    pub(super) fn light_density(&self, pdf: f64) -> f64 {
+    pub(super) fn light_pdf(&self, pdf: f64) -> f64 {
         pdf * f64::from(self.settings.samples_per_light)
     }
 }

@@ -11,12 +11,12 @@ use super::random::Stream;
 use super::scatter::warp;
 use super::trace::Surface;
 use super::vertex::Vertex;
-use super::world::{Eye, World};
+use super::world::{RayCaster, World};
 use crate::contract::{IntegratorSettings, Ray};
 use glam::{DVec3, Vec3};
 
 pub(crate) struct Integrator<'a> {
-    pub(super) eye: Eye<'a>,
+    pub(super) caster: RayCaster<'a>,
     pub(super) settings: &'a IntegratorSettings,
     pub(super) stream: Stream,
 }
@@ -42,7 +42,7 @@ struct Path {
 
 impl<'a> Integrator<'a> {
     pub(crate) fn new(world: &'a World, settings: &'a IntegratorSettings) -> Self {
-        Self { eye: Eye::new(world), settings, stream: Stream::new(settings.seed, 0, 0) }
+        Self { caster: RayCaster::new(world), settings, stream: Stream::new(settings.seed, 0, 0) }
     }
 
     /// One estimate of the radiance along `ray`, by the numbers of `stream`.
@@ -53,12 +53,12 @@ impl<'a> Integrator<'a> {
         let mut path = Path { ray: *ray, wo, throughput: Vec3::ONE, sight: Sight::All };
         let mut radiance = Vec3::ZERO;
         for bounce in 0..=last {
-            let surface = self.eye.nearest(&path.ray);
+            let surface = self.caster.nearest(&path.ray);
             if bounce >= first {
-                radiance += path.throughput * self.glow(surface.as_ref(), &path);
+                radiance += path.throughput * self.emission_seen(surface.as_ref(), &path);
             }
             let (Some(surface), true) = (&surface, bounce < last) else { break };
-            let world = self.eye.world;
+            let world = self.caster.world;
             let vertex = Vertex::new(surface, world.bsdf(surface), path.wo);
             if bounce + 1 >= first && !vertex.bsdf.is_delta() {
                 radiance += path.throughput * self.direct_light(&vertex);
@@ -70,22 +70,22 @@ impl<'a> Integrator<'a> {
     }
 
     /// What counts of the light that the end of the path emits: a surface, or the environment if there is none.
-    fn glow(&self, surface: Option<&Surface>, path: &Path) -> Vec3 {
-        let (world, wo) = (self.eye.world, path.wo);
+    fn emission_seen(&self, surface: Option<&Surface>, path: &Path) -> Vec3 {
+        let (world, wo) = (self.caster.world, path.wo);
         match (&path.sight, surface) {
             (Sight::Nothing, _) => Vec3::ZERO,
             (Sight::All, Some(surface)) => world.emitted(surface, wo),
             (Sight::All, None) => world.sky(-wo),
             (Sight::Share(direction), Some(surface)) => {
                 let share = world.light_of(surface).map_or(1.0, |light| {
-                    let pdf = light.density(direction.from, direction.reach, -wo, Some(surface));
-                    power_heuristic(direction.pdf, self.light_density(pdf))
+                    let pdf = light.pdf(direction.from, direction.reach, -wo, Some(surface));
+                    power_heuristic(direction.pdf, self.light_pdf(pdf))
                 });
                 world.emitted(surface, wo) * share as f32
             }
             (Sight::Share(direction), None) => {
-                let pdf = direction.reach.sky_density(-wo);
-                world.sky(-wo) * power_heuristic(direction.pdf, self.light_density(pdf)) as f32
+                let pdf = direction.reach.sky_pdf(-wo);
+                world.sky(-wo) * power_heuristic(direction.pdf, self.light_pdf(pdf)) as f32
             }
         }
     }

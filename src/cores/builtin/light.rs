@@ -118,26 +118,20 @@ impl Light {
 
     /// The pdf with which [`Self::aim_from_surface`] samples direction `wi`, which hits this light at `there`
     /// (`None`: the environment).
-    pub(crate) fn density(
-        &self,
-        from: DVec3,
-        reach: Reach,
-        wi: DVec3,
-        there: Option<&Surface>,
-    ) -> f64 {
+    pub(crate) fn pdf(&self, from: DVec3, reach: Reach, wi: DVec3, there: Option<&Surface>) -> f64 {
         match (self, there) {
-            (Self::Sky(_), None) => reach.sky_density(wi),
-            (Self::Mesh(mesh), Some(there)) => area_density(mesh.area, from, wi, there),
+            (Self::Sky(_), None) => reach.sky_pdf(wi),
+            (Self::Mesh(mesh), Some(there)) => area_pdf(mesh.area, from, wi, there),
             (Self::Sphere(sphere), Some(there)) => match sphere.visible_cone(from) {
                 Some(one_minus_cosine) => 1.0 / (TAU * one_minus_cosine),
-                None => area_density(sphere.area(), from, wi, there),
+                None => area_pdf(sphere.area(), from, wi, there),
             },
             _ => 0.0,
         }
     }
 }
 
-fn area_density(area: f64, from: DVec3, wi: DVec3, there: &Surface) -> f64 {
+fn area_pdf(area: f64, from: DVec3, wi: DVec3, there: &Surface) -> f64 {
     let cosine = there.geometric_normal.dot(wi).abs();
     there.position.distance_squared(from) / (cosine * area)
 }
@@ -244,7 +238,7 @@ impl SphereLight {
     }
 
     /// Axis and 1 − cosine of the half angle of the part that emits.
-    fn glowing_part(&self) -> (DVec3, f64) {
+    fn emitting_part(&self) -> (DVec3, f64) {
         match self.emission.cap {
             Some(cap) => (cap.axis, 2.0 * (cap.half_angle / 2.0).sin().powi(2)),
             None => (DVec3::Z, 2.0),
@@ -252,7 +246,7 @@ impl SphereLight {
     }
 
     fn area(&self) -> f64 {
-        TAU * self.radius * self.radius * self.glowing_part().1
+        TAU * self.radius * self.radius * self.emitting_part().1
     }
 
     /// 1 − cosine of the half angle of the cone that the sphere subtends, where directions are chosen in that cone.
@@ -266,7 +260,7 @@ impl SphereLight {
     fn aim(&self, from: DVec3, point: DVec2) -> Aim {
         match self.visible_cone(from) {
             Some(one_minus_cosine) => self.aim_into_cone(from, point, one_minus_cosine),
-            None => self.aim_at_glowing_part(from, point),
+            None => self.aim_at_emitting_part(from, point),
         }
     }
 
@@ -288,8 +282,8 @@ impl SphereLight {
         Aim { sample, target: Some(target) }
     }
 
-    fn aim_at_glowing_part(&self, from: DVec3, point: DVec2) -> Aim {
-        let (axis, widest) = self.glowing_part();
+    fn aim_at_emitting_part(&self, from: DVec3, point: DVec2) -> Aim {
+        let (axis, widest) = self.emitting_part();
         let one_minus_cosine = point.x * widest;
         let sine = (one_minus_cosine * (2.0 - one_minus_cosine)).sqrt();
         let outward = around(axis, 1.0 - one_minus_cosine, sine, point.y);

@@ -130,7 +130,7 @@ impl Core for Builtin {
     ) -> Result<()> {
         for (sample, &point) in samples.iter_mut().zip(random.points) {
             let direction = warp::direction(sampler, warp::narrow_point(point));
-            let pdf = f64::from(warp::density(sampler, direction));
+            let pdf = f64::from(warp::pdf(sampler, direction));
             *sample = DirectionSample { direction: direction.as_dvec3(), pdf };
         }
         Ok(())
@@ -143,7 +143,7 @@ impl Core for Builtin {
         pdf: &mut [f64],
     ) -> Result<()> {
         for (pdf, direction) in pdf.iter_mut().zip(directions) {
-            *pdf = f64::from(warp::density(sampler, direction.as_vec3()));
+            *pdf = f64::from(warp::pdf(sampler, direction.as_vec3()));
         }
         Ok(())
     }

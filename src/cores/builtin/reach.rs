@@ -14,7 +14,7 @@ pub(crate) enum Reach {
 
 impl Reach {
     /// The pdf of samples of environment lights: with the cosine above a surface, else uniform.
-    pub(crate) fn sky_density(self, wi: DVec3) -> f64 {
+    pub(crate) fn sky_pdf(self, wi: DVec3) -> f64 {
         match self {
             Self::Above(normal) => normal.dot(wi).max(0.0) * FRAC_1_PI,
             Self::Everywhere => FRAC_1_PI / 4.0,

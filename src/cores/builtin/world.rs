@@ -75,12 +75,12 @@ impl World {
 }
 
 /// Rays in a world, one after the other.
-pub(crate) struct Eye<'a> {
+pub(crate) struct RayCaster<'a> {
     pub(crate) world: &'a World,
     tracer: Tracer<'a>,
 }
 
-impl<'a> Eye<'a> {
+impl<'a> RayCaster<'a> {
     pub(crate) fn new(world: &'a World) -> Self {
         Self { world, tracer: Tracer::new(&world.tree) }
     }

@@ -170,7 +170,7 @@ pub(crate) enum Feature {
     ConstantSky,
     GradientSky,
     SphereLight,
-    GlowingSurface,
+    EmissiveSurface,
     InwardSphere,
     /// Light sampling of area lights by the pdf of directions; hemisphere sampling needs none.
     AreaLightPdf,

@@ -345,7 +345,7 @@ fn features(scene: &SceneDescription) -> Vec<(Feature, &'static str)> {
         }
         let black = Surface::Diffuse { reflectance: [0.0; 3] };
         if material.emission.is_some() && material.surface != black {
-            found.push((Feature::GlowingSurface, "emitters that also reflect"));
+            found.push((Feature::EmissiveSurface, "emitters that also reflect"));
         }
         if let Shape::Sphere(sphere) = scene.shape(number) {
             if material.emission.is_some() {

@@ -1,14 +1,14 @@
 //! Part 3: shapes that emit, as lights.
 //!
-//! A mesh, and a sphere that is not seen whole, are sampled uniformly over their area; a ball seen
+//! A mesh, and a sphere that is not seen whole, are sampled uniformly over their area; a sphere seen
 //! from outside uniformly over the cone that it fills.
 
 use super::frame::Frame;
-use super::intersect::{Ball, Triangle};
+use super::intersect::{Sphere, Triangle};
 use super::light::towards;
 use super::steps::Steps;
 use crate::contract::LightSample;
-use crate::scene::{Emission, Mesh, Rgb, Sphere};
+use crate::scene::{self, Emission, Mesh, Rgb};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -63,7 +63,7 @@ impl MeshLight {
         self.triangles.get(chosen).or(self.triangles.last())
     }
 
-    /// The density of the direction from `from` to the point `at` with this normal.
+    /// The pdf of the direction from `from` to the point `at` with this normal.
     pub(crate) fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
         steps.mesh_pdf(per_steradian(from, at, normal, steps), self.area())
     }
@@ -106,17 +106,17 @@ pub(crate) fn area_per_steradian(distance_squared: f64, cosine: f64) -> f64 {
 }
 
 #[derive(Clone, Debug)]
-pub(crate) struct BallLight {
-    ball: Ball,
+pub(crate) struct SphereLight {
+    sphere: Sphere,
     /// Whether it shines towards its centre.
     inward: bool,
     emission: Emission,
 }
 
-impl BallLight {
-    pub(crate) fn new(sphere: &Sphere, emission: Emission) -> Self {
-        let Sphere { centre, radius, inward, .. } = *sphere;
-        Self { ball: Ball { centre, radius }, inward, emission }
+impl SphereLight {
+    pub(crate) fn new(sphere: &scene::Sphere, emission: Emission) -> Self {
+        let scene::Sphere { centre, radius, inward, .. } = *sphere;
+        Self { sphere: Sphere { centre, radius }, inward, emission }
     }
 
     pub(crate) fn sample(&self, from: DVec3, point: DVec2, steps: &Steps) -> Option<LightSample> {
@@ -127,7 +127,7 @@ impl BallLight {
         }
     }
 
-    /// The density of the direction from `from` to the emitting point `at` with this normal.
+    /// The pdf of the direction from `from` to the emitting point `at` with this normal.
     pub(crate) fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
         if self.fills_cone(from) {
             self.cone_pdf(from)
@@ -138,25 +138,25 @@ impl BallLight {
 
     /// Whether all that `from` sees of the sphere emits.
     fn fills_cone(&self, from: DVec3) -> bool {
-        let radius_squared = self.ball.radius * self.ball.radius;
-        let is_outside = from.distance_squared(self.ball.centre) > radius_squared;
+        let radius_squared = self.sphere.radius * self.sphere.radius;
+        let is_outside = from.distance_squared(self.sphere.centre) > radius_squared;
         is_outside && !self.inward && self.emission.cap.is_none()
     }
 
-    /// 1 − cos of the half angle under which the ball is seen, without subtracting nearly equal numbers.
+    /// 1 − cos of the half angle under which the sphere is seen, without subtracting nearly equal numbers.
     fn cone_height(&self, from: DVec3) -> f64 {
-        let radius_squared = self.ball.radius * self.ball.radius;
-        let sine_squared = radius_squared / from.distance_squared(self.ball.centre);
+        let radius_squared = self.sphere.radius * self.sphere.radius;
+        let sine_squared = radius_squared / from.distance_squared(self.sphere.centre);
         sine_squared / (1.0 + (1.0 - sine_squared).max(0.0).sqrt())
     }
 
-    /// Uniform over the cone of directions that meet the ball.
+    /// Uniform over the cone of directions that meet the sphere.
     fn cone_pdf(&self, from: DVec3) -> f64 {
         FRAC_1_PI / (2.0 * self.cone_height(from))
     }
 
     fn sample_cone(&self, from: DVec3, point: DVec2) -> Option<LightSample> {
-        let to_centre = self.ball.centre - from;
+        let to_centre = self.sphere.centre - from;
         let height = point.x * self.cone_height(from);
         let axis = Frame::around(to_centre.try_normalize()?);
         let wi = axis.to_world(direction_below_tip(height, point.y));
@@ -164,11 +164,11 @@ impl BallLight {
         towards(from, at, self.emission.radiance, self.cone_pdf(from))
     }
 
-    /// To the near side of the ball, in a direction whose cosine with `to_centre` is 1 − height.
+    /// To the near side of the sphere, in a direction whose cosine with `to_centre` is 1 − height.
     fn near_distance(&self, to_centre: DVec3, height: f64) -> f64 {
         let sine_squared = height * (2.0 - height);
         let line_to_centre_squared = to_centre.length_squared() * sine_squared;
-        let half_chord_squared = self.ball.radius * self.ball.radius - line_to_centre_squared;
+        let half_chord_squared = self.sphere.radius * self.sphere.radius - line_to_centre_squared;
         to_centre.length() * (1.0 - height) - half_chord_squared.max(0.0).sqrt()
     }
 
@@ -183,7 +183,7 @@ impl BallLight {
         let local = direction_below_tip(point.x * self.emitting_height(), point.y);
         let outward = Frame::around(axis).to_world(local);
         let normal = if self.inward { -outward } else { outward };
-        let at = self.ball.centre + self.ball.radius * outward;
+        let at = self.sphere.centre + self.sphere.radius * outward;
         towards(from, at, self.emission.radiance, self.pdf(from, at, normal, steps))
     }
 
@@ -194,7 +194,7 @@ impl BallLight {
 
     /// Archimedes: a zone's area is 2πR times its height.
     fn emitting_area(&self) -> f64 {
-        2.0 * PI * self.ball.radius * self.ball.radius * self.emitting_height()
+        2.0 * PI * self.sphere.radius * self.sphere.radius * self.emitting_height()
     }
 }
 

@@ -26,7 +26,7 @@ pub(crate) fn is_interface(surface: &Surface) -> bool {
     matches!(surface, Surface::Glass { .. } | Surface::RoughGlass { .. })
 }
 
-/// `f` and the density of [`sample`]. Zero for mirror and smooth glass, and for directions on
+/// `f` and the pdf of [`sample`]. Zero for mirror and smooth glass, and for directions on
 /// different sides of what light does not pass.
 pub(crate) fn evaluate(surface: &Surface, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
     if let Some(glass) = rough_glass(surface) {
@@ -53,7 +53,7 @@ fn evaluate_from_above(surface: &Surface, wo: DVec3, wi: DVec3, steps: &Steps) -
     match *surface {
         Surface::Diffuse { reflectance } if steps.scatters_light_from(wi) => BsdfValue {
             f: steps.diffuse(reflectance, wi),
-            pdf: sampling::pdf(steps.diffuse_density(), wi, steps),
+            pdf: sampling::pdf(steps.diffuse_pdf_sampler(), wi, steps),
         },
         Surface::Conductor { reflectance, roughness } if wi.z > 0.0 => {
             ggx::evaluate(reflectance, roughness, wo, wi, steps)
@@ -77,8 +77,8 @@ pub(crate) fn diffuse_sampler() -> Sampler {
     Sampler::CosineHemisphere
 }
 
-/// The sampler whose density those directions have.
-pub(crate) fn diffuse_density() -> Sampler {
+/// The sampler whose pdf those directions have.
+pub(crate) fn diffuse_pdf_sampler() -> Sampler {
     Sampler::CosineHemisphere
 }
 

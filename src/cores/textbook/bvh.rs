@@ -3,7 +3,7 @@
 //! Primitives lie in the order of the leaves. Without nodes every query is the loop: that is brute force.
 
 use super::build::{Content, Node, build};
-use super::intersect::{Ball, Crossing, Triangle};
+use super::intersect::{Crossing, Sphere, Triangle};
 use super::slab::intersect_box;
 use super::steps::Steps;
 use crate::contract::{Acceleration, BuildStats, Ray, TraversalStats};
@@ -14,21 +14,21 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Form {
     Triangle(Triangle),
-    Ball(Ball),
+    Sphere(Sphere),
 }
 
 impl Form {
     fn intersect(&self, ray: &Ray, steps: &Steps) -> Option<Crossing> {
         match self {
             Self::Triangle(triangle) => triangle.intersect(ray, steps),
-            Self::Ball(ball) => ball.intersect(ray, steps),
+            Self::Sphere(sphere) => sphere.intersect(ray, steps),
         }
     }
 
     fn bounds(&self) -> Aabb {
         match self {
             Self::Triangle(triangle) => triangle.bounds(),
-            Self::Ball(ball) => ball.bounds(),
+            Self::Sphere(sphere) => sphere.bounds(),
         }
     }
 
@@ -48,7 +48,7 @@ pub(crate) struct Primitive {
     pub(crate) number: u32,
 }
 
-/// All primitives of a scene, with or without a hierarchy over them.
+/// All primitives of a scene, with or without a BVH over them.
 #[derive(Debug)]
 pub(crate) struct Bvh<'a> {
     /// The root first, each left child right after its parent. None at all for brute force.
@@ -305,7 +305,7 @@ mod tests {
             let centre = vector(&mut random);
             let corners = [(); 3].map(|()| centre + size / 2.0 * vector(&mut random));
             if index % 10 == 0 {
-                Form::Ball(Ball { centre, radius: size / 4.0 })
+                Form::Sphere(Sphere { centre, radius: size / 4.0 })
             } else {
                 triangle(corners)
             }
@@ -329,11 +329,11 @@ mod tests {
     /// Sizes and places from 1 down to `smallest`, each the same part of the one before.
     fn geometric(count: usize, smallest: f64) -> Vec<Primitive> {
         let ratio = smallest.powf(1.0 / count as f64);
-        let ball = |index| {
+        let sphere = |index| {
             let scale = ratio.powi(index);
-            Form::Ball(Ball { centre: DVec3::X * scale, radius: scale / 3.0 })
+            Form::Sphere(Sphere { centre: DVec3::X * scale, radius: scale / 3.0 })
         };
-        numbered((0..count as i32).map(ball))
+        numbered((0..count as i32).map(sphere))
     }
 
     fn rays(count: usize) -> Vec<Ray> {

@@ -55,7 +55,7 @@ different! {
     "uniform-bounces": "the diffuse surface draws uniform directions, with their pdf",
         parts [3, 4, 5],
         diffuse_sampler = || Sampler::UniformHemisphere,
-        diffuse_density = || Sampler::UniformHemisphere;
+        diffuse_pdf_sampler = || Sampler::UniformHemisphere;
     "other-roulette": "dark paths are cut short by roulette of the core's own",
         parts [4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
         survival_probability = survival_of_own_roulette;
@@ -101,8 +101,8 @@ different! {
         fresnel = schlick_outside;
     "correlated-smith": "the height-correlated Smith term, declared",
         parts [3, 4] declares |info| info.conventions.smith_term = SmithTerm::HeightCorrelated,
-        metal_f = |Facets { density, roughness, wo, wi, .. }| {
-            density * height_correlated_masking(*roughness, *wo, *wi) / (4.0 * wo.z * wi.z)
+        metal_f = |Facets { distribution, roughness, wo, wi, .. }| {
+            distribution * height_correlated_masking(*roughness, *wo, *wi) / (4.0 * wo.z * wi.z)
         },
         masking_over_cosines = |roughness, wo, wi| {
             height_correlated_masking(roughness, wo, wi) / (wo.z * wi.z)

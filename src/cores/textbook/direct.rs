@@ -1,11 +1,11 @@
 //! Part 3: light that is scattered once, at a point that is given.
 //!
 //! Two estimators of one integral: uniform hemisphere sampling, and light sampling (next event estimation). Not here:
-//! paths (`integrator`). Mirror and glass gather nothing here: what they show is met by following the path.
+//! paths (`integrator`). Mirror and glass take no light samples here: what they show is met by following the path.
 
 use super::bsdf;
 use super::frame::Frame;
-use super::light::Lamp;
+use super::light::Emitter;
 use super::random::Random;
 use super::sampling;
 use super::steps::Steps;
@@ -29,7 +29,7 @@ pub(crate) fn one_bounce(
     let scatter = Scatter { world, samples: settings.samples_per_light.max(1), vertex, steps };
     match steps.direct_sampling(settings) {
         DirectSampling::Hemisphere => {
-            scatter.by_hemisphere(random) + scatter.by_lights(random, Lamp::is_delta)
+            scatter.by_hemisphere(random) + scatter.by_lights(random, Emitter::is_delta)
         }
         DirectSampling::Lights if is_glossy(vertex.surface) => {
             scatter.by_lights(random, |_| true) + scatter.by_surface(random)
@@ -49,7 +49,7 @@ fn is_glossy(surface: &Surface) -> bool {
     matches!(surface, Surface::Conductor { .. } | Surface::RoughGlass { .. })
 }
 
-/// One point of one path, gathering light.
+/// One point of one path, where light is sampled.
 struct Scatter<'a> {
     world: &'a World<'a>,
     /// Samples of each light that is not a delta light.
@@ -96,21 +96,27 @@ impl Scatter<'_> {
     }
 
     /// Sum over the `wanted` lights of the mean over samples of each.
-    fn by_lights(&self, random: &mut Random<'_>, wanted: impl Fn(&Lamp) -> bool) -> DVec3 {
+    fn by_lights(&self, random: &mut Random<'_>, wanted: impl Fn(&Emitter) -> bool) -> DVec3 {
         let lights = self.world.lights().iter().filter(|light| wanted(light));
         let mut radiances = lights.map(|light| self.by_light(light, random));
         self.steps.sum_over_lights(&mut radiances, self.samples)
     }
 
     /// A delta light is one direction: it needs no second sample.
-    fn by_light(&self, light: &Lamp, random: &mut Random<'_>) -> DVec3 {
+    fn by_light(&self, light: &Emitter, random: &mut Random<'_>) -> DVec3 {
         let samples = if light.is_delta() { 1 } else { self.samples };
         let sample = |number| self.light_sample(light, number, samples, random);
         self.steps.light_mean((0..samples).map(sample).sum(), samples, self.samples)
     }
 
     /// Sample number `number` of so many of a light.
-    fn light_sample(&self, light: &Lamp, number: u32, of: u32, random: &mut Random<'_>) -> DVec3 {
+    fn light_sample(
+        &self,
+        light: &Emitter,
+        number: u32,
+        of: u32,
+        random: &mut Random<'_>,
+    ) -> DVec3 {
         let (point, lobe) = (self.steps.light_point(random, number, of), random.number());
         let Some(sample) = light.sample(self.vertex.point, point, lobe, self.steps) else {
             return DVec3::ZERO;
@@ -160,13 +166,14 @@ impl Scatter<'_> {
     }
 
     fn weighted_emission(&self, seen: &Vertex<'_>, surface_pdf: f64) -> DVec3 {
-        let pdf_of =
-            |light: &Lamp| light.area_pdf(self.vertex.point, seen.point, seen.normal, self.steps);
+        let pdf_of = |light: &Emitter| {
+            light.area_pdf(self.vertex.point, seen.point, seen.normal, self.steps)
+        };
         power_heuristic(surface_pdf, seen.light.map_or(0.0, pdf_of)) * seen.emitted
     }
 
     fn weighted_sky(&self, direction: DVec3, surface_pdf: f64) -> DVec3 {
-        let of_light = |light: &Lamp| {
+        let of_light = |light: &Emitter| {
             power_heuristic(surface_pdf, light.sky_pdf(self.steps))
                 * DVec3::from(light.sky_radiance(direction))
         };
@@ -219,8 +226,8 @@ pub(crate) fn sum_over_lights(each: &mut dyn Iterator<Item = DVec3>, _samples: u
     each.sum()
 }
 
-/// Weight of a sample drawn with density `own` where another technique with as many samples has
-/// density `other` (Veach 1997, section 9.2.4).
+/// Weight of a sample drawn with pdf `own` where another technique with as many samples has
+/// pdf `other` (Veach 1997, section 9.2.4).
 fn power_heuristic(own: f64, other: f64) -> f64 {
     own * own / (own * own + other * other)
 }

@@ -9,7 +9,7 @@ use crate::scene::Rgb;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// What f and density of a pair of directions are made of.
+/// What f and pdf of a pair of directions are made of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Facets {
     /// α.
@@ -21,12 +21,12 @@ pub(crate) struct Facets {
     /// The normal h of the facets that reflect one into the other.
     pub(crate) normal: DVec3,
     /// D(h).
-    pub(crate) density: f64,
+    pub(crate) distribution: f64,
     /// G₁(wo)/cos θo and G₁(wi)/cos θi.
     pub(crate) masking_over_cosine: [f64; 2],
 }
 
-/// `f` and the density of [`sample`].
+/// `f` and the pdf of [`sample`].
 pub(crate) fn evaluate(
     reflectance: Rgb,
     roughness: f64,
@@ -36,9 +36,9 @@ pub(crate) fn evaluate(
 ) -> BsdfValue {
     let roughness = steps.alpha(roughness);
     let normal = (wo + wi).normalize();
-    let density = facet_density(roughness, normal);
+    let distribution = normal_distribution(roughness, normal);
     let masking_over_cosine = [wo, wi].map(|w| masking_over_cosine(roughness, w));
-    let facets = Facets { roughness, wo, wi, normal, density, masking_over_cosine };
+    let facets = Facets { roughness, wo, wi, normal, distribution, masking_over_cosine };
     let value = steps.metal_f(&facets);
     BsdfValue { f: reflectance.map(|r| r * value), pdf: steps.metal_pdf(&facets) }
 }
@@ -51,12 +51,12 @@ pub(crate) fn alpha(roughness: f64) -> f64 {
 /// f/R = D(h) G₁(wo) G₁(wi) / (4 cos θo cos θi).
 pub(crate) fn metal_f(facets: &Facets) -> f64 {
     let [masking_wo, masking_wi] = facets.masking_over_cosine;
-    facets.density * masking_wo * masking_wi / 4.0
+    facets.distribution * masking_wo * masking_wi / 4.0
 }
 
-/// The density of visible normals, G₁(wo) D(h) max(0, wo·h) / cos θo, over the Jacobian 4 wo·h of the reflection.
+/// The pdf of visible normals, G₁(wo) D(h) max(0, wo·h) / cos θo, over the Jacobian 4 wo·h of the reflection.
 pub(crate) fn metal_pdf(facets: &Facets) -> f64 {
-    facets.density * facets.masking_over_cosine[0] / 4.0
+    facets.distribution * facets.masking_over_cosine[0] / 4.0
 }
 
 /// A direction reflected from a visible facet; it may point below the horizon, where `f` is zero.
@@ -68,7 +68,7 @@ pub(crate) fn sample(roughness: f64, wo: DVec3, point: DVec2, steps: &Steps) -> 
 /// D: area of facets with normal `h` per unit of surface and solid angle.
 ///
 /// Written with h.x² + h.y² in place of 1 − h.z², which would lose all digits for small roughness.
-pub(crate) fn facet_density(roughness: f64, h: DVec3) -> f64 {
+pub(crate) fn normal_distribution(roughness: f64, h: DVec3) -> f64 {
     let alpha_squared = roughness * roughness;
     let stretched = h.x * h.x + h.y * h.y + alpha_squared * h.z * h.z;
     alpha_squared * FRAC_1_PI / (stretched * stretched)
@@ -113,7 +113,7 @@ mod tests {
             let heights = 20_000;
             let total: f64 = (0..heights)
                 .map(|i| (f64::from(i) + 0.5) / f64::from(heights))
-                .map(|z| facet_density(roughness, direction_at(z, 0.2)) * z)
+                .map(|z| normal_distribution(roughness, direction_at(z, 0.2)) * z)
                 .sum();
             let total = 2.0 * PI * total / f64::from(heights);
             assert!((total - 1.0).abs() < 1e-5, "{roughness}: {total}");

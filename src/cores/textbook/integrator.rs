@@ -2,7 +2,7 @@
 //!
 //! Light of bounce k has been scattered exactly k times on its way to the viewer, mirror and glass included; bounce 0
 //! is what is emitted where the ray arrives. At the k-th vertex of the path, the first being number 1, the light of
-//! bounce k is gathered from the lights; so what is emitted where the path itself goes on is not added again. Mirror
+//! bounce k is sampled from the lights; so what is emitted where the path itself goes on is not added again. Mirror
 //! and glass are the exception: no light can be sampled there, and the path alone can meet one.
 
 use super::bsdf;
@@ -62,7 +62,7 @@ impl<'a> Integrator<'a> {
         for bounce in 1..=last {
             let View::Surface(vertex) = &view else { break };
             if self.wants(bounce) {
-                radiance += throughput * self.steps.gather(self, vertex, bounce, random);
+                radiance += throughput * self.steps.light_of_bounce(self, vertex, bounce, random);
             }
             if bounce == last && !bsdf::is_delta(vertex.surface) {
                 break;
@@ -122,7 +122,7 @@ pub(crate) fn last_bounce(bounces: &RangeInclusive<u32>) -> u32 {
 }
 
 /// The light of this very bounce, from the lights.
-pub(crate) fn gather(
+pub(crate) fn light_of_bounce(
     integrator: &Integrator<'_>,
     vertex: &Vertex<'_>,
     _bounce: u32,

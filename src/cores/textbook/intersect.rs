@@ -120,7 +120,7 @@ pub(crate) fn triangle_holds(u: f64, v: f64, error: f64) -> bool {
 
 /// A sphere without a side.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ball {
+pub(crate) struct Sphere {
     /// World space.
     pub(crate) centre: DVec3,
     /// Scene units, positive.
@@ -139,7 +139,7 @@ pub(crate) struct Quadratic {
     pub(crate) discriminant: f64,
 }
 
-impl Ball {
+impl Sphere {
     /// `None` unless it has a size and a place.
     pub(crate) fn new(centre: DVec3, radius: f64) -> Option<Self> {
         (radius > 0.0 && centre.is_finite()).then_some(Self { centre, radius })
@@ -149,7 +149,7 @@ impl Ball {
         Aabb { min: self.centre - self.radius, max: self.centre + self.radius }
     }
 
-    /// The nearer crossing inside the segment; from inside the ball that is the far one.
+    /// The nearer crossing inside the segment; from inside the sphere that is the far one.
     pub(crate) fn intersect(&self, ray: &Ray, steps: &Steps) -> Option<Crossing> {
         let quadratic = self.quadratic(ray);
         if quadratic.discriminant < 0.0 {
@@ -163,7 +163,7 @@ impl Ball {
     /// |origin + t·direction − centre|² = radius².
     ///
     /// The discriminant comes from the distance between centre and line: no large equal numbers are
-    /// subtracted when the ball is small and far away (Haines et al., Ray Tracing Gems, chapter 7).
+    /// subtracted when the sphere is small and far away (Haines et al., Ray Tracing Gems, chapter 7).
     fn quadratic(&self, ray: &Ray) -> Quadratic {
         let from_centre = ray.origin - self.centre;
         let a = ray.direction.length_squared();
@@ -188,8 +188,8 @@ pub(crate) fn nearer_root(ray: &Ray, near: f64, far: f64) -> Option<f64> {
 }
 
 /// Unit, away from the centre.
-pub(crate) fn outward_normal(ball: &Ball, point: DVec3) -> DVec3 {
-    (point - ball.centre).normalize()
+pub(crate) fn outward_normal(sphere: &Sphere, point: DVec3) -> DVec3 {
+    (point - sphere.centre).normalize()
 }
 
 /// Whether `t` lies strictly inside the ray's segment. Not a number lies nowhere.

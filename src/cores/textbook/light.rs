@@ -1,9 +1,9 @@
 //! Part 3: where light comes from, and directions towards it.
 //!
-//! Every density is per steradian as seen from the point that asks. Area lights shine from their front alone. Not here:
+//! Every pdf is per steradian as seen from the point that asks. Area lights shine from their front alone. Not here:
 //! whether anything stands in between (`direct`), and how shapes that emit are sampled (`area_light`).
 
-use super::area_light::{BallLight, MeshLight};
+use super::area_light::{MeshLight, SphereLight};
 use super::sampling;
 use super::steps::Steps;
 use crate::contract::LightSample;
@@ -12,22 +12,22 @@ use glam::{DVec2, DVec3};
 
 /// A light, prepared for sampling.
 #[derive(Clone, Debug)]
-pub(crate) enum Lamp {
+pub(crate) enum Emitter {
     /// Point, directional or sky: nothing to prepare.
     Simple(Light),
     Mesh(MeshLight),
-    Ball(BallLight),
+    Sphere(SphereLight),
     /// A shape that was declared a light but does not emit.
     Dark,
 }
 
-impl Lamp {
+impl Emitter {
     pub(crate) fn new(light: &Light, scene: &SceneDescription) -> Self {
         let Light::Area { shape } = *light else { return Self::Simple(*light) };
         let Some(emission) = scene.material_of(shape).emission else { return Self::Dark };
         match scene.shape(shape) {
             Shape::Mesh(mesh) => Self::Mesh(MeshLight::new(mesh, emission.radiance)),
-            Shape::Sphere(sphere) => Self::Ball(BallLight::new(sphere, emission)),
+            Shape::Sphere(sphere) => Self::Sphere(SphereLight::new(sphere, emission)),
         }
     }
 
@@ -55,22 +55,22 @@ impl Lamp {
         match self {
             Self::Simple(light) => sample_simple(light, from, point, steps),
             Self::Mesh(mesh) => mesh.sample(from, point, lobe, steps),
-            Self::Ball(ball) => ball.sample(from, point, steps),
+            Self::Sphere(sphere) => sphere.sample(from, point, steps),
             Self::Dark => None,
         }
     }
 
-    /// The density with which [`Self::sample`] draws the direction from `from` to `at`, an emitting
+    /// The pdf with which [`Self::sample`] draws the direction from `from` to `at`, an emitting
     /// point of the light with unit `normal` on its front.
     pub(crate) fn area_pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
         match self {
             Self::Mesh(mesh) => mesh.pdf(from, at, normal, steps),
-            Self::Ball(ball) => ball.pdf(from, at, normal, steps),
+            Self::Sphere(sphere) => sphere.pdf(from, at, normal, steps),
             Self::Simple(_) | Self::Dark => 0.0,
         }
     }
 
-    /// The density with which [`Self::sample`] draws a direction into the sky; zero for other lights.
+    /// The pdf with which [`Self::sample`] draws a direction into the sky; zero for other lights.
     pub(crate) fn sky_pdf(&self, steps: &Steps) -> f64 {
         match self {
             Self::Simple(Light::ConstantSky { .. } | Light::GradientSky { .. }) => steps.sky_pdf(),
@@ -110,8 +110,8 @@ fn delta(wi: DVec3, distance: f64, radiance: Rgb) -> LightSample {
     LightSample { wi, distance, radiance, pdf: 1.0, is_delta: 1, is_valid: 1 }
 }
 
-/// The sample that leads from `from` to the point `at`, drawn with density `pdf`. From behind,
-/// where the density is 0, there is none.
+/// The sample that leads from `from` to the point `at`, drawn with this `pdf`. From behind,
+/// where the pdf is 0, there is none.
 pub(crate) fn towards(from: DVec3, at: DVec3, radiance: Rgb, pdf: f64) -> Option<LightSample> {
     let wi = (at - from).try_normalize()?;
     let distance = from.distance(at);
@@ -146,33 +146,33 @@ mod tests {
     use std::f64::consts::PI;
 
     /// The last light of a stage.
-    fn lamp(stage: Stage) -> Lamp {
+    fn emitter(stage: Stage) -> Emitter {
         let scene = stage.scene();
-        Lamp::new(scene.lights.last().expect("something glows"), &scene)
+        Emitter::new(scene.lights.last().expect("there is a light"), &scene)
     }
 
-    fn rectangle(x: f64, y: f64, z: f64) -> Lamp {
+    fn rectangle(x: f64, y: f64, z: f64) -> Emitter {
         let corners = [(-x, -y), (-x, y), (x, y), (x, -y)].map(|(x, y)| DVec3::new(x, y, z));
-        lamp(Stage::empty().polygon(&corners, diffuse(0.0).emitting(1.0)))
+        emitter(Stage::empty().polygon(&corners, diffuse(0.0).emitting(1.0)))
     }
 
-    fn samples(lamp: &Lamp, from: DVec3, count: usize) -> Vec<Option<LightSample>> {
+    fn samples(emitter: &Emitter, from: DVec3, count: usize) -> Vec<Option<LightSample>> {
         let mut random = Random::for_ray(5, 0);
-        (0..count).map(|_| lamp.sample(from, random.point(), random.number(), &LESSON)).collect()
+        (0..count).map(|_| emitter.sample(from, random.point(), random.number(), &LESSON)).collect()
     }
 
     /// Mean of 1/pdf with its standard error.
-    fn solid_angle(lamp: &Lamp, from: DVec3) -> (f64, f64) {
+    fn solid_angle(emitter: &Emitter, from: DVec3) -> (f64, f64) {
         let count = 100_000;
-        let values = samples(lamp, from, count).into_iter();
+        let values = samples(emitter, from, count).into_iter();
         let values = values.map(|sample| sample.map_or(0.0, |sample| 1.0 / sample.pdf));
         let (sum, squares) = values.fold((0.0, 0.0), |(s, q), v| (s + v, q + v * v));
         let n = count as f64;
         (sum / n, ((squares / n - (sum / n).powi(2)).max(0.0) / n).sqrt())
     }
 
-    fn assert_solid_angle(lamp: &Lamp, from: DVec3, expected: f64) {
-        let (mean, error) = solid_angle(lamp, from);
+    fn assert_solid_angle(emitter: &Emitter, from: DVec3, expected: f64) {
+        let (mean, error) = solid_angle(emitter, from);
         assert!(
             (mean - expected).abs() <= 4.5 * error + 1e-9 * expected,
             "{mean} ± {error}, {expected}"
@@ -181,49 +181,50 @@ mod tests {
     }
 
     #[test]
-    fn densities_are_per_steradian() {
+    fn pdfs_are_per_steradian() {
         // A rectangle a × b at distance d on its axis: Ω = 4 asin(ab / √((a² + 4d²)(b² + 4d²))).
         let (a, b, d) = (1.2_f64, 0.8_f64, 1.5_f64);
         let product = (a * a + 4.0 * d * d) * (b * b + 4.0 * d * d);
         let expected = 4.0 * (a * b / product.sqrt()).asin();
         assert_solid_angle(&rectangle(a / 2.0, b / 2.0, d), DVec3::ZERO, expected);
 
-        let ball = lamp(Stage::empty().sphere(DVec3::Z * 1.5, 0.4, diffuse(0.0).emitting(1.0)));
+        let sphere =
+            emitter(Stage::empty().sphere(DVec3::Z * 1.5, 0.4, diffuse(0.0).emitting(1.0)));
         let cosine = (1.0 - (0.4_f64 / 1.5).powi(2)).sqrt();
-        assert_solid_angle(&ball, DVec3::ZERO, 2.0 * PI * (1.0 - cosine));
+        assert_solid_angle(&sphere, DVec3::ZERO, 2.0 * PI * (1.0 - cosine));
 
-        let room = lamp(Stage::empty().room(1.0, diffuse(0.0).emitting(1.0)));
+        let room = emitter(Stage::empty().room(1.0, diffuse(0.0).emitting(1.0)));
         assert_solid_angle(&room, DVec3::new(0.3, -0.2, 0.1), 4.0 * PI);
 
-        let sky = Lamp::Simple(Light::ConstantSky { radiance: grey(1.0) });
+        let sky = Emitter::Simple(Light::ConstantSky { radiance: grey(1.0) });
         assert_solid_angle(&sky, DVec3::ZERO, 4.0 * PI);
     }
 
     #[test]
     fn a_cap_is_as_large_as_its_share_of_the_directions_from_the_centre() {
         let look = diffuse(0.0).emitting_cap(1.0, 40.0_f64.to_radians());
-        let cap = lamp(Stage::empty().room(2.0, look));
+        let cap = emitter(Stage::empty().room(2.0, look));
         let share = (1.0 - 40.0_f64.to_radians().cos()) / 2.0;
         assert_solid_angle(&cap, DVec3::ZERO, 4.0 * PI * share);
     }
 
     #[test]
-    fn samples_lead_to_the_light_and_carry_the_density_of_their_direction() {
+    fn samples_lead_to_the_light_and_carry_the_pdf_of_their_direction() {
         let look = diffuse(0.0).emitting(1.0);
-        let far_ball = Stage::empty().sphere(DVec3::new(3.0, 4.0, 5.0), 0.01, look);
+        let far_sphere = Stage::empty().sphere(DVec3::new(3.0, 4.0, 5.0), 0.01, look);
         let from = DVec3::new(0.2, 0.1, -0.3);
         for stage in [
             Stage::empty().room(2.0, look),
             Stage::empty().room(2.0, diffuse(0.0).emitting_cap(1.0, 0.7)),
             Stage::empty().sphere(DVec3::new(1.0, 1.0, 1.0), 0.5, look),
-            far_ball,
+            far_sphere,
         ] {
-            let (lamp, world) = (lamp(stage.clone()), stage.world());
-            for sample in samples(&lamp, from, 1000).into_iter().flatten() {
+            let (emitter, world) = (emitter(stage.clone()), stage.world());
+            for sample in samples(&emitter, from, 1000).into_iter().flatten() {
                 let ray = Ray::new(from, sample.wi);
                 let hit = world.closest_hit(&ray, &mut Default::default()).expect("it is there");
                 assert!((hit.t / sample.distance - 1.0).abs() < 1e-6, "{hit:?} {sample:?}");
-                let pdf = lamp.area_pdf(from, ray.at(hit.t), hit.geometric_normal, &LESSON);
+                let pdf = emitter.area_pdf(from, ray.at(hit.t), hit.geometric_normal, &LESSON);
                 assert!((pdf / sample.pdf - 1.0).abs() < 1e-6, "{pdf} {sample:?}");
             }
         }
@@ -231,8 +232,8 @@ mod tests {
 
     #[test]
     fn nothing_is_sampled_from_behind() {
-        let ball = Stage::empty().sphere(DVec3::ZERO, 1.0, diffuse(0.0).emitting(1.0));
-        for sample in samples(&lamp(ball), DVec3::new(0.3, 0.2, 0.1), 100) {
+        let sphere = Stage::empty().sphere(DVec3::ZERO, 1.0, diffuse(0.0).emitting(1.0));
+        for sample in samples(&emitter(sphere), DVec3::new(0.3, 0.2, 0.1), 100) {
             assert_eq!(sample, None);
         }
         assert!(
@@ -248,10 +249,10 @@ mod tests {
             indices: vec![[0, 0, 1], [0, 1, 2], [2, 2, 2], [0, 2, 3], [3, 3, 0]],
             ..Default::default()
         };
-        let lamp = lamp(Stage::empty().mesh(mesh, diffuse(0.0).emitting(1.0)));
+        let emitter = emitter(Stage::empty().mesh(mesh, diffuse(0.0).emitting(1.0)));
         for lobe in [0.0, 0.49, 0.5, 1.0 - f64::EPSILON / 2.0] {
             let sample =
-                lamp.sample(DVec3::Z, DVec2::splat(0.5), lobe, &LESSON).expect("it is in front");
+                emitter.sample(DVec3::Z, DVec2::splat(0.5), lobe, &LESSON).expect("it is in front");
             assert!(sample.pdf.is_finite() && sample.pdf > 0.0, "{sample:?}");
             let at = DVec3::Z + sample.distance * sample.wi;
             assert_eq!(at.x > at.y, lobe < 0.5, "{lobe}: {at}");
@@ -261,6 +262,6 @@ mod tests {
     #[test]
     fn a_light_in_the_point_that_asks_is_a_failed_sample() {
         let light = Light::Point { position: DVec3::ONE, intensity: grey(1.0) };
-        assert_eq!(Lamp::Simple(light).sample(DVec3::ONE, DVec2::ZERO, 0.0, &LESSON), None);
+        assert_eq!(Emitter::Simple(light).sample(DVec3::ONE, DVec2::ZERO, 0.0, &LESSON), None);
     }
 }

@@ -9,7 +9,7 @@
 //! | part | task | file |
 //! |---|---|---|
 //! | 1 | camera rays; triangle, sphere; samples of a pixel | `camera`, `intersect`, `render` |
-//! | 2 | box; dividing, building, walking the hierarchy | `slab`, `split`, `build`, `bvh` |
+//! | 2 | box; dividing, building, walking the BVH | `slab`, `split`, `build`, `bvh` |
 //! | 3 | surfaces, hemisphere and light sampling | `bsdf`, `sampling`, `light`, `area_light`, `direct` |
 //! | 4 | paths of many bounces, roulette | `integrator` |
 //! | 5 | adaptive sampling, how noisy a pixel is | `adaptive`, `spread` |

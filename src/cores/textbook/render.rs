@@ -184,8 +184,8 @@ mod tests {
         film
     }
 
-    /// A frontal rectangle at distance 4 that glows with radiance 1.
-    fn glowing_rectangle(x: [f64; 2], y: [f64; 2]) -> Stage {
+    /// A frontal rectangle at distance 4 that emits with radiance 1.
+    fn emissive_rectangle(x: [f64; 2], y: [f64; 2]) -> Stage {
         let corners = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])];
         let corners = corners.map(|(x, y)| DVec3::new(x, y, -4.0));
         Stage::empty().polygon(&corners, diffuse(0.3).emitting(1.0))
@@ -197,7 +197,7 @@ mod tests {
 
     /// A lit scene with noise in every pixel.
     fn noisy() -> World<'static> {
-        glowing_rectangle([-0.5, 0.5], [-0.3, 0.8])
+        emissive_rectangle([-0.5, 0.5], [-0.3, 0.8])
             .room(6.0, diffuse(0.5))
             .sphere(DVec3::new(0.3, -0.4, -3.0), 0.4, diffuse(0.7))
             .world()

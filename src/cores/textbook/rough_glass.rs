@@ -24,7 +24,7 @@ pub(crate) struct RoughGlass {
 }
 
 impl RoughGlass {
-    /// `f` and the density of [`Self::sample`].
+    /// `f` and the pdf of [`Self::sample`].
     pub(crate) fn evaluate(&self, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
         if wo.z * wi.z > 0.0 {
             self.reflection(wo, wi, steps)
@@ -42,7 +42,8 @@ impl RoughGlass {
         let reflected = self.fresnel(wo, facet, steps);
         let value = reflected * self.facets_over_cosines(wo, wi, facet, steps) / 4.0;
         let jacobian = 1.0 / (4.0 * cosine);
-        let pdf = steps.lobe_probability(reflected) * self.visible_density(wo, facet) * jacobian;
+        let pdf =
+            steps.lobe_probability(reflected) * self.visible_normals_pdf(wo, facet) * jacobian;
         BsdfValue { f: self.reflectance.map(|r| r * value), pdf }
     }
 
@@ -57,7 +58,7 @@ impl RoughGlass {
         let passed = 1.0 - self.fresnel(wo, facet, steps);
         let denominator = (o_m + ratio * i_m).powi(2);
         let jacobian = steps.refraction_jacobian(ratio, i_m, denominator);
-        let pdf = steps.lobe_probability(passed) * self.visible_density(wo, facet) * jacobian;
+        let pdf = steps.lobe_probability(passed) * self.visible_normals_pdf(wo, facet) * jacobian;
         let value = passed * self.facets_over_cosines(wo, wi, facet, steps) * (o_m * i_m).abs()
             / denominator
             * steps.rough_radiance_scale(ratio);
@@ -102,13 +103,13 @@ impl RoughGlass {
     fn facets_over_cosines(&self, wo: DVec3, wi: DVec3, facet: DVec3, steps: &Steps) -> f64 {
         let (wo, wi) = (wo.with_z(wo.z.abs()), wi.with_z(wi.z.abs()));
         let masking_over_cosines = steps.masking_over_cosines(self.roughness, wo, wi);
-        ggx::facet_density(self.roughness, facet) * masking_over_cosines
+        ggx::normal_distribution(self.roughness, facet) * masking_over_cosines
     }
 
-    /// The density of facets that `wo` sees: G₁(wo) D |wo·m| / |cos θo|.
-    fn visible_density(&self, wo: DVec3, facet: DVec3) -> f64 {
+    /// The pdf of visible normals: G₁(wo) D |wo·m| / |cos θo|.
+    fn visible_normals_pdf(&self, wo: DVec3, facet: DVec3) -> f64 {
         let masked = ggx::masking_over_cosine(self.roughness, wo.with_z(wo.z.abs()));
-        masked * ggx::facet_density(self.roughness, facet) * wo.dot(facet).abs()
+        masked * ggx::normal_distribution(self.roughness, facet) * wo.dot(facet).abs()
     }
 }
 

@@ -1,4 +1,4 @@
-//! Part 3: directions of the hemisphere around +z, with their densities.
+//! Part 3: directions of the hemisphere around +z, with their pdfs.
 //!
 //! Both are smooth maps of the unit square, so that a harness can check |∂ω/∂u| · pdf = 1 at every point.
 
@@ -7,7 +7,7 @@ use crate::contract::{DirectionSample, Sampler};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// One direction of `sampler`, with its density per steradian.
+/// One direction of `sampler`, with its pdf per steradian.
 pub(crate) fn sample(sampler: Sampler, point: DVec2, steps: &Steps) -> DirectionSample {
     let direction = direction(sampler, point, steps);
     DirectionSample { direction, pdf: pdf(sampler, direction, steps) }
@@ -22,7 +22,7 @@ pub(crate) fn direction(sampler: Sampler, point: DVec2, steps: &Steps) -> DVec3 
     direction_at(height, steps.turn(point))
 }
 
-/// The density per steradian with which `sampler` draws `direction`; 0 below the horizon.
+/// The pdf per steradian with which `sampler` draws `direction`; 0 below the horizon.
 pub(crate) fn pdf(sampler: Sampler, direction: DVec3, steps: &Steps) -> f64 {
     if steps.is_below_horizon(direction) {
         return 0.0;

@@ -1,4 +1,4 @@
-//! Part 2: how a node of the hierarchy is divided in two.
+//! Part 2: how a node of the BVH is divided in two.
 //!
 //! Every rule reorders the items of a node and answers how many of them go left. A rule may fail to separate anything
 //! (all centroids in one place): then it answers 0 or all of them, and the builder halves the node instead.

@@ -17,7 +17,7 @@ use super::bvh::{Bvh, Primitive, Search};
 use super::frame::Frame;
 use super::ggx::Facets;
 use super::integrator::{Integrator, Progress};
-use super::intersect::{Ball, Crossing, Quadratic, Triangle};
+use super::intersect::{Crossing, Quadratic, Sphere, Triangle};
 use super::random::Random;
 use super::rough_glass::RoughGlass;
 use super::split::Item;
@@ -122,7 +122,7 @@ steps! {
     Components::SPHERE_TEST => {
         intersect::roots(quadratic: Quadratic) -> (f64, f64);
         intersect::nearer_root(ray: &Ray, near: f64, far: f64) -> Option<f64>;
-        intersect::outward_normal(ball: &Ball, point: DVec3) -> DVec3;
+        intersect::outward_normal(sphere: &Sphere, point: DVec3) -> DVec3;
     }
     Components::TRIANGLE_TEST.union(Components::SPHERE_TEST) => {
         world::hit(ray: &Ray, crossing: Crossing, numbers: [u32; 2], normals: [DVec3; 2]) -> Hit;
@@ -171,7 +171,7 @@ steps! {
         bsdf::scatters_light_from(wi: DVec3) -> bool;
         bsdf::diffuse(reflectance: Rgb, wi: DVec3) -> Rgb;
         bsdf::diffuse_sampler() -> Sampler;
-        bsdf::diffuse_density() -> Sampler;
+        bsdf::diffuse_pdf_sampler() -> Sampler;
         bsdf::sampled(wi: DVec3, value: BsdfValue) -> BsdfSample;
         bsdf::mirror(wo: DVec3, reflectance: Rgb) -> Option<BsdfSample>;
         bsdf::scattered(surface: &Surface, f: Rgb) -> DVec3;
@@ -227,7 +227,7 @@ steps! {
     Components::PATH => {
         integrator::wants(bounces: &RangeInclusive<u32>, bounce: u32) -> bool;
         integrator::last_bounce(bounces: &RangeInclusive<u32>) -> u32;
-        integrator::gather(
+        integrator::light_of_bounce(
             integrator: &Integrator<'_>, vertex: &Vertex<'_>, bounce: u32, random: &mut Random<'_>
         ) -> DVec3;
         integrator::path_meets_light(surface: &Surface, is_last: bool) -> bool;

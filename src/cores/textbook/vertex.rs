@@ -2,7 +2,7 @@
 
 use super::bsdf;
 use super::frame::Frame;
-use super::light::Lamp;
+use super::light::Emitter;
 use crate::contract::{Hit, LightSample, Ray};
 use crate::scene::Surface;
 use glam::DVec3;
@@ -27,7 +27,7 @@ pub(crate) struct Vertex<'a> {
     pub(crate) surface: &'a Surface,
     /// Radiance it emits back along the path.
     pub(crate) emitted: DVec3,
-    pub(crate) light: Option<&'a Lamp>,
+    pub(crate) light: Option<&'a Emitter>,
     /// Rays that leave the point start this far away.
     pub(crate) clearance: f64,
     /// How far the path came from the point before.
@@ -80,9 +80,9 @@ mod tests {
         let offset = DVec3::new(300.0, -200.0, 100.0);
         let corners = [(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)];
         let floor = corners.map(|(x, y)| offset + DVec3::new(x, y + 0.3 * x, x - 0.7 * y));
-        let ball = offset + DVec3::new(0.0, 0.0, 2.0);
+        let sphere = offset + DVec3::new(0.0, 0.0, 2.0);
         let world =
-            Stage::empty().polygon(&floor, diffuse(0.5)).sphere(ball, 1.0, diffuse(0.5)).world();
+            Stage::empty().polygon(&floor, diffuse(0.5)).sphere(sphere, 1.0, diffuse(0.5)).world();
         let mut random = Random::for_ray(1, 0);
         for _ in 0..10_000 {
             let target = offset + 3.0 * (random.point() - 0.5).extend(0.0);

@@ -2,8 +2,8 @@
 
 use super::bvh::{Bvh, Form, Primitive};
 use super::frame::Frame;
-use super::intersect::{Ball, Crossing, Triangle, outward_normal};
-use super::light::Lamp;
+use super::intersect::{Crossing, Sphere, Triangle, outward_normal};
+use super::light::Emitter;
 use super::steps::Steps;
 use super::vertex::{Vertex, View, frame_normal};
 use crate::contract::{self, Acceleration, BuildStats, Hit, Ray, TraversalStats};
@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 pub(crate) struct World<'a> {
     bvh: Bvh<'a>,
     shapes: Vec<Shape>,
-    lights: Vec<Lamp>,
+    lights: Vec<Emitter>,
     steps: &'a Steps,
 }
 
@@ -41,7 +41,7 @@ impl<'a> World<'a> {
         Self {
             bvh: Bvh::new(primitives(scene), acceleration, steps),
             shapes: (0..scene.shape_count() as u32).map(|n| Shape::new(scene, n)).collect(),
-            lights: scene.lights.iter().map(|light| Lamp::new(light, scene)).collect(),
+            lights: scene.lights.iter().map(|light| Emitter::new(light, scene)).collect(),
             steps,
         }
     }
@@ -50,7 +50,7 @@ impl<'a> World<'a> {
         self.steps
     }
 
-    pub(crate) fn lights(&self) -> &[Lamp] {
+    pub(crate) fn lights(&self) -> &[Emitter] {
         &self.lights
     }
 
@@ -88,10 +88,10 @@ impl<'a> World<'a> {
         let shape = &self.shapes[primitive.shape as usize];
         let normal = match &primitive.form {
             Form::Triangle(triangle) => triangle.normal(),
-            Form::Ball(ball) if shape.inward => {
-                -self.steps.outward_normal(ball, ray.at(crossing.t))
+            Form::Sphere(sphere) if shape.inward => {
+                -self.steps.outward_normal(sphere, ray.at(crossing.t))
             }
-            Form::Ball(ball) => self.steps.outward_normal(ball, ray.at(crossing.t)),
+            Form::Sphere(sphere) => self.steps.outward_normal(sphere, ray.at(crossing.t)),
         };
         let interpolated = shape.shading_normal(primitive.number, crossing.uv, self.steps);
         let numbers = [primitive.shape, primitive.number];
@@ -154,7 +154,7 @@ pub(crate) fn emits_towards(normal: DVec3, to_viewer: DVec3) -> bool {
 
 fn emitted_at(emission: &Emission, form: &Form, point: DVec3) -> DVec3 {
     let radiance: Rgb = match form {
-        Form::Ball(ball) => emission.at_sphere_point(outward_normal(ball, point)),
+        Form::Sphere(sphere) => emission.at_sphere_point(outward_normal(sphere, point)),
         Form::Triangle(_) => emission.radiance,
     };
     radiance.into()
@@ -182,9 +182,9 @@ pub(crate) fn hit_alone(primitive: &contract::Primitive, ray: &Ray, steps: &Step
             (crossing, triangle.normal(), steps.interpolated_normal(normals, crossing.uv))
         }
         contract::Primitive::Sphere { centre, radius } => {
-            let ball = Ball::new(centre, radius)?;
-            let crossing = ball.intersect(ray, steps)?;
-            (crossing, steps.outward_normal(&ball, ray.at(crossing.t)), None)
+            let sphere = Sphere::new(centre, radius)?;
+            let crossing = sphere.intersect(ray, steps)?;
+            (crossing, steps.outward_normal(&sphere, ray.at(crossing.t)), None)
         }
     };
     Some(steps.hit(ray, crossing, [0, 0], [normal, interpolated.unwrap_or(normal)]))
@@ -206,7 +206,7 @@ fn forms(shape: scene::Shape<'_>) -> Vec<Option<Form>> {
             .map(|triangle| Triangle::new(mesh.corners(triangle)).map(Form::Triangle))
             .collect(),
         scene::Shape::Sphere(sphere) => {
-            vec![Ball::new(sphere.centre, sphere.radius).map(Form::Ball)]
+            vec![Sphere::new(sphere.centre, sphere.radius).map(Form::Sphere)]
         }
     }
 }

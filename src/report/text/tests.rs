@@ -206,7 +206,7 @@ fn failures_of_a_cause_that_is_told_are_named_beyond_the_first_few() {
     let cases: Vec<_> = example.trials.iter().map(|trial| trial.case.clone()).collect();
     for case in &cases[..9] {
         let finding = Finding::failure("every triangle is tested".to_owned())
-            .because(&bvh::HIERARCHY_NOT_USED, "counts".to_owned());
+            .because(&bvh::BVH_NOT_USED, "counts".to_owned());
         example.set("builtin", case, Outcome::Judged { finding });
     }
     let text = plain(example);

@@ -24,7 +24,7 @@ tables! {
         indices: Vec<[u32; 3]>,
         #[serde(default)] normals: Vec<Direction>,
     }
-    pub(super) struct Ball {
+    pub(super) struct SphereTable {
         #[serde(default)] centre: Vector,
         radius: Positive,
         #[serde(default)] inward: bool,
@@ -82,7 +82,7 @@ impl Geometry {
         Ok(Self::Mesh(mesh))
     }
 
-    pub(super) fn ball(Ball { centre, radius, inward }: Ball) -> Self {
+    pub(super) fn sphere(SphereTable { centre, radius, inward }: SphereTable) -> Self {
         Self::Spheres(vec![sphere(centre.0, radius.0, inward)])
     }
 

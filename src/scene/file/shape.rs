@@ -1,8 +1,8 @@
 //! `[[shape]]`: what it is, where it stands, and what it is made of.
 
 use super::geometry::{
-    Ball, Block, BumpySphere, Geometry, Icosphere, Pathological, Quad, Soup, Sphereflake, Teapot,
-    Triangles, from_file,
+    Block, BumpySphere, Geometry, Icosphere, Pathological, Quad, Soup, SphereTable, Sphereflake,
+    Teapot, Triangles, from_file,
 };
 use super::material::Materials;
 use super::{Context, exactly_one};
@@ -27,7 +27,7 @@ tables! {
         obj: Option<Spanned<String>>,
         ply: Option<Spanned<String>>,
         stl: Option<Spanned<String>>,
-        sphere: Option<Ball>,
+        sphere: Option<SphereTable>,
         icosphere: Option<Icosphere>,
         bumpy_sphere: Option<BumpySphere>,
         sphereflake: Option<Sphereflake>,
@@ -120,7 +120,7 @@ impl Entry {
             ("obj", file(self.obj.take(), Format::Obj)),
             ("ply", file(self.ply.take(), Format::Ply)),
             ("stl", file(self.stl.take(), Format::Stl)),
-            ("sphere", self.sphere.take().map(Geometry::ball).map(Ok)),
+            ("sphere", self.sphere.take().map(Geometry::sphere).map(Ok)),
             ("icosphere", self.icosphere.take().map(Geometry::icosphere).map(Ok)),
             ("bumpy-sphere", self.bumpy_sphere.take().map(Geometry::bumpy_sphere).map(Ok)),
             ("sphereflake", self.sphereflake.take().map(Geometry::sphereflake).map(Ok)),

@@ -43,11 +43,11 @@ fn complaint(from: &str, to: &str) -> String {
     altered(from, to).unwrap_err().to_string()
 }
 
-const BALL: &str = "sphere   = { radius = 1, inward = true }";
+const SPHERE: &str = "sphere   = { radius = 1, inward = true }";
 
 /// The room with a shape of another kind.
 fn with_shape(geometry: &str) -> Result<SceneDescription, SceneError> {
-    altered(BALL, geometry)
+    altered(SPHERE, geometry)
 }
 
 fn triangle_count(geometry: &str) -> usize {
@@ -142,8 +142,8 @@ const COMPLAINTS: &[(&str, &str, &[&str])] = &[
     ("[0, 0, -1]", "[0, 0, 0]", &["`target` equals the position, or lies along `up`"]),
     ("[0, 0, -1]", "[0, 5, 0]", &["`target` equals the position, or lies along `up`"]),
     ("emission = 1", "mirror = 1", &["one thing, not `diffuse` and `mirror`"]),
-    (BALL, "", &["a shape needs one of `quad`, `box`"]),
-    (BALL, "obj = \"cow.obj\"", &["`scenes/cow.obj` cannot be read", "21 | obj = \"cow.obj\""]),
+    (SPHERE, "", &["a shape needs one of `quad`, `box`"]),
+    (SPHERE, "obj = \"cow.obj\"", &["`scenes/cow.obj` cannot be read", "21 | obj = \"cow.obj\""]),
     ("emission = 1", "emission = -1", &["must be finite and not negative"]),
     ("emission = 1", "emission = inf", &["must be finite and not negative"]),
     ("emission = 1", "emission = [1, 1, nan]", &["must be finite and not negative"]),
@@ -215,8 +215,8 @@ fn impossible_shapes_are_refused() {
 fn transforms_scale_then_rotate_then_translate() {
     let turn = "rotate = { axis = [0, 1, 0], angle = \"90 deg\" }";
     let transform = format!("transform = {{ scale = 2, {turn}, translate = [0, 0, 1] }}");
-    let ball = format!("sphere = {{ centre = [0, 0, 1], radius = 1 }}\n{transform}");
-    let scene = with_shape(&ball).unwrap();
+    let sphere = format!("sphere = {{ centre = [0, 0, 1], radius = 1 }}\n{transform}");
+    let scene = with_shape(&sphere).unwrap();
     assert!(scene.spheres[0].centre.abs_diff_eq(DVec3::new(2.0, 0.0, 1.0), 1e-15));
     assert_eq!(scene.spheres[0].radius, 2.0);
     let quad = "quad = { corner = [0, 0, 1], edges = [[0, 1, 0], [0, 0, 1]] }";
@@ -243,7 +243,7 @@ fn an_emission_of_zero_puts_the_light_out() {
 }
 
 #[test]
-fn a_cap_needs_something_that_glows_and_is_round() {
+fn a_cap_needs_something_that_emits_and_is_round() {
     let cap = "cap = { axis = [0, 0, 1], half-angle = \"40 deg\" }";
     let scene = altered("emission = 1", &format!("emission = 1\n{cap}")).unwrap();
     let half_angle = scene.materials[0].emission.unwrap().cap.unwrap().half_angle;
@@ -251,7 +251,7 @@ fn a_cap_needs_something_that_glows_and_is_round() {
     assert!(complaint("emission = 1", cap).contains("add `emission`"));
     let flat = ROOM
         .replace("emission = 1", &format!("emission = 1\n{cap}"))
-        .replace(BALL, "teapot = { segments = 1 }");
+        .replace(SPHERE, "teapot = { segments = 1 }");
     assert!(load(&flat, "").unwrap_err().to_string().contains("only spheres can have"));
 }
 

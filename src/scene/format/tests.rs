@@ -199,7 +199,7 @@ fn rough_glass_is_said_to_mitsuba_and_pbrt_and_to_nobody_else() {
 }
 
 #[test]
-fn the_course_has_no_rough_metal_and_nothing_that_glows_and_reflects() {
+fn the_course_has_no_rough_metal_and_nothing_that_emits_and_reflects() {
     let metal = all(Surface::Conductor { reflectance: [1.0; 3], roughness: 0.5 });
     let message = written_after("point-light-plane", Format::Collada, metal).unwrap_err();
     assert!(message.contains("is a rough conductor"), "{message}");

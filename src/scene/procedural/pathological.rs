@@ -123,11 +123,11 @@ mod tests {
 
     #[test]
     fn a_soup_is_as_dense_at_every_size_and_the_same_for_the_same_seed() {
-        let density = |n: u32| {
+        let per_area = |n: u32| {
             let mesh = soup(n, Seed(7));
             boxes(&mesh).map(|b| (b.max - b.min).element_product()).sum::<f64>()
         };
-        assert!((density(1_000) / density(30_000) - 1.0).abs() < 0.1);
+        assert!((per_area(1_000) / per_area(30_000) - 1.0).abs() < 0.1);
         assert_eq!(soup(50, Seed(7)), soup(50, Seed(7)));
         assert_ne!(soup(50, Seed(7)), soup(50, Seed(8)));
     }

@@ -70,7 +70,7 @@ impl Bsdf {
         let is_same_side = (wo.z > 0.0 && wi.z > 0.0) || (wo.z < 0.0 && wi.z < 0.0);
         match self {
             Self::Diffuse { reflectance } if is_same_side => {
-                (*reflectance * FRAC_1_PI, warp::cosine_density(wi.z.abs()))
+                (*reflectance * FRAC_1_PI, warp::cosine_pdf(wi.z.abs()))
             }
             Self::Conductor(conductor) if is_same_side => {
                 conductor.evaluate(upward(wo, wo), upward(wi, wo))
@@ -89,7 +89,7 @@ impl Bsdf {
         let scattering = match self {
             Self::Diffuse { reflectance } => {
                 let wi = warp::cosine_hemisphere(point);
-                Scattering { wi, weight: *reflectance, pdf: warp::cosine_density(wi.z) }
+                Scattering { wi, weight: *reflectance, pdf: warp::cosine_pdf(wi.z) }
             }
             Self::Mirror { reflectance } => {
                 let wi = vec3(-wo.x, -wo.y, wo.z.abs());

@@ -161,12 +161,12 @@ mod tests {
     }
 
     #[test]
-    fn weights_are_f_times_cosine_over_density_on_both_sides() {
+    fn weights_are_f_times_cosine_over_pdf_on_both_sides() {
         for wo in [towards(40.0), towards(85.0), towards(150.0), towards(120.0)] {
             let mut sides = [0, 0];
             for Scattering { wi, weight, pdf } in samples(&glass(0.4), wo).flatten() {
-                let (f, density) = glass(0.4).evaluate(wo, wi);
-                assert_eq!(density, pdf);
+                let (f, evaluated) = glass(0.4).evaluate(wo, wi);
+                assert_eq!(evaluated, pdf);
                 let error = (f * wi.z.abs() / pdf / weight - 1.0).abs().max_element();
                 assert!(error < 1e-3, "{wo} {wi}: {error}");
                 sides[usize::from(wi.z * wo.z > 0.0)] += 1;
@@ -206,9 +206,9 @@ mod tests {
         for roughness in [1e-3, 0.1, 1.0] {
             for wo in [Vec3::Z, towards(89.999), -Vec3::Z, vec3(1.0, 0.0, -1e-20), towards(91.0)] {
                 for Scattering { wi, weight, pdf } in samples(&glass(roughness), wo).flatten() {
-                    let (f, density) = glass(roughness).evaluate(wo, wi);
+                    let (f, evaluated) = glass(roughness).evaluate(wo, wi);
                     assert!(f.is_finite() && weight.is_finite(), "{roughness} {wo} {wi}");
-                    assert!(density > 0.0 && pdf.is_finite(), "{roughness} {wo} {wi}");
+                    assert!(evaluated > 0.0 && pdf.is_finite(), "{roughness} {wo} {wi}");
                     assert!(weight.max_element() < 2.2501, "{roughness} {wo} {wi}: {weight}");
                 }
             }

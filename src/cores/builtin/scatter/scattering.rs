@@ -8,6 +8,6 @@ pub(crate) struct Scattering {
     pub(crate) wi: Vec3,
     /// `f · |cos θi| / pdf`, RGB.
     pub(crate) weight: Vec3,
-    /// Density per steradian; for a delta lobe the probability of having chosen it.
+    /// Pdf, per steradian; for a delta lobe the probability of having chosen it.
     pub(crate) pdf: f32,
 }

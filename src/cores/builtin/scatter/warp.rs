@@ -7,8 +7,8 @@ use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 /// The largest f32 below 1.
 const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
-/// Density per steradian of [`uniform_hemisphere`]: 1/2π.
-pub(crate) const UNIFORM_DENSITY: f32 = 0.5 * FRAC_1_PI;
+/// Pdf, per steradian, of [`uniform_hemisphere`]: 1/2π.
+pub(crate) const UNIFORM_PDF: f32 = 0.5 * FRAC_1_PI;
 
 /// A random number in single precision. Rounding must not turn a number below 1 into 1.
 pub(crate) fn narrow(number: f64) -> f32 {
@@ -28,12 +28,12 @@ pub(crate) fn direction(sampler: Sampler, point: Vec2) -> Vec3 {
     }
 }
 
-/// Density per steradian of [`direction`]; zero below the horizon.
-pub(crate) fn density(sampler: Sampler, direction: Vec3) -> f32 {
+/// Pdf, per steradian, of [`direction`]; zero below the horizon.
+pub(crate) fn pdf(sampler: Sampler, direction: Vec3) -> f32 {
     match sampler {
-        Sampler::UniformHemisphere if direction.z >= 0.0 => UNIFORM_DENSITY,
+        Sampler::UniformHemisphere if direction.z >= 0.0 => UNIFORM_PDF,
         Sampler::UniformHemisphere => 0.0,
-        Sampler::CosineHemisphere => cosine_density(direction.z),
+        Sampler::CosineHemisphere => cosine_pdf(direction.z),
     }
 }
 
@@ -52,8 +52,8 @@ pub(crate) fn cosine_hemisphere(point: Vec2) -> Vec3 {
     vec3(radius * cosine, radius * sine, (1.0 - point.x).sqrt())
 }
 
-/// Density per steradian of [`cosine_hemisphere`]; zero below the horizon.
-pub(crate) fn cosine_density(cosine: f32) -> f32 {
+/// Pdf, per steradian, of [`cosine_hemisphere`]; zero below the horizon.
+pub(crate) fn cosine_pdf(cosine: f32) -> f32 {
     cosine.max(0.0) * FRAC_1_PI
 }
 

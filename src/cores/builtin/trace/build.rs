@@ -81,7 +81,7 @@ impl Plan {
             return None;
         }
         if may_be_leaf && summary.is_mixed() {
-            return Some(partition(items, |item| item.is_ball));
+            return Some(partition(items, |item| item.is_sphere));
         }
         let ruled = if depth < RULED_DEPTH { self.divide_by_rule(items, summary) } else { None };
         let is_proper = |middle: &usize| (1..items.len()).contains(middle);
@@ -150,7 +150,7 @@ mod tests {
     ];
 
     fn item(number: u32, at: DVec3) -> Item {
-        Item { bounds: Bounds::around([at, at + 0.5]), number, is_ball: number.is_multiple_of(5) }
+        Item { bounds: Bounds::around([at, at + 0.5]), number, is_sphere: number.is_multiple_of(5) }
     }
 
     /// Visits every node, checks that boxes enclose, and answers (depth, numbers of the items in leaves).
@@ -161,7 +161,7 @@ mod tests {
                 assert!((1..=plan.max_leaf_size).contains(&count), "{plan:?}: leaf of {count}");
                 let leaf = &items[first..first + count];
                 assert!(leaf.iter().all(|item| bounds.union(item.bounds) == bounds));
-                assert!(leaf.iter().all(|item| item.is_ball == leaf[0].is_ball));
+                assert!(leaf.iter().all(|item| item.is_sphere == leaf[0].is_sphere));
                 (1, leaf.iter().map(|item| item.number).collect())
             }
             Content::Inner { second } => {

@@ -4,10 +4,10 @@
 use super::build::{BinaryNode, Content, Plan};
 use super::geometry::Geometry;
 use super::item::Item;
-use super::tree::{Ball, Child, LANES, Tree, TriangleBlock, WIDTH, WideNode};
+use super::tree::{Child, LANES, PackedSphere, Tree, TriangleBlock, WIDTH, WideNode};
 
 /// Builds the tree over everything solid in `geometry`.
-pub(crate) fn hierarchy(geometry: &Geometry, plan: Plan) -> Tree {
+pub(crate) fn build_bvh(geometry: &Geometry, plan: Plan) -> Tree {
     let mut items = geometry.items();
     let binary = plan.build(&mut items);
     let mut collapse = Collapse { geometry, binary: &binary, items: &items, tree: Tree::default() };
@@ -22,8 +22,8 @@ pub(crate) fn hierarchy(geometry: &Geometry, plan: Plan) -> Tree {
 pub(crate) fn brute_force(geometry: &Geometry) -> Tree {
     let items = geometry.items();
     let mut collapse = Collapse { geometry, binary: &[], items: &items, tree: Tree::default() };
-    let first_ball = items.partition_point(|item| !item.is_ball);
-    for (first, end) in [(0, first_ball), (first_ball, items.len())] {
+    let first_sphere = items.partition_point(|item| !item.is_sphere);
+    for (first, end) in [(0, first_sphere), (first_sphere, items.len())] {
         if first < end {
             let leaf = collapse.leaf(first, end - first, 1);
             collapse.tree.roots.push(leaf);
@@ -90,7 +90,7 @@ impl Collapse<'_> {
         self.tree.depth = self.tree.depth.max(depth);
         let items = self.items;
         let leaf = &items[first..first + count];
-        if leaf[0].is_ball { self.pack_balls(leaf) } else { self.pack_triangles(leaf) }
+        if leaf[0].is_sphere { self.pack_spheres(leaf) } else { self.pack_triangles(leaf) }
     }
 
     fn pack_triangles(&mut self, leaf: &[Item]) -> Child {
@@ -104,13 +104,18 @@ impl Collapse<'_> {
         Child::triangles(first)
     }
 
-    fn pack_balls(&mut self, leaf: &[Item]) -> Child {
-        let first = self.tree.balls.len();
+    fn pack_spheres(&mut self, leaf: &[Item]) -> Child {
+        let first = self.tree.spheres.len();
         for (index, item) in leaf.iter().enumerate() {
             let sphere = self.geometry.sphere(item.number);
             let more = index + 1 < leaf.len();
-            self.tree.balls.push(Ball::new(item.number, sphere.centre, sphere.radius, more));
+            self.tree.spheres.push(PackedSphere::new(
+                item.number,
+                sphere.centre,
+                sphere.radius,
+                more,
+            ));
         }
-        Child::balls(first)
+        Child::spheres(first)
     }
 }

@@ -1,6 +1,6 @@
 //! The tree finds what brute force finds, bit for bit, by every rule and with every kernel.
 
-use super::{Geometry, Plan, Segment, Tracer, Tree, brute_force, hierarchy};
+use super::{Geometry, Plan, Segment, Tracer, Tree, brute_force, build_bvh};
 use crate::contract::{Ray, Split};
 use crate::cores::builtin::random::Stream;
 use crate::scene::{Mesh, SceneDescription, Sphere};
@@ -75,7 +75,7 @@ fn check(scene: &SceneDescription, ray_count: u32) {
     let expected = found(&mut Tracer::portable(&all), &rays);
     assert_eq!(found(&mut Tracer::new(&all), &rays), expected, "brute force, by kernel");
     for plan in PLANS {
-        let tree = hierarchy(&geometry, plan);
+        let tree = build_bvh(&geometry, plan);
         assert!(tree.depth <= 100, "{plan:?}: depth {}", tree.depth);
         for mut tracer in [Tracer::new(&tree), Tracer::portable(&tree)] {
             assert_eq!(found(&mut tracer, &rays), expected, "{plan:?}");
@@ -156,7 +156,7 @@ fn no_ray_escapes_between_triangles() {
         [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]]
     };
     let scene = scene_of((0..rows * columns).flat_map(patch).collect(), vec![]);
-    let tree: Tree = hierarchy(&Geometry::new(&scene), PLANS[0]);
+    let tree: Tree = build_bvh(&Geometry::new(&scene), PLANS[0]);
     let mut tracer = Tracer::new(&tree);
     let mut stream = Stream::new(8, 0, 0);
     for index in 0..200_000_u32 {

@@ -86,7 +86,7 @@ impl Geometry {
                 Bounds::around([sphere.centre - sphere.radius, sphere.centre + sphere.radius]);
             let number = (self.triangles.len() + index) as u32;
             let is_solid = sphere.radius > 0.0 && bounds.extent().is_finite();
-            is_solid.then_some(Item { bounds, number, is_ball: true })
+            is_solid.then_some(Item { bounds, number, is_sphere: true })
         });
         triangles.chain(spheres).collect()
     }
@@ -96,7 +96,7 @@ impl Geometry {
         let [a, b, c] = corners;
         let bounds = Bounds::around(corners);
         let is_solid = (b - a).cross(c - a).length_squared() > 0.0 && bounds.extent().is_finite();
-        is_solid.then_some(Item { bounds, number: index as u32, is_ball: false })
+        is_solid.then_some(Item { bounds, number: index as u32, is_sphere: false })
     }
 
     fn corners(&self, index: usize) -> [DVec3; 3] {

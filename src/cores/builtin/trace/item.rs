@@ -11,7 +11,7 @@ pub(crate) struct Item {
     /// Its number in the scene.
     pub(crate) number: u32,
     /// Triangles and spheres do not share leaves.
-    pub(crate) is_ball: bool,
+    pub(crate) is_sphere: bool,
 }
 
 impl Item {
@@ -29,22 +29,22 @@ pub(crate) struct Summary {
     /// Around their centroids.
     pub(crate) centroids: Bounds,
     /// How many of them are spheres.
-    pub(crate) balls: usize,
+    pub(crate) spheres: usize,
     count: usize,
 }
 
 impl Summary {
     pub(crate) fn of(items: &[Item]) -> Self {
-        let empty = Self { bounds: Bounds::EMPTY, centroids: Bounds::EMPTY, balls: 0, count: 0 };
+        let empty = Self { bounds: Bounds::EMPTY, centroids: Bounds::EMPTY, spheres: 0, count: 0 };
         items.iter().fold(empty, |summary, item| Self {
             bounds: summary.bounds.union(item.bounds),
             centroids: summary.centroids.with(item.centroid()),
-            balls: summary.balls + usize::from(item.is_ball),
+            spheres: summary.spheres + usize::from(item.is_sphere),
             count: summary.count + 1,
         })
     }
 
     pub(crate) fn is_mixed(&self) -> bool {
-        self.balls != 0 && self.balls != self.count
+        self.spheres != 0 && self.spheres != self.count
     }
 }

@@ -20,7 +20,7 @@ mod tree;
 mod equivalence;
 
 pub(crate) use build::Plan;
-pub(crate) use collapse::{brute_force, hierarchy};
+pub(crate) use collapse::{brute_force, build_bvh};
 pub use geometry::{Geometry, Surface, clearance_of};
 pub(crate) use segment::Segment;
 pub(crate) use tracer::Tracer;

@@ -1,7 +1,7 @@
 //! A ray and a sphere. In double precision throughout, against catastrophic cancellation in the quadratic.
 
 use super::segment::Segment;
-use super::tree::Ball;
+use super::tree::PackedSphere;
 use glam::DVec3;
 
 /// Where the line through `origin` along `direction` enters and leaves a sphere around the point zero.
@@ -25,8 +25,12 @@ pub(crate) fn roots(origin: DVec3, direction: DVec3, radius: f64) -> Option<[f64
 
 /// The first root on the segment, of those not beyond `t_last`, in single precision.
 #[inline]
-pub(crate) fn first_root_inside(ball: &Ball, segment: &Segment, t_last: f32) -> Option<f32> {
-    let roots = roots(segment.origin - ball.centre, segment.direction, ball.radius)?;
+pub(crate) fn first_root_inside(
+    sphere: &PackedSphere,
+    segment: &Segment,
+    t_last: f32,
+) -> Option<f32> {
+    let roots = roots(segment.origin - sphere.centre, segment.direction, sphere.radius)?;
     let is_inside = |t: &f32| *t > segment.t_after && *t <= t_last;
     roots.map(|root| root as f32).into_iter().find(is_inside)
 }
@@ -65,11 +69,11 @@ mod tests {
 
     #[test]
     fn the_segment_chooses_the_root() {
-        let ball = Ball::new(0, DVec3::ZERO, 1.0, false);
+        let sphere = PackedSphere::new(0, DVec3::ZERO, 1.0, false);
         let first = |t_min, t_max| {
             let ray = Ray { t_min, t_max, ..Ray::new(dvec3(0.0, 0.0, -3.0), DVec3::Z) };
             let segment = Segment::new(&ray);
-            first_root_inside(&ball, &segment, segment.t_last)
+            first_root_inside(&sphere, &segment, segment.t_last)
         };
         assert_eq!(first(0.0, 9.0), Some(2.0));
         assert_eq!(first(2.0, 9.0), Some(4.0), "the ends are open");

@@ -136,7 +136,11 @@ mod tests {
     fn cluster(start: u32, count: u32, x: f64) -> impl Iterator<Item = Item> {
         (0..count).map(move |index| {
             let at = dvec3(x, f64::from(index) * 0.01, 0.0);
-            Item { bounds: Bounds::around([at, at + 0.01]), number: start + index, is_ball: false }
+            Item {
+                bounds: Bounds::around([at, at + 0.01]),
+                number: start + index,
+                is_sphere: false,
+            }
         })
     }
 
@@ -151,7 +155,7 @@ mod tests {
     fn a_heap_in_one_place_is_left_together_if_leaves_may_be_large() {
         let bounds = Bounds::around([dvec3(0.0, 0.0, 0.0), dvec3(1.0, 1.0, 1.0)]);
         let mut items: Vec<Item> =
-            (0..16).map(|number| Item { bounds, number, is_ball: false }).collect();
+            (0..16).map(|number| Item { bounds, number, is_sphere: false }).collect();
         let nodes = Plan { split: Split::SurfaceArea, max_leaf_size: 16 }.build(&mut items);
         assert_eq!(nodes[0].content, Content::Leaf { first: 0, count: 16 });
     }

@@ -5,7 +5,7 @@
 
 use super::segment::{Segment, Shear, Slabs};
 use super::sphere;
-use super::tree::{Ball, Child, LANES, Target, Tree, TriangleBlock, WIDTH, WideNode};
+use super::tree::{Child, LANES, PackedSphere, Target, Tree, TriangleBlock, WIDTH, WideNode};
 use crate::contract::TraversalStats;
 
 /// Entries of the stack. A node pushes at most seven, and `build` bounds the depth at 96.
@@ -176,7 +176,7 @@ fn visit_leaf<K: Kernel>(
     }
     match leaf.target() {
         Target::Triangles(first) => visit_blocks::<K>(&tree.blocks[first..], segment, best, tests),
-        Target::Balls(first) => visit_balls(&tree.balls[first..], segment, best, tests),
+        Target::Spheres(first) => visit_spheres(&tree.spheres[first..], segment, best, tests),
         Target::Node(_) => {}
     }
 }
@@ -202,13 +202,18 @@ fn visit_blocks<K: Kernel>(
     }
 }
 
-fn visit_balls(balls: &[Ball], segment: &Segment, best: &mut Candidate, tests: &mut u64) {
-    for ball in balls {
+fn visit_spheres(
+    spheres: &[PackedSphere],
+    segment: &Segment,
+    best: &mut Candidate,
+    tests: &mut u64,
+) {
+    for sphere in spheres {
         *tests += 1;
-        if let Some(t) = sphere::first_root_inside(ball, segment, best.t) {
-            best.improve(t, ball.number());
+        if let Some(t) = sphere::first_root_inside(sphere, segment, best.t) {
+            best.improve(t, sphere.number());
         }
-        if !ball.is_followed() {
+        if !sphere.is_followed() {
             break;
         }
     }

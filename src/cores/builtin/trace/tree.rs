@@ -19,7 +19,7 @@ pub(crate) struct Tree {
     /// Triangles; the blocks of a leaf follow each other.
     pub(crate) blocks: Vec<TriangleBlock>,
     /// Spheres; those of a leaf follow each other.
-    pub(crate) balls: Vec<Ball>,
+    pub(crate) spheres: Vec<PackedSphere>,
     /// Leaves and the longest way to one.
     pub(crate) leaves: u64,
     /// Nodes on the longest way from the root to a leaf.
@@ -30,7 +30,7 @@ impl Tree {
     pub(crate) fn stats(&self) -> BuildStats {
         let bytes = size_of_val(self.nodes.as_slice())
             + size_of_val(self.blocks.as_slice())
-            + size_of_val(self.balls.as_slice());
+            + size_of_val(self.spheres.as_slice());
         BuildStats {
             nodes: self.nodes.len() as u64 + self.leaves,
             leaves: self.leaves,
@@ -40,7 +40,7 @@ impl Tree {
     }
 }
 
-/// What hangs on a node: an inner node, the first block of a leaf, or the first ball of a leaf.
+/// What hangs on a node: an inner node, the first block of a leaf, or the first sphere of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
 pub(crate) struct Child(pub(crate) u32);
@@ -50,13 +50,13 @@ pub(crate) struct Child(pub(crate) u32);
 pub(crate) enum Target {
     Node(usize),
     Triangles(usize),
-    Balls(usize),
+    Spheres(usize),
 }
 
 impl Child {
     const LEAF: u32 = 1 << 31;
-    const BALLS: u32 = 1 << 30;
-    const INDEX: u32 = Self::BALLS - 1;
+    const SPHERES: u32 = 1 << 30;
+    const INDEX: u32 = Self::SPHERES - 1;
 
     /// No child. Its box is empty, so no ray comes here.
     pub(crate) const NONE: Self = Self(u32::MAX);
@@ -70,9 +70,9 @@ impl Child {
         Self(Self::checked(index) | Self::LEAF)
     }
 
-    /// The leaf that starts at ball `index`.
-    pub(crate) fn balls(index: usize) -> Self {
-        Self(Self::checked(index) | Self::LEAF | Self::BALLS)
+    /// The leaf that starts at sphere `index`.
+    pub(crate) fn spheres(index: usize) -> Self {
+        Self(Self::checked(index) | Self::LEAF | Self::SPHERES)
     }
 
     #[inline(always)]
@@ -80,10 +80,10 @@ impl Child {
         let index = (self.0 & Self::INDEX) as usize;
         if self.0 & Self::LEAF == 0 {
             Target::Node(index)
-        } else if self.0 & Self::BALLS == 0 {
+        } else if self.0 & Self::SPHERES == 0 {
             Target::Triangles(index)
         } else {
-            Target::Balls(index)
+            Target::Spheres(index)
         }
     }
 
@@ -127,7 +127,7 @@ impl WideNode {
 
 /// Primitives have numbers below this.
 const NUMBERS: u32 = 1 << 29;
-/// In the first number of a block, and in that of a ball: the leaf goes on with the next one.
+/// In the first number of a block, and in that of a sphere: the leaf goes on with the next one.
 const MORE: u32 = 1 << 31;
 
 fn flag(more: bool) -> u32 {
@@ -182,13 +182,13 @@ impl TriangleBlock {
 
 /// A sphere, in double precision: its quadratic cancels too much in single.
 #[derive(Clone, Debug)]
-pub(crate) struct Ball {
+pub(crate) struct PackedSphere {
     pub(crate) centre: DVec3,
     pub(crate) radius: f64,
     number: u32,
 }
 
-impl Ball {
+impl PackedSphere {
     pub(crate) fn new(number: u32, centre: DVec3, radius: f64, more: bool) -> Self {
         Self { centre, radius, number: number | flag(more) }
     }
@@ -198,7 +198,7 @@ impl Ball {
         self.number & !MORE
     }
 
-    /// Whether the leaf goes on with the next ball.
+    /// Whether the leaf goes on with the next sphere.
     #[inline(always)]
     pub(crate) fn is_followed(&self) -> bool {
         self.number & MORE != 0
@@ -218,7 +218,7 @@ mod tests {
     fn a_child_remembers_what_it_refers_to() {
         assert_eq!(Child::node(7).target(), Target::Node(7));
         assert_eq!(Child::triangles(8).target(), Target::Triangles(8));
-        assert_eq!(Child::balls(0).target(), Target::Balls(0));
+        assert_eq!(Child::spheres(0).target(), Target::Spheres(0));
     }
 
     #[test]

@@ -43,7 +43,7 @@ faults! { part 3;
         scatters_light_from = |_| true;
     "diffuse-pdf-uniform": "cosine samples of the diffuse surface, pdf 1/2π",
         fails DIFFUSE, told sampling::UNIFORM_PDF_FOR_COSINE,
-        diffuse_density = || Sampler::UniformHemisphere;
+        diffuse_pdf_sampler = || Sampler::UniformHemisphere;
     "albedo-averaged": "all channels have the mean albedo: right for grey scenes",
         fails ALBEDO, told bsdf::ALBEDO_AVERAGED,
         diffuse = |reflectance, _| [reflectance.iter().sum::<f64>() / 3.0 * FRAC_1_PI; 3];
@@ -88,15 +88,15 @@ faults! { part 3;
         alpha = |roughness| roughness * roughness;
     "metal-without-masking": "G = 1",
         fails "bsdf/rough-conductor-conserves-energy", told bsdf::MASKING_FORGOTTEN,
-        metal_f = |facets| facets.density / (4.0 * facets.wo.z * facets.wi.z);
+        metal_f = |facets| facets.distribution / (4.0 * facets.wo.z * facets.wi.z);
     "metal-pdf-of-facets": "the pdf of the half vector, without 1/(4 wo·h)",
         fails "bsdf/rough-conductor-pdf-matches-the-jacobian", told bsdf::PDF_OF_HALF_VECTOR,
-        metal_pdf = |Facets { density, masking_over_cosine: [masked, _], wo, normal, .. }| {
-            density * masked * wo.dot(*normal).max(0.0)
+        metal_pdf = |Facets { distribution, masking_over_cosine: [masked, _], wo, normal, .. }| {
+            distribution * masked * wo.dot(*normal).max(0.0)
         };
     "metal-without-four": "the 4 in the denominator of f is missing",
         fails "bsdf/rough-conductor-conserves-energy", told bsdf::FOUR_FORGOTTEN,
-        metal_f = |Facets { density, masking_over_cosine: [wo, wi], .. }| density * wo * wi;
+        metal_f = |Facets { distribution, masking_over_cosine: [wo, wi], .. }| distribution * wo * wi;
     "rough-glass-jacobian-without-index": "the Jacobian of refraction lacks η²",
         fails "bsdf/rough-glass-pdf-matches-the-jacobian",
         told bsdf::REFRACTION_JACOBIAN_WITHOUT_INDEX,

@@ -85,7 +85,7 @@ faults! { part 2;
         fails SOUP, told bvh::HIT_OVERWRITTEN,
         keep = |search, primitive, crossing| search.found = Some((primitive, crossing));
     "leaf-tests-everything": "a leaf loops over all primitives",
-        fails LAYERS, told bvh::HIERARCHY_NOT_USED,
+        fails LAYERS, told bvh::BVH_NOT_USED,
         tested_for_leaf = |_, primitives| 0..primitives;
     "leaf-order-numbers": "hits name the place in the leaves, not the primitive",
         fails CLOSED, told bvh::LEAF_ORDER_NUMBERS,

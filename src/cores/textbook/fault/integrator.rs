@@ -5,7 +5,9 @@ use crate::cause::integrator;
 use crate::contract::Roulette;
 use crate::cores::textbook as lesson;
 use glam::DVec3;
-use lesson::integrator::{Integrator, Progress, bounce_weight, gather, survival_probability};
+use lesson::integrator::{
+    Integrator, Progress, bounce_weight, light_of_bounce, survival_probability,
+};
 use lesson::random::Random;
 use lesson::vertex::{Vertex, View};
 
@@ -49,7 +51,7 @@ faults! { part 4;
     "direct-only-with-bounce": "direct light is added only if the bounce hits something",
         fails "integrator/plane-under-environment-has-one-bounce",
         told integrator::DIRECT_ONLY_WITH_BOUNCE,
-        gather = gather_if_the_bounce_hits;
+        light_of_bounce = light_if_the_bounce_hits;
     "throughput-replaced": "throughput = weight, not *=",
         fails FURNACE, told integrator::WEIGHT_REPLACED,
         next_throughput = |_, weight| weight;
@@ -87,7 +89,7 @@ faults! { part 4;
         };
     "roulette-stops-direct": "roulette is played before direct light is added",
         fails ROULETTE, told integrator::ROULETTE_STOPS_DIRECT,
-        gather = gather_if_the_path_survives;
+        light_of_bounce = light_if_the_path_survives;
 }
 
 /// The bounces that are followed where a student's recursion would not end.
@@ -95,20 +97,20 @@ const DEPTH_IGNORED: u32 = 24;
 
 /// Direct light counts if this is the last bounce, or if the next ray of the path finds a surface:
 /// it is sent ahead, with the numbers that the path will go on with.
-fn gather_if_the_bounce_hits(
+fn light_if_the_bounce_hits(
     integrator: &Integrator<'_>,
     vertex: &Vertex<'_>,
     bounce: u32,
     random: &mut Random<'_>,
 ) -> DVec3 {
-    let direct = gather(integrator, vertex, bounce, random);
+    let direct = light_of_bounce(integrator, vertex, bounce, random);
     let next = integrator.continue_path(vertex, up_to(bounce), &mut random.clone());
     let hits = || next.is_some_and(|next| is_surface(&integrator.world.look(&next.ray)));
     if bounce == integrator.last_bounce() || hits() { direct } else { DVec3::ZERO }
 }
 
-/// Roulette before the light of the vertex is gathered.
-fn gather_if_the_path_survives(
+/// Roulette before the light of the vertex is sampled.
+fn light_if_the_path_survives(
     integrator: &Integrator<'_>,
     vertex: &Vertex<'_>,
     bounce: u32,
@@ -116,7 +118,7 @@ fn gather_if_the_path_survives(
 ) -> DVec3 {
     let roulette = integrator.settings.roulette;
     if random.number() < survival_probability(roulette, vertex.surface, up_to(bounce)) {
-        gather(integrator, vertex, bounce, random)
+        light_of_bounce(integrator, vertex, bounce, random)
     } else {
         DVec3::ZERO
     }

@@ -70,13 +70,13 @@ faults! { part 3;
     "light-times-pdf": "× pdf in place of / pdf",
         fails "light/rectangle-light-slanted-matches-closed-form", told light::TIMES_PDF,
         light_estimate = |light, pdf| light * pdf;
-    "lamp-shadows-itself": "the shadow ray ends at the light, and meets it",
+    "emitter-shadows-itself": "the shadow ray ends at the light, and meets it",
         fails "light/rectangle-light-slanted-matches-closed-form", told light::EMITTER_SHADOWS_ITSELF,
         shadow_ray = |vertex, sample| {
             let t_max = sample.distance + vertex.clearance;
             Ray { t_max, ..shadow_ray(vertex, sample) }
         };
-    "lamp-shadows-itself-at-times":
+    "emitter-shadows-itself-at-times":
         "the shadow ray starts EPS ahead and ends EPS before the light: rounding decides",
         fails "light/rectangle-light-overhead-matches-closed-form", told light::EMITTER_SHADOWS_ITSELF,
         shadow_ray = |vertex, sample| {

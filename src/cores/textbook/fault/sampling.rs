@@ -1,4 +1,4 @@
-//! Part 3: directions and their densities.
+//! Part 3: directions and their pdfs.
 
 use super::faults;
 use crate::cause::sampling;
@@ -6,8 +6,8 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 const UNIFORM_MAP: &str = "sampling/uniform-pdf-matches-the-jacobian";
 const COSINE_MAP: &str = "sampling/cosine-pdf-matches-the-jacobian";
-const UNIFORM_DENSITY: &str = "sampling/uniform-pdf-integrates-to-one";
-const COSINE_DENSITY: &str = "sampling/cosine-pdf-integrates-to-one";
+const UNIFORM_PDF: &str = "sampling/uniform-pdf-integrates-to-one";
+const COSINE_PDF: &str = "sampling/cosine-pdf-integrates-to-one";
 
 faults! { part 3;
     "theta-uniform": "θ = u π/2: too dense at the pole",
@@ -23,21 +23,21 @@ faults! { part 3;
         fails COSINE_MAP, told sampling::UNIFORM_FOR_COSINE,
         cosine_height = |u| 1.0 - u;
     "uniform-pdf-doubled": "pdf 1/π for the uniform hemisphere",
-        fails UNIFORM_DENSITY, told sampling::PDF_DOUBLED,
+        fails UNIFORM_PDF, told sampling::PDF_DOUBLED,
         uniform_hemisphere_pdf = || FRAC_1_PI;
     "uniform-pdf-doubled-made-good":
         "pdf 1/π, and a factor 2 in the estimator: the picture is right",
-        fails UNIFORM_DENSITY, told sampling::PDF_DOUBLED,
+        fails UNIFORM_PDF, told sampling::PDF_DOUBLED,
         uniform_hemisphere_pdf = || FRAC_1_PI,
         hemisphere_estimate = |light, pdf| 2.0 * (light / pdf);
     "cosine-pdf-without-pi": "pdf cos θ for the cosine hemisphere",
-        fails COSINE_DENSITY, told sampling::PDF_WITHOUT_PI,
+        fails COSINE_PDF, told sampling::PDF_WITHOUT_PI,
         cosine_hemisphere_pdf = |direction| direction.z;
     "cosine-pdf-uniform": "cosine samples with pdf 1/2π",
         fails COSINE_MAP, told sampling::UNIFORM_PDF_FOR_COSINE,
         cosine_hemisphere_pdf = |_| FRAC_1_PI / 2.0;
     "pdf-below-horizon": "the pdf is |cos θ|/π below the horizon too",
-        fails COSINE_DENSITY, told sampling::PDF_BELOW_HORIZON,
+        fails COSINE_PDF, told sampling::PDF_BELOW_HORIZON,
         is_below_horizon = |_| false,
         cosine_hemisphere_pdf = |direction| direction.z.abs() * FRAC_1_PI;
 }

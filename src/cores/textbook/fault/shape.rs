@@ -98,5 +98,5 @@ faults! { part 1;
         };
     "sphere-normal-not-unit": "the normal of a sphere has the length of its radius",
         fails SPHERE, told shape::NORMAL_NOT_UNIT,
-        outward_normal = |ball, point| point - ball.centre;
+        outward_normal = |sphere, point| point - sphere.centre;
 }

@@ -5,7 +5,7 @@ use crate::scene::Rgb;
 use glam::{DMat4, DVec3, DVec4};
 
 /// A light of the file, in world space.
-pub(super) struct Lamp {
+pub(super) struct DeclaredLight {
     pub(super) name: String,
     /// Radiance of an area light; what a point light sends in every direction and, with the course's
     /// classes, to every distance; irradiance of a directional light.
@@ -33,7 +33,7 @@ pub(super) enum Kind {
     Spot,
 }
 
-pub(super) fn read<'a>(reader: &Reader<'a>, instance: &Instance<'a>) -> Result<Lamp> {
+pub(super) fn read<'a>(reader: &Reader<'a>, instance: &Instance<'a>) -> Result<DeclaredLight> {
     let Instance { name, element: light, transform } = *instance;
     reader.name_of(light)?;
     let technique = reader
@@ -43,12 +43,12 @@ pub(super) fn read<'a>(reader: &Reader<'a>, instance: &Instance<'a>) -> Result<L
     let kind = technique.children().find(Element::is_element);
     let kind = kind.ok_or_else(|| reader.wrong(technique, "does not describe the light"))?;
     let colour = reader.colour(reader.need(kind, "color")?)?;
-    Ok(Lamp { name: name.to_owned(), colour, kind: read_kind(reader, kind, &transform)? })
+    Ok(DeclaredLight { name: name.to_owned(), colour, kind: read_kind(reader, kind, &transform)? })
 }
 
 fn read_kind<'a>(reader: &Reader<'a>, kind: Element<'a>, transform: &DMat4) -> Result<Kind> {
     let word = kind.tag_name().name();
-    let lamp = match word {
+    let light = match word {
         "area" => area(transform),
         "point" => {
             for name in ["constant_attenuation", "linear_attenuation", "quadratic_attenuation"] {
@@ -62,8 +62,8 @@ fn read_kind<'a>(reader: &Reader<'a>, kind: Element<'a>, transform: &DMat4) -> R
         "ambient" => Kind::Ambient,
         _ => return Err(reader.wrong(kind, format!("unknown light `{word}`: the course has none"))),
     };
-    if lamp.is_finite() {
-        Ok(lamp)
+    if light.is_finite() {
+        Ok(light)
     } else {
         Err(reader.wrong(kind, "the matrix of its node gives the light no size or direction"))
     }

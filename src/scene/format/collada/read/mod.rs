@@ -12,15 +12,15 @@
 //! - The course declares its lights apart from the surfaces that are seen to emit, and they need not agree: in its
 //!   boxes the light is turned by a right angle, and may be of another brightness. Here a light that lies in an
 //!   emissive mesh *is* that mesh: what is seen is what shines. An area light without such a mesh gets one.
-//! - Glowing surfaces shine from both sides in the course, point lights do not weaken with
+//! - Emissive surfaces shine from both sides in the course, point lights do not weaken with
 //!   distance: these are [`Conventions`](crate::contract::Conventions) of a core, not of a scene.
 //! - The front of a triangle is the side of its shading normals, whatever its winding.
 //!
 //! Refused are files on which the course's program crashes, and what has no counterpart.
 
 mod camera;
+mod emitters;
 mod geometry;
-mod lamps;
 mod light;
 mod material;
 mod node;
@@ -64,7 +64,7 @@ pub(crate) fn parse(name: &str, source: &Source, film: [u32; 2]) -> Result<Readi
     let document = xml::parse(source)?;
     let reader = xml::Reader::new(source, &document);
     let file = node::read(&reader)?;
-    Ok(lamps::light(name, file, film))
+    Ok(emitters::resolve(name, file, film))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The tree of nodes: what stands in the scene, and where.
 
 use super::camera::Lens;
-use super::light::Lamp;
+use super::light::DeclaredLight;
 use super::xml::{Element, Instance, Reader, Result, children, first_child};
 use super::{geometry, light, material};
 use crate::scene::{Material, Mesh, Sphere};
@@ -18,7 +18,7 @@ pub(super) struct File {
     pub(super) materials: Vec<Material>,
     pub(super) meshes: Vec<Mesh>,
     pub(super) spheres: Vec<Sphere>,
-    pub(super) lamps: Vec<Lamp>,
+    pub(super) lights: Vec<DeclaredLight>,
     pub(super) differences: Vec<String>,
 }
 
@@ -96,7 +96,7 @@ impl<'a> Walk<'_, 'a> {
         if let Some(camera) = reader.find(node, "instance_camera")? {
             self.file.lens = Lens::read(reader, &instance(camera))?;
         } else if let Some(light) = reader.find(node, "instance_light")? {
-            self.file.lamps.push(light::read(reader, &instance(light))?);
+            self.file.lights.push(light::read(reader, &instance(light))?);
         } else if let Some(geometry) = reader.find(node, "instance_geometry")? {
             self.geometry(node, &instance(geometry))?;
         } else {

@@ -119,12 +119,12 @@ fn the_profile_beats_the_common_material_and_no_material_is_grey() {
     assert_eq!(scene.material_of(3).surface, glass);
     assert_eq!(scene.material_of(1).surface, Surface::Diffuse { reflectance: [0.6, 0.2, 0.1] });
     assert_eq!(scene.material_of(2).surface, Surface::Diffuse { reflectance: [0.5; 3] });
-    let glow = Some(Emission { radiance: [7.0, 6.0, 5.0], cap: None });
-    assert_eq!(scene.material_of(0).emission, glow);
+    let emission = Some(Emission { radiance: [7.0, 6.0, 5.0], cap: None });
+    assert_eq!(scene.material_of(0).emission, emission);
 }
 
 #[test]
-fn a_lamp_in_a_glowing_mesh_is_that_mesh() {
+fn a_light_in_a_emissive_mesh_is_that_mesh() {
     let reading = read(ROOM).unwrap();
     assert_eq!(reading.scene.lights, [Light::Area { shape: 0 }]);
     assert_eq!(reading.differences.len(), 1);
@@ -132,22 +132,22 @@ fn a_lamp_in_a_glowing_mesh_is_that_mesh() {
 }
 
 #[test]
-fn an_area_light_without_mesh_gets_one_that_faces_as_the_lamp_does() {
+fn an_area_light_without_mesh_gets_one_that_faces_as_the_light_does() {
     let scene = altered("0 1 1.4 0 0 0 1", "0 1 1.2 0 0 0 1").unwrap().scene;
     assert_eq!(scene.lights, [Light::Area { shape: 0 }, Light::Area { shape: 3 }]);
-    let lamp = &scene.meshes[3];
-    assert!((lamp.area(0) + lamp.area(1) - 0.4 * 0.6).abs() < 1e-15);
-    assert_eq!(lamp.corner_normals(0)[0], -DVec3::Y);
+    let light = &scene.meshes[3];
+    assert!((light.area(0) + light.area(1) - 0.4 * 0.6).abs() < 1e-15);
+    assert_eq!(light.corner_normals(0)[0], -DVec3::Y);
     let bounds = scene.bounds().unwrap();
-    assert!(bounds.min.x <= -1.1 && scene.camera == self::scene().camera, "lamps do not count");
+    assert!(bounds.min.x <= -1.1 && scene.camera == self::scene().camera, "lights do not count");
 }
 
 #[test]
-fn lamps_of_other_kinds_are_lights_of_their_own() {
-    let lights = |lamp: &str| {
-        let reading = altered("<area>", &format!("<{lamp}>"));
-        let text = ROOM.replacen("<area>", &format!("<{lamp}>"), 1);
-        let text = text.replacen("</area>", &format!("</{lamp}>"), 1);
+fn lights_of_other_kinds_are_lights_of_their_own() {
+    let lights = |light: &str| {
+        let reading = altered("<area>", &format!("<{light}>"));
+        let text = ROOM.replacen("<area>", &format!("<{light}>"), 1);
+        let text = text.replacen("</area>", &format!("</{light}>"), 1);
         assert!(reading.is_err(), "tags must match");
         read(&text.replacen("0 1 1.4 0 0 0 1", "0 1 1.2 0 0 0 1", 1)).unwrap()
     };
@@ -268,9 +268,9 @@ fn the_courses_own_scenes_are_read() {
         load(&path, [480, 360]).unwrap_or_else(|error| panic!("{error}")).scene
     };
     let spheres = scene("CBspheres_lambertian");
-    let eye = spheres.camera.unwrap();
-    assert_eq!(eye.position.z.to_bits(), 0x4013_3599_c022_8dce, "{eye:?}");
-    assert!((eye.horizontal_fov.to_degrees() - 30.68).abs() < 0.005, "{eye:?}");
+    let camera = spheres.camera.unwrap();
+    assert_eq!(camera.position.z.to_bits(), 0x4013_3599_c022_8dce, "{camera:?}");
+    assert!((camera.horizontal_fov.to_degrees() - 30.68).abs() < 0.005, "{camera:?}");
     assert_eq!((spheres.primitive_count(), spheres.lights.len()), (14, 1));
     assert_eq!(scene("CBbunny").primitive_count(), 28588);
     assert_eq!(scene("maxplanck").primitive_count(), 50801);

@@ -81,8 +81,8 @@ impl Writer<'_> {
         let mut nodes = Vec::new();
         xml.open("library_lights", &[]);
         for (number, light) in self.scene.lights.iter().enumerate() {
-            let (kind, colour, transform) = self.lamp(light)?;
-            let id = format!("lamp-{number}");
+            let (kind, colour, transform) = self.light(light)?;
+            let id = format!("light-{number}");
             let of = format!("{id}-light");
             xml.open("light", &[("id", &of), ("name", &id)]);
             xml.open("extra", &[]);
@@ -104,7 +104,7 @@ impl Writer<'_> {
     }
 
     /// What the course calls a light, its colour and where it stands.
-    fn lamp(&self, light: &Light) -> Result<(&'static str, [f64; 3], DAffine3), ExportError> {
+    fn light(&self, light: &Light) -> Result<(&'static str, [f64; 3], DAffine3), ExportError> {
         match *light {
             Light::Point { position, intensity } => {
                 Ok(("point", intensity, DAffine3::from_translation(position)))
@@ -115,14 +115,14 @@ impl Writer<'_> {
                 let axes = DMat3::from_cols(x, direction.cross(x), direction);
                 Ok(("directional", irradiance, DAffine3::from_mat3(axes)))
             }
-            Light::Area { shape } => self.area_lamp(shape),
+            Light::Area { shape } => self.area_light(shape),
             Light::ConstantSky { .. } | Light::GradientSky { .. } => Err(self
                 .complaint
                 .about("it has an environment light, which the course leaves black")),
         }
     }
 
-    fn area_lamp(&self, shape: u32) -> Result<(&'static str, [f64; 3], DAffine3), ExportError> {
+    fn area_light(&self, shape: u32) -> Result<(&'static str, [f64; 3], DAffine3), ExportError> {
         let emission = self.scene.material_of(shape).emission;
         let radiance = emission.map_or([0.0; 3], |emission| emission.radiance);
         let (name, rectangle) = match self.scene.shape(shape) {

@@ -1,4 +1,4 @@
-//! Whatever an eye sees, a lamp at the eye lights: the shadow ray is the camera's ray, reversed.
+//! Whatever the camera sees, a light at the camera illuminates: the shadow ray is the camera's ray, reversed.
 //!
 //! So a point of light is put where the camera is, all other lights out, and every point of a diffuse surface that
 //! is seen has to have the radiance that its distance and its angle say. A dark one lies in its own shadow.
@@ -18,17 +18,17 @@ use crate::text::{Count, Several};
 /// Seen under a flatter angle than this cosine, a surface may well hide behind its own rounding.
 const GRAZING: f64 = 0.01;
 check! {
-    pub(crate) struct LampAtTheEye {
+    pub(crate) struct NoSelfShadowing {
         scenes: Several<String>,
         /// Rays through the film of each scene.
         rays: Count,
     }
-    name: "lamp-at-the-eye",
+    name: "no-self-shadowing",
     summary: "a point light at the camera lights all that is seen: no surface shadows itself",
     needs: BUILD_SCENE | GENERATE_RAYS | INTERSECT | RADIANCE,
 }
 
-impl Check for LampAtTheEye {
+impl Check for NoSelfShadowing {
     fn scenes(&self) -> &[String] {
         &self.scenes
     }
@@ -45,7 +45,7 @@ impl Check for LampAtTheEye {
     }
 }
 
-impl LampAtTheEye {
+impl NoSelfShadowing {
     fn points(
         &self,
         context: &mut Context<'_>,
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lamp_that_lights_nothing_is_no_shadow() {
+    fn a_light_that_lights_nothing_is_no_shadow() {
         assert!(seen(|_| 1.0, 100).clues.is_empty());
     }
 

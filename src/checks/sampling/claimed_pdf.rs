@@ -1,8 +1,8 @@
-//! Wrong densities and wrong maps, recognised by what they are to the right ones.
+//! Wrong pdfs and wrong maps, recognised by what they are to the right ones.
 
 use super::distribution::Distribution;
 use crate::cause::{Cause, sampling};
-use crate::checks::bsdf::ggx_pair::{Pair, mistake_of_density};
+use crate::checks::bsdf::ggx_pair::{Pair, mistake_of_pdf};
 use crate::checks::bsdf::rough_glass::RoughGlass;
 use crate::checks::form::Form;
 use crate::contract::{BsdfQuery, Conventions, Core, Result, Sampler};
@@ -13,7 +13,7 @@ use crate::scene::Surface;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// Directions at which a density is looked at.
+/// Directions at which a pdf is looked at.
 const DIRECTIONS: usize = 200;
 
 /// What a distribution may be.
@@ -44,18 +44,18 @@ impl Wanted {
     }
 }
 
-/// The form of the core's density over the upper hemisphere, and whether it is 0 below.
+/// The form of the core's pdf over the upper hemisphere, and whether it is 0 below.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Density {
+pub(crate) struct ClaimedPdf {
     wanted: Wanted,
     form: Option<Form>,
     is_dark_below: bool,
-    /// What is wrong with the density of microfacets, which has no such form.
+    /// What is wrong with the pdf of microfacets, which has no such form.
     of_facets: Option<&'static Cause>,
 }
 
-impl Density {
-    /// Asks the core. None for distributions whose density is no simple one.
+impl ClaimedPdf {
+    /// Asks the core. None for distributions whose pdf is no simple one.
     pub(crate) fn of(core: &mut dyn Core, distribution: &Distribution) -> Result<Option<Self>> {
         let Some(wanted) = Wanted::of(distribution) else { return Ok(None) };
         let mut stream = Seed::SUITE.child("form of a density").stream();
@@ -79,7 +79,7 @@ impl Density {
         Ok(Some(Self { wanted, form, is_dark_below, of_facets }))
     }
 
-    /// The mistake that makes such a density, whatever is drawn.
+    /// The mistake that makes such a pdf, whatever is drawn.
     pub(crate) fn mistake(self) -> Option<&'static Cause> {
         let Some(form) = self.form else { return self.of_facets };
         let right = match (self.wanted, form.power) {
@@ -101,7 +101,7 @@ impl Density {
         made.into_iter().find(|(made, _)| form.is_like(*made)).map(|(_, cause)| cause)
     }
 
-    /// The mistake that draws directions by this law of heights, where the density is right in itself.
+    /// The mistake that draws directions by this law of heights, where the pdf is right in itself.
     pub(crate) fn mistake_of_map(self, law: Law) -> Option<&'static Cause> {
         let is_uniform = self.form?.is_like(Form::UNIFORM);
         match (law, self.wanted) {
@@ -118,20 +118,18 @@ impl Density {
         }
     }
 
-    /// The law that gives this product of density and Jacobian, over the sine: it draws the angle uniformly.
+    /// The law that gives this product of pdf and Jacobian, over the sine: it draws the angle uniformly.
     pub(crate) fn law_of_angle(self, product: Form) -> Option<Law> {
-        let density = self.form?;
-        let predicted = Form { constant: AREA_BY_ANGLE * density.constant, power: density.power };
+        let pdf = self.form?;
+        let predicted = Form { constant: AREA_BY_ANGLE * pdf.constant, power: pdf.power };
         product.is_like(predicted).then_some(Law::ThetaUniform)
     }
 
-    /// The law of heights that gives this product of density and Jacobian.
+    /// The law of heights that gives this product of pdf and Jacobian.
     pub(crate) fn law_of_product(self, product: Form) -> Option<Law> {
-        let density = self.form?;
-        let jacobian = Form {
-            constant: product.constant / density.constant,
-            power: product.power - density.power,
-        };
+        let pdf = self.form?;
+        let jacobian =
+            Form { constant: product.constant / pdf.constant, power: product.power - pdf.power };
         let is = |right: Form| {
             jacobian.is_times(1.0, Form { constant: right.constant.recip(), power: -right.power })
         };
@@ -156,24 +154,24 @@ fn mistake_of_metal(
     let Surface::Conductor { reflectance, roughness } = material.surface else { return None };
     let (wo, masking) = (*wo, Masking::Separable);
     let pairs = directions.iter().map(|wi| Pair { wo, wi: *wi, reflectance, roughness, masking });
-    mistake_of_density(&pairs.zip(pdf.iter().copied()).collect::<Vec<_>>())
+    mistake_of_pdf(&pairs.zip(pdf.iter().copied()).collect::<Vec<_>>())
 }
 
 fn mistake_of_rough_glass<'a>(
     distribution: &Distribution,
-    densities: impl Iterator<Item = (&'a DVec3, &'a f64)>,
+    pdfs: impl Iterator<Item = (&'a DVec3, &'a f64)>,
 ) -> Option<&'static Cause> {
     let Distribution::Bsdf { material, wo, .. } = distribution else { return None };
     let Surface::RoughGlass { index, roughness, .. } = material.surface else { return None };
     let glass = RoughGlass { index, roughness, conventions: Conventions::default() };
-    let pairs = densities.map(|(wi, pdf)| (BsdfQuery { wo: *wo, wi: *wi }, *pdf));
-    glass.mistake_of_density(&pairs.collect::<Vec<_>>())
+    let pairs = pdfs.map(|(wi, pdf)| (BsdfQuery { wo: *wo, wi: *wi }, *pdf));
+    glass.mistake_of_pdf(&pairs.collect::<Vec<_>>())
 }
 
 /// The area of the map that draws θ uniformly: π² sin θ.
 const AREA_BY_ANGLE: f64 = PI * PI;
 
-/// How the directions of a sampler are distributed, whatever its density says.
+/// How the directions of a sampler are distributed, whatever its pdf says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Law {
     /// Over the hemisphere.

@@ -1,7 +1,7 @@
 //! From lights that are declared and surfaces that emit to lights that are both.
 
 use super::Reading;
-use super::light::{Kind, Lamp};
+use super::light::{DeclaredLight, Kind};
 use super::node::File;
 use crate::scene::{Aabb, Emission, Light, Material, Mesh, SceneDescription, Surface};
 use glam::DVec3;
@@ -9,7 +9,7 @@ use glam::DVec3;
 /// A light this near to an emissive mesh, in diagonals of the mesh, lies in it.
 const WITHIN: f64 = 0.01;
 
-pub(super) fn light(name: &str, file: File, film: [u32; 2]) -> Reading {
+pub(super) fn resolve(name: &str, file: File, film: [u32; 2]) -> Reading {
     let mut scene = SceneDescription {
         name: name.to_owned(),
         camera: None,
@@ -21,21 +21,21 @@ pub(super) fn light(name: &str, file: File, film: [u32; 2]) -> Reading {
     // The course puts the box around the objects of the file, before there are lights.
     scene.camera = scene.bounds().map(|bounds| file.lens.place(&bounds, film));
     let mut differences = file.differences;
-    for lamp in file.lamps {
-        differences.extend(add(&mut scene, lamp));
+    for light in file.lights {
+        differences.extend(add(&mut scene, light));
     }
     Reading { scene: scene.with_area_lights(), differences }
 }
 
 /// Adds a light, and says what is different about it.
-fn add(scene: &mut SceneDescription, lamp: Lamp) -> Option<String> {
-    let Lamp { name, colour, kind } = lamp;
+fn add(scene: &mut SceneDescription, light: DeclaredLight) -> Option<String> {
+    let DeclaredLight { name, colour, kind } = light;
     let at = match kind {
         Kind::Area { centre, .. } => Some(centre),
         Kind::Point { position } => Some(position),
         Kind::Directional { .. } | Kind::Ambient | Kind::Spot => None,
     };
-    if let Some(mesh) = at.and_then(|position| glowing_mesh_at(scene, position)) {
+    if let Some(mesh) = at.and_then(|position| emissive_mesh_at(scene, position)) {
         let mesh = &mesh.name;
         return Some(format!(
             "light `{name}` lies in `{mesh}`: the emitter is `{mesh}`, as it is visible"
@@ -44,7 +44,7 @@ fn add(scene: &mut SceneDescription, lamp: Lamp) -> Option<String> {
     match kind {
         Kind::Area { centre, direction, sides } => {
             let material = scene.materials.len() as u32;
-            scene.materials.push(glowing(&name, colour));
+            scene.materials.push(emissive(&name, colour));
             scene.meshes.push(rectangle(&name, centre, direction, sides, material));
             Some(format!("light `{name}` has no surface in the course; here it is visible"))
         }
@@ -65,9 +65,9 @@ fn add(scene: &mut SceneDescription, lamp: Lamp) -> Option<String> {
     }
 }
 
-fn glowing_mesh_at(scene: &SceneDescription, position: DVec3) -> Option<&Mesh> {
-    let glows = |mesh: &&Mesh| scene.materials[mesh.material as usize].emission.is_some();
-    scene.meshes.iter().filter(glows).find(|mesh| {
+fn emissive_mesh_at(scene: &SceneDescription, position: DVec3) -> Option<&Mesh> {
+    let emits = |mesh: &&Mesh| scene.materials[mesh.material as usize].emission.is_some();
+    scene.meshes.iter().filter(emits).find(|mesh| {
         Aabb::around(mesh.positions.iter().copied()).is_some_and(|bounds| {
             let nearest = position.clamp(bounds.min, bounds.max);
             nearest.distance(position) <= WITHIN * bounds.diagonal()
@@ -75,7 +75,7 @@ fn glowing_mesh_at(scene: &SceneDescription, position: DVec3) -> Option<&Mesh> {
     })
 }
 
-fn glowing(name: &str, radiance: [f64; 3]) -> Material {
+fn emissive(name: &str, radiance: [f64; 3]) -> Material {
     let surface = Surface::Diffuse { reflectance: [0.0; 3] };
     Material { name: name.to_owned(), surface, emission: Some(Emission { radiance, cap: None }) }
 }

@@ -1,14 +1,14 @@
-//! The density of uniform points of a mesh light, right and wrong.
+//! The pdf of uniform points of a mesh light, right and wrong.
 
 use crate::cause::{Cause, light};
 use crate::contract::{Hit, LightSample};
 use crate::scene::{SceneDescription, Shape};
 use glam::DVec3;
 
-/// Two densities this close, relative, are the same; the wrong ones are far apart.
+/// Two pdfs this close, relative, are the same; the wrong ones are far apart.
 const SAME: f64 = 1e-3;
 
-/// What a density is made of.
+/// What a pdf is made of.
 #[derive(Clone, Copy, Debug)]
 pub struct Geometry {
     distance: f64,
@@ -37,7 +37,7 @@ const MISTAKES: &[(&Cause, Formula)] = &[
     (&light::LIGHT_SURFACE_COSINE, |g| right(g) * g.cosine / g.cosine_at_surface),
 ];
 
-/// The mistake that predicts the density of every sample. Of a light whose density is right, and which fails all the
+/// The mistake that predicts the pdf of every sample. Of a light whose pdf is right, and which fails all the
 /// same, the points are not uniform. None of lights that are no meshes.
 pub(crate) fn mistake(geometries: &[(Geometry, f64)]) -> Option<&'static Cause> {
     let predicts = |formula: Formula| {
@@ -51,7 +51,7 @@ pub(crate) fn mistake(geometries: &[(Geometry, f64)]) -> Option<&'static Cause> 
 }
 
 impl Geometry {
-    /// Of samples that met the light, each with its density.
+    /// Of samples that met the light, each with its pdf.
     pub(crate) fn of(
         area: f64,
         normal: DVec3,
@@ -68,7 +68,7 @@ impl Geometry {
     }
 }
 
-/// The area of a mesh. A ball may be sampled in many ways.
+/// The area of a mesh. A sphere may be sampled in many ways.
 pub(crate) fn area_of(scene: &SceneDescription, shape: u32) -> Option<f64> {
     let Shape::Mesh(mesh) = scene.shape(shape) else { return None };
     let area = |number| {

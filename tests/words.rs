@@ -56,21 +56,10 @@ const AVOID: &[(&str, &str)] = &[
 const EXCEPT: &[&str] = &["bounding volume hierarchy", "probability density", "form of a density"];
 
 /// Of those, the ones that no name and no comment of the code may have either.
+#[rustfmt::skip]
 const NOT_IN_CODE: &[&str] = &[
-    "lamp",
-    "lamps",
-    "glow",
-    "glows",
-    "glowing",
-    "gather",
-    "gathers",
-    "gathered",
-    "ball",
-    "balls",
-    "density",
-    "densities",
-    "hierarchy",
-    "strangers",
+    "lamp", "lamps", "glow", "glows", "glowing", "gather", "gathers", "gathered", "ball", "balls", "density",
+    "densities", "hierarchy", "strangers",
 ];
 
 /// A term of the field, and the file or folder whose text has it.
@@ -122,6 +111,55 @@ const TERMS: &[(&str, &str)] = &[
     ("confidence interval", "src/cause/adaptive.rs"),
     ("sRGB transfer function", "src/cause/image.rs"),
     ("fireflies", "src/cause/image.rs"),
+    ("next event estimation", "src/cores/textbook/direct.rs"),
+    ("shadow acne", "src/checks/light/no_self_shadowing.rs"),
+    ("self-intersection", "src/checks/shape/leaves_its_surface.rs"),
+    ("Russian roulette", "src/checks/integrator/roulette_law.rs"),
+    ("throughput", "src/cores/textbook/integrator.rs"),
+    ("radiosity", "src/math/closed_form/cavity.rs"),
+    ("reciprocity", "src/checks/bsdf/reciprocal.rs"),
+    ("Fresnel", "src/cores/textbook/glass.rs"),
+    ("Snell", "src/cores/textbook/glass.rs"),
+    ("stratified sampling", "src/checks/camera/stratified_samples.rs"),
+    ("cosine-weighted hemisphere", "src/cores/textbook/sampling.rs"),
+    ("cosine-weighted hemisphere", "src/cores/builtin/scatter/warp.rs"),
+    ("solid angle", "src/checks/light/light_samples_reach_light.rs"),
+    ("irradiance", "src/scene/light.rs"),
+    ("white furnace", "src/math/closed_form/cavity.rs"),
+    ("white furnace", "src/checks/bsdf/conserves_energy.rs"),
+    ("albedo", "src/checks/bsdf/conserves_energy.rs"),
+    ("BRDF", "src/checks/bsdf/rough_glass.rs"),
+    ("BTDF", "src/checks/bsdf/rough_glass.rs"),
+    ("BSDF", "src/cores/textbook/bsdf.rs"),
+    ("GGX", "src/cores/textbook/ggx.rs"),
+    ("masking-shadowing", "src/cores/textbook/ggx.rs"),
+    ("visible normals", "src/cores/textbook/ggx.rs"),
+    ("SAH", "src/cores/builtin/trace/surface_area.rs"),
+    ("slab test", "src/cores/textbook/slab.rs"),
+    ("Möller-Trumbore", "src/cores/textbook/intersect.rs"),
+    ("thin lens", "src/scene/camera.rs"),
+    ("tone mapping", "src/image/tonemap.rs"),
+    ("caustic", "cases/image"),
+    ("indirect lighting", "src/checks/integrator/mod.rs"),
+    ("global illumination", "src/checks/integrator/mod.rs"),
+    ("global illumination", "src/cores/textbook/integrator.rs"),
+    ("chi-square", "src/stats/test/counts.rs"),
+    ("variance reduction", "src/checks/integrator/variance_is_known.rs"),
+    ("unbiased estimator", "src/checks/integrator/estimators_agree.rs"),
+    ("firefly", "src/image/pixel_error.rs"),
+    ("environment map", "src/scene/light.rs"),
+    ("area light", "src/scene/light.rs"),
+    ("microfacet", "src/math/closed_form/microfacet.rs"),
+];
+
+/// What the glossary of the README explains or names.
+#[rustfmt::skip]
+const GLOSSARY: &[&str] = &[
+    "next event estimation", "multiple importance sampling", "power heuristic", "normal distribution function",
+    "masking-shadowing", "visible normals", "GGX", "shadow acne", "self-intersection", "Russian roulette",
+    "throughput", "radiosity", "reciprocity", "Fresnel", "Snell", "stratified sampling", "solid angle",
+    "irradiance", "white furnace", "albedo", "BRDF", "BTDF", "SAH", "slab test", "Möller-Trumbore", "caustic",
+    "indirect lighting", "global illumination", "firefly", "environment light", "area light",
 ];
 
 /// Files at and below `path`, of the checkout.
@@ -301,7 +339,9 @@ fn the_words_of_the_field_lead_to_the_right_room() {
         let said = |path: &PathBuf| fs::read_to_string(path).is_ok_and(|text| says(&text, term));
         !files_below(&root().join(room)).iter().any(said)
     };
-    let missing: Vec<_> = TERMS.iter().filter(is_missing).collect();
+    let glossary = GLOSSARY.iter().map(|term| (*term, "README.md"));
+    let terms: Vec<_> = TERMS.iter().copied().chain(glossary).collect();
+    let missing: Vec<_> = terms.iter().filter(is_missing).collect();
     assert!(missing.is_empty(), "terms that their rooms do not say: {missing:?}");
 }
 

@@ -1,4 +1,4 @@
-//! The pinhole camera.
+//! The pinhole camera: no thin lens, so no depth of field.
 
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};

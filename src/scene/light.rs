@@ -1,4 +1,4 @@
-//! Lights.
+//! Lights: point, directional, constant and gradient environment lights (no environment maps), area lights.
 
 use super::Rgb;
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! The albedo of a surface: never above one, and what its parameters say it is.
+//! The albedo of a surface, as in a white furnace test: never above one, and what its parameters say it is.
 
 use super::albedo::Albedo;
 use super::wrong_value::{DIRECTIONS, mistake_of};

@@ -1,4 +1,4 @@
-//! f(a, b) = f(b, a), after Helmholtz; across an interface, of f over the index squared. Pdfs need not be.
+//! Helmholtz reciprocity: f(a, b) = f(b, a); across an interface, of f over the index squared. Pdfs need not be.
 
 use crate::checks::phrase::some_are;
 use crate::checks::surface::{SurfaceEntry, evaluated};

@@ -1,4 +1,4 @@
-//! Rough glass, right and wrong: f and pdf by Walter's formulas (2007), and what they become by the usual
+//! Rough glass (BRDF and BTDF), right and wrong: f and pdf by Walter's formulas (2007), and what they become by the usual
 //! mistakes.
 
 use super::albedo::masking as declared;

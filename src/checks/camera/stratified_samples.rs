@@ -1,4 +1,4 @@
-//! A core that says that its pixels are stratified puts one sample in each cell, anywhere in it, as
+//! Stratified sampling: a core that says that its pixels are stratified puts one sample in each cell, anywhere in it, as
 //! a picture of a [`strata_pattern`](super::strata_pattern) shows.
 
 use super::painting::{FILM, places};

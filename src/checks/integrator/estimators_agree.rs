@@ -1,4 +1,4 @@
-//! Two ways to estimate the same radiance have the same mean, whatever that is: no reference is needed.
+//! Unbiased estimators of the same radiance have the same mean, whatever that is: no reference is needed.
 
 use super::estimate::{RayEntry, estimate, judge_difference, needs, settings};
 use crate::checks::phrase::percent;

@@ -1,4 +1,4 @@
-//! Radiance along rays: bounces, Russian roulette, how noisy estimates are, what seeds do.
+//! Radiance along rays (direct and indirect lighting, global illumination): bounces, Russian roulette, how noisy estimates are, what seeds do.
 
 mod bounces_add_up;
 mod by_convention;

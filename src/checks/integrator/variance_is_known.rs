@@ -1,4 +1,5 @@
-//! The variance of an estimator where theory gives it: two estimators of one mean may be told apart by their noise.
+//! The variance of an estimator where theory gives it: two unbiased estimators of one mean may be told
+//! apart by their noise, and variance reduction is seen to reduce it.
 //!
 //! What is judged is the mean of the unbiased sample variances of independent runs, a mean like any other; the ratio
 //! of two variances would need a normal law that radiance does not have.

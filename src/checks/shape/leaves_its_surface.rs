@@ -1,4 +1,4 @@
-//! A ray that starts where another hit, and leads away, does not meet the same primitive again.
+//! No self-intersection: a ray that starts where another hit, and leads away, does not meet the same primitive again.
 //!
 //! The hit point is a little off the surface, on one side or the other; `t_min` is there so that
 //! this does no harm, and here it is as large as geometry asks: at grazing angles a point that lies

@@ -1,4 +1,4 @@
-//! A rough conductor: single reflection from GGX microfacets, separable Smith masking.
+//! A rough conductor: single reflection from GGX microfacets, separable Smith masking-shadowing.
 //!
 //! Formulas: Walter et al. 2007 (distribution, masking); Heitz 2018, "Sampling the GGX distribution
 //! of visible normals". All directions have z > 0 here.

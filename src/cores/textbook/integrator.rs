@@ -1,4 +1,4 @@
-//! Part 4: paths of any number of bounces.
+//! Part 4: paths of any number of bounces, for global illumination: direct and indirect lighting.
 //!
 //! Light of bounce k has been scattered exactly k times on its way to the viewer, mirror and glass included; bounce 0
 //! is what is emitted where the ray arrives. At the k-th vertex of the path, the first being number 1, the light of

@@ -65,7 +65,7 @@ impl Triangle {
         Aabb { min: self.corner.min(b).min(c), max: self.corner.max(b).max(c) }
     }
 
-    /// Möller and Trumbore 1997: solve origin + t·direction = (1 − u − v)·a + u·b + v·c by Cramer's
+    /// The Möller-Trumbore test (Möller and Trumbore 1997): solve origin + t·direction = (1 − u − v)·a + u·b + v·c by Cramer's
     /// rule. Both sides are hit, and edges belong to the triangle.
     pub(crate) fn intersect(&self, ray: &Ray, steps: &Steps) -> Option<Crossing> {
         let [edge1, edge2] = self.edges;

@@ -1,4 +1,4 @@
-//! Part 3: directions of the hemisphere around +z, with their pdfs.
+//! Part 3: directions of the uniform and the cosine-weighted hemisphere around +z, with their pdfs.
 //!
 //! Both are smooth maps of the unit square, so that a harness can check |∂ω/∂u| · pdf = 1 at every point.
 

@@ -1,4 +1,4 @@
-//! Part 2: one ray against one box, by its three pairs of planes.
+//! Part 2: one ray against one box, by its three pairs of planes: the slab test.
 
 use super::steps::Steps;
 use crate::contract::Ray;

@@ -1,4 +1,4 @@
-//! Closed diffuse cavities (furnaces, radiosity): every bounce is known.
+//! Closed diffuse cavities (white furnace, radiosity): every bounce is known.
 
 use std::ops::RangeInclusive;
 

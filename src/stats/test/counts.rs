@@ -1,4 +1,4 @@
-//! Whether samples follow a pdf: χ² on counts, in three stages ([`Escalation`]).
+//! Whether samples follow a pdf: χ² (chi-square) on counts, in three stages ([`Escalation`]).
 //!
 //! Cells in which fewer than [`FEWEST_EXPECTED`] samples are expected are pooled,
 //! because with starved cells the far tail of the statistic is ten times too fat. A sample where

@@ -1,4 +1,4 @@
-//! From the unit square to uniform and cosine-weighted directions of the hemisphere about +z, in single precision.
+//! From the unit square to directions of the uniform and the cosine-weighted hemisphere about +z, in single precision.
 
 use crate::contract::Sampler;
 use glam::{DVec2, Vec2, Vec3, vec3};

@@ -163,7 +163,7 @@ fn load(name: &'static str) -> Dylib {
     let library = compiled.entry(name).or_insert_with(|| {
         let library = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("lib{name}.so"));
         let source = support::root().join(format!("tests/fixtures/abi/{name}.cpp"));
-        compile_core(&cpp, &source, &library);
+        compile_core(&cpp, &[], &source, &library);
         library
     });
     Dylib::load(library).unwrap()

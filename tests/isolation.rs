@@ -244,7 +244,7 @@ fn compiled(name: &str) -> PathBuf {
     let mut compiled = COMPILED.lock().unwrap_or_else(PoisonError::into_inner);
     let library = compiled.entry(name.to_owned()).or_insert_with(|| {
         let library = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("hostile-{name}.so"));
-        compile_core(&compiler, &fixture(&format!("{name}.cpp")), &library);
+        compile_core(&compiler, &[], &fixture(&format!("{name}.cpp")), &library);
         library
     });
     library.clone()

@@ -88,7 +88,7 @@ fn mistaken(name: &str, file: &str, right: &str, wrong: &str) -> String {
         std::fs::write(folder.join(path.file_name().unwrap()), text).unwrap();
     }
     let library: PathBuf = folder.join("core.so");
-    compile_core(&cpp_compiler(), &folder.join("pathtracer.cpp"), &library);
+    compile_core(&cpp_compiler(), &[], &folder.join("pathtracer.cpp"), &library);
     library.to_string_lossy().into_owned()
 }
 

@@ -64,15 +64,24 @@ fn assert_nothing_fails(trials: &[TrialRecord], least: usize) {
     }
 }
 
+/// Pictures take long; `cargo furnace --core` tries them too.
+fn assert_cpp_example_is_right(name: &str, flags: &[&str]) {
+    let library = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let source = root().join("examples/cpp/pathtracer.cpp");
+    compile_core(&cpp_compiler(), flags, &source, &library);
+    assert_nothing_fails(&run(&library.to_string_lossy(), &["!image/"], false), 60);
+}
+
 #[test]
 fn the_cpp_example_is_right() {
-    let compiler = cpp_compiler();
-    let library = Path::new(env!("CARGO_TARGET_TMPDIR")).join("libpathtracer.so");
-    let source = root().join("examples/cpp/pathtracer.cpp");
-    compile_core(&compiler, &source, &library);
-    let core = library.to_string_lossy();
-    // Pictures take long; `cargo furnace --core` tries them too.
-    assert_nothing_fails(&run(&core, &["!image/"], false), 60);
+    assert_cpp_example_is_right("libpathtracer.so", &[]);
+}
+
+#[test]
+fn the_cpp_example_is_right_in_single_precision() {
+    // No double takes part in it unseen.
+    let flags = ["-DREAL=float", "-Wdouble-promotion"];
+    assert_cpp_example_is_right("libpathtracer-single.so", &flags);
 }
 
 #[test]

@@ -21,7 +21,7 @@ class Bvh {
    }
 
    // The nearest hit, and which primitive it is on; -1 for none.
-   int64_t closest(const Ray &ray, furnace_hit &hit, Stats &stats) const {
+   int64_t closest(const Ray &ray, Hit &hit, Stats &stats) const {
       if (bench.has(FURNACE_TAKES_TRAVERSAL)) {
          hit = bench.intersect(bench_built, ray);
          return geometry.find(hit);
@@ -74,7 +74,7 @@ class Bvh {
       Vec mean{0, 0, 0};
       for (size_t i = first; i < last; ++i) {
          centroids.add(centroid(order[i]));
-         mean = mean + centroid(order[i]) / double(last - first);
+         mean = mean + centroid(order[i]) / Real(last - first);
       }
       int    axis = centroids.longest_axis();
       size_t middle = first;
@@ -84,7 +84,7 @@ class Bvh {
          middle = partition(first, last, [&](Vec c) { return at(c, axis) < at(mean, axis); });
          break;
       case FURNACE_SPLIT_MIDPOINT: {
-         double plane = at(centroids.centre(), axis);
+         Real plane = at(centroids.centre(), axis);
          middle = partition(first, last, [&](Vec c) { return at(c, axis) < plane; });
          break;
       }
@@ -112,7 +112,7 @@ class Bvh {
    // The plane between two of 16 equal bins for which count times area, summed over both sides, is
    // least (Wald 2007).
    size_t by_surface_area(size_t first, size_t last, const Box &centroids) {
-      double cheapest = INFINITE;
+      Real cheapest = INFINITE;
       Plane  best{};
       for (int axis = 0; axis < 3; ++axis) {
          Plane plane{axis, at(centroids.min, axis), at(centroids.max, axis), 0};
@@ -140,11 +140,11 @@ class Bvh {
       size_t count = 0;
       void   add(const Box &box) { bounds.add(box), ++count; }
       void   add(const Side &other) { bounds.add(other.bounds), count += other.count; }
-      double cost() const { return double(count) * bounds.half_area(); }
+      Real cost() const { return Real(count) * bounds.half_area(); }
    };
    struct Plane {
       int    axis;
-      double low, high; // of the centroids
+      Real low, high; // of the centroids
       int    first_right;
       int    bin(Vec c) const {
          return std::min(BINS - 1, int(BINS * ((at(c, axis) - low) / (high - low))));
@@ -156,19 +156,19 @@ class Bvh {
       bool        any;
       Stats      &stats;
       int64_t     found = -1;
-      furnace_hit hit{};
+      Hit hit{};
       bool        is_over() const { return any && found >= 0; }
    };
    struct Child {
       size_t node;
       bool   is_met;
-      double enter;
+      Real enter;
    };
 
    Child look_at(size_t node, Search &search) const {
-      double enter, exit;
+      Real enter, exit;
       ++search.stats.box_tests;
-      bool is_met = nodes[node].bounds.meets(search.ray, enter, exit, 1e-15);
+      bool is_met = nodes[node].bounds.meets(search.ray, enter, exit, 4 * EPSILON);
       return {node, is_met, enter};
    }
 
@@ -193,7 +193,7 @@ class Bvh {
    void test_leaf(const Node &leaf, Search &search) const {
       for (size_t i = leaf.first; i < leaf.first + leaf.count && !search.is_over(); ++i) {
          ++search.stats.primitive_tests;
-         furnace_hit hit;
+         Hit hit;
          if (!geometry.hit(order[i], search.ray, hit)) continue;
          search.hit = hit, search.found = order[i];
          search.ray.t_max = hit.t;

@@ -6,7 +6,7 @@
 
 namespace pathtracer {
 
-constexpr furnace_light_sample NO_LIGHT{{0, 0, 1}, 0, {0, 0, 0}, 0, 0, 0};
+inline const LightSample NO_LIGHT{{0, 0, 1}, 0, {0, 0, 0}, 0, 0, 0};
 
 class Light {
  public:
@@ -36,19 +36,19 @@ class Light {
    Rgb sky(Vec w) const {
       if (light.kind == FURNACE_CONSTANT_SKY) return light.radiance;
       if (light.kind != FURNACE_GRADIENT_SKY) return {0, 0, 0};
-      double height = std::max(0.0, dot(w, light.place));
-      return (1 - height) * light.radiance + height * light.zenith;
+      Real height = std::max(Real(0), dot(w, light.place));
+      return (1 - height) * Rgb(light.radiance) + height * Rgb(light.zenith);
    }
 
-   furnace_light_sample sample(Vec from, const Numbers &random) const {
+   LightSample sample(Vec from, const Numbers &random) const {
       switch (light.kind) {
       case FURNACE_POINT: {
-         Vec    way = light.place - from;
-         double squared = dot(way, way);
+         Vec  way = Vec(light.place) - from;
+         Real squared = dot(way, way);
          if (!(squared > 0)) return NO_LIGHT;
-         return {unit(way), std::sqrt(squared), light.radiance / squared, 1, 1, 1};
+         return {unit(way), std::sqrt(squared), Rgb(light.radiance) / squared, 1, 1, 1};
       }
-      case FURNACE_DIRECTIONAL: return {-light.place, INFINITE, light.radiance, 1, 1, 1};
+      case FURNACE_DIRECTIONAL: return {-Vec(light.place), INFINITE, light.radiance, 1, 1, 1};
       case FURNACE_AREA: return sample_area(from, random);
       default: {
          Vec wi = below_pole(2 * random.point.x, random.point.y);
@@ -57,10 +57,10 @@ class Light {
       }
    }
 
-   double sky_pdf() const { return is_sky() ? 1 / (4 * PI) : 0; }
+   Real sky_pdf() const { return is_sky() ? 1 / (4 * PI) : 0; }
 
    // The pdf of `sample` in the direction of `p`, a point of the emitter.
-   double area_pdf(Vec from, Vec p, Vec normal) const {
+   Real area_pdf(Vec from, Vec p, Vec normal) const {
       if (is_sphere && fills_a_cone(from)) return 1 / (2 * PI * cone_depth(from));
       return per_steradian(from, p, normal);
    }
@@ -69,46 +69,46 @@ class Light {
    furnace_light         light;
    furnace_material      material{};
    std::vector<Triangle> triangles;
-   std::vector<double>   area_up_to;
+   std::vector<Real>   area_up_to;
    bool                  is_sphere = false;
    Sphere                sphere{};
-   double                area = 0;
-   double                cap_depth = 2; // of the emissive part of the unit sphere
+   Real                area = 0;
+   Real                cap_depth = 2; // of the emissive part of the unit sphere
 
    void take_sphere(const Sphere &of_scene) {
       is_sphere = true;
       sphere = of_scene;
-      if (material.cap_half_angle > 0) cap_depth = 1 - std::cos(material.cap_half_angle);
+      if (material.cap_half_angle > 0) cap_depth = 1 - std::cos(Real(material.cap_half_angle));
       area = 2 * PI * sphere.radius * sphere.radius * cap_depth;
    }
 
    // 1 / area on the surface, as pdf with respect to solid angle: 0 from behind.
-   double per_steradian(Vec from, Vec p, Vec normal) const {
+   Real per_steradian(Vec from, Vec p, Vec normal) const {
       Vec    way = p - from;
-      double squared = dot(way, way), cosine = -dot(way, normal) / std::sqrt(squared);
+      Real squared = dot(way, way), cosine = -dot(way, normal) / std::sqrt(squared);
       return cosine > 0 ? squared / (cosine * area) : 0;
    }
 
-   furnace_light_sample towards(Vec from, Vec p, Vec normal) const {
-      double pdf = per_steradian(from, p, normal);
+   LightSample towards(Vec from, Vec p, Vec normal) const {
+      Real pdf = per_steradian(from, p, normal);
       if (!(pdf > 0)) return NO_LIGHT;
       return {unit(p - from), length(p - from), material.emission, pdf, 0, 1};
    }
 
-   furnace_light_sample sample_area(Vec from, const Numbers &random) const {
+   LightSample sample_area(Vec from, const Numbers &random) const {
       if (is_sphere) return fills_a_cone(from) ? sample_cone(from, random.point)
                                              : sample_cap(from, random.point);
       if (triangles.empty()) return NO_LIGHT;
       auto   found = std::upper_bound(area_up_to.begin(), area_up_to.end(), random.lobe * area);
       size_t chosen = std::min(size_t(found - area_up_to.begin()), triangles.size() - 1);
-      double root = std::sqrt(random.point.x); // Turk 1990
+      Real root = std::sqrt(random.point.x); // Turk 1990
       const Triangle &triangle = triangles[chosen];
       Vec p = triangle.point(root * (1 - random.point.y), root * random.point.y);
       return towards(from, p, triangle.normal());
    }
 
-   furnace_light_sample sample_cap(Vec from, furnace_vec2 u) const {
-      Vec axis = material.cap_half_angle > 0 ? material.cap_axis : Vec{0, 0, 1};
+   LightSample sample_cap(Vec from, Point u) const {
+      Vec axis = material.cap_half_angle > 0 ? Vec(material.cap_axis) : Vec{0, 0, 1};
       Vec outward = Frame(axis).to_world(below_pole(u.x * cap_depth, u.y));
       return towards(from, sphere.centre + sphere.radius * outward, sphere.inward ? -outward : outward);
    }
@@ -118,18 +118,18 @@ class Light {
       bool emits_everywhere = !sphere.inward && material.cap_half_angle == 0;
       return emits_everywhere && length(from - sphere.centre) > sphere.radius;
    }
-   double cone_depth(Vec from) const {
+   Real cone_depth(Vec from) const {
       Vec    way = sphere.centre - from;
-      double sine2 = sphere.radius * sphere.radius / dot(way, way);
-      return sine2 / (1 + std::sqrt(std::max(0.0, 1 - sine2)));
+      Real sine2 = sphere.radius * sphere.radius / dot(way, way);
+      return sine2 / (1 + std::sqrt(std::max(Real(0), 1 - sine2)));
    }
-   furnace_light_sample sample_cone(Vec from, furnace_vec2 u) const {
+   LightSample sample_cone(Vec from, Point u) const {
       Vec    way = sphere.centre - from;
-      double depth = u.x * cone_depth(from), distance = length(way);
-      double off_axis2 = distance * distance * depth * (2 - depth);
-      double half_chord = std::sqrt(std::max(0.0, sphere.radius * sphere.radius - off_axis2));
+      Real depth = u.x * cone_depth(from), distance = length(way);
+      Real off_axis2 = distance * distance * depth * (2 - depth);
+      Real half_chord = std::sqrt(std::max(Real(0), sphere.radius * sphere.radius - off_axis2));
       Vec    wi = Frame(unit(way)).to_world(below_pole(depth, u.y));
-      double pdf = 1 / (2 * PI * cone_depth(from));
+      Real pdf = 1 / (2 * PI * cone_depth(from));
       return {wi, distance * (1 - depth) - half_chord, material.emission, pdf, 0, 1};
    }
 };

@@ -1,29 +1,22 @@
-// Vectors, random numbers, and directions around an axis.
+// Random numbers, and directions around an axis.
 #ifndef PATHTRACER_NUMBERS_HPP
 #define PATHTRACER_NUMBERS_HPP
 
-#include "furnace_core.hpp"
+#include "types.hpp"
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
 namespace pathtracer {
 
-using furnace::Bench, furnace::cross, furnace::dot, furnace::length, furnace::unit, furnace::Numbers;
-using Vec = furnace_vec3;
-using Rgb = furnace_rgb;
-using Ray = furnace_ray;
+using furnace::Bench;
 using Stats = furnace_traversal_stats;
 
-constexpr double PI = 3.14159265358979323846;
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
-
-inline bool   is_black(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
-inline double luminance(Rgb c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
-inline double largest(Vec v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-inline double at(const Vec &v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-inline Vec    point_on(const Ray &ray, double t) { return ray.origin + t * ray.direction; }
+inline bool is_black(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
+inline Real luminance(Rgb c) { return Real(0.2126) * c.r + Real(0.7152) * c.g + Real(0.0722) * c.b; }
+inline Real largest(Vec v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+inline Real at(const Vec &v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+inline Vec  point_on(const Ray &ray, Real t) { return ray.origin + t * ray.direction; }
 
 // Components that the bench lends in place of ours, to tell which of ours is broken.
 inline Bench bench;
@@ -35,14 +28,18 @@ class Random {
    Random(uint64_t seed, uint64_t stream, uint64_t sample)
        : state(mix(mix(mix(seed) + stream) + sample)) {}
 
-   double number() { return double(mix(state += 0x9e3779b97f4a7c15) >> 11) * 0x1p-53; }
+   // As many bits as a Real holds: the largest number stays below 1.
+   Real number() {
+      return Real(mix(state += 0x9e3779b97f4a7c15) >> (64 - DIGITS)) * (EPSILON / 2);
+   }
    uint64_t seed() { return mix(state += 0x9e3779b97f4a7c15); }
    Numbers  numbers() {
-      double x = number(), y = number();
-      return {{x, y}, number()};
+      Real x = number(), y = number();
+      return Numbers({x, y}, number());
    }
 
  private:
+   static constexpr int DIGITS = std::numeric_limits<Real>::digits;
    static uint64_t mix(uint64_t z) {
       z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
       z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
@@ -56,7 +53,7 @@ class Random {
 struct Frame {
    Vec x, y, z;
    explicit Frame(Vec axis) : z(axis) {
-      double sign = std::copysign(1.0, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
+      Real sign = std::copysign(Real(1), axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
       x = {1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x};
       y = {b, sign + axis.y * axis.y * a, -axis.y};
    }
@@ -65,23 +62,23 @@ struct Frame {
 };
 
 // The unit vector whose z is 1 - depth, at `turn` of a full turn; exact for small depths.
-inline Vec below_pole(double depth, double turn) {
-   double sine = std::sqrt(std::max(0.0, depth * (2 - depth)));
+inline Vec below_pole(Real depth, Real turn) {
+   Real sine = std::sqrt(std::max(Real(0), depth * (2 - depth)));
    return {sine * std::cos(2 * PI * turn), sine * std::sin(2 * PI * turn), 1 - depth};
 }
 
-inline Vec uniform_hemisphere(furnace_vec2 u) { return below_pole(u.x, u.y); }
-inline Vec cosine_hemisphere(furnace_vec2 u) {
-   double radius = std::sqrt(u.x);
+inline Vec uniform_hemisphere(Point u) { return below_pole(u.x, u.y); }
+inline Vec cosine_hemisphere(Point u) {
+   Real radius = std::sqrt(u.x);
    return {radius * std::cos(2 * PI * u.y), radius * std::sin(2 * PI * u.y), std::sqrt(1 - u.x)};
 }
 
-inline double hemisphere_pdf(uint32_t sampler, Vec direction) {
-   if (bench.has(FURNACE_TAKES_DIRECTION_SAMPLING)) return bench.direction_pdf(sampler, direction);
+inline Real hemisphere_pdf(uint32_t sampler, Vec direction) {
+   if (bench.has(FURNACE_TAKES_DIRECTION_SAMPLING)) return Real(bench.direction_pdf(sampler, direction));
    if (direction.z <= 0) return 0;
    return sampler == FURNACE_COSINE_HEMISPHERE ? direction.z / PI : 1 / (2 * PI);
 }
-inline furnace_direction_sample sample_hemisphere(uint32_t sampler, const Numbers &random) {
+inline DirectionSample sample_hemisphere(uint32_t sampler, const Numbers &random) {
    if (bench.has(FURNACE_TAKES_DIRECTION_SAMPLING)) return bench.sample_direction(sampler, random);
    Vec direction = sampler == FURNACE_COSINE_HEMISPHERE ? cosine_hemisphere(random.point)
                                                         : uniform_hemisphere(random.point);

@@ -1,10 +1,11 @@
-// A small complete path tracer behind furnace_core.hpp, in double precision. Read it to see where
+// A small complete path tracer behind furnace_core.hpp. Read it to see where
 // each function of your own renderer would go; copy its parts freely.
 //
 //    c++ -std=c++17 -O2 -shared -fPIC -Iinclude examples/cpp/pathtracer.cpp -o libpathtracer.so
 //    cargo furnace --core ./libpathtracer.so
 //
-// numbers.hpp    vectors, random numbers, directions around an axis
+// types.hpp      vectors, colours, rays; single or double precision
+// numbers.hpp    random numbers, directions around an axis
 // shapes.hpp     boxes, triangles, spheres
 // bvh.hpp        the bounding volume hierarchy
 // surfaces.hpp   how surfaces scatter
@@ -22,28 +23,31 @@ namespace pathtracer {
 
 // ---- images -------------------------------------------------------------------------------------
 
-Ray camera_ray(const furnace_camera &camera, furnace_vec2 film) {
-   if (bench.has(FURNACE_TAKES_CAMERA)) return bench.generate_ray(camera, film);
-   double x = (2 * film.x - 1) * std::tan(camera.horizontal_fov / 2);
-   double y = (2 * film.y - 1) * std::tan(camera.vertical_fov / 2);
-   Vec    direction = unit(x * camera.right + y * camera.up - camera.backward);
-   return {camera.position, camera.near_clip, direction, camera.far_clip};
+Ray camera_ray(const furnace_camera &camera, Point film) {
+   if (bench.has(FURNACE_TAKES_CAMERA))
+      return bench.generate_ray(camera, {double(film.x), double(film.y)});
+   Real x = (2 * film.x - 1) * std::tan(Real(camera.horizontal_fov) / 2);
+   Real y = (2 * film.y - 1) * std::tan(Real(camera.vertical_fov) / 2);
+   Vec  direction = unit(x * Vec(camera.right) + y * Vec(camera.up) - Vec(camera.backward));
+   return {camera.position, Real(camera.near_clip), direction, Real(camera.far_clip)};
 }
 
 // Values as they come: how noisy their mean is, and the course's stopping rule over luminances.
+// Squares of deviations are summed, which stay exact where values hardly differ (Welford 1962).
 struct Tally {
    uint32_t count = 0;
-   double   sum = 0, squares = 0;
+   Real     mean = 0, squares = 0;
 
-   void   add(double value) { ++count, sum += value, squares += value * value; }
-   double mean() const { return sum / count; }
-   bool   may_stop(const furnace_adaptive &rule) const {
+   void add(Real value) {
+      Real off = value - mean;
+      mean += off / Real(++count);
+      squares += off * (value - mean);
+   }
+   bool may_stop(const furnace_adaptive &rule) const {
       if (count % std::max(1u, rule.samples_per_batch) != 0) return false;
-      return 1.96 * std::sqrt(variance_of_mean()) <= rule.max_tolerance * mean();
+      return Real(1.96) * std::sqrt(variance_of_mean()) <= Real(rule.max_tolerance) * mean;
    }
-   double variance_of_mean() const {
-      return std::max(0.0, squares - sum * sum / count) / (count - 1.0) / count;
-   }
+   Real variance_of_mean() const { return squares / Real(count - 1) / Real(count); }
 };
 
 // The bench stops a stream at a sample before its last one, or not at all: one more tells.
@@ -57,10 +61,11 @@ bool may_stop(const Tally &tally, const furnace_adaptive &rule, std::vector<doub
 }
 
 // Where sample `number` lies in its pixel: anywhere, or anywhere in its own cell of a grid.
-furnace_vec2 within_pixel(const furnace_render &settings, uint32_t number, furnace_vec2 jitter) {
+Point within_pixel(const furnace_render &settings, uint32_t number, Point jitter) {
    if (!settings.stratified) return jitter;
    auto side = uint32_t(std::lround(std::sqrt(settings.samples_per_pixel)));
-   return {(number % side + jitter.x) / side, (number / side + jitter.y) / side};
+   return {(Real(number % side) + jitter.x) / Real(side),
+           (Real(number / side) + jitter.y) / Real(side)};
 }
 
 void Scene::render(const furnace_camera &camera, const furnace_render &settings, float *pixels,
@@ -73,16 +78,16 @@ void Scene::render(const furnace_camera &camera, const furnace_render &settings,
       std::vector<double> luminances;
       while (tally.count < settings.samples_per_pixel) {
          Random  random(settings.integrator->seed, index, tally.count + 1);
-         furnace_vec2 within = within_pixel(settings, tally.count, random.numbers().point);
-         Ray          ray = camera_ray(camera, {(x + within.x) / settings.width,
-                                                1 - (y + within.y) / settings.height});
+         Point   within = within_pixel(settings, tally.count, random.numbers().point);
+         Ray     ray = camera_ray(camera, {(Real(x) + within.x) / Real(settings.width),
+                                           1 - (Real(y) + within.y) / Real(settings.height)});
          Rgb radiance = trace(ray, *settings.integrator, random);
          sum = sum + radiance;
-         tally.add(luminance(radiance)), luminances.push_back(luminance(radiance));
+         tally.add(luminance(radiance)), luminances.push_back(double(luminance(radiance)));
          channels[0].add(radiance.r), channels[1].add(radiance.g), channels[2].add(radiance.b);
          if (settings.adaptive && may_stop(tally, *settings.adaptive, luminances)) break;
       }
-      Rgb mean = sum / tally.count;
+      Rgb mean = sum / Real(tally.count);
       float *pixel = pixels + 3 * size_t(index);
       pixel[0] = float(mean.r), pixel[1] = float(mean.g), pixel[2] = float(mean.b);
       sample_counts[index] = tally.count;
@@ -114,34 +119,35 @@ struct PathTracer {
        FURNACE_TAKES_DIRECT_LIGHTING | FURNACE_TAKES_PATH | FURNACE_TAKES_PIXEL;
    void take_components(const Bench &lent) { bench = lent; }
 
-   furnace_ray generate_ray(const furnace_camera &camera, furnace_vec2 film) {
-      return camera_ray(camera, film);
+   Ray generate_ray(const furnace_camera &camera, furnace_vec2 film) {
+      return camera_ray(camera, {Real(film.x), Real(film.y)});
    }
 
-   furnace_hit intersect_triangle(const Vec *positions, const Vec *normals, const Ray &ray) {
-      return alone(Triangle(positions, normals), ray);
+   Hit intersect_triangle(const furnace_vec3 *positions, const furnace_vec3 *normals,
+                          const Ray &ray) {
+      Vec p[]{positions[0], positions[1], positions[2]}, n[]{normals[0], normals[1], normals[2]};
+      return alone(Triangle(p, n), ray);
    }
-   furnace_hit intersect_sphere(Vec centre, double radius, const Ray &ray) {
-      return alone(Sphere{centre, radius, false}, ray);
+   Hit intersect_sphere(Vec centre, double radius, const Ray &ray) {
+      return alone(Sphere{centre, Real(radius), false}, ray);
    }
    furnace_box_hit intersect_box(Vec min, Vec max, const Ray &ray) {
-      furnace_box_hit hit{};
-      hit.hit = Box{min, max}.meets(ray, hit.t_enter, hit.t_exit);
-      return hit;
+      Real enter = 0, exit = 0;
+      bool met = Box{min, max}.meets(ray, enter, exit);
+      return {double(enter), double(exit), met, 0};
    }
 
-   furnace_direction_sample sample_direction(uint32_t sampler, const Numbers &random) {
+   DirectionSample sample_direction(uint32_t sampler, const Numbers &random) {
       return sample_hemisphere(sampler, random);
    }
    double direction_pdf(uint32_t sampler, Vec direction) {
-      return hemisphere_pdf(sampler, direction);
+      return double(hemisphere_pdf(sampler, direction));
    }
 
-   furnace_bsdf_value eval_bsdf(const furnace_material &material, Vec wo, Vec wi) {
+   BsdfValue eval_bsdf(const furnace_material &material, Vec wo, Vec wi) {
       return eval_surface(known(material), wo, wi);
    }
-   furnace_bsdf_sample sample_bsdf(const furnace_material &material, Vec wo,
-                                   const Numbers &random) {
+   BsdfSample sample_bsdf(const furnace_material &material, Vec wo, const Numbers &random) {
       return sample_surface(known(material), wo, random);
    }
 
@@ -150,10 +156,10 @@ struct PathTracer {
       if (bench.has(FURNACE_TAKES_PIXEL)) return bench.adaptive_mean(rule, luminances, count);
       Tally tally;
       while (tally.count < count) {
-         tally.add(luminances[tally.count]);
+         tally.add(Real(luminances[tally.count]));
          if (tally.may_stop(rule)) break;
       }
-      return {tally.mean(), tally.count, 0};
+      return {double(tally.mean), tally.count, 0};
    }
 
    std::unique_ptr<Scene> build(const furnace_scene &scene, const furnace_build &settings) {
@@ -162,9 +168,10 @@ struct PathTracer {
    }
 
  private:
-   template <class Shape> static furnace_hit alone(const Shape &shape, const Ray &ray) {
-      furnace_hit hit{};
-      return shape.hit(ray, hit) ? hit : furnace::miss();
+   template <class Shape> static Hit alone(const Shape &shape, const Ray &ray) {
+      Hit hit;
+      hit.shape = hit.primitive = 0;
+      return shape.hit(ray, hit) ? hit : Hit();
    }
    static const furnace_material &known(const furnace_material &material) {
       if (material.kind > FURNACE_CONDUCTOR) throw furnace::Unsupported("an unknown material");
@@ -179,4 +186,5 @@ FURNACE_CORE(pathtracer::PathTracer, "pathtracer.cpp", "1.0",
                  FURNACE_ISOLATED_BOUNCES | FURNACE_ROULETTE | FURNACE_ADAPTIVE_SAMPLING |
                  FURNACE_REPORTED_VARIANCE | FURNACE_STRATIFIED_PIXELS | FURNACE_COUNTS_TRAVERSAL |
                  FURNACE_CALLERS_RANDOMNESS | FURNACE_DETERMINISTIC |
-                 FURNACE_INDEPENDENT_PIXELS | FURNACE_INDEPENDENT_SAMPLES | FURNACE_PLAIN_ESTIMATORS)
+                 FURNACE_INDEPENDENT_PIXELS | FURNACE_INDEPENDENT_SAMPLES | FURNACE_PLAIN_ESTIMATORS |
+                 (pathtracer::IS_SINGLE ? FURNACE_SINGLE_PRECISION : 0))

@@ -9,7 +9,7 @@
 namespace pathtracer {
 
 // Rays keep this share of the largest length involved clear of the surface they leave.
-constexpr double CLEARANCE = 1e-10;
+constexpr Real CLEARANCE = Real(IS_SINGLE ? 2e-5 : 1e-10);
 
 // What of a path's settings matters to emission alone: nothing but their size.
 constexpr furnace_integrator EMISSION_ALONE{sizeof(furnace_integrator), 1, 0, 0, 0, 1, 0, 0, 0, 0};
@@ -19,13 +19,23 @@ struct Vertex {
    const furnace_material *material = nullptr;
    Vec                     point{}, normal{}; // geometric
    Frame                   frame{{0, 0, 1}};  // shading
-   Ray                     ray{};             // that arrived
+   Ray                     ray{{}, 0, {}, 0}; // that arrived
    Vec                     direction{}, wo{}; // of the ray; back along it, local
    Rgb                     emission{};
    int64_t                 light = -1; // the light that the surface is
-   double                  clearance = 0;
+   Real                  clearance = 0;
 
-   Ray ray_to(Vec wi) const { return {point, clearance, frame.to_world(wi), INFINITE}; }
+   // Rays begin beside the surface, on the side that they leave on: rounding may have put the point
+   // on the other one, from where a grazing ray would meet the surface again.
+   Vec beside(Vec way) const { return point + std::copysign(clearance, dot(normal, way)) * normal; }
+   Ray ray_along(Vec way) const { return {beside(way), 0, way, INFINITE}; }
+   Ray ray_to(Vec wi) const { return ray_along(frame.to_world(wi)); }
+   // Up to shortly before what lies at `distance`: a light would shadow itself.
+   Ray ray_along(Vec way, Real distance) const {
+      if (!std::isfinite(distance)) return ray_along(way);
+      Vec whole = point + distance * way - beside(way);
+      return {beside(way), 0, whole, 1 - std::max(CLEARANCE, clearance / distance)};
+   }
 };
 
 class Scene {
@@ -47,14 +57,14 @@ class Scene {
 
    furnace_build_stats stats() const { return bvh.stats; }
 
-   furnace_hit intersect(const Ray &ray, Stats &stats) const {
-      furnace_hit hit;
-      return bvh.closest(ray, hit, stats) >= 0 ? hit : furnace::miss();
+   Hit intersect(const Ray &ray, Stats &stats) const {
+      Hit hit;
+      return bvh.closest(ray, hit, stats) >= 0 ? hit : Hit();
    }
 
    bool occluded(const Ray &ray, Stats &stats) const { return bvh.any(ray, stats); }
 
-   furnace_light_sample sample_light(uint32_t light, Vec from, const Numbers &random) const {
+   LightSample sample_light(uint32_t light, Vec from, const Numbers &random) const {
       if (light >= lights.size()) throw std::out_of_range("there is no such light");
       return sample(lights[light], from, random);
    }
@@ -75,7 +85,7 @@ class Scene {
    std::vector<int64_t>          light_of_shape;
    std::vector<Light>            lights;
 
-   furnace_light_sample sample(const Light &light, Vec from, const Numbers &random) const {
+   LightSample sample(const Light &light, Vec from, const Numbers &random) const {
       if (!bench.has(FURNACE_TAKES_LIGHT_SAMPLING)) return light.sample(from, random);
       return bench.sample_light(bench_built, uint32_t(&light - lights.data()), from, random);
    }
@@ -90,7 +100,7 @@ class Scene {
 
    Vertex found(const Ray &ray) const {
       Vertex      v;
-      furnace_hit hit;
+      Hit hit;
       Stats       unused{};
       v.direction = unit(ray.direction);
       int64_t primitive = bvh.closest(ray, hit, unused);
@@ -109,7 +119,7 @@ class Scene {
       v.wo = v.frame.to_local(-v.direction);
       const Primitive &met = geometry.primitives[size_t(primitive)];
       v.emission = emitted(*v.material, met, v);
-      double travelled = hit.t * length(ray.direction);
+      Real travelled = hit.t * length(ray.direction);
       v.clearance = CLEARANCE * std::max({met.reach, largest(ray.origin), travelled});
       return v;
    }
@@ -119,7 +129,7 @@ class Scene {
       if (!m.emits || dot(v.normal, v.direction) >= 0) return {0, 0, 0};
       if (!met.is_sphere || m.cap_half_angle == 0) return m.emission;
       Vec outward = geometry.spheres[met.index].inward ? -v.normal : v.normal;
-      return dot(outward, m.cap_axis) >= std::cos(m.cap_half_angle) ? m.emission : Rgb{0, 0, 0};
+      return dot(outward, m.cap_axis) >= std::cos(Real(m.cap_half_angle)) ? Rgb(m.emission) : Rgb{0, 0, 0};
    }
 
    // Light of bounce k has been scattered k times on its way to the camera. At each vertex light
@@ -144,7 +154,7 @@ class Scene {
          if (!sees_lights && bounce + 1 >= settings.last_bounce) return sum;
 
          bool   plays = settings.roulette_stop > 0 && bounce >= settings.roulette_guaranteed;
-         double survival = plays ? 1 - settings.roulette_stop : 1;
+         Real survival = plays ? 1 - Real(settings.roulette_stop) : 1;
          if (random.number() >= survival) return sum;
          auto way = sample_surface(*v.material, v.wo, random.numbers());
          if (!way.is_valid) return sum;
@@ -168,15 +178,15 @@ class Scene {
          if (settings.by_hemisphere && !light.is_delta()) continue;
          uint32_t count = light.is_delta() ? 1 : samples;
          for (uint32_t i = 0; i < count; ++i)
-            sum = sum + from_light(v, light, random.numbers(), glossy) / count;
+            sum = sum + from_light(v, light, random.numbers(), glossy) / Real(count);
       }
       if (settings.by_hemisphere) {
          uint32_t count = std::max(1u, samples * area_lights);
          for (uint32_t i = 0; i < count; ++i)
-            sum = sum + from_hemisphere(v, random.numbers()) / count;
+            sum = sum + from_hemisphere(v, random.numbers()) / Real(count);
       } else if (glossy) {
          for (uint32_t i = 0; i < samples; ++i)
-            sum = sum + from_lobe(v, random.numbers()) / samples;
+            sum = sum + from_lobe(v, random.numbers()) / Real(samples);
       }
       return sum;
    }
@@ -190,20 +200,17 @@ class Scene {
 
    // On a glossy surface the lights and the narrow lobe are both sampled; the balance heuristic
    // (Veach 1997) shares out what either could have found.
-   static double balance(double own, double other) { return own / (own + other); }
+   static Real balance(Real own, Real other) { return own / (own + other); }
 
    Rgb from_light(const Vertex &v, const Light &light, const Numbers &random, bool glossy) const {
-      furnace_light_sample s = sample(light, v.point, random);
+      LightSample s = sample(light, v.point, random);
       if (!s.is_valid) return {0, 0, 0};
       Vec  wi = v.frame.to_local(s.wi);
       auto [f, pdf] = eval_surface(*v.material, v.wo, wi);
       if (is_black(f)) return f;
-      Ray shadow{v.point, v.clearance, s.wi, INFINITE};
-      if (std::isfinite(s.distance)) // ends short of the light, which would shadow itself
-         shadow.t_max = s.distance - std::max(v.clearance, CLEARANCE * s.distance);
       Stats unused{};
-      if (bvh.any(shadow, unused)) return {0, 0, 0};
-      double weight = glossy && !s.is_delta ? balance(s.pdf, pdf) : 1;
+      if (bvh.any(v.ray_along(s.wi, s.distance), unused)) return {0, 0, 0};
+      Real weight = glossy && !s.is_delta ? balance(s.pdf, pdf) : 1;
       return s.radiance * f * (weight * std::abs(wi.z) / s.pdf);
    }
 
@@ -216,10 +223,10 @@ class Scene {
    }
 
    // The pdf with which light sampling would have chosen `seen` (multiple importance sampling).
-   double light_pdf(const Vertex &v, const Vertex &seen) const {
+   Real light_pdf(const Vertex &v, const Vertex &seen) const {
       if (seen.material)
          return seen.light < 0 ? 0 : lights[seen.light].area_pdf(v.point, seen.point, seen.normal);
-      double pdf = 0; // a scene has one sky at most
+      Real pdf = 0; // a scene has one sky at most
       for (const Light &light : lights) pdf += light.sky_pdf();
       return pdf;
    }

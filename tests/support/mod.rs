@@ -45,9 +45,9 @@ pub fn compile(compiler: &Path, arguments: &[&str]) {
     assert!(output.status.success(), "{}: {complaint}", arguments.join(" "));
 }
 
-/// Compiles a C++ core into a shared library.
-pub fn compile_core(compiler: &Path, source: &Path, library: &Path) {
+/// Compiles a C++ core into a shared library, with these flags besides the usual ones.
+pub fn compile_core(compiler: &Path, flags: &[&str], source: &Path, library: &Path) {
     let (source, library) = (source.to_string_lossy(), library.to_string_lossy());
     let language = ["-std=c++17", "-O2", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror"];
-    compile(compiler, &[&language[..], &[&source, "-o", &library]].concat());
+    compile(compiler, &[&language[..], flags, &[&source, "-o", &library]].concat());
 }

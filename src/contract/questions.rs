@@ -116,6 +116,9 @@ macro_rules! questions {
                     camera: &Camera, settings: &RenderSettings; codes: &mut Picture
                 ) -> Encoding;
             }
+            Components (take_components: TakeComponents) {
+                COMPONENTS
+            }
         }
     };
 }

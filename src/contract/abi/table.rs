@@ -75,7 +75,6 @@ macro_rules! core_table {
             this: *mut c_void,
             last_error: Option<unsafe extern "C" fn(this: *mut c_void) -> *const c_char>,
             $($($c: Option<function!($kind $type $entry)>,)*)*
-            take_components: Option<TakeComponents>,
         }
     };
     ($($field:ident: $type:ty,)*) => {

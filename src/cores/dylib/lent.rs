@@ -55,13 +55,10 @@ fn table_of(textbook: &Rc<Textbook>) -> CoreTable {
     CoreTable {
         abi: abi::ABI,
         struct_size: struct_size::<CoreTable>(),
-        traits: 0,
-        components: 0,
         conventions: abi::Conventions::default(),
         name: c"bench".as_ptr(),
         version: c"".as_ptr(),
         this: Rc::as_ptr(textbook).cast_mut().cast(),
-        last_error: None,
         generate_rays: Some(generate_rays),
         intersect_triangle: Some(intersect_triangle),
         intersect_sphere: Some(intersect_sphere),
@@ -71,14 +68,12 @@ fn table_of(textbook: &Rc<Textbook>) -> CoreTable {
         eval_bsdf: Some(eval_bsdf),
         sample_bsdf: Some(sample_bsdf),
         adaptive_mean: Some(adaptive_mean),
-        build: None,
-        release: None,
         intersect: Some(intersect),
         occluded: Some(occluded),
         sample_light: Some(sample_light),
         radiance: Some(radiance),
-        render: None,
-        take_components: None,
+        // SAFETY: zeros are numbers, null pointers and functions that are not there.
+        ..unsafe { std::mem::zeroed() }
     }
 }
 

@@ -11,8 +11,6 @@ pub(crate) mod remote;
 pub(crate) mod textbook;
 
 #[cfg(test)]
-mod closed_forms;
-#[cfg(test)]
 mod stage;
 
 pub use hosting::{HostError, Hosted, Hosting};
@@ -152,5 +150,32 @@ fn changed(word: &str, changes: &str) -> Result<CoreSpec, UnknownCore> {
 impl fmt::Display for CoreSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.word)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::stage::{Stage, clear_glass, grey, looks};
+    use super::*;
+    use crate::contract::{Acceleration, IntegratorSettings, Ray};
+    use crate::scene::{Light, Surface};
+    use glam::DVec3;
+
+    #[test]
+    fn mirrors_and_glass_scatter_no_light_that_was_sampled() {
+        let sun = Light::Directional { direction: DVec3::NEG_Z, irradiance: grey(1.0) };
+        let ray = Ray::new(DVec3::Z * 3.0, DVec3::NEG_Z);
+        let settings = IntegratorSettings { bounces: 0..=5, ..IntegratorSettings::default() };
+        let looks = [looks(Surface::Mirror { reflectance: grey(1.0) }), clear_glass()];
+        for (look, kind) in
+            looks.into_iter().flat_map(|look| CORES.iter().map(move |it| (look, it)))
+        {
+            let scene = Stage::empty().sphere(DVec3::ZERO, 1.0, look).light(sun).scene();
+            let mut core = (kind.make)();
+            let mut built = core.build_scene(&scene, Acceleration::DEFAULT).unwrap();
+            let mut radiance = [[f64::NAN; 3]; 500];
+            built.radiance(&[ray; 500], &settings, &mut radiance).unwrap();
+            assert_eq!(radiance, [[0.0; 3]; 500], "{}", kind.name);
+        }
     }
 }

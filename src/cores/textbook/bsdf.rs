@@ -169,24 +169,6 @@ mod tests {
     }
 
     #[test]
-    fn samples_say_what_evaluation_says() {
-        let mut random = Random::for_ray(1, 0);
-        for surface in smooth_and_rough() {
-            for _ in 0..2000 {
-                let wo = direction(&mut random);
-                let Some(sample) = sample(&surface, wo, random.point(), random.number(), &LESSON)
-                else {
-                    continue;
-                };
-                let value = evaluate(&surface, wo, sample.wi, &LESSON);
-                assert_eq!((sample.f, sample.pdf), (value.f, value.pdf), "{surface:?} {wo}");
-                assert!(wo.z * sample.wi.z > 0.0 && sample.is_delta == 0, "{sample:?}");
-                assert!((sample.wi.length() - 1.0).abs() < 1e-12, "{sample:?}");
-            }
-        }
-    }
-
-    #[test]
     fn surfaces_look_the_same_from_both_sides_and_hide_each_side_from_the_other() {
         let mut random = Random::for_ray(3, 0);
         for surface in smooth_and_rough() {

@@ -143,7 +143,6 @@ mod tests {
     use crate::cores::stage::{Stage, diffuse, grey};
     use crate::cores::textbook::random::Random;
     use crate::cores::textbook::steps::LESSON;
-    use std::f64::consts::PI;
 
     /// The last light of a stage.
     fn emitter(stage: Stage) -> Emitter {
@@ -159,53 +158,6 @@ mod tests {
     fn samples(emitter: &Emitter, from: DVec3, count: usize) -> Vec<Option<LightSample>> {
         let mut random = Random::for_ray(5, 0);
         (0..count).map(|_| emitter.sample(from, random.point(), random.number(), &LESSON)).collect()
-    }
-
-    /// Mean of 1/pdf with its standard error.
-    fn solid_angle(emitter: &Emitter, from: DVec3) -> (f64, f64) {
-        let count = 100_000;
-        let values = samples(emitter, from, count).into_iter();
-        let values = values.map(|sample| sample.map_or(0.0, |sample| 1.0 / sample.pdf));
-        let (sum, squares) = values.fold((0.0, 0.0), |(s, q), v| (s + v, q + v * v));
-        let n = count as f64;
-        (sum / n, ((squares / n - (sum / n).powi(2)).max(0.0) / n).sqrt())
-    }
-
-    fn assert_solid_angle(emitter: &Emitter, from: DVec3, expected: f64) {
-        let (mean, error) = solid_angle(emitter, from);
-        assert!(
-            (mean - expected).abs() <= 4.5 * error + 1e-9 * expected,
-            "{mean} ± {error}, {expected}"
-        );
-        assert!(error <= 0.01 * expected, "too noisy: {mean} ± {error}");
-    }
-
-    #[test]
-    fn pdfs_are_per_steradian() {
-        // A rectangle a × b at distance d on its axis: Ω = 4 asin(ab / √((a² + 4d²)(b² + 4d²))).
-        let (a, b, d) = (1.2_f64, 0.8_f64, 1.5_f64);
-        let product = (a * a + 4.0 * d * d) * (b * b + 4.0 * d * d);
-        let expected = 4.0 * (a * b / product.sqrt()).asin();
-        assert_solid_angle(&rectangle(a / 2.0, b / 2.0, d), DVec3::ZERO, expected);
-
-        let sphere =
-            emitter(Stage::empty().sphere(DVec3::Z * 1.5, 0.4, diffuse(0.0).emitting(1.0)));
-        let cosine = (1.0 - (0.4_f64 / 1.5).powi(2)).sqrt();
-        assert_solid_angle(&sphere, DVec3::ZERO, 2.0 * PI * (1.0 - cosine));
-
-        let room = emitter(Stage::empty().room(1.0, diffuse(0.0).emitting(1.0)));
-        assert_solid_angle(&room, DVec3::new(0.3, -0.2, 0.1), 4.0 * PI);
-
-        let sky = Emitter::Simple(Light::ConstantSky { radiance: grey(1.0) });
-        assert_solid_angle(&sky, DVec3::ZERO, 4.0 * PI);
-    }
-
-    #[test]
-    fn a_cap_is_as_large_as_its_share_of_the_directions_from_the_centre() {
-        let look = diffuse(0.0).emitting_cap(1.0, 40.0_f64.to_radians());
-        let cap = emitter(Stage::empty().room(2.0, look));
-        let share = (1.0 - 40.0_f64.to_radians().cos()) / 2.0;
-        assert_solid_angle(&cap, DVec3::ZERO, 4.0 * PI * share);
     }
 
     #[test]

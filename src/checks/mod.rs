@@ -159,6 +159,7 @@ pub(crate) fn all() -> impl Iterator<Item = &'static CheckKind> {
 pub(crate) static RENAMED: &[(&str, &str)] = &[
     ("divides-long-scenes", "tests-per-ray"), // arrangement = "long-boxes"
     ("stops-behind-hits", "tests-per-ray"),   // arrangement = "layers"
+    ("lamp-at-the-eye", "no-self-shadowing"),
 ];
 
 pub(crate) fn find(name: &str) -> Option<&'static CheckKind> {

@@ -1,7 +1,7 @@
 //! Mirrors and glass: where they send light, how much of it, and how often.
 //!
 //! Three things have to fit for each view: the directions (the law of reflection, Snell's), what each of them
-//! carries (Fresnel's share times the colour), and the chance of choosing it, which the core may pick but has to say.
+//! carries (Fresnel reflectance times the colour), and the probability of choosing it, which the core may pick but has to say.
 
 use super::interface::{Interface, MISTAKES, Mistake};
 use super::smooth_trial::Trial;
@@ -99,7 +99,7 @@ mod tests {
     const MIRROR: &str = include_str!("../../../cases/bsdf/mirror-reflects-its-reflectance.toml");
 
     fn found(case: &str, smooth: Smooth) -> Finding {
-        // The chance of a reflection is not what takes time to judge here.
+        // The probability of a reflection is not what takes time to judge here.
         let case = case.replace("5 %", "30 %");
         let mut core = Fake::default();
         core.info.conventions = smooth.conventions;

@@ -64,7 +64,7 @@ impl Facet {
     }
 
     /// Of light that meets a surface at this cosine, the share that goes the way of the pair.
-    fn chance(&self, cosine: f64) -> f64 {
+    fn probability(&self, cosine: f64) -> f64 {
         let reflected = fresnel::reflectance(cosine, self.ratio);
         if self.passes { 1.0 - reflected } else { reflected }
     }
@@ -101,7 +101,7 @@ impl Facet {
             true => self.o_m * self.i_m / self.denominator(),
             false => 0.25,
         };
-        self.chance(self.o_m) * facets * turned * scale
+        self.probability(self.o_m) * facets * turned * scale
     }
 
     /// Of samples that are drawn by the facets seen and by Fresnel's share.
@@ -112,7 +112,7 @@ impl Facet {
         let roughness = self.glass.roughness;
         let seen = distribution(self.cos_m, roughness) * masking(self.cos_o, roughness) * self.o_m
             / self.cos_o;
-        self.chance(self.o_m) * seen * self.jacobian()
+        self.probability(self.o_m) * seen * self.jacobian()
     }
 }
 
@@ -127,7 +127,7 @@ const RIGHT_INDEX: Index = |_, ratio| ratio;
 const OF_ENTERING: Index = |glass, _| glass.index;
 
 const VALUES: &[(&Cause, Factor)] = &[
-    (&bsdf::FRESNEL_OF_SURFACE, |f| f.chance(f.cos_o) / f.chance(f.o_m)),
+    (&bsdf::FRESNEL_OF_SURFACE, |f| f.probability(f.cos_o) / f.probability(f.o_m)),
     (&bsdf::MASKING_FORGOTTEN, |f| f.masking(declared(f.glass.conventions.smith_term)).recip()),
     (&convention::OTHER_SMITH_TERM, |f| {
         let declared = declared(f.glass.conventions.smith_term);
@@ -147,7 +147,7 @@ const PDFS: &[(&Cause, Factor)] = &[
     (&bsdf::REFRACTION_JACOBIAN_WITHOUT_INDEX, |f| {
         if f.passes { (f.ratio * f.ratio).recip() } else { 1.0 }
     }),
-    (&bsdf::LOBE_PROBABILITY_FORGOTTEN, |f| f.chance(f.o_m).recip()),
+    (&bsdf::LOBE_PROBABILITY_FORGOTTEN, |f| f.probability(f.o_m).recip()),
 ];
 
 impl RoughGlass {

@@ -34,11 +34,11 @@ impl Trial {
             wo,
             right: self.interface.lobes(wo),
             samples: self.samples(core, wo, seed.child("examined"), EXAMINED)?,
-            chance: None,
+            probability: None,
             allowed: self.allowed,
         };
-        if let Some(stated) = view.stated_chance() {
-            view.chance = Some(self.chance(core, wo, stated, seed)?);
+        if let Some(stated) = view.stated_probability() {
+            view.probability = Some(self.probability(core, wo, stated, seed)?);
         }
         Ok(view)
     }
@@ -55,7 +55,7 @@ impl Trial {
     }
 
     /// Whether samples are reflected as often as they say.
-    fn chance(
+    fn probability(
         &self,
         core: &mut dyn Core,
         wo: DVec3,

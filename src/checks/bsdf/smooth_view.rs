@@ -32,7 +32,7 @@ pub(crate) struct SmoothView {
     /// Samples that are looked at one by one.
     pub(crate) samples: Vec<BsdfSample>,
     /// Whether samples are reflections as often as they say.
-    pub(crate) chance: Option<ShareReport>,
+    pub(crate) probability: Option<ShareReport>,
     /// How far rounding may take a correct core.
     pub(crate) allowed: Allowed,
 }
@@ -44,16 +44,16 @@ struct Way<'a> {
     right: Option<Lobe>,
     samples: Vec<&'a BsdfSample>,
     /// The probability that it should have, by what reflections say of theirs.
-    chance: f64,
+    probability: f64,
 }
 
 impl SmoothView {
     /// The probability of a reflection that the samples state.
-    pub(crate) fn stated_chance(&self) -> Option<f64> {
+    pub(crate) fn stated_probability(&self) -> Option<f64> {
         let (back, through) = self.sides();
         let of_reflection = back.first().map(|sample| sample.pdf);
         let stated = of_reflection.or_else(|| through.first().map(|sample| 1.0 - sample.pdf));
-        stated.map(|chance| chance.clamp(0.0, 1.0))
+        stated.map(|probability| probability.clamp(0.0, 1.0))
     }
 
     /// Whether every sample goes where it should with what it should carry, and none is marked.
@@ -64,8 +64,9 @@ impl SmoothView {
 
     /// What pdf says of a reflection and how many there are, if that is all that is wrong.
     pub(crate) fn other_chance(&self) -> Option<(f64, f64)> {
-        let chance = self.chance.as_ref().filter(|chance| chance.verdict == Verdict::Fail)?;
-        self.is_predicted_by(self.right).then_some((chance.expected, chance.share))
+        let probability =
+            self.probability.as_ref().filter(|probability| probability.verdict == Verdict::Fail)?;
+        self.is_predicted_by(self.right).then_some((probability.expected, probability.share))
     }
 
     /// Whether light goes both ways, and every sample states a probability of one.
@@ -107,11 +108,16 @@ impl SmoothView {
 
     fn ways(&self) -> [Way<'_>; 2] {
         let (back, through) = self.sides();
-        let chance = self.stated_chance().unwrap_or(f64::NAN);
+        let probability = self.stated_probability().unwrap_or(f64::NAN);
         let Lobes { reflected, refracted } = self.right;
         [
-            Way { name: "reflected", right: reflected, samples: back, chance },
-            Way { name: "refracted", right: refracted, samples: through, chance: 1.0 - chance },
+            Way { name: "reflected", right: reflected, samples: back, probability },
+            Way {
+                name: "refracted",
+                right: refracted,
+                samples: through,
+                probability: 1.0 - probability,
+            },
         ]
     }
 
@@ -141,8 +147,8 @@ impl SmoothView {
             let worst = |(what, report)| Measure::worst(format!("{name} {what}"), &report);
             measures.extend(rows.map(worst));
         }
-        let chance = self.chance.as_ref();
-        measures.extend(chance.map(|report| Measure::of("samples reflected", report)));
+        let probability = self.probability.as_ref();
+        measures.extend(probability.map(|report| Measure::of("samples reflected", report)));
         measures.into_iter().map(|measure| measure.of_row(&self.name)).collect()
     }
 
@@ -161,8 +167,9 @@ impl SmoothView {
     }
 
     fn chances(&self, way: &Way<'_>) -> ExactReport {
-        let chance = |s: &&BsdfSample| Compared::relative(s.pdf, way.chance, self.allowed.formula);
-        judge_exact(way.samples.iter().map(chance))
+        let probability =
+            |s: &&BsdfSample| Compared::relative(s.pdf, way.probability, self.allowed.formula);
+        judge_exact(way.samples.iter().map(probability))
     }
 
     /// The first thing that is wrong.
@@ -213,13 +220,14 @@ impl SmoothView {
     }
 
     fn complaint_of_chance(&self) -> Option<String> {
-        let chance = self.chance.as_ref().filter(|chance| chance.verdict == Verdict::Fail)?;
-        let (stated, share) = (percent(chance.expected), percent(chance.share));
+        let probability =
+            self.probability.as_ref().filter(|probability| probability.verdict == Verdict::Fail)?;
+        let (stated, share) = (percent(probability.expected), percent(probability.share));
         Some(format!("{share} of samples are reflected, and pdf says {stated}"))
     }
 }
 
-/// What is wrong with the chances of the two ways, if only they are.
+/// What is wrong with the probabilities of the two ways, if only they are.
 pub(super) fn chance_clue(views: &[SmoothView]) -> Option<(&'static Cause, String)> {
     let sure: Vec<_> = views.iter().filter_map(SmoothView::is_sure_of_both).collect();
     if !sure.is_empty() && sure.iter().all(|sure| *sure) {

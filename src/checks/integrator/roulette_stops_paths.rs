@@ -144,8 +144,8 @@ mod tests {
     /// Paths bring light at a bounce with the probability of a law.
     fn stopping(law: Law) -> impl Fn(&mut Stream, &IntegratorSettings) -> f64 + Copy + Send {
         move |stream, settings| {
-            let chance = law(&settings.roulette.unwrap(), *settings.bounces.start());
-            if uniform(stream) < chance { 0.7 } else { 0.0 }
+            let probability = law(&settings.roulette.unwrap(), *settings.bounces.start());
+            if uniform(stream) < probability { 0.7 } else { 0.0 }
         }
     }
 

@@ -1,11 +1,11 @@
-//! The ways of a sampler that chooses between them by a third number, and the chance of each: the share of third
-//! numbers that choose it. A core may choose by whatever chance it likes; it has to say so in its pdf.
+//! The ways of a sampler that chooses between them by a third number, and the probability of each: the share of third
+//! numbers that choose it. A core may choose by whatever probability it likes; it has to say so in its pdf.
 
 use super::distribution::{Distribution, Drawn};
 use crate::checks::Result;
 use glam::DVec2;
 
-/// The chance of a way is found to 2⁻³⁰, and in single precision to a rounding.
+/// The probability of a way is found to 2⁻³⁰, and in single precision to a rounding.
 const HALVINGS: usize = 30;
 
 /// The third number of all points, by the way that it chooses.
@@ -54,7 +54,7 @@ impl Way {
         }
     }
 
-    /// The chance of the way at each point, `centre` being its samples there.
+    /// The probability of the way at each point, `centre` being its samples there.
     pub(crate) fn chances(
         self,
         points: &[DVec2],
@@ -76,11 +76,11 @@ impl Way {
                 *(if goes_here { &mut end.0 } else { &mut end.1 }) = middle[i];
             }
         }
-        let chance = |(i, (here, _)): (usize, &(f64, f64))| {
+        let probability = |(i, (here, _)): (usize, &(f64, f64))| {
             let is_sure = is_same_way(&centre[i], &elsewhere[i]);
             if is_sure { 1.0 } else { (here - end).abs() }
         };
-        Ok(ends.iter().enumerate().map(chance).collect())
+        Ok(ends.iter().enumerate().map(probability).collect())
     }
 }
 

@@ -51,30 +51,33 @@ pub(super) fn built_pointer(world: &Rc<World<'_>>) -> *mut abi::Built {
     Rc::as_ptr(world).cast_mut().cast()
 }
 
+/// The function of a plain question takes its place.
+macro_rules! fill {
+    ($table:ident {
+        $(#[$doc:meta])* $can:ident $(= $bit:literal)?
+        fn $method:ident($($arguments:tt)*) -> $told:ty;
+    }) => {
+        $table.$method = Some($method);
+    };
+}
+
 fn table_of(textbook: &Rc<Textbook>) -> CoreTable {
-    CoreTable {
+    let mut table = CoreTable {
         abi: abi::ABI,
         struct_size: struct_size::<CoreTable>(),
         conventions: abi::Conventions::default(),
         name: c"bench".as_ptr(),
         version: c"".as_ptr(),
         this: Rc::as_ptr(textbook).cast_mut().cast(),
-        generate_rays: Some(generate_rays),
         intersect_triangle: Some(intersect_triangle),
         intersect_sphere: Some(intersect_sphere),
         intersect_box: Some(intersect_box),
-        sample_direction: Some(sample_direction),
-        direction_pdf: Some(direction_pdf),
-        eval_bsdf: Some(eval_bsdf),
-        sample_bsdf: Some(sample_bsdf),
-        adaptive_mean: Some(adaptive_mean),
-        intersect: Some(intersect),
-        occluded: Some(occluded),
-        sample_light: Some(sample_light),
-        radiance: Some(radiance),
         // SAFETY: zeros are numbers, null pointers and functions that are not there.
         ..unsafe { std::mem::zeroed() }
-    }
+    };
+    each_question! { PlainCore fill table }
+    each_question! { PlainScene fill table }
+    table
 }
 
 /// An argument that C has passed; none if it is no value of the contract.

@@ -89,7 +89,7 @@ faults! { part 3;
     "metal-without-masking": "G = 1",
         fails "bsdf/rough-conductor-conserves-energy", told bsdf::MASKING_FORGOTTEN,
         metal_f = |facets| facets.distribution / (4.0 * facets.wo.z * facets.wi.z);
-    "metal-pdf-of-facets": "the pdf of the half vector, without 1/(4 wo·h)",
+    "metal-pdf-of-half-vector": "the pdf of the half vector, without 1/(4 wo·h)",
         fails "bsdf/rough-conductor-pdf-matches-the-jacobian", told bsdf::PDF_OF_HALF_VECTOR,
         metal_pdf = |Facets { distribution, masking_over_cosine: [masked, _], wo, normal, .. }| {
             distribution * masked * wo.dot(*normal).max(0.0)
@@ -101,7 +101,7 @@ faults! { part 3;
         fails "bsdf/rough-glass-pdf-matches-the-jacobian",
         told bsdf::REFRACTION_JACOBIAN_WITHOUT_INDEX,
         refraction_jacobian = |_, i_m, denominator| i_m.abs() / denominator;
-    "rough-glass-chance-forgotten": "the Fresnel reflectance is in f, and not in the pdf",
+    "rough-glass-lobe-probability-forgotten": "the Fresnel reflectance is in f, and not in the pdf",
         fails "bsdf/rough-glass-pdf-integrates-to-its-valid-samples",
         told bsdf::LOBE_PROBABILITY_FORGOTTEN,
         lobe_probability = |_| 1.0;

@@ -1,5 +1,4 @@
-//! Whatever the camera sees, a light at the camera illuminates: the shadow ray is the camera's ray
-//! reversed. What fails has shadow acne.
+//! Whatever the camera sees, a light at the camera illuminates: shadow rays are camera rays reversed. Else: shadow acne.
 //!
 //! So a point of light is put where the camera is, all other lights out, and every point of a diffuse surface that
 //! is seen has to have the radiance that its distance and its angle say. A dark one lies in its own shadow.

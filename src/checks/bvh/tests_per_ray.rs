@@ -37,29 +37,46 @@ impl Check for TestsPerRay {
     }
 }
 
+/// Other leaves than those of a plain BVH change the tests of the same walk by up to this factor.
+const OTHER_LEAVES: f64 = 3.0;
+
 /// What came of it.
 struct Tried {
     name: &'static str,
     tests: f64,
     /// Of a plain BVH.
     plain: f64,
+    /// Of a plain BVH whose walk never shortens the ray.
+    unshortened: f64,
 }
 
 impl View {
     fn put_to(self, context: &mut Context<'_>) -> Result<Tried, CheckError> {
-        let plain = ReferenceBvh::new(&self.mesh).tests_per_ray(&self.rays, Walk::Ordered);
+        let bvh = ReferenceBvh::new(&self.mesh);
+        let [plain, unshortened] =
+            [Walk::Ordered, Walk::Unshortened].map(|walk| bvh.tests_per_ray(&self.rays, walk));
         let scene = scene_of(self.mesh);
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut hits = vec![Hit::MISS; self.rays.len()];
         let stats = built.intersect(&self.rays, &mut hits)?;
         let tests = stats.primitive_tests as f64 / self.rays.len() as f64;
-        Ok(Tried { name: self.name, tests, plain })
+        Ok(Tried { name: self.name, tests, plain, unshortened })
     }
 }
 
 impl Tried {
     fn is_slow(&self) -> bool {
         self.tests > SLACK * self.plain
+    }
+
+    /// As a walk that nothing shortens does.
+    fn meets_all_layers(&self) -> bool {
+        self.tests >= self.unshortened / OTHER_LEAVES
+    }
+
+    /// More tests would be of nodes that lie across the layers, however they are walked.
+    fn divides_layers(&self) -> bool {
+        self.tests <= OTHER_LEAVES * self.unshortened
     }
 
     fn measure(&self) -> Measure {
@@ -89,8 +106,14 @@ impl TestsPerRay {
         let slow: Vec<_> = tried.iter().filter(|view| view.is_slow()).map(|v| v.name).collect();
         match (self.arrangement, slow.as_slice()) {
             (Arrangement::Layers, _) if all_test(1.0) => Some(&bvh::BVH_NOT_USED),
-            (Arrangement::Layers, [_, _]) => Some(&bvh::SEGMENT_NOT_SHORTENED),
-            (Arrangement::Layers, _) => Some(&bvh::CHILDREN_UNORDERED),
+            (Arrangement::Layers, _) if !tried.iter().all(Tried::divides_layers) => None,
+            (Arrangement::Layers, _) => {
+                match tried.iter().filter(|view| view.meets_all_layers()).count() {
+                    2 => Some(&bvh::SEGMENT_NOT_SHORTENED),
+                    1 => Some(&bvh::CHILDREN_UNORDERED),
+                    _ => None,
+                }
+            }
             (Arrangement::LongBoxes, _) if all_test(UNUSED) => Some(&bvh::BVH_NOT_USED),
             (Arrangement::LongBoxes, ["along z"]) => Some(&bvh::Z_NEVER_SPLIT),
             (Arrangement::LongBoxes, [_, _, _]) => Some(&bvh::SHORTEST_AXIS),
@@ -130,11 +153,34 @@ mod tests {
     }
 
     #[test]
+    fn more_tests_than_any_walk_makes_are_not_the_walk() {
+        let told = |tests: [f64; 2]| {
+            let check = TestsPerRay { arrangement: Arrangement::Layers, rays: Count(1) };
+            let names = ["from below", "from above"];
+            let tried = [0, 1].map(|i| Tried {
+                name: names[i],
+                tests: tests[i],
+                plain: 4.0,
+                unshortened: 256.0,
+            });
+            check.judge(&tried).clues.first().map(|clue| clue.cause.clone())
+        };
+        assert_eq!(told([256.0; 2]).as_deref(), Some("t-max-not-shortened"));
+        assert_eq!(told([16.5, 611.0]).as_deref(), Some("children-unordered"));
+        assert_eq!(told([1084.0, 1059.0]), None);
+    }
+
+    #[test]
     fn the_axes_that_are_slow_name_the_mistake() {
         let told = |tests: [f64; 3]| {
             let check = TestsPerRay { arrangement: Arrangement::LongBoxes, rays: Count(1) };
             let names = ["along x", "along y", "along z"];
-            let tried = [0, 1, 2].map(|i| Tried { name: names[i], tests: tests[i], plain: 10.0 });
+            let tried = [0, 1, 2].map(|i| Tried {
+                name: names[i],
+                tests: tests[i],
+                plain: 10.0,
+                unshortened: 30.0,
+            });
             check.judge(&tried).clues.first().map(|clue| clue.cause.clone())
         };
         assert_eq!(told([10.0, 12.0, 9.0]), None);

@@ -31,6 +31,10 @@ causes! {
         "the sensor is half as large as it should be: it spans ±tan(fov/2)/2",
         at "camera ray generation, where film coordinates become a direction",
         fix "Map film coordinates from [0, 1] to [−1, 1] before multiplying by tan(fov/2).";
+    HALF_TANGENT = "half-tangent":
+        "the sensor spans ±tan(fov)/2: half the tangent instead of the tangent of the half",
+        at "camera ray generation, where film coordinates become a direction",
+        fix "The sensor at distance 1 spans ±tan(fov/2): halve the angle, then take the tangent.";
     FOVS_SWAPPED = "fovs-swapped":
         "the horizontal and the vertical field of view are swapped",
         at "camera ray generation, where film coordinates become a direction",

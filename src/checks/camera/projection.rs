@@ -61,6 +61,10 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     mistake(&camera::SENSOR_HALF_SIZE, |camera, film| {
         through(camera, 0.5 * centred(film) * half_sensor(camera))
     }),
+    mistake(&camera::HALF_TANGENT, |camera, film| {
+        let tangents = DVec2::new(camera.horizontal_fov.tan(), camera.vertical_fov.tan());
+        through(camera, centred(film) * tangents / 2.0)
+    }),
     mistake(&camera::FOVS_SWAPPED, |camera, film| {
         through(camera, centred(film) * half_sensor(camera).yx())
     }),

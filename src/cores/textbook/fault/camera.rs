@@ -23,6 +23,9 @@ faults! { part 1;
     "sensor-half-size": "(x − ½) tan(fov/2): the sensor is half as wide as it should be",
         fails RAYS, told camera::SENSOR_HALF_SIZE,
         half_size = |field_of_view| lesson::camera::half_size(field_of_view) / 2.0;
+    "half-tangent": "(2x − 1) tan(fov)/2: half the tangent, not the tangent of the half",
+        fails RAYS, told camera::HALF_TANGENT,
+        half_size = |field_of_view| field_of_view.tan() / 2.0;
     "film-not-centred": "x and y of the film are used from 0 to 1, not from −1 to 1",
         fails RAYS, told camera::FILM_NOT_CENTRED,
         sensor_point = |camera, film, half_size| {

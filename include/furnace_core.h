@@ -301,7 +301,9 @@ typedef struct furnace_integrator {
    uint32_t threads;             /* 0: as many as you like; the answer must not depend on it */
    double   roulette_stop;       /* termination probability of Russian roulette; 0: no roulette */
    uint32_t roulette_guaranteed; /* continuations before it is played: 1 is one indirect bounce */
-   uint32_t reserved;
+   /* 1, of a core with FURNACE_DEPTH_LIMIT: what its renderer shows if last_bounce is its maximum
+    * depth; first_bounce is 0. */
+   uint32_t by_depth;
    uint64_t seed; /* the only source of randomness */
 } furnace_integrator;
 
@@ -348,8 +350,9 @@ enum { /* furnace_core.traits: what no function pointer can say */
    /* Promises. What follows is free: a core that promises nothing is told what was found, and not graded by it. */
    FURNACE_INDEPENDENT_PIXELS = 1u << 14,  /* the noise of one pixel says nothing of another's */
    FURNACE_INDEPENDENT_SAMPLES = 1u << 15, /* own directions and points are independent of each other */
-   FURNACE_PLAIN_ESTIMATORS = 1u << 16     /* uniform hemisphere, uniform points on lights, roulette as told
+   FURNACE_PLAIN_ESTIMATORS = 1u << 16,    /* uniform hemisphere, uniform points on lights, roulette as told
                                             * and no other: the variance is the one courses derive */
+   FURNACE_DEPTH_LIMIT = 1u << 17          /* by_depth is honoured */
 };
 
 enum { /* furnace_conventions; 0 is the default of every field */

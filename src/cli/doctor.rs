@@ -176,6 +176,10 @@ const ADVICE: &[(Capabilities, &str)] = &[
         Capabilities::ISOLATED_BOUNCES,
         "honour settings.first_bounce, and say FURNACE_ISOLATED_BOUNCES",
     ),
+    (
+        Capabilities::DEPTH_LIMIT,
+        "honour settings.by_depth where paths end at a maximum depth, and say FURNACE_DEPTH_LIMIT",
+    ),
     (Capabilities::ROULETTE, "honour settings.roulette_stop, and say FURNACE_ROULETTE"),
     (
         Capabilities::ADAPTIVE_SAMPLING,

@@ -102,6 +102,7 @@ bitflags! {
         const INDEPENDENT_PIXELS = 1 << 14;
         const INDEPENDENT_SAMPLES = 1 << 15;
         const PLAIN_ESTIMATORS = 1 << 16;
+        const DEPTH_LIMIT = 1 << 17;
     }
 }
 
@@ -234,7 +235,7 @@ structs! {
         threads: u32,
         roulette_stop: f64,
         roulette_guaranteed: u32,
-        reserved: u32,
+        by_depth: u32,
         seed: u64,
     }
     Adaptive = "furnace_adaptive" {

@@ -39,6 +39,8 @@ macro_rules! capabilities {
                 const REPORTED_VARIANCE = 1 << 22;
                 /// [`super::RenderSettings::stratified`] is honoured.
                 const STRATIFIED_PIXELS = 1 << 23;
+                /// [`super::IntegratorSettings::by_depth`] is honoured.
+                const DEPTH_LIMIT = 1 << 24;
                 /// Sampling calls use the caller's random numbers, so they can be replayed.
                 const CALLERS_RANDOMNESS = 1 << 32;
                 /// The same settings and seed give the same bits.

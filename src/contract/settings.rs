@@ -65,6 +65,10 @@ pub struct IntegratorSettings {
     /// Which bounces to add up: `0..=0` emission that the camera sees, `1..=1` light scattered once,
     /// `0..=m` everything up to m scatterings.
     pub bounces: RangeInclusive<u32>,
+    /// Of a core with [`super::Capabilities::DEPTH_LIMIT`] alone: what its renderer shows at the maximum depth that
+    /// `bounces` end with. They begin at 0.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub by_depth: bool,
     /// How direct light is sampled at each vertex.
     pub direct: DirectSampling,
     /// When paths end before the last bounce asked for.
@@ -80,6 +84,7 @@ impl Default for IntegratorSettings {
         Self {
             samples_per_light: 1,
             bounces: 0..=1,
+            by_depth: false,
             direct: DirectSampling::Lights,
             roulette: None,
             seed: 0,

@@ -37,8 +37,8 @@ class Core:
     # "double" or "single": how wide tolerances are.
     precision = "double"
     # What no method can say: "brute-force", "split-rules", "hemisphere-sampling",
-    # "isolated-bounces", "roulette", "adaptive-sampling", "rough-glass", "reported-variance",
-    # "stratified-pixels", "traversal-stats", "callers-randomness", "deterministic".
+    # "isolated-bounces", "depth-limit", "roulette", "adaptive-sampling", "rough-glass",
+    # "reported-variance", "stratified-pixels", "traversal-stats", "callers-randomness", "deterministic".
     # Promises, graded only where they are made: "independent-pixels", "independent-samples",
     # "plain-estimators".
     traits = frozenset()

@@ -112,6 +112,9 @@ pub(crate) fn needs(settings: &IntegratorSettings) -> Capabilities {
     if *settings.bounces.start() > 0 {
         needs |= Capabilities::ISOLATED_BOUNCES;
     }
+    if settings.by_depth {
+        needs |= Capabilities::DEPTH_LIMIT;
+    }
     if settings.roulette.is_some() {
         needs |= Capabilities::ROULETTE;
     }

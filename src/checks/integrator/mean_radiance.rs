@@ -26,6 +26,9 @@ check! {
         direct: DirectSampling,
         #[serde(default = "one")]
         samples_per_light: Between<1, 4096>,
+        /// Where the core's own maximum depth ends the paths.
+        #[serde(default)]
+        by_depth: bool,
         detects: Percent,
         at_most: Count,
         row: Several<Row>,
@@ -120,6 +123,7 @@ impl MeanRadiance {
     fn settings(&self, row: &Row) -> IntegratorSettings {
         IntegratorSettings {
             samples_per_light: self.samples_per_light.0,
+            by_depth: self.by_depth,
             roulette: row.roulette.map(Into::into),
             ..settings(row.bounces.0, row.direct.unwrap_or(self.direct))
         }

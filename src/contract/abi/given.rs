@@ -331,7 +331,7 @@ fn integrator(settings: &IntegratorSettings) -> abi::Integrator {
         threads: settings.threads,
         roulette_stop: stop,
         roulette_guaranteed: guaranteed,
-        reserved: 0,
+        by_depth: u32::from(settings.by_depth),
         seed: settings.seed,
     }
 }

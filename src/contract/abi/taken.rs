@@ -50,6 +50,7 @@ pub(crate) fn integrator(settings: &abi::Integrator) -> IntegratorSettings {
     IntegratorSettings {
         samples_per_light: settings.samples_per_light,
         bounces: settings.first_bounce..=settings.last_bounce,
+        by_depth: settings.by_depth != 0,
         direct: match settings.by_hemisphere {
             0 => DirectSampling::Lights,
             _ => DirectSampling::Hemisphere,
@@ -80,6 +81,7 @@ mod tests {
         assert_eq!(camera(&(&there).lent(1)), there);
         let settings = IntegratorSettings {
             bounces: 1..=4,
+            by_depth: true,
             direct: DirectSampling::Hemisphere,
             roulette: Some(Roulette { stop: 0.25, guaranteed: 2 }),
             seed: 7,

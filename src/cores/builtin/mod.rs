@@ -64,6 +64,7 @@ const CAPABILITIES: Capabilities = Capabilities::GENERATE_RAYS
     .union(Capabilities::SPLIT_RULES)
     .union(Capabilities::HEMISPHERE_SAMPLING)
     .union(Capabilities::ISOLATED_BOUNCES)
+    .union(Capabilities::DEPTH_LIMIT)
     .union(Capabilities::ROULETTE)
     .union(Capabilities::ROUGH_GLASS)
     .union(Capabilities::REPORTED_VARIANCE)

@@ -73,6 +73,7 @@ pub(crate) fn capabilities(table: &abi::CoreTable) -> Capabilities {
         (found.contains(Capabilities::INTERSECT) && counts, Capabilities::TRAVERSAL_STATS),
         (integrates && has(Traits::HEMISPHERE_SAMPLING), Capabilities::HEMISPHERE_SAMPLING),
         (integrates && has(Traits::ISOLATED_BOUNCES), Capabilities::ISOLATED_BOUNCES),
+        (integrates && has(Traits::DEPTH_LIMIT), Capabilities::DEPTH_LIMIT),
         (integrates && has(Traits::ROULETTE), Capabilities::ROULETTE),
         (renders && has(Traits::ADAPTIVE_SAMPLING), Capabilities::ADAPTIVE_SAMPLING),
         (has(Traits::KNOWS_ROUGH_GLASS), Capabilities::ROUGH_GLASS),

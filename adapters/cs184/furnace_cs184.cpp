@@ -142,6 +142,14 @@ furnace::Bench &bench() {
 
 bool takes(uint32_t component) { return bench().has(component); }
 
+// What is put before the submission's own by the loader.
+#ifdef __ELF__
+constexpr uint32_t interposed = FURNACE_TAKES_CAMERA | FURNACE_TAKES_BOX_TEST |
+                                FURNACE_TAKES_EMISSION | FURNACE_TAKES_DIRECT_LIGHTING;
+#else
+constexpr uint32_t interposed = 0;
+#endif
+
 // The submission's own function of that name. The submission is a library of its own, which this one needs: the loader
 // looks for what the submission calls here first, and so finds the functions at the end of this file.
 template <class Function> Function *submitted(const char *symbol) {
@@ -736,12 +744,16 @@ struct Traversal : BVHAccel {
 };
 
 struct Built {
+   static constexpr size_t few_without_hierarchy = 10000;
+
    std::vector<std::unique_ptr<Material>>   materials;
    std::vector<std::unique_ptr<Primitive>>  owned;
    std::vector<std::unique_ptr<SceneLight>> lamps;
    std::vector<Primitive *>                 primitives;
    std::vector<SceneLight *>                lights;
-   std::unique_ptr<CGL::SceneObjects::Scene> scene;
+   // The skeleton's own line draws directions by the number of lights: without any, 0 are divided by 0.
+   PointLamp                                 dark{Vector3D(0, 0, 1e6), Vector3D()};
+   std::unique_ptr<CGL::SceneObjects::Scene> scene, scene_for_hemisphere;
    std::unique_ptr<BVHAccel>                own;
    BVHAccel                                *bvh;
    PathTracer                               tracer;
@@ -749,6 +761,8 @@ struct Built {
    bool                                     accelerated;
    furnace_built                           *in_bench;
    furnace_integrator                       settings{}; // the last that was asked for
+   // Of images, where the skeleton adds all bounces up.
+   bool hides_emission = false;
    // What keeps light from being asked for, if anything does; shapes can be met all the same.
    std::string unlit;
 
@@ -765,18 +779,22 @@ struct Built {
                              given.spheres[i]));
       for (uint32_t i = 0; i < given.light_count; ++i) add_light(given, given.lights[i]);
       if (primitives.empty()) add(new Nothing);
+      ask_for(written().hierarchy || takes(FURNACE_TAKES_TRAVERSAL) ||
+                  primitives.size() <= few_without_hierarchy,
+              "the BVH, without which so many shapes take too long (part 2)");
       scene.reset(new CGL::SceneObjects::Scene({}, lights));
+      scene_for_hemisphere.reset(new CGL::SceneObjects::Scene(
+          {}, lights.empty() ? std::vector<SceneLight *>{&dark} : lights));
       bvh = takes(FURNACE_TAKES_TRAVERSAL) ? traversal_of_bench()
                                            : traversal(std::max(1u, settings.max_leaf_size));
       bvh->total_rays = bvh->total_isects = 0;
       prepare(tracer);
       tracer.bvh = bvh;
-      tracer.scene = scene.get();
    }
 
    furnace_build_stats stats() {
       furnace_build_stats stats{};
-      if (own) count_nodes(own->get_root(), 1, stats);
+      if (own && written().hierarchy) count_nodes(own->get_root(), 1, stats);
       return stats;
    }
 
@@ -818,6 +836,10 @@ struct Built {
       const Ray      asked = theirs(ray);
       const AtHand   at_hand(this);
       if (takes(FURNACE_TAKES_PATH)) return light_of_bench(ray, first, last);
+      if (settings.by_depth) {
+         ask_for_paths(last);
+         return our_colour(up_to(asked, last));
+      }
       if (last == 0) return our_colour(emitted(asked));
       if (last == 1 && first == 1 && written().direct) return our_colour(direct(asked));
       ask_for_paths(last);
@@ -832,6 +854,19 @@ struct Built {
    // Of the bench, along a ray that has arrived or begins.
    furnace_rgb light_of_bench(const furnace_ray &ray, uint32_t first, uint32_t last) {
       return bench().radiance(in_bench, ray, settings, first, last, stream().engine());
+   }
+
+   // What a ray of the camera shows without emission.
+   template <class Own> Vector3D from_first_bounce(const Ray &ray, Own &&own) {
+      hides_emission = false; // some come back for each bounce
+      Intersection hit;
+      const Ray    met = ray;
+      Vector3D     light;
+      if (bvh->intersect(met, &hit))
+         light = settings.last_bounce == 1 ? tracer.one_bounce_radiance(met, hit)
+                                           : own() - tracer.zero_bounce_radiance(met, hit);
+      hides_emission = true;
+      return light;
    }
 
    // The scene that is asked about, for the submission's functions that the bench's stand in for.
@@ -857,10 +892,13 @@ struct Built {
       const uint32_t first = settings.integrator->first_bounce;
       const uint32_t last = settings.integrator->last_bounce;
       if (last > 0) ask_for_paths(last);
-      if (first > 0 && !HasAccumulate<PathTracer>::value)
-         throw furnace::Unsupported("images of single bounces: this skeleton adds them up");
-      for (uint32_t bounce = first == 0 ? last : first; bounce <= last; ++bounce) {
-         isolate(first > 0, bounce);
+      const bool by_bench = takes(FURNACE_TAKES_PATH);
+      const bool is_summed = first == 0 || by_bench || !HasAccumulate<PathTracer>::value;
+      if (is_summed && !by_bench && first > (interposed ? 1 : 0))
+         throw furnace::Unsupported("images of later bounces alone: this skeleton adds them up");
+      hides_emission = is_summed && first > 0;
+      for (uint32_t bounce = is_summed ? last : first; bounce <= last; ++bounce) {
+         isolate(!is_summed, bounce);
          tracer.max_ray_depth = std::max(1u, bounce);
          Surface::all_black() = bounce == 0;
          for (size_t y = 0; y < settings.height; ++y)
@@ -872,6 +910,7 @@ struct Built {
          add_pixels(settings, pixels, sample_counts);
       }
       isolate(false, last);
+      hides_emission = false;
       tracer.camera = nullptr;
       counts.normals_show_light = false;
    }
@@ -1003,6 +1042,7 @@ struct Built {
 
    void configure(const furnace_integrator &asked) {
       settings = asked;
+      hides_emission = false;
       if (!unlit.empty()) throw furnace::Unsupported(unlit);
       const auto is_delta = [](const SceneLight *light) { return light->is_delta_light(); };
       if (settings.by_hemisphere && std::any_of(lights.begin(), lights.end(), is_delta))
@@ -1012,6 +1052,7 @@ struct Built {
                                 : ask_for(written().by_light, "light sampling (part 3)");
       tracer.ns_area_light = settings.samples_per_light;
       tracer.direct_hemisphere_sample = settings.by_hemisphere;
+      tracer.scene = (settings.by_hemisphere ? scene_for_hemisphere : scene).get();
    }
 
    // Only the light of the last bounce, where the skeleton can; camera rays are then blind to light.
@@ -1027,7 +1068,8 @@ struct Built {
    }
 
    // Bounce 0 alone. Few submissions are right at a depth of 0, and the course does not insist.
-   Vector3D emitted(const Ray &ray) {
+   // The ray is a copy: a hit ends it.
+   Vector3D emitted(Ray ray) {
       ask_for(written().emission, "zero_bounce_radiance (part 3)");
       Intersection hit;
       return bvh->intersect(ray, &hit) ? tracer.zero_bounce_radiance(ray, hit) : Vector3D();
@@ -1084,14 +1126,6 @@ struct Built {
 };
 
 // ---- the core -----------------------------------------------------------------------------------
-
-// What is put before the submission's own by the loader.
-#ifdef __ELF__
-constexpr uint32_t interposed = FURNACE_TAKES_CAMERA | FURNACE_TAKES_BOX_TEST |
-                                FURNACE_TAKES_EMISSION | FURNACE_TAKES_DIRECT_LIGHTING;
-#else
-constexpr uint32_t interposed = 0;
-#endif
 
 struct Course {
    static constexpr uint32_t components =
@@ -1408,7 +1442,7 @@ std::string version_of(const Written &is) {
 
 uint32_t traits_of(const Written &is) {
    // The course prescribes its estimators: uniform directions, the skeleton's points on lights.
-   uint32_t traits = FURNACE_ISOLATED_BOUNCES | FURNACE_INDEPENDENT_PIXELS |
+   uint32_t traits = FURNACE_ISOLATED_BOUNCES | FURNACE_DEPTH_LIMIT | FURNACE_INDEPENDENT_PIXELS |
                      FURNACE_INDEPENDENT_SAMPLES | FURNACE_PLAIN_ESTIMATORS;
    if (is.hierarchy) traits |= FURNACE_BRUTE_FORCE | FURNACE_COUNTS_TRAVERSAL;
    if (is.by_hemisphere) traits |= FURNACE_HEMISPHERE_SAMPLING;
@@ -1501,6 +1535,8 @@ Vector3D PathTracer::est_radiance_global_illumination(const Ray &ray) {
    typedef Vector3D Along(PathTracer *, const Ray &);
    SUBMITTED(Along, "_ZN3CGL10PathTracer32est_radiance_global_illuminationERKNS_3RayE");
    Built *built = Built::at_hand();
+   if (built && built->hides_emission && !takes(FURNACE_TAKES_PATH))
+      return built->from_first_bounce(ray, [&] { return own(this, ray); });
    if (!takes(FURNACE_TAKES_PATH) || !built || Surface::all_black()) return own(this, ray);
    const furnace_integrator &asked = built->settings;
    return theirs(built->light_of_bench(ours(ray), asked.first_bounce, asked.last_bounce));

@@ -94,6 +94,10 @@ impl Foundation {
 /// What `case` itself asks about: with these of the bench's, it would judge the bench.
 pub(crate) fn asked_about(case: &Case) -> Components {
     match Subject::of_case(&case.id) {
+        // What becomes of the samples of a pixel can be told through any camera.
+        Some(Subject::Camera) if case.prepared.needs().contains(Capabilities::RENDER) => {
+            Components::PIXEL
+        }
         Some(Subject::Camera) => Components::CAMERA,
         Some(Subject::Shape) => Components::TRIANGLE_TEST | Components::SPHERE_TEST,
         Some(Subject::Bvh) => Components::TRAVERSAL,

@@ -1,7 +1,6 @@
 //! What is shown while a run goes on, on standard error: a live display on a terminal, a line a trial elsewhere,
 //! nothing if the user wants quiet. Results go to standard output, and not from here.
 
-use crate::contract::Components;
 use crate::report::digest::Tally;
 use crate::report::text::{Paint, Style, clean, paint_of};
 use crate::run::{Event, RunRecord, Status, TrialRecord};
@@ -74,18 +73,15 @@ impl Progress {
                 }
             }
             Event::Ended { trial } => self.ended(trial),
-            Event::Transplanting { core, with } => self.transplanting(core, with),
+            Event::Transplanting { core } => self.transplanting(core),
         }
     }
 
-    /// The bars are gone by then: a line each tells that it goes on.
-    fn transplanting(&mut self, core: &str, with: Components) {
+    /// The bars are gone by then: a line tells that it goes on.
+    fn transplanting(&mut self, core: &str) {
         if let Some(out) = &mut self.after {
-            let what = match with.iter().count() {
-                1 | 2 => with.in_words(),
-                many => format!("{many} components together"),
-            };
-            print(out, &format!("failures of {} with the bench's {what}", clean(core)));
+            let failures = format!("failures of {} are tried again", clean(core));
+            print(out, &format!("{failures}, with the bench's components in place of its own"));
         }
     }
 
@@ -142,7 +138,7 @@ impl Live {
         let screen = MultiProgress::with_draw_target(target);
         let whole = screen.add(ProgressBar::new(0));
         whole.set_style(template(WHOLE));
-        let style = Style { colour, verbose: false };
+        let style = Style { colour, ..Style::PLAIN };
         Self { screen, whole, running: BTreeMap::new(), style }
     }
 

@@ -1,7 +1,6 @@
 //! What a progress display hears while a run goes on.
 
 use super::record::{RunRecord, TrialRecord};
-use crate::contract::Components;
 use std::path::Path;
 
 /// Something happened in a run. Events come from one thread at a time.
@@ -23,12 +22,10 @@ pub enum Event<'a> {
         /// Folder and claim.
         case: &'a str,
     },
-    /// Failing cases are tried again with components of the bench.
+    /// Failing cases are tried again, with components of the bench in place of the core's own.
     Transplanting {
         /// The core's specification.
         core: &'a str,
-        /// In place of its own.
-        with: Components,
     },
     /// A trial ended, and its sidecar is on disk.
     Ended {

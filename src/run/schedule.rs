@@ -131,10 +131,16 @@ impl<'a> Schedule<'a> {
     }
 }
 
-/// What others are blocked by if this trial ended so.
+/// What others are blocked by if this trial ended so. A renderer that dies on its way says nothing of its random numbers,
+/// on which all rests that is judged by a mean.
 fn blocker(trial: &Trial, outcome: &Outcome) -> Option<String> {
     match outcome {
         Outcome::Blocked { by } => Some(by.clone()),
+        Outcome::Crashed { .. } | Outcome::TimedOut { .. }
+            if trial.case.proves == [Foundation::Seeds] =>
+        {
+            None
+        }
         _ => outcome.status().is_failure().then(|| trial.case.id.clone()),
     }
 }
@@ -233,6 +239,19 @@ mod tests {
         }
         let transplant = Transplant { with: Components::SPHERE_TEST, by: SPHERE.to_owned() };
         assert_eq!(transplanted, [(FURNACE.to_owned(), transplant)]);
+    }
+
+    #[test]
+    fn a_crash_on_the_way_to_the_noise_blocks_nothing() {
+        const SEEDS: &str = "integrator/seeds-and-pixels-have-different-noise";
+        let plan = plan(&[SEEDS, FURNACE]);
+        let schedule = schedule(&plan);
+        let mut tried = 0;
+        while let Some(Next::Try(number)) = schedule.next() {
+            schedule.ended(number, &outcome(plan.trials[number].case.id == SEEDS));
+            tried += 1;
+        }
+        assert_eq!(tried, 2);
     }
 
     #[test]

@@ -12,7 +12,7 @@ use super::event::Event;
 use super::outcome::Status;
 use super::plan::{Plan, Trial};
 use super::record::{CoreRecord, Transplanted, Transplants, TrialRecord};
-use crate::contract::Components;
+use crate::contract::{Capabilities, Components};
 use crate::stats::{Allowance, Budget};
 use std::cmp::Reverse;
 use std::ops::Range;
@@ -52,11 +52,9 @@ pub(crate) fn search(
         })
     };
     let mut tried = |with: Components, cases: &[usize]| {
-        if !cases.is_empty() {
-            events(Event::Transplanting { core: &core.spec, with });
-        }
         in_parallel(plan.jobs(), cases, &|number| passes(number, with))
     };
+    events(Event::Transplanting { core: &core.spec });
     let found = smallest(core.components, failing.len(), &mut tried);
     let judged =
         |one: Components| ended.iter().filter(|(_, record)| record.with.contains(one)).count();
@@ -66,11 +64,17 @@ pub(crate) fn search(
         together,
         judged: judged(component),
     };
+    // Where the bench traverses, the core counts nothing.
+    let can_be_mended = |number: &&usize| {
+        let (trial, _) = failing[**number];
+        !trial.case.prepared.needs().contains(Capabilities::TRAVERSAL_STATS)
+    };
+    let unmended = found.unmended.iter().filter(can_be_mended);
     Some(Transplants {
         failures: failing.len(),
         components: found.set.into_iter().map(of).collect(),
         mended: found.mended,
-        unmended: found.unmended.iter().map(|number| failing[*number].1.case.clone()).collect(),
+        unmended: unmended.map(|number| failing[*number].1.case.clone()).collect(),
         untried: failing.len() - found.mended - found.unmended.len(),
     })
 }

@@ -44,7 +44,7 @@ fn newest(runs: &Path) -> Result<PathBuf, Failure> {
 /// How the summary is dressed on this terminal.
 pub(crate) fn style(verbose: bool) -> Style {
     let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    Style { colour, verbose }
+    Style { colour, verbose, ..Style::PLAIN }
 }
 
 /// What a browser opens.

@@ -48,6 +48,21 @@ impl Tally {
         if words.is_empty() { "none".to_owned() } else { words.join(", ") }
     }
 
+    /// Without those that the core cannot be asked.
+    pub(crate) fn asked(&self) -> usize {
+        self.total() - self.count(Status::Skipped)
+    }
+
+    /// `117 pass, 1 fail; 2 could not be asked`
+    pub(crate) fn words_of_asked(&self) -> String {
+        let is_asked = |(status, _): &(&Status, &usize)| **status != Status::Skipped;
+        let asked = Self(self.0.iter().filter(is_asked).map(|(s, n)| (*s, *n)).collect()).words();
+        match self.count(Status::Skipped) {
+            0 => asked,
+            skipped => format!("{asked}; {skipped} could not be asked"),
+        }
+    }
+
     /// The result of a run in a few words, for titles.
     pub(crate) fn headline(&self) -> String {
         let (total, failures, passes) = (self.total(), self.failures(), self.count(Status::Pass));

@@ -1,7 +1,7 @@
 //! What did not pass, one block each: first what counts against a core, then what is not known.
 
 use super::headlines;
-use super::layout::{INDENT, command, head, indented, labelled};
+use super::layout::{INDENT, command, head, indented, labelled, on};
 use super::style::{Paint, Style, clean, cut, paint_of, wrap};
 use crate::case::Part;
 use crate::checks::{Finding, Measure};
@@ -13,16 +13,18 @@ use crate::report::tree::{AbsentCore, RunTree};
 use crate::run::record::CoreRecord;
 use crate::run::{Outcome, Status, TrialRecord};
 use crate::stats::Verdict;
+use crate::text::number::count;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// Failures that are told in full. A core that fails everything is not helped by pages of numbers.
 const FULL_BLOCKS: usize = 5;
-/// Failures of a cause that is told already which are told in a sentence each.
-const BRIEF_BLOCKS: usize = 6;
+/// Cases named of those that have one reason.
+const NAMES: usize = 8;
 /// Measures shown of a failure, the worst first.
 const MEASURES: usize = 4;
-/// Cases that were skipped for one reason which are named.
-const NAMES: usize = 3;
+/// Reasons told why something cannot be asked, those of the most cases.
+const REASONS: usize = 3;
 /// Lines shown of what a core printed before it crashed.
 const LAST_WORDS: usize = 3;
 
@@ -32,9 +34,7 @@ pub(crate) fn all(tree: &RunTree, style: Style) -> Vec<String> {
     lines.extend(tree.run.cores.iter().flat_map(|core| transplants(core, style)));
     let (explained, alone): (Vec<_>, Vec<_>) =
         failures(tree).into_iter().partition(|trial| is_explained(&diagnoses, trial));
-    let (shown, others) = explained.split_at(explained.len().min(BRIEF_BLOCKS));
-    lines.extend(shown.iter().flat_map(|trial| brief_block(trial, style)));
-    lines.extend(of_the_same_causes(others, style));
+    lines.extend(of_these_causes(&explained, style));
     let (full, brief) = alone.split_at(alone.len().min(FULL_BLOCKS));
     lines.extend(full.iter().flat_map(|trial| full_block(trial, style)));
     lines.extend(brief.iter().flat_map(|trial| brief_block(trial, style)));
@@ -43,8 +43,8 @@ pub(crate) fn all(tree: &RunTree, style: Style) -> Vec<String> {
         let trials = in_order_of_parts(tree, status);
         lines.extend(trials.into_iter().flat_map(|trial| undecided_block(trial, style)));
     }
-    lines.extend(grouped(tree, Status::Blocked, style));
-    lines.extend(grouped(tree, Status::Skipped, style));
+    lines.extend(blocked(tree, style));
+    lines.extend(not_asked(tree, style));
     lines
 }
 
@@ -55,7 +55,7 @@ fn transplants(core: &CoreRecord, style: Style) -> Vec<String> {
         return Vec::new();
     }
     let word = style.paint(Paint::Strong, "PROOF");
-    let head = format!("  {word}  failures of {}, tried again", clean(&core.spec));
+    let head = format!("  {word}  failures{}, tried again", on(&core.spec, style));
     let told = sentences.iter().flat_map(|sentence| indented(&clean(sentence)));
     [String::new(), head].into_iter().chain(told).collect()
 }
@@ -92,22 +92,31 @@ fn full_block(trial: &TrialRecord, style: Style) -> Vec<String> {
 }
 
 /// Failures of causes that are told already, by their names.
-fn of_the_same_causes(trials: &[&TrialRecord], style: Style) -> Vec<String> {
+fn of_these_causes(trials: &[&TrialRecord], style: Style) -> Vec<String> {
     let mut of_cores: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for trial in trials {
         of_cores.entry(&trial.core).or_default().push(&trial.case);
     }
     let paragraph = |(core, cases): (&str, Vec<&str>)| {
-        let what = format!("{} more of these causes on {}", cases.len(), clean(core));
-        let names = indented(&clean(&cases.join(", ")));
-        head(style, Paint::Bad, "FAIL", &what).into_iter().chain(names).collect::<Vec<_>>()
+        let what = format!("{} of these causes{}", count(cases.len(), "failure"), on(core, style));
+        let head = head(style, Paint::Bad, "FAIL", &what);
+        head.into_iter().chain(names(&cases)).collect::<Vec<_>>()
     };
     of_cores.into_iter().flat_map(paragraph).collect()
 }
 
+/// The first of these cases.
+fn names(cases: &[&str]) -> Vec<String> {
+    let mut names: Vec<_> = cases.iter().take(NAMES).map(|case| clean(case)).collect();
+    if cases.len() > NAMES {
+        names.push("…".to_owned());
+    }
+    indented(&names.join(", "))
+}
+
 /// Verdict and size: `grep FAIL -A1` finds both.
 fn brief_block(trial: &TrialRecord, style: Style) -> Vec<String> {
-    let what = format!("{} on {}", clean(&trial.case), clean(&trial.core));
+    let what = clean(&trial.case) + &on(&trial.core, style);
     let mut lines = head_of(trial.outcome.status(), &what, style);
     lines.extend(indented(&trial.outcome.statement()));
     lines
@@ -118,8 +127,8 @@ fn head_of(status: Status, what: &str, style: Style) -> Vec<String> {
 }
 
 fn note(trial: &TrialRecord, style: Style) -> Vec<String> {
-    let (case, core) = (clean(&trial.case), clean(&trial.core));
-    let what = format!("{case} on {core} ({}, not graded)", trial.tier.word());
+    let (case, on) = (clean(&trial.case), on(&trial.core, style));
+    let what = format!("{case}{on} ({}, not graded)", trial.tier.word());
     let mut lines = head(style, Paint::Unknown, "NOTE", &what);
     lines.extend(indented(&trial.outcome.statement()));
     lines
@@ -204,24 +213,47 @@ fn aligned(mark: &str, row: &[String; 5], widths: &[usize; 5]) -> String {
     line.trim_end().to_owned()
 }
 
-/// Trials without a result for one and the same reason, in one paragraph.
-fn grouped(tree: &RunTree, status: Status, style: Style) -> Vec<String> {
+/// Trials that rest on the same failure, in one paragraph.
+fn blocked(tree: &RunTree, style: Style) -> Vec<String> {
+    let paragraph = |((core, reason), cases): ((&str, String), Vec<&str>)| {
+        let what = format!("{}{}: {reason}", cases.len(), on(core, style));
+        let mut what = wrap(&what, Status::Blocked.word().len() + 4).into_iter();
+        let mut lines = head_of(Status::Blocked, &what.next().unwrap_or_default(), style);
+        lines.extend(what.map(|line| format!("{:INDENT$}{line}", "")));
+        lines.extend(names(&cases));
+        lines
+    };
+    by_reason(tree, Status::Blocked).into_iter().flat_map(paragraph).collect()
+}
+
+/// What a core cannot be asked, in one paragraph: it says nothing about the core.
+fn not_asked(tree: &RunTree, style: Style) -> Vec<String> {
+    let mut of_cores: BTreeMap<&str, Vec<(usize, String)>> = BTreeMap::new();
+    for ((core, reason), cases) in by_reason(tree, Status::Skipped) {
+        of_cores.entry(core).or_default().push((cases.len(), reason));
+    }
+    let paragraph = |(core, mut reasons): (&str, Vec<(usize, String)>)| {
+        reasons.sort_by_key(|(cases, _)| Reverse(*cases));
+        let all: usize = reasons.iter().map(|(cases, _)| cases).sum();
+        let (told, others) = reasons.split_at(reasons.len().min(REASONS));
+        let mut lines = head_of(Status::Skipped, &format!("{all}{}", on(core, style)), style);
+        lines.extend(told.iter().flat_map(|(cases, why)| indented(&format!("{cases}: {why}"))));
+        if !others.is_empty() {
+            let rest: usize = others.iter().map(|(cases, _)| cases).sum();
+            lines.extend(indented(&format!("{rest}: for {}", count(others.len(), "other reason"))));
+        }
+        lines
+    };
+    of_cores.into_iter().flat_map(paragraph).collect()
+}
+
+/// Trials without a result, by core and reason.
+fn by_reason(tree: &RunTree, status: Status) -> BTreeMap<(&str, String), Vec<&str>> {
     let mut reasons: BTreeMap<(&str, String), Vec<&str>> = BTreeMap::new();
     for trial in in_order_of_parts(tree, status) {
         reasons.entry((&trial.core, reason(&trial.outcome))).or_default().push(&trial.case);
     }
-    let most = if status == Status::Skipped { NAMES } else { usize::MAX };
-    let paragraph = |((core, reason), cases): ((&str, String), Vec<&str>)| {
-        let what = format!("{} on {}: {reason}", cases.len(), clean(core));
-        let mut what = wrap(&what, status.word().len() + 4).into_iter();
-        let mut lines = head_of(status, &what.next().unwrap_or_default(), style);
-        lines.extend(what.map(|line| format!("{:INDENT$}{line}", "")));
-        if cases.len() <= most {
-            lines.extend(indented(&cases.join(", ")));
-        }
-        lines
-    };
-    reasons.into_iter().flat_map(paragraph).collect()
+    reasons
 }
 
 fn reason(outcome: &Outcome) -> String {

@@ -1,14 +1,14 @@
 //! Causes before symptoms: what is wrong in one sentence, what speaks for it, what was ruled out, where to look, and
 //! one command.
 
-use super::layout::{command, head, indented, labelled};
+use super::layout::{command, head, indented, labelled, on};
 use super::style::{Paint, Style, clean};
 use crate::diagnosis::{Degree, Diagnosis, Headline};
 use crate::report::digest::capitalised;
 use crate::text::number;
 
 /// Causes told; a core that is wrong everywhere is not helped by a page of them.
-const MOST: usize = 3;
+const MOST: usize = 6;
 /// Cases named of those that a cause explains.
 const CASES: usize = 4;
 
@@ -29,16 +29,15 @@ fn further(core: &str, headlines: usize, style: Style) -> Vec<String> {
     if headlines <= MOST {
         return Vec::new();
     }
-    let what = format!(
-        "{MOST} of {headlines} headlines on {}; all are in the report: cargo furnace report",
-        clean(core)
-    );
+    let on = on(core, style);
+    let what =
+        format!("{MOST} of {headlines} headlines{on}; all are in the report: cargo furnace report");
     head(style, Paint::Bad, "FAIL", &what)
 }
 
 /// `grep FAIL -A2` finds verdict and cause.
 fn block(core: &str, headline: &Headline, style: Style) -> Vec<String> {
-    let what = format!("{} on {}: {}", count(headline), clean(core), cases(headline));
+    let what = format!("{}{}: {}", count(headline), on(core, style), cases(headline));
     let mut lines = match headline.tier.is_graded() {
         true => head(style, Paint::Bad, "FAIL", &what),
         false => {

@@ -10,6 +10,11 @@ pub(crate) fn head(style: Style, paint: Paint, word: &str, what: &str) -> Vec<St
     vec![String::new(), format!("  {}  {what}", style.paint(paint, word))]
 }
 
+/// ` on builtin`, where there are several cores.
+pub(crate) fn on(core: &str, style: Style) -> String {
+    if style.names_cores { format!(" on {}", clean(core)) } else { String::new() }
+}
+
 /// The last line of a block.
 pub(crate) fn command(command: &str) -> String {
     format!("{:INDENT$}try     {}", "", clean(command))

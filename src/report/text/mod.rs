@@ -29,6 +29,7 @@ const LONGEST_BAR: usize = 30;
 /// What a run has shown, for people at a terminal. Where to read on is the caller's to say: only it
 /// knows whether a page was written.
 pub fn summary(tree: &RunTree, style: Style) -> String {
+    let style = Style { names_cores: tree.run.cores.len() > 1, ..style };
     let mut lines = vec![String::new(), header(tree, style)];
     let present = &tree.of_present_cores();
     for core in &present.run.cores {
@@ -145,12 +146,12 @@ fn totals(tree: &RunTree, style: Style) -> Vec<String> {
     let tally = Tally::of(tree.graded());
     let paint = match () {
         () if tally.failures() > 0 => Paint::Bad,
-        () if tally.count(Status::Pass) == tally.total() && tree.is_finished() => Paint::Good,
+        () if tally.count(Status::Pass) == tally.asked() && tree.is_finished() => Paint::Good,
         () => Paint::Unknown,
     };
     let took = tree.run.timing.seconds.map(|seconds| format!(" in {}", duration(seconds)));
-    let trials = count(tally.total(), "trial");
-    let text = format!("{trials}{}: {}", took.unwrap_or_default(), tally.words());
+    let trials = count(tally.asked(), "trial");
+    let text = format!("{trials}{}: {}", took.unwrap_or_default(), tally.words_of_asked());
     let painted = |line: String| format!("  {}", style.paint(paint, &line));
     let mut lines: Vec<_> = wrap(&text, 2).into_iter().map(painted).collect();
     lines.extend(unfinished(tree, style));

@@ -12,6 +12,8 @@ pub struct Style {
     pub(crate) colour: bool,
     /// Whether to list what every case would have caught.
     pub(crate) verbose: bool,
+    /// Whether to say of which core something is: there are several.
+    pub(crate) names_cores: bool,
 }
 
 /// What a piece of text is, as far as colour goes.
@@ -28,7 +30,7 @@ pub(crate) enum Paint {
 
 impl Style {
     /// Plain text: files, pipes, tests.
-    pub const PLAIN: Self = Self { colour: false, verbose: false };
+    pub const PLAIN: Self = Self { colour: false, verbose: false, names_cores: false };
 
     pub(crate) fn paint(self, paint: Paint, text: &str) -> String {
         if !self.colour || text.is_empty() {

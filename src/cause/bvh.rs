@@ -129,6 +129,6 @@ causes! {
         fix "If one side of a split is empty, divide the list in the middle, or make a leaf.";
     ANY_HIT_CRASHES = "any-hit-crashes":
         "the any-hit function of shadow rays crashes, the nearest-hit function does not",
-        at "the any-hit traversal of shadow rays",
-        fix "Visit children as the nearest-hit function does: leaves have none, and hit records may be null.";
+        at "the any-hit functions of shadow rays, that of the BVH and those of the shapes",
+        fix "A leaf without a hit returns: it has no children. A shape's hit record has to be there before it is written.";
 }

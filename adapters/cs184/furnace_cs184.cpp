@@ -375,11 +375,12 @@ CGL::SceneObjects::Triangle triangle_of(const furnace_vec3 *positions, const fur
    return made;
 }
 
+// Any, where the triangle has no area: what is to be told is the hit.
 furnace_vec3 normal_of(const furnace_vec3 *positions) {
    const furnace_vec3 normal =
        furnace::cross(positions[1] - positions[0], positions[2] - positions[0]);
    const double length = furnace::length(normal);
-   return length > 0 ? normal / length : normal;
+   return length > 0 ? normal / length : furnace_vec3{0, 0, 1};
 }
 
 struct TriangleFacet : Facet {

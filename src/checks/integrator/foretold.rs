@@ -59,7 +59,7 @@ fn is_foretold(measure: &Measure, foretold: f64) -> bool {
     const NAME: &str = "as foretold";
     let expected = measure.expected;
     if expected == 0.0 {
-        return (measure.measured > 0.0) == (foretold > 0.0);
+        return measure.failed() == (foretold > 0.0);
     }
     let slack = Band::RADIANCE.relative() * foretold;
     let [low, high] = measure.interval.unwrap_or([measure.measured; 2]);

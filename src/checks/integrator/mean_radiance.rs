@@ -85,10 +85,10 @@ impl Check for MeanRadiance {
         let scene = context.scene()?;
         let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let info = context.info.clone();
+        let (info, brightest) = (context.info.clone(), brightest(&scene));
         let mut rows = Vec::new();
         for (number, row) in self.row.iter().enumerate() {
-            let question = self.question(row, seed.child(number), &info);
+            let question = Question { brightest, ..self.question(row, seed.child(number), &info) };
             let measures = match question.judge(built.as_mut(), &effort) {
                 Err(CheckError::Core(error)) if divides_by_no_lights(&scene, &error) => {
                     let finding = Finding::failure(error.to_string());
@@ -139,8 +139,15 @@ impl MeanRadiance {
             expected: row.expected(&info.conventions),
             exact: row.exact.then_some(Tolerance::RADIANCE.of(info.precision)),
             seed,
+            brightest: 0.0,
         }
     }
+}
+
+/// The largest radiance that a surface emits.
+fn brightest(scene: &SceneDescription) -> f64 {
+    let emissions = scene.materials.iter().filter_map(|material| material.emission.as_ref());
+    emissions.flat_map(|emission| emission.radiance).fold(0.0, f64::max)
 }
 
 impl Row {

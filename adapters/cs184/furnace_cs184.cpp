@@ -121,6 +121,7 @@ struct Written {
    bool f = true, sample_f = true;
    bool emission = true, direct = true, by_light = true, by_hemisphere = true; // part 3
    bool indirect = true, adaptive = true;                                      // parts 4 and 5
+   bool in_float = false; // not in doubles, as the skeleton declares them
 };
 
 Written &written() {
@@ -1374,8 +1375,39 @@ bool never_stops() {
           adaptive_mean_of(settings, calm.data(), 512).used == 512;
 }
 
+// Whether a distance that is about right has no more digits than a float has.
+bool has_digits_of_a_float(const Primitive &primitive, const Vector3D &on_it) {
+   const Vector3D from(3.1, -2.3, 4.7), way = on_it - from;
+   Ray            ray(from, way.unit());
+   ray.min_t = 0, ray.max_t = 1e9, ray.depth = 0;
+   Intersection hit;
+   if (!primitive.intersect(ray, &hit)) return false;
+   const double error = std::fabs(hit.t / way.norm() - 1);
+   return 1e-11 < error && error < 1e-5;
+}
+
+bool computes_in_float() {
+   const furnace_vec3 corners[] = {{-0.7, -0.9, 0.1}, {1.1, -0.3, 0.2}, {-0.2, 1.3, 0.4}}, up{0, 0, 1};
+   const furnace_vec3 normals[] = {up, up, up};
+   const auto         triangle = triangle_of(corners, normals, nullptr);
+   const Vector3D     centre(0.3, 0.1, -0.2);
+   CGL::SceneObjects::SphereObject object(centre, 0.7, nullptr);
+   const CGL::SceneObjects::Sphere sphere(&object, centre, 0.7);
+   const Vector3D                  ahead = Vector3D(3.1, -2.3, 4.7) - centre;
+   for (double weight : {0.13, 0.29, 0.41}) {
+      const furnace_vec3 on_triangle =
+          weight * corners[0] + 0.37 * corners[1] + (0.63 - weight) * corners[2];
+      const Vector3D on_sphere = centre + 0.7 * (ahead + Vector3D(weight)).unit();
+      if (has_digits_of_a_float(triangle, theirs(on_triangle)) ||
+          has_digits_of_a_float(sphere, on_sphere))
+         return true;
+   }
+   return false;
+}
+
 void find_written(Written &is) {
    const auto corner = [](double x, double y) { return theirs(any_camera()).generate_ray(x, y).d; };
+   is.in_float = is_skeleton(computes_in_float);
    is.camera = !is_skeleton([&] { return (corner(0.1, 0.2) - corner(0.9, 0.7)).norm2() == 0; });
    is.triangle = !is_skeleton([] {
       const furnace_vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, up{0, 0, 1};
@@ -1445,6 +1477,7 @@ uint32_t traits_of(const Written &is) {
    // The course prescribes its estimators: uniform directions, the skeleton's points on lights.
    uint32_t traits = FURNACE_ISOLATED_BOUNCES | FURNACE_DEPTH_LIMIT | FURNACE_INDEPENDENT_PIXELS |
                      FURNACE_INDEPENDENT_SAMPLES | FURNACE_PLAIN_ESTIMATORS;
+   if (is.in_float) traits |= FURNACE_SINGLE_PRECISION;
    if (is.hierarchy) traits |= FURNACE_BRUTE_FORCE | FURNACE_COUNTS_TRAVERSAL;
    if (is.by_hemisphere) traits |= FURNACE_HEMISPHERE_SAMPLING;
    if (is.adaptive) traits |= FURNACE_ADAPTIVE_SAMPLING;

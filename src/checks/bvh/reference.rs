@@ -50,19 +50,28 @@ pub(crate) struct Walked {
 
 impl ReferenceBvh {
     pub(crate) fn new(mesh: &Mesh) -> Self {
+        Self::divided(mesh, true)
+    }
+
+    /// Whose nodes hold the triangles as the mesh lists them: nothing is moved to its side of a split.
+    pub(crate) fn unsorted(mesh: &Mesh) -> Self {
+        Self::divided(mesh, false)
+    }
+
+    fn divided(mesh: &Mesh, sorts: bool) -> Self {
         let numbers = 0..u32::try_from(mesh.indices.len()).unwrap_or(u32::MAX);
         let mut bvh = Self {
             nodes: Vec::new(),
             triangles: numbers.map(|number| (number, mesh.corners(number as usize))).collect(),
         };
         if !bvh.triangles.is_empty() {
-            bvh.build(0, bvh.triangles.len());
+            bvh.build(0, bvh.triangles.len(), sorts);
         }
         bvh
     }
 
     /// Appends the node over the triangles from `first` to `end`, and all below it.
-    fn build(&mut self, first: usize, end: usize) {
+    fn build(&mut self, first: usize, end: usize, sorts: bool) {
         let corners = self.triangles[first..end].iter().flat_map(|(_, corners)| *corners);
         let bounds = Aabb::around(corners).unwrap_or(Aabb { min: DVec3::ZERO, max: DVec3::ZERO });
         let node = self.nodes.len();
@@ -73,12 +82,14 @@ impl ReferenceBvh {
         let axis = longest_axis(bounds);
         let middle = first + (end - first) / 2;
         let centre = |corners: &[DVec3; 3]| corners.iter().map(|corner| corner[axis]).sum::<f64>();
-        self.triangles[first..end].select_nth_unstable_by((end - first) / 2, |a, b| {
-            centre(&a.1).total_cmp(&centre(&b.1))
-        });
-        self.build(first, middle);
+        if sorts {
+            self.triangles[first..end].select_nth_unstable_by((end - first) / 2, |a, b| {
+                centre(&a.1).total_cmp(&centre(&b.1))
+            });
+        }
+        self.build(first, middle, sorts);
         self.nodes[node] = Node { bounds, first, end: first, right: self.nodes.len() };
-        self.build(middle, end);
+        self.build(middle, end, sorts);
     }
 
     pub(crate) fn walk(&self, ray: &Ray, walk: Walk) -> Walked {

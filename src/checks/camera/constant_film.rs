@@ -132,6 +132,11 @@ mod tests {
     }
 
     #[test]
+    fn films_that_are_black_throughout_are_not_explained() {
+        assert!(causes(&developed(|_, _| [0.0; 3])).is_empty());
+    }
+
+    #[test]
     fn the_worst_film_is_told_with_a_pixel() {
         let finding = developed(MISTAKES[0].develop);
         let statement = failure(&finding);

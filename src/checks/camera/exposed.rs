@@ -76,8 +76,11 @@ fn causes_of_pixels(films: &[Exposed], radiance: [f64; 3]) -> Vec<(&'static Caus
         })
     };
     let plain = MISTAKES.iter().filter(|mistake| predicts(&mistake.develop));
+    // Where nothing at all is seen, it is not the tiles.
+    let is_lit = films.iter().flat_map(Exposed::pixels).any(|(_, pixel)| pixel != [0.0; 3]);
     let tile = TILES
         .iter()
+        .filter(|_| is_lit)
         .find(|tile| predicts(&|radiance, place| whole_tiles_only(radiance, place, **tile)));
     let tile =
         tile.map(|tile| (&image::PARTIAL_TILES_LEFT_OUT, format!("a tile of {tile} × {tile} ")));

@@ -59,7 +59,8 @@ impl Check for ErrorFallsAsRootN {
             .collect::<Result<Vec<_>, _>>()?;
         // The band of a slope is the same in every budget: a strict one cannot ask for less than it.
         let detects = self.detects.0 * context.budget.coarseness().max(1.0);
-        Ok(finding(&judge_slope(&levels, Sampling::Stratified, detects)))
+        let (levels, variances): (Vec<_>, Vec<_>) = levels.into_iter().unzip();
+        Ok(finding(&judge_slope(&levels, Sampling::Stratified, detects), &variances))
     }
 }
 
@@ -78,14 +79,14 @@ impl ErrorFallsAsRootN {
         affordable.map(|(_, (samples, rows))| (samples, rows.max(1))).collect()
     }
 
-    /// The errors at one sample count.
+    /// The errors at one sample count, and the variance between its pictures.
     fn level(
         &self,
         scene: &mut dyn BuiltScene,
         camera: &Camera,
         (samples, rows): (u32, u32),
         seed: Seed,
-    ) -> Result<ErrorLevel> {
+    ) -> Result<(ErrorLevel, f64)> {
         let size = [self.size.0[0], rows];
         let rendering = Rendering::through(*camera, size, self.bounces.0, samples).by(self.direct);
         let luminances = |run: u32| {
@@ -94,11 +95,23 @@ impl ErrorFallsAsRootN {
         };
         let runs = (0..self.runs.0).map(luminances).collect::<Result<Vec<Vec<_>>>>()?;
         let truth = vec![luminance(self.radiance.0.map(|value| value as f32)); runs[0].len()];
-        Ok(ErrorLevel::from_runs(u64::from(samples), &runs, &truth))
+        Ok((ErrorLevel::from_runs(u64::from(samples), &runs, &truth), variance_between(&runs)))
     }
 }
 
-fn finding(report: &SlopeReport) -> Finding {
+/// The mean over pixels of the variance between runs.
+fn variance_between(runs: &[Vec<f64>]) -> f64 {
+    let over_runs =
+        |of: &dyn Fn(&Vec<f64>) -> f64| runs.iter().map(of).sum::<f64>() / runs.len() as f64;
+    let variance = |pixel: usize| {
+        let mean = over_runs(&|run| run[pixel]);
+        over_runs(&|run| (run[pixel] - mean).powi(2))
+    };
+    (0..runs[0].len()).map(variance).sum::<f64>() / runs[0].len() as f64
+}
+
+/// What the slope says, and the variance between pictures of ever more samples.
+fn finding(report: &SlopeReport, variances: &[f64]) -> Finding {
     let slope = Measure::of("slope of log error on log samples", report);
     let statement = match report.verdict {
         Verdict::Fail => format!(
@@ -118,7 +131,9 @@ fn finding(report: &SlopeReport) -> Finding {
     };
     let resolution =
         format!("would have caught a slope that is off by {}", figure(report.resolution));
-    let repeats = report.verdict == Verdict::Fail && report.slope.abs() <= NO_SLOPE;
+    // Where it is bias alone that stays, the pictures agree with each other better and better.
+    let noise_stays = matches!(variances, [first, .., last] if *last > 0.5 * first);
+    let repeats = report.verdict == Verdict::Fail && report.slope.abs() <= NO_SLOPE && noise_stays;
     let cause = repeats.then_some(&cause::integrator::SAMPLES_REPEAT);
     let evidence = format!("more samples change nothing: the slope is {}", figure(report.slope));
     Finding::of(statement, resolution, vec![slope]).because_each(cause, &evidence)
@@ -165,6 +180,19 @@ mod tests {
         let told = failure(&finding);
         assert!(told.contains("a bias of 0.1") || told.contains("a bias of 0.099"), "{told}");
         assert!(finding.clues.is_empty());
+    }
+
+    #[test]
+    fn a_bias_that_nothing_averages_out_is_no_repetition() {
+        let bright = |noise: f64| {
+            let mut core = FakeFilm::default();
+            core.radiance = Box::new(move |at, _| [9.0 + noise * at.x.fract(); 3]);
+            core.judged_by(&check_of::<ErrorFallsAsRootN>(CASE))
+        };
+        for finding in [bright(0.0), bright(0.1)] {
+            failure(&finding);
+            assert!(finding.clues.is_empty(), "{finding:?}");
+        }
     }
 
     #[test]

@@ -89,6 +89,11 @@ mod tests {
     }
 
     #[test]
+    fn samples_that_are_all_alike_lie_on_no_curve() {
+        assert_eq!(cause(|_, _, _| DVec2::splat(0.3)), "");
+    }
+
+    #[test]
     fn a_number_that_moves_nothing_is_told() {
         let finding = found(|points, number, _| points[number].with_y(0.3));
         assert!(failure(&finding).ends_with("the second number moves 0 % of the samples"));

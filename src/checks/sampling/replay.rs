@@ -118,7 +118,9 @@ impl Replayed {
             return Some((&sampling::NUMBERS_OF_ANOTHER, evidence));
         }
         let evidence = || "the second number of every sample can be replaced by its first";
-        (self.along_one_curve).then(|| (&sampling::ONE_NUMBER_TWICE, evidence().to_owned()))
+        // Samples that are all alike, or all invalid, lie on no curve.
+        let one_number = self.along_one_curve && self.moved[0] >= MOSTLY;
+        one_number.then(|| (&sampling::ONE_NUMBER_TWICE, evidence().to_owned()))
     }
 }
 

@@ -145,6 +145,13 @@ mod tests {
     }
 
     #[test]
+    fn a_core_that_hits_nothing_is_not_explained() {
+        for case in 0..CASES.len() {
+            assert!(causes(&found(case, |_, _| None)).is_empty());
+        }
+    }
+
+    #[test]
     fn rows_for_robustness_are_shown_and_not_graded() {
         let text = "[expect]\nsphere = { centre = [0, 0, 0], radius = 1 }\n\
              [[expect.ray]]\nfrom = [3, 0, 0]\ntoward = [1, 0, 0]\nhits = false\n\

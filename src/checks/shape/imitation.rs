@@ -175,7 +175,9 @@ pub(crate) fn explanations(
             None => !hit.is_hit(),
         })
     };
-    MISTAKES.iter().filter(|(_, formula)| predicts(*formula)).map(|(cause, _)| *cause).collect()
+    let named = MISTAKES.iter().filter(|(_, formula)| predicts(*formula));
+    // Where nothing is hit, every formula that does not apply is right about it.
+    named.filter(|_| hits.iter().any(Hit::is_hit)).map(|(cause, _)| *cause).collect()
 }
 
 /// Accepts a meeting by another rule.

@@ -59,6 +59,10 @@ causes! {
         "the sample counts hold the maximum number of samples, not the number taken",
         at "the buffer of sample counts",
         fix "Write the number of samples actually taken.";
+    BATCHES_REPEAT = "batches-repeat":
+        "every batch draws the samples of the first one again",
+        at "adaptive sampling, where a sample's random numbers are seeded",
+        fix "Go on with the pixel's random numbers from batch to batch.";
     LAST_BATCH_NOT_COUNTED = "last-batch-not-counted":
         "the sample counts lack the last batch",
         at "the buffer of sample counts",

@@ -6,8 +6,13 @@ use crate::checks::{Finding, Measure};
 use crate::image::CHANNELS;
 use crate::stats::{Band, MeanReport, TwoVariances, Verdict};
 
-/// What reports of `n` samples a pixel are worth.
-pub(super) fn finding(n: f64, reports: &[MeanReport], variances: &[TwoVariances; 3]) -> Finding {
+/// What reports of `n` samples a pixel, taken in batches or at once, are worth.
+pub(super) fn finding(
+    n: u32,
+    batch: Option<u32>,
+    reports: &[MeanReport],
+    variances: &[TwoVariances; 3],
+) -> Finding {
     let measures: Vec<_> =
         (0..3).map(|c| measure(&reports[c], &variances[c]).of_channel(CHANNELS[c])).collect();
     let weakest = reports.iter().map(|report| report.resolution).fold(0.0, f64::max);
@@ -27,16 +32,21 @@ pub(super) fn finding(n: f64, reports: &[MeanReport], variances: &[TwoVariances;
         ),
     };
     Finding::of(statement, resolution, measures)
-        .because_of(failed.and_then(|_| mistake(n, variances)))
+        .because_of(failed.and_then(|_| mistake(n.into(), batch.map(f64::from), variances)))
 }
 
 /// The one mistake that predicts the three channels, if there is one.
-fn mistake(n: f64, variances: &[TwoVariances; 3]) -> Option<(&'static Cause, String)> {
+fn mistake(
+    n: f64,
+    batch: Option<f64>,
+    variances: &[TwoVariances; 3],
+) -> Option<(&'static Cause, String)> {
     let predicts = |prediction: &dyn Fn(f64) -> f64| {
         let close = |v: &TwoVariances| (v.reported / prediction(v.measured)).log2().abs() < NEAR;
         variances.iter().all(close)
     };
-    let candidates: [(&'static Cause, &dyn Fn(f64) -> f64); 4] = [
+    let candidates: [(&'static Cause, &dyn Fn(f64) -> f64); 5] = [
+        (&adaptive::BATCHES_REPEAT, &|real| batch.map_or(f64::NAN, |batch| real * batch / n)),
         (&adaptive::VARIANCE_OF_SAMPLE, &|real| n * real),
         (&adaptive::DIVIDED_TWICE, &|real| real / n),
         (&adaptive::SQUARES_REPORTED, &|real| n * (n - 1.0) * real),

@@ -7,13 +7,16 @@
 use super::real_variance::finding;
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Result, check};
-use crate::contract::{Acceleration, BuiltScene};
+use crate::contract::{Acceleration, AdaptiveSettings, BuiltScene, Capabilities};
 use crate::math::rng::Seed;
+use crate::scene::SceneDescription;
 use crate::stats::{Band, Claim, Effort, ReportedVariance, TwoVariances, judge_means};
 use crate::text::{Between, Bounces, Count, Factor, Size};
 
 /// Pictures whose pixels are compared with each other.
 const PICTURES: u32 = 8;
+/// A tolerance that no noise is below.
+const UNREACHED: f64 = 1e-9;
 
 check! {
     /// Every picture comes with the variance of its pixels, and it is right within a factor of two.
@@ -22,6 +25,8 @@ check! {
         bounces: Bounces,
         /// Fewer than 4 hardly know their variance.
         samples_per_pixel: Between<4, 65536>,
+        /// The pictures are adaptive, in batches of so many samples, and no pixel may stop before the last one.
+        batch: Option<u32>,
         /// The smallest factor, either way, that must be seen.
         detects: Factor,
         at_most: Count,
@@ -39,9 +44,16 @@ impl Check for ReportsItsVariance {
         Err("`detects` must be above the factor of two that is forgiven".to_owned())
     }
 
+    fn needs_besides(&self) -> Capabilities {
+        match self.batch {
+            Some(_) => Capabilities::ADAPTIVE_SAMPLING,
+            None => Capabilities::empty(),
+        }
+    }
+
     fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
-        let picture = Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
+        let picture = self.picture(&scene)?;
         let (seed, effort) = (context.seed, self.effort(context));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let mut groups = Vec::new();
@@ -56,11 +68,22 @@ impl Check for ReportsItsVariance {
         })?;
         let of_channel = |c: usize| groups.iter().map(|group| group[c]).collect::<Vec<_>>();
         let variances = [0, 1, 2].map(|c| TwoVariances::mean_of(&of_channel(c)));
-        Ok(finding(f64::from(self.samples_per_pixel.0), &reports, &variances))
+        Ok(finding(self.samples_per_pixel.0, self.batch, &reports, &variances))
     }
 }
 
 impl ReportsItsVariance {
+    fn picture(&self, scene: &SceneDescription) -> Result<Rendering> {
+        let n = self.samples_per_pixel.0;
+        let picture = Rendering::of(scene, self.size.0, self.bounces.0, n)?;
+        Ok(match self.batch {
+            Some(samples_per_batch) => {
+                picture.adaptive(AdaptiveSettings { samples_per_batch, max_tolerance: UNREACHED })
+            }
+            None => picture,
+        })
+    }
+
     fn samples_of_a_group(&self) -> u64 {
         let pixels = u64::from(self.size.0[0]) * u64::from(self.size.0[1]);
         u64::from(PICTURES) * u64::from(self.samples_per_pixel.0) * pixels
@@ -101,7 +124,7 @@ mod tests {
     use crate::checks::camera::fake::FakeFilm;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, causes, check_of, failure, try_judge};
-    use crate::contract::{Capabilities, Film, RenderSettings};
+    use crate::contract::{Film, RenderSettings};
     use crate::math::rng::uniform;
 
     /// What is reported of samples in place of the variance of their mean.
@@ -138,15 +161,44 @@ mod tests {
         f64::from((squares - sum * sum / n).max(0.0) / (n - 1.0) / n)
     }
 
+    const EXPECT: &str = "[expect]\nsize = [4, 3]\nbounces = [0, 1]\nsamples-per-pixel = 8\n\
+                          at-most = \"400 k\"\ndetects = 3\n";
+
     fn found(report: Report, offset: f64) -> Finding {
-        let check = check_of::<ReportsItsVariance>(
-            "[expect]\nsize = [4, 3]\nbounces = [0, 1]\nsamples-per-pixel = 8\n\
-             at-most = \"400 k\"\ndetects = 3",
-        );
+        judged(EXPECT, move |settings, film| take(report, offset, settings, film))
+    }
+
+    fn judged(expect: &str, film: impl Fn(&RenderSettings, &mut Film) + Send + 'static) -> Finding {
         let mut core = Fake::default();
         core.info.capabilities = Capabilities::all();
-        core.film = Box::new(move |settings, film| take(report, offset, settings, film));
+        core.film = Box::new(film);
+        let check = check_of::<ReportsItsVariance>(expect);
         try_judge(&check, &mut core, Some(FakeFilm::scene())).unwrap()
+    }
+
+    /// Samples of batches that draw so many numbers of their own, and then the same again.
+    fn take_batches(own: u32, settings: &RenderSettings, film: &mut Film) {
+        let n = settings.samples_per_pixel;
+        assert!(settings.adaptive.is_some_and(|adaptive| n > adaptive.samples_per_batch));
+        let mut stream = Seed(settings.integrator.seed).stream();
+        film.sample_counts.fill(n);
+        let values = film.pixels.as_flattened_mut().iter_mut();
+        for (value, variance) in values.zip(film.variances.as_flattened_mut()) {
+            let numbers: Vec<f64> = (0..own).map(|_| uniform(&mut stream)).collect();
+            let samples: Vec<f64> = numbers.into_iter().cycle().take(n as usize).collect();
+            *value = (samples.iter().sum::<f64>() / f64::from(n)) as f32;
+            *variance = right(&samples) as f32;
+        }
+    }
+
+    #[test]
+    fn batches_that_repeat_fail_under_their_own_name() {
+        let expect = format!("{EXPECT}batch = 2\n");
+        let drawing =
+            |own| judged(&expect, move |settings, film| take_batches(own, settings, film));
+        assert_passes(&drawing(8));
+        let finding = drawing(2);
+        assert_eq!(causes(&finding), [adaptive::BATCHES_REPEAT.name], "{}", finding.statement);
     }
 
     #[test]

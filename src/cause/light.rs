@@ -7,6 +7,10 @@ causes! {
         "the cosine is taken in world space, as if every surface faced +z",
         at "direct lighting, where the cosine of the incident direction is taken",
         fix "Use the local direction's z, or the dot product with the shading normal.";
+    FRAME_OF_GEOMETRIC_NORMAL = "frame-of-geometric-normal":
+        "surfaces are shaded by their geometric normals, not by the shading normals of their hits",
+        at "direct and indirect lighting, where the local shading frame is made from a hit",
+        fix "Build the frame around the shading normal; the geometric one only tells which side is lit.";
     LIGHT_COSINE_FORGOTTEN = "light-cosine-forgotten":
         "the pdf of light sampling lacks the cosine at the light",
         at "light sampling (next event estimation), where the pdf is computed",

@@ -220,6 +220,7 @@ steps! {
         vertex::shadow_ray(vertex: &Vertex<'_>, sample: &LightSample) -> Ray;
     }
     Components::DIRECT_LIGHTING.union(Components::PATH) => {
+        vertex::frame_normal(surface: &Surface, hit: &Hit, to_viewer: DVec3) -> DVec3;
         vertex::clearance(longest: f64) -> f64;
         vertex::ray_from(vertex: &Vertex<'_>, direction: DVec3) -> Ray;
     }

@@ -5,7 +5,7 @@ use super::frame::Frame;
 use super::intersect::{Crossing, Sphere, Triangle, outward_normal};
 use super::light::Emitter;
 use super::steps::Steps;
-use super::vertex::{Vertex, View, frame_normal};
+use super::vertex::{Vertex, View};
 use crate::contract::{self, Acceleration, BuildStats, Hit, Ray, TraversalStats};
 use crate::scene::{self, Emission, Light, Rgb, SceneDescription, Surface};
 use glam::{DVec2, DVec3};
@@ -100,7 +100,7 @@ impl<'a> World<'a> {
 
     fn vertex(&self, primitive: &Primitive, ray: &Ray, hit: Hit, to_viewer: DVec3) -> Vertex<'_> {
         let shape = &self.shapes[primitive.shape as usize];
-        let frame = Frame::around(frame_normal(&shape.surface, &hit, to_viewer));
+        let frame = Frame::around(self.steps.frame_normal(&shape.surface, &hit, to_viewer));
         let is_front = self.steps.emits_towards(hit.geometric_normal, to_viewer);
         let travelled = hit.t * ray.direction;
         let longest = ray.origin.abs().max(travelled.abs()).max(primitive.form.reach());

@@ -64,6 +64,10 @@ faults! { part 3;
     "hemisphere-without-lights": "0/0 where there is no light",
         fails "light/scene-without-lights-is-black", told light::DIVIDED_BY_ZERO_LIGHTS,
         hemisphere_samples = |per_light, lights| per_light * lights;
+    "frame-of-geometric-normal": "make_coord_space(o2w, cross(e1, e2)): shaded flat, whatever isect.n says",
+        fails "light/smooth-mesh-is-lit-by-its-shading-normals",
+        told light::FRAME_OF_GEOMETRIC_NORMAL,
+        frame_normal = |_, hit, _| hit.geometric_normal;
     "world-cosine": "wi.z for cos θ, in the world",
         fails "light/rectangle-light-slanted-matches-closed-form", told light::WORLD_COSINE,
         light_cosine = |_, world| world.z.abs();

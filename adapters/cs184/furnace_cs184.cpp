@@ -254,7 +254,7 @@ struct Surface : BSDF {
    Vector3D f(const Vector3D wo, const Vector3D wi) override {
       if (all_black()) return Vector3D();
       if (takes(FURNACE_TAKES_BSDF))
-         return theirs(bench().eval_bsdf(declared, ours(wo), ours(wi)).f);
+         return theirs(bench().eval_bsdf(declared, above(wo), above(wi)).f);
       return diffuse.f(wo, wi);
    }
    Vector3D sample_f(const Vector3D wo, Vector3D *wi, double *pdf) override {
@@ -262,6 +262,8 @@ struct Surface : BSDF {
                                                    : diffuse.sample_f(wo, wi, pdf);
       return all_black() ? Vector3D() : f;
    }
+   // A diffuse `f` need not know of sides, nor of the space of its directions: some hand it those of the world.
+   static furnace_vec3 above(const Vector3D &w) { return {w.x, w.y, std::fabs(w.z)}; }
    Vector3D sample_of_bench(const Vector3D &wo, Vector3D *wi, double *pdf) const {
       furnace::Numbers numbers{};
       numbers.point.x = stream().next(), numbers.point.y = stream().next();

@@ -51,6 +51,8 @@ const LIBRARIES: &[(&str, Ending)] = &[
     ("chatter", (Status::Pass, "")),
     ("hoard", (Status::Fail, "out of memory")),
     ("hoardsilently", (Status::Crashed, "SIGABRT")),
+    ("hoardshared", (Status::Crashed, "out of memory")),
+    ("hoardfiles", (Status::Crashed, "out of scratch space")),
     ("threads", (Status::Fail, "Resource temporarily unavailable")),
     ("longfile", (Status::Crashed, "SIGXFSZ")),
     ("hangup", (Status::Crashed, "closed its channel and went on running")),
@@ -73,6 +75,14 @@ const PRISONERS: &[(&str, Ending)] = &[
     ("read", (Status::Fail, "reading: Permission denied")),
     ("write", (Status::Fail, "writing: Permission denied")),
     ("lock", (Status::Fail, "chmod: Operation not permitted")),
+    ("hoardunlinked", (Status::Crashed, "out of scratch space")),
+    ("segment", (Status::Fail, "shmget: Operation not permitted")),
+    ("semaphore", (Status::Fail, "semget: Operation not permitted")),
+    ("message", (Status::Fail, "msgget: Operation not permitted")),
+    ("queue", (Status::Fail, "mq_open: Operation not permitted")),
+    ("memfd", (Status::Fail, "memfd_create: Operation not permitted")),
+    ("sendfile", (Status::Fail, "sendmsg: Operation not permitted")),
+    ("hide", (Status::Fail, "prctl: Operation not permitted")),
 ];
 
 /// What each program comes to.
@@ -92,6 +102,7 @@ const PROGRAMS: &[(&str, Ending)] = &[
     ("bombofhangs", (Status::Crashed, "it had started")),
     ("hoard", (Status::Crashed, "out of memory")),
     ("sharedhoard", (Status::Crashed, "out of memory")),
+    ("filehoard", (Status::Crashed, "out of scratch space")),
     ("daemon", (Status::Fail, "")),
     ("crash", (Status::Crashed, "exit code 1 without an answer")),
     ("hangup", (Status::Crashed, "closed its channel and went on running")),
@@ -102,6 +113,7 @@ const IMPRISONED_PROGRAMS: &[(&str, Ending)] = &[
     ("read", (Status::Fail, "PermissionError: Permission denied")),
     ("shell", (Status::Crashed, "exit code 1 without an answer")),
     ("connect", (Status::Fail, "PermissionError: Operation not permitted")),
+    ("memfd", (Status::Fail, "PermissionError: Operation not permitted")),
 ];
 
 /// A picture that is asked for.
@@ -213,8 +225,13 @@ impl Lair {
             jobs: 2,
             ..Request::default()
         };
-        let limits =
-            Limits { seconds: Some(2.0), memory: Some(512 << 20), file: 16 << 20, processes: 16 };
+        let limits = Limits {
+            seconds: Some(2.0),
+            memory: Some(512 << 20),
+            file: 16 << 20,
+            scratch: 64 << 20,
+            processes: 16,
+        };
         Plan::new(self.project.clone(), request, &cases).unwrap().hosted(Hosting {
             program: env!("CARGO_BIN_EXE_furnace").into(),
             limits,

@@ -9,6 +9,8 @@ use super::spec::{Confinement, Limits, WorkerSpec};
 /// Sandboxes this process, as far as the system can.
 pub(crate) fn confine(worker: &WorkerSpec) -> Confinement {
     let mut confinement = Confinement::default();
+    let in_all = format!("files: {} in all", in_bytes(worker.limits.scratch));
+    confinement.in_force.push(in_all);
     limit(&worker.limits, &mut confinement);
     if worker.confined {
         sandbox(worker, &mut confinement);
@@ -31,6 +33,10 @@ fn sandbox(_: &WorkerSpec, confinement: &mut Confinement) {
     );
 }
 
+/// What a process may hold open: pipes hold memory, too.
+#[cfg(unix)]
+const OPEN_FILES: u64 = 1024;
+
 #[cfg(unix)]
 fn limit(limits: &Limits, confinement: &mut Confinement) {
     use rustix::process::{Resource, Rlimit, setrlimit};
@@ -48,6 +54,7 @@ fn limit(limits: &Limits, confinement: &mut Confinement) {
         set(Resource::As, Some(reserved), format!("address space: {}", in_bytes(reserved)));
     }
     set(Resource::Fsize, Some(limits.file), format!("files: {} each", in_bytes(limits.file)));
+    set(Resource::Nofile, Some(OPEN_FILES), format!("open files: {OPEN_FILES}"));
     set(Resource::Core, Some(0), "no core dumps".to_owned());
 }
 
@@ -57,7 +64,6 @@ fn limit(_: &Limits, confinement: &mut Confinement) {
 }
 
 /// `4 GiB`, `64 MiB`, `17 bytes`
-#[cfg(unix)]
 fn in_bytes(bytes: u64) -> String {
     match bytes {
         b if b >= 1 << 30 && b % (1 << 30) == 0 => format!("{} GiB", b >> 30),
@@ -67,7 +73,6 @@ fn in_bytes(bytes: u64) -> String {
 }
 
 #[cfg(test)]
-#[cfg(unix)]
 mod tests {
     use super::*;
 

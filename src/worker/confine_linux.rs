@@ -41,6 +41,7 @@ pub(crate) fn sandbox(worker: &WorkerSpec, confinement: &mut Confinement) {
     match shut_calls(&worker.origin) {
         Ok(()) => {
             in_force.push("no network (seccomp)".to_owned());
+            in_force.push("no memory but its own (seccomp)".to_owned());
             in_force.push(match worker.origin.may_start_processes() {
                 true => "no process leaves its group (seccomp)".to_owned(),
                 false => "no processes (seccomp)".to_owned(),
@@ -74,6 +75,19 @@ const FORBIDDEN: &[libc::c_long] = &[
     libc::SYS_socket,
     // Requests that no filter sees.
     libc::SYS_io_uring_setup,
+    // Memory that is counted to no process: it would outgrow the limit, and what outlives a process would tell the
+    // next trial of it.
+    libc::SYS_shmget,
+    libc::SYS_shmat,
+    libc::SYS_semget,
+    libc::SYS_msgget,
+    libc::SYS_mq_open,
+    libc::SYS_mq_unlink,
+    libc::SYS_memfd_create,
+    libc::SYS_memfd_secret,
+    // Sending open files away: on their way they belong to nobody, and nobody counts them.
+    libc::SYS_sendmsg,
+    libc::SYS_sendmmsg,
     // Leaving the process group, by which everything is ended.
     libc::SYS_setsid,
     libc::SYS_setpgid,
@@ -89,6 +103,7 @@ const FORBIDDEN: &[libc::c_long] = &[
     // What Landlock does not look at: modes, owners, times and attributes of files.
     libc::SYS_fchmod,
     libc::SYS_fchmodat,
+    libc::SYS_fchmodat2,
     libc::SYS_fchown,
     libc::SYS_fchownat,
     libc::SYS_utimensat,
@@ -144,17 +159,32 @@ fn shut_calls(origin: &CoreOrigin) -> Result<(), seccompiler::Error> {
     // Reading a limit and setting it are one call; setting one hands over something.
     let sets_a_limit = condition(2, Length::Qword, Compare::Ne, 0)?;
     rules.insert(libc::SYS_prlimit64, vec![SeccompRule::new(vec![sets_a_limit])?]);
+    rules.extend(rules_of_open_files()?);
     if !origin.may_start_processes() {
         rules.extend(unconditional(STARTING).chain(unconditional(STARTING_HERE)));
-        rules.extend(rules_of_a_single_process()?);
-        // Its flags lie in memory, where no filter looks; libraries then fall back on `clone`.
-        install(unconditional(&[libc::SYS_clone3]).collect(), libc::ENOSYS)?;
+        for (call, more) in rules_of_a_single_process()? {
+            rules.entry(call).or_default().extend(more);
+        }
     }
+    // Its flags lie in memory, where no filter looks; libraries then fall back on `clone`.
+    install(unconditional(&[libc::SYS_clone3]).collect(), libc::ENOSYS)?;
     install(rules, libc::EPERM)
 }
 
 fn unconditional(calls: &[libc::c_long]) -> impl Iterator<Item = (libc::c_long, Vec<SeccompRule>)> {
     calls.iter().map(|call| (*call, Vec::new()))
+}
+
+/// The bench sees the open files of a process, which are those of all its threads.
+fn rules_of_open_files() -> Result<Rules, seccompiler::Error> {
+    let [thread, files] = [libc::CLONE_THREAD, libc::CLONE_FILES].map(|flag| flag as u64);
+    let apart = condition(0, Length::Qword, Compare::MaskedEq(thread | files), thread)?;
+    let hides = condition(0, Length::Dword, Compare::Eq, libc::PR_SET_DUMPABLE as u64)?;
+    Ok([
+        (libc::SYS_clone, vec![SeccompRule::new(vec![apart])?]),
+        (libc::SYS_prctl, vec![SeccompRule::new(vec![hides])?]),
+    ]
+    .into())
 }
 
 /// Threads are no processes; signals go to oneself.

@@ -1,6 +1,6 @@
 //! Holds a worker to its limits, ends it with everything it has started, and says how it ended.
 
-use super::spec::Limits;
+use super::spec::WorkerSpec;
 use super::usage::{Usage, usage};
 use crate::contract::CoreError;
 use std::io;
@@ -21,9 +21,8 @@ const FAREWELL: Duration = Duration::from_secs(1);
 const PATIENCE: u32 = 20;
 
 pub(crate) struct Guard {
-    limits: Limits,
-    /// Whether it may start processes, which are then counted.
-    is_program: bool,
+    /// Its limits and its folder; and whether it may start processes, which are then counted.
+    spec: WorkerSpec,
     state: Mutex<State>,
     /// Wakes whoever reads the channel, though a process that got away may hold its other end.
     hang_up: Box<dyn Fn() + Send + Sync>,
@@ -47,6 +46,7 @@ enum Sentence {
     Time,
     Processes(usize),
     Memory(u64),
+    Files(u64),
 }
 
 /// Stops the looking when it is dropped.
@@ -56,8 +56,7 @@ impl Guard {
     /// Over `child`, which leads a process group.
     pub(crate) fn new(
         child: Child,
-        limits: Limits,
-        is_program: bool,
+        spec: WorkerSpec,
         hang_up: Box<dyn Fn() + Send + Sync>,
     ) -> Arc<Self> {
         let state = State {
@@ -69,14 +68,15 @@ impl Guard {
             sentence: None,
             status: None,
         };
-        Arc::new(Self { limits, is_program, state: Mutex::new(state), hang_up })
+        Arc::new(Self { spec, state: Mutex::new(state), hang_up })
     }
 
     /// Looks at the worker again and again until the answer is dropped.
     pub(crate) fn watch(self: &Arc<Self>) -> Watch {
         let guard = Arc::clone(self);
         let (sender, receiver) = mpsc::channel();
-        let tick = if self.is_program { TICK_OF_PROGRAMS } else { TICK };
+        let is_program = self.spec.origin.may_start_processes();
+        let tick = if is_program { TICK_OF_PROGRAMS } else { TICK };
         thread::spawn(move || {
             while receiver.recv_timeout(tick) == Err(mpsc::RecvTimeoutError::Timeout) {
                 guard.look();
@@ -98,7 +98,7 @@ impl Guard {
         if state.sentence.is_some() || state.status.is_some() {
             return;
         }
-        let usage = usage(&state.child, self.is_program);
+        let usage = usage(&state.child, &self.spec);
         Self::charge(&mut state, usage);
         let Some(sentence) = self.judge(&state) else { return };
         state.sentence = Some(sentence);
@@ -120,14 +120,17 @@ impl Guard {
     }
 
     fn judge(&self, state: &State) -> Option<Sentence> {
-        let Usage { processes, bytes, .. } = state.seen.1;
-        let late = state.waited > self.limits.time().saturating_mul(PATIENCE);
-        if late || state.charged > self.limits.time() {
+        let Usage { processes, bytes, written, .. } = state.seen.1;
+        let limits = &self.spec.limits;
+        let late = state.waited > limits.time().saturating_mul(PATIENCE);
+        if late || state.charged > limits.time() {
             Some(Sentence::Time)
-        } else if processes > self.limits.processes {
+        } else if processes > limits.processes {
             Some(Sentence::Processes(processes))
+        } else if written > limits.scratch {
+            Some(Sentence::Files(written))
         } else {
-            self.limits.memory.filter(|limit| bytes > *limit).map(|_| Sentence::Memory(bytes))
+            limits.memory.filter(|limit| bytes > *limit).map(|_| Sentence::Memory(bytes))
         }
     }
 
@@ -152,12 +155,17 @@ impl Guard {
         let during = during.to_owned();
         let crashed = |how: String| CoreError::Crashed { how, during: during.clone() };
         match (sentence, self.end()) {
-            (Some(Sentence::Time), _) => CoreError::TimedOut { limit: self.limits.time(), during },
+            (Some(Sentence::Time), _) => {
+                CoreError::TimedOut { limit: self.spec.limits.time(), during }
+            }
             (Some(Sentence::Processes(count)), _) => {
                 crashed(format!("ended: it had started {count} processes"))
             }
             (Some(Sentence::Memory(bytes)), _) => {
                 crashed(format!("ended: out of memory, {} MiB in all its processes", bytes >> 20))
+            }
+            (Some(Sentence::Files(bytes)), _) => {
+                crashed(format!("ended: out of scratch space, {} MiB in its files", bytes >> 20))
             }
             (None, Ok(_)) if !ended_by_itself => {
                 crashed("it closed its channel and went on running".to_owned())

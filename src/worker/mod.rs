@@ -24,6 +24,7 @@ mod process;
 #[cfg(target_os = "linux")]
 mod readable;
 mod scene;
+mod scratch;
 mod serve;
 mod spec;
 mod usage;

@@ -75,12 +75,14 @@ impl Worker {
         let failed = |error| StartError::Bench { program: launch.program.clone(), error };
         let scratch = TempDir::with_prefix("furnace-").map_err(failed)?;
         let (reader, writer) = io::pipe().map_err(failed)?;
-        let mut command = launch.command(&scratch).map_err(failed)?;
+        let folder = scratch.path().canonicalize().map_err(failed)?;
+        let spec = WorkerSpec { scratch: folder, ..launch.worker.clone() };
+        let mut command = launch.command(&spec).map_err(failed)?;
         command.stderr(writer.try_clone().map_err(failed)?);
         let Started { child, channel, hang_up } =
             start_with_channel(command, writer).map_err(failed)?;
-        let WorkerSpec { origin, limits, .. } = &launch.worker;
-        let guard = Guard::new(child, *limits, origin.may_start_processes(), hang_up);
+        let limits = spec.limits;
+        let guard = Guard::new(child, spec, hang_up);
         let mut worker = Self {
             client: Client::new(channel),
             _watch: guard.watch(),
@@ -91,7 +93,7 @@ impl Worker {
             dead: None,
             _scratch: scratch,
         };
-        match worker.meet(limits) {
+        match worker.meet(&limits) {
             Ok(()) => Ok(worker),
             Err(error) => Err(StartError::Core { error, printed: worker.printed() }),
         }
@@ -174,18 +176,17 @@ impl Drop for Worker {
 }
 
 impl Launch {
-    fn command(&self, scratch: &TempDir) -> io::Result<Command> {
-        let scratch = scratch.path().canonicalize()?;
-        let worker = WorkerSpec { scratch: scratch.clone(), ..self.worker.clone() };
+    fn command(&self, worker: &WorkerSpec) -> io::Result<Command> {
+        let scratch = &worker.scratch;
         let mut command = Command::new(&self.program);
-        command.arg("worker").arg(serde_json::to_string(&worker)?).env_clear();
+        command.arg("worker").arg(serde_json::to_string(worker)?).env_clear();
         let kept = KEPT_VARIABLES.split_whitespace();
         command.envs(kept.filter_map(|name| Some((name, std::env::var_os(name)?))));
         command.envs(self.variables.iter().map(|(name, value)| (name, value)));
         // What a core writes at home or for a while goes to the folder that it may write.
-        command.envs(["HOME", "TMPDIR", "TMP", "TEMP"].map(|name| (name, &scratch)));
+        command.envs(["HOME", "TMPDIR", "TMP", "TEMP"].map(|name| (name, scratch)));
         command.env("PYTHONDONTWRITEBYTECODE", "1").env("PYTHONUNBUFFERED", "1");
-        command.current_dir(&scratch);
+        command.current_dir(scratch);
         Ok(command)
     }
 }

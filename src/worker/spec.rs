@@ -55,13 +55,21 @@ pub struct Limits {
     pub memory: Option<u64>,
     /// Bytes of one file.
     pub file: u64,
+    /// Bytes of all its files together.
+    pub scratch: u64,
     /// Processes at a time, of a program; a library has one.
     pub processes: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { seconds: Some(120.0), memory: Some(4 << 30), file: 256 << 20, processes: 64 }
+        Self {
+            seconds: Some(120.0),
+            memory: Some(4 << 30),
+            file: 256 << 20,
+            scratch: 1 << 30,
+            processes: 64,
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! What a worker uses at a moment, with all that it has started.
 
+use super::scratch;
+use super::spec::WorkerSpec;
 use std::process::Child;
 use std::time::Duration;
 
@@ -8,6 +10,8 @@ pub(crate) struct Usage {
     pub(crate) processes: usize,
     /// Memory they occupy together.
     pub(crate) bytes: u64,
+    /// What its files take up.
+    pub(crate) written: u64,
     /// Processor time that those there are have had so far.
     pub(crate) computed: Duration,
     /// Whether some thread computes, or waits only for its turn.
@@ -16,25 +20,25 @@ pub(crate) struct Usage {
 
 /// Of `child` and, where it is a program, of all it has started.
 #[cfg(not(target_os = "linux"))]
-pub(crate) fn usage(_: &Child, _: bool) -> Usage {
-    Usage::default()
+pub(crate) fn usage(_: &Child, spec: &WorkerSpec) -> Usage {
+    Usage { written: scratch::written(&spec.scratch, &[]), ..Usage::default() }
 }
 
 /// Of `child` and, where it is a program, of all it has started.
 #[cfg(target_os = "linux")]
-pub(crate) fn usage(child: &Child, is_program: bool) -> Usage {
-    let of = |process| linux::usage_of(process, child.id()).unwrap_or_default();
-    if !is_program {
-        return of(child.id());
-    }
-    let processes = std::fs::read_dir("/proc").into_iter().flatten().flatten();
-    let numbers = processes.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
-    numbers.map(of).fold(Usage::default(), |sum, one| Usage {
+pub(crate) fn usage(child: &Child, spec: &WorkerSpec) -> Usage {
+    let candidates =
+        if spec.origin.may_start_processes() { linux::processes() } else { vec![child.id()] };
+    let of = |process: u32| Some((process, linux::usage_of(process, child.id())?));
+    let (members, each): (Vec<_>, Vec<_>) = candidates.into_iter().filter_map(of).unzip();
+    let together = each.into_iter().fold(Usage::default(), |sum, one| Usage {
         processes: sum.processes + one.processes,
         bytes: sum.bytes + one.bytes,
         computed: sum.computed + one.computed,
         would_compute: sum.would_compute || one.would_compute,
-    })
+        ..sum
+    });
+    Usage { written: scratch::written(&spec.scratch, &members), ..together }
 }
 
 #[cfg(target_os = "linux")]
@@ -42,6 +46,12 @@ mod linux {
     use super::Usage;
     use std::path::{Path, PathBuf};
     use std::time::Duration;
+
+    /// The numbers of all there are.
+    pub(super) fn processes() -> Vec<u32> {
+        let processes = std::fs::read_dir("/proc").into_iter().flatten().flatten();
+        processes.filter_map(|entry| entry.file_name().to_str()?.parse().ok()).collect()
+    }
 
     /// What one process uses, if it is of the group.
     pub(super) fn usage_of(process: u32, group: u32) -> Option<Usage> {
@@ -58,6 +68,7 @@ mod linux {
             bytes: number(21)? * rustix::param::page_size() as u64,
             computed: Duration::from_secs_f64(seconds),
             would_compute: has_runnable_thread(&folder),
+            ..Usage::default()
         })
     }
 
@@ -87,10 +98,12 @@ mod tests {
     #[test]
     fn a_group_is_measured() {
         let mut child = Command::new("sleep").arg("10").process_group(0).spawn().unwrap();
-        let usage = usage(&child, true);
+        let group = child.id();
+        let members: Vec<_> =
+            linux::processes().into_iter().filter_map(|one| linux::usage_of(one, group)).collect();
         child.kill().unwrap();
         child.wait().unwrap();
-        assert_eq!(usage.processes, 1);
+        assert_eq!(members.len(), 1);
     }
 
     #[test]

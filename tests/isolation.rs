@@ -66,8 +66,8 @@ const LIBRARIES: &[(&str, Ending)] = &[
     ("status", (Status::Fail, "unknown status 42")),
 ];
 
-/// What those come to that only a shut-in worker stops.
-const PRISONERS: &[(&str, Ending)] = &[
+/// What those come to that only a sandboxed worker stops.
+const SANDBOXED_LIBRARIES: &[(&str, Ending)] = &[
     ("fork", (Status::Fail, "fork: Operation not permitted")),
     ("exec", (Status::Fail, "exec: Operation not permitted")),
     ("kill", (Status::Fail, "kill: Operation not permitted")),
@@ -108,8 +108,8 @@ const PROGRAMS: &[(&str, Ending)] = &[
     ("hangup", (Status::Crashed, "closed its channel and went on running")),
 ];
 
-/// What those come to that only a shut-in worker stops.
-const IMPRISONED_PROGRAMS: &[(&str, Ending)] = &[
+/// What those come to that only a sandboxed worker stops.
+const SANDBOXED_PROGRAMS: &[(&str, Ending)] = &[
     ("read", (Status::Fail, "PermissionError: Permission denied")),
     ("shell", (Status::Crashed, "exit code 1 without an answer")),
     ("connect", (Status::Fail, "PermissionError: Operation not permitted")),
@@ -130,8 +130,8 @@ const RENDERERS: &[(&str, Ending)] = &[
     ("multiply", (Status::Crashed, "it had started")),
 ];
 
-/// What those come to that only a shut-in worker stops.
-const IMPRISONED_RENDERERS: &[(&str, Ending)] = &[
+/// What those come to that only a sandboxed worker stops.
+const SANDBOXED_RENDERERS: &[(&str, Ending)] = &[
     ("read", (Status::Crashed, "PermissionError: [Errno 13]")),
     ("write", (Status::Crashed, "PermissionError: [Errno 13]")),
     ("connect", (Status::Crashed, "PermissionError: [Errno 1]")),
@@ -282,16 +282,17 @@ fn python() -> Option<&'static str> {
     found.as_deref()
 }
 
-/// Whether a worker is shut in here; says so where it is not.
-fn is_shut_in() -> bool {
+/// Whether a worker is sandboxed here; says so where it is not.
+fn is_sandboxed() -> bool {
     let program = env!("CARGO_BIN_EXE_furnace").into();
     let hosting = Hosting { program, isolates_own: true, ..Hosting::default() };
     let hosted = hosting.host(&"textbook".parse().unwrap()).unwrap();
-    let is_shut_in = cfg!(target_os = "linux") && hosted.confinement().unwrap().lacking.is_empty();
-    if !is_shut_in {
-        eprintln!("skipped: this system cannot shut a worker in");
+    let is_sandboxed =
+        cfg!(target_os = "linux") && hosted.confinement().unwrap().lacking.is_empty();
+    if !is_sandboxed {
+        eprintln!("skipped: this system cannot sandbox a worker");
     }
-    is_shut_in
+    is_sandboxed
 }
 
 /// Every core ends as it should where it strikes, and passes where it does not, if that is asked.
@@ -342,8 +343,12 @@ fn a_library_can_harm_nothing_but_its_own_trial() {
 fn a_library_reaches_neither_secrets_nor_results_nor_anybody_else() {
     let _alone = ALONE.lock();
     let library = compiled("hostile");
-    if is_shut_in() {
-        assert_endings(PRISONERS, |lair, deed| lair.core_of(&library, deed), &[STRUCK, SPARED]);
+    if is_sandboxed() {
+        assert_endings(
+            SANDBOXED_LIBRARIES,
+            |lair, deed| lair.core_of(&library, deed),
+            &[STRUCK, SPARED],
+        );
     }
 }
 
@@ -358,8 +363,8 @@ fn a_program_can_harm_nothing_but_its_own_trial() {
 #[test]
 fn a_program_reaches_neither_secrets_nor_the_network() {
     let _alone = ALONE.lock();
-    if python().is_some() && is_shut_in() {
-        assert_endings(IMPRISONED_PROGRAMS, Lair::program, &[STRUCK, SPARED]);
+    if python().is_some() && is_sandboxed() {
+        assert_endings(SANDBOXED_PROGRAMS, Lair::program, &[STRUCK, SPARED]);
     }
 }
 
@@ -374,8 +379,8 @@ fn a_renderer_can_harm_nothing_but_its_own_trial() {
 #[test]
 fn a_renderer_reaches_neither_secrets_nor_results_nor_anybody_else() {
     let _alone = ALONE.lock();
-    if python().is_some() && is_shut_in() {
-        assert_endings(IMPRISONED_RENDERERS, Lair::renderer, &[PICTURE]);
+    if python().is_some() && is_sandboxed() {
+        assert_endings(SANDBOXED_RENDERERS, Lair::renderer, &[PICTURE]);
     }
 }
 

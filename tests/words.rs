@@ -86,7 +86,7 @@ const TERMS: &[(&str, &str)] = &[
     ("form factor", "cases/light"),
     ("form factor", "src/math/closed_form/form_factor.rs"),
     ("normal distribution function", "src/cause/bsdf.rs"),
-    ("normal distribution function", "src/cores/builtin/scatter/facets.rs"),
+    ("normal distribution function", "src/cores/builtin/scatter/microfacets.rs"),
     ("masking-shadowing", "src/cause/bsdf.rs"),
     ("Fresnel reflectance", "src/cause/bsdf.rs"),
     ("total internal reflection", "src/cause/bsdf.rs"),

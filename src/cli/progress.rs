@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn a_core_that_does_not_come_up_is_told_of_once() {
+    fn a_core_that_does_not_start_is_told_of_once() {
         let mut example = Example::mixed();
         example.run.cores[1].problem = Some("the core crashed during hello".to_owned());
         let lines = lines(&example, 0);

@@ -30,7 +30,7 @@ use std::rc::Rc;
 /// Why a library is no core.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    /// The system's loader says no.
+    /// The system's loader refuses.
     #[error("cannot load {path}: {why}")]
     Library {
         /// The file.

@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_program_that_fails_is_heard_out() {
+    fn a_failing_program_is_read_to_the_end() {
         let mut failing = Command::new("sh");
         let error = run(failing.args(["-c", "echo too bad >&2; exit 3"])).unwrap_err().to_string();
         assert!(error.contains("sh failed (exit status: 3)"), "{error}");

@@ -177,7 +177,7 @@ pub(crate) fn dearest_ledger(tree: &RunTree) -> Ledger {
     ledgers.max_by(|a, b| a.spent().total_cmp(&b.spent())).unwrap_or_default()
 }
 
-/// The largest relative error that any hypothesis of a kind would have let through: what a ledger cannot
+/// The largest relative error that any hypothesis of a kind would have passed: what a ledger cannot
 /// know. None where no hypothesis of the kind states one.
 pub(crate) fn worst_resolution<'a>(
     trials: impl IntoIterator<Item = &'a TrialRecord>,
@@ -189,7 +189,7 @@ pub(crate) fn worst_resolution<'a>(
     of_kind.filter_map(|measure| measure.resolution).max_by(f64::total_cmp)
 }
 
-/// The passes with the largest relative error that each would have let through, the one that proves least first.
+/// The passes with the largest relative error that each would have passed, the one that proves least first.
 /// Passes whose measures state no resolution are left out.
 pub(crate) fn weakest_first<'a>(
     trials: impl IntoIterator<Item = &'a TrialRecord>,
@@ -200,7 +200,7 @@ pub(crate) fn weakest_first<'a>(
     sorted
 }
 
-/// The largest relative error that any measure of the trial would have let through; NaN is beyond every bound.
+/// The largest relative error that any measure of the trial would have passed; NaN is beyond every bound.
 fn resolution(trial: &TrialRecord) -> Option<f64> {
     let measures = trial.outcome.finding()?.measures.iter();
     let resolutions = measures.filter_map(|measure| measure.resolution);

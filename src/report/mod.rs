@@ -21,7 +21,7 @@ use std::path::PathBuf;
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// The file system said no.
+    /// An I/O error.
     #[error("cannot write the report to {path}: {error}")]
     Io {
         /// The file or folder.

@@ -70,7 +70,7 @@ pub enum TreeError {
         /// What does not fit.
         why: String,
     },
-    /// The file system said no.
+    /// An I/O error.
     #[error("{0}")]
     Walk(#[from] walkdir::Error),
 }

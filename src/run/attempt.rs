@@ -140,7 +140,7 @@ pub struct Attempt {
 }
 
 impl Attempt {
-    /// Of a core that did not come up.
+    /// Of a core that did not start.
     fn without_core(case: &Case, error: CheckError) -> Self {
         let outcome = Outcome::of(Err(error));
         Self { outcome, tier: case.tier, scene: None, pictures: Vec::new() }

@@ -285,7 +285,7 @@ pub struct PictureFile {
 /// Why a file of a run could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
-    /// The file system said no.
+    /// An I/O error.
     #[error("{path}: {error}")]
     Io {
         /// The file.
@@ -315,7 +315,7 @@ pub(crate) fn sidecar_path(run: &Path, core: &str, case: &str) -> PathBuf {
     run.join(folder_of_core(core)).join(format!("{case}.json"))
 }
 
-/// Writes `value` as JSON, whole or not at all. Fails if the file system says no.
+/// Writes `value` as JSON, whole or not at all. Fails on an I/O error.
 pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), RecordError> {
     let failed = |error: std::io::Error| RecordError::Io { path: path.to_owned(), error };
     let mut bytes = serde_json::to_vec_pretty(value).map_err(|error| failed(error.into()))?;

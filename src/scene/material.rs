@@ -41,13 +41,13 @@ pub enum Surface {
     },
     /// Single scattering from GGX microfacets that reflect `reflectance` at every angle.
     Conductor {
-        /// Reflectance of a single facet.
+        /// Reflectance of a single microfacet.
         reflectance: Rgb,
         /// The width parameter α of the distribution, in (0, 1].
         roughness: f64,
     },
     /// GGX microfacets that are smooth interfaces each (Walter et al. 2007), by Fresnel's exact equations: outside
-    /// is vacuum, inside has `index`. Single scattering: what meets two facets is lost.
+    /// is vacuum, inside has `index`. Single scattering: what meets two microfacets is lost.
     RoughGlass {
         /// Index of refraction inside; not 1.
         index: f64,

@@ -1,6 +1,6 @@
 //! f of a rough conductor against the microfacet formula, pair by pair: R · D(h) · G(wo, wi) / (4 cos θo cos θi).
 //!
-//! That the facets cover the surface once (∫ D cos = 1), that no more of them is seen than there is (G ≤ 1), and
+//! That the microfacets cover the surface once (∫ D cos = 1), that no more of them is seen than there is (G ≤ 1), and
 //! which Smith term a core uses: all of it follows, and a wrong factor is named by where it is wrong.
 
 use super::albedo;

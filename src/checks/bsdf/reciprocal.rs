@@ -10,7 +10,7 @@ use crate::text::Several;
 
 /// Pairs of directions for each surface.
 const PAIRS: usize = 10_000;
-/// Nearer to a facet that refracts, cosines of single precision have lost their digits.
+/// Nearer to a microfacet that refracts, cosines of single precision have lost their digits.
 const GRAZING: f64 = 1e-3;
 
 check! {
@@ -61,7 +61,7 @@ fn there_and_back(
     let mut direction = || surface.direction(&mut stream);
     let there: Vec<_> = (0..PAIRS)
         .map(|_| BsdfQuery { wo: direction(), wi: direction() })
-        .filter(|query| !grazes_its_facet(surface, query))
+        .filter(|query| !grazes_its_microfacet(surface, query))
         .collect();
     let back: Vec<_> = there.iter().map(|q| BsdfQuery { wo: q.wi, wi: q.wo }).collect();
     let radiance = context.info.conventions.glass_radiance;
@@ -76,12 +76,12 @@ fn there_and_back(
     Ok((asked(&there)?, asked(&back)?))
 }
 
-/// Whether light is refracted along the facet that takes it from `wi` to `wo`, where f vanishes.
-fn grazes_its_facet(surface: SurfaceEntry, BsdfQuery { wo, wi }: &BsdfQuery) -> bool {
+/// Whether light is refracted along the microfacet that takes it from `wi` to `wo`, where f vanishes.
+fn grazes_its_microfacet(surface: SurfaceEntry, BsdfQuery { wo, wi }: &BsdfQuery) -> bool {
     let SurfaceEntry::RoughGlass(glass) = surface else { return false };
     let ratio = if wo.z > 0.0 { glass.index.0 } else { glass.index.0.recip() };
-    let facet = (*wo + ratio * *wi).normalize();
-    wo.z * wi.z < 0.0 && wo.dot(facet).abs().min(wi.dot(facet).abs()) < GRAZING
+    let microfacet = (*wo + ratio * *wi).normalize();
+    wo.z * wi.z < 0.0 && wo.dot(microfacet).abs().min(wi.dot(microfacet).abs()) < GRAZING
 }
 
 /// What f across an interface is proportional to that is not the same both ways: the square of the index on the

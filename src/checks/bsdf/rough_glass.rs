@@ -1,5 +1,5 @@
-//! Rough glass (BRDF and BTDF), right and wrong: f and pdf by Walter's formulas (2007), and what they become by the usual
-//! mistakes.
+//! Rough glass (BRDF and BTDF), right and wrong: f and pdf by Walter's formulas (2007), and what they become by the
+//! usual mistakes.
 
 use super::albedo::masking as declared;
 use crate::cause::{Cause, bsdf, convention};
@@ -22,24 +22,24 @@ pub(crate) struct RoughGlass {
     pub(crate) conventions: Conventions,
 }
 
-/// A pair of directions, and the facet that takes light from one to the other. All cosines are positive where it
+/// A pair of directions, and the microfacet that takes light from one to the other. All cosines are positive where it
 /// does.
 #[derive(Clone, Copy, Debug)]
-struct Facet {
+struct Microfacet {
     glass: RoughGlass,
     passes: bool,
     /// Index on the side of `wi`, if light passes, or else beyond, over that on the side of `wo`.
     ratio: f64,
-    /// Of `wo` and `wi` with the surface, and of the facet's normal.
+    /// Of `wo` and `wi` with the surface, and of the microfacet's normal.
     cos_o: f64,
     cos_i: f64,
     cos_m: f64,
-    /// Of `wo` and `wi` with the facet.
+    /// Of `wo` and `wi` with the microfacet.
     o_m: f64,
     i_m: f64,
 }
 
-impl Facet {
+impl Microfacet {
     fn of(glass: RoughGlass, query: &BsdfQuery, index_of_half: Index) -> Self {
         let BsdfQuery { wo, wi } = *query;
         let passes = wo.z * wi.z < 0.0;
@@ -77,7 +77,7 @@ impl Facet {
         (self.o_m - self.ratio * self.i_m).powi(2)
     }
 
-    /// Directions per facet: ∂m/∂wi.
+    /// Directions per microfacet: ∂m/∂wi.
     fn jacobian(&self) -> f64 {
         match self.passes {
             true => self.ratio * self.ratio * self.i_m / self.denominator(),
@@ -91,7 +91,7 @@ impl Facet {
             return 0.0;
         }
         let form = declared(self.glass.conventions.smith_term);
-        let facets = distribution(self.cos_m, self.glass.roughness) * self.masking(form)
+        let microfacets = distribution(self.cos_m, self.glass.roughness) * self.masking(form)
             / (self.cos_o * self.cos_i);
         let scale = match self.glass.conventions.glass_radiance {
             GlassRadiance::Unscaled if self.passes => self.ratio * self.ratio,
@@ -101,10 +101,10 @@ impl Facet {
             true => self.o_m * self.i_m / self.denominator(),
             false => 0.25,
         };
-        self.probability(self.o_m) * facets * turned * scale
+        self.probability(self.o_m) * microfacets * turned * scale
     }
 
-    /// Of samples that are drawn by the facets seen and by Fresnel's share.
+    /// Of samples that are drawn by the microfacets seen and by Fresnel's share.
     fn pdf(&self) -> f64 {
         if !self.is_possible() {
             return 0.0;
@@ -117,7 +117,7 @@ impl Facet {
 }
 
 /// What multiplies a formula under a mistake.
-type Factor = fn(&Facet) -> f64;
+type Factor = fn(&Microfacet) -> f64;
 /// What the half vector of refraction is made with: of the glass, and of η.
 type Index = fn(RoughGlass, f64) -> f64;
 
@@ -153,12 +153,12 @@ const PDFS: &[(&Cause, Factor)] = &[
 impl RoughGlass {
     /// The mistake that makes every f, of white glass, at these pairs of directions.
     pub(crate) fn mistake_of_value(self, pairs: &[(BsdfQuery, f64)]) -> Option<&'static Cause> {
-        self.mistake(pairs, Facet::value, VALUES)
+        self.mistake(pairs, Microfacet::value, VALUES)
     }
 
     /// The mistake that makes every pdf. Samples may be drawn by other laws that are as right.
     pub(crate) fn mistake_of_pdf(self, pairs: &[(BsdfQuery, f64)]) -> Option<&'static Cause> {
-        self.mistake(pairs, Facet::pdf, PDFS)
+        self.mistake(pairs, Microfacet::pdf, PDFS)
     }
 
     fn mistake(
@@ -184,10 +184,10 @@ impl RoughGlass {
     }
 
     fn expected(self, query: &BsdfQuery, formula: Factor, index: Index, factor: Factor) -> f64 {
-        let facet = Facet::of(self, query, index);
-        match formula(&facet) {
+        let microfacet = Microfacet::of(self, query, index);
+        match formula(&microfacet) {
             0.0 => 0.0,
-            right => right * factor(&facet),
+            right => right * factor(&microfacet),
         }
     }
 }
@@ -219,33 +219,33 @@ mod tests {
 
     #[test]
     fn what_is_right_is_no_mistake() {
-        let value = |factor| with(Facet::value, RIGHT_INDEX, factor);
+        let value = |factor| with(Microfacet::value, RIGHT_INDEX, factor);
         assert_eq!(GLASS.mistake_of_value(&value(RIGHT)), None);
         assert_eq!(GLASS.mistake_of_value(&value(|_| 1.01)), None);
-        let pdf = with(Facet::pdf, RIGHT_INDEX, RIGHT);
+        let pdf = with(Microfacet::pdf, RIGHT_INDEX, RIGHT);
         assert_eq!(GLASS.mistake_of_pdf(&pdf), None);
     }
 
     #[test]
     fn every_mistake_is_told() {
         for (cause, factor) in VALUES {
-            let found = with(Facet::value, RIGHT_INDEX, *factor);
+            let found = with(Microfacet::value, RIGHT_INDEX, *factor);
             assert_eq!(GLASS.mistake_of_value(&found), Some(*cause));
         }
         for (cause, factor) in PDFS {
-            let found = with(Facet::pdf, RIGHT_INDEX, *factor);
+            let found = with(Microfacet::pdf, RIGHT_INDEX, *factor);
             assert_eq!(GLASS.mistake_of_pdf(&found), Some(*cause));
         }
         let half = Some(&bsdf::HALF_WITH_INDEX_OF_ENTERING);
-        assert_eq!(GLASS.mistake_of_value(&with(Facet::value, OF_ENTERING, RIGHT)), half);
-        assert_eq!(GLASS.mistake_of_pdf(&with(Facet::pdf, OF_ENTERING, RIGHT)), half);
+        assert_eq!(GLASS.mistake_of_value(&with(Microfacet::value, OF_ENTERING, RIGHT)), half);
+        assert_eq!(GLASS.mistake_of_pdf(&with(Microfacet::pdf, OF_ENTERING, RIGHT)), half);
     }
 
     #[test]
     fn wi_and_wo_may_be_exchanged_over_the_index_squared() {
-        for (query, f) in with(Facet::value, RIGHT_INDEX, RIGHT) {
+        for (query, f) in with(Microfacet::value, RIGHT_INDEX, RIGHT) {
             let BsdfQuery { wo, wi } = query;
-            let back = Facet::of(GLASS, &BsdfQuery { wo: wi, wi: wo }, RIGHT_INDEX).value();
+            let back = Microfacet::of(GLASS, &BsdfQuery { wo: wi, wi: wo }, RIGHT_INDEX).value();
             let index = |w: DVec3| if w.z < 0.0 && wo.z * wi.z < 0.0 { 2.25 } else { 1.0 };
             let (there, back) = (f / index(wo), back / index(wi));
             assert!((there - back).abs() <= 1e-9 * there, "{wo} {wi}: {there} {back}");

@@ -423,8 +423,8 @@ fn solid_angle(shape: Shape<'_>, point: DVec3) -> f64 {
     }
 }
 
-/// Of one sample of a rectangle's light of radiance 1 at a white origin below it, by the hemisphere or by points of the
-/// light: second moment less the square of the mean.
+/// Of one sample of a rectangle's light of radiance 1 at a white origin below it, by hemisphere or light
+/// sampling: second moment less the square of the mean.
 fn direct_variance(scene: &SceneDescription, by_hemisphere: bool) -> f64 {
     let Some(&Light::Area { shape }) = scene.lights.first() else { return f64::NAN };
     let Shape::Mesh(light) = scene.shape(shape) else { return f64::NAN };

@@ -57,7 +57,7 @@ struct Share {
 }
 
 impl RouletteStopsPaths {
-    /// By the hemisphere: every direction inside a furnace meets light, whatever a core knows of light sampling.
+    /// By hemisphere sampling: every direction inside a furnace meets light, whatever a core knows of light sampling.
     fn settings(&self, bounce: u32) -> IntegratorSettings {
         settings([bounce, bounce], DirectSampling::Hemisphere)
     }

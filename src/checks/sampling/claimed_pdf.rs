@@ -23,7 +23,7 @@ enum Wanted {
     Cosine,
     /// A diffuse surface may draw as it likes, if only it says so.
     Either,
-    /// Rough metal may draw by all its facets, or by those that are seen.
+    /// Rough metal may draw by all its microfacets, or by those that are seen.
     Metal,
     /// As may rough glass, and choose between its ways as it likes.
     RoughGlass,
@@ -51,7 +51,7 @@ pub(crate) struct ClaimedPdf {
     form: Option<Form>,
     is_dark_below: bool,
     /// What is wrong with the pdf of microfacets, which has no such form.
-    of_facets: Option<&'static Cause>,
+    of_microfacets: Option<&'static Cause>,
 }
 
 impl ClaimedPdf {
@@ -66,7 +66,7 @@ impl ClaimedPdf {
         distribution.pdf(core, &below, &mut pdf_below)?;
         let values: Vec<_> = pdf.iter().zip(&above).map(|(pdf, wi)| (*pdf, wi.z)).collect();
         let is_dark_below = pdf_below.iter().all(|pdf| *pdf == 0.0);
-        let of_facets = match wanted {
+        let of_microfacets = match wanted {
             Wanted::Metal => mistake_of_metal(distribution, &above, &pdf),
             Wanted::RoughGlass => {
                 let all = above.iter().zip(&pdf).chain(below.iter().zip(&pdf_below));
@@ -74,14 +74,14 @@ impl ClaimedPdf {
             }
             _ => None,
         };
-        let is_of_facets = matches!(wanted, Wanted::Metal | Wanted::RoughGlass);
-        let form = if is_of_facets { None } else { Form::of(&values) };
-        Ok(Some(Self { wanted, form, is_dark_below, of_facets }))
+        let is_of_microfacets = matches!(wanted, Wanted::Metal | Wanted::RoughGlass);
+        let form = if is_of_microfacets { None } else { Form::of(&values) };
+        Ok(Some(Self { wanted, form, is_dark_below, of_microfacets }))
     }
 
     /// The mistake that makes such a pdf, whatever is drawn.
     pub(crate) fn mistake(self) -> Option<&'static Cause> {
-        let Some(form) = self.form else { return self.of_facets };
+        let Some(form) = self.form else { return self.of_microfacets };
         let right = match (self.wanted, form.power) {
             (Wanted::Uniform, _) | (Wanted::Either, 0) => Form::UNIFORM,
             _ => Form::COSINE,

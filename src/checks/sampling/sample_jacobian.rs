@@ -1,6 +1,6 @@
 //! A sampler's map and its pdf fit together at every point: |∂ω/∂u × ∂ω/∂v| · pdf = 1.
 //!
-//! Where a third number chooses between ways, each way has a map of its own, and the product is the chance of that
+//! Where a third number chooses between ways, each way has a map of its own, and the product is the probability of that
 //! way: the share of third numbers that choose it, which is found by halving.
 //!
 //! No statistics: wherever the map from the unit square is smooth, how much it stretches area is the reciprocal of

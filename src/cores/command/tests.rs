@@ -101,7 +101,7 @@ fn times_are_read_from_the_log() {
 }
 
 #[test]
-fn a_program_that_fails_is_heard_out() {
+fn a_failing_program_is_read_to_the_end() {
     let CoreError::Crashed { how, .. } =
         outcome("echo no such scene >&2; exit 7", ("", "")).unwrap_err()
     else {

@@ -2,7 +2,7 @@
 //!
 //! Like a fault, a choice replaces steps of the lesson; some of them have to be declared, too.
 
-use super::ggx::Facets;
+use super::ggx::Microfacets;
 use super::glass::refracted_cosine;
 use super::integrator::{Progress, survival_probability};
 use super::random::{self, Random, scramble};
@@ -101,7 +101,7 @@ different! {
         fresnel = schlick_outside;
     "correlated-smith": "the height-correlated Smith term, declared",
         parts [3, 4] declares |info| info.conventions.smith_term = SmithTerm::HeightCorrelated,
-        metal_f = |Facets { distribution, roughness, wo, wi, .. }| {
+        metal_f = |Microfacets { distribution, roughness, wo, wi, .. }| {
             distribution * height_correlated_masking(*roughness, *wo, *wi) / (4.0 * wo.z * wi.z)
         },
         masking_over_cosines = |roughness, wo, wi| {

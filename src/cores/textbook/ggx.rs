@@ -11,14 +11,14 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// What f and pdf of a pair of directions are made of.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Facets {
+pub(crate) struct Microfacets {
     /// α.
     pub(crate) roughness: f64,
     /// Towards the viewer.
     pub(crate) wo: DVec3,
     /// Towards the light.
     pub(crate) wi: DVec3,
-    /// The normal h of the facets that reflect one into the other.
+    /// The normal h of the microfacets that reflect one into the other.
     pub(crate) normal: DVec3,
     /// D(h).
     pub(crate) distribution: f64,
@@ -38,9 +38,9 @@ pub(crate) fn evaluate(
     let normal = (wo + wi).normalize();
     let distribution = normal_distribution(roughness, normal);
     let masking_over_cosine = [wo, wi].map(|w| masking_over_cosine(roughness, w));
-    let facets = Facets { roughness, wo, wi, normal, distribution, masking_over_cosine };
-    let value = steps.metal_f(&facets);
-    BsdfValue { f: reflectance.map(|r| r * value), pdf: steps.metal_pdf(&facets) }
+    let microfacets = Microfacets { roughness, wo, wi, normal, distribution, masking_over_cosine };
+    let value = steps.metal_f(&microfacets);
+    BsdfValue { f: reflectance.map(|r| r * value), pdf: steps.metal_pdf(&microfacets) }
 }
 
 /// The width of the lobe is the roughness itself.
@@ -49,23 +49,23 @@ pub(crate) fn alpha(roughness: f64) -> f64 {
 }
 
 /// f/R = D(h) G₁(wo) G₁(wi) / (4 cos θo cos θi).
-pub(crate) fn metal_f(facets: &Facets) -> f64 {
-    let [masking_wo, masking_wi] = facets.masking_over_cosine;
-    facets.distribution * masking_wo * masking_wi / 4.0
+pub(crate) fn metal_f(microfacets: &Microfacets) -> f64 {
+    let [masking_wo, masking_wi] = microfacets.masking_over_cosine;
+    microfacets.distribution * masking_wo * masking_wi / 4.0
 }
 
 /// The pdf of visible normals, G₁(wo) D(h) max(0, wo·h) / cos θo, over the Jacobian 4 wo·h of the reflection.
-pub(crate) fn metal_pdf(facets: &Facets) -> f64 {
-    facets.distribution * facets.masking_over_cosine[0] / 4.0
+pub(crate) fn metal_pdf(microfacets: &Microfacets) -> f64 {
+    microfacets.distribution * microfacets.masking_over_cosine[0] / 4.0
 }
 
-/// A direction reflected from a visible facet; it may point below the horizon, where `f` is zero.
+/// A direction reflected from a visible microfacet; it may point below the horizon, where `f` is zero.
 pub(crate) fn sample(roughness: f64, wo: DVec3, point: DVec2, steps: &Steps) -> DVec3 {
-    let facet = visible_facet(steps.alpha(roughness), wo, point);
-    2.0 * wo.dot(facet) * facet - wo
+    let microfacet = visible_microfacet(steps.alpha(roughness), wo, point);
+    2.0 * wo.dot(microfacet) * microfacet - wo
 }
 
-/// D: area of facets with normal `h` per unit of surface and solid angle.
+/// D: area of microfacets with normal `h` per unit of surface and solid angle.
 ///
 /// Written with h.x² + h.y² in place of 1 − h.z², which would lose all digits for small roughness.
 pub(crate) fn normal_distribution(roughness: f64, h: DVec3) -> f64 {
@@ -82,7 +82,7 @@ pub(crate) fn masking_over_cosine(roughness: f64, w: DVec3) -> f64 {
 }
 
 /// Heitz 2018, listing 1: stretch to the unit hemisphere, sample its projected area as seen from `wo`, unstretch.
-pub(crate) fn visible_facet(roughness: f64, wo: DVec3, point: DVec2) -> DVec3 {
+pub(crate) fn visible_microfacet(roughness: f64, wo: DVec3, point: DVec2) -> DVec3 {
     let view = DVec3::new(roughness * wo.x, roughness * wo.y, wo.z).normalize();
     let across = DVec3::new(-view.y, view.x, 0.0).try_normalize().unwrap_or(DVec3::X);
     let along = view.cross(across);
@@ -108,7 +108,7 @@ mod tests {
     use crate::cores::textbook::sampling::direction_at;
 
     #[test]
-    fn facets_cover_the_surface_once() {
+    fn microfacets_cover_the_surface_once() {
         for roughness in [0.1, 0.6, 1.0] {
             let heights = 20_000;
             let total: f64 = (0..heights)

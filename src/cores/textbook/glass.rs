@@ -12,7 +12,7 @@ pub(crate) struct Glass {
     pub(crate) index: f64,
     /// Multiplies what is reflected.
     pub(crate) reflectance: Rgb,
-    /// Multiplies what is let through.
+    /// Multiplies what is transmitted.
     pub(crate) transmittance: Rgb,
 }
 

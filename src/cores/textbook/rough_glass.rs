@@ -1,7 +1,7 @@
-//! A rough interface between vacuum (the side of the normal) and glass: GGX facets, each a smooth interface.
+//! A rough interface between vacuum (the side of the normal) and glass: GGX microfacets, each a smooth interface.
 //!
 //! Formulas: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", with
-//! i = wi, o = wo and m = the facet's normal, which has z > 0 here whichever side light comes from.
+//! i = wi, o = wo and m = the microfacet's normal, which has z > 0 here whichever side light comes from.
 
 use super::bsdf::{self, NOTHING};
 use super::ggx;
@@ -15,11 +15,11 @@ use glam::{DVec2, DVec3};
 pub(crate) struct RoughGlass {
     /// Of the inside; outside is vacuum.
     pub(crate) index: f64,
-    /// The width α of the distribution of facets.
+    /// The width α of the distribution of microfacets.
     pub(crate) roughness: f64,
     /// Multiplies what is reflected.
     pub(crate) reflectance: Rgb,
-    /// Multiplies what is let through.
+    /// Multiplies what is transmitted.
     pub(crate) transmittance: Rgb,
 }
 
@@ -37,35 +37,37 @@ impl RoughGlass {
 
     /// Walter's equation 20, F D G / (4 |cos θi| |cos θo|), and 14 for the Jacobian 1 / (4 |o·m|).
     fn reflection(&self, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
-        let facet = upward((wo + wi).normalize());
-        let cosine = wo.dot(facet).abs();
-        let reflected = self.fresnel(wo, facet, steps);
-        let value = reflected * self.facets_over_cosines(wo, wi, facet, steps) / 4.0;
+        let microfacet = upward((wo + wi).normalize());
+        let cosine = wo.dot(microfacet).abs();
+        let reflected = self.fresnel(wo, microfacet, steps);
+        let value = reflected * self.microfacets_over_cosines(wo, wi, microfacet, steps) / 4.0;
         let jacobian = 1.0 / (4.0 * cosine);
         let pdf =
-            steps.lobe_probability(reflected) * self.visible_normals_pdf(wo, facet) * jacobian;
+            steps.lobe_probability(reflected) * self.visible_normals_pdf(wo, microfacet) * jacobian;
         BsdfValue { f: self.reflectance.map(|r| r * value), pdf }
     }
 
     /// Walter's equation 21, with the indices divided by the one on the side of `wo`, and 17 for the Jacobian.
     fn refraction(&self, wo: DVec3, wi: DVec3, steps: &Steps) -> BsdfValue {
         let ratio = self.ratio(wo);
-        let facet = steps.refraction_facet(self, wo, wi);
-        let (o_m, i_m) = (wo.dot(facet), wi.dot(facet));
+        let microfacet = steps.refraction_microfacet(self, wo, wi);
+        let (o_m, i_m) = (wo.dot(microfacet), wi.dot(microfacet));
         if o_m * wo.z <= 0.0 || i_m * wi.z <= 0.0 {
             return NOTHING;
         }
-        let passed = 1.0 - self.fresnel(wo, facet, steps);
+        let passed = 1.0 - self.fresnel(wo, microfacet, steps);
         let denominator = (o_m + ratio * i_m).powi(2);
         let jacobian = steps.refraction_jacobian(ratio, i_m, denominator);
-        let pdf = steps.lobe_probability(passed) * self.visible_normals_pdf(wo, facet) * jacobian;
-        let value = passed * self.facets_over_cosines(wo, wi, facet, steps) * (o_m * i_m).abs()
-            / denominator
-            * steps.rough_radiance_scale(ratio);
+        let pdf =
+            steps.lobe_probability(passed) * self.visible_normals_pdf(wo, microfacet) * jacobian;
+        let value =
+            passed * self.microfacets_over_cosines(wo, wi, microfacet, steps) * (o_m * i_m).abs()
+                / denominator
+                * steps.rough_radiance_scale(ratio);
         BsdfValue { f: self.transmittance.map(|t| t * value), pdf }
     }
 
-    /// One incident direction for `wo`: a facet that is seen, which reflects with the probability of Fresnel's
+    /// One incident direction for `wo`: a microfacet that is seen, which reflects with the probability of Fresnel's
     /// reflectance and refracts otherwise. What comes out on the wrong side of the surface is lost.
     pub(crate) fn sample(
         &self,
@@ -75,7 +77,7 @@ impl RoughGlass {
         steps: &Steps,
     ) -> Option<BsdfSample> {
         let side = wo.z.signum();
-        let towards_wo = side * ggx::visible_facet(self.roughness, side * wo, point);
+        let towards_wo = side * ggx::visible_microfacet(self.roughness, side * wo, point);
         let (cosine, ratio) = (wo.dot(towards_wo), self.ratio(wo));
         let reflects = lobe < self.fresnel(wo, towards_wo, steps);
         let wi = if reflects {
@@ -94,36 +96,42 @@ impl RoughGlass {
         glass::relative_index(self.index, wo)
     }
 
-    /// Share of light that the facet reflects.
-    fn fresnel(&self, wo: DVec3, facet: DVec3, steps: &Steps) -> f64 {
-        glass::fresnel(steps.fresnel_cosine(wo, facet), self.ratio(wo))
+    /// Share of light that the microfacet reflects.
+    fn fresnel(&self, wo: DVec3, microfacet: DVec3, steps: &Steps) -> f64 {
+        glass::fresnel(steps.fresnel_cosine(wo, microfacet), self.ratio(wo))
     }
 
     /// D G / (|cos θi| |cos θo|).
-    fn facets_over_cosines(&self, wo: DVec3, wi: DVec3, facet: DVec3, steps: &Steps) -> f64 {
+    fn microfacets_over_cosines(
+        &self,
+        wo: DVec3,
+        wi: DVec3,
+        microfacet: DVec3,
+        steps: &Steps,
+    ) -> f64 {
         let (wo, wi) = (wo.with_z(wo.z.abs()), wi.with_z(wi.z.abs()));
         let masking_over_cosines = steps.masking_over_cosines(self.roughness, wo, wi);
-        ggx::normal_distribution(self.roughness, facet) * masking_over_cosines
+        ggx::normal_distribution(self.roughness, microfacet) * masking_over_cosines
     }
 
     /// The pdf of visible normals: G₁(wo) D |wo·m| / |cos θo|.
-    fn visible_normals_pdf(&self, wo: DVec3, facet: DVec3) -> f64 {
+    fn visible_normals_pdf(&self, wo: DVec3, microfacet: DVec3) -> f64 {
         let masked = ggx::masking_over_cosine(self.roughness, wo.with_z(wo.z.abs()));
-        masked * ggx::normal_distribution(self.roughness, facet) * wo.dot(facet).abs()
+        masked * ggx::normal_distribution(self.roughness, microfacet) * wo.dot(microfacet).abs()
     }
 }
 
-/// The cosine that Fresnel's equations take: light meets the facet, not the surface.
-pub(crate) fn fresnel_cosine(wo: DVec3, facet: DVec3) -> f64 {
-    wo.dot(facet).abs()
+/// The cosine that Fresnel's equations take: light meets the microfacet, not the surface.
+pub(crate) fn fresnel_cosine(wo: DVec3, microfacet: DVec3) -> f64 {
+    wo.dot(microfacet).abs()
 }
 
-/// The facet that refracts `wi` towards `wo`: Walter's equation 16.
-pub(crate) fn refraction_facet(glass: &RoughGlass, wo: DVec3, wi: DVec3) -> DVec3 {
+/// The microfacet that refracts `wi` towards `wo`: Walter's equation 16.
+pub(crate) fn refraction_microfacet(glass: &RoughGlass, wo: DVec3, wi: DVec3) -> DVec3 {
     upward((-(wo + glass.ratio(wo) * wi)).normalize())
 }
 
-/// Solid angle of facets per solid angle of refracted directions: Walter's equation 17.
+/// Solid angle of microfacets per solid angle of refracted directions: Walter's equation 17.
 pub(crate) fn refraction_jacobian(ratio: f64, i_m: f64, denominator: f64) -> f64 {
     ratio * ratio * i_m.abs() / denominator
 }
@@ -143,9 +151,9 @@ pub(crate) fn rough_radiance_scale(_ratio: f64) -> f64 {
     1.0
 }
 
-/// The normal of a facet, which points out of the glass.
-pub(crate) fn upward(facet: DVec3) -> DVec3 {
-    if facet.z < 0.0 { -facet } else { facet }
+/// The normal of a microfacet, which points out of the glass.
+pub(crate) fn upward(microfacet: DVec3) -> DVec3 {
+    if microfacet.z < 0.0 { -microfacet } else { microfacet }
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use super::adaptive::Tally;
 use super::build::Builder;
 use super::bvh::{Bvh, Primitive, Search};
 use super::frame::Frame;
-use super::ggx::Facets;
+use super::ggx::Microfacets;
 use super::integrator::{Integrator, Progress};
 use super::intersect::{Crossing, Quadratic, Sphere, Triangle};
 use super::random::Random;
@@ -177,15 +177,15 @@ steps! {
         bsdf::scattered(surface: &Surface, f: Rgb) -> DVec3;
         // Part 4: metal and glass.
         ggx::alpha(roughness: f64) -> f64;
-        ggx::metal_f(facets: &Facets) -> f64;
-        ggx::metal_pdf(facets: &Facets) -> f64;
+        ggx::metal_f(microfacets: &Microfacets) -> f64;
+        ggx::metal_pdf(microfacets: &Microfacets) -> f64;
         glass::relative_index(index: f64, wo: DVec3) -> f64;
         glass::fresnel(cosine: f64, ratio: f64) -> f64;
         glass::reflects(lobe: f64, fresnel: f64) -> bool;
         glass::shares(fresnel: f64) -> (f64, f64);
         glass::radiance_scale(ratio: f64) -> f64;
-        rough_glass::fresnel_cosine(wo: DVec3, facet: DVec3) -> f64;
-        rough_glass::refraction_facet(glass: &RoughGlass, wo: DVec3, wi: DVec3) -> DVec3;
+        rough_glass::fresnel_cosine(wo: DVec3, microfacet: DVec3) -> f64;
+        rough_glass::refraction_microfacet(glass: &RoughGlass, wo: DVec3, wi: DVec3) -> DVec3;
         rough_glass::refraction_jacobian(ratio: f64, i_m: f64, denominator: f64) -> f64;
         rough_glass::lobe_probability(share: f64) -> f64;
         rough_glass::masking_over_cosines(roughness: f64, wo: DVec3, wi: DVec3) -> f64;

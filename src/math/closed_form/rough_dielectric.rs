@@ -27,8 +27,9 @@ impl Shares {
     pub(crate) fn of(cos_o: f64, eta: f64, alpha: f64, form: Masking) -> Self {
         let view = View { cos_o, sin_o: (1.0 - cos_o * cos_o).max(0.0).sqrt(), eta, alpha, form };
         let mean = |light: Light| {
-            let over_facets = |v: f64| 2.0 * v * view.mean_over_phi(view.cos_facet(v), light);
-            integrate(&[0.0, 0.25, 0.5, 0.75, 1.0], 1e-8, over_facets).value
+            let over_microfacets =
+                |v: f64| 2.0 * v * view.mean_over_phi(view.cos_microfacet(v), light);
+            integrate(&[0.0, 0.25, 0.5, 0.75, 1.0], 1e-8, over_microfacets).value
         };
         Self { reflected: mean(View::reflected), refracted: mean(View::refracted) }
     }
@@ -47,7 +48,7 @@ struct View {
 
 impl View {
     /// Of the microfacet that has the fraction 1 − v² of all microfacets above it, by D cos.
-    fn cos_facet(&self, v: f64) -> f64 {
+    fn cos_microfacet(&self, v: f64) -> f64 {
         v / (v * v + self.alpha * self.alpha * (1.0 - v * v)).sqrt()
     }
 
@@ -139,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn facets_that_reflect_everything_are_metal() {
+    fn microfacets_that_reflect_everything_are_metal() {
         // A ratio of indices near zero: total reflection at nearly every angle.
         for form in [Masking::Separable, Masking::HeightCorrelated] {
             let shares = Shares::of(0.7, 1e-4, 0.5, form);

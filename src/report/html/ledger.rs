@@ -1,4 +1,4 @@
-//! Error rates: what every trial has spent of the chance to fail a correct core, and what it would have caught.
+//! Error rates: what every trial has spent of the probability to fail a correct core, and what it would have caught.
 
 use super::parts::link;
 use super::{Page, View};

@@ -51,7 +51,7 @@ const EARLY_SCRIPT: &str = "{const root=document.documentElement;root.classList.
 /// Writes `index.html` into `folder`, whole or not at all.
 ///
 /// # Errors
-/// If the file system says no.
+/// On an I/O error.
 pub fn write(tree: &RunTree, folder: &Path) -> Result<PathBuf, ReportError> {
     let path = folder.join("index.html");
     match disk::replace(&path, render(tree, folder).as_bytes()) {

@@ -29,7 +29,7 @@ fn body(view: &View<'_>) -> Option<Markup> {
     }
     let present = View { tree: &view.tree.of_present_cores(), folder: view.folder };
     Some(html! {
-        @for core in absent { (does_not_come_up(core)) }
+        @for core in absent { (does_not_start(core)) }
         @if failures(present.tree).is_empty() { @if let Some(causes) = causes(&present) { (causes) } }
         @else if let Some(card) = of_trials(&present) { (card) }
     })
@@ -50,7 +50,7 @@ fn of_trials(view: &View<'_>) -> Option<Markup> {
 }
 
 /// One cause for every trial of a core: why, what it printed, and how to try that alone.
-fn does_not_come_up(core: AbsentCore<'_>) -> Markup {
+fn does_not_start(core: AbsentCore<'_>) -> Markup {
     html! {
         div.card.first {
             p.kicker { b { "Start here. " } (badge(core.witness.outcome.status())) }

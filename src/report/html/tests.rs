@@ -77,7 +77,7 @@ fn the_earliest_failure_is_where_to_start() {
 }
 
 #[test]
-fn a_core_that_does_not_come_up_is_one_card() {
+fn a_core_that_does_not_start_is_one_card() {
     let mut example = Example::mixed();
     example.run.cores[1].problem = Some("the core crashed during hello".to_owned());
     let page = page(example);

@@ -103,7 +103,7 @@ fn what_was_found_stands_below_the_word_fail() {
 }
 
 #[test]
-fn a_core_that_does_not_come_up_is_one_block() {
+fn a_core_that_does_not_start_is_one_block() {
     let mut example = Example::mixed();
     example.run.cores[1].problem = Some("the core crashed during hello".to_owned());
     let text = plain(example);

@@ -1,9 +1,9 @@
 //! A rough conductor: GGX microfacets that reflect the same at every angle.
 //!
-//! Written with the masking sums of `facets`, f = R D G₁ G₁ / (4 cos cos) and its pdf G₁ D / (4 cos) have no
+//! Written with the masking sums of `microfacets`, f = R D G₁ G₁ / (4 cos cos) and its pdf G₁ D / (4 cos) have no
 //! cosines left.
 
-use super::facets::Facets;
+use super::microfacets::Microfacets;
 use super::scattering::Scattering;
 use glam::{Vec2, Vec3};
 
@@ -11,28 +11,28 @@ use glam::{Vec2, Vec3};
 #[derive(Clone, Debug)]
 pub(crate) struct Conductor {
     reflectance: Vec3,
-    facets: Facets,
+    microfacets: Microfacets,
 }
 
 impl Conductor {
     /// `reflectance` of a single microfacet, and the width α of the distribution.
     pub(crate) const fn new(reflectance: Vec3, roughness: f32) -> Self {
-        Self { reflectance, facets: Facets::new(roughness) }
+        Self { reflectance, microfacets: Microfacets::new(roughness) }
     }
 
     /// `f` and pdf for two directions of the upper side.
     pub(crate) fn evaluate(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
-        let distribution = self.facets.distribution((wo + wi).normalize());
-        let (s_wo, s_wi) = (self.facets.masking_sum(wo), self.facets.masking_sum(wi));
+        let distribution = self.microfacets.distribution((wo + wi).normalize());
+        let (s_wo, s_wi) = (self.microfacets.masking_sum(wo), self.microfacets.masking_sum(wi));
         (self.reflectance * (distribution / (s_wo * s_wi)), distribution / (2.0 * s_wo))
     }
 
     /// A reflection on a microfacet that `wo` sees; `None` if it goes down into the surface.
     pub(crate) fn sample(&self, wo: Vec3, point: Vec2) -> Option<Scattering> {
-        let facet = self.facets.visible_normal(wo, point);
-        let wi = (2.0 * wo.dot(facet) * facet - wo).normalize();
+        let microfacet = self.microfacets.visible_normal(wo, point);
+        let wi = (2.0 * wo.dot(microfacet) * microfacet - wo).normalize();
         (wi.z > 0.0).then(|| {
-            let weight = self.reflectance * (2.0 * wi.z / self.facets.masking_sum(wi));
+            let weight = self.reflectance * (2.0 * wi.z / self.microfacets.masking_sum(wi));
             Scattering { wi, weight, pdf: self.evaluate(wo, wi).1 }
         })
     }

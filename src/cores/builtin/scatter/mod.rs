@@ -2,8 +2,8 @@
 
 mod bsdf;
 mod conductor;
-mod facets;
 mod glass;
+mod microfacets;
 mod rough_glass;
 mod scattering;
 pub(crate) mod warp;

@@ -3,19 +3,19 @@
 //!
 //! All is worked out with the side of `wo` up: seen from inside, heights are negated and η =
 //! eta_t / eta_i is below 1. A microfacet takes `wi` to `wo` by refraction if its normal is along ∓(wo + η wi);
-//! the length of that vector is Walter's η wi·h + wo·h. With the masking sums of `facets`,
+//! the length of that vector is Walter's η wi·h + wo·h. With the masking sums of `microfacets`,
 //!
 //! reflected: f = F D / (s s), pdf F D / (2 s);
 //! refracted: f = (1 − F) D 4 |wo·h wi·h| / (s s |wo + η wi|²), pdf (1 − F) D 2 |wo·h| η² |wi·h| / (s |wo + η wi|²).
 
-use super::facets::Facets;
+use super::microfacets::Microfacets;
 use super::scattering::Scattering;
 use glam::{Vec2, Vec3, vec3};
 
 #[derive(Clone, Debug)]
 pub(crate) struct RoughGlass {
     index: f32,
-    facets: Facets,
+    microfacets: Microfacets,
     reflectance: Vec3,
     transmittance: Vec3,
 }
@@ -30,7 +30,7 @@ impl RoughGlass {
     ) -> Self {
         Self {
             index: index as f32,
-            facets: Facets::new(roughness as f32),
+            microfacets: Microfacets::new(roughness as f32),
             reflectance,
             transmittance,
         }
@@ -59,9 +59,9 @@ impl RoughGlass {
         // Half the length is the cosine with the microfacet, and the same with wo and wi exchanged.
         let length = sum.length();
         let reflected = 1.0 - transmittance(0.5 * length, index);
-        let facets = reflected * self.facets.distribution(sum / length);
-        let (s_wo, s_wi) = (self.facets.masking_sum(wo), self.facets.masking_sum(wi));
-        (self.reflectance * (facets / (s_wo * s_wi)), facets / (2.0 * s_wo))
+        let microfacets = reflected * self.microfacets.distribution(sum / length);
+        let (s_wo, s_wi) = (self.microfacets.masking_sum(wo), self.microfacets.masking_sum(wi));
+        (self.reflectance * (microfacets / (s_wo * s_wi)), microfacets / (2.0 * s_wo))
     }
 
     fn evaluate_refraction(&self, wo: Vec3, wi: Vec3, index: f32) -> (Vec3, f32) {
@@ -72,15 +72,17 @@ impl RoughGlass {
         if !(before > 0.0 && beyond > 0.0) {
             return (Vec3::ZERO, 0.0);
         }
-        let (s_wo, s_wi) =
-            (self.facets.masking_sum(wo), self.facets.masking_sum(vec3(wi.x, wi.y, -wi.z)));
-        let facets = transmittance_between(before, beyond, index)
-            * self.facets.distribution(half)
+        let (s_wo, s_wi) = (
+            self.microfacets.masking_sum(wo),
+            self.microfacets.masking_sum(vec3(wi.x, wi.y, -wi.z)),
+        );
+        let microfacets = transmittance_between(before, beyond, index)
+            * self.microfacets.distribution(half)
             * before
             * beyond
             / length_square;
-        let f = self.transmittance * (4.0 * facets / (s_wo * s_wi));
-        (f, 2.0 * index * index * facets / s_wo)
+        let f = self.transmittance * (4.0 * microfacets / (s_wo * s_wi));
+        (f, 2.0 * index * index * microfacets / s_wo)
     }
 
     /// A microfacet that `wo` sees, which reflects with the probability of its Fresnel reflectance, `lobe` below it, and
@@ -89,18 +91,18 @@ impl RoughGlass {
     pub(crate) fn sample(&self, wo: Vec3, point: Vec2, lobe: f32) -> Option<Scattering> {
         let index = self.index_beyond(wo);
         let up = facing(wo, wo);
-        let facet = self.facets.visible_normal(up, point);
-        let cosine = up.dot(facet);
+        let microfacet = self.microfacets.visible_normal(up, point);
+        let cosine = up.dot(microfacet);
         let (wi, colour, is_possible) = if lobe < 1.0 - transmittance(cosine, index) {
-            let wi = (2.0 * cosine * facet - up).normalize();
+            let wi = (2.0 * cosine * microfacet - up).normalize();
             (wi, self.reflectance, wi.z > 0.0)
         } else {
-            let wi = refracted(up, facet, index);
+            let wi = refracted(up, microfacet, index);
             // Radiance arrives from the far side and leaves on this one: L/n² is what is carried over.
             (wi, self.transmittance / (index * index), wi.z < 0.0)
         };
         let wi_up = vec3(wi.x, wi.y, wi.z.abs());
-        let weight = colour * (2.0 * wi_up.z / self.facets.masking_sum(wi_up));
+        let weight = colour * (2.0 * wi_up.z / self.microfacets.masking_sum(wi_up));
         let wi = facing(wi, wo);
         let pdf = self.evaluate(wo, wi).1;
         (is_possible && pdf > 0.0).then_some(Scattering { wi, weight, pdf })
@@ -113,10 +115,10 @@ fn facing(w: Vec3, wo: Vec3) -> Vec3 {
 }
 
 /// The refracted direction: the microfacet transmits light from there towards `wo`.
-fn refracted(wo: Vec3, facet: Vec3, index: f32) -> Vec3 {
-    let cosine = wo.dot(facet);
+fn refracted(wo: Vec3, microfacet: Vec3, index: f32) -> Vec3 {
+    let cosine = wo.dot(microfacet);
     let beyond = cosine_beyond(cosine, index);
-    (facet * (cosine / index - beyond) - wo / index).normalize()
+    (microfacet * (cosine / index - beyond) - wo / index).normalize()
 }
 
 /// Cosine of the refracted direction by Snell's law; 0 if all light is reflected.
@@ -192,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn all_light_is_reflected_by_facets_beyond_the_critical_angle() {
+    fn all_light_is_reflected_by_microfacets_beyond_the_critical_angle() {
         let wo = towards(135.0);
         let beyond = glass(1e-3).sample(wo, Vec2::new(0.3, 0.6), 0.999).expect("a reflection");
         assert!(

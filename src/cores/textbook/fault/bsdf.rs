@@ -8,7 +8,7 @@ use crate::scene::Surface;
 use glam::DVec3;
 use lesson::bsdf::mirror;
 use lesson::different;
-use lesson::ggx::Facets;
+use lesson::ggx::Microfacets;
 use std::f64::consts::FRAC_1_PI;
 
 const ALBEDO: &str = "bsdf/diffuse-conserves-energy";
@@ -88,15 +88,15 @@ faults! { part 3;
         alpha = |roughness| roughness * roughness;
     "metal-without-masking": "G = 1",
         fails "bsdf/rough-conductor-conserves-energy", told bsdf::MASKING_FORGOTTEN,
-        metal_f = |facets| facets.distribution / (4.0 * facets.wo.z * facets.wi.z);
+        metal_f = |microfacets| microfacets.distribution / (4.0 * microfacets.wo.z * microfacets.wi.z);
     "metal-pdf-of-half-vector": "the pdf of the half vector, without 1/(4 wo·h)",
         fails "bsdf/rough-conductor-pdf-matches-the-jacobian", told bsdf::PDF_OF_HALF_VECTOR,
-        metal_pdf = |Facets { distribution, masking_over_cosine: [masked, _], wo, normal, .. }| {
+        metal_pdf = |Microfacets { distribution, masking_over_cosine: [masked, _], wo, normal, .. }| {
             distribution * masked * wo.dot(*normal).max(0.0)
         };
     "metal-without-four": "the 4 in the denominator of f is missing",
         fails "bsdf/rough-conductor-conserves-energy", told bsdf::FOUR_FORGOTTEN,
-        metal_f = |Facets { distribution, masking_over_cosine: [wo, wi], .. }| distribution * wo * wi;
+        metal_f = |Microfacets { distribution, masking_over_cosine: [wo, wi], .. }| distribution * wo * wi;
     "rough-glass-jacobian-without-index": "the Jacobian of refraction lacks η²",
         fails "bsdf/rough-glass-pdf-matches-the-jacobian",
         told bsdf::REFRACTION_JACOBIAN_WITHOUT_INDEX,
@@ -108,7 +108,7 @@ faults! { part 3;
     "rough-glass-half-of-entering":
         "the half vector of refraction has the index of entering when light leaves",
         fails "bsdf/rough-glass-conserves-energy", told bsdf::HALF_WITH_INDEX_OF_ENTERING,
-        refraction_facet = |glass, wo, wi| {
+        refraction_microfacet = |glass, wo, wi| {
             lesson::rough_glass::upward((-(wo + glass.index * wi)).normalize())
         };
     "rough-glass-fresnel-of-surface":

@@ -46,7 +46,7 @@ fn check_references(bytes: &[u8]) -> Result<(), MeshError> {
         }
         let named = words.flat_map(|corner| corner.split('/').zip(0..LISTS.len()));
         for (word, list) in named {
-            // What is no number is told by tobj, and what no list has is not looked up.
+            // What is not a number is told by tobj, and what no list has is not looked up.
             let Ok(index) = word.parse::<i64>() else { continue };
             let known = if index > 0 { total[list] } else { so_far[list] };
             if total[list] > 0 && index.unsigned_abs() > known as u64 {

@@ -9,11 +9,11 @@ use glam::{Vec2, Vec3, vec3};
 use std::f32::consts::FRAC_1_PI;
 
 #[derive(Clone, Debug)]
-pub(crate) struct Facets {
+pub(crate) struct Microfacets {
     roughness: f32,
 }
 
-impl Facets {
+impl Microfacets {
     pub(crate) const fn new(roughness: f32) -> Self {
         Self { roughness }
     }

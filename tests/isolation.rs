@@ -85,6 +85,16 @@ const SANDBOXED_LIBRARIES: &[(&str, Ending)] = &[
     ("hide", (Status::Fail, "prctl: Operation not permitted")),
 ];
 
+/// A case that believes counts.
+const COUNTED: &str = "bvh/triangle-soup-tests-per-ray-grow-slowly";
+
+/// What those come to that meddle with the counts.
+const MISCOUNTING: &[(&str, Ending)] = &[
+    ("setback", (Status::Fail, "the counters of the counted tests were set by somebody else")),
+    ("restored", (Status::Fail, "answers were found without the counted tests")),
+    ("behind", (Status::Fail, "answers were found without the counted tests")),
+];
+
 /// What each program comes to.
 const PROGRAMS: &[(&str, Ending)] = &[
     ("fewer", (Status::Fail, "answered `hits`, 8 of hit; asked for was `hits`, 9 of hit")),
@@ -350,6 +360,13 @@ fn a_library_reaches_neither_secrets_nor_results_nor_anybody_else() {
             &[STRUCK, SPARED],
         );
     }
+}
+
+#[test]
+fn a_core_that_sets_its_counts_back_or_tests_behind_them_is_found_out() {
+    let _alone = ALONE.lock();
+    let library = compiled("counting");
+    assert_endings(MISCOUNTING, |lair, deed| lair.core_of(&library, deed), &[COUNTED]);
 }
 
 #[test]

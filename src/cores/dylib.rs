@@ -18,7 +18,7 @@ use crate::contract::{
     Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo, Precision, Split,
 };
 use crate::cores::textbook::World;
-use counted::CountedScene;
+use counted::{Answers, CountedScene};
 use lent::Lent;
 use libloading::Library;
 use std::ffi::{CStr, c_char, c_void};
@@ -267,7 +267,7 @@ macro_rules! called {
                     built, $(<$ty as Given>::passed(&$arg),)* out, count, stats
                 ))
             })?;
-            Ok(self.counts(stats, count))
+            self.counts(stats, $out)
         }
     };
 }
@@ -384,11 +384,17 @@ impl Drop for BuiltDylib<'_> {
 }
 
 impl BuiltDylib<'_> {
-    /// The bench's own counts where the core was lent its tests, the core's word otherwise.
-    fn counts(&self, reported: TraversalStats, rays: usize) -> TraversalStats {
+    /// The bench's own counts where the core was lent its tests, the core's word otherwise: also of one that answers by
+    /// other components of the bench, which count nothing.
+    fn counts<T>(&self, reported: TraversalStats, answers: &[T]) -> Result<TraversalStats>
+    where
+        [T]: Answers,
+    {
         match &self.counted {
-            Some(counted) => counted.scene.take_counts(rays as u64),
-            None => reported,
+            Some(counted) if self.core.taken.is_empty() => {
+                counted.scene.take_counts(answers, answers.len())
+            }
+            _ => Ok(reported),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::cause::Cause;
 use crate::image::{CHANNELS, Channel};
-use crate::stats::{ExactReport, Hypothesis, Report, Verdict};
+use crate::stats::{Doubt, ExactReport, Hypothesis, Report, Verdict};
 use crate::text::number::percent;
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
@@ -65,6 +65,9 @@ pub struct Measure {
     pub resolution: Option<f64>,
     /// The verdict on this number alone.
     pub verdict: Verdict,
+    /// Why it cannot be decided, where it is not that more samples are needed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<Doubt>,
     /// What the ledger enters for it; none where chance has no part in it, or where another measure
     /// stands for the same test.
     #[serde(rename = "leaf", default, skip_serializing_if = "Option::is_none")]
@@ -91,6 +94,7 @@ impl Measure {
             interval: None,
             resolution: (expected != 0.0).then(|| allowed / expected.abs()),
             verdict: Verdict::pass_if(passes),
+            doubt: None,
             hypothesis: None,
         }
     }
@@ -116,6 +120,7 @@ impl Measure {
             interval: judgement.interval,
             resolution: judgement.smallest_detectable_error,
             verdict: judgement.verdict,
+            doubt: judgement.doubt,
             hypothesis: judgement.hypothesis,
             ..Self::exact(quantity, judgement.measured, judgement.expected, judgement.allowed)
         }
@@ -183,6 +188,7 @@ impl Finding {
             resolution: resolution.into(),
             clues: Vec::new(),
         }
+        .doubting()
     }
 
     /// A finding of some measures that would have caught what the weakest of them resolves:
@@ -209,6 +215,15 @@ impl Finding {
             self.resolution = caught.into();
         }
         self
+    }
+
+    /// Says what cannot be decided, and why, unless something has failed.
+    fn doubting(self) -> Self {
+        let in_doubt = self.measures.iter().filter(|_| self.verdict == Verdict::Inconclusive);
+        let doubts =
+            in_doubt.filter_map(|measure| Some(format!("{}: {}", measure.name(), measure.doubt?)));
+        let first = doubts.take(1).collect::<Vec<_>>();
+        self.complaining(first)
     }
 
     /// The same with what is wrong for a statement, if anything is.
@@ -337,6 +352,14 @@ mod tests {
     fn nan_fails_and_nothing_is_no_pass() {
         assert_eq!(Measure::exact("t", f64::NAN, 1.0, 1e9).verdict, Verdict::Fail);
         assert_eq!(Finding::of("", "", Vec::new()).verdict, Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn a_doubt_is_told_in_place_of_what_is_right() {
+        let (verdict, doubt) = (Verdict::Inconclusive, Some(Doubt::HeavyTail));
+        let doubtful = Measure { verdict, doubt, ..Measure::none("radiance", 0) };
+        let finding = Finding::of("all is right", "", vec![doubtful]);
+        assert_eq!(finding.statement, format!("radiance: {}", Doubt::HeavyTail));
     }
 
     #[test]

@@ -39,8 +39,8 @@ pub use law::{
 };
 pub use plan::Budget;
 pub use plan::{
-    Allowance, Band, Claim, Effort, Hypothesis, Ledger, LedgerEntry, Report, SUITE_FALSE_ALARM,
-    Sides, Stage, TestKind, Verdict,
+    Allowance, Band, Claim, Doubt, Effort, Hypothesis, Ledger, LedgerEntry, Report,
+    SUITE_FALSE_ALARM, Sides, Stage, TestKind, Verdict,
 };
 pub(crate) use test::timing;
 pub(crate) use test::{

@@ -4,6 +4,9 @@
 //! the probability that a correct core fails anything at all, however the hypotheses depend on each
 //! other (union bound). Whether the bound is true can be seen long before anything fails: first stages have to
 //! suspect correct cores just as often as their level says.
+//!
+//! It holds for estimates of finite variance, and for light that one sample in 30 000 or more carries, where a case may
+//! spend so many. A tail that is seen to be heavier makes a mean inconclusive; what is rarer nobody can see.
 
 use super::level::{
     CODES_FALSE_ALARM, CORRELATION_FALSE_ALARM, ESCALATION_FALSE_ALARM, IMAGE_FALSE_ALARM,

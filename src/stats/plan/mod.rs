@@ -14,5 +14,5 @@ pub use claim::{Band, Claim, Sides};
 pub use escalation::{Escalation, Scored, Stage};
 pub use ledger::{Hypothesis, Ledger, LedgerEntry, TestKind};
 pub use level::SUITE_FALSE_ALARM;
-pub use report::{Judgement, Report};
+pub use report::{Doubt, Judgement, Report};
 pub use verdict::Verdict;

@@ -3,6 +3,8 @@
 //! test it was.
 
 use super::{Hypothesis, Verdict};
+use crate::text::spoken;
+use serde::{Deserialize, Serialize};
 
 /// The judgement of one number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +21,18 @@ pub struct Judgement {
     pub(crate) smallest_detectable_error: Option<f64>,
     /// What the ledger enters; none where chance has no part in it.
     pub(crate) hypothesis: Option<Hypothesis>,
+    /// Why there is no verdict, where it is not that more samples are needed.
+    pub(crate) doubt: Option<Doubt>,
+}
+
+spoken! {
+    /// Why a test cannot decide, however many samples there are.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Doubt {
+        /// The variance may be infinite, or rests on events that have hardly been seen.
+        HeavyTail = "a few samples carry the light, too few to say that it is too dark",
+    }
 }
 
 impl Judgement {
@@ -32,6 +46,7 @@ impl Judgement {
             interval: None,
             smallest_detectable_error: None,
             hypothesis: None,
+            doubt: None,
         }
     }
 }

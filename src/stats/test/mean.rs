@@ -141,8 +141,9 @@ impl<E> Judging<'_, E> {
     /// stage is judged on fresh samples: what is grossly wrong needs no more of them.
     fn confirming_samples(&self, first: u64, stage: Stage) -> u64 {
         let suspicions = self.tests.iter().filter_map(MeanTest::suspicion);
-        let (factor, fewest) = suspicions.max().unwrap_or(Suspicion::Slight).confirmed_on(stage);
-        let cap = self.effort.most_samples.saturating_mul(factor);
+        let suspicion = suspicions.max().unwrap_or(Suspicion::Slight);
+        let (factor, fewest) = suspicion.confirmed_on(stage, self.effort.coarse_first);
+        let cap = self.effort.most_samples.saturating_mul(stage.factor());
         (factor * first).max(self.whole_runs(fewest.min(cap)))
     }
 
@@ -191,17 +192,18 @@ impl<E> Judging<'_, E> {
 
     /// One attempt at a stage: the moments of each claim's mean over the runs.
     fn sample(&mut self, stage: Stage, attempt: u32, samples: u64) -> Result<Vec<Moments>, E> {
-        let mut moments = vec![Moments::default(); self.tests.len()];
+        let mut runs = vec![Vec::new(); self.tests.len()];
         let per_run = samples / u64::from(self.effort.runs);
         for run in 0..self.effort.runs {
             let means = (self.draw)(Draw { stage, attempt, run, samples: per_run })?;
             assert_eq!(means.len(), self.tests.len(), "a run answers one mean for each claim");
-            for (moments, mean) in moments.iter_mut().zip(means) {
-                moments.push(mean);
-            }
+            runs.iter_mut().zip(means).for_each(|(of_claim, mean)| of_claim.push(mean));
         }
         self.drawn += samples;
-        Ok(moments)
+        if stage != Stage::Pilot {
+            self.tests.iter_mut().zip(&runs).for_each(|(test, runs)| test.take_runs(runs, per_run));
+        }
+        Ok(runs.into_iter().map(|means| means.into_iter().collect()).collect())
     }
 
     /// `samples`, rounded up to whole grains in each run.

@@ -66,6 +66,32 @@ const PARETO: Law = Law {
     sample: |stream| (1.0 - uniform(stream)).powf(-0.4) - 1.0,
 };
 
+/// Of infinite variance: the mean of any number of samples is too low, as a rule.
+const HEAVY_PARETO: Law = Law {
+    name: "Pareto 1.2",
+    mean: 5.0,
+    deviation: f64::INFINITY,
+    sample: |stream| (1.0 - uniform(stream)).powf(-1.0 / 1.2) - 1.0,
+};
+
+/// The same, heavier.
+const HEAVIEST_PARETO: Law = Law {
+    name: "Pareto 1.1",
+    mean: 10.0,
+    deviation: f64::INFINITY,
+    sample: |stream| (1.0 - uniform(stream)).powf(-1.0 / 1.1) - 1.0,
+};
+
+/// Half of the light comes by one sample in `RARITY`, the other half by all.
+const fn half_by_one_in<const RARITY: u32>(name: &'static str) -> Law {
+    let sample = |stream: &mut Stream| {
+        let rarity = f64::from(RARITY);
+        let rare = if uniform(stream) * rarity < 1.0 { 0.5 * rarity } else { 0.0 };
+        rare - 0.5 * (1.0 - uniform(stream)).ln()
+    };
+    Law { name, mean: 1.0, deviation: f64::NAN, sample }
+}
+
 /// One test on samples of `law` times `gain`.
 fn judge(
     level: f64,
@@ -115,6 +141,34 @@ fn a_right_core_fails_as_often_as_predicted_at_a_relaxed_level() {
         let found = false_alarms(level, law, tests);
         let near = (found - predicted).abs() < 4.0 * deviation;
         assert!(near, "{}: {found} instead of {predicted}", law.name);
+    }
+}
+
+/// What came of tests of `law` on claims that are `claimed` times its mean.
+fn verdicts(law: &Law, claimed: f64, tests: u64, most_samples: u64) -> Vec<Verdict> {
+    let claim = Claim::value(claimed * law.mean, Band::RADIANCE);
+    let effort = Effort::new(0.05).with_most_samples(most_samples);
+    let judged = |test| {
+        let seed = Seed(test).child(law.name).child("tail");
+        judge(STAGE_LEVEL, law, claim, &effort, seed, 1.0)
+    };
+    (0..tests).map(|test| judged(test).verdict).collect()
+}
+
+#[test]
+fn a_tail_that_has_not_been_seen_proves_nothing() {
+    let mixtures = [
+        half_by_one_in::<1000>("half by one in 1000"),
+        half_by_one_in::<10_000>("half by one in 10 000"),
+        half_by_one_in::<30_000>("half by one in 30 000"),
+    ];
+    for law in [&HEAVIEST_PARETO, &HEAVY_PARETO].into_iter().chain(&mixtures) {
+        let found = verdicts(law, 1.0, 300, 65_536 / 4);
+        assert!(!found.contains(&Verdict::Fail), "{}: a right core fails", law.name);
+    }
+    for law in [&HEAVIEST_PARETO, &HEAVY_PARETO] {
+        let found = verdicts(law, 0.8, 100, 65_536 / 4);
+        assert!(!found.contains(&Verdict::Pass), "{}: a wrong core passes", law.name);
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a test of means found out about one claim.
 
-use crate::stats::plan::{Escalation, Judgement, Scored};
+use crate::stats::plan::{Doubt, Escalation, Judgement, Scored};
 use crate::stats::{Hypothesis, Report, Stage, TestKind, Verdict};
 
 /// One stage, seen by one claim.
@@ -31,6 +31,8 @@ impl Scored for StageScore {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MeanReport {
     pub(crate) verdict: Verdict,
+    /// What keeps stages that all reject from being a failure.
+    pub(crate) doubt: Option<Doubt>,
     /// The true mean, as claimed.
     pub(crate) expected: f64,
     /// Half width of the null hypothesis, in the unit of the mean.
@@ -72,6 +74,7 @@ impl Report for MeanReport {
                 false_alarm: self.false_alarm,
                 ..self.stages.hypothesis(TestKind::Mean)
             }),
+            doubt: self.doubt,
             ..Judgement::new(self.verdict, self.mean, self.expected)
         }
     }

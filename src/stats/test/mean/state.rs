@@ -1,9 +1,9 @@
 //! What the test of a mean knows of one claim between its stages.
 
-use super::noise::{Noise, sample_variance};
+use super::noise::{Noise, Tail, sample_variance};
 use super::{MeanReport, StageScore};
-use crate::stats::plan::Escalation;
 use crate::stats::plan::level::{INTERVAL_LEVEL, MEAN_FALSE_ALARM, MISS_LEVEL};
+use crate::stats::plan::{Doubt, Escalation};
 use crate::stats::{Claim, Effort, Moments, Stage, Verdict, normal_upper, student_upper};
 
 /// Standard errors that the first stage is planned for: 3.45 to reject (Student, 63 degrees of
@@ -25,6 +25,14 @@ const PILOT_SIGMAS: f64 = 3.0;
 /// be a rare event that has not happened; 4 and 16 times as many samples confirm.
 const FEWEST_TO_SUSPECT: f64 = 16_384.0;
 
+/// The rarest event that carries light and that a failure cannot have missed: one sample in so many.
+const RAREST_EVENT: u64 = 30_000;
+/// Fewest samples of a last stage that is too low.
+const FEWEST_TO_MISS_NOTHING: u64 = 22 * RAREST_EVENT;
+/// How many times as pointed as normal runs those may be that call a mean too low, by their kurtosis. Beyond it few of
+/// them carry their spread: the next one may as well carry the light that is missing.
+const MOST_POINTED: f64 = 5.0 / 3.0;
+
 /// How far out a suspected mean is, which says on how many samples it is confirmed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Suspicion {
@@ -38,16 +46,16 @@ pub(crate) enum Suspicion {
 impl Suspicion {
     /// How many times the samples of the first stage confirm it, and how many at least.
     ///
-    /// A pilot and a first stage that are both constant may have missed an event that happens once in
-    /// 10⁴ samples; the fewest samples of the later stages miss it with probability 1e-3 and 4e-12.
-    /// Where the first stage was grossly low, together with its own they miss an event that happens
-    /// once in 5000 samples with probability 1e-9.
-    pub(super) const fn confirmed_on(self, stage: Stage) -> (u64, u64) {
+    /// What is too low may have missed a rare event. The fewest samples of a last stage miss one that happens once in
+    /// [`RAREST_EVENT`] samples with a probability of 3e-10, where a case may spend so many. In a hurry, one that happens
+    /// once in 5000 samples is missed with a probability of 1e-9.
+    pub(super) const fn confirmed_on(self, stage: Stage, in_a_hurry: bool) -> (u64, u64) {
         match (self, stage) {
             (Self::GrosslyHigh, _) => (1, 0),
-            (Self::GrosslyLow, Stage::Third) => (4, 65_536),
+            (Self::GrosslyLow, Stage::Third) if in_a_hurry => (4, 65_536),
+            (Self::GrosslyLow, Stage::Third) => (4, FEWEST_TO_MISS_NOTHING),
             (Self::GrosslyLow, _) => (2, 16_384),
-            (Self::Slight, Stage::Third) => (stage.factor(), 262_144),
+            (Self::Slight, Stage::Third) => (stage.factor(), FEWEST_TO_MISS_NOTHING),
             (Self::Slight, _) => (stage.factor(), 65_536),
         }
     }
@@ -61,6 +69,8 @@ pub(super) struct MeanTest {
     /// Whether the pilot was outside the band by more than its noise.
     is_expected_to_depart: bool,
     noise: Noise,
+    /// Of the stages that decide.
+    tail: Tail,
     stages: Escalation<StageScore>,
     /// Whether no run has answered NaN or infinity.
     is_finite: bool,
@@ -73,6 +83,7 @@ impl MeanTest {
             level,
             is_expected_to_depart: false,
             noise: Noise::default(),
+            tail: Tail::default(),
             stages: Escalation::default(),
             is_finite: true,
         }
@@ -165,6 +176,11 @@ impl MeanTest {
         })
     }
 
+    /// Learns how pointed the runs of a stage are that decides.
+    pub(super) fn take_runs(&mut self, means: &[f64], per_run: u64) {
+        self.tail.take(means, per_run);
+    }
+
     pub(super) fn score(&mut self, stage: Stage, moments: &Moments, samples: u64) {
         let score = self.scored(stage, moments, samples);
         self.is_finite &= score.mean.is_finite();
@@ -228,8 +244,11 @@ impl MeanTest {
         let resolution = self.resolution();
         let effective_samples = self.effective(self.variance(), first_samples);
         let sees = resolution <= effort.detects && effective_samples >= FEWEST_EFFECTIVE;
+        let doubt = self.may_lack_its_tail().then_some(Doubt::HeavyTail);
+        let rejects = self.stages.rejects() && doubt.is_none();
         MeanReport {
-            verdict: Verdict::of_test(self.stages.rejects() || !self.is_finite, sees),
+            verdict: Verdict::of_test(rejects || !self.is_finite, sees && doubt.is_none()),
+            doubt,
             expected: self.claim.expected,
             band: self.claim.band_width(),
             mean,
@@ -242,6 +261,14 @@ impl MeanTest {
             samples: drawn,
             false_alarm: MEAN_FALSE_ALARM,
         }
+    }
+
+    /// Whether it is suspected of being too low by runs of which few carry the spread. A mean of radiances that is too
+    /// high no event can lower, and one of differences may lack an event of either sign.
+    fn may_lack_its_tail(&self) -> bool {
+        let is_low = self.stages.last().is_some_and(|last| last.t < 0.0);
+        let may_grow = is_low || self.claim.expected <= 0.0;
+        self.stages.rejects() && may_grow && self.tail.pointedness() > MOST_POINTED
     }
 
     fn ratio(&self, interval: [f64; 2]) -> Option<[f64; 2]> {

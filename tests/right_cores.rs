@@ -1,0 +1,273 @@
+//! Cores that are right, and not the same: choices of pbrt's, Mitsuba's and Cycles' in place of those of the textbook core
+//! and of `examples/cpp`, each put to the suite with other random numbers. None may fail anything.
+//!
+//! ```sh
+//! FURNACE_SEEDS=20 cargo test --test right_cores -- --ignored --nocapture
+//! FURNACE_CORES=cpp,coarse ...              # only those with one of these in their names
+//! FURNACE_CASES=bvh/,shape/ ...             # only these
+//! ```
+//!
+//! One seed of the textbook's own is part of `tests/faults.rs`, and one of the plain examples of `tests/worker.rs`.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod support;
+
+use furnace::case;
+use furnace::cores::Hosting;
+use furnace::faults;
+use furnace::math::rng::Seed;
+use furnace::project::Project;
+use furnace::run::{Plan, Request, Status, TrialRecord, run_in_memory};
+use furnace::stats::Budget;
+use std::path::Path;
+use support::{compile_core, cpp_compiler, root};
+
+/// A way to write `examples/cpp` that is as right: compiler flags, and texts in place of others of its files.
+struct Build {
+    name: &'static str,
+    flags: &'static [&'static str],
+    changes: &'static [Change],
+}
+
+struct Change {
+    file: &'static str,
+    from: &'static str,
+    to: &'static str,
+}
+
+const fn change(file: &'static str, from: &'static str, to: &'static str) -> Change {
+    Change { file, from, to }
+}
+
+/// Of an estimator that is not the one courses derive.
+const NOT_PLAIN: Change = change("pathtracer.cpp", " | FURNACE_PLAIN_ESTIMATORS", "");
+
+const BUILDS: &[Build] = &[
+    Build { name: "cpp", flags: &[], changes: &[] },
+    Build { name: "cpp-single", flags: &["-DREAL=float"], changes: &[] },
+    Build { name: "cpp-single-fast-math", flags: &["-DREAL=float", "-ffast-math"], changes: &[] },
+    // The largest double below 1 becomes 1.
+    Build {
+        name: "cpp-single-unclamped",
+        flags: &["-DREAL=float"],
+        changes: &[change("types.hpp", "std::min(Real(number), BELOW_ONE)", "Real(number)")],
+    },
+    Build {
+        name: "cpp-least-distance",
+        flags: &[],
+        changes: &[
+            change("scene.hpp", "return {beside(way), 0, way, INFINITE}", LEAST_DISTANCE),
+            change("scene.hpp", "Vec whole = point + distance * way - beside(way);", ""),
+            change(
+                "scene.hpp",
+                "return {beside(way), 0, whole, 1 - std::max(CLEARANCE, clearance / distance)}",
+                SHORTENED,
+            ),
+        ],
+    },
+    Build {
+        name: "cpp-power-heuristic",
+        flags: &[],
+        changes: &[change("scene.hpp", "own / (own + other)", POWER_HEURISTIC)],
+    },
+    Build {
+        name: "cpp-concentric-disk",
+        flags: &[],
+        changes: &[
+            change("numbers.hpp", "Real radius = std::sqrt(u.x);", CONCENTRIC),
+            change(
+                "numbers.hpp",
+                "radius * std::cos(2 * PI * u.y), radius * std::sin(2 * PI * u.y), std::sqrt(1 - u.x)",
+                ON_DISK,
+            ),
+        ],
+    },
+    Build {
+        name: "cpp-all-microfacets",
+        flags: &[],
+        changes: &[
+            change("surfaces.hpp", "* Rgb(m.reflectance), d * o / 4}", ALL_MICROFACETS_PDF),
+            change("surfaces.hpp", "Vec view = unit({alpha * wo.x, alpha * wo.y, wo.z});", ""),
+            change(
+                "surfaces.hpp",
+                "Vec stretched = view + below_pole(u.x * (1 + view.z), u.y);",
+                ALL_MICROFACETS,
+            ),
+        ],
+    },
+    Build {
+        name: "cpp-one-light",
+        flags: &[],
+        changes: &[
+            change("scene.hpp", "Rgb      sum{0, 0, 0};\n      for (const Light", ONE_LIGHT),
+            change("scene.hpp", "random.numbers(), glossy) / Real(count)", ONE_LIGHT_WEIGHT),
+            NOT_PLAIN,
+        ],
+    },
+    Build {
+        name: "cpp-area-of-spheres",
+        flags: &[],
+        changes: &[change("lights.hpp", "bool fills_a_cone(Vec from) const {", NO_CONE), NOT_PLAIN],
+    },
+    Build {
+        name: "cpp-equal-lobes",
+        flags: &[],
+        changes: &[
+            change("surfaces.hpp", "lobe < reflected)", "lobe < probability(reflected))"),
+            change(
+                "surfaces.hpp",
+                "Rgb(m.reflectance), reflected)",
+                "Rgb(m.reflectance), probability(reflected))",
+            ),
+            change(
+                "surfaces.hpp",
+                "Rgb(m.transmittance), 1 - reflected)",
+                "Rgb(m.transmittance), 1 - probability(reflected))",
+            ),
+            change("surfaces.hpp", "inline BsdfSample sample_glass(", EQUAL_LOBES),
+        ],
+    },
+    Build {
+        name: "cpp-own-roulette",
+        flags: &[],
+        changes: &[
+            change("scene.hpp", "Real(settings.roulette_stop) : 1;", OWN_ROULETTE),
+            NOT_PLAIN,
+        ],
+    },
+    Build {
+        name: "cpp-pcg",
+        flags: &[],
+        changes: &[change(
+            "numbers.hpp",
+            "return Real(mix(state += 0x9e3779b97f4a7c15) >> (64 - DIGITS))",
+            PCG,
+        )],
+    },
+];
+
+const LEAST_DISTANCE: &str = "return {point, clearance, way, INFINITE}";
+const SHORTENED: &str =
+    "return {point, clearance, way, distance - std::max(CLEARANCE * distance, clearance)}";
+const POWER_HEURISTIC: &str = "own * own / (own * own + other * other)";
+/// Shirley and Chiu 1997.
+const CONCENTRIC: &str = "
+   Real a = 2 * u.x - 1, b = 2 * u.y - 1;
+   bool wide = std::abs(a) > std::abs(b);
+   Real radius = wide ? a : b, other = radius == 0 ? 0 : PI / 4 * (wide ? b / a : a / b);
+   Real angle = wide ? other : PI / 2 - other;
+   Real z = std::sqrt(std::max(Real(0), 1 - radius * radius));";
+const ON_DISK: &str = "radius * std::cos(angle), radius * std::sin(angle), z";
+/// Walter et al. 2007, equation 35.
+const ALL_MICROFACETS: &str = "
+   Real z2 = (1 - u.x) / (1 + (alpha * alpha - 1) * u.x), s = std::sqrt(std::max(Real(0), 1 - z2));
+   Vec  stretched{s * std::cos(2 * PI * u.y) / alpha, s * std::sin(2 * PI * u.y) / alpha, std::sqrt(z2)};";
+const ALL_MICROFACETS_PDF: &str =
+    "* Rgb(m.reflectance), d * unit(wo + wi).z / (4 * dot(wo, unit(wo + wi)))}";
+const ONE_LIGHT: &str = "Rgb      sum{0, 0, 0};
+      const Light *chosen = lights.data() + size_t(random.number() * Real(lights.size()));
+      for (const Light";
+const ONE_LIGHT_WEIGHT: &str = "random.numbers(), glossy) *
+                        (&light == chosen ? Real(lights.size()) / Real(count) : 0)";
+const NO_CONE: &str = "bool fills_a_cone(Vec from) const {
+      if (true) return false;";
+const EQUAL_LOBES: &str =
+    "inline Real probability(Real reflected) { return reflected < 1 ? Real(0.5) : 1; }
+inline BsdfSample sample_glass(";
+const OWN_ROULETTE: &str = "Real(settings.roulette_stop) : 1;
+         if (settings.roulette_stop == 0)
+            survival = std::min(Real(1), std::max({throughput.r, throughput.g, throughput.b, Real(0.1)}));";
+/// O'Neill 2014, the output of PCG XSH RR, twice.
+const PCG: &str = "auto half = [this] {
+         uint64_t old = state;
+         state = old * 6364136223846793005u + 1442695040888963407u;
+         auto mixed = uint32_t(((old >> 18) ^ old) >> 27), turn = uint32_t(old >> 59);
+         return uint64_t((mixed >> turn) | (mixed << (-turn & 31)));
+      };
+      uint64_t high = half() << 32;
+      return Real((high | half()) >> (64 - DIGITS))";
+
+impl Build {
+    /// Compiles it; answers how the command line would name it.
+    fn core(&self) -> String {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("right-cores").join(self.name);
+        std::fs::create_dir_all(&folder).unwrap();
+        for entry in std::fs::read_dir(root().join("examples/cpp")).unwrap() {
+            let path = entry.unwrap().path();
+            let mut text = std::fs::read_to_string(&path).unwrap();
+            for Change { file, from, to } in self.changes.iter().filter(|c| path.ends_with(c.file))
+            {
+                assert!(text.contains(from), "{file} has no `{from}`");
+                text = text.replace(from, to);
+            }
+            std::fs::write(folder.join(path.file_name().unwrap()), text).unwrap();
+        }
+        let library = folder.join("core.so");
+        let flags = [self.flags, &["-Wno-unused-parameter"]].concat();
+        compile_core(&cpp_compiler(), &flags, &folder.join("pathtracer.cpp"), &library);
+        library.to_string_lossy().into_owned()
+    }
+}
+
+/// Names, and how the command line would name them; what is compiled is compiled now.
+fn cores() -> Vec<(String, String)> {
+    let asked = std::env::var("FURNACE_CORES").unwrap_or_default();
+    let wanted = |name: &str| asked.split(',').any(|part| name.contains(part));
+    let (_, different) = faults::select(&[]).unwrap();
+    let own = different.into_iter().map(|core| format!("textbook:{}", core.name));
+    let own = own.map(|name| (name.clone(), name));
+    let builds = BUILDS.iter().filter(|build| wanted(build.name));
+    let compiled = builds.map(|build| (build.name.to_owned(), build.core()));
+    own.filter(|(name, _)| wanted(name)).chain(compiled).collect()
+}
+
+fn filters() -> Vec<String> {
+    let asked = std::env::var("FURNACE_CASES").unwrap_or_default();
+    let asked = asked.split(',').filter(|filter| !filter.is_empty()).map(str::to_owned);
+    asked.chain(["!image/".to_owned()]).collect()
+}
+
+fn tried(core: &str, seed: u32) -> Vec<TrialRecord> {
+    let project = Project::at(env!("CARGO_MANIFEST_DIR"));
+    let cases = case::load_all(&project.cases()).unwrap();
+    let request = Request {
+        cores: vec![core.parse().unwrap()],
+        filters: filters(),
+        budget: Budget::Quick,
+        seed: Seed::SUITE.child("right cores").child(seed),
+        jobs: std::env::var("FURNACE_JOBS").map_or(0, |jobs| jobs.parse().unwrap()),
+        ..Request::default()
+    };
+    let hosting = Hosting { program: env!("CARGO_BIN_EXE_furnace").into(), ..Hosting::default() };
+    run_in_memory(&Plan::new(project, request, &cases).unwrap().hosted(hosting))
+}
+
+/// The graded trials that ended otherwise than they should, in words.
+fn unlike(records: &[TrialRecord], fine: &[Status]) -> Vec<String> {
+    let graded = records.iter().filter(|record| record.tier.is_graded());
+    let unlike = graded.filter(|record| !fine.contains(&record.outcome.status()));
+    unlike.map(|record| format!("{}: {}", record.case, record.outcome.statement())).collect()
+}
+
+#[test]
+#[ignore = "hours: some thirty right cores, 20 times the suite each, for audits"]
+fn right_cores_fail_nothing_whatever_the_random_numbers() {
+    use Status::{Inconclusive, Pass, Skipped};
+    let seeds = std::env::var("FURNACE_SEEDS").map_or(20, |seeds| seeds.parse().unwrap());
+    let mut failures = 0;
+    for (name, core) in cores() {
+        let (mut trials, mut open) = (0, 0);
+        for seed in 0..seeds {
+            let records = tried(&core, seed);
+            let failed = unlike(&records, &[Pass, Inconclusive, Skipped]);
+            let undecided = unlike(&records, &[Pass, Skipped]);
+            trials += records.iter().filter(|r| r.outcome.status() == Pass).count();
+            failures += failed.len();
+            open += undecided.len() - failed.len();
+            undecided.iter().for_each(|what| println!("  {name}, seed {seed}: {what}"));
+        }
+        println!("{name}: {seeds} seeds, {trials} pass, {open} inconclusive");
+    }
+    assert_eq!(failures, 0);
+}

@@ -1,5 +1,6 @@
 //! What a check has to say: a verdict, a sentence, and the numbers behind it.
 
+use super::few::Few;
 use crate::cause::Cause;
 use crate::image::{CHANNELS, Channel};
 use crate::stats::{Doubt, ExactReport, Hypothesis, Report, Verdict};
@@ -32,6 +33,9 @@ pub struct Clue {
     pub cause: String,
     /// What speaks for it, with numbers: `predicts all 159 rays`.
     pub evidence: String,
+    /// Whether it is there whatever else is: it explains what the others do not.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub beside: bool,
 }
 
 /// One number that was measured.
@@ -242,7 +246,23 @@ impl Finding {
 
     /// Adds a mistake that would have given just these answers, less likely than those added before.
     pub(crate) fn because(mut self, cause: &Cause, evidence: impl Into<String>) -> Self {
-        self.clues.push(Clue { cause: cause.name.to_owned(), evidence: evidence.into() });
+        let (cause, evidence) = (cause.name.to_owned(), evidence.into());
+        self.clues.push(Clue { cause, evidence, beside: false });
+        self
+    }
+
+    /// Adds mistakes that are all there, each beside whatever else is told.
+    pub(crate) fn because_all<'a>(
+        mut self,
+        causes: impl IntoIterator<Item = &'a Cause>,
+        evidence: &str,
+    ) -> Self {
+        let clues = causes.into_iter().map(|cause| Clue {
+            cause: cause.name.to_owned(),
+            evidence: evidence.to_owned(),
+            beside: true,
+        });
+        self.clues.extend(clues);
         self
     }
 
@@ -261,6 +281,14 @@ impl Finding {
         evidence: &str,
     ) -> Self {
         self.because_of(causes.into_iter().map(|cause| (cause, evidence)))
+    }
+
+    /// Adds the few mistakes that explain these answers.
+    pub(crate) fn because_few(self, few: Few<&Cause>, evidence: &str) -> Self {
+        match few {
+            Few::OneOf(causes) => self.because_each(causes, evidence),
+            Few::Both(causes) => self.because_all(causes, evidence),
+        }
     }
 
     pub(crate) fn failed(&self) -> bool {

@@ -12,6 +12,7 @@ mod context;
 mod declared;
 #[cfg(test)]
 mod fake;
+mod few;
 mod finding;
 mod form;
 pub(crate) mod image;

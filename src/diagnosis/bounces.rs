@@ -37,6 +37,7 @@ fn explain(evidence: &Evidence<'_>, role: Role) -> Vec<Suspicion> {
         ruled_out: furnace.ruled_out(law),
         weight,
         degree: Degree::of_one_among(fitting.len()),
+        beside: false,
     };
     if fitting.is_empty() {
         let factor = furnace.constant_factor(case);
@@ -167,6 +168,7 @@ impl Furnace {
             ruled_out: vec!["a wrong weight of bounces (it would be a power of k)".to_owned()],
             weight: SHARED,
             degree: Degree::LooksLike,
+            beside: false,
         })
     }
 
@@ -194,6 +196,7 @@ impl Furnace {
             ruled_out: vec!["the albedo twice or not at all (it would be coloured)".to_owned()],
             weight: SHARED,
             degree: Degree::LooksLike,
+            beside: false,
         }
     }
 }

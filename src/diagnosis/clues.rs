@@ -10,6 +10,7 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let mut suspicions = Vec::new();
     for failure in evidence.failures().chain(evidence.failures_of_robustness()) {
         let Some(finding) = failure.finding else { continue };
+        let rivals = finding.clues.iter().filter(|clue| !clue.beside).count();
         let mut weight = 1.0;
         for clue in &finding.clues {
             // A name that the glossary does not know comes from another version: it explains nothing here.
@@ -20,9 +21,12 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
                 evidence: vec![format!("{}: {}", failure.case, clue.evidence)],
                 ruled_out: Vec::new(),
                 weight,
-                degree: Degree::of_one_among(finding.clues.len()),
+                degree: if clue.beside { Degree::Named } else { Degree::of_one_among(rivals) },
+                beside: clue.beside,
             });
-            weight *= NEXT;
+            if !clue.beside {
+                weight *= NEXT;
+            }
         }
     }
     suspicions

@@ -32,6 +32,7 @@ fn suspicion(cause: &'static Cause, case: &str, sentence: String) -> Suspicion {
         ruled_out: Vec::new(),
         weight: 1.5,
         degree: Degree::Named,
+        beside: false,
     }
 }
 

@@ -38,6 +38,7 @@ fn wrong_directions(evidence: &Evidence<'_>) -> Option<Suspicion> {
         ruled_out: vec!["a wrong weight of bounces (the furnace would see it)".to_owned()],
         weight: 1.0,
         degree: Degree::LooksLike,
+        beside: false,
     })
 }
 
@@ -66,6 +67,7 @@ fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
         ruled_out: vec!["bounces in wrong directions (the cavity would see it)".to_owned()],
         weight: 1.0,
         degree: Degree::LooksLike,
+        beside: false,
     })
 }
 

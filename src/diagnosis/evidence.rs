@@ -79,6 +79,24 @@ impl<'a> Evidence<'a> {
             .filter(|seen| seen.standing == Standing::Failed && seen.tier == Tier::Robustness)
     }
 
+    /// Everything that failed, what counts nothing last.
+    pub(crate) fn all_failures(&self) -> impl Iterator<Item = &Observation<'a>> {
+        self.failures().chain(self.failures_of_robustness())
+    }
+
+    pub(crate) fn fails(&self, case: &str) -> bool {
+        self.all_failures().any(|seen| seen.case == case)
+    }
+
+    /// The same with these alone of its failures.
+    pub(crate) fn with_failures_of(&self, cases: &[&str]) -> Self {
+        let stays = |seen: &&Observation<'_>| {
+            seen.standing != Standing::Failed || cases.contains(&seen.case)
+        };
+        let observations = self.observations.iter().filter(stays).cloned().collect();
+        Self { observations, ..*self }
+    }
+
     fn of(&self, role: Role) -> Option<&Observation<'a>> {
         self.observations.iter().find(|seen| seen.role == Some(role))
     }

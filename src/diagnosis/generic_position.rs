@@ -91,6 +91,7 @@ fn explain(
         ruled_out: ruled_out.clone(),
         weight,
         degree: Degree::of_one_among(fitting.len()),
+        beside: false,
     };
     fitting.iter().map(suspicion).collect()
 }

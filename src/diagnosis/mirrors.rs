@@ -30,6 +30,7 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
         ruled_out: vec!["a bounce short (the furnace is right)".to_owned()],
         weight: 1.0,
         degree: Degree::LooksLike,
+        beside: false,
     }]
 }
 

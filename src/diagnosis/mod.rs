@@ -7,6 +7,7 @@
 //! To add a rule: a file with a function from [`Evidence`] to suspicions, tested on made-up numbers, and its line in
 //! [`RULES`].
 
+mod apart;
 mod bounce_laws;
 mod bounces;
 mod clues;
@@ -24,10 +25,12 @@ mod shadows;
 #[cfg(test)]
 mod testing;
 
+pub(crate) use apart::{View, diagnose_apart};
 pub(crate) use evidence::{Ending, Evidence, Observation, Standing};
 pub(crate) use rank::{Diagnosis, Headline};
 
 use crate::cause::Cause;
+use rank::Ranked;
 use serde::{Deserialize, Serialize};
 
 /// How sure a headline is of its cause.
@@ -70,6 +73,8 @@ pub(crate) struct Suspicion {
     /// How well it explains a case: 1 if it is the first thing to think of, less for each that comes before it.
     pub(crate) weight: f64,
     pub(crate) degree: Degree,
+    /// Whether it explains in these cases what no other does.
+    pub(crate) beside: bool,
 }
 
 pub(crate) struct Rule {
@@ -114,6 +119,10 @@ pub(crate) static RULES: &[Rule] = &[
 
 /// The causes of what failed, the first to look at first.
 pub(crate) fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
+    look(evidence).told()
+}
+
+fn look(evidence: &Evidence<'_>) -> Ranked {
     let suspicions = RULES.iter().flat_map(|rule| (rule.run)(evidence)).collect();
     rank::rank(evidence, suspicions)
 }

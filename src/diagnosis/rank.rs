@@ -6,7 +6,7 @@ use crate::case::{Part, Tier};
 use crate::cause::{self, Cause};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Sentences of evidence that a headline keeps.
 const EVIDENCE: usize = 4;
@@ -73,6 +73,32 @@ impl Headline {
         self.degree == Degree::DiffersHere && self.explains.len() == 1
     }
 
+    fn accounts_for(&self, case: &String) -> bool {
+        self.explains.contains(case) || self.may_follow.contains(case)
+    }
+
+    /// The number of the part it is told in.
+    fn part(&self) -> u32 {
+        let parts = self.explains.iter().filter_map(|case| Part::of_case(case));
+        let earliest = parts.map(|part| part.number).min().unwrap_or(u32::MAX);
+        earliest.max(cause::find(&self.cause).map_or(0, part_of_mistake))
+    }
+
+    /// Takes in another headline of the same cause.
+    fn absorb(&mut self, other: Self) {
+        self.degree = self.degree.max(other.degree);
+        self.evidence.extend(other.evidence);
+        self.evidence.truncate(EVIDENCE);
+        for case in other.explains {
+            if !self.explains.contains(&case) {
+                self.explains.push(case);
+            }
+        }
+        self.may_follow.extend(other.may_follow);
+        self.may_follow.retain(|case| !self.explains.contains(case));
+        self.blocked += other.blocked;
+    }
+
     fn keeps_its_name(&self) -> bool {
         let (explained, others) = (self.explains.len() as f64, self.may_follow.len() as f64);
         explained >= NAMED * (explained + others)
@@ -95,40 +121,118 @@ impl Diagnosis {
     }
 }
 
+/// Headlines, kind by kind, each kind in the order in which it is told.
+#[derive(Default)]
+pub(super) struct Ranked {
+    endings: Vec<Headline>,
+    causes: Vec<Headline>,
+    /// What differs, and follows from no headline.
+    differing: Vec<Headline>,
+    /// What counts nothing.
+    beside: Vec<Headline>,
+}
+
+impl Ranked {
+    pub(super) fn told(self) -> Diagnosis {
+        let without_cause = self.endings.iter().chain(&self.differing);
+        let without_cause = without_cause.filter(|headline| headline.cause.is_empty());
+        let unexplained = without_cause.flat_map(|headline| headline.explains.clone()).collect();
+        let kinds = [self.endings, self.causes, self.differing, self.beside];
+        Diagnosis { headlines: kinds.into_iter().flatten().collect(), unexplained }
+    }
+
+    /// The same where everything but one component is the bench's: whatever else failed is of its only cause too.
+    pub(super) fn of_one_component(mut self) -> Self {
+        if let ([only], []) = (&mut self.causes[..], &self.endings[..]) {
+            only.may_follow.extend(self.differing.drain(..).flat_map(|headline| headline.explains));
+        }
+        self
+    }
+
+    /// Whether it has a cause, from which `case` follows then.
+    pub(super) fn followed_by(&mut self, case: &str) -> bool {
+        let first = self.causes.first_mut();
+        first.map(|headline| headline.may_follow.push(case.to_owned())).is_some()
+    }
+
+    /// Both; a cause that both tell is told once.
+    pub(super) fn and(mut self, other: Self) -> Self {
+        self.endings.extend(other.endings);
+        join(&mut self.causes, other.causes);
+        self.causes.sort_by_key(Headline::part);
+        join(&mut self.beside, other.beside);
+        self.differing.extend(other.differing);
+        let causes = &self.causes;
+        let has_cause = |case: &String| causes.iter().any(|headline| headline.accounts_for(case));
+        for headline in &mut self.differing {
+            headline.explains.retain(|case| !has_cause(case));
+        }
+        self.differing.retain(|headline| !headline.explains.is_empty());
+        self
+    }
+}
+
+/// Headlines of one cause become one.
+fn join(headlines: &mut Vec<Headline>, others: Vec<Headline>) {
+    for other in others {
+        match headlines.iter_mut().find(|known| known.cause == other.cause) {
+            Some(known) => known.absorb(other),
+            None => headlines.push(other),
+        }
+    }
+}
+
 struct Candidate {
     cause: &'static Cause,
     evidence: Vec<String>,
     ruled_out: Vec<String>,
     /// The failing cases, how well each is explained, and how surely.
     cases: BTreeMap<String, (f64, Degree)>,
+    /// Those in which it explains what no other does, and so stays, whatever else is told of them.
+    own: BTreeSet<String>,
+}
+
+impl Candidate {
+    /// What it explains among `failures`, of which `left` have no cause yet.
+    fn explained<'a>(
+        &'a self,
+        failures: &'a [String],
+        left: &'a [String],
+    ) -> impl Iterator<Item = &'a String> {
+        let is_free = |case: &String| self.own.contains(case) || left.contains(case);
+        failures.iter().filter(move |case| self.cases.contains_key(*case) && is_free(case))
+    }
 }
 
 /// Takes the best candidate, then the best for what is left, until nothing is left; what counts comes before what
 /// does not.
-pub(crate) fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Diagnosis {
+pub(super) fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Ranked {
     let mut headlines = endings::headlines(evidence);
+    let endings = headlines.len();
     let mut candidates = collect(evidence, suspicions);
     let answered = |seen: &&Observation<'_>| seen.ending.is_none();
     let case = |seen: &Observation<'_>| seen.case.to_owned();
     let suspected = |case: &String| candidates.iter().any(|c| c.cases.contains_key(case));
-    let (mut left, orphans): (Vec<_>, Vec<_>) =
-        evidence.failures().filter(answered).map(case).partition(suspected);
-    let mut beside: Vec<_> = evidence.failures_of_robustness().map(case).collect();
-    while let Some(best) = best_of(&candidates, &left) {
+    let failures: Vec<_> = evidence.failures().filter(answered).map(case).collect();
+    let (mut left, orphans): (Vec<_>, Vec<_>) = failures.iter().cloned().partition(suspected);
+    let of_robustness: Vec<_> = evidence.failures_of_robustness().map(case).collect();
+    let mut beside = of_robustness.clone();
+    while let Some(best) = best_of(&candidates, &failures, &left) {
         let mut candidate = candidates.swap_remove(best);
         absorb_the_vague(&mut candidate, &mut candidates);
         beside.retain(|case| !candidate.cases.contains_key(case));
-        headlines.push(headline(evidence, Tier::Graded, candidate, &mut left));
+        headlines.push(headline(evidence, Tier::Graded, candidate, &failures, &mut left));
     }
     let orphans = attribute(evidence, orphans, &mut headlines);
-    headlines.extend(differences::headlines(evidence, &orphans));
-    let without_cause = headlines.iter().filter(|headline| headline.cause.is_empty());
-    let unexplained = without_cause.flat_map(|headline| headline.explains.clone()).collect();
-    while let Some(best) = best_of(&candidates, &beside) {
+    let differing = differences::headlines(evidence, &orphans);
+    let mut told_beside = Vec::new();
+    while let Some(best) = best_of(&candidates, &of_robustness, &beside) {
         let candidate = candidates.swap_remove(best);
-        headlines.push(headline(evidence, Tier::Robustness, candidate, &mut beside));
+        let told = headline(evidence, Tier::Robustness, candidate, &of_robustness, &mut beside);
+        told_beside.push(told);
     }
-    Diagnosis { headlines, unexplained }
+    let causes = headlines.split_off(endings);
+    Ranked { endings: headlines, causes, differing, beside: told_beside }
 }
 
 fn collect(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Vec<Candidate> {
@@ -142,13 +246,16 @@ fn collect(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Vec<Candidate
         }
         let known = candidates.iter().position(|c| c.cause.name == suspicion.cause.name);
         let number = known.unwrap_or_else(|| {
-            let (evidence, ruled_out, cases) = Default::default();
-            candidates.push(Candidate { cause: suspicion.cause, evidence, ruled_out, cases });
+            let (evidence, ruled_out, cases, own) = Default::default();
+            candidates.push(Candidate { cause: suspicion.cause, evidence, ruled_out, cases, own });
             candidates.len() - 1
         });
         let candidate = &mut candidates[number];
         candidate.evidence.extend(suspicion.evidence);
         candidate.ruled_out.extend(suspicion.ruled_out);
+        if suspicion.beside {
+            candidate.own.extend(suspicion.cases.iter().cloned());
+        }
         for case in suspicion.cases {
             let (weight, degree) = candidate.cases.entry(case).or_default();
             *weight = weight.max(suspicion.weight);
@@ -178,14 +285,14 @@ struct Merit {
 
 impl Merit {
     /// `None` where it explains nothing.
-    fn of(candidate: &Candidate, left: &[String]) -> Option<Self> {
+    fn of(candidate: &Candidate, failures: &[String], left: &[String]) -> Option<Self> {
         let part = |case: &String| Part::of_case(case).map_or(u32::MAX, |part| part.number);
-        let explained = || candidate.cases.iter().filter(|(case, _)| left.contains(case));
-        let earliest = explained().map(|(case, _)| part(case)).min()?;
+        let explained = || candidate.explained(failures, left);
+        let earliest = explained().map(part).min()?;
         Some(Self {
             part: earliest.max(part_of_mistake(candidate.cause)),
             is_vague: cause::is_vague(candidate.cause),
-            weight: explained().map(|(_, (weight, _))| weight).sum(),
+            weight: explained().filter_map(|case| Some(candidate.cases.get(case)?.0)).sum(),
         })
     }
 
@@ -201,9 +308,9 @@ fn part_of_mistake(cause: &Cause) -> u32 {
     if cause::is_of_bvh(cause) { Part::BVH } else { 0 }
 }
 
-fn best_of(candidates: &[Candidate], left: &[String]) -> Option<usize> {
+fn best_of(candidates: &[Candidate], failures: &[String], left: &[String]) -> Option<usize> {
     let merits = candidates.iter().enumerate();
-    let merits = merits.filter_map(|(number, c)| Some((number, Merit::of(c, left)?)));
+    let merits = merits.filter_map(|(number, c)| Some((number, Merit::of(c, failures, left)?)));
     let better = |a: &(usize, Merit), b: &(usize, Merit)| a.1.compare(&b.1).then(b.0.cmp(&a.0));
     merits.max_by(better).map(|(number, _)| number)
 }
@@ -212,10 +319,10 @@ fn headline(
     evidence: &Evidence<'_>,
     tier: Tier,
     candidate: Candidate,
+    failures: &[String],
     left: &mut Vec<String>,
 ) -> Headline {
-    let explains: Vec<String> =
-        left.iter().filter(|case| candidate.cases.contains_key(*case)).cloned().collect();
+    let explains: Vec<_> = candidate.explained(failures, left).cloned().collect();
     left.retain(|case| !explains.contains(case));
     let degree = explains.iter().filter_map(|case| Some(candidate.cases.get(case)?.1)).max();
     let Candidate { cause, evidence: sentences, mut ruled_out, .. } = candidate;
@@ -283,6 +390,15 @@ mod tests {
         assert_eq!(degree(&shared), Degree::LooksLike);
         let proven = shared.with("light/b", failing("a").because(&bsdf::WITHOUT_PI, "x"));
         assert_eq!(degree(&proven), Degree::Named);
+    }
+
+    #[test]
+    fn causes_beside_each_other_in_one_case_are_all_told() {
+        let both = failing("a").because_all([&bsdf::WITHOUT_PI, &bsdf::COSINE_IN_F], "predict it");
+        let diagnosis = diagnose(&Made::new().with("bsdf/a", both).evidence());
+        let told: Vec<_> = diagnosis.headlines.iter().map(|h| (&h.cause[..], h.degree)).collect();
+        let [pi, cosine] = [&bsdf::WITHOUT_PI, &bsdf::COSINE_IN_F].map(|cause| cause.name);
+        assert_eq!(told, [(pi, Degree::Named), (cosine, Degree::Named)]);
     }
 
     #[test]

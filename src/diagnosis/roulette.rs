@@ -139,6 +139,7 @@ fn suspicion(case: &str, law: &Law, rows: &[Row]) -> Suspicion {
         ruled_out: Vec::new(),
         weight: 1.0,
         degree: Degree::Named,
+        beside: false,
     }
 }
 

@@ -67,6 +67,7 @@ fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
         ],
         weight: 1.0,
         degree: Degree::Named,
+        beside: false,
     })
 }
 
@@ -101,6 +102,7 @@ fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
         ruled_out: vec!["a wrong strength of lights (open light is right)".to_owned()],
         weight: 1.0,
         degree: Degree::Named,
+        beside: false,
     })
 }
 
@@ -130,6 +132,7 @@ fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
         ruled_out: vec!["a wrong strength of lights (from afar it is right)".to_owned()],
         weight: 1.0,
         degree: Degree::Named,
+        beside: false,
     })
 }
 

@@ -60,7 +60,7 @@ mod tests {
 
     fn told(components: &[(Components, usize, usize, usize)], unmended: &[&str]) -> Vec<String> {
         let one = |&(component, alone, together, judged): &(Components, usize, usize, usize)| {
-            Transplanted { component, alone, together, judged }
+            Transplanted { component, alone, together, judged, cases: Vec::new() }
         };
         let mut core = CoreRecord::new("mine", &CoreInfo::default());
         core.transplants = Some(Transplants {

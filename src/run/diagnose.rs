@@ -1,10 +1,11 @@
 //! From the records of a run to the causes of what failed in it.
 
 use super::record::CoreRecord;
-use super::{Outcome, Status, TrialRecord};
+use super::second_look::SecondLook;
+use super::{Outcome, Status, Transplants, TrialRecord};
 use crate::case::Foundation;
 use crate::contract::Components;
-use crate::diagnosis::{self, Diagnosis, Ending, Evidence, Observation, Standing};
+use crate::diagnosis::{self, Diagnosis, Ending, Evidence, Observation, Standing, View};
 
 /// The causes of what failed on `core` among `trials`; those of other cores are left aside.
 pub(crate) fn diagnose<'a>(
@@ -12,8 +13,43 @@ pub(crate) fn diagnose<'a>(
     trials: impl IntoIterator<Item = &'a TrialRecord>,
 ) -> Diagnosis {
     let of_core = trials.into_iter().filter(|trial| trial.core == core.spec);
-    let observations = of_core.map(observation).collect();
-    diagnosis::diagnose(&Evidence::new(observations, core.conventions))
+    diagnosis::diagnose(&evidence(core, of_core))
+}
+
+/// The same from second looks too, each at one component.
+pub(super) fn diagnose_apart(
+    core: &CoreRecord,
+    trials: &[TrialRecord],
+    transplants: &Transplants,
+    views: &[SecondLook],
+) -> Diagnosis {
+    let first: Vec<_> = trials.iter().filter(|trial| trial.core == core.spec).collect();
+    let of_view = |view: &'_ SecondLook| {
+        let mended = first.iter().filter(|t| transplants.place_of(&t.case) == Some(view.own));
+        mended.map(|trial| trial.case.clone()).collect()
+    };
+    let views: Vec<_> = views
+        .iter()
+        .map(|view| View {
+            evidence: evidence(core, seen_again(&first, view)),
+            mended: of_view(view),
+        })
+        .collect();
+    diagnosis::diagnose_apart(&evidence(core, first.iter().copied()), &views)
+}
+
+/// What was tried again, and of the rest what did not fail.
+fn seen_again<'a>(
+    first: &[&'a TrialRecord],
+    view: &'a SecondLook,
+) -> impl Iterator<Item = &'a TrialRecord> {
+    let is_again = |case: &str| view.again.iter().any(|trial| trial.case == case);
+    let stays = |t: &&TrialRecord| !t.outcome.status().is_failure() && !is_again(&t.case);
+    first.iter().copied().filter(stays).chain(&view.again).collect::<Vec<_>>().into_iter()
+}
+
+fn evidence<'a>(core: &CoreRecord, trials: impl Iterator<Item = &'a TrialRecord>) -> Evidence<'a> {
+    Evidence::new(trials.map(observation).collect(), core.conventions)
 }
 
 fn observation(trial: &TrialRecord) -> Observation<'_> {

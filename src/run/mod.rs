@@ -12,8 +12,10 @@ pub(crate) mod plan;
 pub mod record;
 mod schedule;
 mod search;
+mod second_look;
 
 pub use attempt::attempt;
+pub(crate) use attempt::run_with;
 pub use attempt::{Attempt, Ended, run_trial};
 pub use bench::Bench;
 pub(crate) use diagnose::diagnose;
@@ -23,6 +25,7 @@ pub use outcome::{Outcome, Status};
 pub use plan::{Plan, Request, Trial};
 pub use record::{RecordError, RunRecord, TrialRecord};
 pub(crate) use record::{Transplanted, Transplants};
+use second_look::look_again;
 
 use crate::contract::CoreError;
 use crate::cores::HostError;
@@ -98,15 +101,39 @@ fn carry_out(
         outcomes.enumerate().filter_map(|(n, outcome)| Some((n, outcome?))).collect();
     records.extend(executor::run_into(plan, bench, &todo, &done, folder, events)?);
     for core in &mut record.cores {
-        core.diagnosis = Some(diagnose(core, &records));
-        if plan.searches && !plan.request.fail_fast && plan.with.is_empty() {
-            core.transplants = search::search(plan, bench, core, &records, events);
-        }
+        conclude(plan, bench, core, &records, events);
     }
     let before = record.timing.seconds.unwrap_or(0.0);
     record.timing.seconds = Some(before + clock.elapsed().as_secs_f64());
     record::write_json(&folder.join("run.json"), &record)?;
     Ok(())
+}
+
+/// What is wrong with a core whose trials have ended.
+fn conclude(
+    plan: &Plan,
+    bench: &Bench,
+    core: &mut CoreRecord,
+    records: &[TrialRecord],
+    events: &mut dyn FnMut(Event<'_>),
+) {
+    if plan.searches && !plan.request.fail_fast && plan.with.is_empty() {
+        core.transplants = search::search(plan, bench, core, records, events);
+    }
+    core.diagnosis = Some(match &core.transplants {
+        None => diagnose(core, records),
+        Some(transplants) => {
+            let views = look_again(plan, bench, core, records, transplants);
+            diagnose::diagnose_apart(core, records, transplants, &views)
+        }
+    });
+}
+
+/// Runs the trials of `core` in memory, and concludes what is wrong with it as a run in a folder does.
+pub(crate) fn investigate(plan: &Plan, core: &mut CoreRecord) -> Vec<TrialRecord> {
+    let records = run_in_memory(plan);
+    conclude(plan, &plan.bench(), core, &records, &mut |_| {});
+    records
 }
 
 /// The result of this very trial, if the folder holds it.

@@ -152,6 +152,17 @@ pub(crate) struct Transplanted {
     pub(crate) together: usize,
     /// Cases above that were judged with it in the run.
     pub(crate) judged: usize,
+    /// Failing cases that need it, and nothing above it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) cases: Vec<String>,
+}
+
+impl Transplants {
+    /// The highest component that a failing case needs so that it passes.
+    pub(crate) fn place_of(&self, case: &str) -> Option<Components> {
+        let needs = |one: &&Transplanted| one.cases.iter().any(|known| known == case);
+        self.components.iter().find(needs).map(|one| one.component)
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

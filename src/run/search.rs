@@ -58,11 +58,13 @@ pub(crate) fn search(
     let found = smallest(core.components, failing.len(), &mut tried);
     let judged =
         |one: Components| ended.iter().filter(|(_, record)| record.with.contains(one)).count();
-    let of = |(component, alone, together)| Transplanted {
-        component,
-        alone,
-        together,
-        judged: judged(component),
+    let name = |number: &usize| failing[*number].1.case.clone();
+    let of = |part: Mending| Transplanted {
+        component: part.component,
+        alone: part.alone,
+        together: part.together.len(),
+        judged: judged(part.component),
+        cases: part.together.iter().map(name).collect(),
     };
     // Where the bench traverses, the core counts nothing.
     let can_be_mended = |number: &&usize| {
@@ -74,12 +76,12 @@ pub(crate) fn search(
         failures: failing.len(),
         components: found.set.into_iter().map(of).collect(),
         mended: found.mended,
-        unmended: unmended.map(|number| failing[*number].1.case.clone()).collect(),
+        unmended: unmended.map(name).collect(),
         untried: failing.len() - found.mended - found.unmended.len(),
     })
 }
 
-fn trial_of<'a>(plan: &'a Plan, record: &TrialRecord) -> Option<&'a Trial> {
+pub(super) fn trial_of<'a>(plan: &'a Plan, record: &TrialRecord) -> Option<&'a Trial> {
     let is_it = |trial: &&Trial| trial.core.as_str() == record.core && trial.case.id == record.case;
     plan.trials.iter().find(is_it)
 }
@@ -104,33 +106,58 @@ fn in_parallel(
     cases: &[usize],
     passes: &(dyn Fn(usize) -> Option<bool> + Sync),
 ) -> Tried {
-    let (next, tried) = (AtomicUsize::new(0), Mutex::new(Tried::default()));
-    let work = || {
-        while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let passes = passes(*case);
-            let mut tried = tried.lock().unwrap_or_else(PoisonError::into_inner);
-            match passes {
-                Some(true) => tried.passing.push(*case),
-                Some(false) => tried.failing.push(*case),
-                None => {}
+    let tried = each_in_parallel(jobs, cases.len(), &|n| Some((cases[n], passes(cases[n])?)));
+    let (passing, failing): (Vec<_>, Vec<_>) = tried.into_iter().partition(|(_, passes)| *passes);
+    let numbers = |tried: Vec<(usize, bool)>| tried.into_iter().map(|(case, _)| case).collect();
+    Tried { passing: numbers(passing), failing: numbers(failing) }
+}
+
+/// What `work` answers to each of so many numbers, several at a time; where it answers nothing, nothing.
+pub(super) fn each_in_parallel<T: Send>(
+    jobs: usize,
+    count: usize,
+    work: &(dyn Fn(usize) -> Option<T> + Sync),
+) -> Vec<T> {
+    let (next, answers) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let take = || {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number >= count {
+                return;
             }
+            let answer = work(number);
+            answers
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .extend(answer.map(|a| (number, a)));
         }
     };
     std::thread::scope(|threads| {
-        for _ in 0..jobs.min(cases.len()) {
-            threads.spawn(work);
+        for _ in 0..jobs.min(count) {
+            threads.spawn(take);
         }
     });
-    tried.into_inner().unwrap_or_else(PoisonError::into_inner)
+    let mut answers = answers.into_inner().unwrap_or_else(PoisonError::into_inner);
+    answers.sort_by_key(|(number, _)| *number);
+    answers.into_iter().map(|(_, answer)| answer).collect()
 }
 
 /// What the search comes to; failing cases by their numbers.
 #[derive(Debug, PartialEq)]
 struct Found {
-    /// Each component, how many cases it mends alone, and how many with the others.
-    set: Vec<(Components, usize, usize)>,
+    set: Vec<Mending>,
     mended: usize,
     unmended: Vec<usize>,
+}
+
+/// A component of the set.
+#[derive(Debug, PartialEq)]
+struct Mending {
+    component: Components,
+    /// How many cases it mends alone.
+    alone: usize,
+    /// Those it mends with the others.
+    together: Vec<usize>,
 }
 
 fn smallest(takes: Components, failures: usize, try_cases: Try<'_>) -> Found {
@@ -153,14 +180,14 @@ fn smallest(takes: Components, failures: usize, try_cases: Try<'_>) -> Found {
     mended.extend(seen.filter(|case| !spoiled.contains(case)));
     mended.sort_unstable();
     mended.dedup();
-    let of = |one: Components| {
-        let known = found.iter().find(|(other, ..)| *other == one);
-        known.map_or((one, 0, 0), |(_, alone, cases)| {
-            (one, alone.len(), cases.iter().filter(|case| mended.contains(case)).count())
-        })
+    let of = |component: Components| {
+        let known = found.iter().find(|(other, ..)| *other == component);
+        let (alone, cases) = known.map_or((0, &[][..]), |(_, alone, all)| (alone.len(), all));
+        let together = cases.iter().copied().filter(|case| mended.contains(case)).collect();
+        Mending { component, alone, together }
     };
     let mut set: Vec<_> = set.iter().map(of).collect();
-    set.sort_by_key(|(_, _, together)| Reverse(*together));
+    set.sort_by_key(|part| Reverse(part.together.len()));
     Found { set, mended: mended.len(), unmended }
 }
 
@@ -222,28 +249,34 @@ mod tests {
         smallest(Components::all(), needs.len(), &mut try_cases)
     }
 
+    /// Each component, how many cases it mends alone, and how many with the others.
+    fn counts(found: &Found) -> Vec<(Components, usize, usize)> {
+        found.set.iter().map(|part| (part.component, part.alone, part.together.len())).collect()
+    }
+
     #[test]
     fn one_component_that_mends_everything_is_all_there_is() {
-        assert_eq!(found(&[Some(BOX); 3]).set, [(BOX, 3, 3)]);
+        assert_eq!(counts(&found(&[Some(BOX); 3])), [(BOX, 3, 3)]);
     }
 
     #[test]
     fn each_mistake_has_its_component_and_the_largest_comes_first() {
         let found = found(&[BOX, BSDF, BSDF, PATH, BSDF].map(Some));
-        assert_eq!(found.set, [(BSDF, 3, 3), (BOX, 1, 1), (PATH, 1, 1)]);
+        assert_eq!(counts(&found), [(BSDF, 3, 3), (BOX, 1, 1), (PATH, 1, 1)]);
+        assert_eq!(found.set[0].together, [1, 2, 4]);
         assert_eq!((found.mended, found.unmended.len()), (5, 0));
     }
 
     #[test]
     fn what_needs_two_is_mended_by_the_two_alone() {
         let found = found(&[Some(BOX | PATH); 2]);
-        assert_eq!(found.set, [(PATH, 0, 2), (BOX, 0, 0)]);
+        assert_eq!(counts(&found), [(PATH, 0, 2), (BOX, 0, 0)]);
     }
 
     #[test]
     fn what_nothing_mends_is_said() {
         let found = found(&[None, Some(BOX), None]);
-        assert_eq!((found.set, found.unmended), (vec![(BOX, 1, 1)], vec![0, 2]));
+        assert_eq!((counts(&found), found.unmended), (vec![(BOX, 1, 1)], vec![0, 2]));
     }
 
     #[test]

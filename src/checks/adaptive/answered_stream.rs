@@ -1,9 +1,9 @@
 //! What a core made of a stream, and the mistakes that would have made the same of it.
 
-use super::known_stream::{Answer, KnownStream, MISTAKES};
-use super::rule::WRONG_RULES;
-use crate::cause::{Cause, adaptive};
+use super::known_stream::{KnownStream, Mistake, Procedure, mistakes};
+use crate::cause::Cause;
 use crate::checks::Measure;
+use crate::checks::few::{Few, few_that_fit};
 use crate::checks::phrase::figure;
 use crate::contract::AdaptiveMean;
 
@@ -20,37 +20,28 @@ pub(super) fn measures((stream, answer): &Answered<'_>, tolerance: f64) -> [Meas
     .map(|measure| measure.of_row(&stream.name))
 }
 
-/// The mistakes that predict the answers for every stream, and what speaks for them.
-pub(super) fn explanations(
-    answered: &[Answered<'_>],
-    tolerance: f64,
-) -> (Vec<&'static Cause>, String) {
-    let predicts = |answers: &dyn Fn(&KnownStream) -> Answer| {
-        answered.iter().all(|(stream, answer)| {
-            let (used, mean) = answers(stream);
-            answer.used == used && (answer.mean - mean).abs() <= tolerance * mean.abs()
-        })
+/// The mistakes that predict the answers for every stream.
+pub(super) fn explanations(answered: &[Answered<'_>], tolerance: f64) -> Few<&'static Cause> {
+    let known = mistakes();
+    let predict = |made: &[&Mistake]| {
+        let procedure = made.iter().fold(Procedure::RIGHT, |right, made| made.made_in(right));
+        answered.iter().all(|answered| predicts(&procedure, answered, tolerance))
     };
-    let in_rule = WRONG_RULES.iter().filter(|(_, rule)| predicts(&|stream| stream.by(*rule)));
-    let elsewhere = MISTAKES.iter().filter(|(_, answers)| predicts(answers));
-    let causes: Vec<_> =
-        in_rule.map(|(cause, _)| *cause).chain(elsewhere.map(|(cause, _)| *cause)).collect();
-    if causes.is_empty() && equal_samples_alone_are_late(answered, tolerance) {
-        let evidence = "every stream stops where it should but those of equal samples";
-        return (vec![&adaptive::VARIANCE_BELOW_ZERO], evidence.to_owned());
-    }
-    (causes, format!("predicts where {} streams stop, and their means", answered.len()))
+    few_that_fit(&known, predict).map(|mistake| mistake.cause)
 }
 
-/// Equal samples take more batches than one, and all else is right. How many depends on every rounding.
-fn equal_samples_alone_are_late(answered: &[Answered<'_>], tolerance: f64) -> bool {
-    answered.iter().filter(|answered| complaint(answered, tolerance).is_some()).all(
-        |(stream, answer)| {
-            stream.repeats.iter().all(|value| *value == stream.repeats[0])
-                && answer.used > stream.stops_at
-                && answer.used.is_multiple_of(stream.batch)
-        },
-    )
+/// How late equal samples stop whose variance is negative depends on every rounding.
+fn predicts(procedure: &Procedure, (stream, answer): &Answered<'_>, tolerance: f64) -> bool {
+    let is_answer = |used: u32| {
+        let (reported, mean) = procedure.answer(stream, used);
+        answer.used == reported && (answer.mean - mean).abs() <= tolerance * mean.abs()
+    };
+    let count = procedure.count(stream);
+    let is_late = procedure.is_late_on_equal_samples
+        && stream.is_of_equal_samples()
+        && answer.used > count
+        && answer.used.is_multiple_of(stream.batch);
+    is_answer(count) || is_late && is_answer(answer.used)
 }
 
 /// What is wrong with one stream.

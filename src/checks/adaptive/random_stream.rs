@@ -1,6 +1,6 @@
 //! One kind of random stream, put to one core, against the exact law of the stopping rule.
 
-use super::rule::{Rule, Sums, WRONG_RULES, stops};
+use super::rule::{Rule, Sums, WRONG_RULES};
 use crate::cause::{Cause, adaptive};
 use crate::checks::phrase::{figure, percent};
 use crate::checks::{CheckError, Measure, Result};
@@ -56,7 +56,7 @@ impl StreamEntry {
     pub(super) fn law(&self, rule: Rule, batch: u32, slack: f64) -> StoppingLaw {
         let tolerance = self.tolerance.0 * (1.0 + slack);
         StoppingLaw::new(self.values(), batch as usize, self.cap as usize, |n, highs| {
-            n > 1 && rule(&Sums::of_two_values(n, highs, self.low, self.high), tolerance)
+            n > 1 && rule.stops(&Sums::of_two_values(n, highs, self.low, self.high), tolerance)
         })
     }
 
@@ -73,8 +73,8 @@ impl StreamEntry {
         precision: Precision,
     ) -> Vec<&'static Cause> {
         let counts = Counts { cells: report.observed.clone(), absorbed: report.absorbed_observed };
-        let wrong = WRONG_RULES.iter().map(|(cause, rule)| (*cause, *rule, self.batch));
-        let too_often = (&adaptive::LOOKS_AFTER_EVERY_SAMPLE, stops as Rule, 1);
+        let wrong = WRONG_RULES.iter().map(|(cause, made)| (*cause, made(Rule::RIGHT), self.batch));
+        let too_often = (&adaptive::LOOKS_AFTER_EVERY_SAMPLE, Rule::RIGHT, 1);
         wrong
             .chain([too_often])
             .filter(|(_, rule, batch)| follows_law(&self.cells(*rule, *batch, precision), &counts))
@@ -109,7 +109,7 @@ pub(super) struct Judged {
 
 impl Trial<'_> {
     pub(super) fn judge(&mut self, of_counts: &Effort, of_mean: &Effort) -> Result<Judged> {
-        let law = self.entry.law(stops, self.entry.batch, 0.0);
+        let law = self.entry.law(Rule::RIGHT, self.entry.batch, 0.0);
         let counts = self.judge_counts(of_counts)?;
         let claim = Claim::value(law.mean, Band::math(self.precision));
         let claim = claim.with_null_deviation(law.deviation);
@@ -135,7 +135,7 @@ impl Trial<'_> {
 
     /// Whether the counts follow the law of the rule.
     fn judge_counts(&mut self, effort: &Effort) -> Result<CountReport> {
-        let expected = self.entry.cells(stops, self.entry.batch, self.precision);
+        let expected = self.entry.cells(Rule::RIGHT, self.entry.batch, self.precision);
         let seed = self.seed.child("counts");
         judge_counts(&expected, effort, &mut |stage, samples| {
             let mut counts = Counts { cells: vec![0; expected.cells.len()], absorbed: 0 };

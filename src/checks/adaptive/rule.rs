@@ -5,35 +5,56 @@ use crate::cause::{Cause, adaptive};
 /// The number of a normal distribution's standard deviations that hold 95 %.
 const NORMAL_95: f64 = 1.96;
 
-/// A stopping rule: whether to stop after these samples.
-pub(crate) type Rule = fn(&Sums, f64) -> bool;
-
-/// The mistakes that students make in the rule, each with the rule it amounts to.
-pub(crate) const WRONG_RULES: &[(&Cause, Rule)] = &[
-    (&adaptive::POPULATION_VARIANCE, |s, tolerance| {
-        NORMAL_95 * (s.population_variance() / s.n).sqrt() <= tolerance * s.mean()
-    }),
-    (&adaptive::SIGMA_OVER_N, |s, tolerance| {
-        NORMAL_95 * s.variance().sqrt() / s.n <= tolerance * s.mean()
-    }),
-    (&adaptive::WITHOUT_1_96, |s, tolerance| (s.variance() / s.n).sqrt() <= tolerance * s.mean()),
-    (&adaptive::VARIANCE_FOR_SIGMA, |s, tolerance| {
-        NORMAL_95 * s.variance() / s.n.sqrt() <= tolerance * s.mean()
-    }),
-    (&adaptive::TOLERANCE_ABSOLUTE, |s, tolerance| {
-        NORMAL_95 * (s.variance() / s.n).sqrt() <= tolerance
-    }),
-    (&adaptive::COUNT_ONE_SHORT, |s, tolerance| {
-        let variance = (s.squares - s.sum * s.sum / (s.n - 1.0)) / (s.n - 2.0);
-        NORMAL_95 * (variance / s.n).sqrt() <= tolerance * s.mean()
-    }),
-    (&adaptive::NEVER_STOPS, |_, _| false),
-];
-
-/// The course's rule.
-pub(crate) fn stops(sums: &Sums, tolerance: f64) -> bool {
-    NORMAL_95 * (sums.variance() / sums.n).sqrt() <= tolerance * sums.mean()
+/// Whether to stop after some samples, step by step.
+#[derive(Clone, Copy)]
+pub(crate) struct Rule {
+    variance: fn(&Sums) -> f64,
+    /// Half the width of the interval of the mean, from the variance and the number of samples.
+    half_width: fn(f64, f64) -> f64,
+    /// What that may be, from the tolerance and the mean.
+    limit: fn(f64, f64) -> f64,
 }
+
+impl Rule {
+    /// The course's rule.
+    pub(crate) const RIGHT: Self = Self {
+        variance: Sums::variance,
+        half_width: |variance, n| NORMAL_95 * (variance / n).sqrt(),
+        limit: |tolerance, mean| tolerance * mean,
+    };
+
+    pub(crate) fn stops(&self, sums: &Sums, tolerance: f64) -> bool {
+        let half_width = (self.half_width)((self.variance)(sums), sums.n);
+        half_width <= (self.limit)(tolerance, sums.mean())
+    }
+}
+
+/// What a mistake makes of a rule.
+pub(crate) type InRule = fn(Rule) -> Rule;
+
+/// The mistakes that students make in the rule.
+pub(crate) const WRONG_RULES: &[(&Cause, InRule)] = &[
+    (&adaptive::POPULATION_VARIANCE, |rule| Rule { variance: Sums::population_variance, ..rule }),
+    (&adaptive::SIGMA_OVER_N, |rule| Rule {
+        half_width: |variance, n| NORMAL_95 * variance.sqrt() / n,
+        ..rule
+    }),
+    (&adaptive::WITHOUT_1_96, |rule| Rule {
+        half_width: |variance, n| (variance / n).sqrt(),
+        ..rule
+    }),
+    (&adaptive::VARIANCE_FOR_SIGMA, |rule| Rule {
+        half_width: |variance, n| NORMAL_95 * variance / n.sqrt(),
+        ..rule
+    }),
+    (&adaptive::TOLERANCE_ABSOLUTE, |rule| Rule { limit: |tolerance, _| tolerance, ..rule }),
+    (&adaptive::COUNT_ONE_SHORT, |rule| Rule {
+        variance: |s| (s.squares - s.sum * s.sum / (s.n - 1.0)) / (s.n - 2.0),
+        ..rule
+    }),
+    // Nothing is at most NaN.
+    (&adaptive::NEVER_STOPS, |rule| Rule { limit: |_, _| f64::NAN, ..rule }),
+];
 
 /// What the rule needs of the samples so far.
 #[derive(Clone, Copy, Debug, Default)]

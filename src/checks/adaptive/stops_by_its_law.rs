@@ -74,7 +74,7 @@ fn passing_statement(judged: &[Judged]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::rule::{Rule, Sums, WRONG_RULES, stops};
+    use super::super::rule::{Rule, Sums, WRONG_RULES};
     use super::*;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, causes, check_of, failure, judge};
@@ -103,7 +103,7 @@ mod tests {
                 highs += stream[used..next].iter().filter(|x| **x == high).count();
                 used = next;
                 let sums = Sums::of_two_values(used, highs, low, high);
-                if used > 1 && (self.rule)(&sums, settings.max_tolerance) {
+                if used > 1 && self.rule.stops(&sums, settings.max_tolerance) {
                     break;
                 }
             }
@@ -114,7 +114,7 @@ mod tests {
         }
     }
 
-    const RIGHT: Stopping = Stopping { rule: stops, every: None, gain: 1.0, says_cap: false };
+    const RIGHT: Stopping = Stopping { rule: Rule::RIGHT, every: None, gain: 1.0, says_cap: false };
 
     /// Streams that stop early cost little: the third kind of the case.
     fn found(stopping: Stopping) -> Finding {
@@ -135,8 +135,8 @@ mod tests {
 
     #[test]
     fn every_wrong_rule_is_named() {
-        for (cause, rule) in WRONG_RULES {
-            let finding = found(Stopping { rule: *rule, ..RIGHT });
+        for (cause, made) in WRONG_RULES {
+            let finding = found(Stopping { rule: made(Rule::RIGHT), ..RIGHT });
             assert_eq!(causes(&finding), [cause.name], "{finding:?}");
         }
     }

@@ -96,14 +96,18 @@ fn film_points(seed: Seed) -> Vec<DVec2> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::projection::{Formula, MISTAKES, projection};
+    use super::super::projection::{MISTAKES, Projection, projection};
     use super::*;
-    use crate::cause::Cause;
+    use crate::cause::{Cause, camera};
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge, try_judge};
+    use glam::DVec3;
 
     /// A core that makes its rays by a formula and then does something to them.
-    fn lens(formula: Formula, spoil: fn(&mut Ray)) -> Fake {
+    fn lens(
+        formula: impl Fn(&Camera, DVec2) -> DVec3 + Send + 'static,
+        spoil: fn(&mut Ray),
+    ) -> Fake {
         let ray = move |camera: &Camera, film| {
             let direction = formula(camera, film).normalize();
             let (t_min, t_max) = (camera.near, camera.far);
@@ -118,7 +122,7 @@ mod tests {
         check_of(include_str!("../../../cases/camera/rays-pass-through-their-film-points.toml"))
     }
 
-    fn found(formula: Formula) -> Finding {
+    fn found(formula: impl Fn(&Camera, DVec2) -> DVec3 + Send + 'static) -> Finding {
         judge(&shipped(), &mut lens(formula, |_| ()))
     }
 
@@ -130,7 +134,8 @@ mod tests {
     #[test]
     fn every_mistake_fails_under_its_own_name() {
         for mistake in MISTAKES {
-            let finding = found(mistake.formula);
+            let wrong = (mistake.made_in)(Projection::RIGHT);
+            let finding = found(move |camera, film| wrong.direction(camera, film));
             let statement = failure(&finding);
             let Cause { name, headline, .. } = mistake.cause;
             assert!(statement.contains(headline), "{name}: {statement}");
@@ -149,11 +154,21 @@ mod tests {
     }
 
     #[test]
+    fn two_mistakes_of_different_steps_are_told_together() {
+        let of = |wanted: &Cause| MISTAKES.iter().find(|m| m.cause == wanted).unwrap().made_in;
+        let both = of(&camera::CAMERA_TO_WORLD_FORGOTTEN)(Projection::RIGHT);
+        let both = of(&camera::FOV_NOT_HALVED)(both);
+        let finding = found(move |camera, film| both.direction(camera, film));
+        let told: Vec<_> =
+            finding.clues.iter().map(|clue| (&clue.cause[..], clue.beside)).collect();
+        let [view, world] = [&camera::FOV_NOT_HALVED, &camera::CAMERA_TO_WORLD_FORGOTTEN];
+        assert_eq!(told, [(view.name, true), (world.name, true)]);
+    }
+
+    #[test]
     fn a_mistake_nobody_knows_is_not_given_a_name() {
         let finding = found(|camera, film| projection(camera, film * film));
-        assert!(
-            failure(&finding).ends_with("no single mistake that is known explains all of them")
-        );
+        assert!(failure(&finding).ends_with("no mistake that is known explains all of them"));
         assert!(finding.clues.is_empty());
     }
 

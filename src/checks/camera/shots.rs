@@ -1,7 +1,8 @@
 //! The rays that a core makes for cameras, against formulas of projection.
 
-use super::projection::{Formula, MISTAKES, Mistake, projection};
+use super::projection::{MISTAKES, Mistake, Projection, projection};
 use crate::cause::{Cause, camera};
+use crate::checks::few::{Few, few_that_fit};
 use crate::checks::phrase::{degrees, some_are};
 use crate::checks::{Finding, Measure};
 use crate::contract::Ray;
@@ -20,16 +21,17 @@ impl Shot {
     fn direction_errors<'a>(
         &'a self,
         film: &'a [DVec2],
-        formula: Formula,
+        formula: Projection,
     ) -> impl Iterator<Item = f64> + 'a {
-        let expected = film.iter().map(move |point| formula(&self.camera, *point).normalize());
+        let expected =
+            film.iter().map(move |point| formula.direction(&self.camera, *point).normalize());
         self.rays.iter().zip(expected).map(|(ray, d)| ray.direction.distance(d))
     }
 
     /// Directions, origins, and the ends of the segments. Single precision rounds positions relative to their size.
     fn reports(&self, film: &[DVec2], allowed: f64) -> [(&'static str, ExactReport); 4] {
         let Camera { position, near, far, .. } = self.camera;
-        let directions = self.direction_errors(film, projection);
+        let directions = self.direction_errors(film, Projection::RIGHT);
         let compare = |error| Compared::within(error, 0.0, allowed);
         let size = position.length().max(1.0);
         let origins = self.rays.iter().map(|ray| ray.origin.distance(position) / size);
@@ -58,15 +60,15 @@ pub(super) fn judge(shots: &[Shot], film: &[DVec2], allowed: f64) -> Finding {
     }
     complaints.dedup();
     let explained = explanation(shots, film, allowed);
-    complaints.splice(0..0, direction_complaint(shots, film, allowed, explained));
+    complaints.splice(0..0, direction_complaint(shots, film, allowed, &explained));
     let all = shots.len() * film.len();
     let right = format!("{all} rays of {} cameras leave through their film points", shots.len());
     let resolution = format!("would have caught a ray {} off", degrees(allowed));
     let elsewhere = causes_elsewhere(&measures);
     Finding::of(right, resolution, measures)
         .complaining(complaints)
-        .because_each(explained, &format!("predicts the directions of all {all} rays"))
-        .because_each(elsewhere, "the directions have no part in it")
+        .because_few(explained, &format!("predicts the directions of all {all} rays"))
+        .because_all(elsewhere, "the directions have no part in it")
 }
 
 /// What is wrong beside directions.
@@ -93,35 +95,41 @@ fn direction_complaint(
     shots: &[Shot],
     film: &[DVec2],
     allowed: f64,
-    explained: Option<&Cause>,
+    explained: &Few<&'static Cause>,
 ) -> Option<String> {
     let all = shots.len() * film.len();
-    let wrong = all - errors(shots, film, projection).filter(|error| *error <= allowed).count();
+    let wrong =
+        all - errors(shots, film, Projection::RIGHT).filter(|error| *error <= allowed).count();
     if wrong == 0 {
         return None;
     }
     let by = degrees(largest_angle(shots, film));
-    let why = explained
-        .map_or("no single mistake that is known explains all of them", |cause| cause.headline);
+    let why = match explained.is_empty() {
+        true => "no mistake that is known explains all of them".to_owned(),
+        false => explained.words(),
+    };
     Some(format!("{} wrong by up to {by}: {why}", some_are(wrong, all, "rays")))
 }
 
-/// The mistake that predicts every direction, the right ones among them.
-fn explanation(shots: &[Shot], film: &[DVec2], allowed: f64) -> Option<&'static Cause> {
-    if errors(shots, film, projection).all(|error| error <= allowed) {
-        return None;
+/// The mistakes that predict every direction, the right ones among them.
+fn explanation(shots: &[Shot], film: &[DVec2], allowed: f64) -> Few<&'static Cause> {
+    if errors(shots, film, Projection::RIGHT).all(|error| error <= allowed) {
+        return Few::OneOf(Vec::new());
     }
     // A mistake may magnify rounding, but not a hundredfold; different mistakes are degrees apart.
-    let explains =
-        |mistake: &&Mistake| errors(shots, film, mistake.formula).all(|e| e <= 100.0 * allowed);
-    MISTAKES.iter().find(explains).map(|mistake| mistake.cause)
+    let explains = |made: &[&Mistake]| {
+        let formula =
+            made.iter().fold(Projection::RIGHT, |right, mistake| (mistake.made_in)(right));
+        errors(shots, film, formula).all(|error| error <= 100.0 * allowed)
+    };
+    few_that_fit(MISTAKES, explains).map(|mistake| mistake.cause)
 }
 
 /// How far each direction is from what a formula makes it.
 fn errors<'a>(
     shots: &'a [Shot],
     film: &'a [DVec2],
-    formula: Formula,
+    formula: Projection,
 ) -> impl Iterator<Item = f64> + 'a {
     shots.iter().flat_map(move |shot| shot.direction_errors(film, formula))
 }

@@ -103,14 +103,14 @@ fn example(encounters: &[Encounter]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::imitation::{Answer, Formula, intersection, mistake};
+    use super::super::imitation::{Answer, intersection, mistake};
     use super::*;
     use crate::cause::shape;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, judge};
     use crate::contract::Primitive;
 
-    fn found(formula: Formula) -> Finding {
+    fn found(formula: impl Fn(&Primitive, &Ray) -> Option<Answer> + Send + 'static) -> Finding {
         let check: AgreesWithExactArithmetic = check_of("[expect]\nrays = \"20 k\"");
         judge(&check, &mut Fake::intersecting(formula))
     }

@@ -4,6 +4,7 @@ use super::entry::{SphereEntry, TriangleEntry};
 use super::hit_row::{Row, complaint, measures};
 use super::imitation::{explanations, intersection};
 use crate::cause::Cause;
+use crate::checks::few::Few;
 use crate::checks::phrase::{percent, some_are};
 use crate::checks::ray_row::{Grades, RayRow};
 use crate::checks::{Check, CheckError, Context, Finding, check};
@@ -82,28 +83,28 @@ fn judge(rows: &[Row], primitive: &Primitive, hits: &[Hit], precision: Precision
     if grades.complaints.is_empty() {
         return finding;
     }
-    let causes = explanations(primitive, &rays, &answers, 100.0 * allowed);
+    let few = explanations(primitive, &rays, &answers, 100.0 * allowed);
     let evidence = format!("predicts the answers to all {} rays", rays.len());
-    let statement = failing_statement(&grades.complaints, rays.len(), &causes);
-    finding.complaining([statement]).because_each(causes, &evidence)
+    let statement = failing_statement(&grades.complaints, rays.len(), &few);
+    finding.complaining([statement]).because_few(few, &evidence)
 }
 
-fn failing_statement(complaints: &[String], all: usize, causes: &[&Cause]) -> String {
+fn failing_statement(complaints: &[String], all: usize, few: &Few<&'static Cause>) -> String {
     let wrong = some_are(complaints.len(), all, "rays");
     let details = complaints[..complaints.len().min(SPELT_OUT)].join("; ");
     let more = if complaints.len() > SPELT_OUT { "; and so on" } else { "" };
-    let headlines: Vec<_> = causes.iter().map(|cause| cause.headline).collect();
-    let why = if causes.is_empty() { String::new() } else { headlines.join(", or ") + ". " };
+    let why = if few.is_empty() { String::new() } else { few.words() + ". " };
     format!("{wrong} wrong: {why}{details}{more}")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::imitation::{Formula, MISTAKES, mistake};
+    use super::super::imitation::{Answer, Intersection, MISTAKES, mistake};
     use super::*;
     use crate::cause::shape;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, causes, check_of, failure, judge, try_judge};
+    use crate::contract::Ray;
 
     const CASES: [&str; 4] = [
         include_str!("../../../cases/shape/ray-triangle-hits-are-right.toml"),
@@ -112,7 +113,10 @@ mod tests {
         include_str!("../../../cases/shape/ray-sphere-hit-is-the-nearest-root-ahead.toml"),
     ];
 
-    fn found(case: usize, formula: Formula) -> Finding {
+    fn found(
+        case: usize,
+        formula: impl Fn(&Primitive, &Ray) -> Option<Answer> + Send + 'static,
+    ) -> Finding {
         judge(&check_of::<HitsPrimitive>(CASES[case]), &mut Fake::intersecting(formula))
     }
 
@@ -123,11 +127,11 @@ mod tests {
 
     #[test]
     fn every_mistake_is_told_and_named_by_one_of_the_cases() {
-        for (cause, formula) in MISTAKES {
+        for (cause, _) in MISTAKES {
             // A wrong sphere may answer a triangle with what is no answer at all.
             let is_named = |case: &str| {
                 let check: HitsPrimitive = check_of(case);
-                let found = try_judge(&check, &mut Fake::intersecting(*formula), None);
+                let found = try_judge(&check, &mut Fake::intersecting(mistake(cause)), None);
                 found.is_ok_and(|finding| {
                     finding.failed()
                         && finding.statement.contains(cause.headline)
@@ -136,6 +140,16 @@ mod tests {
             };
             assert!(CASES.into_iter().any(is_named), "{}", cause.name);
         }
+    }
+
+    #[test]
+    fn a_wrong_hit_and_a_wrong_normal_are_told_together() {
+        let of = |cause: &Cause| MISTAKES.iter().find(|(known, _)| *known == cause).unwrap().1;
+        let [wide, facing] = [&shape::PARALLELOGRAM, &shape::NORMALS_FACE_RAY];
+        let both = Intersection::RIGHT.with(of(wide)).with(of(facing));
+        let finding = found(0, move |primitive, ray| both.answer(primitive, ray));
+        assert_eq!(causes(&finding), [wide.name, facing.name]);
+        assert!(finding.clues.iter().all(|clue| clue.beside));
     }
 
     #[test]

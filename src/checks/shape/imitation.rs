@@ -3,6 +3,7 @@
 //! A mistake is named only if it predicts every answer of a core, the right ones among them.
 
 use crate::cause::{Cause, shape};
+use crate::checks::few::{Few, few_that_fit};
 use crate::checks::phrase::figure;
 use crate::contract::{Hit, Primitive, Ray};
 use glam::DVec3;
@@ -22,6 +23,7 @@ pub(crate) struct Answer {
 
 impl Answer {
     /// A hit of a sphere, which is not divided into vertices.
+    #[cfg(test)]
     pub(crate) const fn of_sphere(t: f64, normal: DVec3) -> Self {
         Self { t, geometric_normal: normal, shading_normal: normal, weights: None }
     }
@@ -65,11 +67,12 @@ impl Answer {
 }
 
 /// An implementation of ray-primitive intersection.
+#[cfg(test)]
 pub(crate) type Formula = fn(&Primitive, &Ray) -> Option<Answer>;
 
 /// The right one: the first meeting point inside the primitive and inside the open segment.
 pub(crate) fn intersection(primitive: &Primitive, ray: &Ray) -> Option<Answer> {
-    first(primitive, ray, |m| m.is_hit(ray))
+    Intersection::RIGHT.answer(primitive, ray)
 }
 
 fn is_on(ray: &Ray, t: f64) -> bool {
@@ -78,7 +81,7 @@ fn is_on(ray: &Ray, t: f64) -> bool {
 
 /// A point in which the whole line of a ray meets the sphere or the plane of the triangle.
 #[derive(Clone, Copy)]
-struct Meeting {
+pub(crate) struct Meeting {
     t: f64,
     /// Barycentric weights, negative outside; (1, 0, 0) on a sphere.
     weights: [f64; 3],
@@ -88,6 +91,11 @@ struct Meeting {
 }
 
 impl Meeting {
+    const fn of_sphere(t: f64, normal: DVec3) -> Self {
+        let (weights, vertex_normals) = ([1.0, 0.0, 0.0], [normal; 3]);
+        Self { t, weights, geometric: normal, vertex_normals, on_triangle: false }
+    }
+
     fn is_inside(&self) -> bool {
         self.weights.iter().all(|weight| *weight >= 0.0)
     }
@@ -150,148 +158,195 @@ fn sphere_meetings(centre: DVec3, radius: f64, ray: &Ray) -> Vec<Meeting> {
     }
     let meeting = |sign: f64| {
         let t = (-half_b + sign * discriminant.sqrt()) / a;
-        let normal = (ray.at(t) - centre) / radius;
-        Meeting {
-            t,
-            weights: [1.0, 0.0, 0.0],
-            geometric: normal,
-            vertex_normals: [normal; 3],
-            on_triangle: false,
-        }
+        Meeting::of_sphere(t, (ray.at(t) - centre) / radius)
     };
     vec![meeting(-1.0), meeting(1.0)]
 }
 
-/// The mistakes that predict every one of these answers: `hits[i]` to `rays[i]`.
+/// The mistakes that predict every one of these answers: `hits[i]` to `rays[i]`. A core that hits nothing has said nothing:
+/// whatever makes nonsense of this primitive predicts it.
 pub(crate) fn explanations(
     primitive: &Primitive,
     rays: &[Ray],
     hits: &[Hit],
     allowed: f64,
-) -> Vec<&'static Cause> {
-    let predicts = |formula: Formula| {
-        rays.iter().zip(hits).all(|(ray, hit)| match formula(primitive, ray) {
+) -> Few<&'static Cause> {
+    if !hits.iter().any(Hit::is_hit) {
+        return Few::OneOf(Vec::new());
+    }
+    let predict = |made: &[&(&'static Cause, Made)]| {
+        let formula = made.iter().fold(Intersection::RIGHT, |right, (_, made)| right.with(*made));
+        rays.iter().zip(hits).all(|(ray, hit)| match formula.answer(primitive, ray) {
             Some(answer) => hit.is_hit() && answer.is_like(hit, allowed),
             None => !hit.is_hit(),
         })
     };
-    let named = MISTAKES.iter().filter(|(_, formula)| predicts(*formula));
-    // Where nothing is hit, every formula that does not apply is right about it.
-    named.filter(|_| hits.iter().any(Hit::is_hit)).map(|(cause, _)| *cause).collect()
+    few_that_fit(MISTAKES, predict).map(|(cause, _)| *cause)
+}
+
+/// Which meeting is taken for the hit.
+type Finds = fn(&Primitive, &Ray) -> Option<Meeting>;
+/// What is said of it.
+type Describes = fn(&Ray, Meeting) -> Answer;
+
+/// Intersection in two steps.
+#[derive(Clone, Copy)]
+pub(crate) struct Intersection {
+    finds: Finds,
+    describes: Describes,
+}
+
+impl Intersection {
+    pub(crate) const RIGHT: Self =
+        Self { finds: |p, ray| first(p, ray, |m| m.is_hit(ray)), describes: |_, m| m.answer() };
+
+    /// The same with a mistake in it.
+    pub(crate) fn with(self, made: Made) -> Self {
+        match made {
+            Made::Finds(finds) => Self { finds, ..self },
+            Made::Describes(describes) => Self { describes, ..self },
+        }
+    }
+
+    pub(crate) fn answer(&self, primitive: &Primitive, ray: &Ray) -> Option<Answer> {
+        (self.finds)(primitive, ray).map(|meeting| (self.describes)(ray, meeting))
+    }
+}
+
+/// A step that people write otherwise.
+#[derive(Clone, Copy)]
+pub(crate) enum Made {
+    Finds(Finds),
+    Describes(Describes),
 }
 
 /// Accepts a meeting by another rule.
-fn first(primitive: &Primitive, ray: &Ray, accept: impl Fn(&Meeting) -> bool) -> Option<Answer> {
-    meetings(primitive, ray).into_iter().find(accept).map(Meeting::answer)
+fn first(primitive: &Primitive, ray: &Ray, accept: impl Fn(&Meeting) -> bool) -> Option<Meeting> {
+    meetings(primitive, ray).into_iter().find(accept)
 }
 
-/// The right hit, with something else said about it.
-fn described(
-    primitive: &Primitive,
-    ray: &Ray,
-    describe: impl Fn(Meeting) -> Answer,
-) -> Option<Answer> {
-    meetings(primitive, ray).into_iter().find(|m| m.is_hit(ray)).map(describe)
-}
-
-/// The right hit, with its shading normal interpolated by other weights, which are handed over too.
-fn shaded(primitive: &Primitive, ray: &Ray, order: [usize; 3]) -> Option<Answer> {
-    described(primitive, ray, |meeting| {
-        let weights = order.map(|vertex| meeting.weights[vertex]);
-        let shading_normal = meeting.interpolated(weights);
-        Answer { shading_normal, weights: Some(weights), ..meeting.answer() }
-    })
+/// With the shading normal interpolated by other weights, which are handed over too.
+fn shaded(meeting: Meeting, order: [usize; 3]) -> Answer {
+    let weights = order.map(|vertex| meeting.weights[vertex]);
+    let shading_normal = meeting.interpolated(weights);
+    Answer { shading_normal, weights: Some(weights), ..meeting.answer() }
 }
 
 /// The same where only the normal is interpolated wrongly, and the weights handed over are right.
-fn shaded_alone(primitive: &Primitive, ray: &Ray, order: [usize; 3]) -> Option<Answer> {
-    described(primitive, ray, |meeting| Answer {
-        shading_normal: meeting.interpolated(order.map(|vertex| meeting.weights[vertex])),
-        ..meeting.answer()
-    })
+fn shaded_alone(meeting: Meeting, order: [usize; 3]) -> Answer {
+    let shading_normal = meeting.interpolated(order.map(|vertex| meeting.weights[vertex]));
+    Answer { shading_normal, ..meeting.answer() }
 }
 
-/// At the first of these t on the segment; on a sphere the normal is that of the point there.
+/// At the first of these t on the segment; the normal is that of the point there.
 fn at_first(
     primitive: &Primitive,
     ray: &Ray,
     mut roots: impl Iterator<Item = f64>,
-) -> Option<Answer> {
+) -> Option<Meeting> {
+    let Primitive::Sphere { centre, .. } = primitive else { return None };
     let t = roots.find(|t| is_on(ray, *t))?;
-    let normal = match primitive {
-        Primitive::Sphere { centre, .. } => (ray.at(t) - *centre).normalize_or_zero(),
-        Primitive::Triangle { .. } => DVec3::ZERO,
-    };
-    Some(Answer::of_sphere(t, normal))
+    Some(Meeting::of_sphere(t, (ray.at(t) - *centre).normalize_or_zero()))
 }
 
-/// Implementations that people write instead: what was done, and what it answers.
-pub(super) const MISTAKES: &[(&Cause, Formula)] = &[
-    (&shape::SEGMENT_END_IGNORED, |p, ray| first(p, ray, |m| m.is_inside() && ray.t_min < m.t)),
-    (&shape::SEGMENT_START_IGNORED, |p, ray| {
-        first(p, ray, |m| m.is_inside() && m.t < ray.t_max && m.t > 0.0)
-    }),
-    (&shape::SEGMENT_IGNORED, |p, ray| first(p, ray, Meeting::is_inside)),
-    (&shape::HITS_BEHIND_ORIGIN, |p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max)),
-    (&shape::BOTH_ROOTS_REQUIRED, |p, ray| {
-        let all = meetings(p, ray);
-        all.first().filter(|_| all.iter().all(|m| m.is_hit(ray))).map(|m| m.answer())
-    }),
-    (&shape::FIRST_ROOT_UNCHECKED, |p, ray| {
-        let all = meetings(p, ray);
-        all.first().filter(|_| all.iter().any(|m| m.is_hit(ray))).map(|m| m.answer())
-    }),
-    (&shape::QUADRATIC_PRECEDENCE, |p, ray| {
-        let Primitive::Sphere { .. } = p else { return None };
-        let a = ray.direction.length_squared();
-        at_first(p, ray, meetings(p, ray).into_iter().map(|m| m.t * a * a))
-    }),
-    (&shape::NEAR_ROOT_ONLY, |p, ray| {
-        meetings(p, ray).first().filter(|m| m.is_hit(ray)).map(|m| m.answer())
-    }),
-    (&shape::FAR_ROOT_TAKEN, |p, ray| {
-        meetings(p, ray).last().filter(|m| m.is_hit(ray)).map(|m| m.answer())
-    }),
-    (&shape::QUADRATIC_WITHOUT_A, |p, ray| {
-        let Primitive::Sphere { centre, radius } = p else { return None };
-        let from_centre = ray.origin - *centre;
-        let half_b = from_centre.dot(ray.direction);
-        let c = from_centre.length_squared() - radius * radius;
-        let root = (half_b * half_b - c).sqrt();
-        at_first(p, ray, [-half_b - root, -half_b + root].into_iter())
-    }),
-    (&shape::QUADRATIC_DIVIDES_BY_A, |p, ray| {
-        at_first(p, ray, meetings(p, ray).into_iter().map(|m| 2.0 * m.t))
-    }),
-    (&shape::T_IN_SCENE_UNITS, |p, ray| {
-        described(p, ray, |m| Answer { t: m.t * ray.direction.length(), ..m.answer() })
-    }),
-    (&shape::PARALLELOGRAM, |p, ray| {
-        first(p, ray, |m| m.weights[1] >= 0.0 && m.weights[2] >= 0.0 && is_on(ray, m.t))
-    }),
-    (&shape::WHOLE_PLANE_HIT, |p, ray| first(p, ray, |m| is_on(ray, m.t))),
-    (&shape::BACK_CULLED, |p, ray| {
-        first(p, ray, |m| m.is_hit(ray) && m.geometric.dot(ray.direction) < 0.0)
-    }),
-    (&shape::BARYCENTRICS_SWAPPED, |p, ray| shaded(p, ray, [0, 2, 1])),
-    (&shape::NORMALS_SWAPPED, |p, ray| shaded_alone(p, ray, [0, 2, 1])),
-    (&shape::BARYCENTRICS_MOVED_ON, |p, ray| shaded(p, ray, [1, 2, 0])),
-    (&shape::NORMALS_MOVED_ON, |p, ray| shaded_alone(p, ray, [1, 2, 0])),
-    (&shape::BARYCENTRICS_MOVED_BACK, |p, ray| shaded(p, ray, [2, 0, 1])),
-    (&shape::NORMALS_MOVED_BACK, |p, ray| shaded_alone(p, ray, [2, 0, 1])),
-    (&shape::FLAT_SHADING_NORMAL, |p, ray| {
-        described(p, ray, |m| Answer { shading_normal: m.geometric, ..m.answer() })
-    }),
-    (&shape::GEOMETRIC_NORMAL_INTERPOLATED, |p, ray| {
-        described(p, ray, |m| {
+/// Steps that people write otherwise: what was done, and what it finds or says.
+pub(super) const MISTAKES: &[(&Cause, Made)] = &[
+    (
+        &shape::SEGMENT_END_IGNORED,
+        Made::Finds(|p, ray| first(p, ray, |m| m.is_inside() && ray.t_min < m.t)),
+    ),
+    (
+        &shape::SEGMENT_START_IGNORED,
+        Made::Finds(|p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max && m.t > 0.0)),
+    ),
+    (&shape::SEGMENT_IGNORED, Made::Finds(|p, ray| first(p, ray, Meeting::is_inside))),
+    (
+        &shape::HITS_BEHIND_ORIGIN,
+        Made::Finds(|p, ray| first(p, ray, |m| m.is_inside() && m.t < ray.t_max)),
+    ),
+    (
+        &shape::BOTH_ROOTS_REQUIRED,
+        Made::Finds(|p, ray| {
+            let all = meetings(p, ray);
+            all.first().filter(|_| all.iter().all(|m| m.is_hit(ray))).copied()
+        }),
+    ),
+    (
+        &shape::FIRST_ROOT_UNCHECKED,
+        Made::Finds(|p, ray| {
+            let all = meetings(p, ray);
+            all.first().filter(|_| all.iter().any(|m| m.is_hit(ray))).copied()
+        }),
+    ),
+    (
+        &shape::QUADRATIC_PRECEDENCE,
+        Made::Finds(|p, ray| {
+            let a = ray.direction.length_squared();
+            at_first(p, ray, meetings(p, ray).into_iter().map(|m| m.t * a * a))
+        }),
+    ),
+    (
+        &shape::NEAR_ROOT_ONLY,
+        Made::Finds(|p, ray| meetings(p, ray).first().filter(|m| m.is_hit(ray)).copied()),
+    ),
+    (
+        &shape::FAR_ROOT_TAKEN,
+        Made::Finds(|p, ray| meetings(p, ray).last().filter(|m| m.is_hit(ray)).copied()),
+    ),
+    (
+        &shape::QUADRATIC_WITHOUT_A,
+        Made::Finds(|p, ray| {
+            let Primitive::Sphere { centre, radius } = p else { return None };
+            let from_centre = ray.origin - *centre;
+            let half_b = from_centre.dot(ray.direction);
+            let c = from_centre.length_squared() - radius * radius;
+            let root = (half_b * half_b - c).sqrt();
+            at_first(p, ray, [-half_b - root, -half_b + root].into_iter())
+        }),
+    ),
+    (
+        &shape::QUADRATIC_DIVIDES_BY_A,
+        Made::Finds(|p, ray| at_first(p, ray, meetings(p, ray).into_iter().map(|m| 2.0 * m.t))),
+    ),
+    (
+        &shape::T_IN_SCENE_UNITS,
+        Made::Describes(|ray, m| Answer { t: m.t * ray.direction.length(), ..m.answer() }),
+    ),
+    (
+        &shape::PARALLELOGRAM,
+        Made::Finds(|p, ray| {
+            first(p, ray, |m| m.weights[1] >= 0.0 && m.weights[2] >= 0.0 && is_on(ray, m.t))
+        }),
+    ),
+    (&shape::WHOLE_PLANE_HIT, Made::Finds(|p, ray| first(p, ray, |m| is_on(ray, m.t)))),
+    (
+        &shape::BACK_CULLED,
+        Made::Finds(|p, ray| {
+            first(p, ray, |m| m.is_hit(ray) && m.geometric.dot(ray.direction) < 0.0)
+        }),
+    ),
+    (&shape::BARYCENTRICS_SWAPPED, Made::Describes(|_, m| shaded(m, [0, 2, 1]))),
+    (&shape::NORMALS_SWAPPED, Made::Describes(|_, m| shaded_alone(m, [0, 2, 1]))),
+    (&shape::BARYCENTRICS_MOVED_ON, Made::Describes(|_, m| shaded(m, [1, 2, 0]))),
+    (&shape::NORMALS_MOVED_ON, Made::Describes(|_, m| shaded_alone(m, [1, 2, 0]))),
+    (&shape::BARYCENTRICS_MOVED_BACK, Made::Describes(|_, m| shaded(m, [2, 0, 1]))),
+    (&shape::NORMALS_MOVED_BACK, Made::Describes(|_, m| shaded_alone(m, [2, 0, 1]))),
+    (
+        &shape::FLAT_SHADING_NORMAL,
+        Made::Describes(|_, m| Answer { shading_normal: m.geometric, ..m.answer() }),
+    ),
+    (
+        &shape::GEOMETRIC_NORMAL_INTERPOLATED,
+        Made::Describes(|_, m| {
             let answer = m.answer();
             Answer { geometric_normal: answer.shading_normal, ..answer }
-        })
-    }),
-    (&shape::NORMALS_FACE_RAY, |p, ray| {
-        described(p, ray, |m| m.answer().turned(-m.geometric.dot(ray.direction).signum()))
-    }),
-    (&shape::NORMALS_INSIDE_OUT, |p, ray| described(p, ray, |m| m.answer().turned(-1.0))),
+        }),
+    ),
+    (
+        &shape::NORMALS_FACE_RAY,
+        Made::Describes(|ray, m| m.answer().turned(-m.geometric.dot(ray.direction).signum())),
+    ),
+    (&shape::NORMALS_INSIDE_OUT, Made::Describes(|_, m| m.answer().turned(-1.0))),
 ];
 
 /// The answer as a core would give it.
@@ -312,6 +367,8 @@ pub(crate) fn as_hit(answer: Option<Answer>) -> Hit {
 
 /// The formula of a mistake that has one.
 #[cfg(test)]
-pub(crate) fn mistake(cause: &Cause) -> Formula {
-    MISTAKES.iter().find(|(known, _)| *known == cause).unwrap().1
+pub(crate) fn mistake(cause: &Cause) -> impl Fn(&Primitive, &Ray) -> Option<Answer> + use<> {
+    let made = MISTAKES.iter().find(|(known, _)| *known == cause).unwrap().1;
+    let wrong = Intersection::RIGHT.with(made);
+    move |primitive, ray| wrong.answer(primitive, ray)
 }

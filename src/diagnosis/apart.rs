@@ -1,0 +1,83 @@
+//! Several views of one core, each with one of its broken components and the bench's own in the place of the others: what
+//! is told of each is told of that component alone.
+
+use super::rank::Ranked;
+use super::{Diagnosis, Evidence, look};
+
+/// What a core does with one of its broken components.
+pub(crate) struct View<'a> {
+    pub(crate) evidence: Evidence<'a>,
+    /// Failures of the first look that pass with the bench's own in the place of this component.
+    pub(crate) mended: Vec<String>,
+}
+
+/// The causes of what failed at `first`, from the views of it; what no view shows is told as it was seen first.
+pub(crate) fn diagnose_apart(first: &Evidence<'_>, views: &[View<'_>]) -> Diagnosis {
+    let mut told: Vec<_> =
+        views.iter().map(|view| look(&view.evidence).of_one_component()).collect();
+    let shown = |case: &str| views.iter().any(|view| view.evidence.fails(case));
+    let hidden = first.all_failures().filter(|seen| !shown(seen.case)).map(|seen| seen.case);
+    let mut left = Vec::new();
+    for case in hidden {
+        let by = views.iter().position(|view| view.mended.iter().any(|mended| mended == case));
+        if !by.is_some_and(|number| told[number].followed_by(case)) {
+            left.push(case);
+        }
+    }
+    told.push(look(&first.with_failures_of(&left)));
+    told.into_iter().fold(Ranked::default(), Ranked::and).told()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cause::{bsdf, shape};
+    use crate::diagnosis::testing::{Made, failing, passing};
+    use crate::diagnosis::{Degree, diagnose};
+
+    fn without_pi() -> crate::checks::Finding {
+        failing("a").because(&bsdf::WITHOUT_PI, "x")
+    }
+
+    #[test]
+    fn each_component_is_told_from_its_own_view_and_the_earlier_part_first() {
+        let both = Made::new()
+            .with("shape/a", failing("a"))
+            .with("bsdf/b", failing("b"))
+            .with("light/c", failing("c"));
+        let surface = Made::new().with("bsdf/b", without_pi()).with("shape/a", passing());
+        let sphere = failing("a").because(&shape::FAR_ROOT_TAKEN, "x");
+        let sphere = Made::new().with("shape/a", sphere).with("bsdf/b", passing());
+        let views = [(&surface, vec!["bsdf/b", "light/c"]), (&sphere, vec!["shape/a"])];
+        let views = views.map(|(made, mended)| View {
+            evidence: made.evidence(),
+            mended: mended.into_iter().map(str::to_owned).collect(),
+        });
+        let told = diagnose_apart(&both.evidence(), &views);
+        let [first, second] = &told.headlines[..] else { panic!("{told:?}") };
+        assert_eq!((&first.cause[..], first.degree), (shape::FAR_ROOT_TAKEN.name, Degree::Named));
+        assert_eq!(second.cause, bsdf::WITHOUT_PI.name);
+        assert_eq!(second.may_follow, ["light/c"]);
+        assert!(told.unexplained.is_empty());
+    }
+
+    #[test]
+    fn what_no_view_shows_is_told_as_it_was_seen_first() {
+        let made = Made::new().with("bsdf/b", without_pi()).with("adaptive/d", failing("d"));
+        let told = diagnose_apart(&made.evidence(), &[]);
+        assert_eq!(told, diagnose(&made.evidence()));
+    }
+
+    #[test]
+    fn other_failures_of_the_one_component_that_is_not_the_benchs_follow_from_its_only_cause() {
+        let made = Made::new().with("bsdf/b", without_pi()).with("bsdf/c", failing("c"));
+        let mended = vec!["bsdf/b".to_owned(), "bsdf/c".to_owned()];
+        let view = View { evidence: made.evidence(), mended };
+        let told = diagnose_apart(&made.evidence(), &[view]);
+        let [only] = &told.headlines[..] else { panic!("{told:?}") };
+        assert_eq!(
+            (only.degree, &only.may_follow[..]),
+            (Degree::Named, &["bsdf/c".to_owned()][..])
+        );
+    }
+}

@@ -82,6 +82,15 @@ macro_rules! steps {
                 self
             }
 
+            /// The components that have a step replaced.
+            pub(crate) fn components(&self) -> Components {
+                let mut components = Components::empty();
+                $(if $(self.$step.is_some())||* {
+                    components |= $component;
+                })*
+                components
+            }
+
             /// The steps that are replaced, and all there are.
             #[cfg(test)]
             pub(crate) fn replaced(&self) -> (Vec<&'static str>, usize) {

@@ -18,6 +18,7 @@ mod shape;
 
 use super::steps::{LESSON, Steps};
 use crate::cause::Cause;
+use crate::contract::Components;
 
 /// One mistake of one or two lines.
 #[derive(Debug)]
@@ -34,6 +35,13 @@ pub struct Fault {
     pub cause: &'static Cause,
     /// What it puts in place of steps of the lesson.
     pub(super) steps: Steps,
+}
+
+impl Fault {
+    /// What of a path tracer it is made in.
+    pub(crate) fn components(&self) -> Components {
+        self.steps.components()
+    }
 }
 
 /// A table of faults: `"name": "what the student wrote", fails CASE, told CAUSE, STEP = what stands in its place;`.

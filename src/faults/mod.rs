@@ -3,10 +3,15 @@
 //!
 //! Pictures against references are left out: a mistake that only a picture shows is one that nobody is told of.
 
+mod together;
+
+pub use crate::cores::textbook::fault::Fault;
+pub use together::{Together, Told};
+
 use crate::case::{Case, NothingSelected, Part, Subject};
 use crate::cores::CoreSpec;
 use crate::cores::textbook::different::{DIFFERENT, Different};
-use crate::cores::textbook::fault::{self, Fault};
+use crate::cores::textbook::fault;
 use crate::diagnosis::Diagnosis;
 use crate::project::Project;
 use crate::run::record::CoreRecord;

@@ -36,6 +36,10 @@ pub struct Clue {
     /// Whether it is there whatever else is: it explains what the others do not.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub beside: bool,
+    /// The interval of what is the same wherever the mistake shows: a factor, an exponent, pixels; none where it has
+    /// no size.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<[f64; 2]>,
 }
 
 /// One number that was measured.
@@ -245,9 +249,19 @@ impl Finding {
     }
 
     /// Adds a mistake that would have given just these answers, less likely than those added before.
-    pub(crate) fn because(mut self, cause: &Cause, evidence: impl Into<String>) -> Self {
+    pub(crate) fn because(self, cause: &Cause, evidence: impl Into<String>) -> Self {
+        self.because_in_size(cause, evidence, None)
+    }
+
+    /// The same of a mistake that has a size.
+    pub(crate) fn because_in_size(
+        mut self,
+        cause: &Cause,
+        evidence: impl Into<String>,
+        size: Option<[f64; 2]>,
+    ) -> Self {
         let (cause, evidence) = (cause.name.to_owned(), evidence.into());
-        self.clues.push(Clue { cause, evidence, beside: false });
+        self.clues.push(Clue { cause, evidence, beside: false, size });
         self
     }
 
@@ -261,6 +275,7 @@ impl Finding {
             cause: cause.name.to_owned(),
             evidence: evidence.to_owned(),
             beside: true,
+            size: None,
         });
         self.clues.extend(clues);
         self

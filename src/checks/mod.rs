@@ -31,7 +31,7 @@ mod testing;
 
 pub(crate) use context::{CheckError, Context, Picture, PictureRole, Result, camera_of};
 pub(crate) use declared::{Declared, check, checks};
-pub(crate) use finding::{Finding, Measure};
+pub(crate) use finding::{Clue, Finding, Measure};
 
 use crate::contract::Capabilities;
 use crate::text::{TomlError, read_key};

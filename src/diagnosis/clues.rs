@@ -1,6 +1,7 @@
 //! What checks have recognised themselves: a formula that gives every wrong answer, a ratio with a name.
 
 use super::{Degree, Evidence, Suspicion};
+use crate::case::Subject;
 use crate::cause;
 
 /// By how much each clue weighs less than the one before it.
@@ -8,7 +9,9 @@ const NEXT: f64 = 0.7;
 
 pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let mut suspicions = Vec::new();
-    for failure in evidence.failures().chain(evidence.failures_of_robustness()) {
+    let failures = evidence.failures().chain(evidence.failures_of_robustness());
+    // What an image resembles has to be so of the other images too.
+    for failure in failures.filter(|seen| !seen.is_about(Subject::Image)) {
         let Some(finding) = failure.finding else { continue };
         let rivals = finding.clues.iter().filter(|clue| !clue.beside).count();
         let mut weight = 1.0;

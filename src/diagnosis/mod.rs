@@ -18,6 +18,7 @@ mod endings;
 mod evidence;
 mod generic_position;
 mod mirrors;
+mod pictures;
 mod rank;
 mod readings;
 mod roulette;
@@ -88,6 +89,11 @@ pub(crate) struct Rule {
 /// Every rule. Their order does not matter: suspicions are ranked by what they explain.
 pub(crate) static RULES: &[Rule] = &[
     Rule { name: "clues", summary: "what a check itself has recognised", run: clues::suspect },
+    Rule {
+        name: "pictures",
+        summary: "what all failing images resemble, and in one size",
+        run: pictures::suspect,
+    },
     Rule {
         name: "conventions",
         summary: "the choices that a core may declare: it differs from what it declares",

@@ -21,7 +21,7 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use part::{BouncesOff, bounces_off};
+pub(crate) use part::{BouncesOff, FactorOfBounces, bounces_off, factor_of_bounces, times_off};
 pub(crate) use stripe::Lines;
 pub(crate) use symmetry::Symmetry;
 

@@ -68,6 +68,87 @@ pub(crate) fn bounces_off(
     best
 }
 
+/// How often a part of the light is missing, or there too often; none where that is not a whole time, or the part is
+/// black.
+pub(crate) fn times_off(
+    image: &Image,
+    reference: &Image,
+    part: &Image,
+    knowledge: &Knowledge<'_>,
+) -> Option<Share> {
+    let weights = question::weights(image, reference, knowledge);
+    let question = Question { image, reference, knowledge, weights: &weights, every: 1 };
+    share_of_part(&question, part).filter(Share::is_whole)
+}
+
+/// Steps of Gauss and Newton.
+const STEPS: usize = 30;
+/// A step shorter than this is the last.
+const CONVERGED: f64 = 1e-9;
+
+/// A factor that light meets at every bounce: bounce k has its power k.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FactorOfBounces {
+    pub(crate) factor: Estimate,
+    /// The share of the difference that this explains, from 0 to 1, without known noise.
+    pub(crate) explains: f64,
+}
+
+/// The factor at every bounce that fits best; none where no bounce has light, or nothing fits.
+pub(crate) fn factor_of_bounces(
+    image: &Image,
+    reference: &Image,
+    bounces: &[Image],
+    knowledge: &Knowledge<'_>,
+) -> Option<FactorOfBounces> {
+    let weights = question::weights(image, reference, knowledge);
+    let question = Question { image, reference, knowledge, weights: &weights, every: 1 };
+    let nothing = [const { Vec::new() }; 3].map(|_: Vec<f64>| vec![0.0; bounces.len() + 2]);
+    // Of a unit and channel: the light of every bounce, what is there beyond the reference, and its noise squared.
+    let units = question.fold_units(nothing, |sums, pixel| {
+        let weight = f64::from(weights[pixel]);
+        if weight > 0.0 {
+            for (c, sums) in sums.iter_mut().enumerate() {
+                let of = |picture: &Image| weight * f64::from(picture.pixels[pixel][c]);
+                let noise = knowledge.standard_error.map_or(0.0, |error| of(error).powi(2));
+                let beyond = of(image) - of(reference);
+                let values = bounces.iter().map(of).chain([beyond, noise]);
+                sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+            }
+        }
+    });
+    let light = |unit: &[f64], weight: &dyn Fn(i32) -> f64| -> f64 {
+        (0..).zip(&unit[..bounces.len()]).map(|(bounce, light)| weight(bounce) * light).sum()
+    };
+    let beyond = |unit: &[f64]| unit[bounces.len()];
+    let left =
+        |unit: &[f64], factor: f64| beyond(unit) - light(unit, &|bounce| factor.powi(bounce) - 1.0);
+    let (mut factor, mut error) = (1.0_f64, 0.0);
+    for _ in 0..STEPS {
+        let slope = |unit: &[f64]| {
+            light(unit, &|bounce| f64::from(bounce) * factor.powi((bounce - 1).max(0)))
+        };
+        let sums = units.iter().map(|unit| {
+            let mut sums = Sums::<1>::NOTHING;
+            unit.iter().for_each(|unit| sums.add([slope(unit)], left(unit, factor)));
+            sums
+        });
+        let ([step], [of_step]) = solve(&sums.collect::<Vec<_>>())?;
+        (factor, error) = (factor + step, of_step);
+        if step.abs() < CONVERGED {
+            break;
+        }
+    }
+    let channels = || units.iter().flatten();
+    let before: f64 = channels().map(|unit| beyond(unit).powi(2)).sum();
+    let after: f64 = channels().map(|unit| left(unit, factor).powi(2)).sum();
+    let noise = channels().map(|unit| unit[bounces.len() + 1]).sum::<f64>().min(after);
+    let [estimate] = estimates([factor], [error], [0.0]);
+    let is_sane = factor > 0.0 && factor.is_finite();
+    let explains = 1.0 - (after - noise) / (before - noise);
+    is_sane.then_some(FactorOfBounces { factor: estimate, explains })
+}
+
 /// By least squares over units of 8 by 8 pixels, each weighted against the brightness around it; none if
 /// the part is black.
 fn share_of_part(question: &Question<'_>, part: &Image) -> Option<Share> {
@@ -135,6 +216,29 @@ mod tests {
             let share = off.share;
             assert!(share.missing.allows(1.0 - times) && share.explains > 0.5, "{share:?}");
         }
+    }
+
+    #[test]
+    fn a_factor_at_every_bounce_is_measured() {
+        let lights: [fn(f64, f64) -> f64; 4] = [
+            |x, _| if x < 20.0 { 1.0 } else { 0.0 },
+            |x, _| 0.05 + 0.001 * x,
+            |_, y| 0.1 * (0.1 * y).sin().powi(2),
+            |_, _| 0.03,
+        ];
+        let reference = picture(|x, y| lights.iter().map(|light| light(x, y)).sum(), 1);
+        let bounces: Vec<Image> = (3..).zip(lights).map(|(s, light)| picture(light, s)).collect();
+        for factor in [0.5, 1.2, std::f64::consts::PI] {
+            let shown =
+                |x, y| (0..4).map(|k| f64::powi(factor, k) * lights[k as usize](x, y)).sum();
+            let image = picture(shown, 2);
+            let knowledge = Knowledge::default();
+            let found = factor_of_bounces(&image, &reference, &bounces, &knowledge).unwrap();
+            assert!((found.factor.value / factor - 1.0).abs() < 0.02, "{factor}: {found:?}");
+            assert!(found.explains > 0.9, "{factor}: {found:?}");
+        }
+        let black = [Image::new(96, 64, [0.0; 3])];
+        assert_eq!(factor_of_bounces(&reference, &reference, &black, &Knowledge::default()), None);
     }
 
     #[test]

@@ -1,0 +1,145 @@
+//! Clues of whole images: the film, the camera and the depth of paths act on every image alike. What one image
+//! resembles is a mistake only where nearly all failing images resemble it, and in one size.
+
+use super::{Degree, Evidence, Observation, Suspicion};
+use crate::case::Subject;
+use crate::cause::{self, Cause, bsdf};
+use crate::checks::Clue;
+use std::collections::BTreeMap;
+
+/// The share of failing images that have to show a mistake: noise hides it in a few.
+const NEARLY_ALL: f64 = 0.8;
+/// How far sizes of one mistake lie apart beyond their intervals, relatively: fits interpolate.
+const APART: f64 = 0.005;
+
+pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
+    let failing: Vec<_> =
+        evidence.failures().filter(|seen| seen.is_about(Subject::Image)).collect();
+    let mut shown: BTreeMap<&str, Vec<Shown<'_>>> = BTreeMap::new();
+    for seen in &failing {
+        for clue in seen.finding.iter().flat_map(|finding| &finding.clues) {
+            shown.entry(&clue.cause).or_default().push(Shown { case: seen.case, clue });
+        }
+    }
+    let shown = shown.into_iter().filter_map(|(name, shown)| {
+        let cause = cause::find(name)?;
+        let foretold = failing.iter().filter(|seen| is_foretold(cause, seen)).count();
+        let alike = alike(&shown);
+        Some((cause, alike.len() as f64 / foretold as f64, alike))
+    });
+    let mut shown: Vec<_> = shown.filter(|(_, share, _)| *share >= NEARLY_ALL).collect();
+    let most = shown.iter().map(|(_, share, _)| *share).fold(0.0, f64::max);
+    shown.retain(|(_, share, _)| *share >= most);
+    let is_proven = |alike: &[Shown<'_>]| shown.len() == 1 && alike.len() > 1;
+    let suspicion = |(cause, _, alike): &(&'static Cause, f64, Vec<Shown<'_>>)| Suspicion {
+        cause,
+        cases: alike.iter().map(|shown| shown.case.to_owned()).collect(),
+        evidence: alike.iter().map(Shown::words).collect(),
+        ruled_out: Vec::new(),
+        weight: 1.0,
+        degree: if is_proven(alike) { Degree::Named } else { Degree::LooksLike },
+        beside: false,
+    };
+    shown.iter().map(suspicion).collect()
+}
+
+/// Mistakes of diffuse surfaces say nothing of light that mirrors and glass carry.
+fn is_foretold(cause: &Cause, seen: &Observation<'_>) -> bool {
+    let of_diffuse =
+        [&bsdf::WITHOUT_PI, &bsdf::WITH_PI, &bsdf::ALBEDO_HALVED, &bsdf::ALBEDO_DOUBLED];
+    !seen.is_specular || !of_diffuse.contains(&cause)
+}
+
+/// An image that a mistake would explain.
+#[derive(Clone, Copy)]
+struct Shown<'a> {
+    case: &'a str,
+    clue: &'a Clue,
+}
+
+impl Shown<'_> {
+    fn words(&self) -> String {
+        format!("{}: {}", self.case, self.clue.evidence)
+    }
+}
+
+/// The most images that show the mistake in one size: it lies at an end of one of the intervals, or there is none.
+fn alike<'a>(shown: &[Shown<'a>]) -> Vec<Shown<'a>> {
+    let with = |size: Option<f64>| {
+        let of_size = shown.iter().copied().filter(|shown| allows(shown.clue.size, size));
+        let mut of_size: Vec<_> = of_size.collect();
+        of_size.dedup_by_key(|shown| shown.case);
+        of_size
+    };
+    let ends = shown.iter().filter_map(|shown| shown.clue.size).flatten().map(Some);
+    ends.chain([None]).map(with).max_by_key(Vec::len).unwrap_or_default()
+}
+
+fn allows(interval: Option<[f64; 2]>, size: Option<f64>) -> bool {
+    match (interval, size) {
+        (Some([low, high]), Some(size)) => {
+            let apart = APART * size.abs();
+            low - apart <= size && size <= high + apart
+        }
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::cause::{Cause, image, integrator};
+    use crate::checks::Finding;
+    use crate::diagnosis::testing::{Made, failing, passing};
+    use crate::diagnosis::{Degree, diagnose};
+
+    fn showing(cause: &Cause, size: f64) -> Finding {
+        failing("differs").because_in_size(cause, "so much", Some([size - 0.01, size + 0.01]))
+    }
+
+    fn told(made: &Made) -> Vec<(String, Degree)> {
+        let headlines = diagnose(&made.evidence()).headlines;
+        headlines.into_iter().map(|told| (told.cause, told.degree)).collect()
+    }
+
+    #[test]
+    fn one_factor_in_all_images_is_the_films() {
+        let made = Made::new()
+            .with("image/a", showing(&image::FACTOR, 2.0))
+            .with("image/b", showing(&image::FACTOR, 2.01))
+            .with("image/c", passing());
+        assert_eq!(told(&made), [(image::FACTOR.name.to_owned(), Degree::Named)]);
+    }
+
+    #[test]
+    fn another_factor_in_every_image_is_not() {
+        let made = Made::new()
+            .with("image/a", showing(&image::FACTOR, 2.0))
+            .with("image/b", showing(&image::FACTOR, 1.7));
+        assert_eq!(made.first(), None);
+    }
+
+    #[test]
+    fn what_only_some_images_resemble_is_no_cause() {
+        let made = Made::new()
+            .with("image/a", failing("x").because(&integrator::NO_INDIRECT, "x"))
+            .with("image/b", failing("x").because(&integrator::NO_INDIRECT, "x"))
+            .with("image/c", failing("something else"));
+        assert_eq!(made.first(), None);
+    }
+
+    #[test]
+    fn what_more_images_resemble_is_told() {
+        let factor = |size| showing(&image::FACTOR, size).because(&image::NOT_DIVIDED, "spp");
+        let factors = ["a", "b", "c", "d"].map(|name| format!("image/{name}"));
+        let made = factors.iter().fold(Made::new(), |made, name| made.with(&name[..], factor(2.0)));
+        let made = made.with("image/e", factor(3.0));
+        assert_eq!(told(&made), [(image::NOT_DIVIDED.name.to_owned(), Degree::Named)]);
+    }
+
+    #[test]
+    fn one_image_alone_looks_like_it() {
+        let made = Made::new().with("image/a", showing(&image::FACTOR, 2.0));
+        assert_eq!(told(&made), [(image::FACTOR.name.to_owned(), Degree::LooksLike)]);
+    }
+}

@@ -13,7 +13,10 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 /// Not yet caught, not yet named, or not yet spared: shown as ignored, and counted against us.
-const OPEN: &[&str] = &[];
+const OPEN: &[&str] = &[
+    // Its weight |wz| / cos θ has no finite variance, and what looks too dark under a heavy tail is inconclusive.
+    "bounce-world-cosine",
+];
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();

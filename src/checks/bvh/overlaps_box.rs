@@ -143,7 +143,7 @@ mod tests {
         let finding = found(0, move |slabs, ray| wrong.hits(slabs, ray));
         let statement = failure(&finding);
         let both =
-            "7 of 18 rays are wrong: the slab test ignores t_min and t_max, and the slab test";
+            "7 of 19 rays are wrong: the slab test ignores t_min and t_max, and the slab test";
         assert!(statement.starts_with(both), "{statement}");
         assert_eq!(finding.clues[0].cause, "box-segment-ignored");
     }

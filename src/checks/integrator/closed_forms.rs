@@ -11,12 +11,12 @@ use crate::math::closed_form::delta_light::{directional_light, point_light};
 use crate::math::closed_form::form_factor::{parallel_rectangles, perpendicular_rectangles};
 use crate::math::closed_form::rough_dielectric::Shares;
 use crate::math::closed_form::roulette::RouletteFurnace;
-use crate::math::closed_form::witness::{kernel, over_unit_square};
+use crate::math::closed_form::witness::{kernel, over, over_unit_square};
 use crate::math::closed_form::{coverage, fresnel, microfacet};
 use crate::scene::{Library, Light, Material, SceneDescription, Shape, Surface};
 use crate::text::{Colour, Vector};
-use glam::DVec3;
-use std::f64::consts::PI;
+use glam::{DVec2, DVec3};
+use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use std::sync::Arc;
 use toml::{Table, Value};
@@ -253,6 +253,14 @@ impl Row<'_> {
                 (self.bounces[0] == 1).then_some(reflectance[c] * lit)
             }
             (Surface::Diffuse { .. }, Shape::Sphere(_)) => Some(self.cavity(&met, c)),
+            // What refracts meets the dark half of the sky.
+            (Surface::Glass { index, .. }, Shape::Mesh(mesh)) if !mesh.normals.is_empty() => {
+                let normal = met.answer.shading_normal;
+                let cosine = normal.dot(ray.direction);
+                let reflected = ray.direction - 2.0 * cosine * normal;
+                let sky = self.scene.lights.iter().map(|light| light.sky_radiance(reflected)[c]);
+                Some(self.faces(cosine.abs(), *index)[0] * sky.sum::<f64>())
+            }
             (Surface::Glass { index, .. }, Shape::Mesh(_)) => {
                 let [outside, inside] = self.faces(cosine, *index);
                 Some(fresnel::slab_transmittance(outside, inside))
@@ -262,6 +270,11 @@ impl Row<'_> {
                 cosine,
                 *index,
             )),
+            (Surface::Conductor { reflectance, roughness }, Shape::Mesh(_))
+                if self.scene.lights.iter().any(|light| matches!(light, Light::Area { .. })) =>
+            {
+                Some(reflectance[c] * self.glossy(&ray, &met, *roughness, c))
+            }
             (Surface::Conductor { reflectance, roughness }, _) => {
                 let form = masking(self.conventions.smith_term);
                 Some(reflectance[c] * microfacet::albedo(cosine, *roughness, form))
@@ -286,14 +299,18 @@ impl Row<'_> {
     /// within the light.
     fn direct(&self, ray: &Ray, met: &Met, c: usize) -> f64 {
         let point = ray.at(met.answer.t);
-        let normal = met.answer.geometric_normal;
+        let normal = met.answer.shading_normal;
         let normal = if normal.dot(ray.direction) < 0.0 { normal } else { -normal };
         let shapes = (0..self.scene.shape_count() as u32).filter(|shape| *shape != met.shape);
         let dark = shapes.filter(|shape| self.scene.material_of(*shape).emission.is_none());
         let hidden: f64 = dark.map(|shape| covers(self.scene.shape(shape), point, normal)).sum();
         let lights = self.scene.lights.iter().map(|light| match light {
             Light::Area { shape } => {
-                let factor = form_factor(self.scene.shape(*shape), point, normal);
+                let emitted = self.scene.material_of(*shape).emission;
+                let factor = match emitted.and_then(|emitted| emitted.cap) {
+                    Some(_) => over_light(self.scene, *shape, point, normal, |_| 1.0),
+                    None => form_factor(self.scene.shape(*shape), point, normal),
+                };
                 emission(self.scene, *shape, c) * (factor - hidden)
             }
             Light::Point { position, intensity } => {
@@ -313,6 +330,25 @@ impl Row<'_> {
             Light::GradientSky { up, horizon, zenith } => {
                 gradient_sky(horizon[c], zenith[c] - horizon[c], up.angle_between(normal))
             }
+        });
+        lights.sum()
+    }
+
+    /// What a conductor of reflectance 1 sends back of the area lights, which nothing hides.
+    fn glossy(&self, ray: &Ray, met: &Met, roughness: f64, c: usize) -> f64 {
+        let (point, normal, wo) = (ray.at(met.answer.t), met.answer.shading_normal, -ray.direction);
+        let form = masking(self.conventions.smith_term);
+        let times_pi = |wi: DVec3| {
+            let [o, i] = [wo, wi].map(|w| w.dot(normal));
+            let d = microfacet::distribution((wo + wi).normalize().dot(normal), roughness);
+            PI * d * microfacet::masking_shadowing(o, i, roughness, form) / (4.0 * o * i)
+        };
+        let lights = self.scene.lights.iter().map(|light| match light {
+            Light::Area { shape } => {
+                let seen = over_light(self.scene, *shape, point, normal, times_pi);
+                emission(self.scene, *shape, c) * seen
+            }
+            _ => f64::NAN,
         });
         lights.sum()
     }
@@ -385,6 +421,52 @@ fn form_factor(shape: Shape<'_>, point: DVec3, normal: DVec3) -> f64 {
         Shape::Sphere(light) => {
             let to = light.centre - point;
             sphere(light.radius, to.length(), to.angle_between(normal))
+        }
+    }
+}
+
+/// The form factor of an area light above the horizon, each direction weighted, by quadrature.
+fn over_light(
+    scene: &SceneDescription,
+    shape: u32,
+    point: DVec3,
+    normal: DVec3,
+    weight: impl Fn(DVec3) -> f64,
+) -> f64 {
+    let from = |at: DVec3, leaving: DVec3| {
+        kernel(normal, at - point, leaving) * weight((at - point).normalize())
+    };
+    let around = |axis: DVec3, [cosine, azimuth]: [f64; 2]| {
+        let (x, y) = axis.any_orthonormal_pair();
+        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        sine * azimuth.cos() * x + sine * azimuth.sin() * y + cosine * axis
+    };
+    let cap = scene.material_of(shape).emission.and_then(|emitted| emitted.cap);
+    match (scene.shape(shape), cap) {
+        (Shape::Mesh(mesh), _) => triangles(mesh)
+            .map(|[a, b, c]| {
+                let across = (b - a).cross(c - a);
+                over_unit_square(|uv| {
+                    let at = a + uv.x * (b - a) + uv.x * uv.y * (c - b);
+                    uv.x * across.length() * from(at, across.normalize())
+                })
+            })
+            .sum(),
+        (Shape::Sphere(sphere), Some(cap)) => {
+            let low = DVec2::new(cap.half_angle.cos(), 0.0);
+            sphere.radius.powi(2)
+                * over(low, DVec2::new(1.0, TAU), |at| {
+                    let outward = around(cap.axis, at.into());
+                    from(sphere.centre + sphere.radius * outward, outward)
+                })
+        }
+        (Shape::Sphere(sphere), None) => {
+            let to = sphere.centre - point;
+            let low = DVec2::new((1.0 - (sphere.radius / to.length()).powi(2)).sqrt(), 0.0);
+            over(low, DVec2::new(1.0, TAU), |at| {
+                let wi = around(to.normalize(), at.into());
+                wi.dot(normal) / PI * weight(wi)
+            })
         }
     }
 }

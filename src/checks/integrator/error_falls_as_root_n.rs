@@ -185,8 +185,10 @@ mod tests {
     #[test]
     fn a_bias_that_nothing_averages_out_is_no_repetition() {
         let bright = |noise: f64| {
-            let mut core = FakeFilm::default();
-            core.radiance = Box::new(move |at, _| [9.0 + noise * at.x.fract(); 3]);
+            let core = FakeFilm {
+                radiance: Box::new(move |at, _| [9.0 + noise * at.x.fract(); 3]),
+                ..FakeFilm::default()
+            };
             core.judged_by(&check_of::<ErrorFallsAsRootN>(CASE))
         };
         for finding in [bright(0.0), bright(0.1)] {

@@ -46,7 +46,9 @@ fn mistake(
         variances.iter().all(close)
     };
     let candidates: [(&'static Cause, &dyn Fn(f64) -> f64); 5] = [
-        (&adaptive::BATCHES_REPEAT, &|real| batch.map_or(f64::NAN, |batch| real * batch / n)),
+        (&adaptive::BATCHES_REPEAT, &|real| {
+            batch.map_or(f64::NAN, |batch| real * (batch - 1.0) / (n - 1.0))
+        }),
         (&adaptive::VARIANCE_OF_SAMPLE, &|real| n * real),
         (&adaptive::DIVIDED_TWICE, &|real| real / n),
         (&adaptive::SQUARES_REPORTED, &|real| n * (n - 1.0) * real),

@@ -174,7 +174,7 @@ impl Workshop {
         Self { folder, furnace, optimised, filters }
     }
 
-    fn library(&self) -> PathBuf {
+    fn core(&self) -> PathBuf {
         self.folder.join("core.so")
     }
 
@@ -188,7 +188,7 @@ impl Workshop {
             .arg(root().join("include"))
             .arg(self.folder.join("pathtracer.cpp"))
             .arg("-o")
-            .arg(self.library())
+            .arg(self.core())
             .output();
         ended.unwrap().status.success()
     }
@@ -202,7 +202,7 @@ impl Workshop {
             .args(&self.filters)
             .args(["--budget", "quick", "--jobs", "1", "--time-limit", "30", "--quiet"])
             .arg("--core")
-            .arg(self.library())
+            .arg(self.core())
             .arg("--report")
             .arg(&runs)
             .arg("--project")

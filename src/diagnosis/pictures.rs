@@ -18,14 +18,16 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let mut shown: BTreeMap<&str, Vec<Shown<'_>>> = BTreeMap::new();
     for seen in &failing {
         for clue in seen.finding.iter().flat_map(|finding| &finding.clues) {
-            shown.entry(&clue.cause).or_default().push(Shown { case: seen.case, clue });
+            shown.entry(&clue.cause).or_default().push(Shown { seen, clue });
         }
     }
     let shown = shown.into_iter().filter_map(|(name, shown)| {
         let cause = cause::find(name)?;
         let foretold = failing.iter().filter(|seen| is_foretold(cause, seen)).count();
         let alike = alike(&shown);
-        Some((cause, alike.len() as f64 / foretold as f64, alike))
+        let as_foretold = alike.iter().filter(|shown| is_foretold(cause, shown.seen)).count();
+        // What no image foretells has a share of NaN, and is not told.
+        Some((cause, as_foretold as f64 / foretold as f64, alike))
     });
     let mut shown: Vec<_> = shown.filter(|(_, share, _)| *share >= NEARLY_ALL).collect();
     let most = shown.iter().map(|(_, share, _)| *share).fold(0.0, f64::max);
@@ -33,7 +35,7 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let is_proven = |alike: &[Shown<'_>]| shown.len() == 1 && alike.len() > 1;
     let suspicion = |(cause, _, alike): &(&'static Cause, f64, Vec<Shown<'_>>)| Suspicion {
         cause,
-        cases: alike.iter().map(|shown| shown.case.to_owned()).collect(),
+        cases: alike.iter().map(|shown| shown.seen.case.to_owned()).collect(),
         evidence: alike.iter().map(Shown::words).collect(),
         ruled_out: Vec::new(),
         weight: 1.0,
@@ -53,13 +55,13 @@ fn is_foretold(cause: &Cause, seen: &Observation<'_>) -> bool {
 /// An image that a mistake would explain.
 #[derive(Clone, Copy)]
 struct Shown<'a> {
-    case: &'a str,
+    seen: &'a Observation<'a>,
     clue: &'a Clue,
 }
 
 impl Shown<'_> {
     fn words(&self) -> String {
-        format!("{}: {}", self.case, self.clue.evidence)
+        format!("{}: {}", self.seen.case, self.clue.evidence)
     }
 }
 
@@ -68,7 +70,7 @@ fn alike<'a>(shown: &[Shown<'a>]) -> Vec<Shown<'a>> {
     let with = |size: Option<f64>| {
         let of_size = shown.iter().copied().filter(|shown| allows(shown.clue.size, size));
         let mut of_size: Vec<_> = of_size.collect();
-        of_size.dedup_by_key(|shown| shown.case);
+        of_size.dedup_by_key(|shown| shown.seen.case);
         of_size
     };
     let ends = shown.iter().filter_map(|shown| shown.clue.size).flatten().map(Some);
@@ -88,7 +90,7 @@ fn allows(interval: Option<[f64; 2]>, size: Option<f64>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::cause::{Cause, image, integrator};
+    use crate::cause::{Cause, bsdf, image, integrator};
     use crate::checks::Finding;
     use crate::diagnosis::testing::{Made, failing, passing};
     use crate::diagnosis::{Degree, diagnose};
@@ -135,6 +137,16 @@ mod tests {
         let made = factors.iter().fold(Made::new(), |made, name| made.with(&name[..], factor(2.0)));
         let made = made.with("image/e", factor(3.0));
         assert_eq!(told(&made), [(image::NOT_DIVIDED.name.to_owned(), Degree::Named)]);
+    }
+
+    #[test]
+    fn a_mistake_of_diffuse_surfaces_is_not_told_from_glass_alone() {
+        let made = Made::new()
+            .with("image/a", failing("x").because(&bsdf::WITHOUT_PI, "x"))
+            .with("image/b", failing("x").because(&bsdf::WITHOUT_PI, "x"))
+            .in_a_specular_scene("image/a")
+            .in_a_specular_scene("image/b");
+        assert_eq!(made.first(), None);
     }
 
     #[test]

@@ -13,6 +13,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+#[path = "support/audit.rs"]
+mod audit;
+
+use audit::{number, shard};
 use furnace::case;
 use furnace::cores::CORES;
 use furnace::math::rng::Seed;
@@ -128,17 +132,6 @@ impl Audit {
         }
         self.failed.iter().for_each(|what| println!("FAILED {what}"));
     }
-}
-
-fn number(name: &str, default: u32) -> u32 {
-    std::env::var(name).map_or(default, |word| word.parse().unwrap())
-}
-
-/// `1/4`: this part, and of how many.
-fn shard() -> (u32, u32) {
-    let Ok(word) = std::env::var("FURNACE_SHARD") else { return (1, 1) };
-    let (part, of) = word.split_once('/').unwrap();
-    (part.parse().unwrap(), of.parse().unwrap())
 }
 
 /// Which cases are drawn, as a run on the command line would be told.

@@ -12,6 +12,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+#[path = "support/audit.rs"]
+mod audit;
+
+use audit::{number, shard};
 use furnace::case;
 use furnace::faults::{Fault, Matrix, Together, select};
 use furnace::math::rng::{Seed, uniform};
@@ -20,7 +24,7 @@ use furnace::stats::Budget;
 use std::collections::BTreeMap;
 
 /// Sets for a look in passing.
-const IN_THE_GATE: u32 = 8;
+const IN_PASSING: u32 = 8;
 
 fn matrix() -> Matrix {
     let project = Project::at(env!("CARGO_MANIFEST_DIR"));
@@ -124,21 +128,10 @@ fn audit(matrix: &Matrix, numbers: impl Iterator<Item = u32>) -> Audit {
     audit
 }
 
-fn number(name: &str, default: u32) -> u32 {
-    std::env::var(name).map_or(default, |word| word.parse().unwrap())
-}
-
-/// `1/4`: this part, and of how many.
-fn shard() -> (u32, u32) {
-    let Ok(word) = std::env::var("FURNACE_SHARD") else { return (1, 1) };
-    let (part, of) = word.split_once('/').unwrap();
-    (part.parse().unwrap(), of.parse().unwrap())
-}
-
 #[test]
 #[ignore = "minutes: the suite many times over"]
 fn no_cause_is_named_that_is_not_there() {
-    let audit = audit(&matrix().of_telling_cases(), 0..IN_THE_GATE);
+    let audit = audit(&matrix().of_telling_cases(), 0..IN_PASSING);
     assert!(audit.told("named", true) > 0);
     assert_eq!(audit.told("named", false), 0);
 }

@@ -103,7 +103,7 @@ pub(crate) fn factor_of_bounces(
 ) -> Option<FactorOfBounces> {
     let weights = question::weights(image, reference, knowledge);
     let question = Question { image, reference, knowledge, weights: &weights, every: 1 };
-    let nothing = [const { Vec::new() }; 3].map(|_: Vec<f64>| vec![0.0; bounces.len() + 2]);
+    let nothing: [_; 3] = std::array::from_fn(|_| vec![0.0; bounces.len() + 2]);
     // Of a unit and channel: the light of every bounce, what is there beyond the reference, and its noise squared.
     let units = question.fold_units(nothing, |sums, pixel| {
         let weight = f64::from(weights[pixel]);

@@ -46,6 +46,6 @@ pub(crate) use test::timing;
 pub(crate) use test::{
     Compared, CorrelationReport, CountDoubt, CountReport, CountSource, ErrorLevel, ExactReport,
     MeanReport, RareReport, Rarity, ReportedVariance, Sampling, ShareReport, SlopeReport,
-    Tolerance, TwoVariances, follows_law, judge_count_source, judge_counts, judge_exact,
-    judge_means, judge_rare, judge_share, judge_slope, judge_uncorrelated,
+    Tolerance, TwoVariances, batch_size, follows_law, judge_count_source, judge_counts,
+    judge_exact, judge_means, judge_rare, judge_share, judge_slope, judge_uncorrelated,
 };

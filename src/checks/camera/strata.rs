@@ -42,12 +42,6 @@ impl Tally {
         }
     }
 
-    pub(super) fn add(&mut self, other: &Self) {
-        self.pixels += other.pixels;
-        self.even += other.even;
-        self.unreadable += other.unreadable;
-    }
-
     pub(super) fn uneven(&self) -> u64 {
         self.pixels - self.even - self.unreadable
     }

@@ -6,13 +6,17 @@ use super::strata::{Tally, mistake};
 use super::strata_pattern::{SAMPLES, law, read, scene};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
-use crate::contract::{Acceleration, BuiltScene};
+use crate::contract::{Acceleration, BuiltScene, Capabilities};
 use crate::math::rng::Seed;
-use crate::stats::{CountReport, judge_counts};
+use crate::stats::{
+    CellProbabilities, CountReport, CountSource, Counts, Stage, batch_size, judge_count_source,
+};
 use crate::text::{Count, Percent};
 
 /// Pictures that are looked at before any are counted: where cells are uneven, that is enough.
 const FIRST_LOOK: u64 = 8;
+/// Pictures that tell how much counts vary where pixels may depend on each other.
+const FEWEST_PICTURES: u64 = 32;
 
 check! {
     /// Four samples lie in the four quarters of each pixel, evenly spread within them.
@@ -31,44 +35,83 @@ impl Check for StratifiedSamples {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
         let scene = scene();
         let rendering = Rendering::of(&scene, FILM, [0, 0], SAMPLES)?.stratified();
-        let effort = context.effort(self.detects, self.at_most).in_steps_of(pixels_of_a_picture());
+        let is_promised = context.info.capabilities.contains(Capabilities::INDEPENDENT_PIXELS);
+        let fewest = if is_promised { 1 } else { FEWEST_PICTURES };
+        let effort = context.effort(self.detects, self.at_most);
+        let effort = effort.in_steps_of(fewest * pixels_of_a_picture());
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let mut look = |seed: Seed, pictures: u64| -> Result<Tally, CheckError> {
-            let mut tally = Tally::default();
-            (0..pictures).try_for_each(|picture| {
-                take_picture(built.as_mut(), &rendering, seed.child(picture), &mut tally)
-            })?;
-            Ok(tally)
+        let (scene, pictures) = (built.as_mut(), Vec::new());
+        let mut places = Places {
+            scene,
+            rendering: &rendering,
+            seed,
+            all: Tally::default(),
+            is_promised,
+            pictures,
         };
-        let mut all = look(seed.child("look"), FIRST_LOOK)?;
-        if all.is_uneven() {
-            return Ok(finding(&all, None));
+        for number in 0..FIRST_LOOK {
+            places.picture(seed.child("look").child(number))?;
         }
-        let report = judge_counts(&law([0.0, 1.0]), &effort, &mut |stage, samples| {
-            let tally = look(seed.child(stage), samples / pixels_of_a_picture())?;
-            all.add(&tally);
-            Ok::<_, CheckError>(tally.counts)
-        })?;
-        Ok(finding(&all, Some(&report)))
+        if places.all.is_uneven() {
+            return Ok(finding(&places.all, None));
+        }
+        let report = judge_count_source(&effort, &mut places)?;
+        Ok(finding(&places.all, Some(&report)))
+    }
+}
+
+/// Where in its cell one sample of each pixel lies.
+struct Places<'a> {
+    scene: &'a mut dyn BuiltScene,
+    rendering: &'a Rendering,
+    seed: Seed,
+    /// What all pictures so far have shown.
+    all: Tally,
+    /// Whether the pixels of one picture are independent.
+    is_promised: bool,
+    /// Those last drawn, one by one.
+    pictures: Vec<Counts>,
+}
+
+impl Places<'_> {
+    fn picture(&mut self, seed: Seed) -> Result<Counts, CheckError> {
+        let film = self.rendering.film(self.scene, seed.0, 0)?;
+        let mut tally = Tally::default();
+        for (at, pixel) in places().zip(&film.pixels) {
+            let reading = read(at, *pixel);
+            tally.take(reading);
+            self.all.take(reading);
+        }
+        Ok(tally.counts)
+    }
+}
+
+impl CountSource for Places<'_> {
+    type Error = CheckError;
+
+    fn expected(&mut self, _: Stage) -> Result<CellProbabilities, CheckError> {
+        Ok(law([0.0, 1.0]))
+    }
+
+    fn draw(&mut self, stage: Stage, samples: u64) -> Result<Counts, CheckError> {
+        let seed = self.seed.child(stage);
+        let samples = if self.is_promised { samples } else { batch_size(samples, 1) };
+        let pictures = 0..samples / pixels_of_a_picture();
+        self.pictures =
+            pictures.map(|number| self.picture(seed.child(number))).collect::<Result<_, _>>()?;
+        let mut all = Tally::default().counts;
+        self.pictures.iter().for_each(|picture| all.add(picture));
+        Ok(all)
+    }
+
+    fn batches(&self) -> &[Counts] {
+        if self.is_promised { &[] } else { &self.pictures }
     }
 }
 
 fn pixels_of_a_picture() -> u64 {
     u64::from(FILM[0]) * u64::from(FILM[1])
-}
-
-fn take_picture(
-    scene: &mut dyn BuiltScene,
-    rendering: &Rendering,
-    seed: Seed,
-    tally: &mut Tally,
-) -> Result<(), CheckError> {
-    let film = rendering.film(scene, seed.0, 0)?;
-    for (at, pixel) in places().zip(&film.pixels) {
-        tally.take(read(at, *pixel));
-    }
-    Ok(())
 }
 
 fn finding(all: &Tally, report: Option<&CountReport>) -> Finding {

@@ -7,7 +7,7 @@ use crate::checks::phrase::{figure, percent};
 use crate::checks::{CheckError, Context, Measure, Result};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
-use crate::stats::{Band, Effort, ShareReport, SphereCells, Tolerance, judge_share};
+use crate::stats::{Band, Claim, Effort, MeanReport, SphereCells, Tolerance, judge_means};
 
 /// Rings in each hemisphere and sectors: the horizon is an edge between cells, and no cell is larger than most lobes.
 pub(super) const CELLS: (usize, usize) = (4, 8);
@@ -23,7 +23,7 @@ pub(crate) struct Mass {
     pub(super) error: f64,
     pub(super) allowed: f64,
     /// Where samples may fail and some have to: the share of those that succeed.
-    accepted: Option<ShareReport>,
+    accepted: Option<MeanReport>,
     pub(super) cause: Option<&'static Cause>,
 }
 
@@ -68,8 +68,8 @@ impl Mass {
             }
             Some(report) => Measure {
                 measured: self.value,
-                expected: report.share.min(1.0),
-                allowed: report.resolution * report.share.min(1.0),
+                expected: report.mean.min(1.0),
+                allowed: report.resolution * report.mean.min(1.0),
                 ..Measure::of(
                     "integral of the pdf, against the share of samples that succeed",
                     report,
@@ -83,7 +83,7 @@ impl Mass {
         let measure = Some(self.measure()).filter(Measure::failed)?;
         let measured = figure(self.value);
         if let Some(report) = &self.accepted {
-            let share = percent(report.share);
+            let share = percent(report.mean);
             return Some(format!(
                 "the pdf of {} integrates to {measured}, but {share} of its samples succeed",
                 self.name
@@ -106,17 +106,18 @@ fn accepted_share(
     context: &mut Context<'_>,
     distribution: &Distribution,
     mass: f64,
-) -> Result<ShareReport> {
+) -> Result<MeanReport> {
     let seed = context.seed.child(distribution.name());
     let band = Band::math(context.info.precision);
     let effort = context.budget.scale(Effort::new(SHARE_DETECTS));
     let core = &mut *context.core;
-    let report = judge_share(mass, band, &effort, &mut |stage, samples| {
+    let claims = [Claim::share(mass, band)];
+    let mut reports = judge_means(&claims, &effort, &mut |draw| {
         let mut succeeded = 0;
-        distribution.draw(core, seed.child(stage), samples, |drawn| {
+        distribution.draw(core, draw.seed(seed), draw.samples, |drawn| {
             succeeded += drawn.iter().filter(|drawn| drawn.direction.is_some()).count() as u64;
         })?;
-        Ok::<_, CheckError>(succeeded)
+        Ok::<_, CheckError>(vec![succeeded as f64 / draw.samples as f64])
     })?;
-    Ok(report)
+    Ok(reports.remove(0))
 }

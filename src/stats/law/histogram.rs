@@ -153,6 +153,11 @@ pub struct Counts {
 }
 
 impl Counts {
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.cells.iter_mut().zip(&other.cells).for_each(|(all, more)| *all += more);
+        self.absorbed += other.absorbed;
+    }
+
     pub(crate) fn total(&self) -> u64 {
         self.absorbed + self.cells.iter().sum::<u64>()
     }

@@ -13,7 +13,8 @@ pub use histogram::{CellProbabilities, Counts, SphereCells};
 pub use moments::Moments;
 pub(super) use quantile::upper_median;
 pub use quantile::{
-    chi_square_tail, chi_square_upper, detectable_noncentrality, normal_upper, student_upper,
+    chi_square_tail, chi_square_upper, detectable_noncentrality, fisher_upper, normal_upper,
+    student_upper,
 };
 pub(super) use spread::Spread;
 pub use stopping::{StoppingLaw, TwoValues};

@@ -1,6 +1,6 @@
 //! Upper quantiles: what a statistic exceeds with a small probability if nothing is wrong.
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Normal, StudentsT};
 use statrs::function::gamma::ln_gamma;
 
 /// What a standard normal variable exceeds with probability `level`.
@@ -19,6 +19,11 @@ pub fn student_upper(level: f64, freedom: f64) -> f64 {
 /// freedom.
 pub fn chi_square_upper(level: f64, freedom: f64) -> f64 {
     ChiSquared::new(freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(1.0 - level))
+}
+
+/// What the ratio of two χ², each over its own `freedom`, exceeds with probability `level` (Fisher's F).
+pub fn fisher_upper(level: f64, above: f64, below: f64) -> f64 {
+    FisherSnedecor::new(above, below).map_or(f64::INFINITY, |law| law.inverse_cdf(1.0 - level))
 }
 
 /// The probability that χ² with `freedom` degrees of freedom exceeds `value`; NaN for NaN.
@@ -81,7 +86,7 @@ mod tests {
         assert!((found / expected - 1.0).abs() < 1e-6, "{found} is not {expected}");
     }
 
-    // Values of scipy.stats: norm.isf, t.isf, chi2.isf.
+    // Values of scipy.stats: norm.isf, t.isf, chi2.isf; of F by the continued fraction of the incomplete beta function.
     #[test]
     fn agree_with_tables() {
         assert_close(normal_upper(5e-4), 3.290_526_731_492);
@@ -91,6 +96,8 @@ mod tests {
         assert_close(student_upper(2e-5, 31.0), 4.782_731_763_809);
         assert_close(chi_square_upper(5e-4, 199.0), 271.258_004_171);
         assert_close(chi_square_upper(1e-9, 10.0), 62.945_457_420_6);
+        assert_close(fisher_upper(5e-4, 1.0, 16.0), 18.890_746_013);
+        assert_close(fisher_upper(5e-4, 200.0, 3200.0), 1.377_838_878);
     }
 
     // scipy: brentq(lambda l: ncx2.sf(chi2.isf(5e-4, d), d, l) - 0.999, 1, 5000).

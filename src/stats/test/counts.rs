@@ -9,9 +9,10 @@
 //! had done its worst: √X² is a length, so an error moves it by at most √Q with Q = N Σ δ²/p. A
 //! pass needs Q ≤ 2.
 //!
-//! Not here: the cells (`histogram`), and cores that stratify their samples, whose counts vary less
-//! than χ² says: they are never rejected wrongly.
+//! Counts that vary less than χ² says, of strata or low discrepancy, are never rejected wrongly; of those that may vary
+//! more, batches tell by how much (`dependence`). Not here: the cells (`histogram`).
 
+mod dependence;
 mod report;
 
 pub(crate) use report::{CountDoubt, CountReport, CountStage, ForbiddenSamples};
@@ -45,6 +46,10 @@ pub(crate) trait CountSource {
     fn forbidden(&self, _cell: usize, samples: u64) -> u64 {
         samples
     }
+    /// The samples last drawn, in batches of one size and of seeds of their own. None where samples are independent.
+    fn batches(&self) -> &[Counts] {
+        &[]
+    }
 }
 
 /// Judges counts against probabilities that are the same in every stage.
@@ -60,7 +65,7 @@ pub(crate) fn judge_counts<E>(
 /// failed already, and is no verdict on its own.
 pub(crate) fn follows_law(law: &CellProbabilities, counts: &Counts) -> bool {
     let forbidden = forbidden_samples(law, counts, |_, samples| samples);
-    forbidden.is_none() && !score(Stage::Third, law, counts).rejects
+    forbidden.is_none() && !score(Stage::Third, law, counts, &[]).rejects
 }
 
 struct Fixed<'a, E> {
@@ -89,12 +94,18 @@ pub(crate) fn judge_count_source<S: CountSource>(
     let mut drawn = Drawn::of(Stage::First, source, |expected| planned_samples(expected, effort))?;
     let first_samples = drawn.samples;
     loop {
-        stages.push(score(drawn.stage, &drawn.expected, &drawn.counts));
+        stages.push(score(drawn.stage, &drawn.expected, &drawn.counts, source.batches()));
         match stages.next().filter(|_| drawn.forbidden.is_none()) {
             Some(stage) => drawn = Drawn::of(stage, source, |_| stage.factor() * first_samples)?,
             None => return Ok(report(stages, effort, drawn)),
         }
     }
+}
+
+/// The size of each of so many batches in place of `samples` that are known to be independent: a quarter more, since how
+/// much counts vary has to be learnt.
+pub(crate) fn batch_size(samples: u64, batches: u64) -> u64 {
+    (samples + samples / 4).div_ceil(batches)
 }
 
 /// What was drawn in one stage, and what should have been.
@@ -139,59 +150,70 @@ fn needed_samples(freedom: f64, detects: f64) -> f64 {
     (noncentrality / (detects * detects)).ceil().max(FEWEST_SAMPLES)
 }
 
-/// A cell after pooling: expected and observed.
-#[derive(Clone, Copy, Default)]
-struct Pool {
-    expected: f64,
-    observed: f64,
-}
-
-impl Pool {
-    fn take(&mut self, other: Pool) {
-        self.expected += other.expected;
-        self.observed += other.observed;
-    }
-}
-
-/// Proper cells and "absorbed", the starved ones pooled until each pool expects enough.
-fn pooled(expected: &CellProbabilities, counts: &Counts) -> Vec<Pool> {
-    assert_eq!(expected.cells.len(), counts.cells.len(), "one count for each probability");
-    let total = counts.total() as f64;
-    let absorbed = (expected.absorbed, counts.absorbed);
-    let cells = expected.cells.iter().copied().zip(counts.cells.iter().copied());
-    let mut cells: Vec<Pool> = cells
-        .filter(|(probability, _)| *probability >= 0.0)
-        .chain([absorbed])
-        .map(|(p, observed)| Pool { expected: p * total, observed: observed as f64 })
-        .collect();
-    cells.sort_by(|a, b| a.expected.total_cmp(&b.expected));
-    let mut pools = Vec::new();
-    let mut open = Pool::default();
+/// Proper cells and "absorbed" (one past the last), the starved ones pooled until each pool expects enough.
+fn pools(expected: &CellProbabilities, total: f64) -> Vec<Vec<usize>> {
+    let wanted = |cell: usize| total * probability(expected, cell);
+    let mut cells: Vec<usize> =
+        (0..=expected.cells.len()).filter(|cell| probability(expected, *cell) >= 0.0).collect();
+    cells.sort_by(|a, b| wanted(*a).total_cmp(&wanted(*b)));
+    let mut pools: Vec<Vec<usize>> = Vec::new();
+    let (mut open, mut expects) = (Vec::new(), 0.0);
     for cell in cells {
-        open.take(cell);
-        if open.expected >= FEWEST_EXPECTED {
+        open.push(cell);
+        expects += wanted(cell);
+        if expects >= FEWEST_EXPECTED {
             pools.push(std::mem::take(&mut open));
+            expects = 0.0;
         }
     }
     match pools.first_mut() {
-        Some(smallest) => smallest.take(open),
+        Some(smallest) => smallest.extend(open),
         None => pools.push(open),
     }
     pools
 }
 
-fn score(stage: Stage, expected: &CellProbabilities, counts: &Counts) -> CountStage {
-    let pools = pooled(expected, counts);
+fn probability(expected: &CellProbabilities, cell: usize) -> f64 {
+    expected.cells.get(cell).copied().unwrap_or(expected.absorbed)
+}
+
+fn count(counts: &Counts, cell: usize) -> f64 {
+    counts.cells.get(cell).copied().unwrap_or(counts.absorbed) as f64
+}
+
+/// Over the pools, each count over the root of what all samples together should make of it.
+fn standardised(pools: &[Vec<usize>], roots: &[f64], counts: &Counts) -> Vec<f64> {
+    let observed = |pool: &Vec<usize>| pool.iter().map(|cell| count(counts, *cell)).sum::<f64>();
+    pools.iter().zip(roots).map(|(pool, root)| observed(pool) / root).collect()
+}
+
+fn score(
+    stage: Stage,
+    expected: &CellProbabilities,
+    counts: &Counts,
+    batches: &[Counts],
+) -> CountStage {
+    assert_eq!(expected.cells.len(), counts.cells.len(), "one count for each probability");
+    let total = counts.total() as f64;
+    let pools = pools(expected, total);
+    let wanted = |pool: &Vec<usize>| {
+        total * pool.iter().map(|cell| probability(expected, *cell)).sum::<f64>()
+    };
+    let roots: Vec<f64> = pools.iter().map(|pool| wanted(pool).sqrt()).collect();
+    let found = standardised(&pools, &roots, counts);
+    let statistic: f64 = found.iter().zip(&roots).map(|(o, e)| (o - e).powi(2)).sum();
     let freedom = (pools.len() - 1) as f64;
-    let term = |pool: &Pool| (pool.observed - pool.expected).powi(2) / pool.expected;
-    let statistic: f64 = pools.iter().map(term).sum();
-    let quadrature_error = quadrature_error(expected, counts.total() as f64);
-    let length = chi_square_upper(STAGE_LEVEL, freedom).sqrt() + quadrature_error.sqrt();
+    let quadrature_error = quadrature_error(expected, total);
+    let batches: Vec<_> = batches.iter().map(|batch| standardised(&pools, &roots, batch)).collect();
+    let dependent = dependence::critical(STAGE_LEVEL, &batches).unwrap_or(0.0);
+    let allowed = chi_square_upper(STAGE_LEVEL, freedom).max(dependent);
+    let length = allowed.sqrt() + quadrature_error.sqrt();
     CountStage {
         stage,
         samples: counts.total(),
         statistic,
         freedom,
+        allowed,
         critical: length * length,
         p_value: chi_square_tail(statistic, freedom),
         quadrature_error,
@@ -267,9 +289,12 @@ fn residual(observed: u64, expected: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { (difference / expected.sqrt()).min(LARGEST_RESIDUAL) }
 }
 
-/// The pdf error that the first stage sees. The quadrature error may have worked against it.
+/// The pdf error that the first stage sees. The quadrature error may have worked against it, and what samples that
+/// depend on each other may do comes on top.
 fn resolution(first: &CountStage) -> f64 {
-    let noncentrality = detectable_noncentrality(first.freedom, STAGE_LEVEL, MISS_LEVEL);
+    let dependence = first.allowed - chi_square_upper(STAGE_LEVEL, first.freedom);
+    let noncentrality =
+        detectable_noncentrality(first.freedom, STAGE_LEVEL, MISS_LEVEL) + dependence;
     (noncentrality.sqrt() + 2.0 * first.quadrature_error.sqrt()) / (first.samples as f64).sqrt()
 }
 

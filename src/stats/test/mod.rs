@@ -13,7 +13,7 @@ pub(crate) mod timing;
 
 pub(crate) use correlation::{CorrelationReport, judge_uncorrelated};
 pub(crate) use counts::{
-    CountDoubt, CountReport, CountSource, follows_law, judge_count_source, judge_counts,
+    CountDoubt, CountReport, CountSource, batch_size, follows_law, judge_count_source, judge_counts,
 };
 pub(crate) use exact::{Compared, ExactReport, Tolerance, judge_exact};
 pub(crate) use mean::{MeanReport, judge_means};

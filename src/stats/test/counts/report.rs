@@ -12,6 +12,8 @@ pub(crate) struct CountStage {
     pub(crate) statistic: f64,
     /// Degrees of freedom.
     pub(crate) freedom: f64,
+    /// What X² may be by chance.
+    pub(crate) allowed: f64,
     /// What X² has to exceed to reject, quadrature error included.
     pub(crate) critical: f64,
     /// Probability of a larger X², were the pdf right.

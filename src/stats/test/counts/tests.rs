@@ -125,11 +125,10 @@ fn an_integral_known_roughly_takes_more_samples_to_pass() {
 #[test]
 fn starved_cells_are_pooled_until_they_expect_enough() {
     let expected = CellProbabilities::exact(vec![0.001; 1000]);
-    let counts = Counts { cells: vec![1; 1000], absorbed: 0 };
-    let pools = pooled(&expected, &counts);
-    assert!(pools.iter().all(|pool| pool.expected >= FEWEST_EXPECTED));
-    let observed: f64 = pools.iter().map(|pool| pool.observed).sum();
-    assert_eq!(observed, 1000.0);
+    let pools = pools(&expected, 1000.0);
+    assert!(pools.iter().all(|pool| pool.len() as f64 >= FEWEST_EXPECTED));
+    // "Absorbed" is one more.
+    assert_eq!(pools.iter().map(Vec::len).sum::<usize>(), 1001);
 }
 
 #[test]
@@ -140,7 +139,7 @@ fn p_values_of_a_right_sampler_are_uniform() {
     let p_values: Vec<f64> = (0..trials)
         .map(|_| {
             let samples = (0..6000).map(|_| Some(power(&mut stream, 1.0)));
-            score(Stage::First, &expected, &cells().count(samples)).p_value
+            score(Stage::First, &expected, &cells().count(samples), &[]).p_value
         })
         .collect();
     for level in [0.01, 0.05, 0.5] {
@@ -148,4 +147,104 @@ fn p_values_of_a_right_sampler_are_uniform() {
         let deviation = (trials as f64 * level * (1.0 - level)).sqrt();
         assert!((below - trials as f64 * level).abs() < 4.0 * deviation, "{level}: {below}");
     }
+}
+
+/// A sampler whose calls have seeds of their own; the samples of a call may depend on each other.
+struct Calls {
+    call: fn(&mut Stream, u64) -> Vec<DVec3>,
+    seed: Seed,
+    batches: Vec<Counts>,
+}
+
+impl Calls {
+    fn of(call: fn(&mut Stream, u64) -> Vec<DVec3>, seed: u64) -> Self {
+        Self { call, seed: Seed(seed), batches: Vec::new() }
+    }
+
+    fn judged(mut self, detects: f64) -> CountReport {
+        let Ok(report) = judge_count_source(&Effort::new(detects), &mut self);
+        report
+    }
+}
+
+impl CountSource for Calls {
+    type Error = Infallible;
+
+    fn expected(&mut self, _: Stage) -> Result<CellProbabilities, Infallible> {
+        Ok(cosine())
+    }
+
+    fn draw(&mut self, stage: Stage, samples: u64) -> Result<Counts, Infallible> {
+        let batch = |number: u64| {
+            let mut stream = self.seed.child(stage).child(number).stream();
+            cells().count((self.call)(&mut stream, batch_size(samples, 32)).into_iter().map(Some))
+        };
+        self.batches = (0..32).map(batch).collect();
+        let mut all = cells().count([]);
+        self.batches.iter().for_each(|batch| all.add(batch));
+        Ok(all)
+    }
+
+    fn batches(&self) -> &[Counts] {
+        &self.batches
+    }
+}
+
+fn independent(stream: &mut Stream, count: u64) -> Vec<DVec3> {
+    (0..count).map(|_| power(stream, 1.0)).collect()
+}
+
+/// Each direction four times; the exponent says how they are distributed.
+fn repeating(stream: &mut Stream, count: u64, exponent: f64) -> Vec<DVec3> {
+    (0..count / 4).flat_map(|_| [power(stream, exponent); 4]).collect()
+}
+
+/// Kronecker's sequence from a random start.
+fn low_discrepancy(stream: &mut Stream, count: u64) -> Vec<DVec3> {
+    let [u, v] = [uniform(stream), uniform(stream)];
+    let at = |start: f64, step: f64, number: u64| (start + number as f64 * step).fract();
+    let point =
+        |n| direction(at(u, 0.754_877_666_2, n).sqrt().acos(), TAU * at(v, 0.569_840_291, n));
+    (0..count).map(point).collect()
+}
+
+#[test]
+fn samples_that_depend_on_each_other_pass_if_they_follow_the_pdf() {
+    let samplers: [fn(&mut Stream, u64) -> Vec<DVec3>; 3] =
+        [independent, low_discrepancy, |stream, count| repeating(stream, count, 1.0)];
+    for (number, sampler) in samplers.into_iter().enumerate() {
+        let report = Calls::of(sampler, 2).judged(0.05);
+        assert_ne!(report.verdict, Verdict::Fail, "{number}: {:?}", report.stages);
+        assert_eq!(report.verdict == Verdict::Pass, number < 2, "what varies more says less");
+    }
+    let mut calls = Calls::of(samplers[2], 2);
+    let mut fresh = |stage, samples| {
+        let Ok(counts) = calls.draw(stage, samples);
+        Ok::<_, Infallible>(counts)
+    };
+    let Ok(as_if_independent) = judge_counts(&cosine(), &Effort::new(0.05), &mut fresh);
+    assert_eq!(as_if_independent.verdict, Verdict::Fail, "χ² alone does not know");
+}
+
+#[test]
+fn samples_that_depend_on_each_other_fail_if_they_do_not() {
+    let wrong = |stream: &mut Stream, count| repeating(stream, count, 1.3);
+    assert_eq!(Calls::of(wrong, 3).judged(0.05).verdict, Verdict::Fail);
+}
+
+#[test]
+fn batches_cost_independent_samples_little() {
+    let known = judge(&cosine(), 0.05, right).resolution;
+    let learnt = Calls::of(independent, 4).judged(0.05).resolution;
+    assert!(learnt < 1.1 * known, "{learnt} in place of {known}");
+}
+
+#[test]
+fn samples_that_depend_on_each_other_are_suspected_no_more_often_than_others() {
+    let suspected = |seed| {
+        let calls = Calls::of(|stream, count| repeating(stream, count, 1.0), seed);
+        calls.judged(0.2).stages.suspects()
+    };
+    // 0.2 by the level of a stage; of batches alone more, but by a factor and not by powers of ten.
+    assert!((0..400).filter(|seed| suspected(*seed)).count() <= 4);
 }

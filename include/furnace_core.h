@@ -30,8 +30,7 @@
  *   - Radiance is judged by its mean: how an estimate is made, how noisy it is, and whether it is
  *     below 0 (control variates), is the core's own business, as long as its variance is finite.
  *     Where there is no light, every estimate is exactly 0; every pixel of a picture is at least 0.
- *   - What a ray sees emitted (bounces 0..0), and what one point light sends to a diffuse surface
- *     (bounces 1..1), is no estimate: it is compared without room for noise.
+ *   - What a ray sees emitted (bounces 0..0) is no estimate: it is compared without room for noise.
  *   - Different seeds give different random numbers, and the answers of one call to the same ray
  *     are independent. Whether pixels, directions and points are independent of each other is free
  *     (see the promises of furnace_core.traits).

@@ -60,8 +60,10 @@ questions! { capabilities, () }
 
 impl Capabilities {
     /// What the contract leaves free unless a core promises it: whoever promises nothing is told, and not graded.
-    pub(crate) const PROMISES: Self =
-        Self::INDEPENDENT_PIXELS.union(Self::INDEPENDENT_SAMPLES).union(Self::PLAIN_ESTIMATORS);
+    pub(crate) const PROMISES: Self = Self::INDEPENDENT_PIXELS
+        .union(Self::INDEPENDENT_SAMPLES)
+        .union(Self::PLAIN_ESTIMATORS)
+        .union(Self::SPLIT_RULES);
 }
 
 by_names! { Capabilities, "capability" }

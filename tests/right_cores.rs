@@ -145,6 +145,125 @@ const BUILDS: &[Build] = &[
             PCG,
         )],
     },
+    // Every product that can be is fused, sums are in any order.
+    Build { name: "cpp-fused", flags: &["-O3", "-march=native", "-ffast-math"], changes: &[] },
+    Build {
+        name: "cpp-watertight",
+        flags: &[],
+        changes: &[
+            change(
+                "shapes.hpp",
+                "Real determinant = -dot(ray.direction, cross_edges);",
+                WATERTIGHT,
+            ),
+            change(
+                "shapes.hpp",
+                "if (!(std::abs(determinant) > parallel * length(ray.direction))) return false;",
+                "",
+            ),
+            change(
+                "shapes.hpp",
+                "Vec    from = ray.origin - corner, turned = cross(from, ray.direction);",
+                "",
+            ),
+            change(
+                "shapes.hpp",
+                "Real u = dot(edge2, turned) / determinant, v = -dot(edge1, turned) / determinant;",
+                "",
+            ),
+            change("shapes.hpp", "Real t = dot(from, cross_edges) / determinant;", ""),
+            change(
+                "shapes.hpp",
+                "if (!(u >= 0 && v >= 0 && u + v <= 1 && within(ray, t)))",
+                "if (!within(ray, t))",
+            ),
+        ],
+    },
+    Build {
+        name: "cpp-mis-everywhere",
+        flags: &[],
+        changes: &[
+            change(
+                "scene.hpp",
+                "bool glossy = v.material->kind == FURNACE_CONDUCTOR &&",
+                "bool glossy =",
+            ),
+            NOT_PLAIN,
+        ],
+    },
+    Build {
+        name: "cpp-one-sample-mis",
+        flags: &[],
+        changes: &[
+            change("scene.hpp", "Rgb      sum{0, 0, 0};\n      for (const Light", ONE_SAMPLE),
+            change("scene.hpp", "random.numbers(), glossy) / Real(count)", ONE_SAMPLE_OF_LIGHTS),
+            change(
+                "scene.hpp",
+                "from_lobe(v, random.numbers()) / Real(samples)",
+                ONE_SAMPLE_OF_LOBE,
+            ),
+            NOT_PLAIN,
+        ],
+    },
+    Build {
+        name: "cpp-sky-by-brightness",
+        flags: &[],
+        changes: &[
+            change("lights.hpp", "if (light.kind != FURNACE_AREA) return;", SKY_TABLE_FILLED),
+            change(
+                "lights.hpp",
+                "Vec wi = below_pole(2 * random.point.x, random.point.y);",
+                SKY_SAMPLED,
+            ),
+            change("lights.hpp", "sky(wi), sky_pdf(), 0, 1", "sky(wi), sky_pdf(wi), 0, 1"),
+            change(
+                "lights.hpp",
+                "Real sky_pdf() const { return is_sky() ? 1 / (4 * PI) : 0; }",
+                SKY_PDF,
+            ),
+            change("lights.hpp", " private:\n   furnace_light         light;", SKY_TABLE),
+            change("scene.hpp", "light.sky_pdf()", "light.sky_pdf(seen.direction)"),
+            NOT_PLAIN,
+        ],
+    },
+    Build {
+        name: "cpp-stream-a-row",
+        flags: &[],
+        changes: &[
+            change("pathtracer.cpp", "auto render_pixel = [&](uint32_t index) {", ROWS),
+            change(
+                "pathtracer.cpp",
+                "Random  random(settings.integrator->seed, index, tally.count + 1);",
+                "Random &random = rows[y];",
+            ),
+        ],
+    },
+    Build {
+        name: "cpp-negative-estimates",
+        flags: &[],
+        changes: &[
+            change("scene.hpp", "return trace(ray, settings, random);", NEGATIVE),
+            NOT_PLAIN,
+        ],
+    },
+    // Finite means, and variances that are not.
+    Build {
+        name: "cpp-infinite-variance",
+        flags: &[],
+        changes: &[
+            change("scene.hpp", "throughput * direct_light(v, settings, random)", PARETO),
+            NOT_PLAIN,
+        ],
+    },
+    Build {
+        name: "cpp-never-the-same",
+        flags: &[],
+        changes: &[
+            change("numbers.hpp", "state(mix(mix(mix(seed) + stream) + sample))", FRESH),
+            change("numbers.hpp", "#include <array>", "#include <array>\n#include <atomic>"),
+            change("pathtracer.cpp", " | FURNACE_DETERMINISTIC", ""),
+        ],
+    },
 ];
 
 const LEAST_DISTANCE: &str = "return {point, clearance, way, INFINITE}";
@@ -187,6 +306,71 @@ const PCG: &str = "auto half = [this] {
       };
       uint64_t high = half() << 32;
       return Real((high | half()) >> (64 - DIGITS))";
+
+/// Woop, Benthin and Wald 2013, as pbrt and Embree have it.
+const WATERTIGHT: &str = "Vec  way = ray.direction, size{std::abs(way.x), std::abs(way.y), std::abs(way.z)};
+      int  kz = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+      int  kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+      Real shear_x = at(way, kx) / at(way, kz), shear_y = at(way, ky) / at(way, kz);
+      Real x[3], y[3], z[3];
+      for (int i = 0; i < 3; ++i) {
+         Vec from = positions[i] - ray.origin;
+         z[i] = at(from, kz) / at(way, kz);
+         x[i] = at(from, kx) - shear_x * at(from, kz), y[i] = at(from, ky) - shear_y * at(from, kz);
+      }
+      Real a = x[2] * y[1] - y[2] * x[1], b = x[0] * y[2] - y[0] * x[2], c = x[1] * y[0] - y[1] * x[0];
+      if ((a < 0 || b < 0 || c < 0) && (a > 0 || b > 0 || c > 0)) return false;
+      Real all = a + b + c;
+      if (all == 0) return false;
+      Real t = (a * z[0] + b * z[1] + c * z[2]) / all, u = b / all, v = c / all;";
+/// Veach 1997, section 9.2.1: which of the techniques is chosen anew each time.
+const ONE_SAMPLE: &str = "bool     by_lobe = random.number() < Real(0.5);
+      Rgb      sum{0, 0, 0};
+      for (const Light";
+const ONE_SAMPLE_OF_LIGHTS: &str = "random.numbers(), glossy) *
+                        (glossy && !light.is_delta() ? (by_lobe ? 0 : 2) / Real(count) : 1 / Real(count))";
+const ONE_SAMPLE_OF_LOBE: &str =
+    "from_lobe(v, random.numbers()) * ((by_lobe ? 2 : 0) / Real(samples))";
+/// Bands of equal solid angle around the zenith, each chosen by the brightness of its middle.
+const SKY_TABLE: &str = " private:
+   static constexpr int BANDS = 16;
+   std::array<Real, BANDS> shares{};
+   Vec pole() const {
+      Vec place(light.place);
+      return dot(place, place) > 0 ? unit(place) : Vec{0, 0, 1};
+   }
+   furnace_light         light;";
+const SKY_TABLE_FILLED: &str = "Real all = 0;
+      for (int band = 0; is_sky() && band < BANDS; ++band) {
+         Real depth = (Real(band) + Real(0.5)) * 2 / BANDS;
+         all += shares[size_t(band)] = luminance(sky(Frame(pole()).to_world(below_pole(depth, 0))));
+      }
+      for (Real &share : shares) share = all > 0 ? share / all : Real(1) / BANDS;
+      if (light.kind != FURNACE_AREA) return;";
+const SKY_SAMPLED: &str = "Real   u = random.point.x;
+         size_t band = 0;
+         while (band + 1 < BANDS && u >= shares[band]) u -= shares[band++];
+         Real depth = (Real(band) + std::min(u / shares[band], BELOW_ONE)) * 2 / BANDS;
+         Vec  wi = Frame(pole()).to_world(below_pole(depth, random.point.y));";
+const SKY_PDF: &str = "Real sky_pdf(Vec w) const {
+      if (!is_sky()) return 0;
+      int band = int((1 - dot(w, pole())) * BANDS / 2);
+      return shares[size_t(std::min(std::max(band, 0), BANDS - 1))] * BANDS / (4 * PI);
+   }";
+/// One thread's numbers go on from pixel to pixel.
+const ROWS: &str = "std::vector<Random> rows;
+   for (uint32_t y = 0; y < settings.height; ++y) rows.emplace_back(settings.integrator->seed, y, 0);
+   auto render_pixel = [&](uint32_t index) {";
+/// A control variate that has nothing to do with the light.
+const NEGATIVE: &str = "Rgb found = trace(ray, settings, random);
+      return settings.first_bounce == 0 ? found : found * (6 * random.number() - 2);";
+const PARETO: &str = "throughput * direct_light(v, settings, random) *
+                              (std::pow(1 - random.number(), -1 / Real(1.2)) / 6)";
+const FRESH: &str = "state(mix(mix(mix(seed) + stream) + sample)) {
+      static std::atomic<uint64_t> count{0};
+      state = mix(state + mix(++count));
+   }
+   Random(uint64_t start) : state(start)";
 
 impl Build {
     /// Compiles it; answers how the command line would name it.

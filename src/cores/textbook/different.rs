@@ -2,17 +2,21 @@
 //!
 //! Like a fault, a choice replaces steps of the lesson; some of them have to be declared, too.
 
+use super::build::{self, Builder};
 use super::ggx::Microfacets;
 use super::glass::refracted_cosine;
-use super::integrator::{Progress, survival_probability};
+use super::integrator::{Integrator, Progress, survival_probability};
+use super::intersect::Quadratic;
 use super::random::{self, Random, scramble};
+use super::split::Item;
 use super::steps::{LESSON, Steps};
-use super::{area_light, bsdf, vertex};
+use super::vertex::Vertex;
+use super::{area_light, bsdf, integrator, slab, split, vertex};
 use crate::contract::{
     Capabilities, CoreInfo, EmissionSides, Falloff, GlassFresnel, GlassRadiance, Precision,
-    Roulette, Sampler, SmithTerm, Split,
+    Randomness, Ray, Roulette, Sampler, SmithTerm, Split,
 };
-use crate::scene::Surface;
+use crate::scene::{Aabb, Surface};
 use glam::{DVec2, DVec3};
 
 /// A core that is right, and not the same.
@@ -28,6 +32,15 @@ pub struct Different {
     pub(super) steps: Steps,
     /// What the core has to say of it.
     pub(super) declares: fn(&mut CoreInfo),
+}
+
+impl Different {
+    /// Whether the contract's promises are kept as the lesson keeps them.
+    pub(crate) fn promises_everything(&self) -> bool {
+        let mut info = CoreInfo { capabilities: Capabilities::PROMISES, ..CoreInfo::default() };
+        (self.declares)(&mut info);
+        info.capabilities.contains(Capabilities::PROMISES)
+    }
 }
 
 /// For choices that are free.
@@ -59,24 +72,99 @@ different! {
     "other-roulette": "dark paths are cut short by roulette of the core's own",
         parts [4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
         survival_probability = survival_of_own_roulette;
+    "roulette-by-throughput": "roulette of the core's own by throughput, at mirrors and glass too",
+        parts [4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
+        survival_probability = survival_by_throughput;
+    "roulette-by-albedo": "paths go on as often as surfaces reflect, from the first bounce on",
+        parts [4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
+        survival_probability = survival_by_albedo;
+    "two-light-estimates": "the light at a vertex is the mean of two estimates",
+        parts [3, 4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
+        light_of_bounce = |integrator, vertex, bounce, random| {
+            let mut once = || integrator::light_of_bounce(integrator, vertex, bounce, random);
+            0.5 * (once() + once())
+        };
+    "roulette-by-luminance": "paths go on by the luminance of their throughput, at most 95 %, after five bounces (Mitsuba)",
+        parts [4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
+        survival_probability = survival_by_luminance;
+    "light-threshold": "what adds less than 0.05 is added 20 times as often as it is worth (Cycles)",
+        parts [3, 4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
+        light_of_bounce = light_above_threshold;
+    "one-channel-a-path": "each bounce has one colour, three times as bright",
+        parts [3, 4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
+        light_of_bounce = |integrator, vertex, bounce, random| {
+            let light = integrator::light_of_bounce(integrator, vertex, bounce, random);
+            let channel = (3.0 * random.number()) as usize;
+            DVec3::AXES[channel] * 3.0 * light
+        };
+    "rare-light": "on one side of the scene one estimate in 1500 carries all the light",
+        parts [3, 4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
+        light_of_bounce = |integrator, vertex, bounce, random| {
+            let light = integrator::light_of_bounce(integrator, vertex, bounce, random);
+            let is_rare = vertex.point.x > vertex.point.y;
+            light * if is_rare { weight_of_one_in(1500.0, random) } else { 1.0 }
+        };
+    "low-discrepancy-pixels": "the samples of a pixel are a lattice, shifted at random in each dimension",
+        parts [1, 4, 5] declares |info| info.capabilities -= Capabilities::REPORTED_VARIANCE,
+        sample_stream = sample_of_lattice,
+        number = number_of_lattice;
+    "shared-numbers": "all pixels draw the same random numbers, and nothing else is promised",
+        parts [4, 5] declares |info| info.capabilities -= Capabilities::INDEPENDENT_PIXELS,
+        sample_stream = |seed, _, sample| Random::for_sample(seed, 0, sample);
     "hashed-seeds": "seeds are hashed before they are used",
         parts [1, 3, 4, 5],
         seed = scramble;
     "other-azimuth": "directions are turned the other way round, from another axis",
         parts [3, 4, 5],
         turn = |point| 0.75 - point.y;
+    "azimuth-by-both-numbers": "both numbers turn a direction",
+        parts [3, 4, 5],
+        turn = |point| (point.x + point.y).fract();
+    "heights-from-the-rim": "the first number is the height of a uniform direction, and not 1 less it",
+        parts [3, 4, 5],
+        uniform_height = |u| u;
     "cosine-of-root": "the cosine of a direction is the root of the number, and not of 1 less it",
         parts [3, 4, 5],
         cosine_height = f64::sqrt;
     "swapped-numbers": "points on lights use the second number first",
         parts [3, 4, 5],
         triangle_point = |point| area_light::triangle_point(DVec2::new(point.y, point.x));
+    "folded-triangles": "a parallelogram is sampled, and folded to the triangle",
+        parts [3, 4, 5],
+        triangle_point = |point| if point.x + point.y > 1.0 { 1.0 - point } else { point };
+    "even-triangles": "points on triangles come from a map that keeps distances (Heitz 2019)",
+        parts [3, 4, 5],
+        triangle_point = |point| point - 0.5 * point.min_element();
+    "other-lobe-first": "large numbers reflect, small ones refract",
+        parts [3, 4, 5],
+        reflects = |lobe, fresnel| lobe >= 1.0 - fresnel;
+    "offset-along-the-normal": "rays begin beside the surface, and not beyond a least distance",
+        parts [3, 4, 5],
+        ray_from = |vertex, direction| {
+            let side = vertex.clearance.copysign(vertex.normal.dot(direction));
+            Ray { t_min: 0.0, ..Ray::new(vertex.point + side * vertex.normal, direction) }
+        };
+    "rays-of-any-length": "no ray has a unit direction: those to lights are as long as the way, all others 0.4",
+        parts [3, 4, 5],
+        ray_from = |vertex, direction| {
+            let ray = vertex::ray_from(vertex, direction);
+            Ray { direction: 0.4 * direction, t_min: ray.t_min / 0.4, ..ray }
+        },
+        shadow_ray = |vertex, sample| {
+            let ray = vertex::shadow_ray(vertex, sample);
+            let length = if sample.distance.is_finite() { sample.distance } else { 1.0 };
+            let [t_min, t_max] = [ray.t_min, ray.t_max].map(|t| t / length);
+            Ray { direction: length * ray.direction, t_min, t_max, ..ray }
+        };
     "larger-offset": "rays keep clear of surfaces by 1e-6 in place of 1e-10",
         parts [3, 4, 5],
         clearance = |longest| 1e4 * vertex::CLEARANCE * longest;
     "stratified-pixels": "the samples of a pixel fill it evenly",
         parts [1, 4, 5],
         pixel_point = evenly_in_pixel;
+    "mirrored-pixels": "every second sample of a pixel mirrors the one before in its centre",
+        parts [1, 4, 5] declares |info| info.capabilities -= Capabilities::REPORTED_VARIANCE,
+        pixel_point = mirrored_in_pixel;
     "stratified-lights": "the samples of a light are stratified",
         parts [3, 4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
         light_point = |random, number, of| {
@@ -86,6 +174,40 @@ different! {
     "median-split": "nodes are halved, whatever rule is asked for",
         parts [2],
         rule = |_| Split::Median;
+    "area-split": "nodes are divided by surface area, whatever rule is asked for",
+        parts [2],
+        rule = |_| Split::SurfaceArea;
+    "axes-in-turn": "nodes are halved along each axis in turn",
+        parts [2] declares |info| info.capabilities -= Capabilities::SPLIT_RULES,
+        divide = halved_in_turn;
+    "linear-order": "primitives are sorted along a curve through space, and halved (Lauterbach et al. 2009)",
+        parts [2] declares |info| info.capabilities -= Capabilities::SPLIT_RULES,
+        divide = halved_along_curve;
+    "loose-boxes": "boxes are larger than what they hold by a tenth",
+        parts [2],
+        node_bounds = |items| {
+            let Aabb { min, max } = build::node_bounds(items);
+            Aabb { min: min - 0.1 * (max - min), max: max + 0.1 * (max - min) }
+        };
+    "overlapping-leaves": "primitives stand in several leaves and are tested more than once",
+        parts [2],
+        tested_for_leaf = |leaf, primitives| {
+            leaf.start.saturating_sub(1)..primitives.min(leaf.end + 1)
+        };
+    "right-child-first": "shadow rays look below the right child first",
+        parts [2],
+        any_below_children = |bvh, [left, right], ray, stats| {
+            bvh.any_below(right, ray, stats) || bvh.any_below(left, ray, stats)
+        };
+    "inverse-directions": "boxes are met by products with 1 over the direction",
+        parts [2],
+        slab = slab_by_inverse;
+    "half-chords": "a sphere is met half a chord before and after the ray's nearest point",
+        parts [1, 2],
+        roots = |Quadratic { a, half_b, discriminant, .. }| {
+            let (middle, half_chord) = (-half_b / a, discriminant.sqrt() / a);
+            (middle - half_chord, middle + half_chord)
+        };
     "reversed-leaves": "the primitives of a leaf are tested from the last to the first",
         parts [2],
         closest_among = |bvh, range, search| {
@@ -123,6 +245,23 @@ different! {
             let mut own = Random::for_ray(given.seed, index);
             (own.point(), own.number())
         };
+    "low-discrepancy": "the core draws numbers of low discrepancy from a start that the seed shifts, and says so",
+        parts [3] declares |info| {
+            info.capabilities -= Capabilities::CALLERS_RANDOMNESS | Capabilities::INDEPENDENT_SAMPLES;
+        },
+        callers_numbers = evenly_in_cube;
+    "shared-heights": "four directions and points on lights in a row have one number in common, as the core says",
+        parts [3] declares |info| {
+            info.capabilities -= Capabilities::CALLERS_RANDOMNESS | Capabilities::INDEPENDENT_SAMPLES;
+        },
+        callers_numbers = |given, index| {
+            let shared = Random::for_ray(given.seed, index / 4).number();
+            let mut own = Random::for_ray(scramble(given.seed), index);
+            (DVec2::new(shared, own.number()), own.number())
+        };
+    "coarse-numbers": "random numbers are multiples of 2^-24, as a float holds them",
+        parts [1, 3, 4, 5],
+        number = |random| (random::number(random) * 16_777_216.0).floor() / 16_777_216.0;
     "other-generator": "random numbers come from another generator",
         parts [1, 3, 4, 5],
         number = |random| {
@@ -144,6 +283,123 @@ fn survival_of_own_roulette(roulette: Option<Roulette>, surface: &Surface, path:
     } else {
         survival_probability(roulette, surface, path)
     }
+}
+
+/// Dark paths are cut short from the first bounce on, whatever they meet.
+fn survival_by_throughput(roulette: Option<Roulette>, surface: &Surface, path: Progress) -> f64 {
+    match roulette {
+        None => path.throughput.max_element().clamp(0.3, 1.0),
+        Some(_) => survival_probability(roulette, surface, path),
+    }
+}
+
+/// The largest reflectance of what the path meets.
+fn survival_by_albedo(roulette: Option<Roulette>, surface: &Surface, path: Progress) -> f64 {
+    match (roulette, surface) {
+        (None, Surface::Diffuse { reflectance }) => {
+            DVec3::from(*reflectance).max_element().max(0.1)
+        }
+        _ => survival_probability(roulette, surface, path),
+    }
+}
+
+/// Guaranteed five bounces, by brightness, and never for certain.
+fn survival_by_luminance(roulette: Option<Roulette>, surface: &Surface, path: Progress) -> f64 {
+    match roulette {
+        None if path.continuation >= 5 => luminance(path.throughput).clamp(0.05, 0.95),
+        _ => survival_probability(roulette, surface, path),
+    }
+}
+
+/// Linear sRGB.
+fn luminance(rgb: DVec3) -> f64 {
+    rgb.dot(DVec3::new(0.2126, 0.7152, 0.0722))
+}
+
+/// Dim light is kept with a probability, and then as bright as the threshold.
+fn light_above_threshold(
+    integrator: &Integrator<'_>,
+    vertex: &Vertex<'_>,
+    bounce: u32,
+    random: &mut Random<'_>,
+) -> DVec3 {
+    const THRESHOLD: f64 = 0.05;
+    let light = integrator::light_of_bounce(integrator, vertex, bounce, random);
+    let kept = (light.max_element() / THRESHOLD).min(1.0);
+    if random.number() < kept { light / kept } else { DVec3::ZERO }
+}
+
+/// All in one of `count` samples, nothing in the others.
+fn weight_of_one_in(count: f64, random: &mut Random<'_>) -> f64 {
+    if count * random.number() < 1.0 { count } else { 0.0 }
+}
+
+/// The name is what a number of the lattice is made of: the pixel's shifts, the sample, the dimension.
+fn sample_of_lattice(seed: u64, pixel: usize, sample: u32) -> Random<'static> {
+    let mut random = Random::for_sample(seed, pixel, u32::MAX);
+    random.name = random.name & !0xffff_ffff | u64::from(sample & 0xffff) << 16;
+    random
+}
+
+/// Kronecker's sequence, each dimension with a step of its own (Cranley and Patterson 1976 for the shift).
+fn number_of_lattice(random: &mut Random<'_>) -> f64 {
+    let (shifts, sample) = (random.name >> 32, random.name >> 16 & 0xffff);
+    let dimension = random.name & 0xffff;
+    random.name = random.name.wrapping_add(1);
+    let place = scramble(scramble(shifts) ^ dimension)
+        .wrapping_add(sample.wrapping_mul(scramble(dimension)));
+    (place >> 11) as f64 * 0.5 * f64::EPSILON
+}
+
+/// The axis is the depth's.
+fn halved_in_turn(builder: &Builder<'_>, items: &mut [Item], depth: usize) -> Option<usize> {
+    let middle = items.len() / 2;
+    (items.len() > builder.max_leaf_size).then(|| {
+        let along = |item: &Item| item.centroid[depth % 3];
+        items.select_nth_unstable_by(middle, |a, b| along(a).total_cmp(&along(b)));
+        middle
+    })
+}
+
+/// Sorted once, at the root.
+fn halved_along_curve(builder: &Builder<'_>, items: &mut [Item], depth: usize) -> Option<usize> {
+    if depth == 0 {
+        let bounds = split::centroid_bounds(items);
+        let size = (bounds.max - bounds.min).max(DVec3::splat(f64::MIN_POSITIVE));
+        items.sort_by_key(|item| morton_code((item.centroid - bounds.min) / size));
+    }
+    (items.len() > builder.max_leaf_size).then_some(items.len() / 2)
+}
+
+/// The bits of three coordinates in [0, 1], one of each in turn (Morton 1966).
+fn morton_code(place: DVec3) -> u64 {
+    let cell = (place * 1023.0).to_array().map(|coordinate| coordinate as u64);
+    let bit = |axis: usize, bit: u32| (cell[axis] >> bit & 1) << (3 * bit + axis as u32);
+    (0..10).flat_map(|digit| (0..3).map(move |axis| bit(axis, digit))).sum()
+}
+
+/// As pbrt does it, but for rays along the planes.
+fn slab_by_inverse(bounds: &Aabb, ray: &Ray, axis: usize) -> Option<(f64, f64)> {
+    let inverse = ray.direction[axis].recip();
+    if inverse.is_infinite() {
+        return slab::slab(bounds, ray, axis);
+    }
+    let at = |plane: f64| (plane - ray.origin[axis]) * inverse;
+    let (low, high) = (at(bounds.min[axis]), at(bounds.max[axis]));
+    Some((low.min(high), low.max(high)))
+}
+
+/// From a start of the seed's: points by the square's steps, lobes by the golden ratio.
+fn evenly_in_cube(given: &Randomness<'_>, index: usize) -> (DVec2, f64) {
+    let mut random = Random::for_ray(given.seed, 0);
+    let (start, lobe, steps) = (random.point(), random.number(), index as f64);
+    ((start + steps * EVEN_STEPS).fract(), (lobe + steps * 0.618_033_988_749_894_9).fract())
+}
+
+/// Two and two have one random point.
+fn mirrored_in_pixel(_: &mut Random<'_>, seed: u64, pixel: usize, sample: u32) -> DVec2 {
+    let point = Random::for_sample(scramble(seed), pixel, sample / 2).point();
+    if sample.is_multiple_of(2) { point } else { 1.0 - point }
 }
 
 /// Steps that fill the unit square evenly (Roberts 2018, the R2 sequence).

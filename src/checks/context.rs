@@ -53,7 +53,7 @@ impl Context<'_> {
 
     /// Keeps a picture for the report.
     pub(crate) fn show(&mut self, role: PictureRole, caption: impl Into<String>, image: Image) {
-        self.pictures.push(Picture { role, caption: caption.into(), image });
+        self.pictures.push(Picture::of(role, caption, image));
     }
 }
 
@@ -74,6 +74,38 @@ pub struct Picture {
     pub(crate) caption: String,
     /// Linear RGB radiance.
     pub(crate) image: Image,
+    /// The standard error of each value, if it is known.
+    pub(crate) standard_error: Option<Image>,
+    pub(crate) rejected: Vec<RejectedCell>,
+}
+
+impl Picture {
+    pub(crate) fn of(role: PictureRole, caption: impl Into<String>, image: Image) -> Self {
+        let caption = caption.into();
+        Self { role, caption, image, standard_error: None, rejected: Vec::new() }
+    }
+
+    pub(crate) fn with_standard_error(self, standard_error: Image) -> Self {
+        Self { standard_error: Some(standard_error), ..self }
+    }
+}
+
+/// Pixels of a picture whose mean is not what it should be.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RejectedCell {
+    /// `8 × 8 pixels`
+    pub(crate) scale: String,
+    /// `red`, `luminance`
+    pub(crate) component: String,
+    /// Column, row, width and height.
+    pub(crate) extent: [usize; 4],
+    pub(crate) measured: f64,
+    pub(crate) expected: f64,
+    /// How far outside what is allowed, in standard errors.
+    pub(crate) t: f64,
+    /// How often a correct core would be so far off in this cell.
+    pub(crate) p: f64,
 }
 
 /// What a picture shows, so that the report knows how to draw it.

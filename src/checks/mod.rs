@@ -29,7 +29,9 @@ mod surface;
 #[cfg(test)]
 mod testing;
 
-pub(crate) use context::{CheckError, Context, Picture, PictureRole, Result, camera_of};
+pub(crate) use context::{
+    CheckError, Context, Picture, PictureRole, RejectedCell, Result, camera_of,
+};
 pub(crate) use declared::{Declared, check, checks};
 pub(crate) use finding::{Clue, Finding, Measure};
 

@@ -5,7 +5,7 @@ use super::encoding::{Curve, Encoding};
 use super::{Image, luminance, png::Picture};
 use rayon::prelude::*;
 
-/// The colour of a pixel that is not a number.
+/// The colour of a pixel that is NaN or infinite.
 pub(crate) const NOT_A_NUMBER: [u8; 3] = [255, 0, 255];
 
 /// The share of pixels that the exposure of [`exposure_of`] keeps below white.
@@ -28,7 +28,7 @@ pub(crate) fn srgb_code(linear: f32) -> u8 {
 pub(crate) fn tonemap(image: &Image, stops: f32) -> Picture {
     let gain = stops.exp2();
     let shown = |pixel: &[f32; 3]| {
-        if pixel.iter().any(|value| value.is_nan()) {
+        if !pixel.iter().all(|value| value.is_finite()) {
             NOT_A_NUMBER
         } else {
             pixel.map(|value| srgb_code(gain * value))

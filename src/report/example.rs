@@ -62,14 +62,12 @@ impl Example {
     pub(crate) fn of_default_size() -> Self {
         let numbered = |round: usize| {
             let copies = if round == 0 { &CASES[..] } else { &CASES[..11] };
-            copies.iter().map(move |(case, ..)| {
-                format!("{case}{}", ["", "-again", "-tilted", "-in-glass", "-scaled"][round])
-            })
+            copies.iter().map(move |(case, ..)| format!("{case}-{round}"))
         };
         let pictures =
             ["cornell-glass", "point-light", "area-light", "veach-plates", "closed-furnace"];
         let pictures = pictures.map(|name| format!("image/{name}"));
-        Self::of_cases((0..5).flat_map(numbered).chain(pictures))
+        Self::of_cases((0..17).flat_map(numbered).chain(pictures))
     }
 
     /// [`Example::green`] with every other way to end.
@@ -300,6 +298,7 @@ fn pictures(name: &str) -> Vec<PictureFile> {
         role,
         caption: caption.to_owned(),
         file: format!("{name}.{number}.exr"),
+        rejected: Vec::new(),
     };
     [
         (0, PictureRole::Reference, "Mitsuba 3.9.1, 131072 samples per pixel"),

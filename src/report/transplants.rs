@@ -11,6 +11,14 @@ pub(crate) fn sentences(core: &CoreRecord) -> Vec<String> {
     each.chain(together(transplants)).chain(unmended(transplants)).collect()
 }
 
+/// The same, of the components that any of these failing cases needs.
+pub(crate) fn proofs(core: &CoreRecord, cases: &[String]) -> Vec<String> {
+    let Some(transplants) = &core.transplants else { return Vec::new() };
+    let needed = |one: &&Transplanted| one.cases.iter().any(|case| cases.contains(case));
+    let needed = transplants.components.iter().filter(needed);
+    needed.map(|one| sentence(one, transplants)).collect()
+}
+
 /// `with the bench's box test in place of yours, 71 of 76 failures are gone`
 fn sentence(one: &Transplanted, of: &Transplants) -> String {
     let component = one.component.in_words();

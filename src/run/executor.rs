@@ -7,7 +7,9 @@ use super::outcome::Outcome;
 use super::plan::{Plan, Trial};
 use super::record::{self, PictureFile, RecordError, TrialRecord};
 use super::schedule::{Next, Schedule, Transplant};
-use crate::image::exr;
+use crate::checks::Picture;
+use crate::image::exr::{self, Exr, Storage};
+use crate::scene::reference::ERROR_PREFIX;
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::mpsc;
@@ -130,7 +132,7 @@ fn write_trial(folder: &Path, ended: Ended) -> Result<TrialRecord, RecordError> 
     let sidecar = record::sidecar_path(folder, &record.core, &record.case);
     for (number, picture) in pictures.into_iter().enumerate() {
         let path = sidecar.with_extension(format!("{number}.exr"));
-        exr::write_image(&path, &picture.image).map_err(|error| RecordError::Malformed {
+        exr::write(&path, &file_of(&picture)).map_err(|error| RecordError::Malformed {
             path: path.clone(),
             error: error.to_string(),
         })?;
@@ -138,8 +140,18 @@ fn write_trial(folder: &Path, ended: Ended) -> Result<TrialRecord, RecordError> 
             role: picture.role,
             caption: picture.caption,
             file: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            rejected: picture.rejected,
         });
     }
     record::write_json(&sidecar, &record)?;
     Ok(record)
+}
+
+/// The colours of a picture, and their standard errors where they are known.
+fn file_of(picture: &Picture) -> Exr {
+    let file = Exr::from_image(&picture.image);
+    match &picture.standard_error {
+        Some(errors) => file.with_colours(ERROR_PREFIX, errors, Storage::Half),
+        None => file,
+    }
 }

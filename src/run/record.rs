@@ -11,7 +11,7 @@
 
 use super::outcome::{Outcome, Status};
 use crate::case::{Foundation, Role, Tier};
-use crate::checks::PictureRole;
+use crate::checks::{PictureRole, RejectedCell};
 use crate::contract::{Components, Conventions, CoreInfo, Precision};
 use crate::diagnosis::Diagnosis;
 use crate::disk;
@@ -289,8 +289,12 @@ pub struct PictureFile {
     pub role: PictureRole,
     /// A few words below it.
     pub caption: String,
-    /// File name, in the folder of the sidecar. EXR, linear RGB.
+    /// File name, in the folder of the sidecar. EXR, linear RGB; with channels `se.R` and so on where the standard
+    /// errors are known.
     pub file: String,
+    /// Where it is not what it should be, if its check looks at places.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) rejected: Vec<RejectedCell>,
 }
 
 /// Why a file of a run could not be written or read.

@@ -106,9 +106,6 @@ fn distinct_counts(film: &Film) -> Measure {
 
 fn rate_picture(film: &Film, cap: u32) -> Picture {
     let rates = film.sample_counts.iter().map(|count| [*count as f32 / cap as f32; 3]).collect();
-    Picture {
-        role: PictureRole::SampleRate,
-        caption: format!("samples taken, as a share of {cap}"),
-        image: Image { width: film.width as usize, height: film.height as usize, pixels: rates },
-    }
+    let image = Image { width: film.width as usize, height: film.height as usize, pixels: rates };
+    Picture::of(PictureRole::SampleRate, format!("samples taken, as a share of {cap}"), image)
 }

@@ -1,9 +1,9 @@
 //! A render against a Mitsuba reference, with the noise of both in the account.
 
 use super::shot::{Setup, Shot};
-use super::told::{ERROR_SCALE, error_picture, finding};
+use super::told::{ERROR_SCALE, error_picture, finding, rejected};
 use super::{by_codes, clues};
-use crate::checks::{Check, CheckError, Context, Finding, PictureRole, camera_of, check};
+use crate::checks::{Check, CheckError, Context, Finding, Picture, PictureRole, camera_of, check};
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
 use crate::scene::reference;
 use crate::stats::{self, ImageEffort, Report, Verdict, judge_image};
@@ -106,8 +106,15 @@ impl MatchesReference {
         drop(built);
         let caption = format!("mean of {} runs of {} samples per pixel", report.runs, shot.samples);
         let error = error_picture(&report, &reference.mean, &reference.standard_error);
-        context.show(PictureRole::Reference, "Mitsuba", reference.mean);
-        context.show(PictureRole::Render, caption, report.mean.clone());
+        context.pictures.push(
+            Picture::of(PictureRole::Reference, "Mitsuba", reference.mean)
+                .with_standard_error(reference.standard_error),
+        );
+        context.pictures.push(Picture {
+            rejected: rejected(&report),
+            ..Picture::of(PictureRole::Render, caption, report.mean)
+                .with_standard_error(report.standard_error)
+        });
         let caption = format!("difference, {ERROR_SCALE} standard errors at the ends of the scale");
         context.show(PictureRole::SignedError, caption, error);
         Ok(finding)

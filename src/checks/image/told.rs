@@ -1,9 +1,10 @@
 //! What a report on pictures says: in words, in numbers and as a picture.
 
-use crate::checks::{Finding, Measure};
+use crate::checks::{Finding, Measure, RejectedCell};
 use crate::image::Image;
 use crate::stats::{
-    Component, GlobalRatio, Hypothesis, ImageReport, Impossible, Scale, ScaleReport, Verdict,
+    CellScore, Component, GlobalRatio, Hypothesis, ImageReport, Impossible, Scale, ScaleReport,
+    Verdict,
 };
 use crate::text::number::{apart, percent, with_interval};
 
@@ -124,6 +125,23 @@ fn confirmed(report: &ImageReport, scale: Scale) -> String {
     let [mean, expected] = apart([cell.mean, cell.expected]);
     let (component, [x, y]) = (component_name(cell.component), [cell.extent.x, cell.extent.y]);
     format!("{confirmed}: {component} is {mean} instead of {expected} around pixel ({x}, {y})")
+}
+
+/// The cells that the screen suspected, of the scales at which fresh runs confirmed it.
+pub(super) fn rejected(report: &ImageReport) -> Vec<RejectedCell> {
+    let rejecting = report.scales.iter().filter(|scale| scale.rejects);
+    let suspected =
+        rejecting.flat_map(|scale| scale.worst.iter().filter(|cell| cell.t.abs() > scale.critical));
+    let told = |cell: &CellScore| RejectedCell {
+        scale: scale_name(cell.scale).to_owned(),
+        component: component_name(cell.component).to_owned(),
+        extent: [cell.extent.x, cell.extent.y, cell.extent.width, cell.extent.height],
+        measured: cell.mean,
+        expected: cell.expected,
+        t: cell.t,
+        p: cell.p,
+    };
+    suspected.map(told).collect()
 }
 
 const fn scale_name(scale: Scale) -> &'static str {

@@ -1,58 +1,125 @@
-//! A case with what every core made of it: claim, evidence, pictures, and how to run it again.
+//! A case with what every core made of it: verdict, images, numbers, background, and how to run it again.
 
 use super::image::pictures;
 use super::interval::plot;
-use super::parts::{anchor, badge, case_anchor, cell, command};
-use super::{Page, View};
-use crate::case::Part;
+use super::parts::{badge, command};
+use super::shell::Page;
+use super::view::{Place, View, anchor, has_failed};
 use crate::checks::{Finding, Measure};
 use crate::report::digest::{CaseGroup, by_case};
 use crate::report::measure::{MeasureWords, worst_first};
+use crate::report::tree::RunTree;
 use crate::run::TrialRecord;
 use crate::stats::Verdict;
 use crate::text::number::duration;
 use maud::{Markup, html};
+use std::path::Path;
 
 /// Measures shown before the rest is folded away.
 const MEASURES: usize = 16;
 
-pub(super) static PAGE: Page = Page { id: "cases", title: "Cases", body };
-
-fn body(view: &View<'_>) -> Option<Markup> {
-    let cases = by_case(view.tree);
-    let part = |case: &CaseGroup<'_>| Part::of_case(&case.first().case);
-    Some(html! {
-        @for same_part in cases.chunk_by(|a, b| part(a) == part(b)) {
-            h3.part { (part(&same_part[0]).map_or("other cases", |part| part.title)) }
-            @for case in same_part { (section(view, case)) }
-        }
+/// The pages on all cases, by their names below the folder.
+pub(super) fn pages<'a>(
+    tree: &'a RunTree,
+    folder: &'a Path,
+) -> impl Iterator<Item = (String, String)> + 'a {
+    let cases = by_case(tree);
+    (0..cases.len()).map(move |number| {
+        let case = &cases[number];
+        let file = View::file_of(&case.first().case);
+        let view = View::new(tree, folder, Place::Below(file.matches('/').count()));
+        let body = html! {
+            (neighbours(&view, &cases, number))
+            (body(&view, case))
+        };
+        let title = case.first().title.clone();
+        (file, Page { title, is_index: false, body }.render(&view))
     })
 }
 
-/// Folded away unless something failed.
-fn section(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
-    let shared = case.first();
-    let failed = case.trials.iter().any(|trial| trial.outcome.status().is_failure());
+/// The failing cases on one page.
+pub(super) fn failing(view: &View<'_>) -> Markup {
+    let cases = by_case(view.tree);
     html! {
-        details.case.card id=(case_anchor(shared)) open[failed] {
-            summary {
-                span.cells { @for trial in &case.trials { (cell(trial)) } }
-                span.case-name { (shared.case) }
-                span.case-title { (shared.title) }
+        section #cases aria-labelledby="cases-heading" {
+            h2 #cases-heading { "Failing cases" }
+            @for case in cases.iter().filter(|case| has_failed(case)) {
+                details.case.card id=(case.first().case) {
+                    summary {
+                        span.cells { @for trial in &case.trials { (badge(trial.outcome.status())) } }
+                        span.case-name { (case.first().case) }
+                        span.case-title { (case.first().title) }
+                    }
+                    (body(view, case))
+                }
             }
-            (about(shared))
-            @for trial in &case.trials { (judgement(trial)) }
-            (pictures(view, case))
+        }
+    }
+}
+
+/// The failing cases before and after.
+fn neighbours(view: &View<'_>, cases: &[CaseGroup<'_>], number: usize) -> Markup {
+    let (before, rest) = cases.split_at(number);
+    let before = before.iter().rfind(|case| has_failed(case));
+    let after = rest.iter().skip(1).find(|case| has_failed(case));
+    let link = |case: &CaseGroup<'_>| view.link(case.first()).unwrap_or_default();
+    html! {
+        @if before.is_some() || after.is_some() {
+            nav.neighbours aria-label="Failing cases" {
+                @if let Some(case) = before { a rel="prev" href=(link(case)) { "← " (case.first().case) } }
+                span.faint { "failing cases" }
+                @if let Some(case) = after { a rel="next" href=(link(case)) { (case.first().case) " →" } }
+            }
+        }
+    }
+}
+
+fn body(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
+    html! {
+        @for trial in &case.trials { (judgement(trial)) }
+        (pictures(view, case))
+        @for trial in &case.trials { (numbers(trial, case.trials.len() > 1)) }
+        (about(case.first()))
+    }
+}
+
+fn judgement(trial: &TrialRecord) -> Markup {
+    html! {
+        article.card id=(anchor(trial)) tabindex="-1" {
+            p.kicker {
+                (badge(trial.outcome.status())) " · " b { (trial.core) }
+                " · " (duration(trial.timing.seconds)) " · seed " (trial.seed)
+                @if !trial.with.is_empty() { " · with the bench's " (trial.with.in_words()) }
+            }
+            p.said.statement { (trial.outcome.statement()) }
+            @if let Some(finding) = trial.outcome.finding() { (resolution(finding)) }
+            @if !trial.printed.is_empty() {
+                details { summary { "what the core printed" } pre { (trial.printed) } }
+            }
+            (command(&trial.rerun))
+        }
+    }
+}
+
+fn numbers(trial: &TrialRecord, named: bool) -> Markup {
+    let finding = trial.outcome.finding().filter(|finding| !finding.measures.is_empty());
+    html! {
+        @if let Some(finding) = finding {
+            div.card {
+                h3 { "Numbers" @if named { " of " (trial.core) } }
+                (all_measures(finding))
+            }
         }
     }
 }
 
 fn about(trial: &TrialRecord) -> Markup {
     html! {
-        dl.about {
+        dl.about.card {
+            dt { "case" } dd { code { (trial.case) } " " (hash(&trial.case_hash)) }
             dt { "background" } dd { (trial.teaches) }
             dt { "source" } dd { (trial.source) }
-            dt { "check" } dd { code { (trial.check) } " · case " (hash(&trial.case_hash)) }
+            dt { "check" } dd { code { (trial.check) } }
             @if let Some(scene) = &trial.scene {
                 dt { "scene" } dd { code { (scene.name) } " " (hash(&scene.hash)) }
             }
@@ -64,29 +131,6 @@ fn about(trial: &TrialRecord) -> Markup {
 fn hash(hex: &str) -> Markup {
     let short: String = hex.chars().take(12).collect();
     html! { code.faint title=(hex) { (short) } }
-}
-
-fn judgement(trial: &TrialRecord) -> Markup {
-    html! {
-        article id=(anchor(trial)) tabindex="-1" {
-            h4 {
-                (badge(trial.outcome.status())) " " (trial.core)
-                span.faint { " · " (duration(trial.timing.seconds)) " · seed " (trial.seed) }
-                @if !trial.with.is_empty() {
-                    span.faint { " · with the bench's " (trial.with.in_words()) }
-                }
-            }
-            p.said { (trial.outcome.statement()) }
-            @if let Some(finding) = trial.outcome.finding() {
-                (all_measures(finding))
-                (resolution(finding))
-            }
-            @if !trial.printed.is_empty() {
-                details { summary { "what the core printed" } pre { (trial.printed) } }
-            }
-            (command(&trial.rerun))
-        }
-    }
 }
 
 /// Every measure: in their own order if they are few, else the worst first and the rest folded away.

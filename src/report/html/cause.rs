@@ -1,75 +1,132 @@
-//! A cause in the page: the mistake in one sentence, what speaks for it, what was ruled out, where to look, one
-//! command.
+//! A cause in the page: the mistake in one sentence, how sure that is, what speaks for it, what takes it away, where to
+//! look, one command, and the failing cases that it explains.
 
+use super::View;
 use super::bounces;
-use super::parts::{command, escaped};
+use super::parts::{command, folded_rows};
 use crate::case::Part;
-use crate::diagnosis::Headline;
+use crate::diagnosis::{Degree, Headline};
 use crate::report::digest::capitalised;
+use crate::report::transplants::proofs;
 use crate::report::tree::RunTree;
+use crate::run::TrialRecord;
 use maud::{Markup, html};
 
-/// Cases named of those that a cause explains.
-const CASES: usize = 8;
+/// Failing cases of a cause that are listed before the others are folded away.
+const CASES: usize = 5;
+/// Sentences that are shown before the others are folded away.
+const SENTENCES: usize = 3;
 
-pub(crate) fn card(tree: &RunTree, core: &str, headline: &Headline, kicker: &str) -> Markup {
+/// The causes of all cores with the core of each, what is graded first. One failure without a cause is no headline.
+pub(super) fn told(tree: &RunTree) -> Vec<(&str, &Headline)> {
+    let of_core = |(core, diagnosis)| {
+        let headlines: &Vec<Headline> = diagnosis;
+        headlines.iter().map(move |headline| (core, headline))
+    };
+    let diagnoses = tree.diagnoses().into_iter().map(|(core, d)| (core, &d.headlines));
+    let mut told: Vec<_> =
+        diagnoses.flat_map(of_core).filter(|(_, headline)| !headline.is_alone()).collect();
+    told.sort_by_key(|(_, headline)| !headline.tier.is_graded());
+    told
+}
+
+/// The card of cause `number` of `all`.
+pub(super) fn card(
+    view: &View<'_>,
+    core: &str,
+    headline: &Headline,
+    [number, all]: [usize; 2],
+) -> Markup {
     let part = headline.explains.first().and_then(|case| Part::of_case(case));
     html! {
         div.card.first.beside[!headline.tier.is_graded()] {
             p.kicker {
-                b { (kicker) } " on " b { (core) }
-                " · " (headline.degree.word())
+                @if number == 1 { b { "Start here. " } }
+                @if all > 1 { (number) " of " (all) " causes · " }
+                @if !headline.tier.is_graded() { "not graded · " }
+                "on " b { (core) }
                 @if let Some(part) = part { " · part " (part.number) ", " (part.title) }
             }
             h3.said { (sentence(&headline.mistake)) }
-            @if let Some(plot) = bounces::plot(tree, core, headline) { (plot) }
-            dl.cause {
-                (list("seen", &headline.evidence))
-                (list("ruled out", &headline.ruled_out))
-                @if !headline.look_at.is_empty() {
-                    dt { "where" } dd { (sentence(&headline.look_at)) }
-                }
-                @if !headline.fix.is_empty() { dt { "fix" } dd { (headline.fix) } }
-                dt { "explains" } dd { (explained(core, headline)) }
-            }
+            p.degree { b { (capitalised(headline.degree.word())) } ": " (certainty(headline.degree)) "." }
+            @if let Some(plot) = bounces::plot(view.tree, core, headline) { (plot) }
+            (reasons(view.tree, core, headline))
             (command(&headline.command))
+            (cases(view, core, headline))
         }
     }
 }
 
+const fn certainty(degree: Degree) -> &'static str {
+    match degree {
+        Degree::Named => "this mistake alone predicts the numbers",
+        Degree::LooksLike => "it fits, and others may too",
+        Degree::DiffersHere => "where and by how much; no cause is known",
+    }
+}
+
+fn reasons(tree: &RunTree, core: &str, headline: &Headline) -> Markup {
+    html! {
+        dl.cause {
+            @if !headline.look_at.is_empty() {
+                dt { "where" } dd { (sentence(&headline.look_at)) }
+            }
+            @if !headline.fix.is_empty() { dt { "fix" } dd { (headline.fix) } }
+            (list("seen", &headline.evidence))
+            (list("proof", &proofs_of(tree, core, headline)))
+            (list("ruled out", &headline.ruled_out))
+        }
+    }
+}
+
+/// What putting the bench's own components in place has taken away of these failures.
+fn proofs_of(tree: &RunTree, core: &str, headline: &Headline) -> Vec<String> {
+    let record = tree.run.cores.iter().find(|record| record.spec == core);
+    record.map(|record| proofs(record, &headline.explains)).unwrap_or_default()
+}
+
 fn list(label: &str, sentences: &[String]) -> Markup {
+    let (shown, rest) = sentences.split_at(SENTENCES.min(sentences.len()));
     html! {
         @if !sentences.is_empty() {
             dt { (label) }
-            dd { @for sentence in sentences { p { (sentence) } } }
+            dd {
+                @for words in shown { p { (sentence(words)) } }
+                @if !rest.is_empty() {
+                    details.rest {
+                        summary { (rest.len()) " more" }
+                        @for words in rest { p { (sentence(words)) } }
+                    }
+                }
+            }
         }
     }
 }
 
 /// The failures, those that may follow, and how many were not tried.
-fn explained(core: &str, headline: &Headline) -> Markup {
+fn cases(view: &View<'_>, core: &str, headline: &Headline) -> Markup {
+    let explained = trials(view.tree, core, &headline.explains);
+    let following = trials(view.tree, core, &headline.may_follow);
     html! {
-        (cases(core, &headline.explains))
-        @if !headline.may_follow.is_empty() {
-            "; these may follow from it: " (cases(core, &headline.may_follow))
+        p.kicker {
+            "Failing because of it: " b { (explained.len()) }
+            @if headline.blocked > 0 { " · not tried because of it: " b { (headline.blocked) } }
         }
-        @if headline.blocked > 0 {
-            "; " (headline.blocked) " were not tried because of it"
+        (folded_rows(view, &explained, CASES))
+        @if !following.is_empty() {
+            p.kicker { "May follow from it: " b { (following.len()) } }
+            (folded_rows(view, &following, CASES))
         }
     }
 }
 
-fn cases(core: &str, cases: &[String]) -> Markup {
-    html! {
-        @for (number, case) in cases.iter().take(CASES).enumerate() {
-            @if number > 0 { ", " }
-            a href=(format!("#{}", escaped(&format!("{case}@{core}")))) { (case) }
-        }
-        @if cases.len() > CASES { " and " (cases.len() - CASES) " more" }
-    }
+fn trials<'a>(tree: &'a RunTree, core: &str, cases: &[String]) -> Vec<&'a TrialRecord> {
+    let of =
+        |case: &String| tree.trials.iter().find(|trial| trial.core == core && trial.case == *case);
+    cases.iter().filter_map(of).collect()
 }
 
 /// With a capital and a full stop.
 fn sentence(words: &str) -> String {
-    format!("{}.", capitalised(words))
+    format!("{}.", capitalised(words.trim_end_matches('.')))
 }

@@ -5,19 +5,11 @@ use crate::image::Image;
 use crate::image::heatmap::{Scale, heatmap};
 use crate::image::png::{self, Picture};
 use crate::image::tonemap::{exposure_of, tonemap};
-use crate::report::tree::RunTree;
-use crate::run::TrialRecord;
-use crate::run::record::PictureFile;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
-/// What the pictures of a page may weigh together, bytes.
-const PAGE_WEIGHT: f64 = 2.2e6;
-/// Bytes a pixel in the page, base64 included, of a noisy render and of false colour.
-const PHOTOGRAPH_WEIGHT: f64 = 2.8;
-const CHART_WEIGHT: f64 = 1.1;
-/// Pictures of failures are never made smaller than this, pixels.
-const FAILURE_SIDE: usize = 256;
+/// The longest side of the pictures that are seen without scripts, pixels.
+const SIDE: usize = 512;
 /// Steps between the middle and the end of a colour scale: no eye tells more apart, and the page is half as heavy.
 const COLOUR_STEPS: f64 = 24.0;
 
@@ -26,20 +18,18 @@ const COLOUR_STEPS: f64 = 24.0;
 pub(crate) struct Look {
     /// Brightening of radiance, powers of two.
     pub(crate) stops: f32,
-    /// The longest side, pixels; what is larger is made smaller.
-    pub(crate) side: usize,
 }
 
 impl Look {
     /// The exposure of `picture`, in half stops, so that pictures of about the same brightness are shown alike.
-    pub(crate) fn for_picture(picture: Option<&Image>, side: usize) -> Self {
+    pub(crate) fn for_picture(picture: Option<&Image>) -> Self {
         let stops = picture.map_or(0.0, exposure_of);
-        Self { stops: (stops * 2.0).floor() / 2.0, side }
+        Self { stops: (stops * 2.0).floor() / 2.0 }
     }
 
     /// The picture as an address that holds all of it. Fails if the picture is empty.
     pub(crate) fn address(self, image: &Image, role: PictureRole) -> Result<String, String> {
-        let small = image.shrunk_to(self.side);
+        let small = image.shrunk_to(SIDE);
         let picture = match scale(role) {
             None => tonemap(&small, self.stops),
             Some(scale) => false_colour(&small, scale),
@@ -83,29 +73,9 @@ fn false_colour(image: &Image, scale: Scale) -> Picture {
     heatmap(&values, image.width, scale, 1)
 }
 
-/// The side to which the pictures of a case are made smaller, so that all of the run's fit the page.
-pub(crate) fn longest_side(tree: &RunTree, case_failed: bool) -> usize {
-    let weight: f64 = tree.trials.iter().map(|trial| weight(tree, trial)).sum();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-    let side = (PAGE_WEIGHT / weight).sqrt().clamp(64.0, 512.0) as usize;
-    if case_failed { side.max(FAILURE_SIDE) } else { side }
-}
-
-/// Bytes for each pixel that the pictures of a trial add to the page. Equal references stand there once.
-fn weight(tree: &RunTree, trial: &TrialRecord) -> f64 {
-    let is_first = tree.run.cores.first().is_some_and(|core| core.spec == trial.core);
-    let of_picture = |file: &PictureFile| match file.role {
-        PictureRole::Reference if !is_first => 0.0,
-        PictureRole::Reference | PictureRole::Render => PHOTOGRAPH_WEIGHT,
-        PictureRole::SignedError | PictureRole::SampleRate => CHART_WEIGHT,
-    };
-    trial.pictures.iter().map(of_picture).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::example::Example;
 
     #[test]
     fn errors_of_opposite_sign_do_not_hide_each_other() {
@@ -125,17 +95,10 @@ mod tests {
     }
 
     #[test]
-    fn more_pictures_are_smaller_pictures_but_not_those_of_failures() {
-        let (few, many) = (Example::green().tree(), Example::of_default_size().tree());
-        assert!(longest_side(&many, false) < longest_side(&few, false));
-        assert!(longest_side(&many, true) >= FAILURE_SIDE);
-    }
-
-    #[test]
     fn exposures_are_half_stops_and_none_without_a_picture() {
         let dim = Image::new(4, 4, [0.013; 3]);
-        let doubled = f64::from(Look::for_picture(Some(&dim), 64).stops) * 2.0;
+        let doubled = f64::from(Look::for_picture(Some(&dim)).stops) * 2.0;
         assert!(doubled > 0.0 && doubled.fract() == 0.0, "{doubled}");
-        assert_eq!(Look::for_picture(None, 64), Look { stops: 0.0, side: 64 });
+        assert_eq!(Look::for_picture(None), Look { stops: 0.0 });
     }
 }

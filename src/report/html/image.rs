@@ -1,35 +1,72 @@
-//! Pictures of a case: reference, renders and errors in one viewer, to flip, to wipe, or side by side.
+//! The images of a case: reference, renders and errors in one viewer; without scripts, beside each other.
 
 use super::View;
-use super::develop::{Look, gradient, longest_side, scale};
+use super::develop::{Look, gradient, scale};
 use super::parts::escaped;
-use crate::checks::PictureRole;
+use super::pixels::Packed;
+use crate::checks::{PictureRole, RejectedCell};
+use crate::image::exr::Exr;
 use crate::image::{Image, exr};
 use crate::report::digest::CaseGroup;
 use crate::run::TrialRecord;
 use crate::run::record::PictureFile;
+use crate::scene::reference::ERROR_PREFIX;
 use crate::text::number::count;
-use maud::{Markup, html};
+use maud::{Markup, PreEscaped, html};
+use serde::Serialize;
 use std::path::Path;
 
 struct Shot<'a> {
     trial: &'a TrialRecord,
     file: &'a PictureFile,
-    image: Result<Image, String>,
+    image: Result<Noisy, String>,
+}
+
+/// An image, and the standard error of each value if it is known.
+#[derive(Clone, PartialEq)]
+struct Noisy {
+    image: Image,
+    standard_error: Option<Image>,
 }
 
 struct Frame<'a> {
     shot: Shot<'a>,
     label: String,
-    key: Option<char>,
+}
+
+/// What a viewer is given.
+#[derive(Serialize)]
+struct Payload<'a> {
+    width: usize,
+    height: usize,
+    /// The exposure that is shown at first, powers of two.
+    stops: f32,
+    frames: Vec<PackedFrame<'a>>,
+}
+
+#[derive(Serialize)]
+struct PackedFrame<'a> {
+    label: &'a str,
+    caption: &'a str,
+    role: PictureRole,
+    /// How its values become colours: as radiance, or on a scale of their own.
+    kind: &'static str,
+    /// Pixels that are NaN, and those that are infinite.
+    nan: usize,
+    infinite: usize,
+    rejected: &'a [RejectedCell],
+    image: Packed,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    noise: Option<Packed>,
 }
 
 /// The viewers of a case: one for each round of pictures that its check has kept.
 pub(crate) fn pictures(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
-    let failed = case.trials.iter().any(|trial| trial.outcome.status().is_failure());
-    let side = longest_side(view.tree, failed);
     html! {
-        @for round in 0..rounds(case) { (viewer(view, &frames(view, case, round), side)) }
+        @for round in 0..rounds(case) {
+            @let name = if round == 0 { "images".to_owned() } else { format!("images-{}", round + 1) };
+            (viewer(view, &frames(view, case, round), &format!("{}:{name}", case.first().case)))
+        }
     }
 }
 
@@ -53,17 +90,18 @@ fn frames<'a>(view: &View<'_>, case: &CaseGroup<'a>, round: usize) -> Vec<Frame<
     for trial in &case.trials {
         for file in trial.pictures.iter().filter(|file| round_of(trial, file) == round) {
             let path = view.tree.picture_path(trial, file);
-            let image = exr::read_image(&path).map_err(|error| error.to_string());
+            let image = exr::read(&path).and_then(|file| noisy(&file));
+            let image = image.map_err(|error| error.to_string());
             shots.push(Shot { trial, file, image });
         }
     }
     without_equal_references(&mut shots);
     shots.sort_by_key(|shot| rank(shot.file.role));
-    let role = |number: usize| shots[number].file.role;
-    let alike = |number: usize| (0..number).filter(|n| role(*n) == role(number)).count();
-    let keys: Vec<_> = (0..shots.len()).map(|number| key(role(number), alike(number))).collect();
-    let frame = |(shot, key)| Frame { label: label(&shot), key, shot };
-    shots.into_iter().zip(keys).map(frame).collect()
+    shots.into_iter().map(|shot| Frame { label: label(&shot), shot }).collect()
+}
+
+fn noisy(file: &Exr) -> Result<Noisy, crate::image::ImageError> {
+    Ok(Noisy { image: file.image()?, standard_error: file.colours(ERROR_PREFIX).ok() })
 }
 
 /// Cores that were held against the same reference share one picture of it.
@@ -100,65 +138,58 @@ fn label(shot: &Shot<'_>) -> String {
     }
 }
 
-/// The viewer's key for a picture that comes after so many of its role: 1 is the reference, 2 and 3 what was rendered,
-/// 4 and 5 its error.
-fn key(role: PictureRole, before: usize) -> Option<char> {
-    let keys = match role {
-        PictureRole::Reference => "1",
-        PictureRole::Render => "23",
-        PictureRole::SignedError => "45",
-        PictureRole::SampleRate => "",
-    };
-    keys.chars().nth(before)
-}
-
 /// What the viewer says to those who only hear it.
-const KEYS: &str = "Images. Keys 1 to 5 choose, space flips, w wipes, g shows all.";
+const ABOUT: &str = "Images. The key ? lists the keys of the viewer.";
 
-fn viewer(view: &View<'_>, frames: &[Frame<'_>], side: usize) -> Markup {
+fn viewer(view: &View<'_>, frames: &[Frame<'_>], id: &str) -> Markup {
     let radiance = frames.iter().filter(|frame| scale(frame.shot.file.role).is_none());
     let first = radiance.filter_map(|frame| frame.shot.image.as_ref().ok()).next();
-    let look = Look::for_picture(first, side);
+    let look = Look::for_picture(first.map(|noisy| &noisy.image));
     html! {
-        figure.viewer tabindex="0" aria-label=(KEYS) {
-            (tools(frames))
+        figure.viewer id=(id) tabindex="0" aria-label=(ABOUT) {
             div.frames { @for frame in frames { (frame_markup(view, frame, look)) } }
-            figcaption.faint {
-                "Radiance at " (format!("{:+.1}", look.stops)) " EV, sRGB"
-                (made_smaller(first, side)) ". "
-                span.scripted { "Click an image to see it alone, again to flip back." }
+            @if let Some(payload) = payload(frames, look) {
+                script type="application/json" { (PreEscaped(payload)) }
             }
         }
     }
 }
 
-/// That pixels were averaged, where they were.
-fn made_smaller(picture: Option<&Image>, side: usize) -> Markup {
-    let sizes = picture.map(|large| (large, large.shrunk_to(side)));
-    html! {
-        @if let Some((large, small)) = sizes && small.width != large.width {
-            ", " (small.width) " × " (small.height) " of " (large.width) " × " (large.height)
-            " pixels: the EXR files have all of them"
-        }
-    }
+/// The images in one size as the viewer reads them. Errors that it can work out itself are left out.
+fn payload(frames: &[Frame<'_>], look: Look) -> Option<String> {
+    let shown = frames.iter().filter_map(|frame| Some((frame, frame.shot.image.as_ref().ok()?)));
+    let size = shown.clone().next()?.1.image.size();
+    let same: Vec<_> = shown.filter(|(_, noisy)| noisy.image.size() == size).collect();
+    let is_radiance = |frame: &Frame<'_>| scale(frame.shot.file.role).is_none();
+    let works_out_errors =
+        same.iter().all(|(frame, noisy)| !is_radiance(frame) || noisy.standard_error.is_some());
+    let is_needed =
+        |frame: &Frame<'_>| frame.shot.file.role != PictureRole::SignedError || !works_out_errors;
+    let needed = same.into_iter().filter(|(frame, _)| is_needed(frame));
+    let frames = needed.map(|(frame, noisy)| packed(frame, noisy)).collect();
+    let payload = Payload { width: size[0], height: size[1], stops: look.stops, frames };
+    // In a page, only `<` could end a script.
+    Some(serde_json::to_string(&payload).ok()?.replace('<', "\\u003c"))
 }
 
-fn tools(frames: &[Frame<'_>]) -> Markup {
-    html! {
-        div.tools.scripted role="toolbar" aria-label="Picture" {
-            @for (number, frame) in frames.iter().enumerate() {
-                button type="button" data-show=(number) data-key=[frame.key] aria-pressed="false" {
-                    @if let Some(key) = frame.key { kbd { (key) } " " }
-                    (frame.label)
-                }
-            }
-            span.gap {}
-            button type="button" data-layout="wipe" aria-pressed="false" { kbd { "w" } " wipe" }
-            button type="button" data-layout="all" aria-pressed="false" {
-                kbd { "g" } " side by side"
-            }
-            input.wipe type="range" min="0" max="100" value="50" aria-label="Position of the wipe";
-        }
+fn packed<'a>(frame: &'a Frame<'_>, noisy: &Noisy) -> PackedFrame<'a> {
+    let Shot { file, .. } = &frame.shot;
+    let pixels = &noisy.image.pixels;
+    let with = |is: fn(f32) -> bool| pixels.iter().filter(|p| p.iter().any(|v| is(*v))).count();
+    PackedFrame {
+        label: &frame.label,
+        caption: &file.caption,
+        role: file.role,
+        kind: match file.role {
+            PictureRole::Reference | PictureRole::Render => "radiance",
+            PictureRole::SignedError => "signed",
+            PictureRole::SampleRate => "magnitude",
+        },
+        nan: with(f32::is_nan),
+        infinite: with(f32::is_infinite),
+        rejected: &file.rejected,
+        image: Packed::of(&noisy.image),
+        noise: noisy.standard_error.as_ref().map(Packed::of),
     }
 }
 
@@ -169,7 +200,7 @@ fn frame_markup(view: &View<'_>, frame: &Frame<'_>, look: Look) -> Markup {
         div.frame {
             p.label { (frame.label) }
             @match image {
-                Ok(image) => { (drawing(image, file, &frame.label, look)) }
+                Ok(noisy) => { (drawing(&noisy.image, file, &frame.label, look)) }
                 Err(error) => { p.missing { "This image cannot be shown. " (error) } }
             }
             p.faint { (file.caption) " · " (source(view, &path)) }
@@ -186,7 +217,7 @@ fn drawing(image: &Image, file: &PictureFile, label: &str, look: Look) -> Markup
             Err(error) => { p.missing { "This image cannot be shown. " (error) } }
         }
         (legend(file.role))
-        @if bad > 0 { p.bad { (count(bad, "pixel")) " not finite; NaN is magenta" } }
+        @if bad > 0 { p.bad { (count(bad, "pixel")) " not finite, in magenta" } }
     }
 }
 
@@ -210,7 +241,7 @@ fn source(view: &View<'_>, path: &Path) -> Markup {
         path.strip_prefix(view.folder).map(|path| path.to_string_lossy().replace('\\', "/"));
     html! {
         @match relative {
-            Ok(relative) => { a href=(escaped(&relative)) { (name) } }
+            Ok(relative) => { a href={ (view.up()) (escaped(&relative)) } { (name) } }
             Err(_) => { code { (name) } }
         }
     }
@@ -221,13 +252,14 @@ mod tests {
     use super::*;
     use crate::report::digest::by_case;
     use crate::report::example::Example;
+    use crate::report::html::view::Place;
     use crate::report::tree::RunTree;
 
     /// The markup of the only case with pictures.
     fn shown(example: &Example, folder: &Path) -> String {
         example.write(folder);
         let tree = RunTree::load(folder).unwrap();
-        let view = View { tree: &tree, folder };
+        let view = View::new(&tree, folder, Place::Top);
         let cases = by_case(&tree);
         let case = cases.iter().find(|case| !case.first().pictures.is_empty()).unwrap();
         pictures(&view, case).into_string()
@@ -239,8 +271,6 @@ mod tests {
         let markup = shown(&Example::green(), folder.path());
         assert_eq!(markup.matches("alt=\"reference").count(), 1);
         assert_eq!(markup.matches("<img").count(), 1 + 3 + 3);
-        let keys: Vec<_> = markup.split("data-key=\"").skip(1).map(|rest| &rest[..1]).collect();
-        assert_eq!(keys, ["1", "2", "3", "4", "5"]);
     }
 
     #[test]
@@ -250,7 +280,7 @@ mod tests {
         let tree = RunTree::load(folder.path()).unwrap();
         let trial = tree.trials.iter().find(|trial| !trial.pictures.is_empty()).unwrap();
         std::fs::remove_file(tree.picture_path(trial, &trial.pictures[1])).unwrap();
-        let view = View { tree: &tree, folder: folder.path() };
+        let view = View::new(&tree, folder.path(), Place::Top);
         let cases = by_case(&tree);
         let case = cases.iter().find(|case| case.first().case == trial.case).unwrap();
         let markup = pictures(&view, case).into_string();
@@ -262,6 +292,6 @@ mod tests {
     fn pixels_that_are_not_numbers_are_counted() {
         let folder = tempfile::tempdir().unwrap();
         let markup = shown(&Example::mixed(), folder.path());
-        assert!(markup.contains("1 pixel not finite"));
+        assert!(markup.contains("1 pixel not finite, in magenta"));
     }
 }

@@ -1,24 +1,37 @@
 //! Error rates: what every trial has spent of the probability to fail a correct core, and what it would have caught.
 
-use super::parts::link;
-use super::{Page, View};
-use crate::report::digest::{by_case, ledger, resolution_in_words, worst_resolution};
+use super::parts::case_name;
+use super::shell::Page;
+use super::view::{Place, View};
+use crate::report::digest::{
+    by_case, dearest_ledger, ledger, resolution_in_words, worst_resolution,
+};
 use crate::run::TrialRecord;
 use crate::stats::{LedgerEntry, SUITE_FALSE_ALARM, TestKind};
 use crate::text::number::{percent, probability, significant};
 use maud::{Markup, html};
 
-pub(super) static PAGE: Page =
-    Page { id: "ledger", title: "Error rates and smallest detectable errors", body };
+/// Beside the index.
+pub(super) const FILE: &str = "ledger.html";
 
-fn body(view: &View<'_>) -> Option<Markup> {
-    Some(html! {
+pub(super) fn page(view: &View<'_>) -> String {
+    let body = html! {
         (sums(view))
-        details.card.wide {
-            summary { "trial by trial" }
-            (table(view))
+        div.card.wide { (table(view)) }
+    };
+    let title = "Error rates and smallest detectable errors".to_owned();
+    Page { title, is_index: false, body }.render(view)
+}
+
+/// The probability of a false alarm, and the way to the rest.
+pub(super) fn summary(view: &View<'_>) -> Markup {
+    html! {
+        "the probability that a correct core fails any of its trials is at most "
+        (probability(dearest_ledger(view.tree).spent()))
+        @if view.place != Place::Alone {
+            ": " a href={ (view.up()) (FILE) } { "by kind of test and trial by trial" }
         }
-    })
+    }
 }
 
 /// Every core is judged for itself: a book a core.
@@ -96,15 +109,15 @@ fn table(view: &View<'_>) -> Markup {
                 th.number scope="col" { "probability spent" }
                 th scope="col" { "the smallest detectable error" }
             } }
-            tbody { @for trial in cases.iter().flat_map(|case| &case.trials) { (row(trial)) } }
+            tbody { @for trial in cases.iter().flat_map(|case| &case.trials) { (row(view, trial)) } }
         }
     }
 }
 
-fn row(trial: &TrialRecord) -> Markup {
+fn row(view: &View<'_>, trial: &TrialRecord) -> Markup {
     html! {
         tr {
-            th scope="row" { a href=(link(trial)) { (trial.case) } }
+            th scope="row" { (case_name(view, trial)) }
             td { (trial.core) }
             td.number { (probability(ledger([trial]).spent())) }
             td { (resolution_in_words(trial)) }

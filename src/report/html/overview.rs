@@ -1,33 +1,34 @@
-//! The head of the page, and the first screen: how many of what, and one cell a trial, part by part.
+//! The head of a page, and the run at a glance: how many of what, and one cell a trial, part by part.
 
-use super::parts::{badge, cell, command, link};
-use super::{Page, View};
-use crate::report::digest::{
-    PartGroup, Tally, by_part, capitalised, dearest_ledger, weakest_first,
-};
-use crate::run::{Status, TrialRecord};
-use crate::text::number::{count, duration, percent, probability};
+use super::parts::{badge, cell, command};
+use super::view::Place;
+use super::{Section, View};
+use crate::report::digest::{PartGroup, Tally, by_part};
+use crate::run::{Outcome, Status, TrialRecord};
+use crate::text::number::{count, duration};
 use maud::{Markup, html};
+use std::collections::BTreeMap;
 use std::time::{Duration, UNIX_EPOCH};
 
-pub(super) static PAGE: Page = Page { id: "overview", title: "Overview", body };
+pub(super) static SECTION: Section = Section { id: "overview", title: "Overview", body };
 
 fn body(view: &View<'_>) -> Option<Markup> {
     Some(html! {
         (unfinished(view))
-        div.top {
-            (score(view))
-            (grid(view))
-        }
+        (score(view))
+        (grid(view))
     })
 }
 
 /// The result, and who was asked what, when, on what.
-pub(crate) fn header(view: &View<'_>, headline: &str) -> Markup {
+pub(crate) fn header(view: &View<'_>, title: &str, is_index: bool) -> Markup {
     let run = &view.tree.run;
     html! {
         header {
-            h1 { (capitalised(headline)) }
+            h1 { (title) }
+            @if !is_index && view.place != Place::Alone {
+                p.facts { a href={ (view.up()) "index.html" } { "← the whole run" } }
+            }
             p.facts {
                 @for (number, core) in run.cores.iter().enumerate() {
                     @if number > 0 { " and " }
@@ -72,9 +73,6 @@ fn unfinished(view: &View<'_>) -> Markup {
     }
 }
 
-const FALSE_ALARM: &str = "the probability that a correct core fails any of its trials";
-const WEAKEST_PASS: &str = "the largest of the smallest detectable errors";
-
 fn score(view: &View<'_>) -> Markup {
     let tally = Tally::of(view.tree.graded());
     let planned = tally.total() + view.tree.missing();
@@ -82,67 +80,65 @@ fn score(view: &View<'_>) -> Markup {
         div.card.score {
             p.large { b { (tally.count(Status::Pass)) } " of " (planned) " pass" }
             ul {
-                @for (status, number) in tally.iter() {
+                @for (status, number) in tally.iter().filter(|(status, _)| *status != Status::Pass) {
                     li { (badge(status)) span.number { (number) } }
                 }
                 @if view.tree.missing() > 0 {
                     li { "no result" span.number { (view.tree.missing()) } }
                 }
-                li.fact {
-                    a href="#ledger" title=(FALSE_ALARM) { "false alarm" }
-                    span.number { "≤ " (probability(dearest_ledger(view.tree).spent())) }
-                }
-                @if let Some((trial, resolution)) = weakest_first(view.tree.graded()).first() {
-                    li.fact {
-                        a href=(link(trial)) title=(WEAKEST_PASS) { "weakest pass" }
-                        span.number { (percent(*resolution)) }
-                    }
-                }
+            }
+            (untried(view))
+        }
+    }
+}
+
+/// Why trials were not tried: how many for each reason.
+fn untried(view: &View<'_>) -> Markup {
+    let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
+    for trial in view.tree.graded() {
+        let reason = match &trial.outcome {
+            Outcome::Blocked { by } => format!("blocked by {by}"),
+            Outcome::Skipped { missing } => format!("the core lacks {}", missing.join(", ")),
+            _ => continue,
+        };
+        *reasons.entry(reason).or_default() += 1;
+    }
+    html! {
+        @if !reasons.is_empty() {
+            details.rest {
+                summary { "why these were not tried" }
+                ul { @for (reason, number) in &reasons { li { (reason) span.number { (number) } } } }
             }
         }
     }
 }
 
-/// Parts below each other, cores beside each other.
+/// Parts below each other, in each the cores.
 fn grid(view: &View<'_>) -> Markup {
-    let cores = &view.tree.run.cores;
+    let cores: Vec<_> = view.tree.run.cores.iter().filter(|core| core.problem.is_none()).collect();
     html! {
         div.card.parts {
-            table {
-                thead { tr {
-                    th scope="col" { "part" }
-                    @for core in cores { th scope="col" { (core.name) } }
-                } }
-                tbody {
-                    @for group in by_part(&view.tree.trials) {
-                        tr {
-                            th scope="row" {
-                                @if let Some(number) = group.number {
-                                    span.part-number { (number) } " "
-                                }
-                                (group.title)
-                            }
-                            @for core in cores {
-                                td data-label=(core.name) {
-                                    @if core.problem.is_some() { "no trial" }
-                                    @else { (cells(&group, &core.spec)) }
-                                }
-                            }
-                        }
-                    }
+            @for group in by_part(&view.tree.trials) {
+                h3 {
+                    @if let Some(number) = group.number { span.part-number { (number) } " " }
+                    (group.title)
+                }
+                @for core in &cores {
+                    @if cores.len() > 1 { p.core { (core.name) } }
+                    (cells(view, &group, &core.spec))
                 }
             }
         }
     }
 }
 
-fn cells(group: &PartGroup<'_>, core: &str) -> Markup {
+fn cells(view: &View<'_>, group: &PartGroup<'_>, core: &str) -> Markup {
     let trials: Vec<&TrialRecord> =
         group.trials.iter().copied().filter(|trial| trial.core == core).collect();
     let passes = Tally::of(trials.iter().copied()).count(Status::Pass);
     html! {
         div.strip {
-            span.cells { @for trial in &trials { (cell(trial)) } }
+            span.cells { @for trial in &trials { (cell(view, trial)) } }
             span.fraction {
                 @if trials.is_empty() { "no result" } @else { (passes) "/" (trials.len()) }
             }

@@ -1,5 +1,6 @@
 //! Pieces that several sections share: marks of verdicts, links to cases, commands to copy.
 
+use super::view::View;
 use crate::run::{Status, TrialRecord};
 use maud::{Markup, html};
 
@@ -29,25 +30,57 @@ pub(crate) fn badge(status: Status) -> Markup {
 }
 
 /// One trial as a small shape that leads to its case.
-pub(crate) fn cell(trial: &TrialRecord) -> Markup {
+pub(crate) fn cell(view: &View<'_>, trial: &TrialRecord) -> Markup {
     let status = trial.outcome.status();
     let words = format!("{} on {}: {}", trial.case, trial.core, status.word());
     html! {
-        a class={ "cell " (class(status)) } href=(link(trial)) title=(words) aria-label=(words) {}
+        @match view.link(trial) {
+            Some(link) => { a class={ "cell " (class(status)) } href=(link) title=(words) {} }
+            None => { span class={ "cell " (class(status)) } title=(words) {} }
+        }
     }
 }
 
-/// The anchor of a case: its name, which always has a slash, as no section has.
-pub(crate) fn case_anchor(trial: &TrialRecord) -> String {
-    trial.case.clone()
+/// The name of a trial's case, which leads to it.
+pub(crate) fn case_name(view: &View<'_>, trial: &TrialRecord) -> Markup {
+    html! {
+        @match view.link(trial) {
+            Some(link) => { a href=(link) { (trial.case) } }
+            None => { (trial.case) }
+        }
+    }
 }
 
-pub(crate) fn anchor(trial: &TrialRecord) -> String {
-    format!("{}@{}", trial.case, trial.core)
+/// Trials below each other: how each ended, and what was found.
+pub(crate) fn trial_rows(view: &View<'_>, trials: &[&TrialRecord]) -> Markup {
+    html! {
+        table.small.rows {
+            @for trial in trials {
+                tr {
+                    td.mark { (badge(trial.outcome.status())) }
+                    td {
+                        (case_name(view, trial))
+                        @if view.tree.run.cores.len() > 1 { span.faint { " on " (trial.core) } }
+                        p.said.faint { (trial.outcome.statement()) }
+                    }
+                }
+            }
+        }
+    }
 }
 
-pub(crate) fn link(trial: &TrialRecord) -> String {
-    format!("#{}", escaped(&anchor(trial)))
+/// The first of some trials, and the others folded away.
+pub(crate) fn folded_rows(view: &View<'_>, trials: &[&TrialRecord], shown: usize) -> Markup {
+    let (first, rest) = trials.split_at(shown.min(trials.len()));
+    html! {
+        (trial_rows(view, first))
+        @if !rest.is_empty() {
+            details.rest {
+                summary { (rest.len()) " more" }
+                (trial_rows(view, rest))
+            }
+        }
+    }
 }
 
 /// `text` as it may stand in an address.

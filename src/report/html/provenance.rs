@@ -1,7 +1,7 @@
 //! Everything needed to repeat the run: cores, conventions, seeds, versions, machine.
 
 use super::overview::date;
-use super::{Page, View};
+use super::{Section, View, ledger};
 use crate::contract::{Conventions, Precision};
 use crate::run::RunRecord;
 use crate::run::record::CoreRecord;
@@ -9,7 +9,7 @@ use crate::text::number::duration;
 use crate::worker::Confinement;
 use maud::{Markup, html};
 
-pub(super) static PAGE: Page = Page { id: "run", title: "This run", body };
+pub(super) static SECTION: Section = Section { id: "run", title: "This run", body };
 
 fn body(view: &View<'_>) -> Option<Markup> {
     let run = &view.tree.run;
@@ -30,6 +30,7 @@ fn body(view: &View<'_>) -> Option<Markup> {
                     (run.machine.threads) " hardware threads"
                 }
                 @for core in &run.cores { (about(core)) }
+                dt { "error rates" } dd { (ledger::summary(view)) }
             }
         }
     })

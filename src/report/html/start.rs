@@ -1,9 +1,10 @@
-//! The card that says what to look at first; when nothing failed, what is left to look at.
+//! What to look at first: a card a cause with the failing cases that it explains; when nothing failed, what is left to
+//! look at.
 
 use super::case::{measures, resolution};
-use super::cause;
-use super::parts::{badge, cell, command, link};
-use super::{Page, View};
+use super::cause::{self, told};
+use super::parts::{badge, case_name, cell, command, folded_rows};
+use super::{Section, View};
 use crate::case::Part;
 use crate::diagnosis::Headline;
 use crate::report::digest::{Tally, failures, slowest_first, weakest_first};
@@ -16,36 +17,37 @@ use maud::{Markup, html};
 
 /// Measures in the card; the case has them all.
 const MEASURES: usize = 4;
-const FURTHER: usize = 6;
-/// Rows of the small tables of a green run.
-const ROWS: usize = 5;
+/// Trials that are listed before the others are folded away.
+const ROWS: usize = 6;
 
-pub(super) static PAGE: Page = Page { id: "start", title: "Start here", body };
+pub(super) static SECTION: Section = Section { id: "start", title: "Start here", body };
 
 fn body(view: &View<'_>) -> Option<Markup> {
     let absent: Vec<_> = view.tree.absent_cores().collect();
     if absent.is_empty() {
-        return of_trials(view);
+        return Some(of_trials(view));
     }
-    let present = View { tree: &view.tree.of_present_cores(), folder: view.folder };
+    let present = View { tree: &view.tree.of_present_cores(), ..*view };
     Some(html! {
         @for core in absent { (does_not_start(core)) }
-        @if failures(present.tree).is_empty() { @if let Some(causes) = causes(&present) { (causes) } }
-        @else if let Some(card) = of_trials(&present) { (card) }
+        @if present.tree.graded().next().is_some() { (of_trials(&present)) }
     })
 }
 
 /// What to look at first in the answers of cores.
-fn of_trials(view: &View<'_>) -> Option<Markup> {
+fn of_trials(view: &View<'_>) -> Markup {
     let tally = Tally::of(view.tree.graded());
-    let causes = causes(view);
-    match failures(view.tree).split_first() {
-        Some(_) if causes.is_some() => causes,
-        Some((first, others)) => Some(html! { (failed(first, others)) (transplants(view)) }),
-        None if tally.total() == 0 => causes,
-        None => {
-            Some(html! { (not_failed(view, &tally)) @if let Some(causes) = causes { (causes) } })
+    let told = told(view.tree);
+    let failures = failures(view.tree);
+    html! {
+        @if failures.is_empty() && tally.total() > 0 { (not_failed(view, &tally)) }
+        @for (number, (core, headline)) in told.iter().enumerate() {
+            (cause::card(view, core, headline, [number + 1, told.len()]))
         }
+        @if told.is_empty() && let Some((first, others)) = failures.split_first() {
+            (failed(view, first, others))
+        } @else { (unexplained(view, &failures)) }
+        (transplants(view, &told))
     }
 }
 
@@ -62,45 +64,32 @@ fn does_not_start(core: AbsentCore<'_>) -> Markup {
     }
 }
 
-/// The causes of every core, and the failures that no cause explains.
-fn causes(view: &View<'_>) -> Option<Markup> {
+/// Failures that no cause explains.
+fn unexplained(view: &View<'_>, failures: &[&TrialRecord]) -> Markup {
     let diagnoses = view.tree.diagnoses();
-    let mut told: Vec<_> = diagnoses
-        .iter()
-        .flat_map(|(core, diagnosis)| diagnosis.headlines.iter().map(move |h| (*core, h)))
-        .filter(|(_, headline)| !headline.is_alone())
-        .collect();
-    told.sort_by_key(|(_, headline)| !headline.tier.is_graded());
-    let unexplained = |trial: &&TrialRecord| {
+    let is_open = |trial: &&TrialRecord| {
         let of_core = diagnoses.iter().filter(|(core, _)| *core == trial.core);
         of_core.clone().any(|(_, diagnosis)| diagnosis.unexplained.contains(&trial.case))
     };
-    let others: Vec<_> = failures(view.tree).into_iter().filter(unexplained).collect();
-    let kicker = |number: usize, headline: &Headline| match (headline.tier.is_graded(), number) {
-        (false, _) => "Not graded.",
-        (true, 0) => "Start here.",
-        (true, _) => "Then.",
-    };
-    (!told.is_empty()).then(|| {
-        html! {
-            @for (number, (core, headline)) in told.iter().enumerate() {
-                (cause::card(view.tree, core, headline, kicker(number, headline)))
-            }
-            (transplants(view))
-            @if !others.is_empty() {
-                div.card.first { (further(&others)) }
+    let open: Vec<_> = failures.iter().copied().filter(is_open).collect();
+    html! {
+        @if !open.is_empty() {
+            div.card.beside {
+                p.kicker { "No cause is known for these, in the order in which one part rests on another" }
+                (folded_rows(view, &open, ROWS))
             }
         }
-    })
+    }
 }
 
-/// What the bench's own components take away of the failures of each core.
-fn transplants(view: &View<'_>) -> Markup {
+/// What the bench's own components take away of the failures of each core, all together.
+fn transplants(view: &View<'_>, told: &[(&str, &Headline)]) -> Markup {
     html! {
         @for core in &view.tree.run.cores {
             @let sentences = sentences(core);
-            @if !sentences.is_empty() {
-                div.card.first {
+            // One that takes all of them away stands in its card.
+            @if sentences.len() > 1 || told.is_empty() && !sentences.is_empty() {
+                div.card.proof {
                     p.kicker { b { "Proof. " } "Failures of " b { (core.name) } ", tried again" }
                     ul { @for sentence in &sentences { li { (sentence) } } }
                 }
@@ -109,12 +98,12 @@ fn transplants(view: &View<'_>) -> Markup {
     }
 }
 
-fn failed(first: &TrialRecord, others: &[&TrialRecord]) -> Markup {
+fn failed(view: &View<'_>, first: &TrialRecord, others: &[&TrialRecord]) -> Markup {
     html! {
         div.card.first {
             p.kicker {
                 b { "Start here. " } (badge(first.outcome.status())) " "
-                a href=(link(first)) { (first.case) } " on " b { (first.core) }
+                (case_name(view, first)) " on " b { (first.core) }
                 @if let Some(part) = Part::of_case(&first.case) {
                     " · part " (part.number) ", " (part.title)
                 }
@@ -126,20 +115,9 @@ fn failed(first: &TrialRecord, others: &[&TrialRecord]) -> Markup {
                 (resolution(finding))
             }
             (command(&first.rerun))
-            (further(others))
-        }
-    }
-}
-
-fn further(others: &[&TrialRecord]) -> Markup {
-    html! {
-        @if !others.is_empty() {
-            p.kicker { "Next, in the order in which one part rests on another" }
-            ul.further {
-                @for trial in others.iter().take(FURTHER) { (item(trial)) }
-                @if others.len() > FURTHER {
-                    li { a href="#trials" { "and " (others.len() - FURTHER) " more" } }
-                }
+            @if !others.is_empty() {
+                p.kicker { "Next, in the order in which one part rests on another" }
+                (folded_rows(view, others, ROWS))
             }
         }
     }
@@ -148,37 +126,19 @@ fn further(others: &[&TrialRecord]) -> Markup {
 fn not_failed(view: &View<'_>, tally: &Tally) -> Markup {
     let passes = tally.count(Status::Pass);
     let all_good = passes == tally.total() && view.tree.is_finished();
+    let silent = |trial: &&TrialRecord| trial.outcome.status() != Status::Pass;
+    let unknown: Vec<_> = view.tree.graded().filter(silent).collect();
     html! {
         div class={ "card " (if all_good { "good" } else { "open" }) } {
             h3 {
                 @if all_good { "Every trial passes." }
                 @else { "Nothing fails, but not everything is decided." }
             }
-            @if !all_good { (unknown(view)) }
+            (folded_rows(view, &unknown, 2 * ROWS))
             div.two {
                 (weakest(view))
                 (slowest(view))
             }
-        }
-    }
-}
-
-/// The trials that say nothing about their core.
-fn unknown(view: &View<'_>) -> Markup {
-    let silent = |trial: &&TrialRecord| trial.outcome.status() != Status::Pass;
-    html! {
-        ul.further {
-            @for trial in view.tree.graded().filter(silent).take(2 * FURTHER) { (item(trial)) }
-        }
-    }
-}
-
-fn item(trial: &TrialRecord) -> Markup {
-    html! {
-        li {
-            (badge(trial.outcome.status())) " "
-            a href=(link(trial)) { (trial.case) } " on " (trial.core)
-            ": " span.said { (trial.outcome.statement()) }
         }
     }
 }
@@ -189,7 +149,7 @@ fn weakest(view: &View<'_>) -> Markup {
             h4 { "Weakest passes, with the smallest detectable error of each" }
             table.small {
                 @for (trial, resolution) in weakest_first(view.tree.graded()).iter().take(ROWS) {
-                    tr { (named(trial)) td.number { (percent(*resolution)) } }
+                    tr { (named(view, trial)) td.number { (percent(*resolution)) } }
                 }
             }
         }
@@ -202,16 +162,16 @@ fn slowest(view: &View<'_>) -> Markup {
             h4 { "Slowest trials" }
             table.small {
                 @for trial in slowest_first(&view.tree.trials).iter().take(ROWS) {
-                    tr { (named(trial)) td.number { (duration(trial.timing.seconds)) } }
+                    tr { (named(view, trial)) td.number { (duration(trial.timing.seconds)) } }
                 }
             }
         }
     }
 }
 
-fn named(trial: &TrialRecord) -> Markup {
+fn named(view: &View<'_>, trial: &TrialRecord) -> Markup {
     html! {
-        td.mark { (cell(trial)) }
-        td { a href=(link(trial)) { (trial.case) } span.faint { " on " (trial.core) } }
+        td.mark { (cell(view, trial)) }
+        td { (case_name(view, trial)) span.faint { " on " (trial.core) } }
     }
 }

@@ -1,17 +1,18 @@
 //! The table of all trials, which can be searched.
 
-use super::parts::{badge, class, glyph, link};
-use super::{Page, View};
-use crate::report::digest::{Tally, by_case};
-use crate::run::TrialRecord;
+use super::parts::{badge, case_name, class, glyph};
+use super::{Section, View};
+use crate::case::Part;
+use crate::report::digest::Tally;
+use crate::run::{Status, TrialRecord};
 use crate::text::number::duration;
 use maud::{Markup, html};
 
-pub(super) static PAGE: Page = Page { id: "trials", title: "All trials", body };
+pub(super) static SECTION: Section = Section { id: "trials", title: "All trials", body };
 
 fn body(view: &View<'_>) -> Option<Markup> {
-    let cases = by_case(view.tree);
-    let trials = cases.iter().flat_map(|case| &case.trials);
+    let trials = failures_first(view);
+    let many = view.tree.run.cores.len() > 1;
     Some(html! {
         (filter(&Tally::of(&view.tree.trials)))
         div.card.wide {
@@ -19,14 +20,28 @@ fn body(view: &View<'_>) -> Option<Markup> {
                 thead { tr {
                     th scope="col" { "outcome" }
                     th scope="col" { "case" }
-                    th scope="col" { "core" }
+                    @if many { th scope="col" { "core" } }
                     th scope="col" { "what was found" }
                     th.number scope="col" { "time" }
                 } }
-                tbody { @for trial in trials { (row(trial)) } }
+                tbody { @for trial in trials { (row(view, trial, many)) } }
             }
         }
     })
+}
+
+/// What fails, what is not decided, what was not asked, what passes; each in the order of parts.
+fn failures_first<'a>(view: &View<'a>) -> Vec<&'a TrialRecord> {
+    let mut trials: Vec<_> = view.tree.trials.iter().collect();
+    let rank = |status: Status| match status {
+        Status::Crashed | Status::TimedOut | Status::Fail => 0,
+        Status::Broken | Status::Inconclusive => 1,
+        Status::Blocked => 2,
+        Status::Skipped => 3,
+        Status::Pass => 4,
+    };
+    trials.sort_by_key(|t| (rank(t.outcome.status()), Part::position(&t.case), &t.case));
+    trials
 }
 
 /// Shown only where scripts run: without them it would do nothing.
@@ -45,13 +60,13 @@ fn filter(tally: &Tally) -> Markup {
     }
 }
 
-fn row(trial: &TrialRecord) -> Markup {
+fn row(view: &View<'_>, trial: &TrialRecord, many: bool) -> Markup {
     let status = trial.outcome.status();
     html! {
         tr data-status=(class(status)) {
             td.mark { (badge(status)) }
-            th scope="row" { a href=(link(trial)) { (trial.case) } }
-            td { (trial.core) }
+            th scope="row" { (case_name(view, trial)) }
+            @if many { td.core { (trial.core) } }
             td.said { (trial.outcome.statement()) }
             td.number { (duration(trial.timing.seconds)) }
         }

@@ -22,5 +22,6 @@ pub use codes::{CodeReference, CodeReport, CodeSettings, Deciphered, NoiseSource
 pub use comparison::{CodesCompared, Comparison, Question, Side, compare};
 pub use difference::{DifferenceReport, OddPixels, Pattern, PatternReport, Sample};
 pub use draw::{ImageDraw, ImageEffort};
+pub(crate) use report::CellScore;
 pub use report::{GlobalRatio, ImageReport, Impossible, ScaleReport};
 pub use screen::{Reference, judge_image, judge_image_pair};

@@ -69,6 +69,8 @@ pub(crate) struct CellScore {
     pub(crate) band: f64,
     /// How far outside the band the mean is, in standard errors of the screen's runs.
     pub(crate) t: f64,
+    /// How often a correct core would be so far off in this cell.
+    pub(crate) p: f64,
 }
 
 /// A confirmation on fresh runs of the cells frozen at one scale.

@@ -10,14 +10,14 @@ use super::report::{
 };
 use super::target::{Frozen, Target};
 use crate::image::Image;
-use crate::stats::law::Spread;
+use crate::stats::law::{Spread, student_tail};
 use crate::stats::plan::level::MISS_LEVEL;
 use crate::stats::{Moments, Stage, Verdict, normal_upper, student_upper};
 
 /// Cells of a scale that are confirmed together.
 const MOST_FROZEN: usize = 64;
 /// Cells of a scale that are reported.
-const MOST_REPORTED: usize = 16;
+const MOST_REPORTED: usize = 256;
 
 struct Sampled {
     spread: Spread,
@@ -175,7 +175,6 @@ impl<'a, E> Screening<'a, E> {
         };
         let mut outside: Vec<(usize, f64)> = range.filter_map(t).collect();
         outside.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        outside.truncate(MOST_FROZEN);
         outside
     }
 
@@ -188,7 +187,9 @@ impl<'a, E> Screening<'a, E> {
             let departure = self.target.departure(index, noise.spread.mean(index));
             (index, t.signum(), departure.abs() / error.powi(2))
         };
-        Frozen { terms: self.extremes(scale, noise).into_iter().map(term).collect() }
+        Frozen {
+            terms: self.extremes(scale, noise).into_iter().take(MOST_FROZEN).map(term).collect(),
+        }
     }
 
     fn cell_score(&self, scale: usize, index: usize, spread: &Spread, t: f64) -> CellScore {
@@ -203,6 +204,7 @@ impl<'a, E> Screening<'a, E> {
             band: self.target.bands[index],
             // Infinity, where nothing varied, does not survive JSON.
             t: t.clamp(-1e9, 1e9),
+            p: 2.0 * student_tail(t.abs(), spread.freedom()),
         }
     }
 

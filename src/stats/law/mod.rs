@@ -11,10 +11,10 @@ mod stopping;
 pub use binomial::{binomial_at_least, binomial_at_most, share_interval};
 pub use histogram::{CellProbabilities, Counts, SphereCells};
 pub use moments::Moments;
-pub(super) use quantile::upper_median;
 pub use quantile::{
     chi_square_tail, chi_square_upper, detectable_noncentrality, fisher_upper, normal_upper,
     student_upper,
 };
+pub(super) use quantile::{student_tail, upper_median};
 pub(super) use spread::Spread;
 pub use stopping::{StoppingLaw, TwoValues};

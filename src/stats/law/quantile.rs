@@ -15,6 +15,11 @@ pub fn student_upper(level: f64, freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |law| -law.inverse_cdf(level))
 }
 
+/// The probability that Student's t with `freedom` degrees of freedom exceeds `value`; NaN for NaN.
+pub(crate) fn student_tail(value: f64, freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |law| law.sf(value))
+}
+
 /// What χ² with `freedom` degrees of freedom exceeds with probability `level`. Infinite without any
 /// freedom.
 pub fn chi_square_upper(level: f64, freedom: f64) -> f64 {

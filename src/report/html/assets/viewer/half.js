@@ -1,0 +1,36 @@
+// Half floats: what they are worth, and how images come out of the page.
+
+/** The value of each of the 65,536 half floats. */
+const HALVES = Float32Array.from({ length: 65536 }, (_, code) => halfValue(code));
+
+function halfValue(code) {
+  const sign = code & 0x8000 ? -1 : 1;
+  const exponent = (code >> 10) & 31;
+  const fraction = code & 1023;
+  if (exponent === 0) return sign * fraction * 2 ** -24;
+  if (exponent === 31) return fraction ? NaN : sign * Infinity;
+  return sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
+}
+
+const isFiniteHalf = code => (code & 0x7c00) !== 0x7c00;
+
+/**
+ * An image out of the page: codes of half floats, red, green and blue of each pixel, times a power of two.
+ * They were packed as planes of high bytes, then of low bytes, for neighbours are alike.
+ */
+async function unpack({ data, exponent }, pixels) {
+  const deflated = Uint8Array.from(atob(data), letter => letter.charCodeAt(0));
+  const stream = new Blob([deflated]).stream().pipeThrough(new DecompressionStream('deflate'));
+  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const codes = new Uint16Array(3 * pixels);
+  const low = 3 * pixels;
+  for (let channel = 0; channel < 3; channel++) {
+    for (let pixel = 0, at = channel * pixels; pixel < pixels; pixel++, at++) {
+      codes[3 * pixel + channel] = bytes[at] << 8 | bytes[low + at];
+    }
+  }
+  return { codes, scale: 2 ** exponent };
+}
+
+const valueOf = (image, pixel, channel) => HALVES[image.codes[3 * pixel + channel]] * image.scale;
+const pixelOf = (image, pixel) => [0, 1, 2].map(channel => valueOf(image, pixel, channel));

@@ -1,0 +1,120 @@
+//! What all pages share: head, header, scripts.
+
+use super::assets::{EARLY_SCRIPT, FOLDER, STYLE, pages_script, viewer_script};
+use super::cause::told;
+use super::overview;
+use super::view::{Place, View};
+use crate::report::digest::{Tally, capitalised};
+use crate::report::tree::RunTree;
+use crate::run::Status;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+pub(super) struct Page {
+    pub(super) title: String,
+    /// Whether it is the page of the run, and not one that it leads to.
+    pub(super) is_index: bool,
+    pub(super) body: Markup,
+}
+
+impl Page {
+    pub(super) fn render(self, view: &View<'_>) -> String {
+        let tree = view.tree;
+        let cores: Vec<_> = tree.run.cores.iter().map(|core| core.spec.as_str()).collect();
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta name="viewport" content="width=device-width,initial-scale=1";
+                    meta name="color-scheme" content="light dark";
+                    title { (self.title) " · " (cores.join(" and ")) " · furnace" }
+                    link rel="icon" href=(icon(&Tally::of(tree.graded())));
+                    (self.style(view))
+                    script { (PreEscaped(EARLY_SCRIPT)) }
+                }
+                body {
+                    a.skip href="#main" { "Skip to the results" }
+                    (overview::header(view, &self.title, self.is_index))
+                    main #main .index[self.is_index] { (self.body) }
+                    (self.scripts(view))
+                }
+            }
+        };
+        // Control characters are no text in HTML; they come from cores that print to terminals.
+        page.into_string()
+            .replace(|c: char| c.is_control() && !matches!(c, '\n' | '\t'), "\u{fffd}")
+    }
+
+    /// The index is often sent alone: it has its style in itself.
+    fn style(&self, view: &View<'_>) -> Markup {
+        html! {
+            @if self.is_index { style { (PreEscaped(STYLE)) } }
+            @else { link rel="stylesheet" href={ (view.up()) (FOLDER) "/report.css" }; }
+        }
+    }
+
+    fn scripts(&self, view: &View<'_>) -> Markup {
+        html! {
+            @if self.is_index { script { (PreEscaped(pages_script())) } }
+            @else { script src={ (view.up()) (FOLDER) "/page.js" } {} }
+            @match (view.place, self.is_index) {
+                (Place::Alone, _) => { script { (PreEscaped(viewer_script())) } }
+                (_, true) => {}
+                _ => { script src={ (view.up()) (FOLDER) "/viewer.js" } {} }
+            }
+        }
+    }
+}
+
+/// The first cause, and how many fail; a run that was cut off says so first, and claims nothing of the rest.
+pub(super) fn index_title(tree: &RunTree) -> String {
+    let tally = Tally::of(tree.graded());
+    if !tree.is_finished() {
+        return unfinished(tree, &tally);
+    }
+    let absent = tree.absent_cores().next();
+    let counted = counted(&tally);
+    if let Some(core) = absent {
+        return format!("{} fails to start: no trial could run", core.spec);
+    }
+    let graded = told(tree).into_iter().filter(|(_, headline)| headline.tier.is_graded());
+    let mut mistakes: Vec<_> = graded.map(|(_, headline)| &headline.mistake).collect();
+    mistakes.dedup();
+    match mistakes[..] {
+        [] => capitalised(&tally.headline()),
+        [first] => format!("{}: {counted}", capitalised(first)),
+        [first, _] => format!("{}, and one more cause: {counted}", capitalised(first)),
+        [first, ..] => {
+            format!("{}, and {} more causes: {counted}", capitalised(first), mistakes.len() - 1)
+        }
+    }
+}
+
+/// `22 of 195 trials fail, 53 not tried`
+fn counted(tally: &Tally) -> String {
+    let blocked = tally.count(Status::Blocked);
+    let untried = (blocked > 0).then(|| format!(", {blocked} not tried"));
+    format!("{}{}", tally.headline(), untried.unwrap_or_default())
+}
+
+fn unfinished(tree: &RunTree, tally: &Tally) -> String {
+    let fail = match tally.failures() {
+        0 => "none fails".to_owned(),
+        1 => "1 fails".to_owned(),
+        failures => format!("{failures} fail"),
+    };
+    format!("Unfinished at {} of {} trials: {fail} so far", tally.total(), tree.run.trials)
+}
+
+/// A tab's icon: shape and colour of the result.
+fn icon(tally: &Tally) -> String {
+    let shape = match () {
+        () if tally.failures() > 0 => "%3Ccircle cx='8' cy='8' r='7' fill='%23b3261e'/%3E",
+        () if tally.count(Status::Pass) == tally.total() => {
+            "%3Crect x='2' y='2' width='12' height='12' rx='2' fill='%231a7f4b'/%3E"
+        }
+        () => "%3Cpath d='M8 0l8 8-8 8-8-8z' fill='%238a5a00'/%3E",
+    };
+    let svg = "%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 16 16'%3E";
+    format!("data:image/svg+xml,{svg}{shape}%3C/svg%3E")
+}

@@ -1,0 +1,74 @@
+//! What a page shows of which run, and how it reaches the other pages from where it stands.
+
+use super::parts::escaped;
+use crate::report::digest::CaseGroup;
+use crate::report::tree::RunTree;
+use crate::run::TrialRecord;
+use std::path::Path;
+
+/// Where a page stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// In the folder of the report.
+    Top,
+    /// So many folders below it.
+    Below(usize),
+    /// Anywhere, with no other page beside it.
+    Alone,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View<'a> {
+    pub(crate) tree: &'a RunTree,
+    /// The folder of the report.
+    pub(crate) folder: &'a Path,
+    pub(crate) place: Place,
+}
+
+impl<'a> View<'a> {
+    pub(super) const fn new(tree: &'a RunTree, folder: &'a Path, place: Place) -> Self {
+        Self { tree, folder, place }
+    }
+
+    /// The way to the folder of the report.
+    pub(super) fn up(&self) -> String {
+        match self.place {
+            Place::Below(depth) => "../".repeat(depth),
+            Place::Top | Place::Alone => String::new(),
+        }
+    }
+
+    /// Where the page on a case stands below the folder of the report.
+    pub(super) fn file_of(case: &str) -> String {
+        format!("case/{case}.html")
+    }
+
+    /// The address of a trial; none where the page that stands alone leaves it out.
+    pub(super) fn link(&self, trial: &TrialRecord) -> Option<String> {
+        let is_shown = || self.tree.trials.iter().any(|t| t.case == trial.case && is_told(t));
+        let anchor = format!("#{}", escaped(&anchor(trial)));
+        match self.place {
+            Place::Alone => is_shown().then_some(anchor),
+            Place::Top | Place::Below(_) => {
+                let file = escaped(&Self::file_of(&trial.case));
+                let anchor = if self.tree.run.cores.len() > 1 { &anchor } else { "" };
+                Some(format!("{}{file}{anchor}", self.up()))
+            }
+        }
+    }
+}
+
+/// Whether the single file tells of a trial.
+pub(super) fn is_told(trial: &TrialRecord) -> bool {
+    trial.outcome.status().is_failure()
+}
+
+/// Whether the single file tells of a case.
+pub(super) fn has_failed(case: &CaseGroup<'_>) -> bool {
+    case.trials.iter().any(|trial| is_told(trial))
+}
+
+/// The anchor of a trial: case and core. It has a slash, as no section has.
+pub(super) fn anchor(trial: &TrialRecord) -> String {
+    format!("{}@{}", trial.case, trial.core)
+}

@@ -193,7 +193,7 @@ enum { /* furnace_material.kind */
 
 /* Diffuse, mirror and conductor scatter on both sides; emission leaves the front side only. */
 typedef struct furnace_material {
-   const char  *name;           /* as the scene file has it, for messages */
+   const char  *name;           /* for messages: what it is called where it is handed over */
    uint32_t     kind;
    uint32_t     emits;          /* 1: an emitter of radiance `emission`; 0: no emission */
    furnace_rgb  reflectance;    /* fraction of light reflected; glass: times the Fresnel reflectance */
@@ -239,7 +239,8 @@ typedef struct furnace_light {
    double       reserved[2];
 } furnace_light;
 
-/* Shapes are numbered meshes first, then spheres; lights as `lights` lists them. */
+/* Shapes are numbered meshes first, then spheres; lights as `lights` lists them. Every run turns and relabels
+ * its scenes by its seed, and rays, points and cameras turn along: names say nothing of a case. */
 typedef struct furnace_scene {
    uint32_t struct_size;
    uint32_t material_count, mesh_count, sphere_count, light_count, reserved;

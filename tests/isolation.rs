@@ -499,7 +499,6 @@ fn a_core_that_knows_published_answers_by_heart_is_found_out() {
     let trials = lair.run(&[lair.core_of(&library, "crib")], &filters).unwrap();
     assert_eq!(trials.len(), 2);
     for trial in trials {
-        let expected = if trial.case.contains("overhead") { Status::Pass } else { Status::Fail };
-        assert_eq!(trial.outcome.status(), expected, "{}: {:?}", trial.case, trial.outcome);
+        assert_eq!(trial.outcome.status(), Status::Fail, "{}: {:?}", trial.case, trial.outcome);
     }
 }

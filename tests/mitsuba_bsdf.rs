@@ -54,6 +54,7 @@ impl Mitsuba {
         let lost = |error: std::io::Error| CoreError::Crashed {
             how: error.to_string(),
             during: question.to_owned(),
+            element: None,
         };
         self.child.stdin.as_mut().unwrap().write_all(&bytes).map_err(lost)?;
         let mut answer = vec![0; rows.len() * width * 8];

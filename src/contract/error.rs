@@ -23,12 +23,14 @@ pub enum CoreError {
     #[error("the core broke the contract: {0}")]
     BrokeContract(Box<Breach>),
     /// The core stopped working while it was answering.
-    #[error("the core crashed ({how}) during {during}")]
+    #[error("the core crashed ({how}) during {during}{}", numbers_of(.element.as_deref()))]
     Crashed {
         /// A signal, an exit code, a panic's message.
         how: String,
         /// The request it was answering.
         during: String,
+        /// The one element of its batch that it dies of, if there is one.
+        element: Option<Box<Culprit>>,
     },
     /// No answer came in time.
     #[error("no answer within {limit:?} during {during}")]
@@ -38,6 +40,20 @@ pub enum CoreError {
         /// The request it was answering.
         during: String,
     },
+}
+
+/// The element of a batch that a core dies of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Culprit {
+    /// From 0.
+    pub(crate) index: usize,
+    /// What it is, in numbers.
+    pub(crate) numbers: String,
+}
+
+/// What follows the request in a sentence.
+pub(crate) fn numbers_of(culprit: Option<&Culprit>) -> String {
+    culprit.map_or(String::new(), |culprit| format!(": {}", culprit.numbers))
 }
 
 impl From<Breach> for CoreError {

@@ -31,6 +31,7 @@ mod names;
 pub mod question;
 pub mod questions;
 mod settings;
+pub(crate) mod turned;
 pub mod validate;
 
 pub use batch::{
@@ -43,7 +44,8 @@ pub use capability::{
     SmithTerm,
 };
 pub use components::Components;
-pub use error::{CoreError, Result};
+pub(crate) use error::numbers_of;
+pub use error::{CoreError, Culprit, Result};
 pub use film::Film;
 pub use settings::{
     Acceleration, AdaptiveSettings, BuildStats, DirectSampling, IntegratorSettings, RenderSettings,

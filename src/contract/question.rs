@@ -3,8 +3,8 @@
 pub(crate) use super::questions::{each_question, questions};
 pub(crate) use super::{
     AdaptiveMean, AdaptiveSettings, BoxHit, BsdfQuery, BsdfSample, BsdfValue, Capabilities,
-    CoreError, DirectionSample, Film, Hit, IntegratorSettings, LightSample, Primitive, Randomness,
-    Ray, RenderSettings, Result, Sampler, TraversalStats,
+    CoreError, Culprit, DirectionSample, Film, Hit, IntegratorSettings, LightSample, Primitive,
+    Randomness, Ray, RenderSettings, Result, Sampler, TraversalStats,
 };
 pub(crate) use crate::image::encoding::Encoding;
 pub(crate) use crate::image::png::Picture;

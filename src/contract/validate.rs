@@ -99,7 +99,8 @@ fn guarded<T>(during: &str, request: impl FnOnce() -> Result<T>) -> Result<T> {
             .map(ToString::to_string)
             .or_else(|| panic.downcast_ref::<String>().cloned())
             .unwrap_or_else(|| "a panic without a message".to_owned());
-        Err(CoreError::Crashed { how: format!("panicked: {message}"), during: during.to_owned() })
+        let how = format!("panicked: {message}");
+        Err(CoreError::Crashed { how, during: during.to_owned(), element: None })
     })
 }
 

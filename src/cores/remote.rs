@@ -60,9 +60,9 @@ impl Remote {
         let mut told = Answer::Done;
         answer.receive(name, capabilities, &mut |wanted| {
             told = match self.worker.ask(request, wanted) {
-                Err(CoreError::Crashed { how, during }) => {
-                    let place = self.search(request, wanted).unwrap_or_default();
-                    return Err(CoreError::Crashed { how, during: during + &place });
+                Err(CoreError::Crashed { how, during, .. }) => {
+                    let (place, element) = self.search(request, wanted).unwrap_or_default();
+                    return Err(CoreError::Crashed { how, during: during + &place, element });
                 }
                 answer => answer?,
             };
@@ -71,8 +71,12 @@ impl Remote {
         T::of(&told).ok_or_else(|| out_of_place(&told))
     }
 
-    /// Where in the batch the core dies, in words.
-    fn search(&self, request: &Request<'_>, wanted: &[Wanted<'_>]) -> Option<String> {
+    /// Where in the batch the core dies, in words, and of what, if that is one element.
+    fn search(
+        &self,
+        request: &Request<'_>,
+        wanted: &[Wanted<'_>],
+    ) -> Option<(String, Option<Box<Culprit>>)> {
         let count = wanted.first()?.count();
         let arrays = request.arrays().iter();
         let of_batch: Vec<_> = arrays.filter(|array| !array.is_shared()).collect();
@@ -88,12 +92,15 @@ impl Remote {
             (begun.elapsed() < SEARCH).then(|| self.dies_of(request, wanted, &range))
         });
         Some(match found {
-            None => format!(" of {count} elements, though not of them alone"),
-            Some(range) if range.len() == 1 => {
-                let element = of_batch.first().map(|array| array.describe(range.start));
-                format!(", element {} of {count}: {}", range.start, element.unwrap_or_default())
+            None => (format!(" of {count} elements, though not of them alone"), None),
+            Some(Range { start: index, end }) if end == index + 1 => {
+                let numbers = of_batch.first().map(|array| array.describe(index));
+                let culprit = numbers.map(|numbers| Box::new(Culprit { index, numbers }));
+                (format!(", element {index} of {count}"), culprit)
             }
-            Some(range) => format!(", elements {} to {} of {count}", range.start, range.end - 1),
+            Some(Range { start, end }) => {
+                (format!(", elements {start} to {} of {count}", end - 1), None)
+            }
         })
     }
 

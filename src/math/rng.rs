@@ -43,6 +43,18 @@ pub fn uniform(stream: &mut Stream) -> f64 {
     (stream.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
+/// A whole number below `count`, which is not 0.
+pub(crate) fn below(count: usize, stream: &mut Stream) -> usize {
+    (uniform(stream) * count as f64) as usize
+}
+
+/// Fisher and Yates, as Durstenfeld has it (1964).
+pub(crate) fn shuffle<T>(elements: &mut [T], stream: &mut Stream) {
+    for last in (1..elements.len()).rev() {
+        elements.swap(last, below(last + 1, stream));
+    }
+}
+
 /// A point of the unit square.
 pub(crate) fn in_square(stream: &mut Stream) -> DVec2 {
     DVec2::from_array(std::array::from_fn(|_| uniform(stream)))

@@ -200,7 +200,7 @@ pub(crate) fn trial(core: &str, case: &str) -> TrialRecord {
         case_hash: format!("{:064x}", seed.child("case").0),
         with: Components::empty(),
         scene: is_random
-            .then(|| SceneStamp { name: name.to_owned(), hash: format!("{:064x}", seed.0), is_specular: false }),
+            .then(|| SceneStamp { name: name.to_owned(), hash: format!("{:064x}", seed.0), shown: "[-y, x, z]".to_owned(), is_specular: false }),
         budget: Budget::Default,
         seed: seed.0,
         outcome: Outcome::Judged { finding: if is_random { agreeing(seed) } else { exact(seed) } },

@@ -7,12 +7,14 @@ use super::record::{self, SceneStamp, TrialRecord, TrialTiming};
 use super::schedule::Transplant;
 use crate::case::{Case, Tier, asked_about};
 use crate::checks::{CheckError, Context, Finding, Picture};
+use crate::contract::turned::Turned;
 use crate::contract::validate::Validated;
 use crate::contract::{Capabilities, Components, Core, CoreError};
 use crate::cores::HostError;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
 use crate::scene::hash::content_hash;
+use crate::scene::motion::Motion;
 use crate::stats::Budget;
 use crate::worker::StartError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -153,7 +155,7 @@ pub fn attempt(bench: &Bench, case: &Case, core: &mut dyn Core) -> Attempt {
     let mut scene = None;
     let tier = case.tier_on(core.info().capabilities);
     let result = load_scene(bench, case).and_then(|loaded| {
-        scene = loaded.as_deref().map(stamp);
+        scene = loaded.as_deref().map(|scene| stamp(scene, &bench.motion_of(case)));
         judge(bench, case, core, loaded, &mut pictures)
     });
     Attempt { outcome: Outcome::of(result), tier, scene, pictures }
@@ -165,9 +167,14 @@ fn load_scene(bench: &Bench, case: &Case) -> Result<Option<Arc<SceneDescription>
     loaded.map(Some).map_err(|error| CheckError::Broken(error.to_string()))
 }
 
-fn stamp(scene: &SceneDescription) -> SceneStamp {
+fn stamp(scene: &SceneDescription, motion: &Motion) -> SceneStamp {
     let is_specular = scene.materials.iter().any(|material| material.surface.is_specular());
-    SceneStamp { name: scene.name.clone(), hash: content_hash(scene), is_specular }
+    SceneStamp {
+        name: scene.name.clone(),
+        hash: content_hash(scene),
+        shown: motion.to_string(),
+        is_specular,
+    }
 }
 
 /// Asks whether the core can, and lets the check run.
@@ -178,7 +185,8 @@ fn judge(
     scene: Option<Arc<SceneDescription>>,
     pictures: &mut Vec<Picture>,
 ) -> Result<Finding, CheckError> {
-    let mut core = Validated::new(core);
+    let mut core = Turned::new(core, bench.motion_of(case));
+    let mut core = Validated::new(&mut core);
     let info = core.info();
     let missing = case.prepared.missing(info.capabilities);
     if missing != Capabilities::empty() {

@@ -5,6 +5,7 @@ use crate::contract::{Components, CoreError};
 use crate::cores::{CoreSpec, Hosting};
 use crate::math::rng::Seed;
 use crate::scene::Library;
+use crate::scene::motion::Motion;
 use crate::stats::Allowance;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -18,6 +19,8 @@ pub struct Bench {
     pub references: PathBuf,
     pub(crate) allowance: Allowance,
     pub(crate) seed: Seed,
+    /// Where scenes are taken from; not to be worked out from [`Self::seed`] where a run has a salt.
+    pub(crate) motions: Seed,
     pub(crate) hosting: Hosting,
     /// Cores that died before they said who they are: how, and what they printed. Nothing else is asked of them.
     pub(crate) unfit: BTreeMap<String, (CoreError, String)>,
@@ -29,6 +32,11 @@ impl Bench {
     /// The seed of a case: the same for every core.
     pub(crate) fn seed_of(&self, case: &Case) -> Seed {
         self.seed.child(&case.id)
+    }
+
+    /// Where the scenes of a case are shown: the same for every core.
+    pub(crate) fn motion_of(&self, case: &Case) -> Motion {
+        Motion::drawn(self.motions.child(&case.id))
     }
 
     /// What a core can take from the bench. It is started for that question once, where something has failed.

@@ -1,7 +1,7 @@
 //! How a trial ended. Absence of evidence is never success: each way of not being judged has its own name.
 
 use crate::checks::{CheckError, Finding, breach};
-use crate::contract::{Capabilities, CoreError};
+use crate::contract::{Capabilities, CoreError, numbers_of};
 use crate::stats::Verdict;
 use serde::{Deserialize, Serialize};
 
@@ -123,7 +123,9 @@ impl Outcome {
         match error {
             CoreError::Unsupported(missing) => Self::Skipped { missing: missing.names() },
             CoreError::Beyond(what) => Self::Skipped { missing: vec![what] },
-            CoreError::Crashed { how, during } => Self::Crashed { how, during },
+            CoreError::Crashed { how, during, element } => {
+                Self::Crashed { how, during: format!("{during}{}", numbers_of(element.as_deref())) }
+            }
             CoreError::TimedOut { limit, during } => {
                 Self::TimedOut { limit: limit.as_secs_f64(), during }
             }

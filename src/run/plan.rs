@@ -48,6 +48,8 @@ pub struct Plan {
     pub hosting: Hosting,
     /// What every core is to take from the bench, whatever it is found to do wrong.
     pub with: Components,
+    /// What scenes are moved by besides the seed, for graders who publish no motion.
+    pub salt: String,
     /// Whether a run with failures goes on to search for the components of the bench that mend them.
     pub searches: bool,
 }
@@ -85,6 +87,7 @@ impl Plan {
             trials,
             hosting: Hosting::default(),
             with: Components::empty(),
+            salt: String::new(),
             searches: true,
         })
     }
@@ -100,6 +103,12 @@ impl Plan {
         self.with = with;
         self
     }
+
+    /// The same with scenes moved by a secret, too.
+    pub(crate) fn salted(mut self, salt: String) -> Self {
+        self.salt = salt;
+        self
+    }
 }
 
 impl Plan {
@@ -113,6 +122,7 @@ impl Plan {
                 stops_at_failure: self.request.fail_fast,
             },
             seed: self.request.seed,
+            motions: self.request.seed.child("motion").child(&self.salt),
             hosting: self.hosting(),
             unfit: BTreeMap::new(),
             takes: Arc::default(),

@@ -268,6 +268,9 @@ pub struct SceneStamp {
     pub(crate) name: String,
     /// Content hash of the resolved scene, hex.
     pub(crate) hash: String,
+    /// The coordinates that the core saw, by those of the scene's file: `[-y, x, z]`. Everything else that is told is as
+    /// in the file.
+    pub(crate) shown: String,
     /// Whether one of its surfaces is a mirror or smooth glass.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) is_specular: bool,

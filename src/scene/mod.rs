@@ -14,6 +14,7 @@ mod library;
 mod light;
 mod material;
 pub mod mesh;
+pub(crate) mod motion;
 pub mod procedural;
 pub mod reference;
 mod shape;

@@ -56,7 +56,9 @@ impl Mesh {
         let [u, v] = [b - a, d - a];
         let is_parallelogram = (a + u + v).abs_diff_eq(c, 1e-12);
         let is_rectangular = u.dot(v).abs() <= 1e-12 * u.length() * v.length();
-        let is_plain = self.normals.is_empty() && self.indices == [[0, 1, 2], [0, 2, 3]];
+        let fan = [[0, 1, 2], [0, 2, 3]];
+        let is_fan = self.indices.len() == 2 && fan.iter().all(|it| self.indices.contains(it));
+        let is_plain = self.normals.is_empty() && is_fan;
         let normal = u.cross(v).try_normalize()?;
         let rectangle = Rectangle { centre: (a + c) / 2.0, sides: [u, v], normal };
         (is_plain && is_parallelogram && is_rectangular).then_some(rectangle)

@@ -153,7 +153,8 @@ impl Guard {
         let ended_by_itself = self.wait_for_the_end();
         let sentence = self.lock().sentence;
         let during = during.to_owned();
-        let crashed = |how: String| CoreError::Crashed { how, during: during.clone() };
+        let crashed =
+            |how: String| CoreError::Crashed { how, during: during.clone(), element: None };
         match (sentence, self.end()) {
             (Some(Sentence::Time), _) => {
                 CoreError::TimedOut { limit: self.spec.limits.time(), during }

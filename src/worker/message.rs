@@ -128,7 +128,7 @@ impl Answer {
             CoreError::Beyond(why) => Self::Beyond { why },
             CoreError::Refused(why) => Self::Refused { why },
             CoreError::BrokeContract(breach) => Self::BrokeContract { breach },
-            CoreError::Crashed { how, during } => Self::Crashed { how, during },
+            CoreError::Crashed { how, during, .. } => Self::Crashed { how, during },
             CoreError::TimedOut { limit, during } => Self::TimedOut { limit, during },
         }
     }
@@ -141,7 +141,7 @@ impl Answer {
             Self::Beyond { why } => CoreError::Beyond(why),
             Self::Refused { why } => CoreError::Refused(why),
             Self::BrokeContract { breach } => CoreError::BrokeContract(breach),
-            Self::Crashed { how, during } => CoreError::Crashed { how, during },
+            Self::Crashed { how, during } => CoreError::Crashed { how, during, element: None },
             Self::TimedOut { limit, during } => CoreError::TimedOut { limit, during },
             other => return Ok(other),
         })

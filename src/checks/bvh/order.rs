@@ -3,7 +3,7 @@
 use super::comparison::closest_hits;
 use crate::checks::{CheckError, Context};
 use crate::contract::{Acceleration, Hit, Ray};
-use crate::math::rng::{Stream, uniform};
+use crate::math::rng::{Stream, shuffle};
 use crate::scene::SceneDescription;
 
 /// What a core answers for one order.
@@ -40,9 +40,7 @@ impl Order {
         let mut places = Vec::new();
         for mesh in &mut scene.meshes {
             let mut order: Vec<usize> = (0..mesh.indices.len()).collect();
-            for last in (1..order.len()).rev() {
-                order.swap(last, (uniform(stream) * (last + 1) as f64) as usize);
-            }
+            shuffle(&mut order, stream);
             mesh.indices = order.iter().map(|number| mesh.indices[*number]).collect();
             let mut place = vec![0; order.len()];
             for (now, number) in (0..).zip(&order) {

@@ -74,7 +74,7 @@ fn lost_place(differences: &[Difference]) -> Option<(&'static Cause, String)> {
     let is_same = lost.iter().all(|(other, _)| *other == place);
     (is_same && lost.len() > 1).then(|| {
         let evidence = format!(
-            "all {} hits that one order loses are of triangle {place} of {triangles} in that order",
+            "all {} hits that one order loses are of one triangle of {triangles}, by its place in that order",
             lost.len()
         );
         (&bvh::PRIMITIVES_LOST, evidence)
@@ -104,7 +104,7 @@ mod tests {
         let finding = found(Slip::LosesTheLast);
         assert!(failure(&finding).ends_with("another when the triangles are shuffled"));
         assert_eq!(causes(&finding), ["primitives-lost"]);
-        assert!(finding.clues[0].evidence.contains("of triangle 319 of 320"), "{finding:?}");
+        assert!(finding.clues[0].evidence.contains("of one triangle of 320"), "{finding:?}");
     }
 
     #[test]

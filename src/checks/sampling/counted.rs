@@ -59,9 +59,9 @@ impl Judged {
         }
     }
 
-    /// Samples of the last stage.
+    /// Samples of the stage that was counted.
     pub(super) fn drawn(&self) -> u64 {
-        self.report.stages.last().map_or(0, |stage| stage.samples)
+        self.report.counted().map_or(0, |stage| stage.samples)
     }
 
     /// How far the number of failed samples is from what is expected, in standard deviations.
@@ -76,9 +76,9 @@ impl Judged {
         sizes.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
     }
 
-    /// The root mean square error of the pdf that the statistic of the last stage stands for.
+    /// The root mean square error of the pdf that the statistic stands for.
     pub(super) fn error(&self) -> f64 {
-        let Some(stage) = self.report.stages.last() else { return f64::NAN };
+        let Some(stage) = self.report.counted() else { return f64::NAN };
         ((stage.statistic - stage.freedom).max(0.0) / stage.samples as f64).sqrt()
     }
 

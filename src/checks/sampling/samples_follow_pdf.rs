@@ -143,6 +143,6 @@ mod tests {
         let finding = found(SURFACE, |p| (p.x > 0.05).then(|| cosine(p)).flatten());
         assert_eq!(finding.verdict, Verdict::Fail);
         let finding = found(SURFACE, |p| (p.y * 97.0 % 1.0 > 0.2).then(|| cosine(p)).flatten());
-        assert!(failure(&finding).contains("samples of 1060320 fail instead of"), "{finding:?}");
+        assert!(failure(&finding).contains("samples of 66270 fail instead of"), "{finding:?}");
     }
 }

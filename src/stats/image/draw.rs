@@ -15,13 +15,15 @@ pub struct ImageEffort {
     pub(crate) screen_runs: u32,
     /// Runs of each of two confirmations.
     pub(crate) confirm_runs: u32,
+    /// The same of what is grossly wrong.
+    pub(crate) gross_runs: u32,
 }
 
 impl ImageEffort {
     /// The effort that sees an error of `detects` of the whole picture, if the runs have samples
     /// enough.
-    pub fn new(detects: f64, samples: u32) -> Self {
-        Self { detects, samples, screen_runs: 16, confirm_runs: 32 }
+    pub const fn new(detects: f64, samples: u32) -> Self {
+        Self { detects, samples, screen_runs: 16, confirm_runs: 32, gross_runs: 8 }
     }
 }
 

@@ -99,6 +99,24 @@ pub struct ScaleReport {
     pub(crate) rejects: bool,
 }
 
+impl ScaleReport {
+    /// How many times further out than what is suspected a gross error is.
+    const GROSS: f64 = 3.0;
+
+    /// Whether a cell is suspected.
+    pub(super) fn stands_out(&self) -> bool {
+        self.worst.first().is_some_and(|cell| cell.t.abs() > self.critical)
+    }
+
+    /// Whether a cell is so far out that few runs confirm it. Small cells may be because rare light has not come:
+    /// a thousand pixels have seen as many samples as a mean that is confirmed on few.
+    pub(super) fn is_gross(&self) -> bool {
+        let is_large = !matches!(self.scale, Scale::Pixel | Scale::Tile8);
+        let limit = Self::GROSS * self.critical;
+        is_large && self.worst.first().is_some_and(|cell| cell.t.abs() > limit)
+    }
+}
+
 /// Measured over expected, over the whole picture, with 99.9 % confidence. The noise of the
 /// reference is in it.
 #[derive(Clone, Copy, Debug, PartialEq)]

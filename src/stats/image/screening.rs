@@ -81,15 +81,14 @@ impl<'a, E> Screening<'a, E> {
             CellNoise::of(&screened.spread, &self.target, self.effort.samples, self.levels.screen);
         let mut scales: Vec<ScaleReport> =
             (0..Scale::ALL.len()).map(|i| self.screen(i, &noise)).collect();
-        let suspected = |report: &ScaleReport| {
-            report.worst.first().is_some_and(|cell| cell.t.abs() > report.critical)
-        };
-        if !scales.iter().any(suspected) && self.lit.suspects().is_empty() {
+        if !scales.iter().any(ScaleReport::stands_out) && self.lit.suspects().is_empty() {
             return Ok(self.report(scales, &screened, &screened));
         }
         let frozen: Vec<Frozen> = (0..Scale::ALL.len()).map(|i| self.freeze(i, &noise)).collect();
-        let second = self.sample(Stage::Second, self.effort.confirm_runs, &frozen)?;
-        let third = self.sample(Stage::Third, self.effort.confirm_runs, &frozen)?;
+        let is_gross = scales.iter().any(ScaleReport::is_gross);
+        let runs = if is_gross { self.effort.gross_runs } else { self.effort.confirm_runs };
+        let second = self.sample(Stage::Second, runs, &frozen)?;
+        let third = self.sample(Stage::Third, runs, &frozen)?;
         for (i, report) in scales.iter_mut().enumerate() {
             if !frozen[i].terms.is_empty() {
                 let confirmations =

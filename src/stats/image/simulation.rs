@@ -21,6 +21,7 @@ const WRONG: u64 = 40;
 /// Pixels on a side of the right pictures, and of the wrong ones.
 const SMALL: usize = 32;
 const LARGE: usize = 256;
+const EFFORT: ImageEffort = ImageEffort::new(0.02, 2);
 
 /// The mean of two exponential variables, the noise of all channels: 2 samples a pixel in each run, relative
 /// deviation 1 a sample.
@@ -39,6 +40,7 @@ fn scene(size: usize, x: usize, y: usize) -> [f32; 3] {
 /// Judges a core whose mean picture is `truth` against `scene`, known exactly.
 fn judged(
     levels: Levels,
+    effort: &ImageEffort,
     size: usize,
     seed: u64,
     truth: impl Fn(usize, usize) -> [f32; 3],
@@ -54,19 +56,24 @@ fn judged(
         Ok::<_, Infallible>(Image::from_fn(size, size, pixel))
     };
     let reference = Reference { mean: &mean, standard_error: &error };
-    let Ok(report) = judge_image_at(levels, reference, &ImageEffort::new(0.02, 2), &mut draw);
+    let Ok(report) = judge_image_at(levels, reference, effort, &mut draw);
     report
 }
 
 #[test]
 #[ignore = "minutes: 10 000 right pictures at relaxed levels"]
 fn right_pictures_fail_no_oftener_than_the_levels_say() {
-    for (screen, confirm) in [(1e-3, 2e-5), (0.05, 0.05), (1.0, 0.05), (1.0, 0.2)] {
+    let usual = EFFORT.confirm_runs;
+    let rows = [(1e-3, 2e-5, usual), (0.05, 0.05, usual), (1.0, 0.05, usual), (1.0, 0.2, usual)];
+    // As of gross errors, which are seen in no right picture.
+    let gross = [(1.0, 0.05, EFFORT.gross_runs), (1.0, 0.2, EFFORT.gross_runs)];
+    for (screen, confirm, confirm_runs) in rows.into_iter().chain(gross) {
         let levels = Levels { screen, confirm };
+        let effort = ImageEffort { confirm_runs, gross_runs: confirm_runs, ..EFFORT };
         let reports: Vec<_> = (0..NULLS)
             .into_par_iter()
             .map(|seed| {
-                let report = judged(levels, SMALL, seed, |x, y| scene(SMALL, x, y));
+                let report = judged(levels, &effort, SMALL, seed, |x, y| scene(SMALL, x, y));
                 let confirmations = report.scales.iter().filter_map(|scale| scale.confirmations);
                 let rejects: Vec<_> =
                     confirmations.map(|pair| pair[0].rejects && pair[1].rejects).collect();
@@ -80,7 +87,7 @@ fn right_pictures_fail_no_oftener_than_the_levels_say() {
         let failed = reports.iter().filter(|(.., failed)| *failed).count() as u64;
         let [low, high] = share_interval(suspected, NULLS, 5e-4);
         println!(
-            "screen {screen}, confirm {confirm}: {suspected} of {NULLS} suspected (99.9 % interval of the rate {low:.1e} to {high:.1e})"
+            "screen {screen}, confirm {confirm} on twice {confirm_runs} runs: {suspected} of {NULLS} suspected (99.9 % interval of the rate {low:.1e} to {high:.1e})"
         );
         let twice = confirm * confirm;
         if scales > 0 {
@@ -121,8 +128,9 @@ fn wrong_pictures_fail_at_the_levels_that_count() {
         ),
     ];
     for (name, truth) in kinds {
-        let fails =
-            |seed: &u64| judged(Levels::DEFAULT, LARGE, *seed, &truth).verdict == Verdict::Fail;
+        let fails = |seed: &u64| {
+            judged(Levels::DEFAULT, &EFFORT, LARGE, *seed, &truth).verdict == Verdict::Fail
+        };
         let failed = (0..WRONG).into_par_iter().filter(fails).count() as u64;
         println!("{name}: {failed} of {WRONG} failed");
         assert_eq!(failed, WRONG, "{name}");

@@ -1,7 +1,8 @@
 //! Suspect on a few samples, confirm on many: the plan that every test in stages follows.
 //!
 //! A first stage tests at [`STAGE_LEVEL`](super::level::STAGE_LEVEL). What it rejects is tested again on fresh samples, 4 and
-//! then 16 times as many; only what all three reject fails. A single test at the same overall level
+//! then 16 times as many, or fewer where less confirms an effect as large as the first stage saw; only what all three
+//! reject fails. How large a fresh stage is changes nothing of its level. A single test at the same overall level
 //! would rest on tails of 10⁻⁹, where the central limit theorem is wrong by factors of thousands for
 //! the skewed sums that renderers make; a product of three moderate tails stays right, and a correct
 //! core pays for the first stage only.
@@ -12,6 +13,10 @@ use super::{Hypothesis, TestKind};
 use crate::math::rng::Seed;
 use crate::text::spoken;
 
+/// How many times the samples that would just show what the first stage saw confirm it: an effect
+/// seen 2 standard errors too far out is still confirmed.
+const MARGIN: f64 = 2.0;
+
 spoken! {
     /// A step of a test. Each has its own random numbers.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -20,9 +25,9 @@ spoken! {
         Pilot = "pilot",
         /// Suspects.
         First = "stage 1",
-        /// Confirms on 4 times the samples.
+        /// Confirms on at most 4 times the samples.
         Second = "stage 2",
-        /// Confirms on 16 times the samples.
+        /// Confirms on at most 16 times the samples.
         Third = "stage 3",
     }
 }
@@ -31,7 +36,7 @@ impl Stage {
     /// The stages that decide, in their order.
     pub(crate) const DECIDING: [Self; 3] = [Self::First, Self::Second, Self::Third];
 
-    /// Samples for each sample of the first stage.
+    /// The most samples for each sample of the first stage.
     pub(crate) const fn factor(self) -> u64 {
         match self {
             Self::Second => 4,
@@ -55,6 +60,12 @@ impl Stage {
 pub trait Scored {
     /// Whether it rejects.
     fn rejects(&self) -> bool;
+
+    /// How many it drew.
+    fn samples(&self) -> u64;
+
+    /// How many times fewer samples would just have shown what it saw.
+    fn excess(&self) -> f64;
 }
 
 /// The stages of one test that were drawn, in their order.
@@ -87,6 +98,21 @@ impl<S: Scored> Escalation<S> {
         self.0.push(score);
     }
 
+    /// On how many samples `stage` confirms what the first one saw.
+    pub(crate) fn confirming(&self, stage: Stage) -> f64 {
+        let of = |first: &S| {
+            let factor = (MARGIN / first.excess()).min(stage.factor() as f64);
+            factor * first.samples() as f64
+        };
+        self.0.first().map_or(0.0, of)
+    }
+
+    /// The stage of the most samples, the last of equals: it knows best by how much. Where it is the
+    /// first, that was so far out that having been chosen by it says nothing.
+    pub(crate) fn largest(&self) -> Option<&S> {
+        self.0.iter().max_by_key(|score| score.samples())
+    }
+
     /// Whether the first stage rejects, so that there has to be a second.
     pub(crate) fn suspects(&self) -> bool {
         self.0.first().is_some_and(Scored::rejects)
@@ -110,6 +136,41 @@ mod tests {
         fn rejects(&self) -> bool {
             *self
         }
+
+        fn samples(&self) -> u64 {
+            100
+        }
+
+        fn excess(&self) -> f64 {
+            1.0
+        }
+    }
+
+    /// A stage that rejects: its samples, and its excess.
+    impl Scored for (u64, f64) {
+        fn rejects(&self) -> bool {
+            true
+        }
+
+        fn samples(&self) -> u64 {
+            self.0
+        }
+
+        fn excess(&self) -> f64 {
+            self.1
+        }
+    }
+
+    #[test]
+    fn what_is_seen_far_out_is_confirmed_on_fewer_samples() {
+        let confirmed = |excess| {
+            let stages = Escalation(vec![(1000, excess)]);
+            [Stage::Second, Stage::Third].map(|stage| stages.confirming(stage))
+        };
+        assert_eq!(confirmed(0.1), [4000.0, 16_000.0]);
+        assert_eq!(confirmed(1.0), [2000.0, 2000.0]);
+        assert_eq!(confirmed(400.0), [5.0, 5.0]);
+        assert_eq!(Escalation(vec![(9, 1.0), (7, 1.0)]).largest(), Some(&(9, 1.0)));
     }
 
     fn after(scores: &[bool]) -> Escalation<bool> {

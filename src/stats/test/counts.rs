@@ -92,14 +92,19 @@ pub(crate) fn judge_count_source<S: CountSource>(
 ) -> Result<CountReport, S::Error> {
     let mut stages = Escalation::default();
     let mut drawn = Drawn::of(Stage::First, source, |expected| planned_samples(expected, effort))?;
-    let first_samples = drawn.samples;
-    loop {
-        stages.push(score(drawn.stage, &drawn.expected, &drawn.counts, source.batches()));
-        match stages.next().filter(|_| drawn.forbidden.is_none()) {
-            Some(stage) => drawn = Drawn::of(stage, source, |_| stage.factor() * first_samples)?,
-            None => return Ok(report(stages, effort, drawn)),
-        }
+    stages.push(drawn.score(source.batches()));
+    while let Some(stage) = stages.next().filter(|_| drawn.forbidden.is_none()) {
+        let samples = confirming_samples(&stages, stage, effort);
+        let fresh = Drawn::of(stage, source, |_| samples)?;
+        stages.push(fresh.score(source.batches()));
+        drawn = drawn.or_better(fresh);
     }
+    Ok(report(stages, effort, drawn))
+}
+
+/// Samples of the second or third stage, in as many cells as the first.
+fn confirming_samples(stages: &Escalation<CountStage>, stage: Stage, effort: &Effort) -> u64 {
+    (stages.confirming(stage).max(FEWEST_SAMPLES).ceil() as u64).next_multiple_of(effort.grain)
 }
 
 /// The size of each of so many batches in place of `samples` that are known to be independent: a quarter more, since how
@@ -111,7 +116,6 @@ pub(crate) fn batch_size(samples: u64, batches: u64) -> u64 {
 /// What was drawn in one stage, and what should have been.
 struct Drawn {
     stage: Stage,
-    samples: u64,
     expected: CellProbabilities,
     counts: Counts,
     forbidden: Option<ForbiddenSamples>,
@@ -128,7 +132,17 @@ impl Drawn {
         let counts = source.draw(stage, samples)?;
         let forbidden =
             forbidden_samples(&expected, &counts, |cell, samples| source.forbidden(cell, samples));
-        Ok(Self { stage, samples, expected, counts, forbidden })
+        Ok(Self { stage, expected, counts, forbidden })
+    }
+
+    fn score(&self, batches: &[Counts]) -> CountStage {
+        score(self.stage, &self.expected, &self.counts, batches)
+    }
+
+    /// The one that says more: of forbidden samples, or on more samples.
+    fn or_better(self, fresh: Self) -> Self {
+        let is_better = fresh.forbidden.is_some() || fresh.counts.total() >= self.counts.total();
+        if is_better { fresh } else { self }
     }
 }
 

@@ -25,7 +25,7 @@ pub(crate) use report::{MeanReport, StageScore};
 use crate::math::rng::Seed;
 use crate::stats::plan::level::STAGE_LEVEL;
 use crate::stats::{Claim, Effort, Moments, Stage, Verdict};
-use state::{FEWEST_EFFECTIVE, MeanTest, Suspicion};
+use state::{FEWEST_EFFECTIVE, MeanTest};
 
 /// Samples of the pilot, before it is found to be too small.
 const PILOT_SAMPLES: u64 = 4096;
@@ -107,8 +107,8 @@ impl<E> Judging<'_, E> {
         self.pilot()?;
         let first = self.planned_samples();
         self.stage(Stage::First, first)?;
-        self.stage(Stage::Second, self.confirming_samples(first, Stage::Second))?;
-        self.stage(Stage::Third, self.confirming_samples(first, Stage::Third))
+        self.stage(Stage::Second, self.confirming_samples(Stage::Second))?;
+        self.stage(Stage::Third, self.confirming_samples(Stage::Third))
     }
 
     /// Grows the pilot until every claim has seen enough events to know its own deviation.
@@ -138,13 +138,13 @@ impl<E> Judging<'_, E> {
     }
 
     /// Samples of the second or third stage. They may follow from what earlier stages saw, for each
-    /// stage is judged on fresh samples: what is grossly wrong needs no more of them.
-    fn confirming_samples(&self, first: u64, stage: Stage) -> u64 {
-        let suspicions = self.tests.iter().filter_map(MeanTest::suspicion);
-        let suspicion = suspicions.max().unwrap_or(Suspicion::Slight);
-        let (factor, fewest) = suspicion.confirmed_on(stage, self.effort.coarse_first);
+    /// stage is judged on fresh samples: what is grossly wrong needs few of them.
+    fn confirming_samples(&self, stage: Stage) -> u64 {
+        let in_a_hurry = self.effort.coarse_first;
+        let needed =
+            self.tests.iter().filter_map(|test| test.confirming_samples(stage, in_a_hurry));
         let cap = self.effort.most_samples.saturating_mul(stage.factor());
-        (factor * first).max(self.whole_runs(fewest.min(cap)))
+        self.whole_runs(needed.fold(0.0, f64::max).min(cap as f64).ceil() as u64)
     }
 
     /// Draws and scores a stage, unless nobody is suspected any more.

@@ -22,6 +22,8 @@ pub(crate) struct ShareStage {
     pub(crate) hits: u64,
     /// The smaller tail, were the share at the near end of its band.
     pub(crate) p_value: f64,
+    /// How far outside the band the share is, in the standard errors of what should be or of what is, the larger.
+    pub(crate) sigmas: f64,
     /// Whether that is too small, on the side the first stage chose.
     pub(crate) rejects: bool,
 }
@@ -30,9 +32,17 @@ impl Scored for ShareStage {
     fn rejects(&self) -> bool {
         self.rejects
     }
+
+    fn samples(&self) -> u64 {
+        self.trials
+    }
+
+    fn excess(&self) -> f64 {
+        (self.sigmas / sigmas()).powi(2)
+    }
 }
 
-/// The judgement of a share. Its interval is that of the last stage drawn.
+/// The judgement of a share. Its interval is that of the largest stage, the last of equals.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ShareReport {
     pub(crate) verdict: Verdict,
@@ -67,7 +77,10 @@ pub(crate) fn judge_share<E>(
     let first = planned_samples(&claim, effort.detects).min(effort.most_samples as f64) as u64;
     let mut stages: Escalation<ShareStage> = Escalation::default();
     while let Some(stage) = stages.next() {
-        let trials = stage.factor() * first;
+        let trials = match stages.first() {
+            Some(_) => stages.confirming(stage).max(FEWEST_SAMPLES).ceil() as u64,
+            None => first,
+        };
         let hits = draw(stage, trials)?;
         let suspected_high = stages.first().map(|first| is_high(first, expected));
         stages.push(score(&claim, stage, [hits, trials], suspected_high));
@@ -93,7 +106,12 @@ fn score(
         Some(false) => too_low,
         None => too_high.min(too_low),
     };
-    ShareStage { stage, trials, hits, p_value, rejects: p_value < STAGE_LEVEL }
+    let share = hits as f64 / trials as f64;
+    let variance = (share * (1.0 - share)).max(expected * (1.0 - expected));
+    let departure = claim.departure(share).abs();
+    // Shares of 0 and 1 have no noise; the cap is beyond all others.
+    let sigmas = (departure / (variance / trials as f64).sqrt()).min(1e9);
+    ShareStage { stage, trials, hits, p_value, sigmas, rejects: p_value < STAGE_LEVEL }
 }
 
 /// Standard errors between the band and an error that is seen.
@@ -114,14 +132,14 @@ fn planned_samples(claim: &Claim, detects: f64) -> f64 {
 
 fn report(claim: &Claim, effort: &Effort, stages: Escalation<ShareStage>) -> ShareReport {
     let expected = claim.expected;
-    let (first, last) = (stages[0], stages[stages.len() - 1]);
+    let (first, largest) = (stages[0], *stages.largest().unwrap_or(&stages[0]));
     let deviation = (expected * (1.0 - expected) / first.trials as f64).sqrt();
     let resolution = claim.band.relative() + sigmas() * deviation / expected;
     ShareReport {
         verdict: Verdict::of_test(stages.rejects(), resolution <= effort.detects),
         expected,
-        share: last.hits as f64 / last.trials as f64,
-        interval: share_interval(last.hits, last.trials, STAGE_LEVEL),
+        share: largest.hits as f64 / largest.trials as f64,
+        interval: share_interval(largest.hits, largest.trials, STAGE_LEVEL),
         resolution,
         stages,
     }

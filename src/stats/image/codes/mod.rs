@@ -153,7 +153,9 @@ fn judge_codes_at<E>(
     let expected = model.image(|channel| channel.expected);
     let screening = Screening::new(model.target(), &expected, &settings.effort, &mut codes);
     let image = screening.at(levels).judge()?;
-    clipping.confirm(&settings.effort, draw)?;
+    if image.verdict != Verdict::Fail {
+        clipping.confirm(&settings.effort, draw)?;
+    }
     let (clipping, compared) = (clipping.report(), model.share_compared());
     let verdict = match image.verdict {
         _ if clipping.is_some_and(|clipping| clipping.rejects) => Verdict::Fail,

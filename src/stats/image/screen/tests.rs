@@ -86,6 +86,14 @@ fn two_per_cent_everywhere_fail_and_are_measured() {
 }
 
 #[test]
+fn gross_errors_take_twice_the_runs_that_it_takes_to_pass() {
+    for gain in [0.0, 0.5, 2.0] {
+        let report = judge(&with_gain(|_, _| gain), 1);
+        assert_eq!((report.verdict, report.runs), (Verdict::Fail, 32), "{gain}");
+    }
+}
+
+#[test]
 fn a_brighter_corner_fails_where_the_whole_picture_hides_it() {
     let corner = |x, y| if x < 8 && y >= 56 { 1.6 } else { 1.0 };
     let report = judge(&with_gain(corner), 1);

@@ -1,5 +1,7 @@
 //! What counting samples found out about a sampler.
 
+use crate::stats::law::{chi_square_upper, detectable_noncentrality};
+use crate::stats::plan::level::{MISS_LEVEL, STAGE_LEVEL};
 use crate::stats::plan::{Escalation, Judgement, Scored};
 use crate::stats::{Report, Stage, TestKind, Verdict};
 
@@ -27,6 +29,19 @@ impl Scored for CountStage {
     fn rejects(&self) -> bool {
         self.rejects
     }
+
+    fn samples(&self) -> u64 {
+        self.samples
+    }
+
+    /// By the noncentrality that is left of the statistic without quadrature and chance, which is larger where samples
+    /// depend on each other.
+    fn excess(&self) -> f64 {
+        let length = self.statistic.sqrt() - self.quadrature_error.sqrt();
+        let dependence = self.allowed / chi_square_upper(STAGE_LEVEL, self.freedom);
+        let seen = length.max(0.0).powi(2) / dependence - self.freedom;
+        seen.max(0.0) / detectable_noncentrality(self.freedom, STAGE_LEVEL, MISS_LEVEL)
+    }
 }
 
 /// Samples where there should be none.
@@ -46,7 +61,8 @@ pub(crate) enum CountDoubt {
     TooFewSamples,
 }
 
-/// The judgement of a sampler against its pdf. Counts are those of the last stage drawn.
+/// The judgement of a sampler against its pdf. Counts are those of the largest stage, the last of equals, or of the one
+/// with forbidden samples.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CountReport {
     pub(crate) verdict: Verdict,
@@ -77,12 +93,20 @@ pub(crate) struct CountReport {
     pub(crate) mass: f64,
 }
 
+impl CountReport {
+    /// The stage that the counts are of.
+    pub(crate) fn counted(&self) -> Option<&CountStage> {
+        let total = self.observed.iter().sum::<u64>() + self.absorbed_observed;
+        self.stages.iter().rev().find(|stage| stage.samples == total)
+    }
+}
+
 impl Report for CountReport {
-    /// X² per degree of freedom, of the last stage.
+    /// X² per degree of freedom, of the stage that counts.
     fn judgement(&self) -> Judgement {
-        let last = self.stages.last();
+        let counted = self.counted();
         let per_freedom = |value: fn(&CountStage) -> f64| {
-            last.map_or(f64::NAN, |s| value(s) / s.freedom.max(1.0))
+            counted.map_or(f64::NAN, |s| value(s) / s.freedom.max(1.0))
         };
         Judgement {
             allowed: per_freedom(|stage| stage.critical) - 1.0,

@@ -205,6 +205,46 @@ fn an_error_as_large_as_the_printed_resolution_is_caught() {
     assert!(caught.count() >= 98);
 }
 
+/// A light that one sample in so many hits, judged on a promise that its first stages keep easily: how many of `tests`
+/// fail it.
+fn failures_of_rare_light(rarity: f64, tests: u64) -> usize {
+    let claim = Claim::value(1.0, Band::RADIANCE);
+    let effort = Effort::new(0.5);
+    let failed = (0..tests).filter(|test| {
+        let seed = Seed(*test).child("rare").child(rarity.to_bits());
+        let light = |stream: &mut Stream| if uniform(stream) * rarity < 1.0 { rarity } else { 0.0 };
+        let Ok(reports) = judge_means(&[claim], &effort, &mut runs(seed, 1.0, light));
+        reports[0].verdict == Verdict::Fail
+    });
+    failed.count()
+}
+
+#[test]
+fn light_that_few_samples_find_is_not_taken_for_gross_darkness() {
+    assert_eq!(failures_of_rare_light(5000.0, 60), 0);
+}
+
+#[test]
+#[ignore = "minutes: thousands of tests on rare light"]
+fn rare_light_fails_as_seldom_as_was_promised() {
+    for rarity in [500.0, 2000.0, 5000.0, 10_000.0] {
+        let (tests, failed) = (3000, failures_of_rare_light(rarity, 3000));
+        println!("light of one sample in {rarity}: {failed} of {tests} right cores failed");
+        assert_eq!(failed, 0, "one in {rarity}");
+    }
+}
+
+#[test]
+fn gross_errors_take_no_more_samples_than_it_takes_to_pass() {
+    for law in [&BERNOULLI, &EXPONENTIAL] {
+        let right = samples_to_a_verdict(law, 1.0, false);
+        for gain in [FRAC_1_PI, 0.5, 1.5, 2.0, 10.0] {
+            let wrong = samples_to_a_verdict(law, gain, false);
+            assert!(wrong <= right.max(1_000_000), "{}, {gain}: {wrong}, right {right}", law.name);
+        }
+    }
+}
+
 /// The median over seven seeds of the samples that a verdict took.
 fn samples_to_a_verdict(law: &Law, gain: f64, coarse_first: bool) -> u64 {
     let effort = Effort { coarse_first, ..Effort::new(0.02) };
@@ -218,7 +258,7 @@ fn samples_to_a_verdict(law: &Law, gain: f64, coarse_first: bool) -> u64 {
     };
     let mut samples: Vec<u64> = (0..7).map(of_seed).collect();
     samples.sort_unstable();
-    samples[3]
+    samples[samples.len() / 2]
 }
 
 #[test]
@@ -242,6 +282,40 @@ fn false_alarms_at_level_one_twentieth_are_near_the_prediction() {
         let found = false_alarms(level, law, 60_000);
         println!("{}: {found:.2e}, predicted {predicted:.2e}", law.name);
         assert!(found < 2.0 * predicted, "{}: {found}", law.name);
+    }
+}
+
+/// Shares of `tests` in which a right core fails the second stage, and the third as well, after a first stage that was
+/// off by `gain`: the smaller a confirming stage, the more it was seen.
+fn confirmed_by_chance(level: f64, law: &Law, gain: f64, tests: u32) -> [f64; 2] {
+    let claim = Claim::value(law.mean, Band::NONE);
+    let mut confirmed = [0; 2];
+    for test in 0..tests {
+        let seed = Seed(u64::from(test)).child("confirmed").child(law.name);
+        let mut draw = |draw: Draw| {
+            let is_off = draw.stage == Stage::First;
+            runs(seed, if is_off { gain } else { 1.0 }, law.sample)(draw)
+        };
+        let Ok(reports) = judge_means_at(level, &[claim], &Effort::new(0.2), &mut draw);
+        let stages = &reports[0].stages;
+        assert!(stages[0].rejects, "{}, {gain}", law.name);
+        confirmed[0] += u32::from(stages[1].rejects);
+        confirmed[1] += u32::from(stages[1..].len() == 2 && stages[2].rejects);
+    }
+    confirmed.map(|count| f64::from(count) / f64::from(tests))
+}
+
+#[test]
+#[ignore = "minutes: 2000 gross first stages of each of four laws"]
+fn small_confirming_stages_keep_their_level() {
+    let (level, tests) = (0.05, 2000);
+    for law in [&BERNOULLI, &EXPONENTIAL, &LOGNORMAL, &FIREFLIES] {
+        for gain in [0.5, 1.5, 4.0] {
+            let [second, both] = confirmed_by_chance(level, law, gain, tests);
+            println!("{}, {gain} times: stage 2 {second:.3}, both {both:.4}", law.name);
+            // The sum of few rare events leans; both stages are four standard errors above the square of the level.
+            assert!(second < 2.0 * level && both < 0.007, "{}, {gain}", law.name);
+        }
     }
 }
 

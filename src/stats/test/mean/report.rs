@@ -1,5 +1,6 @@
 //! What a test of means found out about one claim.
 
+use super::state::PLANNED_SIGMAS;
 use crate::stats::plan::{Doubt, Escalation, Judgement, Scored};
 use crate::stats::{Hypothesis, Report, Stage, TestKind, Verdict};
 
@@ -24,10 +25,18 @@ impl Scored for StageScore {
     fn rejects(&self) -> bool {
         self.rejects
     }
+
+    fn samples(&self) -> u64 {
+        self.samples
+    }
+
+    fn excess(&self) -> f64 {
+        (self.t.abs().min(self.u.abs()) / PLANNED_SIGMAS).powi(2)
+    }
 }
 
-/// The judgement of one claim. `mean`, `standard_error` and the intervals are those of the last
-/// stage drawn: the earlier ones chose whether it would be, the last one is fresh.
+/// The judgement of one claim. `mean`, `standard_error` and the intervals are those of the largest
+/// stage, the last of equals.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MeanReport {
     pub(crate) verdict: Verdict,

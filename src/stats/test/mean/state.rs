@@ -3,13 +3,13 @@
 use super::noise::{Noise, Tail, sample_variance};
 use super::{MeanReport, StageScore};
 use crate::stats::plan::level::{INTERVAL_LEVEL, MEAN_FALSE_ALARM, MISS_LEVEL};
-use crate::stats::plan::{Doubt, Escalation};
+use crate::stats::plan::{Doubt, Escalation, Scored};
 use crate::stats::{Claim, Effort, Moments, Stage, Verdict, normal_upper, student_upper};
 
 /// Standard errors that the first stage is planned for: 3.45 to reject (Student, 63 degrees of
 /// freedom), 3.09 so that it does with probability 0.999, and the rest for bugs that also add
 /// variance.
-const PLANNED_SIGMAS: f64 = 7.0;
+pub(super) const PLANNED_SIGMAS: f64 = 7.0;
 /// The deviation comes from a pilot that knows it to 9 %, and is judged by a stage that knows it to
 /// 9 %.
 const PLAN_MARGIN: f64 = 1.2;
@@ -22,52 +22,33 @@ const PILOT_EFFECTIVE: f64 = 50.0;
 /// Standard errors outside the band that make a pilot suspicious.
 const PILOT_SIGMAS: f64 = 3.0;
 /// Fewest samples of a first stage after a suspicious pilot. What looks like a wrong constant may
-/// be a rare event that has not happened; 4 and 16 times as many samples confirm.
+/// be a rare event that has not happened; the stages that follow look for it on more.
 const FEWEST_TO_SUSPECT: f64 = 16_384.0;
 
+/// Samples that tell well enough by how much a mean is off that the pilot has seen to be: of a
+/// relative deviation of 2, an interval of 2 %.
+const FEWEST_TO_TELL: f64 = 131_072.0;
+/// How many times fewer samples than the first stage had show a gross error: one that is 14 standard errors out.
+const GROSS_EXCESS: f64 = 4.0;
 /// The rarest event that carries light and that a failure cannot have missed: one sample in so many.
 const RAREST_EVENT: u64 = 30_000;
-/// Fewest samples of a last stage that is too low.
+/// Fewest samples of a last stage that is too low: they miss such an event with a probability of 3e-10.
 const FEWEST_TO_MISS_NOTHING: u64 = 22 * RAREST_EVENT;
+/// The same in a hurry: an event that happens once in 5000 samples is missed by all stages with a probability of 1e-9.
+const FEWEST_IN_A_HURRY: u64 = 65_536;
 /// How many times as pointed as normal runs those may be that call a mean too low, by their kurtosis. Beyond it few of
 /// them carry their spread: the next one may as well carry the light that is missing.
 const MOST_POINTED: f64 = 5.0 / 3.0;
-
-/// How far out a suspected mean is, which says on how many samples it is confirmed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Suspicion {
-    /// Grossly too much: no event that has not happened can lower a mean of radiances.
-    GrosslyHigh,
-    /// Grossly too little, unless rare events have not happened yet.
-    GrosslyLow,
-    Slight,
-}
-
-impl Suspicion {
-    /// How many times the samples of the first stage confirm it, and how many at least.
-    ///
-    /// What is too low may have missed a rare event. The fewest samples of a last stage miss one that happens once in
-    /// [`RAREST_EVENT`] samples with a probability of 3e-10, where a case may spend so many. In a hurry, one that happens
-    /// once in 5000 samples is missed with a probability of 1e-9.
-    pub(super) const fn confirmed_on(self, stage: Stage, in_a_hurry: bool) -> (u64, u64) {
-        match (self, stage) {
-            (Self::GrosslyHigh, _) => (1, 0),
-            (Self::GrosslyLow, Stage::Third) if in_a_hurry => (4, 65_536),
-            (Self::GrosslyLow, Stage::Third) => (4, FEWEST_TO_MISS_NOTHING),
-            (Self::GrosslyLow, _) => (2, 16_384),
-            (Self::Slight, Stage::Third) => (stage.factor(), FEWEST_TO_MISS_NOTHING),
-            (Self::Slight, _) => (stage.factor(), 65_536),
-        }
-    }
-}
 
 /// A claim and what its stages have said.
 pub(super) struct MeanTest {
     claim: Claim,
     /// Of one stage, on one side.
     level: f64,
-    /// Whether the pilot was outside the band by more than its noise.
-    is_expected_to_depart: bool,
+    /// How far outside the band the mean is at least, by the pilot.
+    departs_by: f64,
+    /// What errors are told relative to: the scale of the claim, or the mean where the pilot saw more.
+    scale: f64,
     noise: Noise,
     /// Of the stages that decide.
     tail: Tail,
@@ -81,7 +62,8 @@ impl MeanTest {
         Self {
             claim,
             level,
-            is_expected_to_depart: false,
+            departs_by: 0.0,
+            scale: claim.scale,
             noise: Noise::default(),
             tail: Tail::default(),
             stages: Escalation::default(),
@@ -108,7 +90,9 @@ impl MeanTest {
 
     pub(super) fn take_pilot(&mut self, pilot: &Moments, samples: u64) {
         let departure = self.claim.departure(pilot.mean()).abs();
-        self.is_expected_to_depart = departure > PILOT_SIGMAS * pilot.standard_error();
+        let chance = PILOT_SIGMAS * pilot.standard_error();
+        self.departs_by = (departure - chance).max(0.0);
+        self.scale = self.claim.scale.max(pilot.mean().abs() - chance);
         self.take_noise(pilot, samples);
     }
 
@@ -121,19 +105,23 @@ impl MeanTest {
         }
     }
 
-    /// Samples of a first stage that would see an error of `detects`.
+    /// Samples of a first stage that would see an error of `detects`, relative to what is measured where that is too
+    /// much: light three times as bright need not be known nine times as well. Where the pilot has seen an error,
+    /// as many as show that one, and tell by how much.
     pub(super) fn needed_samples(&self, detects: f64) -> f64 {
-        let variance = self.variance();
-        let room = detects * self.claim.scale - self.claim.band_width();
-        let for_noise = if room > 0.0 {
-            (PLANNED_SIGMAS * PLAN_MARGIN / room).powi(2) * variance
-        } else {
-            f64::INFINITY
+        let room = detects * self.scale - self.claim.band_width();
+        let to_see = |error: f64| match error > 0.0 {
+            true => (PLANNED_SIGMAS * PLAN_MARGIN / error).powi(2) * self.variance(),
+            false => f64::INFINITY,
         };
-        let for_normality =
-            FEWEST_EFFECTIVE * PLAN_MARGIN.powi(2) * (1.0 + variance / self.claim.scale.powi(2));
-        let to_be_sure = if self.is_expected_to_depart { FEWEST_TO_SUSPECT } else { 0.0 };
-        for_noise.max(for_normality).max(to_be_sure)
+        let to_be_gross = (GROSS_EXCESS * to_see(self.departs_by)).max(FEWEST_TO_TELL);
+        let to_be_sure = if self.departs_by > 0.0 { FEWEST_TO_SUSPECT } else { 0.0 };
+        to_see(room).min(to_be_gross).max(self.fewest_normal()).max(to_be_sure)
+    }
+
+    /// Fewer samples do not have a normal mean.
+    fn fewest_normal(&self) -> f64 {
+        FEWEST_EFFECTIVE * PLAN_MARGIN.powi(2) * (1.0 + self.variance() / self.scale.powi(2))
     }
 
     /// The size a stage should have had, if its spread is not what was expected: too small to have
@@ -163,16 +151,25 @@ impl MeanTest {
         blind.then_some(needed as u64)
     }
 
-    /// How far out the claim is, if it is suspected. Where a mean of differences is judged, both
-    /// signs may be an event that has not happened.
-    pub(super) fn suspicion(&self) -> Option<Suspicion> {
-        self.stages.next().filter(|_| self.is_finite)?;
+    /// Samples on which `stage` confirms what the first has seen; none where nothing is suspected.
+    pub(super) fn confirming_samples(&self, stage: Stage, in_a_hurry: bool) -> Option<f64> {
+        let is_open = self.takes_part_in(stage);
+        let fewest = self.fewest_confirming(stage, in_a_hurry)? as f64;
+        is_open.then(|| self.stages.confirming(stage).max(self.fewest_normal()).max(fewest))
+    }
+
+    /// How many samples protect against an event that has not happened. Too much radiance is no such event; where a
+    /// mean of differences is judged, both signs may be.
+    fn fewest_confirming(&self, stage: Stage, in_a_hurry: bool) -> Option<u64> {
         let (first, last) = (self.stages.first()?, self.stages.last()?);
-        let is_gross = first.t.abs().min(first.u.abs()) >= 2.0 * PLANNED_SIGMAS;
-        Some(match (is_gross, last.t > 0.0 && self.claim.expected > 0.0) {
-            (true, true) => Suspicion::GrosslyHigh,
-            (true, false) => Suspicion::GrosslyLow,
-            (false, _) => Suspicion::Slight,
+        let is_gross = first.excess() >= GROSS_EXCESS;
+        let is_high = last.t > 0.0 && self.claim.expected > 0.0;
+        Some(match (is_gross, is_high, stage) {
+            (true, true, _) => 0,
+            (true, false, Stage::Third) if in_a_hurry => FEWEST_IN_A_HURRY.max(first.samples),
+            (_, _, Stage::Third) => FEWEST_TO_MISS_NOTHING.max(first.samples),
+            (true, false, _) if in_a_hurry => 16_384,
+            _ => 65_536,
         })
     }
 
@@ -235,10 +232,10 @@ impl MeanTest {
     }
 
     pub(super) fn report(&self, effort: &Effort, drawn: u64) -> MeanReport {
-        let last = self.stages.last();
+        let largest = self.stages.largest();
         let first_samples = self.stages.first().map_or(0, |score| score.samples);
-        let mean = last.map_or(f64::NAN, |score| score.mean);
-        let standard_error = last.map_or(f64::NAN, |score| score.standard_error);
+        let mean = largest.map_or(f64::NAN, |score| score.mean);
+        let standard_error = largest.map_or(f64::NAN, |score| score.standard_error);
         let half_width = student_upper(INTERVAL_LEVEL, f64::from(effort.runs - 1)) * standard_error;
         let interval = [mean - half_width, mean + half_width];
         let resolution = self.resolution();

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 /// Where cores live and what they may use up.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct HostingArguments {
-    /// Time limit of a trial in seconds [default: 120]; for an adapter's program, its file sets the
-    /// time limit of an image.
+    /// Time limit of a trial in seconds [default: 120], of one answer a quarter, and less once a
+    /// core has hung; for an adapter's program, its file sets the time limit of an image.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     time_limit: Option<f64>,
     /// Memory limit of a core's process: 512M, 4G, or `none` [default: 4G].

@@ -4,7 +4,7 @@ use super::CoreSpec;
 use super::dylib::LoadError;
 use super::remote::Remote;
 use crate::contract::Core;
-use crate::worker::{Confinement, CoreOrigin, Launch, Limits, StartError, WorkerSpec};
+use crate::worker::{Confinement, CoreOrigin, Launch, Limits, Patience, StartError, WorkerSpec};
 use std::path::PathBuf;
 
 /// How cores are hosted in a run.
@@ -22,6 +22,8 @@ pub struct Hosting {
     pub confined: bool,
     /// Whether our own cores live in workers too.
     pub isolates_own: bool,
+    /// What is known of the silences of cores.
+    pub patience: Patience,
 }
 
 impl Default for Hosting {
@@ -34,6 +36,7 @@ impl Default for Hosting {
             readable: Vec::new(),
             confined: true,
             isolates_own: false,
+            patience: Patience::default(),
         }
     }
 }
@@ -62,6 +65,16 @@ impl Hosting {
     pub(crate) fn hiding(mut self, paths: impl IntoIterator<Item = PathBuf>) -> Self {
         self.hidden.extend(paths);
         self
+    }
+
+    /// The same, for a case.
+    pub(crate) fn in_case(&self, case: &str) -> Self {
+        Self { patience: self.patience.in_case(case), ..self.clone() }
+    }
+
+    /// The same with nothing known of silences.
+    pub(crate) fn patient(self) -> Self {
+        Self { patience: Patience::default(), ..self }
     }
 
     /// Brings up a core.
@@ -93,6 +106,7 @@ impl Hosting {
                 readable: self.readable.iter().filter_map(real).collect(),
                 confined: self.confined,
             },
+            patience: self.patience.with(&spec.to_string()),
             variables: renderer.map(|program| program.variables()).unwrap_or_default(),
         }
     }

@@ -67,7 +67,7 @@ fn attempt_hosted(bench: &Bench, trial: &Trial, with: Components) -> (Attempt, S
             let (error, printed) = (error.clone(), printed.clone());
             Err(HostError::Start(StartError::Core { error, printed }))
         }
-        None => bench.hosting.host(&trial.core),
+        None => bench.hosting.in_case(&trial.case.id).host(&trial.core),
     };
     match hosted {
         Ok(mut hosted) => {

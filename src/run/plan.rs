@@ -123,7 +123,7 @@ impl Plan {
             },
             seed: self.request.seed,
             motions: self.request.seed.child("motion").child(&self.salt),
-            hosting: self.hosting(),
+            hosting: self.hosting().patient(),
             unfit: BTreeMap::new(),
             takes: Arc::default(),
         }

@@ -17,12 +17,20 @@ use crate::stats::{Allowance, Budget};
 use std::cmp::Reverse;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long the search may take for one core: about as long as the run before it, so that who waits for a wrong core
-/// waits at most twice.
-const LONGEST: Duration = Duration::from_secs(60);
+/// How long the search may take for one core, as a share of what its trials took: who waits for a wrong core waits
+/// little longer. Time of all threads together, as that of trials is.
+const SHARE: f64 = 0.25;
+/// It always may take so many seconds.
+const LEAST: f64 = 10.0;
+/// What a trial of the search may take: at its budget a right core needs a second or two.
+const LONGEST_TRIAL: f64 = 10.0;
+/// What the search takes for one failing case, in times of its trial in the run: twelve components are halved four
+/// times, and each is looked at alone and with the others; each trial is shorter, but on components that cross a
+/// boundary.
+const COST: f64 = 6.0;
 
 /// Tries the failing cases of a core again. None where nothing failed, or the core takes nothing.
 pub(crate) fn search(
@@ -39,23 +47,30 @@ pub(crate) fn search(
     if failing.is_empty() || core.components.is_empty() {
         return None;
     }
-    // Should the time be too short, it is for the fewest.
-    failing.sort_by(|a, b| a.1.timing.seconds.total_cmp(&b.1.timing.seconds));
+    // Should the time be too short, it is for the longest.
+    let seconds = |record: &TrialRecord| record.timing.seconds;
+    failing.sort_by(|a, b| seconds(a.1).total_cmp(&seconds(b.1)));
+    let taken = taken(ended.iter().map(|(_, record)| *record));
+    let purse = Purse::of_share(SHARE, taken);
+    let asked = affordable(failing.iter().map(|(_, record)| seconds(record)), purse.seconds());
     let allowance = Allowance { budget: Budget::Quick, stops_at_failure: true };
-    let bench = Bench { allowance, ..bench.clone() };
-    let deadline = Instant::now() + LONGEST;
+    let bench = Bench { allowance, ..without_patience(bench) };
     let passes = |number: usize, with: Components| {
         let (trial, record) = failing[number];
-        let is_in_time = Instant::now() < deadline;
-        is_in_time.then(|| {
-            run_with(&bench, trial, record.with | with).record.outcome.status() == Status::Pass
-        })
+        let ended = || run_with(&bench, trial, record.with | with).record.outcome.status();
+        // Of silence it cannot be told what would have come of waiting longer.
+        purse
+            .pay(ended)
+            .filter(|ended| *ended != Status::TimedOut)
+            .map(|ended| ended == Status::Pass)
     };
     let mut tried = |with: Components, cases: &[usize]| {
         in_parallel(plan.jobs(), cases, &|number| passes(number, with))
     };
     events(Event::Transplanting { core: &core.spec });
-    let found = smallest(core.components, failing.len(), &mut tried);
+    let mut found = smallest(core.components, asked, &mut tried);
+    found.try_on((asked..failing.len()).collect(), &mut tried);
+    found.set.sort_by_key(|part| Reverse(part.together.len()));
     let judged =
         |one: Components| ended.iter().filter(|(_, record)| record.with.contains(one)).count();
     let name = |number: &usize| failing[*number].1.case.clone();
@@ -79,6 +94,62 @@ pub(crate) fn search(
         unmended: unmended.map(name).collect(),
         untried: failing.len() - found.mended - found.unmended.len(),
     })
+}
+
+/// The bench for trials with transplants: it knows nothing of the silences of a core without them.
+pub(super) fn without_patience(bench: &Bench) -> Bench {
+    let mut hosting = bench.hosting.clone().patient();
+    hosting.limits.seconds = hosting.limits.seconds.map(|seconds| seconds.min(LONGEST_TRIAL));
+    Bench { hosting, ..bench.clone() }
+}
+
+/// What trials that were answered took.
+pub(super) fn taken<'a>(records: impl Iterator<Item = &'a TrialRecord>) -> f64 {
+    let answered = records.filter(|record| record.outcome.status() != Status::TimedOut);
+    answered.map(|record| record.timing.seconds).sum()
+}
+
+/// How many cases of such lengths, the shortest first, can be searched in `seconds`: one at least.
+fn affordable(lengths: impl Iterator<Item = f64>, seconds: f64) -> usize {
+    let costs = lengths.scan(0.0, |sum, length| {
+        *sum += COST * length;
+        Some(*sum)
+    });
+    costs.take_while(|cost| *cost <= seconds).count().max(1)
+}
+
+/// Time that is left, of all threads together.
+pub(super) struct Purse(Mutex<Duration>);
+
+impl Purse {
+    /// A share of the time that trials took.
+    pub(super) fn of_share(share: f64, taken: f64) -> Self {
+        Self::of((share * taken).max(LEAST))
+    }
+
+    fn of(seconds: f64) -> Self {
+        Self(Mutex::new(Duration::try_from_secs_f64(seconds).unwrap_or_default()))
+    }
+
+    fn seconds(&self) -> f64 {
+        self.left().as_secs_f64()
+    }
+
+    /// Does some work, if there is time, and takes from it what that took.
+    pub(super) fn pay<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
+        if self.left().is_zero() {
+            return None;
+        }
+        let begun = Instant::now();
+        let done = work();
+        let mut left = self.left();
+        *left = left.saturating_sub(begun.elapsed());
+        Some(done)
+    }
+
+    fn left(&self) -> MutexGuard<'_, Duration> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 pub(super) fn trial_of<'a>(plan: &'a Plan, record: &TrialRecord) -> Option<&'a Trial> {
@@ -158,6 +229,23 @@ struct Mending {
     alone: usize,
     /// Those it mends with the others.
     together: Vec<usize>,
+}
+
+impl Found {
+    /// Cases that there was no time to halve, tried with what was found for others: each belongs to the highest component
+    /// that it needs.
+    fn try_on(&mut self, mut cases: Vec<usize>, try_cases: Try<'_>) {
+        self.set.sort_by_key(|part| part.component.bits());
+        let mut with = Components::empty();
+        for part in &mut self.set {
+            with |= part.component;
+            let Tried { passing, failing } = try_cases(with, &cases);
+            part.alone += if with == part.component { passing.len() } else { 0 };
+            self.mended += passing.len();
+            part.together.extend(passing);
+            cases = failing;
+        }
+    }
 }
 
 fn smallest(takes: Components, failures: usize, try_cases: Try<'_>) -> Found {
@@ -241,12 +329,15 @@ mod tests {
 
     /// A core each of whose failing cases passes with all of these; with nothing where there are none.
     fn found(needs: &[Option<Components>]) -> Found {
-        let mut try_cases = |with: Components, cases: &[usize]| {
+        smallest(Components::all(), needs.len(), &mut trying(needs))
+    }
+
+    fn trying(needs: &[Option<Components>]) -> impl FnMut(Components, &[usize]) -> Tried {
+        |with, cases| {
             let passes = |case: &usize| needs[*case].is_some_and(|needs| with.contains(needs));
             let (passing, failing) = cases.iter().partition(|case| passes(case));
             Tried { passing, failing }
-        };
-        smallest(Components::all(), needs.len(), &mut try_cases)
+        }
     }
 
     /// Each component, how many cases it mends alone, and how many with the others.
@@ -271,6 +362,24 @@ mod tests {
     fn what_needs_two_is_mended_by_the_two_alone() {
         let found = found(&[Some(BOX | PATH); 2]);
         assert_eq!(counts(&found), [(PATH, 0, 2), (BOX, 0, 0)]);
+    }
+
+    #[test]
+    fn the_shortest_cases_are_searched_for_as_long_as_there_is_time() {
+        let affordable = |seconds| affordable([0.5, 1.0, 2.0, 30.0].into_iter(), seconds);
+        assert_eq!([0.5, 9.5, 20.0, 21.5, 300.0].map(affordable), [1, 2, 2, 3, 4]);
+        let purse = Purse::of(0.001);
+        assert_eq!(purse.pay(|| std::thread::sleep(Duration::from_millis(2))), Some(()));
+        assert_eq!(purse.pay(|| ()), None);
+    }
+
+    #[test]
+    fn what_there_is_no_time_to_halve_is_tried_with_what_was_found() {
+        let needs = [BOX, PATH, BOX, BOX | PATH, PATH, BSDF].map(Some);
+        let mut found = found(&needs[..2]);
+        found.try_on((2..6).collect(), &mut trying(&needs));
+        assert_eq!(counts(&found), [(BOX, 2, 2), (PATH, 1, 3)]);
+        assert_eq!((found.mended, &found.set[1].together[..]), (5, &[1, 3, 4][..]));
     }
 
     #[test]

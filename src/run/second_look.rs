@@ -9,13 +9,11 @@ use super::bench::Bench;
 use super::outcome::Status;
 use super::plan::Plan;
 use super::record::{CoreRecord, Transplants, TrialRecord};
-use super::search::{each_in_parallel, trial_of};
+use super::search::{Purse, each_in_parallel, taken, trial_of, without_patience};
 use crate::case::asked_about;
 use crate::contract::Components;
-use std::time::{Duration, Instant};
-
-/// How long the second look may take for one core.
-const LONGEST: Duration = Duration::from_secs(60);
+/// How long the second look may take for one core, as a share of what its trials took.
+const SHARE: f64 = 0.5;
 
 /// What is seen of a core with one of its broken components.
 pub(crate) struct SecondLook {
@@ -34,15 +32,14 @@ pub(crate) fn look_again(
     transplants: &Transplants,
 ) -> Vec<SecondLook> {
     let broken: Components = transplants.components.iter().map(|one| one.component).collect();
-    let deadline = Instant::now() + LONGEST;
+    let of_core = || records.iter().filter(|record| record.core == core.spec);
+    let purse = Purse::of_share(SHARE, taken(of_core()));
+    let bench = without_patience(bench);
     let view = |own: Components| {
-        let tells = |record: &&TrialRecord| {
-            record.core == core.spec && tells_of(plan, record, own, transplants)
-        };
-        let told: Vec<_> = records.iter().filter(tells).collect();
+        let tells = |record: &&TrialRecord| tells_of(plan, record, own, transplants);
+        let told: Vec<_> = of_core().filter(tells).collect();
         let again = each_in_parallel(plan.jobs(), told.len(), &|number| {
-            let is_in_time = Instant::now() < deadline;
-            is_in_time.then(|| again(plan, bench, told[number], broken, own))?
+            purse.pay(|| again(plan, &bench, told[number], broken, own))?
         });
         SecondLook { own, again }
     };
@@ -76,5 +73,7 @@ fn again(
     if with == record.with && record.outcome.status() != Status::Blocked {
         return Some(record.clone());
     }
-    Some(run_with(bench, trial_of(plan, record)?, with).record)
+    let seen = run_with(bench, trial_of(plan, record)?, with).record;
+    // A trial has less time here: what it did not come to, the first look holds.
+    (seen.outcome.status() != Status::TimedOut).then_some(seen)
 }

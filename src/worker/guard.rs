@@ -30,7 +30,10 @@ pub(crate) struct Guard {
 
 struct State {
     child: Child,
-    is_asked: bool,
+    /// The time that it has for the question that it is asked, if it is.
+    asked: Option<Duration>,
+    /// The time that is charged to it for that question.
+    thought: Duration,
     /// The time that is charged to it; see [`Guard::charge`].
     charged: Duration,
     /// The time that the bench has waited for it.
@@ -44,6 +47,8 @@ struct State {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sentence {
     Time,
+    /// It has had so much for one question.
+    Silence(Duration),
     Processes(usize),
     Memory(u64),
     Files(u64),
@@ -61,7 +66,8 @@ impl Guard {
     ) -> Arc<Self> {
         let state = State {
             child,
-            is_asked: false,
+            asked: None,
+            thought: Duration::ZERO,
             charged: Duration::ZERO,
             waited: Duration::ZERO,
             seen: (Instant::now(), Usage::default()),
@@ -85,12 +91,14 @@ impl Guard {
         Watch(sender)
     }
 
-    pub(crate) fn asked(&self) {
-        self.lock().is_asked = true;
+    /// It is asked a question that it may think about for so long.
+    pub(crate) fn asked(&self, limit: Duration) {
+        let mut state = self.lock();
+        (state.asked, state.thought) = (Some(limit), Duration::ZERO);
     }
 
     pub(crate) fn answered(&self) {
-        self.lock().is_asked = false;
+        self.lock().asked = None;
     }
 
     fn look(&self) {
@@ -110,11 +118,13 @@ impl Guard {
     /// only as much as it was given: a machine that is busy with something else makes nobody late.
     fn charge(state: &mut State, usage: Usage) {
         let (seen, before) = std::mem::replace(&mut state.seen, (Instant::now(), usage));
-        if state.is_asked {
+        if state.asked.is_some() {
             let passed = seen.elapsed();
             let computed = usage.computed.saturating_sub(before.computed);
             let is_idle = !before.would_compute && !usage.would_compute && computed.is_zero();
-            state.charged += if is_idle { passed } else { passed.min(computed) };
+            let charged = if is_idle { passed } else { passed.min(computed) };
+            state.charged += charged;
+            state.thought += charged;
             state.waited += passed;
         }
     }
@@ -123,7 +133,9 @@ impl Guard {
         let Usage { processes, bytes, written, .. } = state.seen.1;
         let limits = &self.spec.limits;
         let late = state.waited > limits.time().saturating_mul(PATIENCE);
-        if late || state.charged > limits.time() {
+        if let Some(limit) = state.asked.filter(|limit| state.thought > *limit) {
+            Some(Sentence::Silence(limit))
+        } else if late || state.charged > limits.time() {
             Some(Sentence::Time)
         } else if processes > limits.processes {
             Some(Sentence::Processes(processes))
@@ -148,6 +160,14 @@ impl Guard {
         Ok(status)
     }
 
+    /// The time in which it did not answer one question, if it was ended for that.
+    pub(crate) fn silence(&self) -> Option<Duration> {
+        match self.lock().sentence {
+            Some(Sentence::Silence(limit)) => Some(limit),
+            _ => None,
+        }
+    }
+
     /// Why no answer has come, once the channel is closed. `printed` is what the core has printed.
     pub(crate) fn explain(&self, during: &str, printed: impl FnOnce() -> String) -> CoreError {
         let ended_by_itself = self.wait_for_the_end();
@@ -159,6 +179,7 @@ impl Guard {
             (Some(Sentence::Time), _) => {
                 CoreError::TimedOut { limit: self.spec.limits.time(), during }
             }
+            (Some(Sentence::Silence(limit)), _) => CoreError::TimedOut { limit, during },
             (Some(Sentence::Processes(count)), _) => {
                 crashed(format!("ended: it had started {count} processes"))
             }

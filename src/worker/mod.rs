@@ -2,7 +2,7 @@
 //! cheat; whatever it does has to stay one trial's result.
 //!
 //! A core is asked through frames on a private channel (`frame`, `message`; `client` asks, `serve` answers). `process`
-//! starts the worker that the core lives in, holds it to its limits (`guard`), keeps what it prints (`output`) and says
+//! starts the worker that the core lives in, holds it to its limits (`guard`, `patience`), keeps what it prints (`output`) and says
 //! how it ended; `child` is the other end of that, which confines itself (`confine`) before any foreign code runs.
 //! `narrow` finds the element of a batch that a core dies of.
 //!
@@ -20,6 +20,7 @@ mod guard;
 pub mod message;
 pub(crate) mod narrow;
 mod output;
+mod patience;
 mod process;
 #[cfg(target_os = "linux")]
 mod readable;
@@ -32,6 +33,7 @@ mod usage;
 pub use client::{Client, Silence};
 #[cfg(target_os = "linux")]
 pub(crate) use confine_linux::end_with_us;
+pub use patience::Patience;
 pub use process::{Launch, StartError, Worker};
 pub use scene::build_request;
 pub use serve::{refuse, serve};

@@ -5,6 +5,7 @@ use super::client::{Client, Silence};
 use super::guard::{Guard, Watch};
 use super::message::{Answer, Request, Wanted};
 use super::output::Output;
+use super::patience::Patience;
 use super::spec::{Confinement, Limits, WorkerSpec};
 use crate::contract::{CoreError, CoreInfo};
 use std::io;
@@ -15,7 +16,7 @@ use std::time::Duration;
 use tempfile::TempDir;
 
 /// How long to wait for the last words of a core that has crashed.
-const PATIENCE: Duration = Duration::from_millis(200);
+const LAST_WORDS: Duration = Duration::from_millis(200);
 
 /// How the workers of a core are started, always the same way.
 #[derive(Clone, Debug)]
@@ -26,6 +27,8 @@ pub struct Launch {
     pub(crate) worker: WorkerSpec,
     /// For its environment, besides what every worker keeps.
     pub(crate) variables: Vec<(String, String)>,
+    /// What is known of its silences.
+    pub(crate) patience: Patience,
 }
 
 /// Why there is no worker.
@@ -59,6 +62,8 @@ pub struct Worker {
     client: Client,
     guard: Arc<Guard>,
     output: Output,
+    limits: Limits,
+    patience: Patience,
     info: CoreInfo,
     confinement: Confinement,
     /// Why it answers no more.
@@ -88,6 +93,8 @@ impl Worker {
             _watch: guard.watch(),
             guard,
             output: Output::of(reader),
+            limits,
+            patience: launch.patience.clone(),
             info: CoreInfo::default(),
             confinement: Confinement::default(),
             dead: None,
@@ -137,18 +144,46 @@ impl Worker {
         if let Some(error) = &self.dead {
             return Err(error.clone());
         }
-        self.guard.asked();
+        if let Some(error) = self.patience.refuses(during, &self.limits) {
+            return Err(self.ended(error));
+        }
+        self.guard.asked(self.patience.limit(during, &self.limits));
         let outcome = exchange(&mut self.client);
         self.guard.answered();
-        outcome.map_err(|silence| {
-            let error = match silence {
-                Silence::Gone => self.guard.explain(during, || self.output.last_words(PATIENCE)),
-                Silence::Nonsense(what) => CoreError::breach(format!("during {during} {what}")),
-            };
-            // Waiting for a status is all that can fail, and then nobody is there to be ended.
-            let _ = self.guard.end();
-            self.dead.insert(error).clone()
-        })
+        match outcome {
+            // A program that its worker has ended.
+            Ok(Answer::TimedOut { limit, during: program }) => {
+                self.patience.timed_out(during, limit);
+                Ok(Answer::TimedOut { limit, during: program })
+            }
+            Ok(answer) => {
+                self.patience.answered(during);
+                Ok(answer)
+            }
+            Err(silence) => {
+                let error = self.why(silence, during);
+                Err(self.ended(error))
+            }
+        }
+    }
+
+    /// Why no answer has come.
+    fn why(&self, silence: Silence, during: &str) -> CoreError {
+        let error = match silence {
+            Silence::Gone => self.guard.explain(during, || self.output.last_words(LAST_WORDS)),
+            Silence::Nonsense(what) => CoreError::breach(format!("during {during} {what}")),
+        };
+        if let Some(limit) = self.guard.silence() {
+            self.patience.timed_out(during, limit);
+        }
+        error
+    }
+
+    /// Ends it; all it says from now on is why.
+    fn ended(&mut self, error: CoreError) -> CoreError {
+        // Waiting for a status is all that can fail, and then nobody is there to be ended.
+        let _ = self.guard.end();
+        self.dead.insert(error).clone()
     }
 
     pub(crate) const fn info(&self) -> &CoreInfo {
@@ -162,7 +197,7 @@ impl Worker {
     /// What the core has printed: all of it, if it has crashed; so far, if it lives.
     pub(crate) fn printed(&self) -> String {
         match self.dead {
-            Some(_) => self.output.last_words(PATIENCE),
+            Some(_) => self.output.last_words(LAST_WORDS),
             None => self.output.text(),
         }
     }

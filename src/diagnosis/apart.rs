@@ -2,7 +2,8 @@
 //! is told of each is told of that component alone.
 
 use super::rank::Ranked;
-use super::{Diagnosis, Evidence, look};
+use super::reproduction::proven;
+use super::{Diagnosis, Evidence, Planted};
 
 /// What a core does with one of its broken components.
 pub(crate) struct View<'a> {
@@ -12,9 +13,13 @@ pub(crate) struct View<'a> {
 }
 
 /// The causes of what failed at `first`, from the views of it; what no view shows is told as it was seen first.
-pub(crate) fn diagnose_apart(first: &Evidence<'_>, views: &[View<'_>]) -> Diagnosis {
+pub(crate) fn diagnose_apart(
+    first: &Evidence<'_>,
+    views: &[View<'_>],
+    planted: &dyn Planted,
+) -> Diagnosis {
     let mut told: Vec<_> =
-        views.iter().map(|view| look(&view.evidence).of_one_component()).collect();
+        views.iter().map(|view| proven(&view.evidence, planted).of_one_component()).collect();
     let shown = |case: &str| views.iter().any(|view| view.evidence.fails(case));
     let hidden = first.all_failures().filter(|seen| !shown(seen.case)).map(|seen| seen.case);
     let mut left = Vec::new();
@@ -24,7 +29,7 @@ pub(crate) fn diagnose_apart(first: &Evidence<'_>, views: &[View<'_>]) -> Diagno
             left.push(case);
         }
     }
-    told.push(look(&first.with_failures_of(&left)));
+    told.push(proven(&first.with_failures_of(&left), planted));
     told.into_iter().fold(Ranked::default(), Ranked::and).told()
 }
 
@@ -32,7 +37,7 @@ pub(crate) fn diagnose_apart(first: &Evidence<'_>, views: &[View<'_>]) -> Diagno
 mod tests {
     use super::*;
     use crate::cause::{bsdf, shape};
-    use crate::diagnosis::testing::{Made, failing, passing};
+    use crate::diagnosis::testing::{Made, Nothing, failing, passing};
     use crate::diagnosis::{Degree, diagnose};
 
     fn without_pi() -> crate::checks::Finding {
@@ -53,7 +58,7 @@ mod tests {
             evidence: made.evidence(),
             mended: mended.into_iter().map(str::to_owned).collect(),
         });
-        let told = diagnose_apart(&both.evidence(), &views);
+        let told = diagnose_apart(&both.evidence(), &views, &Nothing);
         let [first, second] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!((&first.cause[..], first.degree), (shape::FAR_ROOT_TAKEN.name, Degree::Named));
         assert_eq!(second.cause, bsdf::WITHOUT_PI.name);
@@ -64,7 +69,7 @@ mod tests {
     #[test]
     fn what_no_view_shows_is_told_as_it_was_seen_first() {
         let made = Made::new().with("bsdf/b", without_pi()).with("adaptive/d", failing("d"));
-        let told = diagnose_apart(&made.evidence(), &[]);
+        let told = diagnose_apart(&made.evidence(), &[], &Nothing);
         assert_eq!(told, diagnose(&made.evidence()));
     }
 
@@ -73,7 +78,7 @@ mod tests {
         let made = Made::new().with("bsdf/b", without_pi()).with("bsdf/c", failing("c"));
         let mended = vec!["bsdf/b".to_owned(), "bsdf/c".to_owned()];
         let view = View { evidence: made.evidence(), mended };
-        let told = diagnose_apart(&made.evidence(), &[view]);
+        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!(
             (only.degree, &only.may_follow[..]),

@@ -1,5 +1,6 @@
 //! Crashes, and answers that did not come in time: equal endings of the same request are one headline.
 
+use super::reproduction::Refuted;
 use super::{Degree, Ending, Evidence, Headline, Observation};
 use crate::case::{Part, Subject};
 use crate::cause::{Cause, adaptive, bvh};
@@ -46,7 +47,7 @@ fn function(during: &str) -> String {
 }
 
 /// A headline for each kind of ending, the earliest part first.
-pub(crate) fn headlines(evidence: &Evidence<'_>) -> Vec<Headline> {
+pub(super) fn headlines(evidence: &Evidence<'_>, refuted: &Refuted) -> Vec<Headline> {
     let mut kinds: BTreeMap<Kind<'_>, Vec<&Observation<'_>>> = BTreeMap::new();
     for seen in evidence.failures() {
         if let Some(ending) = seen.ending {
@@ -56,7 +57,12 @@ pub(crate) fn headlines(evidence: &Evidence<'_>) -> Vec<Headline> {
     // The same cases ask for nearest hits before they ask for shadows.
     let shadows_alone = kinds.keys().all(|kind| kind.request != "intersect");
     let told = |(kind, cases): (&Kind<'_>, &Vec<_>)| {
-        headline(evidence, kind, cases, cause(kind, cases, shadows_alone))
+        let refutes = |cause: &Cause, seen: &Observation<'_>| {
+            refuted.contains(&(cause.name, seen.case.to_owned()))
+        };
+        let cause = cause(kind, cases, shadows_alone);
+        let cause = cause.filter(|cause| !cases.iter().any(|seen| refutes(cause, seen)));
+        headline(evidence, kind, cases, cause)
     };
     let mut headlines: Vec<_> = kinds.iter().map(told).collect();
     headlines.sort_by_key(|headline| headline.explains.first().map(|case| Part::position(case)));

@@ -2,7 +2,7 @@
 
 use crate::case::{Foundation, Part, Role, Subject, Tier};
 use crate::checks::{Finding, Measure};
-use crate::contract::Conventions;
+use crate::contract::{Components, Conventions};
 use crate::image::Channel;
 use std::cmp::Ordering;
 
@@ -42,6 +42,8 @@ pub(crate) struct Observation<'a> {
     pub(crate) rerun: &'a str,
     /// Seconds it took.
     pub(crate) seconds: f64,
+    /// What the core took from the bench.
+    pub(crate) with: Components,
 }
 
 impl Observation<'_> {
@@ -85,7 +87,12 @@ impl<'a> Evidence<'a> {
     }
 
     pub(crate) fn fails(&self, case: &str) -> bool {
-        self.all_failures().any(|seen| seen.case == case)
+        self.failure_of(case).is_some()
+    }
+
+    /// What was seen of a case, if it failed.
+    pub(crate) fn failure_of(&self, case: &str) -> Option<&Observation<'a>> {
+        self.all_failures().find(|seen| seen.case == case)
     }
 
     /// The same with these alone of its failures.

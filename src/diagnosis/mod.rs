@@ -2,7 +2,8 @@
 //!
 //! A failing case says that something is wrong; a cause says what. Each rule looks at the findings of one core and
 //! suspects causes of the glossary ([`crate::cause`]), with the numbers that speak for them and what they rule out.
-//! The suspicions are then ranked, and failures that share a cause become one headline.
+//! The suspicions are then ranked, and failures that share a cause become one headline. In a run each cause is put to the
+//! proof by a core with that mistake ([`Planted`]).
 //!
 //! To add a rule: a file with a function from [`Evidence`] to suspicions, tested on made-up numbers, and its line in
 //! [`RULES`].
@@ -21,6 +22,7 @@ mod mirrors;
 mod pictures;
 mod rank;
 mod readings;
+mod reproduction;
 mod roulette;
 mod shadows;
 #[cfg(test)]
@@ -29,9 +31,11 @@ mod testing;
 pub(crate) use apart::{View, diagnose_apart};
 pub(crate) use evidence::{Ending, Evidence, Observation, Standing};
 pub(crate) use rank::{Diagnosis, Headline};
+pub(crate) use reproduction::{Mistake, Planted, Question};
 
 use crate::cause::Cause;
 use rank::Ranked;
+use reproduction::{Refuted, proven};
 use serde::{Deserialize, Serialize};
 
 /// How sure a headline is of its cause.
@@ -125,10 +129,21 @@ pub(crate) static RULES: &[Rule] = &[
 
 /// The causes of what failed, the first to look at first.
 pub(crate) fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
-    look(evidence).told()
+    look_without(evidence, &Refuted::new(), Vec::new()).told()
 }
 
-fn look(evidence: &Evidence<'_>) -> Ranked {
-    let suspicions = RULES.iter().flat_map(|rule| (rule.run)(evidence)).collect();
-    rank::rank(evidence, suspicions)
+/// The same, put to the proof.
+pub(crate) fn diagnose_proven(evidence: &Evidence<'_>, planted: &dyn Planted) -> Diagnosis {
+    proven(evidence, planted).told()
+}
+
+/// What the rules suspect and is not refuted, and what was found beside.
+fn look_without(evidence: &Evidence<'_>, refuted: &Refuted, found: Vec<Suspicion>) -> Ranked {
+    let mut suspicions: Vec<_> = RULES.iter().flat_map(|rule| (rule.run)(evidence)).collect();
+    for suspicion in &mut suspicions {
+        let cause = suspicion.cause.name;
+        suspicion.cases.retain(|case| !refuted.contains(&(cause, case.clone())));
+    }
+    suspicions.extend(found);
+    rank::rank(evidence, suspicions, refuted)
 }

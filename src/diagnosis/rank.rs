@@ -1,6 +1,7 @@
 //! Suspicions become headlines: the earliest part that explains the most comes first, and failures that share a cause
 //! are told once.
 
+use super::reproduction::Refuted;
 use super::{Degree, Evidence, Observation, Suspicion, differences, endings};
 use crate::case::{Part, Tier};
 use crate::cause::{self, Cause};
@@ -141,6 +142,25 @@ impl Ranked {
         Diagnosis { headlines: kinds.into_iter().flatten().collect(), unexplained }
     }
 
+    /// Graded headlines that tell a cause.
+    pub(super) fn with_cause(&self) -> impl Iterator<Item = &Headline> {
+        let told = self.endings.iter().chain(&self.causes);
+        told.filter(|headline| !headline.cause.is_empty())
+    }
+
+    /// Causes that are not sure become what it looks like.
+    pub(super) fn doubt(&mut self, is_doubtful: impl Fn(&Headline) -> bool) {
+        for headline in self.causes.iter_mut().filter(|headline| is_doubtful(headline)) {
+            headline.degree = headline.degree.min(Degree::LooksLike);
+        }
+    }
+
+    /// What differs, and what no more than looks like a cause.
+    pub(super) fn unnamed(&self) -> impl Iterator<Item = &Headline> {
+        let vague = self.causes.iter().filter(|headline| headline.degree == Degree::LooksLike);
+        vague.chain(&self.differing)
+    }
+
     /// The same where everything but one component is the bench's: whatever else failed is of its only cause too.
     pub(super) fn of_one_component(mut self) -> Self {
         if let ([only], []) = (&mut self.causes[..], &self.endings[..]) {
@@ -206,8 +226,12 @@ impl Candidate {
 
 /// Takes the best candidate, then the best for what is left, until nothing is left; what counts comes before what
 /// does not.
-pub(super) fn rank(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Ranked {
-    let mut headlines = endings::headlines(evidence);
+pub(super) fn rank(
+    evidence: &Evidence<'_>,
+    suspicions: Vec<Suspicion>,
+    refuted: &Refuted,
+) -> Ranked {
+    let mut headlines = endings::headlines(evidence, refuted);
     let endings = headlines.len();
     let mut candidates = collect(evidence, suspicions);
     let answered = |seen: &&Observation<'_>| seen.ending.is_none();

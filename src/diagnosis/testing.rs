@@ -1,9 +1,9 @@
 //! Made-up findings for the tests of rules.
 
-use super::{Ending, Evidence, Observation, Standing, diagnose};
+use super::{Ending, Evidence, Mistake, Observation, Planted, Question, Standing, diagnose};
 use crate::case::{Foundation, Role, Tier};
 use crate::checks::{Finding, Measure};
-use crate::contract::Conventions;
+use crate::contract::{Components, Conventions};
 use crate::image::Channel;
 use crate::stats::Verdict;
 
@@ -151,6 +151,20 @@ fn observation<'a>(
         finding,
         rerun: case,
         seconds: 1.0,
+        with: Components::empty(),
+    }
+}
+
+/// A bench that can plant nothing.
+pub(crate) struct Nothing;
+
+impl Planted for Nothing {
+    fn mistakes(&self) -> &[Mistake] {
+        &[]
+    }
+
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+        questions.iter().map(|_| None).collect()
     }
 }
 

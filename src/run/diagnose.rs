@@ -5,7 +5,7 @@ use super::second_look::SecondLook;
 use super::{Outcome, Status, Transplants, TrialRecord};
 use crate::case::Foundation;
 use crate::contract::Components;
-use crate::diagnosis::{self, Diagnosis, Ending, Evidence, Observation, Standing, View};
+use crate::diagnosis::{self, Diagnosis, Ending, Evidence, Observation, Planted, Standing, View};
 
 /// The causes of what failed on `core` among `trials`; those of other cores are left aside.
 pub(crate) fn diagnose<'a>(
@@ -16,12 +16,23 @@ pub(crate) fn diagnose<'a>(
     diagnosis::diagnose(&evidence(core, of_core))
 }
 
+/// The same, put to the proof by planted mistakes.
+pub(super) fn diagnose_proven(
+    core: &CoreRecord,
+    trials: &[TrialRecord],
+    planted: &dyn Planted,
+) -> Diagnosis {
+    let of_core = trials.iter().filter(|trial| trial.core == core.spec);
+    diagnosis::diagnose_proven(&evidence(core, of_core), planted)
+}
+
 /// The same from second looks too, each at one component.
 pub(super) fn diagnose_apart(
     core: &CoreRecord,
     trials: &[TrialRecord],
     transplants: &Transplants,
     views: &[SecondLook],
+    planted: &dyn Planted,
 ) -> Diagnosis {
     let first: Vec<_> = trials.iter().filter(|trial| trial.core == core.spec).collect();
     let of_view = |view: &'_ SecondLook| {
@@ -35,7 +46,7 @@ pub(super) fn diagnose_apart(
             mended: of_view(view),
         })
         .collect();
-    diagnosis::diagnose_apart(&evidence(core, first.iter().copied()), &views)
+    diagnosis::diagnose_apart(&evidence(core, first.iter().copied()), &views, planted)
 }
 
 /// What was tried again, and of the rest what did not fail.
@@ -70,6 +81,7 @@ fn observation(trial: &TrialRecord) -> Observation<'_> {
         finding: trial.outcome.finding(),
         rerun: &trial.rerun,
         seconds: trial.timing.seconds,
+        with: trial.with,
     }
 }
 

@@ -9,6 +9,7 @@ pub(crate) mod event;
 pub(crate) mod executor;
 pub(crate) mod outcome;
 pub(crate) mod plan;
+mod planted;
 pub mod record;
 mod schedule;
 mod search;
@@ -120,11 +121,12 @@ fn conclude(
     if plan.searches && !plan.request.fail_fast && plan.with.is_empty() {
         core.transplants = search::search(plan, bench, core, records, events);
     }
+    let planted = planted::Textbook::new(plan, bench);
     core.diagnosis = Some(match &core.transplants {
-        None => diagnose(core, records),
+        None => diagnose::diagnose_proven(core, records, &planted),
         Some(transplants) => {
             let views = look_again(plan, bench, core, records, transplants);
-            diagnose::diagnose_apart(core, records, transplants, &views)
+            diagnose::diagnose_apart(core, records, transplants, &views, &planted)
         }
     });
 }

@@ -1,0 +1,498 @@
+//! Causes put to the proof: the bench's own core with the suspected mistake planted in it is asked the same, and has to
+//! come to the same numbers.
+//!
+//! What it contradicts is not told; what no rule recognises, and one planted mistake reproduces, is told by its name.
+
+use super::rank::Ranked;
+use super::{Degree, Evidence, Headline, Observation, Suspicion, look_without};
+use crate::cause::{self, Cause};
+use crate::checks::{Finding, Measure};
+use crate::contract::Components;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Cases in which a suspicion is put to the proof, the quickest of those that it explains.
+const CASES: usize = 4;
+/// Seconds; a case that took the core longer is not asked again.
+const LONGEST: f64 = 4.0;
+/// Rounds in which what is contradicted makes room for the next suspicion.
+const ROUNDS: usize = 4;
+/// Mistakes of which pairs are tried.
+const PAIRED: usize = 8;
+/// Of the numbers that are wrong in one core or the other, so many have to agree.
+const MOST: f64 = 0.95;
+/// By how much of itself an error of the same mistake may differ from core to core: their samplers, tolerances and
+/// trees are not the same.
+const ALIKE: f64 = 0.1;
+
+/// A mistake that the bench can plant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mistake {
+    pub(crate) name: &'static str,
+    pub(crate) cause: &'static Cause,
+    /// What of a path tracer it is made in.
+    pub(crate) components: Components,
+    /// The case that fails by it.
+    pub(crate) caught_by: &'static str,
+}
+
+/// Mistakes that are on together, and what they are asked.
+#[derive(Clone, Debug)]
+pub(crate) struct Question<'a> {
+    pub(crate) mistakes: Vec<Mistake>,
+    pub(crate) case: &'a str,
+    /// What is the bench's own, without any mistake.
+    pub(crate) with: Components,
+}
+
+/// The bench's own core with mistakes planted in it.
+pub(crate) trait Planted {
+    /// All there are.
+    fn mistakes(&self) -> &[Mistake];
+
+    /// What comes of each question; nothing where the mistakes exclude each other, or time is up.
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>>;
+}
+
+/// How the numbers of a core compare with those of a planted mistake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Likeness {
+    /// Wrong in the same places, to the same side, by as much.
+    Same,
+    /// Wrong in the same places and to the same side.
+    Alike,
+    /// Wrong elsewhere, or to the other side.
+    Other,
+    /// They cannot be compared.
+    Unknown,
+}
+
+/// Causes that a case contradicts.
+pub(super) type Refuted = BTreeSet<(&'static str, String)>;
+
+/// The headlines of `evidence` that planted mistakes do not contradict, and those that they add.
+pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted) -> Ranked {
+    let proof = Proof { evidence, planted };
+    let (refuted, ranked) = proof.uncontradicted();
+    let mut found = proof.confirmed(&ranked);
+    found.extend(proof.reproduced(&ranked));
+    let mut proven =
+        if found.is_empty() { ranked } else { look_without(evidence, &refuted, found) };
+    proven.doubt(|headline| proof.is_of_another_size(headline));
+    proven
+}
+
+struct Proof<'a> {
+    evidence: &'a Evidence<'a>,
+    planted: &'a dyn Planted,
+}
+
+impl<'a> Proof<'a> {
+    /// What is told after everything that is contradicted has made room for the next suspicion.
+    fn uncontradicted(&self) -> (Refuted, Ranked) {
+        let mut refuted = Refuted::new();
+        let mut ranked = look_without(self.evidence, &refuted, Vec::new());
+        for _ in 0..ROUNDS {
+            let mut contradicted = self.contradicted(&ranked);
+            if contradicted.is_empty() {
+                contradicted = self.following(&ranked);
+            }
+            if contradicted.is_subset(&refuted) {
+                break;
+            }
+            refuted.extend(contradicted);
+            ranked = look_without(self.evidence, &refuted, Vec::new());
+        }
+        (refuted, ranked)
+    }
+
+    /// The cases of each headline that contradict its cause, planted alone and beside all others that are told.
+    fn contradicted(&self, ranked: &Ranked) -> Refuted {
+        let told: Vec<_> = ranked.with_cause().collect();
+        let all: Vec<_> = told.iter().filter_map(|headline| self.of(headline).next()).collect();
+        told.iter().flat_map(|headline| self.contradicting(headline, &all)).collect()
+    }
+
+    fn contradicting(&self, headline: &Headline, all: &[Mistake]) -> Refuted {
+        let Some(cause) = cause::find(&headline.cause) else { return Refuted::new() };
+        let mut sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+        if !sets.is_empty() && all.len() > 1 {
+            sets.push(all.to_vec());
+        }
+        let cases = self.quickest(&headline.explains);
+        let answers = self.compare(&sets, &cases);
+        let is_contradicted = |number: usize| {
+            let of_sets = || answers.iter().map(|of_set| of_set[number]);
+            of_sets().any(|likeness| likeness == Likeness::Other)
+                && of_sets().all(|l| matches!(l, Likeness::Other | Likeness::Unknown))
+        };
+        let against: Vec<_> = (0..cases.len()).filter(|number| is_contradicted(*number)).collect();
+        // What every case that was tried contradicts is not the cause of those that were not.
+        if against.len() == cases.len() {
+            return refuted(cause, &headline.explains);
+        }
+        against.into_iter().map(|number| (cause.name, cases[number].case.to_owned())).collect()
+    }
+
+    /// Causes whose cases another one's mistake reproduces too, and that reproduce not all of that one's: one mistake is
+    /// all there is.
+    fn following(&self, ranked: &Ranked) -> Refuted {
+        let told: Vec<_> = ranked.with_cause().collect();
+        let reproduces = |one: &Headline, of: &Headline| {
+            self.of(one).any(|mistake| self.is_reproduced(mistake, of))
+        };
+        let follows = |other: &&&Headline| {
+            let others = told.iter().filter(|one| one.cause != other.cause);
+            let mut of_both = others.filter(|one| reproduces(one, one) && reproduces(one, other));
+            of_both.any(|one| !reproduces(other, one))
+        };
+        let following = told.iter().filter(follows);
+        let cases = |told: &&Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
+        following.filter_map(cases).flatten().collect()
+    }
+
+    /// Whether one mistake gives the numbers of every case of `headline` that is tried.
+    fn is_reproduced(&self, mistake: Mistake, headline: &Headline) -> bool {
+        let cases = self.quickest(&headline.explains);
+        let answers = self.compare(&[vec![mistake]], &cases);
+        !cases.is_empty() && answers.iter().flatten().all(|likeness| *likeness == Likeness::Same)
+    }
+
+    /// Whether its mistakes are wrong in the same places, and nowhere by as much.
+    fn is_of_another_size(&self, headline: &Headline) -> bool {
+        let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+        let answers = self.compare(&sets, &self.quickest(&headline.explains));
+        let mut numbers =
+            answers.iter().flatten().filter(|one| **one != Likeness::Unknown).peekable();
+        numbers.peek().is_some() && numbers.all(|likeness| *likeness != Likeness::Same)
+    }
+
+    /// The named causes whose mistake gives the same numbers, with that for evidence.
+    fn confirmed(&self, ranked: &Ranked) -> Vec<Suspicion> {
+        let named = ranked.with_cause().filter(|headline| headline.degree == Degree::Named);
+        let confirmed = |headline: &Headline| {
+            let mistake = self.of(headline).find(|one| self.is_reproduced(*one, headline))?;
+            let cases = self.quickest(&headline.explains);
+            suspicions(&[mistake], &cases, Degree::Named).pop()
+        };
+        named.filter_map(confirmed).collect()
+    }
+
+    /// Mistakes that reproduce all that has no name yet; else what each headline without a name explains.
+    fn reproduced(&self, ranked: &Ranked) -> Vec<Suspicion> {
+        let groups: Vec<_> = ranked.unnamed().collect();
+        let told: Vec<_> = ranked.with_cause().filter_map(|told| self.of(told).next()).collect();
+        let all: Vec<_> = groups.iter().flat_map(|told| told.explains.clone()).collect();
+        let found = self.reproducing(&all, &told);
+        if !found.is_empty() || groups.len() < 2 {
+            return found;
+        }
+        groups.iter().flat_map(|group| self.reproducing(&group.explains, &told)).collect()
+    }
+
+    /// Mistakes that reproduce these cases alone, beside what is told, or in pairs.
+    fn reproducing(&self, cases: &[String], told: &[Mistake]) -> Vec<Suspicion> {
+        let cases = self.quickest(cases);
+        if cases.is_empty() {
+            return Vec::new();
+        }
+        let mistakes = self.in_sight();
+        let alone: Vec<_> = mistakes.iter().map(|mistake| vec![*mistake]).collect();
+        let found = self.of_sets(&alone, &cases);
+        if !found.is_empty() {
+            return found;
+        }
+        let is_told = |mistake: &&Mistake| told.iter().any(|told| told.cause == mistake.cause);
+        let others: Vec<_> = mistakes.iter().filter(|m| !is_told(m)).take(PAIRED).collect();
+        let beside = others.iter().filter(|_| !told.is_empty());
+        let mut sets: Vec<Vec<_>> =
+            beside.map(|other| told.iter().copied().chain([**other]).collect()).collect();
+        for (number, one) in others.iter().enumerate() {
+            let rest = others[number + 1..].iter().filter(|other| other.cause != one.cause);
+            sets.extend(rest.map(|other| vec![**one, **other]));
+        }
+        self.of_sets(&sets, &cases)
+    }
+
+    /// The suspicions of those sets that reproduce every case; none where too many do.
+    fn of_sets(&self, sets: &[Vec<Mistake>], cases: &[&Observation<'a>]) -> Vec<Suspicion> {
+        let mut fitting: Vec<&Vec<Mistake>> = sets.iter().collect();
+        // The quickest case leaves few for the others.
+        for seen in cases {
+            let tried: Vec<_> = fitting.iter().map(|set| (*set).clone()).collect();
+            let answers = self.compare(&tried, &[seen]);
+            let fits = fitting.iter().zip(answers).filter(|(_, of)| of[0] == Likeness::Same);
+            fitting = fits.map(|(set, _)| *set).collect();
+        }
+        let mut kinds: BTreeMap<Vec<&str>, &Vec<Mistake>> = BTreeMap::new();
+        for set in fitting {
+            let mut causes: Vec<_> = set.iter().map(|mistake| mistake.cause.name).collect();
+            causes.sort_unstable();
+            kinds.entry(causes).or_insert(set);
+        }
+        if kinds.len() > 2 {
+            return Vec::new();
+        }
+        let degree = Degree::of_one_among(kinds.len());
+        kinds.values().flat_map(|set| suspicions(set, cases, degree)).collect()
+    }
+
+    /// The planted mistakes of a headline's cause.
+    fn of(&self, headline: &Headline) -> impl Iterator<Item = Mistake> + use<'a> {
+        let name = headline.cause.clone();
+        self.planted.mistakes().iter().copied().filter(move |mistake| mistake.cause.name == name)
+    }
+
+    /// Mistakes made in what is the core's own, whose own cases fail here.
+    fn in_sight(&self) -> Vec<Mistake> {
+        let fails = |mistake: &&Mistake| {
+            let seen = self.evidence.failure_of(mistake.caught_by);
+            seen.is_some_and(|seen| !seen.with.intersects(mistake.components))
+        };
+        self.planted.mistakes().iter().filter(fails).copied().collect()
+    }
+
+    /// The quickest of `cases` whose numbers can be compared.
+    fn quickest(&self, cases: &[String]) -> Vec<&'a Observation<'a>> {
+        let mut seen: Vec<_> =
+            cases.iter().filter_map(|case| self.evidence.failure_of(case)).collect();
+        seen.retain(|seen| seen.seconds <= LONGEST);
+        seen.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        seen.truncate(CASES);
+        seen
+    }
+
+    /// For each set of mistakes, how it compares in each case.
+    fn compare(&self, sets: &[Vec<Mistake>], cases: &[&Observation<'a>]) -> Vec<Vec<Likeness>> {
+        let question = |set: &Vec<Mistake>, seen: &&Observation<'a>| Question {
+            mistakes: set.clone(),
+            case: seen.case,
+            with: seen.with,
+        };
+        let questions: Vec<_> =
+            sets.iter().flat_map(|set| cases.iter().map(move |seen| question(set, seen))).collect();
+        let mut answers = self.planted.ask(&questions).into_iter();
+        let of_case = |seen: &&Observation<'a>| match answers.next().flatten() {
+            Some(planted) => likeness(seen.finding, &planted),
+            None => Likeness::Unknown,
+        };
+        let likenesses: Vec<_> = cases.iter().cycle().take(questions.len()).map(of_case).collect();
+        likenesses.chunks(cases.len().max(1)).map(<[_]>::to_vec).collect()
+    }
+}
+
+fn refuted(cause: &'static Cause, cases: &[String]) -> Refuted {
+    cases.iter().map(|case| (cause.name, case.clone())).collect()
+}
+
+fn suspicions(set: &[Mistake], cases: &[&Observation<'_>], degree: Degree) -> Vec<Suspicion> {
+    let names: Vec<_> = cases.iter().map(|seen| seen.case.to_owned()).collect();
+    let together = if set.len() > 1 { " beside the others" } else { "" };
+    let sentence = format!(
+        "the bench's own core with this mistake{together} gives the same numbers in {}",
+        names.join(", ")
+    );
+    let suspicion = |mistake: &Mistake| Suspicion {
+        cause: mistake.cause,
+        cases: names.clone(),
+        evidence: vec![sentence.clone()],
+        ruled_out: Vec::new(),
+        weight: 1.0,
+        degree,
+        beside: set.len() > 1,
+    };
+    set.iter().map(suspicion).collect()
+}
+
+/// How what a core answered compares with what a planted mistake answers; a core that stopped answering has no finding.
+fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
+    let Some(core) = core else { return by_verdict(planted) };
+    let pairs = core.measures.iter().filter_map(|of_core| {
+        let is_same = |other: &&Measure| asks_the_same(of_core, other);
+        Some((of_core, planted.measures.iter().find(is_same)?))
+    });
+    let wrong: Vec<_> = pairs.filter(|(a, b)| a.failed() || b.failed()).collect();
+    if wrong.is_empty() {
+        return by_verdict(planted);
+    }
+    let most = |agree: fn(&Measure, &Measure) -> bool| {
+        let count = wrong.iter().filter(|(a, b)| agree(a, b)).count();
+        count as f64 >= MOST * wrong.len() as f64
+    };
+    match (most(errs_alike), most(errs_as_much)) {
+        (_, true) => Likeness::Same,
+        (true, false) => Likeness::Alike,
+        (false, false) => Likeness::Other,
+    }
+}
+
+/// Of what failed without a number: nothing is known of its size.
+fn by_verdict(planted: &Finding) -> Likeness {
+    if planted.failed() { Likeness::Unknown } else { Likeness::Other }
+}
+
+/// The same number of the same row, of which the same is expected.
+fn asks_the_same(a: &Measure, b: &Measure) -> bool {
+    let slack = 1e-6 * a.expected.abs() + a.allowed.max(b.allowed);
+    (&a.row, &a.quantity, a.channel) == (&b.row, &b.quantity, b.channel)
+        && (a.expected - b.expected).abs() <= slack
+}
+
+/// Both are wrong, to the same side; or they cannot be told apart.
+fn errs_alike(a: &Measure, b: &Measure) -> bool {
+    let side = |measure: &Measure| measure.measured.partial_cmp(&measure.expected);
+    a.failed() && b.failed() && side(a) == side(b) || errs_as_much(a, b)
+}
+
+/// The numbers lie within each other's noise, and a little of the error.
+fn errs_as_much(a: &Measure, b: &Measure) -> bool {
+    if a.measured.is_nan() || b.measured.is_nan() {
+        return a.measured.is_nan() && b.measured.is_nan();
+    }
+    let error = (a.measured - a.expected).abs().max((b.measured - b.expected).abs());
+    let slack = ALIKE * error;
+    let ends = |measure: &Measure| measure.interval.unwrap_or([measure.measured; 2]);
+    let ([a_low, a_high], [b_low, b_high]) = (ends(a), ends(b));
+    a_low <= b_high + slack && b_low <= a_high + slack
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cause::{bsdf, integrator, light};
+    use crate::diagnosis::testing::{Made, failing, mean, means, passing};
+    use crate::diagnosis::{Diagnosis, diagnose, diagnose_proven};
+    use crate::image::Channel;
+
+    const PI: Mistake = mistake("pi", &bsdf::WITHOUT_PI, "bsdf/a");
+    const DIVIDED: Mistake = mistake("divided", &light::DIVIDED_BY_LIGHTS, "light/b");
+    const AGAIN: Mistake = mistake("again", &integrator::EMISSION_AGAIN, "light/b");
+
+    const fn mistake(
+        name: &'static str,
+        cause: &'static Cause,
+        caught_by: &'static str,
+    ) -> Mistake {
+        Mistake { name, cause, components: Components::BSDF, caught_by }
+    }
+
+    /// Mistakes, and the ratio to what is right that they give together in a case; 1 where nothing is said.
+    struct Bench<'a> {
+        mistakes: &'a [Mistake],
+        gives: &'a [(&'a [&'a str], &'a str, f64)],
+    }
+
+    impl Planted for Bench<'_> {
+        fn mistakes(&self) -> &[Mistake] {
+            self.mistakes
+        }
+
+        fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+            let ratio = |question: &Question<'_>| {
+                let names: Vec<_> = question.mistakes.iter().map(|one| one.name).collect();
+                let of = |(set, case, _): &&(&[&str], &str, f64)| {
+                    *set == &names[..] && *case == question.case
+                };
+                self.gives.iter().find(of).map_or(1.0, |(.., ratio)| *ratio)
+            };
+            questions.iter().map(|question| Some(light(ratio(question)))).collect()
+        }
+    }
+
+    fn light(ratio: f64) -> Finding {
+        means(vec![mean("bounce 1", Channel::Red, 0.5, ratio, 0.01)])
+    }
+
+    fn told(diagnosis: &Diagnosis) -> Vec<(&str, Degree, usize)> {
+        let headlines = diagnosis.headlines.iter();
+        headlines.map(|told| (&told.cause[..], told.degree, told.explains.len())).collect()
+    }
+
+    #[test]
+    fn what_the_planted_mistake_contradicts_is_not_told() {
+        let brighter = light(2.0).because(&bsdf::WITHOUT_PI, "too bright");
+        let made = Made::new().with("bsdf/a", brighter);
+        assert_eq!(diagnose(&made.evidence()).headlines[0].cause, bsdf::WITHOUT_PI.name);
+        for other in [1.0, 0.5] {
+            let planted = Bench { mistakes: &[PI], gives: &[(&["pi"], "bsdf/a", other)] };
+            let diagnosis = diagnose_proven(&made.evidence(), &planted);
+            assert_eq!(told(&diagnosis), [("", Degree::DiffersHere, 1)], "{other}");
+        }
+        let planted = Bench { mistakes: &[PI], gives: &[(&["pi"], "bsdf/a", 2.5)] };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let pi = bsdf::WITHOUT_PI.name;
+        assert_eq!(told(&diagnosis), [(pi, Degree::LooksLike, 1)], "it is of another size");
+    }
+
+    #[test]
+    fn what_contradicts_one_cause_makes_room_for_the_next() {
+        let finding =
+            light(0.5).because(&bsdf::WITHOUT_PI, "x").because(&light::DIVIDED_BY_LIGHTS, "y");
+        let made = Made::new().with("light/b", finding);
+        let gives: &[(&[&str], _, _)] = &[(&["divided"], "light/b", 0.5)];
+        let planted = Bench { mistakes: &[PI, DIVIDED], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let divided = light::DIVIDED_BY_LIGHTS.name;
+        assert_eq!(told(&diagnosis), [(divided, Degree::Named, 1)]);
+    }
+
+    #[test]
+    fn what_no_rule_knows_is_named_by_the_one_mistake_that_gives_the_same_numbers() {
+        let made = Made::new().with("light/b", light(0.5)).with("light/c", light(0.25));
+        let gives: &[(&[&str], _, _)] = &[
+            (&["divided"], "light/b", 0.5),
+            (&["divided"], "light/c", 0.25),
+            (&["again"], "light/b", 0.5),
+        ];
+        let planted = Bench { mistakes: &[DIVIDED, AGAIN], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let divided = light::DIVIDED_BY_LIGHTS.name;
+        assert_eq!(told(&diagnosis), [(divided, Degree::Named, 2)]);
+    }
+
+    #[test]
+    fn two_mistakes_that_give_the_numbers_only_together_are_both_named() {
+        let made = Made::new().with("bsdf/a", light(0.7)).with("light/b", light(0.7));
+        let both: &[&str] = &["pi", "divided"];
+        let gives = &[(both, "bsdf/a", 0.7), (both, "light/b", 0.7)];
+        let planted = Bench { mistakes: &[PI, DIVIDED], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let names = [bsdf::WITHOUT_PI.name, light::DIVIDED_BY_LIGHTS.name];
+        assert_eq!(told(&diagnosis), names.map(|name| (name, Degree::Named, 2)));
+    }
+
+    #[test]
+    fn a_mistake_that_gives_the_numbers_of_two_causes_is_all_there_is() {
+        let made = Made::new()
+            .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
+            .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y"));
+        let gives: &[(&[&str], _, _)] =
+            &[(&["pi"], "bsdf/a", 1.5), (&["pi"], "light/b", 0.5), (&["divided"], "light/b", 0.5)];
+        let planted = Bench { mistakes: &[PI, DIVIDED], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::Named, 2)]);
+    }
+
+    #[test]
+    fn a_mistake_whose_own_case_passes_is_not_there() {
+        let made = Made::new().with("light/c", light(0.5)).with("light/b", passing());
+        let gives: &[(&[&str], _, _)] = &[(&["divided"], "light/c", 0.5)];
+        let planted = Bench { mistakes: &[DIVIDED], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        assert_eq!(told(&diagnosis), [("", Degree::DiffersHere, 1)]);
+    }
+
+    #[test]
+    fn numbers_are_compared_row_by_row_and_what_has_none_by_its_verdict() {
+        let two = |a, b| {
+            means(vec![
+                mean("a", Channel::Red, 0.5, a, 0.01),
+                mean("b", Channel::Red, 0.5, b, 0.01),
+            ])
+        };
+        assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(2.0, 1.0)), Likeness::Same);
+        assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(3.0, 1.0)), Likeness::Alike);
+        assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.0, 2.0)), Likeness::Other);
+        assert_eq!(likeness(Some(&failing("lost")), &failing("lost")), Likeness::Unknown);
+        assert_eq!(likeness(None, &passing()), Likeness::Other);
+    }
+}

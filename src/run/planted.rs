@@ -1,0 +1,76 @@
+//! The textbook core with mistakes planted in it, asked what the core of the run was asked.
+
+use super::attempt::run_with;
+use super::bench::Bench;
+use super::plan::{Plan, Trial};
+use super::search::each_in_parallel;
+use crate::checks::Finding;
+use crate::contract::Components;
+use crate::cores::textbook::fault;
+use crate::diagnosis::{Mistake, Planted, Question};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How long planted mistakes may be asked for one core.
+const LONGEST: Duration = Duration::from_secs(30);
+
+/// What was asked: the core, the case, what was the bench's own.
+type Asked = (String, String, Components);
+
+pub(super) struct Textbook<'a> {
+    plan: &'a Plan,
+    bench: &'a Bench,
+    mistakes: Vec<Mistake>,
+    deadline: Instant,
+    known: Mutex<BTreeMap<Asked, Finding>>,
+}
+
+impl<'a> Textbook<'a> {
+    pub(super) fn new(plan: &'a Plan, bench: &'a Bench) -> Self {
+        let mistake = |fault: &'static fault::Fault| Mistake {
+            name: fault.name,
+            cause: fault.cause,
+            components: fault.components(),
+            caught_by: fault.caught_by,
+        };
+        let (mistakes, known) = (fault::all().map(mistake).collect(), Mutex::default());
+        Self { plan, bench, mistakes, deadline: Instant::now() + LONGEST, known }
+    }
+
+    fn answer(&self, question: &Question<'_>) -> Option<Finding> {
+        let names: Vec<_> = question.mistakes.iter().map(|mistake| mistake.name).collect();
+        let core = format!("textbook:{}", names.join("+"));
+        let asked = (core, question.case.to_owned(), question.with);
+        if let Some(known) = self.known().get(&asked) {
+            return Some(known.clone());
+        }
+        let finding = self.try_out(&asked.0, question)?;
+        self.known().insert(asked, finding.clone());
+        Some(finding)
+    }
+
+    fn try_out(&self, core: &str, question: &Question<'_>) -> Option<Finding> {
+        let core = core.parse().ok()?;
+        let case = &self.plan.trials.iter().find(|trial| trial.case.id == question.case)?.case;
+        let trial = Trial { case: Arc::clone(case), core };
+        let is_in_time = Instant::now() < self.deadline;
+        let ended = is_in_time.then(|| run_with(self.bench, &trial, question.with))?;
+        ended.record.outcome.finding().cloned()
+    }
+
+    fn known(&self) -> MutexGuard<'_, BTreeMap<Asked, Finding>> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Planted for Textbook<'_> {
+    fn mistakes(&self) -> &[Mistake] {
+        &self.mistakes
+    }
+
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+        let answer = |number: usize| Some(self.answer(&questions[number]));
+        each_in_parallel(self.plan.jobs(), questions.len(), &answer)
+    }
+}

@@ -75,9 +75,14 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted) -> Ranked {
     let (refuted, ranked) = proof.uncontradicted();
     let mut found = proof.confirmed(&ranked);
     found.extend(proof.reproduced(&ranked));
-    let mut proven =
-        if found.is_empty() { ranked } else { look_without(evidence, &refuted, found) };
-    proven.doubt(|headline| proof.is_of_another_size(headline));
+    let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
+    let mut proven = match found.is_empty() {
+        true => ranked,
+        false => look_without(evidence, &refuted, found),
+    };
+    proven.doubt(|headline| {
+        !causes.contains(&headline.cause[..]) && proof.is_of_another_size(headline)
+    });
     proven
 }
 

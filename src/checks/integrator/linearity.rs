@@ -52,6 +52,23 @@ impl Trial {
         Ok((0..3).map(exact).collect())
     }
 
+    /// The same where paths may depend on how bright light is, or on what was drawn before.
+    pub(super) fn doubles_in_the_mean(
+        &self,
+        core: &mut dyn Core,
+        scene: &SceneDescription,
+    ) -> Result<Vec<Measure>> {
+        let bright = brightened(scene);
+        let scale = self.mean(core, &bright, self.ray, self.seed.child("scale"), SCALE_SAMPLES)?;
+        let seed = self.seed.child("doubled");
+        let reports = judge_difference(scale, &self.effort, seed, &mut |seed, samples| {
+            let once = self.mean(core, scene, self.ray, seed.child("once"), samples)?;
+            let twice = self.mean(core, &bright, self.ray, seed.child("twice"), samples)?;
+            Ok([0, 1, 2].map(|c| twice[c] - BRIGHTER * once[c]))
+        })?;
+        Ok(Measure::of_channels("twice the light minus twice the radiance", &reports))
+    }
+
     /// The sum over lights of the radiance from each alone is the radiance from all.
     pub(super) fn superposes(
         &self,

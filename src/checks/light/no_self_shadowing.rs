@@ -2,7 +2,7 @@
 //!
 //! So a point of light is put where the camera is, all other lights out, and every point of a diffuse surface that
 //! is seen has to have the radiance that its distance and its angle say. A dark one lies in its own shadow. Where a core
-//! makes an estimate of it, and two seeds differ, only the mean is compared.
+//! makes an estimate of it, so that seeds differ, only the mean is compared.
 
 use super::seen_points::{INTENSITY, MISTAKES, Point, Seen};
 use crate::cause::light as cause;
@@ -15,7 +15,9 @@ use crate::contract::{
 };
 use crate::math::rng::Seed;
 use crate::scene::{Light, Rgb, SceneDescription, Surface};
-use crate::stats::{Band, Claim, MeanReport, Rarity, Tolerance, Verdict, judge_means, judge_rare};
+use crate::stats::{
+    Band, Claim, Effort, MeanReport, Rarity, Tolerance, Verdict, judge_means, judge_rare,
+};
 use crate::text::{Count, Percent, Several};
 
 /// Seen under a flatter angle than this cosine, a surface may well hide behind its own rounding.
@@ -23,6 +25,8 @@ const GRAZING: f64 = 0.01;
 /// The smallest error of a mean that must be seen, and the most paths that may be spent on it.
 const MEAN_DETECTS: Percent = Percent(0.02);
 const MEAN_AT_MOST: Count = Count(4_000_000);
+/// How often points that are dark are asked again: rare bright estimates are no shadow.
+const LOOKS_AT_DARK: u64 = 16;
 
 check! {
     pub(crate) struct NoSelfShadowing {
@@ -41,72 +45,97 @@ impl Check for NoSelfShadowing {
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
-        let (mut seen, mut estimated) = (Vec::new(), Vec::new());
+        let mut seen = Vec::new();
         for name in self.scenes.iter() {
-            let scene = context.load(name)?;
-            let seed = context.seed.child(name);
-            match self.look(context, &scene, seed)? {
-                Look::Exact(points) => seen.push(Seen { scene: name, points }),
-                Look::Estimated(report) => {
-                    estimated.push(
-                        Measure::of("mean of radiance over what is right", &report).of_row(name),
-                    );
-                }
+            match self.ask(context, name, &mut exact_points)? {
+                Some(points) => seen.push(Seen { scene: name, points }),
+                None => return self.estimated(context),
             }
         }
         let precision = context.info.precision;
-        let (tolerance, allowed) =
-            (Tolerance::FORMULA.of(precision), Rarity::OWN_SHADOWS.of(precision));
-        Ok(if seen.is_empty() {
-            of_estimates(estimated)
-        } else {
-            finding(&seen, estimated, tolerance, allowed)
-        })
+        Ok(finding(&seen, Tolerance::FORMULA.of(precision), Rarity::OWN_SHADOWS.of(precision)))
     }
 }
 
-/// What came of one scene.
-enum Look {
-    /// Another seed changes nothing: every point is known.
-    Exact(Vec<Point>),
-    /// The core makes an estimate even of this, as it may: only the mean over points and seeds is known.
-    Estimated(MeanReport),
-}
+/// The rays to points that the camera sees, and the points, in a scene that a light at the camera illuminates.
+type Question<'a, T> = &'a mut dyn FnMut(&mut dyn BuiltScene, &[Ray], &[Point], Seed) -> Result<T>;
 
 impl NoSelfShadowing {
-    fn look(
+    fn ask<T>(
         &self,
         context: &mut Context<'_>,
-        scene: &SceneDescription,
-        seed: Seed,
-    ) -> Result<Look> {
-        let camera = camera_of(scene)?;
+        name: &str,
+        question: Question<'_, T>,
+    ) -> Result<T> {
+        let scene = context.load(name)?;
+        let seed = context.seed.child(name);
+        let camera = camera_of(&scene)?;
         let light = Light::Point { position: camera.position, intensity: INTENSITY };
-        let scene = lit_by(scene, light);
+        let scene = lit_by(&scene, light);
         let film = Numbers::new(seed, self.rays.0 as usize).points;
         let mut rays = vec![Ray::new(camera.position, camera.camera_to_world.z_axis); film.len()];
         context.core.generate_rays(&camera, &film, &mut rays)?;
         let falloff = context.info.conventions.point_light_falloff;
-        let effort = context.effort(MEAN_DETECTS, MEAN_AT_MOST).in_steps_of(rays.len() as u64);
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let (rays, mut points) = lit_points(built.as_mut(), &scene, falloff, rays)?;
-        let once = radiance(built.as_mut(), &rays, seed.child("once"))?;
-        if once == radiance(built.as_mut(), &rays, seed.child("again"))? {
-            points.iter_mut().zip(once).for_each(|(point, radiance)| point.radiance = radiance);
-            return Ok(Look::Exact(points));
-        }
-        let claims = [Claim::value(1.0, Band::RADIANCE)];
-        let mut reports = judge_means(&claims, &effort, &mut |draw| {
-            let repeats = draw.samples / self.rays.0;
-            let mut sum = 0.0;
-            for repeat in 0..repeats {
-                let found = radiance(built.as_mut(), &rays, draw.seed(seed).child(repeat))?;
-                sum += mean_share(&points, &found);
-            }
-            Ok::<_, CheckError>(vec![sum / repeats as f64])
-        })?;
-        Ok(Look::Estimated(reports.remove(0)))
+        let (rays, points) = lit_points(built.as_mut(), &scene, falloff, rays)?;
+        question(built.as_mut(), &rays, &points, seed)
     }
+
+    /// Of a core that makes estimates even of this, as it may: the mean over points and seeds.
+    fn estimated(&self, context: &mut Context<'_>) -> Result<Finding> {
+        let effort = context.effort(MEAN_DETECTS, MEAN_AT_MOST);
+        let mut measures = Vec::new();
+        for name in self.scenes.iter() {
+            let report = self.ask(context, name, &mut |built, rays, points, seed| {
+                mean_over_what_is_right(built, rays, points, seed, effort)
+            })?;
+            measures.push(Measure::of("mean of radiance over what is right", &report).of_row(name));
+        }
+        Ok(of_estimates(measures))
+    }
+}
+
+/// The points with their radiance, if that is no estimate: if no seed changes anything, and what is dark stays so.
+fn exact_points(
+    built: &mut dyn BuiltScene,
+    rays: &[Ray],
+    points: &[Point],
+    seed: Seed,
+) -> Result<Option<Vec<Point>>> {
+    let once = radiance(built, rays, seed.child("once"))?;
+    if once != radiance(built, rays, seed.child("again"))? {
+        return Ok(None);
+    }
+    let dark = rays.iter().zip(&once).filter(|(_, radiance)| **radiance == [0.0; 3]);
+    let dark: Vec<Ray> = dark.map(|(ray, _)| *ray).collect();
+    for look in 0..if dark.is_empty() { 0 } else { LOOKS_AT_DARK } {
+        let found = radiance(built, &dark, seed.child("dark").child(look))?;
+        if found.iter().any(|radiance| *radiance != [0.0; 3]) {
+            return Ok(None);
+        }
+    }
+    let known = points.iter().zip(once);
+    Ok(Some(known.map(|(point, radiance)| Point { radiance, ..*point }).collect()))
+}
+
+fn mean_over_what_is_right(
+    built: &mut dyn BuiltScene,
+    rays: &[Ray],
+    points: &[Point],
+    seed: Seed,
+    effort: Effort,
+) -> Result<MeanReport> {
+    let at_once = rays.len().max(1) as u64;
+    let claims = [Claim::value(1.0, Band::RADIANCE)];
+    let mut reports = judge_means(&claims, &effort.in_steps_of(at_once), &mut |draw| {
+        let looks = draw.samples / at_once;
+        let mut sum = 0.0;
+        for look in 0..looks {
+            sum += mean_share(points, &radiance(built, rays, draw.seed(seed).child(look))?);
+        }
+        Ok::<_, CheckError>(vec![sum / looks as f64])
+    })?;
+    Ok(reports.remove(0))
 }
 
 /// The rays that meet a diffuse surface, and where; nothing is known of its radiance yet.
@@ -160,13 +189,12 @@ fn of_estimates(estimated: Vec<Measure>) -> Finding {
         .complaining(complaint)
 }
 
-fn finding(seen: &[Seen<'_>], estimated: Vec<Measure>, tolerance: f64, allowed: f64) -> Finding {
+fn finding(seen: &[Seen<'_>], tolerance: f64, allowed: f64) -> Finding {
     let all = || seen.iter().flat_map(|one| &one.points);
     let (points, dark) = (all().count(), all().filter(|point| point.is_dark()).count());
     let rare = judge_rare(dark as u64, points as u64, allowed);
     let mut measures = vec![Measure::of("share of points in their own shadow", &rare)];
     measures.extend(seen.iter().flat_map(|one| one.measures(tolerance)));
-    measures.extend(estimated);
     let resolution = format!(
         "would have caught {} of dark points, and an error of {}",
         percent(rare.resolution),
@@ -218,7 +246,7 @@ mod tests {
             point.radiance = [0, 1, 2].map(|channel| lit * point.right(channel));
             point
         });
-        finding(&[Seen { scene: "a scene", points: points.collect() }], Vec::new(), 1e-6, 1e-4)
+        finding(&[Seen { scene: "a scene", points: points.collect() }], 1e-6, 1e-4)
     }
 
     #[test]
@@ -252,8 +280,7 @@ mod tests {
 
     #[test]
     fn nothing_seen_is_no_pass() {
-        let nothing =
-            finding(&[Seen { scene: "empty", points: Vec::new() }], Vec::new(), 1e-6, 1e-4);
+        let nothing = finding(&[Seen { scene: "empty", points: Vec::new() }], 1e-6, 1e-4);
         assert_ne!(nothing.verdict, Verdict::Pass);
     }
 }

@@ -121,7 +121,8 @@ fn conclude(
     if plan.searches && !plan.request.fail_fast && plan.with.is_empty() {
         core.transplants = search::search(plan, bench, core, records, events);
     }
-    let planted = planted::Textbook::new(plan, bench);
+    let of_core = records.iter().filter(|record| record.core == core.spec);
+    let planted = planted::Textbook::new(plan, bench, search::taken(of_core));
     core.diagnosis = Some(match &core.transplants {
         None => diagnose::diagnose_proven(core, records, &planted),
         Some(transplants) => {

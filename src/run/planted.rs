@@ -3,31 +3,32 @@
 use super::attempt::run_with;
 use super::bench::Bench;
 use super::plan::{Plan, Trial};
-use super::search::each_in_parallel;
+use super::search::{Purse, each_in_parallel};
 use crate::checks::Finding;
 use crate::contract::Components;
 use crate::cores::textbook::fault;
 use crate::diagnosis::{Mistake, Planted, Question};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
-/// How long planted mistakes may be asked for one core.
-const LONGEST: Duration = Duration::from_secs(30);
+/// How long planted mistakes may be asked for one core, as a share of what its trials took.
+const SHARE: f64 = 0.25;
 
 /// What was asked: the core, the case, what was the bench's own.
 type Asked = (String, String, Components);
 
+/// Every fault of the textbook, and what was asked of them before.
 pub(super) struct Textbook<'a> {
     plan: &'a Plan,
     bench: &'a Bench,
     mistakes: Vec<Mistake>,
-    deadline: Instant,
+    purse: Purse,
     known: Mutex<BTreeMap<Asked, Finding>>,
 }
 
 impl<'a> Textbook<'a> {
-    pub(super) fn new(plan: &'a Plan, bench: &'a Bench) -> Self {
+    /// For a core whose trials took so many seconds.
+    pub(super) fn new(plan: &'a Plan, bench: &'a Bench, taken: f64) -> Self {
         let mistake = |fault: &'static fault::Fault| Mistake {
             name: fault.name,
             cause: fault.cause,
@@ -35,7 +36,7 @@ impl<'a> Textbook<'a> {
             caught_by: fault.caught_by,
         };
         let (mistakes, known) = (fault::all().map(mistake).collect(), Mutex::default());
-        Self { plan, bench, mistakes, deadline: Instant::now() + LONGEST, known }
+        Self { plan, bench, mistakes, purse: Purse::of_share(SHARE, taken), known }
     }
 
     fn answer(&self, question: &Question<'_>) -> Option<Finding> {
@@ -54,8 +55,7 @@ impl<'a> Textbook<'a> {
         let core = core.parse().ok()?;
         let case = &self.plan.trials.iter().find(|trial| trial.case.id == question.case)?.case;
         let trial = Trial { case: Arc::clone(case), core };
-        let is_in_time = Instant::now() < self.deadline;
-        let ended = is_in_time.then(|| run_with(self.bench, &trial, question.with))?;
+        let ended = self.purse.pay(|| run_with(self.bench, &trial, question.with))?;
         ended.record.outcome.finding().cloned()
     }
 

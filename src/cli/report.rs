@@ -16,6 +16,9 @@ pub(crate) struct ReportArguments {
     /// List the smallest detectable error of every trial.
     #[arg(short, long)]
     verbose: bool,
+    /// Write one file with the failing cases, to be sent, in place of a page a case.
+    #[arg(long)]
+    single_file: bool,
     #[command(flatten)]
     project: ProjectArguments,
 }
@@ -27,7 +30,11 @@ pub(crate) fn report(arguments: &ReportArguments) -> Answer {
         None => newest(&arguments.project.find()?.runs())?,
     };
     let tree = RunTree::load(&folder).map_err(Failure::request)?;
-    let page = report::html::write(&tree, &folder).map_err(Failure::broken)?;
+    let write = match arguments.single_file {
+        true => report::html::write_single,
+        false => report::html::write,
+    };
+    let page = write(&tree, &folder).map_err(Failure::broken)?;
     say!("{}", report::text::summary(&tree, style(arguments.verbose)));
     say_line!("  report  {}", address(&page));
     Ok(ExitCode::Good)

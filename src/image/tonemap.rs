@@ -26,7 +26,11 @@ pub(crate) fn srgb_code(linear: f32) -> u8 {
 
 /// The image times 2^`stops`, clipped to white.
 pub(crate) fn tonemap(image: &Image, stops: f32) -> Picture {
-    let gain = stops.exp2();
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounded once, as the report's viewer does"
+    )]
+    let gain = f64::from(stops).exp2() as f32;
     let shown = |pixel: &[f32; 3]| {
         if !pixel.iter().all(|value| value.is_finite()) {
             NOT_A_NUMBER

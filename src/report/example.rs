@@ -2,7 +2,7 @@
 
 use super::tree::RunTree;
 use crate::case::Tier;
-use crate::checks::{Finding, Measure, PictureRole};
+use crate::checks::{Finding, Measure, PictureRole, RejectedCell};
 use crate::contract::{Capabilities, Components, CoreInfo, Precision};
 use crate::image::{CHANNELS, Channel, Image, exr};
 use crate::math::rng::{Seed, uniform};
@@ -143,6 +143,15 @@ impl Example {
     pub(crate) fn set(&mut self, core: &str, case: &str, outcome: Outcome) {
         let trial = self.trials.iter_mut().find(|t| t.core == core && t.case == case).unwrap();
         trial.outcome = outcome;
+    }
+
+    pub(crate) fn rename_core(&mut self, spec: &str, name: &str) {
+        for core in self.run.cores.iter_mut().filter(|core| core.spec == spec) {
+            (core.spec, core.name) = (name.to_owned(), name.to_owned());
+        }
+        for trial in self.trials.iter_mut().filter(|trial| trial.core == spec) {
+            name.clone_into(&mut trial.core);
+        }
     }
 
     pub(crate) fn write(&self, folder: &Path) {
@@ -298,7 +307,7 @@ fn pictures(name: &str) -> Vec<PictureFile> {
         role,
         caption: caption.to_owned(),
         file: format!("{name}.{number}.exr"),
-        rejected: Vec::new(),
+        rejected: if role == PictureRole::Render { rejected() } else { Vec::new() },
     };
     [
         (0, PictureRole::Reference, "Mitsuba 3.9.1, 131072 samples per pixel"),
@@ -308,6 +317,19 @@ fn pictures(name: &str) -> Vec<PictureFile> {
     ]
     .map(picture)
     .to_vec()
+}
+
+fn rejected() -> Vec<RejectedCell> {
+    let cell = |scale: &str, extent| RejectedCell {
+        scale: scale.to_owned(),
+        component: "luminance".to_owned(),
+        extent,
+        measured: 0.38,
+        expected: 0.42,
+        t: -14.3,
+        p: 2e-46,
+    };
+    vec![cell("tile of 8 x 8", [8, 0, 8, 8]), cell("whole picture", [0, 0, 24, 16])]
 }
 
 /// A box with a red and a green wall and a light, noisy where it was rendered, dark where it is to fail.

@@ -106,7 +106,7 @@ fn numbers(trial: &TrialRecord, named: bool) -> Markup {
     html! {
         @if let Some(finding) = finding {
             div.card {
-                h3 { "Numbers" @if named { " of " (trial.core) } }
+                h2.minor { "Numbers" @if named { " of " (trial.core) } }
                 (all_measures(finding))
             }
         }
@@ -166,7 +166,7 @@ pub(crate) fn measures<'a>(measures: impl IntoIterator<Item = &'a Measure>) -> M
                             th scope="col" { "confidence interval and tolerance band" }
                         }
                         th.number scope="col" { "catches" }
-                        th scope="col" { "" }
+                        th scope="col" { "verdict" }
                     } }
                     tbody { @for measure in measures { (row(measure, noisy)) } }
                 }

@@ -126,7 +126,10 @@ fn trials<'a>(tree: &'a RunTree, core: &str, cases: &[String]) -> Vec<&'a TrialR
     cases.iter().filter_map(of).collect()
 }
 
-/// With a capital and a full stop.
+/// With a full stop, and a capital unless it begins with the name of a case.
 fn sentence(words: &str) -> String {
-    format!("{}.", capitalised(words.trim_end_matches('.')))
+    let words = words.trim_end_matches('.');
+    let is_name = words.split(' ').next().is_some_and(|word| word.contains('/'));
+    let begun = if is_name { words.to_owned() } else { capitalised(words) };
+    format!("{begun}.")
 }

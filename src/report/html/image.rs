@@ -6,7 +6,7 @@ use super::parts::escaped;
 use super::pixels::Packed;
 use crate::checks::{PictureRole, RejectedCell};
 use crate::image::exr::Exr;
-use crate::image::{Image, exr};
+use crate::image::{Image, ImageError, exr};
 use crate::report::digest::CaseGroup;
 use crate::run::TrialRecord;
 use crate::run::record::PictureFile;
@@ -27,6 +27,25 @@ struct Shot<'a> {
 struct Noisy {
     image: Image,
     standard_error: Option<Image>,
+    /// Width and height in its file, if it is smaller here.
+    shrunk_from: Option<[usize; 2]>,
+}
+
+impl Noisy {
+    fn of(file: &Exr) -> Result<Self, ImageError> {
+        let standard_error = file.colours(ERROR_PREFIX).ok();
+        Ok(Self { image: file.image()?, standard_error, shrunk_from: None })
+    }
+
+    /// With no side longer than this. The noise of its larger pixels is not known.
+    fn shrunk_to(self, longest: usize) -> Self {
+        let size = self.image.size();
+        if size[0].max(size[1]) <= longest {
+            return self;
+        }
+        let image = self.image.shrunk_to(longest);
+        Self { image, standard_error: None, shrunk_from: Some(size) }
+    }
 }
 
 struct Frame<'a> {
@@ -47,7 +66,7 @@ struct Payload<'a> {
 #[derive(Serialize)]
 struct PackedFrame<'a> {
     label: &'a str,
-    caption: &'a str,
+    caption: String,
     role: PictureRole,
     /// How its values become colours: as radiance, or on a scale of their own.
     kind: &'static str,
@@ -90,7 +109,8 @@ fn frames<'a>(view: &View<'_>, case: &CaseGroup<'a>, round: usize) -> Vec<Frame<
     for trial in &case.trials {
         for file in trial.pictures.iter().filter(|file| round_of(trial, file) == round) {
             let path = view.tree.picture_path(trial, file);
-            let image = exr::read(&path).and_then(|file| noisy(&file));
+            let image = exr::read(&path).and_then(|file| Noisy::of(&file));
+            let image = image.map(|noisy| noisy.shrunk_to(view.longest));
             let image = image.map_err(|error| error.to_string());
             shots.push(Shot { trial, file, image });
         }
@@ -98,10 +118,6 @@ fn frames<'a>(view: &View<'_>, case: &CaseGroup<'a>, round: usize) -> Vec<Frame<
     without_equal_references(&mut shots);
     shots.sort_by_key(|shot| rank(shot.file.role));
     shots.into_iter().map(|shot| Frame { label: label(&shot), shot }).collect()
-}
-
-fn noisy(file: &Exr) -> Result<Noisy, crate::image::ImageError> {
-    Ok(Noisy { image: file.image()?, standard_error: file.colours(ERROR_PREFIX).ok() })
 }
 
 /// Cores that were held against the same reference share one picture of it.
@@ -178,7 +194,7 @@ fn packed<'a>(frame: &'a Frame<'_>, noisy: &Noisy) -> PackedFrame<'a> {
     let with = |is: fn(f32) -> bool| pixels.iter().filter(|p| p.iter().any(|v| is(*v))).count();
     PackedFrame {
         label: &frame.label,
-        caption: &file.caption,
+        caption: caption(file, noisy),
         role: file.role,
         kind: match file.role {
             PictureRole::Reference | PictureRole::Render => "radiance",
@@ -187,10 +203,18 @@ fn packed<'a>(frame: &'a Frame<'_>, noisy: &Noisy) -> PackedFrame<'a> {
         },
         nan: with(f32::is_nan),
         infinite: with(f32::is_infinite),
-        rejected: &file.rejected,
+        // Cells are places in the image as it was.
+        rejected: if noisy.shrunk_from.is_none() { &file.rejected } else { &[] },
         image: Packed::of(&noisy.image),
         noise: noisy.standard_error.as_ref().map(Packed::of),
     }
+}
+
+/// What an image shows, and that its pixels were averaged where they were.
+fn caption(file: &PictureFile, noisy: &Noisy) -> String {
+    let Some([width, height]) = noisy.shrunk_from else { return file.caption.clone() };
+    let [columns, rows] = noisy.image.size();
+    format!("{}; {columns} × {rows} of {width} × {height} pixels", file.caption)
 }
 
 fn frame_markup(view: &View<'_>, frame: &Frame<'_>, look: Look) -> Markup {

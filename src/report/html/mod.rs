@@ -85,9 +85,21 @@ fn index(tree: &RunTree, folder: &Path) -> String {
     Page { title: index_title(tree), is_index: true, body: sections }.render(&view)
 }
 
-/// The text of the page that stands for all of them.
+/// What mail servers take, bytes; more than what a report may weigh.
+const HEAVIEST: usize = 10_000_000;
+/// The longest sides that images may have in the page that stands alone, pixels: the first that is light enough.
+const SIDES: [usize; 6] = [usize::MAX, 512, 256, 128, 64, 32];
+
+/// The text of the page that stands for all of them. Its images are as large as its weight allows.
 fn single(tree: &RunTree, folder: &Path) -> String {
-    let view = View::new(tree, folder, Place::Alone);
+    let of = |side: usize| single_with(tree, folder, side);
+    let light = |page: &String| page.len() < HEAVIEST;
+    let [sides @ .., smallest] = SIDES;
+    sides.into_iter().map(of).find(light).unwrap_or_else(|| of(smallest))
+}
+
+fn single_with(tree: &RunTree, folder: &Path, longest: usize) -> String {
+    let view = View { longest, ..View::new(tree, folder, Place::Alone) };
     let body = html! {
         @for section in SECTIONS { (section.markup(&view)) }
         (case::failing(&view))

@@ -45,6 +45,16 @@ fn exponent_of(image: &Image) -> i32 {
     (exponent - LARGEST).clamp(*EXPONENTS.start(), *EXPONENTS.end())
 }
 
+/// The image that a viewer has: rounded to half floats.
+#[cfg(test)]
+pub(super) fn as_unpacked(image: &Image) -> Image {
+    let scale = f64::from(exponent_of(image)).exp2();
+    let rounded = |value: f32| f16::from_f64(f64::from(value) / scale).to_f64() * scale;
+    #[expect(clippy::cast_possible_truncation, reason = "eleven bits times a power of two")]
+    let image = image.map(|pixel| pixel.map(|value| rounded(value) as f32));
+    image
+}
+
 /// Cannot fail: memory takes all bytes.
 fn deflated(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());

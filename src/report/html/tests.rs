@@ -6,6 +6,8 @@ use super::*;
 use crate::report::example::{Example, HOSTILE};
 use std::collections::{BTreeMap, BTreeSet};
 
+mod browser;
+
 /// The index of a run whose pictures are missing.
 fn page(example: Example) -> String {
     index(&example.tree(), Path::new("."))

@@ -15,6 +15,8 @@ fn body(view: &View<'_>) -> Option<Markup> {
     let many = view.tree.run.cores.len() > 1;
     Some(html! {
         (filter(&Tally::of(&view.tree.trials)))
+        @let apart = trials.iter().filter(|trial| !trial.tier.is_graded()).count();
+        @if apart > 0 { p.faint { (apart) " of these " (trials.len()) " trials are not graded" } }
         div.card.wide {
             table #all-trials {
                 thead { tr {

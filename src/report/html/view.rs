@@ -23,11 +23,13 @@ pub(crate) struct View<'a> {
     /// The folder of the report.
     pub(crate) folder: &'a Path,
     pub(crate) place: Place,
+    /// Images with a longer side are made smaller, pixels.
+    pub(crate) longest: usize,
 }
 
 impl<'a> View<'a> {
     pub(super) const fn new(tree: &'a RunTree, folder: &'a Path, place: Place) -> Self {
-        Self { tree, folder, place }
+        Self { tree, folder, place, longest: usize::MAX }
     }
 
     /// The way to the folder of the report.

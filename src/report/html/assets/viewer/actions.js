@@ -71,7 +71,9 @@ const KEYS = {
   '[': ['channel before', ({ state }) => { state.channel = turned(CHANNELS, state.channel, -1); }],
   'm': ['next error metric', ({ state, metrics }) => { state.metric = turned(metrics, state.metric, 1); state.limit = 0; }],
   'M': ['error metric before', ({ state, metrics }) => { state.metric = turned(metrics, state.metric, -1); state.limit = 0; }],
-  'p': ['outlines of rejected cells', ({ state }) => { state.cells = !state.cells; }],
+  'p': ['outlines of rejected cells, next scale', ({ state, scales }) => {
+    state.cells = turned([...scales, NO_CELLS], state.cells, 1);
+  }],
   'i': ['histogram', ({ state }) => { state.histogram = !state.histogram; }],
   'f': ['fit', ({ state }) => { state.zoom = 0; }],
   '0': ['one to one', viewer => zoomAboutCentre(viewer, viewer.ratio / cameraOf(viewer).zoom)],

@@ -20,16 +20,15 @@ function controls(viewer, changed) {
   const metric = chooser('error metric (m)', viewer.metrics, 'metric', () => { viewer.state.limit = 0; });
   const stops = slider('exposure (e, E)', -12, 12, 0.1, value => { viewer.state.stops = value; changed(); });
   const limit = slider('end of the error scale', -12, 6, 0.25, value => { viewer.state.limit = 2 ** value; changed(); });
-  const outlines = button('rejected cells', KEYS.p[1], { title: 'p' });
+  const cells = chooser('outlines of rejected cells (p)', [...viewer.scales, NO_CELLS], 'cells');
   const bars = button('histogram', KEYS.i[1], { title: 'i' });
   const key = name => button(name, KEYS[name][1], { title: KEYS[name][0], ariaLabel: KEYS[name][0] });
   const hasErrors = viewer.views.some(view => view.isError);
-  const hasCells = viewer.frames.some(frame => frame.rejected.length);
 
   const rows = [
     [...images, make('span', { className: 'gap' }), ...layouts],
     [stops.label, tone, channel, ...(hasErrors ? [metric, limit.label] : []),
-      ...(hasCells ? [outlines] : []), bars, key('-'), button('fit', KEYS.f[1], { title: 'f' }), key('+'),
+      ...(viewer.scales.length ? [cells] : []), bars, key('-'), button('fit', KEYS.f[1], { title: 'f' }), key('+'),
       button('reset', KEYS.r[1], { title: 'r' }), button('PNG', KEYS.s[1], { title: 'save as PNG (s)' }), key('?')],
   ];
   viewer.root.prepend(...rows.map(row => make('div', { className: 'tools' }, ...row)));
@@ -41,9 +40,9 @@ function controls(viewer, changed) {
     Object.assign(tone, { value: state.tone });
     Object.assign(channel, { value: state.channel });
     Object.assign(metric, { value: state.metric });
+    Object.assign(cells, { value: state.cells });
     stops.show(state.stops, `${state.stops < 0 ? '−' : '+'}${Math.abs(state.stops).toFixed(1)} EV`);
     limit.show(Math.log2(state.limit || 1), state.limit ? figure(state.limit) : 'auto');
-    press(outlines, state.cells);
     press(bars, state.histogram);
   };
 }

@@ -45,20 +45,51 @@ function wipe(viewer, pen, pane, layer) {
 function drawOver(viewer, pen, pane) {
   const { state, frames, ratio } = viewer;
   const frame = frames[pane.view.frame];
-  if (state.cells) for (const cell of frame.rejected) outline(viewer, pen, pane, cell.extent, '#ffd23f');
+  outlineArea(viewer, pen, pane, rejectedAt(frame, state.cells));
   if (state.region) outline(viewer, pen, pane, state.region, '#fff');
   if (viewer.pointer) outline(viewer, pen, pane, [...viewer.pointer, 1, 1], '#fff');
   if (cameraOf(viewer).zoom >= NUMBERS_FROM * ratio) drawNumbers(viewer, pen, pane);
 }
 
-/** A line with a dark rim, which is seen on any image. */
+/** Where a scale rejects: cells of one component may stand where those of another do. */
+function rejectedAt(frame, scale) {
+  const extents = frame.rejected.filter(cell => cell.scale === scale).map(cell => cell.extent);
+  return [...new Map(extents.map(extent => [String(extent), extent])).values()];
+}
+
+/** The border of all cells together: no line stands between two of them. */
+function outlineArea(viewer, pen, pane, cells) {
+  const corners = new Set(cells.map(([x, y]) => `${x} ${y}`));
+  const area = new Path2D();
+  for (const [x, y, width, height] of cells) {
+    const [left, top] = toStage(viewer, pane, x, y);
+    const [right, bottom] = toStage(viewer, pane, x + width, y + height);
+    const edges = [
+      [x - width, y, left, top, left, bottom], [x + width, y, right, top, right, bottom],
+      [x, y - height, left, top, right, top], [x, y + height, left, bottom, right, bottom],
+    ];
+    for (const [besideX, besideY, fromX, fromY, toX, toY] of edges) {
+      if (corners.has(`${besideX} ${besideY}`)) continue;
+      area.moveTo(fromX, fromY);
+      area.lineTo(toX, toY);
+    }
+  }
+  stroke(viewer, pen, area, '#ffd23f');
+}
+
+/** A rectangle in a line with a dark rim, which is seen on any image. */
 function outline(viewer, pen, pane, [x, y, width, height], colour) {
   const [left, top] = toStage(viewer, pane, x, y);
   const [right, bottom] = toStage(viewer, pane, x + width, y + height);
-  for (const [thickness, style] of [[3, 'rgba(0,0,0,.6)'], [1.25, colour]]) {
-    pen.lineWidth = thickness * viewer.ratio;
-    pen.strokeStyle = style;
-    pen.strokeRect(left, top, right - left, bottom - top);
+  const box = new Path2D();
+  box.rect(left, top, right - left, bottom - top);
+  stroke(viewer, pen, box, colour);
+}
+
+function stroke({ ratio }, pen, path, colour) {
+  for (const [thickness, style] of [[3.5, 'rgba(0,0,0,.6)'], [1.5, colour]]) {
+    Object.assign(pen, { lineWidth: thickness * ratio, strokeStyle: style });
+    pen.stroke(path);
   }
 }
 
@@ -100,13 +131,21 @@ function drawNumber({ ratio }, pen, [x, y], numbers) {
 function drawLabel(viewer, pen, pane) {
   const { ratio, state, views } = viewer;
   const [size, baseline] = [13 * ratio, pane.y - 7 * ratio];
-  pen.font = `600 ${size}px system-ui, sans-serif`;
   pen.fillStyle = viewer.ink;
-  pen.textAlign = 'left';
   const name = state.layout === 'wipe' ? `${views[state.under].label} | ${pane.view.label}` : pane.view.label;
-  pen.fillText(name, pane.x, baseline, 0.6 * pane.width);
   const legend = legendOf(viewer, pane.view);
-  if (legend) drawLegend(viewer, pen, pane, legend);
+  const room = legend ? drawLegend(viewer, pen, pane, legend) - pane.x : pane.width;
+  pen.font = `600 ${size}px system-ui, sans-serif`;
+  pen.textAlign = 'left';
+  pen.fillText(shortened(pen, name, room - 8 * ratio), pane.x, baseline);
+}
+
+/** As much of a text as there is room for. */
+function shortened(pen, text, room) {
+  if (pen.measureText(text).width <= room) return text;
+  const letters = [...text];
+  while (letters.length > 1 && pen.measureText(`${letters.join('')}…`).width > room) letters.pop();
+  return `${letters.join('')}…`;
 }
 
 /** The two ends of a scale, and its colours. */
@@ -125,6 +164,7 @@ function legendOf({ layers, frames, state }, view) {
   return state.tone === FALSE_COLOUR ? { low, high, stops: MAGNITUDE } : null;
 }
 
+/** Draws it at the right, and says where it begins. */
 function drawLegend({ ratio, ink }, pen, pane, { low, high, stops }) {
   const [width, height, top] = [70 * ratio, 9 * ratio, pane.y - 16 * ratio];
   pen.font = `${11 * ratio}px system-ui, sans-serif`;
@@ -138,6 +178,8 @@ function drawLegend({ ratio, ink }, pen, pane, { low, high, stops }) {
     pen.fillStyle = `rgb(${scaleColour(stops, at / width)})`;
     pen.fillRect(left + at, top, 1, height);
   }
+  pen.fillStyle = ink;
+  return left - 5 * ratio - pen.measureText(low).width;
 }
 
 /** A number for people: four digits. */

@@ -50,8 +50,8 @@ function probeRows(viewer) {
     return [
       frame.label,
       ...colour.map((value, channel) => withInterval(value, own.error && own.error[channel])),
-      compared ? figure(colour[3] / reference.mean[3]) : '',
-      compared && own.error && reference.error ? figure(apart(own, reference)) : '',
+      compared ? known(colour[3] / reference.mean[3]) : '',
+      compared && own.error && reference.error ? known(apart(own, reference)) : '',
     ];
   });
 }
@@ -59,6 +59,9 @@ function probeRows(viewer) {
 function withInterval(value, error) {
   return error ? `${figure(value)} ±${Number((SIGMAS * error).toPrecision(2))}` : figure(value);
 }
+
+/** Nothing over nothing is left open. */
+const known = value => Number.isFinite(value) ? figure(value) : '';
 
 /** How many standard errors two luminances lie apart. */
 function apart(own, reference) {

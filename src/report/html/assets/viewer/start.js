@@ -4,9 +4,10 @@ async function startViewer(root) {
   const packed = JSON.parse(root.querySelector('script').textContent);
   const frames = await unpackFrames(packed);
   const views = viewsOf(frames);
-  const initial = initialState({ frames, views, stops: packed.stops });
+  const scales = scalesOf(frames);
+  const initial = initialState({ frames, views, scales, stops: packed.stops });
   const viewer = {
-    root, id: root.id, frames, views, initial, state: { ...initial }, metrics: metricsOf(frames),
+    root, id: root.id, frames, views, scales, initial, state: { ...initial }, metrics: metricsOf(frames),
     layers: new Layers(frames), pointer: null, help: help(), ...furniture(frames),
   };
   const { showControls, redraw } = animate(viewer);
@@ -75,6 +76,8 @@ function drawAll(viewer) {
   const { canvas, root, state } = viewer;
   viewer.ratio = Math.min(3, devicePixelRatio || 1);
   viewer.width = canvas.clientWidth;
+  // Folded away: it is drawn once it is seen.
+  if (!viewer.width) return;
   viewer.ink = getComputedStyle(root).color;
   viewer.stage = layOut(viewer);
   const { width, height } = viewer.stage;

@@ -3,14 +3,23 @@
 const CHANNELS = ['RGB', 'R', 'G', 'B', 'luminance'];
 const LAYOUTS = { all: 'side by side', one: 'one', wipe: 'wipe' };
 
+/** Shown in place of a scale of rejected cells. */
+const NO_CELLS = 'no cells';
+
+/** The scales at which some image is rejected, tiles before pixels: they show most. */
+function scalesOf(frames) {
+  const scales = new Set(frames.flatMap(frame => frame.rejected.map(cell => cell.scale)));
+  return [...scales].sort((a, b) => b.startsWith('tile') - a.startsWith('tile'));
+}
+
 /** What is shown at first. */
-function initialState({ frames, views, stops }) {
+function initialState({ frames, views, stops, scales }) {
   const render = views.findIndex(view => frames[view.frame].role === 'render');
   const reference = Math.max(0, frames.findIndex(frame => frame.role === 'reference'));
   return {
     layout: 'all', show: Math.max(0, render), under: reference, reference,
     tone: 'sRGB', stops, offset: 0, channel: 'RGB', metric: 'relative error', limit: 0,
-    zoom: 0, x: 0, y: 0, wipe: 0.5, region: null, cells: true, histogram: true,
+    zoom: 0, x: 0, y: 0, wipe: 0.5, region: null, cells: scales[0] || NO_CELLS, histogram: true,
   };
 }
 
@@ -36,6 +45,7 @@ function read(name, word, initial, views) {
   const known = { layout: Object.keys(LAYOUTS), tone: TONES, channel: CHANNELS, metric: Object.keys(METRICS) };
   if (known[name]) return known[name].includes(word) ? word : undefined;
   if (name === 'region') return readRegion(word);
+  if (name === 'cells') return word;
   if (typeof initial[name] === 'boolean') return word === 'true';
   const number = Number(word);
   if (!(name in initial) || !Number.isFinite(number)) return undefined;

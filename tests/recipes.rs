@@ -60,9 +60,9 @@ const KINDS: &[Kind] = &[
         beside: &[],
     },
     Kind {
-        heading: "Add a page to the report",
+        heading: "Add a section to the report",
         table: "src/report/html/mod.rs",
-        row: r"&(?<word>(?<file>\w+)::PAGE)",
+        row: r"&(?<word>(?<file>\w+)::SECTION)",
         beside: &[],
     },
     Kind {

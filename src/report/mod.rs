@@ -2,7 +2,7 @@
 //!
 //! Both are functions of the files alone: they load no core, run no check, judge nothing and know
 //! no threshold, so that a report can be made again from an old run, elsewhere. To add a page
-//! section, write a file in `html/` and a line in its `PAGES`.
+//! section, write a file in `html/` and a line in its `SECTIONS`.
 
 pub(crate) mod digest;
 #[cfg(test)]

@@ -122,7 +122,7 @@ fn conclude(
         core.transplants = search::search(plan, bench, core, records, events);
     }
     let of_core = records.iter().filter(|record| record.core == core.spec);
-    let planted = planted::Textbook::new(plan, bench, search::taken(of_core));
+    let planted = planted::PlantedFaults::new(plan, bench, search::taken(of_core));
     core.diagnosis = Some(match &core.transplants {
         None => diagnose::diagnose_proven(core, records, &planted),
         Some(transplants) => {

@@ -18,7 +18,7 @@ const SHARE: f64 = 0.25;
 type Asked = (String, String, Components);
 
 /// Every fault of the textbook, and what was asked of them before.
-pub(super) struct Textbook<'a> {
+pub(super) struct PlantedFaults<'a> {
     plan: &'a Plan,
     bench: &'a Bench,
     mistakes: Vec<Mistake>,
@@ -26,7 +26,7 @@ pub(super) struct Textbook<'a> {
     known: Mutex<BTreeMap<Asked, Finding>>,
 }
 
-impl<'a> Textbook<'a> {
+impl<'a> PlantedFaults<'a> {
     /// For a core whose trials took so many seconds.
     pub(super) fn new(plan: &'a Plan, bench: &'a Bench, taken: f64) -> Self {
         let mistake = |fault: &'static fault::Fault| Mistake {
@@ -64,7 +64,7 @@ impl<'a> Textbook<'a> {
     }
 }
 
-impl Planted for Textbook<'_> {
+impl Planted for PlantedFaults<'_> {
     fn mistakes(&self) -> &[Mistake] {
         &self.mistakes
     }

@@ -81,7 +81,8 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted) -> Ranked {
         false => look_without(evidence, &refuted, found),
     };
     proven.doubt(|headline| {
-        !causes.contains(&headline.cause[..]) && proof.is_of_another_size(headline)
+        let is_proven = causes.contains(&headline.cause[..]) || proof.is_needed(headline);
+        !is_proven && proof.is_of_another_size(headline)
     });
     proven
 }
@@ -132,14 +133,14 @@ impl<'a> Proof<'a> {
         };
         let against: Vec<_> = (0..cases.len()).filter(|number| is_contradicted(*number)).collect();
         // What every case that was tried contradicts is not the cause of those that were not.
-        if against.len() == cases.len() {
+        if !against.is_empty() && against.len() == cases.len() {
             return refuted(cause, &headline.explains);
         }
         against.into_iter().map(|number| (cause.name, cases[number].case.to_owned())).collect()
     }
 
     /// Causes whose cases another one's mistake reproduces too, and that reproduce not all of that one's: one mistake is
-    /// all there is.
+    /// all there is, unless a check has seen that it takes both.
     fn following(&self, ranked: &Ranked) -> Refuted {
         let told: Vec<_> = ranked.with_cause().collect();
         let reproduces = |one: &Headline, of: &Headline| {
@@ -150,9 +151,17 @@ impl<'a> Proof<'a> {
             let mut of_both = others.filter(|one| reproduces(one, one) && reproduces(one, other));
             of_both.any(|one| !reproduces(other, one))
         };
-        let following = told.iter().filter(follows);
+        let following = told.iter().filter(follows).filter(|told| !self.is_needed(told));
         let cases = |told: &&Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
         following.filter_map(cases).flatten().collect()
+    }
+
+    /// Whether a check has recognised its cause beside others, answer by answer, which is more than counts can tell.
+    fn is_needed(&self, headline: &Headline) -> bool {
+        let seen =
+            headline.explains.iter().filter_map(|case| self.evidence.failure_of(case)?.finding);
+        let mut clues = seen.flat_map(|finding| &finding.clues);
+        clues.any(|clue| clue.beside && clue.cause == headline.cause)
     }
 
     /// Whether one mistake gives the numbers of every case of `headline` that is tried.
@@ -426,6 +435,15 @@ mod tests {
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         let pi = bsdf::WITHOUT_PI.name;
         assert_eq!(told(&diagnosis), [(pi, Degree::LooksLike, 1)], "it is of another size");
+    }
+
+    #[test]
+    fn what_takes_too_long_to_be_asked_again_keeps_its_cause() {
+        let brighter = light(2.0).because(&bsdf::WITHOUT_PI, "too bright");
+        let made = Made::new().with("bsdf/a", brighter).taking(2.0 * LONGEST);
+        let planted = Bench { mistakes: &[PI], gives: &[] };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::Named, 1)]);
     }
 
     #[test]

@@ -43,6 +43,7 @@ pub(crate) struct Made {
     resting: Vec<(String, Vec<Foundation>)>,
     proving: Vec<(String, Vec<Foundation>)>,
     ended: Vec<(String, Ending<'static>)>,
+    seconds: f64,
     pub(crate) conventions: Conventions,
 }
 
@@ -50,7 +51,18 @@ impl Made {
     pub(crate) fn new() -> Self {
         let (findings, blocked, conventions) = Default::default();
         let (robustness, specular, resting, proving, ended) = Default::default();
-        Self { findings, blocked, robustness, specular, resting, proving, ended, conventions }
+        let seconds = 1.0;
+        Self {
+            findings,
+            blocked,
+            robustness,
+            specular,
+            resting,
+            proving,
+            ended,
+            seconds,
+            conventions,
+        }
     }
 
     pub(crate) fn with(mut self, case: impl Into<Name>, finding: Finding) -> Self {
@@ -86,6 +98,11 @@ impl Made {
     pub(crate) fn ended(mut self, case: &str, ending: Ending<'static>) -> Self {
         self.ended.push((case.to_owned(), ending));
         self
+    }
+
+    /// The same where each trial took so long.
+    pub(crate) fn taking(self, seconds: f64) -> Self {
+        Self { seconds, ..self }
     }
 
     pub(crate) fn blocked(mut self, case: &str, by: &str) -> Self {
@@ -124,6 +141,7 @@ impl Made {
         let observed = tried.chain(blocked).chain(ended).map(|seen| Observation {
             rests_on: of_case(&self.resting, seen.case).to_vec(),
             proves: of_case(&self.proving, seen.case),
+            seconds: self.seconds,
             ..seen
         });
         Evidence::new(observed.collect(), self.conventions)

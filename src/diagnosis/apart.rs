@@ -4,10 +4,13 @@
 use super::rank::Ranked;
 use super::reproduction::proven;
 use super::{Diagnosis, Evidence, Planted};
+use crate::contract::Components;
 
 /// What a core does with one of its broken components.
 pub(crate) struct View<'a> {
     pub(crate) evidence: Evidence<'a>,
+    /// The component.
+    pub(crate) own: Components,
     /// Failures of the first look that pass with the bench's own in the place of this component.
     pub(crate) mended: Vec<String>,
 }
@@ -18,8 +21,8 @@ pub(crate) fn diagnose_apart(
     views: &[View<'_>],
     planted: &dyn Planted,
 ) -> Diagnosis {
-    let mut told: Vec<_> =
-        views.iter().map(|view| proven(&view.evidence, planted).of_one_component()).collect();
+    let of_view = |view: &View<'_>| proven(&view.evidence, planted, view.own).of_one_component();
+    let mut told: Vec<_> = views.iter().map(of_view).collect();
     let shown = |case: &str| views.iter().any(|view| view.evidence.fails(case));
     let hidden = first.all_failures().filter(|seen| !shown(seen.case)).map(|seen| seen.case);
     let mut left = Vec::new();
@@ -29,7 +32,7 @@ pub(crate) fn diagnose_apart(
             left.push(case);
         }
     }
-    told.push(proven(&first.with_failures_of(&left), planted));
+    told.push(proven(&first.with_failures_of(&left), planted, Components::all()));
     told.into_iter().fold(Ranked::default(), Ranked::and).told()
 }
 
@@ -56,6 +59,7 @@ mod tests {
         let views = [(&surface, vec!["bsdf/b", "light/c"]), (&sphere, vec!["shape/a"])];
         let views = views.map(|(made, mended)| View {
             evidence: made.evidence(),
+            own: Components::BSDF,
             mended: mended.into_iter().map(str::to_owned).collect(),
         });
         let told = diagnose_apart(&both.evidence(), &views, &Nothing);
@@ -77,7 +81,7 @@ mod tests {
     fn other_failures_of_the_one_component_that_is_not_the_benchs_follow_from_its_only_cause() {
         let made = Made::new().with("bsdf/b", without_pi()).with("bsdf/c", failing("c"));
         let mended = vec!["bsdf/b".to_owned(), "bsdf/c".to_owned()];
-        let view = View { evidence: made.evidence(), mended };
+        let view = View { evidence: made.evidence(), own: Components::BSDF, mended };
         let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!(

@@ -34,6 +34,7 @@ pub(crate) use rank::{Diagnosis, Headline};
 pub(crate) use reproduction::{Mistake, Planted, Question};
 
 use crate::cause::Cause;
+use crate::contract::Components;
 use rank::Ranked;
 use reproduction::{Refuted, proven};
 use serde::{Deserialize, Serialize};
@@ -134,7 +135,7 @@ pub(crate) fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
 
 /// The same, put to the proof.
 pub(crate) fn diagnose_proven(evidence: &Evidence<'_>, planted: &dyn Planted) -> Diagnosis {
-    proven(evidence, planted).told()
+    proven(evidence, planted, Components::all()).told()
 }
 
 /// What the rules suspect and is not refuted, and what was found beside.

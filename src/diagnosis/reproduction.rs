@@ -69,9 +69,10 @@ pub(crate) enum Likeness {
 /// Causes that a case contradicts.
 pub(super) type Refuted = BTreeSet<(&'static str, String)>;
 
-/// The headlines of `evidence` that planted mistakes do not contradict, and those that they add.
-pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted) -> Ranked {
-    let proof = Proof { evidence, planted };
+/// The headlines of `evidence` that planted mistakes do not contradict, and those that they add. Everything that failed
+/// is mended by the bench's `broken`.
+pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, broken: Components) -> Ranked {
+    let proof = Proof { evidence, planted, broken };
     let (refuted, ranked) = proof.uncontradicted();
     let mut found = proof.confirmed(&ranked);
     found.extend(proof.reproduced(&ranked));
@@ -82,7 +83,7 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted) -> Ranked {
     };
     proven.doubt(|headline| {
         let is_proven = causes.contains(&headline.cause[..]) || proof.is_needed(headline);
-        !is_proven && proof.is_of_another_size(headline)
+        proof.is_made_elsewhere(headline) || !is_proven && proof.is_of_another_size(headline)
     });
     proven
 }
@@ -90,6 +91,8 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted) -> Ranked {
 struct Proof<'a> {
     evidence: &'a Evidence<'a>,
     planted: &'a dyn Planted,
+    /// What the mistakes are made in, as far as transplants have shown.
+    broken: Components,
 }
 
 impl<'a> Proof<'a> {
@@ -169,6 +172,13 @@ impl<'a> Proof<'a> {
         let cases = self.quickest(&headline.explains);
         let answers = self.compare(&[vec![mistake]], &cases);
         !cases.is_empty() && answers.iter().flatten().all(|likeness| *likeness == Likeness::Same)
+    }
+
+    /// Whether its mistakes are planted in other components than those that mend the core.
+    fn is_made_elsewhere(&self, headline: &Headline) -> bool {
+        let mut mistakes = self.of(headline).peekable();
+        mistakes.peek().is_some()
+            && mistakes.all(|mistake| !mistake.components.intersects(self.broken))
     }
 
     /// Whether its mistakes are wrong in the same places, and nowhere by as much.
@@ -256,11 +266,12 @@ impl<'a> Proof<'a> {
         self.planted.mistakes().iter().copied().filter(move |mistake| mistake.cause.name == name)
     }
 
-    /// Mistakes made in what is the core's own, whose own cases fail here.
+    /// Mistakes made in what is broken and the core's own, whose own cases fail here.
     fn in_sight(&self) -> Vec<Mistake> {
         let fails = |mistake: &&Mistake| {
             let seen = self.evidence.failure_of(mistake.caught_by);
-            seen.is_some_and(|seen| !seen.with.intersects(mistake.components))
+            let is_own = seen.is_some_and(|seen| !seen.with.intersects(mistake.components));
+            is_own && mistake.components.intersects(self.broken)
         };
         self.planted.mistakes().iter().filter(fails).copied().collect()
     }
@@ -324,7 +335,11 @@ fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
         let is_same = |other: &&Measure| asks_the_same(of_core, other);
         Some((of_core, planted.measures.iter().find(is_same)?))
     });
-    let wrong: Vec<_> = pairs.filter(|(a, b)| a.failed() || b.failed()).collect();
+    // That both are 0, or NaN, many mistakes have in common.
+    let tells = |(a, b): &(&Measure, &Measure)| {
+        (a.failed() || b.failed()) && !(is_degenerate(a) && is_degenerate(b))
+    };
+    let wrong: Vec<_> = pairs.filter(tells).collect();
     if wrong.is_empty() {
         return by_verdict(planted);
     }
@@ -337,6 +352,10 @@ fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
         (true, false) => Likeness::Alike,
         (false, false) => Likeness::Other,
     }
+}
+
+fn is_degenerate(measure: &Measure) -> bool {
+    measure.failed() && (measure.measured == 0.0 || measure.measured.is_nan())
 }
 
 /// Of what failed without a number: nothing is known of its size.
@@ -505,6 +524,22 @@ mod tests {
     }
 
     #[test]
+    fn a_mistake_of_another_component_than_the_one_that_mends_only_looks_like_it() {
+        let finding = light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y");
+        let made = Made::new().with("light/b", finding).with("light/c", light(0.25));
+        let gives: &[(&[&str], _, _)] =
+            &[(&["divided"], "light/b", 0.5), (&["divided"], "light/c", 0.25)];
+        let planted = Bench { mistakes: &[DIVIDED], gives };
+        let ranked = proven(&made.evidence(), &planted, Components::PATH);
+        let divided = light::DIVIDED_BY_LIGHTS.name;
+        let diagnosis = ranked.told();
+        assert_eq!(
+            told(&diagnosis),
+            [(divided, Degree::LooksLike, 1), ("", Degree::DiffersHere, 1)]
+        );
+    }
+
+    #[test]
     fn numbers_are_compared_row_by_row_and_what_has_none_by_its_verdict() {
         let two = |a, b| {
             means(vec![
@@ -517,5 +552,7 @@ mod tests {
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.0, 2.0)), Likeness::Other);
         assert_eq!(likeness(Some(&failing("lost")), &failing("lost")), Likeness::Unknown);
         assert_eq!(likeness(None, &passing()), Likeness::Other);
+        assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(0.0, 1.0)), Likeness::Unknown, "darkness");
+        assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(1.0, 1.0)), Likeness::Other);
     }
 }

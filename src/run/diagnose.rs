@@ -43,6 +43,7 @@ pub(super) fn diagnose_apart(
         .iter()
         .map(|view| View {
             evidence: evidence(core, seen_again(&first, view)),
+            own: view.own,
             mended: of_view(view),
         })
         .collect();

@@ -1,9 +1,9 @@
-//! The order of triangles in their mesh is nobody's business: shuffled, they are hit at the same t.
+//! The order of triangles in their mesh is nobody's business: shuffled, they are hit at the same t, but for rounding.
 //!
 //! Needs no loop to compare with, and so sees what a loop over a wrong range would not: a triangle
 //! that is lost wherever it stands last.
 
-use super::order::{Answers, Difference, Order};
+use super::order::{Answers, Difference, Order, rounding};
 use super::question::{generic_rays, segments};
 use crate::cause::{Cause, bvh};
 use crate::checks::phrase::{one_in, some_are};
@@ -36,12 +36,13 @@ impl Check for OrderDoesNotMatter {
         let stream = &mut context.seed.child("segments").stream();
         let segments = segments(&rays, &first.hits, bounds, stream);
         let first = Answers::of(context, &scene, &rays, Some(&segments))?;
+        let rounding = rounding(context.info.precision, (bounds.max - bounds.min).length());
         let mut differences = Vec::new();
         for number in 0..ORDERS {
             let stream = &mut context.seed.child("order").child(number).stream();
             let order = Order::shuffled(&scene, stream);
             let answers = Answers::of(context, &order.scene, &rays, Some(&segments))?;
-            differences.push(Difference::between(&first, &answers, &order));
+            differences.push(Difference::between(&first, &answers, &order, rounding));
         }
         Ok(finding(&differences, rays.len() + segments.len()))
     }

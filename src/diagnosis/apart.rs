@@ -21,7 +21,8 @@ pub(crate) fn diagnose_apart(
     views: &[View<'_>],
     planted: &dyn Planted,
 ) -> Diagnosis {
-    let of_view = |view: &View<'_>| proven(&view.evidence, planted, view.own).of_one_component();
+    let of_view =
+        |view: &View<'_>| proven(&view.evidence, planted, view.own).of_component(view.own);
     let mut told: Vec<_> = views.iter().map(of_view).collect();
     let shown = |case: &str| views.iter().any(|view| view.evidence.fails(case));
     let hidden = first.all_failures().filter(|seen| !shown(seen.case)).map(|seen| seen.case);
@@ -68,6 +69,21 @@ mod tests {
         assert_eq!(second.cause, bsdf::WITHOUT_PI.name);
         assert_eq!(second.may_follow, ["light/c"]);
         assert!(told.unexplained.is_empty());
+    }
+
+    #[test]
+    fn what_one_component_mends_and_has_no_cause_is_one_difference() {
+        let made = Made::new()
+            .with("bsdf/a", failing("a"))
+            .with("light/b", failing("b"))
+            .with("adaptive/c", failing("c"));
+        let mended = ["bsdf/a", "light/b", "adaptive/c"].map(str::to_owned).to_vec();
+        let view = View { evidence: made.evidence(), own: Components::BSDF, mended };
+        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        let [only] = &told.headlines[..] else { panic!("{told:?}") };
+        assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 3));
+        assert_eq!(only.mistake, "what differs is the core's BSDF");
+        assert_eq!(told.unexplained, only.explains);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use super::reproduction::Refuted;
 use super::{Degree, Evidence, Observation, Suspicion, differences, endings};
 use crate::case::{Part, Tier};
 use crate::cause::{self, Cause};
+use crate::contract::Components;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -100,6 +101,12 @@ impl Headline {
         self.blocked += other.blocked;
     }
 
+    /// Both as one.
+    fn and(mut self, other: Self) -> Self {
+        self.absorb(other);
+        self
+    }
+
     fn keeps_its_name(&self) -> bool {
         let (explained, others) = (self.explains.len() as f64, self.may_follow.len() as f64);
         explained >= NAMED * (explained + others)
@@ -161,18 +168,32 @@ impl Ranked {
         vague.chain(&self.differing)
     }
 
-    /// The same where everything but one component is the bench's: whatever else failed is of its only cause too.
-    pub(super) fn of_one_component(mut self) -> Self {
-        if let ([only], []) = (&mut self.causes[..], &self.endings[..]) {
-            only.may_follow.extend(self.differing.drain(..).flat_map(|headline| headline.explains));
+    /// The same where everything but `own` is the bench's: whatever else failed is of its only cause too, and what has no
+    /// cause differs there.
+    pub(super) fn of_component(mut self, own: Components) -> Self {
+        match (&mut self.causes[..], &self.endings[..]) {
+            ([only], []) => {
+                let others = self.differing.drain(..).flat_map(|headline| headline.explains);
+                only.may_follow.extend(others);
+            }
+            ([], []) => {
+                let one = self.differing.drain(..).reduce(Headline::and);
+                let mistake = format!("what differs is the core's {}", own.in_words());
+                self.differing.extend(one.map(|one| Headline { mistake, ..one }));
+            }
+            _ => {}
         }
         self
     }
 
-    /// Whether it has a cause, from which `case` follows then.
+    /// Whether `case` follows from its first headline.
     pub(super) fn followed_by(&mut self, case: &str) -> bool {
-        let first = self.causes.first_mut();
-        first.map(|headline| headline.may_follow.push(case.to_owned())).is_some()
+        match (self.causes.first_mut(), self.differing.first_mut()) {
+            (Some(cause), _) => cause.may_follow.push(case.to_owned()),
+            (None, Some(difference)) => difference.explains.push(case.to_owned()),
+            (None, None) => return false,
+        }
+        true
     }
 
     /// Both; a cause that both tell is told once.

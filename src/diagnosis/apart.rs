@@ -2,7 +2,7 @@
 //! is told of each is told of that component alone.
 
 use super::rank::Ranked;
-use super::reproduction::proven;
+use super::reproduction::{MadeIn, proven};
 use super::{Diagnosis, Evidence, Planted};
 use crate::contract::Components;
 
@@ -21,8 +21,9 @@ pub(crate) fn diagnose_apart(
     views: &[View<'_>],
     planted: &dyn Planted,
 ) -> Diagnosis {
-    let of_view =
-        |view: &View<'_>| proven(&view.evidence, planted, view.own).of_component(view.own);
+    let of_view = |view: &View<'_>| {
+        proven(&view.evidence, planted, MadeIn::Mended(view.own)).of_component(view.own)
+    };
     let mut told: Vec<_> = views.iter().map(of_view).collect();
     let shown = |case: &str| views.iter().any(|view| view.evidence.fails(case));
     let hidden = first.all_failures().filter(|seen| !shown(seen.case)).map(|seen| seen.case);
@@ -33,7 +34,12 @@ pub(crate) fn diagnose_apart(
             left.push(case);
         }
     }
-    told.push(proven(&first.with_failures_of(&left), planted, Components::all()));
+    let broken: Components = views.iter().map(|view| view.own).collect();
+    let made_in = match broken.is_empty() {
+        true => MadeIn::Unknown,
+        false => MadeIn::Likely(broken),
+    };
+    told.push(proven(&first.with_failures_of(&left), planted, made_in));
     told.into_iter().fold(Ranked::default(), Ranked::and).told()
 }
 

@@ -34,9 +34,8 @@ pub(crate) use rank::{Diagnosis, Headline};
 pub(crate) use reproduction::{Mistake, Planted, Question};
 
 use crate::cause::Cause;
-use crate::contract::Components;
 use rank::Ranked;
-use reproduction::{Refuted, proven};
+use reproduction::{MadeIn, Refuted, proven};
 use serde::{Deserialize, Serialize};
 
 /// How sure a headline is of its cause.
@@ -135,7 +134,7 @@ pub(crate) fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
 
 /// The same, put to the proof.
 pub(crate) fn diagnose_proven(evidence: &Evidence<'_>, planted: &dyn Planted) -> Diagnosis {
-    proven(evidence, planted, Components::all()).told()
+    proven(evidence, planted, MadeIn::Unknown).told()
 }
 
 /// What the rules suspect and is not refuted, and what was found beside.

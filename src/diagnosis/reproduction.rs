@@ -69,10 +69,28 @@ pub(crate) enum Likeness {
 /// Causes that a case contradicts.
 pub(super) type Refuted = BTreeSet<(&'static str, String)>;
 
-/// The headlines of `evidence` that planted mistakes do not contradict, and those that they add. Everything that failed
-/// is mended by the bench's `broken`.
-pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, broken: Components) -> Ranked {
-    let proof = Proof { evidence, planted, broken };
+/// What transplants have shown of where mistakes are made.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum MadeIn {
+    /// In these: with the bench's own, what failed passes.
+    Mended(Components),
+    /// In these, by other failures; for these the time was too short.
+    Likely(Components),
+    Unknown,
+}
+
+impl MadeIn {
+    fn may_be(self, components: Components) -> bool {
+        match self {
+            Self::Mended(broken) | Self::Likely(broken) => components.intersects(broken),
+            Self::Unknown => true,
+        }
+    }
+}
+
+/// The headlines of `evidence` that planted mistakes do not contradict, and those that they add.
+pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, made_in: MadeIn) -> Ranked {
+    let proof = Proof { evidence, planted, made_in };
     let (refuted, ranked) = proof.uncontradicted();
     let mut found = proof.confirmed(&ranked);
     found.extend(proof.reproduced(&ranked));
@@ -91,8 +109,7 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, broken: Com
 struct Proof<'a> {
     evidence: &'a Evidence<'a>,
     planted: &'a dyn Planted,
-    /// What the mistakes are made in, as far as transplants have shown.
-    broken: Components,
+    made_in: MadeIn,
 }
 
 impl<'a> Proof<'a> {
@@ -177,8 +194,9 @@ impl<'a> Proof<'a> {
     /// Whether its mistakes are planted in other components than those that mend the core.
     fn is_made_elsewhere(&self, headline: &Headline) -> bool {
         let mut mistakes = self.of(headline).peekable();
-        mistakes.peek().is_some()
-            && mistakes.all(|mistake| !mistake.components.intersects(self.broken))
+        matches!(self.made_in, MadeIn::Mended(_))
+            && mistakes.peek().is_some()
+            && mistakes.all(|mistake| !self.made_in.may_be(mistake.components))
     }
 
     /// Whether its mistakes are wrong in the same places, and nowhere by as much.
@@ -266,12 +284,12 @@ impl<'a> Proof<'a> {
         self.planted.mistakes().iter().copied().filter(move |mistake| mistake.cause.name == name)
     }
 
-    /// Mistakes made in what is broken and the core's own, whose own cases fail here.
+    /// Mistakes that may be made in what is the core's own, whose own cases fail here.
     fn in_sight(&self) -> Vec<Mistake> {
         let fails = |mistake: &&Mistake| {
             let seen = self.evidence.failure_of(mistake.caught_by);
             let is_own = seen.is_some_and(|seen| !seen.with.intersects(mistake.components));
-            is_own && mistake.components.intersects(self.broken)
+            is_own && self.made_in.may_be(mistake.components)
         };
         self.planted.mistakes().iter().filter(fails).copied().collect()
     }
@@ -530,7 +548,7 @@ mod tests {
         let gives: &[(&[&str], _, _)] =
             &[(&["divided"], "light/b", 0.5), (&["divided"], "light/c", 0.25)];
         let planted = Bench { mistakes: &[DIVIDED], gives };
-        let ranked = proven(&made.evidence(), &planted, Components::PATH);
+        let ranked = proven(&made.evidence(), &planted, MadeIn::Mended(Components::PATH));
         let divided = light::DIVIDED_BY_LIGHTS.name;
         let diagnosis = ranked.told();
         assert_eq!(

@@ -118,7 +118,11 @@ fn conclude(
     records: &[TrialRecord],
     events: &mut dyn FnMut(Event<'_>),
 ) {
-    if plan.searches && !plan.request.fail_fast && plan.with.is_empty() {
+    if !plan.searches || plan.request.fail_fast {
+        core.diagnosis = Some(diagnose(core, records));
+        return;
+    }
+    if plan.with.is_empty() {
         core.transplants = search::search(plan, bench, core, records, events);
     }
     let of_core = records.iter().filter(|record| record.core == core.spec);

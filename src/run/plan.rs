@@ -50,7 +50,8 @@ pub struct Plan {
     pub with: Components,
     /// What scenes are moved by besides the seed, for graders who publish no motion.
     pub salt: String,
-    /// Whether a run with failures goes on to search for the components of the bench that mend them.
+    /// Whether a run with failures goes on to search for the components of the bench that mend them, and puts causes to
+    /// the proof. One that stops at the first failure does not.
     pub searches: bool,
 }
 

@@ -55,6 +55,13 @@ pub(crate) fn judge<C: Check>(check: &C, core: &mut dyn Core) -> Finding {
     try_judge(check, core, None).unwrap()
 }
 
+/// The number that follows these words in a statement; NaN where they are not there.
+pub(crate) fn number_after(statement: &str, words: &str) -> f64 {
+    let rest = statement.split_once(words).map_or("", |(_, rest)| rest);
+    let number = rest.split(|c: char| !c.is_ascii_digit() && c != '.').next();
+    number.and_then(|number| number.parse().ok()).unwrap_or(f64::NAN)
+}
+
 /// The statement of a finding that has to be a failure.
 pub(crate) fn failure(finding: &Finding) -> &str {
     assert_eq!(finding.verdict, Verdict::Fail, "{finding:#?}");

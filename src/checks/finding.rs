@@ -172,6 +172,17 @@ impl Measure {
         }
     }
 
+    /// Whether what was measured lies within each other's intervals, or `slack` beyond them; of numbers without one the
+    /// numbers themselves. NaN meets NaN alone.
+    pub(crate) fn meets(&self, other: &Self, slack: f64) -> bool {
+        if self.measured.is_nan() || other.measured.is_nan() {
+            return self.measured.is_nan() && other.measured.is_nan();
+        }
+        let ends = |measure: &Self| measure.interval.unwrap_or([measure.measured; 2]);
+        let ([a, b], [c, d]) = (ends(self), ends(other));
+        a <= d + slack && c <= b + slack
+    }
+
     pub(crate) fn failed(&self) -> bool {
         self.verdict == Verdict::Fail
     }

@@ -396,14 +396,8 @@ fn errs_alike(a: &Measure, b: &Measure) -> bool {
 
 /// The numbers lie within each other's noise, and a little of the error.
 fn errs_as_much(a: &Measure, b: &Measure) -> bool {
-    if a.measured.is_nan() || b.measured.is_nan() {
-        return a.measured.is_nan() && b.measured.is_nan();
-    }
     let error = (a.measured - a.expected).abs().max((b.measured - b.expected).abs());
-    let slack = ALIKE * error;
-    let ends = |measure: &Measure| measure.interval.unwrap_or([measure.measured; 2]);
-    let ([a_low, a_high], [b_low, b_high]) = (ends(a), ends(b));
-    a_low <= b_high + slack && b_low <= a_high + slack
+    a.meets(b, ALIKE * error)
 }
 
 #[cfg(test)]

@@ -141,12 +141,8 @@ fn differ(one: &Outcome, other: &Outcome) -> bool {
     }
 }
 
-/// Beyond both intervals; of numbers without one, beyond rounding.
+/// Beyond both intervals, and rounding.
 fn lie_apart(one: &Measure, other: &Measure) -> bool {
-    let ends = |measure: &Measure| {
-        let slack = 1e-9 * measure.measured.abs();
-        measure.interval.unwrap_or([measure.measured - slack, measure.measured + slack])
-    };
-    let ([a, b], [c, d]) = (ends(one), ends(other));
-    b < c || d < a
+    let rounding = 1e-9 * one.measured.abs().max(other.measured.abs());
+    !one.meets(other, rounding)
 }

@@ -65,6 +65,14 @@ const fn certainty(degree: Degree) -> &'static str {
     }
 }
 
+/// What differs without a known cause is no reason.
+const fn fails(degree: Degree) -> &'static str {
+    match degree {
+        Degree::Named | Degree::LooksLike => "Failing because of it",
+        Degree::DiffersHere => "Failing here",
+    }
+}
+
 fn reasons(tree: &RunTree, core: &str, headline: &Headline) -> Markup {
     html! {
         dl.cause {
@@ -109,7 +117,7 @@ fn cases(view: &View<'_>, core: &str, headline: &Headline) -> Markup {
     let following = trials(view.tree, core, &headline.may_follow);
     html! {
         p.kicker {
-            "Failing because of it: " b { (explained.len()) }
+            (fails(headline.degree)) ": " b { (explained.len()) }
             @if headline.blocked > 0 { " · not tried because of it: " b { (headline.blocked) } }
         }
         (folded_rows(view, &explained, CASES))

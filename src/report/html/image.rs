@@ -2,8 +2,8 @@
 
 use super::View;
 use super::develop::{Look, gradient, scale};
-use super::parts::escaped;
 use super::pixels::Packed;
+use super::view::escaped;
 use crate::checks::{PictureRole, RejectedCell};
 use crate::image::exr::Exr;
 use crate::image::{Image, ImageError, exr};

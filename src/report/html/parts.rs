@@ -83,17 +83,6 @@ pub(crate) fn folded_rows(view: &View<'_>, trials: &[&TrialRecord], shown: usize
     }
 }
 
-/// `text` as it may stand in an address.
-pub(crate) fn escaped(text: &str) -> String {
-    let escape = |byte: u8| match byte {
-        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'@' | b'-' | b'_' | b'.' => {
-            char::from(byte).to_string()
-        }
-        _ => format!("%{byte:02X}"),
-    };
-    text.bytes().map(escape).collect()
-}
-
 pub(crate) fn command(text: &str) -> Markup {
     html! {
         div.command {
@@ -110,10 +99,5 @@ mod tests {
     #[test]
     fn classes_are_single_words() {
         assert!(Status::ALL.into_iter().all(|status| !class(status).contains(' ')));
-    }
-
-    #[test]
-    fn an_address_holds_no_quote_and_no_space() {
-        assert_eq!(escaped("a b\"<%/c"), "a%20b%22%3C%25/c");
     }
 }

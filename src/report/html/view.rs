@@ -1,6 +1,5 @@
 //! What a page shows of which run, and how it reaches the other pages from where it stands.
 
-use super::parts::escaped;
 use crate::report::digest::CaseGroup;
 use crate::report::tree::RunTree;
 use crate::run::TrialRecord;
@@ -73,4 +72,25 @@ pub(super) fn has_failed(case: &CaseGroup<'_>) -> bool {
 /// The anchor of a trial: case and core. It has a slash, as no section has.
 pub(super) fn anchor(trial: &TrialRecord) -> String {
     format!("{}@{}", trial.case, trial.core)
+}
+
+/// `text` as it may stand in an address.
+pub(super) fn escaped(text: &str) -> String {
+    let escape = |byte: u8| match byte {
+        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'@' | b'-' | b'_' | b'.' => {
+            char::from(byte).to_string()
+        }
+        _ => format!("%{byte:02X}"),
+    };
+    text.bytes().map(escape).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_address_holds_no_quote_and_no_space() {
+        assert_eq!(escaped("a b\"<%/c"), "a%20b%22%3C%25/c");
+    }
 }

@@ -53,6 +53,10 @@
 extern "C" {
 #endif
 
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#pragma message("-ffast-math assumes that nothing is infinite; t_max and distances may be: add -fno-finite-math-only")
+#endif
+
 #define FURNACE_ABI 1u
 #define FURNACE_NONE UINT32_MAX
 

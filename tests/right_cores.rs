@@ -40,13 +40,19 @@ const fn change(file: &'static str, from: &'static str, to: &'static str) -> Cha
     Change { file, from, to }
 }
 
+const FUSED: &[&str] = &["-O3", "-march=native", "-ffast-math", "-fno-finite-math-only"];
+
 /// Of an estimator that is not the one courses derive.
 const NOT_PLAIN: Change = change("pathtracer.cpp", " | FURNACE_PLAIN_ESTIMATORS", "");
 
 const BUILDS: &[Build] = &[
     Build { name: "cpp", flags: &[], changes: &[] },
     Build { name: "cpp-single", flags: &["-DREAL=float"], changes: &[] },
-    Build { name: "cpp-single-fast-math", flags: &["-DREAL=float", "-ffast-math"], changes: &[] },
+    Build {
+        name: "cpp-single-fast-math",
+        flags: &["-DREAL=float", "-ffast-math", "-fno-finite-math-only"],
+        changes: &[],
+    },
     // The largest double below 1 becomes 1.
     Build {
         name: "cpp-single-unclamped",
@@ -146,7 +152,7 @@ const BUILDS: &[Build] = &[
         )],
     },
     // Every product that can be is fused, sums are in any order.
-    Build { name: "cpp-fused", flags: &["-O3", "-march=native", "-ffast-math"], changes: &[] },
+    Build { name: "cpp-fused", flags: FUSED, changes: &[] },
     Build {
         name: "cpp-watertight",
         flags: &[],

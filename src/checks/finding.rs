@@ -187,6 +187,14 @@ impl Measure {
         self.verdict == Verdict::Fail
     }
 
+    /// Why this could not be decided, where that is known.
+    fn why_open(&self) -> Option<String> {
+        let noise =
+            |r| format!("too noisy to be judged: an error below {} goes unseen", percent(r));
+        let why = self.doubt.map(|doubt| doubt.to_string()).or_else(|| self.resolution.map(noise));
+        Some(format!("{}: {}", self.name(), why?))
+    }
+
     pub(crate) fn in_unit(self, unit: &str) -> Self {
         Self { unit: unit.to_owned(), ..self }
     }
@@ -238,10 +246,9 @@ impl Finding {
 
     /// Says what cannot be decided, and why, unless something has failed.
     fn doubting(self) -> Self {
-        let in_doubt = self.measures.iter().filter(|_| self.verdict == Verdict::Inconclusive);
-        let doubts =
-            in_doubt.filter_map(|measure| Some(format!("{}: {}", measure.name(), measure.doubt?)));
-        let first = doubts.take(1).collect::<Vec<_>>();
+        let is_open = |measure: &&Measure| measure.verdict == Verdict::Inconclusive;
+        let open = self.measures.iter().filter(|_| self.verdict == Verdict::Inconclusive);
+        let first = open.filter(is_open).filter_map(Measure::why_open).take(1).collect::<Vec<_>>();
         self.complaining(first)
     }
 
@@ -414,6 +421,9 @@ mod tests {
         let doubtful = Measure { verdict, doubt, ..Measure::none("radiance", 0) };
         let finding = Finding::of("all is right", "", vec![doubtful]);
         assert_eq!(finding.statement, format!("radiance: {}", Doubt::HeavyTail));
+        let noisy = Measure { verdict, resolution: Some(0.3), ..Measure::none("radiance", 0) };
+        let statement = Finding::of("all is right", "", vec![noisy]).statement;
+        assert_eq!(statement, "radiance: too noisy to be judged: an error below 30 % goes unseen");
     }
 
     #[test]

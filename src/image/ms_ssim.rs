@@ -3,7 +3,7 @@
 //! at the coarsest.
 
 use super::pair::{Pair, Plane};
-use super::ssim::{RADIUS, similarity};
+use super::ssim::{RADIUS, mean_of_planes, similarity};
 
 /// Weights of the sizes, from the finest to the coarsest: table 1 of the paper.
 const WEIGHTS: [f64; 5] = [0.0448, 0.2856, 0.3001, 0.2363, 0.1333];
@@ -11,8 +11,7 @@ const WEIGHTS: [f64; 5] = [0.0448, 0.2856, 0.3001, 0.2363, 0.1333];
 /// SSIM as seen from farther and farther away: the weighted geometric mean over five sizes, each half of the one
 /// before; over fewer, where the image has no room for five.
 pub(super) fn multi_scale_similarity(pair: &Pair<'_>) -> f64 {
-    let [image, reference] = pair.grey();
-    multi_scale(image.clone(), reference.clone())
+    mean_of_planes(pair, |image, reference| multi_scale(image.clone(), reference.clone()))
 }
 
 fn multi_scale(mut image: Plane, mut reference: Plane) -> f64 {

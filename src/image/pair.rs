@@ -1,6 +1,6 @@
 //! An image beside its reference, with what several metrics need of them computed once.
 
-use super::tonemap::{encode_srgb, exposure_of};
+use super::tonemap::{decode_srgb, encode_srgb, exposure_of};
 use super::{Image, ImageError, luminance};
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -15,7 +15,17 @@ pub struct Pair<'a> {
     pub(crate) image: &'a Image,
     /// What it is held against.
     pub(crate) reference: &'a Image,
-    grey: OnceLock<[Plane; 2]>,
+    pub(crate) values: Values,
+    shown: OnceLock<Vec<[Plane; 2]>>,
+}
+
+/// What the numbers of a pair are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Values {
+    /// Linear light.
+    Radiance,
+    /// Codes over the largest code, as the files of 8-bit images have them and a screen takes them.
+    Codes,
 }
 
 /// One number for each pixel, row-major from the top left.
@@ -50,6 +60,15 @@ impl<'a> Pair<'a> {
     /// # Errors
     /// If the images differ in size, or have no pixels.
     pub fn new(image: &'a Image, reference: &'a Image) -> Result<Self, ImageError> {
+        Self::of(Values::Radiance, image, reference)
+    }
+
+    /// The same of codes over the largest code.
+    pub(crate) fn of_codes(image: &'a Image, reference: &'a Image) -> Result<Self, ImageError> {
+        Self::of(Values::Codes, image, reference)
+    }
+
+    fn of(values: Values, image: &'a Image, reference: &'a Image) -> Result<Self, ImageError> {
         let sizes = [image, reference].map(Image::size);
         if sizes[0] != sizes[1] {
             return Err(ImageError::DifferentSizes { sizes });
@@ -57,16 +76,28 @@ impl<'a> Pair<'a> {
         if reference.pixels.is_empty() {
             return Err(ImageError::Empty);
         }
-        Ok(Self { image, reference, grey: OnceLock::new() })
+        Ok(Self { image, reference, values, shown: OnceLock::new() })
     }
 
-    /// Both as a screen shows them: luminance at the exposure that suits the reference, clipped to
-    /// white, sRGB. In [0, 1]; NaN stays NaN.
-    pub(crate) fn grey(&self) -> &[Plane; 2] {
-        self.grey.get_or_init(|| {
-            let gain = exposure_of(self.reference).exp2();
-            [self.image, self.reference].map(|picture| grey(picture, gain))
+    /// Both as a screen shows them, in [0, 1]; NaN stays NaN. Of codes each channel as it is; of radiance the
+    /// luminance at the exposure that suits the reference, clipped to white, sRGB.
+    pub(crate) fn shown(&self) -> &[[Plane; 2]] {
+        let both = [self.image, self.reference];
+        self.shown.get_or_init(|| match self.values {
+            Values::Codes => (0..3).map(|c| both.map(|picture| channel(picture, c))).collect(),
+            Values::Radiance => {
+                let gain = exposure_of(self.reference).exp2();
+                vec![both.map(|picture| grey(picture, gain))]
+            }
         })
+    }
+
+    /// The light that a screen sends out for a value, in [0, 1].
+    pub(crate) fn displayed(&self) -> fn(f32) -> f32 {
+        match self.values {
+            Values::Radiance => |value| value.clamp(0.0, 1.0),
+            Values::Codes => |value| decode_srgb(value.clamp(0.0, 1.0)),
+        }
     }
 
     pub(crate) fn mean(&self, error: impl Fn([f32; 3], [f32; 3]) -> f64 + Sync) -> f64 {
@@ -83,6 +114,11 @@ impl<'a> Pair<'a> {
         let pairs = self.image.pixels.par_iter().zip(&self.reference.pixels);
         pairs.map(|(image, reference)| error(*image, *reference)).collect()
     }
+}
+
+fn channel(picture: &Image, channel: usize) -> Plane {
+    let values = picture.pixels.par_iter().map(|pixel| pixel[channel]).collect();
+    Plane { width: picture.width, height: picture.height, values }
 }
 
 fn grey(picture: &Image, gain: f32) -> Plane {
@@ -108,7 +144,7 @@ mod tests {
     fn both_are_shown_at_the_exposure_of_the_reference() {
         let (image, reference) = (Image::new(4, 4, [0.5; 3]), Image::new(4, 4, [1.0; 3]));
         let pair = Pair::new(&image, &reference).unwrap();
-        let [shown, white] = pair.grey();
+        let [[shown, white]] = pair.shown() else { panic!("one plane, of luminance") };
         assert!((shown.values[0] - encode_srgb(0.4)).abs() < 1e-4);
         assert!((white.values[0] - encode_srgb(0.8)).abs() < 1e-4);
     }

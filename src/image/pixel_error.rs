@@ -1,6 +1,7 @@
 //! Metrics that add up what each pixel is off by.
 
 use super::pair::Pair;
+use super::ssim::mean_of_planes;
 
 /// Keeps dark pixels from dividing by nothing in a relative square (Rousselle et al., "Adaptive Sampling and
 /// Reconstruction using Greedy Error Minimization", 2011).
@@ -10,13 +11,13 @@ const OF_SUMS: f64 = 0.01;
 /// Share of the worst pixels that a trimmed mean leaves out.
 const TRIMMED: f64 = 0.001;
 
-/// Mean over pixels and channels of |a − b|, in units of radiance. A few very wrong pixels move it less than the root
+/// Mean over pixels and channels of |a − b|, in units of radiance, or of codes over the largest. A few very wrong pixels move it less than the root
 /// mean square.
 pub(super) fn mean_absolute(pair: &Pair<'_>) -> f64 {
     mean(pair, |a, b| (a - b).abs())
 }
 
-/// Root of the mean over pixels and channels of (a − b)², in units of radiance. Halves with four times the samples.
+/// Root of the mean over pixels and channels of (a − b)², in the same units. Halves with four times the samples.
 pub(super) fn root_mean_square(pair: &Pair<'_>) -> f64 {
     mean(pair, |a, b| (a - b).powi(2)).sqrt()
 }
@@ -45,12 +46,14 @@ pub(super) fn symmetric_relative(pair: &Pair<'_>) -> f64 {
 }
 
 /// Peak signal-to-noise ratio, decibels: white squared over the mean squared difference, both images as a screen
-/// shows them in grey. More is better.
+/// shows them: codes as they are, radiance in grey. More is better.
 pub(super) fn peak_signal_to_noise(pair: &Pair<'_>) -> f64 {
-    let [image, reference] = pair.grey();
-    let pairs = image.values.iter().zip(&reference.values);
-    let squares: f64 = pairs.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)).sum();
-    -10.0 * (squares / image.values.len() as f64).log10()
+    let mean_square = mean_of_planes(pair, |image, reference| {
+        let pairs = image.values.iter().zip(&reference.values);
+        let squares: f64 = pairs.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)).sum();
+        squares / image.values.len() as f64
+    });
+    -10.0 * mean_square.log10()
 }
 
 fn mean(pair: &Pair<'_>, error: impl Fn(f64, f64) -> f64 + Sync) -> f64 {

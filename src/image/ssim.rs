@@ -14,10 +14,17 @@ const STABILISERS: [f64; 2] = [1e-4, 9e-4];
 /// Taken off every value: variances of numbers around zero lose fewer digits in single precision.
 const MIDDLE: f32 = 0.5;
 
-/// The mean over windows of how alike both are in brightness, contrast and pattern, as a screen shows them in grey.
+/// The mean over windows of how alike both are in brightness, contrast and pattern, as a screen shows them: of
+/// codes the mean over channels, of radiance in grey.
 pub(super) fn structural_similarity(pair: &Pair<'_>) -> f64 {
-    let [image, reference] = pair.grey();
-    similarity(image, reference).whole
+    mean_of_planes(pair, |image, reference| similarity(image, reference).whole)
+}
+
+/// The mean over the planes of a pair as it is shown.
+pub(super) fn mean_of_planes(pair: &Pair<'_>, alike: impl Fn(&Plane, &Plane) -> f64) -> f64 {
+    let planes = pair.shown();
+    planes.iter().map(|[image, reference]| alike(image, reference)).sum::<f64>()
+        / planes.len() as f64
 }
 
 /// How alike two images are, the mean over windows.

@@ -19,6 +19,12 @@ pub(crate) fn encode_srgb(linear: f32) -> f32 {
     Curve::Srgb.encode(f64::from(linear)) as f32
 }
 
+/// The linear light of a share of white in sRGB.
+#[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
+pub(crate) fn decode_srgb(share: f32) -> f32 {
+    Curve::Srgb.decode(f64::from(share)) as f32
+}
+
 /// Linear light in [0, 1] to an sRGB code.
 pub(crate) fn srgb_code(linear: f32) -> u8 {
     Encoding::of(Curve::Srgb).code(f64::from(linear))

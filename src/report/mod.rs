@@ -4,6 +4,7 @@
 //! no threshold, so that a report can be made again from an old run, elsewhere. To add a page
 //! section, write a file in `html/` and a line in its `SECTIONS`.
 
+pub(crate) mod comparison;
 pub(crate) mod digest;
 #[cfg(test)]
 pub(crate) mod example;

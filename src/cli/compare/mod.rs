@@ -1,7 +1,6 @@
-//! `furnace compare`: whether an image shows what another shows, and if not, which mistake turns one into the other.
+//! `furnace compare`: whether images show what another shows, and if not, which mistake turns one into the other.
 
 mod side;
-mod words;
 
 use super::say::{say, say_line};
 use super::{Answer, ExitCode, Failure};
@@ -9,27 +8,31 @@ use crate::image::ImageError;
 use crate::image::encoding::{Curve, Encoding, Rounding};
 use crate::image::file::load;
 use crate::image::mask::{Mask, Rectangle};
-use crate::stats::{Comparison, Question, Side, Verdict};
+use crate::report::comparison::{Compared, Comparisons, told};
+use crate::stats::{Question, Side, Verdict};
 use clap::Args;
 use side::encoding;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What `furnace compare` understands.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct CompareArguments {
-    /// Images (EXR, PFM, HDR, PNG); the last is the reference. Several before it are independent
-    /// renders of one image, whose mean and variance are taken.
-    #[arg(required = true, num_args = 2.., value_name = "PICTURE")]
-    pictures: Vec<PathBuf>,
+    /// Images (EXR, PFM, HDR, PNG); the last is the reference, and each of the others is compared with it.
+    #[arg(required = true, num_args = 2.., value_name = "IMAGE")]
+    images: Vec<PathBuf>,
+    /// The images before the reference are independent renders of one image: compare their mean,
+    /// with the noise that they tell.
+    #[arg(long)]
+    renders: bool,
     /// Transfer function of PNG files: srgb, linear, or a gamma such as 2.2.
     #[arg(long, value_parser = encoding, default_value = "srgb")]
     encoding: Curve,
     /// PNG codes were truncated, not rounded.
     #[arg(long)]
     truncated: bool,
-    /// An image with the per-pixel variance of the first.
+    /// An image with the per-pixel variance of an image; once for each, in their order.
     #[arg(long, value_name = "FILE")]
-    variance: Option<PathBuf>,
+    variance: Vec<PathBuf>,
     /// The same for the reference; an EXR with se.R, se.G and se.B needs none.
     #[arg(long, value_name = "FILE")]
     reference_variance: Option<PathBuf>,
@@ -55,43 +58,89 @@ impl CompareArguments {
 }
 
 pub(crate) fn compare(arguments: &CompareArguments) -> Answer {
-    let comparison = measure(arguments)?;
+    let comparisons = measure(arguments)?;
     if arguments.json {
-        say_line!("{}", serde_json::to_string_pretty(&comparison).map_err(Failure::broken)?);
+        say_line!("{}", serde_json::to_string_pretty(&comparisons).map_err(Failure::broken)?);
     } else {
-        say!("{}", words::told(&comparison));
+        say!("{}", told(&comparisons));
     }
-    Ok(match comparison.verdict {
-        Verdict::Pass => ExitCode::Good,
-        Verdict::Fail => ExitCode::Failed,
-        Verdict::Inconclusive => ExitCode::Broken,
+    let verdicts: Vec<_> = comparisons.images.iter().map(|one| one.comparison.verdict).collect();
+    Ok(match () {
+        () if verdicts.contains(&Verdict::Fail) => ExitCode::Failed,
+        () if verdicts.contains(&Verdict::Inconclusive) => ExitCode::Broken,
+        () => ExitCode::Good,
     })
 }
 
-fn measure(arguments: &CompareArguments) -> Result<Comparison, Failure> {
-    let (picture, reference) = rayon::join(|| picture(arguments), || reference(arguments));
-    let (picture, reference) = (picture?, reference?);
+fn measure(arguments: &CompareArguments) -> Result<Comparisons, Failure> {
+    let named = named(arguments)?;
+    let reference = named.reference.read(arguments.encoding)?;
     let question = Question {
         encoding: arguments.encoding(),
         counted: counted(arguments, reference.size()).map_err(Failure::request)?,
         slow_metrics: !arguments.no_flip,
     };
-    crate::stats::compare(&picture, &reference, question).map_err(Failure::request)
+    let compared = named.images.iter().map(|image| {
+        let side = image.read(arguments.encoding)?;
+        let comparison = crate::stats::compare(&side, &reference, question.clone());
+        Ok(Compared {
+            files: image.names(),
+            comparison: comparison.map_err(|error| image.cannot(&error))?,
+        })
+    });
+    let images = compared.collect::<Result<_, Failure>>()?;
+    Ok(Comparisons { reference: named.reference.names().concat(), images })
 }
 
-fn picture(arguments: &CompareArguments) -> Result<Side, Failure> {
-    let (_, runs) = arguments.pictures.split_last().ok_or_else(nothing)?;
-    side::of_runs(runs, arguments.encoding, arguments.variance.as_deref())
+/// The files of every side, before any is read.
+struct Named<'a> {
+    images: Vec<Files<'a>>,
+    reference: Files<'a>,
 }
 
-fn reference(arguments: &CompareArguments) -> Result<Side, Failure> {
-    let (reference, _) = arguments.pictures.split_last().ok_or_else(nothing)?;
-    let variance = arguments.reference_variance.as_deref();
-    side::of_runs(std::slice::from_ref(reference), arguments.encoding, variance)
+/// One image, or renders of one, and its variance if it is given.
+struct Files<'a> {
+    renders: &'a [PathBuf],
+    variance: Option<&'a Path>,
 }
 
-fn nothing() -> Failure {
-    Failure::request("two images are needed")
+impl Files<'_> {
+    fn read(&self, encoding: Curve) -> Result<Side, Failure> {
+        side::of_runs(self.renders, encoding, self.variance)
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.renders.iter().map(|path| path.display().to_string()).collect()
+    }
+
+    fn cannot(&self, error: &ImageError) -> Failure {
+        Failure::request(format!("cannot compare {}: {error}", self.names().join(", ")))
+    }
+}
+
+fn named(arguments: &CompareArguments) -> Result<Named<'_>, Failure> {
+    let CompareArguments { images, variance, .. } = arguments;
+    let (reference, images) =
+        images.split_last().ok_or_else(|| Failure::request("two images are needed"))?;
+    let sides: Vec<&[PathBuf]> =
+        if arguments.renders { vec![images] } else { images.chunks(1).collect() };
+    if !variance.is_empty() && variance.len() != sides.len() {
+        return Err(Failure::request(format!(
+            "--variance stands {} times for {} images: give one for each image before the reference, in \
+             their order",
+            variance.len(),
+            sides.len()
+        )));
+    }
+    let files = sides.into_iter().enumerate().map(|(number, renders)| Files {
+        renders,
+        variance: variance.get(number).map(PathBuf::as_path),
+    });
+    let reference = Files {
+        renders: std::slice::from_ref(reference),
+        variance: arguments.reference_variance.as_deref(),
+    };
+    Ok(Named { images: files.collect(), reference })
 }
 
 /// Whether each pixel counts, as far as that is asked.
@@ -110,5 +159,7 @@ fn rectangle(text: &str) -> Result<Rectangle, String> {
     numbers.try_into().map_err(|_| "four numbers: X,Y,W,H".to_owned())
 }
 
+#[cfg(test)]
+mod codes;
 #[cfg(test)]
 mod tests;

@@ -5,7 +5,9 @@ use crate::image::exr::{self, Exr, Storage};
 use crate::image::metric::METRICS;
 use crate::image::{Image, pfm, png};
 use crate::math::rng::{Seed, uniform};
+use crate::report::comparison::told_of;
 use crate::scene::reference::{ERROR_PREFIX, Layers};
+use crate::stats::Comparison;
 use clap::Parser;
 use std::path::Path;
 
@@ -15,9 +17,20 @@ struct Line {
     compare: CompareArguments,
 }
 
-fn compared(words: &[&str]) -> Result<Comparison, Failure> {
+fn measured(words: &[&str]) -> Result<Comparisons, Failure> {
     let line = Line::try_parse_from(std::iter::once("compare").chain(words.iter().copied()));
     measure(&line.unwrap().compare)
+}
+
+/// What was found of the only image.
+pub(super) fn compared(words: &[&str]) -> Result<Comparison, Failure> {
+    let mut images = measured(words)?.images;
+    assert_eq!(images.len(), 1);
+    Ok(images.remove(0).comparison)
+}
+
+pub(super) fn path_of(path: &Path) -> &str {
+    path.to_str().unwrap()
 }
 
 fn scene(x: usize, y: usize) -> f64 {
@@ -57,7 +70,7 @@ fn a_second_render_passes_and_a_brighter_one_is_named() {
     assert_eq!(found.verdict, Verdict::Pass, "{found:#?}");
     assert_eq!(found.metrics.len(), METRICS.len() - 2);
     let found = compared(&[&bright, &reference]).unwrap();
-    let told = words::told(&found);
+    let told = told_of(&found);
     assert!(told.starts_with("fail: the image has 1.05"), "{told}");
     assert!(told.contains("times as bright, alike in all channels"), "{told}");
     assert!(told.contains("FLIP"), "{told}");
@@ -77,7 +90,7 @@ fn a_reference_brings_its_own_errors_and_several_renders_theirs() {
         })
         .collect();
     let mut words: Vec<&str> = runs.iter().map(String::as_str).collect();
-    words.extend([path.to_str().unwrap(), "--no-flip"]);
+    words.extend([path.to_str().unwrap(), "--no-flip", "--renders"]);
     let found = compared(&words).unwrap();
     assert_eq!(found.difference.outliers.map(|odd| odd.pixels), Some(1), "{found:#?}");
     let place = format!("{},{},1,1", 5000 % 192, 5000 / 192);
@@ -104,7 +117,7 @@ fn a_reference_that_holds_its_bounces_apart_tells_which_is_missing_or_there_twic
         });
         let picture = file(folder.path(), "picture.pfm", &picture);
         let found = compared(&[&picture, reference.to_str().unwrap(), "--no-flip"]).unwrap();
-        let told = words::told(&found);
+        let told = told_of(&found);
         let expected = format!("bounce {bounce} {words}");
         assert!(found.verdict == Verdict::Fail && told.contains(&expected), "{told}");
     }
@@ -128,7 +141,7 @@ fn codes_are_compared_by_their_law() {
         let mut all = vec![picture.as_str(), reference.as_str(), "--encoding", "2.2", "--no-flip"];
         all.extend(more);
         let found = compared(&all).unwrap();
-        (words::told(&found), found)
+        (told_of(&found), found)
     };
     let (good, found) = told(5, 1.0, gamma, &[]);
     assert_eq!(found.verdict, Verdict::Pass, "{good}");
@@ -145,6 +158,38 @@ fn codes_are_compared_by_their_law() {
 }
 
 #[test]
+fn each_image_is_compared_with_the_last() {
+    let folder = tempfile::tempdir().unwrap();
+    let reference = file(folder.path(), "r.pfm", &render(1, 0.02, 1.0));
+    let bright = file(folder.path(), "a.pfm", &render(2, 0.02, 1.05));
+    let good = file(folder.path(), "b.pfm", &render(3, 0.1, 1.0));
+    let found = measured(&[&bright, &good, &reference, "--no-flip"]).unwrap();
+    let verdicts: Vec<_> = found.images.iter().map(|one| one.comparison.verdict).collect();
+    assert_eq!(verdicts, [Verdict::Fail, Verdict::Pass]);
+    let told = told(&found);
+    for name in [&bright, &good] {
+        assert!(told.contains(&format!("{name} against {reference}\n")), "{told}");
+    }
+    let json = serde_json::to_value(&found).unwrap();
+    assert_eq!(json["images"][1]["files"][0], good.as_str());
+    assert_eq!(json["images"][1]["verdict"], "pass");
+    assert_eq!(json["reference"], reference.as_str());
+}
+
+#[test]
+fn variances_stand_in_the_order_of_the_images() {
+    let folder = tempfile::tempdir().unwrap();
+    let reference = file(folder.path(), "r.pfm", &render(1, 0.02, 1.0));
+    let good = file(folder.path(), "a.pfm", &render(2, 0.1, 1.0));
+    let noise = file(folder.path(), "v.pfm", &Image::new(192, 128, [1e-4; 3]));
+    let words = [&good, &good, &reference, "--no-flip", "--variance", &noise];
+    let refused = measured(&words).unwrap_err().message;
+    assert!(refused.contains("stands 1 times for 2 images"), "{refused}");
+    let words: Vec<_> = words.into_iter().chain(["--variance", &noise]).collect();
+    assert_eq!(measured(&words).unwrap().images.len(), 2);
+}
+
+#[test]
 fn what_cannot_be_compared_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let a = file(folder.path(), "a.pfm", &render(1, 0.1, 1.0));
@@ -153,7 +198,7 @@ fn what_cannot_be_compared_is_refused() {
     assert!(compared(&[&a, "nowhere.exr"]).unwrap_err().message.contains("nowhere.exr"));
     assert!(compared(&[&a, &a, "--ignore", "0,0,999,999"]).is_err());
     let same = compared(&[&a, &a, "--no-flip"]).unwrap();
-    assert!(words::told(&same).contains("equal to the last bit"));
+    assert!(told_of(&same).contains("equal to the last bit"));
 }
 
 #[test]
@@ -163,6 +208,6 @@ fn a_pixel_that_is_no_number_fails() {
     let mut broken = render(2, 0.1, 1.0);
     broken.pixels[193] = [f32::NAN; 3];
     let broken = file(folder.path(), "a.pfm", &broken);
-    let told = words::told(&compared(&[&broken, &reference]).unwrap());
+    let told = told_of(&compared(&[&broken, &reference]).unwrap());
     assert!(told.starts_with("fail: 1 pixels are NaN"), "{told}");
 }

@@ -19,7 +19,7 @@ mod tests;
 
 use super::pair::{Pair, Plane};
 
-/// Mean FLIP of the images clipped to [0, 1]; from 0 to 1.
+/// Mean FLIP of the images as displayed: radiance clipped to [0, 1], codes as those of an sRGB image; from 0 to 1.
 pub(super) fn mean_flip(pair: &Pair<'_>) -> f64 {
     mean(&flip(pair))
 }
@@ -30,10 +30,10 @@ pub(super) fn mean_high_dynamic_range_flip(pair: &Pair<'_>) -> f64 {
     mean(&high_dynamic_range_flip(pair))
 }
 
-/// FLIP of every pixel, the images clipped to [0, 1].
+/// FLIP of every pixel, the images as displayed.
 pub(crate) fn flip(pair: &Pair<'_>) -> Plane {
     let mut map = blank(pair);
-    difference::raise(&mut map, pair, &|value| value.clamp(0.0, 1.0));
+    difference::raise(&mut map, pair, &pair.displayed());
     map
 }
 

@@ -6,7 +6,7 @@ use super::difference::{DifferenceReport, Sample, judge_difference};
 use super::misfit::{BouncesOff, Fit, Knowledge, bounces_off, explain};
 use crate::image::encoding::Encoding;
 use crate::image::file::Loaded;
-use crate::image::metric::METRICS;
+use crate::image::metric::{METRICS, Metric};
 use crate::image::pair::{Pair, Plane};
 use crate::image::png::Picture as Codes;
 use crate::image::{Image, ImageError};
@@ -122,7 +122,7 @@ impl Side {
 pub struct Comparison {
     pub(crate) verdict: Verdict,
     pub(crate) size: [usize; 2],
-    /// Pixels that count.
+    /// Pixels that the test judges.
     pub(crate) pixels: usize,
     pub(crate) difference: DifferenceReport,
     /// How the codes of an 8-bit picture were compared, if it could be done by their law.
@@ -132,7 +132,35 @@ pub struct Comparison {
     /// Bounces that are missing or there too often, if the reference holds its bounces apart and that
     /// explains more than any mistake.
     pub(crate) bounces: Option<BouncesOff>,
+    /// Of what is displayed, where a side has codes: whole numbers that end at black and white.
+    pub(crate) clipped: Option<Clipped>,
+    /// Of the codes over the largest if either side has codes; of radiance otherwise.
     pub(crate) metrics: Vec<Measured>,
+}
+
+/// Pixels at the ends of what an 8-bit image holds. Metrics take them as they are, as all tools do; the test
+/// leaves out those that noise may have clipped.
+#[derive(Debug, Serialize)]
+pub(crate) struct Clipped {
+    pub(crate) image: Ends,
+    pub(crate) reference: Ends,
+}
+
+/// Pixels with a channel at an end of the scale.
+#[derive(Debug, Default, PartialEq, Eq, Serialize)]
+pub(crate) struct Ends {
+    pub(crate) black: usize,
+    pub(crate) white: usize,
+}
+
+impl Ends {
+    fn of(codes: &Image, counted: &[bool]) -> Self {
+        let with = |is_end: fn(f32) -> bool| {
+            let pixels = codes.pixels.iter().zip(counted).filter(|(_, counted)| **counted);
+            pixels.filter(|(pixel, _)| pixel.iter().any(|share| is_end(*share))).count()
+        };
+        Self { black: with(|share| share <= 0.0), white: with(|share| share >= 1.0) }
+    }
 }
 
 /// What was done with codes.
@@ -142,7 +170,7 @@ pub struct CodesCompared {
     pub(crate) noise: NoiseSource,
 }
 
-/// A metric of the pixels that count.
+/// A metric of all pixels but those that were asked to be ignored.
 #[derive(Debug, Serialize)]
 pub(crate) struct Measured {
     pub(crate) name: &'static str,
@@ -151,6 +179,7 @@ pub(crate) struct Measured {
 }
 
 /// What is asked of a comparison, besides its pictures.
+#[derive(Clone, Debug)]
 pub struct Question {
     /// How the codes of 8-bit pictures are said to be made.
     pub encoding: Encoding,
@@ -174,12 +203,12 @@ pub fn compare(
         return Err(ImageError::DifferentSizes { sizes: [picture.size(), size] });
     }
     let light = picture.light_against(reference, question.encoding);
-    let counted = counted(question.counted, picture, reference, light.as_ref());
+    let measured = || metrics(picture, reference, &question);
+    let counted = counted(question.counted.clone(), picture, reference, light.as_ref());
     let counted = counted.contains(&false).then_some(counted);
     let judged = || judged(picture, reference, light.as_ref(), counted.as_deref());
-    let measured =
-        || metrics(&picture.image, &reference.image, counted.as_deref(), question.slow_metrics);
-    let ((difference, mistakes, bounces), metrics) = rayon::join(judged, measured);
+    let ((difference, mistakes, bounces), measured) = rayon::join(judged, measured);
+    let (clipped, metrics) = measured?;
     Ok(Comparison {
         verdict: if is_encoded_otherwise(light.as_ref()) {
             Verdict::Fail
@@ -188,7 +217,8 @@ pub fn compare(
         },
         size,
         pixels: counted.map_or(size[0] * size[1], |all| all.iter().filter(|one| **one).count()),
-        metrics: metrics?,
+        clipped,
+        metrics,
         difference,
         codes: light
             .map(|light| CodesCompared { deciphered: light.deciphered, noise: light.noise }),
@@ -233,23 +263,49 @@ fn explanation(
     }
 }
 
+/// Codes are measured as codes, as every tool for PNG does: both sides as the files have them or, of radiance, as
+/// its encoding would make them.
 fn metrics(
-    picture: &Image,
-    reference: &Image,
-    counted: Option<&[bool]>,
-    slow: bool,
-) -> Result<Vec<Measured>, ImageError> {
+    picture: &Side,
+    reference: &Side,
+    question: &Question,
+) -> Result<(Option<Clipped>, Vec<Measured>), ImageError> {
+    if !picture.is_coded && !reference.is_coded {
+        let shown = without_ignored(&picture.image, &reference.image, &question.counted);
+        return Ok((None, measured(&Pair::new(&shown, &reference.image)?, question)));
+    }
+    let [image, reference] =
+        [picture, reference].map(|side| codes_of(&side.image, question.encoding));
+    let counted = &question.counted;
+    let clipped =
+        Clipped { image: Ends::of(&image, counted), reference: Ends::of(&reference, counted) };
+    let shown = without_ignored(&image, &reference, counted);
+    Ok((Some(clipped), measured(&Pair::of_codes(&shown, &reference)?, question)))
+}
+
+/// Codes over the largest, not rounded.
+fn codes_of(light: &Image, encoding: Encoding) -> Image {
+    let share = |light: f32| encoding.curve.encode(encoding.exposure * f64::from(light));
+    #[expect(clippy::cast_possible_truncation, reason = "as precise as the picture")]
+    light.map(|pixel| pixel.map(|light| share(light) as f32))
+}
+
+/// The picture, with the reference where it is to be ignored.
+fn without_ignored<'a>(picture: &'a Image, reference: &Image, counted: &[bool]) -> Cow<'a, Image> {
     let mut shown = Cow::Borrowed(picture);
-    if let Some(counted) = counted {
+    if counted.contains(&false) {
         shown.to_mut().paint_over(counted, reference);
     }
-    let pair = Pair::new(&shown, reference)?;
-    let asked = METRICS.iter().filter(|metric| slow || !metric.is_slow);
-    let measured = asked.map(|metric| {
-        let value = metric.measure(&pair);
+    shown
+}
+
+fn measured(pair: &Pair<'_>, question: &Question) -> Vec<Measured> {
+    let suits = |metric: &&Metric| metric.suits(pair) && (question.slow_metrics || !metric.is_slow);
+    let measured = METRICS.iter().filter(suits).map(|metric| {
+        let value = metric.measure(pair);
         Measured { name: metric.name, value: (!value.is_nan()).then_some(value) }
     });
-    Ok(measured.collect())
+    measured.collect()
 }
 
 /// Of files of codes, pixels that noise may clip do not count: what is lost above white is no mistake.

@@ -36,6 +36,9 @@ fn add(scene: &mut SceneDescription, light: DeclaredLight) -> Option<String> {
         Kind::Directional { .. } | Kind::Ambient | Kind::Spot => None,
     };
     if let Some(mesh) = at.and_then(|position| emissive_mesh_at(scene, position)) {
+        if let Kind::Area { direction, .. } = kind {
+            face(mesh, direction);
+        }
         let mesh = &mesh.name;
         return Some(format!(
             "light `{name}` lies in `{mesh}`: the emitter is `{mesh}`, as it is visible"
@@ -65,14 +68,29 @@ fn add(scene: &mut SceneDescription, light: DeclaredLight) -> Option<String> {
     }
 }
 
-fn emissive_mesh_at(scene: &SceneDescription, position: DVec3) -> Option<&Mesh> {
-    let emits = |mesh: &&Mesh| scene.materials[mesh.material as usize].emission.is_some();
-    scene.meshes.iter().filter(emits).find(|mesh| {
+fn emissive_mesh_at(scene: &mut SceneDescription, position: DVec3) -> Option<&mut Mesh> {
+    let materials = &scene.materials;
+    let emits = |mesh: &&mut Mesh| materials[mesh.material as usize].emission.is_some();
+    scene.meshes.iter_mut().filter(emits).find(|mesh| {
         Aabb::around(mesh.positions.iter().copied()).is_some_and(|bounds| {
             let nearest = position.clamp(bounds.min, bounds.max);
             nearest.distance(position) <= WITHIN * bounds.diagonal()
         })
     })
+}
+
+/// Turns a mesh so that its front is where its light shines. Seen from both sides, as emissive surfaces of the course
+/// are, it is the same mesh.
+fn face(mesh: &mut Mesh, direction: DVec3) {
+    let corners = |[a, b, c]: [u32; 3]| [a, b, c].map(|corner| mesh.positions[corner as usize]);
+    let areas = mesh.indices.iter().map(|triangle| {
+        let [a, b, c] = corners(*triangle);
+        (b - a).cross(c - a)
+    });
+    if areas.sum::<DVec3>().dot(direction) < 0.0 {
+        mesh.indices.iter_mut().for_each(|triangle| triangle.reverse());
+        mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
+    }
 }
 
 fn emissive(name: &str, radiance: [f64; 3]) -> Material {

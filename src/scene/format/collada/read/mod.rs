@@ -11,7 +11,8 @@
 //!
 //! - The course declares its lights apart from the surfaces that are seen to emit, and they need not agree: in its
 //!   boxes the light is turned by a right angle, and may be of another brightness. Here a light that lies in an
-//!   emissive mesh *is* that mesh: what is seen is what shines. An area light without such a mesh gets one.
+//!   emissive mesh *is* that mesh: what is seen is what shines, to the side that the light declares. An area light
+//!   without such a mesh gets one.
 //! - Emissive surfaces shine from both sides in the course, point lights do not weaken with
 //!   distance: these are [`Conventions`](crate::contract::Conventions) of a core, not of a scene.
 //! - The front of a triangle is the side of its shading normals, whatever its winding.

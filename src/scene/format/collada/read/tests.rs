@@ -132,6 +132,22 @@ fn a_light_in_a_emissive_mesh_is_that_mesh() {
 }
 
 #[test]
+fn an_emissive_mesh_shines_where_its_light_does() {
+    let [down, up] = ["0 -0.2 0 0 0 0 -1 1.4", "0 0.2 0 0 0 0 1 1.4"];
+    let turned = ROOM.replacen(down, up, 1);
+    let front = |text: &str| {
+        let scene = read(text).unwrap().scene;
+        let [a, b, c] = scene.meshes[0].corners(0);
+        assert_eq!(scene.meshes[0].corner_normals(0)[0], (b - a).cross(c - a).normalize());
+        scene.meshes[0].corner_normals(0)[0]
+    };
+    assert_eq!([ROOM, &turned].map(front), [-DVec3::Y; 2]);
+    // Without a light in it, it is as its normals are.
+    let alone = turned.replacen("0 1 1.4 0 0 0 1", "0 1 1.2 0 0 0 1", 1);
+    assert_eq!(front(&alone), DVec3::Y);
+}
+
+#[test]
 fn an_area_light_without_mesh_gets_one_that_faces_as_the_light_does() {
     let scene = altered("0 1 1.4 0 0 0 1", "0 1 1.2 0 0 0 1").unwrap().scene;
     assert_eq!(scene.lights, [Light::Area { shape: 0 }, Light::Area { shape: 3 }]);

@@ -14,6 +14,7 @@ mod lint;
 mod list;
 mod progress;
 mod reference;
+mod render;
 mod report;
 mod run;
 mod say;
@@ -70,8 +71,10 @@ enum Verb {
     Explain(explain::ExplainArguments),
     /// Run planted mistakes against the cases: each must be caught and named.
     Faults(faults::FaultsArguments),
-    /// Test whether two images differ by more than noise, and by which mistake.
+    /// Test whether images differ from the last by more than noise, and by which mistake.
     Compare(compare::CompareArguments),
+    /// Render one image of one scene by one core.
+    Render(render::RenderArguments),
     /// Validate every case and scene.
     Lint(lint::LintArguments),
     /// Write the report of a run again.
@@ -122,6 +125,7 @@ pub fn main() -> ExitCode {
         Some(Verb::Doctor(arguments)) => doctor::doctor(&arguments),
         Some(Verb::Worker(arguments)) => worker::worker(&arguments),
         Some(Verb::Compare(arguments)) => compare::compare(&arguments),
+        Some(Verb::Render(arguments)) => render::render(&arguments),
         Some(Verb::Lint(arguments)) => lint::lint(&arguments),
         Some(Verb::Report(arguments)) => report::report(&arguments),
         Some(Verb::Agreement(arguments)) => agreement::agreement(&arguments),

@@ -10,6 +10,7 @@ pub mod exr;
 pub(crate) mod file;
 pub(crate) mod filter;
 pub(crate) mod flip;
+pub(crate) mod hdr;
 pub(crate) mod heatmap;
 pub(crate) mod mask;
 pub mod metric;

@@ -10,7 +10,6 @@ pub(crate) fn read(path: &Path) -> Result<Image, ImageError> {
 }
 
 /// Writes a file, least significant byte first.
-#[cfg(test)]
 pub(crate) fn write(path: &Path, image: &Image) -> Result<(), ImageError> {
     let mut bytes = format!("PF\n{} {}\n-1.0\n", image.width, image.height).into_bytes();
     for row in image.pixels.chunks(image.width.max(1)).rev() {

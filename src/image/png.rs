@@ -1,8 +1,9 @@
-//! PNG, 8 bits a channel: for reports. Never for comparison: rounding and clipping cannot be
-//! undone.
+//! PNG, 8 bits a channel: for people to look at. Rounding and clipping cannot be undone.
 
+use super::ImageError;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
+use std::path::Path;
 
 /// An image as a screen shows it: sRGB, row-major from the top left.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -33,9 +34,8 @@ pub(crate) fn encode(picture: &Picture) -> Result<Vec<u8>, image::ImageError> {
     Ok(bytes)
 }
 
-#[cfg(test)]
-pub(crate) fn write(path: &std::path::Path, picture: &Picture) -> Result<(), super::ImageError> {
-    use super::ImageError;
+/// Writes a file.
+pub(crate) fn write(path: &Path, picture: &Picture) -> Result<(), ImageError> {
     let bytes = encode(picture).map_err(|error| ImageError::unwritable(path, error))?;
     crate::disk::replace(path, &bytes).map_err(|error| ImageError::unwritable(path, error))
 }

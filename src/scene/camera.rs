@@ -36,16 +36,24 @@ impl Camera {
     ) -> Self {
         let backward = (position - target).normalize();
         let right = up.cross(backward).normalize();
-        let aspect = f64::from(film[1]) / f64::from(film[0]);
         Self {
             position,
             camera_to_world: DMat3::from_cols(right, backward.cross(right), backward),
             horizontal_fov,
-            vertical_fov: 2.0 * ((horizontal_fov / 2.0).tan() * aspect).atan(),
+            vertical_fov: of_square_pixels(horizontal_fov, film),
             near: 1e-3,
             far: 1e6,
             film,
         }
+    }
+
+    /// The same with a film of another size: as wide, with square pixels if they were square.
+    pub(crate) fn with_film(self, film: [u32; 2]) -> Self {
+        let vertical_fov = match self.has_square_pixels() {
+            true => of_square_pixels(self.horizontal_fov, film),
+            false => self.vertical_fov,
+        };
+        Self { film, vertical_fov, ..self }
     }
 
     /// Whether the pixels of `film` are as high as they are wide.
@@ -54,4 +62,10 @@ impl Camera {
         let ratio = (self.vertical_fov / 2.0).tan() / (self.horizontal_fov / 2.0).tan();
         (ratio * width / height - 1.0).abs() < 1e-9
     }
+}
+
+/// The vertical field of view of a film whose pixels are as high as they are wide.
+fn of_square_pixels(horizontal_fov: f64, film: [u32; 2]) -> f64 {
+    let aspect = f64::from(film[1]) / f64::from(film[0]);
+    2.0 * ((horizontal_fov / 2.0).tan() * aspect).atan()
 }

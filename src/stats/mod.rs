@@ -23,7 +23,7 @@ mod test;
 
 pub use image::ImageEffort;
 pub use image::judge_image_pair;
-pub(crate) use image::{CellScore, Clipped, Ends, Measured, misfit};
+pub(crate) use image::{CellScore, Clipped, Ends, Extent, Measured, flip_map, misfit};
 pub use image::{
     CodeReference, CodeReport, CodeSettings, CodesCompared, Comparison, Component, Deciphered,
     DifferenceReport, GlobalRatio, ImageDraw, ImageReport, Impossible, NoiseSource, OddPixels,

@@ -2,14 +2,15 @@
 
 mod side;
 
-use super::say::{say, say_line};
+use super::say::{complain, say, say_line};
 use super::{Answer, ExitCode, Failure};
 use crate::image::ImageError;
 use crate::image::encoding::{Curve, Encoding, Rounding};
 use crate::image::file::load;
 use crate::image::mask::{Mask, Rectangle};
 use crate::report::comparison::{Compared, Comparisons, told};
-use crate::stats::{Question, Side, Verdict};
+use crate::report::html::comparison::{Page, Pixels};
+use crate::stats::{Question, Side, Verdict, flip_map};
 use clap::Args;
 use side::encoding;
 use std::path::{Path, PathBuf};
@@ -48,6 +49,9 @@ pub(crate) struct CompareArguments {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    /// Write a page with the images, their errors and all numbers in the viewer of the report.
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
 }
 
 impl CompareArguments {
@@ -58,7 +62,11 @@ impl CompareArguments {
 }
 
 pub(crate) fn compare(arguments: &CompareArguments) -> Answer {
-    let comparisons = measure(arguments)?;
+    let (comparisons, sides) = measure(arguments)?;
+    if let Some(path) = &arguments.html {
+        page(arguments, &comparisons, sides)?.write(path).map_err(Failure::broken)?;
+        complain(format_args!("page   {}", path.display()));
+    }
     if arguments.json {
         say_line!("{}", serde_json::to_string_pretty(&comparisons).map_err(Failure::broken)?);
     } else {
@@ -72,7 +80,13 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Answer {
     })
 }
 
-fn measure(arguments: &CompareArguments) -> Result<Comparisons, Failure> {
+/// What was compared, once it is read.
+struct Sides {
+    images: Vec<Side>,
+    reference: Side,
+}
+
+fn measure(arguments: &CompareArguments) -> Result<(Comparisons, Sides), Failure> {
     let named = named(arguments)?;
     let reference = named.reference.read(arguments.encoding)?;
     let question = Question {
@@ -83,13 +97,37 @@ fn measure(arguments: &CompareArguments) -> Result<Comparisons, Failure> {
     let compared = named.images.iter().map(|image| {
         let side = image.read(arguments.encoding)?;
         let comparison = crate::stats::compare(&side, &reference, question.clone());
-        Ok(Compared {
-            files: image.names(),
-            comparison: comparison.map_err(|error| image.cannot(&error))?,
-        })
+        let comparison = comparison.map_err(|error| image.cannot(&error))?;
+        Ok((Compared { files: image.names(), comparison }, side))
     });
-    let images = compared.collect::<Result<_, Failure>>()?;
-    Ok(Comparisons { reference: named.reference.names().concat(), images })
+    let compared = compared.collect::<Result<Vec<_>, Failure>>()?;
+    let (compared, images) = compared.into_iter().unzip();
+    let comparisons = Comparisons { reference: named.reference.names().concat(), images: compared };
+    Ok((comparisons, Sides { images, reference }))
+}
+
+/// The page of what was compared.
+fn page<'a>(
+    arguments: &CompareArguments,
+    comparisons: &'a Comparisons,
+    sides: Sides,
+) -> Result<Page<'a>, Failure> {
+    let Sides { images, reference } = sides;
+    let pixels = |side: &Side, flip| Pixels {
+        image: side.image().clone(),
+        standard_error: side.standard_error(),
+        flip,
+        is_coded: side.is_coded(),
+    };
+    let flip = |side: &Side| {
+        let wanted = !arguments.no_flip;
+        wanted.then(|| flip_map(side, &reference, arguments.encoding())).transpose()
+    };
+    let images = images.iter().map(|side| Ok(pixels(side, flip(side).map_err(Failure::request)?)));
+    let images = images.collect::<Result<_, Failure>>()?;
+    let words = std::env::args().skip(1).map(|word| shell_words::quote(&word).into_owned());
+    let command = std::iter::once("furnace".to_owned()).chain(words).collect::<Vec<_>>().join(" ");
+    Ok(Page { comparisons, images, reference: pixels(&reference, None), command })
 }
 
 /// The files of every side, before any is read.

@@ -19,7 +19,7 @@ struct Line {
 
 fn measured(words: &[&str]) -> Result<Comparisons, Failure> {
     let line = Line::try_parse_from(std::iter::once("compare").chain(words.iter().copied()));
-    measure(&line.unwrap().compare)
+    measure(&line.unwrap().compare).map(|(comparisons, _)| comparisons)
 }
 
 /// What was found of the only image.
@@ -174,6 +174,31 @@ fn each_image_is_compared_with_the_last() {
     assert_eq!(json["images"][1]["files"][0], good.as_str());
     assert_eq!(json["images"][1]["verdict"], "pass");
     assert_eq!(json["reference"], reference.as_str());
+}
+
+#[test]
+fn a_page_holds_all_images_their_noise_and_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let reference =
+        with_errors(folder.path(), &render(1, 0.01, 1.0), &Image::new(192, 128, [2e-3; 3]));
+    let bright = file(folder.path(), "<bright>.pfm", &render(2, 0.02, 1.05));
+    let good = file(folder.path(), "good.pfm", &render(3, 0.1, 1.0));
+    let path = folder.path().join("page.html");
+    let words = [&bright, &good, path_of(&reference), "--html", path_of(&path)];
+    let line = Line::try_parse_from(std::iter::once("compare").chain(words)).unwrap();
+    assert_eq!(compare(&line.compare).unwrap(), ExitCode::Failed);
+    let page = std::fs::read_to_string(&path).unwrap();
+    assert!(page.contains("1 of 2 images differ from"), "{page:.4000}");
+    assert!(page.contains("HDR-FLIP of ") && page.contains("&lt;bright&gt;.pfm"));
+    let payload = page.split(r#"<script type="application/json">"#).nth(1).unwrap();
+    let payload = payload.split("</script>").next().unwrap();
+    let payload: serde_json::Value = serde_json::from_str(payload).unwrap();
+    let frames = payload["frames"].as_array().unwrap();
+    let roles: Vec<_> = frames.iter().map(|frame| frame["role"].as_str().unwrap()).collect();
+    assert_eq!(roles, ["reference", "render", "render", "flip", "flip"]);
+    assert!(frames[0]["noise"].is_object() && frames[1]["noise"].is_null());
+    assert!(!page.contains("src=\"http") && !page.contains("href=\"http"), "it stands alone");
+    assert!(page.contains("#images?region="), "a rejected pattern leads to its place");
 }
 
 #[test]

@@ -7,11 +7,56 @@ use crate::image::png::{self, Picture};
 use crate::image::tonemap::{exposure_of, tonemap};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use serde::Serialize;
 
 /// The longest side of the pictures that are seen without scripts, pixels.
 const SIDE: usize = 512;
 /// Steps between the middle and the end of a colour scale: no eye tells more apart, and the page is half as heavy.
 const COLOUR_STEPS: f64 = 24.0;
+
+/// What an image of a viewer shows, and so how its values become colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Shows {
+    Reference,
+    Render,
+    SignedError,
+    SampleRate,
+    /// FLIP of every pixel, from 0 to 1.
+    Flip,
+}
+
+impl From<PictureRole> for Shows {
+    fn from(role: PictureRole) -> Self {
+        match role {
+            PictureRole::Reference => Self::Reference,
+            PictureRole::Render => Self::Render,
+            PictureRole::SignedError => Self::SignedError,
+            PictureRole::SampleRate => Self::SampleRate,
+        }
+    }
+}
+
+impl Shows {
+    /// The colours of what is not radiance.
+    pub(super) const fn scale(self) -> Option<Scale> {
+        match self {
+            Self::Reference | Self::Render => None,
+            Self::SignedError => Some(Scale::Signed { limit: 1.0 }),
+            Self::SampleRate | Self::Flip => Some(Scale::Magnitude { limit: 1.0 }),
+        }
+    }
+
+    /// The words at both ends of that scale.
+    pub(super) const fn ends(self) -> [&'static str; 2] {
+        match self {
+            Self::SignedError => ["too dark", "too bright"],
+            Self::SampleRate => ["few", "the cap"],
+            Self::Flip => ["looks alike", "as different as can be"],
+            Self::Reference | Self::Render => ["", ""],
+        }
+    }
+}
 
 /// How the pictures of one viewer are developed: all alike, so that they can be compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,23 +73,14 @@ impl Look {
     }
 
     /// The picture as an address that holds all of it. Fails if the picture is empty.
-    pub(crate) fn address(self, image: &Image, role: PictureRole) -> Result<String, String> {
+    pub(super) fn address(self, image: &Image, shows: Shows) -> Result<String, String> {
         let small = image.shrunk_to(SIDE);
-        let picture = match scale(role) {
+        let picture = match shows.scale() {
             None => tonemap(&small, self.stops),
             Some(scale) => false_colour(&small, scale),
         };
         let file = png::encode(&picture).map_err(|error| error.to_string())?;
         Ok(format!("data:image/png;base64,{}", BASE64_STANDARD.encode(file)))
-    }
-}
-
-/// The colours of a picture that does not show radiance.
-pub(crate) const fn scale(role: PictureRole) -> Option<Scale> {
-    match role {
-        PictureRole::Reference | PictureRole::Render => None,
-        PictureRole::SignedError => Some(Scale::Signed { limit: 1.0 }),
-        PictureRole::SampleRate => Some(Scale::Magnitude { limit: 1.0 }),
     }
 }
 

@@ -8,6 +8,7 @@ mod assets;
 mod bounces;
 mod case;
 mod cause;
+pub(crate) mod comparison;
 mod develop;
 mod image;
 mod interval;
@@ -20,6 +21,7 @@ mod shell;
 mod start;
 mod trials;
 mod view;
+mod viewer;
 
 use super::ReportError;
 use super::tree::RunTree;
@@ -92,10 +94,14 @@ const SIDES: [usize; 6] = [usize::MAX, 512, 256, 128, 64, 32];
 
 /// The text of the page that stands for all of them. Its images are as large as its weight allows.
 fn single(tree: &RunTree, folder: &Path) -> String {
-    let of = |side: usize| single_with(tree, folder, side);
+    light_enough(|longest| single_with(tree, folder, longest))
+}
+
+/// The first page that is light enough, of the longest sides that its images may have.
+fn light_enough(page: impl Fn(usize) -> String) -> String {
     let light = |page: &String| page.len() < HEAVIEST;
     let [sides @ .., smallest] = SIDES;
-    sides.into_iter().map(of).find(light).unwrap_or_else(|| of(smallest))
+    sides.into_iter().map(&page).find(light).unwrap_or_else(|| page(smallest))
 }
 
 fn single_with(tree: &RunTree, folder: &Path, longest: usize) -> String {

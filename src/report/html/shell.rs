@@ -16,10 +16,16 @@ pub(super) struct Page {
     pub(super) body: Markup,
 }
 
-impl Page {
-    pub(super) fn render(self, view: &View<'_>) -> String {
-        let tree = view.tree;
-        let cores: Vec<_> = tree.run.cores.iter().map(|core| core.spec.as_str()).collect();
+/// A page of any kind: what every one has around its body.
+pub(super) struct Document {
+    pub(super) title: String,
+    pub(super) icon: String,
+    pub(super) style: Markup,
+    pub(super) body: Markup,
+}
+
+impl Document {
+    pub(super) fn render(self) -> String {
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -27,22 +33,39 @@ impl Page {
                     meta charset="utf-8";
                     meta name="viewport" content="width=device-width,initial-scale=1";
                     meta name="color-scheme" content="light dark";
-                    title { (self.title) " · " (cores.join(" and ")) " · furnace" }
-                    link rel="icon" href=(icon(&Tally::of(tree.graded())));
-                    (self.style(view))
+                    title { (self.title) }
+                    link rel="icon" href=(self.icon);
+                    (self.style)
                     script { (PreEscaped(EARLY_SCRIPT)) }
                 }
-                body {
-                    a.skip href="#main" { "Skip to the results" }
-                    (overview::header(view, &self.title, self.is_index))
-                    main #main .index[self.is_index] { (self.body) }
-                    (self.scripts(view))
-                }
+                body { (self.body) }
             }
         };
         // Control characters are no text in HTML; they come from cores that print to terminals.
         page.into_string()
             .replace(|c: char| c.is_control() && !matches!(c, '\n' | '\t'), "\u{fffd}")
+    }
+}
+
+impl Page {
+    pub(super) fn render(self, view: &View<'_>) -> String {
+        let tree = view.tree;
+        let cores: Vec<_> = tree.run.cores.iter().map(|core| core.spec.as_str()).collect();
+        let tally = Tally::of(tree.graded());
+        let passes = tally.count(Status::Pass) == tally.total();
+        let body = html! {
+            a.skip href="#main" { "Skip to the results" }
+            (overview::header(view, &self.title, self.is_index))
+            main #main .index[self.is_index] { (self.body) }
+            (self.scripts(view))
+        };
+        Document {
+            title: format!("{} · {} · furnace", self.title, cores.join(" and ")),
+            icon: icon(tally.failures() > 0, passes),
+            style: self.style(view),
+            body,
+        }
+        .render()
     }
 
     /// The index is often sent alone: it has its style in itself.
@@ -107,12 +130,10 @@ fn unfinished(tree: &RunTree, tally: &Tally) -> String {
 }
 
 /// A tab's icon: shape and colour of the result.
-fn icon(tally: &Tally) -> String {
+pub(super) fn icon(fails: bool, passes: bool) -> String {
     let shape = match () {
-        () if tally.failures() > 0 => "%3Ccircle cx='8' cy='8' r='7' fill='%23b3261e'/%3E",
-        () if tally.count(Status::Pass) == tally.total() => {
-            "%3Crect x='2' y='2' width='12' height='12' rx='2' fill='%231a7f4b'/%3E"
-        }
+        () if fails => "%3Ccircle cx='8' cy='8' r='7' fill='%23b3261e'/%3E",
+        () if passes => "%3Crect x='2' y='2' width='12' height='12' rx='2' fill='%231a7f4b'/%3E",
         () => "%3Cpath d='M8 0l8 8-8 8-8-8z' fill='%238a5a00'/%3E",
     };
     let svg = "%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 16 16'%3E";

@@ -6,6 +6,7 @@ use super::difference::{DifferenceReport, Sample, judge_difference};
 use super::misfit::{BouncesOff, Fit, Knowledge, bounces_off, explain};
 use crate::image::encoding::Encoding;
 use crate::image::file::Loaded;
+use crate::image::flip;
 use crate::image::metric::{METRICS, Metric};
 use crate::image::pair::{Pair, Plane};
 use crate::image::png::Picture as Codes;
@@ -91,6 +92,19 @@ impl Side {
 
     pub(crate) fn size(&self) -> [usize; 2] {
         self.image.size()
+    }
+
+    pub(crate) fn image(&self) -> &Image {
+        &self.image
+    }
+
+    /// Of each value, if it is known.
+    pub(crate) fn standard_error(&self) -> Option<Image> {
+        Some(self.variance.as_ref()?.map(|pixel| pixel.map(f32::sqrt)))
+    }
+
+    pub(crate) const fn is_coded(&self) -> bool {
+        self.is_coded
     }
 
     /// The light behind the codes of this side, if it has no more than 8 bits and the other is
@@ -281,6 +295,20 @@ fn metrics(
         Clipped { image: Ends::of(&image, counted), reference: Ends::of(&reference, counted) };
     let shown = without_ignored(&image, &reference, counted);
     Ok((Some(clipped), measured(&Pair::of_codes(&shown, &reference)?, question)))
+}
+
+/// FLIP of each pixel as the metrics have its mean: of codes as they are displayed, of radiance HDR-FLIP.
+pub(crate) fn flip_map(
+    picture: &Side,
+    reference: &Side,
+    encoding: Encoding,
+) -> Result<Plane, ImageError> {
+    if !picture.is_coded && !reference.is_coded {
+        return Pair::new(&picture.image, &reference.image)
+            .map(|pair| flip::high_dynamic_range_flip(&pair));
+    }
+    let [image, reference] = [picture, reference].map(|side| codes_of(&side.image, encoding));
+    Pair::of_codes(&image, &reference).map(|pair| flip::flip(&pair))
 }
 
 /// Codes over the largest, not rounded.

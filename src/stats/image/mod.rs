@@ -19,7 +19,7 @@ mod target;
 
 pub use cells::{Component, Extent, Scale};
 pub use codes::{CodeReference, CodeReport, CodeSettings, Deciphered, NoiseSource, judge_codes};
-pub(crate) use comparison::{Clipped, Ends, Measured};
+pub(crate) use comparison::{Clipped, Ends, Measured, flip_map};
 pub use comparison::{CodesCompared, Comparison, Question, Side, compare};
 pub use difference::{DifferenceReport, OddPixels, Pattern, PatternReport, Sample};
 pub use draw::{ImageDraw, ImageEffort};

@@ -41,7 +41,7 @@ fn codes(size: [usize; 2], code: impl Fn(usize, usize, usize) -> i64) -> Picture
 fn pattern(x: usize, y: usize, c: usize) -> i64 {
     let phase = ((x * (c + 2) + y * 3) % 96) as i64;
     let wave = 4 * phase.min(95 - phase);
-    let stripes = if (x / 7 + y / 5) % 2 == 0 { 40 } else { 0 };
+    let stripes = if (x / 7 + y / 5).is_multiple_of(2) { 40 } else { 0 };
     (20 + wave + stripes + noise(x, y, c, 1) / 32).clamp(0, 255)
 }
 

@@ -228,6 +228,39 @@ mod tests {
         assert!(found.standard_error.is_none());
     }
 
+    /// A core that answers with this error once its film is filled.
+    struct Fails(CoreError);
+
+    impl BuiltScene for Fails {
+        fn stats(&self) -> BuildStats {
+            BuildStats::default()
+        }
+
+        fn render(&mut self, _: &Camera, _: &RenderSettings, film: &mut Film) -> Result<()> {
+            film.pixels.fill([0.5; 3]);
+            film.pixels[3] = [f32::NAN; 3];
+            Err(self.0.clone())
+        }
+    }
+
+    #[test]
+    fn pixels_that_are_not_radiance_are_shown_and_told_and_a_refusal_is_no_image() {
+        let settings =
+            RenderSettings { width: 4, height: 2, samples_per_pixel: 8, ..Default::default() };
+        let job = Job {
+            camera: &camera(),
+            settings: &settings,
+            passes: 4,
+            capabilities: Capabilities::empty(),
+        };
+        let mut tells = Fails(CoreError::breach("pixel (3, 0) is NaN"));
+        let found = job.render(&mut tells, |_| {}).unwrap();
+        assert!(found.image.pixels[3][0].is_nan() && found.image.pixels[4] == [0.5; 3]);
+        assert!(found.breach.is_some() && found.standard_error.is_none());
+        let mut refuses = Fails(CoreError::Refused("no".to_owned()));
+        assert!(job.render(&mut refuses, |_| {}).is_err());
+    }
+
     #[test]
     fn one_call_has_the_seed_that_was_asked_for() {
         let mut scene = Noise { is_seeded: true, seeds: Vec::new() };

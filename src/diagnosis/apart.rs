@@ -27,12 +27,18 @@ pub(crate) fn diagnose_apart(
     let mut told: Vec<_> = views.iter().map(of_view).collect();
     let shown = |case: &str| views.iter().any(|view| view.evidence.fails(case));
     let hidden = first.all_failures().filter(|seen| !shown(seen.case)).map(|seen| seen.case);
-    let mut left = Vec::new();
+    let (mut left, mut unseen) = (Vec::new(), vec![Vec::new(); views.len()]);
     for case in hidden {
-        let by = views.iter().position(|view| view.mended.iter().any(|mended| mended == case));
-        if !by.is_some_and(|number| told[number].followed_by(case)) {
-            left.push(case);
+        match views.iter().position(|view| view.mended.iter().any(|mended| mended == case)) {
+            Some(number) if told[number].followed_by(case) => {}
+            Some(number) => unseen[number].push(case),
+            None => left.push(case),
         }
+    }
+    // What one component mends, though its own view shows nothing of it, is of that component all the same.
+    for (view, cases) in views.iter().zip(&unseen).filter(|(_, cases)| !cases.is_empty()) {
+        let made_in = MadeIn::Mended(view.own);
+        told.push(proven(&first.with_failures_of(cases), planted, made_in).of_component(view.own));
     }
     let broken: Components = views.iter().map(|view| view.own).collect();
     let made_in = match broken.is_empty() {
@@ -90,6 +96,18 @@ mod tests {
         assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 3));
         assert_eq!(only.mistake, "what differs is the core's BSDF");
         assert_eq!(told.unexplained, only.explains);
+    }
+
+    #[test]
+    fn what_one_component_mends_and_its_view_does_not_show_is_of_that_component() {
+        let made = Made::new().with("bsdf/a", failing("a")).with("light/b", failing("b"));
+        let mended = ["bsdf/a", "light/b"].map(str::to_owned).to_vec();
+        let shows_nothing = Made::new().with("bsdf/a", passing());
+        let view = View { evidence: shows_nothing.evidence(), own: Components::TRAVERSAL, mended };
+        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        let [only] = &told.headlines[..] else { panic!("{told:?}") };
+        assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 2));
+        assert_eq!(only.mistake, "what differs is the core's traversal");
     }
 
     #[test]

@@ -187,6 +187,11 @@ impl Measure {
         self.verdict == Verdict::Fail
     }
 
+    /// Wrong, and 0 or NaN: many mistakes have that in common.
+    pub(crate) fn is_degenerate(&self) -> bool {
+        self.failed() && (self.measured == 0.0 || self.measured.is_nan())
+    }
+
     /// Why this could not be decided, where that is known.
     fn why_open(&self) -> Option<String> {
         let noise =

@@ -38,12 +38,19 @@ fn headline(
         |seen: &&Observation<'_>| Some(format!("{}: {}", seen.case, seen.finding?.statement));
     let sentences = group.iter().filter_map(sentence).collect();
     let subject = group.first().and_then(|seen| Subject::of_case(seen.case));
-    let mut mistake = format!("{} differs", subject.map_or("the core", what));
+    let mut mistake = format!("{} {}", subject.map_or("the core", what), how(group));
     if !surfaces.is_empty() {
         let words: Vec<_> = surfaces.iter().map(|surface| surface.word()).collect();
         mistake += &format!(" in scenes with {}", words.join(", "));
     }
     Headline { mistake, ..Headline::of(evidence, explains, sentences) }
+}
+
+fn how(group: &[&Observation<'_>]) -> &'static str {
+    match group.iter().all(|seen| seen.is_about_light() && seen.is_dark()) {
+        true => "is 0 or NaN",
+        false => "differs",
+    }
 }
 
 const fn what(subject: Subject) -> &'static str {

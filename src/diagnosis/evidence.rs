@@ -50,6 +50,17 @@ impl Observation<'_> {
     pub(crate) fn is_about(&self, subject: Subject) -> bool {
         Subject::of_case(self.case) == Some(subject)
     }
+
+    pub(crate) fn is_about_light(&self) -> bool {
+        [Subject::Light, Subject::Integrator, Subject::Image].into_iter().any(|s| self.is_about(s))
+    }
+
+    /// Whether all that is wrong is 0 or NaN.
+    pub(crate) fn is_dark(&self) -> bool {
+        let measures = self.finding.into_iter().flat_map(|finding| &finding.measures);
+        let mut wrong = measures.filter(|measure| measure.failed()).peekable();
+        wrong.peek().is_some() && wrong.all(Measure::is_degenerate)
+    }
 }
 
 /// The findings of one core in one run, in the order of parts.

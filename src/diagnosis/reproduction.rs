@@ -5,6 +5,7 @@
 
 use super::rank::Ranked;
 use super::{Degree, Evidence, Headline, Observation, Suspicion, look_without};
+use crate::case::Subject;
 use crate::cause::{self, Cause};
 use crate::checks::{Finding, Measure};
 use crate::contract::Components;
@@ -23,6 +24,8 @@ const MOST: f64 = 0.95;
 /// By how much of itself an error of the same mistake may differ from core to core: their samplers, tolerances and
 /// trees are not the same.
 const ALIKE: f64 = 0.1;
+/// So many sets of mistakes may come to the same numbers by chance, where one of them is named.
+const BY_CHANCE: f64 = 0.1;
 
 /// A mistake that the bench can plant.
 #[derive(Clone, Copy, Debug)]
@@ -86,6 +89,13 @@ impl MadeIn {
             Self::Unknown => true,
         }
     }
+
+    /// Whether what mends the failures is not made of any of these, so that mistakes of theirs stay.
+    fn leaves(self, components: Components) -> bool {
+        let highest = |these: Components| these.bits().checked_ilog2();
+        let lowest = components.bits().trailing_zeros();
+        matches!(self, Self::Mended(broken) if highest(broken).is_some_and(|highest| lowest > highest))
+    }
 }
 
 /// The headlines of `evidence` that planted mistakes do not contradict, and those that they add.
@@ -122,6 +132,9 @@ impl<'a> Proof<'a> {
             if contradicted.is_empty() {
                 contradicted = self.following(&ranked);
             }
+            if contradicted.is_empty() {
+                contradicted = self.lost_in_the_dark(&ranked);
+            }
             if contradicted.is_subset(&refuted) {
                 break;
             }
@@ -140,6 +153,10 @@ impl<'a> Proof<'a> {
 
     fn contradicting(&self, headline: &Headline, all: &[Mistake]) -> Refuted {
         let Some(cause) = cause::find(&headline.cause) else { return Refuted::new() };
+        let made: Components = self.of(headline).map(|mistake| mistake.components).collect();
+        if !made.is_empty() && self.made_in.leaves(made) {
+            return refuted(cause, &headline.explains);
+        }
         let mut sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
         if !sets.is_empty() && all.len() > 1 {
             sets.push(all.to_vec());
@@ -174,6 +191,34 @@ impl<'a> Proof<'a> {
         let following = told.iter().filter(follows).filter(|told| !self.is_needed(told));
         let cases = |told: &&Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
         following.filter_map(cases).flatten().collect()
+    }
+
+    /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
+    /// mistake: one mistake is all there is.
+    fn lost_in_the_dark(&self, ranked: &Ranked) -> Refuted {
+        let told: Vec<_> = ranked.with_cause().collect();
+        let explains = |one: &Headline, seen: &Observation<'_>| {
+            one.explains.iter().any(|case| case == seen.case)
+        };
+        let dark: Vec<_> = self.evidence.failures().filter(|seen| seen.is_dark()).collect();
+        let is_free = |seen: &&&Observation<'_>| !told.iter().any(|one| explains(one, seen));
+        let free: Vec<_> = dark.iter().filter(is_free).map(|seen| seen.case.to_owned()).collect();
+        let is_lost = |one: &&&Headline| {
+            let own = dark.iter().filter(|seen| explains(one, seen)).count();
+            let others: Vec<_> =
+                free.iter().filter(|case| is_of_one_part(one, case)).cloned().collect();
+            own == one.explains.len() && others.len() >= own && self.are_right(one, &others)
+        };
+        let cases = |told: &&Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
+        told.iter().filter(is_lost).filter_map(cases).flatten().collect()
+    }
+
+    /// Whether the mistakes of `headline` leave right what was tried of `cases`.
+    fn are_right(&self, headline: &Headline, cases: &[String]) -> bool {
+        let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+        let answers = self.compare(&sets, &self.quickest(cases));
+        let mut likenesses = answers.iter().flatten().peekable();
+        likenesses.peek().is_some() && likenesses.all(|likeness| *likeness == Likeness::Other)
     }
 
     /// Whether a check has recognised its cause beside others, answer by answer, which is more than counts can tell.
@@ -231,7 +276,7 @@ impl<'a> Proof<'a> {
         groups.iter().flat_map(|group| self.reproducing(&group.explains, &told)).collect()
     }
 
-    /// Mistakes that reproduce these cases alone, beside what is told, or in pairs.
+    /// Mistakes that reproduce these cases alone, or all that is told, or one beside it, or pairs do.
     fn reproducing(&self, cases: &[String], told: &[Mistake]) -> Vec<Suspicion> {
         let cases = self.quickest(cases);
         if cases.is_empty() {
@@ -240,6 +285,11 @@ impl<'a> Proof<'a> {
         let mistakes = self.in_sight();
         let alone: Vec<_> = mistakes.iter().map(|mistake| vec![*mistake]).collect();
         let found = self.of_sets(&alone, &cases);
+        if !found.is_empty() {
+            return found;
+        }
+        let found =
+            if told.len() > 1 { self.of_sets(&[told.to_vec()], &cases) } else { Vec::new() };
         if !found.is_empty() {
             return found;
         }
@@ -271,10 +321,12 @@ impl<'a> Proof<'a> {
             causes.sort_unstable();
             kinds.entry(causes).or_insert(set);
         }
-        if kinds.len() > 2 {
+        let by_chance = sets.len() as f64 * ALIKE.powi(apart(cases));
+        if kinds.len() > 2 || by_chance > 1.0 {
             return Vec::new();
         }
-        let degree = Degree::of_one_among(kinds.len());
+        let is_clear = by_chance <= BY_CHANCE;
+        let degree = Degree::of_one_among(if is_clear { kinds.len() } else { 2 });
         kinds.values().flat_map(|set| suspicions(set, cases, degree)).collect()
     }
 
@@ -323,6 +375,21 @@ impl<'a> Proof<'a> {
     }
 }
 
+/// How many wrong numbers of these cases tell something that the others do not: those off by another factor.
+fn apart(cases: &[&Observation<'_>]) -> i32 {
+    let measures = cases.iter().filter_map(|seen| seen.finding).flat_map(|found| &found.measures);
+    let wrong = measures.filter(|measure| measure.failed() && !measure.is_degenerate());
+    let scale = |measure: &Measure| if measure.expected == 0.0 { 1.0 } else { measure.expected };
+    let class =
+        |measure: &Measure| ((measure.measured / scale(measure)).abs().ln() / ALIKE).round() as i64;
+    wrong.map(class).collect::<BTreeSet<_>>().len() as i32
+}
+
+/// Whether `case` is about what the headline's are about.
+fn is_of_one_part(headline: &Headline, case: &str) -> bool {
+    headline.explains.iter().any(|own| Subject::of_case(own) == Subject::of_case(case))
+}
+
 fn refuted(cause: &'static Cause, cases: &[String]) -> Refuted {
     cases.iter().map(|case| (cause.name, case.clone())).collect()
 }
@@ -355,7 +422,7 @@ fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
     });
     // That both are 0, or NaN, many mistakes have in common.
     let tells = |(a, b): &(&Measure, &Measure)| {
-        (a.failed() || b.failed()) && !(is_degenerate(a) && is_degenerate(b))
+        (a.failed() || b.failed()) && !(a.is_degenerate() && b.is_degenerate())
     };
     let wrong: Vec<_> = pairs.filter(tells).collect();
     if wrong.is_empty() {
@@ -370,10 +437,6 @@ fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
         (true, false) => Likeness::Alike,
         (false, false) => Likeness::Other,
     }
-}
-
-fn is_degenerate(measure: &Measure) -> bool {
-    measure.failed() && (measure.measured == 0.0 || measure.measured.is_nan())
 }
 
 /// Of what failed without a number: nothing is known of its size.
@@ -524,6 +587,66 @@ mod tests {
         let planted = Bench { mistakes: &[PI, DIVIDED], gives };
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::Named, 2)]);
+    }
+
+    #[test]
+    fn what_all_that_is_told_gives_together_is_no_further_mistake() {
+        let made = Made::new()
+            .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
+            .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y"))
+            .with("light/c", light(0.7));
+        let told_both: &[&str] = &["pi", "divided"];
+        let gives: &[(&[&str], _, _)] = &[
+            (&["pi"], "bsdf/a", 1.5),
+            (&["divided"], "light/b", 0.5),
+            (told_both, "light/c", 0.7),
+            (&["pi", "divided", "again"], "light/c", 0.7),
+        ];
+        let planted = Bench { mistakes: &[PI, DIVIDED, AGAIN], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let names = [bsdf::WITHOUT_PI.name, light::DIVIDED_BY_LIGHTS.name];
+        assert_eq!(told(&diagnosis), names.map(|name| (name, Degree::Named, 2)));
+    }
+
+    #[test]
+    fn in_the_dark_a_mistake_that_would_leave_light_elsewhere_is_not_told() {
+        let dark = || light(0.0).because(&light::DIVIDED_BY_LIGHTS, "nothing arrives");
+        let planted = |ratio| -> [(&[&str], _, f64); 3] {
+            [
+                (&["divided"], "light/b", 0.0),
+                (&["divided"], "light/c", ratio),
+                (&["divided"], "light/d", ratio),
+            ]
+        };
+        let made = Made::new().with("light/b", dark()).with("light/c", light(0.0));
+        let made = made.with("light/d", light(0.0));
+        let of = |ratio| {
+            let planted = Bench { mistakes: &[DIVIDED], gives: &planted(ratio) };
+            told(&diagnose_proven(&made.evidence(), &planted))[0].0.to_owned()
+        };
+        assert_eq!(of(1.0), "");
+        assert_eq!(of(0.0), light::DIVIDED_BY_LIGHTS.name, "dark there too");
+    }
+
+    #[test]
+    fn of_many_mistakes_one_that_comes_to_a_single_number_only_looks_like_it() {
+        let made = Made::new().with("bsdf/a", light(0.5)).with("light/b", light(0.5));
+        let mistakes = [PI, DIVIDED, AGAIN];
+        let gives: &[(&[&str], _, _)] = &[(&["pi"], "bsdf/a", 0.5), (&["pi"], "light/b", 0.5)];
+        let planted = Bench { mistakes: &mistakes, gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::LooksLike, 2)]);
+    }
+
+    #[test]
+    fn what_the_traversal_mends_is_no_mistake_of_a_pixel() {
+        let pixel = Mistake { components: Components::PIXEL, ..PI };
+        let finding = || light(0.5).because(&bsdf::WITHOUT_PI, "x");
+        let made = Made::new().with("bsdf/a", finding());
+        let planted = Bench { mistakes: &[pixel], gives: &[(&["pi"], "bsdf/a", 0.5)] };
+        let of = |made_in| told(&proven(&made.evidence(), &planted, made_in).told())[0].1;
+        assert_eq!(of(MadeIn::Mended(Components::TRAVERSAL)), Degree::DiffersHere);
+        assert_eq!(of(MadeIn::Mended(Components::PIXEL)), Degree::Named);
     }
 
     #[test]

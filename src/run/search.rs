@@ -157,8 +157,9 @@ pub(super) fn trial_of<'a>(plan: &'a Plan, record: &TrialRecord) -> Option<&'a T
     plan.trials.iter().find(is_it)
 }
 
+/// Whether it counts: what is only informational stays the core's own affair.
 fn is_failure(record: &TrialRecord) -> bool {
-    record.outcome.status().is_failure()
+    record.tier.is_graded() && record.outcome.status().is_failure()
 }
 
 /// What came of trying some cases; those that there was no time for are in neither.

@@ -6,6 +6,7 @@ use super::plan::Trial;
 use super::record::{self, SceneStamp, TrialRecord, TrialTiming};
 use super::schedule::Transplant;
 use crate::case::{Case, Tier, asked_about};
+use crate::cause::bvh;
 use crate::checks::{CheckError, Context, Finding, Picture};
 use crate::contract::turned::Turned;
 use crate::contract::validate::Validated;
@@ -46,7 +47,11 @@ pub(crate) fn run_transplanted(bench: &Bench, trial: &Trial, transplant: Transpl
 /// Runs one trial with components of the bench.
 pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended {
     let started = Instant::now();
-    let (attempt, printed) = attempt_hosted(bench, trial, with);
+    let (mut attempt, printed) = attempt_hosted(bench, trial, with);
+    if counts_what_is_lent(&attempt.outcome, with) {
+        attempt.outcome =
+            Outcome::of(Err(CoreError::Unsupported(Capabilities::TRAVERSAL_STATS).into()));
+    }
     let mut record = record_of(bench, trial, attempt.outcome);
     record.tier = attempt.tier;
     record.with = with;
@@ -57,6 +62,14 @@ pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended 
     record.keep_printed(&printed);
     record.timing.seconds = started.elapsed().as_secs_f64();
     Ended { record, pictures: attempt.pictures }
+}
+
+/// Whether counts are not real because a core does not count the tests that it took from the bench.
+fn counts_what_is_lent(outcome: &Outcome, with: Components) -> bool {
+    let tests = Components::TRIANGLE_TEST | Components::SPHERE_TEST | Components::TRAVERSAL;
+    let clues = outcome.finding().into_iter().flat_map(|finding| &finding.clues);
+    with.intersects(tests)
+        && clues.map(|clue| &clue.cause).any(|cause| *cause == bvh::COUNTS_NOT_REAL.name)
 }
 
 /// Brings up the core of a trial, and puts the case to it. Also answers what the core printed.

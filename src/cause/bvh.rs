@@ -52,7 +52,7 @@ causes! {
         at "BVH traversal, where the children of a node are visited",
         fix "Visit both children and keep the closer hit; `a || b` skips b.";
     BVH_NOT_USED = "bvh-not-used":
-        "the BVH is not used: every triangle is tested",
+        "the BVH culls nothing: every triangle is tested",
         at "BVH traversal and its leaves",
         fix "Test a node's box first, then only the primitives of the leaves that are reached.";
     SHADOWS_SEARCH_ON = "shadows-search-on":

@@ -108,9 +108,9 @@ causes! {
         at "hemisphere sampling",
         fix "Draw at least one direction, or return 0 where there is no light.";
     NO_SHADOWS = "no-shadows":
-        "direct light ignores occlusion: there is no shadow ray",
-        at "the shadow ray",
-        fix "Add a light sample only if the shadow ray reaches the light unoccluded.";
+        "direct light ignores occlusion",
+        at "the shadow ray: whether there is one, its origin, t_min and t_max",
+        fix "Add a light sample only if the shadow ray reaches the light unoccluded; its origin is offset by no more than a few roundings.";
     SHADOW_BEYOND_LIGHT = "shadow-beyond-light":
         "surfaces behind the light cast a shadow",
         at "direct lighting, where t_max of the shadow ray is set",

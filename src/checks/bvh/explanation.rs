@@ -2,7 +2,7 @@
 //! direction, and whether some primitives are never found at all.
 
 use super::comparison::{Answers, Differences, Truth};
-use crate::cause::{Cause, bvh};
+use crate::cause::{Cause, bvh, is_vague};
 use crate::contract::Hit;
 use std::collections::BTreeSet;
 
@@ -38,9 +38,17 @@ fn hits_lost(found: &Answers, right: &Truth, d: &Differences) -> Option<&'static
         Some(&bvh::SECOND_CHILD_SKIPPED)
     } else if d.unoccluded == 0 {
         Some(&bvh::RANGE_OVERWRITTEN)
-    } else {
+    } else if d.lost >= nearly_all(right) {
         Some(&bvh::BOX_OF_CENTROIDS)
+    } else {
+        Some(&bvh::HITS_LOST)
     }
+}
+
+/// Of all that is there to be hit: the box of one centroid is a point, which no ray meets.
+fn nearly_all(right: &Truth) -> usize {
+    let hits = right.rays.iter().chain(&right.segments).filter(|hit| hit.is_hit()).count();
+    hits - hits / 20
 }
 
 /// Whether the primitives that should have been hit where others were are hit nowhere at all.
@@ -58,10 +66,16 @@ fn some_are_never_found(found: &Answers, right: &Truth) -> bool {
     missed.len() >= ASKED_OFTEN * distinct.len() && distinct.is_disjoint(&ever)
 }
 
-/// The mistake that most of the wrong BVHs share, with how many they are.
+/// The mistake that most of the wrong BVHs share, with how many they are. What merely loses hits goes with any of them.
 pub(crate) fn shared(causes: &[Option<&'static Cause>]) -> Option<(&'static Cause, String)> {
-    let count = |cause: &Cause| causes.iter().flatten().filter(|other| **other == cause).count();
-    let most = causes.iter().flatten().max_by_key(|cause| count(cause))?;
+    // Where large leaves lose everything too, it is not the box of one centroid.
+    if causes.iter().all(|cause| *cause == Some(&bvh::BOX_OF_CENTROIDS)) && !causes.is_empty() {
+        return shared(&vec![Some(&bvh::HITS_LOST); causes.len()]);
+    }
+    let goes_with = |cause: &Cause, other: &Cause| cause == other || is_vague(other);
+    let count =
+        |cause: &Cause| causes.iter().flatten().filter(|other| goes_with(cause, other)).count();
+    let most = causes.iter().flatten().max_by_key(|cause| (count(cause), !is_vague(cause)))?;
     let evidence = format!(
         "is the pattern of the wrong answers of {} of {} wrong BVHs",
         count(most),
@@ -113,9 +127,14 @@ mod tests {
             answers.rays[3] = Hit::MISS;
             answers.rays[4].t = -1.0;
         });
-        tell(&bvh::BOX_OF_CENTROIDS, |answers, _| {
+        tell(&bvh::HITS_LOST, |answers, _| {
             answers.rays[3] = Hit::MISS;
             answers.occluded[4] = false;
+        });
+        tell(&bvh::BOX_OF_CENTROIDS, |answers, _| {
+            answers.rays[1..].fill(Hit::MISS);
+            answers.segments[1..].fill(Hit::MISS);
+            answers.occluded[1..].fill(false);
         });
         tell(&bvh::PRIMITIVES_LOST, |answers, _| {
             let lost = answers.rays.iter_mut().chain(&mut answers.segments);
@@ -143,5 +162,9 @@ mod tests {
         assert_eq!(shared(&[lost, lost, None]).unwrap().0, &bvh::PRIMITIVES_LOST);
         assert!(shared(&[lost, Some(&bvh::RANGE_OVERWRITTEN), None]).is_none());
         assert!(shared(&[]).is_none());
+        let (point, hits) = (Some(&bvh::BOX_OF_CENTROIDS), Some(&bvh::HITS_LOST));
+        assert_eq!(shared(&[point, hits, hits]).unwrap().0, &bvh::BOX_OF_CENTROIDS);
+        assert_eq!(shared(&[point, point, point]).unwrap().0, &bvh::HITS_LOST, "large leaves too");
+        assert_eq!(shared(&[hits, hits]).unwrap().0, &bvh::HITS_LOST);
     }
 }

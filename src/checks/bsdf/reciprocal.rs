@@ -7,14 +7,11 @@ use crate::contract::{BsdfQuery, BsdfValue, Capabilities, GlassRadiance};
 use crate::scene::Rgb;
 use crate::stats::{Compared, Tolerance, judge_exact};
 use crate::text::Several;
-use glam::DVec3;
 
 /// Pairs of directions for each surface.
 const PAIRS: usize = 10_000;
-/// Roundings of the directions that a core may make on its way to f.
-const ROUNDINGS: f64 = 8.0;
-/// Nearer to a microfacet that refracts, cosines of single precision have lost their digits.
-const GRAZING: f64 = 1e-3;
+/// By how many roundings the squared sine beyond a microfacet may be off.
+const ROUNDINGS: f64 = 16.0;
 
 check! {
     pub(crate) struct Reciprocal {
@@ -39,14 +36,11 @@ impl Check for Reciprocal {
         let mut measures = Vec::new();
         let mut complaints = Vec::new();
         for surface in self.surface.iter() {
-            let Pairs { there, back, moved } = there_and_back(context, *surface)?;
-            let channels = (0..there.len()).flat_map(|i| (0..3).map(move |c| (i, c)));
-            let report = judge_exact(channels.map(|(i, c)| {
-                let (a, b) = (there[i][c], back[i][c]);
-                let shift = |values: &Vec<Rgb>| (values[i][c] - a).abs();
-                let rounding = ROUNDINGS * moved.iter().map(shift).fold(0.0, f64::max);
-                Compared::within(a, b, allowed * b.abs() + rounding)
-            }));
+            let (there, back) = there_and_back(context, *surface)?;
+            let report =
+                judge_exact(there.iter().zip(&back).flat_map(|(a, b)| {
+                    (0..3).map(move |c| Compared::relative(a[c], b[c], allowed))
+                }));
             measures.push(Measure::worst("f there and back", &report).of_row(surface));
             if report.disagree > 0 {
                 let some = some_are(report.disagree, report.compared, "values");
@@ -58,29 +52,21 @@ impl Check for Reciprocal {
     }
 }
 
-/// f at pairs of directions, with wi and wo exchanged, and with both moved by a rounding of the core's precision; each over
-/// what exchanging changes.
-struct Pairs {
-    there: Vec<Rgb>,
-    back: Vec<Rgb>,
-    moved: [Vec<Rgb>; 2],
-}
-
-fn there_and_back(context: &mut Context<'_>, surface: SurfaceEntry) -> Result<Pairs> {
-    let rounding = context.info.precision.epsilon();
+/// f at pairs of directions, and with wi and wo exchanged, each over what exchanging changes.
+fn there_and_back(
+    context: &mut Context<'_>,
+    surface: SurfaceEntry,
+) -> Result<(Vec<Rgb>, Vec<Rgb>)> {
+    let precision = context.info.precision;
+    // cos = √(1 - sin²), to which f is proportional, is off by half of what sin² is, over cos².
+    let grazing = (0.5 * ROUNDINGS * precision.epsilon() / Tolerance::FORMULA.of(precision)).sqrt();
     let mut stream = context.seed.child(surface).stream();
     let mut direction = || surface.direction(&mut stream);
     let there: Vec<_> = (0..PAIRS)
         .map(|_| BsdfQuery { wo: direction(), wi: direction() })
-        .filter(|query| !grazes_its_microfacet(surface, query))
+        .filter(|query| !grazes_its_microfacet(surface, query, grazing))
         .collect();
     let back: Vec<_> = there.iter().map(|q| BsdfQuery { wo: q.wi, wi: q.wo }).collect();
-    // Away from each other, or towards: the half vector turns most.
-    let moved = |by: f64| -> Vec<_> {
-        let away = |a: DVec3, b: DVec3| (a + by * (a - b)).normalize();
-        there.iter().map(|q| BsdfQuery { wo: away(q.wo, q.wi), wi: away(q.wi, q.wo) }).collect()
-    };
-    let (away, towards) = (moved(rounding), moved(-rounding));
     let radiance = context.info.conventions.glass_radiance;
     let mut asked = |queries: &[BsdfQuery]| {
         let values = evaluated(context.core, &surface.material(), queries)?;
@@ -90,19 +76,19 @@ fn there_and_back(context: &mut Context<'_>, surface: SurfaceEntry) -> Result<Pa
         };
         Ok::<_, CheckError>(queries.iter().zip(&values).map(over_index).collect())
     };
-    Ok(Pairs {
-        there: asked(&there)?,
-        back: asked(&back)?,
-        moved: [asked(&away)?, asked(&towards)?],
-    })
+    Ok((asked(&there)?, asked(&back)?))
 }
 
 /// Whether light is refracted along the microfacet that takes it from `wi` to `wo`, where f vanishes.
-fn grazes_its_microfacet(surface: SurfaceEntry, BsdfQuery { wo, wi }: &BsdfQuery) -> bool {
+fn grazes_its_microfacet(
+    surface: SurfaceEntry,
+    BsdfQuery { wo, wi }: &BsdfQuery,
+    grazing: f64,
+) -> bool {
     let SurfaceEntry::RoughGlass(glass) = surface else { return false };
     let ratio = if wo.z > 0.0 { glass.index.0 } else { glass.index.0.recip() };
     let microfacet = (*wo + ratio * *wi).normalize();
-    wo.z * wi.z < 0.0 && wo.dot(microfacet).abs().min(wi.dot(microfacet).abs()) < GRAZING
+    wo.z * wi.z < 0.0 && wo.dot(microfacet).abs().min(wi.dot(microfacet).abs()) < grazing
 }
 
 /// What f across an interface is proportional to that is not the same both ways: the square of the index on the

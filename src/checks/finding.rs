@@ -82,6 +82,9 @@ pub struct Measure {
     pub hypothesis: Option<Hypothesis>,
 }
 
+/// Of many answers to one question, the one that is told.
+const WORST: &str = ", worst of ";
+
 impl Measure {
     /// A deterministic measure: passes if it is within `allowed` of `expected`; NaN fails.
     pub(crate) fn exact(
@@ -144,10 +147,16 @@ impl Measure {
     pub(crate) fn worst(quantity: impl Display, report: &ExactReport) -> Self {
         match (report.compared, report.worst) {
             (all @ 2.., Some(worst)) => {
-                Self::of(format!("{quantity}, worst of {all} (number {})", worst.index + 1), report)
+                Self::of(format!("{quantity}{WORST}{all} (number {})", worst.index + 1), report)
             }
             _ => Self::of(quantity, report),
         }
+    }
+
+    /// What was asked, whichever answer to it was the worst.
+    pub(crate) fn question(&self) -> (&str, &str, Option<Channel>) {
+        let quantity = self.quantity.split(WORST).next().unwrap_or_default();
+        (&self.row, quantity, self.channel)
     }
 
     pub(crate) fn of_row(self, row: impl Display) -> Self {
@@ -433,6 +442,11 @@ mod tests {
 
     #[test]
     fn the_worst_element_is_shown_with_the_verdict_on_all() {
+        let of = |all: &[f64]| {
+            let compared = all.iter().map(|found| Compared::within(*found, 1.0, 0.1));
+            Measure::worst("t", &judge_exact(compared)).of_row("ray 1")
+        };
+        assert_eq!(of(&[1.0, 3.0]).question(), of(&[2.0, 1.0, 1.0]).question());
         let report = judge_exact([1.0, 3.0].map(|found| Compared::within(found, 1.0, 0.1)));
         let measure = Measure::worst("t", &report).of_row("ray 1").of_channel(Channel::Red);
         assert_eq!(measure.name(), "ray 1: t, worst of 2 (number 2), red");

@@ -447,8 +447,7 @@ fn by_verdict(planted: &Finding) -> Likeness {
 /// The same number of the same row, of which the same is expected.
 fn asks_the_same(a: &Measure, b: &Measure) -> bool {
     let slack = 1e-6 * a.expected.abs() + a.allowed.max(b.allowed);
-    (&a.row, &a.quantity, a.channel) == (&b.row, &b.quantity, b.channel)
-        && (a.expected - b.expected).abs() <= slack
+    a.question() == b.question() && (a.expected - b.expected).abs() <= slack
 }
 
 /// Both are wrong, to the same side; or they cannot be told apart.

@@ -391,7 +391,7 @@ impl BuiltDylib<'_> {
         [T]: Answers,
     {
         match &self.counted {
-            Some(counted) if self.core.taken.is_empty() => {
+            Some(counted) if self.core.taken.is_empty() || counted.scene.has_counted() => {
                 counted.scene.take_counts(answers, answers.len())
             }
             _ => Ok(reported),

@@ -94,6 +94,11 @@ impl CountedScene {
         }
     }
 
+    /// Whether any test was asked for since counts were taken.
+    pub(super) fn has_counted(&self) -> bool {
+        self.primitive_tests.count.load(Ordering::Relaxed) > 0
+    }
+
     /// The tests that led to these answers, one a ray, and starts anew. Fails if they are not what was counted, or did
     /// not lead there.
     pub(super) fn take_counts<A: Answers + ?Sized>(
@@ -232,7 +237,9 @@ mod tests {
         let hit = scene.hit_primitive(0, 0, &ray).unwrap();
         assert!(scene.hit_primitive(7, 0, &ray).is_none());
         assert!(scene.hit_box(DVec3::ZERO, DVec3::ONE, &ray).is_some());
+        assert!(scene.has_counted());
         let counts = scene.take_counts(&[hit][..], 1).unwrap();
+        assert!(!scene.has_counted());
         assert_eq!((counts.rays, counts.box_tests, counts.primitive_tests), (1, 1, 2));
         assert_eq!(scene.take_counts(&[Hit::MISS][..0], 0), Ok(TraversalStats::default()));
     }

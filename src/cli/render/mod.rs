@@ -330,6 +330,10 @@ fn blamed(arguments: &RenderArguments, error: &CoreError, printed: &str) -> Fail
             let core = shell_words::quote(core.as_str());
             format!("\n  what it can do: furnace doctor --core {core}")
         }
+        CoreError::BrokeContract(_) => {
+            "\n  to fix in the core: every value of an image is written, finite and not negative"
+                .to_owned()
+        }
         CoreError::TimedOut { .. } => {
             "\n  --time-limit SECONDS gives it more, --spp or --size asks less".to_owned()
         }

@@ -73,7 +73,10 @@ fn unless_whole(
     film: &Film,
     settings: &RenderSettings,
 ) -> Result<Option<CoreError>, CoreError> {
-    let has_all = film.pixels.len() == settings.width as usize * settings.height as usize;
+    // A worker hands on no answer that breaks the contract: nothing of it is here to be shown.
+    let is_here = film.pixels.as_flattened().iter().any(|value| value.is_finite());
+    let has_all =
+        is_here && film.pixels.len() == settings.width as usize * settings.height as usize;
     match answer {
         Ok(()) => Ok(None),
         Err(error @ CoreError::BrokeContract(_)) if has_all => Ok(Some(error)),
@@ -228,8 +231,8 @@ mod tests {
         assert!(found.standard_error.is_none());
     }
 
-    /// A core that answers with this error once its film is filled.
-    struct Fails(CoreError);
+    /// A core that answers with this error, and whether its film is filled by then.
+    struct Fails(CoreError, bool);
 
     impl BuiltScene for Fails {
         fn stats(&self) -> BuildStats {
@@ -237,8 +240,10 @@ mod tests {
         }
 
         fn render(&mut self, _: &Camera, _: &RenderSettings, film: &mut Film) -> Result<()> {
-            film.pixels.fill([0.5; 3]);
-            film.pixels[3] = [f32::NAN; 3];
+            if self.1 {
+                film.pixels.fill([0.5; 3]);
+                film.pixels[3] = [f32::NAN; 3];
+            }
             Err(self.0.clone())
         }
     }
@@ -253,12 +258,15 @@ mod tests {
             passes: 4,
             capabilities: Capabilities::empty(),
         };
-        let mut tells = Fails(CoreError::breach("pixel (3, 0) is NaN"));
+        let breach = || CoreError::breach("pixel (3, 0) is NaN");
+        let mut tells = Fails(breach(), true);
         let found = job.render(&mut tells, |_| {}).unwrap();
         assert!(found.image.pixels[3][0].is_nan() && found.image.pixels[4] == [0.5; 3]);
         assert!(found.breach.is_some() && found.standard_error.is_none());
-        let mut refuses = Fails(CoreError::Refused("no".to_owned()));
-        assert!(job.render(&mut refuses, |_| {}).is_err());
+        for mut fails in [Fails(CoreError::Refused("no".to_owned()), true), Fails(breach(), false)]
+        {
+            assert!(job.render(&mut fails, |_| {}).is_err());
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::{Case, Part, Subject, file};
 use crate::text::Source;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use walkdir::WalkDir;
@@ -10,7 +11,7 @@ use walkdir::WalkDir;
 #[derive(Debug, thiserror::Error)]
 pub enum CatalogError {
     /// A file could not be read.
-    #[error("{path}: {error}")]
+    #[error("cannot read {path}: {error}")]
     Io {
         /// The file or folder.
         path: PathBuf,
@@ -56,13 +57,19 @@ pub fn load_one(folder: &Path, id: &str) -> Result<Arc<Case>, CatalogError> {
 fn case_files(folder: &Path) -> Result<Vec<PathBuf>, CatalogError> {
     let mut paths = Vec::new();
     for entry in WalkDir::new(folder).sort_by_file_name() {
-        let entry = entry
-            .map_err(|error| CatalogError::Io { path: folder.to_owned(), error: error.into() })?;
+        let entry = entry.map_err(|error| unreadable(folder, error))?;
         if entry.path().extension().is_some_and(|extension| extension == "toml") {
             paths.push(entry.into_path());
         }
     }
     Ok(paths)
+}
+
+/// What the system said, and of which file, once.
+fn unreadable(folder: &Path, error: walkdir::Error) -> CatalogError {
+    let path = error.path().unwrap_or(folder).to_owned();
+    let error = error.into_io_error().unwrap_or_else(|| ErrorKind::Other.into());
+    CatalogError::Io { path, error }
 }
 
 /// The case of a file, or the complaint about it.

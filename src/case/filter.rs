@@ -2,7 +2,7 @@
 
 use super::renamed::renamed;
 use super::{Case, PARTS};
-use crate::text::{did_you_mean, listed};
+use crate::text::{hint, listed};
 use std::sync::Arc;
 
 /// What the user typed after the verb. Of the positive words one must match, of the negative none may.
@@ -28,15 +28,22 @@ pub struct NothingSelected {
 }
 
 impl NothingSelected {
-    /// By a word that is in none of these names.
+    /// By the number of a part.
+    pub(crate) fn part(number: u32) -> Self {
+        Self {
+            problem: format!("there is no part {number}"),
+            hint: format!("the parts are 1 to {}", PARTS.len()),
+        }
+    }
+
+    /// By a word that is in none of these names. A piece of one may have been meant.
     pub(crate) fn by<'a>(word: &str, names: impl Iterator<Item = &'a str> + Clone) -> Self {
-        let last = word.rsplit('/').next().filter(|last| last.len() > 2);
-        let longer = || names.clone().find(|name| last.is_some_and(|last| name.contains(last)));
-        let hint = did_you_mean(word, names.clone())
-            .or_else(|| longer().map(|name| format!("did you mean `{name}`?")));
+        let slugs = names.clone().flat_map(|name| name.split('/'));
+        let pieces = names.clone().flat_map(|name| name.split(['/', '-']));
+        let all = || "`furnace list` shows what there is".to_owned();
         Self {
             problem: format!("nothing is selected by `{word}`"),
-            hint: hint.unwrap_or_else(|| "`furnace list` shows what there is".to_owned()),
+            hint: hint(word, names.chain(slugs).chain(pieces), all),
         }
     }
 }
@@ -110,19 +117,12 @@ impl Word {
                 let tags: Vec<_> = tags.collect();
                 NothingSelected::by(&format!("@{tag}"), tags.iter().map(String::as_str))
             }
-            Self::Part(number) => NothingSelected {
-                problem: format!("there is no part {number}"),
-                hint: format!("the parts are 1 to {}", PARTS.len()),
-            },
+            Self::Part(number) => NothingSelected::part(*number),
             Self::Text(text) if renamed(text).next().is_some() => NothingSelected {
                 problem: format!("nothing is called `{text}` any more"),
                 hint: format!("now there is {}", listed(renamed(text))),
             },
-            Self::Text(text) => {
-                let pieces = ids.clone().flat_map(|id| id.split(['/', '-']));
-                let slugs = ids.clone().flat_map(|id| id.split('/'));
-                NothingSelected::by(text, ids.chain(slugs).chain(pieces))
-            }
+            Self::Text(text) => NothingSelected::by(text, ids),
         }
     }
 }

@@ -1,11 +1,11 @@
 //! How the process ends. Scripts rely on these numbers.
 
-use crate::run::Status;
+use crate::run::{Status, Tally};
 
 /// How the process ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExitCode {
-    /// 0: nothing failed.
+    /// 0: something passed, and nothing failed.
     Good,
     /// 1: something failed, crashed or timed out.
     Failed,
@@ -15,22 +15,23 @@ pub enum ExitCode {
     Broken,
     /// 4: nothing was selected.
     NothingSelected,
+    /// 5: nothing failed and nothing passed: all was skipped, blocked, inconclusive or not graded.
+    NothingProven,
+    /// 130: interrupted, as by ctrl-c.
+    Interrupted,
 }
 
 impl ExitCode {
-    /// The code for a run whose trials ended so.
-    pub(crate) fn of(statuses: impl IntoIterator<Item = Status>, strict: bool) -> Self {
-        let statuses: Vec<_> = statuses.into_iter().collect();
-        let any = |wanted: &dyn Fn(Status) -> bool| statuses.iter().any(|status| wanted(*status));
+    /// The code for a run whose graded trials ended so.
+    pub(crate) fn of(graded: &Tally, strict: bool) -> Self {
         let undecided = [Status::Inconclusive, Status::Skipped, Status::Blocked];
-        if statuses.is_empty() {
-            Self::NothingSelected
-        } else if any(&Status::is_failure) {
+        let are_undecided = || undecided.iter().any(|status| graded.count(*status) > 0);
+        if graded.failures() > 0 {
             Self::Failed
-        } else if any(&|status| status == Status::Broken)
-            || strict && any(&|status| undecided.contains(&status))
-        {
+        } else if graded.count(Status::Broken) > 0 || strict && are_undecided() {
             Self::Broken
+        } else if graded.count(Status::Pass) == 0 {
+            Self::NothingProven
         } else {
             Self::Good
         }
@@ -44,6 +45,8 @@ impl ExitCode {
             Self::BadRequest => 2,
             Self::Broken => 3,
             Self::NothingSelected => 4,
+            Self::NothingProven => 5,
+            Self::Interrupted => 130,
         }
     }
 }
@@ -60,17 +63,21 @@ mod tests {
     use Status::{Broken, Fail, Inconclusive, Pass, Skipped};
 
     #[test]
-    fn the_worst_of_a_run_decides_and_what_was_not_decided_counts_only_when_strict() {
-        let rows: [(&[Status], bool, ExitCode); 6] = [
+    fn the_worst_of_a_run_decides_and_where_nothing_is_proven_it_is_no_success() {
+        let rows: [(&[Status], bool, ExitCode); 9] = [
             (&[Pass, Broken, Fail], false, ExitCode::Failed),
             (&[Pass, Inconclusive, Skipped], false, ExitCode::Good),
             (&[Pass, Inconclusive], true, ExitCode::Broken),
             (&[Pass, Skipped], true, ExitCode::Broken),
-            (&[], false, ExitCode::NothingSelected),
+            (&[], false, ExitCode::NothingProven),
+            (&[Skipped, Skipped], false, ExitCode::NothingProven),
+            (&[Inconclusive], false, ExitCode::NothingProven),
+            (&[Skipped], true, ExitCode::Broken),
             (&[Pass, Broken], false, ExitCode::Broken),
         ];
         for (statuses, strict, code) in rows {
-            assert_eq!(ExitCode::of(statuses.iter().copied(), strict), code, "{statuses:?}");
+            let tally = statuses.iter().copied().collect();
+            assert_eq!(ExitCode::of(&tally, strict), code, "{statuses:?}");
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::case::{self, Case, Filter, foundations};
 use crate::cores::CoreSpec;
 use crate::cores::textbook::fault;
 use crate::project::Project;
-use crate::report::text::wrap;
+use crate::report::text::Detail;
 use crate::run::{Outcome, Plan, Request, run_trial};
 use crate::text::number::{duration, probability};
 use clap::Args;
@@ -138,7 +138,7 @@ fn usual_causes(case: &Case) -> Vec<String> {
 
 /// A label and a text that goes on below itself.
 fn labelled(label: &str, text: &str) -> String {
-    let lines = wrap(text, INDENT + 2);
+    let lines = super::report::style(Detail::Usual).wrap(text, INDENT + 2);
     let label_of = |number| if number == 0 { label } else { "" };
     let lines = lines.iter().enumerate();
     let lines: Vec<_> =

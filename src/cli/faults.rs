@@ -8,6 +8,7 @@ use crate::faults::{Matrix, Spared, Tried, select};
 use crate::stats::Budget;
 use clap::Args;
 use serde::Serialize;
+use std::num::NonZeroUsize;
 
 /// Width of the columns of names.
 const NAME: usize = 34;
@@ -21,8 +22,8 @@ pub(crate) struct FaultsArguments {
     #[arg(long, default_value_t = Budget::Quick)]
     budget: Budget,
     /// Number of trials to run in parallel [default: one per hardware thread].
-    #[arg(short, long, default_value_t = 0, hide_default_value = true)]
-    jobs: usize,
+    #[arg(short, long, value_name = "N", value_parser = super::jobs)]
+    jobs: Option<NonZeroUsize>,
     /// Only the case named for a fault, and those beside it where it does not tell the cause; of
     /// cores that are right only the parts that they change.
     #[arg(long)]
@@ -44,7 +45,8 @@ struct Document {
 pub(crate) fn faults(arguments: &FaultsArguments) -> Answer {
     let project = arguments.project.find()?;
     let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
-    let matrix = Matrix::new(project, &cases, arguments.budget, arguments.jobs);
+    let jobs = arguments.jobs.map_or(0, NonZeroUsize::get);
+    let matrix = Matrix::new(project, &cases, arguments.budget, jobs);
     let (faults, different) = select(&arguments.filters).map_err(Failure::nothing)?;
     let document = Document {
         faults: try_faults(&matrix, &faults, arguments)?,

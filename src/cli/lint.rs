@@ -4,8 +4,9 @@ use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Case};
 use crate::scene::{Library, SceneError};
-use crate::text::Source;
+use crate::text::{Source, number};
 use clap::Args;
+use std::collections::BTreeSet;
 
 /// What `furnace lint` understands.
 #[derive(Clone, Debug, Args)]
@@ -35,8 +36,11 @@ pub(crate) fn lint(arguments: &LintArguments) -> Answer {
             }
         }
     }
+    // A mistake in a scene is met again by each case that is set in it.
+    let mut known = BTreeSet::new();
+    complaints.retain(|complaint| known.insert(complaint.clone()));
     if complaints.is_empty() {
-        say_line!("{count} cases and their scenes are valid");
+        say_line!("{}: valid, with their scenes", number::count(count, "case"));
         Ok(ExitCode::Good)
     } else {
         Err(Failure::request(complaints.join("\n\n")))

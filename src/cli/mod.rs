@@ -10,6 +10,7 @@ mod explain;
 mod export;
 mod faults;
 mod hosting;
+mod interrupt;
 mod lint;
 mod list;
 mod progress;
@@ -25,6 +26,7 @@ pub(crate) use exit_code::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use say::complain;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// What every verb answers: how the process ends, or why it cannot.
@@ -51,9 +53,20 @@ impl Failure {
     }
 }
 
+/// Told below every help.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  something passed, and nothing failed
+  1  something failed, crashed or timed out
+  2  the request or a case is wrong
+  3  something is broken; with --strict also if anything is inconclusive, skipped or blocked
+  4  nothing was selected
+  5  nothing was proven: all was skipped, blocked, inconclusive or not graded
+  130  interrupted";
+
 /// A test bench for path tracers: what is wrong, by how much, where, and why.
 #[derive(Debug, Parser)]
-#[command(name = "furnace", version, args_conflicts_with_subcommands = true)]
+#[command(name = "furnace", version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     verb: Option<Verb>,
@@ -64,6 +77,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Verb {
     /// Try cases on cores and write a report (what happens without a verb).
+    #[command(after_help = EXIT_CODES)]
     Run(run::RunArguments),
     /// Show cases, checks or cores.
     List(list::ListArguments),
@@ -136,6 +150,11 @@ pub fn main() -> ExitCode {
         complain(failure.message);
         failure.code
     })
+}
+
+/// A number of threads.
+fn jobs(word: &str) -> Result<NonZeroUsize, String> {
+    word.parse().map_err(|_| "must be a whole number, 1 or more".to_owned())
 }
 
 fn run_or_watch(arguments: &run::RunArguments) -> Answer {

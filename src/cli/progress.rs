@@ -1,27 +1,27 @@
-//! What is shown while a run goes on, on standard error: a live display on a terminal, a line a trial elsewhere,
-//! nothing if the user wants quiet. Results go to standard output, and not from here.
+//! What is shown while a run goes on, on standard error: a live display on a terminal, elsewhere a line for what does
+//! not pass and now and then how far it is, nothing if the user wants quiet. Results go to standard output, and not from here.
 
-use crate::report::digest::Tally;
-use crate::report::text::{Paint, Style, clean, paint_of};
-use crate::run::{Event, RunRecord, Status, TrialRecord};
+use crate::report::text::{Detail, Style, clean, cut, paint_of};
+use crate::run::{Counts, Event, RunRecord, Status, TrialRecord};
 use crate::text::number::{count, duration};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 const WHOLE: &str =
     "  {pos}/{len} trials  {wide_bar}  {elapsed} elapsed, about {eta} left\n  {msg}";
+/// A log that is silent for longer looks dead.
+const HEARTBEAT: Duration = Duration::from_secs(30);
 /// The line of a trial that runs now.
 const RUNNING: &str = "  {elapsed:>5}  {msg}";
 
 /// Listens to a run and shows how it goes.
 pub(crate) struct Progress {
     display: Display,
-    tally: Tally,
-    ended: usize,
-    planned: usize,
+    counts: Counts,
+    /// Width of the column of cores, if there are several.
     longest_core: usize,
     /// Cores that fail to start: they are told of once.
     absent: BTreeSet<String>,
@@ -31,8 +31,14 @@ pub(crate) struct Progress {
 
 enum Display {
     Quiet,
-    Lines(Box<dyn Write>),
+    Lines(Lines),
     Live(Live),
+}
+
+/// A log: what does not pass, and now and then how far it is.
+struct Lines {
+    out: Box<dyn Write>,
+    last: Instant,
 }
 
 /// Bars that draw over themselves: what runs now, and one for the whole.
@@ -53,20 +59,20 @@ impl Progress {
                 let colour = std::env::var_os("NO_COLOR").is_none();
                 Display::Live(Live::new(ProgressDrawTarget::stderr(), colour))
             }
-            () => Display::Lines(Box::new(std::io::stderr())),
+            () => Display::Lines(Lines::new(std::io::stderr())),
         };
         let after = (!quiet).then(|| Box::new(std::io::stderr()) as Box<dyn Write>);
         Self { after, ..Self::on(display) }
     }
 
     fn on(display: Display) -> Self {
-        let (tally, absent) = (Tally::default(), BTreeSet::new());
-        Self { display, tally, ended: 0, planned: 0, longest_core: 0, absent, after: None }
+        let (counts, absent) = (Counts::default(), BTreeSet::new());
+        Self { display, counts, longest_core: 0, absent, after: None }
     }
 
     pub(crate) fn hear(&mut self, event: Event<'_>) {
         match event {
-            Event::Planned { run, folder, already_done } => self.planned(run, folder, already_done),
+            Event::Planned { run, folder, earlier } => self.planned(run, folder, earlier),
             Event::Started { core, case } => {
                 if let Display::Live(live) = &mut self.display {
                     live.start(core, case);
@@ -85,21 +91,22 @@ impl Progress {
         }
     }
 
-    fn planned(&mut self, run: &RunRecord, folder: &Path, already_done: usize) {
-        self.planned = run.trials;
-        self.ended = already_done;
-        self.longest_core = run.cores.iter().map(|core| core.spec.len()).max().unwrap_or(0);
+    fn planned(&mut self, run: &RunRecord, folder: &Path, earlier: &[TrialRecord]) {
+        self.counts = Counts::of(run.trials, earlier);
+        if let [_, _, ..] = run.cores[..] {
+            self.longest_core = run.cores.iter().map(|core| core.spec.len()).max().unwrap_or(0);
+        }
         let absent = run.cores.iter().map(|core| &core.spec).filter(|core| run.is_absent(core));
         self.absent = absent.cloned().collect();
         let told = self.absent.iter().map(|core| format!("{} fails to start", clean(core)));
         match &mut self.display {
             Display::Quiet => {}
-            Display::Lines(out) => {
-                print(out, &opening(run, folder, already_done));
-                told.for_each(|line| print(out, &line));
+            Display::Lines(lines) => {
+                lines.print(&opening(run, folder, earlier.len()));
+                told.for_each(|line| lines.print(&line));
             }
             Display::Live(live) => {
-                live.plan(run.trials, already_done);
+                live.plan(run.trials, earlier.len());
                 told.for_each(|line| live.whole.println(format!("  {line}")));
             }
         }
@@ -107,28 +114,40 @@ impl Progress {
     }
 
     fn ended(&mut self, trial: &TrialRecord) {
-        self.ended += 1;
-        self.tally.add(trial.outcome.status());
-        let planned = self.planned.to_string();
-        let place = format!("{:>width$}/{planned}", self.ended, width = planned.len());
-        let is_told = self.absent.contains(&trial.core);
+        self.counts.add(trial);
+        let is_told = deserves_a_line(trial) && !self.absent.contains(&trial.core);
+        let told = is_told.then(|| line(trial, self.longest_core));
         match &mut self.display {
-            Display::Lines(_) if is_told => {}
             Display::Quiet => {}
-            Display::Lines(out) => {
-                print(out, &format!("{place}  {}", line(trial, self.longest_core, Style::PLAIN)));
-            }
-            Display::Live(live) => {
-                live.end(trial, self.tally.words(), self.longest_core, is_told);
-            }
+            Display::Lines(lines) => lines.end(told, &self.counts),
+            Display::Live(live) => live.end(trial, told, self.counts.words()),
         }
         self.close_at_the_end();
     }
 
     /// Takes the bars away before anything else is printed: whatever stands below them would be erased.
     fn close_at_the_end(&mut self) {
-        if self.ended >= self.planned && matches!(self.display, Display::Live(_)) {
+        if self.counts.ended() >= self.counts.planned && matches!(self.display, Display::Live(_)) {
             self.display = Display::Quiet;
+        }
+    }
+}
+
+impl Lines {
+    fn new(out: impl Write + 'static) -> Self {
+        Self { out: Box::new(out), last: Instant::now() }
+    }
+
+    fn print(&mut self, line: &str) {
+        print(&mut self.out, line);
+        self.last = Instant::now();
+    }
+
+    fn end(&mut self, told: Option<Told>, counts: &Counts) {
+        if let Some(told) = told {
+            self.print(&told.plain());
+        } else if self.last.elapsed() > HEARTBEAT {
+            self.print(&format!("{}: {}", counts.trials(), counts.words()));
         }
     }
 }
@@ -138,7 +157,7 @@ impl Live {
         let screen = MultiProgress::with_draw_target(target);
         let whole = screen.add(ProgressBar::new(0));
         whole.set_style(template(WHOLE));
-        let style = Style { colour, ..Style::PLAIN };
+        let style = Style { colour, ..super::report::style(Detail::Usual) };
         Self { screen, whole, running: BTreeMap::new(), style }
     }
 
@@ -159,16 +178,16 @@ impl Live {
     }
 
     /// What did not pass stays on the screen.
-    fn end(&mut self, trial: &TrialRecord, tally: String, longest_core: usize, is_told: bool) {
+    fn end(&mut self, trial: &TrialRecord, told: Option<Told>, counts: String) {
         if let Some(bar) = self.running.remove(&(trial.core.clone(), trial.case.clone())) {
             bar.finish_and_clear();
             self.screen.remove(&bar);
         }
-        if trial.outcome.status() != Status::Pass && !is_told {
-            self.whole.println(format!("  {}", line(trial, longest_core, self.style)));
+        if let Some(told) = told {
+            self.whole.println(told.painted(self.style));
         }
         self.whole.inc(1);
-        self.whole.set_message(tally);
+        self.whole.set_message(counts);
     }
 }
 
@@ -196,17 +215,40 @@ fn opening(run: &RunRecord, folder: &Path, already_done: usize) -> String {
     format!("{trials} on {}{done}; results go to {}", cores.join(" and "), folder.display())
 }
 
-/// One trial: outcome, time, core, case; what was found unless it passed.
-fn line(trial: &TrialRecord, longest_core: usize, style: Style) -> String {
-    let status = trial.outcome.status();
-    let word = style.paint(paint_of(status), &format!("{:<12}", status.word()));
+/// Whether an end is told while the run goes on. What was not tried is counted: one failure can block a hundred cases.
+fn deserves_a_line(trial: &TrialRecord) -> bool {
+    !matches!(trial.outcome.status(), Status::Pass | Status::Skipped | Status::Blocked)
+}
+
+/// One trial in one line.
+struct Told {
+    status: Status,
+    /// Time, core if there are several, case, and what was found.
+    words: String,
+}
+
+fn line(trial: &TrialRecord, longest_core: usize) -> Told {
     let (seconds, core) = (duration(trial.timing.seconds), clean(&trial.core));
-    let head = format!("{word} {seconds:>9}  {core:<longest_core$}  {}", clean(&trial.case));
-    if status == Status::Pass {
-        return head;
+    let core = match longest_core {
+        0 => String::new(),
+        width => format!("{core:<width$}  "),
+    };
+    let statement = trial.outcome.statement();
+    let statement = clean(statement.lines().next().unwrap_or_default());
+    let words = format!("{seconds:>9}  {core}{}: {statement}", clean(&trial.case));
+    Told { status: trial.outcome.status(), words }
+}
+
+impl Told {
+    fn plain(&self) -> String {
+        format!("{:<12} {}", self.status.word(), self.words)
     }
-    let statement = clean(&trial.outcome.statement()).replace('\n', "; ");
-    format!("{head}: {}", style.paint(Paint::Faint, &statement))
+
+    /// Cut at the end of the line: a display that goes on needs the room.
+    fn painted(&self, style: Style) -> String {
+        let word = style.paint(paint_of(self.status), &format!("{:<12}", self.status.word()));
+        format!("  {word} {}", cut(&self.words, style.columns.saturating_sub(15)))
+    }
 }
 
 /// A closed standard error must not end the run.
@@ -237,7 +279,8 @@ mod tests {
 
     fn tell(progress: &mut Progress, example: &Example, already_done: usize) {
         let folder = Path::new("runs/one");
-        progress.hear(Event::Planned { run: &example.run, folder, already_done });
+        let earlier = &example.trials[..already_done];
+        progress.hear(Event::Planned { run: &example.run, folder, earlier });
         for trial in &example.trials[already_done..] {
             progress.hear(Event::Started { core: &trial.core, case: &trial.case });
             progress.hear(Event::Ended { trial });
@@ -246,30 +289,32 @@ mod tests {
 
     fn lines(example: &Example, already_done: usize) -> Vec<String> {
         let shared = Shared::default();
-        let mut progress = Progress::on(Display::Lines(Box::new(shared.clone())));
+        let mut progress = Progress::on(Display::Lines(Lines::new(shared.clone())));
         tell(&mut progress, example, already_done);
         let text = String::from_utf8(shared.0.take()).unwrap();
         text.lines().map(str::to_owned).collect()
     }
 
     #[test]
-    fn without_a_terminal_every_trial_is_one_plain_line() {
+    fn without_a_terminal_what_does_not_pass_is_one_plain_line() {
         let lines = lines(&Example::mixed(), 0);
-        assert_eq!(lines.len(), 1 + 24);
         assert_eq!(lines[0], "24 trials on builtin and textbook; results go to runs/one");
+        assert_eq!(lines.len(), 1 + 7, "{lines:?}");
         assert!(lines.iter().all(|line| !line.contains('\x1b')));
-        assert!(lines.iter().any(|line| line.contains("timed out") && line.contains("30 s")));
-        assert!(lines[24].starts_with("24/24  "), "{}", lines[24]);
+        assert!(lines.iter().any(|line| line.starts_with("timed out") && line.contains("30 s")));
+        assert!(lines[1..].iter().all(|line| line.contains(": ")), "{lines:?}");
     }
 
     #[test]
-    fn only_what_did_not_pass_says_what_was_found() {
-        let lines = lines(&Example::mixed(), 0);
-        let passed = lines.iter().filter(|line| line.contains("  pass  "));
-        assert_eq!(passed.filter(|line| line.contains(": ")).count(), 0);
-        let failed: Vec<_> = lines.iter().filter(|line| line.contains("  fail  ")).collect();
-        assert_eq!(failed.len(), 3);
-        assert!(failed.iter().all(|line| line.contains(": ")), "{failed:?}");
+    fn a_log_that_was_silent_for_long_says_how_far_it_is() {
+        let shared = Shared::default();
+        let mut lines = Lines::new(shared.clone());
+        let counts = Counts::of(24, &Example::green().trials[..7]);
+        lines.end(None, &counts);
+        assert!(shared.0.borrow().is_empty());
+        lines.last = Instant::now().checked_sub(2 * HEARTBEAT).unwrap();
+        lines.end(None, &counts);
+        assert_eq!(shared.0.take(), b"7 of 24 trials: 7 pass\n");
     }
 
     #[test]
@@ -284,8 +329,10 @@ mod tests {
     #[test]
     fn a_resumed_run_counts_on() {
         let lines = lines(&Example::green(), 20);
-        assert!(lines[0].contains("24 trials on builtin and textbook, 20 already done"));
-        assert!(lines[1].starts_with("21/24  pass"));
+        assert_eq!(
+            lines,
+            ["24 trials on builtin and textbook, 20 already done; results go to runs/one"]
+        );
     }
 
     #[test]

@@ -2,7 +2,9 @@
 
 use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
-use crate::reference::{Made, MakeOptions, MitsubaOptions, Progress, Reference, References, State};
+use crate::reference::{
+    Made, MakeError, MakeOptions, MitsubaOptions, Progress, Reference, References, State,
+};
 use crate::scene::Library;
 use crate::scene::reference::Layers;
 use crate::stats::Verdict;
@@ -128,7 +130,7 @@ pub(crate) fn reference(arguments: &ReferenceArguments) -> Answer {
 fn make(references: &References, name: &str, options: &MakeOptions) -> Answer {
     let display = Display::new();
     let made = references.make(name, options, &mut |progress| display.show(progress));
-    match made.map_err(Failure::broken)? {
+    match made.map_err(failure)? {
         Made::Reference(made) => {
             say_line!(
                 "made {name}: median relative standard error {}; check references/{name}, then commit it",
@@ -148,10 +150,18 @@ fn make(references: &References, name: &str, options: &MakeOptions) -> Answer {
     Ok(ExitCode::Good)
 }
 
+/// A name that nothing has is a wrong request; all else is the bench's.
+fn failure(error: MakeError) -> Failure {
+    match error {
+        MakeError::NoRecipe { .. } => Failure::request(error),
+        _ => Failure::broken(error),
+    }
+}
+
 fn layers(references: &References, name: &str, options: &MitsubaOptions) -> Answer {
     let display = Display::new();
     let layered = references.add_layers(name, options, &mut |progress| display.show(progress));
-    let reference = layered.map_err(Failure::broken)?;
+    let reference = layered.map_err(failure)?;
     let hint = match reference.layers.bounces.is_empty() {
         true => "; bounces apart need Mitsuba's llvm_ad_rgb",
         false => "",
@@ -173,7 +183,7 @@ fn content(reference: &Reference) -> String {
 fn verify(references: &References, name: &str, options: &MitsubaOptions) -> Answer {
     let display = Display::new();
     let verified = references.verify(name, options, &mut |progress| display.show(progress));
-    let report = verified.map_err(Failure::broken)?.report;
+    let report = verified.map_err(failure)?.report;
     say_line!(
         "{name}: {} after {} runs; would have caught an error of {} of the whole picture",
         report.verdict,

@@ -2,18 +2,20 @@
 
 use super::say::{say, say_line};
 use super::{Answer, ExitCode, Failure, ProjectArguments};
-use crate::report::text::Style;
+use crate::report::text::{Detail, Style};
 use crate::report::{self, RunTree};
 use clap::Args;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+
+const MOST_COLUMNS: usize = 100;
 
 /// What `furnace report` understands.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct ReportArguments {
     /// The folder of a run [default: the newest].
     run: Option<PathBuf>,
-    /// List the smallest detectable error of every trial.
+    /// Tell all that is known of each failure, the smallest detectable error of every trial, and the error rates.
     #[arg(short, long)]
     verbose: bool,
     /// Write one file with the failing cases, to be sent, in place of a page a case.
@@ -35,7 +37,8 @@ pub(crate) fn report(arguments: &ReportArguments) -> Answer {
         false => report::html::write,
     };
     let page = write(&tree, &folder).map_err(Failure::broken)?;
-    say!("{}", report::text::summary(&tree, style(arguments.verbose)));
+    let detail = if arguments.verbose { Detail::Everything } else { Detail::Usual };
+    say!("{}", report::text::summary(&tree, style(detail)));
     say_line!("  report  {}", address(&page));
     Ok(ExitCode::Good)
 }
@@ -49,9 +52,16 @@ fn newest(runs: &Path) -> Result<PathBuf, Failure> {
 }
 
 /// How the summary is dressed on this terminal.
-pub(crate) fn style(verbose: bool) -> Style {
+pub(crate) fn style(detail: Detail) -> Style {
     let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    Style { colour, verbose, ..Style::PLAIN }
+    Style { colour, detail, columns: columns(), ..Style::PLAIN }
+}
+
+/// As many as the user says, or the terminal has; longer lines than these are hard to read.
+fn columns() -> usize {
+    let said = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
+    let terminal = || terminal_size::terminal_size().map(|(width, _)| usize::from(width.0));
+    said.or_else(terminal).unwrap_or(Style::PLAIN.columns).min(MOST_COLUMNS)
 }
 
 /// What a browser opens.

@@ -1,6 +1,7 @@
 //! `furnace run`: the default verb.
 
 use super::hosting::HostingArguments;
+use super::interrupt::Running;
 use super::progress::Progress;
 use super::say::{say, say_line};
 use super::{Answer, ExitCode, Failure, ProjectArguments};
@@ -10,10 +11,13 @@ use crate::cores::{CORES, CoreSpec};
 use crate::math::rng::Seed;
 use crate::project::Project;
 use crate::report;
+use crate::report::TreeError;
+use crate::report::text::Detail;
 use crate::run::{self, Plan, Request, RunError, RunRecord, record};
 use crate::stats::Budget;
-use crate::text::did_you_mean;
+use crate::text::{all_of, did_you_mean, hint};
 use clap::Args;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 /// What `furnace run` understands.
@@ -28,11 +32,11 @@ pub(crate) struct RunArguments {
     #[arg(long, default_value_t)]
     budget: Budget,
     /// Seed of the random numbers, for audits. Verdicts are published for the default seed.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = seed)]
     seed: Option<u64>,
     /// Number of trials to run in parallel [default: one per hardware thread].
-    #[arg(short, long, default_value_t = 0, hide_default_value = true)]
-    jobs: usize,
+    #[arg(short, long, value_name = "N", value_parser = super::jobs)]
+    jobs: Option<NonZeroUsize>,
     /// Stop at the first failure.
     #[arg(long)]
     fail_fast: bool,
@@ -51,10 +55,10 @@ pub(crate) struct RunArguments {
     /// Where runs go [default: reports/runs].
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    /// Print only the summary.
-    #[arg(short, long)]
+    /// Print only the counts and where the report is.
+    #[arg(short, long, conflicts_with = "verbose")]
     quiet: bool,
-    /// List the smallest detectable error of every trial.
+    /// Tell all that is known of each failure, the smallest detectable error of every trial, and the error rates.
     #[arg(short, long)]
     verbose: bool,
     #[command(flatten)]
@@ -92,7 +96,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Answer {
     })?;
     let runs = arguments.runs(&project);
     let (request, with) = match &arguments.resume {
-        Some(folder) => request_of(folder, arguments.jobs)?,
+        Some(folder) => request_of(folder, arguments.jobs())?,
         None => (arguments.request(), arguments.with.iter().copied().collect()),
     };
     let hosting = arguments.hosting.hosting(&runs);
@@ -100,7 +104,13 @@ pub(crate) fn run(arguments: &RunArguments) -> Answer {
     let salt = std::env::var(SALT_VARIABLE).unwrap_or_default();
     let plan = plan.hosted(hosting).taking(with).salted(salt);
     let mut progress = Progress::new(arguments.quiet);
-    let mut listen = |event: run::Event<'_>| progress.hear(event);
+    let running = Running::ends_in_words(super::report::style(arguments.detail()));
+    let mut listen = |event: run::Event<'_>| {
+        if let run::Event::Planned { folder, .. } = event {
+            running.begins(folder);
+        }
+        progress.hear(event);
+    };
     let folder = match &arguments.resume {
         Some(folder) => run::resume(&plan, folder, &mut listen).map(|()| folder.clone()),
         None => run::run(&plan, &runs, &mut listen),
@@ -117,6 +127,19 @@ impl RunArguments {
         self.report.clone().unwrap_or_else(|| project.runs())
     }
 
+    /// None means one per hardware thread.
+    fn jobs(&self) -> usize {
+        self.jobs.map_or(0, NonZeroUsize::get)
+    }
+
+    const fn detail(&self) -> Detail {
+        match (self.quiet, self.verbose) {
+            (true, _) => Detail::Counts,
+            (_, true) => Detail::Everything,
+            _ => Detail::Usual,
+        }
+    }
+
     pub(crate) fn request(&self) -> Request {
         let all = || CORES.iter().filter_map(|kind| kind.name.parse().ok()).collect();
         Request {
@@ -124,7 +147,7 @@ impl RunArguments {
             filters: self.filters.clone(),
             budget: self.budget,
             seed: self.seed.map_or(Seed::SUITE, Seed),
-            jobs: self.jobs,
+            jobs: self.jobs(),
             fail_fast: self.fail_fast,
         }
     }
@@ -132,8 +155,11 @@ impl RunArguments {
 
 /// What a run was asked, from its own folder.
 fn request_of(folder: &Path, jobs: usize) -> Result<(Request, Components), Failure> {
-    let record: RunRecord =
-        record::read_json(&folder.join("run.json")).map_err(Failure::request)?;
+    let path = folder.join("run.json");
+    if !path.is_file() {
+        return Err(Failure::request(TreeError::NotARun(folder.to_owned())));
+    }
+    let record: RunRecord = record::read_json(&path).map_err(Failure::request)?;
     let cores = record.cores.iter().map(|core| core.spec.parse());
     let request = Request {
         cores: cores.collect::<Result<_, _>>().map_err(Failure::request)?,
@@ -146,21 +172,24 @@ fn request_of(folder: &Path, jobs: usize) -> Result<(Request, Components), Failu
     Ok((request, record.with))
 }
 
+fn seed(word: &str) -> Result<u64, String> {
+    word.parse().map_err(|_| format!("must be a whole number from 0 to {}", u64::MAX))
+}
+
 /// The component of this name.
 fn component(word: &str) -> Result<Components, String> {
-    let hint = || did_you_mean(word, Components::all().names().iter().map(String::as_str));
-    Components::from_names(&[word.to_owned()]).map_err(|problem| match hint() {
-        Some(hint) => format!("{problem}\nhint: {hint}"),
-        None => format!("{problem}: there are {}", Components::all().names().join(", ")),
-    })
+    let names = Components::all().names();
+    let names = || names.iter().map(String::as_str);
+    let hint = || hint(word, names(), || all_of(names()));
+    let component = Components::from_names(&[word.to_owned()]);
+    component.map_err(|problem| format!("{problem}\nhint: {}", hint()))
 }
 
 /// Summary and report, both of them readers of the folder.
 fn finish(arguments: &RunArguments, folder: &Path) -> Answer {
     let tree = report::RunTree::load(folder).map_err(Failure::broken)?;
     let page = report::html::write(&tree, folder).map_err(Failure::broken)?;
-    say!("{}", report::text::summary(&tree, super::report::style(arguments.verbose)));
+    say!("{}", report::text::summary(&tree, super::report::style(arguments.detail())));
     say_line!("  report  {}", super::report::address(&page));
-    let statuses = tree.graded().map(|trial| trial.outcome.status());
-    Ok(ExitCode::of(statuses, arguments.strict))
+    Ok(ExitCode::of(&tree.counts().graded, arguments.strict))
 }

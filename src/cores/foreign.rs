@@ -2,8 +2,8 @@
 //! path, a program by `exec:` and its command, one that makes pictures by its adapter's file.
 
 use super::command::{Program, found};
-use crate::text::listed;
 use crate::worker::CoreOrigin;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// What shared libraries are called.
@@ -18,26 +18,44 @@ const PROGRAM: &str = "exec:";
 /// The foreign core that a word names, if it names one at all.
 ///
 /// # Errors
-/// A hint, if there is no such library or program.
+/// What is wrong with it, if there is no such library or program.
 pub(crate) fn origin(word: &str) -> Option<Result<CoreOrigin, String>> {
     if let Some(command) = word.strip_prefix(PROGRAM) {
         return Some(program(command));
     }
     let path = Path::new(word);
-    let extension = path.extension()?.to_str()?;
-    if extension == ADAPTER {
+    if path.extension()?.to_str()? == ADAPTER {
         return Some(renderer(path));
     }
-    LIBRARIES.contains(&extension).then(|| library(path))
+    is_library(path).then(|| library(path))
+}
+
+/// `libmine.so`, and with a version, `libmine.so.2`.
+fn is_library(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let mut endings = name.split('.').skip(1);
+    endings.any(|ending| LIBRARIES.contains(&ending))
 }
 
 fn library(path: &Path) -> Result<CoreOrigin, String> {
-    let found = path.canonicalize();
-    found.map(CoreOrigin::Library).map_err(|error| format!("{}: {error}", path.display()))
+    let library = path.canonicalize().map(CoreOrigin::Library);
+    library.map_err(|error| no_file(path, &error))
+}
+
+/// What a file is not, and from where it was looked for.
+fn no_file(path: &Path, error: &std::io::Error) -> String {
+    if error.kind() != ErrorKind::NotFound {
+        return format!("cannot read `{}`: {error}", path.display());
+    }
+    let here = std::env::current_dir().unwrap_or_default();
+    let whole = here.join(path);
+    format!("there is no file `{}`\nhint: looked for {}", path.display(), whole.display())
 }
 
 fn renderer(path: &Path) -> Result<CoreOrigin, String> {
-    let program = Program::load(path).map_err(|error| error.to_string())?;
+    std::fs::metadata(path).map_err(|error| no_file(path, &error))?;
+    let problem = |error| format!("`{}` is no adapter\n{error}", path.display());
+    let program = Program::load(path).map_err(problem)?;
     let adapter = std::path::absolute(path).map_err(|error| error.to_string())?;
     Ok(CoreOrigin::Renderer { adapter, words: program.words() })
 }
@@ -50,7 +68,7 @@ fn program(command: &str) -> Result<CoreOrigin, String> {
         return Err(format!("a command must follow `{PROGRAM}`, as in 'exec: python3 core.py'"));
     };
     let program = found(program).ok_or_else(|| {
-        format!("program not found: {} is neither here nor on the PATH", listed([program.as_str()]))
+        format!("there is no program `{program}`\nhint: it is neither here nor on the PATH")
     })?;
     let mut words = vec![program.to_string_lossy().into_owned()];
     words.extend(arguments.iter().map(|word| absolute(word)));
@@ -81,7 +99,8 @@ mod tests {
         std::fs::write(&path, "").unwrap();
         let expected = CoreOrigin::Library(path.canonicalize().unwrap());
         assert_eq!(origin(&path.to_string_lossy()), Some(Ok(expected)));
-        assert!(origin("no/such/lib.so").unwrap().unwrap_err().starts_with("no/such/lib.so: "));
+        let message = origin("no/such/lib.so.2").unwrap().unwrap_err();
+        assert!(message.starts_with("there is no file `no/such/lib.so.2`"), "{message}");
     }
 
     #[test]
@@ -101,7 +120,7 @@ mod tests {
     #[test]
     fn a_program_that_is_nowhere_is_said_so() {
         let complaint = origin("exec: no-such-program --fast").unwrap().unwrap_err();
-        assert!(complaint.contains("program not found: `no-such-program`"), "{complaint}");
+        assert!(complaint.contains("there is no program `no-such-program`"), "{complaint}");
         assert!(origin("exec:").unwrap().unwrap_err().contains("a command must follow"));
     }
 }

@@ -16,7 +16,7 @@ mod stage;
 pub use hosting::{HostError, Hosted, Hosting};
 
 use crate::contract::Core;
-use crate::text::did_you_mean;
+use crate::text::hint;
 use crate::worker::CoreOrigin;
 use command::{AdapterError, Program};
 use dylib::{Dylib, LoadError};
@@ -57,10 +57,13 @@ pub struct CoreSpec {
 
 /// The words after `--core` name no core.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no core `{word}`\nhint: {hint}")]
-pub struct UnknownCore {
-    word: String,
-    hint: String,
+#[error("{0}")]
+pub struct UnknownCore(String);
+
+impl UnknownCore {
+    fn new(word: &str, hint: &str) -> Self {
+        Self(format!("there is no core `{word}`\nhint: {hint}"))
+    }
 }
 
 impl CoreSpec {
@@ -125,26 +128,37 @@ impl FromStr for CoreSpec {
         if let Some(change) = word.strip_prefix(CHANGED) {
             return changed(word, change);
         }
-        let names: Vec<_> = CORES.iter().map(|kind| format!("`{}`", kind.name)).collect();
-        let forms = "or path/to/lib.so, or an adapter's .toml, or 'exec: COMMAND'";
-        let hint = || format!("the cores are {}, {forms}", names.join(" and "));
-        let origin = foreign::origin(word).unwrap_or_else(|| Err(hint()));
-        match origin {
-            Ok(origin) => Ok(Self { word: word.to_owned(), origin }),
-            Err(hint) => Err(UnknownCore { word: word.to_owned(), hint }),
+        match foreign::origin(word) {
+            Some(Ok(origin)) => Ok(Self { word: word.to_owned(), origin }),
+            Some(Err(problem)) => Err(UnknownCore(problem)),
+            None => Err(UnknownCore::new(word, &meant(word))),
         }
     }
+}
+
+/// The core that was probably meant, or how cores are named.
+fn meant(word: &str) -> String {
+    let changed: Vec<_> = variant::names().map(|name| format!("{CHANGED}{name}")).collect();
+    let names = CORES.iter().map(|kind| kind.name).chain(changed.iter().map(String::as_str));
+    hint(word, names, || {
+        let own: Vec<_> = CORES.iter().map(|kind| format!("`{}`", kind.name)).collect();
+        let forms = "or path/to/lib.so, or an adapter's .toml, or 'exec: COMMAND'";
+        format!("the cores are {}, {forms}", own.join(" and "))
+    })
 }
 
 /// A copy of the plain core, if there is one with these changes.
 fn changed(word: &str, changes: &str) -> Result<CoreSpec, UnknownCore> {
     let hint = match variant::core(changes) {
         Ok(_) => return Ok(CoreSpec { word: word.to_owned(), origin: CoreOrigin::BuiltIn }),
-        Err(NoVariant::Unknown(name)) => did_you_mean(name, variant::names())
-            .unwrap_or_else(|| "`furnace list faults` shows every fault".to_owned()),
+        Err(NoVariant::Unknown(name)) => {
+            let names: Vec<_> = variant::names().collect();
+            let all = || "`furnace list faults` shows every fault".to_owned();
+            hint(name, names.into_iter(), all)
+        }
         Err(clash) => format!("{clash}: only one of them can be on"),
     };
-    Err(UnknownCore { word: word.to_owned(), hint })
+    Err(UnknownCore::new(word, &hint))
 }
 
 impl fmt::Display for CoreSpec {

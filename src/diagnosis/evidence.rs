@@ -164,9 +164,10 @@ impl<'a> Evidence<'a> {
         of_cases.flat_map(|seen| seen.proves).copied().collect()
     }
 
+    /// How many graded cases rest on one of these.
     pub(crate) fn blocked_by(&self, cases: &[String]) -> usize {
         let is_blocked = |seen: &&Observation<'_>| match &seen.standing {
-            Standing::Blocked(by) => cases.contains(by),
+            Standing::Blocked(by) => seen.tier.is_graded() && cases.contains(by),
             _ => false,
         };
         self.observations.iter().filter(is_blocked).count()

@@ -75,8 +75,9 @@ impl Headline {
         self.degree == Degree::DiffersHere && self.explains.len() == 1
     }
 
-    fn accounts_for(&self, case: &String) -> bool {
-        self.explains.contains(case) || self.may_follow.contains(case)
+    /// Whether it explains the failure, or the failure may follow from it.
+    pub(crate) fn accounts_for(&self, case: &str) -> bool {
+        self.explains.iter().chain(&self.may_follow).any(|known| known == case)
     }
 
     /// The number of the part it is told in.

@@ -97,6 +97,9 @@ pub fn select(
             || DIFFERENT.iter().any(|core| is_different(word, core))
     };
     if let Some(unknown) = words.iter().find(|word| !is_known(word)) {
+        if let Ok(number) = unknown.parse() {
+            return Err(NothingSelected::part(number));
+        }
         let names = faults.iter().map(|fault| fault.name);
         let names = names.chain(DIFFERENT.iter().map(|core| core.name));
         return Err(NothingSelected::by(unknown, names));

@@ -2,7 +2,7 @@
 
 use super::MakeError;
 use crate::scene::Overrides;
-use crate::text::{Diagnostic, Source, Spanned, did_you_mean, listed};
+use crate::text::{Diagnostic, Source, Spanned, all_of, hint};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -60,9 +60,7 @@ pub(super) fn read(folder: &Path, name: &str) -> Result<Recipe, MakeError> {
     let mut recipes = read_all(folder)?;
     recipes.remove(name).ok_or_else(|| {
         let names = || recipes.keys().map(String::as_str);
-        let hint =
-            did_you_mean(name, names()).unwrap_or_else(|| format!("there are {}", listed(names())));
-        MakeError::NoRecipe { name: name.to_owned(), hint }
+        MakeError::NoRecipe { name: name.to_owned(), hint: hint(name, names(), || all_of(names())) }
     })
 }
 

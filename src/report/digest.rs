@@ -4,84 +4,11 @@
 use super::tree::RunTree;
 use crate::case::{PARTS, Part, Tier};
 use crate::checks::Finding;
+pub(crate) use crate::run::Tally;
 use crate::run::record::CoreRecord;
 use crate::run::{Status, TrialRecord};
 use crate::stats::{Ledger, TestKind};
-use crate::text::number::count;
 use std::collections::BTreeMap;
-
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Tally(BTreeMap<Status, usize>);
-
-impl Tally {
-    pub(crate) fn of<'a>(trials: impl IntoIterator<Item = &'a TrialRecord>) -> Self {
-        let mut tally = Self::default();
-        trials.into_iter().for_each(|trial| tally.add(trial.outcome.status()));
-        tally
-    }
-
-    pub(crate) fn add(&mut self, status: Status) {
-        *self.0.entry(status).or_default() += 1;
-    }
-
-    pub(crate) fn count(&self, status: Status) -> usize {
-        self.0.get(&status).copied().unwrap_or(0)
-    }
-
-    pub(crate) fn total(&self) -> usize {
-        self.0.values().sum()
-    }
-
-    pub(crate) fn failures(&self) -> usize {
-        self.0.iter().filter(|(status, _)| status.is_failure()).map(|(_, count)| count).sum()
-    }
-
-    /// What occurs, the good first.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (Status, usize)> {
-        self.0.iter().map(|(status, count)| (*status, *count))
-    }
-
-    /// `117 pass, 1 fail, 2 skipped`
-    pub(crate) fn words(&self) -> String {
-        let words: Vec<_> =
-            self.iter().map(|(status, count)| format!("{count} {}", status.word())).collect();
-        if words.is_empty() { "none".to_owned() } else { words.join(", ") }
-    }
-
-    /// Without those that the core cannot be asked.
-    pub(crate) fn asked(&self) -> usize {
-        self.total() - self.count(Status::Skipped)
-    }
-
-    /// `117 pass, 1 fail; 2 could not be asked`
-    pub(crate) fn words_of_asked(&self) -> String {
-        let is_asked = |(status, _): &(&Status, &usize)| **status != Status::Skipped;
-        let asked = Self(self.0.iter().filter(is_asked).map(|(s, n)| (*s, *n)).collect()).words();
-        match self.count(Status::Skipped) {
-            0 => asked,
-            skipped => format!("{asked}; {skipped} could not be asked"),
-        }
-    }
-
-    /// The result of a run in a few words, for titles.
-    pub(crate) fn headline(&self) -> String {
-        let (total, failures, passes) = (self.total(), self.failures(), self.count(Status::Pass));
-        if total == 0 {
-            "no graded trial has a result".to_owned()
-        } else if failures > 0 {
-            let verb = if failures == 1 { "fails" } else { "fail" };
-            format!("{failures} of {} {verb}", count(total, "trial"))
-        } else if passes == total {
-            if total == 1 {
-                "1 trial passes".to_owned()
-            } else {
-                format!("all {total} trials pass")
-            }
-        } else {
-            format!("{passes} of {total} trials pass, none fails")
-        }
-    }
-}
 
 /// Some trials of one part of a path tracer.
 #[derive(Clone, Debug)]
@@ -255,7 +182,7 @@ pub(crate) fn capitalised(words: &str) -> String {
 mod tests {
     use super::*;
     use crate::report::example::{Example, trial};
-    use crate::run::Outcome;
+    use crate::run::{Counts, Outcome};
 
     #[test]
     fn headlines_never_call_absence_a_pass() {
@@ -265,6 +192,16 @@ mod tests {
         assert_eq!(Tally::of([]).headline(), "no graded trial has a result");
         assert_eq!(Tally::of([&pass]).headline(), "1 trial passes");
         assert_eq!(Tally::of([&pass, &skipped]).headline(), "1 of 2 trials pass, none fails");
+    }
+
+    #[test]
+    fn every_trial_is_counted_once() {
+        let mut informs = trial("builtin", "bvh/b");
+        informs.tier = Tier::Informational;
+        informs.outcome = Outcome::Blocked { by: "bvh/a".to_owned() };
+        let counts = Counts::of(3, [&trial("builtin", "bvh/a"), &informs]);
+        assert_eq!(counts.trials(), "2 of 3 trials");
+        assert_eq!(counts.words(), "1 pass, 1 not graded");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::checks::Measure;
 use crate::stats::Verdict;
-use crate::text::number::{percent, signed_percent, to_step};
+use crate::text::number::{apart, percent, signed_percent, sixth_digit, to_step};
 
 /// The numbers of a [`Measure`], ready to be shown side by side.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -10,7 +10,7 @@ pub(crate) struct MeasureWords {
     pub(crate) name: String,
     pub(crate) measured: String,
     pub(crate) expected: String,
-    /// How far from `expected` is still right.
+    /// How far from `expected` is still right; empty where the interval decides.
     pub(crate) allowed: String,
     /// 99.9 % interval of what was measured; empty without noise.
     pub(crate) interval: String,
@@ -26,14 +26,18 @@ impl MeasureWords {
     pub(crate) fn of(measure: &Measure) -> Self {
         let step = finest_step(measure);
         let number = |value| to_step(value, step);
+        let [measured, expected] = side_by_side(measure, step);
         Self {
             name: match measure.unit.as_str() {
                 "" => measure.name(),
                 unit => format!("{} ({unit})", measure.name()),
             },
-            measured: number(measure.measured),
-            expected: number(measure.expected),
-            allowed: format!("±{}", to_step(measure.allowed, measure.allowed)),
+            measured,
+            expected,
+            allowed: match measure.interval {
+                Some(_) if measure.allowed == 0.0 => String::new(),
+                _ => format!("±{}", to_step(measure.allowed, measure.allowed)),
+            },
             interval: measure
                 .interval
                 .map(|[low, high]| format!("[{}, {}]", number(low), number(high)))
@@ -43,6 +47,24 @@ impl MeasureWords {
             resolution: measure.resolution.map(caught).unwrap_or_default(),
         }
     }
+}
+
+/// What was measured and what is expected, with six digits at most, unless they would read the same although they
+/// differ.
+fn side_by_side(measure: &Measure, step: f64) -> [String; 2] {
+    let values = [measure.measured, measure.expected];
+    let largest = values.map(f64::abs).into_iter().fold(0.0, f64::max);
+    let step = coarser(step, largest);
+    let words = values.map(|value| to_step(value, step));
+    let is_told = words[0] != words[1] || measure.verdict != Verdict::Fail;
+    let words = if is_told { words } else { apart(values) };
+    let differ = words[0] != words[1] || values[0].to_bits() == values[1].to_bits();
+    if differ || is_told { words } else { values.map(|value| value.to_string()) }
+}
+
+/// The step, unless it shows more than six digits of the value.
+fn coarser(step: f64, value: f64) -> f64 {
+    if step > 0.0 { step.max(sixth_digit(value)) } else { step }
 }
 
 fn caught(resolution: f64) -> String {
@@ -72,7 +94,7 @@ fn off_by(measure: &Measure, step: f64) -> String {
         return signed_percent(difference / measure.expected.abs());
     }
     let sign = if difference > 0.0 { "+" } else { "" };
-    format!("{sign}{}", to_step(difference, step))
+    format!("{sign}{}", to_step(difference, coarser(step, difference)))
 }
 
 /// The measures of a finding, the worst first: failures before the undecided, those before passes;
@@ -83,6 +105,13 @@ pub(crate) fn worst_first(measures: &[Measure]) -> Vec<&Measure> {
         (rank(a.verdict).cmp(&rank(b.verdict))).then_with(|| excess(b).total_cmp(&excess(a)))
     });
     sorted
+}
+
+/// The worst of the measures, as many as that, in the order in which they were measured: bounce by bounce.
+pub(crate) fn worst_in_order(measures: &[Measure], most: usize) -> Vec<&Measure> {
+    let worst: Vec<_> = worst_first(measures).into_iter().take(most).collect();
+    let is_shown = |measure: &&Measure| worst.iter().any(|shown| std::ptr::eq(*shown, *measure));
+    measures.iter().filter(is_shown).collect()
 }
 
 fn rank(verdict: Verdict) -> usize {

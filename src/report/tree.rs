@@ -7,7 +7,7 @@
 use crate::case::Part;
 use crate::diagnosis::Diagnosis;
 use crate::run::record::{self, PictureFile, read_json, sidecar_path};
-use crate::run::{self, RecordError, RunRecord, TrialRecord};
+use crate::run::{self, Counts, RecordError, RunRecord, TrialRecord};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use walkdir::WalkDir;
@@ -71,8 +71,15 @@ pub enum TreeError {
         why: String,
     },
     /// An I/O error.
-    #[error("{0}")]
+    #[error("cannot read the run{}", in_words(.0))]
     Walk(#[from] walkdir::Error),
+}
+
+/// `: reports/runs/a/b: Permission denied`
+fn in_words(error: &walkdir::Error) -> String {
+    let path = error.path().map(|path| format!(": {}", path.display()));
+    let error = error.io_error().map(|error| format!(": {error}"));
+    path.into_iter().chain(error).collect()
 }
 
 #[derive(Deserialize)]
@@ -115,6 +122,10 @@ impl RunTree {
     /// The trials that count for or against a core.
     pub(crate) fn graded(&self) -> impl Iterator<Item = &TrialRecord> {
         self.trials.iter().filter(|trial| trial.tier.is_graded())
+    }
+
+    pub(crate) fn counts(&self) -> Counts {
+        Counts::of(self.run.trials, &self.trials)
     }
 
     pub(crate) fn diagnoses(&self) -> Vec<(&str, &Diagnosis)> {

@@ -13,7 +13,7 @@ pub enum Event<'a> {
         /// The folder of the run.
         folder: &'a Path,
         /// Trials of a resumed run that are already there.
-        already_done: usize,
+        earlier: &'a [TrialRecord],
     },
     /// A trial began.
     Started {

@@ -14,6 +14,7 @@ pub mod record;
 mod schedule;
 mod search;
 mod second_look;
+mod tally;
 
 pub use attempt::attempt;
 pub(crate) use attempt::run_with;
@@ -27,6 +28,7 @@ pub use plan::{Plan, Request, Trial};
 pub use record::{RecordError, RunRecord, TrialRecord};
 pub(crate) use record::{Transplanted, Transplants};
 use second_look::look_again;
+pub(crate) use tally::{Counts, Tally};
 
 use crate::contract::CoreError;
 use crate::cores::HostError;
@@ -96,7 +98,7 @@ fn carry_out(
     let earlier: Vec<_> = plan.trials.iter().map(|trial| result_of(trial, folder)).collect();
     let todo: Vec<_> = (0..earlier.len()).filter(|number| earlier[*number].is_none()).collect();
     let mut records: Vec<_> = earlier.iter().flatten().cloned().collect();
-    events(Event::Planned { run: &record, folder, already_done: records.len() });
+    events(Event::Planned { run: &record, folder, earlier: &records });
     let outcomes = earlier.into_iter().map(|record| Some(record?.outcome));
     let done: Vec<_> =
         outcomes.enumerate().filter_map(|(n, outcome)| Some((n, outcome?))).collect();

@@ -4,7 +4,7 @@ use super::error::read_source;
 use super::file::{self, Overrides};
 use super::format::collada;
 use super::{SceneDescription, SceneError};
-use crate::text::{did_you_mean, listed};
+use crate::text::{all_of, hint};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -68,11 +68,10 @@ impl Library {
     fn no_such_scene(&self, name: &str) -> SceneError {
         let known = self.names().unwrap_or_default();
         let known = || known.iter().map(String::as_str);
-        let hint = did_you_mean(name, known());
         SceneError::NoSuchScene {
             name: name.to_owned(),
             folder: self.folder.display().to_string(),
-            hint: hint.unwrap_or_else(|| format!("there are {}", listed(known()))),
+            hint: hint(name, known(), || all_of(known())),
         }
     }
 }

@@ -19,5 +19,5 @@ pub(crate) use range::{
     Roughness, Several, Size, Vector, Words,
 };
 pub(crate) use spoken::spoken;
-pub(crate) use suggestion::{did_you_mean, listed};
+pub(crate) use suggestion::{all_of, did_you_mean, hint, listed};
 pub(crate) use units::{Angle, Colour, Count, Percent};

@@ -73,6 +73,11 @@ pub(crate) fn to_step(value: f64, step: f64) -> String {
     at_digit(value, step, 1)
 }
 
+/// The step with which [`to_step`] shows a number in six digits.
+pub(crate) fn sixth_digit(value: f64) -> f64 {
+    10f64.powi(exponent(value) - 4)
+}
+
 pub(crate) fn signed_percent(share: f64) -> String {
     let sign = if share > 0.0 { "+" } else { "" };
     format!("{sign}{}", percent(share))

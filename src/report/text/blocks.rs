@@ -1,15 +1,15 @@
-//! What did not pass, one block each: first what counts against a core, then what is not known.
+//! What did not pass, one block each. What to look at first stands last, next to the ending: there a terminal is read.
 
 use super::headlines;
 use super::layout::{INDENT, command, head, indented, labelled, on};
-use super::style::{Paint, Style, clean, cut, paint_of, wrap};
+use super::style::{Paint, Style, clean, cut, paint_of};
+use super::subject::{Subject, subjects};
 use crate::case::Part;
 use crate::checks::{Finding, Measure};
-use crate::diagnosis::Diagnosis;
-use crate::report::digest::{failures, in_order_of_parts, ungraded_failures};
-use crate::report::measure::{MeasureWords, worst_first};
+use crate::report::digest::{in_order_of_parts, ungraded_failures};
+use crate::report::measure::{MeasureWords, worst_in_order};
 use crate::report::transplants::sentences;
-use crate::report::tree::{AbsentCore, RunTree};
+use crate::report::tree::RunTree;
 use crate::run::record::CoreRecord;
 use crate::run::{Outcome, Status, TrialRecord};
 use crate::stats::Verdict;
@@ -17,35 +17,64 @@ use crate::text::number::count;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// Failures that are told in full. A core that fails everything is not helped by pages of numbers.
-const FULL_BLOCKS: usize = 5;
-/// Cases named of those that have one reason.
-const NAMES: usize = 8;
-/// Measures shown of a failure, the worst first.
+/// Blocks of one kind. A core that is wrong everywhere is not helped by pages of them.
+const MOST: usize = 5;
+/// Measures shown of a failure, the worst of them.
 const MEASURES: usize = 4;
-/// Reasons told why something cannot be asked, those of the most cases.
+/// Reasons told why something was not tried, those of the most cases.
 const REASONS: usize = 3;
 /// Lines shown of what a core printed before it crashed.
 const LAST_WORDS: usize = 3;
 
 pub(crate) fn all(tree: &RunTree, style: Style) -> Vec<String> {
-    let diagnoses = tree.diagnoses();
-    let mut lines = headlines::all(&diagnoses, style);
-    lines.extend(tree.run.cores.iter().flat_map(|core| transplants(core, style)));
-    let (explained, alone): (Vec<_>, Vec<_>) =
-        failures(tree).into_iter().partition(|trial| is_explained(&diagnoses, trial));
-    lines.extend(of_these_causes(&explained, style));
-    let (full, brief) = alone.split_at(alone.len().min(FULL_BLOCKS));
-    lines.extend(full.iter().flat_map(|trial| full_block(trial, style)));
-    lines.extend(brief.iter().flat_map(|trial| brief_block(trial, style)));
-    lines.extend(ungraded_failures(tree).into_iter().flat_map(|trial| note(trial, style)));
-    for status in [Status::Broken, Status::Inconclusive] {
-        let trials = in_order_of_parts(tree, status);
-        lines.extend(trials.into_iter().flat_map(|trial| undecided_block(trial, style)));
+    let notes: Vec<_> = ungraded_failures(tree).into_iter().map(|t| note(t, style)).collect();
+    let mut lines = first_of(notes, Paint::Unknown, "NOTE", style);
+    for status in [Status::Skipped, Status::Blocked] {
+        lines.extend(untried(tree, status, style));
     }
-    lines.extend(blocked(tree, style));
-    lines.extend(not_asked(tree, style));
+    for status in [Status::Inconclusive, Status::Broken] {
+        let trials = graded(tree, status).into_iter();
+        let blocks = trials.map(|trial| brief_block(trial, style)).collect();
+        lines.extend(first_of(blocks, paint_of(status), &status.word().to_uppercase(), style));
+    }
+    lines.extend(failures(tree, style));
+    lines.extend(tree.run.cores.iter().flat_map(|core| transplants(core, style)));
     lines
+}
+
+/// What counts against the cores, the first of it last; in few words, and of the first only what the ending leaves out,
+/// unless all is asked for.
+fn failures(tree: &RunTree, style: Style) -> Vec<String> {
+    let subjects = subjects(tree);
+    let Some((first, others)) = subjects.split_first() else { return Vec::new() };
+    let block = |subject: &Subject<'_>| match subject {
+        Subject::Cause(core, headline) => headlines::block(core, headline, style),
+        Subject::Alone(trial) if style.is_verbose() => full_block(trial, style),
+        Subject::Alone(trial) => brief_block(trial, style),
+    };
+    let mut lines = more(others.len().saturating_sub(MOST), Paint::Bad, "FAIL", style);
+    lines.extend(others.iter().take(MOST).rev().flat_map(block));
+    lines.extend(match first {
+        _ if style.is_verbose() => block(first),
+        Subject::Alone(trial) => numbers_of(trial, style),
+        Subject::Cause(..) => first.witness(tree).map_or(Vec::new(), |t| last_words(t, style)),
+    });
+    lines
+}
+
+/// The first blocks of a kind, and how many more there are.
+fn first_of(blocks: Vec<Vec<String>>, paint: Paint, word: &str, style: Style) -> Vec<String> {
+    let more = more(blocks.len().saturating_sub(MOST), paint, word, style);
+    blocks.into_iter().take(MOST).flatten().chain(more).collect()
+}
+
+/// That there are more than are told, if there are.
+fn more(number: usize, paint: Paint, word: &str, style: Style) -> Vec<String> {
+    match number {
+        0 => Vec::new(),
+        1 => head(style, paint, word, "1 more is in the report"),
+        _ => head(style, paint, word, &format!("{number} more are in the report")),
+    }
 }
 
 /// What the bench's own components take away of a core's failures.
@@ -54,71 +83,44 @@ fn transplants(core: &CoreRecord, style: Style) -> Vec<String> {
     if sentences.is_empty() {
         return Vec::new();
     }
-    let word = style.paint(Paint::Strong, "PROOF");
-    let head = format!("  {word}  failures{}, tried again", on(&core.spec, style));
-    let told = sentences.iter().flat_map(|sentence| indented(&clean(sentence)));
-    [String::new(), head].into_iter().chain(told).collect()
-}
-
-/// A core that fails to start: why, and how to try that alone.
-pub(crate) fn absent(core: AbsentCore<'_>, style: Style) -> Vec<String> {
-    let what = format!("{} fails to start: no trial could run", clean(core.spec));
-    let mut lines = head_of(core.witness.outcome.status(), &what, style);
-    lines.extend(indented(core.problem));
-    lines.extend(last_words(core.witness));
-    lines.push(command(&core.command()));
-    lines
-}
-
-/// Whether a cause has been told that the trial shows, or may follow from.
-fn is_explained(diagnoses: &[(&str, &Diagnosis)], trial: &TrialRecord) -> bool {
-    let told = |(core, diagnosis): &(&str, &Diagnosis)| {
-        *core == trial.core && !diagnosis.unexplained.contains(&trial.case)
-    };
-    diagnoses.iter().any(told)
+    let what = format!("failures{}, tried again", on(&core.spec, style));
+    let told = sentences.iter().flat_map(|sentence| indented(sentence, style));
+    head(style, Paint::Strong, "PROOF", &what).into_iter().chain(told).collect()
 }
 
 /// Verdict and size, the numbers, the place, the next command.
 fn full_block(trial: &TrialRecord, style: Style) -> Vec<String> {
     let mut lines = brief_block(trial, style);
-    if let Some(finding) = trial.outcome.finding() {
-        lines.extend(measures(finding, style));
-    }
-    lines.extend(last_words(trial));
-    lines.extend(labelled("claim", &claim(trial)));
-    lines.extend(labelled("theory", &trial.teaches));
+    lines.push(String::new());
+    lines.extend(numbers(trial, style));
+    lines.push(String::new());
+    lines.extend(labelled("claim", &claim(trial), style));
+    lines.extend(labelled("theory", &trial.teaches, style));
     lines.push(command(&trial.rerun));
     lines
 }
 
-/// Failures of causes that are told already, by their names.
-fn of_these_causes(trials: &[&TrialRecord], style: Style) -> Vec<String> {
-    let mut of_cores: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for trial in trials {
-        of_cores.entry(&trial.core).or_default().push(&trial.case);
+/// The same below the name of the case, if there is anything.
+fn numbers_of(trial: &TrialRecord, style: Style) -> Vec<String> {
+    let numbers = numbers(trial, style);
+    if numbers.is_empty() {
+        return numbers;
     }
-    let paragraph = |(core, cases): (&str, Vec<&str>)| {
-        let what = format!("{} of these causes{}", count(cases.len(), "failure"), on(core, style));
-        let head = head(style, Paint::Bad, "FAIL", &what);
-        head.into_iter().chain(names(&cases)).collect::<Vec<_>>()
-    };
-    of_cores.into_iter().flat_map(paragraph).collect()
+    let name = format!("  {}{}", clean(&trial.case), on(&trial.core, style));
+    [String::new(), name].into_iter().chain(numbers).collect()
 }
 
-/// The first of these cases.
-fn names(cases: &[&str]) -> Vec<String> {
-    let mut names: Vec<_> = cases.iter().take(NAMES).map(|case| clean(case)).collect();
-    if cases.len() > NAMES {
-        names.push("…".to_owned());
-    }
-    indented(&names.join(", "))
+/// What was measured, or what a core printed that came to no answer.
+fn numbers(trial: &TrialRecord, style: Style) -> Vec<String> {
+    let measured = trial.outcome.finding().map(|finding| measures(finding, style));
+    measured.into_iter().flatten().chain(last_words(trial, style)).collect()
 }
 
 /// Verdict and size: `grep FAIL -A1` finds both.
 fn brief_block(trial: &TrialRecord, style: Style) -> Vec<String> {
     let what = clean(&trial.case) + &on(&trial.core, style);
     let mut lines = head_of(trial.outcome.status(), &what, style);
-    lines.extend(indented(&trial.outcome.statement()));
+    lines.extend(indented(&trial.outcome.statement(), style));
     lines
 }
 
@@ -130,34 +132,22 @@ fn note(trial: &TrialRecord, style: Style) -> Vec<String> {
     let (case, on) = (clean(&trial.case), on(&trial.core, style));
     let what = format!("{case}{on} ({}, not graded)", trial.tier.word());
     let mut lines = head(style, Paint::Unknown, "NOTE", &what);
-    lines.extend(indented(&trial.outcome.statement()));
+    lines.extend(indented(&trial.outcome.statement(), style));
     lines
 }
 
 /// The end of what a core printed that has crashed or hung.
-fn last_words(trial: &TrialRecord) -> Vec<String> {
+pub(super) fn last_words(trial: &TrialRecord, style: Style) -> Vec<String> {
     if !matches!(trial.outcome.status(), Status::Crashed | Status::TimedOut) {
         return Vec::new();
     }
     let printed: Vec<_> = trial.printed.lines().filter(|line| !line.trim().is_empty()).collect();
     let last = &printed[printed.len().saturating_sub(LAST_WORDS)..];
-    last.iter().flat_map(|line| labelled("printed", &clean(line))).collect()
-}
-
-/// Nothing counts against the core: what is missing, and how to learn more.
-fn undecided_block(trial: &TrialRecord, style: Style) -> Vec<String> {
-    let mut lines = brief_block(trial, style);
-    if let Some(Finding { resolution, .. }) = trial.outcome.finding()
-        && !resolution.is_empty()
-    {
-        lines.extend(indented(resolution));
-    }
-    lines.push(command(&trial.rerun));
-    lines
+    last.iter().flat_map(|line| labelled("printed", line, style)).collect()
 }
 
 /// The claim, and the part of a path tracer that it is about.
-fn claim(trial: &TrialRecord) -> String {
+pub(super) fn claim(trial: &TrialRecord) -> String {
     match Part::of_case(&trial.case) {
         Some(part) => format!("{} ({})", trial.title, part.title),
         None => trial.title.clone(),
@@ -169,16 +159,15 @@ fn measures(finding: &Finding, style: Style) -> Vec<String> {
     if finding.measures.is_empty() {
         return Vec::new();
     }
-    let sorted = worst_first(&finding.measures);
-    let shown = &sorted[..sorted.len().min(MEASURES)];
-    let mut lines = vec![String::new()];
-    lines.extend(table(shown, style));
-    let rest = &sorted[shown.len()..];
-    if !rest.is_empty() {
-        let wrong = rest.iter().filter(|measure| measure.verdict == Verdict::Fail).count();
-        lines.push(format!("{:INDENT$}  and {} more, {wrong} of them wrong", "", rest.len()));
+    let shown = worst_in_order(&finding.measures, MEASURES);
+    let mut lines = table(&shown, style);
+    let rest = finding.measures.len() - shown.len();
+    if rest > 0 {
+        let is_wrong = |measure: &&Measure| measure.verdict == Verdict::Fail;
+        let shown_wrong = shown.iter().copied().filter(is_wrong).count();
+        let wrong = finding.measures.iter().filter(is_wrong).count() - shown_wrong;
+        lines.push(format!("{:INDENT$}  and {rest} more, {wrong} of them wrong", ""));
     }
-    lines.push(String::new());
     lines
 }
 
@@ -213,47 +202,44 @@ fn aligned(mark: &str, row: &[String; 5], widths: &[usize; 5]) -> String {
     line.trim_end().to_owned()
 }
 
-/// Trials that rest on the same failure, in one paragraph.
-fn blocked(tree: &RunTree, style: Style) -> Vec<String> {
-    let paragraph = |((core, reason), cases): ((&str, String), Vec<&str>)| {
-        let what = format!("{}{}: {reason}", cases.len(), on(core, style));
-        let mut what = wrap(&what, Status::Blocked.word().len() + 4).into_iter();
-        let mut lines = head_of(Status::Blocked, &what.next().unwrap_or_default(), style);
-        lines.extend(what.map(|line| format!("{:INDENT$}{line}", "")));
-        lines.extend(names(&cases));
-        lines
-    };
-    by_reason(tree, Status::Blocked).into_iter().flat_map(paragraph).collect()
-}
-
-/// What a core cannot be asked, in one paragraph: it says nothing about the core.
-fn not_asked(tree: &RunTree, style: Style) -> Vec<String> {
+/// How many trials of each core were not tried, and why: that says nothing about them.
+fn untried(tree: &RunTree, status: Status, style: Style) -> Vec<String> {
     let mut of_cores: BTreeMap<&str, Vec<(usize, String)>> = BTreeMap::new();
-    for ((core, reason), cases) in by_reason(tree, Status::Skipped) {
-        of_cores.entry(core).or_default().push((cases.len(), reason));
+    for ((core, reason), trials) in by_reason(tree, status) {
+        of_cores.entry(core).or_default().push((trials, reason));
     }
     let paragraph = |(core, mut reasons): (&str, Vec<(usize, String)>)| {
-        reasons.sort_by_key(|(cases, _)| Reverse(*cases));
-        let all: usize = reasons.iter().map(|(cases, _)| cases).sum();
+        reasons.sort_by_key(|(trials, _)| Reverse(*trials));
+        let all: usize = reasons.iter().map(|(trials, _)| trials).sum();
         let (told, others) = reasons.split_at(reasons.len().min(REASONS));
-        let mut lines = head_of(Status::Skipped, &format!("{all}{}", on(core, style)), style);
-        lines.extend(told.iter().flat_map(|(cases, why)| indented(&format!("{cases}: {why}"))));
+        if let [(_, why)] = &reasons[..] {
+            return head_of(status, &format!("{all}{}: {why}", on(core, style)), style);
+        }
+        let mut lines = head_of(status, &format!("{all}{}", on(core, style)), style);
+        lines.extend(told.iter().flat_map(|(n, why)| indented(&format!("{n}: {why}"), style)));
         if !others.is_empty() {
-            let rest: usize = others.iter().map(|(cases, _)| cases).sum();
-            lines.extend(indented(&format!("{rest}: for {}", count(others.len(), "other reason"))));
+            let rest: usize = others.iter().map(|(trials, _)| trials).sum();
+            let why = count(others.len(), "other reason");
+            lines.extend(indented(&format!("{rest}: for {why}"), style));
         }
         lines
     };
     of_cores.into_iter().flat_map(paragraph).collect()
 }
 
-/// Trials without a result, by core and reason.
-fn by_reason(tree: &RunTree, status: Status) -> BTreeMap<(&str, String), Vec<&str>> {
-    let mut reasons: BTreeMap<(&str, String), Vec<&str>> = BTreeMap::new();
-    for trial in in_order_of_parts(tree, status) {
-        reasons.entry((&trial.core, reason(&trial.outcome))).or_default().push(&trial.case);
+/// How many graded trials were not tried, by core and reason.
+fn by_reason(tree: &RunTree, status: Status) -> BTreeMap<(&str, String), usize> {
+    let mut reasons = BTreeMap::new();
+    for trial in graded(tree, status) {
+        *reasons.entry((&*trial.core, reason(&trial.outcome))).or_default() += 1;
     }
     reasons
+}
+
+fn graded(tree: &RunTree, status: Status) -> Vec<&TrialRecord> {
+    let mut trials = in_order_of_parts(tree, status);
+    trials.retain(|trial| trial.tier.is_graded());
+    trials
 }
 
 fn reason(outcome: &Outcome) -> String {

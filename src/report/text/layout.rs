@@ -1,13 +1,19 @@
 //! How the lines of a block stand: their indent, and labels before them.
 
-use super::style::{Paint, Style, clean, wrap};
+use super::style::{Paint, Style, clean};
 
 /// Where the text of a block begins.
 pub(crate) const INDENT: usize = 8;
 
-/// An empty line and the first line of a block: `  FAIL  bvh/a on builtin`.
+/// An empty line and the first line of a block: `  FAIL  bvh/a on builtin`. It goes on below itself.
 pub(crate) fn head(style: Style, paint: Paint, word: &str, what: &str) -> Vec<String> {
-    vec![String::new(), format!("  {}  {what}", style.paint(paint, word))]
+    let painted = style.paint(paint, word);
+    let before = word.chars().count() + "    ".len();
+    let what = clean(what).replace('\n', " ");
+    let mut lines = style.wrap(&what, before.max(INDENT)).into_iter();
+    let first = format!("  {painted}  {}", lines.next().unwrap_or_default());
+    let rest = lines.map(|line| format!("{:INDENT$}{line}", ""));
+    [String::new(), first].into_iter().chain(rest).collect()
 }
 
 /// ` on builtin`, where there are several cores.
@@ -21,13 +27,18 @@ pub(crate) fn command(command: &str) -> String {
 }
 
 /// A paragraph below the first line of a block.
-pub(crate) fn indented(text: &str) -> Vec<String> {
-    wrap(text, INDENT).into_iter().map(|line| format!("{:INDENT$}{line}", "")).collect()
+pub(crate) fn indented(text: &str, style: Style) -> Vec<String> {
+    style.wrap(text, INDENT).into_iter().map(|line| format!("{:INDENT$}{line}", "")).collect()
 }
 
 /// A label and a text that goes on below itself.
-pub(crate) fn labelled(label: &str, text: &str) -> Vec<String> {
+pub(crate) fn labelled(label: &str, text: &str, style: Style) -> Vec<String> {
+    labelled_at(INDENT, label, text, style)
+}
+
+/// The same at another column.
+pub(crate) fn labelled_at(column: usize, label: &str, text: &str, style: Style) -> Vec<String> {
     let label_of = |number| if number == 0 { label } else { "" };
-    let lines = wrap(text, INDENT + 8).into_iter().enumerate();
-    lines.map(|(number, line)| format!("{:INDENT$}{:<8}{line}", "", label_of(number))).collect()
+    let lines = style.wrap(text, column + 8).into_iter().enumerate();
+    lines.map(|(number, line)| format!("{:column$}{:<8}{line}", "", label_of(number))).collect()
 }

@@ -1,16 +1,19 @@
-//! The summary that a run ends with on the terminal: verdict, size, place, next command, in that order.
+//! The summary that a run ends with on the terminal: each part, what did not pass, and last the ending: verdict, cause,
+//! place, fix, next command, in that order.
 //!
 //! A pure function of the run's folder: no clock, no core, no look at the terminal beyond the
 //! [`Style`] it is given.
 
 mod blocks;
+mod ending;
 mod headlines;
 mod layout;
 mod style;
+mod subject;
 
 pub use style::Style;
 use style::mark;
-pub(crate) use style::{Paint, clean, paint_of, wrap};
+pub(crate) use style::{Detail, Paint, clean, cut, paint_of};
 
 use super::digest::{
     PartGroup, Tally, by_case, by_part, dearest_ledger, resolution_in_words, weakest_first,
@@ -25,40 +28,55 @@ use std::collections::BTreeSet;
 
 /// The longest bar of cells in one line; longer ones go on below.
 const LONGEST_BAR: usize = 30;
+/// Columns of a part's line before its bar, of what passes, and of the time, for which a narrow terminal has no room.
+const BEFORE_BAR: usize = 32;
+const PASSES: usize = 18;
+const TIME: usize = 10;
+const WIDE: usize = 72;
 
 /// What a run has shown, for people at a terminal. Where to read on is the caller's to say: only it
 /// knows whether a page was written.
 pub fn summary(tree: &RunTree, style: Style) -> String {
     let style = Style { names_cores: tree.run.cores.len() > 1, ..style };
-    let mut lines = vec![String::new(), header(tree, style)];
+    let lines = match style.detail {
+        Detail::Counts => ending::totals(tree, style),
+        _ => in_full(tree, style),
+    };
+    lines.join("\n") + "\n"
+}
+
+fn in_full(tree: &RunTree, style: Style) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    lines.extend(header(tree, style));
     let present = &tree.of_present_cores();
     for core in &present.run.cores {
         lines.push(String::new());
         lines.extend(core_lines(present, core, style));
     }
     lines.extend(legend(present, style));
-    lines.extend(tree.absent_cores().flat_map(|core| blocks::absent(core, style)));
     lines.extend(blocks::all(present, style));
-    if style.verbose {
+    if style.is_verbose() {
         lines.extend(resolutions(tree, style));
+        lines.push(String::new());
+        lines.extend(chance(tree, style));
+        lines.extend(weakest(tree, style));
     }
-    lines.push(String::new());
-    lines.extend(totals(tree, style));
-    lines.join("\n") + "\n"
+    lines.extend(ending::ending(tree, present, style));
+    lines
 }
 
 /// What was asked of whom.
-fn header(tree: &RunTree, style: Style) -> String {
+fn header(tree: &RunTree, style: Style) -> Vec<String> {
     let run = &tree.run;
     let cores: Vec<_> = run.cores.iter().map(|core| clean(&core.spec)).collect();
     let facts = [
-        style.paint(Paint::Strong, &cores.join(" and ")),
+        cores.join(" and "),
         count(by_case(tree).len(), "case"),
         format!("seed {}", run.seed),
         format!("budget {}", run.budget),
-        count(run.machine.threads, "thread"),
     ];
-    format!("  {}", facts.join("   "))
+    let line = |line| format!("  {}", style.paint(Paint::Strong, line));
+    style.wrap(&facts.join(", "), 2).iter().map(|words| line(words)).collect()
 }
 
 fn core_lines(tree: &RunTree, core: &CoreRecord, style: Style) -> Vec<String> {
@@ -70,13 +88,19 @@ fn core_lines(tree: &RunTree, core: &CoreRecord, style: Style) -> Vec<String> {
     };
     let title = format!("  {name} {} ({arithmetic})", clean(&core.version));
     let groups = by_part(trials);
-    let bar = groups.iter().map(|group| group.trials.len()).max().unwrap_or(0).min(LONGEST_BAR);
+    let most = groups.iter().map(|group| group.trials.len()).max().unwrap_or(0);
+    let bar = most.min(longest_bar(style));
     let mut lines = vec![title];
     if groups.is_empty() {
         lines.push("    no trial has a result".to_owned());
     }
     lines.extend(groups.iter().flat_map(|group| part_lines(group, bar, style)));
     lines
+}
+
+fn longest_bar(style: Style) -> usize {
+    let time = if style.columns < WIDE { 0 } else { TIME };
+    LONGEST_BAR.min(style.columns.saturating_sub(BEFORE_BAR + PASSES + time)).max(1)
 }
 
 /// One part: its name, one cell a trial, how many pass, how long it took.
@@ -86,16 +110,18 @@ fn part_lines(group: &PartGroup<'_>, bar: usize, style: Style) -> Vec<String> {
     let asked: Vec<_> =
         group.trials.iter().copied().filter(|t| t.outcome.status() != Status::Skipped).collect();
     let passes = Tally::of(asked.iter().copied()).count(Status::Pass);
-    let counts = format!("{passes} of {} pass", asked.len());
-    let mut rows = asked.chunks(LONGEST_BAR).map(|row| cells(row, bar, style));
-    let first = rows.next().unwrap_or_default();
-    let head = format!(
-        "    {number} {:<25} {first}  {counts:>16} {:>9}",
-        group.title,
-        duration(group.seconds())
-    );
+    let counts = match asked.len() {
+        0 => "not asked".to_owned(),
+        asked => format!("{passes} of {asked} pass"),
+    };
+    let mut rows = asked.chunks(bar.max(1)).map(|row| cells(row, bar, style));
+    let first = rows.next().unwrap_or_else(|| " ".repeat(bar));
+    let mut head = format!("    {number} {:<25} {first}  {counts:>16}", group.title);
+    if style.columns >= WIDE {
+        head += &format!(" {:>9}", duration(group.seconds()));
+    }
     std::iter::once(head)
-        .chain(rows.map(|row| format!("{:>32}{row}", "")))
+        .chain(rows.map(|row| format!("{:BEFORE_BAR$}{row}", "")))
         .map(|line| line.trim_end().to_owned())
         .collect()
 }
@@ -122,7 +148,9 @@ fn legend(tree: &RunTree, style: Style) -> Vec<String> {
     if words.is_empty() {
         return Vec::new();
     }
-    vec![String::new(), style.paint(Paint::Faint, &format!("    {}", words.join("   ")))]
+    let lines = style.wrap(&words.join("   "), 4).into_iter();
+    let lines = lines.map(|line| style.paint(Paint::Faint, &format!("    {line}")));
+    std::iter::once(String::new()).chain(lines).collect()
 }
 
 fn resolutions(tree: &RunTree, style: Style) -> Vec<String> {
@@ -136,47 +164,14 @@ fn resolutions(tree: &RunTree, style: Style) -> Vec<String> {
             let said_by = case.trials.iter().filter(|trial| resolution_in_words(trial) == sentence);
             let cores: Vec<_> = said_by.map(|trial| clean(&trial.core)).collect();
             let text = format!("{}: {sentence}", cores.join(", "));
-            lines.extend(wrap(&text, 6).into_iter().map(|line| format!("      {line}")));
+            lines.extend(style.wrap(&text, 6).into_iter().map(|line| format!("      {line}")));
         }
     }
     lines
 }
 
-fn totals(tree: &RunTree, style: Style) -> Vec<String> {
-    let tally = Tally::of(tree.graded());
-    let paint = match () {
-        () if tally.failures() > 0 => Paint::Bad,
-        () if tally.count(Status::Pass) == tally.asked() && tree.is_finished() => Paint::Good,
-        () => Paint::Unknown,
-    };
-    let took = tree.run.timing.seconds.map(|seconds| format!(" in {}", duration(seconds)));
-    let trials = count(tally.asked(), "trial");
-    let text = format!("{trials}{}: {}", took.unwrap_or_default(), tally.words_of_asked());
-    let painted = |line: String| format!("  {}", style.paint(paint, &line));
-    let mut lines: Vec<_> = wrap(&text, 2).into_iter().map(painted).collect();
-    lines.extend(unfinished(tree, style));
-    lines.extend(chance(tree));
-    lines.extend(weakest(tree));
-    lines
-}
-
-/// That a run was cut off or stopped, and how to go on.
-fn unfinished(tree: &RunTree, style: Style) -> Vec<String> {
-    if tree.is_finished() {
-        return Vec::new();
-    }
-    let (present, planned) = (tree.trials.len(), tree.run.trials);
-    let what = if tree.stopped_at_failure() {
-        format!("  NOT RUN: {} of {planned} trials, after the first failure", tree.missing())
-    } else {
-        format!("  UNFINISHED: {present} of {planned} planned trials have a result")
-    };
-    let next = format!("  resume  cargo furnace run --resume {}", tree.folder.display());
-    vec![style.paint(Paint::Unknown, &what), next]
-}
-
 /// What the dearest ledger says: its sum, and of how many tests of which kind.
-fn chance(tree: &RunTree) -> Vec<String> {
+fn chance(tree: &RunTree, style: Style) -> Vec<String> {
     let ledger = dearest_ledger(tree);
     let (spent, whole) = (probability(ledger.spent()), probability(SUITE_FALSE_ALARM));
     let mut text = match ledger.is_within_budget() {
@@ -189,7 +184,7 @@ fn chance(tree: &RunTree) -> Vec<String> {
     if ledger.hypotheses() > 0 {
         text += &format!("\n{}", entries(&ledger));
     }
-    wrap(&text, 2).into_iter().map(|line| format!("  {line}")).collect()
+    style.wrap(&text, 2).into_iter().map(|line| format!("  {line}")).collect()
 }
 
 /// `40 hypotheses: 38 means 1.9e-8, 2 pictures 1e-8; 1 needed a second look`
@@ -208,14 +203,14 @@ fn entries(ledger: &Ledger) -> String {
     format!("{hypotheses}: {}; {suspected} needed a second look", entries.join(", "))
 }
 
-fn weakest(tree: &RunTree) -> Vec<String> {
+fn weakest(tree: &RunTree, style: Style) -> Vec<String> {
     let Some((trial, _)) = weakest_first(tree.graded()).into_iter().next() else {
         return Vec::new();
     };
     let (case, core) = (clean(&trial.case), clean(&trial.core));
     let caught = clean(&resolution_in_words(trial));
     let text = format!("weakest pass: {case} on {core} {caught}");
-    wrap(&text, 2).into_iter().map(|line| format!("  {line}")).collect()
+    style.wrap(&text, 2).into_iter().map(|line| format!("  {line}")).collect()
 }
 
 #[cfg(test)]

@@ -1,19 +1,31 @@
-//! How the summary looks: colours where they help, marks that say the same without them, lines of 88 columns.
+//! How the summary looks: colours where they help, marks that say the same without them, lines as wide as the terminal.
 
 use crate::run::Status;
 
-/// No line is longer, but for commands and paths, which must stay whole.
-pub(crate) const COLUMNS: usize = 88;
+/// The narrowest column of text that is still read as sentences.
+const NARROWEST: usize = 20;
 
 /// What the terminal can show, and how much the user wants to read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style {
+    /// No line is longer, but for commands and paths, which must stay whole.
+    pub(crate) columns: usize,
     /// Whether to colour. Everything is readable without.
     pub(crate) colour: bool,
-    /// Whether to list what every case would have caught.
-    pub(crate) verbose: bool,
+    pub(crate) detail: Detail,
     /// Whether to say of which core something is: there are several.
     pub(crate) names_cores: bool,
+}
+
+/// How much is told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Detail {
+    /// The counts.
+    Counts,
+    #[default]
+    Usual,
+    /// All that is known of each failure, what every case would have caught, and the ledger.
+    Everything,
 }
 
 /// What a piece of text is, as far as colour goes.
@@ -30,7 +42,12 @@ pub(crate) enum Paint {
 
 impl Style {
     /// Plain text: files, pipes, tests.
-    pub const PLAIN: Self = Self { colour: false, verbose: false, names_cores: false };
+    pub const PLAIN: Self =
+        Self { columns: 80, colour: false, detail: Detail::Usual, names_cores: false };
+
+    pub(crate) fn is_verbose(self) -> bool {
+        self.detail == Detail::Everything
+    }
 
     pub(crate) fn paint(self, paint: Paint, text: &str) -> String {
         if !self.colour || text.is_empty() {
@@ -44,6 +61,14 @@ impl Style {
             Paint::Strong => "1",
         };
         format!("\x1b[{code}m{text}\x1b[0m")
+    }
+
+    /// Breaks `text` at spaces so that lines stay within the columns when they are indented by `indent`. Lines of the
+    /// text stay lines, and what is drawn of a file stays as it is. What would move the cursor or change colours is made
+    /// visible.
+    pub(crate) fn wrap(self, text: &str, indent: usize) -> Vec<String> {
+        let width = self.columns.saturating_sub(indent).max(NARROWEST);
+        clean(text).lines().flat_map(|line| wrap_line(line, width)).collect()
     }
 }
 
@@ -71,14 +96,10 @@ pub(crate) const fn paint_of(status: Status) -> Paint {
     }
 }
 
-/// Breaks `text` at spaces so that lines stay within the columns when they are indented by `indent`. Lines of the text
-/// stay lines. What would move the cursor or change colours is made visible.
-pub(crate) fn wrap(text: &str, indent: usize) -> Vec<String> {
-    let width = COLUMNS.saturating_sub(indent).max(20);
-    clean(text).lines().flat_map(|line| wrap_line(line, width)).collect()
-}
-
 fn wrap_line(line: &str, width: usize) -> Vec<String> {
+    if is_drawn(line) || line.chars().count() <= width {
+        return vec![line.trim_end().to_owned()];
+    }
     let mut lines = vec![String::new()];
     for word in line.split_whitespace() {
         let last = lines.len() - 1;
@@ -93,6 +114,12 @@ fn wrap_line(line: &str, width: usize) -> Vec<String> {
         }
     }
     lines
+}
+
+/// A line of a diagnostic: ` --> scenes/box.toml:12`, `12 | albedo = 1.37`, or a caret below it.
+pub(super) fn is_drawn(line: &str) -> bool {
+    let drawn = line.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ');
+    ["|", "-->", "="].iter().any(|begin| drawn.starts_with(begin))
 }
 
 /// `text` without control characters: what comes from a core must not steer the terminal.
@@ -125,15 +152,21 @@ mod tests {
 
     #[test]
     fn lines_are_broken_at_spaces() {
-        let lines = wrap(&"radiance ".repeat(30), 8);
+        let lines = Style::PLAIN.wrap(&"radiance ".repeat(30), 8);
         assert!(lines.len() > 1);
-        assert!(lines.iter().all(|line| line.len() <= COLUMNS - 8));
+        assert!(lines.iter().all(|line| line.len() <= Style::PLAIN.columns - 8));
         assert_eq!(lines.join(" ").split(' ').count(), 30);
     }
 
     #[test]
+    fn what_is_drawn_of_a_file_stays_as_it_is() {
+        let drawn = format!("12 | scene = {}\n   |         ^^^^", "a, ".repeat(40).trim_end());
+        assert_eq!(Style::PLAIN.wrap(&drawn, 8).join("\n"), drawn);
+    }
+
+    #[test]
     fn a_core_cannot_steer_the_terminal() {
-        assert!(!wrap("\x1b[2J\rall pass", 0).concat().contains(['\x1b', '\r']));
+        assert!(!Style::PLAIN.wrap("\x1b[2J\rall pass", 0).concat().contains(['\x1b', '\r']));
     }
 
     #[test]

@@ -16,6 +16,7 @@ mod xml;
 
 use super::{Camera, SceneDescription};
 use crate::image::{Image, exr};
+use crate::text::{all_of, hint};
 use glam::DAffine3;
 use serde::Deserialize;
 use std::fmt;
@@ -50,8 +51,9 @@ impl FromStr for Format {
     fn from_str(word: &str) -> Result<Self, String> {
         let found = Self::ALL.into_iter().find(|(name, _)| *name == word);
         found.map(|(_, format)| format).ok_or_else(|| {
-            let names = Self::ALL.map(|(name, _)| name);
-            format!("the formats are {}", crate::text::listed(names))
+            let names = || Self::ALL.iter().map(|(name, _)| *name);
+            let hint = hint(word, names(), || all_of(names()));
+            format!("there is no format `{word}`\nhint: {hint}")
         })
     }
 }

@@ -1,7 +1,7 @@
 //! How small an error has to be seen, and what it may cost. The one place that says what a budget
 //! means.
 
-use crate::text::spoken;
+use crate::text::{all_of, hint, spoken};
 use serde::{Deserialize, Serialize};
 
 /// What a claim is worth: the error it promises to catch, and the samples it may spend on that.
@@ -130,10 +130,13 @@ impl std::str::FromStr for Budget {
     type Err = String;
 
     fn from_str(word: &str) -> Result<Self, String> {
-        [Budget::Quick, Budget::Default, Budget::Strict]
-            .into_iter()
-            .find(|budget| budget.to_string() == word)
-            .ok_or_else(|| format!("`{word}` is no budget; write `quick`, `default` or `strict`"))
+        let budgets = [Budget::Quick, Budget::Default, Budget::Strict];
+        budgets.into_iter().find(|budget| budget.to_string() == word).ok_or_else(|| {
+            let names = budgets.map(|budget| budget.to_string());
+            let names = || names.iter().map(String::as_str);
+            let hint = hint(word, names(), || all_of(names()));
+            format!("there is no budget `{word}`\nhint: {hint}")
+        })
     }
 }
 

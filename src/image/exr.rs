@@ -111,7 +111,7 @@ fn check_size(path: &Path) -> Result<(), ImageError> {
     let unreadable = |error: &dyn std::fmt::Display| ImageError::unreadable(path, error);
     let length = std::fs::metadata(path).map_err(|error| unreadable(&error))?.len();
     let meta = ::exr::meta::MetaData::read_from_file(path, false);
-    let meta = meta.map_err(|error| unreadable(&error))?;
+    let meta = meta.map_err(|error| unreadable(&in_words(error)))?;
     let announced = |header: &::exr::meta::header::Header| {
         let [width, height] = [header.layer_size.width(), header.layer_size.height()];
         width as u128 * height as u128 * header.channels.bytes_per_pixel as u128
@@ -123,6 +123,16 @@ fn check_size(path: &Path) -> Result<(), ImageError> {
     Ok(())
 }
 
+/// What the library calls a reference to missing bytes is a file that was cut off.
+fn in_words(error: ::exr::error::Error) -> String {
+    match error {
+        ::exr::error::Error::Invalid(what) if what.contains("missing bytes") => {
+            "the file ends too early; was it written to its end?".to_owned()
+        }
+        other => other.to_string(),
+    }
+}
+
 /// Reads the first layer of a file.
 pub fn read(path: &Path) -> Result<Exr, ImageError> {
     check_size(path)?;
@@ -132,7 +142,7 @@ pub fn read(path: &Path) -> Result<Exr, ImageError> {
         .all_attributes()
         .non_parallel()
         .from_file(path)
-        .map_err(|error| ImageError::unreadable(path, error))?;
+        .map_err(|error| ImageError::unreadable(path, in_words(error)))?;
     let layer = file.layer_data;
     let text = |(name, value): (&openexr::Text, &openexr::AttributeValue)| match value {
         openexr::AttributeValue::Text(text) => Some((decoded(name), decoded(text))),

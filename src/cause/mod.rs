@@ -77,6 +77,18 @@ pub(crate) fn is_vague(cause: &Cause) -> bool {
     *cause == bvh::HITS_LOST
 }
 
+/// Whether hits are lost by the cause: which of them is told by the pattern of what is lost alone.
+pub(crate) fn loses_hits(cause: &Cause) -> bool {
+    let patterns = [
+        &bvh::BOX_OF_CENTROIDS,
+        &bvh::HITS_LOST,
+        &bvh::PRIMITIVES_LOST,
+        &bvh::RANGE_OVERWRITTEN,
+        &bvh::SECOND_CHILD_SKIPPED,
+    ];
+    patterns.contains(&cause)
+}
+
 static DARKENING: &[&Cause] = &[
     &image::CLAMPED,
     &image::SAMPLES_CLAMPED,

@@ -143,10 +143,11 @@ pub(super) struct Ranked {
 
 impl Ranked {
     pub(super) fn told(self) -> Diagnosis {
-        let without_cause = self.endings.iter().chain(&self.differing);
+        let this = self.without_the_vague();
+        let without_cause = this.endings.iter().chain(&this.differing);
         let without_cause = without_cause.filter(|headline| headline.cause.is_empty());
         let unexplained = without_cause.flat_map(|headline| headline.explains.clone()).collect();
-        let kinds = [self.endings, self.causes, self.differing, self.beside];
+        let kinds = [this.endings, this.causes, this.differing, this.beside];
         Diagnosis { headlines: kinds.into_iter().flatten().collect(), unexplained }
     }
 
@@ -161,6 +162,35 @@ impl Ranked {
         for headline in self.causes.iter_mut().filter(|headline| is_doubtful(headline)) {
             headline.degree = headline.degree.min(Degree::LooksLike);
         }
+    }
+
+    /// Causes of which each would be the only one of its kind are told as what they share.
+    pub(super) fn as_one(&mut self, shared: &Cause, is_one: impl Fn(&Headline) -> bool) {
+        let at = self.causes.iter().position(&is_one);
+        let several: Vec<_> = self.causes.extract_if(.., |headline| is_one(headline)).collect();
+        let one = match several.len() {
+            0 | 1 => several.into_iter().next(),
+            _ => several.into_iter().reduce(Headline::and).map(|one| one.because(shared)),
+        };
+        self.causes.splice(at.unwrap_or(0)..at.unwrap_or(0), one);
+    }
+
+    /// What merely says what is lost follows from a mistake of the BVH that has a name.
+    fn without_the_vague(mut self) -> Self {
+        let of = |headline: &Headline| cause::find(&headline.cause);
+        let is_vague = |headline: &Headline| of(headline).is_some_and(cause::is_vague);
+        let explains = |headline: &Headline| {
+            let of_bvh =
+                of(headline).is_some_and(|it| cause::is_of_bvh(it) && !cause::is_vague(it));
+            of_bvh && headline.degree == Degree::Named
+        };
+        if self.causes.iter().any(explains) {
+            let vague: Vec<_> = self.causes.extract_if(.., |one| is_vague(one)).collect();
+            if let Some(told) = self.causes.iter_mut().find(|one| explains(one)) {
+                told.may_follow.extend(vague.into_iter().flat_map(|one| one.explains));
+            }
+        }
+        self
     }
 
     /// What differs, and what no more than looks like a cause.

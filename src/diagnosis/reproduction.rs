@@ -6,7 +6,7 @@
 use super::rank::Ranked;
 use super::{Degree, Evidence, Headline, Observation, Suspicion, look_without};
 use crate::case::Subject;
-use crate::cause::{self, Cause};
+use crate::cause::{self, Cause, bvh};
 use crate::checks::{Finding, Measure};
 use crate::contract::Components;
 use std::collections::{BTreeMap, BTreeSet};
@@ -112,6 +112,11 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, made_in: Ma
     proven.doubt(|headline| {
         let is_proven = causes.contains(&headline.cause[..]) || proof.is_needed(headline);
         proof.is_made_elsewhere(headline) || !is_proven && proof.is_of_another_size(headline)
+    });
+    // Patterns of which each explains other cases contradict each other.
+    proven.as_one(&bvh::HITS_LOST, |headline| {
+        let loses_hits = cause::find(&headline.cause).is_some_and(cause::loses_hits);
+        loses_hits && !causes.contains(&headline.cause[..])
     });
     proven
 }
@@ -635,6 +640,19 @@ mod tests {
         let planted = Bench { mistakes: &mistakes, gives };
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::LooksLike, 2)]);
+    }
+
+    #[test]
+    fn patterns_of_lost_hits_that_contradict_each_other_are_told_as_lost_hits() {
+        let skipped = failing("a").because(&bvh::SECOND_CHILD_SKIPPED, "x");
+        let overwritten = failing("b").because(&bvh::RANGE_OVERWRITTEN, "y");
+        let one = Made::new().with("bvh/a", skipped);
+        let planted = Bench { mistakes: &[], gives: &[] };
+        let alone = diagnose_proven(&one.evidence(), &planted);
+        assert_eq!(told(&alone), [(bvh::SECOND_CHILD_SKIPPED.name, Degree::Named, 1)]);
+        let both = one.with("bvh/b", overwritten);
+        let diagnosis = diagnose_proven(&both.evidence(), &planted);
+        assert_eq!(told(&diagnosis), [(bvh::HITS_LOST.name, Degree::Named, 2)]);
     }
 
     #[test]

@@ -48,7 +48,7 @@ causes! {
         at "the slab test, where the intervals of the axes are combined",
         fix "Intersect the intervals of all three axes.";
     SECOND_CHILD_SKIPPED = "second-child-skipped":
-        "traversal skips the second child once the first is hit",
+        "traversal returns a hit though a nearer one is left, as where the second child is skipped once the first is hit",
         at "BVH traversal, where the children of a node are visited",
         fix "Visit both children and keep the closer hit; `a || b` skips b.";
     BVH_NOT_USED = "bvh-not-used":
@@ -92,7 +92,7 @@ causes! {
         at "BVH construction, where a node is split",
         fix "Split along the axis with the largest extent of centroids.";
     RANGE_OVERWRITTEN = "t-range-overwritten":
-        "the slab test overwrites the ray's t_min and t_max",
+        "the nearest-hit traversal loses hits that shadow rays find, as where the slab test overwrites the ray's t_min and t_max",
         at "BVH traversal, where a node's box is tested",
         fix "Pass copies of t_min and t_max to the slab test: it writes t_enter and t_exit into them.";
     HIT_OVERWRITTEN = "hit-overwritten":
@@ -104,7 +104,7 @@ causes! {
         at "the intersection record, where the primitive is identified",
         fix "Keep each primitive's own index through BVH construction.";
     SHADOW_SECOND_CHILD_SKIPPED = "shadow-second-child-skipped":
-        "shadow rays visit only one child of a node",
+        "shadow rays miss what other rays hit, as where they visit only one child of a node",
         at "the any-hit traversal of shadow rays, where the children of a node are visited",
         fix "A miss in the first child says nothing about the second: `a || b`.";
     SHADOW_END_IGNORED = "shadow-end-ignored":

@@ -303,7 +303,8 @@ typedef struct furnace_integrator {
    /* Bounces added up: 0..0 emission, 1..1 direct light, 0..m everything up to depth m. */
    uint32_t first_bounce, last_bounce;
    /* 1: uniform hemisphere sampling, adding the emission that directions hit; 0: light sampling
-    * (next event estimation). Delta lights are sampled either way. */
+    * (next event estimation). Delta lights are sampled either way; a mirror or glass adds the emission
+    * that its one direction hits either way. */
    uint32_t by_hemisphere;
    uint32_t threads;             /* 0: as many as you like; the answer must not depend on it */
    double   roulette_stop;       /* termination probability of Russian roulette; 0: no roulette */
@@ -344,7 +345,8 @@ enum { /* furnace_core.traits: what no function pointer can say */
    FURNACE_SPLIT_RULES = 1u << 1,         /* build honours `split` */
    FURNACE_HEMISPHERE_SAMPLING = 1u << 2, /* by_hemisphere is honoured */
    FURNACE_ISOLATED_BOUNCES = 1u << 3,    /* first_bounce > 0 is honoured */
-   FURNACE_ROULETTE = 1u << 4,            /* roulette_stop is honoured */
+   FURNACE_ROULETTE = 1u << 4,            /* roulette_stop is honoured; survival may have a probability of
+                                           * your own, by which you divide, without PLAIN_ESTIMATORS */
    FURNACE_ADAPTIVE_SAMPLING = 1u << 5,   /* render honours `adaptive` and fills sample_counts */
    FURNACE_COUNTS_TRAVERSAL = 1u << 6,    /* traversal stats are real */
    FURNACE_COUNTED_TESTS = 1u << 7,       /* traversal uses furnace_build.counted */
@@ -418,8 +420,8 @@ typedef struct furnace_core {
    furnace_status (*generate_rays)(void *self, const furnace_camera *camera,
                                    const furnace_vec2 *film, furnace_ray *out, size_t count);
 
-   /* One primitive, no scene: `shape` and `primitive` of a hit are 0. Spheres have their normals
-    * outward. */
+   /* One primitive, no scene: `shape` and `primitive` of a hit are 0. A triangle has three unit normals,
+    * never null, and without area it is missed. Spheres have their normals outward. */
    furnace_status (*intersect_triangle)(void *self, const furnace_vec3 positions[3],
                                         const furnace_vec3 normals[3], const furnace_ray *rays,
                                         furnace_hit *out, size_t count);

@@ -7,10 +7,13 @@ use crate::checks::phrase::{figure, percent};
 use crate::checks::{CheckError, Context, Measure, Result};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
-use crate::stats::{Band, Claim, Effort, MeanReport, SphereCells, Tolerance, judge_means};
+use crate::stats::{Band, Claim, Effort, MeanReport, SphereCells, Tolerance, Verdict, judge_means};
 
 /// Rings in each hemisphere and sectors: the horizon is an edge between cells, and no cell is larger than most lobes.
 pub(super) const CELLS: (usize, usize) = (4, 8);
+
+/// Of an integral with a larger error than this nothing is said.
+const KNOWN: f64 = 0.1;
 
 /// The smallest error of the share of samples that succeed.
 const SHARE_DETECTS: f64 = 0.01;
@@ -64,7 +67,11 @@ impl Mass {
         let measure = match &self.accepted {
             None => {
                 let name = "integral of the pdf";
-                Measure::exact(name, self.value, 1.0, self.allowed + self.error)
+                let measure = Measure::exact(name, self.value, 1.0, self.allowed + self.error);
+                // So spiked a pdf that its quadrature would take a large error for rounding.
+                let is_known = self.error <= KNOWN || measure.failed();
+                let verdict = if is_known { measure.verdict } else { Verdict::Inconclusive };
+                Measure { verdict, ..measure }
             }
             Some(report) => Measure {
                 measured: self.value,
@@ -77,6 +84,12 @@ impl Mass {
             },
         };
         measure.of_row(&self.name)
+    }
+
+    /// Why nothing can be said of it.
+    pub(super) fn doubt(&self) -> Option<String> {
+        let open = self.measure().verdict == Verdict::Inconclusive && self.accepted.is_none();
+        open.then(|| format!("the integral of the pdf of {} is not known well enough", self.name))
     }
 
     pub(super) fn complaint(&self) -> Option<String> {
@@ -120,4 +133,22 @@ fn accepted_share(
         Ok::<_, CheckError>(vec![succeeded as f64 / draw.samples as f64])
     })?;
     Ok(reports.remove(0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_integral_that_is_not_known_proves_nothing() {
+        let of = |value, error| {
+            let (name, allowed) = ("a lobe".to_owned(), 1e-3);
+            Mass { name, value, error, allowed, accepted: None, cause: None }
+        };
+        assert_eq!(of(1.0, 1e-3).measure().verdict, Verdict::Pass);
+        assert_eq!(of(3.8e8, 1e9).measure().verdict, Verdict::Inconclusive);
+        assert!(of(3.8e8, 1e9).doubt().unwrap().contains("not known well enough"));
+        assert_eq!(of(f64::NAN, f64::NAN).measure().verdict, Verdict::Fail);
+        assert_eq!(of(2.0, 0.2).doubt(), None);
+    }
 }

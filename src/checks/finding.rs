@@ -82,6 +82,8 @@ pub struct Measure {
     pub hypothesis: Option<Hypothesis>,
 }
 
+/// With a larger error than this an integral is not known.
+const KNOWN: f64 = 0.1;
 /// Of many answers to one question, the one that is told.
 const WORST: &str = ", worst of ";
 
@@ -107,6 +109,21 @@ impl Measure {
             verdict: Verdict::pass_if(passes),
             doubt: None,
             hypothesis: None,
+        }
+    }
+
+    /// An integral of which 1 is the whole, by a quadrature with this bound on its error: allowed too, but what is hardly
+    /// known is not judged.
+    pub(crate) fn by_quadrature(
+        quantity: impl Display,
+        [found, error]: [f64; 2],
+        expected: f64,
+        allowed: f64,
+    ) -> Self {
+        let measure = Self::exact(quantity, found, expected, allowed + error);
+        match error <= KNOWN || measure.failed() {
+            true => measure,
+            false => Self { verdict: Verdict::Inconclusive, doubt: Some(Doubt::Spiked), ..measure },
         }
     }
 
@@ -427,6 +444,18 @@ mod tests {
     fn nan_fails_and_nothing_is_no_pass() {
         assert_eq!(Measure::exact("t", f64::NAN, 1.0, 1e9).verdict, Verdict::Fail);
         assert_eq!(Finding::of("", "", Vec::new()).verdict, Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn an_integral_that_is_not_known_proves_nothing() {
+        let of = |found, error| Measure::by_quadrature("pdf", [found, error], 1.0, 1e-3);
+        assert_eq!(of(1.0, 1e-3).verdict, Verdict::Pass);
+        assert_eq!(
+            (of(3.8e8, 1e9).verdict, of(3.8e8, 1e9).doubt.is_some()),
+            (Verdict::Inconclusive, true)
+        );
+        assert_eq!(of(f64::NAN, f64::NAN).verdict, Verdict::Fail);
+        assert_eq!(of(2.0, 0.2).verdict, Verdict::Fail);
     }
 
     #[test]

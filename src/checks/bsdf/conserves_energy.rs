@@ -9,7 +9,7 @@ use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check}
 use crate::contract::{BsdfQuery, Capabilities};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
-use crate::stats::{SphereCells, Tolerance, Verdict};
+use crate::stats::{SphereCells, Tolerance};
 use crate::text::{Polar, Several};
 
 /// Rings in each hemisphere and sectors of the quadrature.
@@ -41,7 +41,7 @@ impl Check for ConservesEnergy {
                 measures.extend(albedo_measures(context, *surface, *angle)?);
             }
         }
-        let worst = measures.iter().find(|measure| measure.verdict != Verdict::Pass).map(complaint);
+        let worst = measures.iter().find(|measure| measure.failed()).map(complaint);
         let causes = match worst {
             Some(_) => self.mistakes(context)?,
             None => Vec::new(),
@@ -106,7 +106,7 @@ fn albedo_measures(
         let sum = |of: &[f64]| (0..cells.len()).filter(within).map(|cell| of[cell]).sum::<f64>();
         let (found, error) = (sum(&integral.cells), sum(&integral.errors));
         let row = format!("{surface} seen from {}", degrees(angle));
-        Measure::exact(what, found, expected, relative * expected + error).of_row(row)
+        Measure::by_quadrature(what, [found, error], expected, relative * expected).of_row(row)
     };
     Ok(match expected {
         Albedo::OfOneSide(expected) => vec![measure("albedo", expected, &|_| true)],

@@ -7,13 +7,10 @@ use crate::checks::phrase::{figure, percent};
 use crate::checks::{CheckError, Context, Measure, Result};
 use crate::math::quadrature::Diligence;
 use crate::math::ratios::names_of;
-use crate::stats::{Band, Claim, Effort, MeanReport, SphereCells, Tolerance, Verdict, judge_means};
+use crate::stats::{Band, Claim, Effort, MeanReport, SphereCells, Tolerance, judge_means};
 
 /// Rings in each hemisphere and sectors: the horizon is an edge between cells, and no cell is larger than most lobes.
 pub(super) const CELLS: (usize, usize) = (4, 8);
-
-/// Of an integral with a larger error than this nothing is said.
-const KNOWN: f64 = 0.1;
 
 /// The smallest error of the share of samples that succeed.
 const SHARE_DETECTS: f64 = 0.01;
@@ -65,14 +62,12 @@ impl Mass {
 
     pub(super) fn measure(&self) -> Measure {
         let measure = match &self.accepted {
-            None => {
-                let name = "integral of the pdf";
-                let measure = Measure::exact(name, self.value, 1.0, self.allowed + self.error);
-                // So spiked a pdf that its quadrature would take a large error for rounding.
-                let is_known = self.error <= KNOWN || measure.failed();
-                let verdict = if is_known { measure.verdict } else { Verdict::Inconclusive };
-                Measure { verdict, ..measure }
-            }
+            None => Measure::by_quadrature(
+                "integral of the pdf",
+                [self.value, self.error],
+                1.0,
+                self.allowed,
+            ),
             Some(report) => Measure {
                 measured: self.value,
                 expected: report.mean.min(1.0),
@@ -84,12 +79,6 @@ impl Mass {
             },
         };
         measure.of_row(&self.name)
-    }
-
-    /// Why nothing can be said of it.
-    pub(super) fn doubt(&self) -> Option<String> {
-        let open = self.measure().verdict == Verdict::Inconclusive && self.accepted.is_none();
-        open.then(|| format!("the integral of the pdf of {} is not known well enough", self.name))
     }
 
     pub(super) fn complaint(&self) -> Option<String> {
@@ -133,22 +122,4 @@ fn accepted_share(
         Ok::<_, CheckError>(vec![succeeded as f64 / draw.samples as f64])
     })?;
     Ok(reports.remove(0))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_integral_that_is_not_known_proves_nothing() {
-        let of = |value, error| {
-            let (name, allowed) = ("a lobe".to_owned(), 1e-3);
-            Mass { name, value, error, allowed, accepted: None, cause: None }
-        };
-        assert_eq!(of(1.0, 1e-3).measure().verdict, Verdict::Pass);
-        assert_eq!(of(3.8e8, 1e9).measure().verdict, Verdict::Inconclusive);
-        assert!(of(3.8e8, 1e9).doubt().unwrap().contains("not known well enough"));
-        assert_eq!(of(f64::NAN, f64::NAN).measure().verdict, Verdict::Fail);
-        assert_eq!(of(2.0, 0.2).doubt(), None);
-    }
 }

@@ -27,7 +27,6 @@ impl OfDistributions for PdfIntegratesToOne {
 
     fn finding(masses: &[Mass]) -> Finding {
         Finding::measured(passing_statement(masses), masses.iter().map(Mass::measure))
-            .complaining(masses.iter().filter_map(Mass::doubt))
             .complaining(masses.iter().filter_map(Mass::complaint))
             .because_each(
                 masses.iter().filter_map(|mass| mass.cause),

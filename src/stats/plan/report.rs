@@ -32,6 +32,8 @@ spoken! {
     pub enum Doubt {
         /// The variance may be infinite, or rests on events that have hardly been seen.
         HeavyTail = "a few samples carry the light, too few to say that it is too dark",
+        /// So spiked a function that its quadrature would take a large error for rounding.
+        Spiked = "not known well enough: its spikes are too narrow for the quadrature",
     }
 }
 

@@ -379,7 +379,9 @@ enum { /* furnace_conventions; 0 is the default of every field */
 };
 
 /* Components of a path tracer that a core may take from the bench (furnace_core.components): with
- * the bench's in place of a broken one, everything above it is judged as if it were right. */
+ * the bench's in place of a broken one, everything above it is judged as if it were right. Change nothing
+ * else with it: a core that weights by MIS goes on to, by the pdfs that the bench answers. What is left out
+ * beside a component is told as that component's mistake. */
 enum {
    FURNACE_TAKES_RANDOM_NUMBERS = 1u << 0,
    FURNACE_TAKES_CAMERA = 1u << 1,             /* generate_rays */

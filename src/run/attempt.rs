@@ -67,9 +67,8 @@ pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended 
 /// Whether counts are not real because a core does not count the tests that it took from the bench.
 fn counts_what_is_lent(outcome: &Outcome, with: Components) -> bool {
     let tests = Components::TRIANGLE_TEST | Components::SPHERE_TEST | Components::TRAVERSAL;
-    let clues = outcome.finding().into_iter().flat_map(|finding| &finding.clues);
-    with.intersects(tests)
-        && clues.map(|clue| &clue.cause).any(|cause| *cause == bvh::COUNTS_NOT_REAL.name)
+    let mut clues = outcome.finding().into_iter().flat_map(|finding| &finding.clues);
+    with.intersects(tests) && clues.any(|clue| clue.cause == bvh::COUNTS_NOT_REAL.name)
 }
 
 /// Brings up the core of a trial, and puts the case to it. Also answers what the core printed.

@@ -43,7 +43,8 @@ pub(crate) fn search(
     let of_core = records.iter().filter(|record| record.core == core.spec);
     let ended: Vec<_> =
         of_core.filter_map(|record| Some((trial_of(plan, record)?, record))).collect();
-    let mut failing: Vec<_> = ended.iter().filter(|(_, record)| is_failure(record)).collect();
+    // What is only informational stays the core's own affair.
+    let mut failing: Vec<_> = ended.iter().filter(|(_, record)| record.fails_the_core()).collect();
     if failing.is_empty() || core.components.is_empty() {
         return None;
     }
@@ -155,11 +156,6 @@ impl Purse {
 pub(super) fn trial_of<'a>(plan: &'a Plan, record: &TrialRecord) -> Option<&'a Trial> {
     let is_it = |trial: &&Trial| trial.core.as_str() == record.core && trial.case.id == record.case;
     plan.trials.iter().find(is_it)
-}
-
-/// Whether it counts: what is only informational stays the core's own affair.
-fn is_failure(record: &TrialRecord) -> bool {
-    record.tier.is_graded() && record.outcome.status().is_failure()
 }
 
 /// What came of trying some cases; those that there was no time for are in neither.

@@ -7,10 +7,10 @@
 //!
 //! ```text
 //!                              cli
-//!      report    reference    faults    agreement
+//!      report    reference    faults    agreement    writeup
 //!                              run
 //!                           diagnosis
-//!                             case
+//!                             case     render
 //!              checks                   cores
 //!                 │                     worker
 //!                 └──── contract ─────────┘
@@ -57,6 +57,7 @@ pub mod checks;
 pub mod cores;
 
 pub mod case;
+pub(crate) mod render;
 
 pub mod diagnosis;
 
@@ -66,5 +67,6 @@ pub mod agreement;
 pub mod faults;
 pub mod reference;
 pub mod report;
+pub(crate) mod writeup;
 
 pub mod cli;

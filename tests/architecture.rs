@@ -24,12 +24,14 @@ const LAYERS: &[(&str, u32)] = &[
     ("cores", 6),
     ("checks", 6),
     ("case", 7),
+    ("render", 7),
     ("diagnosis", 8),
     ("run", 9),
     ("agreement", 10),
     ("faults", 10),
     ("report", 10),
     ("reference", 10),
+    ("writeup", 10),
     ("cli", 11),
 ];
 

@@ -30,6 +30,11 @@ pub(crate) struct HostingArguments {
 struct Memory(Option<u64>);
 
 impl HostingArguments {
+    /// The same with another default of the time limit.
+    pub(crate) fn with_time_limit(&self, seconds: f64) -> Self {
+        Self { time_limit: self.time_limit.or(Some(seconds)), ..self.clone() }
+    }
+
     /// How cores are hosted, out of sight of the results in `runs`.
     pub(crate) fn hosting(&self, runs: &Path) -> Hosting {
         let mut limits = Limits::default();

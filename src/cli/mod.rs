@@ -21,6 +21,7 @@ mod run;
 mod say;
 mod watch;
 mod worker;
+mod writeup;
 
 pub(crate) use exit_code::ExitCode;
 
@@ -89,6 +90,8 @@ enum Verb {
     Compare(compare::CompareArguments),
     /// Render one image of one scene by one core.
     Render(render::RenderArguments),
+    /// Write the course's write-up of a core: its ladders of images and its tables, as Markdown and HTML.
+    Writeup(writeup::WriteupArguments),
     /// Validate every case and scene.
     Lint(lint::LintArguments),
     /// Write the report of a run again.
@@ -140,6 +143,7 @@ pub fn main() -> ExitCode {
         Some(Verb::Worker(arguments)) => worker::worker(&arguments),
         Some(Verb::Compare(arguments)) => compare::compare(&arguments),
         Some(Verb::Render(arguments)) => render::render(&arguments),
+        Some(Verb::Writeup(arguments)) => writeup::writeup(&arguments),
         Some(Verb::Lint(arguments)) => lint::lint(&arguments),
         Some(Verb::Report(arguments)) => report::report(&arguments),
         Some(Verb::Agreement(arguments)) => agreement::agreement(&arguments),

@@ -1,6 +1,6 @@
 //! The pinhole camera: no thin lens, so no depth of field.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 /// A pinhole camera. A film point (x, y) of [0, 1]² looks along
@@ -54,6 +54,24 @@ impl Camera {
             false => self.vertical_fov,
         };
         Self { film, vertical_fov, ..self }
+    }
+
+    /// The film points at the centres of the pixels, row by row from the top.
+    pub(crate) fn pixel_centres(&self) -> impl Iterator<Item = DVec2> {
+        let [width, height] = self.film;
+        let centre = move |x: u32, y: u32| {
+            let from_top = (f64::from(y) + 0.5) / f64::from(height);
+            DVec2::new((f64::from(x) + 0.5) / f64::from(width), 1.0 - from_top)
+        };
+        (0..height).flat_map(move |y| (0..width).map(move |x| centre(x, y)))
+    }
+
+    /// The unit direction through a film point.
+    pub(crate) fn towards(&self, film: DVec2) -> DVec3 {
+        let half_sensor =
+            DVec2::new((self.horizontal_fov / 2.0).tan(), (self.vertical_fov / 2.0).tan());
+        let sensor = (2.0 * film - 1.0) * half_sensor;
+        (self.camera_to_world * sensor.extend(-1.0)).normalize()
     }
 
     /// Whether the pixels of `film` are as high as they are wide.

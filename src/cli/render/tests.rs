@@ -94,8 +94,8 @@ fn what_cannot_be_rendered_says_why_and_what_next() {
 fn another_size_leaves_pixels_square() {
     let arguments = parsed(&["point-light-plane", "-o", "a.exr", "--size", "40x10"]).unwrap();
     let library = Library::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"));
-    let scene = scene(&arguments, &library).unwrap();
-    let camera = camera(&arguments, &scene).unwrap();
+    let scene = arguments.shot.load(&library).unwrap();
+    let camera = arguments.shot.camera(&scene).unwrap();
     assert_eq!(camera.film, [40, 10]);
     assert!(camera.has_square_pixels());
     assert_eq!(camera.horizontal_fov, scene.camera.unwrap().horizontal_fov);

@@ -3,6 +3,7 @@
 
 use crate::contract::{BuiltScene, Capabilities, CoreError, Film, RenderSettings};
 use crate::image::Image;
+use crate::image::encoding::Curve;
 use crate::math::rng::Seed;
 use crate::scene::Camera;
 
@@ -11,33 +12,46 @@ const FEWEST: u32 = 4;
 
 /// Who says how noisy the image is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Source {
+pub(crate) enum Source {
     Spread,
     Core,
 }
 
 /// What came of all passes.
 #[derive(Debug)]
-pub(super) struct Rendered {
-    pub(super) image: Image,
+pub(crate) struct Rendered {
+    pub(crate) image: Image,
     /// Of each value, if it is known.
-    pub(super) standard_error: Option<(Image, Source)>,
+    pub(crate) standard_error: Option<(Image, Source)>,
     /// The first pass with pixels that are not radiance.
-    pub(super) breach: Option<CoreError>,
+    pub(crate) breach: Option<CoreError>,
+    /// Samples that each pixel took; none where all took as many.
+    pub(crate) samples: Option<Vec<f32>>,
+    /// From its values to codes of 8 bits.
+    pub(crate) curve: Curve,
+    pub(crate) passes: u32,
+}
+
+impl Rendered {
+    /// An image of something that is no radiance, and exact.
+    pub(super) fn of_values(image: Image) -> Self {
+        let (standard_error, breach, samples) = (None, None, None);
+        Self { image, standard_error, breach, samples, curve: Curve::Linear, passes: 1 }
+    }
 }
 
 /// What is rendered, but for samples and seeds.
-pub(super) struct Job<'a> {
-    pub(super) camera: &'a Camera,
+pub(crate) struct Job<'a> {
+    pub(crate) camera: &'a Camera,
     /// With all samples, and the seed of the whole.
-    pub(super) settings: &'a RenderSettings,
-    pub(super) passes: u32,
-    pub(super) capabilities: Capabilities,
+    pub(crate) settings: &'a RenderSettings,
+    pub(crate) passes: u32,
+    pub(crate) capabilities: Capabilities,
 }
 
 impl Job<'_> {
     /// Renders; `tell` hears after every pass how many samples there are.
-    pub(super) fn render(
+    pub(crate) fn render(
         &self,
         scene: &mut dyn BuiltScene,
         mut tell: impl FnMut(u32),
@@ -50,6 +64,7 @@ impl Job<'_> {
             let answer = scene.render(self.camera, &settings, &mut film);
             sums.breach = sums.breach.or(unless_whole(answer, &film, self.settings)?);
             sums.add(&film, settings.samples_per_pixel);
+            sums.counts = settings.adaptive.map(|_| counts(&film));
             tell(sums.samples);
         }
         Ok(sums.rendered())
@@ -65,6 +80,10 @@ impl Job<'_> {
         }
         settings
     }
+}
+
+fn counts(film: &Film) -> Vec<f32> {
+    film.sample_counts.iter().map(|count| *count as f32).collect()
 }
 
 /// An image with pixels that are not radiance is an image all the same, for people to see where they are.
@@ -94,6 +113,7 @@ struct Sums {
     /// Of the sum over samples; none where the core does not report it, or a pass has one sample.
     reported: Option<Vec<[f64; 3]>>,
     breach: Option<CoreError>,
+    counts: Option<Vec<f32>>,
 }
 
 impl Sums {
@@ -107,6 +127,7 @@ impl Sums {
             squares: zeros(),
             reported: Some(zeros()),
             breach: None,
+            counts: None,
         }
     }
 
@@ -133,7 +154,14 @@ impl Sums {
     fn rendered(self) -> Rendered {
         let image = self.image(&self.mean, |value| value);
         let standard_error = if self.breach.is_some() { None } else { self.standard_error() };
-        Rendered { image, standard_error, breach: self.breach }
+        Rendered {
+            image,
+            standard_error,
+            breach: self.breach,
+            samples: self.counts,
+            curve: Curve::Srgb,
+            passes: self.passes,
+        }
     }
 
     /// Where no value differs between passes, their spread says nothing: the core may not use its seed.

@@ -1,8 +1,9 @@
 //! Where an image goes: the format is that of the file's name.
 
+use super::Shown;
 use super::passes::{Rendered, Source};
-use crate::image::encoding::{Curve, Encoding};
-use crate::image::exr::{self, Exr, Storage};
+use crate::image::encoding::Encoding;
+use crate::image::exr::{self, Channel, Exr, Storage};
 use crate::image::{ImageError, hdr, pfm, png};
 use crate::scene::reference::ERROR_PREFIX;
 use std::path::PathBuf;
@@ -20,10 +21,13 @@ enum Format {
 const FORMATS: [(&str, Format); 4] =
     [("exr", Format::Exr), ("pfm", Format::Pfm), ("hdr", Format::Hdr), ("png", Format::Png)];
 
+/// The channel of an EXR file with the samples that each pixel took.
+pub(crate) const SAMPLES: &str = "samples";
+
 /// A file to be.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Output {
-    pub(super) path: PathBuf,
+pub(crate) struct Output {
+    pub(crate) path: PathBuf,
     format: Format,
 }
 
@@ -41,7 +45,7 @@ impl std::str::FromStr for Output {
 
 impl Output {
     /// That there is a folder for it: known before anything is rendered.
-    pub(super) fn check(&self) -> Result<(), String> {
+    pub(crate) fn check(&self) -> Result<(), String> {
         let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty());
         match folder.filter(|folder| !folder.is_dir()) {
             Some(folder) => {
@@ -55,27 +59,36 @@ impl Output {
     }
 
     /// Whether it holds the standard errors of the image too.
-    pub(super) fn holds_errors(&self) -> bool {
+    pub(crate) fn holds_errors(&self) -> bool {
         self.format == Format::Exr
     }
 
     /// Writes an image, and in EXR its standard errors and where it is from.
-    pub(super) fn write(
+    pub(crate) fn write(
         &self,
-        rendered: &Rendered,
-        made: &[(&str, String)],
+        shown: &Shown,
+        mut made: Vec<(&'static str, String)>,
     ) -> Result<(), ImageError> {
+        let rendered = match shown {
+            Shown::Codes(codes) => return png::write(&self.path, codes),
+            Shown::Radiance(rendered) => rendered,
+        };
         let Self { path, format } = self;
         match format {
-            Format::Exr => exr::write(path, &with_all(rendered, made)),
+            Format::Exr => {
+                let source = rendered.standard_error.as_ref().map(|(_, source)| source.to_string());
+                made.push(("passes", rendered.passes.to_string()));
+                made.push(("standard-errors-from", source.unwrap_or_else(|| "unknown".to_owned())));
+                exr::write(path, &with_all(rendered, &made))
+            }
             Format::Pfm => pfm::write(path, &rendered.image),
             Format::Hdr => hdr::write(path, &rendered.image),
-            Format::Png => png::write(path, &Encoding::of(Curve::Srgb).picture(&rendered.image)),
+            Format::Png => png::write(path, &Encoding::of(rendered.curve).picture(&rendered.image)),
         }
     }
 
     /// Whether it is an image of 8 bits.
-    pub(super) fn is_png(&self) -> bool {
+    pub(crate) fn is_png(&self) -> bool {
         self.format == Format::Png
     }
 }
@@ -84,6 +97,11 @@ fn with_all(rendered: &Rendered, made: &[(&str, String)]) -> Exr {
     let mut file = Exr::from_image(&rendered.image);
     if let Some((errors, _)) = &rendered.standard_error {
         file = file.with_colours(ERROR_PREFIX, errors, Storage::Single);
+    }
+    if let Some(samples) = &rendered.samples {
+        let name = SAMPLES.to_owned();
+        let storage = Storage::Single;
+        file.channels.push(Channel { name, values: samples.clone(), storage });
     }
     made.iter().fold(file, |file, (name, words)| file.with_attribute(name, words.clone()))
 }

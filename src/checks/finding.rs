@@ -1,6 +1,7 @@
 //! What a check has to say: a verdict, a sentence, and the numbers behind it.
 
 use super::few::Few;
+use super::series::Series;
 use crate::cause::Cause;
 use crate::image::{CHANNELS, Channel};
 use crate::stats::{Doubt, ExactReport, Hypothesis, Report, Verdict};
@@ -23,6 +24,9 @@ pub struct Finding {
     /// Mistakes that the check recognised, the likeliest first; empty where it passes, or knows none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub clues: Vec<Clue>,
+    /// What plots show of it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) series: Vec<Series>,
 }
 
 /// A mistake that would have given just these answers.
@@ -245,6 +249,7 @@ impl Finding {
             measures,
             resolution: resolution.into(),
             clues: Vec::new(),
+            series: Vec::new(),
         }
         .doubting()
     }
@@ -272,6 +277,12 @@ impl Finding {
         if self.resolution.is_empty() {
             self.resolution = caught.into();
         }
+        self
+    }
+
+    /// The same with what plots show of it.
+    pub(crate) fn showing(mut self, series: impl IntoIterator<Item = Series>) -> Self {
+        self.series.extend(series);
         self
     }
 

@@ -24,6 +24,7 @@ mod phrase;
 mod ray_row;
 mod rendering;
 pub(crate) mod sampling;
+pub(crate) mod series;
 pub(crate) mod shape;
 mod surface;
 #[cfg(test)]

@@ -47,6 +47,12 @@ impl<'a> Source<'a> {
         Self { core, distribution, seed, cells, is_empty, forbidden, batches }
     }
 
+    /// Its cells in a stage: no seam of a sampler coincides with theirs in all of them.
+    pub(super) fn cells_of(&self, stage: Stage) -> SphereCells {
+        let turn = TAU * uniform(&mut self.seed.child(stage).child("turn").stream());
+        cells(self.distribution, turn)
+    }
+
     /// One, if all samples are independent by the core's word, or by numbers of our own.
     fn batch_count(&self) -> u64 {
         let independent = Capabilities::CALLERS_RANDOMNESS | Capabilities::INDEPENDENT_SAMPLES;
@@ -85,8 +91,7 @@ impl CountSource for Source<'_> {
     type Error = CheckError;
 
     fn expected(&mut self, stage: Stage) -> Result<CellProbabilities> {
-        let turn = TAU * uniform(&mut self.seed.child(stage).child("turn").stream());
-        self.cells = cells(self.distribution, turn);
+        self.cells = self.cells_of(stage);
         let diligence =
             if self.distribution.is_of_sphere() { Diligence::KINKED } else { QUADRATURE };
         let probabilities = self.cells.probabilities(diligence, &mut |directions, values| {

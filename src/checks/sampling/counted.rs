@@ -5,6 +5,7 @@ use super::claimed_pdf::{ClaimedPdf, Law};
 use crate::cause::Cause;
 use crate::checks::Measure;
 use crate::checks::phrase::{figure, percent};
+use crate::checks::series::{OneLine, Series, SphereCounts};
 use crate::stats::{CountDoubt, CountReport, SphereCells, Verdict, chi_square_upper};
 use std::f64::consts::FRAC_2_PI;
 
@@ -23,6 +24,36 @@ impl Judged {
     /// X² per degree of freedom of the last stage.
     pub(super) fn measure(&self) -> Measure {
         Measure::of("χ² per degree of freedom", &self.report).of_row(&self.name)
+    }
+
+    /// Of several distributions, the one that is nearest to its limit, or the furthest beyond.
+    pub(super) fn furthest(judged: &[Self]) -> Option<&Self> {
+        let fails = |one: &Self| one.report.verdict == Verdict::Fail;
+        let excess = |one: &Self| {
+            one.report.counted().map_or(f64::NAN, |stage| stage.statistic / stage.critical)
+        };
+        let order =
+            |a: &&Self, b: &&Self| fails(a).cmp(&fails(b)).then(excess(a).total_cmp(&excess(b)));
+        judged.iter().max_by(order)
+    }
+
+    /// What was counted where.
+    pub(super) fn series(&self) -> Option<Series> {
+        let (report, cells) = (&self.report, &self.cells);
+        let stage = report.counted()?;
+        Some(Series::Directions(SphereCounts {
+            of: self.name.clone(),
+            rings: OneLine::rounded(cells.ring_edges().iter().copied()),
+            sectors: cells.sector_count(),
+            offset: cells.offset(),
+            observed: report.observed.iter().copied().collect(),
+            expected: OneLine::rounded(report.expected.iter().copied()),
+            failed: OneLine::rounded([report.absorbed_observed as f64, report.absorbed_expected]),
+            rejected: report.rejected_cells().into_iter().collect(),
+            chi_square: stage.statistic,
+            degrees_of_freedom: stage.freedom,
+            critical: stage.critical,
+        }))
     }
 
     pub(super) fn complaint(&self) -> Option<String> {

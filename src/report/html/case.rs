@@ -1,8 +1,9 @@
 //! A case with what every core made of it: verdict, images, numbers, background, and how to run it again.
 
 use super::image::pictures;
-use super::interval::plot;
+use super::interval;
 use super::parts::{badge, command};
+use super::plot;
 use super::shell::Page;
 use super::view::{Place, View, anchor, has_failed};
 use crate::checks::{Finding, Measure};
@@ -78,6 +79,7 @@ fn body(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
     html! {
         @for trial in &case.trials { (judgement(trial)) }
         (pictures(view, case))
+        @for trial in &case.trials { (plots(trial, case.trials.len() > 1)) }
         @for trial in &case.trials { (numbers(trial, case.trials.len() > 1)) }
         (about(case.first()))
     }
@@ -97,6 +99,18 @@ fn judgement(trial: &TrialRecord) -> Markup {
                 details { summary { "what the core printed" } pre { (trial.printed) } }
             }
             (command(&trial.rerun))
+        }
+    }
+}
+
+fn plots(trial: &TrialRecord, named: bool) -> Markup {
+    let plots = trial.outcome.finding().map(plot::of_finding).unwrap_or_default();
+    html! {
+        @if !plots.is_empty() {
+            div.card {
+                h2.minor { "Plots" @if named { " of " (trial.core) } }
+                @for plot in &plots { (plot) }
+            }
         }
     }
 }
@@ -185,7 +199,7 @@ fn row(measure: &Measure, noisy: bool) -> Markup {
             td.number { (words.expected) }
             td.number { (words.allowed) }
             td.number { (ratio) }
-            @if noisy { td.number { (words.interval) } td.plot { (plot(measure)) } }
+            @if noisy { td.number { (words.interval) } td.plot { (interval::plot(measure)) } }
             td.number { (words.resolution) }
             td { (badge(measure.verdict.into())) }
         }

@@ -16,6 +16,7 @@ mod ledger;
 mod overview;
 mod parts;
 mod pixels;
+mod plot;
 mod provenance;
 mod shell;
 mod start;

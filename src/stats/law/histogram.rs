@@ -67,6 +67,16 @@ impl SphereCells {
         self.sectors
     }
 
+    /// Edges of the rings in cos θ, ascending.
+    pub(crate) fn ring_edges(&self) -> &[f64] {
+        &self.rings
+    }
+
+    /// Azimuth at which the first sector begins, radians.
+    pub(crate) const fn offset(&self) -> f64 {
+        self.offset
+    }
+
     /// The range of cos θ and of φ (radians) of a cell.
     pub(crate) fn bounds(&self, cell: usize) -> ([f64; 2], [f64; 2]) {
         let (ring, sector) = (cell / self.sectors, cell % self.sectors);

@@ -1,6 +1,7 @@
 //! What counting samples found out about a sampler.
 
-use crate::stats::law::{chi_square_upper, detectable_noncentrality};
+use super::FEWEST_EXPECTED;
+use crate::stats::law::{chi_square_upper, detectable_noncentrality, normal_upper};
 use crate::stats::plan::level::{MISS_LEVEL, STAGE_LEVEL};
 use crate::stats::plan::{Escalation, Judgement, Scored};
 use crate::stats::{Report, Stage, TestKind, Verdict};
@@ -98,6 +99,28 @@ impl CountReport {
     pub(crate) fn counted(&self) -> Option<&CountStage> {
         let total = self.observed.iter().sum::<u64>() + self.absorbed_observed;
         self.stages.iter().rev().find(|stage| stage.samples == total)
+    }
+
+    /// The cells that chance does not explain, each for itself, at the level of a stage shared by all cells: where the
+    /// pdf is off. None unless all of them together are rejected.
+    pub(crate) fn rejected_cells(&self) -> Vec<usize> {
+        let Some(counted) = self.counted().filter(|_| self.verdict == Verdict::Fail) else {
+            return Vec::new();
+        };
+        let dependence =
+            (counted.allowed / chi_square_upper(STAGE_LEVEL, counted.freedom)).max(1.0);
+        let critical = normal_upper(STAGE_LEVEL / (2 * self.observed.len()) as f64);
+        let is_far = |cell: usize| {
+            // A cell with few samples is no more certain than one of a pool.
+            let variance = dependence * self.expected[cell].max(FEWEST_EXPECTED);
+            let difference = self.observed[cell] as f64 - self.expected[cell];
+            difference.is_nan() || difference.abs() > critical * variance.sqrt()
+        };
+        let is_known = |cell| {
+            let forbidden = self.forbidden.is_some_and(|forbidden| forbidden.cell == cell);
+            forbidden || self.improper_cell == Some(cell)
+        };
+        (0..self.observed.len()).filter(|cell| is_far(*cell) || is_known(*cell)).collect()
     }
 }
 

@@ -80,6 +80,10 @@ pub struct Measure {
     /// Why it cannot be decided, where it is not that more samples are needed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubt: Option<Doubt>,
+    /// The probability that chance alone brings as large a difference, tolerance not counted; none where that is not
+    /// known, or chance has no part in it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) p_value: Option<f64>,
     /// What the ledger enters for it; none where chance has no part in it, or where another measure
     /// stands for the same test.
     #[serde(rename = "leaf", default, skip_serializing_if = "Option::is_none")]
@@ -112,6 +116,7 @@ impl Measure {
             resolution: (expected != 0.0).then(|| allowed / expected.abs()),
             verdict: Verdict::pass_if(passes),
             doubt: None,
+            p_value: None,
             hypothesis: None,
         }
     }
@@ -153,6 +158,7 @@ impl Measure {
             resolution: judgement.smallest_detectable_error,
             verdict: judgement.verdict,
             doubt: judgement.doubt,
+            p_value: judgement.p_value.filter(|p| p.is_finite()),
             hypothesis: judgement.hypothesis,
             ..Self::exact(quantity, judgement.measured, judgement.expected, judgement.allowed)
         }

@@ -9,6 +9,7 @@ pub(crate) mod bsdf;
 pub(crate) mod bvh;
 pub(crate) mod camera;
 mod context;
+mod convergence;
 mod declared;
 #[cfg(test)]
 mod fake;
@@ -34,7 +35,7 @@ pub(crate) use context::{
     CheckError, Context, Picture, PictureRole, RejectedCell, Result, camera_of,
 };
 pub(crate) use declared::{Declared, check, checks};
-pub(crate) use finding::{Clue, Finding, Measure};
+pub(crate) use finding::{Clue, Finding, Measure, number};
 
 use crate::contract::Capabilities;
 use crate::text::{TomlError, read_key};

@@ -12,6 +12,108 @@ use std::str::FromStr;
 pub enum Series {
     /// Samples of a distribution in cells of the sphere, as χ² has counted them.
     Directions(SphereCounts),
+    /// How the error falls with the number of samples.
+    Convergence(Convergence),
+    /// Tests a ray against the size of a mesh.
+    TestsBySize(TestsBySize),
+    /// How much faster a BVH is than brute force.
+    SpeedUp(SpeedUps),
+    /// How many samples an adaptive rule has stopped after.
+    Stops(StopCounts),
+    /// Which share of paths Russian roulette lets get how far.
+    Survival(Survival),
+}
+
+impl Series {
+    /// The one number of it that is worth comparing over runs, with its unit.
+    pub(crate) fn headline(&self) -> Option<(String, f64)> {
+        match self {
+            Self::Convergence(errors) => {
+                let (samples, error) = (errors.samples.last()?, errors.error.last()?);
+                Some((format!("error / mean luminance, {samples} samples per pixel"), *error))
+            }
+            Self::TestsBySize(tests) => {
+                let (triangles, closest) = (tests.triangles.last()?, tests.closest.last()?);
+                Some((format!("tests a ray, {triangles} triangles"), *closest))
+            }
+            Self::SpeedUp(times) => Some(("times as fast as brute force".to_owned(), times.median)),
+            Self::Directions(_) | Self::Stops(_) | Self::Survival(_) => None,
+        }
+    }
+}
+
+/// Errors of pictures, root mean square over pixels and pictures, as shares of the mean luminance that is right.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Convergence {
+    /// Samples per pixel, growing.
+    pub(crate) samples: OneLine<u64>,
+    pub(crate) error: OneLine<f64>,
+    /// Standard error of each; NaN of one picture alone.
+    pub(crate) uncertainty: OneLine<f64>,
+    /// How much pictures of so many samples differ from each other: the error without bias.
+    pub(crate) noise: OneLine<f64>,
+    /// Of what is held to be right; 0 for a closed form.
+    #[serde(with = "number")]
+    pub(crate) reference_noise: f64,
+}
+
+/// Primitives that are tested a ray, in meshes of growing size.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TestsBySize {
+    /// Triangles of the mesh: what brute force tests.
+    pub(crate) triangles: OneLine<u64>,
+    /// For the closest hit.
+    pub(crate) closest: OneLine<f64>,
+    /// For any hit.
+    pub(crate) any: OneLine<f64>,
+    /// Boxes for the closest hit; 0 where the core does not count them.
+    pub(crate) boxes: OneLine<f64>,
+    /// A plain median BVH, for the closest hit.
+    pub(crate) plain: OneLine<f64>,
+}
+
+/// Times of brute force over times with a BVH, for the same rays.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpeedUps {
+    /// Of each pair of times.
+    pub(crate) ratios: OneLine<f64>,
+    #[serde(with = "number")]
+    pub(crate) median: f64,
+    /// 95 % interval of the median.
+    #[serde(with = "number::interval")]
+    pub(crate) interval: Option<[f64; 2]>,
+    pub(crate) at_least: f64,
+}
+
+/// Streams by the number of samples that they were stopped after.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StopCounts {
+    /// Which streams: `0 or 1 with 10 %`.
+    pub(crate) of: String,
+    /// Numbers of samples, ascending; left out is what neither came nor should have.
+    pub(crate) samples: OneLine<u64>,
+    pub(crate) observed: OneLine<u64>,
+    pub(crate) expected: OneLine<f64>,
+    /// Those of `samples` that are rejected for themselves.
+    pub(crate) rejected: OneLine<u64>,
+}
+
+/// Shares of paths that bring light at an isolated bounce of a furnace, which are those that roulette has not stopped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Survival {
+    /// Which roulette: `stop 0.3, 1 guaranteed`.
+    pub(crate) of: String,
+    pub(crate) bounces: OneLine<u32>,
+    pub(crate) share: OneLine<f64>,
+    /// Ends of the interval of each.
+    pub(crate) low: OneLine<f64>,
+    pub(crate) high: OneLine<f64>,
+    pub(crate) expected: OneLine<f64>,
 }
 
 /// Samples in cells of the sphere: ring by ring from −z to +z, sector by sector within.

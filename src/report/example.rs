@@ -243,6 +243,7 @@ fn noisy(right: Measure, factor: f64, seed: Seed) -> Measure {
         measured,
         interval: Some([measured - half, measured + half]),
         resolution: Some(0.012 + error.abs()),
+        p_value: Some(if is_wrong { 1e-9 } else { uniform(&mut seed.child("p").stream()) }),
         verdict: Verdict::pass_if(!is_wrong),
         hypothesis: Some(Hypothesis::new(TestKind::Mean, is_wrong)),
         ..right

@@ -8,6 +8,7 @@ pub(crate) mod comparison;
 pub(crate) mod digest;
 #[cfg(test)]
 pub(crate) mod example;
+mod history;
 pub mod html;
 pub(crate) mod measure;
 pub mod text;

@@ -33,7 +33,7 @@ pub(crate) use tally::{Counts, Tally};
 use crate::contract::CoreError;
 use crate::cores::HostError;
 use crate::worker::StartError;
-use record::{CoreRecord, Machine, RunTiming};
+use record::{CoreRecord, Machine, RunTiming, Score};
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
@@ -82,7 +82,7 @@ pub(crate) fn resume(
     let path = folder.join("run.json");
     let mut record: RunRecord = record::read_json(&path)?;
     // It holds of the trials of then.
-    record.cores.iter_mut().for_each(|core| core.diagnosis = None);
+    record.cores.iter_mut().for_each(|core| (core.diagnosis, core.score) = (None, None));
     record::write_json(&path, &record)?;
     carry_out(plan, &plan.bench(), record, folder, events)
 }
@@ -105,6 +105,7 @@ fn carry_out(
     records.extend(executor::run_into(plan, bench, &todo, &done, folder, events)?);
     for core in &mut record.cores {
         conclude(plan, bench, core, &records, events);
+        core.score = Some(Score::of(records.iter().filter(|trial| trial.core == core.spec)));
     }
     let before = record.timing.seconds.unwrap_or(0.0);
     record.timing.seconds = Some(before + clock.elapsed().as_secs_f64());

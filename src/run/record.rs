@@ -11,7 +11,8 @@
 
 use super::outcome::{Outcome, Status};
 use crate::case::{Foundation, Role, Tier};
-use crate::checks::{PictureRole, RejectedCell};
+use crate::checks::series::Series;
+use crate::checks::{PictureRole, RejectedCell, number};
 use crate::contract::{Components, Conventions, CoreInfo, Precision};
 use crate::diagnosis::Diagnosis;
 use crate::disk;
@@ -91,6 +92,57 @@ pub(crate) struct CoreRecord {
     /// Which components of the bench mend its failures, if that was tried.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) transplants: Option<Transplants>,
+    /// What later runs are held against. None while the run has not ended.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) score: Option<Score>,
+}
+
+/// What a core has reached in a run, in a few numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Score {
+    /// Graded trials that pass.
+    pub(crate) passes: usize,
+    /// All graded trials.
+    pub(crate) graded: usize,
+    /// Time of all trials, added up, seconds.
+    pub(crate) seconds: f64,
+    /// What is worth comparing over runs: tests a ray, a speed-up, an error.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) numbers: Vec<Number>,
+}
+
+/// A number of one case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Number {
+    pub(crate) case: String,
+    /// What it is, with its unit: `tests a ray, 32768 triangles`.
+    pub(crate) what: String,
+    #[serde(with = "number")]
+    pub(crate) value: f64,
+}
+
+impl Score {
+    /// Of all trials of one core.
+    pub(crate) fn of<'a>(trials: impl Iterator<Item = &'a TrialRecord> + Clone) -> Self {
+        let graded = || trials.clone().filter(|trial| trial.tier.is_graded());
+        let passes = |trial: &&TrialRecord| trial.outcome.status() == Status::Pass;
+        Self {
+            passes: graded().filter(passes).count(),
+            graded: graded().count(),
+            seconds: trials.clone().map(|trial| trial.timing.seconds).sum(),
+            numbers: trials.clone().flat_map(Number::of).collect(),
+        }
+    }
+}
+
+impl Number {
+    fn of(trial: &TrialRecord) -> impl Iterator<Item = Self> {
+        let series = trial.outcome.finding().map(|finding| &finding.series);
+        let headlines = series.into_iter().flatten().filter_map(Series::headline);
+        headlines.map(|(what, value)| Self { case: trial.case.clone(), what, value })
+    }
 }
 
 impl CoreRecord {
@@ -107,6 +159,7 @@ impl CoreRecord {
             problem: None,
             diagnosis: None,
             transplants: None,
+            score: None,
         }
     }
 

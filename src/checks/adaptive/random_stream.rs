@@ -3,6 +3,7 @@
 use super::rule::{Rule, Sums, WRONG_RULES};
 use crate::cause::{Cause, adaptive};
 use crate::checks::phrase::{figure, percent};
+use crate::checks::series::{OneLine, Series, StopCounts};
 use crate::checks::{CheckError, Measure, Result};
 use crate::contract::{AdaptiveMean, AdaptiveSettings, Core, Precision};
 use crate::math::rng::{Seed, uniform};
@@ -15,6 +16,9 @@ use serde::Deserialize;
 
 /// Streams handed over in one call.
 const BATCH: u64 = 256;
+
+/// What is rarer and did not come is not drawn.
+const SELDOM: f64 = 1e-4;
 
 /// Roundings that both sides of the rule may have been through.
 const ROUNDINGS: f64 = 16.0;
@@ -184,6 +188,21 @@ impl Judged {
             ..Measure::of("samples used", &self.counts)
         };
         [counts, Measure::of("mean returned", &self.mean)].map(|m| m.of_row(&self.name))
+    }
+
+    /// How many streams stopped where.
+    pub(super) fn series(&self) -> Series {
+        let CountReport { observed, expected, .. } = &self.counts;
+        let total: f64 = expected.iter().sum();
+        let is_there = |n: &usize| observed[*n] > 0 || expected[*n] > SELDOM * total;
+        let shown = || (0..observed.len()).filter(is_there);
+        Series::Stops(StopCounts {
+            of: self.name.clone(),
+            samples: shown().map(|n| n as u64).collect(),
+            observed: shown().map(|n| observed[n]).collect(),
+            expected: OneLine::rounded(shown().map(|n| expected[n])),
+            rejected: self.counts.rejected_cells().into_iter().map(|n| n as u64).collect(),
+        })
     }
 
     /// Samples used on average, in the last stage drawn.

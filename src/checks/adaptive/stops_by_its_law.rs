@@ -46,7 +46,8 @@ impl Check for StopsByItsLaw {
 fn finding(judged: &[Judged]) -> Finding {
     let measures = judged.iter().flat_map(Judged::measures);
     let finding = Finding::measured(passing_statement(judged), measures)
-        .complaining(judged.iter().filter_map(Judged::complaint));
+        .complaining(judged.iter().filter_map(Judged::complaint))
+        .showing(judged.iter().map(Judged::series));
     let failed = || judged.iter().filter(|one| one.counts.verdict == Verdict::Fail);
     let Some(first) = failed().next() else { return finding };
     let common = first.causes.iter().filter(|cause| failed().all(|one| one.causes.contains(cause)));
@@ -77,6 +78,7 @@ mod tests {
     use super::super::rule::{Rule, Sums, WRONG_RULES};
     use super::*;
     use crate::checks::fake::Fake;
+    use crate::checks::series::Series;
     use crate::checks::testing::{assert_passes, causes, check_of, failure, judge};
     use crate::contract::{AdaptiveMean, AdaptiveSettings};
 
@@ -130,7 +132,17 @@ mod tests {
 
     #[test]
     fn the_rule_itself_passes() {
-        assert_passes(&found_by(&check_of(CASE), RIGHT));
+        let finding = found_by(&check_of(CASE), RIGHT);
+        assert_passes(&finding);
+        for series in &finding.series {
+            let Series::Stops(counts) = series else { panic!("{series:?}") };
+            let [observed, expected] =
+                [counts.observed.iter().sum::<u64>() as f64, counts.expected.iter().sum()];
+            assert!(
+                (observed / expected - 1.0).abs() < 1e-3 && counts.rejected.is_empty(),
+                "{counts:?}"
+            );
+        }
     }
 
     #[test]

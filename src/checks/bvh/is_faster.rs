@@ -9,6 +9,7 @@
 
 use super::question::generic_rays;
 use crate::checks::phrase::{figure, percent};
+use crate::checks::series::{OneLine, Series, SpeedUps};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{Acceleration, Core, Hit, Ray};
 use crate::scene::SceneDescription;
@@ -108,7 +109,16 @@ fn finding(found: &Faster, at_least: f64, asking: f64) -> Finding {
         figure(*p_value),
         percent(asking),
     );
-    Finding::of(statement, shown, vec![measure])
+    Finding::of(statement, shown, vec![measure]).showing([series(found, at_least)])
+}
+
+fn series(found: &Faster, at_least: f64) -> Series {
+    Series::SpeedUp(SpeedUps {
+        ratios: OneLine::rounded(found.ratios.iter().copied()),
+        median: found.speed_up.ratio,
+        interval: Some(found.speed_up.interval),
+        at_least,
+    })
 }
 
 #[cfg(test)]

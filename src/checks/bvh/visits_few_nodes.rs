@@ -4,6 +4,7 @@ use super::reference::SLACK;
 use super::tests_by_size::{ALL_TESTED, ANY_HIT_SLACK, Size, cause, growth, measure_size, rays_at};
 use crate::cause::{Cause, bvh};
 use crate::checks::phrase::figure;
+use crate::checks::series::{OneLine, Series, TestsBySize};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::math::rng::Seed;
 use crate::scene::Mesh;
@@ -86,6 +87,18 @@ fn judge(sizes: &[Size]) -> Finding {
     let evidence = format!("tests grow as n^{}{boxes}", figure(slope));
     Finding::of(statement(sizes, slope, cause), resolution, measures)
         .because_each(cause.filter(|_| failed), &evidence)
+        .showing([series(sizes)])
+}
+
+fn series(sizes: &[Size]) -> Series {
+    let tests = |of: fn(&Size) -> f64| OneLine::rounded(sizes.iter().map(of));
+    Series::TestsBySize(TestsBySize {
+        triangles: sizes.iter().map(|size| size.triangles as u64).collect(),
+        closest: tests(|size| size.closest),
+        any: tests(|size| size.any),
+        boxes: tests(|size| size.boxes),
+        plain: tests(|size| size.ordered),
+    })
 }
 
 fn measures_of(size: &Size) -> [Measure; 2] {
@@ -121,6 +134,12 @@ mod tests {
 
     #[test]
     fn a_plain_bvh_passes_on_both_meshes() {
+        let series = found(Slip::None, "soup").series;
+        let [Series::TestsBySize(tests)] = &series[..] else { panic!("{series:?}") };
+        assert_eq!(tests.triangles[..], [512, 2048, 8192, 32_768]);
+        assert!(
+            tests.closest.iter().zip(tests.plain.iter()).all(|(a, b)| (a / b - 1.0).abs() < 0.5)
+        );
         assert_passes(&found(Slip::None, "soup"));
         assert_passes(&found(Slip::None, "bumpy-sphere"));
     }

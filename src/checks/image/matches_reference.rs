@@ -3,10 +3,13 @@
 use super::shot::{Setup, Shot};
 use super::told::{ERROR_SCALE, error_picture, finding, rejected};
 use super::{by_codes, clues};
+use crate::checks::convergence;
+use crate::checks::series::Series;
 use crate::checks::{Check, CheckError, Context, Finding, Picture, PictureRole, camera_of, check};
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
-use crate::scene::reference;
-use crate::stats::{self, ImageEffort, Report, Verdict, judge_image};
+use crate::image::{Image, luminance};
+use crate::scene::reference::{self, Reference};
+use crate::stats::{self, ImageEffort, Report, Stage, Verdict, judge_image};
 use crate::text::{Between, Bounces, Percent};
 
 check! {
@@ -95,10 +98,19 @@ impl MatchesReference {
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let question =
             stats::Reference { mean: &reference.mean, standard_error: &reference.standard_error };
+        let mut screened = Vec::new();
         let report = judge_image(question, &effort, &mut |draw| {
-            shot.render(built.as_mut(), draw.seed(seed))
+            let image = shot.render(built.as_mut(), draw.seed(seed))?;
+            if draw.stage == Stage::First {
+                screened.push(luminances(&image));
+            }
+            Ok::<_, CheckError>(image)
         })?;
-        let mut finding = finding(&report, report.judgement().hypothesis);
+        let mut finding = finding(&report, report.judgement().hypothesis).showing([errors(
+            &screened,
+            shot.samples,
+            &reference,
+        )]);
         if report.verdict == Verdict::Fail && report.impossible.is_none() {
             let seed = seed.child("clues");
             finding = clues::explained(finding, &report, &reference, &shot, built.as_mut(), seed)?;
@@ -119,4 +131,22 @@ impl MatchesReference {
         context.show(PictureRole::SignedError, caption, error);
         Ok(finding)
     }
+}
+
+fn luminances(image: &Image) -> Vec<f64> {
+    image.pixels.iter().map(|pixel| luminance(*pixel)).collect()
+}
+
+/// How the error of the screened runs falls as they are put together.
+fn errors(runs: &[Vec<f64>], samples: u32, reference: &Reference) -> Series {
+    let truth = luminances(&reference.mean);
+    let mean = truth.iter().sum::<f64>() / truth.len() as f64;
+    // The noise of its channels is taken for independent.
+    let variances = reference.standard_error.pixels.iter().map(|error| {
+        let weights = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(luminance);
+        let terms = error.iter().zip(weights).map(|(error, weight)| f64::from(*error) * weight);
+        terms.map(|term| term * term).sum::<f64>()
+    });
+    let noise = (variances.sum::<f64>() / truth.len() as f64).sqrt();
+    convergence::series(&convergence::levels(runs, u64::from(samples), &truth), mean, noise)
 }

@@ -2,6 +2,7 @@
 
 use super::estimate::needs_direct;
 use crate::cause;
+use crate::checks::convergence;
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, Context, Finding, Measure, Result, camera_of, check};
 use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling};
@@ -60,7 +61,9 @@ impl Check for ErrorFallsAsRootN {
         // The band of a slope is the same in every budget: a strict one cannot ask for less than it.
         let detects = self.detects.0 * context.budget.coarseness().max(1.0);
         let (levels, variances): (Vec<_>, Vec<_>) = levels.into_iter().unzip();
-        Ok(finding(&judge_slope(&levels, Sampling::Stratified, detects), &variances))
+        let mean = luminance(self.radiance.0.map(|value| value as f32));
+        Ok(finding(&judge_slope(&levels, Sampling::Stratified, detects), &variances)
+            .showing([convergence::series(&levels, mean, 0.0)]))
     }
 }
 
@@ -146,6 +149,7 @@ const NO_SLOPE: f64 = 0.05;
 mod tests {
     use super::*;
     use crate::checks::camera::fake::FakeFilm;
+    use crate::checks::series::Series;
     use crate::checks::testing::{assert_passes, check_of, failure};
     use crate::stats::Budget;
     use glam::DVec2;
@@ -170,7 +174,12 @@ mod tests {
 
     #[test]
     fn means_of_samples_pass() {
-        assert_passes(&found(FakeFilm::default()));
+        let finding = found(FakeFilm::default());
+        assert_passes(&finding);
+        let [Series::Convergence(errors)] = &finding.series[..] else { panic!("{finding:?}") };
+        assert_eq!(errors.samples[..], [4, 16, 64, 256]);
+        let falls = errors.error.windows(2).all(|pair| (pair[1] / pair[0] / 0.5 - 1.0).abs() < 0.2);
+        assert!(falls, "{errors:?}");
     }
 
     #[test]

@@ -6,6 +6,7 @@
 use super::estimate::{RayEntry, RouletteEntry, draw_estimates, needs, settings};
 use super::roulette_law::{Law, MISTAKES, law};
 use crate::checks::phrase::{figure, percent};
+use crate::checks::series::{OneLine, Series, Survival};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Roulette,
@@ -88,7 +89,8 @@ fn finding(shares: &[Share]) -> Finding {
     let failed = shares.iter().find(|share| share.report.verdict == Verdict::Fail);
     let right = "roulette stops as many paths as it says";
     let finding = Finding::measured(right, shares.iter().map(Share::measure))
-        .complaining(failed.map(Share::complaint));
+        .complaining(failed.map(Share::complaint))
+        .showing(shares.chunk_by(|a, b| a.roulette == b.roulette).map(series));
     if failed.is_none() {
         return finding;
     }
@@ -98,6 +100,19 @@ fn finding(shares: &[Share]) -> Finding {
     });
     let evidence = format!("predicts the shares of all {} isolated bounces", shares.len());
     finding.because_each(made.map(|(cause, _)| *cause), &evidence)
+}
+
+/// How far paths get under one roulette.
+fn series(shares: &[Share]) -> Series {
+    let of = |value: fn(&Share) -> f64| OneLine::rounded(shares.iter().map(value));
+    Series::Survival(Survival {
+        of: shares.first().map(Share::roulette).unwrap_or_default(),
+        bounces: shares.iter().map(|share| share.bounce).collect(),
+        share: of(|share| share.report.share),
+        low: of(|share| share.report.interval[0]),
+        high: of(|share| share.report.interval[1]),
+        expected: of(|share| share.report.expected),
+    })
 }
 
 impl Share {
@@ -113,8 +128,12 @@ impl Share {
     }
 
     fn name(&self) -> String {
+        format!("{}, bounce {}", self.roulette(), self.bounce)
+    }
+
+    fn roulette(&self) -> String {
         let Roulette { stop, guaranteed } = self.roulette;
-        format!("stop {}, {guaranteed} guaranteed, bounce {}", figure(stop), self.bounce)
+        format!("stop {}, {guaranteed} guaranteed", figure(stop))
     }
 
     fn measure(&self) -> Measure {
@@ -158,7 +177,17 @@ mod tests {
 
     #[test]
     fn the_geometric_law_passes() {
-        assert_passes(&found(law));
+        let finding = found(law);
+        assert_passes(&finding);
+        let names: Vec<_> = finding
+            .series
+            .iter()
+            .map(|series| match series {
+                Series::Survival(survival) => (survival.of.clone(), survival.bounces.len()),
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        assert_eq!(names.len() * names[0].1, finding.measures.len(), "{names:?}");
     }
 
     #[test]

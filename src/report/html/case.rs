@@ -81,7 +81,7 @@ fn body(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
         (pictures(view, case))
         @for trial in &case.trials { (plots(trial, case.trials.len() > 1)) }
         @for trial in &case.trials { (numbers(trial, case.trials.len() > 1)) }
-        (about(case.first()))
+        (about(case.first(), case.trials.iter().all(|trial| lacks_plots(trial))))
     }
 }
 
@@ -109,7 +109,7 @@ fn plots(trial: &TrialRecord, named: bool) -> Markup {
         @if !plots.is_empty() {
             div.card {
                 h2.minor { "Plots" @if named { " of " (trial.core) } }
-                @for plot in &plots { (plot) }
+                @for plot in &plots { (plot.markup()) }
             }
         }
     }
@@ -127,13 +127,20 @@ fn numbers(trial: &TrialRecord, named: bool) -> Markup {
     }
 }
 
-fn about(trial: &TrialRecord) -> Markup {
+fn lacks_plots(trial: &TrialRecord) -> bool {
+    trial.outcome.finding().is_none_or(|finding| plot::of_finding(finding).is_empty())
+}
+
+fn about(trial: &TrialRecord, lacks_plots: bool) -> Markup {
     html! {
         dl.about.card {
             dt { "case" } dd { code { (trial.case) } " " (hash(&trial.case_hash)) }
             dt { "background" } dd { (trial.teaches) }
             dt { "source" } dd { (trial.source) }
             dt { "check" } dd { code { (trial.check) } }
+            @if lacks_plots {
+                dt { "plots" } dd { "none: its numbers are all there is" }
+            }
             @if let Some(scene) = &trial.scene {
                 dt { "scene" } dd { code { (scene.name) } " " (hash(&scene.hash)) ", shown to the core as " (scene.shown) }
             }

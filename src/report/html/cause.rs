@@ -1,9 +1,8 @@
 //! A cause in the page: the mistake in one sentence, how sure that is, what speaks for it, what takes it away, where to
 //! look, one command, and the failing cases that it explains.
 
-use super::View;
-use super::bounces;
 use super::parts::{command, folded_rows};
+use super::{View, plot};
 use crate::case::Part;
 use crate::diagnosis::{Degree, Headline};
 use crate::report::digest::capitalised;
@@ -49,12 +48,18 @@ pub(super) fn card(
             }
             h3.said { (sentence(&headline.mistake)) }
             p.degree { b { (capitalised(headline.degree.word())) } ": " (certainty(headline.degree)) "." }
-            @if let Some(plot) = bounces::plot(view.tree, core, headline) { (plot) }
+            @if let Some(plot) = evidence_plot(view.tree, core, headline) { (plot) }
             (reasons(view.tree, core, headline))
             (command(&headline.command))
             (cases(view, core, headline))
         }
     }
+}
+
+/// The small plot of the first failing case that has one.
+fn evidence_plot(tree: &RunTree, core: &str, headline: &Headline) -> Option<Markup> {
+    let explained = trials(tree, core, &headline.explains);
+    explained.iter().find_map(|trial| Some(plot::small(trial.outcome.finding()?)?.markup()))
 }
 
 const fn certainty(degree: Degree) -> &'static str {

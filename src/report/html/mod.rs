@@ -5,11 +5,12 @@
 //! cores and cases is escaped by the templates; only our own style sheet and scripts are not.
 
 mod assets;
-mod bounces;
 mod case;
 mod cause;
+mod chance;
 pub(crate) mod comparison;
 mod develop;
+mod history;
 mod image;
 mod interval;
 mod ledger;
@@ -41,8 +42,14 @@ struct Section {
 }
 
 /// Of the index; the single file has the failing cases after them.
-static SECTIONS: &[&Section] =
-    &[&start::SECTION, &overview::SECTION, &trials::SECTION, &provenance::SECTION];
+static SECTIONS: &[&Section] = &[
+    &start::SECTION,
+    &overview::SECTION,
+    &trials::SECTION,
+    &chance::SECTION,
+    &history::SECTION,
+    &provenance::SECTION,
+];
 
 /// Writes `index.html` and the pages that it leads to into `folder`, each whole or not at all.
 ///

@@ -177,6 +177,24 @@ fn pictures_that_are_gone_are_shown_as_gone() {
 }
 
 #[test]
+fn plots_stand_in_the_pages_without_scripts_and_are_told_in_words() {
+    let pages = all_pages(Example::mixed());
+    let energy = &pages["case/integrator/furnace-bounce-by-bounce.html"];
+    let figure = energy.split("<figure class=\"plot\">").nth(1).unwrap();
+    let figure = figure.split("</figure>").next().unwrap();
+    for part in ["role=\"img\"", "<title>", "<desc>", "<figcaption>", "What one should see"] {
+        assert!(figure.contains(part), "{part} is missing: {figure}");
+    }
+    assert!(!figure.contains("scripted") && !figure.contains("NaN"), "{figure}");
+    let none = &pages["case/shape/rays-in-the-plane-miss.html"];
+    assert!(none.contains("none: its numbers are all there is") && !none.contains("<figure"));
+    assert!(pages["index.html"].contains("Too few p-values to draw"));
+    assert!(pages["index.html"].contains("no earlier run with the same filters and budget"));
+    let green = page(Example::of_default_size());
+    assert_eq!(green.matches("p-values of").count(), 3, "a title, and one for each core");
+}
+
+#[test]
 fn the_same_run_gives_the_same_pages() {
     let folder = tempfile::tempdir().unwrap();
     Example::mixed().write(folder.path());

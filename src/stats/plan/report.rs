@@ -21,6 +21,9 @@ pub struct Judgement {
     pub(crate) smallest_detectable_error: Option<f64>,
     /// What the ledger enters; none where chance has no part in it.
     pub(crate) hypothesis: Option<Hypothesis>,
+    /// The probability that chance alone brings the first stage as far from `expected`, or further, tolerance not
+    /// counted: uniform over right cores. None where the test knows no such law.
+    pub(crate) p_value: Option<f64>,
     /// Why there is no verdict, where it is not that more samples are needed.
     pub(crate) doubt: Option<Doubt>,
 }
@@ -48,6 +51,7 @@ impl Judgement {
             interval: None,
             smallest_detectable_error: None,
             hypothesis: None,
+            p_value: None,
             doubt: None,
         }
     }

@@ -60,6 +60,7 @@ impl Report for ShareReport {
             interval: Some(self.interval),
             smallest_detectable_error: Some(self.resolution),
             hypothesis: Some(self.stages.hypothesis(TestKind::Share)),
+            p_value: self.stages.first().and_then(|first| p_value(first, self.expected)),
             ..Judgement::new(self.verdict, self.share, self.expected)
         }
     }
@@ -112,6 +113,15 @@ fn score(
     // Shares of 0 and 1 have no noise; the cap is beyond all others.
     let sigmas = (departure / (variance / trials as f64).sqrt()).min(1e9);
     ShareStage { stage, trials, hits, p_value, sigmas, rejects: p_value < STAGE_LEVEL }
+}
+
+/// Two-sided, half of what is just as likely counted; none of what is certain.
+fn p_value(stage: &ShareStage, expected: f64) -> Option<f64> {
+    let ShareStage { hits, trials, .. } = *stage;
+    let at_least =
+        |hits| if hits > trials { 0.0 } else { binomial_at_least(hits, trials, expected) };
+    let above = 0.5 * (at_least(hits) + at_least(hits + 1));
+    (0.0 < expected && expected < 1.0).then_some(2.0 * above.min(1.0 - above))
 }
 
 /// Standard errors between the band and an error that is seen.

@@ -58,6 +58,13 @@ impl ErrorLevel {
         }
     }
 
+    /// Root mean square error, and its standard error.
+    pub(crate) fn root_mean_square(&self) -> [f64; 2] {
+        let squared = self.error();
+        let error = squared.mean().sqrt();
+        [error, 0.5 * squared.standard_error() / error]
+    }
+
     fn error(&self) -> Moments {
         self.squared_errors.iter().copied().collect()
     }

@@ -49,9 +49,11 @@ pub(crate) fn speed_up(pairs: &[(f64, f64)]) -> SpeedUp {
 const SIGN_LEVEL: f64 = 1e-4;
 
 /// Whether one of two things is so many times as fast as the other.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Faster {
     pub(crate) speed_up: SpeedUp,
+    /// Time of the first over the time of the second, pair by pair.
+    pub(crate) ratios: Vec<f64>,
     /// Pairs in which it is by more than what was asked.
     pub(crate) above: usize,
     /// Probability of as many such pairs, were it so in half of them: the sign test, which knows no
@@ -68,7 +70,8 @@ pub(crate) fn judge_faster(pairs: &[(f64, f64)], at_least: f64) -> Faster {
     let p_value = binomial_at_least(above as u64, pairs.len() as u64, 0.5);
     let shown = p_value < SIGN_LEVEL;
     let verdict = if shown { Verdict::Pass } else { Verdict::Inconclusive };
-    Faster { speed_up: speed_up(pairs), above, p_value, verdict }
+    let ratios = pairs.iter().map(|(first, second)| first / second).collect();
+    Faster { speed_up: speed_up(pairs), ratios, above, p_value, verdict }
 }
 
 /// Percentile bootstrap of the median (Efron 1979).

@@ -3,14 +3,14 @@
 use maud::{Markup, html};
 
 /// A plot with the words beside it.
-pub(super) struct Figure {
+pub(in crate::report::html) struct Figure {
     pub(super) title: String,
     pub(super) drawing: Markup,
     /// What each kind of mark is, by its class and its shape.
     pub(super) legend: Vec<(Mark, String)>,
     /// What is there, in numbers.
     pub(super) found: String,
-    /// What one should see, and what it means where one does not.
+    /// What one should see, and what it means where one does not; empty where the plot above has said it.
     pub(super) should: &'static str,
     /// Values that are not finite, or have no place on a logarithmic axis.
     pub(super) left_out: usize,
@@ -26,6 +26,8 @@ pub(super) struct Mark {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {
     Circle,
+    /// A square, open and so large that others are seen in it.
+    Frame,
     Square,
     Triangle,
     Line,
@@ -42,6 +44,7 @@ impl Mark {
     pub(super) fn at(self, x: f64, y: f64, title: &str) -> Markup {
         let shape = match self.shape {
             Shape::Circle => "m-3 0a3 3 0 1 0 6 0a3 3 0 1 0-6 0z",
+            Shape::Frame => "m-4.5-4.5h9v9h-9z",
             Shape::Square => "m-2.7-2.7h5.4v5.4h-5.4z",
             Shape::Triangle => "m-3.2 2.5l3.2-5.8l3.2 5.8z",
             Shape::Line => "m-9 0h18",
@@ -57,7 +60,7 @@ impl Mark {
     pub(super) const fn kind(self) -> &'static str {
         match self.shape {
             Shape::Circle | Shape::Square | Shape::Triangle => "mark",
-            Shape::Line => "line",
+            Shape::Line | Shape::Frame => "line",
             Shape::Area => "area",
             Shape::Outline => "outline",
         }
@@ -65,7 +68,7 @@ impl Mark {
 }
 
 impl Figure {
-    pub(super) fn markup(&self) -> Markup {
+    pub(in crate::report::html) fn markup(&self) -> Markup {
         html! {
             figure.plot {
                 div.drawing {
@@ -76,7 +79,9 @@ impl Figure {
                 figcaption {
                     p { (self.found) }
                     @if let Some(words) = left_out(self.left_out) { p.bad { (words) } }
-                    p.faint { b { "What one should see. " } (self.should) }
+                    @if !self.should.is_empty() {
+                        p.faint { b { "What one should see. " } (self.should) }
+                    }
                 }
             }
         }

@@ -1,20 +1,48 @@
 //! Plots: SVG with the words beside it, drawn here, so that they need no script, print, and follow the colours of the
 //! page. A kind of plot is a file here; what it shows comes from the series and measures of a sidecar.
 
+mod bvh;
+mod chart;
+mod convergence;
+mod energy;
 mod figure;
+pub(super) mod history;
+pub(super) mod p_values;
+mod scale;
 mod sphere;
+mod stops;
 
 use crate::checks::Finding;
 use crate::checks::series::Series;
-use maud::Markup;
+use figure::Figure;
 
 /// The plots of a trial.
-pub(super) fn of_finding(finding: &Finding) -> Vec<Markup> {
-    finding.series.iter().filter_map(of_series).collect()
+pub(super) fn of_finding(finding: &Finding) -> Vec<Figure> {
+    let mut plots: Vec<_> = energy::plot(finding)
+        .into_iter()
+        .chain(finding.series.iter().filter_map(of_series))
+        .collect();
+    for later in (1..plots.len()).rev() {
+        if plots[later].should == plots[later - 1].should {
+            plots[later].should = "";
+        }
+    }
+    plots
 }
 
-fn of_series(series: &Series) -> Option<Markup> {
+/// The first plot of a trial that is small enough for the page of the run.
+pub(super) fn small(finding: &Finding) -> Option<Figure> {
+    let is_small = |series: &&Series| !matches!(series, Series::Directions(_));
+    energy::plot(finding).or_else(|| finding.series.iter().find(is_small).and_then(of_series))
+}
+
+fn of_series(series: &Series) -> Option<Figure> {
     match series {
         Series::Directions(counts) => sphere::plot(counts),
+        Series::Convergence(errors) => convergence::plot(errors),
+        Series::TestsBySize(tests) => bvh::tests(tests),
+        Series::SpeedUp(times) => bvh::speed_up(times),
+        Series::Stops(counts) => stops::counts(counts),
+        Series::Survival(survival) => stops::survival(survival),
     }
 }

@@ -1,6 +1,6 @@
 //! From numbers to places along an axis, and the round numbers that are written at it.
 
-use crate::text::number::significant;
+use crate::text::number::{significant, to_step};
 
 /// Along one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,14 +51,17 @@ impl Scale {
             true => (value / self.low).ln() / (self.high / self.low).ln(),
             false => (value - self.low) / (self.high - self.low),
         };
-        let place = self.ends[0] + share.clamp(-0.02, 1.02) * (self.ends[1] - self.ends[0]);
-        (value.is_finite() && place.is_finite()).then_some(place)
+        // What is beyond the axis by a hair is drawn at its end.
+        let within = share.clamp(-0.02, 1.02);
+        share.is_finite().then(|| self.ends[0] + within * (self.ends[1] - self.ends[0]))
     }
 
     /// Round numbers within the range, and as they are written: about so many.
     pub(super) fn ticks(&self, about: usize) -> Vec<(f64, String)> {
         let values = if self.is_log { self.powers(about) } else { self.steps(about) };
-        values.into_iter().map(|value| (value, label(value))).collect()
+        // Neighbours that are close need the digits in which they differ.
+        let step = values.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+        values.into_iter().map(|value| (value, label(value, step))).collect()
     }
 
     fn steps(&self, about: usize) -> Vec<f64> {
@@ -90,11 +93,12 @@ impl Scale {
     }
 }
 
-/// A number at an axis: `0.05`, `10⁻⁶`, `20 k`.
-fn label(value: f64) -> String {
+/// A number at an axis: `0.05`, `1.0002`, `20 k`.
+fn label(value: f64, step: f64) -> String {
     match value.abs() {
         size if (1e4..1e6).contains(&size) => format!("{} k", significant(value / 1e3, 3)),
         size if (1e6..1e9).contains(&size) => format!("{} M", significant(value / 1e6, 3)),
+        size if step < 1e-3 * size => to_step(value, 10.0 * step),
         _ => significant(value, 3),
     }
 }
@@ -122,8 +126,12 @@ mod tests {
         assert_eq!(labels(Scale::log([4.0, 4096.0])), ["10", "100", "1000"]);
         assert_eq!(labels(Scale::log([320.0, 40_000.0])), ["1000", "10 k"]);
         assert_eq!(labels(Scale::log([0.8, 12.0])), ["1", "2", "5", "10"]);
+        assert_eq!(
+            labels(Scale::linear([0.999_95, 1.000_17])),
+            ["0.99995", "1.00000", "1.00005", "1.00010", "1.00015"]
+        );
         assert!(labels(Scale::log([1e-12, 1.0])).len() <= 6);
-        assert_eq!(labels(Scale::linear([3.0])).len(), 4);
+        assert_eq!(labels(Scale::linear([3.0])), ["2.8", "3", "3.2"]);
     }
 
     #[test]

@@ -143,7 +143,7 @@ fn cells(counts: &SphereCounts) -> Option<Vec<Cell>> {
 /// How a cell is coloured: by which class, how strongly.
 type Shade<'a> = dyn Fn(&Cell) -> (&'static str, f64) + 'a;
 
-pub(super) fn plot(counts: &SphereCounts) -> Option<Markup> {
+pub(super) fn plot(counts: &SphereCounts) -> Option<Figure> {
     let cells = cells(counts)?;
     let finite = |values: &dyn Fn(&Cell) -> f64| {
         cells.iter().map(values).map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max)
@@ -171,7 +171,7 @@ pub(super) fn plot(counts: &SphereCounts) -> Option<Markup> {
         should: SHOULD,
         left_out: cells.iter().filter(|cell| !cell.residual().is_finite()).count(),
     };
-    Some(figure.markup())
+    Some(figure)
 }
 
 /// One map: of the hemisphere around the normal, and below it of the other one where samples belong there.
@@ -361,7 +361,7 @@ mod tests {
     }
 
     fn drawn(counts: &SphereCounts) -> String {
-        plot(counts).unwrap().into_string()
+        plot(counts).unwrap().markup().into_string()
     }
 
     #[test]

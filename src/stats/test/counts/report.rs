@@ -26,6 +26,13 @@ pub(crate) struct CountStage {
     pub(crate) rejects: bool,
 }
 
+impl CountStage {
+    /// How much more counts of samples that depend on each other may vary.
+    fn dependence(&self) -> f64 {
+        self.allowed / chi_square_upper(STAGE_LEVEL, self.freedom)
+    }
+}
+
 impl Scored for CountStage {
     fn rejects(&self) -> bool {
         self.rejects
@@ -39,8 +46,7 @@ impl Scored for CountStage {
     /// depend on each other.
     fn excess(&self) -> f64 {
         let length = self.statistic.sqrt() - self.quadrature_error.sqrt();
-        let dependence = self.allowed / chi_square_upper(STAGE_LEVEL, self.freedom);
-        let seen = length.max(0.0).powi(2) / dependence - self.freedom;
+        let seen = length.max(0.0).powi(2) / self.dependence() - self.freedom;
         seen.max(0.0) / detectable_noncentrality(self.freedom, STAGE_LEVEL, MISS_LEVEL)
     }
 }
@@ -107,8 +113,7 @@ impl CountReport {
         let Some(counted) = self.counted().filter(|_| self.verdict == Verdict::Fail) else {
             return Vec::new();
         };
-        let dependence =
-            (counted.allowed / chi_square_upper(STAGE_LEVEL, counted.freedom)).max(1.0);
+        let dependence = counted.dependence();
         let critical = normal_upper(STAGE_LEVEL / (2 * self.observed.len()) as f64);
         let is_far = |cell: usize| {
             // A cell with few samples is no more certain than one of a pool.
@@ -135,6 +140,12 @@ impl Report for CountReport {
             allowed: per_freedom(|stage| stage.critical) - 1.0,
             smallest_detectable_error: Some(self.resolution),
             hypothesis: Some(self.stages.hypothesis(TestKind::Counts)),
+            // Samples that depend on each other have another law.
+            p_value: self
+                .stages
+                .first()
+                .filter(|first| first.dependence() <= 1.0)
+                .map(|s| s.p_value),
             ..Judgement::new(self.verdict, per_freedom(|stage| stage.statistic), 1.0)
         }
     }

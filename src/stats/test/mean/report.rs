@@ -61,6 +61,8 @@ pub(crate) struct MeanReport {
     pub(crate) samples: u64,
     /// Probability that a correct core fails this claim, as entered in the ledger.
     pub(crate) false_alarm: f64,
+    /// Of the first stage, two-sided, against `expected` alone; none where nothing varies.
+    pub(crate) p_value: Option<f64>,
 }
 
 impl MeanReport {
@@ -84,6 +86,7 @@ impl Report for MeanReport {
                 ..self.stages.hypothesis(TestKind::Mean)
             }),
             doubt: self.doubt,
+            p_value: self.p_value,
             ..Judgement::new(self.verdict, self.mean, self.expected)
         }
     }

@@ -2,6 +2,7 @@
 
 use super::noise::{Noise, Tail, sample_variance};
 use super::{MeanReport, StageScore};
+use crate::stats::law::student_tail;
 use crate::stats::plan::level::{INTERVAL_LEVEL, MEAN_FALSE_ALARM, MISS_LEVEL};
 use crate::stats::plan::{Doubt, Escalation, Scored};
 use crate::stats::{Claim, Effort, Moments, Stage, Verdict, normal_upper, student_upper};
@@ -257,6 +258,7 @@ impl MeanTest {
             detects: effort.detects,
             samples: drawn,
             false_alarm: MEAN_FALSE_ALARM,
+            p_value: self.p_value(f64::from(effort.runs - 1)),
         }
     }
 
@@ -266,6 +268,12 @@ impl MeanTest {
         let is_low = self.stages.last().is_some_and(|last| last.t < 0.0);
         let may_grow = is_low || self.claim.expected <= 0.0;
         self.stages.rejects() && may_grow && self.tail.pointedness() > MOST_POINTED
+    }
+
+    fn p_value(&self, freedom: f64) -> Option<f64> {
+        let first = self.stages.first().filter(|first| first.standard_error > 0.0)?;
+        let t = (first.mean - self.claim.expected).abs() / first.standard_error;
+        Some(2.0 * student_tail(t, freedom))
     }
 
     fn ratio(&self, interval: [f64; 2]) -> Option<[f64; 2]> {

@@ -1,0 +1,119 @@
+//! Earlier runs of the same question: the folders beside that of a run, of which `run.json` alone is read.
+
+use super::tree::RunTree;
+use crate::run::RunRecord;
+use crate::run::record::{Score, VERSION, read_json};
+use std::path::Path;
+
+/// Runs that are shown, the last ones.
+const MOST: usize = 24;
+
+/// The runs of one core that were asked the same, the earliest first, the run itself the last.
+pub(crate) struct History {
+    pub(crate) core: String,
+    pub(crate) runs: Vec<Past>,
+}
+
+/// What a core reached in one of them.
+pub(crate) struct Past {
+    /// Seconds since 1970, UTC.
+    pub(crate) started: u64,
+    pub(crate) score: Score,
+}
+
+/// Of each core of a run.
+pub(crate) fn histories(tree: &RunTree) -> Vec<History> {
+    let mut runs = beside(&tree.folder);
+    runs.retain(|run| asks_the_same(run, &tree.run));
+    runs.push(tree.run.clone());
+    runs.sort_by_key(|run| run.timing.started);
+    let runs = &runs[runs.len().saturating_sub(MOST)..];
+    tree.run.cores.iter().map(|core| History::of(&core.spec, runs)).collect()
+}
+
+impl History {
+    fn of(core: &str, runs: &[RunRecord]) -> Self {
+        let past = |run: &RunRecord| {
+            let record = run.cores.iter().find(|record| record.spec == core)?;
+            Some(Past { started: run.timing.started, score: record.score.clone()? })
+        };
+        Self { core: core.to_owned(), runs: runs.iter().filter_map(past).collect() }
+    }
+}
+
+/// Every run that has come to its end beside this one, before it; what is not a run, or of another version, is passed over.
+fn beside(folder: &Path) -> Vec<RunRecord> {
+    let Some(entries) = folder.parent().and_then(|runs| std::fs::read_dir(runs).ok()) else {
+        return Vec::new();
+    };
+    let others = entries
+        .filter_map(Result::ok)
+        .map(|entry| entry.path())
+        .filter(|path| path.file_name() != folder.file_name() && path.join("run.json").is_file());
+    let read = |path: std::path::PathBuf| read_json::<RunRecord>(&path.join("run.json")).ok();
+    others.filter_map(read).collect()
+}
+
+/// Whether two runs can be held against each other: the same cases, as closely looked at.
+fn asks_the_same(one: &RunRecord, other: &RunRecord) -> bool {
+    let question = |run: &RunRecord| {
+        (run.filters.clone(), run.budget, run.with, run.trials / run.cores.len().max(1))
+    };
+    one.version == VERSION
+        && one.timing.started <= other.timing.started
+        && question(one) == question(other)
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::report::example::Example;
+    use crate::run::record::Number;
+
+    /// A folder of runs: what passes of 12 on `builtin`, in the order of days.
+    pub(crate) fn runs(passes: &[usize]) -> (tempfile::TempDir, RunTree) {
+        let folder = tempfile::tempdir().unwrap();
+        for (day, passes) in passes.iter().enumerate() {
+            let mut example = Example::green();
+            example.run.timing.started += 86_400 * day as u64;
+            example.run.cores[0].score = Some(Score {
+                passes: *passes,
+                graded: 12,
+                seconds: 10.0 + day as f64,
+                numbers: vec![Number {
+                    case: "bvh/soup".to_owned(),
+                    what: "tests a ray".to_owned(),
+                    value: 30.0,
+                }],
+            });
+            example.write_records(&folder.path().join(format!("run-{day}")));
+        }
+        let last = folder.path().join(format!("run-{}", passes.len() - 1));
+        let tree = RunTree::load(&last).unwrap();
+        (folder, tree)
+    }
+
+    #[test]
+    fn runs_that_were_asked_the_same_are_told_in_their_order() {
+        let (folder, tree) = runs(&[7, 9, 12]);
+        let broken = folder.path().join("broken");
+        std::fs::create_dir(&broken).unwrap();
+        std::fs::write(broken.join("run.json"), "{").unwrap();
+        let mut strict = Example::green();
+        strict.run.budget = crate::stats::Budget::Strict;
+        strict.run.cores[0].score = tree.run.cores[0].score.clone();
+        strict.write_records(&folder.path().join("strict"));
+        let histories = histories(&tree);
+        let passes = |history: &History| {
+            history.runs.iter().map(|past| past.score.passes).collect::<Vec<_>>()
+        };
+        assert_eq!(histories.iter().map(passes).collect::<Vec<_>>(), [vec![7, 9, 12], vec![]]);
+    }
+
+    #[test]
+    fn a_report_of_an_old_run_knows_nothing_of_later_ones() {
+        let (folder, _) = runs(&[7, 9, 12]);
+        let tree = RunTree::load(&folder.path().join("run-1")).unwrap();
+        assert_eq!(histories(&tree)[0].runs.len(), 2);
+    }
+}

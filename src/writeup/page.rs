@@ -7,7 +7,7 @@ use super::ladder::Ladder;
 use super::store::{Figure, Store};
 use super::{Plan, Row, WriteupError};
 use crate::contract::Precision;
-use crate::render::Shot;
+use crate::render::{Shot, renders_codes_alone};
 use crate::text::number::{self, count, figure, percent, plus_minus};
 
 pub(super) struct Page {
@@ -79,6 +79,10 @@ fn facts(plan: &Plan<'_>) -> Vec<String> {
     let [width, height] = plan.effort.size;
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let arch = std::env::consts::ARCH;
+    let exposed = match renders_codes_alone(info) {
+        true => "8 bits as the core writes them",
+        false => "each scene at one exposure throughout",
+    };
     let precision = match info.precision {
         Precision::Single => "single",
         Precision::Double => "double",
@@ -86,7 +90,7 @@ fn facts(plan: &Plan<'_>) -> Vec<String> {
     let roles = plan.roles();
     vec![
         format!("Core: {} {}, {precision} precision.", info.name, info.version),
-        format!("Figures: {width} × {height} pixels, each scene at one exposure throughout."),
+        format!("Figures: {width} × {height} pixels, {exposed}."),
         plan.cast.told(roles.into_iter()),
         format!("Times: wall clock, without the build, on {} ({arch}).", count(threads, "thread")),
         "Words: s samples per pixel, l light rays to each area light at each vertex (with hemisphere \
@@ -168,27 +172,29 @@ fn shown(
     let stops = exposures.get(&shot.scene).copied().unwrap_or(0.0);
     let images = developed(store, figure, shot, stops)?;
     let label = row.label.clone();
-    Ok(Some(Shown { label, facts: caption(shot, figure, stops), images }))
+    let facts = caption(&label, shot, figure, stops);
+    Ok(Some(Shown { label, facts, images }))
 }
 
-fn caption(shot: &Shot, figure: &Figure, stops: f32) -> String {
-    let seconds = duration(figure.measured.seconds);
-    let scene = scene_name(shot);
-    let mut facts = match shot.normals {
-        true => seconds,
-        false => {
-            let samples = match figure.measured.samples {
-                Some(mean) => format!("s = {} of {} on average", self::figure(mean), shot.spp),
-                None => format!("s = {}", shot.spp),
-            };
-            let (rays, depth) = (shot.light_samples, depth(shot));
-            format!("{scene}, {samples}, l = {rays}, {depth}, {seconds}, exposure {stops:+} stops")
-        }
-    };
-    if let Some(breach) = &figure.measured.breach {
-        facts += &format!("; {breach}");
+/// Scene, samples, depth, seconds and exposure, without what the label says.
+fn caption(label: &str, shot: &Shot, figure: &Figure, stops: f32) -> String {
+    let (mut facts, scene) = (Vec::new(), scene_name(shot));
+    if !label.starts_with(&scene) {
+        facts.push(scene);
     }
-    facts
+    if !shot.normals {
+        facts.push(match figure.measured.samples {
+            Some(mean) => format!("s = {} of {} on average", self::figure(mean), shot.spp),
+            None => format!("s = {}", shot.spp),
+        });
+        facts.extend([format!("l = {}", shot.light_samples), depth(shot)]);
+    }
+    facts.push(duration(figure.measured.seconds));
+    if !shot.normals && figure.measured.mean.is_some() {
+        facts.push(format!("exposure {stops:+} stops"));
+    }
+    facts.extend(figure.measured.breach.clone());
+    facts.join(", ")
 }
 
 fn bvh(meshes: &[Row<Timed>]) -> Section {

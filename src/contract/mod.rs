@@ -6,14 +6,7 @@
 //!
 //! # Rules, once for all
 //!
-//! - Lengths are scene units; angles are radians; radiance is W·sr⁻¹·m⁻² per linear RGB channel.
-//! - Directions are unit length unless a field says otherwise.
-//! - BSDF directions are in the local shading frame (normal = +z) and both point *away* from the surface.
-//!   `f` never includes the cosine; every `pdf` is per steradian.
-//! - Film coordinates run over [0, 1]²: (0, 0) bottom left, (0.5, 0.5) centre. Pictures have row 0 on top.
-//! - The caller allocates; `out[i]` answers `in[i]`; out slices are as long as the first in slice.
-//! - The boundary is f64 whatever the core computes in: f32 → f64 is exact, so a double-precision core is
-//!   never judged through single-precision rounding.
+#![doc = include_str!("rules.md")]
 //!
 //! **Invariant:** one caller at a time. A core may use threads inside a call.
 
@@ -55,6 +48,9 @@ pub use settings::{
 pub use crate::math::Precision;
 
 use question::*;
+
+/// What is the same for every core: lengths, angles, frames, directions. A list in Markdown.
+pub(crate) const RULES: &str = include_str!("rules.md");
 
 /// The method of a question, for cores that do not answer it.
 macro_rules! unsupported {

@@ -25,6 +25,7 @@ pub(crate) use event::Event;
 pub use executor::run_in_memory;
 pub use outcome::{Outcome, Status};
 pub use plan::{Plan, Request, Trial};
+pub(crate) use planted::{Excluded, excluded};
 pub use record::{RecordError, RunRecord, TrialRecord};
 pub(crate) use record::{Transplanted, Transplants};
 use second_look::look_again;

@@ -17,6 +17,32 @@ const SHARE: f64 = 0.25;
 /// What was asked: the core, the case, what was the bench's own.
 type Asked = (String, String, Components);
 
+/// A mistake that some case is known to catch: planted, it fails that case and is told by its cause (`tests/faults.rs`).
+pub(crate) struct Excluded {
+    /// `textbook:NAME` makes it.
+    pub(crate) name: &'static str,
+    pub(crate) part: u32,
+    /// What the student wrote.
+    pub(crate) wrote: &'static str,
+    pub(crate) caught_by: &'static str,
+    /// Its cause as one sentence.
+    pub(crate) told: &'static str,
+}
+
+/// What cases exclude when they pass, part by part.
+pub(crate) fn excluded() -> Vec<Excluded> {
+    let of = |fault: &'static fault::Fault| Excluded {
+        name: fault.name,
+        part: fault.part,
+        wrote: fault.summary,
+        caught_by: fault.caught_by,
+        told: fault.cause.headline,
+    };
+    let mut all: Vec<_> = fault::all().map(of).collect();
+    all.sort_by_key(|mistake| mistake.part);
+    all
+}
+
 /// Every fault of the textbook, and what was asked of them before.
 pub(super) struct PlantedFaults<'a> {
     plan: &'a Plan,

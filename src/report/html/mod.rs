@@ -9,10 +9,12 @@ mod case;
 mod cause;
 mod chance;
 pub(crate) mod comparison;
+mod conventions;
 mod develop;
 mod history;
 mod image;
 mod interval;
+mod kill_matrix;
 mod ledger;
 mod overview;
 mod parts;
@@ -51,6 +53,16 @@ static SECTIONS: &[&Section] = &[
     &provenance::SECTION,
 ];
 
+/// The text of a page.
+type Text = fn(&View<'_>) -> String;
+
+/// Pages beside the index: what the whole run rests on. The section on the run leads to them.
+static BESIDE: &[(&str, Text)] = &[
+    (ledger::FILE, ledger::page),
+    (conventions::FILE, conventions::page),
+    (kill_matrix::FILE, kill_matrix::page),
+];
+
 /// Writes `index.html` and the pages that it leads to into `folder`, each whole or not at all.
 ///
 /// # Errors
@@ -84,8 +96,10 @@ fn pages<'a>(tree: &'a RunTree, folder: &'a Path) -> impl Iterator<Item = (Strin
         ("viewer.js", viewer_script()),
     ];
     let assets = assets.into_iter().map(|(name, text)| (format!("{FOLDER}/{name}"), text));
-    let ledger = (ledger::FILE.to_owned(), ledger::page(&View::new(tree, folder, Place::Top)));
-    assets.chain([ledger]).chain(case::pages(tree, folder))
+    let beside = BESIDE
+        .iter()
+        .map(move |(name, page)| ((*name).to_owned(), page(&View::new(tree, folder, Place::Top))));
+    assets.chain(beside).chain(case::pages(tree, folder))
 }
 
 /// The text of the index that is to stand in `folder`.

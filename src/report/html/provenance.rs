@@ -1,8 +1,9 @@
 //! Everything needed to repeat the run: cores, conventions, seeds, versions, machine.
 
+use super::conventions::choices;
 use super::overview::date;
-use super::{Section, View, ledger};
-use crate::contract::{Conventions, Precision};
+use super::{Section, View, conventions, kill_matrix, ledger};
+use crate::contract::Precision;
 use crate::run::RunRecord;
 use crate::run::record::CoreRecord;
 use crate::text::number::duration;
@@ -31,6 +32,8 @@ fn body(view: &View<'_>) -> Option<Markup> {
                 }
                 @for core in &run.cores { (about(core)) }
                 dt { "error rates" } dd { (ledger::summary(view)) }
+                dt { "conventions" } dd { (conventions::summary(view)) }
+                dt { "kill matrix" } dd { (kill_matrix::summary(view)) }
             }
         }
     })
@@ -50,7 +53,7 @@ fn about(core: &CoreRecord) -> Markup {
         dd {
             p { (core.name) " " (core.version) ", " (arithmetic) }
             p {
-                @for (name, choice) in conventions(core.conventions) {
+                @for (name, choice) in choices(core.conventions) {
                     span.choice { (name) ": " (choice) }
                 }
             }
@@ -74,28 +77,5 @@ fn walls(confinement: &Confinement) -> Markup {
                 @for sentence in &confinement.lacking { li { b { "not enforced: " } (sentence) } }
             }
         }
-    }
-}
-
-/// Name and choice of every convention, by the words that files use, so that a new one needs no line here.
-fn conventions(conventions: Conventions) -> Vec<(String, String)> {
-    let Ok(serde_json::Value::Object(fields)) = serde_json::to_value(conventions) else {
-        return Vec::new();
-    };
-    let words = |value: &serde_json::Value| match value.as_str() {
-        Some(word) => word.replace('-', " "),
-        None => value.to_string(),
-    };
-    fields.iter().map(|(name, value)| (name.replace('-', " "), words(value))).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_convention_is_shown_by_its_words() {
-        let shown = conventions(Conventions::default());
-        assert!(shown.contains(&("smith term".to_owned(), "separable".to_owned())), "{shown:?}");
     }
 }

@@ -3,6 +3,7 @@
 use crate::report::digest::CaseGroup;
 use crate::report::tree::RunTree;
 use crate::run::TrialRecord;
+use maud::{Markup, html};
 use std::path::Path;
 
 /// Where a page stands.
@@ -36,6 +37,16 @@ impl<'a> View<'a> {
         match self.place {
             Place::Below(depth) => "../".repeat(depth),
             Place::Top | Place::Alone => String::new(),
+        }
+    }
+
+    /// A link to a page beside the index; the words alone where there is none.
+    pub(super) fn way(&self, file: &str, words: &str) -> Markup {
+        html! {
+            @match self.place {
+                Place::Alone => { (words) }
+                _ => { a href={ (self.up()) (file) } { (words) } }
+            }
         }
     }
 

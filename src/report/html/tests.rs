@@ -4,6 +4,8 @@
 use super::assets::EARLY_SCRIPT;
 use super::*;
 use crate::report::example::{Example, HOSTILE};
+use crate::run::RunRecord;
+use crate::run::record::{Number, Score, read_json, write_json};
 use std::collections::{BTreeMap, BTreeSet};
 
 mod browser;
@@ -230,6 +232,25 @@ fn a_page_that_cannot_be_written_names_its_path() {
     assert!(error.contains(&file.display().to_string()), "{error}");
 }
 
+/// As many earlier runs as a history shows, beside a run of the same question.
+fn write_earlier_runs(folder: &Path) {
+    let mut run: RunRecord = read_json(&folder.join("run.json")).unwrap();
+    let number = |number: usize| Number {
+        case: format!("image/cornell-spheres-{number}"),
+        what: "error / mean luminance, 256 samples per pixel".to_owned(),
+        value: 0.123,
+    };
+    let numbers = (0..30).map(number).collect();
+    let score = Score { passes: 187, graded: 190, seconds: 71.3, numbers };
+    run.cores.iter_mut().for_each(|core| core.score = Some(score.clone()));
+    write_json(&folder.join("run.json"), &run).unwrap();
+    for day in 1..30 {
+        run.timing.started -= 86_400;
+        let name = format!("{}-{day}", folder.file_name().unwrap().to_string_lossy());
+        write_json(&folder.with_file_name(name).join("run.json"), &run).unwrap();
+    }
+}
+
 #[test]
 fn the_pages_of_the_default_suite_stay_light() {
     let temporary = tempfile::tempdir().unwrap();
@@ -238,10 +259,12 @@ fn the_pages_of_the_default_suite_stay_light() {
     for (name, example) in [("green", Example::of_default_size()), ("mixed", Example::mixed())] {
         let folder = folder.join(name);
         example.write(&folder);
+        write_earlier_runs(&folder);
         let tree = RunTree::load(&folder).unwrap();
         let page = write(&tree, &folder).unwrap();
         let bytes = std::fs::metadata(&page).unwrap().len();
         assert!(bytes < 400_000, "{name}: {bytes} bytes for {} trials", tree.trials.len());
+        assert!(std::fs::read_to_string(&page).unwrap().contains("builtin over 24 runs"));
         write_single(&tree, &folder).unwrap();
     }
 }

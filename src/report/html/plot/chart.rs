@@ -3,6 +3,7 @@
 use super::figure::{Mark, px, svg};
 use super::scale::Scale;
 use maud::{Markup, html};
+use std::ops::RangeInclusive;
 
 const SIZE: [f64; 2] = [360.0, 224.0];
 /// Where the axes end: left and right, top and bottom.
@@ -22,13 +23,12 @@ impl Axis {
     }
 
     /// An axis of whole numbers, which are all written if they are few.
-    pub(super) fn of_whole(label: &str, scale: Scale, last: u32) -> Self {
-        match last {
-            0..=12 => {
-                let ticks = (0..=last).map(|number| (f64::from(number), number.to_string()));
-                Self { label: label.to_owned(), scale, ticks: ticks.collect() }
-            }
-            _ => Self::new(label, scale),
+    pub(super) fn of_whole(label: &str, scale: Scale, numbers: RangeInclusive<u32>) -> Self {
+        let is_few = numbers.end() - numbers.start() <= 12;
+        let ticks = numbers.map(|number| (f64::from(number), number.to_string()));
+        match is_few {
+            true => Self { label: label.to_owned(), scale, ticks: ticks.collect() },
+            false => Self::new(label, scale),
         }
     }
 }

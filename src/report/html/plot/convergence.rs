@@ -4,7 +4,7 @@ use super::chart::{Axis, Chart};
 use super::figure::{Figure, Mark, Shape};
 use super::scale::Scale;
 use crate::checks::series::Convergence;
-use crate::text::number::{figure, percent};
+use crate::text::number::{count, figure, percent};
 
 const SHOULD: &str = "The error falls along the 1/√n guide, to a quarter with sixteen times the samples, and its marks stand on those of the noise. \
     Where the error stays above the noise and flattens, the plateau is bias, unless it is as low as the noise of the reference. \
@@ -99,8 +99,9 @@ fn found(errors: &Convergence) -> String {
         return String::new();
     };
     let fall = format!(
-        "{} of the mean luminance at {first} samples per pixel, {} at {last}: as n^{}; noise alone has {} there.",
+        "{} of the mean luminance at {}, {} at {last}: as n^{}; noise alone has {} there.",
         percent(from),
+        per_pixel(first),
         percent(to),
         figure((to / from).ln() / (last / first).ln()),
         percent(noise)
@@ -113,6 +114,11 @@ fn found(errors: &Convergence) -> String {
         _ => "No plateau.".to_owned(),
     };
     format!("{fall} {floor}")
+}
+
+/// `1 sample per pixel`
+fn per_pixel(samples: f64) -> String {
+    format!("{} per pixel", count(samples as usize, "sample"))
 }
 
 #[cfg(test)]

@@ -157,7 +157,7 @@ fn last(lines: &[Line; 3]) -> u32 {
 fn bounces(lines: &[Line; 3]) -> Option<Axis> {
     let last = last(lines);
     let scale = Scale::linear([0.0, f64::from(last)])?.with_room(0.04);
-    Some(Axis::of_whole("bounce", scale, last))
+    Some(Axis::of_whole("bounce", scale, 0..=last))
 }
 
 fn radiance(lines: &[Line; 3]) -> Option<Chart> {
@@ -225,13 +225,12 @@ fn found(lines: &[Line; 3]) -> String {
     let off = |bounce: &Bounce| (bounce.ratio() - 1.0).abs();
     let known = all.filter(|(_, bounce)| bounce.ratio().is_finite());
     let worst = known.max_by(|a, b| off(a.1).total_cmp(&off(b.1)));
-    let furthest = worst.map(|(line, bounce)| {
-        format!(
-            "Furthest from 1 is bounce {}, {}: {}.",
-            bounce.number,
-            line.channel,
-            ratio(bounce.ratio())
-        )
+    let furthest = worst.map(|(line, bounce)| match off(bounce) <= bounce.tolerance() {
+        true => "Every ratio is 1 within its tolerance.".to_owned(),
+        false => {
+            let (number, channel) = (bounce.number, line.channel);
+            format!("Furthest from 1 is bounce {number}, {channel}: {}.", ratio(bounce.ratio()))
+        }
     });
     furthest.into_iter().chain(fitted(lines)).collect::<Vec<_>>().join(" ")
 }

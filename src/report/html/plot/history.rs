@@ -86,8 +86,10 @@ fn chart(history: &History, line: &Line<'_>) -> Option<Chart> {
     let top = history.runs.iter().map(|run| run.score.graded as f64).fold(0.0, f64::max);
     let top = (line.unit == "trials").then_some(top);
     let y = Scale::linear(line.points.iter().map(|[_, value]| *value).chain([0.0]).chain(top))?;
-    let mut chart =
-        Chart::new(Axis::of_whole("run", x, u32::try_from(runs).ok()?), Axis::new(line.unit, y));
+    let mut chart = Chart::new(
+        Axis::of_whole("run", x, 1..=u32::try_from(runs).ok()?),
+        Axis::new(line.unit, y),
+    );
     if let Some(top) = top {
         chart.line("guide", [[1.0, top], [runs as f64, top]]);
     }

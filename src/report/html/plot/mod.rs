@@ -22,12 +22,17 @@ pub(super) fn of_finding(finding: &Finding) -> Vec<Figure> {
         .into_iter()
         .chain(finding.series.iter().filter_map(of_series))
         .collect();
+    tell_once(&mut plots);
+    plots
+}
+
+/// What one should see is told by the first of several plots of a kind.
+pub(super) fn tell_once(plots: &mut [Figure]) {
     for later in (1..plots.len()).rev() {
         if plots[later].should == plots[later - 1].should {
             plots[later].should = "";
         }
     }
-    plots
 }
 
 /// The first plot of a trial that is small enough for the page of the run.

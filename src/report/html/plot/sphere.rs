@@ -161,7 +161,7 @@ pub(super) fn plot(counts: &SphereCounts) -> Option<Figure> {
             (map("expected", &cells, &|cell| ("data", strength(cell.expected)), counts, false))
             (map("residual", &cells, &residual, counts, true))
         }
-        (scales(most, full))
+        (scales(most, full, !counts.rejected.is_empty()))
     };
     let figure = Figure {
         title: format!("Samples of {} by direction", counts.of),
@@ -270,7 +270,7 @@ fn sign(cell: &Cell) -> String {
 }
 
 /// What the strengths of the colours stand for.
-fn scales(most: f64, full: f64) -> Markup {
+fn scales(most: f64, full: f64, has_rejected: bool) -> Markup {
     let steps = |class: &'static str, strengths: [f64; 5]| {
         html! {
             svg.ramp viewBox="0 0 60 10" width="60" height="10" aria-hidden="true" {
@@ -287,11 +287,13 @@ fn scales(most: f64, full: f64) -> Markup {
             li { "0 " (steps("data", rising)) " " (figure(most)) " samples a cell, square-root scale" }
             li { "−" (figure(full)) " " (steps("less", [1.0, 0.75, 0.5, 0.25, 0.0])) (steps("more", rising)) " +"
                 (figure(full)) " standard deviations, (O − E)/√E" }
-            li {
-                svg viewBox="0 0 22 12" width="22" height="12" aria-hidden="true" {
-                    (Mark::new("rejected", Shape::Outline).at(11.0, 6.0, ""))
+            @if has_rejected {
+                li {
+                    svg viewBox="0 0 22 12" width="22" height="12" aria-hidden="true" {
+                        (Mark::new("rejected", Shape::Outline).at(11.0, 6.0, ""))
+                    }
+                    "cell rejected for itself"
                 }
-                "cell rejected for itself"
             }
         }
     }

@@ -100,7 +100,8 @@ fn survival_chart(survival: &Survival) -> Option<Chart> {
     let values = survival.high.iter().chain(survival.expected.iter()).copied();
     let y = Scale::linear(values.chain([0.0, 1.0]))?;
     let x = Scale::linear(bounces().chain([0.0]))?.with_room(0.04);
-    let mut chart = Chart::new(Axis::of_whole("bounce", x, *last), Axis::new("share of paths", y));
+    let mut chart =
+        Chart::new(Axis::of_whole("bounce", x, 0..=*last), Axis::new("share of paths", y));
     chart.line("guide", bounces().zip(survival.expected.iter()).map(|(x, y)| [x, *y]));
     let ends = survival.low.iter().zip(survival.high.iter());
     for ((bounce, share), (low, high)) in bounces().zip(survival.share.iter()).zip(ends) {

@@ -2,7 +2,7 @@
 //! is told of each is told of that component alone.
 
 use super::rank::Ranked;
-use super::reproduction::{MadeIn, proven};
+use super::reproduction::{MadeIn, Sifted, proven};
 use super::{Diagnosis, Evidence, Planted};
 use crate::contract::Components;
 
@@ -15,38 +15,52 @@ pub(crate) struct View<'a> {
     pub(crate) mended: Vec<String>,
 }
 
+impl View<'_> {
+    fn sifted<'a>(&'a self, planted: &'a dyn Planted) -> Sifted<'a> {
+        Sifted::of(&self.evidence, planted, MadeIn::Mended(self.own))
+    }
+
+    fn mends(&self, case: &str) -> bool {
+        self.mended.iter().any(|mended| mended == case)
+    }
+}
+
 /// The causes of what failed at `first`, from the views of it; what no view shows is told as it was seen first.
 pub(crate) fn diagnose_apart(
     first: &Evidence<'_>,
     views: &[View<'_>],
     planted: &dyn Planted,
 ) -> Diagnosis {
-    let of_view = |view: &View<'_>| {
-        proven(&view.evidence, planted, MadeIn::Mended(view.own)).of_component(view.own)
-    };
-    let mut told: Vec<_> = views.iter().map(of_view).collect();
-    let shown = |case: &str| views.iter().any(|view| view.evidence.fails(case));
-    let hidden = first.all_failures().filter(|seen| !shown(seen.case)).map(|seen| seen.case);
-    let (mut left, mut unseen) = (Vec::new(), vec![Vec::new(); views.len()]);
-    for case in hidden {
-        match views.iter().position(|view| view.mended.iter().any(|mended| mended == case)) {
-            Some(number) if told[number].followed_by(case) => {}
-            Some(number) => unseen[number].push(case),
-            None => left.push(case),
-        }
-    }
-    // What one component mends, though its own view shows nothing of it, is of that component all the same.
-    for (view, cases) in views.iter().zip(&unseen).filter(|(_, cases)| !cases.is_empty()) {
-        let made_in = MadeIn::Mended(view.own);
-        told.push(proven(&first.with_failures_of(cases), planted, made_in).of_component(view.own));
-    }
+    let shown = |case: &&str| views.iter().any(|view| view.evidence.fails(case));
+    let hidden = first.all_failures().map(|seen| seen.case).filter(|case| !shown(case));
+    let (of_views, left): (Vec<_>, Vec<_>) =
+        hidden.partition(|case| views.iter().any(|view| view.mends(case)));
+    let left = first.with_failures_of(&left);
     let broken: Components = views.iter().map(|view| view.own).collect();
     let made_in = match broken.is_empty() {
         true => MadeIn::Unknown,
         false => MadeIn::Likely(broken),
     };
-    told.push(proven(&first.with_failures_of(&left), planted, made_in));
-    told.into_iter().fold(Ranked::default(), Ranked::and).told()
+    // What is suspected of any is proven before the search for what is wrong with one, which may take all the time.
+    let sifted: Vec<_> = views.iter().map(|view| view.sifted(planted)).collect();
+    let left = Sifted::of(&left, planted, made_in);
+    let mut told = Ranked::default();
+    for (view, sifted) in views.iter().zip(sifted) {
+        let mut of_view = sifted.and_searched().of_component(view.own);
+        let unseen: Vec<_> = of_views
+            .iter()
+            .filter(|case| view.mends(case) && !of_view.followed_by(case))
+            .copied()
+            .collect();
+        told = told.and(of_view);
+        // What one component mends, though its own view shows nothing of it, is of that component all the same.
+        if !unseen.is_empty() {
+            let unseen = first.with_failures_of(&unseen);
+            let made_in = MadeIn::Mended(view.own);
+            told = told.and(proven(&unseen, planted, made_in).of_component(view.own));
+        }
+    }
+    told.and(left.and_searched()).told()
 }
 
 #[cfg(test)]

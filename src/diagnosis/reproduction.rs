@@ -100,25 +100,50 @@ impl MadeIn {
 
 /// The headlines of `evidence` that planted mistakes do not contradict, and those that they add.
 pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, made_in: MadeIn) -> Ranked {
-    let proof = Proof { evidence, planted, made_in };
-    let (refuted, ranked) = proof.uncontradicted();
-    let mut found = proof.confirmed(&ranked);
-    found.extend(proof.reproduced(&ranked));
-    let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
-    let mut proven = match found.is_empty() {
-        true => ranked,
-        false => look_without(evidence, &refuted, found),
-    };
-    proven.doubt(|headline| {
-        let is_proven = causes.contains(&headline.cause[..]) || proof.is_needed(headline);
-        proof.is_made_elsewhere(headline) || !is_proven && proof.is_of_another_size(headline)
-    });
-    // Patterns of which each explains other cases contradict each other.
-    proven.as_one(&bvh::HITS_LOST, |headline| {
-        let loses_hits = cause::find(&headline.cause).is_some_and(cause::loses_hits);
-        loses_hits && !causes.contains(&headline.cause[..])
-    });
-    proven
+    Sifted::of(evidence, planted, made_in).and_searched()
+}
+
+/// What rules suspect, put to the proof. It takes little time; the search for what no rule knows takes much.
+pub(super) struct Sifted<'a> {
+    proof: Proof<'a>,
+    refuted: Refuted,
+    ranked: Ranked,
+    confirmed: Vec<Suspicion>,
+}
+
+impl<'a> Sifted<'a> {
+    pub(super) fn of(
+        evidence: &'a Evidence<'a>,
+        planted: &'a dyn Planted,
+        made_in: MadeIn,
+    ) -> Self {
+        let proof = Proof { evidence, planted, made_in };
+        let (refuted, ranked) = proof.uncontradicted();
+        let confirmed = proof.confirmed(&ranked);
+        Self { proof, refuted, ranked, confirmed }
+    }
+
+    /// The same with the mistakes that reproduce what has no name.
+    pub(super) fn and_searched(self) -> Ranked {
+        let Self { proof, refuted, ranked, confirmed: mut found } = self;
+        found.extend(proof.reproduced(&ranked));
+        let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
+        let mut proven = match found.is_empty() {
+            true => ranked,
+            false => look_without(proof.evidence, &refuted, found),
+        };
+        proven.doubt(|headline| {
+            let is_proven = causes.contains(&headline.cause[..]) || proof.is_needed(headline);
+            let is_unsure = || proof.is_dark_alone(headline) || proof.is_of_another_size(headline);
+            proof.is_made_elsewhere(headline) || !is_proven && is_unsure()
+        });
+        // Patterns of which each explains other cases contradict each other.
+        proven.as_one(&bvh::HITS_LOST, |headline| {
+            let loses_hits = cause::find(&headline.cause).is_some_and(cause::loses_hits);
+            loses_hits && !causes.contains(&headline.cause[..])
+        });
+        proven
+    }
 }
 
 struct Proof<'a> {
@@ -222,7 +247,8 @@ impl<'a> Proof<'a> {
     fn are_right(&self, headline: &Headline, cases: &[String]) -> bool {
         let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
         let answers = self.compare(&sets, &self.quickest(cases));
-        let mut likenesses = answers.iter().flatten().peekable();
+        let known = answers.iter().flatten().filter(|likeness| **likeness != Likeness::Unknown);
+        let mut likenesses = known.peekable();
         likenesses.peek().is_some() && likenesses.all(|likeness| *likeness == Likeness::Other)
     }
 
@@ -247,6 +273,13 @@ impl<'a> Proof<'a> {
         matches!(self.made_in, MadeIn::Mended(_))
             && mistakes.peek().is_some()
             && mistakes.all(|mistake| !self.made_in.may_be(mistake.components))
+    }
+
+    /// Whether all that it explains is 0 or NaN, as many mistakes make it.
+    fn is_dark_alone(&self, headline: &Headline) -> bool {
+        let seen = headline.explains.iter().filter_map(|case| self.evidence.failure_of(case));
+        let mut seen = seen.peekable();
+        seen.peek().is_some() && seen.all(Observation::is_dark)
     }
 
     /// Whether its mistakes are wrong in the same places, and nowhere by as much.

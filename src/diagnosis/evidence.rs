@@ -55,6 +55,10 @@ impl Observation<'_> {
         [Subject::Light, Subject::Integrator, Subject::Image].into_iter().any(|s| self.is_about(s))
     }
 
+    pub(crate) fn has_failed(&self) -> bool {
+        self.standing == Standing::Failed
+    }
+
     /// Whether all that is wrong is 0 or NaN.
     pub(crate) fn is_dark(&self) -> bool {
         let measures = self.finding.into_iter().flat_map(|finding| &finding.measures);
@@ -95,6 +99,11 @@ impl<'a> Evidence<'a> {
     /// Everything that failed, what counts nothing last.
     pub(crate) fn all_failures(&self) -> impl Iterator<Item = &Observation<'a>> {
         self.failures().chain(self.failures_of_robustness())
+    }
+
+    /// Everything that passed.
+    pub(crate) fn passed(&self) -> impl Iterator<Item = &Observation<'a>> {
+        self.observations.iter().filter(|seen| seen.standing == Standing::Passed)
     }
 
     pub(crate) fn fails(&self, case: &str) -> bool {

@@ -193,6 +193,15 @@ impl Ranked {
         self
     }
 
+    /// Failures that have no cause, and those that may follow from this one.
+    pub(super) fn without_cause<'r>(
+        &'r self,
+        headline: &'r Headline,
+    ) -> impl Iterator<Item = &'r String> {
+        let differing = self.differing.iter().filter(|other| other.cause.is_empty());
+        differing.flat_map(|other| &other.explains).chain(&headline.may_follow)
+    }
+
     /// What differs, and what no more than looks like a cause.
     pub(super) fn unnamed(&self) -> impl Iterator<Item = &Headline> {
         let vague = self.causes.iter().filter(|headline| headline.degree == Degree::LooksLike);

@@ -3,11 +3,15 @@
 //!
 //! What it contradicts is not told; what no rule recognises, and one planted mistake reproduces, is told by its name.
 
+mod likeness;
+mod siblings;
+
+use self::likeness::{ALIKE, Likeness, apart, likeness};
 use super::rank::Ranked;
 use super::{Degree, Evidence, Headline, Observation, Suspicion, look_without};
 use crate::case::Subject;
 use crate::cause::{self, Cause, bvh};
-use crate::checks::{Finding, Measure};
+use crate::checks::Finding;
 use crate::contract::Components;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,11 +23,6 @@ const LONGEST: f64 = 4.0;
 const ROUNDS: usize = 4;
 /// Mistakes of which pairs are tried.
 const PAIRED: usize = 8;
-/// Of the numbers that are wrong in one core or the other, so many have to agree.
-const MOST: f64 = 0.95;
-/// By how much of itself an error of the same mistake may differ from core to core: their samplers, tolerances and
-/// trees are not the same.
-const ALIKE: f64 = 0.1;
 /// So many sets of mistakes may come to the same numbers by chance, where one of them is named.
 const BY_CHANCE: f64 = 0.1;
 
@@ -54,19 +53,6 @@ pub(crate) trait Planted {
 
     /// What comes of each question; nothing where the mistakes exclude each other, or time is up.
     fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>>;
-}
-
-/// How the numbers of a core compare with those of a planted mistake.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Likeness {
-    /// Wrong in the same places, to the same side, by as much.
-    Same,
-    /// Wrong in the same places and to the same side.
-    Alike,
-    /// Wrong elsewhere, or to the other side.
-    Other,
-    /// They cannot be compared.
-    Unknown,
 }
 
 /// Causes that a case contradicts.
@@ -109,6 +95,8 @@ pub(super) struct Sifted<'a> {
     refuted: Refuted,
     ranked: Ranked,
     confirmed: Vec<Suspicion>,
+    /// The names of causes that more speaks against than for.
+    doubtful: BTreeSet<String>,
 }
 
 impl<'a> Sifted<'a> {
@@ -119,23 +107,39 @@ impl<'a> Sifted<'a> {
     ) -> Self {
         let proof = Proof { evidence, planted, made_in };
         let (refuted, ranked) = proof.uncontradicted();
-        let confirmed = proof.confirmed(&ranked);
-        Self { proof, refuted, ranked, confirmed }
+        let mut confirmed = proof.confirmed(&ranked);
+        confirmed.extend(proof.followers(&ranked));
+        let outnumbered = ranked.with_cause().filter(|told| proof.is_outnumbered(told, &ranked));
+        let doubtful = outnumbered.map(|told| told.cause.clone()).collect();
+        let ranked = match confirmed.is_empty() {
+            true => ranked,
+            false => look_without(evidence, &refuted, confirmed.clone()),
+        };
+        Self { proof, refuted, ranked, confirmed, doubtful }
     }
 
     /// The same with the mistakes that reproduce what has no name.
     pub(super) fn and_searched(self) -> Ranked {
-        let Self { proof, refuted, ranked, confirmed: mut found } = self;
+        let Self { proof, mut refuted, ranked, confirmed: mut found, doubtful } = self;
         found.extend(proof.reproduced(&ranked));
-        let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
         let mut proven = match found.is_empty() {
             true => ranked,
-            false => look_without(proof.evidence, &refuted, found),
+            false => look_without(proof.evidence, &refuted, found.clone()),
         };
+        // What the search has found has to stand beside the rest as well.
+        let outnumbered = proof.outnumbered(&proven);
+        if !outnumbered.is_empty() {
+            found.retain(|one| !outnumbered.iter().any(|(cause, _)| *cause == one.cause.name));
+            refuted.extend(outnumbered);
+            proven = look_without(proof.evidence, &refuted, found.clone());
+        }
+        let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
         proven.doubt(|headline| {
             let is_proven = causes.contains(&headline.cause[..]) || proof.is_needed(headline);
             let is_unsure = || proof.is_dark_alone(headline) || proof.is_of_another_size(headline);
-            proof.is_made_elsewhere(headline) || !is_proven && is_unsure()
+            let is_doubtful =
+                proof.is_made_elsewhere(headline) || doubtful.contains(&headline.cause);
+            is_doubtful || !is_proven && is_unsure()
         });
         // Patterns of which each explains other cases contradict each other.
         proven.as_one(&bvh::HITS_LOST, |headline| {
@@ -164,6 +168,9 @@ impl<'a> Proof<'a> {
             }
             if contradicted.is_empty() {
                 contradicted = self.lost_in_the_dark(&ranked);
+            }
+            if contradicted.is_empty() {
+                contradicted = self.outnumbered(&ranked);
             }
             if contradicted.is_subset(&refuted) {
                 break;
@@ -386,16 +393,25 @@ impl<'a> Proof<'a> {
 
     /// The quickest of `cases` whose numbers can be compared.
     fn quickest(&self, cases: &[String]) -> Vec<&'a Observation<'a>> {
-        let mut seen: Vec<_> =
-            cases.iter().filter_map(|case| self.evidence.failure_of(case)).collect();
-        seen.retain(|seen| seen.seconds <= LONGEST);
-        seen.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-        seen.truncate(CASES);
-        seen
+        quickest(cases.iter().filter_map(|case| self.evidence.failure_of(case)), CASES)
     }
 
     /// For each set of mistakes, how it compares in each case.
     fn compare(&self, sets: &[Vec<Mistake>], cases: &[&Observation<'a>]) -> Vec<Vec<Likeness>> {
+        let likeness = |(seen, planted): (&&Observation<'_>, Option<Finding>)| match planted {
+            Some(planted) => likeness(seen.finding, &planted),
+            None => Likeness::Unknown,
+        };
+        let answers = self.planted(sets, cases).into_iter();
+        answers.map(|of_set| cases.iter().zip(of_set).map(likeness).collect()).collect()
+    }
+
+    /// For each set of mistakes, what comes of each case.
+    fn planted(
+        &self,
+        sets: &[Vec<Mistake>],
+        cases: &[&Observation<'a>],
+    ) -> Vec<Vec<Option<Finding>>> {
         let question = |set: &Vec<Mistake>, seen: &&Observation<'a>| Question {
             mistakes: set.clone(),
             case: seen.case,
@@ -404,23 +420,19 @@ impl<'a> Proof<'a> {
         let questions: Vec<_> =
             sets.iter().flat_map(|set| cases.iter().map(move |seen| question(set, seen))).collect();
         let mut answers = self.planted.ask(&questions).into_iter();
-        let of_case = |seen: &&Observation<'a>| match answers.next().flatten() {
-            Some(planted) => likeness(seen.finding, &planted),
-            None => Likeness::Unknown,
-        };
-        let likenesses: Vec<_> = cases.iter().cycle().take(questions.len()).map(of_case).collect();
-        likenesses.chunks(cases.len().max(1)).map(<[_]>::to_vec).collect()
+        sets.iter().map(|_| answers.by_ref().take(cases.len()).collect()).collect()
     }
 }
 
-/// How many wrong numbers of these cases tell something that the others do not: those off by another factor.
-fn apart(cases: &[&Observation<'_>]) -> i32 {
-    let measures = cases.iter().filter_map(|seen| seen.finding).flat_map(|found| &found.measures);
-    let wrong = measures.filter(|measure| measure.failed() && !measure.is_degenerate());
-    let scale = |measure: &Measure| if measure.expected == 0.0 { 1.0 } else { measure.expected };
-    let class =
-        |measure: &Measure| ((measure.measured / scale(measure)).abs().ln() / ALIKE).round() as i64;
-    wrong.map(class).collect::<BTreeSet<_>>().len() as i32
+/// The quickest of what can be asked again.
+fn quickest<'s, 'a: 's>(
+    seen: impl Iterator<Item = &'s Observation<'a>>,
+    count: usize,
+) -> Vec<&'s Observation<'a>> {
+    let mut seen: Vec<_> = seen.filter(|seen| seen.seconds <= LONGEST).collect();
+    seen.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    seen.truncate(count);
+    seen
 }
 
 /// Whether `case` is about what the headline's are about.
@@ -435,9 +447,11 @@ fn refuted(cause: &'static Cause, cases: &[String]) -> Refuted {
 fn suspicions(set: &[Mistake], cases: &[&Observation<'_>], degree: Degree) -> Vec<Suspicion> {
     let names: Vec<_> = cases.iter().map(|seen| seen.case.to_owned()).collect();
     let together = if set.len() > 1 { " beside the others" } else { "" };
+    let (shown, rest) = names.split_at(names.len().min(CASES));
+    let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
     let sentence = format!(
-        "the bench's own core with this mistake{together} gives the same numbers in {}",
-        names.join(", ")
+        "the bench's own core with this mistake{together} gives the same numbers in {}{more}",
+        shown.join(", ")
     );
     let suspicion = |mistake: &Mistake| Suspicion {
         cause: mistake.cause,
@@ -449,55 +463,6 @@ fn suspicions(set: &[Mistake], cases: &[&Observation<'_>], degree: Degree) -> Ve
         beside: set.len() > 1,
     };
     set.iter().map(suspicion).collect()
-}
-
-/// How what a core answered compares with what a planted mistake answers; a core that stopped answering has no finding.
-fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
-    let Some(core) = core else { return by_verdict(planted) };
-    let pairs = core.measures.iter().filter_map(|of_core| {
-        let is_same = |other: &&Measure| asks_the_same(of_core, other);
-        Some((of_core, planted.measures.iter().find(is_same)?))
-    });
-    // That both are 0, or NaN, many mistakes have in common.
-    let tells = |(a, b): &(&Measure, &Measure)| {
-        (a.failed() || b.failed()) && !(a.is_degenerate() && b.is_degenerate())
-    };
-    let wrong: Vec<_> = pairs.filter(tells).collect();
-    if wrong.is_empty() {
-        return by_verdict(planted);
-    }
-    let most = |agree: fn(&Measure, &Measure) -> bool| {
-        let count = wrong.iter().filter(|(a, b)| agree(a, b)).count();
-        count as f64 >= MOST * wrong.len() as f64
-    };
-    match (most(errs_alike), most(errs_as_much)) {
-        (_, true) => Likeness::Same,
-        (true, false) => Likeness::Alike,
-        (false, false) => Likeness::Other,
-    }
-}
-
-/// Of what failed without a number: nothing is known of its size.
-fn by_verdict(planted: &Finding) -> Likeness {
-    if planted.failed() { Likeness::Unknown } else { Likeness::Other }
-}
-
-/// The same number of the same row, of which the same is expected.
-fn asks_the_same(a: &Measure, b: &Measure) -> bool {
-    let slack = 1e-6 * a.expected.abs() + a.allowed.max(b.allowed);
-    a.question() == b.question() && (a.expected - b.expected).abs() <= slack
-}
-
-/// Both are wrong, to the same side; or they cannot be told apart.
-fn errs_alike(a: &Measure, b: &Measure) -> bool {
-    let side = |measure: &Measure| measure.measured.partial_cmp(&measure.expected);
-    a.failed() && b.failed() && side(a) == side(b) || errs_as_much(a, b)
-}
-
-/// The numbers lie within each other's noise, and a little of the error.
-fn errs_as_much(a: &Measure, b: &Measure) -> bool {
-    let error = (a.measured - a.expected).abs().max((b.measured - b.expected).abs());
-    a.meets(b, ALIKE * error)
 }
 
 #[cfg(test)]
@@ -666,6 +631,43 @@ mod tests {
     }
 
     #[test]
+    fn a_cause_whose_mistake_fails_more_that_passes_than_it_explains_is_not_told() {
+        let halved = || light(0.5).because(&light::DIVIDED_BY_LIGHTS, "halved");
+        let gives: &[(&[&str], _, _)] = &[
+            (&["divided"], "light/b", 0.5),
+            (&["divided"], "light/c", 0.5),
+            (&["divided"], "light/d", 0.5),
+            (&["divided"], "light/e", 0.5),
+        ];
+        let planted = Bench { mistakes: &[DIVIDED], gives };
+        let others_are = |other: fn() -> Finding| {
+            let made = Made::new().with("light/b", halved());
+            let made = ["light/c", "light/d", "light/e"]
+                .iter()
+                .fold(made, |made, case| made.with(*case, other()));
+            told(&diagnose_proven(&made.evidence(), &planted))[0].0.to_owned()
+        };
+        assert_eq!(others_are(passing), "");
+        assert_eq!(others_are(|| light(1.5)), "");
+        assert_eq!(others_are(|| light(0.5)), light::DIVIDED_BY_LIGHTS.name);
+    }
+
+    #[test]
+    fn what_no_rule_explains_and_the_mistake_of_a_cause_gives_is_of_that_cause() {
+        let made = Made::new()
+            .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "halved"))
+            .with("light/c", light(0.7))
+            .with("integrator/d", light(0.6));
+        let gives: &[(&[&str], _, _)] =
+            &[(&["divided"], "light/b", 0.5), (&["divided"], "integrator/d", 0.6)];
+        let planted = Bench { mistakes: &[DIVIDED], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let divided = light::DIVIDED_BY_LIGHTS.name;
+        assert_eq!(told(&diagnosis)[0], (divided, Degree::Named, 2));
+        assert_eq!(diagnosis.unexplained, ["light/c"]);
+    }
+
+    #[test]
     fn of_many_mistakes_one_that_comes_to_a_single_number_only_looks_like_it() {
         let made = Made::new().with("bsdf/a", light(0.5)).with("light/b", light(0.5));
         let mistakes = [PI, DIVIDED, AGAIN];
@@ -717,27 +719,6 @@ mod tests {
         let planted = Bench { mistakes: &[DIVIDED], gives };
         let ranked = proven(&made.evidence(), &planted, MadeIn::Mended(Components::PATH));
         let divided = light::DIVIDED_BY_LIGHTS.name;
-        let diagnosis = ranked.told();
-        assert_eq!(
-            told(&diagnosis),
-            [(divided, Degree::LooksLike, 1), ("", Degree::DiffersHere, 1)]
-        );
-    }
-
-    #[test]
-    fn numbers_are_compared_row_by_row_and_what_has_none_by_its_verdict() {
-        let two = |a, b| {
-            means(vec![
-                mean("a", Channel::Red, 0.5, a, 0.01),
-                mean("b", Channel::Red, 0.5, b, 0.01),
-            ])
-        };
-        assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(2.0, 1.0)), Likeness::Same);
-        assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(3.0, 1.0)), Likeness::Alike);
-        assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.0, 2.0)), Likeness::Other);
-        assert_eq!(likeness(Some(&failing("lost")), &failing("lost")), Likeness::Unknown);
-        assert_eq!(likeness(None, &passing()), Likeness::Other);
-        assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(0.0, 1.0)), Likeness::Unknown, "darkness");
-        assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(1.0, 1.0)), Likeness::Other);
+        assert_eq!(told(&ranked.told()), [(divided, Degree::LooksLike, 2)]);
     }
 }

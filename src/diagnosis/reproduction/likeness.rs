@@ -1,0 +1,107 @@
+//! Whether two cores are wrong alike, number by number.
+
+use super::Observation;
+use crate::checks::{Finding, Measure};
+use std::collections::BTreeSet;
+
+/// Of the numbers that are wrong in one core or the other, so many have to agree.
+const MOST: f64 = 0.95;
+/// By how much of itself an error of the same mistake may differ from core to core: their samplers, tolerances and
+/// trees are not the same.
+pub(super) const ALIKE: f64 = 0.1;
+
+/// How the numbers of a core compare with those of a planted mistake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Likeness {
+    /// Wrong in the same places, to the same side, by as much.
+    Same,
+    /// Wrong in the same places and to the same side.
+    Alike,
+    /// Wrong elsewhere, or to the other side.
+    Other,
+    /// They cannot be compared.
+    Unknown,
+}
+
+/// How what a core answered compares with what a planted mistake answers; a core that stopped answering has no finding.
+pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
+    let Some(core) = core else { return by_verdict(planted) };
+    let pairs = core.measures.iter().filter_map(|of_core| {
+        let is_same = |other: &&Measure| asks_the_same(of_core, other);
+        Some((of_core, planted.measures.iter().find(is_same)?))
+    });
+    // That both are 0, or NaN, many mistakes have in common.
+    let tells = |(a, b): &(&Measure, &Measure)| {
+        (a.failed() || b.failed()) && !(a.is_degenerate() && b.is_degenerate())
+    };
+    let wrong: Vec<_> = pairs.filter(tells).collect();
+    if wrong.is_empty() {
+        return by_verdict(planted);
+    }
+    let most = |agree: fn(&Measure, &Measure) -> bool| {
+        let count = wrong.iter().filter(|(a, b)| agree(a, b)).count();
+        count as f64 >= MOST * wrong.len() as f64
+    };
+    match (most(errs_alike), most(errs_as_much)) {
+        (_, true) => Likeness::Same,
+        (true, false) => Likeness::Alike,
+        (false, false) => Likeness::Other,
+    }
+}
+
+/// Of what failed without a number: nothing is known of its size.
+fn by_verdict(planted: &Finding) -> Likeness {
+    if planted.failed() { Likeness::Unknown } else { Likeness::Other }
+}
+
+/// The same number of the same row, of which the same is expected.
+fn asks_the_same(a: &Measure, b: &Measure) -> bool {
+    let slack = 1e-6 * a.expected.abs() + a.allowed.max(b.allowed);
+    a.question() == b.question() && (a.expected - b.expected).abs() <= slack
+}
+
+/// Both are wrong, to the same side; or they cannot be told apart.
+fn errs_alike(a: &Measure, b: &Measure) -> bool {
+    let side = |measure: &Measure| measure.measured.partial_cmp(&measure.expected);
+    a.failed() && b.failed() && side(a) == side(b) || errs_as_much(a, b)
+}
+
+/// The numbers lie within each other's noise, and a little of the error.
+fn errs_as_much(a: &Measure, b: &Measure) -> bool {
+    let error = (a.measured - a.expected).abs().max((b.measured - b.expected).abs());
+    a.meets(b, ALIKE * error)
+}
+
+/// How many wrong numbers of these cases tell something that the others do not: those off by another factor.
+pub(super) fn apart(cases: &[&Observation<'_>]) -> i32 {
+    let measures = cases.iter().filter_map(|seen| seen.finding).flat_map(|found| &found.measures);
+    let wrong = measures.filter(|measure| measure.failed() && !measure.is_degenerate());
+    let scale = |measure: &Measure| if measure.expected == 0.0 { 1.0 } else { measure.expected };
+    let class =
+        |measure: &Measure| ((measure.measured / scale(measure)).abs().ln() / ALIKE).round() as i64;
+    wrong.map(class).collect::<BTreeSet<_>>().len() as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnosis::testing::{failing, mean, means, passing};
+    use crate::image::Channel;
+
+    #[test]
+    fn numbers_are_compared_row_by_row_and_what_has_none_by_its_verdict() {
+        let two = |a, b| {
+            means(vec![
+                mean("a", Channel::Red, 0.5, a, 0.01),
+                mean("b", Channel::Red, 0.5, b, 0.01),
+            ])
+        };
+        assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(2.0, 1.0)), Likeness::Same);
+        assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(3.0, 1.0)), Likeness::Alike);
+        assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.0, 2.0)), Likeness::Other);
+        assert_eq!(likeness(Some(&failing("lost")), &failing("lost")), Likeness::Unknown);
+        assert_eq!(likeness(None, &passing()), Likeness::Other);
+        assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(0.0, 1.0)), Likeness::Unknown, "darkness");
+        assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(1.0, 1.0)), Likeness::Other);
+    }
+}

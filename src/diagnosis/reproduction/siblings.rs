@@ -1,0 +1,106 @@
+//! What the mistake of a cause makes of the cases beside those that it explains: where it gives their numbers too, it
+//! explains them; where it fails what the core passes, or fails it otherwise, something else is wrong.
+
+use super::likeness::{Likeness, likeness};
+use super::{Proof, Refuted, is_of_one_part, quickest, refuted, suspicions};
+use crate::cause;
+use crate::checks::Finding;
+use crate::diagnosis::rank::Ranked;
+use crate::diagnosis::{Degree, Headline, Observation, Suspicion};
+
+/// Failures without a cause that are put to each, the quickest.
+const FAILED: usize = 16;
+/// Cases of its part that passed and are put to it, the quickest.
+const PASSED: usize = 6;
+/// A cause is not told if so many times more speaks against it than for it, and no less than this many cases.
+const OUTNUMBERED: usize = 2;
+const LEAST_AGAINST: usize = 3;
+
+/// What was asked beside the cases of a cause.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Siblings {
+    /// Failures of which its mistake gives the numbers.
+    same: Vec<String>,
+    /// How many it fails otherwise than the core does.
+    against: usize,
+}
+
+impl Siblings {
+    fn doubt(&self, headline: &Headline) -> bool {
+        self.against > headline.explains.len() + self.same.len()
+    }
+
+    fn refute(&self, headline: &Headline) -> bool {
+        let against = self.against >= OUTNUMBERED * (headline.explains.len() + self.same.len());
+        against && self.against >= LEAST_AGAINST
+    }
+}
+
+impl Proof<'_> {
+    /// Causes that far more of their part speaks against than for.
+    pub(super) fn outnumbered(&self, ranked: &Ranked) -> Refuted {
+        let told = ranked.with_cause().filter(|headline| !self.is_needed(headline));
+        let told = told.filter(|headline| self.siblings(headline, ranked).refute(headline));
+        let cases = |told: &Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
+        told.filter_map(cases).flatten().collect()
+    }
+
+    /// Whether more of its part speaks against a cause than for it.
+    pub(super) fn is_outnumbered(&self, headline: &Headline, ranked: &Ranked) -> bool {
+        !self.is_needed(headline) && self.siblings(headline, ranked).doubt(headline)
+    }
+
+    /// What else is explained by the causes that are told.
+    pub(super) fn followers(&self, ranked: &Ranked) -> Vec<Suspicion> {
+        let of_cause = |headline: &Headline| {
+            let same = self.siblings(headline, ranked).same;
+            let seen = same.iter().filter_map(|case| self.evidence.failure_of(case));
+            let seen: Vec<_> = seen.collect();
+            let mistake = self.of(headline).next().filter(|_| !seen.is_empty())?;
+            suspicions(&[mistake], &seen, headline.degree.max(Degree::LooksLike)).pop()
+        };
+        ranked.with_cause().filter_map(of_cause).collect()
+    }
+
+    fn siblings(&self, headline: &Headline, ranked: &Ranked) -> Siblings {
+        let alone: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+        if alone.is_empty() {
+            return Siblings::default();
+        }
+        let all: Vec<_> = ranked.with_cause().filter_map(|told| self.of(told).next()).collect();
+        let own = alone.len();
+        let sets: Vec<_> = alone.into_iter().chain((all.len() > 1).then_some(all)).collect();
+        let failed = ranked.without_cause(headline);
+        let failed = failed.filter_map(|case| self.evidence.failure_of(case));
+        let passed = self.evidence.passed().filter(|seen| is_of_one_part(headline, seen.case));
+        let asked = [quickest(failed, FAILED), quickest(passed, PASSED)].concat();
+        let answers = self.planted(&sets, &asked);
+        let answer = |number: usize, sets: &[Vec<Option<Finding>>]| -> Vec<Finding> {
+            sets.iter().filter_map(|of_set| of_set[number].clone()).collect()
+        };
+        let mut found = Siblings::default();
+        for (number, seen) in asked.into_iter().enumerate() {
+            if is_same(seen, &answer(number, &answers[..own])) {
+                found.same.push(seen.case.to_owned());
+            } else if speak_against(seen, &answer(number, &answers)) {
+                found.against += 1;
+            }
+        }
+        found
+    }
+}
+
+/// Whether the core fails a case as any of these do.
+fn is_same(seen: &Observation<'_>, planted: &[Finding]) -> bool {
+    let is_same = |planted: &Finding| likeness(seen.finding, planted) == Likeness::Same;
+    seen.has_failed() && planted.iter().any(is_same)
+}
+
+/// Whether all of these fail a case that the core passes, or fails otherwise.
+fn speak_against(seen: &Observation<'_>, planted: &[Finding]) -> bool {
+    let speaks = |planted: &Finding| {
+        let is_other = || likeness(seen.finding, planted) == Likeness::Other;
+        planted.failed() && (!seen.has_failed() || is_other())
+    };
+    !planted.is_empty() && planted.iter().all(speaks)
+}

@@ -15,6 +15,10 @@ causes! {
         "the diffuse BRDF is divided by π twice",
         at "evaluation of the diffuse BRDF",
         fix "f = albedo / π, divided once.";
+    TIMES_PI = "brdf-times-pi":
+        "the diffuse BRDF is multiplied by π instead of divided",
+        at "evaluation of the diffuse BRDF",
+        fix "f = albedo / π.";
     COSINE_IN_F = "cosine-in-brdf":
         "the BRDF includes the cosine, and its caller multiplies by it again",
         at "evaluation of the BSDF",

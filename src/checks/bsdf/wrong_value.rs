@@ -70,11 +70,12 @@ fn is_averaged(reflectance: Rgb, values: &[BsdfValue]) -> bool {
 
 /// The mistake that makes f this share of albedo/π.
 pub(super) fn mistake(share: Form) -> Option<&'static Cause> {
-    let made: [(Form, &Cause); 6] = [
+    let made: [(Form, &Cause); 7] = [
         (Form::constant(PI), &bsdf::WITHOUT_PI),
         (Form::constant(0.5), &bsdf::ALBEDO_HALVED),
         (Form::constant(2.0), &bsdf::ALBEDO_DOUBLED),
         (Form::constant(FRAC_1_PI), &bsdf::WITH_PI),
+        (Form::constant(PI * PI), &bsdf::TIMES_PI),
         (Form { constant: 1.0, power: 1 }, &bsdf::COSINE_IN_F),
         (Form { constant: 1.0, power: -1 }, &bsdf::F_OVER_COSINE),
     ];

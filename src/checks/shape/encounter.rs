@@ -46,6 +46,7 @@ const RULES: &[(&Cause, Rule)] = &[
     (&shape::PARALLELOGRAM, |e| is_on_segment(e) && is_inside_of(e, [1, 2])),
     (&shape::V_NOT_COMPARED, |e| is_on_segment(e) && is_inside_of(e, [0, 2])),
     (&shape::W_NOT_COMPARED, |e| is_on_segment(e) && is_inside_of(e, [0, 1])),
+    (&shape::WHOLE_PLANE_HIT, is_on_segment),
     (&shape::SEGMENT_END_IGNORED, |e| is_inside(e) && e.meeting.t > 0.0),
     (&shape::SEGMENT_IGNORED, is_inside),
     (&shape::HITS_BEHIND_ORIGIN, |e| is_inside(e) && e.meeting.t < e.t_max),

@@ -9,7 +9,7 @@ use glam::DVec3;
 use lesson::bsdf::mirror;
 use lesson::different;
 use lesson::ggx::Microfacets;
-use std::f64::consts::FRAC_1_PI;
+use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, PI};
 
 const ALBEDO: &str = "bsdf/diffuse-conserves-energy";
 const ITSELF: &str = "bsdf/sampling-agrees-with-evaluation";
@@ -115,4 +115,27 @@ faults! { part 3;
         "the Fresnel reflectance is that of the surface's cosine, not of the microfacet's",
         fails "bsdf/rough-glass-conserves-energy", told bsdf::FRESNEL_OF_SURFACE,
         fresnel_cosine = |wo, _| wo.z.abs();
+    "brdf-times-pi": "f = albedo · π",
+        fails ALBEDO, told bsdf::TIMES_PI,
+        diffuse = |reflectance, _| reflectance.map(|r| r * PI);
+    "brdf-over-pi-twice": "f = albedo/π, divided by π again",
+        fails ALBEDO, told bsdf::WITH_PI,
+        diffuse = |reflectance, _| reflectance.map(|r| r * FRAC_1_PI * FRAC_1_PI);
+    "brdf-doubled": "f = 2 albedo/π",
+        fails ALBEDO, told bsdf::ALBEDO_DOUBLED,
+        diffuse = |reflectance, _| reflectance.map(|r| r * FRAC_2_PI);
+    "brdf-over-cosine": "f = albedo/(π cos θ)",
+        fails ALBEDO, told bsdf::F_OVER_COSINE,
+        diffuse = |reflectance, wi| reflectance.map(|r| r * FRAC_1_PI / wi.z);
+    "mirror-without-colour": "the mirror reflects everything, whatever its reflectance",
+        fails "bsdf/mirror-reflects-its-reflectance", told bsdf::DELTA_COLOUR_MISSING,
+        mirror = |wo, _| mirror(wo, [1.0; 3]);
+    "mirror-goes-through": "wi = −wo",
+        fails "bsdf/mirror-reflects-its-reflectance", told bsdf::MIRROR_GOES_THROUGH,
+        mirror = |wo, reflectance| lesson::bsdf::delta(-wo, reflectance, 1.0);
+    "metal-masking-one-sided": "G is G1 of wo alone",
+        fails "bsdf/rough-conductor-matches-ggx", told bsdf::MASKING_ONE_SIDED,
+        metal_f = |Microfacets { distribution, masking_over_cosine: [masked, _], wi, .. }| {
+            distribution * masked / (4.0 * wi.z)
+        };
 }

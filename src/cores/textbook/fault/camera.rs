@@ -87,6 +87,15 @@ faults! { part 1;
     "stratum-half": "the jitter is divided by k twice: it covers half of the cell",
         fails STRATA, told camera::STRATUM_HALF,
         stratum = |sample, side, jitter| stratum(sample, side, 0.5 * jitter);
+    "fields-of-view-swapped": "the horizontal field of view is the vertical one",
+        fails RAYS, told camera::FOVS_SWAPPED,
+        fields_of_view = |camera| [camera.vertical_fov, camera.horizontal_fov];
+    "fov-without-tangent": "fov/2 for half the width of the sensor",
+        fails RAYS, told camera::FOV_WITHOUT_TANGENT,
+        half_size = |field_of_view| field_of_view / 2.0;
+    "pixel-centre": "the middle of the pixel in place of a random point of it",
+        fails "camera/pixel-samples-are-uniform", told camera::PIXEL_CENTRE,
+        pixel_point = |random, _, _, _| 0.0 * random.point() + 0.5;
 }
 
 /// Half a pixel of a film of this many.

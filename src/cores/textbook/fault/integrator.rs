@@ -10,6 +10,7 @@ use lesson::integrator::{
 };
 use lesson::random::Random;
 use lesson::vertex::{Vertex, View};
+use std::f64::consts::TAU;
 
 const FURNACE: &str = "integrator/furnace-matches-geometric-series";
 const ROULETTE: &str = "integrator/russian-roulette-leaves-the-mean-unchanged";
@@ -90,6 +91,33 @@ faults! { part 4;
     "roulette-stops-direct": "roulette is played before direct light is added",
         fails ROULETTE, told integrator::ROULETTE_STOPS_DIRECT,
         light_of_bounce = light_if_the_path_survives;
+    "depth-one-more": "-m N shows N + 1 bounces",
+        fails FURNACE, told integrator::ONE_BOUNCE_LONG,
+        last_bounce = |bounces| match *bounces.end() {
+            0 => 0,
+            last => last + 1,
+        },
+        wants = |bounces, bounce| {
+            bounces.contains(&bounce) || *bounces.end() > 0 && bounce == *bounces.end() + 1
+        };
+    "albedo-twice": "the weight of a bounce is multiplied in again in the recursion",
+        fails FURNACE, told integrator::ALBEDO_TWICE,
+        next_throughput = |throughput, weight| throughput * weight * weight;
+    "throughput-kept": "the throughput is never multiplied by the weight",
+        fails FURNACE, told integrator::ALBEDO_FORGOTTEN,
+        next_throughput = |throughput, _| throughput;
+    "bounce-pdf-uniform": "bounces are sampled by the cosine and divided by 1/2π",
+        fails FURNACE, told integrator::INDIRECT_FOUR_THIRDS,
+        bounce_weight = |f, sample, direction| match sample.is_delta {
+            1 => bounce_weight(f, sample, direction),
+            _ => f * sample.wi.z.abs() * TAU,
+        };
+    "first-bounce-left-out": "with more bounces, direct light of the first vertex is left out",
+        fails FURNACE, told integrator::BOUNCE_MISSING,
+        wants = |bounces, bounce| bounces.contains(&bounce) && (bounce != 1 || *bounces.end() < 2);
+    "last-bounce-only": "`L =` in place of `L +=`",
+        fails FURNACE, told integrator::LAST_BOUNCE_ONLY,
+        wants = |bounces, bounce| bounce == *bounces.end();
 }
 
 /// The bounces that are followed where a student's recursion would not end.

@@ -6,6 +6,7 @@ use crate::contract::{DirectSampling, Ray};
 use crate::cores::textbook as lesson;
 use glam::{DVec2, DVec3};
 use lesson::vertex::shadow_ray;
+use std::f64::consts::PI;
 
 const RECTANGLE: &str = "light/rectangle-light-samples-reach-the-light";
 
@@ -128,4 +129,38 @@ faults! { part 3;
             t_max: vertex.travelled,
             ..lesson::vertex::ray_from(vertex, direction)
         };
+    "light-distance-forgotten": "1/(cos θ · area), without the squared distance",
+        fails RECTANGLE, told light::LIGHT_DISTANCE_FORGOTTEN,
+        area_per_steradian = |_, cosine| cosine.recip();
+    "light-area-multiplied": "· area in place of / area",
+        fails RECTANGLE, told light::LIGHT_AREA_MULTIPLIED,
+        mesh_pdf = |area_per_steradian, area| area_per_steradian * area;
+    "light-pdf-inverted": "the pdf is upside down",
+        fails RECTANGLE, told light::LIGHT_PDF_INVERTED,
+        mesh_pdf = |area_per_steradian, area| area / area_per_steradian;
+    "point-light-by-distance": "intensity / distance",
+        fails "light/point-light-follows-the-inverse-square-law", told light::FADES_WITH_DISTANCE,
+        point_light_radiance = |intensity, distance| intensity.map(|i| i / distance);
+    "light-cosine-missing": "f · radiance / pdf, without cos θ",
+        fails "light/rectangle-light-slanted-matches-closed-form", told light::COSINE_FORGOTTEN,
+        light_cosine = |_, _| 1.0;
+    "light-cosine-twice": "f · cos² θ · radiance / pdf",
+        fails "light/rectangle-light-slanted-matches-closed-form", told light::COSINE_TWICE,
+        light_cosine = |local, _| local.z * local.z;
+    "light-without-pdf": "the sample is not divided by its pdf",
+        fails "light/rectangle-light-slanted-matches-closed-form", told light::PDF_FORGOTTEN,
+        light_estimate = |light, _| light;
+    "light-twice": "a sample is added twice",
+        fails "light/rectangle-light-slanted-matches-closed-form", told light::TWICE_AS_BRIGHT,
+        light_estimate = |light, pdf| 2.0 * light / pdf;
+    "light-halved": "half of two estimators that are each complete",
+        fails "light/rectangle-light-slanted-matches-closed-form", told light::HALF_AS_BRIGHT,
+        light_estimate = |light, pdf| 0.5 * light / pdf;
+    "light-over-pi": "emission is taken for radiosity",
+        fails "light/rectangle-light-slanted-matches-closed-form", told light::EMISSION_OVER_PI,
+        light_estimate = |light, pdf| light / (PI * pdf);
+    "light-divided-twice": "the sum of a light is divided by the number of its samples twice",
+        fails "light/rectangle-light-tilted-matches-closed-form",
+        told light::DIVIDED_TWICE_BY_SAMPLES,
+        light_mean = |total, drawn, _| total / f64::from(drawn * drawn);
 }

@@ -40,4 +40,13 @@ faults! { part 3;
         fails COSINE_PDF, told sampling::PDF_BELOW_HORIZON,
         is_below_horizon = |_| false,
         cosine_hemisphere_pdf = |direction| direction.z.abs() * FRAC_1_PI;
+    "uniform-pdf-halved": "pdf 1/4π, that of the sphere, for the uniform hemisphere",
+        fails UNIFORM_PDF, told sampling::PDF_HALVED,
+        uniform_hemisphere_pdf = || FRAC_1_PI / 4.0;
+    "uniform-pdf-inverted": "2π for 1/2π",
+        fails UNIFORM_PDF, told sampling::PDF_INVERTED,
+        uniform_hemisphere_pdf = || 2.0 / FRAC_1_PI;
+    "uniform-is-cosine": "√u where u belongs: cosine samples for uniform ones",
+        fails UNIFORM_MAP, told sampling::COSINE_FOR_UNIFORM,
+        uniform_height = f64::sqrt;
 }

@@ -99,4 +99,18 @@ faults! { part 1;
     "sphere-normal-not-unit": "the normal of a sphere has the length of its radius",
         fails SPHERE, told shape::NORMAL_NOT_UNIT,
         outward_normal = |sphere, point| point - sphere.centre;
+    "front-faces-culled": "determinant > 0 counts as a miss",
+        fails TRIANGLE, told shape::FRONT_CULLED,
+        weight_error = |triangle, ray, from_corner, determinant| {
+            let is_ahead = determinant > 0.0;
+            if is_ahead { None } else { weight_error(triangle, ray, from_corner, determinant) }
+        };
+    "sphere-inside-out": "the normal of a sphere points to its centre",
+        fails SPHERE, told shape::NORMALS_INSIDE_OUT,
+        outward_normal = |sphere, point| -lesson::intersect::outward_normal(sphere, point);
+    "normals-moved-back": "the weights of vertices 0, 1, 2 multiply the normals of 1, 2, 0",
+        fails INTERPOLATION, told shape::NORMALS_MOVED_BACK,
+        interpolated_normal = |[n0, n1, n2], uv| {
+            ((1.0 - uv.x - uv.y) * n1 + uv.x * n2 + uv.y * n0).try_normalize()
+        };
 }

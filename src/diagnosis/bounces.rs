@@ -150,16 +150,16 @@ impl Furnace {
             .then(|| self.of_factor(case, interval))
     }
 
-    /// Direct light is right, and indirect light is off by other grey factors at each bounce: it does not come
-    /// from where it should.
+    /// Direct light is right, and indirect light is off by other grey factors at each bounce from the first on: it does
+    /// not come from where it should.
     fn lost_ways(&self, case: &str) -> Option<Suspicion> {
         let isolated = || self.rows.iter().filter(|row| row.bounces[0] == row.bounces[1]);
         let mut direct = isolated().filter(|row| row.bounces[0] == 1).peekable();
         let right = direct.peek().is_some()
             && direct.all(|row| row.readings.iter().flatten().all(|r| r.admits(1.0)));
         let indirect = || isolated().filter(|row| row.bounces[0] > 1);
-        let wrong =
-            indirect().flat_map(|row| row.readings.iter().flatten()).any(|r| !r.admits(1.0));
+        let first = indirect().filter(|row| row.bounces[0] == 2);
+        let wrong = first.flat_map(|row| row.readings.iter().flatten()).any(|r| !r.admits(1.0));
         let grey = indirect().all(|row| is_grey(&row.readings));
         (right && wrong && grey).then(|| Suspicion {
             cause: &integrator::BOUNCE_DIRECTIONS,
@@ -181,16 +181,15 @@ impl Furnace {
         );
         let named = names_of([low, high], &[]);
         let name = named.first().map(|name| format!("the factor a bounce is {}", name.name));
-        let below_one = factor < 1.0 && name.is_none();
-        let cause = if below_one {
-            &integrator::ROULETTE_NOT_DIVIDED
-        } else {
-            &integrator::INDIRECT_FACTOR
+        let is_roulette = || {
+            let survivors = "survivors that are not divided by their probability";
+            (factor < 1.0)
+                .then(|| format!("Russian roulette of your own would be that, with {survivors}"))
         };
         let mut evidence = vec![self.table(), fit];
-        evidence.extend(name);
+        evidence.extend(name.or_else(is_roulette));
         Suspicion {
-            cause,
+            cause: &integrator::INDIRECT_FACTOR,
             cases: vec![case.to_owned()],
             evidence,
             ruled_out: vec!["the albedo twice or not at all (it would be coloured)".to_owned()],
@@ -270,18 +269,23 @@ mod tests {
     }
 
     #[test]
-    fn a_grey_factor_below_one_is_roulette_and_is_told_with_its_interval() {
+    fn a_grey_factor_below_one_is_told_with_its_interval_and_may_be_roulette() {
         let rr = |c: &Channel, rows: [u32; 2]| c.sum(rows, |k| 0.7_f64.powi(indirect(k)));
         let made = Made::new().with(FURNACES[0], furnace(rr));
         let diagnosis = diagnose(&made.evidence());
         let headline = &diagnosis.headlines[0];
-        assert_eq!(headline.cause, integrator::ROULETTE_NOT_DIVIDED.name);
-        assert!(
-            headline.evidence[1].ends_with("with f = 0.7000 ± 0.0009"),
-            "{:?}",
-            headline.evidence
-        );
+        assert_eq!(headline.cause, integrator::INDIRECT_FACTOR.name);
+        let [_, fit, roulette, ..] = &headline.evidence[..] else { panic!("{headline:?}") };
+        assert!(fit.ends_with("with f = 0.7000 ± 0.0009"), "{fit}");
+        assert!(roulette.starts_with("Russian roulette of your own"), "{roulette}");
         assert!(headline.ruled_out[0].contains("coloured"));
+    }
+
+    #[test]
+    fn light_that_is_lost_from_a_later_bounce_on_has_not_lost_its_way() {
+        let ended = |c: &Channel, rows: [u32; 2]| c.sum(rows, |k| if k > 2 { 0.9 } else { 1.0 });
+        let made = Made::new().with(FURNACES[0], furnace(ended));
+        assert_eq!(made.first(), None);
     }
 
     #[test]

@@ -365,8 +365,21 @@ impl Row<'_> {
                 let shares = Shares::of(cosine, ratio, *roughness, form);
                 Some(shares.reflected + shares.refracted * self.scaled(ratio.powi(-2)))
             }
-            (Surface::Mirror { .. }, _) => None,
+            (Surface::Mirror { reflectance }, _) => {
+                Some(reflectance[c] * self.mirrored(&ray, &met, c)?)
+            }
         }
+    }
+
+    /// What a mirror shows of the light that is scattered once more, where what it shows emits none.
+    fn mirrored(&self, ray: &Ray, met: &Met, c: usize) -> Option<f64> {
+        let direction = ray.direction.reflect(met.answer.shading_normal);
+        let ray = Ray::new(ray.at(met.answer.t) + BORDER * direction, direction);
+        let shown = nearest(self.scene, &ray)?;
+        let bounces = [self.bounces[0].max(2) - 1, self.bounces[1].checked_sub(1)?];
+        let is_dark = self.scene.material_of(shown.shape).emission.is_none();
+        let row = Row { scene: self.scene, ray: Some(ray), bounces, conventions: self.conventions };
+        is_dark.then(|| row.along_ray(c)).flatten()
     }
 
     /// What refraction does to radiance, for whoever declares that it does.
@@ -375,13 +388,16 @@ impl Row<'_> {
     }
 
     /// Irradiance over π at what a ray meets. What is dark hides what it covers of a light, which is all of it or lies
-    /// within the light.
+    /// within the light; mirrors stand aside.
     fn direct(&self, ray: &Ray, met: &Met, c: usize) -> f64 {
         let point = ray.at(met.answer.t);
         let normal = met.answer.shading_normal;
         let normal = if normal.dot(ray.direction) < 0.0 { normal } else { -normal };
         let shapes = (0..self.scene.shape_count() as u32).filter(|shape| *shape != met.shape);
-        let dark = shapes.filter(|shape| self.scene.material_of(*shape).emission.is_none());
+        let is_in_the_way = |material: &Material| {
+            material.emission.is_none() && !matches!(material.surface, Surface::Mirror { .. })
+        };
+        let dark = shapes.filter(|shape| is_in_the_way(self.scene.material_of(*shape)));
         let hidden: f64 = dark.map(|shape| covers(self.scene.shape(shape), point, normal)).sum();
         let lights = self.scene.lights.iter().map(|light| match light {
             Light::Area { shape } => {

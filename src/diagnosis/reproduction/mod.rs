@@ -333,8 +333,7 @@ impl<'a> Proof<'a> {
         if !found.is_empty() {
             return found;
         }
-        let found =
-            if told.len() > 1 { self.of_sets(&[told.to_vec()], &cases) } else { Vec::new() };
+        let found = if told.len() > 1 { self.of_all(told, &cases) } else { Vec::new() };
         if !found.is_empty() {
             return found;
         }
@@ -348,6 +347,20 @@ impl<'a> Proof<'a> {
             sets.extend(rest.map(|other| vec![**one, **other]));
         }
         self.of_sets(&sets, &cases)
+    }
+
+    /// Everything that is told, where it reproduces every case: each in the cases that it is needed for.
+    fn of_all(&self, told: &[Mistake], cases: &[&Observation<'a>]) -> Vec<Suspicion> {
+        let mut found = self.of_sets(&[told.to_vec()], cases);
+        let all_but = |left_out: &Mistake| -> Vec<_> {
+            told.iter().filter(|one| one.name != left_out.name).copied().collect()
+        };
+        let answers = self.compare(&told.iter().map(all_but).collect::<Vec<_>>(), cases);
+        for (suspicion, without) in found.iter_mut().zip(answers) {
+            let needs = cases.iter().zip(without).filter(|(_, l)| *l != Likeness::Same);
+            suspicion.cases = needs.map(|(seen, _)| seen.case.to_owned()).collect();
+        }
+        found
     }
 
     /// The suspicions of those sets that reproduce every case; none where too many do.
@@ -500,7 +513,8 @@ mod tests {
             let ratio = |question: &Question<'_>| {
                 let names: Vec<_> = question.mistakes.iter().map(|one| one.name).collect();
                 let of = |(set, case, _): &&(&[&str], &str, f64)| {
-                    *set == &names[..] && *case == question.case
+                    let is_set = set.len() == names.len() && names.iter().all(|n| set.contains(n));
+                    is_set && *case == question.case
                 };
                 self.gives.iter().find(of).map_or(1.0, |(.., ratio)| *ratio)
             };
@@ -608,6 +622,26 @@ mod tests {
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         let names = [bsdf::WITHOUT_PI.name, light::DIVIDED_BY_LIGHTS.name];
         assert_eq!(told(&diagnosis), names.map(|name| (name, Degree::Named, 2)));
+    }
+
+    #[test]
+    fn of_all_that_is_told_each_explains_what_it_is_needed_for() {
+        let made = Made::new()
+            .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
+            .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y"))
+            .with("light/c", light(0.7))
+            .with("light/d", light(0.6));
+        let gives: &[(&[&str], _, _)] = &[
+            (&["pi"], "bsdf/a", 1.5),
+            (&["divided"], "light/b", 0.5),
+            (&["pi", "divided"], "light/c", 0.7),
+            (&["pi", "divided"], "light/d", 0.6),
+            (&["divided"], "light/d", 0.6),
+        ];
+        let planted = Bench { mistakes: &[PI, DIVIDED], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let names = [(light::DIVIDED_BY_LIGHTS.name, 3), (bsdf::WITHOUT_PI.name, 2)];
+        assert_eq!(told(&diagnosis), names.map(|(name, cases)| (name, Degree::Named, cases)));
     }
 
     #[test]

@@ -99,6 +99,10 @@ causes! {
         "the environment light is sampled over the sphere with the pdf of the hemisphere",
         at "light sampling (next event estimation), where the pdf is computed",
         fix "Uniform directions of the sphere have pdf 1/(4π).";
+    ENVIRONMENT_FROM_ONE_SIDE = "environment-from-one-side":
+        "the environment light is sampled over a hemisphere: half of its directions never come",
+        at "light sampling (next event estimation), where the direction is sampled",
+        fix "Sample directions of the whole sphere, with pdf 1/(4π) where they are uniform.";
     HEMISPHERE_IGNORED = "hemisphere-ignored":
         "light sampling is used even where hemisphere sampling is requested",
         at "the choice between hemisphere sampling and light sampling",

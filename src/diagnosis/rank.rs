@@ -440,7 +440,14 @@ fn attribute(
             None => unexplained.push(case),
         }
     }
-    for headline in headlines.iter_mut().filter(|headline| !headline.keeps_its_name()) {
+    let shaken = evidence.proven_by(&unexplained);
+    let is_shaken = |headline: &Headline| {
+        let rests = |case: &String| evidence.rests_on(case).iter().any(|f| shaken.contains(f));
+        !headline.explains.is_empty() && headline.explains.iter().all(rests)
+    };
+    // What all its cases rest on is wrong by itself, for a reason that it does not tell.
+    let is_doubtful = |headline: &Headline| !headline.keeps_its_name() || is_shaken(headline);
+    for headline in headlines.iter_mut().filter(|headline| is_doubtful(headline)) {
         headline.degree = headline.degree.min(Degree::LooksLike);
     }
     unexplained
@@ -506,6 +513,18 @@ mod tests {
         let diagnosis = diagnose(&made.evidence());
         assert_eq!(diagnosis.headlines[0].may_follow, ["light/b"]);
         assert_eq!(diagnosis.headlines[0].degree, Degree::LooksLike);
+    }
+
+    #[test]
+    fn a_cause_whose_cases_rest_on_what_else_is_wrong_loses_its_name() {
+        let made = Made::new()
+            .with("light/a", failing("a").because(&light::HALF_AS_BRIGHT, "x"))
+            .with("light/samples", failing("who knows"))
+            .proving("light/samples", &[Foundation::MeshLight]);
+        let degree = |made: &Made| diagnose(&made.evidence()).headlines[0].degree;
+        assert_eq!(degree(&made), Degree::Named);
+        let rests = made.resting("light/a", &[Foundation::MeshLight]);
+        assert_eq!(degree(&rests), Degree::LooksLike);
     }
 
     #[test]

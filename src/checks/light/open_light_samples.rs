@@ -2,7 +2,7 @@
 //! known exactly; of a constant environment light the mean of radiance over pdf is 4π times its radiance, however it is sampled.
 
 use super::delta_samples::{Judged, Sampled};
-use crate::cause::light as cause;
+use crate::cause::{Cause, light as cause};
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
@@ -72,7 +72,7 @@ fn finding(found: Vec<Judged>) -> Finding {
     Finding::measured(right, found.into_iter().flat_map(|judged| judged.measures))
         .or_else_caught("would have caught one wrong sample")
         .complaining(complaints)
-        .because_each(causes, "predicts every sample of the light")
+        .because_each(causes, "predicts the samples of the light")
 }
 
 /// A sky that is bright alike everywhere.
@@ -86,22 +86,45 @@ impl Sky {
     fn judge(&self, scene: &mut dyn BuiltScene, effort: &Effort, band: Band) -> Result<Judged> {
         let expected = 4.0 * PI * self.radiance[1];
         let claims = [Claim::value(expected, band)];
+        let mut drawn = Drawn::default();
         let reports = judge_means(&claims, effort, &mut |draw| {
             let seed = draw.seed(self.seed);
             let count = usize::try_from(draw.samples).unwrap_or(usize::MAX);
             let from = vec![DVec3::ZERO; count];
             let samples = Numbers::new(seed, count).sample_light(scene, self.number, &from)?;
-            let valid = samples.iter().filter(|sample| sample.is_valid == 1);
-            let sum: f64 = valid.map(|sample| sample.radiance[1] / sample.pdf).sum();
+            let valid = || samples.iter().filter(|sample| sample.is_valid == 1);
+            drawn.count += valid().count();
+            drawn.directions += valid().map(|sample| sample.wi).sum::<DVec3>();
+            let sum: f64 = valid().map(|sample| sample.radiance[1] / sample.pdf).sum();
             Ok::<_, CheckError>(vec![sum / count as f64])
         })?;
         let ratio = reports[0].ratio.unwrap_or([f64::NAN; 2]);
-        let is_half = names_of([0.99 * ratio[0], 1.01 * ratio[1]], &[])
-            .first()
-            .is_some_and(|named| named.value == 0.5);
         Ok(Judged {
             measures: vec![Measure::of("mean of radiance over pdf", &reports[0]).of_row("the sky")],
-            cause: is_half.then_some(&cause::ENVIRONMENT_PDF_OF_HEMISPHERE),
+            cause: drawn.mistake(ratio),
+        })
+    }
+}
+
+/// The directions that were sampled of a sky.
+#[derive(Clone, Copy, Debug, Default)]
+struct Drawn {
+    count: usize,
+    directions: DVec3,
+}
+
+/// The mean of uniform directions of a hemisphere is half as long as each; that of the sphere's is 0.
+const ONE_SIDED: f64 = 0.25;
+
+impl Drawn {
+    /// What halves the mean of radiance over pdf, and is told by where the samples lie.
+    fn mistake(&self, ratio: [f64; 2]) -> Option<&'static Cause> {
+        let names = names_of([0.99 * ratio[0], 1.01 * ratio[1]], &[]);
+        let is_half = names.first().is_some_and(|named| named.value == 0.5);
+        let is_one_sided = self.directions.length() > ONE_SIDED * self.count as f64;
+        is_half.then_some(match is_one_sided {
+            true => &cause::ENVIRONMENT_FROM_ONE_SIDE,
+            false => &cause::ENVIRONMENT_PDF_OF_HEMISPHERE,
         })
     }
 }
@@ -150,5 +173,13 @@ mod tests {
         assert_eq!(same_everywhere, Some("falloff-undeclared"));
         assert_eq!(told(&POINT, |sample| sample.distance *= 1.01), Some("something"));
         assert_eq!(told(&POINT, |sample| sample.pdf = f64::NAN), Some("something"));
+    }
+
+    #[test]
+    fn half_of_a_sky_is_a_wrong_pdf_or_the_other_half_left_out() {
+        let of = |directions| Drawn { count: 100, directions }.mistake([0.499, 0.501]);
+        let names = [DVec3::new(3.0, 1.0, 2.0), 50.0 * DVec3::Z].map(|sum| of(sum).unwrap().name);
+        assert_eq!(names, ["environment-pdf-of-hemisphere", "environment-from-one-side"]);
+        assert!(Drawn { count: 100, directions: DVec3::ZERO }.mistake([0.9, 1.1]).is_none());
     }
 }

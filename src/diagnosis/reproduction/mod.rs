@@ -109,8 +109,11 @@ impl<'a> Sifted<'a> {
         let (refuted, ranked) = proof.uncontradicted();
         let mut confirmed = proof.confirmed(&ranked);
         confirmed.extend(proof.followers(&ranked));
-        let outnumbered = ranked.with_cause().filter(|told| proof.is_outnumbered(told, &ranked));
-        let doubtful = outnumbered.map(|told| told.cause.clone()).collect();
+        let is_doubtful = |told: &&Headline| {
+            proof.is_outnumbered(told, &ranked) || proof.is_built_on_what_is_wrong(told, &ranked)
+        };
+        let doubtful = ranked.with_cause().filter(is_doubtful);
+        let doubtful = doubtful.map(|told| told.cause.clone()).collect();
         let ranked = match confirmed.is_empty() {
             true => ranked,
             false => look_without(evidence, &refuted, confirmed.clone()),
@@ -121,16 +124,23 @@ impl<'a> Sifted<'a> {
     /// The same with the mistakes that reproduce what has no name.
     pub(super) fn and_searched(self) -> Ranked {
         let Self { proof, mut refuted, ranked, confirmed: mut found, doubtful } = self;
+        let suspected: BTreeSet<_> = ranked.with_cause().map(|told| told.cause.clone()).collect();
         found.extend(proof.reproduced(&ranked));
         let mut proven = match found.is_empty() {
             true => ranked,
             false => look_without(proof.evidence, &refuted, found.clone()),
         };
         // What the search has found has to stand beside the rest as well.
-        let outnumbered = proof.outnumbered(&proven);
-        if !outnumbered.is_empty() {
-            found.retain(|one| !outnumbered.iter().any(|(cause, _)| *cause == one.cause.name));
-            refuted.extend(outnumbered);
+        let mut unfounded = proof.outnumbered(&proven);
+        unfounded.extend(
+            proof
+                .unproven_beside(&proven)
+                .into_iter()
+                .filter(|(cause, _)| !suspected.contains(*cause)),
+        );
+        if !unfounded.is_empty() {
+            found.retain(|one| !unfounded.iter().any(|(cause, _)| *cause == one.cause.name));
+            refuted.extend(unfounded);
             proven = look_without(proof.evidence, &refuted, found.clone());
         }
         let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
@@ -684,6 +694,25 @@ mod tests {
         assert_eq!(others_are(passing), "");
         assert_eq!(others_are(|| light(1.5)), "");
         assert_eq!(others_are(|| light(0.5)), light::DIVIDED_BY_LIGHTS.name);
+    }
+
+    #[test]
+    fn a_cause_above_what_is_wrong_by_itself_only_looks_like_it() {
+        let halved = Mistake { components: Components::DIRECT_LIGHTING, ..DIVIDED };
+        let sampler = Mistake {
+            components: Components::LIGHT_SAMPLING,
+            ..mistake("pdf", &light::LIGHT_PDF_PER_AREA, "light/samples")
+        };
+        let made = Made::new()
+            .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "halved"))
+            .with("light/samples", light(0.3));
+        let gives: &[(&[&str], _, _)] = &[(&["divided"], "light/b", 0.5)];
+        let degree = |mistakes: &[Mistake]| {
+            let planted = Bench { mistakes, gives };
+            told(&diagnose_proven(&made.evidence(), &planted))[0].1
+        };
+        assert_eq!(degree(&[halved]), Degree::Named);
+        assert_eq!(degree(&[halved, sampler]), Degree::LooksLike);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use super::likeness::{Likeness, likeness};
 use super::{Proof, Refuted, is_of_one_part, quickest, refuted, suspicions};
 use crate::cause;
 use crate::checks::Finding;
+use crate::contract::Components;
 use crate::diagnosis::rank::Ranked;
 use crate::diagnosis::{Degree, Headline, Observation, Suspicion};
 
@@ -14,7 +15,7 @@ const FAILED: usize = 16;
 const PASSED: usize = 6;
 /// A cause is not told if so many times more speaks against it than for it, and no less than this many cases.
 const OUTNUMBERED: usize = 2;
-const LEAST_AGAINST: usize = 3;
+const LEAST_AGAINST: usize = 2;
 
 /// What was asked beside the cases of a cause.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -23,6 +24,8 @@ struct Siblings {
     same: Vec<String>,
     /// How many it fails otherwise than the core does.
     against: usize,
+    /// How many there was no time for.
+    unasked: usize,
 }
 
 impl Siblings {
@@ -41,13 +44,35 @@ impl Proof<'_> {
     pub(super) fn outnumbered(&self, ranked: &Ranked) -> Refuted {
         let told = ranked.with_cause().filter(|headline| !self.is_needed(headline));
         let told = told.filter(|headline| self.siblings(headline, ranked).refute(headline));
-        let cases = |told: &Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
-        told.filter_map(cases).flatten().collect()
+        told.filter_map(all_of).flatten().collect()
+    }
+
+    /// Causes that nothing beside their own cases was asked of, though there is something.
+    pub(super) fn unproven_beside(&self, ranked: &Ranked) -> Refuted {
+        let is_unproven = |headline: &&Headline| {
+            let Siblings { same, against, unasked } = self.siblings(headline, ranked);
+            same.is_empty() && against == 0 && unasked > 0
+        };
+        ranked.with_cause().filter(is_unproven).filter_map(all_of).flatten().collect()
     }
 
     /// Whether more of its part speaks against a cause than for it.
     pub(super) fn is_outnumbered(&self, headline: &Headline, ranked: &Ranked) -> bool {
         !self.is_needed(headline) && self.siblings(headline, ranked).doubt(headline)
+    }
+
+    /// Whether something that its mistake is built upon is wrong by itself, for a reason that is not told.
+    pub(super) fn is_built_on_what_is_wrong(&self, headline: &Headline, ranked: &Ranked) -> bool {
+        let made: Components = self.of(headline).map(|mistake| mistake.components).collect();
+        let is_lower = |case: &String| {
+            let mut of_case =
+                self.planted.mistakes().iter().filter(|one| one.caught_by == case).peekable();
+            of_case.peek().is_some()
+                && of_case
+                    .all(|one| one.components.bits() < made.bits() & made.bits().wrapping_neg())
+        };
+        let mut others = ranked.without_cause(headline);
+        !made.is_empty() && others.any(|case| is_of_one_part(headline, case) && is_lower(case))
     }
 
     /// What else is explained by the causes that are told.
@@ -80,14 +105,22 @@ impl Proof<'_> {
         };
         let mut found = Siblings::default();
         for (number, seen) in asked.into_iter().enumerate() {
-            if is_same(seen, &answer(number, &answers[..own])) {
+            let of_sets = answer(number, &answers);
+            if of_sets.is_empty() {
+                found.unasked += 1;
+            } else if is_same(seen, &answer(number, &answers[..own])) {
                 found.same.push(seen.case.to_owned());
-            } else if speak_against(seen, &answer(number, &answers)) {
+            } else if speak_against(seen, &of_sets) {
                 found.against += 1;
             }
         }
         found
     }
+}
+
+/// All that a cause explains, against it.
+fn all_of(headline: &Headline) -> Option<Refuted> {
+    Some(refuted(cause::find(&headline.cause)?, &headline.explains))
 }
 
 /// Whether the core fails a case as any of these do.
@@ -102,5 +135,5 @@ fn speak_against(seen: &Observation<'_>, planted: &[Finding]) -> bool {
         let is_other = || likeness(seen.finding, planted) == Likeness::Other;
         planted.failed() && (!seen.has_failed() || is_other())
     };
-    !planted.is_empty() && planted.iter().all(speaks)
+    planted.iter().all(speaks)
 }

@@ -23,7 +23,7 @@ const LONGEST: f64 = 4.0;
 const ROUNDS: usize = 4;
 /// Mistakes of which pairs are tried.
 const PAIRED: usize = 8;
-/// So many sets of mistakes may come to the same numbers by chance, where one of them is named.
+/// Fewer sets of mistakes may come to the same numbers by chance, where one of them is named.
 const BY_CHANCE: f64 = 0.1;
 
 /// A mistake that the bench can plant.
@@ -95,8 +95,6 @@ pub(super) struct Sifted<'a> {
     refuted: Refuted,
     ranked: Ranked,
     confirmed: Vec<Suspicion>,
-    /// The names of causes that more speaks against than for.
-    doubtful: BTreeSet<String>,
 }
 
 impl<'a> Sifted<'a> {
@@ -107,23 +105,18 @@ impl<'a> Sifted<'a> {
     ) -> Self {
         let proof = Proof { evidence, planted, made_in };
         let (refuted, ranked) = proof.uncontradicted();
-        let mut confirmed = proof.confirmed(&ranked);
+        let mut confirmed = proof.confirmed(&ranked, &refuted);
         confirmed.extend(proof.followers(&ranked));
-        let is_doubtful = |told: &&Headline| {
-            proof.is_outnumbered(told, &ranked) || proof.is_built_on_what_is_wrong(told, &ranked)
-        };
-        let doubtful = ranked.with_cause().filter(is_doubtful);
-        let doubtful = doubtful.map(|told| told.cause.clone()).collect();
         let ranked = match confirmed.is_empty() {
             true => ranked,
             false => look_without(evidence, &refuted, confirmed.clone()),
         };
-        Self { proof, refuted, ranked, confirmed, doubtful }
+        Self { proof, refuted, ranked, confirmed }
     }
 
     /// The same with the mistakes that reproduce what has no name.
     pub(super) fn and_searched(self) -> Ranked {
-        let Self { proof, mut refuted, ranked, confirmed: mut found, doubtful } = self;
+        let Self { proof, mut refuted, ranked, confirmed: mut found } = self;
         let suspected: BTreeSet<_> = ranked.with_cause().map(|told| told.cause.clone()).collect();
         found.extend(proof.reproduced(&ranked));
         let mut proven = match found.is_empty() {
@@ -132,17 +125,18 @@ impl<'a> Sifted<'a> {
         };
         // What the search has found has to stand beside the rest as well.
         let mut unfounded = proof.outnumbered(&proven);
-        unfounded.extend(
-            proof
-                .unproven_beside(&proven)
-                .into_iter()
-                .filter(|(cause, _)| !suspected.contains(*cause)),
-        );
+        let unproven = proof.unproven_beside(&proven).into_iter();
+        unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
         if !unfounded.is_empty() {
             found.retain(|one| !unfounded.iter().any(|(cause, _)| *cause == one.cause.name));
             refuted.extend(unfounded);
             proven = look_without(proof.evidence, &refuted, found.clone());
         }
+        let is_doubtful = |told: &&Headline| {
+            proof.is_outnumbered(told, &proven) || proof.is_built_on_what_is_wrong(told, &proven)
+        };
+        let doubtful = proven.with_cause().filter(is_doubtful);
+        let doubtful: BTreeSet<_> = doubtful.map(|told| told.cause.clone()).collect();
         let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
         proven.doubt(|headline| {
             let is_proven = causes.contains(&headline.cause[..]) || proof.is_needed(headline);
@@ -308,15 +302,23 @@ impl<'a> Proof<'a> {
         numbers.peek().is_some() && numbers.all(|likeness| *likeness != Likeness::Same)
     }
 
-    /// The named causes whose mistake gives the same numbers, with that for evidence.
-    fn confirmed(&self, ranked: &Ranked) -> Vec<Suspicion> {
-        let named = ranked.with_cause().filter(|headline| headline.degree == Degree::Named);
+    /// The causes whose mistake gives the same numbers, with that for evidence: those that are named, and those of which
+    /// every rival is refuted.
+    fn confirmed(&self, ranked: &Ranked, refuted: &Refuted) -> Vec<Suspicion> {
+        let is_rival = |headline: &Headline, case: &String, (cause, of): &(&str, String)| {
+            of == case && *cause != headline.cause
+        };
+        let stands_alone = |headline: &Headline| {
+            let mut cases = headline.explains.iter();
+            cases.all(|case| refuted.iter().any(|other| is_rival(headline, case, other)))
+        };
+        let is_clear = |told: &&Headline| told.degree == Degree::Named || stands_alone(told);
         let confirmed = |headline: &Headline| {
             let mistake = self.of(headline).find(|one| self.is_reproduced(*one, headline))?;
             let cases = self.quickest(&headline.explains);
             suspicions(&[mistake], &cases, Degree::Named).pop()
         };
-        named.filter_map(confirmed).collect()
+        ranked.with_cause().filter(is_clear).filter_map(confirmed).collect()
     }
 
     /// Mistakes that reproduce all that has no name yet; else what each headline without a name explains.
@@ -393,7 +395,7 @@ impl<'a> Proof<'a> {
         if kinds.len() > 2 || by_chance > 1.0 {
             return Vec::new();
         }
-        let is_clear = by_chance <= BY_CHANCE;
+        let is_clear = by_chance < BY_CHANCE;
         let degree = Degree::of_one_among(if is_clear { kinds.len() } else { 2 });
         kinds.values().flat_map(|set| suspicions(set, cases, degree)).collect()
     }
@@ -594,9 +596,9 @@ mod tests {
 
     #[test]
     fn two_mistakes_that_give_the_numbers_only_together_are_both_named() {
-        let made = Made::new().with("bsdf/a", light(0.7)).with("light/b", light(0.7));
+        let made = Made::new().with("bsdf/a", light(0.7)).with("light/b", light(0.4));
         let both: &[&str] = &["pi", "divided"];
-        let gives = &[(both, "bsdf/a", 0.7), (both, "light/b", 0.7)];
+        let gives = &[(both, "bsdf/a", 0.7), (both, "light/b", 0.4)];
         let planted = Bench { mistakes: &[PI, DIVIDED], gives };
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         let names = [bsdf::WITHOUT_PI.name, light::DIVIDED_BY_LIGHTS.name];

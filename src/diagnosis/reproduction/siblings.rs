@@ -24,13 +24,15 @@ struct Siblings {
     same: Vec<String>,
     /// How many it fails otherwise than the core does.
     against: usize,
+    /// How many it fails in the same places, by another size.
+    of_another_size: usize,
     /// How many there was no time for.
     unasked: usize,
 }
 
 impl Siblings {
     fn doubt(&self, headline: &Headline) -> bool {
-        self.against > headline.explains.len() + self.same.len()
+        self.against + self.of_another_size > headline.explains.len() + self.same.len()
     }
 
     fn refute(&self, headline: &Headline) -> bool {
@@ -50,8 +52,9 @@ impl Proof<'_> {
     /// Causes that nothing beside their own cases was asked of, though there is something.
     pub(super) fn unproven_beside(&self, ranked: &Ranked) -> Refuted {
         let is_unproven = |headline: &&Headline| {
-            let Siblings { same, against, unasked } = self.siblings(headline, ranked);
-            same.is_empty() && against == 0 && unasked > 0
+            let Siblings { same, against, of_another_size, unasked } =
+                self.siblings(headline, ranked);
+            same.is_empty() && against + of_another_size == 0 && unasked > 0
         };
         ranked.with_cause().filter(is_unproven).filter_map(all_of).flatten().collect()
     }
@@ -112,6 +115,8 @@ impl Proof<'_> {
                 found.same.push(seen.case.to_owned());
             } else if speak_against(seen, &of_sets) {
                 found.against += 1;
+            } else if of_sets.iter().all(|one| likeness(seen.finding, one) == Likeness::Alike) {
+                found.of_another_size += 1;
             }
         }
         found

@@ -243,8 +243,9 @@ typedef struct furnace_light {
    double       reserved[2];
 } furnace_light;
 
-/* Shapes are numbered meshes first, then spheres; lights as `lights` lists them. Every run turns and relabels
- * its scenes by its seed, and rays, points and cameras turn along: names say nothing of a case. */
+/* Shapes are numbered meshes first, then spheres; lights as `lights` lists them, every shape that emits among
+ * them. Every run turns and relabels its scenes by its seed, and rays, points and cameras turn along: names say
+ * nothing of a case. */
 typedef struct furnace_scene {
    uint32_t struct_size;
    uint32_t material_count, mesh_count, sphere_count, light_count, reserved;

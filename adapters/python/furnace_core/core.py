@@ -87,8 +87,14 @@ class Core:
         """int, float, list of (count,) → list of (mean, used)"""
 
     def build(self, scene, acceleration):
-        """scene (camera, materials, meshes, spheres, lights), acceleration (kind "brute-force" or
-        "bvh", split, max_leaf_size) → a `Built`"""
+        """scene, acceleration (kind "brute-force" or "bvh", split, max_leaf_size) → a `Built`
+
+        scene.materials: as for eval_bsdf, and emission (None, or radiance (3) and cap: None, or axis and half_angle).
+        scene.meshes: positions (vertices, 3), indices (triangles, 3), normals (vertices, 3) if smooth else (0, 3),
+        material (its number). scene.spheres: centre (3,), radius, inward, material.
+        scene.lights: kind "point" (position, intensity), "directional" (direction in which it travels, irradiance),
+        "constant-sky" (radiance), "gradient-sky" (up, horizon, zenith) or "area" (shape: meshes are numbered first, then
+        spheres); every shape that emits is one of them. scene.camera: as for generate_rays, or None."""
         return self.built(scene, acceleration)
 
 
@@ -116,7 +122,8 @@ class Built:
 
     @question("radiance", radiance="rgb")
     def radiance(self, rays, settings):
-        """RAY, settings (samples_per_light, bounces, direct, roulette, seed, threads) → (n, 3)"""
+        """RAY, settings (samples_per_light, bounces.start and .end, both included, direct "lights" or "hemisphere",
+        roulette: None, or .stop and .guaranteed, seed, threads) → (n, 3)"""
 
     @question("render", pixels="rgb-f32")
     def render(self, camera, settings):

@@ -254,7 +254,7 @@ class Scene:
             self.meshes.append(mesh)
         shapes = zip(header["spheres"], arrays["spheres"], arrays["sphere-kinds"])
         self.spheres = [
-            Table({"name": name, "centre": list(shape[:3]), "radius": float(shape[3]),
+            Table({"name": name, "centre": np.array(shape[:3]), "radius": float(shape[3]),
                    "inward": bool(kind[0]), "material": int(kind[1])})
             for name, shape, kind in shapes
         ]

@@ -189,4 +189,29 @@ mod tests {
         assert_eq!(judge(1.0, 1.0, 0.01).verdict, Verdict::Pass);
         assert_eq!(judge(0.99, 1.0, 0.01).verdict, Verdict::Fail);
     }
+
+    #[test]
+    fn p_values_of_a_right_share_are_uniform() {
+        let mut stream = Seed(31).stream();
+        let p_values: Vec<_> = (0..2000)
+            .map(|_| {
+                let hits = (0..1000).filter(|_| uniform(&mut stream) < 0.3).count() as u64;
+                let claim = Claim::share(0.3, Band::NONE);
+                p_value(&score(&claim, Stage::First, [hits, 1000], None), 0.3).unwrap()
+            })
+            .collect();
+        for level in [0.01, 0.1, 0.5, 0.9] {
+            let below = p_values.iter().filter(|p| **p < level).count() as f64 / 2000.0;
+            let deviation = (level * (1.0 - level) / 2000.0_f64).sqrt();
+            // A share of 1000 has steps of a few per cent in p.
+            assert!(
+                (below - level).abs() < 4.0 * deviation + 0.03 * level,
+                "{below} below {level}"
+            );
+        }
+        assert_eq!(
+            p_value(&score(&Claim::share(0.3, Band::NONE), Stage::First, [9, 9], None), 1.0),
+            None
+        );
+    }
 }

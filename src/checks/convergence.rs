@@ -10,8 +10,8 @@ pub(crate) fn series(levels: &[ErrorLevel], mean: f64, reference_noise: f64) -> 
     };
     Series::Convergence(Convergence {
         samples: levels.iter().map(|level| level.samples).collect(),
-        error: relative(&|level| level.root_mean_square()[0]),
-        uncertainty: relative(&|level| level.root_mean_square()[1]),
+        error: relative(&|level| level.error_with_spread()[0]),
+        uncertainty: relative(&|level| level.error_with_spread()[1]),
         noise: relative(&|level| level.variance.sqrt()),
         reference_noise: reference_noise / mean,
     })

@@ -59,7 +59,7 @@ impl ErrorLevel {
     }
 
     /// Root mean square error, and its standard error.
-    pub(crate) fn root_mean_square(&self) -> [f64; 2] {
+    pub(crate) fn error_with_spread(&self) -> [f64; 2] {
         let squared = self.error();
         let error = squared.mean().sqrt();
         [error, 0.5 * squared.standard_error() / error]

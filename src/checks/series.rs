@@ -9,7 +9,7 @@ use std::str::FromStr;
 /// What one plot shows.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
-pub enum Series {
+pub(crate) enum Series {
     /// Samples of a distribution in cells of the sphere, as χ² has counted them.
     Directions(SphereCounts),
     /// How the error falls with the number of samples.
@@ -45,7 +45,7 @@ impl Series {
 /// Errors of pictures, root mean square over pixels and pictures, as shares of the mean luminance that is right.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Convergence {
+pub(crate) struct Convergence {
     /// Samples per pixel, growing.
     pub(crate) samples: OneLine<u64>,
     pub(crate) error: OneLine<f64>,
@@ -61,7 +61,7 @@ pub struct Convergence {
 /// Primitives that are tested a ray, in meshes of growing size.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct TestsBySize {
+pub(crate) struct TestsBySize {
     /// Triangles of the mesh: what brute force tests.
     pub(crate) triangles: OneLine<u64>,
     /// For the closest hit.
@@ -77,7 +77,7 @@ pub struct TestsBySize {
 /// Times of brute force over times with a BVH, for the same rays.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SpeedUps {
+pub(crate) struct SpeedUps {
     /// Of each pair of times.
     pub(crate) ratios: OneLine<f64>,
     #[serde(with = "number")]
@@ -91,7 +91,7 @@ pub struct SpeedUps {
 /// Streams by the number of samples that they were stopped after.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct StopCounts {
+pub(crate) struct StopCounts {
     /// Which streams: `0 or 1 with 10 %`.
     pub(crate) of: String,
     /// Numbers of samples, ascending; left out is what neither came nor should have.
@@ -105,7 +105,7 @@ pub struct StopCounts {
 /// Shares of paths that bring light at an isolated bounce of a furnace, which are those that roulette has not stopped.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Survival {
+pub(crate) struct Survival {
     /// Which roulette: `stop 0.3, 1 guaranteed`.
     pub(crate) of: String,
     pub(crate) bounces: OneLine<u32>,
@@ -119,7 +119,7 @@ pub struct Survival {
 /// Samples in cells of the sphere: ring by ring from −z to +z, sector by sector within.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SphereCounts {
+pub(crate) struct SphereCounts {
     /// Whose: `the cosine hemisphere`.
     pub(crate) of: String,
     /// Edges of the rings in cos θ, ascending from −1 to 1.
@@ -145,7 +145,7 @@ pub struct SphereCounts {
 
 /// Many numbers in one line of a sidecar: `12 0.35 NaN`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct OneLine<T>(Vec<T>);
+pub(crate) struct OneLine<T>(Vec<T>);
 
 impl OneLine<f64> {
     /// Keeps five digits of each, which no eye tells from all of them.

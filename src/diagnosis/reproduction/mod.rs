@@ -20,7 +20,7 @@ const CASES: usize = 4;
 /// Seconds; a case that took the core longer is not asked again.
 const LONGEST: f64 = 4.0;
 /// Rounds in which what is contradicted makes room for the next suspicion.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 6;
 /// Mistakes of which pairs are tried.
 const PAIRED: usize = 8;
 /// Fewer sets of mistakes may come to the same numbers by chance, where one of them is named.
@@ -127,6 +127,7 @@ impl<'a> Sifted<'a> {
         let mut unfounded = proof.outnumbered(&proven);
         let unproven = proof.unproven_beside(&proven).into_iter();
         unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
+        unfounded.extend(proof.lost_in_a_crowd(&proven));
         if !unfounded.is_empty() {
             found.retain(|one| !unfounded.iter().any(|(cause, _)| *cause == one.cause.name));
             refuted.extend(unfounded);
@@ -163,23 +164,22 @@ struct Proof<'a> {
 impl<'a> Proof<'a> {
     /// What is told after everything that is contradicted has made room for the next suspicion.
     fn uncontradicted(&self) -> (Refuted, Ranked) {
+        // What takes the least time is asked first.
+        let doubts: [fn(&Self, &Ranked) -> Refuted; 5] = [
+            Self::contradicted,
+            Self::following,
+            Self::lost_in_the_dark,
+            Self::outnumbered,
+            Self::lost_in_a_crowd,
+        ];
         let mut refuted = Refuted::new();
         let mut ranked = look_without(self.evidence, &refuted, Vec::new());
         for _ in 0..ROUNDS {
-            let mut contradicted = self.contradicted(&ranked);
-            if contradicted.is_empty() {
-                contradicted = self.following(&ranked);
+            let mut against = doubts.iter().map(|doubt| doubt(self, &ranked));
+            match against.find(|against| !against.is_empty()) {
+                Some(against) if !against.is_subset(&refuted) => refuted.extend(against),
+                _ => break,
             }
-            if contradicted.is_empty() {
-                contradicted = self.lost_in_the_dark(&ranked);
-            }
-            if contradicted.is_empty() {
-                contradicted = self.outnumbered(&ranked);
-            }
-            if contradicted.is_subset(&refuted) {
-                break;
-            }
-            refuted.extend(contradicted);
             ranked = look_without(self.evidence, &refuted, Vec::new());
         }
         (refuted, ranked)
@@ -696,6 +696,19 @@ mod tests {
         assert_eq!(others_are(passing), "");
         assert_eq!(others_are(|| light(1.5)), "");
         assert_eq!(others_are(|| light(0.5)), light::DIVIDED_BY_LIGHTS.name);
+    }
+
+    #[test]
+    fn what_looks_like_the_cause_of_one_of_many_failures_is_not_told() {
+        let shared = light(0.5).because(&light::DIVIDED_BY_LIGHTS, "x");
+        let shared = shared.because(&integrator::EMISSION_AGAIN, "y");
+        let few = Made::new().with("light/a", shared);
+        let planted = Bench { mistakes: &[], gives: &[] };
+        let told_of = |made: &Made| told(&diagnose_proven(&made.evidence(), &planted))[0].1;
+        assert_eq!(told_of(&few), Degree::LooksLike);
+        let others = ["b", "c", "d", "e", "f", "g", "h", "i"].map(|name| format!("light/{name}"));
+        let many = others.iter().fold(few, |made, name| made.with(&name[..], light(0.3)));
+        assert_eq!(told_of(&many), Degree::DiffersHere);
     }
 
     #[test]

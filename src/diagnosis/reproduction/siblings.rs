@@ -17,6 +17,9 @@ const PASSED: usize = 6;
 const OUTNUMBERED: usize = 2;
 const LEAST_AGAINST: usize = 2;
 
+/// What looks like a cause and explains one of so many failures of its part says little.
+const CROWD: usize = 9;
+
 /// What was asked beside the cases of a cause.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Siblings {
@@ -57,6 +60,17 @@ impl Proof<'_> {
             same.is_empty() && against + of_another_size == 0 && unasked > 0
         };
         ranked.with_cause().filter(is_unproven).filter_map(all_of).flatten().collect()
+    }
+
+    /// Likenesses that explain next to nothing of what fails in their part.
+    pub(super) fn lost_in_a_crowd(&self, ranked: &Ranked) -> Refuted {
+        let is_lost = |told: &&Headline| {
+            let others = ranked.without_cause(told).filter(|case| is_of_one_part(told, case));
+            let (all, own) = (told.explains.len() + others.count(), CROWD * told.explains.len());
+            let is_alone = || self.siblings(told, ranked).same.is_empty();
+            told.degree == Degree::LooksLike && all >= own && is_alone()
+        };
+        ranked.with_cause().filter(is_lost).filter_map(all_of).flatten().collect()
     }
 
     /// Whether more of its part speaks against a cause than for it.

@@ -56,10 +56,11 @@ pub(super) fn card(
     }
 }
 
-/// The small plot of the first failing case that has one.
+/// The plot of a failing case that says the most.
 fn evidence_plot(tree: &RunTree, core: &str, headline: &Headline) -> Option<Markup> {
     let explained = trials(tree, core, &headline.explains);
-    explained.iter().find_map(|trial| Some(plot::small(trial.outcome.finding()?)?.markup()))
+    let findings: Vec<_> = explained.iter().filter_map(|trial| trial.outcome.finding()).collect();
+    Some(plot::most_telling(&findings)?.markup())
 }
 
 const fn certainty(degree: Degree) -> &'static str {

@@ -35,10 +35,13 @@ pub(super) fn tell_once(plots: &mut [Figure]) {
     }
 }
 
-/// The first plot of a trial that is small enough for the page of the run.
-pub(super) fn small(finding: &Finding) -> Option<Figure> {
+/// Of plots that are small enough for the page of the run the first by bounces, which say where light goes wrong, or else
+/// the first of all.
+pub(super) fn most_telling(findings: &[&Finding]) -> Option<Figure> {
     let is_small = |series: &&Series| !matches!(series, Series::Directions(_));
-    energy::plot(finding).or_else(|| finding.series.iter().find(is_small).and_then(of_series))
+    let mut series = findings.iter().flat_map(|finding| &finding.series).filter(is_small);
+    let by_bounce = findings.iter().find_map(|finding| energy::plot(finding));
+    by_bounce.or_else(|| series.find_map(of_series))
 }
 
 fn of_series(series: &Series) -> Option<Figure> {

@@ -286,11 +286,11 @@ impl<'a> Proof<'a> {
             && mistakes.all(|mistake| !self.made_in.may_be(mistake.components))
     }
 
-    /// Whether all that it explains is 0 or NaN, as many mistakes make it.
+    /// Whether all that it explains is light of 0 or NaN, as many mistakes make it.
     fn is_dark_alone(&self, headline: &Headline) -> bool {
         let seen = headline.explains.iter().filter_map(|case| self.evidence.failure_of(case));
         let mut seen = seen.peekable();
-        seen.peek().is_some() && seen.all(Observation::is_dark)
+        seen.peek().is_some() && seen.all(|seen| seen.is_about_light() && seen.is_dark())
     }
 
     /// Whether its mistakes are wrong in the same places, and nowhere by as much.

@@ -87,7 +87,7 @@ impl Maker<'_> {
     }
 
     fn scene(&self, shot: &Shot) -> Result<Arc<SceneDescription>, String> {
-        shot.load(self.plan.library).map_err(|error| error.to_string())
+        shot.load(self.plan.scenes).map_err(|error| error.to_string())
     }
 
     fn command(&self, shot: &Shot, file: &str) -> String {

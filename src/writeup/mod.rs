@@ -35,7 +35,7 @@ pub(crate) struct Plan<'a> {
     /// What the core says of itself.
     pub(crate) info: CoreInfo,
     pub(crate) hosting: &'a Hosting,
-    pub(crate) library: &'a Library,
+    pub(crate) scenes: &'a Library,
     pub(crate) cast: &'a Cast,
     pub(crate) effort: Effort,
     pub(crate) folder: &'a Path,

@@ -119,39 +119,18 @@ impl<'a> Sifted<'a> {
         let Self { proof, mut refuted, ranked, confirmed: mut found } = self;
         let suspected: BTreeSet<_> = ranked.with_cause().map(|told| told.cause.clone()).collect();
         found.extend(proof.reproduced(&ranked));
-        let mut proven = match found.is_empty() {
-            true => ranked,
-            false => look_without(proof.evidence, &refuted, found.clone()),
-        };
-        // What the search has found has to stand beside the rest as well.
-        let mut unfounded = proof.outnumbered(&proven);
-        let unproven = proof.unproven_beside(&proven).into_iter();
-        unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
-        unfounded.extend(proof.lost_in_a_crowd(&proven));
-        if !unfounded.is_empty() {
+        let mut told = proof.doubted(&refuted, &found);
+        // What the search has found has to stand beside the rest as well, and so has what is doubted.
+        for _ in 0..ROUNDS {
+            let unfounded = proof.unfounded(&told, &suspected);
+            if unfounded.is_empty() {
+                break;
+            }
             found.retain(|one| !unfounded.iter().any(|(cause, _)| *cause == one.cause.name));
             refuted.extend(unfounded);
-            proven = look_without(proof.evidence, &refuted, found.clone());
+            told = proof.doubted(&refuted, &found);
         }
-        let is_doubtful = |told: &&Headline| {
-            proof.is_outnumbered(told, &proven) || proof.is_built_on_what_is_wrong(told, &proven)
-        };
-        let doubtful = proven.with_cause().filter(is_doubtful);
-        let doubtful: BTreeSet<_> = doubtful.map(|told| told.cause.clone()).collect();
-        let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
-        proven.doubt(|headline| {
-            let is_proven = causes.contains(&headline.cause[..]) || proof.is_needed(headline);
-            let is_unsure = || proof.is_dark_alone(headline) || proof.is_of_another_size(headline);
-            let is_doubtful =
-                proof.is_made_elsewhere(headline) || doubtful.contains(&headline.cause);
-            is_doubtful || !is_proven && is_unsure()
-        });
-        // Patterns of which each explains other cases contradict each other.
-        proven.as_one(&bvh::HITS_LOST, |headline| {
-            let loses_hits = cause::find(&headline.cause).is_some_and(cause::loses_hits);
-            loses_hits && !causes.contains(&headline.cause[..])
-        });
-        proven
+        told
     }
 }
 
@@ -165,13 +144,8 @@ impl<'a> Proof<'a> {
     /// What is told after everything that is contradicted has made room for the next suspicion.
     fn uncontradicted(&self) -> (Refuted, Ranked) {
         // What takes the least time is asked first.
-        let doubts: [fn(&Self, &Ranked) -> Refuted; 5] = [
-            Self::contradicted,
-            Self::following,
-            Self::lost_in_the_dark,
-            Self::outnumbered,
-            Self::lost_in_a_crowd,
-        ];
+        let doubts: [fn(&Self, &Ranked) -> Refuted; 4] =
+            [Self::contradicted, Self::following, Self::lost_in_the_dark, Self::outnumbered];
         let mut refuted = Refuted::new();
         let mut ranked = look_without(self.evidence, &refuted, Vec::new());
         for _ in 0..ROUNDS {
@@ -183,6 +157,38 @@ impl<'a> Proof<'a> {
             ranked = look_without(self.evidence, &refuted, Vec::new());
         }
         (refuted, ranked)
+    }
+
+    /// What is told of all but the refuted, and looks like it only where its mistakes leave a doubt.
+    fn doubted(&self, refuted: &Refuted, found: &[Suspicion]) -> Ranked {
+        let mut told = look_without(self.evidence, refuted, found.to_vec());
+        let is_against = |one: &&Headline| {
+            self.is_outnumbered(one, &told) || self.is_built_on_what_is_wrong(one, &told)
+        };
+        let against: BTreeSet<_> =
+            told.with_cause().filter(is_against).map(|one| one.cause.clone()).collect();
+        let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
+        told.doubt(|headline| {
+            let is_proven = causes.contains(&headline.cause[..]) || self.is_needed(headline);
+            let is_unsure = || self.is_dark_alone(headline) || self.is_of_another_size(headline);
+            let is_doubtful = self.is_made_elsewhere(headline) || against.contains(&headline.cause);
+            is_doubtful || !is_proven && is_unsure()
+        });
+        // Patterns of which each explains other cases contradict each other.
+        told.as_one(&bvh::HITS_LOST, |headline| {
+            let loses_hits = cause::find(&headline.cause).is_some_and(cause::loses_hits);
+            loses_hits && !causes.contains(&headline.cause[..])
+        });
+        told
+    }
+
+    /// What says too little beside the other cases of its part; of what rules suspected, less is asked.
+    fn unfounded(&self, told: &Ranked, suspected: &BTreeSet<String>) -> Refuted {
+        let mut unfounded = self.outnumbered(told);
+        let unproven = self.unproven_beside(told).into_iter();
+        unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
+        unfounded.extend(self.lost_in_a_crowd(told));
+        unfounded
     }
 
     /// The cases of each headline that contradict its cause, planted alone and beside all others that are told.

@@ -16,7 +16,6 @@ const PASSED: usize = 6;
 /// A cause is not told if so many times more speaks against it than for it, and no less than this many cases.
 const OUTNUMBERED: usize = 2;
 const LEAST_AGAINST: usize = 2;
-
 /// What looks like a cause and explains one of so many failures of its part says little.
 const CROWD: usize = 9;
 

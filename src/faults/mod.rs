@@ -5,7 +5,7 @@
 
 mod together;
 
-pub use crate::cores::textbook::fault::Fault;
+pub use crate::cores::textbook::fault::{Fault, UNCAUGHT};
 pub use together::{Together, Told};
 
 use crate::case::{Case, NothingSelected, Part, Subject};

@@ -9,7 +9,7 @@ use crate::run::record::Number;
 use crate::text::number::{duration, figure};
 use maud::html;
 
-/// Numbers of cases that are drawn: those of BVHs come first in the order of parts.
+/// How many numbers of cases are drawn: the first, in the order of parts.
 const NUMBERS: usize = 4;
 const POINT: Mark = Mark::new("line-a", Shape::Circle);
 

@@ -17,7 +17,7 @@ mod audit;
 
 use audit::{number, shard};
 use furnace::case;
-use furnace::faults::{Fault, Matrix, Together, select};
+use furnace::faults::{Fault, Matrix, Together, Told, select};
 use furnace::math::rng::{Seed, uniform};
 use furnace::project::Project;
 use furnace::stats::Budget;
@@ -95,7 +95,9 @@ impl Audit {
 fn print(number: u32, set: &Together) {
     let faults: Vec<_> = set.faults.iter().map(|(name, degree)| mark(name, degree)).collect();
     let wrong = set.told.iter().filter(|told| !told.is_there);
-    let wrong: Vec<_> = wrong.map(|told| mark(&told.cause, &told.degree)).collect();
+    let of_cases =
+        |told: &Told| format!("{} of {}", mark(&told.cause, &told.degree), told.explains.join(" "));
+    let wrong: Vec<_> = wrong.map(of_cases).collect();
     let (judged, askable, seconds) = (set.judged, set.askable, set.seconds);
     println!(
         "| {number} | {} | {} | {judged}/{askable} | {seconds:.0} |",

@@ -21,8 +21,17 @@ pub(super) enum Likeness {
     Alike,
     /// Wrong elsewhere, or to the other side.
     Other,
+    /// Both are wrong, and have no numbers to compare.
+    Unsized,
     /// They cannot be compared.
     Unknown,
+}
+
+impl Likeness {
+    /// Whether numbers were compared, or the planted mistake passes what the core fails.
+    pub(super) fn is_known(self) -> bool {
+        !matches!(self, Self::Unsized | Self::Unknown)
+    }
 }
 
 /// How what a core answered compares with what a planted mistake answers; a core that stopped answering has no finding.
@@ -53,7 +62,7 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
 
 /// Of what failed without a number: nothing is known of its size.
 fn by_verdict(planted: &Finding) -> Likeness {
-    if planted.failed() { Likeness::Unknown } else { Likeness::Other }
+    if planted.failed() { Likeness::Unsized } else { Likeness::Other }
 }
 
 /// The same number of the same row, of which the same is expected.
@@ -102,9 +111,9 @@ mod tests {
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(2.0, 1.0)), Likeness::Same);
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(3.0, 1.0)), Likeness::Alike);
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.0, 2.0)), Likeness::Other);
-        assert_eq!(likeness(Some(&failing("lost")), &failing("lost")), Likeness::Unknown);
+        assert_eq!(likeness(Some(&failing("lost")), &failing("lost")), Likeness::Unsized);
         assert_eq!(likeness(None, &passing()), Likeness::Other);
-        assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(0.0, 1.0)), Likeness::Unknown, "darkness");
+        assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(0.0, 1.0)), Likeness::Unsized, "darkness");
         assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(1.0, 1.0)), Likeness::Other);
     }
 }

@@ -262,7 +262,7 @@ impl<'a> Proof<'a> {
     fn are_right(&self, headline: &Headline, cases: &[String]) -> bool {
         let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
         let answers = self.compare(&sets, &self.quickest(cases));
-        let known = answers.iter().flatten().filter(|likeness| **likeness != Likeness::Unknown);
+        let known = answers.iter().flatten().filter(|likeness| likeness.is_known());
         let mut likenesses = known.peekable();
         likenesses.peek().is_some() && likenesses.all(|likeness| *likeness == Likeness::Other)
     }
@@ -300,10 +300,15 @@ impl<'a> Proof<'a> {
     /// Whether its mistakes are wrong in the same places, and nowhere by as much.
     fn is_of_another_size(&self, headline: &Headline) -> bool {
         let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
-        let answers = self.compare(&sets, &self.quickest(&headline.explains));
-        let mut numbers =
-            answers.iter().flatten().filter(|one| **one != Likeness::Unknown).peekable();
-        numbers.peek().is_some() && numbers.all(|likeness| *likeness != Likeness::Same)
+        let cases = self.quickest(&headline.explains);
+        let answers = self.compare(&sets, &cases);
+        let of_case = |number: usize| answers.iter().map(move |of_set| of_set[number]);
+        let is_same = |number: usize| of_case(number).any(|one| one == Likeness::Same);
+        let is_unsized = |number: usize| of_case(number).any(|one| one == Likeness::Unsized);
+        let mut known = (0..cases.len())
+            .filter(|number| of_case(*number).any(Likeness::is_known) && !is_unsized(*number))
+            .peekable();
+        known.peek().is_some() && !known.any(is_same)
     }
 
     /// The causes whose mistake gives the same numbers, with that for evidence: those that are named, and those of which
@@ -574,6 +579,33 @@ mod tests {
         fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
             vec![None; questions.len()]
         }
+    }
+
+    /// Of one mistake in two places, one fails what the other passes, without a number.
+    struct InTwoPlaces;
+
+    impl Planted for InTwoPlaces {
+        fn mistakes(&self) -> &[Mistake] {
+            const HERE: Mistake = mistake("here", &bsdf::WITHOUT_PI, "bsdf/a");
+            const THERE: Mistake = mistake("there", &bsdf::WITHOUT_PI, "bsdf/b");
+            &[HERE, THERE]
+        }
+
+        fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+            let is_here = |question: &Question<'_>| {
+                (question.mistakes[0].name == "here") == (question.case == "bsdf/a")
+            };
+            let answer = |is_here| if is_here { failing("a breach") } else { passing() };
+            questions.iter().map(|question| Some(answer(is_here(question)))).collect()
+        }
+    }
+
+    #[test]
+    fn a_mistake_in_another_place_does_not_contradict_what_fails_without_a_number() {
+        let breach = failing("a breach").because(&bsdf::WITHOUT_PI, "a breach");
+        let made = Made::new().with("bsdf/a", breach);
+        let diagnosis = diagnose_proven(&made.evidence(), &InTwoPlaces);
+        assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::Named, 1)]);
     }
 
     #[test]

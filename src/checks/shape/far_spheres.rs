@@ -9,6 +9,9 @@ use crate::stats::Tolerance;
 use crate::text::{Count, Several};
 use glam::DVec3;
 
+/// From so many radii on, distance may have cost a normal its length.
+const FAR: f64 = 2.0;
+
 check! {
     /// Spheres are hit where they are, from any distance.
     pub(crate) struct FarSpheres {
@@ -40,7 +43,13 @@ impl Check for FarSpheres {
             let mut answers = Vec::new();
             for _ in 0..self.rays.0 {
                 let encounter = Encounter::random(*distance, context.info.precision, stream);
-                answers.push(Answer { encounter, found: ask(context, &encounter)? });
+                let found = match ask(context, &encounter) {
+                    Err(CheckError::Core(CoreError::BrokeContract(_))) if *distance >= FAR => {
+                        SPOILT
+                    }
+                    found => found?,
+                };
+                answers.push(Answer { encounter, found });
             }
             ranges.push(Range { distance: *distance, answers });
         }
@@ -48,17 +57,13 @@ impl Check for FarSpheres {
     }
 }
 
-/// The core's answer; where it breaks the contract, since a normal has lost its length say, one
-/// that is wrong in every number.
+/// What stands for an answer that breaks the contract: wrong in every number.
+const SPOILT: Hit = Hit { t: f64::NAN, geometric_normal: DVec3::NAN, primitive: 0, ..Hit::MISS };
+
 fn ask(context: &mut Context<'_>, encounter: &Encounter) -> Result<Hit, CheckError> {
     let mut hit = [Hit::MISS];
-    let core = &mut *context.core;
-    match core.intersect_primitive(&encounter.primitive(), &[encounter.ray], &mut hit) {
-        Err(CoreError::BrokeContract(_)) => {
-            Ok(Hit { t: f64::NAN, geometric_normal: DVec3::NAN, primitive: 0, ..Hit::MISS })
-        }
-        answer => answer.map(|()| hit[0]).map_err(CheckError::from),
-    }
+    context.core.intersect_primitive(&encounter.primitive(), &[encounter.ray], &mut hit)?;
+    Ok(hit[0])
 }
 
 impl FarSpheres {
@@ -97,7 +102,7 @@ mod tests {
     use super::*;
     use crate::checks::Measure;
     use crate::checks::fake::Fake;
-    use crate::checks::testing::{assert_passes, check_of, failure, judge};
+    use crate::checks::testing::{assert_passes, check_of, failure, judge, try_judge};
     use crate::contract::{Primitive, Ray};
 
     /// r² − |l|², after Hearn and Baker, as Haines et al. (2019) recommend.
@@ -154,8 +159,18 @@ mod tests {
     }
 
     #[test]
-    fn normals_that_have_lost_their_length_are_a_failure_not_an_error() {
-        failure(&found("stable", intersection));
+    fn normals_that_lose_their_length_far_away_are_a_failure_and_nearby_break_the_contract() {
+        let far: FarSpheres =
+            check_of("[expect]\ndistances = [1e4, 1e6]\nrays = 300\nformula = \"stable\"");
+        let finding = judge(&far, &mut Fake::intersecting(intersection));
+        assert!(failure(&finding).contains(" break the contract"), "{}", finding.statement);
+        let twice = |primitive: &Primitive, ray: &Ray| {
+            let answer = stable(primitive, ray)?;
+            Some(answer.with_normal(2.0 * answer.geometric_normal))
+        };
+        let near: FarSpheres = check_of(&format!("[expect]\n{ALL}\"stable\""));
+        let error = try_judge(&near, &mut Fake::intersecting(twice), None).unwrap_err();
+        assert!(matches!(error, CheckError::Core(CoreError::BrokeContract(_))), "{error:?}");
     }
 
     #[test]

@@ -35,6 +35,8 @@ pub(super) struct Range {
 pub(super) struct Judged {
     pub(super) measures: Vec<Measure>,
     wrong_sides: usize,
+    /// Answers without a number.
+    spoilt: usize,
     pub(super) clear: usize,
     pub(super) worst_t: f64,
 }
@@ -58,7 +60,13 @@ impl Range {
         let is_clear = |answer: &&Answer| answer.encounter.is_clear(formula, precision);
         let clear: Vec<_> = self.answers.iter().filter(is_clear).collect();
         if clear.is_empty() {
-            return Judged { measures: Vec::new(), wrong_sides: 0, clear: 0, worst_t: 0.0 };
+            return Judged {
+                measures: Vec::new(),
+                wrong_sides: 0,
+                spoilt: 0,
+                clear: 0,
+                worst_t: 0.0,
+            };
         }
         let wrong_sides = clear.iter().filter(|answer| answer.is_wrong_side()).count();
         let sides = format!("hits lost or invented of {}", clear.len());
@@ -84,7 +92,8 @@ impl Range {
         };
         let worst_t = both().map(|answer| in_radii(&answer)).fold(0.0, f64::max);
         let measures = measures.into_iter().map(|measure| measure.of_row(self.name())).collect();
-        Judged { measures, wrong_sides, clear: clear.len(), worst_t }
+        let spoilt = clear.iter().filter(|answer| answer.found.t.is_nan()).count();
+        Judged { measures, wrong_sides, spoilt, clear: clear.len(), worst_t }
     }
 
     /// Decimal digits of the distance that t has lost.
@@ -99,6 +108,12 @@ pub(super) fn complaint(range: &Range, judged: &Judged, precision: Precision) ->
     if judged.wrong_sides > 0 {
         let some = some_are(judged.wrong_sides, judged.clear, "rays");
         return format!("{name}: {some} wrong about hit or miss");
+    }
+    if judged.spoilt > 0 {
+        let (some, all) = (judged.spoilt, judged.clear);
+        return format!(
+            "{name}: {some} of {all} answers break the contract: NaN, or a normal that is not of unit length"
+        );
     }
     format!(
         "{name}: t is off by up to {} radii: {:.0} of {digits:.0} digits are lost",

@@ -47,7 +47,7 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
     };
     let wrong: Vec<_> = pairs.filter(tells).collect();
     if wrong.is_empty() {
-        return by_verdict(planted);
+        return if broke_alike(core, planted) { Likeness::Same } else { by_verdict(planted) };
     }
     let most = |agree: fn(&Measure, &Measure) -> bool| {
         let count = wrong.iter().filter(|(a, b)| agree(a, b)).count();
@@ -58,6 +58,17 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
         (true, false) => Likeness::Alike,
         (false, false) => Likeness::Other,
     }
+}
+
+/// How a finding is known to have broken the contract.
+fn ways(finding: &Finding) -> BTreeSet<&str> {
+    finding.clues.iter().map(|clue| &clue.cause[..]).collect()
+}
+
+/// Whether both broke the contract, and in the same way.
+fn broke_alike(core: &Finding, planted: &Finding) -> bool {
+    let have_no_numbers = core.measures.is_empty() && planted.measures.is_empty();
+    have_no_numbers && !core.clues.is_empty() && ways(core) == ways(planted)
 }
 
 /// Of what failed without a number: nothing is known of its size.
@@ -97,6 +108,7 @@ pub(super) fn apart(cases: &[&Observation<'_>]) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cause::contract;
     use crate::diagnosis::testing::{failing, mean, means, passing};
     use crate::image::Channel;
 
@@ -112,6 +124,10 @@ mod tests {
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(3.0, 1.0)), Likeness::Alike);
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.0, 2.0)), Likeness::Other);
         assert_eq!(likeness(Some(&failing("lost")), &failing("lost")), Likeness::Unsized);
+        let infinite = || failing("inf").because(&contract::INFINITE, "inf");
+        let not_a_number = failing("NaN").because(&contract::NOT_A_NUMBER, "NaN");
+        assert_eq!(likeness(Some(&infinite()), &infinite()), Likeness::Same);
+        assert_eq!(likeness(Some(&infinite()), &not_a_number), Likeness::Unsized);
         assert_eq!(likeness(None, &passing()), Likeness::Other);
         assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(0.0, 1.0)), Likeness::Unsized, "darkness");
         assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(1.0, 1.0)), Likeness::Other);

@@ -153,7 +153,8 @@ typedef struct furnace_traversal_stats {
    uint64_t rays, box_tests, primitive_tests;
 } furnace_traversal_stats;
 
-/* What the build made; zero when the call begins. Leave zero what you do not know. */
+/* What the build made; zero when the call begins. Leave zero what you do not know. `nodes` counts inner nodes and
+ * leaves; a root alone has a `max_depth` of 1. */
 typedef struct furnace_build_stats {
    uint64_t nodes, leaves, max_depth, bytes;
 } furnace_build_stats;

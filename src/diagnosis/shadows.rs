@@ -106,25 +106,20 @@ fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
     })
 }
 
-/// Right from afar and dark from nearby: rays go no further than the camera was away.
+/// Right from afar and dark from nearby, wherever it was tried: rays go no further than the camera was away. At one point
+/// alone rounding may have done it.
 fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
-    let is_dark = |role: &&Role| {
-        evidence.failed_finding(**role).is_some_and(|finding| {
-            let near: Vec<_> = channels(finding, "from nearby").into_iter().flatten().collect();
-            let far: Vec<_> = channels(finding, "bounce 1").into_iter().flatten().collect();
-            near.len() == CHANNELS.len()
-                && near.iter().all(|reading| reading.admits(0.0))
-                && far.iter().all(|reading| reading.admits(1.0))
-        })
+    let is_dark = |finding: &Finding| {
+        let readings = |row: &str| channels(finding, row).into_iter().flatten().collect::<Vec<_>>();
+        let (near, far) = (readings("from nearby"), readings("bounce 1"));
+        near.len() == CHANNELS.len()
+            && near.iter().all(|reading| reading.admits(0.0))
+            && far.iter().all(|reading| reading.admits(1.0))
     };
-    let cases: Vec<_> = FOUND
-        .iter()
-        .filter(|role| is_dark(role))
-        .map(|role| evidence.case(*role).to_owned())
-        .collect();
-    (!cases.is_empty()).then(|| Suspicion {
+    let found = FOUND.iter().all(|role| evidence.failed_finding(*role).is_some_and(is_dark));
+    found.then(|| Suspicion {
         cause: &light::T_MAX_NOT_RESET,
-        cases,
+        cases: FOUND.map(|role| evidence.case(role).to_owned()).into(),
         evidence: vec![
             "a light 1.6 units away is found by rays of a camera 2.3 away, and not of one 0.6 away"
                 .to_owned(),
@@ -177,8 +172,12 @@ mod tests {
             };
             means(rows.into_iter().flat_map(row).collect())
         };
-        let made = |near| Made::new().with(FOUND[0], finding(near));
-        assert_eq!(made(0.0).first(), Some(light::T_MAX_NOT_RESET.name));
-        assert_eq!(made(0.5).first(), None);
+        let made = |near: [f64; 2]| {
+            let [first, second] = near.map(finding);
+            Made::new().with(FOUND[0], first).with(FOUND[1], second)
+        };
+        assert_eq!(made([0.0, 0.0]).first(), Some(light::T_MAX_NOT_RESET.name));
+        assert_eq!(made([0.5, 0.5]).first(), None);
+        assert_eq!(made([0.0, 1.0]).first(), None, "one point alone");
     }
 }

@@ -105,7 +105,8 @@ class Built:
         self.scene, self.acceleration = scene, acceleration
 
     def stats(self):
-        """{"nodes", "leaves", "max-depth", "bytes"}; leave out what you do not know"""
+        """{"nodes", "leaves", "max-depth", "bytes"}: leaves are nodes too, a root alone has a depth of 1;
+        leave out what you do not know"""
         return {}
 
     @question("intersect", tells_stats=True, hits="hit")

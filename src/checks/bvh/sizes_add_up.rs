@@ -57,6 +57,7 @@ impl Sizes {
         let primitives = self.primitives as f64;
         let held = leaves * f64::from(self.build.max_leaf_size);
         let mut measures = vec![
+            Measure::at_most("leaves, which are nodes too", leaves, self.stats.nodes as f64),
             Measure::at_most("leaves", leaves, primitives),
             Measure::at_most("primitives, for the room in its leaves", primitives, held),
             Measure::at_most("depth", depth, self.inner() + 1.0),
@@ -128,6 +129,7 @@ mod tests {
     #[test]
     fn numbers_that_cannot_be_fail_and_are_told() {
         for (nodes, leaves, depth, words) in [
+            (85, 256, 9, "leaves, which are nodes too (at most) is 256, more than 85"),
             (2001, 1001, 12, "leaves (at most) is 1001, more than 1000"),
             (199, 100, 9, "the room in its leaves (at most) is 1000, more than 400"),
             (511, 256, 300, "depth (at most) is 300"),

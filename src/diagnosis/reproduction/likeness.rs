@@ -9,6 +9,8 @@ const MOST: f64 = 0.95;
 /// By how much of itself an error of the same mistake may differ from core to core: their samplers, tolerances and
 /// trees are not the same.
 pub(super) const ALIKE: f64 = 0.1;
+/// The same of light, of which both know the mean within their noise: what differs by more is weighted otherwise.
+const NEARLY: f64 = 0.03;
 /// The same where light is known without noise: roundings and quadratures alone differ.
 const EXACTLY: f64 = 0.01;
 
@@ -91,8 +93,13 @@ fn errs_alike(a: &Measure, b: &Measure) -> bool {
 /// The numbers lie within each other's noise, and a little of the error; light without noise follows from a formula.
 fn errs_as_much(a: &Measure, b: &Measure) -> bool {
     let error = (a.measured - a.expected).abs().max((b.measured - b.expected).abs());
-    let is_formula = |measure: &Measure| measure.channel.is_some() && measure.interval.is_none();
-    a.meets(b, if is_formula(a) && is_formula(b) { EXACTLY } else { ALIKE } * error)
+    let are_light = a.channel.is_some() && b.channel.is_some();
+    let share = match (are_light, a.interval.or(b.interval)) {
+        (true, None) => EXACTLY,
+        (true, Some(_)) => NEARLY,
+        (false, _) => ALIKE,
+    };
+    a.meets(b, share * error)
 }
 
 /// How many wrong numbers of these cases tell something that the others do not: those off by another factor.
@@ -122,6 +129,7 @@ mod tests {
         };
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(2.0, 1.0)), Likeness::Same);
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(3.0, 1.0)), Likeness::Alike);
+        assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.85, 1.0)), Likeness::Alike, "weighted");
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.0, 2.0)), Likeness::Other);
         assert_eq!(likeness(Some(&failing("lost")), &failing("lost")), Likeness::Unsized);
         let infinite = || failing("inf").because(&contract::INFINITE, "inf");

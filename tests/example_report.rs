@@ -107,12 +107,13 @@ fn the_example_is_what_furnace_writes_today() {
 }
 
 fn the_pages_follow_from_the_records(example: &Path) {
-    let again = tempfile::tempdir().unwrap();
-    copy(example, again.path(), |file| ends_with(file, &["json", "exr"]));
-    furnace(&["report", &again.path().to_string_lossy()]);
-    assert_eq!(files(example), files(again.path()));
+    let temporary = tempfile::tempdir().unwrap();
+    let again = temporary.path().join("run");
+    copy(example, &again, |file| ends_with(file, &["json", "exr"]));
+    furnace(&["report", &again.to_string_lossy()]);
+    assert_eq!(files(example), files(&again));
     for file in files(example) {
-        let [old, new] = [example, again.path()].map(|folder| std::fs::read(folder.join(&file)));
+        let [old, new] = [example, &again].map(|folder| std::fs::read(folder.join(&file)));
         assert!(old.unwrap() == new.unwrap(), "{} is out of date; see above", file.display());
     }
 }

@@ -15,7 +15,7 @@ mod tier;
 pub use catalog::{CatalogError, load_all, load_one};
 pub use filter::{Filter, NothingSelected};
 pub(crate) use foundation::{Foundation, asked_about, foundations};
-pub(crate) use next_step::next_steps;
+pub(crate) use next_step::{best_step, next_steps};
 pub(crate) use part::{PARTS, Part, Subject};
 pub(crate) use role::Role;
 pub(crate) use scene_choice::SceneChoice;

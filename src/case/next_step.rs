@@ -34,8 +34,8 @@ fn steps(lacking: &dyn Fn(Capabilities) -> Lacking, mut has: Capabilities) -> Ve
     steps
 }
 
-/// The step that opens most cases for each capability; none where all are open.
-fn best_step(lacking: &[(String, Capabilities)]) -> Option<NextStep> {
+/// Of cases with what a core lacks for each: the step that opens most of them for each capability; none where all are open.
+pub(crate) fn best_step(lacking: &[(String, Capabilities)]) -> Option<NextStep> {
     let closed = || lacking.iter().filter(|(_, lacks)| !lacks.is_empty());
     let distinct: BTreeMap<_, _> = closed().map(|(_, lacks)| (lacks.bits(), *lacks)).collect();
     let step = |missing: Capabilities| NextStep {

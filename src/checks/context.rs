@@ -77,16 +77,38 @@ pub struct Picture {
     /// The standard error of each value, if it is known.
     pub(crate) standard_error: Option<Image>,
     pub(crate) rejected: Vec<RejectedCell>,
+    /// What its file holds besides.
+    pub(crate) layers: Vec<Layer>,
+}
+
+/// Another image in the file of a picture: the light of one bounce, or the same by one way of sampling direct light.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Layer {
+    /// Of its channels, before `.R`: `bounce.2`, `light-sampling`.
+    pub(crate) name: String,
+    /// Linear RGB radiance.
+    pub(crate) image: Image,
 }
 
 impl Picture {
     pub(crate) fn of(role: PictureRole, caption: impl Into<String>, image: Image) -> Self {
         let caption = caption.into();
-        Self { role, caption, image, standard_error: None, rejected: Vec::new() }
+        Self {
+            role,
+            caption,
+            image,
+            standard_error: None,
+            rejected: Vec::new(),
+            layers: Vec::new(),
+        }
     }
 
     pub(crate) fn with_standard_error(self, standard_error: Image) -> Self {
         Self { standard_error: Some(standard_error), ..self }
+    }
+
+    pub(crate) fn with_layers(self, layers: Vec<Layer>) -> Self {
+        Self { layers, ..self }
     }
 }
 

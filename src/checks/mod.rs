@@ -32,7 +32,7 @@ mod surface;
 mod testing;
 
 pub(crate) use context::{
-    CheckError, Context, Picture, PictureRole, RejectedCell, Result, camera_of,
+    CheckError, Context, Layer, Picture, PictureRole, RejectedCell, Result, camera_of,
 };
 pub(crate) use declared::{Declared, check, checks};
 pub(crate) use finding::{Clue, Finding, Measure, number};

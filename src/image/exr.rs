@@ -81,6 +81,15 @@ impl Exr {
         Ok(Image { width: self.width, height: self.height, pixels })
     }
 
+    /// What its other images are called: `bounce.2` has the channels `bounce.2.R` and so on. Short names first, so that
+    /// numbers are in order.
+    pub(crate) fn layers(&self) -> Vec<&str> {
+        let names = self.channels.iter().filter_map(|channel| channel.name.strip_suffix(".R"));
+        let mut names: Vec<_> = names.collect();
+        names.sort_by_key(|name| name.len());
+        names
+    }
+
     /// The values of a channel that has one for each pixel: a file may have fewer.
     fn whole(&self, name: &str) -> Result<&[f32], ImageError> {
         let values = &self.channel(name)?.values;

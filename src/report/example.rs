@@ -4,6 +4,7 @@ use super::tree::RunTree;
 use crate::case::Tier;
 use crate::checks::{Finding, Measure, PictureRole, RejectedCell};
 use crate::contract::{Capabilities, Components, CoreInfo, Precision};
+use crate::image::exr::{Exr, Storage};
 use crate::image::{CHANNELS, Channel, Image, exr};
 use crate::math::rng::{Seed, uniform};
 use crate::run::record::{
@@ -160,7 +161,8 @@ impl Example {
             let sidecar = sidecar_path(folder, &trial.core, &trial.case);
             for picture in &trial.pictures {
                 let image = draw(trial, picture.role, self.picture_size);
-                exr::write_image(&sidecar.with_file_name(&picture.file), &image).unwrap();
+                let file = with_layers(Exr::from_image(&image), &image, picture.role);
+                exr::write(&sidecar.with_file_name(&picture.file), &file).unwrap();
             }
         }
     }
@@ -331,6 +333,19 @@ fn rejected() -> Vec<RejectedCell> {
         p: 2e-46,
     };
     vec![cell("tile of 8 x 8", [8, 0, 8, 8]), cell("whole picture", [0, 0, 24, 16])]
+}
+
+/// With three bounces, each of half the image, and both ways of sampling of a render.
+fn with_layers(file: Exr, image: &Image, role: PictureRole) -> Exr {
+    let names: &[&str] = match role {
+        PictureRole::Reference => &["bounce.0.", "bounce.1.", "bounce.2."],
+        PictureRole::Render => {
+            &["bounce.0.", "bounce.1.", "bounce.2.", "light-sampling.", "hemisphere-sampling."]
+        }
+        PictureRole::SignedError | PictureRole::SampleRate => &[],
+    };
+    let half = image.map(|pixel| pixel.map(|value| 0.5 * value));
+    names.iter().fold(file, |file, name| file.with_colours(name, &half, Storage::Half))
 }
 
 /// A box with a red and a green wall and a light, noisy where it was rendered, dark where it is to fail.

@@ -3,7 +3,7 @@
 use super::tree::RunTree;
 use crate::run::RunRecord;
 use crate::run::record::{Score, VERSION, read_json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Runs that are shown, the last ones.
 const MOST: usize = 24;
@@ -43,15 +43,15 @@ impl History {
 
 /// Every run that has come to its end beside this one, before it; what is not a run, or of another version, is passed over.
 fn beside(folder: &Path) -> Vec<RunRecord> {
-    let Some(entries) = folder.parent().and_then(|runs| std::fs::read_dir(runs).ok()) else {
-        return Vec::new();
-    };
-    let others = entries
-        .filter_map(Result::ok)
-        .map(|entry| entry.path())
-        .filter(|path| path.file_name() != folder.file_name() && path.join("run.json").is_file());
-    let read = |path: std::path::PathBuf| read_json::<RunRecord>(&path.join("run.json")).ok();
-    others.filter_map(read).collect()
+    let read = |path: PathBuf| read_json::<RunRecord>(&path.join("run.json")).ok();
+    folders_beside(folder).filter_map(read).collect()
+}
+
+/// The folders of other runs.
+pub(super) fn folders_beside(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let entries = folder.parent().and_then(|runs| std::fs::read_dir(runs).ok());
+    let folders = entries.into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
+    folders.filter(|path| path.file_name() != folder.file_name() && path.join("run.json").is_file())
 }
 
 /// Whether two runs can be held against each other: the same cases, as closely looked at.

@@ -6,6 +6,7 @@
 
 pub(crate) mod comparison;
 pub(crate) mod digest;
+mod earlier;
 #[cfg(test)]
 pub(crate) mod example;
 mod history;

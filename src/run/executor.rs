@@ -147,11 +147,14 @@ fn write_trial(folder: &Path, ended: Ended) -> Result<TrialRecord, RecordError> 
     Ok(record)
 }
 
-/// The colours of a picture, and their standard errors where they are known.
+/// The colours of a picture, their standard errors where they are known, and its layers.
 fn file_of(picture: &Picture) -> Exr {
     let file = Exr::from_image(&picture.image);
-    match &picture.standard_error {
+    let file = match &picture.standard_error {
         Some(errors) => file.with_colours(ERROR_PREFIX, errors, Storage::Half),
         None => file,
-    }
+    };
+    picture.layers.iter().fold(file, |file, layer| {
+        file.with_colours(&format!("{}.", layer.name), &layer.image, Storage::Half)
+    })
 }

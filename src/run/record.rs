@@ -346,7 +346,8 @@ pub struct PictureFile {
     /// A few words below it.
     pub caption: String,
     /// File name, in the folder of the sidecar. EXR, linear RGB; with channels `se.R` and so on where the standard
-    /// errors are known.
+    /// errors are known, `bounce.0.R` and so on of bounces that were rendered alone, `light-sampling.R` and
+    /// `hemisphere-sampling.R` of one run by each.
     pub file: String,
     /// Where it is not what it should be, if its check looks at places.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

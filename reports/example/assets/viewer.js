@@ -28,6 +28,19 @@ function halfValue(code) {
   return sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
 }
 
+const single = new Float32Array(1);
+const singleBits = new Uint32Array(single.buffer);
+
+/** The half float nearest to a value. */
+function halfCode(value) {
+  if (Number.isNaN(value)) return 0x7e00;
+  // What half floats call their exponents lies 112 below what single ones do.
+  single[0] = Math.abs(value) * 2 ** -112;
+  const [bits] = singleBits;
+  const code = Math.min(bits + 0xfff + (bits >> 13 & 1) >> 13, 0x7c00);
+  return value < 0 ? code | 0x8000 : code;
+}
+
 const isFiniteHalf = code => (code & 0x7c00) !== 0x7c00;
 
 /**
@@ -139,6 +152,8 @@ async function unpackFrames({ width, height, frames }) {
     Object.assign(frame, await unpack(packed.image, frame.pixels));
     if (packed.noise) frame.noise = await unpack(packed.noise, frame.pixels);
     frame.mean = meanLuminance(frame);
+    const layer = async ({ name, image }) => [name, await unpack(image, frame.pixels)];
+    frame.layers = new Map(await Promise.all(packed.layers.map(layer)));
     return frame;
   }));
 }
@@ -152,16 +167,60 @@ function meanLuminance(frame) {
   return count ? sum / count : 0;
 }
 
+/** All that an image shows. */
+const WHOLE = 'whole image';
+
+/** What of the images can be looked at: all, each bounce alone, bounces added up, one way of sampling. */
+function partsOf(frames) {
+  const names = [...new Set(frames.flatMap(frame => [...frame.layers.keys()]))];
+  const bounces = names.filter(name => name.startsWith('bounce '));
+  const sums = bounces.slice(1).map(name => `${bounces[0].replace('bounce', 'bounces')} to ${name.slice(7)}`);
+  return [WHOLE, ...bounces, ...sums, ...names.filter(name => !bounces.includes(name))];
+}
+
+/** A part of an image, made once; all of one that does not have it, which its label says. */
+function partOf(frame, part) {
+  if (part === WHOLE || !isRadiance(frame)) return frame;
+  frame.made = frame.made || new Map();
+  if (!frame.made.has(part)) frame.made.set(part, makePart(frame, part));
+  return frame.made.get(part);
+}
+
+function makePart(frame, part) {
+  const layers = layersOf(frame, part);
+  if (!layers) return { ...frame, label: `${frame.label} · ${WHOLE}` };
+  const made = { ...frame, ...sumOf(layers, frame.pixels), noise: null, label: `${frame.label} · ${part}` };
+  return Object.assign(made, { mean: meanLuminance(made) });
+}
+
+/** The layers that a part is the sum of; nothing where one is missing. */
+function layersOf({ layers }, part) {
+  const [, first, last] = /^bounces (\d+) to (\d+)$/.exec(part) || [];
+  const names = last ? Array.from({ length: last - first + 1 }, (_, step) => `bounce ${Number(first) + step}`) : [part];
+  return names.every(name => layers.has(name)) ? names.map(name => layers.get(name)) : null;
+}
+
+/** Images added up, as half floats again. */
+function sumOf(images, pixels) {
+  if (images.length === 1) return images[0];
+  const scale = images.length * Math.max(...images.map(image => image.scale));
+  const code = index => halfCode(images.reduce((sum, { codes, scale }) => sum + HALVES[codes[index]] * scale, 0) / scale);
+  return { scale, codes: Uint16Array.from({ length: 3 * pixels }, (_, index) => code(index)) };
+}
+
 /** What the keys 1, 2, 3 choose: the images, then the error of each render. */
 function viewsOf(frames) {
   const renders = frames.flatMap((frame, index) => frame.role === 'render' ? [index] : []);
   const hasReference = frames.some(frame => frame.role === 'reference');
   const errors = hasReference ? renders : [];
   return [
-    ...frames.map((frame, index) => ({ label: frame.label, frame: index, isError: false })),
-    ...errors.map(index => ({ label: `error of ${frames[index].label}`, frame: index, isError: true })),
+    ...frames.map((_, index) => ({ frame: index, isError: false })),
+    ...errors.map(index => ({ frame: index, isError: true })),
   ];
 }
+
+/** What a view is called, with the part that is looked at. */
+const labelOf = (frames, { frame, isError }) => `${isError ? 'error of ' : ''}${frames[frame].label}`;
 
 /** Whether exposure and tone curve apply to a frame; others are in false colour of a fixed scale. */
 const isRadiance = frame => frame.kind === 'radiance';
@@ -179,7 +238,7 @@ const METRICS = {
   'error by channel': { signed: true, coloured: true, of: (a, b, dark) => (a - b) / (Math.abs(b) + dark), unit: '%' },
   'absolute error': { signed: false, of: (a, b) => Math.abs(a - b) },
   'relative squared error': { signed: false, of: (a, b, dark) => (a - b) ** 2 / (b ** 2 + dark ** 2) },
-  'standard errors': { signed: true, noisy: true, limit: 6, of: (a, b, _, noise) => noise > 0 ? (a - b) / noise : 0 },
+  'standard errors': { signed: true, noisy: true, limit: 6, of: (a, b, _, noise) => noise === 0 ? 0 : (a - b) / noise },
 };
 
 /** The metrics that these images allow: some need to know the noise. */
@@ -232,7 +291,7 @@ class Layers {
     const frame = this.frames[view.frame];
     const look = view.isError ? ['metric', 'limit', 'channel', 'reference']
       : isRadiance(frame) ? ['tone', 'stops', 'offset', 'channel'] : [];
-    const key = JSON.stringify(look.map(name => state[name]));
+    const key = JSON.stringify(['part', ...look].map(name => state[name]));
     const kept = this.kept.get(view);
     if (kept && kept.key === key) return kept.canvas;
     const canvas = this.canvasOf(frame, this.shade(view, frame, state));
@@ -336,15 +395,26 @@ function layOut({ views, state, frames, width: cssWidth, ratio }) {
   const tallest = Math.max(TALLEST * innerHeight * ratio, LEAST_ZOOM * ratio * image.height);
   const zoom = wholeZoom(Math.min(paneWidth / image.width, tallest / image.height));
   const paneHeight = Math.ceil(image.height * zoom);
+  const boxes = insetBoxes(state.insets, paneWidth, gap);
+  const below = Math.max(0, ...boxes.map(box => box.height + gap));
   const panes = shown.map((view, index) => ({
     view,
     x: index % columns * (paneWidth + gap),
-    y: Math.floor(index / columns) * (paneHeight + label + gap) + label,
+    y: Math.floor(index / columns) * (paneHeight + below + label + gap) + label,
     width: paneWidth,
     height: paneHeight,
   }));
   const rows = Math.ceil(shown.length / columns);
-  return { panes, zoom, width, height: rows * (paneHeight + label + gap) - gap };
+  return { panes, boxes, zoom, width, height: rows * (paneHeight + below + label + gap) - gap };
+}
+
+/** Where insets stand below a pane, from its left edge, each at most as high as wide. */
+function insetBoxes(insets, paneWidth, gap) {
+  const most = Math.floor((paneWidth - gap * (insets.length - 1)) / Math.max(2, insets.length));
+  return insets.map(([, , width, height], index) => {
+    const zoom = wholeZoom(Math.min(most / width, most / height));
+    return { x: index * (most + gap), width: width * zoom, height: height * zoom };
+  });
 }
 
 /** Whole numbers of device pixels, so that all pixels are alike. */
@@ -390,6 +460,7 @@ function paint(viewer) {
     within(pen, pane, () => drawImage(viewer, pen, pane, layers.of(pane.view, state)));
     if (state.layout === 'wipe') wipe(viewer, pen, pane, layers.of(views[state.under], state));
     within(pen, pane, () => drawOver(viewer, pen, pane));
+    drawInsets(viewer, pen, pane, layers.of(pane.view, state));
     drawLabel(viewer, pen, pane);
   }
 }
@@ -425,9 +496,25 @@ function drawOver(viewer, pen, pane) {
   const { state, frames, ratio } = viewer;
   const frame = frames[pane.view.frame];
   outlineArea(viewer, pen, pane, rejectedAt(frame, state.cells));
+  state.insets.forEach((inset, index) => outline(viewer, pen, pane, inset, INSET_COLOURS[index]));
   if (state.region) outline(viewer, pen, pane, state.region, '#fff');
   if (viewer.pointer) outline(viewer, pen, pane, [...viewer.pointer, 1, 1], '#fff');
   if (cameraOf(viewer).zoom >= NUMBERS_FROM * ratio) drawNumbers(viewer, pen, pane);
+}
+
+/** Of the outlines of insets, in their order: far from those of rejected cells. */
+const INSET_COLOURS = ['#4cc9f0', '#ff8fd0', '#9be564'];
+
+/** What is enlarged below a pane, in the same colours as above. */
+function drawInsets(viewer, pen, pane, layer) {
+  viewer.stage.boxes.forEach((box, index) => {
+    const [left, top] = [pane.x + box.x, pane.y + pane.height + GAP * viewer.ratio];
+    pen.imageSmoothingEnabled = false;
+    pen.drawImage(layer, ...viewer.state.insets[index], left, top, box.width, box.height);
+    const edge = new Path2D();
+    edge.rect(left, top, box.width, box.height);
+    stroke(viewer, pen, edge, INSET_COLOURS[index]);
+  });
 }
 
 /** Where a scale rejects: cells of one component may stand where those of another do. */
@@ -508,10 +595,11 @@ function drawNumber({ ratio }, pen, [x, y], numbers) {
 
 /** The name of a view above its pane, and what its colours mean. */
 function drawLabel(viewer, pen, pane) {
-  const { ratio, state, views } = viewer;
+  const { ratio, state, views, frames } = viewer;
   const [size, baseline] = [13 * ratio, pane.y - 7 * ratio];
   pen.fillStyle = viewer.ink;
-  const name = state.layout === 'wipe' ? `${views[state.under].label} | ${pane.view.label}` : pane.view.label;
+  const own = labelOf(frames, pane.view);
+  const name = state.layout === 'wipe' ? `${labelOf(frames, views[state.under])} | ${own}` : own;
   const legend = legendOf(viewer, pane.view);
   const room = legend ? drawLegend(viewer, pen, pane, legend) - pane.x : pane.width;
   pen.font = `600 ${size}px system-ui, sans-serif`;
@@ -726,7 +814,8 @@ function initialState({ frames, views, stops, scales }) {
   return {
     layout: 'all', show: Math.max(0, render), under: reference, reference,
     tone: 'sRGB', stops, offset: 0, channel: 'RGB', metric: 'relative error', limit: 0,
-    zoom: 0, x: 0, y: 0, wipe: 0.5, region: null, cells: scales[0] || NO_CELLS, histogram: true,
+    zoom: 0, x: 0, y: 0, wipe: 0.5, region: null, insets: [],
+    part: WHOLE, cells: scales[0] || NO_CELLS, histogram: true,
   };
 }
 
@@ -751,8 +840,9 @@ function withChoices(initial, choices, views) {
 function read(name, word, initial, views) {
   const known = { layout: Object.keys(LAYOUTS), tone: TONES, channel: CHANNELS, metric: Object.keys(METRICS) };
   if (known[name]) return known[name].includes(word) ? word : undefined;
-  if (name === 'region') return readRegion(word);
-  if (name === 'cells') return word;
+  if (name === 'region') return readExtent(word.split(' '));
+  if (name === 'insets') return word.split(' ').map(corners => readExtent(corners.split(','))).filter(Boolean);
+  if (name === 'cells' || name === 'part') return word;
   if (typeof initial[name] === 'boolean') return word === 'true';
   const number = Number(word);
   if (!(name in initial) || !Number.isFinite(number)) return undefined;
@@ -760,8 +850,8 @@ function read(name, word, initial, views) {
   return isView && !views[number] ? undefined : number;
 }
 
-function readRegion(word) {
-  const extent = word.split(' ').map(Number);
+function readExtent(numbers) {
+  const extent = numbers.map(Number);
   return extent.length === 4 && extent.every(Number.isInteger) ? extent : undefined;
 }
 // What keys and buttons do to the state of a viewer. Keys are those of tev where it has them.
@@ -818,6 +908,15 @@ function reset(viewer) {
   Object.assign(viewer.state, viewer.initial, { show: viewer.state.show, layout: viewer.state.layout });
 }
 
+/** So many insets stand below an image. */
+const MOST_INSETS = 3;
+
+/** Enlarges the region below every image; without a region, takes all of these away. */
+function pin({ state }) {
+  state.insets = state.region ? [...state.insets, state.region].slice(-MOST_INSETS) : [];
+  state.region = null;
+}
+
 /** Every key: what it does, in words and in code. */
 const KEYS = {
   ' ': ['flip to the image before', viewer => choose(viewer, viewer.state.under)],
@@ -840,6 +939,9 @@ const KEYS = {
   'p': ['outlines of rejected cells, next scale', ({ state, scales }) => {
     state.cells = turned([...scales, NO_CELLS], state.cells, 1);
   }],
+  'b': ['next part: each bounce, bounces added up, ways of sampling', ({ state, partNames }) => { state.part = turned(partNames, state.part, 1); }],
+  'B': ['part before', ({ state, partNames }) => { state.part = turned(partNames, state.part, -1); }],
+  'x': ['enlarge the region below every image; without one, take these away', pin],
   'i': ['histogram', ({ state }) => { state.histogram = !state.histogram; }],
   'f': ['fit', ({ state }) => { state.zoom = 0; }],
   '0': ['one to one', viewer => zoomAboutCentre(viewer, viewer.ratio / cameraOf(viewer).zoom)],
@@ -893,7 +995,7 @@ function controls(viewer, changed) {
   }, ...options.map(option => make('option', { value: option }, option)));
 
   const images = viewer.views.map((view, index) =>
-    button([make('kbd', {}, String(index + 1)), ` ${view.label}`], () => choose(viewer, index)));
+    button([make('kbd', {}, String(index + 1)), ` ${labelOf(viewer.whole, view)}`], () => choose(viewer, index)));
   const layouts = Object.entries(LAYOUTS).map(([layout, label]) =>
     button(label, () => { viewer.state.layout = layout; }, { title: { all: 'g', wipe: 'w' }[layout] || '' }));
   const tone = chooser('tone curve (t)', TONES, 'tone');
@@ -902,14 +1004,16 @@ function controls(viewer, changed) {
   const stops = slider('exposure (e, E)', -12, 12, 0.1, value => { viewer.state.stops = value; changed(); });
   const limit = slider('end of the error scale', -12, 6, 0.25, value => { viewer.state.limit = 2 ** value; changed(); });
   const cells = chooser('outlines of rejected cells (p)', [...viewer.scales, NO_CELLS], 'cells');
+  const part = chooser('part of the image (b)', viewer.partNames, 'part');
   const bars = button('histogram', KEYS.i[1], { title: 'i' });
+  const enlarge = button('enlarge region', KEYS.x[1], { title: 'x' });
   const key = name => button(name, KEYS[name][1], { title: KEYS[name][0], ariaLabel: KEYS[name][0] });
   const hasErrors = viewer.views.some(view => view.isError);
 
   const rows = [
     [...images, make('span', { className: 'gap' }), ...layouts],
-    [stops.label, tone, channel, ...(hasErrors ? [metric, limit.label] : []),
-      ...(viewer.scales.length ? [cells] : []), bars, key('-'), button('fit', KEYS.f[1], { title: 'f' }), key('+'),
+    [...(viewer.partNames.length > 1 ? [part] : []), stops.label, tone, channel, ...(hasErrors ? [metric, limit.label] : []),
+      ...(viewer.scales.length ? [cells] : []), bars, enlarge, key('-'), button('fit', KEYS.f[1], { title: 'f' }), key('+'),
       button('reset', KEYS.r[1], { title: 'r' }), button('PNG', KEYS.s[1], { title: 'save as PNG (s)' }), key('?')],
   ];
   viewer.root.prepend(...rows.map(row => make('div', { className: 'tools' }, ...row)));
@@ -922,6 +1026,9 @@ function controls(viewer, changed) {
     Object.assign(channel, { value: state.channel });
     Object.assign(metric, { value: state.metric });
     Object.assign(cells, { value: state.cells });
+    Object.assign(part, { value: state.part });
+    enlarge.disabled = !state.region && !state.insets.length;
+    enlarge.textContent = state.region || !state.insets.length ? 'enlarge region' : 'drop insets';
     stops.show(state.stops, `${state.stops < 0 ? '−' : '+'}${Math.abs(state.stops).toFixed(1)} EV`);
     limit.show(Math.log2(state.limit || 1), state.limit ? figure(state.limit) : 'auto');
     press(bars, state.histogram);
@@ -942,7 +1049,7 @@ function help() {
   const rows = Object.entries(KEYS).map(([key, [words]]) =>
     make('li', {}, make('kbd', {}, key === ' ' ? 'space' : key.replace('Arrow', '')), ` ${words}`));
   const first = [['1 … 9', 'choose an image'], ['Shift+1 … 9', 'choose the reference'],
-    ['Shift+drag', 'means of a region'], ['wheel', 'zoom, once the viewer has the focus; always with Ctrl']];
+    ['Shift+drag', 'means of a region, and what x enlarges'], ['wheel', 'zoom, once the viewer has the focus; always with Ctrl']];
   const more = first.map(([key, words]) => make('li', {}, make('kbd', {}, key), ` ${words}`));
   return make('ul', { className: 'keys', hidden: true }, ...more, ...rows);
 }
@@ -1038,7 +1145,7 @@ async function startViewer(root) {
   const scales = scalesOf(frames);
   const initial = initialState({ frames, views, scales, stops: packed.stops });
   const viewer = {
-    root, id: root.id, frames, views, scales, initial, state: { ...initial }, metrics: metricsOf(frames),
+    root, id: root.id, frames, whole: frames, partNames: partsOf(frames), views, scales, initial, state: { ...initial }, metrics: metricsOf(frames),
     layers: new Layers(frames), pointer: null, help: help(), ...furniture(frames),
   };
   const { showControls, redraw } = animate(viewer);
@@ -1109,6 +1216,8 @@ function drawAll(viewer) {
   viewer.width = canvas.clientWidth;
   // Folded away: it is drawn once it is seen.
   if (!viewer.width) return;
+  viewer.frames = viewer.whole.map(frame => partOf(frame, state.part));
+  viewer.layers.frames = viewer.frames;
   viewer.ink = getComputedStyle(root).color;
   viewer.stage = layOut(viewer);
   const { width, height } = viewer.stage;
@@ -1117,7 +1226,7 @@ function drawAll(viewer) {
   }
   canvas.style.height = `${height / viewer.ratio}px`;
   canvas.style.touchAction = state.zoom ? 'none' : 'pan-y';
-  canvas.setAttribute('aria-label', `${viewer.stage.panes.map(pane => pane.view.label).join(', ')}, `
+  canvas.setAttribute('aria-label', `${viewer.stage.panes.map(pane => labelOf(viewer.frames, pane.view)).join(', ')}, `
     + `exposure ${state.stops.toFixed(1)} stops, ${state.tone}`);
   paint(viewer);
   probe(viewer);

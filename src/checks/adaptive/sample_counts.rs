@@ -53,6 +53,8 @@ impl Check for SampleCounts {
         }
         drop(built);
         context.pictures.push(rate_picture(&film, self.cap));
+        let caption = format!("up to {} samples per pixel", self.cap);
+        context.show(PictureRole::Render, caption, image_of(film.width, film.height, film.pixels));
         let right = format!("counts lie in {} to {}, in steps of a batch", self.batch, self.cap);
         let failed = measures.iter().find(|measure| measure.verdict != Verdict::Pass);
         let complaint =
@@ -104,8 +106,12 @@ fn distinct_counts(film: &Film) -> Measure {
     Measure::none("a noisy picture with one count everywhere", usize::from(counts.len() < 2))
 }
 
+fn image_of(width: u32, height: u32, pixels: Vec<[f32; 3]>) -> Image {
+    Image { width: width as usize, height: height as usize, pixels }
+}
+
 fn rate_picture(film: &Film, cap: u32) -> Picture {
     let rates = film.sample_counts.iter().map(|count| [*count as f32 / cap as f32; 3]).collect();
-    let image = Image { width: film.width as usize, height: film.height as usize, pixels: rates };
+    let image = image_of(film.width, film.height, rates);
     Picture::of(PictureRole::SampleRate, format!("samples taken, as a share of {cap}"), image)
 }

@@ -1,5 +1,6 @@
 //! A render against a Mitsuba reference, with the noise of both in the account.
 
+use super::parts::{self, Parts};
 use super::shot::{Setup, Shot};
 use super::told::{ERROR_SCALE, error_picture, finding, rejected};
 use super::{by_codes, clues};
@@ -24,6 +25,9 @@ check! {
         samples_per_pixel: Between<1, 65536>,
         /// The error of the whole picture that must be seen.
         detects: Percent,
+        /// Whether the report shows its bounces and both ways of sampling: more samples, which judge nothing.
+        #[serde(default)]
+        shows_parts: bool,
     }
     name: "matches-reference",
     summary: "independent renders against a Mitsuba reference, at every scale",
@@ -98,11 +102,12 @@ impl MatchesReference {
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let question =
             stats::Reference { mean: &reference.mean, standard_error: &reference.standard_error };
-        let mut screened = Vec::new();
+        let (mut screened, mut first) = (Vec::new(), None);
         let report = judge_image(question, &effort, &mut |draw| {
             let image = shot.render(built.as_mut(), draw.seed(seed))?;
             if draw.stage == Stage::First {
                 screened.push(luminances(&image));
+                first.get_or_insert_with(|| image.clone());
             }
             Ok::<_, CheckError>(image)
         })?;
@@ -115,17 +120,29 @@ impl MatchesReference {
             let seed = seed.child("clues");
             finding = clues::explained(finding, &report, &reference, &shot, built.as_mut(), seed)?;
         }
+        let first = first.filter(|_| self.shows_parts && report.impossible.is_none());
+        let parts = match first {
+            Some(first) => {
+                let asked = Parts { shot: &shot, scene: &scene, can: context.info.capabilities };
+                asked.of_core(first, built.as_mut(), seed.child("parts"))?
+            }
+            None => Vec::new(),
+        };
         drop(built);
-        let caption = format!("mean of {} runs of {} samples per pixel", report.runs, shot.samples);
+        let of_parts = parts::caption(&parts, shot.samples);
+        let caption =
+            format!("mean of {} runs of {} samples per pixel{of_parts}", report.runs, shot.samples);
         let error = error_picture(&report, &reference.mean, &reference.standard_error);
         context.pictures.push(
             Picture::of(PictureRole::Reference, "Mitsuba", reference.mean)
-                .with_standard_error(reference.standard_error),
+                .with_standard_error(reference.standard_error)
+                .with_layers(parts::of_reference(reference.layers.bounces, &parts)),
         );
         context.pictures.push(Picture {
             rejected: rejected(&report),
             ..Picture::of(PictureRole::Render, caption, report.mean)
                 .with_standard_error(report.standard_error)
+                .with_layers(parts)
         });
         let caption = format!("difference, {ERROR_SCALE} standard errors at the ends of the scale");
         context.show(PictureRole::SignedError, caption, error);

@@ -4,6 +4,7 @@ mod by_codes;
 mod clues;
 mod matches_as_png;
 mod matches_reference;
+mod parts;
 mod shot;
 mod told;
 

@@ -48,9 +48,9 @@ pub(super) fn card(
             }
             h3.said { (sentence(&headline.mistake)) }
             p.degree { b { (capitalised(headline.degree.word())) } ": " (certainty(headline.degree)) "." }
-            @if let Some(plot) = evidence_plot(view.tree, core, headline) { (plot) }
             (reasons(view.tree, core, headline))
             (command(&headline.command))
+            @if let Some(plot) = evidence_plot(view.tree, core, headline) { (plot) }
             (cases(view, core, headline))
         }
     }

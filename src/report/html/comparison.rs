@@ -210,9 +210,8 @@ fn frame<'a>(file: &str, shows: Shows, pixels: &Pixels, longest: usize) -> Frame
     let role =
         if shows == Shows::Reference { "the reference" } else { "compared with the reference" };
     let noisy = Noisy {
-        image: pixels.image.clone(),
         standard_error: pixels.standard_error.clone(),
-        shrunk_from: None,
+        ..Noisy::alone(pixels.image.clone())
     };
     Frame {
         label: short(file),
@@ -232,7 +231,7 @@ fn flip<'a>(compared: &Compared, pixels: &Pixels, longest: usize) -> Option<Fram
         height: plane.height,
         pixels: plane.values.iter().map(|error| [*error; 3]).collect(),
     };
-    let noisy = Noisy { image, standard_error: None, shrunk_from: None };
+    let noisy = Noisy::alone(image);
     Some(Frame {
         label: format!("{of} of {}", name(compared)),
         caption: format!("{of} of each pixel, from 0 to 1"),

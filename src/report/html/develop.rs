@@ -20,6 +20,8 @@ const COLOUR_STEPS: f64 = 24.0;
 pub(super) enum Shows {
     Reference,
     Render,
+    /// What an earlier run rendered.
+    Earlier,
     SignedError,
     SampleRate,
     /// FLIP of every pixel, from 0 to 1.
@@ -41,7 +43,7 @@ impl Shows {
     /// The colours of what is not radiance.
     pub(super) const fn scale(self) -> Option<Scale> {
         match self {
-            Self::Reference | Self::Render => None,
+            Self::Reference | Self::Render | Self::Earlier => None,
             Self::SignedError => Some(Scale::Signed { limit: 1.0 }),
             Self::SampleRate | Self::Flip => Some(Scale::Magnitude { limit: 1.0 }),
         }
@@ -53,7 +55,7 @@ impl Shows {
             Self::SignedError => ["too dark", "too bright"],
             Self::SampleRate => ["few", "the cap"],
             Self::Flip => ["looks alike", "as different as can be"],
-            Self::Reference | Self::Render => ["", ""],
+            Self::Reference | Self::Render | Self::Earlier => ["", ""],
         }
     }
 }

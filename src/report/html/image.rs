@@ -1,14 +1,18 @@
 //! The images of a case: reference, renders and errors in one viewer; without scripts, beside each other.
 
 use super::View;
+use super::develop::Shows;
+use super::overview::date;
 use super::view::escaped;
 use super::viewer::{Frame, Noisy, look, viewer};
 use crate::checks::PictureRole;
 use crate::image::exr;
 use crate::report::digest::CaseGroup;
+use crate::report::earlier::Earlier;
 use crate::run::TrialRecord;
 use crate::run::record::PictureFile;
 use maud::{Markup, html};
+use std::cmp::Reverse;
 use std::path::Path;
 
 struct Shot<'a> {
@@ -47,16 +51,53 @@ fn frames<'a>(view: &View<'_>, case: &CaseGroup<'a>, round: usize) -> Vec<Frame<
     let mut shots = Vec::new();
     for trial in &case.trials {
         for file in trial.pictures.iter().filter(|file| round_of(trial, file) == round) {
-            let path = view.tree.picture_path(trial, file);
-            let image = exr::read(&path).and_then(|file| Noisy::of(&file));
-            let image = image.map(|noisy| noisy.shrunk_to(view.longest));
-            let image = image.map_err(|error| error.to_string());
+            let image = read(view, &view.tree.picture_path(trial, file));
             shots.push(Shot { trial, file, image });
         }
     }
+    shots.sort_by_key(|shot| (rank(shot.file.role), Reverse(layers(shot))));
     without_equal_references(&mut shots);
-    shots.sort_by_key(|shot| rank(shot.file.role));
-    shots.into_iter().map(|shot| frame(view, shot)).collect()
+    let renders = shots.iter().rposition(|shot| shot.file.role == PictureRole::Render);
+    let earlier: Vec<_> =
+        case.trials.iter().filter_map(|trial| earlier(view, trial, round)).collect();
+    let mut frames: Vec<_> = shots.into_iter().map(|shot| frame(view, shot)).collect();
+    let after = renders.map_or(frames.len(), |last| last + 1);
+    frames.splice(after..after, earlier);
+    frames
+}
+
+fn read(view: &View<'_>, path: &Path) -> Result<Noisy, String> {
+    let image = exr::read(path).and_then(|file| Noisy::of(&file));
+    let image =
+        image.map(|noisy| noisy.shrunk_to(view.longest)).map_err(|error| error.to_string())?;
+    let layers = if view.whole { image.layers } else { Vec::new() };
+    Ok(Noisy { layers, ..image })
+}
+
+/// How many images its file has.
+fn layers(shot: &Shot<'_>) -> usize {
+    shot.image.as_ref().map_or(0, |noisy| noisy.layers.len())
+}
+
+/// What the same core rendered for this case in an earlier run, if it stands beside a render of this one.
+fn earlier<'a>(view: &View<'_>, trial: &TrialRecord, round: usize) -> Option<Frame<'a>> {
+    let is_it = |trial: &TrialRecord, file: &PictureFile| {
+        file.role == PictureRole::Render && round_of(trial, file) == round
+    };
+    let has_render = trial.pictures.iter().any(|file| is_it(trial, file));
+    let earlier = (view.whole && has_render).then(|| Earlier::of(view.tree, trial))??;
+    let file = earlier.trial.pictures.iter().find(|file| is_it(&earlier.trial, file))?;
+    let path = earlier.path(file);
+    let status = earlier.trial.outcome.status().word();
+    Some(Frame {
+        label: format!("{} before: {status}", trial.core),
+        caption: format!("{}: {}", earlier.started().map(date).unwrap_or_default(), file.caption),
+        shows: Shows::Earlier,
+        rejected: &[],
+        // Its bounces are left out: what an earlier run is for is the whole image.
+        image: read(view, &path).map(|noisy| Noisy { layers: Vec::new(), ..noisy }),
+        source: source(view, &path),
+    })
 }
 
 fn frame<'a>(view: &View<'_>, shot: Shot<'a>) -> Frame<'a> {
@@ -73,12 +114,11 @@ fn frame<'a>(view: &View<'_>, shot: Shot<'a>) -> Frame<'a> {
 /// Cores that were held against the same reference share one picture of it.
 fn without_equal_references(shots: &mut Vec<Shot<'_>>) {
     let is_reference = |shot: &Shot<'_>| shot.file.role == PictureRole::Reference;
-    let first =
-        shots.iter().find(|shot| is_reference(shot)).and_then(|shot| shot.image.clone().ok());
+    let image_of = |shot: &Shot<'_>| Some(shot.image.as_ref().ok()?.image.clone());
+    let first = shots.iter().find(|shot| is_reference(shot)).and_then(image_of);
     let mut seen = false;
     shots.retain(|shot| {
-        let repeats =
-            is_reference(shot) && shot.image.is_ok() && shot.image.as_ref().ok() == first.as_ref();
+        let repeats = is_reference(shot) && shot.image.is_ok() && image_of(shot) == first;
         let keep = !(repeats && seen);
         seen |= repeats;
         keep
@@ -137,20 +177,31 @@ mod tests {
 
     #[test]
     fn two_cores_share_their_reference() {
-        let folder = tempfile::tempdir().unwrap();
-        let markup = shown(&Example::green(), folder.path());
+        let runs = tempfile::tempdir().unwrap();
+        let folder = &runs.path().join("run");
+        let markup = shown(&Example::green(), folder);
         assert_eq!(markup.matches("alt=\"reference").count(), 1);
         assert_eq!(markup.matches("<img").count(), 1 + 3 + 3);
     }
 
     #[test]
+    fn an_earlier_pass_stands_beside_what_fails() {
+        let runs = tempfile::tempdir().unwrap();
+        Example::green().write(&runs.path().join("run-0"));
+        let markup = shown(&Example::mixed(), &runs.path().join("run-1"));
+        assert_eq!(markup.matches("alt=\"builtin before: pass").count(), 1);
+        assert_eq!(markup.matches("alt=\"reference").count(), 1);
+    }
+
+    #[test]
     fn a_missing_picture_is_shown_as_missing() {
-        let folder = tempfile::tempdir().unwrap();
-        shown(&Example::green(), folder.path());
-        let tree = RunTree::load(folder.path()).unwrap();
+        let runs = tempfile::tempdir().unwrap();
+        let folder = &runs.path().join("run");
+        shown(&Example::green(), folder);
+        let tree = RunTree::load(folder).unwrap();
         let trial = tree.trials.iter().find(|trial| !trial.pictures.is_empty()).unwrap();
         std::fs::remove_file(tree.picture_path(trial, &trial.pictures[1])).unwrap();
-        let view = View::new(&tree, folder.path(), Place::Top);
+        let view = View::new(&tree, folder, Place::Top);
         let cases = by_case(&tree);
         let case = cases.iter().find(|case| case.first().case == trial.case).unwrap();
         let markup = pictures(&view, case).into_string();
@@ -160,8 +211,9 @@ mod tests {
 
     #[test]
     fn pixels_that_are_not_numbers_are_counted() {
-        let folder = tempfile::tempdir().unwrap();
-        let markup = shown(&Example::mixed(), folder.path());
+        let runs = tempfile::tempdir().unwrap();
+        let folder = &runs.path().join("run");
+        let markup = shown(&Example::mixed(), folder);
         assert!(markup.contains("1 pixel not finite, in magenta"));
     }
 }

@@ -114,9 +114,15 @@ const HEAVIEST: usize = 10_000_000;
 /// The longest sides that images may have in the page that stands alone, pixels: the first that is light enough.
 const SIDES: [usize; 6] = [usize::MAX, 512, 256, 128, 64, 32];
 
-/// The text of the page that stands for all of them. Its images are as large as its weight allows.
+/// The text of the page that stands for all of them. If it is too heavy, it goes without bounces and earlier runs, and then
+/// with smaller images.
 fn single(tree: &RunTree, folder: &Path) -> String {
-    light_enough(|longest| single_with(tree, folder, longest))
+    let whole = single_with(View::new(tree, folder, Place::Alone));
+    if whole.len() < HEAVIEST {
+        return whole;
+    }
+    let view = View { whole: false, ..View::new(tree, folder, Place::Alone) };
+    light_enough(|longest| single_with(View { longest, ..view }))
 }
 
 /// The first page that is light enough, of the longest sides that its images may have.
@@ -126,13 +132,12 @@ fn light_enough(page: impl Fn(usize) -> String) -> String {
     sides.into_iter().map(&page).find(light).unwrap_or_else(|| page(smallest))
 }
 
-fn single_with(tree: &RunTree, folder: &Path, longest: usize) -> String {
-    let view = View { longest, ..View::new(tree, folder, Place::Alone) };
+fn single_with(view: View<'_>) -> String {
     let body = html! {
         @for section in SECTIONS { (section.markup(&view)) }
         (case::failing(&view))
     };
-    Page { title: index_title(tree), is_index: true, body }.render(&view)
+    Page { title: index_title(view.tree), is_index: true, body }.render(&view)
 }
 
 impl Section {

@@ -4,9 +4,9 @@ use super::assets::{EARLY_SCRIPT, FOLDER, STYLE, pages_script, viewer_script};
 use super::cause::told;
 use super::overview;
 use super::view::{Place, View};
-use crate::report::digest::{Tally, capitalised};
+use crate::report::digest::{Tally, capitalised, failures};
 use crate::report::tree::RunTree;
-use crate::run::Status;
+use crate::run::{Outcome, Status};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 pub(super) struct Page {
@@ -104,12 +104,25 @@ pub(super) fn index_title(tree: &RunTree) -> String {
     let mut mistakes: Vec<_> = graded.map(|(_, headline)| &headline.mistake).collect();
     mistakes.dedup();
     match mistakes[..] {
-        [] => capitalised(&tally.headline()),
+        [] => match died(tree) {
+            Some(how) => format!("{how}: {counted}"),
+            None => capitalised(&tally.headline()),
+        },
         [first] => format!("{}: {counted}", capitalised(first)),
         [first, _] => format!("{}, and one more cause: {counted}", capitalised(first)),
         [first, ..] => {
             format!("{}, and {} more causes: {counted}", capitalised(first), mistakes.len() - 1)
         }
+    }
+}
+
+/// What a core was doing when it died or hung, if that comes first.
+fn died(tree: &RunTree) -> Option<String> {
+    let question = |during: &str| during.split(',').next().unwrap_or_default().to_owned();
+    match &failures(tree).first()?.outcome {
+        Outcome::Crashed { during, .. } => Some(format!("Crash during {}", question(during))),
+        Outcome::TimedOut { during, .. } => Some(format!("No answer to {}", question(during))),
+        _ => None,
     }
 }
 

@@ -5,14 +5,15 @@ use super::case::{measures, resolution};
 use super::cause::{self, told};
 use super::parts::{badge, case_name, cell, command, folded_rows};
 use super::{Section, View};
-use crate::case::Part;
+use crate::case::{Part, best_step};
+use crate::contract::Capabilities;
 use crate::diagnosis::Headline;
-use crate::report::digest::{Tally, failures, slowest_first, weakest_first};
+use crate::report::digest::{Tally, capitalised, failures, slowest_first, weakest_first};
 use crate::report::measure::worst_first;
 use crate::report::transplants::sentences;
 use crate::report::tree::AbsentCore;
-use crate::run::{Status, TrialRecord};
-use crate::text::number::{duration, percent};
+use crate::run::{Outcome, Status, TrialRecord};
+use crate::text::number::{count, duration, percent};
 use maud::{Markup, html};
 
 /// Measures in the card; the case has them all.
@@ -108,7 +109,7 @@ fn failed(view: &View<'_>, first: &TrialRecord, others: &[&TrialRecord]) -> Mark
                     " · part " (part.number) ", " (part.title)
                 }
             }
-            h3.said { (first.outcome.statement()) }
+            h3.said { (capitalised(&first.outcome.statement())) }
             p { b { "Claim. " } (first.title) ". " b { "Background. " } (first.teaches) }
             @if let Some(finding) = first.outcome.finding() {
                 (measures(worst_first(&finding.measures).into_iter().take(MEASURES)))
@@ -134,12 +135,32 @@ fn not_failed(view: &View<'_>, tally: &Tally) -> Markup {
                 @if all_good { "Every trial passes." }
                 @else { "Nothing fails, but not everything is decided." }
             }
-            (folded_rows(view, &unknown, 2 * ROWS))
+            @for core in &view.tree.run.cores { (next_step(view, &core.spec)) }
+            (folded_rows(view, &unknown, ROWS))
             div.two {
                 (weakest(view))
                 (slowest(view))
             }
         }
+    }
+}
+
+/// What to implement next, if the core lacks something.
+fn next_step(view: &View<'_>, core: &str) -> Markup {
+    let lacks = |trial: &TrialRecord| match &trial.outcome {
+        Outcome::Skipped { missing } => {
+            Some((trial.case.clone(), Capabilities::from_names(missing).ok()?))
+        }
+        _ => None,
+    };
+    let lacking: Vec<_> = view.tree.trials_of(core).filter_map(lacks).collect();
+    let Some(step) = best_step(&lacking) else { return html! {} };
+    html! {
+        p.said {
+            b { "Write next: " } (step.missing.names().join(", ")) ". It opens "
+            (count(step.cases.len(), "case")) " of the " (lacking.len()) " that " (core) " was not tried on."
+        }
+        (command(&format!("cargo furnace doctor --core {}", shell_words::quote(core))))
     }
 }
 
@@ -157,11 +178,12 @@ fn weakest(view: &View<'_>) -> Markup {
 }
 
 fn slowest(view: &View<'_>) -> Markup {
+    let tried = view.tree.trials.iter().filter(|trial| trial.outcome.finding().is_some());
     html! {
         div {
             h4 { "Slowest trials" }
             table.small {
-                @for trial in slowest_first(&view.tree.trials).iter().take(ROWS) {
+                @for trial in slowest_first(tried).iter().take(ROWS) {
                     tr { (named(view, trial)) td.number { (duration(trial.timing.seconds)) } }
                 }
             }

@@ -73,12 +73,13 @@ fn our_own_script_and_style_cannot_end_early() {
 
 #[test]
 fn nothing_is_fetched() {
-    let folder = tempfile::tempdir().unwrap();
-    Example::mixed().write(folder.path());
-    let tree = RunTree::load(folder.path()).unwrap();
-    let single = ("report.html".to_owned(), single(&tree, folder.path()));
-    let index = ("index.html".to_owned(), index(&tree, folder.path()));
-    let all: BTreeMap<_, _> = pages(&tree, folder.path()).chain([index, single]).collect();
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = &temporary.path().join("run");
+    Example::mixed().write(folder);
+    let tree = RunTree::load(folder).unwrap();
+    let single = ("report.html".to_owned(), single(&tree, folder));
+    let index = ("index.html".to_owned(), index(&tree, folder));
+    let all: BTreeMap<_, _> = pages(&tree, folder).chain([index, single]).collect();
     for (name, page) in &all {
         assert!(!page.contains("url(") && !page.contains("@import"), "{name}");
         assert!(!page.contains("fetch(") && !page.contains("XMLHttpRequest"), "{name}");
@@ -198,12 +199,13 @@ fn plots_stand_in_the_pages_without_scripts_and_are_told_in_words() {
 
 #[test]
 fn the_same_run_gives_the_same_pages() {
-    let folder = tempfile::tempdir().unwrap();
-    Example::mixed().write(folder.path());
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = &temporary.path().join("run");
+    Example::mixed().write(folder);
     let written = || {
-        let tree = RunTree::load(folder.path()).unwrap();
-        let all: Vec<_> = pages(&tree, folder.path()).collect();
-        (all, index(&tree, folder.path()), single(&tree, folder.path()))
+        let tree = RunTree::load(folder).unwrap();
+        let all: Vec<_> = pages(&tree, folder).collect();
+        (all, index(&tree, folder), single(&tree, folder))
     };
     assert_eq!(written(), written());
 }

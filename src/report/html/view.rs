@@ -25,11 +25,13 @@ pub(crate) struct View<'a> {
     pub(crate) place: Place,
     /// Images with a longer side are made smaller, pixels.
     pub(crate) longest: usize,
+    /// Whether what stands beside an image, its bounces and an earlier run, is shown too.
+    pub(crate) whole: bool,
 }
 
 impl<'a> View<'a> {
     pub(super) const fn new(tree: &'a RunTree, folder: &'a Path, place: Place) -> Self {
-        Self { tree, folder, place, longest: usize::MAX }
+        Self { tree, folder, place, longest: usize::MAX, whole: true }
     }
 
     /// The way to the folder of the report.

@@ -29,12 +29,22 @@ pub(super) struct Noisy {
     pub(super) standard_error: Option<Image>,
     /// Width and height in its file, if it is smaller here.
     pub(super) shrunk_from: Option<[usize; 2]>,
+    /// What its file holds besides, by name.
+    pub(super) layers: Vec<(String, Image)>,
 }
 
 impl Noisy {
     pub(super) fn of(file: &Exr) -> Result<Self, ImageError> {
         let standard_error = file.colours(ERROR_PREFIX).ok();
-        Ok(Self { image: file.image()?, standard_error, shrunk_from: None })
+        let names = file.layers().into_iter().filter(|name| !ERROR_PREFIX.starts_with(name));
+        let layer = |name: &str| Some((name.to_owned(), file.colours(&format!("{name}.")).ok()?));
+        let layers = names.filter_map(layer).collect();
+        Ok(Self { layers, standard_error, ..Self::alone(file.image()?) })
+    }
+
+    /// An image of which nothing else is known.
+    pub(super) const fn alone(image: Image) -> Self {
+        Self { image, standard_error: None, shrunk_from: None, layers: Vec::new() }
     }
 
     /// With no side longer than this. The noise of its larger pixels is not known.
@@ -43,8 +53,7 @@ impl Noisy {
         if size[0].max(size[1]) <= longest {
             return self;
         }
-        let image = self.image.shrunk_to(longest);
-        Self { image, standard_error: None, shrunk_from: Some(size) }
+        Self { shrunk_from: Some(size), ..Self::alone(self.image.shrunk_to(longest)) }
     }
 }
 
@@ -72,6 +81,14 @@ struct PackedFrame<'a> {
     image: Packed,
     #[serde(skip_serializing_if = "Option::is_none")]
     noise: Option<Packed>,
+    layers: Vec<PackedLayer>,
+}
+
+#[derive(Serialize)]
+struct PackedLayer {
+    /// `bounce 2`
+    name: String,
+    image: Packed,
 }
 
 /// What the viewer says to those who only hear it.
@@ -130,7 +147,12 @@ fn packed<'a>(frame: &'a Frame<'_>, noisy: &Noisy) -> PackedFrame<'a> {
         rejected: if noisy.shrunk_from.is_none() { frame.rejected } else { &[] },
         image: Packed::of(&noisy.image),
         noise: noisy.standard_error.as_ref().map(Packed::of),
+        layers: noisy.layers.iter().map(packed_layer).collect(),
     }
+}
+
+fn packed_layer((name, image): &(String, Image)) -> PackedLayer {
+    PackedLayer { name: name.replace(['.', '-'], " "), image: Packed::roughly(image) }
 }
 
 /// What an image shows, and that its pixels were averaged where they were.

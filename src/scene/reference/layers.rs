@@ -50,7 +50,12 @@ impl Layers {
 }
 
 fn prefix(bounce: usize) -> String {
-    format!("bounce.{bounce}.")
+    format!("{}.", bounce_layer(bounce))
+}
+
+/// What the layer of a bounce is called.
+pub(crate) fn bounce_layer(bounce: usize) -> String {
+    format!("bounce.{bounce}")
 }
 
 impl FirstHits {

@@ -10,7 +10,7 @@
 mod layers;
 mod provenance;
 
-pub(crate) use layers::{FirstHits, Layers};
+pub(crate) use layers::{FirstHits, Layers, bounce_layer};
 pub(crate) use provenance::Provenance;
 
 use super::SceneDescription;

@@ -1,5 +1,6 @@
-//! The pages in a real browser, opened from disk and driven from within. Where there is no Chromium, each test says so
-//! and passes; `FURNACE_CHROMIUM` names one that is not on the path.
+//! The pages in real browsers, opened from disk and driven from within: what a page saw it sends to the test that opened
+//! it. Where a browser is not installed, each test says so and passes without it; `FURNACE_CHROMIUM` and
+//! `FURNACE_FIREFOX` name those that are not on the path.
 
 use crate::image::encoding::{Curve, Encoding};
 use crate::image::tonemap::{NOT_A_NUMBER, srgb_code, tonemap};
@@ -13,19 +14,20 @@ use base64::prelude::BASE64_STANDARD;
 use half::f16;
 use serde::Deserialize;
 use serde_json::Value;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// Keeps a page loading until it was driven, image after image: Chromium tells of a page once it has loaded.
-const HOLD: &str = "(function hold(){const image=new Image();\
-    image.onload=image.onerror=()=>{document.getElementById('driven')||hold()};\
-    image.src='data:image/gif,'+Math.random()})();";
 /// Before all other scripts: what goes wrong is kept.
 const EARLY: &str = "const drivenErrors=[];\
     addEventListener('error',e=>drivenErrors.push(e.message));\
     addEventListener('unhandledrejection',e=>drivenErrors.push(String(e.reason)));\
     console.error=console.warn=(...words)=>drivenErrors.push(words.join(' '));";
+/// How long a page may take to be driven.
+const PATIENCE: Duration = Duration::from_secs(120);
 const DRIVE: &str = include_str!("drive.js");
 /// The case with images of [`Example::mixed`].
 const CASE: &str = "case/image/cornell-spheres.html";
@@ -49,71 +51,140 @@ struct Seen {
     hover: Value,
     #[serde(default)]
     canvas: [f64; 2],
+    #[serde(default)]
+    parts: Value,
+    #[serde(default)]
+    insets: Value,
 }
 
-/// A Chromium, if one is installed.
-fn chromium() -> Option<PathBuf> {
-    let named = std::env::var_os("FURNACE_CHROMIUM").map(PathBuf::from);
+/// A program that shows pages.
+struct Browser {
+    program: PathBuf,
+    arguments: &'static [&'static str],
+    /// The arguments of a profile of its own.
+    profile: fn(&Path) -> Vec<String>,
+}
+
+const CHROMIUM: [&str; 4] =
+    ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
+
+fn chromium() -> Option<Browser> {
+    let arguments = &["--headless", "--no-sandbox", "--disable-gpu", "--window-size=1280,900"];
+    let program = installed("Chromium", "FURNACE_CHROMIUM", &CHROMIUM)?;
+    let profile = |folder: &Path| vec![format!("--user-data-dir={}", folder.display())];
+    Some(Browser { program, arguments, profile })
+}
+
+fn firefox() -> Option<Browser> {
+    let arguments = &["--headless", "--no-remote", "--width=1280", "--height=900"];
+    let program = installed("Firefox", "FURNACE_FIREFOX", &["firefox", "firefox-esr"])?;
+    let profile = |folder: &Path| vec!["--profile".to_owned(), folder.display().to_string()];
+    Some(Browser { program, arguments, profile })
+}
+
+fn browsers() -> impl Iterator<Item = Browser> {
+    [chromium, firefox].into_iter().filter_map(|browser| browser())
+}
+
+/// Where a browser is: one that the environment names, or else the first on the path.
+fn installed(name: &str, variable: &str, programs: &[&str]) -> Option<PathBuf> {
     let paths = std::env::var_os("PATH").unwrap_or_default();
     let on_path =
-        |name: &str| std::env::split_paths(&paths).map(|f| f.join(name)).find(|p| p.is_file());
-    let known = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
-    let found = named.or_else(|| known.into_iter().find_map(on_path));
+        |name: &&str| std::env::split_paths(&paths).map(|f| f.join(name)).find(|p| p.is_file());
+    let named = std::env::var_os(variable).map(PathBuf::from);
+    let found = named.or_else(|| programs.iter().find_map(on_path));
     if found.is_none() {
-        println!("skipped: no Chromium is installed; FURNACE_CHROMIUM can name one");
+        println!("skipped: no {name} is installed; {variable} can name one");
     }
     found
 }
 
-/// What Chromium answers to a page of this address.
-fn browse(chromium: &Path, arguments: &[String], address: &str) -> String {
-    let profile = tempfile::tempdir().unwrap();
-    let output = Command::new(chromium)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--timeout=60000"])
-        .arg(format!("--user-data-dir={}", profile.path().display()))
-        .args(arguments)
-        .arg(address)
-        .stderr(Stdio::null())
-        .output()
-        .unwrap();
-    String::from_utf8_lossy(&output.stdout).into_owned()
+impl Browser {
+    fn command(&self, profile: &Path) -> Command {
+        let mut command = Command::new(&self.program);
+        command.args(self.arguments).args((self.profile)(profile));
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        command
+    }
+
+    /// What the script of a driven page sends.
+    fn seen(&self, driven: &Driven, address: &str) -> Seen {
+        let profile = tempfile::tempdir().unwrap();
+        let mut child = self.command(profile.path()).arg(address).spawn().unwrap();
+        let text = driven.sent();
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let text = text.unwrap_or_else(|| panic!("{address} sends nothing"));
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text:.400}"))
+    }
 }
 
-/// What the script of a driven page left in it.
-fn seen(chromium: &Path, address: &str) -> Seen {
-    let arguments = ["--dump-dom".to_owned(), "--window-size=1280,900".to_owned()];
-    let page = browse(chromium, &arguments, address);
-    let left =
-        page.split("<pre id=\"driven\">").nth(1).and_then(|rest| rest.split("</pre>").next());
-    let text = left.unwrap_or_else(|| panic!("nothing was driven: {} bytes", page.len()));
-    let text = text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
-    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text:.400}"))
+/// The body of a request.
+fn body_of(stream: &TcpStream) -> std::io::Result<String> {
+    stream.set_nonblocking(false)?;
+    let mut lines = BufReader::new(stream);
+    let mut length = 0;
+    loop {
+        let mut line = String::new();
+        lines.read_line(&mut line)?;
+        let line = line.trim().to_lowercase();
+        if let Some(words) = line.strip_prefix("content-length:") {
+            length = words.trim().parse().unwrap_or(0);
+        }
+        if line.is_empty() {
+            break;
+        }
+    }
+    let mut body = vec![0; length];
+    lines.read_exact(&mut body)?;
+    (&mut &*stream).write_all(b"HTTP/1.1 204 No Content\r\n\r\n")?;
+    Ok(String::from_utf8_lossy(&body).into_owned())
 }
 
 /// The pages of a run, with a copy of one that drives itself.
 struct Driven {
-    folder: TempDir,
+    /// The run stands alone in it: what stands beside a run is taken for earlier ones.
+    _temporary: TempDir,
+    folder: PathBuf,
     tree: RunTree,
+    /// Where its pages send what they saw.
+    listener: TcpListener,
 }
 
 impl Driven {
     fn of(example: &Example) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        example.write(folder.path());
-        let tree = RunTree::load(folder.path()).unwrap();
-        write(&tree, folder.path()).unwrap();
-        Self { folder, tree }
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = temporary.path().join("run");
+        example.write(&folder);
+        let tree = RunTree::load(&folder).unwrap();
+        write(&tree, &folder).unwrap();
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        listener.set_nonblocking(true).unwrap();
+        Self { _temporary: temporary, folder, tree, listener }
+    }
+
+    /// What the next page sends, if it does so in time.
+    fn sent(&self) -> Option<String> {
+        let started = Instant::now();
+        while started.elapsed() < PATIENCE {
+            match self.listener.accept() {
+                Ok((stream, _)) => return body_of(&stream).ok(),
+                Err(_) => std::thread::sleep(Duration::from_millis(20)),
+            }
+        }
+        None
     }
 
     /// The address of a page that drives itself.
     fn address(&self, page: &str) -> String {
-        let path = self.folder.path().join(page);
+        let path = self.folder.join(page);
         let text = std::fs::read_to_string(&path).unwrap();
-        let early = format!("<head><script>{EARLY}{HOLD}</script>");
+        let early = format!("<head><script>{EARLY}</script>");
         let driving = format!("<script>'use strict';{DRIVE}</script></body>");
         let text = text.replacen("<head>", &early, 1).replacen("</body>", &driving, 1);
         std::fs::write(&path, text).unwrap();
-        format!("file://{}", path.display())
+        let port = self.listener.local_addr().unwrap().port();
+        format!("file://{}?{port}", path.display())
     }
 
     /// The first images of the case, as a viewer unpacks them, in the order of the viewer.
@@ -159,9 +230,14 @@ fn decoded(text: &str) -> Vec<u8> {
 
 #[test]
 fn a_viewer_shows_the_pixels_of_the_files_and_obeys_every_key_and_control() {
-    let Some(chromium) = chromium() else { return };
     let driven = Driven::of(&Example::mixed());
-    let seen = seen(&chromium, &driven.address(CASE));
+    let address = driven.address(CASE);
+    for browser in browsers() {
+        shows_the_pixels_of_the_files(&driven, &browser.seen(&driven, &address));
+    }
+}
+
+fn shows_the_pixels_of_the_files(driven: &Driven, seen: &Seen) {
     assert_eq!(seen.errors, Vec::<String>::new());
     assert_eq!(seen.fetched, Vec::<String>::new());
     assert_eq!(seen.dead, Vec::<String>::new(), "keys without effect");
@@ -181,13 +257,33 @@ fn a_viewer_shows_the_pixels_of_the_files_and_obeys_every_key_and_control() {
     let first = images[0].pixels[24 + 2][0];
     let shown: f32 = seen.hover["rows"][0][0].as_str().unwrap().parse().unwrap();
     assert!((shown - first).abs() <= 1e-3 * first, "{shown} for {first}");
+    // Three layers of half the image each, to 6 bits.
+    let names =
+        ["whole image", "bounce 0", "bounce 1", "bounce 2", "bounces 0 to 1", "bounces 0 to 2"];
+    assert_eq!(seen.parts["names"].as_array().unwrap()[..6], names);
+    let number = |name: &str| seen.parts[name].as_f64().unwrap();
+    let ratio = number("sum") / number("whole");
+    assert!((ratio - 1.5).abs() < 0.02, "{ratio}");
+    assert_eq!(
+        seen.parts["labels"],
+        serde_json::json!(["reference · whole image", "builtin · light sampling"])
+    );
+    // As high as half of a pane is wide, and in the colours of the image.
+    let [without, with] = ["without", "with"].map(|name| seen.insets[name].as_f64().unwrap());
+    assert!(with > without + 100.0, "{without}, {with}");
+    assert_eq!(seen.insets["colour"], seen.insets["expected"]);
 }
 
 #[test]
 fn tone_mapping_is_that_of_the_bench_byte_for_byte() {
-    let Some(chromium) = chromium() else { return };
     let driven = Driven::of(&Example::mixed());
-    let seen = seen(&chromium, &driven.address(CASE));
+    let address = driven.address(CASE);
+    for browser in browsers() {
+        maps_tones_as_the_bench_does(&driven, &browser.seen(&driven, &address));
+    }
+}
+
+fn maps_tones_as_the_bench_does(driven: &Driven, seen: &Seen) {
     assert_eq!([seen.tables.len(), seen.shaded.len()], [CURVES.len(); 2]);
     for (table, curve) in seen.tables.iter().zip(CURVES) {
         let table = decoded(table);
@@ -215,17 +311,20 @@ fn tone_mapping_is_that_of_the_bench_byte_for_byte() {
 
 #[test]
 fn what_was_looked_at_stands_in_the_address() {
-    let Some(chromium) = chromium() else { return };
     let driven = Driven::of(&Example::mixed());
-    let view = "show=2&under=1&layout=wipe&stops=2.5&tone=filmic&channel=G&zoom=6&x=3&y=4&wipe=0.3&region=1+2+3+4";
-    let address = driven.address(CASE);
-    let state = seen(&chromium, &format!("{address}#image/cornell-spheres:images?{view}")).state;
+    let view = "show=2&under=1&layout=wipe&stops=2.5&tone=filmic&channel=G&zoom=6&x=3&y=4&wipe=0.3&region=1+2+3+4\
+        &insets=1,2,3,4+5,6,7,8&part=bounces+0+to+1";
+    let address = format!("{}#image/cornell-spheres:images?{view}", driven.address(CASE));
     let expected = serde_json::json!({
         "show": 2, "under": 1, "layout": "wipe", "stops": 2.5, "tone": "filmic", "channel": "G",
         "zoom": 6, "x": 3, "y": 4, "wipe": 0.3, "region": [1, 2, 3, 4],
+        "insets": [[1, 2, 3, 4], [5, 6, 7, 8]], "part": "bounces 0 to 1",
     });
-    for (name, value) in expected.as_object().unwrap() {
-        assert_eq!(&state[name], value, "{name}");
+    for browser in browsers() {
+        let state = browser.seen(&driven, &address).state;
+        for (name, value) in expected.as_object().unwrap() {
+            assert_eq!(&state[name], value, "{name}");
+        }
     }
 }
 
@@ -233,29 +332,26 @@ fn what_was_looked_at_stands_in_the_address() {
 fn on_a_phone(driven: &Driven, page: &str) -> String {
     let address = driven.address(page);
     let text = format!(
-        "<!DOCTYPE html><body><iframe src=\"{address}\" width=\"390\" height=\"844\"></iframe><script>{HOLD}\
-         addEventListener('message', event => document.body.append(Object.assign(document.createElement('pre'), \
-         {{ id: 'driven', textContent: event.data }})));</script>"
+        "<!DOCTYPE html><body><iframe src=\"{address}\" width=\"390\" height=\"844\"></iframe>"
     );
-    let path = driven.folder.path().join("phone.html");
+    let path = driven.folder.join("phone.html");
     std::fs::write(&path, text).unwrap();
     format!("file://{}", path.display())
 }
 
 #[test]
 fn a_phone_scrolls_in_one_direction_whatever_the_core_is_called() {
-    let Some(chromium) = chromium() else { return };
     let mut example = Example::mixed();
     example.rename_core("textbook", "a-path-tracer-with-forty-letters-in-name");
     let driven = Driven::of(&example);
     for page in ["index.html", "case/bvh/a-flat-box-is-hit.html"] {
-        let seen = seen(&chromium, &on_a_phone(&driven, page));
-        assert_eq!(seen.errors, Vec::<String>::new());
-        assert!(
-            seen.width[1] <= 390.0 && seen.width[0] <= seen.width[1],
-            "{page}: {:?}",
-            seen.width
-        );
+        let phone = on_a_phone(&driven, page);
+        for browser in browsers() {
+            let seen = browser.seen(&driven, &phone);
+            assert_eq!(seen.errors, Vec::<String>::new());
+            let [page_width, width] = seen.width;
+            assert!(width <= 390.0 && page_width <= width, "{page}: {:?}", seen.width);
+        }
     }
 }
 
@@ -263,9 +359,11 @@ fn a_phone_scrolls_in_one_direction_whatever_the_core_is_called() {
 fn the_index_prints_on_four_pages_at_most() {
     let Some(chromium) = chromium() else { return };
     let driven = Driven::of(&Example::mixed());
-    let file = driven.folder.path().join("index.pdf");
-    let address = format!("file://{}", driven.folder.path().join("index.html").display());
-    browse(&chromium, &[format!("--print-to-pdf={}", file.display())], &address);
+    let file = driven.folder.join("index.pdf");
+    let address = format!("file://{}", driven.folder.join("index.html").display());
+    let profile = tempfile::tempdir().unwrap();
+    let mut command = chromium.command(profile.path());
+    command.arg(format!("--print-to-pdf={}", file.display())).arg(address).status().unwrap();
     let text = String::from_utf8_lossy(&std::fs::read(&file).unwrap()).into_owned();
     let pages = text.matches("/Type /Page\n").count();
     assert!((1..=4).contains(&pages), "{pages} pages");

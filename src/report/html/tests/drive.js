@@ -1,4 +1,5 @@
-// Drives a page from within, as a reader would, and leaves what it saw in the page for the test that opened it.
+// Drives a page from within, as a reader would, and sends what it saw to the test that opened it, whose port is the
+// query of the address.
 
 const seen = { errors: drivenErrors };
 const frameOfBrowser = () => new Promise(done => { requestAnimationFrame(() => setTimeout(done)); });
@@ -61,6 +62,29 @@ async function hover(viewer) {
   return { pointer: viewer.pointer, rows: all('tr', viewer.table).map(row => all('td', row).map(cell => cell.textContent)) };
 }
 
+/** What the parts of images are called, and what a pixel of three bounces is worth. */
+function partsSeen({ partNames, whole }) {
+  const value = frame => valueOf(frame, 30, 0);
+  const labels = whole.slice(0, 2).map(frame => partOf(frame, 'light sampling').label);
+  return { names: partNames, labels, whole: value(whole[0]), sum: value(partOf(whole[0], 'bounces 0 to 2')) };
+}
+
+/** The stage without and with insets, and the colour at the corner of one. */
+function insetsSeen(viewer) {
+  Object.assign(viewer.state, viewer.initial);
+  drawAll(viewer);
+  const without = viewer.stage.height;
+  Object.assign(viewer.state, { insets: [[4, 3, 4, 4]] });
+  drawAll(viewer);
+  const { panes: [pane], boxes: [box], height } = viewer.stage;
+  const [x, y] = [pane.x + box.x + box.width / 8, pane.y + pane.height + GAP * viewer.ratio + box.height / 8];
+  const layer = viewer.layers.of(pane.view, viewer.state);
+  const colour = (canvas, x, y) => [...canvas.getContext('2d').getImageData(x, y, 1, 1).data];
+  const seen = { without, with: height, colour: colour(viewer.canvas, x, y), expected: colour(layer, 4, 3) };
+  Object.assign(viewer.state, viewer.initial);
+  return seen;
+}
+
 async function driveViewer(viewer) {
   seen.state = { ...viewer.state };
   seen.values = viewer.frames.map(frame => {
@@ -72,6 +96,8 @@ async function driveViewer(viewer) {
   seen.dead = deadKeys(viewer);
   await operateControls(viewer);
   seen.hover = await hover(viewer);
+  seen.parts = partsSeen(viewer);
+  seen.insets = insetsSeen(viewer);
   seen.canvas = [viewer.canvas.width, viewer.canvas.height];
 }
 
@@ -85,7 +111,6 @@ async function drive() {
 }
 
 drive().catch(error => drivenErrors.push(`${error.message} ${error.stack}`)).then(() => {
-  const text = JSON.stringify(seen);
-  if (parent !== window) parent.postMessage(text, '*');
-  document.body.append(Object.assign(document.createElement('pre'), { id: 'driven', textContent: text }));
+  const port = location.search.slice(1);
+  return fetch(`http://127.0.0.1:${port}/`, { method: 'POST', mode: 'no-cors', body: JSON.stringify(seen) });
 });

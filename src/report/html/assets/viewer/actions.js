@@ -52,6 +52,15 @@ function reset(viewer) {
   Object.assign(viewer.state, viewer.initial, { show: viewer.state.show, layout: viewer.state.layout });
 }
 
+/** So many insets stand below an image. */
+const MOST_INSETS = 3;
+
+/** Enlarges the region below every image; without a region, takes all of these away. */
+function pin({ state }) {
+  state.insets = state.region ? [...state.insets, state.region].slice(-MOST_INSETS) : [];
+  state.region = null;
+}
+
 /** Every key: what it does, in words and in code. */
 const KEYS = {
   ' ': ['flip to the image before', viewer => choose(viewer, viewer.state.under)],
@@ -74,6 +83,9 @@ const KEYS = {
   'p': ['outlines of rejected cells, next scale', ({ state, scales }) => {
     state.cells = turned([...scales, NO_CELLS], state.cells, 1);
   }],
+  'b': ['next part: each bounce, bounces added up, ways of sampling', ({ state, partNames }) => { state.part = turned(partNames, state.part, 1); }],
+  'B': ['part before', ({ state, partNames }) => { state.part = turned(partNames, state.part, -1); }],
+  'x': ['enlarge the region below every image; without one, take these away', pin],
   'i': ['histogram', ({ state }) => { state.histogram = !state.histogram; }],
   'f': ['fit', ({ state }) => { state.zoom = 0; }],
   '0': ['one to one', viewer => zoomAboutCentre(viewer, viewer.ratio / cameraOf(viewer).zoom)],

@@ -12,7 +12,7 @@ function controls(viewer, changed) {
   }, ...options.map(option => make('option', { value: option }, option)));
 
   const images = viewer.views.map((view, index) =>
-    button([make('kbd', {}, String(index + 1)), ` ${view.label}`], () => choose(viewer, index)));
+    button([make('kbd', {}, String(index + 1)), ` ${labelOf(viewer.whole, view)}`], () => choose(viewer, index)));
   const layouts = Object.entries(LAYOUTS).map(([layout, label]) =>
     button(label, () => { viewer.state.layout = layout; }, { title: { all: 'g', wipe: 'w' }[layout] || '' }));
   const tone = chooser('tone curve (t)', TONES, 'tone');
@@ -21,14 +21,16 @@ function controls(viewer, changed) {
   const stops = slider('exposure (e, E)', -12, 12, 0.1, value => { viewer.state.stops = value; changed(); });
   const limit = slider('end of the error scale', -12, 6, 0.25, value => { viewer.state.limit = 2 ** value; changed(); });
   const cells = chooser('outlines of rejected cells (p)', [...viewer.scales, NO_CELLS], 'cells');
+  const part = chooser('part of the image (b)', viewer.partNames, 'part');
   const bars = button('histogram', KEYS.i[1], { title: 'i' });
+  const enlarge = button('enlarge region', KEYS.x[1], { title: 'x' });
   const key = name => button(name, KEYS[name][1], { title: KEYS[name][0], ariaLabel: KEYS[name][0] });
   const hasErrors = viewer.views.some(view => view.isError);
 
   const rows = [
     [...images, make('span', { className: 'gap' }), ...layouts],
-    [stops.label, tone, channel, ...(hasErrors ? [metric, limit.label] : []),
-      ...(viewer.scales.length ? [cells] : []), bars, key('-'), button('fit', KEYS.f[1], { title: 'f' }), key('+'),
+    [...(viewer.partNames.length > 1 ? [part] : []), stops.label, tone, channel, ...(hasErrors ? [metric, limit.label] : []),
+      ...(viewer.scales.length ? [cells] : []), bars, enlarge, key('-'), button('fit', KEYS.f[1], { title: 'f' }), key('+'),
       button('reset', KEYS.r[1], { title: 'r' }), button('PNG', KEYS.s[1], { title: 'save as PNG (s)' }), key('?')],
   ];
   viewer.root.prepend(...rows.map(row => make('div', { className: 'tools' }, ...row)));
@@ -41,6 +43,9 @@ function controls(viewer, changed) {
     Object.assign(channel, { value: state.channel });
     Object.assign(metric, { value: state.metric });
     Object.assign(cells, { value: state.cells });
+    Object.assign(part, { value: state.part });
+    enlarge.disabled = !state.region && !state.insets.length;
+    enlarge.textContent = state.region || !state.insets.length ? 'enlarge region' : 'drop insets';
     stops.show(state.stops, `${state.stops < 0 ? '−' : '+'}${Math.abs(state.stops).toFixed(1)} EV`);
     limit.show(Math.log2(state.limit || 1), state.limit ? figure(state.limit) : 'auto');
     press(bars, state.histogram);
@@ -61,7 +66,7 @@ function help() {
   const rows = Object.entries(KEYS).map(([key, [words]]) =>
     make('li', {}, make('kbd', {}, key === ' ' ? 'space' : key.replace('Arrow', '')), ` ${words}`));
   const first = [['1 … 9', 'choose an image'], ['Shift+1 … 9', 'choose the reference'],
-    ['Shift+drag', 'means of a region'], ['wheel', 'zoom, once the viewer has the focus; always with Ctrl']];
+    ['Shift+drag', 'means of a region, and what x enlarges'], ['wheel', 'zoom, once the viewer has the focus; always with Ctrl']];
   const more = first.map(([key, words]) => make('li', {}, make('kbd', {}, key), ` ${words}`));
   return make('ul', { className: 'keys', hidden: true }, ...more, ...rows);
 }

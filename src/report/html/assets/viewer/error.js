@@ -12,7 +12,7 @@ const METRICS = {
   'error by channel': { signed: true, coloured: true, of: (a, b, dark) => (a - b) / (Math.abs(b) + dark), unit: '%' },
   'absolute error': { signed: false, of: (a, b) => Math.abs(a - b) },
   'relative squared error': { signed: false, of: (a, b, dark) => (a - b) ** 2 / (b ** 2 + dark ** 2) },
-  'standard errors': { signed: true, noisy: true, limit: 6, of: (a, b, _, noise) => noise > 0 ? (a - b) / noise : 0 },
+  'standard errors': { signed: true, noisy: true, limit: 6, of: (a, b, _, noise) => noise === 0 ? 0 : (a - b) / noise },
 };
 
 /** The metrics that these images allow: some need to know the noise. */

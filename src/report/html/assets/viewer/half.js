@@ -12,6 +12,19 @@ function halfValue(code) {
   return sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
 }
 
+const single = new Float32Array(1);
+const singleBits = new Uint32Array(single.buffer);
+
+/** The half float nearest to a value. */
+function halfCode(value) {
+  if (Number.isNaN(value)) return 0x7e00;
+  // What half floats call their exponents lies 112 below what single ones do.
+  single[0] = Math.abs(value) * 2 ** -112;
+  const [bits] = singleBits;
+  const code = Math.min(bits + 0xfff + (bits >> 13 & 1) >> 13, 0x7c00);
+  return value < 0 ? code | 0x8000 : code;
+}
+
 const isFiniteHalf = code => (code & 0x7c00) !== 0x7c00;
 
 /**

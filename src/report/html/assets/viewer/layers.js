@@ -11,7 +11,7 @@ class Layers {
     const frame = this.frames[view.frame];
     const look = view.isError ? ['metric', 'limit', 'channel', 'reference']
       : isRadiance(frame) ? ['tone', 'stops', 'offset', 'channel'] : [];
-    const key = JSON.stringify(look.map(name => state[name]));
+    const key = JSON.stringify(['part', ...look].map(name => state[name]));
     const kept = this.kept.get(view);
     if (kept && kept.key === key) return kept.canvas;
     const canvas = this.canvasOf(frame, this.shade(view, frame, state));

@@ -11,6 +11,7 @@ function paint(viewer) {
     within(pen, pane, () => drawImage(viewer, pen, pane, layers.of(pane.view, state)));
     if (state.layout === 'wipe') wipe(viewer, pen, pane, layers.of(views[state.under], state));
     within(pen, pane, () => drawOver(viewer, pen, pane));
+    drawInsets(viewer, pen, pane, layers.of(pane.view, state));
     drawLabel(viewer, pen, pane);
   }
 }
@@ -46,9 +47,25 @@ function drawOver(viewer, pen, pane) {
   const { state, frames, ratio } = viewer;
   const frame = frames[pane.view.frame];
   outlineArea(viewer, pen, pane, rejectedAt(frame, state.cells));
+  state.insets.forEach((inset, index) => outline(viewer, pen, pane, inset, INSET_COLOURS[index]));
   if (state.region) outline(viewer, pen, pane, state.region, '#fff');
   if (viewer.pointer) outline(viewer, pen, pane, [...viewer.pointer, 1, 1], '#fff');
   if (cameraOf(viewer).zoom >= NUMBERS_FROM * ratio) drawNumbers(viewer, pen, pane);
+}
+
+/** Of the outlines of insets, in their order: far from those of rejected cells. */
+const INSET_COLOURS = ['#4cc9f0', '#ff8fd0', '#9be564'];
+
+/** What is enlarged below a pane, in the same colours as above. */
+function drawInsets(viewer, pen, pane, layer) {
+  viewer.stage.boxes.forEach((box, index) => {
+    const [left, top] = [pane.x + box.x, pane.y + pane.height + GAP * viewer.ratio];
+    pen.imageSmoothingEnabled = false;
+    pen.drawImage(layer, ...viewer.state.insets[index], left, top, box.width, box.height);
+    const edge = new Path2D();
+    edge.rect(left, top, box.width, box.height);
+    stroke(viewer, pen, edge, INSET_COLOURS[index]);
+  });
 }
 
 /** Where a scale rejects: cells of one component may stand where those of another do. */
@@ -129,10 +146,11 @@ function drawNumber({ ratio }, pen, [x, y], numbers) {
 
 /** The name of a view above its pane, and what its colours mean. */
 function drawLabel(viewer, pen, pane) {
-  const { ratio, state, views } = viewer;
+  const { ratio, state, views, frames } = viewer;
   const [size, baseline] = [13 * ratio, pane.y - 7 * ratio];
   pen.fillStyle = viewer.ink;
-  const name = state.layout === 'wipe' ? `${views[state.under].label} | ${pane.view.label}` : pane.view.label;
+  const own = labelOf(frames, pane.view);
+  const name = state.layout === 'wipe' ? `${labelOf(frames, views[state.under])} | ${own}` : own;
   const legend = legendOf(viewer, pane.view);
   const room = legend ? drawLegend(viewer, pen, pane, legend) - pane.x : pane.width;
   pen.font = `600 ${size}px system-ui, sans-serif`;

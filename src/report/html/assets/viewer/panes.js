@@ -24,15 +24,26 @@ function layOut({ views, state, frames, width: cssWidth, ratio }) {
   const tallest = Math.max(TALLEST * innerHeight * ratio, LEAST_ZOOM * ratio * image.height);
   const zoom = wholeZoom(Math.min(paneWidth / image.width, tallest / image.height));
   const paneHeight = Math.ceil(image.height * zoom);
+  const boxes = insetBoxes(state.insets, paneWidth, gap);
+  const below = Math.max(0, ...boxes.map(box => box.height + gap));
   const panes = shown.map((view, index) => ({
     view,
     x: index % columns * (paneWidth + gap),
-    y: Math.floor(index / columns) * (paneHeight + label + gap) + label,
+    y: Math.floor(index / columns) * (paneHeight + below + label + gap) + label,
     width: paneWidth,
     height: paneHeight,
   }));
   const rows = Math.ceil(shown.length / columns);
-  return { panes, zoom, width, height: rows * (paneHeight + label + gap) - gap };
+  return { panes, boxes, zoom, width, height: rows * (paneHeight + below + label + gap) - gap };
+}
+
+/** Where insets stand below a pane, from its left edge, each at most as high as wide. */
+function insetBoxes(insets, paneWidth, gap) {
+  const most = Math.floor((paneWidth - gap * (insets.length - 1)) / Math.max(2, insets.length));
+  return insets.map(([, , width, height], index) => {
+    const zoom = wholeZoom(Math.min(most / width, most / height));
+    return { x: index * (most + gap), width: width * zoom, height: height * zoom };
+  });
 }
 
 /** Whole numbers of device pixels, so that all pixels are alike. */

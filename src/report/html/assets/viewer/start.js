@@ -7,7 +7,7 @@ async function startViewer(root) {
   const scales = scalesOf(frames);
   const initial = initialState({ frames, views, scales, stops: packed.stops });
   const viewer = {
-    root, id: root.id, frames, views, scales, initial, state: { ...initial }, metrics: metricsOf(frames),
+    root, id: root.id, frames, whole: frames, partNames: partsOf(frames), views, scales, initial, state: { ...initial }, metrics: metricsOf(frames),
     layers: new Layers(frames), pointer: null, help: help(), ...furniture(frames),
   };
   const { showControls, redraw } = animate(viewer);
@@ -78,6 +78,8 @@ function drawAll(viewer) {
   viewer.width = canvas.clientWidth;
   // Folded away: it is drawn once it is seen.
   if (!viewer.width) return;
+  viewer.frames = viewer.whole.map(frame => partOf(frame, state.part));
+  viewer.layers.frames = viewer.frames;
   viewer.ink = getComputedStyle(root).color;
   viewer.stage = layOut(viewer);
   const { width, height } = viewer.stage;
@@ -86,7 +88,7 @@ function drawAll(viewer) {
   }
   canvas.style.height = `${height / viewer.ratio}px`;
   canvas.style.touchAction = state.zoom ? 'none' : 'pan-y';
-  canvas.setAttribute('aria-label', `${viewer.stage.panes.map(pane => pane.view.label).join(', ')}, `
+  canvas.setAttribute('aria-label', `${viewer.stage.panes.map(pane => labelOf(viewer.frames, pane.view)).join(', ')}, `
     + `exposure ${state.stops.toFixed(1)} stops, ${state.tone}`);
   paint(viewer);
   probe(viewer);

@@ -19,7 +19,8 @@ function initialState({ frames, views, stops, scales }) {
   return {
     layout: 'all', show: Math.max(0, render), under: reference, reference,
     tone: 'sRGB', stops, offset: 0, channel: 'RGB', metric: 'relative error', limit: 0,
-    zoom: 0, x: 0, y: 0, wipe: 0.5, region: null, cells: scales[0] || NO_CELLS, histogram: true,
+    zoom: 0, x: 0, y: 0, wipe: 0.5, region: null, insets: [],
+    part: WHOLE, cells: scales[0] || NO_CELLS, histogram: true,
   };
 }
 
@@ -44,8 +45,9 @@ function withChoices(initial, choices, views) {
 function read(name, word, initial, views) {
   const known = { layout: Object.keys(LAYOUTS), tone: TONES, channel: CHANNELS, metric: Object.keys(METRICS) };
   if (known[name]) return known[name].includes(word) ? word : undefined;
-  if (name === 'region') return readRegion(word);
-  if (name === 'cells') return word;
+  if (name === 'region') return readExtent(word.split(' '));
+  if (name === 'insets') return word.split(' ').map(corners => readExtent(corners.split(','))).filter(Boolean);
+  if (name === 'cells' || name === 'part') return word;
   if (typeof initial[name] === 'boolean') return word === 'true';
   const number = Number(word);
   if (!(name in initial) || !Number.isFinite(number)) return undefined;
@@ -53,7 +55,7 @@ function read(name, word, initial, views) {
   return isView && !views[number] ? undefined : number;
 }
 
-function readRegion(word) {
-  const extent = word.split(' ').map(Number);
+function readExtent(numbers) {
+  const extent = numbers.map(Number);
   return extent.length === 4 && extent.every(Number.isInteger) ? extent : undefined;
 }

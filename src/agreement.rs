@@ -84,11 +84,14 @@ pub enum AgreementError {
 
 /// The names of the references of a project, in the order of the alphabet.
 pub(crate) fn references(project: &Project) -> Vec<String> {
-    let entries = std::fs::read_dir(project.references()).into_iter().flatten().flatten();
+    let folders = project.layers("references");
+    let entries = folders.iter().filter_map(|folder| std::fs::read_dir(folder).ok());
+    let entries = entries.flatten().flatten();
     let with_provenance = entries.filter(|entry| entry.path().join("provenance.toml").is_file());
     let mut names: Vec<_> =
         with_provenance.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     names.sort_unstable();
+    names.dedup();
     names
 }
 
@@ -103,14 +106,14 @@ pub fn compare(
     effort: Effort,
 ) -> Result<Row, AgreementError> {
     let broken = |error: &dyn fmt::Display| AgreementError::Reference(error.to_string());
-    let path = project.references().join(name).join("provenance.toml");
+    let folders = project.layers("references");
+    let path = reference::provenance_path(reference::folder_of(&folders, name), name);
     let text = std::fs::read_to_string(&path).map_err(|error| broken(&error))?;
     let provenance: Provenance = crate::text::read_toml(&text).map_err(|error| broken(&error))?;
-    let library = Library::new(project.scenes());
+    let library = Library::of(project);
     let scene =
         library.load(&provenance.scene, &provenance.parameters).map_err(|error| broken(&error))?;
-    let reference =
-        reference::load(&project.references(), name, &scene).map_err(|error| broken(&error))?;
+    let reference = reference::load_from(&folders, name, &scene).map_err(|error| broken(&error))?;
     let camera = scene.camera.ok_or_else(|| broken(&"the scene has no camera"))?;
     let shots = render_all(core, &scene, camera, &reference, effort)?;
     Ok(row(&reference, &shots))

@@ -7,6 +7,7 @@
 //!
 //! ```text
 //!                              cli
+//!                             grade
 //!      report    reference    faults    agreement    writeup
 //!                              run
 //!                           diagnosis
@@ -68,5 +69,7 @@ pub mod faults;
 pub mod reference;
 pub mod report;
 pub(crate) mod writeup;
+
+pub(crate) mod grade;
 
 pub mod cli;

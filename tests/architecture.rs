@@ -32,7 +32,8 @@ const LAYERS: &[(&str, u32)] = &[
     ("report", 10),
     ("reference", 10),
     ("writeup", 10),
-    ("cli", 11),
+    ("grade", 11),
+    ("cli", 12),
 ];
 
 /// `unsafe` stands in these files alone.

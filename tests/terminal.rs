@@ -41,6 +41,7 @@ impl Place {
         command.args(words.replace("CASES", &root().to_string_lossy()).split(' '));
         command.current_dir(self.0.path()).env("COLUMNS", "80").stdin(Stdio::null());
         command.env_remove("FURNACE_HOME").env_remove("FURNACE_SALT");
+        command.env("FURNACE_CACHE", self.0.path().join("cache"));
         command
     }
 
@@ -123,7 +124,6 @@ fn what_is_mistyped_is_answered_with_what_was_meant() {
         "report --project nowhere",
         "list --project nowhere",
         "run --core builtin --project nowhere",
-        "list",
         "export sphere-furnac --format pbrt -o out --project CASES",
         "export sphere-furnace --format pbrtt -o out --project CASES",
         "reference verify cornel --project CASES",
@@ -183,9 +183,9 @@ fn what_is_wrong_in_a_file_is_shown_in_the_file() {
         place.write("scenes/sphere-furnace.toml", &scene);
         told += &place.told("lint");
     }
-    place.write("cases/integrator/furnace.toml", &CASE.replace("[0.37,", "[1.37,"));
+    place.write("cases/integrator/of-mine.toml", &CASE.replace("[0.37,", "[1.37,"));
     place.write("scenes/sphere-furnace.toml", &scene);
-    told += &place.told("run --core textbook");
+    told += &place.told("run of-mine --core textbook");
     review("files", &told);
 }
 

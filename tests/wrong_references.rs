@@ -28,7 +28,7 @@ fn outcome_after(spoil: impl Fn(&Path)) -> Outcome {
     let case = load_one(&project.cases(), CASE).unwrap();
     let plan = Plan::new(project, request.clone(), &[Arc::clone(&case)]).unwrap();
     let mut bench = plan.bench();
-    bench.references = folder.path().to_owned();
+    bench.references = vec![folder.path().to_owned()];
     attempt(&bench, &case, request.cores[0].make().unwrap().as_mut()).outcome
 }
 

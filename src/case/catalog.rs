@@ -1,7 +1,9 @@
 //! The folder is the registry: every `.toml` below `cases/` is a case.
 
 use super::{Case, Part, Subject, file};
+use crate::project::Project;
 use crate::text::Source;
+use std::collections::BTreeSet;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -28,12 +30,27 @@ pub enum CatalogError {
 /// # Errors
 /// If a file cannot be read, or is no case.
 pub fn load_all(folder: &Path) -> Result<Vec<Arc<Case>>, CatalogError> {
+    load_layers(&[folder.to_owned()])
+}
+
+/// Every case of a project, laid over those of the bench: of two of one name its own counts. Fails as [`load_all`].
+pub(crate) fn load_project(project: &Project) -> Result<Vec<Arc<Case>>, CatalogError> {
+    load_layers(&project.layers("cases"))
+}
+
+fn load_layers(folders: &[PathBuf]) -> Result<Vec<Arc<Case>>, CatalogError> {
     let mut cases = Vec::new();
     let mut complaints = Vec::new();
-    for path in case_files(folder)? {
-        match load(folder, &path)? {
-            Ok(case) => cases.push(Arc::new(case)),
-            Err(complaint) => complaints.push(complaint),
+    let mut known = BTreeSet::new();
+    for folder in folders {
+        for path in case_files(folder)? {
+            if !known.insert(id_of(folder, &path)) {
+                continue;
+            }
+            match load(folder, &path)? {
+                Ok(case) => cases.push(Arc::new(case)),
+                Err(complaint) => complaints.push(complaint),
+            }
         }
     }
     if !complaints.is_empty() {

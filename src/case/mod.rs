@@ -12,6 +12,7 @@ mod role;
 mod scene_choice;
 mod tier;
 
+pub(crate) use catalog::load_project;
 pub use catalog::{CatalogError, load_all, load_one};
 pub use filter::{Filter, NothingSelected};
 pub(crate) use foundation::{Foundation, asked_about, foundations};

@@ -6,7 +6,7 @@ use crate::math::rng::Seed;
 use crate::scene::{Camera, Library, SceneDescription};
 use crate::stats::{Allowance, Effort};
 use crate::text::{Count, Percent};
-use std::path::Path;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What a check is handed.
@@ -19,8 +19,8 @@ pub struct Context<'a> {
     pub(crate) scene: Option<Arc<SceneDescription>>,
     /// All scenes, for checks that name their own.
     pub(crate) scenes: &'a Library,
-    /// The folder of references.
-    pub(crate) references: &'a Path,
+    /// The folders of references; the first that has one counts.
+    pub(crate) references: &'a [PathBuf],
     /// Seed of the trial: the same for every core, so that a core gets the same verdict on every machine.
     pub(crate) seed: Seed,
     /// How much may be spent, and so how small an error is looked for; and whether a gross one may end the trial early.

@@ -7,7 +7,6 @@ use crate::math::rng::Seed;
 use crate::scene::{Library, SceneDescription};
 use crate::stats::{Budget, Verdict};
 use crate::text::read_key;
-use std::path::Path;
 use std::sync::Arc;
 
 /// The check of a case with this text: a whole file of `cases/`, or its `[expect]` alone.
@@ -42,7 +41,7 @@ pub(crate) fn try_judge<C: Check>(
         info,
         scene: scene.map(Arc::new),
         scenes: &scenes,
-        references: Path::new("references"),
+        references: &[],
         seed: Seed::SUITE.child(C::NAME),
         budget: Budget::Default.into(),
         pictures: Vec::new(),

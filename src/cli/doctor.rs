@@ -29,7 +29,7 @@ pub(crate) struct DoctorArguments {
 
 pub(crate) fn doctor(arguments: &DoctorArguments) -> Answer {
     let project = arguments.project.find()?;
-    let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
+    let cases = case::load_project(&project).map_err(Failure::request)?;
     let hosting = arguments.hosting.hosting(&project.runs()).hiding(project.secrets());
     let own = || CORES.iter().filter_map(|kind| kind.name.parse().ok()).collect();
     let cores = if arguments.cores.is_empty() { own() } else { arguments.cores.clone() };

@@ -9,6 +9,7 @@ use crate::project::Project;
 use crate::report::text::Detail;
 use crate::run::{Outcome, Plan, Request, run_trial};
 use crate::text::number::{duration, probability};
+use crate::text::program;
 use clap::Args;
 use std::sync::Arc;
 
@@ -29,7 +30,7 @@ pub(crate) struct ExplainArguments {
 
 pub(crate) fn explain(arguments: &ExplainArguments) -> Answer {
     let project = arguments.project.find()?;
-    let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
+    let cases = case::load_project(&project).map_err(Failure::request)?;
     let selected = Filter::new(&arguments.filters).select(&cases).map_err(Failure::nothing)?;
     for case in selected.iter().take(MOST) {
         say_line!("{}", told(&project, case)?);
@@ -67,7 +68,7 @@ fn told(project: &Project, case: &Arc<Case>) -> Result<String, Failure> {
     lines.extend(rests_on(project, case));
     lines.extend(sees(project, case)?);
     lines.extend(usual_causes(case));
-    lines.push(labelled("try", &format!("cargo furnace run {}", case.id)));
+    lines.push(labelled("try", &format!("{} run {}", program(), case.id)));
     Ok(lines.join("\n") + "\n")
 }
 
@@ -83,7 +84,7 @@ fn scene_words(scene: &case::SceneChoice) -> String {
 
 /// What has to be right for its result to mean anything.
 fn rests_on(project: &Project, case: &Case) -> Option<String> {
-    let library = crate::scene::Library::new(project.scenes());
+    let library = crate::scene::Library::of(project);
     let scene = case.scene.as_ref();
     let scene = scene.and_then(|choice| choice.load(&library).ok());
     let found = foundations(case, scene.as_deref());
@@ -130,7 +131,7 @@ fn usual_causes(case: &Case) -> Vec<String> {
     let mut lines: Vec<_> =
         lines.map(|(number, words)| labelled(label_of(number), words)).collect();
     if let Some(fault) = faults.first() {
-        let command = format!("cargo furnace run {} --core textbook:{}", case.id, fault.name);
+        let command = format!("{} run {} --core textbook:{}", program(), case.id, fault.name);
         lines.push(labelled("fails with", &command));
     }
     lines

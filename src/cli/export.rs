@@ -33,7 +33,7 @@ pub(crate) struct ExportArguments {
 
 pub(crate) fn export(arguments: &ExportArguments) -> Answer {
     let project = arguments.project.find()?;
-    let library = Library::new(project.scenes());
+    let library = Library::of(&project);
     let scene = library.load(&arguments.scene, &Overrides::new()).map_err(Failure::request)?;
     std::fs::create_dir_all(&arguments.output).map_err(|error| {
         Failure::broken(format!("cannot make {}: {error}", arguments.output.display()))

@@ -44,7 +44,7 @@ struct Document {
 /// Puts every selected fault, and every core that is right but different, to the cases.
 pub(crate) fn faults(arguments: &FaultsArguments) -> Answer {
     let project = arguments.project.find()?;
-    let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
+    let cases = case::load_project(&project).map_err(Failure::request)?;
     let jobs = arguments.jobs.map_or(0, NonZeroUsize::get);
     let matrix = Matrix::new(project, &cases, arguments.budget, jobs);
     let (faults, different) = select(&arguments.filters).map_err(Failure::nothing)?;

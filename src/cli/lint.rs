@@ -18,13 +18,15 @@ pub(crate) struct LintArguments {
 /// Says what is wrong with cases and scenes, all of it at once.
 pub(crate) fn lint(arguments: &LintArguments) -> Answer {
     let project = arguments.project.find()?;
-    let scenes = Library::new(project.scenes());
+    let scenes = Library::of(&project);
+    // Of a project that is laid over the bench, what is its own.
+    let own = |name: &str| project.layers(name).into_iter().next().unwrap_or_default();
     let mut complaints = Vec::new();
-    for name in scenes.names().map_err(Failure::request)? {
+    for name in Library::new(own("scenes")).names().map_err(Failure::request)? {
         complaints.extend(scenes.load(&name, &toml::Table::new()).err().map(|e| e.to_string()));
     }
     let mut count = 0;
-    match case::load_all(&project.cases()) {
+    match case::load_all(&own("cases")) {
         Err(error) => complaints.push(error.to_string()),
         Ok(cases) => {
             count = cases.len();

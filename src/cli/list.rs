@@ -51,7 +51,7 @@ pub(crate) fn list(arguments: &ListArguments) -> Answer {
 
 fn list_cases(arguments: &ListArguments) -> Answer {
     let project = arguments.project.find()?;
-    let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
+    let cases = case::load_project(&project).map_err(Failure::request)?;
     let selected = Filter::new(&arguments.filters).select(&cases).map_err(Failure::nothing)?;
     print_table(selected.iter().map(|case| (case.id.as_str(), case.title.as_str())));
     Ok(ExitCode::Good)

@@ -9,10 +9,12 @@ mod exit_code;
 mod explain;
 mod export;
 mod faults;
+mod grade;
 mod hosting;
 mod interrupt;
 mod lint;
 mod list;
+mod new;
 mod progress;
 mod reference;
 mod render;
@@ -25,6 +27,7 @@ mod writeup;
 
 pub(crate) use exit_code::ExitCode;
 
+use crate::project::{self, Carried, Project};
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use say::complain;
 use std::num::NonZeroUsize;
@@ -105,6 +108,10 @@ enum Verb {
     Agreement(agreement::AgreementArguments),
     /// Export a scene to another format: Mitsuba, the course's COLLADA, pbrt, OBJ.
     Export(export::ExportArguments),
+    /// Grade a core by a suite: points for each part, for people, Gradescope, JUnit, GitHub and spreadsheets.
+    Grade(grade::GradeArguments),
+    /// Write a core, a case or a suite that is ready to run.
+    New(new::NewArguments),
     /// Make, verify or list Mitsuba references.
     Reference(reference::ReferenceArguments),
 }
@@ -112,22 +119,24 @@ enum Verb {
 /// Where the project is, if not here or above.
 #[derive(Clone, Debug, Args)]
 struct ProjectArguments {
-    /// The folder that has `cases` and `scenes` [default: here or above, or FURNACE_HOME].
+    /// The folder with cases, scenes or suites of your own [default: here or above, or FURNACE_HOME].
     #[arg(long, value_name = "DIR", global = true)]
     project: Option<PathBuf>,
 }
 
 impl ProjectArguments {
-    fn find(&self) -> Result<crate::project::Project, Failure> {
-        match &self.project {
-            Some(root) => Ok(crate::project::Project::at(root)),
-            None => crate::project::Project::find().map_err(Failure::request),
-        }
+    fn find(&self) -> Result<Project, Failure> {
+        let found = match &self.project {
+            Some(root) => Project::over_the_bench(root.clone()),
+            None => Project::find(),
+        };
+        found.map_err(Failure::request)
     }
 }
 
-/// Does what the arguments of the process say.
-pub fn main() -> ExitCode {
+/// Does what the arguments of the process say, anywhere: `carried` is what a checkout would have.
+pub fn main(carried: Carried) -> ExitCode {
+    project::carry(carried);
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
@@ -148,6 +157,8 @@ pub fn main() -> ExitCode {
         Some(Verb::Report(arguments)) => report::report(&arguments),
         Some(Verb::Agreement(arguments)) => agreement::agreement(&arguments),
         Some(Verb::Export(arguments)) => export::export(&arguments),
+        Some(Verb::Grade(arguments)) => grade::grade(&arguments),
+        Some(Verb::New(arguments)) => new::new(&arguments),
         Some(Verb::Reference(arguments)) => reference::reference(&arguments),
     };
     answer.unwrap_or_else(|failure| {

@@ -93,7 +93,7 @@ impl MitsubaArguments {
 
 pub(crate) fn reference(arguments: &ReferenceArguments) -> Answer {
     let project = arguments.project.find()?;
-    let references = References::new(project.references(), Library::new(project.scenes()));
+    let references = References::new(project.recipes(), Library::of(&project));
     match &arguments.verb {
         Verb::Make {
             name,

@@ -7,7 +7,7 @@ use crate::contract::{Core, CoreError, RenderSettings};
 use crate::cores::{CoreSpec, HostError};
 use crate::project::Project;
 use crate::render::{Made, Output, Request, Shot, Shown, renders_codes_alone};
-use crate::scene::reference::Provenance;
+use crate::scene::reference::{Provenance, folder_of};
 use crate::scene::{Library, SceneDescription};
 use crate::text::number::{count, duration};
 use crate::worker::StartError;
@@ -47,7 +47,7 @@ pub(crate) fn render(arguments: &RenderArguments) -> Answer {
     arguments.output.check().map_err(Failure::request)?;
     let shot = &arguments.shot;
     let project = arguments.project.find()?;
-    let scene = shot.load(&Library::new(project.scenes())).map_err(Failure::request)?;
+    let scene = shot.load(&Library::of(&project)).map_err(Failure::request)?;
     let camera = shot.camera(&scene).map_err(Failure::request)?;
     let reference = Known::of(&project, &scene.name);
     let last = reference.as_ref().map_or(LAST_BOUNCE, |known| known.provenance.bounces[1]);
@@ -89,7 +89,8 @@ struct Known {
 
 impl Known {
     fn of(project: &Project, scene: &str) -> Option<Self> {
-        let folder = project.references().join(scene);
+        let folders = project.layers("references");
+        let folder = folder_of(&folders, scene).join(scene);
         let text = std::fs::read_to_string(folder.join("provenance.toml")).ok()?;
         let provenance: Provenance = crate::text::read_toml(&text).ok()?;
         (provenance.scene == scene).then(|| Self { file: folder.join("reference.exr"), provenance })

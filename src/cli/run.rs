@@ -87,10 +87,15 @@ pub(crate) fn refuse_a_misplaced_verb(
 /// A secret by which a grader's scenes are moved, so that nobody has seen them. No core is told it, and no result.
 const SALT_VARIABLE: &str = "FURNACE_SALT";
 
+/// It, or nothing.
+pub(crate) fn salt() -> String {
+    std::env::var(SALT_VARIABLE).unwrap_or_default()
+}
+
 /// Tries the cases, prints the summary, writes the report.
 pub(crate) fn run(arguments: &RunArguments) -> Answer {
     let project = arguments.project.find()?;
-    let cases = case::load_all(&project.cases()).map_err(|error| match error {
+    let cases = case::load_project(&project).map_err(|error| match error {
         CatalogError::Io { .. } => Failure::broken(error),
         CatalogError::Malformed(_) => Failure::request(error),
     })?;
@@ -101,8 +106,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Answer {
     };
     let hosting = arguments.hosting.hosting(&runs);
     let plan = Plan::new(project, request, &cases).map_err(Failure::nothing)?;
-    let salt = std::env::var(SALT_VARIABLE).unwrap_or_default();
-    let plan = plan.hosted(hosting).taking(with).salted(salt);
+    let plan = plan.hosted(hosting).taking(with).salted(salt());
     let mut progress = Progress::new(arguments.quiet);
     let running = Running::ends_in_words(super::report::style(arguments.detail()));
     let mut listen = |event: run::Event<'_>| {

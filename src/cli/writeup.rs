@@ -70,7 +70,7 @@ pub(crate) fn writeup(arguments: &WriteupArguments) -> Answer {
         core,
         info,
         hosting: &hosting,
-        scenes: &Library::new(project.scenes()),
+        scenes: &Library::of(&project),
         cast: &cast,
         effort: Effort { size: arguments.size.unwrap_or(effort.size), ..effort },
         folder: &arguments.output,

@@ -8,6 +8,7 @@ use crate::case::Part;
 use crate::diagnosis::Diagnosis;
 use crate::run::record::{self, PictureFile, read_json, sidecar_path};
 use crate::run::{self, Counts, RecordError, RunRecord, TrialRecord};
+use crate::text::program;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use walkdir::WalkDir;
@@ -36,7 +37,7 @@ pub(crate) struct AbsentCore<'a> {
 impl AbsentCore<'_> {
     /// What tries to bring it up, and nothing else.
     pub(crate) fn command(&self) -> String {
-        format!("cargo furnace doctor --core {}", shell_words::quote(self.spec))
+        format!("{} doctor --core {}", program(), shell_words::quote(self.spec))
     }
 }
 

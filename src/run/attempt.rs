@@ -17,6 +17,7 @@ use crate::scene::SceneDescription;
 use crate::scene::hash::content_hash;
 use crate::scene::motion::Motion;
 use crate::stats::Budget;
+use crate::text::program;
 use crate::worker::StartError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -227,7 +228,7 @@ fn judge(
 /// gross errors less precisely.
 fn rerun_command(bench: &Bench, trial: &Trial) -> String {
     let core = shell_words::quote(trial.core.as_str());
-    let mut command = format!("cargo furnace run {} --core {core}", trial.case.id);
+    let mut command = format!("{} run {} --core {core}", program(), trial.case.id);
     let budget = bench.allowance.budget;
     if budget != Budget::default() {
         command += &format!(" --budget {budget}");

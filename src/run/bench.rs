@@ -15,8 +15,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Clone, Debug)]
 pub struct Bench {
     pub(crate) scenes: Arc<Library>,
-    /// The folder of references.
-    pub references: PathBuf,
+    /// The folders of references; the first that has one counts.
+    pub references: Vec<PathBuf>,
     pub(crate) allowance: Allowance,
     pub(crate) seed: Seed,
     /// Where scenes are taken from; not to be worked out from [`Self::seed`] where a run has a salt.

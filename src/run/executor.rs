@@ -13,6 +13,7 @@ use crate::scene::reference::ERROR_PREFIX;
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::mpsc;
+use std::time::Instant;
 
 /// What the threads of a run tell the one that listens.
 pub(crate) enum Message {
@@ -30,10 +31,11 @@ pub(crate) fn run_trials<E>(
     sink: &mut dyn FnMut(Message) -> Result<(), E>,
 ) -> Result<(), E> {
     let (sender, messages) = mpsc::channel();
+    let end = plan.time.map(|time| Instant::now() + time);
     std::thread::scope(|threads| {
         for _ in 0..plan.jobs().min(plan.trials.len()) {
             let sender = sender.clone();
-            threads.spawn(move || work(bench, plan, schedule, &sender));
+            threads.spawn(move || work(bench, plan, schedule, end, &sender));
         }
         drop(sender);
         let heard = messages.iter().try_for_each(sink);
@@ -44,8 +46,18 @@ pub(crate) fn run_trials<E>(
 }
 
 /// One thread of a run: takes trials until none is left or nobody listens.
-fn work(bench: &Bench, plan: &Plan, schedule: &Schedule<'_>, sender: &mpsc::Sender<Message>) {
+fn work(
+    bench: &Bench,
+    plan: &Plan,
+    schedule: &Schedule<'_>,
+    end: Option<Instant>,
+    sender: &mpsc::Sender<Message>,
+) {
     while let Some(next) = schedule.next() {
+        if end.is_some_and(|end| Instant::now() >= end) {
+            schedule.stop();
+            return;
+        }
         let (number, transplant) = match next {
             Next::Try(number) => (number, None),
             Next::Transplanted(number, transplant) => (number, Some(transplant)),

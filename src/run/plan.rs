@@ -9,6 +9,7 @@ use crate::project::Project;
 use crate::stats::{Allowance, Budget};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// What the user asked for.
 #[derive(Clone, Debug)]
@@ -53,6 +54,8 @@ pub struct Plan {
     /// Whether a run with failures goes on to search for the components of the bench that mend them, and puts causes to
     /// the proof. One that stops at the first failure does not.
     pub searches: bool,
+    /// After so long no trial begins any more; none: all are tried.
+    pub(crate) time: Option<Duration>,
 }
 
 /// One case on one core.
@@ -90,6 +93,7 @@ impl Plan {
             with: Components::empty(),
             salt: String::new(),
             searches: true,
+            time: None,
         })
     }
 
@@ -113,11 +117,16 @@ impl Plan {
 }
 
 impl Plan {
+    /// The same, where no trial begins after so long.
+    pub(crate) fn within(self, time: Option<Duration>) -> Self {
+        Self { time, ..self }
+    }
+
     /// What every trial shares.
     pub fn bench(&self) -> Bench {
         Bench {
-            scenes: Arc::new(crate::scene::Library::new(self.project.scenes())),
-            references: self.project.references(),
+            scenes: Arc::new(crate::scene::Library::of(&self.project)),
+            references: self.project.layers("references"),
             allowance: Allowance {
                 budget: self.request.budget,
                 stops_at_failure: self.request.fail_fast,

@@ -4,23 +4,30 @@ use super::error::read_source;
 use super::file::{self, Overrides};
 use super::format::collada;
 use super::{SceneDescription, SceneError};
+use crate::project::Project;
 use crate::text::{all_of, hint};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A folder of `<name>.toml` and `<name>.dae` files. Shared between threads; a scene is read once for each set of
+/// Folders of `<name>.toml` and `<name>.dae` files. Shared between threads; a scene is read once for each set of
 /// overrides.
 #[derive(Debug)]
 pub struct Library {
-    folder: PathBuf,
+    /// Of two scenes of one name that of the first folder counts.
+    folders: Vec<PathBuf>,
     read: Mutex<HashMap<String, Arc<SceneDescription>>>,
 }
 
 impl Library {
     /// The scenes in `folder`. Nothing is read yet.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), read: Mutex::default() }
+        Self { folders: vec![folder.into()], read: Mutex::default() }
+    }
+
+    /// The scenes of a project, laid over those of the bench.
+    pub(crate) fn of(project: &Project) -> Self {
+        Self { folders: project.layers("scenes"), read: Mutex::default() }
     }
 
     /// The scene `name` with its parameters as they stand in its file, but for `overrides`. A name that ends
@@ -42,15 +49,18 @@ impl Library {
 
     /// The names of all scenes, in the order of the alphabet.
     pub(crate) fn names(&self) -> Result<Vec<String>, SceneError> {
-        let unreadable = |problem| SceneError::unreadable(&self.folder, &problem);
         let mut names = Vec::new();
-        for entry in std::fs::read_dir(&self.folder).map_err(unreadable)? {
-            let path = entry.map_err(unreadable)?.path();
-            if is_scene_file(&path) {
-                names.extend(path.file_stem().map(|stem| stem.to_string_lossy().into_owned()));
+        for folder in &self.folders {
+            let unreadable = |problem| SceneError::unreadable(folder, &problem);
+            for entry in std::fs::read_dir(folder).map_err(unreadable)? {
+                let path = entry.map_err(unreadable)?.path();
+                if is_scene_file(&path) {
+                    names.extend(path.file_stem().map(|stem| stem.to_string_lossy().into_owned()));
+                }
             }
         }
         names.sort_unstable();
+        names.dedup();
         Ok(names)
     }
 
@@ -58,9 +68,11 @@ impl Library {
         if is_scene_file(Path::new(name)) {
             return load_file(Path::new(name), overrides);
         }
-        let file = |extension| self.folder.join(format!("{name}.{extension}"));
-        match EXTENSIONS.map(file).iter().find(|path| path.is_file()) {
-            Some(path) => load_file(path, overrides),
+        let files = self.folders.iter().flat_map(|folder| {
+            EXTENSIONS.map(|extension| folder.join(format!("{name}.{extension}")))
+        });
+        match files.into_iter().find(|path| path.is_file()) {
+            Some(path) => load_file(&path, overrides),
             None => Err(self.no_such_scene(name)),
         }
     }
@@ -70,7 +82,7 @@ impl Library {
         let known = || known.iter().map(String::as_str);
         SceneError::NoSuchScene {
             name: name.to_owned(),
-            folder: self.folder.display().to_string(),
+            folder: self.folders.first().map_or(String::new(), |own| own.display().to_string()),
             hint: hint(name, known(), || all_of(known())),
         }
     }

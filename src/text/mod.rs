@@ -6,6 +6,7 @@
 mod diagnostic;
 mod document;
 pub(crate) mod number;
+mod program;
 mod range;
 mod spoken;
 mod suggestion;
@@ -14,6 +15,7 @@ mod units;
 pub(crate) use diagnostic::{Diagnostic, Source};
 pub(crate) use document::read_table;
 pub(crate) use document::{Spanned, TomlError, read_key, read_toml};
+pub(crate) use program::program;
 pub(crate) use range::{
     Arrow, Bending, Between, Bounces, Chance, Direction, Factor, Lit, Polar, Positive, Reflectance,
     Roughness, Several, Size, Vector, Words,

@@ -66,7 +66,7 @@ impl MatchesReference {
     pub(super) fn setup(&self, context: &Context<'_>) -> Result<Setup, CheckError> {
         let scene = context.scene()?;
         let camera = camera_of(&scene)?;
-        let reference = reference::load(context.references, &self.reference, &scene)
+        let reference = reference::load_from(context.references, &self.reference, &scene)
             .map_err(|error| CheckError::Broken(error.to_string()))?;
         if reference.provenance.bounces != self.bounces.0 {
             return Err(CheckError::Broken(format!(

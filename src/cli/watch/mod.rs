@@ -55,7 +55,7 @@ fn cycle(
     runs: &Path,
     memory: &mut Memory,
 ) -> Result<Cycle, Failure> {
-    let cases = case::load_all(&project.cases()).map_err(Failure::request)?;
+    let cases = case::load_project(project).map_err(Failure::request)?;
     let mut plan = match Plan::new(project.clone(), request.clone(), &cases) {
         Ok(plan) => plan,
         Err(nothing) => return Ok(Cycle::NothingSelected(nothing)),
@@ -79,7 +79,8 @@ fn cycle(
 fn watched(project: &Project, request: &Request) -> Vec<PathBuf> {
     let cores = request.cores.iter().map(|core| PathBuf::from(core.as_str()));
     let files = cores.filter(|path| path.is_file());
-    [project.cases(), project.scenes()].into_iter().chain(files).collect()
+    let own = [project.cases(), project.scenes()].into_iter().filter(|folder| folder.is_dir());
+    own.chain(files).collect()
 }
 
 fn listed(paths: &[PathBuf]) -> String {

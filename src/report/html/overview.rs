@@ -6,6 +6,7 @@ use super::{Section, View};
 use crate::report::digest::{PartGroup, Tally, by_part};
 use crate::run::{Outcome, Status, TrialRecord};
 use crate::text::number::{count, duration};
+use crate::text::program;
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 use std::time::{Duration, UNIX_EPOCH};
@@ -67,7 +68,7 @@ fn unfinished(view: &View<'_>) -> Markup {
                 }
                 " " (present) " of " (planned) " planned trials have a result; "
                 "the others were not run."
-                (command(&format!("cargo furnace run --resume {}", view.tree.folder.display())))
+                (command(&format!("{} run --resume {}", program(), view.tree.folder.display())))
             }
         }
     }

@@ -11,6 +11,7 @@ use crate::report::digest::in_order_of_parts;
 use crate::report::tree::{AbsentCore, RunTree};
 use crate::run::{Counts, Status, TrialRecord};
 use crate::text::number::{count, duration};
+use crate::text::program;
 
 /// Where labels begin.
 const MARGIN: usize = 2;
@@ -113,7 +114,7 @@ fn nothing_proven(tree: &RunTree, counts: &Counts, style: Style) -> Vec<String> 
         head(style, Paint::Unknown, "NOTHING PROVEN", "no graded trial passes or fails");
     let Some(trial) = tree.graded().next().or(tree.trials.first()) else { return lines };
     lines.extend(labelled("cause", &trial.outcome.statement(), style));
-    let doctor = format!("cargo furnace doctor --core {}", shell_words::quote(&trial.core));
+    let doctor = format!("{} doctor --core {}", program(), shell_words::quote(&trial.core));
     let next = match counts.graded.count(Status::Skipped) {
         0 => &trial.rerun,
         _ => &doctor,
@@ -150,7 +151,7 @@ fn unfinished(tree: &RunTree, style: Style) -> Vec<String> {
         false => format!("  UNFINISHED: {missing} have no result"),
     };
     let folder = tree.folder.display().to_string();
-    let next = format!("cargo furnace run --resume {}", shell_words::quote(&folder));
+    let next = format!("{} run --resume {}", program(), shell_words::quote(&folder));
     vec![style.paint(Paint::Unknown, &what)].into_iter().chain(command("resume", &next)).collect()
 }
 

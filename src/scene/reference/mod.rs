@@ -86,6 +86,22 @@ pub fn fingerprint(content: &[u8]) -> String {
     Sha256::digest(content).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
+/// Reference `name` from the first of these folders that has it.
+pub(crate) fn load_from(
+    folders: &[PathBuf],
+    name: &str,
+    scene: &SceneDescription,
+) -> Result<Reference, ReferenceError> {
+    load(folder_of(folders, name), name, scene)
+}
+
+/// The first of these folders that has a reference `name`; where none has, the first.
+pub(crate) fn folder_of<'a>(folders: &'a [PathBuf], name: &str) -> &'a Path {
+    let has_it = |folder: &&PathBuf| folder.join(name).is_dir();
+    let found = folders.iter().find(has_it).or(folders.first());
+    found.map_or(Path::new("references"), PathBuf::as_path)
+}
+
 /// Reference `name` from the folder of references, if it is whole and of this very `scene`.
 pub fn load(
     folder: &Path,

@@ -1,0 +1,208 @@
+//! `furnace grade`: a run by a suite, and its points.
+
+mod class;
+
+use super::hosting::HostingArguments;
+use super::progress::Progress;
+use super::run::salt;
+use super::say::{say, say_line};
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::case::{self, Case};
+use crate::cores::CoreSpec;
+use crate::disk;
+use crate::grade::{Grade, Standing, Suite, SuiteError, csv, github, gradescope, junit, text};
+use crate::project::Project;
+use crate::report::{self, RunTree};
+use crate::run::{self, Plan, Request, RunError};
+use clap::Args;
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What `furnace grade` understands.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct GradeArguments {
+    /// The suite: the name of a file of `suites/`, or a path that ends in `.toml`.
+    #[arg(long, value_name = "SUITE")]
+    suite: String,
+    /// The renderer to grade.
+    #[arg(long, value_name = "CORE", required_unless_present_any = ["run", "submissions"])]
+    core: Option<String>,
+    /// Grade a run that is there, without running anything.
+    #[arg(long, value_name = "DIR", conflicts_with = "core")]
+    run: Option<PathBuf>,
+    /// Grade a class: every library and every folder in DIR is a submission.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["core", "run", "gradescope", "junit", "github"])]
+    submissions: Option<PathBuf>,
+    /// Call submissions by their names, where a class is graded.
+    #[arg(long, requires = "submissions")]
+    names: bool,
+    /// Number of trials, or of submissions, to run in parallel [default: one per hardware thread].
+    #[arg(short, long, value_name = "N", value_parser = super::jobs)]
+    jobs: Option<NonZeroUsize>,
+    /// Where runs go [default: reports/runs].
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
+    /// Print JSON instead of the table.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    outputs: Outputs,
+    #[command(flatten)]
+    hosting: HostingArguments,
+    #[command(flatten)]
+    project: ProjectArguments,
+}
+
+/// Files for other programs.
+#[derive(Clone, Debug, Args)]
+struct Outputs {
+    /// Write Gradescope's results.json.
+    #[arg(long, value_name = "FILE")]
+    gradescope: Option<PathBuf>,
+    /// Write JUnit's XML.
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Write a row a case for spreadsheets.
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Print GitHub's annotations, and add to the summary of the step.
+    #[arg(long)]
+    github: bool,
+}
+
+/// What a grade needs beside a core.
+struct Desk {
+    project: Project,
+    suite: Suite,
+    cases: Vec<Arc<Case>>,
+    salt: String,
+}
+
+/// Runs the cases of the suite and tells the points.
+pub(crate) fn grade(arguments: &GradeArguments) -> Answer {
+    let project = arguments.project.find()?;
+    let suite = Suite::find(&project, &arguments.suite).map_err(suite_failure)?;
+    let cases = case::load_project(&project).map_err(Failure::request)?;
+    let desk = Desk { project, suite, cases, salt: salt() };
+    desk.suite.select(&desk.cases).map_err(suite_failure)?;
+    if let Some(folder) = &arguments.submissions {
+        return class::grade(arguments, &desk, folder);
+    }
+    let (grade, page) = match (&arguments.run, &arguments.core) {
+        (Some(folder), _) => desk.of_run(folder)?,
+        (None, core) => desk.of_core(arguments, core.as_deref().unwrap_or_default())?,
+    };
+    tell(arguments, &grade, page.as_deref())?;
+    Ok(code(&grade))
+}
+
+fn suite_failure(error: SuiteError) -> Failure {
+    match error {
+        SuiteError::Io { .. } => Failure::broken(error),
+        _ => Failure::request(error),
+    }
+}
+
+impl Desk {
+    /// Tries a core. One that cannot be asked has a grade too: nothing, and why.
+    fn of_core(
+        &self,
+        arguments: &GradeArguments,
+        word: &str,
+    ) -> Result<(Grade, Option<PathBuf>), Failure> {
+        let core: CoreSpec = match word.parse() {
+            Ok(core) => core,
+            Err(unknown) => return Ok(self.absent(word, &unknown)),
+        };
+        let runs = arguments.report.clone().unwrap_or_else(|| self.project.runs());
+        let plan = self.plan(core, arguments.jobs.map_or(0, NonZeroUsize::get))?;
+        let plan = plan.hosted(arguments.hosting.hosting(&runs));
+        let mut progress = Progress::new(arguments.json);
+        match run::run(&plan, &runs, &mut |event| progress.hear(event)) {
+            Ok(folder) => self.of_run(&folder),
+            Err(error @ RunError::NoCore { .. }) => Ok(self.absent(word, &error)),
+            Err(error) => Err(Failure::broken(error)),
+        }
+    }
+
+    fn absent(&self, core: &str, problem: &dyn std::fmt::Display) -> (Grade, Option<PathBuf>) {
+        (Grade::absent(&self.suite, core, &problem.to_string()), None)
+    }
+
+    /// The cases of the suite on a core, with the numbers of its version and salt.
+    fn plan(&self, core: CoreSpec, jobs: usize) -> Result<Plan, Failure> {
+        let selected = self.suite.select(&self.cases).map_err(suite_failure)?;
+        let request = Request {
+            cores: vec![core],
+            budget: self.suite.budget,
+            seed: self.suite.seed(&self.salt),
+            jobs,
+            ..Request::default()
+        };
+        let plan = Plan::new(self.project.clone(), request, &selected.cases());
+        let plan = plan.map_err(Failure::nothing)?.salted(self.salt.clone());
+        Ok(plan.within(self.suite.time))
+    }
+
+    fn of_run(&self, folder: &Path) -> Result<(Grade, Option<PathBuf>), Failure> {
+        let tree = RunTree::load(folder).map_err(Failure::request)?;
+        let page = report::html::write(&tree, folder).map_err(Failure::broken)?;
+        let selected = self.suite.select(&self.cases).map_err(suite_failure)?;
+        Ok((Grade::of(&self.suite, &selected, &self.salt, &tree), Some(page)))
+    }
+}
+
+/// Writes what was asked for, and says the rest.
+fn tell(arguments: &GradeArguments, grade: &Grade, page: Option<&Path>) -> Result<(), Failure> {
+    let outputs = &arguments.outputs;
+    if let Some(path) = &outputs.gradescope {
+        put(path, &gradescope::results(grade).map_err(Failure::broken)?)?;
+    }
+    if let Some(path) = &outputs.junit {
+        put(path, &junit::report(grade).map_err(Failure::broken)?)?;
+    }
+    if let Some(path) = &outputs.csv {
+        put(path, &csv::table(grade))?;
+    }
+    if arguments.json {
+        say_line!("{}", serde_json::to_string_pretty(grade).map_err(Failure::broken)?);
+        return Ok(());
+    }
+    say!("\n{}", text::table(grade));
+    if let Some(page) = page {
+        say_line!("\n  report  {}", super::report::address(page));
+    }
+    if outputs.github {
+        say!("{}", github::annotations(grade));
+        add_to_summary(&github::summary(grade))?;
+    }
+    Ok(())
+}
+
+fn put(path: &Path, text: &str) -> Result<(), Failure> {
+    let written = disk::replace(path, text.as_bytes());
+    written.map_err(|error| Failure::broken(format!("cannot write {}: {error}", path.display())))
+}
+
+/// Other steps' words stand in that file too.
+fn add_to_summary(text: &str) -> Result<(), Failure> {
+    let Some(path) = std::env::var_os("GITHUB_STEP_SUMMARY") else { return Ok(()) };
+    let file = std::fs::OpenOptions::new().append(true).create(true).open(path);
+    let added = file.and_then(|mut file| file.write_all(text.as_bytes()));
+    added.map_err(|error| Failure::broken(format!("cannot add to the summary: {error}")))
+}
+
+/// A grade ends as a run does.
+fn code(grade: &Grade) -> ExitCode {
+    if grade.points.are_lost() {
+        ExitCode::Failed
+    } else if grade.count(Standing::Broken) > 0 {
+        ExitCode::Broken
+    } else if grade.points.earned > 0.0 {
+        ExitCode::Good
+    } else {
+        ExitCode::NothingProven
+    }
+}

@@ -1,0 +1,175 @@
+//! A class: the grades of all submissions, as a table and as a page. Without names unless they are asked for.
+
+use super::{Grade, Standing, csv, hundredths};
+use crate::text::number::count;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::collections::BTreeMap;
+
+/// Cases and causes that the page tells of.
+const MOST: usize = 25;
+
+/// All that were handed in, in the order of what they are called.
+pub(crate) struct Class {
+    pub(crate) title: String,
+    pub(crate) rows: Vec<Row>,
+}
+
+/// One submission.
+pub(crate) struct Row {
+    /// Its name, or else a word that nobody can tell it by.
+    pub(crate) called: String,
+    pub(crate) grade: Grade,
+    /// Where its own report is, from the page; none where nothing could be run.
+    pub(crate) report: Option<String>,
+}
+
+/// A spreadsheet with a row a submission.
+pub(crate) fn table(class: &Class) -> String {
+    let parts = class.rows.first().map(|row| &row.grade.parts).into_iter().flatten();
+    let head = ["submission", "earned", "of", "open"].map(str::to_owned).into_iter();
+    let head = head.chain(parts.map(|part| part.name.clone()));
+    let head: Vec<_> = head.chain(["problem", "causes"].map(str::to_owned)).collect();
+    let row = |row: &Row| {
+        let points = row.grade.points;
+        let numbers = [points.earned, points.of, points.open].map(|p| hundredths(p).to_string());
+        let parts = row.grade.parts.iter().map(|part| hundredths(part.points.earned).to_string());
+        let causes: Vec<_> = causes(&row.grade).collect();
+        let ends = [row.grade.problem.clone().unwrap_or_default(), causes.join("; ")];
+        let cells = [row.called.clone()].into_iter().chain(numbers).chain(parts).chain(ends);
+        csv::line(&cells.collect::<Vec<_>>())
+    };
+    csv::line(&head) + &class.rows.iter().map(row).collect::<String>()
+}
+
+/// What is wrong with a submission, each once.
+fn causes(grade: &Grade) -> impl Iterator<Item = &str> {
+    grade.causes.iter().map(|told| match told.cause.is_empty() {
+        true => told.mistake.as_str(),
+        false => told.cause.as_str(),
+    })
+}
+
+const STYLE: &str = "
+:root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif }
+body { max-width: 70rem; margin: 2rem auto; padding: 0 1rem }
+table { border-collapse: collapse; width: 100%; margin-bottom: 2rem }
+th, td { text-align: left; padding: .25rem .75rem .25rem 0; border-bottom: 1px solid #8884; vertical-align: top }
+td.number, th.number { text-align: right; font-variant-numeric: tabular-nums }
+";
+
+/// The page.
+pub(crate) fn page(class: &Class) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (class.title) ", " (count(class.rows.len(), "submission")) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { (class.title) }
+                p { (count(class.rows.len(), "submission")) ". " (middle(class)) }
+                (by_cause(class))
+                (by_case(class))
+                (submissions(class))
+            }
+        }
+    };
+    page.into_string()
+}
+
+/// `Half of them have 71 of 100 points or more.`
+fn middle(class: &Class) -> String {
+    let mut earned: Vec<_> = class.rows.iter().map(|row| row.grade.points.earned).collect();
+    earned.sort_by(f64::total_cmp);
+    let of = class.rows.first().map_or(0.0, |row| row.grade.points.of);
+    earned.get(earned.len() / 2).map_or(String::new(), |middle| {
+        format!("Half of them have {} of {of} points or more.", hundredths(*middle))
+    })
+}
+
+/// Those that have made the same mistake.
+fn by_cause(class: &Class) -> Markup {
+    let mut who: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for row in &class.rows {
+        causes(&row.grade).for_each(|cause| who.entry(cause).or_default().push(&row.called));
+    }
+    let rows = most_first(who);
+    html! {
+        h2 { "Mistakes" }
+        @if rows.is_empty() { p { "None that has a name." } } @else {
+            table {
+                tr { th { "mistake" } th.number { "submissions" } th { "which" } }
+                @for (cause, who) in rows {
+                    tr { td { (cause) } td.number { (who.len()) } td { (who.join(", ")) } }
+                }
+            }
+        }
+    }
+}
+
+/// Which cases cost most of them points.
+fn by_case(class: &Class) -> Markup {
+    let mut who: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for row in &class.rows {
+        let lost = row.grade.cases().filter(|(_, case)| case.points.are_lost());
+        lost.for_each(|(_, case)| who.entry(&case.case).or_default().push(&row.called));
+    }
+    html! {
+        h2 { "Cases" }
+        table {
+            tr { th { "case" } th.number { "submissions that lose points" } }
+            @for (case, who) in most_first(who) {
+                tr { td { (case) } td.number { (who.len()) } }
+            }
+        }
+    }
+}
+
+fn most_first<'a>(who: BTreeMap<&'a str, Vec<&'a str>>) -> Vec<(&'a str, Vec<&'a str>)> {
+    let mut rows: Vec<_> = who.into_iter().collect();
+    rows.sort_by_key(|(_, who)| std::cmp::Reverse(who.len()));
+    rows.truncate(MOST);
+    rows
+}
+
+fn submissions(class: &Class) -> Markup {
+    let parts = class.rows.first().map(|row| &row.grade.parts).into_iter().flatten();
+    html! {
+        h2 { "Submissions" }
+        table {
+            tr {
+                th { "submission" } th.number { "points" } th.number { "open" }
+                @for part in parts { th.number { (part.name) } }
+                th { "passes" }
+            }
+            @for row in &class.rows {
+                tr {
+                    td {
+                        @match &row.report {
+                            Some(report) => { a href=(report) { (row.called) } }
+                            None => { (row.called) }
+                        }
+                    }
+                    td.number { (hundredths(row.grade.points.earned)) }
+                    td.number { (hundredths(row.grade.points.open)) }
+                    @for part in &row.grade.parts { td.number { (hundredths(part.points.earned)) } }
+                    td { (outcome(&row.grade)) }
+                }
+            }
+        }
+    }
+}
+
+/// `41 of 60 cases`, or why there is none.
+fn outcome(grade: &Grade) -> String {
+    match &grade.problem {
+        Some(problem) => problem.lines().next().unwrap_or_default().to_owned(),
+        None => {
+            let counting = grade.cases().count() - grade.count(Standing::LeftOut);
+            format!("{} of {counting} cases", grade.count(Standing::Pass))
+        }
+    }
+}

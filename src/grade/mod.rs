@@ -1,0 +1,188 @@
+//! From a run to points: what a suite asks, and what it is worth.
+//!
+//! A [`Suite`] is a file: parts with points, and the cases of each. A [`Grade`] is a pure function of a suite and the
+//! folder of a run, and each format in which it is told (`text`, `gradescope`, `junit`, `github`, `csv`) a pure function of
+//! a grade. Verdicts are the run's: nothing is judged here. What each verdict is worth stands in `score`, and for teachers
+//! in `docs/grading.md`.
+
+pub(crate) mod class;
+pub(crate) mod csv;
+pub(crate) mod github;
+pub(crate) mod gradescope;
+pub(crate) mod junit;
+mod markdown;
+mod score;
+mod submission;
+mod suite;
+pub(crate) mod text;
+
+pub(crate) use submission::Submission;
+pub(crate) use suite::{Suite, SuiteError};
+
+use serde::{Deserialize, Serialize};
+
+/// What a core has earned of a suite.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Grade {
+    /// [`VERSION`]
+    pub(crate) version: u32,
+    /// The suite's file name without `.toml`.
+    pub(crate) suite: String,
+    pub(crate) suite_version: String,
+    pub(crate) title: String,
+    /// As the user typed it.
+    pub(crate) core: String,
+    pub(crate) points: Points,
+    pub(crate) parts: Vec<PartGrade>,
+    /// What is wrong, as far as it does not tell of hidden cases.
+    pub(crate) causes: Vec<Told>,
+    pub(crate) leaderboard: Vec<Entry>,
+    /// Why the core could not be asked at all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) problem: Option<String>,
+    /// Of the run, wall time; none where it was cut off.
+    pub(crate) seconds: Option<f64>,
+}
+
+/// Of the format of a [`Grade`] as JSON.
+pub(crate) const VERSION: u32 = 1;
+
+/// What can be earned, and what became of it. What is neither earned nor open is lost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Points {
+    pub(crate) of: f64,
+    pub(crate) earned: f64,
+    /// Neither proven right nor proven wrong: not earned, and somebody may decide.
+    pub(crate) open: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PartGrade {
+    pub(crate) name: String,
+    pub(crate) points: Points,
+    pub(crate) cases: Vec<CaseGrade>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CaseGrade {
+    pub(crate) case: String,
+    pub(crate) title: String,
+    pub(crate) teaches: String,
+    pub(crate) standing: Standing,
+    /// Nothing can be earned where it does not count for this core.
+    pub(crate) points: Points,
+    pub(crate) hidden: bool,
+    /// How many of its rows pass, of how many.
+    pub(crate) rows: [usize; 2],
+    /// Components that were the bench's own, since the core's failed elsewhere.
+    pub(crate) with: Vec<String>,
+    pub(crate) statement: String,
+    /// The command that repeats it.
+    pub(crate) rerun: String,
+    pub(crate) seconds: f64,
+}
+
+/// How a case stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Standing {
+    Pass,
+    Fail,
+    Inconclusive,
+    /// The core lacks what is asked for.
+    Missing,
+    /// The core lacks what the suite does not ask for, or the contract leaves it free: it does not count.
+    LeftOut,
+    Blocked,
+    Crashed,
+    TimedOut,
+    Broken,
+    /// The time of the suite was up.
+    NotTried,
+}
+
+impl Standing {
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Inconclusive => "inconclusive",
+            Self::Missing => "missing",
+            Self::LeftOut => "left out",
+            Self::Blocked => "blocked",
+            Self::Crashed => "crashed",
+            Self::TimedOut => "timed out",
+            Self::Broken => "broken",
+            Self::NotTried => "not tried",
+        }
+    }
+}
+
+/// A headline of the diagnosis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Told {
+    /// Its name in the glossary; empty where there is none.
+    pub(crate) cause: String,
+    pub(crate) mistake: String,
+    pub(crate) evidence: Vec<String>,
+    pub(crate) look_at: String,
+    pub(crate) fix: String,
+    pub(crate) command: String,
+    pub(crate) explains: Vec<String>,
+}
+
+/// A number that cores are compared by.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Entry {
+    pub(crate) name: String,
+    pub(crate) value: f64,
+    pub(crate) more_is_better: bool,
+}
+
+impl Points {
+    fn and(self, other: Self) -> Self {
+        Self {
+            of: self.of + other.of,
+            earned: self.earned + other.earned,
+            open: self.open + other.open,
+        }
+    }
+
+    /// Whether something was proven wrong or missing.
+    pub(crate) fn are_lost(self) -> bool {
+        self.of - self.earned - self.open > 1e-9
+    }
+
+    /// `18.3 of 20`, and what is open.
+    pub(crate) fn words(self) -> String {
+        let open = match hundredths(self.open) {
+            open if open > 0.0 => format!(", {open} open"),
+            _ => String::new(),
+        };
+        format!("{} of {}{open}", hundredths(self.earned), hundredths(self.of))
+    }
+}
+
+/// Points as they are told.
+pub(crate) fn hundredths(points: f64) -> f64 {
+    (points * 100.0).round() / 100.0
+}
+
+impl Grade {
+    pub(crate) fn cases(&self) -> impl Iterator<Item = (&PartGrade, &CaseGrade)> {
+        self.parts.iter().flat_map(|part| part.cases.iter().map(move |case| (part, case)))
+    }
+
+    pub(crate) fn count(&self, standing: Standing) -> usize {
+        self.cases().filter(|(_, case)| case.standing == standing).count()
+    }
+}
+
+#[cfg(test)]
+mod tests;

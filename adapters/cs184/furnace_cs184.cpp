@@ -1123,8 +1123,9 @@ struct Built {
             pixels[3 * here] += static_cast<float>(value.x);
             pixels[3 * here + 1] += static_cast<float>(value.y);
             pixels[3 * here + 2] += static_cast<float>(value.z);
+            // A count below 0 is wrong, and not one that was never written, as its bits would say.
             if (sample_counts)
-               sample_counts[here] = static_cast<uint32_t>(tracer.sampleCountBuffer[theirs]);
+               sample_counts[here] = uint32_t(std::max(0, int(tracer.sampleCountBuffer[theirs])));
          }
    }
 };

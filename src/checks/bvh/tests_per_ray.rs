@@ -7,8 +7,9 @@ use super::reference::{ReferenceBvh, SLACK, Walk};
 use crate::cause::{Cause, bvh};
 use crate::checks::phrase::figure;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
-use crate::contract::{Acceleration, Hit};
+use crate::contract::{Acceleration, Hit, Ray};
 use crate::text::Count;
+use serde::Deserialize;
 
 /// Even a BVH that never divides along the length passes by more than half of the triangles.
 const UNUSED: f64 = 0.5;
@@ -19,10 +20,22 @@ check! {
         arrangement: Arrangement,
         /// From each side.
         rays: Count,
+        #[serde(default)]
+        sides: Sides,
     }
     name: "tests-per-ray",
     summary: "tests per ray where layers hide each other, or boxes are long",
     needs: BUILD_SCENE | INTERSECT | TRAVERSAL_STATS,
+}
+
+/// From which sides few tests are due.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Sides {
+    #[default]
+    Each,
+    /// From one: which child is visited first is free.
+    Better,
 }
 
 impl Check for TestsPerRay {
@@ -32,7 +45,8 @@ impl Check for TestsPerRay {
             Arrangement::Layers => through_layers(count, context.seed),
             Arrangement::LongBoxes => across_long_boxes(count, context.seed),
         };
-        let tried: Result<Vec<_>, _> = views.into_iter().map(|view| view.put_to(context)).collect();
+        let tried: Result<Vec<_>, _> =
+            views.into_iter().map(|view| view.put_to(context, self.arrangement)).collect();
         Ok(self.judge(&tried?))
     }
 }
@@ -54,21 +68,43 @@ struct Tried {
     unshortened: f64,
     /// Of a plain BVH that leaves the triangles where they are listed.
     unsorted: f64,
+    /// The same of rays that end just behind what they hit first, in the core and in a plain BVH.
+    ending: Option<[f64; 2]>,
 }
 
 impl View {
-    fn put_to(self, context: &mut Context<'_>) -> Result<Tried, CheckError> {
+    fn put_to(
+        self,
+        context: &mut Context<'_>,
+        arrangement: Arrangement,
+    ) -> Result<Tried, CheckError> {
         let bvh = ReferenceBvh::new(&self.mesh);
         let [plain, unshortened] =
             [Walk::Ordered, Walk::Unshortened].map(|walk| bvh.tests_per_ray(&self.rays, walk));
         let unsorted = ReferenceBvh::unsorted(&self.mesh).tests_per_ray(&self.rays, Walk::Ordered);
         let scene = scene_of(self.mesh);
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let mut hits = vec![Hit::MISS; self.rays.len()];
-        let stats = built.intersect(&self.rays, &mut hits)?;
-        let tests = stats.primitive_tests as f64 / self.rays.len() as f64;
-        Ok(Tried { name: self.name, tests, plain, unshortened, unsorted })
+        let mut tests_of = |rays: &[Ray]| -> Result<f64, CheckError> {
+            let stats = built.intersect(rays, &mut vec![Hit::MISS; rays.len()])?;
+            Ok(stats.primitive_tests as f64 / rays.len() as f64)
+        };
+        let tests = tests_of(&self.rays)?;
+        let ending = match arrangement {
+            Arrangement::LongBoxes => None,
+            Arrangement::Layers => {
+                let rays = ending_at_first_hits(&bvh, &self.rays);
+                Some([tests_of(&rays)?, bvh.tests_per_ray(&rays, Walk::Ordered)])
+            }
+        };
+        Ok(Tried { name: self.name, tests, plain, unshortened, unsorted, ending })
     }
+}
+
+/// The rays that hit, each until halfway to the next layer.
+fn ending_at_first_hits(bvh: &ReferenceBvh, rays: &[Ray]) -> Vec<Ray> {
+    let first = |ray: &Ray| bvh.walk(ray, Walk::Ordered).nearest;
+    let ending = |ray: &Ray| Some(Ray { t_max: first(ray)?.0 + 0.5, ..*ray });
+    rays.iter().filter_map(ending).collect()
 }
 
 impl Tried {
@@ -86,8 +122,19 @@ impl Tried {
         self.tests <= OTHER_LEAVES * self.unshortened
     }
 
+    /// Whether nodes lie across the layers, however they are walked: even rays that end at the first meet many.
+    fn mixes_layers(&self) -> bool {
+        self.ending.is_some_and(|[tests, plain]| tests > SLACK * plain)
+    }
+
     fn measure(&self) -> Measure {
         Measure::at_most("tests a ray", self.tests, SLACK * self.plain).of_row(self.name)
+    }
+
+    fn measure_of_ending(&self) -> Option<Measure> {
+        let [tests, plain] = self.ending?;
+        let measure = Measure::at_most("tests a ray that ends there", tests, SLACK * plain);
+        Some(measure.of_row(self.name))
     }
 
     fn words(&self) -> String {
@@ -100,11 +147,19 @@ impl TestsPerRay {
     fn judge(&self, tried: &[Tried]) -> Finding {
         let told = tried.iter().map(Tried::words).collect::<Vec<_>>().join("; ");
         let tested = format!("triangles tested a ray: {told}");
-        let measures = tried.iter().map(Tried::measure).collect();
+        let measures = self.measures(tried);
         let finding = Finding::of(&tested, "would have caught four times the tests", measures);
         let cause = finding.failed().then(|| self.cause(tried)).flatten();
         let explained = cause.map(|cause| format!("{tested}: {}", cause.headline));
         finding.complaining(explained).because_each(cause, &told)
+    }
+
+    fn measures(&self, tried: &[Tried]) -> Vec<Measure> {
+        let of_ends = tried.iter().filter_map(Tried::measure_of_ending);
+        match self.sides {
+            Sides::Each => tried.iter().map(Tried::measure).chain(of_ends).collect(),
+            Sides::Better => better(tried).into_iter().chain(of_ends).collect(),
+        }
     }
 
     fn cause(&self, tried: &[Tried]) -> Option<&'static Cause> {
@@ -113,6 +168,7 @@ impl TestsPerRay {
         let slow: Vec<_> = tried.iter().filter(|view| view.is_slow()).map(|v| v.name).collect();
         match (self.arrangement, slow.as_slice()) {
             (Arrangement::Layers, _) if all_test(1.0) => Some(&bvh::BVH_NOT_USED),
+            (Arrangement::Layers, _) if tried.iter().any(Tried::mixes_layers) => None,
             (Arrangement::Layers, _) if !tried.iter().all(Tried::divides_layers) => None,
             (Arrangement::Layers, _) => {
                 match tried.iter().filter(|view| view.meets_all_layers()).count() {
@@ -131,6 +187,13 @@ impl TestsPerRay {
             (Arrangement::LongBoxes, _) => None,
         }
     }
+}
+
+/// A walk in any order has few tests from one side at least, and fewer than one that nothing shortens if it draws lots.
+fn better(tried: &[Tried]) -> Option<Measure> {
+    let best = tried.iter().min_by(|a, b| a.tests.total_cmp(&b.tests))?;
+    let most = (SLACK * best.plain).max(best.unshortened / SLACK);
+    Some(Measure::at_most("tests a ray, from the better side", best.tests, most).of_row(best.name))
 }
 
 #[cfg(test)]
@@ -164,18 +227,41 @@ mod tests {
     }
 
     #[test]
+    fn which_child_is_visited_first_is_free_from_the_better_side() {
+        let found = |slip| found("layers\"\nsides = \"better", slip);
+        assert_passes(&found(Slip::None));
+        assert_passes(&found(Slip::NeverOrders));
+        assert_eq!(causes(&found(Slip::NeverShortens)), ["t-max-not-shortened"]);
+        assert_eq!(causes(&found(Slip::TestsEverything)), ["bvh-not-used"]);
+    }
+
+    #[test]
+    fn nodes_that_divide_nothing_are_not_the_walk() {
+        let told = |ending: [f64; 2]| {
+            let check = layers_from_each_side();
+            let tried = ["from below", "from above"]
+                .map(|name| Tried { ending: Some(ending), ..tried(name, 260.0, 4.0) });
+            let finding = check.judge(&tried);
+            (finding.failed(), finding.clues.first().map(|clue| clue.cause.clone()))
+        };
+        assert_eq!(told([4.0, 4.0]), (true, Some("t-max-not-shortened".to_owned())));
+        assert_eq!(told([240.0, 4.0]), (true, None));
+    }
+
+    fn layers_from_each_side() -> TestsPerRay {
+        TestsPerRay { arrangement: Arrangement::Layers, rays: Count(1), sides: Sides::Each }
+    }
+
+    fn tried(name: &'static str, tests: f64, plain: f64) -> Tried {
+        Tried { name, tests, plain, unshortened: 256.0, unsorted: 256.0, ending: None }
+    }
+
+    #[test]
     fn more_tests_than_any_walk_makes_are_not_the_walk() {
         let told = |tests: [f64; 2]| {
-            let check = TestsPerRay { arrangement: Arrangement::Layers, rays: Count(1) };
             let names = ["from below", "from above"];
-            let tried = [0, 1].map(|i| Tried {
-                name: names[i],
-                tests: tests[i],
-                plain: 4.0,
-                unshortened: 256.0,
-                unsorted: 256.0,
-            });
-            check.judge(&tried).clues.first().map(|clue| clue.cause.clone())
+            let tried = [0, 1].map(|i| tried(names[i], tests[i], 4.0));
+            layers_from_each_side().judge(&tried).clues.first().map(|clue| clue.cause.clone())
         };
         assert_eq!(told([256.0; 2]).as_deref(), Some("t-max-not-shortened"));
         assert_eq!(told([16.5, 611.0]).as_deref(), Some("children-unordered"));
@@ -185,14 +271,13 @@ mod tests {
     #[test]
     fn the_axes_that_are_slow_name_the_mistake() {
         let told = |tests: [f64; 3]| {
-            let check = TestsPerRay { arrangement: Arrangement::LongBoxes, rays: Count(1) };
+            let arrangement = Arrangement::LongBoxes;
+            let check = TestsPerRay { arrangement, rays: Count(1), sides: Sides::Each };
             let names = ["along x", "along y", "along z"];
             let tried = [0, 1, 2].map(|i| Tried {
-                name: names[i],
-                tests: tests[i],
-                plain: 10.0,
                 unshortened: 30.0,
                 unsorted: 980.0,
+                ..tried(names[i], tests[i], 10.0)
             });
             check.judge(&tried).clues.first().map(|clue| clue.cause.clone())
         };

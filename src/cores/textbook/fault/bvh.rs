@@ -95,7 +95,7 @@ faults! { part 2;
             (0..).zip(order).map(renumbered).collect()
         };
     "children-unordered": "the left child is always visited first",
-        fails LAYERS, told bvh::CHILDREN_UNORDERED,
+        fails "bvh/nearer-children-are-visited-first", told bvh::CHILDREN_UNORDERED,
         right_is_nearer = |_, _| false;
     "segment-not-shortened": "boxes are tested against the whole ray, whatever was hit",
         fails LAYERS, told bvh::SEGMENT_NOT_SHORTENED,

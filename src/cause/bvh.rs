@@ -59,6 +59,10 @@ causes! {
         "shadow rays do not stop at the first hit",
         at "the any-hit query of shadow rays",
         fix "Return as soon as anything is hit: here `a || b` is right.";
+    SHADOWS_WITHOUT_BVH = "shadows-without-bvh":
+        "shadow rays do not use the BVH: one primitive after the other is tested",
+        at "the any-hit query of shadow rays",
+        fix "Traverse the BVH as for the nearest hit, and return as soon as anything is hit.";
     SEGMENT_NOT_SHORTENED = "t-max-not-shortened":
         "traversal does not shorten t_max to the closest hit, so it visits nodes behind it",
         at "BVH traversal, where the children of a node are visited",

@@ -30,6 +30,8 @@ pub(crate) enum Slip {
     NeverOrders,
     /// Shadow rays look for the nearest hit among everything.
     SearchesShadows,
+    /// Shadow rays are tested against one triangle after the other.
+    ShadowsByTheLoop,
     ShrinksTriangles,
     CullsBack,
     LosesTheLast,
@@ -106,6 +108,7 @@ impl FakeScene {
                 self.walk(&Ray { t_max: f64::INFINITY, ..*ray }, Walk::AnyHit)
             }
             Slip::SearchesShadows => self.walk(ray, Walk::Unshortened),
+            Slip::ShadowsByTheLoop => self.bvh.test_all(ray),
             _ => self.walk(ray, Walk::AnyHit),
         }
     }

@@ -101,6 +101,8 @@ pub(super) fn cause(sizes: &[Size], slope: f64, failed: bool) -> Option<&'static
     let shadows_search = sizes.last().is_some_and(Size::shadows_search_on);
     if failed && slope >= ALL_TESTED {
         Some(&bvh::BVH_NOT_USED)
+    } else if failed && growth(sizes, |size| size.any) >= ALL_TESTED {
+        Some(&bvh::SHADOWS_WITHOUT_BVH)
     } else if failed && shadows_search {
         Some(&bvh::SHADOWS_SEARCH_ON)
     } else {

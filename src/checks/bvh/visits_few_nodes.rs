@@ -84,7 +84,9 @@ fn judge(sizes: &[Size]) -> Finding {
         "would have caught growth as n^0.5, four times the tests, or shadow rays that search on";
     let boxes =
         slope_of_boxes.map_or_else(String::new, |s| format!(", of boxes as n^{}", figure(s)));
-    let evidence = format!("tests grow as n^{}{boxes}", figure(slope));
+    let of_shadows = figure(growth(sizes, |size| size.any));
+    let evidence =
+        format!("tests grow as n^{}{boxes}, of shadow rays as n^{of_shadows}", figure(slope));
     Finding::of(statement(sizes, slope, cause), resolution, measures)
         .because_each(cause.filter(|_| failed), &evidence)
         .showing([series(sizes)])
@@ -159,6 +161,7 @@ mod tests {
             // It tests few triangles.
             (Slip::IsAList, "bumpy-sphere", &bvh::UNBALANCED),
             (Slip::SearchesShadows, "soup", &bvh::SHADOWS_SEARCH_ON),
+            (Slip::ShadowsByTheLoop, "soup", &bvh::SHADOWS_WITHOUT_BVH),
         ] {
             let finding = found(slip, mesh);
             assert_eq!(causes(&finding), [cause.name]);

@@ -43,6 +43,10 @@ causes! {
         "every indirect bounce is off by the same constant factor",
         at "indirect light, where f, the cosine, the pdf and the survival probability are put together",
         fix "throughput ← throughput · f · cos θ / pdf / survival probability.";
+    INDIRECT_FACTOR_ONCE = "factor-of-indirect-light":
+        "all indirect light is off by one constant factor, the same at every bounce",
+        at "indirect light, where something is divided or multiplied at the first bounce alone",
+        fix "A bounce that is always taken is not divided by a survival probability.";
     GREY_THROUGHPUT = "throughput-without-colour":
         "the throughput is grey: all channels are equal",
         at "indirect light, where the throughput is updated",

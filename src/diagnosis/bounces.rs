@@ -41,6 +41,7 @@ fn explain(evidence: &Evidence<'_>, role: Role) -> Vec<Suspicion> {
     };
     if fitting.is_empty() {
         let factor = furnace.constant_factor(case);
+        let factor = factor.or_else(|| furnace.factor_once(case));
         return factor.or_else(|| furnace.lost_ways(case)).into_iter().collect();
     }
     fitting.iter().map(told).collect()
@@ -148,6 +149,35 @@ impl Furnace {
         let is_wrong = high < 1.0 || 1.0 < low;
         (most > 2 && low <= high && high.is_finite() && is_wrong)
             .then(|| self.of_factor(case, interval))
+    }
+
+    /// One grey factor for all indirect light, if all isolated bounces agree on it and it is not 1.
+    fn factor_once(&self, case: &str) -> Option<Suspicion> {
+        let isolated = || self.rows.iter().filter(|row| row.bounces[0] == row.bounces[1]);
+        let of = |bounces: std::ops::RangeInclusive<u32>| {
+            isolated().filter(move |row| bounces.contains(&row.bounces[0]))
+        };
+        let readings = |row: &'_ Row| row.readings.into_iter().flatten();
+        let direct_is_right = of(0..=1).flat_map(readings).all(|reading| reading.admits(1.0));
+        let indirect: Vec<_> = of(2..=u32::MAX).flat_map(readings).collect();
+        let low = indirect.iter().map(|r| r.interval[0]).fold(f64::NEG_INFINITY, f64::max);
+        let high = indirect.iter().map(|r| r.interval[1]).fold(f64::INFINITY, f64::min);
+        let is_wrong = 0.0 < low && (high < 1.0 || 1.0 < low);
+        let bounces = of(2..=u32::MAX).count();
+        (direct_is_right && bounces > 1 && low <= high && is_wrong).then(|| {
+            let factor = plus_minus(0.5 * (low + high), 0.5 * (high - low));
+            let fit =
+                format!("from bounce 2 on it is f times what it should be, with f = {factor}");
+            Suspicion {
+                cause: &integrator::INDIRECT_FACTOR_ONCE,
+                cases: vec![case.to_owned()],
+                evidence: vec![self.table(), fit],
+                ruled_out: vec!["a factor a bounce (it would be a power of k)".to_owned()],
+                weight: SHARED,
+                degree: Degree::LooksLike,
+                beside: false,
+            }
+        })
     }
 
     /// Direct light is right, and indirect light is off by other grey factors at each bounce from the first on: it does
@@ -279,6 +309,16 @@ mod tests {
         assert!(fit.ends_with("with f = 0.7000 ± 0.0009"), "{fit}");
         assert!(roulette.starts_with("Russian roulette of your own"), "{roulette}");
         assert!(headline.ruled_out[0].contains("coloured"));
+    }
+
+    #[test]
+    fn one_factor_of_all_indirect_light_is_told_with_its_interval() {
+        let once = |c: &Channel, rows: [u32; 2]| c.sum(rows, |k| if k > 1 { 1.43 } else { 1.0 });
+        let diagnosis = diagnose(&Made::new().with(FURNACES[0], furnace(once)).evidence());
+        let headline = &diagnosis.headlines[0];
+        assert_eq!(headline.cause, integrator::INDIRECT_FACTOR_ONCE.name);
+        assert_eq!(headline.degree, Degree::LooksLike);
+        assert!(headline.evidence.iter().any(|s| s.contains("with f = 1.43")), "{headline:?}");
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! Which components of the bench make the failures of a run go away: a cause by experiment.
 //!
 //! Components stand in an order, each after those that it is made of. Of each failing case the search finds the lowest
-//! one without which it still fails, however much below it is taken, by halving; then whether that one is enough alone,
-//! and if not, which of those below it are needed too.
+//! one without which it still fails, however much below it is taken: first it tries the one that the case asks about,
+//! which takes two trials; of what is left it goes on by halving, then whether that one is enough alone, and if not,
+//! which of those below it are needed too.
 //!
 //! Not here: what is broken inside a component, which is what the cases of that component tell (`diagnosis`).
 
@@ -12,6 +13,7 @@ use super::event::Event;
 use super::outcome::Status;
 use super::plan::{Plan, Trial};
 use super::record::{CoreRecord, Transplanted, Transplants, TrialRecord};
+use crate::case::asked_about;
 use crate::contract::{Capabilities, Components};
 use crate::stats::{Allowance, Budget};
 use std::cmp::Reverse;
@@ -22,7 +24,7 @@ use std::time::{Duration, Instant};
 
 /// How long the search may take for one core, as a share of what its trials took: who waits for a wrong core waits
 /// little longer. Time of all threads together, as that of trials is.
-const SHARE: f64 = 0.25;
+const SHARE: f64 = 0.5;
 /// It always may take so many seconds.
 const LEAST: f64 = 10.0;
 /// What a trial of the search may take: at its budget a right core needs a second or two.
@@ -53,25 +55,39 @@ pub(crate) fn search(
     failing.sort_by(|a, b| seconds(a.1).total_cmp(&seconds(b.1)));
     let taken = taken(ended.iter().map(|(_, record)| *record));
     let purse = Purse::of_share(SHARE, taken);
-    let asked = affordable(failing.iter().map(|(_, record)| seconds(record)), purse.seconds());
+    let affordable = |cases: &[usize]| {
+        affordable(cases.iter().map(|number| seconds(failing[*number].1)), purse.seconds())
+    };
     let allowance = Allowance { budget: Budget::Quick, stops_at_failure: true };
     let bench = Bench { allowance, ..without_patience(bench) };
     let passes = |number: usize, with: Components| {
         let (trial, record) = failing[number];
+        // So it was tried in the run.
+        if record.with.contains(with) {
+            return Some(false);
+        }
         let ended = || run_with(&bench, trial, record.with | with).record.outcome.status();
-        // Of silence it cannot be told what would have come of waiting longer.
-        purse
-            .pay(ended)
-            .filter(|ended| *ended != Status::TimedOut)
-            .map(|ended| ended == Status::Pass)
+        // Of silence it cannot be told what would have come of waiting longer, where there was none before.
+        let was_silent = record.outcome.status() == Status::TimedOut;
+        match purse.pay(ended)? {
+            Status::TimedOut if !was_silent => None,
+            // With these it cannot be asked.
+            Status::Skipped | Status::Blocked | Status::Broken => None,
+            ended => Some(ended == Status::Pass),
+        }
     };
     let mut tried = |with: Components, cases: &[usize]| {
         in_parallel(plan.jobs(), cases, &|number| passes(number, with))
     };
     events(Event::Transplanting { core: &core.spec });
-    let mut found = smallest(core.components, asked, &mut tried);
-    found.try_on((asked..failing.len()).collect(), &mut tried);
-    found.set.sort_by_key(|part| Reverse(part.together.len()));
+    // What died or hung may hang again, for longer than others take: it comes last.
+    let is_judged = |number: &usize| failing[*number].1.outcome.finding().is_some();
+    let failures = Failures {
+        turns: <[_; 2]>::from((0..failing.len()).partition(is_judged)),
+        asks: &|number| asked_about(&failing[number].0.case),
+        affordable: &affordable,
+    };
+    let found = smallest(core.components, &failures, &mut tried);
     let judged =
         |one: Components| ended.iter().filter(|(_, record)| record.with.contains(one)).count();
     let name = |number: &usize| failing[*number].1.case.clone();
@@ -245,35 +261,96 @@ impl Found {
     }
 }
 
-fn smallest(takes: Components, failures: usize, try_cases: Try<'_>) -> Found {
+/// What failed, by numbers, and what is known of it.
+struct Failures<'a> {
+    /// What comes first, and what waits until that has been tried.
+    turns: [Vec<usize>; 2],
+    /// The components that a case asks about.
+    asks: &'a dyn Fn(usize) -> Components,
+    /// How many of these there is time to halve.
+    affordable: &'a dyn Fn(&[usize]) -> usize,
+}
+
+/// A component that cases need so that they pass, however much below it is taken.
+#[derive(Debug)]
+struct Needed {
+    component: Components,
+    /// Those that it mends alone.
+    alone: Vec<usize>,
+    /// Those that it mends with others.
+    with_others: Vec<usize>,
+}
+
+impl Needed {
+    fn cases(&self) -> impl Iterator<Item = usize> + '_ {
+        self.alone.iter().chain(&self.with_others).copied()
+    }
+}
+
+fn smallest(takes: Components, failures: &Failures<'_>, try_cases: Try<'_>) -> Found {
     let order: Vec<_> = takes.iter().collect();
-    let Tried { passing, failing: unmended } = try_cases(takes, &Vec::from_iter(0..failures));
+    let (mut found, mut rest) = (Vec::new(), Vec::new());
+    for turn in &failures.turns {
+        rest.extend(of_what_they_ask(&order, turn.clone(), failures.asks, try_cases, &mut found));
+    }
+    let late = rest.split_off((failures.affordable)(&rest).min(rest.len()));
+    let Tried { passing, failing: unmended } = try_cases(takes, &rest);
     let mut lowest = Vec::new();
     halve(&order, 0..order.len(), passing, try_cases, &mut lowest);
-    let (mut set, mut found) = (Components::empty(), Vec::new());
-    for (place, cases) in &lowest {
-        let one = order[*place];
-        let Tried { passing: alone, failing: not_alone } = try_cases(one, cases);
-        let below = order[..*place].iter().copied().collect();
-        set |= one | needed(below, one, &not_alone, try_cases);
-        found.push((one, alone, cases));
+    let mut set: Components = found.iter().map(|of: &Needed| of.component).collect();
+    for (place, cases) in lowest {
+        let component = order[place];
+        let Tried { passing: alone, failing: with_others } = try_cases(component, &cases);
+        let below = order[..place].iter().copied().collect();
+        set |= component | needed(below, component, &with_others, try_cases);
+        found.push(Needed { component, alone, with_others });
     }
-    let all: Vec<_> = lowest.iter().flat_map(|(_, cases)| cases.iter().copied()).collect();
+    let mut found = Found { set: together(set, &found, try_cases), mended: 0, unmended };
+    found.mended = found.set.iter().map(|part| part.together.len()).sum();
+    found.try_on(late, try_cases);
+    found.set.sort_by_key(|part| Reverse(part.together.len()));
+    found
+}
+
+/// What mends all that was found at once.
+fn together(set: Components, found: &[Needed], try_cases: Try<'_>) -> Vec<Mending> {
+    let all: Vec<_> = found.iter().flat_map(Needed::cases).collect();
+    let Tried { passing, failing: spoiled } = try_cases(set, &all);
     // Where there is no time left for all together, what was seen alone stands.
-    let Tried { passing: mut mended, failing: spoiled } = try_cases(set, &all);
-    let seen = found.iter().flat_map(|(_, alone, _)| alone.iter().copied());
-    mended.extend(seen.filter(|case| !spoiled.contains(case)));
-    mended.sort_unstable();
-    mended.dedup();
-    let of = |component: Components| {
-        let known = found.iter().find(|(other, ..)| *other == component);
-        let (alone, cases) = known.map_or((0, &[][..]), |(_, alone, all)| (alone.len(), all));
-        let together = cases.iter().copied().filter(|case| mended.contains(case)).collect();
-        Mending { component, alone, together }
+    let stands = |of: &Needed, case: usize| {
+        passing.contains(&case) || of.alone.contains(&case) && !spoiled.contains(&case)
     };
-    let mut set: Vec<_> = set.iter().map(of).collect();
-    set.sort_by_key(|part| Reverse(part.together.len()));
-    Found { set, mended: mended.len(), unmended }
+    let mending = |component: Components| {
+        let known = || found.iter().filter(move |of| of.component == component);
+        let of_one = |of: &Needed| Vec::from_iter(of.cases().filter(|case| stands(of, *case)));
+        let mut together: Vec<_> = known().flat_map(of_one).collect();
+        together.sort_unstable();
+        Mending { component, alone: known().map(|of| of.alone.len()).sum(), together }
+    };
+    set.iter().map(mending).collect()
+}
+
+/// Finds those of `cases` that a component they ask about mends alone, and everything below it does not. Answers the
+/// rest.
+fn of_what_they_ask(
+    order: &[Components],
+    mut cases: Vec<usize>,
+    asks: &dyn Fn(usize) -> Components,
+    try_cases: Try<'_>,
+    found: &mut Vec<Needed>,
+) -> Vec<usize> {
+    for (place, component) in order.iter().copied().enumerate() {
+        let asking: Vec<_> =
+            cases.iter().copied().filter(|case| asks(*case).contains(component)).collect();
+        let alone = try_cases(component, &asking).passing;
+        let below = order[..place].iter().copied().collect();
+        let alone = if place == 0 { alone } else { try_cases(below, &alone).failing };
+        cases.retain(|case| !alone.contains(case));
+        if !alone.is_empty() {
+            found.push(Needed { component, alone, with_others: Vec::new() });
+        }
+    }
+    cases
 }
 
 /// The place of the lowest component that each of `cases` needs, with everything below it taken. It lies in `range`:
@@ -326,7 +403,18 @@ mod tests {
 
     /// A core each of whose failing cases passes with all of these; with nothing where there are none.
     fn found(needs: &[Option<Components>]) -> Found {
-        smallest(Components::all(), needs.len(), &mut trying(needs))
+        asking(needs, &|_| Components::empty(), needs.len())
+    }
+
+    /// The same where cases ask about these components, and so many can be halved.
+    fn asking(
+        needs: &[Option<Components>],
+        asks: &dyn Fn(usize) -> Components,
+        affordable: usize,
+    ) -> Found {
+        let turns = [(0..needs.len()).collect(), Vec::new()];
+        let failures = Failures { turns, asks, affordable: &|_| affordable };
+        smallest(Components::all(), &failures, &mut trying(needs))
     }
 
     fn trying(needs: &[Option<Components>]) -> impl FnMut(Components, &[usize]) -> Tried {
@@ -373,10 +461,37 @@ mod tests {
     #[test]
     fn what_there_is_no_time_to_halve_is_tried_with_what_was_found() {
         let needs = [BOX, PATH, BOX, BOX | PATH, PATH, BSDF].map(Some);
-        let mut found = found(&needs[..2]);
-        found.try_on((2..6).collect(), &mut trying(&needs));
-        assert_eq!(counts(&found), [(BOX, 2, 2), (PATH, 1, 3)]);
-        assert_eq!((found.mended, &found.set[1].together[..]), (5, &[1, 3, 4][..]));
+        let found = asking(&needs, &|_| Components::empty(), 2);
+        assert_eq!(counts(&found), [(PATH, 1, 3), (BOX, 2, 2)]);
+        let of_path = found.set.iter().find(|part| part.component == PATH);
+        assert_eq!(
+            (found.mended, of_path.map(|part| &part.together[..])),
+            (5, Some(&[1, 3, 4][..]))
+        );
+    }
+
+    #[test]
+    fn the_component_that_a_case_asks_about_is_tried_first_and_then_all_below_it() {
+        let needs = [Some(PATH), Some(BOX), Some(BOX | PATH)];
+        let mut tried = Vec::new();
+        let failures = Failures {
+            turns: [vec![0, 1], vec![2]],
+            asks: &|_| PATH,
+            affordable: &|rest| {
+                assert_eq!(rest, [1, 2]);
+                0
+            },
+        };
+        let mut answer = trying(&needs);
+        let mut try_cases = |with: Components, cases: &[usize]| {
+            tried.extend(cases.iter().map(|case| (*case, with)));
+            answer(with, cases)
+        };
+        let found = smallest(BOX | PATH, &failures, &mut try_cases);
+        // Of the second the box test is to blame, with whose mistake the path was asked.
+        assert_eq!(found.set[0].together, [0]);
+        let of = |number: usize| tried.iter().filter(|(case, _)| *case == number).count();
+        assert_eq!(of(0), 3);
     }
 
     #[test]
@@ -393,7 +508,9 @@ mod tests {
             let passing = if tries == 1 { cases.to_vec() } else { Vec::new() };
             Tried { passing, failing: Vec::new() }
         };
-        let found = smallest(Components::all(), 4, &mut try_cases);
+        let turns = [(0..4).collect(), Vec::new()];
+        let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 4 };
+        let found = smallest(Components::all(), &failures, &mut try_cases);
         assert_eq!(found, Found { set: Vec::new(), mended: 0, unmended: Vec::new() });
     }
 }

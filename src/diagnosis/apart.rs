@@ -13,11 +13,22 @@ pub(crate) struct View<'a> {
     pub(crate) own: Components,
     /// Failures of the first look that pass with the bench's own in the place of this component.
     pub(crate) mended: Vec<String>,
+    /// Cases that ask about this component or are mended by it. Of others that fail in this view the component need not
+    /// be wrong: what is wrong with them may not have been found.
+    pub(crate) of_own: Vec<String>,
 }
 
 impl View<'_> {
     fn sifted<'a>(&'a self, planted: &'a dyn Planted) -> Sifted<'a> {
         Sifted::of(&self.evidence, planted, MadeIn::Mended(self.own))
+    }
+
+    fn shows(&self, case: &str) -> bool {
+        self.is_of_own(case) && self.evidence.fails(case)
+    }
+
+    fn is_of_own(&self, case: &str) -> bool {
+        self.of_own.iter().any(|own| own == case)
     }
 
     fn mends(&self, case: &str) -> bool {
@@ -31,7 +42,7 @@ pub(crate) fn diagnose_apart(
     views: &[View<'_>],
     planted: &dyn Planted,
 ) -> Diagnosis {
-    let shown = |case: &&str| views.iter().any(|view| view.evidence.fails(case));
+    let shown = |case: &&str| views.iter().any(|view| view.shows(case));
     let hidden = first.all_failures().map(|seen| seen.case).filter(|case| !shown(case));
     let (of_views, left): (Vec<_>, Vec<_>) =
         hidden.partition(|case| views.iter().any(|view| view.mends(case)));
@@ -46,7 +57,9 @@ pub(crate) fn diagnose_apart(
     let left = Sifted::of(&left, planted, made_in);
     let mut told = Ranked::default();
     for (view, sifted) in views.iter().zip(sifted) {
-        let mut of_view = sifted.and_searched().of_component(view.own);
+        let of_view = sifted.and_searched();
+        let of_view = of_view.differing_in(&view.evidence, |case| view.is_of_own(case));
+        let mut of_view = of_view.of_component(view.own);
         let unseen: Vec<_> = of_views
             .iter()
             .filter(|case| view.mends(case) && !of_view.followed_by(case))
@@ -68,7 +81,7 @@ mod tests {
     use super::*;
     use crate::cause::{bsdf, shape};
     use crate::diagnosis::testing::{Made, Nothing, failing, passing};
-    use crate::diagnosis::{Degree, diagnose};
+    use crate::diagnosis::{Degree, Ending, diagnose};
 
     fn without_pi() -> crate::checks::Finding {
         failing("a").because(&bsdf::WITHOUT_PI, "x")
@@ -87,6 +100,7 @@ mod tests {
         let views = views.map(|(made, mended)| View {
             evidence: made.evidence(),
             own: Components::BSDF,
+            of_own: mended.iter().map(|case| (*case).to_owned()).collect(),
             mended: mended.into_iter().map(str::to_owned).collect(),
         });
         let told = diagnose_apart(&both.evidence(), &views, &Nothing);
@@ -104,7 +118,12 @@ mod tests {
             .with("light/b", failing("b"))
             .with("adaptive/c", failing("c"));
         let mended = ["bsdf/a", "light/b", "adaptive/c"].map(str::to_owned).to_vec();
-        let view = View { evidence: made.evidence(), own: Components::BSDF, mended };
+        let view = View {
+            evidence: made.evidence(),
+            own: Components::BSDF,
+            of_own: mended.clone(),
+            mended,
+        };
         let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 3));
@@ -117,11 +136,47 @@ mod tests {
         let made = Made::new().with("bsdf/a", failing("a")).with("light/b", failing("b"));
         let mended = ["bsdf/a", "light/b"].map(str::to_owned).to_vec();
         let shows_nothing = Made::new().with("bsdf/a", passing());
-        let view = View { evidence: shows_nothing.evidence(), own: Components::TRAVERSAL, mended };
+        let view = View {
+            evidence: shows_nothing.evidence(),
+            own: Components::TRAVERSAL,
+            of_own: mended.clone(),
+            mended,
+        };
         let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 2));
         assert_eq!(only.mistake, "what differs is the core's traversal");
+    }
+
+    #[test]
+    fn what_a_component_neither_mends_nor_is_asked_by_is_no_difference_of_it() {
+        let made = Made::new().with("shape/a", failing("a")).with("light/b", failing("b"));
+        let mended = vec!["shape/a".to_owned()];
+        let view = View {
+            evidence: made.evidence(),
+            own: Components::TRIANGLE_TEST,
+            of_own: mended.clone(),
+            mended,
+        };
+        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        let mistakes: Vec<_> = told.headlines.iter().map(|h| h.mistake.as_str()).collect();
+        assert_eq!(mistakes, ["what differs is the core's triangle test", "direct light differs"]);
+    }
+
+    #[test]
+    fn an_ending_that_two_views_tell_is_told_once() {
+        let crash = Ending::Crashed { how: "signal 11", during: "build-scene" };
+        let made = Made::new().ended("bvh/a", crash).ended("integrator/b", crash);
+        let views = [("bvh/a", Components::TRAVERSAL), ("integrator/b", Components::PATH)];
+        let views = views.map(|(case, own)| View {
+            evidence: made.evidence(),
+            own,
+            of_own: vec![case.to_owned()],
+            mended: vec![case.to_owned()],
+        });
+        let told = diagnose_apart(&made.evidence(), &views, &Nothing);
+        let [only] = &told.headlines[..] else { panic!("{told:?}") };
+        assert_eq!(only.explains, ["bvh/a", "integrator/b"]);
     }
 
     #[test]
@@ -135,7 +190,12 @@ mod tests {
     fn other_failures_of_the_one_component_that_is_not_the_benchs_follow_from_its_only_cause() {
         let made = Made::new().with("bsdf/b", without_pi()).with("bsdf/c", failing("c"));
         let mended = vec!["bsdf/b".to_owned(), "bsdf/c".to_owned()];
-        let view = View { evidence: made.evidence(), own: Components::BSDF, mended };
+        let view = View {
+            evidence: made.evidence(),
+            own: Components::BSDF,
+            of_own: mended.clone(),
+            mended,
+        };
         let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!(

@@ -226,6 +226,18 @@ impl Ranked {
         self
     }
 
+    /// The same where what has no cause is told of these cases alone.
+    pub(super) fn differing_in(
+        mut self,
+        evidence: &Evidence<'_>,
+        is_told: impl Fn(&str) -> bool,
+    ) -> Self {
+        let all = self.differing.drain(..).flat_map(|headline| headline.explains);
+        let told: Vec<_> = all.filter(|case| is_told(case)).collect();
+        self.differing = differences::headlines(evidence, &told);
+        self
+    }
+
     /// Whether `case` follows from its first headline.
     pub(super) fn followed_by(&mut self, case: &str) -> bool {
         match (self.causes.first_mut(), self.differing.first_mut()) {
@@ -236,9 +248,9 @@ impl Ranked {
         true
     }
 
-    /// Both; a cause that both tell is told once.
+    /// Both; a cause or an ending that both tell is told once.
     pub(super) fn and(mut self, other: Self) -> Self {
-        self.endings.extend(other.endings);
+        join(&mut self.endings, other.endings);
         join(&mut self.causes, other.causes);
         self.causes.sort_by_key(Headline::part);
         join(&mut self.beside, other.beside);
@@ -253,10 +265,10 @@ impl Ranked {
     }
 }
 
-/// Headlines of one cause become one.
+/// Headlines of one mistake become one.
 fn join(headlines: &mut Vec<Headline>, others: Vec<Headline>) {
     for other in others {
-        match headlines.iter_mut().find(|known| known.cause == other.cause) {
+        match headlines.iter_mut().find(|known| known.mistake == other.mistake) {
             Some(known) => known.absorb(other),
             None => headlines.push(other),
         }

@@ -45,6 +45,7 @@ pub(super) fn diagnose_apart(
             evidence: evidence(core, seen_again(&first, view)),
             own: view.own,
             mended: of_view(view),
+            of_own: view.of_own.clone(),
         })
         .collect();
     diagnosis::diagnose_apart(&evidence(core, first.iter().copied()), &views, planted)

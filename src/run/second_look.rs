@@ -21,6 +21,8 @@ pub(crate) struct SecondLook {
     pub(crate) own: Components,
     /// Cases that were tried again; of all others the first look holds.
     pub(crate) again: Vec<TrialRecord>,
+    /// Those of them that ask about it or are mended by it.
+    pub(crate) of_own: Vec<String>,
 }
 
 /// A view for each component found broken, the lowest first.
@@ -36,29 +38,35 @@ pub(crate) fn look_again(
     let purse = Purse::of_share(SHARE, taken(of_core()));
     let bench = without_patience(bench);
     let view = |own: Components| {
-        let tells = |record: &&TrialRecord| tells_of(plan, record, own, transplants);
-        let told: Vec<_> = of_core().filter(tells).collect();
+        let is_of_own = |record: &TrialRecord| is_of(plan, record, own, transplants);
+        let tells = |record: &&TrialRecord| is_of_own(record) || is_seen_by_rules(record);
+        let told: Vec<_> = of_core().filter(|record| has_no_answer(record)).filter(tells).collect();
+        let of_own = told.iter().filter(|record| is_of_own(record));
+        let of_own = of_own.map(|record| record.case.clone()).collect();
         let again = each_in_parallel(plan.jobs(), told.len(), &|number| {
             purse.pay(|| again(plan, &bench, told[number], broken, own))?
         });
-        SecondLook { own, again }
+        SecondLook { own, again, of_own }
     };
     broken.iter().map(view).collect()
 }
 
-/// Whether a case that did not pass may tell of `own`: it asks about it, is mended by it, or is one that rules look at.
-fn tells_of(plan: &Plan, record: &TrialRecord, own: Components, transplants: &Transplants) -> bool {
-    let asks = || {
-        let trial = trial_of(plan, record);
-        trial.is_some_and(|trial| asked_about(&trial.case).intersects(own))
-    };
-    match record.outcome.status() {
-        Status::Blocked => asks(),
-        Status::Fail | Status::Crashed | Status::TimedOut => {
-            record.role.is_some() || transplants.place_of(&record.case) == Some(own) || asks()
-        }
-        _ => false,
-    }
+/// Whether a case asks about `own` or is mended by it.
+fn is_of(plan: &Plan, record: &TrialRecord, own: Components, transplants: &Transplants) -> bool {
+    let trial = trial_of(plan, record);
+    let asks = trial.is_some_and(|trial| asked_about(&trial.case).intersects(own));
+    asks || transplants.place_of(&record.case) == Some(own)
+}
+
+/// Whether rules look at a failing case, whatever it asks about.
+fn is_seen_by_rules(record: &TrialRecord) -> bool {
+    record.role.is_some() && record.outcome.status() != Status::Blocked
+}
+
+/// Whether a case failed, or was not asked because another one did.
+fn has_no_answer(record: &TrialRecord) -> bool {
+    let status = record.outcome.status();
+    status.is_failure() || status == Status::Blocked
 }
 
 /// The trial with all that is broken taken from the bench but `own`. What would be the same is not tried again.

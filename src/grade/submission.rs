@@ -68,7 +68,9 @@ impl Submission {
         }
         match &suite.build {
             Some(build) => self.built(project, build, folder),
-            None => Err("there is no library in it, and the suite says no way to build one".into()),
+            None => {
+                Err("there is no library in it, and the suite does not say how to build one".into())
+            }
         }
     }
 

@@ -20,6 +20,13 @@ const OPEN: &[&str] = &[
     "light-halved",
     "light-pdf-inverted",
     "first-bounce-left-out",
+    // What wrong MIS weights give depends on the scene's pdfs, and no rule foretells it.
+    "mis-surface-in-full",
+    "mis-surface-in-full-everywhere",
+    "mis-light-in-full",
+    "mis-light-in-full-everywhere",
+    "mis-heuristics-differ",
+    "mis-heuristics-differ-everywhere",
 ];
 
 fn main() -> ExitCode {

@@ -139,6 +139,18 @@ causes! {
         "only one of the lights counts",
         at "light sampling, the loop over lights",
         fix "Declare the sum outside the loop, and add to it inside.";
+    MIS_SURFACE_IN_FULL = "mis-surface-samples-in-full":
+        "light that BSDF sampling meets counts in full beside weighted light samples",
+        at "direct light by multiple importance sampling, where a direction of the BSDF meets a light",
+        fix "Weight it by the pdfs of both techniques: the MIS weights of one direction add up to 1.";
+    MIS_LIGHT_IN_FULL = "mis-light-samples-in-full":
+        "light samples count in full beside weighted BSDF samples",
+        at "direct light by multiple importance sampling, where a light is sampled",
+        fix "Weight them by the pdfs of both techniques: the MIS weights of one direction add up to 1.";
+    MIS_HEURISTICS_DIFFER = "mis-heuristics-differ":
+        "light samples and BSDF samples are weighted by different heuristics",
+        at "direct light by multiple importance sampling, where weights are computed",
+        fix "Use one heuristic for both: the MIS weights of one direction add up to 1.";
     T_MAX_NOT_RESET = "t-max-not-reset":
         "secondary rays do not reset t_max",
         at "where a secondary ray is spawned at a hit",

@@ -87,6 +87,11 @@ different! {
     "roulette-by-luminance": "paths go on by the luminance of their throughput, at most 95 %, after five bounces (Mitsuba)",
         parts [4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
         survival_probability = survival_by_luminance;
+    "mis-everywhere": "light sampling is combined with BSDF sampling at every surface, by the balance heuristic",
+        parts [3, 4] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
+        combines = |_| true,
+        mis_light_weight = balance_heuristic,
+        mis_surface_weight = balance_heuristic;
     "light-threshold": "what adds less than 0.05 is added 20 times as often as it is worth (Cycles)",
         parts [3, 4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
         light_of_bounce = light_above_threshold;
@@ -309,6 +314,11 @@ fn survival_by_luminance(roulette: Option<Roulette>, surface: &Surface, path: Pr
         None if path.continuation >= 5 => luminance(path.throughput).clamp(0.05, 0.95),
         _ => survival_probability(roulette, surface, path),
     }
+}
+
+/// Weight of a sample drawn with pdf `own` (Veach 1997, section 9.2.2).
+pub(super) fn balance_heuristic(own: f64, other: f64) -> f64 {
+    own / (own + other)
 }
 
 /// Linear sRGB.

@@ -31,7 +31,7 @@ pub(crate) fn one_bounce(
         DirectSampling::Hemisphere => {
             scatter.by_hemisphere(random) + scatter.by_lights(random, Emitter::is_delta)
         }
-        DirectSampling::Lights if is_glossy(vertex.surface) => {
+        DirectSampling::Lights if steps.combines(vertex.surface) => {
             scatter.by_lights(random, |_| true) + scatter.by_surface(random)
         }
         DirectSampling::Lights => scatter.by_lights(random, |_| true),
@@ -43,9 +43,8 @@ pub(crate) fn direct_sampling(settings: &IntegratorSettings) -> DirectSampling {
     settings.direct
 }
 
-/// Whether light sampling alone would miss the narrow lobe of the surface. There it is combined
-/// with directions that the surface itself samples.
-fn is_glossy(surface: &Surface) -> bool {
+/// Whether light sampling is combined with directions that the surface itself samples: alone it would miss a narrow lobe.
+pub(crate) fn combines(surface: &Surface) -> bool {
     matches!(surface, Surface::Conductor { .. } | Surface::RoughGlass { .. })
 }
 
@@ -137,15 +136,15 @@ impl Scatter<'_> {
 
     /// What share of the light along a light sample is left to light sampling.
     fn light_weight(&self, sample: &LightSample) -> f64 {
-        if sample.is_delta == 1 || !is_glossy(self.vertex.surface) {
+        if sample.is_delta == 1 || !self.steps.combines(self.vertex.surface) {
             return 1.0;
         }
         let wi = self.vertex.frame.to_local(sample.wi);
         let value = bsdf::evaluate(self.vertex.surface, self.vertex.wo, wi, self.steps);
-        power_heuristic(sample.pdf, value.pdf)
+        self.steps.mis_light_weight(sample.pdf, value.pdf)
     }
 
-    /// The rest of the light on a glossy surface: along directions that the surface samples.
+    /// The rest of the light: along directions that the surface samples.
     fn by_surface(&self, random: &mut Random<'_>) -> DVec3 {
         let total: DVec3 = (0..self.samples).map(|_| self.surface_sample(random)).sum();
         total / f64::from(self.samples)
@@ -169,12 +168,12 @@ impl Scatter<'_> {
         let pdf_of = |light: &Emitter| {
             light.area_pdf(self.vertex.point, seen.point, seen.normal, self.steps)
         };
-        power_heuristic(surface_pdf, seen.light.map_or(0.0, pdf_of)) * seen.emitted
+        self.steps.mis_surface_weight(surface_pdf, seen.light.map_or(0.0, pdf_of)) * seen.emitted
     }
 
     fn weighted_sky(&self, direction: DVec3, surface_pdf: f64) -> DVec3 {
         let of_light = |light: &Emitter| {
-            power_heuristic(surface_pdf, light.sky_pdf(self.steps))
+            self.steps.mis_surface_weight(surface_pdf, light.sky_pdf(self.steps))
                 * DVec3::from(light.sky_radiance(direction))
         };
         self.world.lights().iter().map(of_light).sum()
@@ -224,6 +223,16 @@ pub(crate) fn light_mean(total: DVec3, drawn: u32, _asked_for: u32) -> DVec3 {
 /// Light adds up. `each` are the means of the lights, of so many samples.
 pub(crate) fn sum_over_lights(each: &mut dyn Iterator<Item = DVec3>, _samples: u32) -> DVec3 {
     each.sum()
+}
+
+/// MIS weight of a light sample, beside as many samples of the surface.
+pub(crate) fn mis_light_weight(light_pdf: f64, surface_pdf: f64) -> f64 {
+    power_heuristic(light_pdf, surface_pdf)
+}
+
+/// MIS weight of light that a direction sampled by the surface has met, beside as many light samples.
+pub(crate) fn mis_surface_weight(surface_pdf: f64, light_pdf: f64) -> f64 {
+    power_heuristic(surface_pdf, light_pdf)
 }
 
 /// Weight of a sample drawn with pdf `own` where another technique with as many samples has

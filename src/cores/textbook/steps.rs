@@ -222,6 +222,9 @@ steps! {
         direct::hemisphere_estimate(light: DVec3, pdf: f64) -> DVec3;
         direct::hemisphere_mean(total: DVec3, samples: u32) -> DVec3;
         direct::light_point(random: &mut Random<'_>, number: u32, of: u32) -> DVec2;
+        direct::combines(surface: &Surface) -> bool;
+        direct::mis_light_weight(light_pdf: f64, surface_pdf: f64) -> f64;
+        direct::mis_surface_weight(surface_pdf: f64, light_pdf: f64) -> f64;
         direct::light_cosine(local: DVec3, world: DVec3) -> f64;
         direct::light_estimate(light: DVec3, pdf: f64) -> DVec3;
         direct::light_mean(total: DVec3, drawn: u32, asked_for: u32) -> DVec3;

@@ -15,6 +15,10 @@ use std::f64::consts::TAU;
 const FURNACE: &str = "integrator/furnace-matches-geometric-series";
 const ROULETTE: &str = "integrator/russian-roulette-leaves-the-mean-unchanged";
 
+/// The fault that no case catches: its weight |wz| / cos θ has no finite variance, and what looks too dark under a heavy
+/// tail is inconclusive.
+pub const UNCAUGHT: &str = "bounce-world-cosine";
+
 faults! { part 4;
     "depth-off-by-one": "-m N shows N − 1 bounces",
         fails FURNACE, told integrator::ONE_BOUNCE_SHORT,

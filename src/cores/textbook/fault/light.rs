@@ -8,6 +8,9 @@ use glam::{DVec2, DVec3};
 use lesson::vertex::shadow_ray;
 use std::f64::consts::PI;
 
+/// What a rough conductor shows of lights that light sampling and BSDF sampling both find.
+const GLOSSY: &str = "light/lights-over-rough-conductor-match-quadrature";
+const SLANTED: &str = "light/rectangle-light-slanted-matches-closed-form";
 const RECTANGLE: &str = "light/rectangle-light-samples-reach-the-light";
 
 faults! { part 3;
@@ -119,6 +122,33 @@ faults! { part 3;
     "delta-light-divided": "a point light is sampled once and divided by -l",
         fails "light/point-light-does-not-depend-on-sample-count", told light::DELTA_DIVIDED,
         light_mean = |total, _, asked_for| total / f64::from(asked_for);
+    "mis-surface-in-full":
+        "light that BSDF sampling meets is not weighted, light samples are",
+        fails GLOSSY, told light::MIS_SURFACE_IN_FULL,
+        mis_surface_weight = |_, _| 1.0;
+    "mis-surface-in-full-everywhere":
+        "light that BSDF sampling meets is not weighted, light samples are, at diffuse surfaces too",
+        fails SLANTED, told light::MIS_SURFACE_IN_FULL,
+        combines = |_| true,
+        mis_surface_weight = |_, _| 1.0;
+    "mis-light-in-full":
+        "light samples are not weighted, light that BSDF sampling meets is",
+        fails GLOSSY, told light::MIS_LIGHT_IN_FULL,
+        mis_light_weight = |_, _| 1.0;
+    "mis-light-in-full-everywhere":
+        "light samples are not weighted, light that BSDF sampling meets is, at diffuse surfaces too",
+        fails SLANTED, told light::MIS_LIGHT_IN_FULL,
+        combines = |_| true,
+        mis_light_weight = |_, _| 1.0;
+    "mis-heuristics-differ":
+        "the balance heuristic for light samples, the power heuristic for the others",
+        fails GLOSSY, told light::MIS_HEURISTICS_DIFFER,
+        mis_light_weight = |own, other| own / (own + other);
+    "mis-heuristics-differ-everywhere":
+        "the balance heuristic for light samples, the power heuristic for the others, at diffuse surfaces too",
+        fails SLANTED, told light::MIS_HEURISTICS_DIFFER,
+        combines = |_| true,
+        mis_light_weight = |own, other| own / (own + other);
     "last-light-only": "an inner variable hides the sum",
         fails "light/radiance-is-linear-in-emission", told light::LAST_LIGHT_ONLY,
         sum_over_lights = |each, _| each.last().unwrap_or(DVec3::ZERO);

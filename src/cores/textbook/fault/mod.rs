@@ -16,6 +16,8 @@ mod light;
 mod sampling;
 mod shape;
 
+pub use integrator::UNCAUGHT;
+
 use super::steps::{LESSON, Steps};
 use crate::cause::Cause;
 use crate::contract::Components;
@@ -62,10 +64,6 @@ macro_rules! faults {
     };
 }
 use faults;
-
-/// The fault that no case catches: its weight |wz| / cos θ has no finite variance, and what looks too dark under a heavy
-/// tail is inconclusive.
-pub const UNCAUGHT: &str = "bounce-world-cosine";
 
 /// Every fault, part by part.
 pub(crate) fn all() -> impl Iterator<Item = &'static Fault> {

@@ -5,7 +5,7 @@
 
 mod together;
 
-pub use crate::cores::textbook::fault::{Fault, UNCAUGHT};
+pub use crate::cores::textbook::fault::{Fault, integrator::UNCAUGHT};
 pub use together::{Together, Told};
 
 use crate::case::{Case, NothingSelected, Part, Subject};

@@ -1,6 +1,6 @@
-//! A grade on the terminal: its parts, and where points are lost or open.
+//! A grade on the terminal: its parts, where points are lost or open, and why.
 
-use super::{CaseGrade, Grade, Standing, hundredths};
+use super::{CaseGrade, Grade, Standing, Told, hundredths};
 use crate::report::text::clean;
 use crate::text::number::count;
 
@@ -30,7 +30,19 @@ pub(crate) fn table(grade: &Grade) -> String {
     if cases.len() > MOST {
         lines.push(format!("    … and {} more: see the report, or --csv", cases.len() - MOST));
     }
+    if !grade.causes.is_empty() {
+        lines.push("\n  what is wrong".to_owned());
+    }
+    lines.extend(grade.causes.iter().flat_map(what_is_wrong));
     lines.join("\n") + "\n"
+}
+
+/// The mistake, and below it where to look and what to do.
+fn what_is_wrong(told: &Told) -> impl Iterator<Item = String> {
+    let rest = [("where", &told.look_at), ("fix", &told.fix)].into_iter();
+    let rest = rest.filter(|(_, words)| !words.is_empty());
+    let rest = rest.map(|(label, words)| format!("      {label:<5}  {}", clean(words)));
+    std::iter::once(format!("    {}", clean(&told.mistake))).chain(rest)
 }
 
 fn costs(case: &CaseGrade) -> f64 {

@@ -39,7 +39,7 @@ pub(crate) fn excluded() -> Vec<Excluded> {
         told: fault.cause.headline,
     };
     let mut all: Vec<_> =
-        fault::all().filter(|fault| fault.name != fault::UNCAUGHT).map(of).collect();
+        fault::all().filter(|fault| fault.name != fault::integrator::UNCAUGHT).map(of).collect();
     all.sort_by_key(|mistake| mistake.part);
     all
 }

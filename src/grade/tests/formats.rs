@@ -196,3 +196,21 @@ fn a_grade_is_read_as_it_was_written() {
     let text = serde_json::to_string(&grade).unwrap();
     assert_eq!(serde_json::from_str::<Grade>(&text).unwrap(), grade);
 }
+
+#[test]
+fn the_terminal_says_what_is_wrong_below_the_points() {
+    let mut grade = grade();
+    let [mistake, look_at, fix] =
+        ["t is the farther root", "the root", "Take the nearer."].map(str::to_owned);
+    let (cause, command) = Default::default();
+    let (evidence, explains) = Default::default();
+    grade.causes = vec![Told { cause, mistake, evidence, look_at, fix, command, explains }];
+    let table = text::table(&grade);
+    let (_, wrong) = table.split_once("what is wrong\n").unwrap();
+    assert_eq!(
+        wrong,
+        "    t is the farther root\n      where  the root\n      fix    Take the nearer.\n"
+    );
+    grade.causes.clear();
+    assert!(!text::table(&grade).contains("what is wrong"));
+}

@@ -11,12 +11,10 @@ mod adaptive;
 mod bsdf;
 mod bvh;
 mod camera;
-mod integrator;
+pub(crate) mod integrator;
 mod light;
 mod sampling;
 mod shape;
-
-pub use integrator::UNCAUGHT;
 
 use super::steps::{LESSON, Steps};
 use crate::cause::Cause;

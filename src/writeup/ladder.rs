@@ -127,7 +127,7 @@ fn hemisphere(effort: Effort) -> Ladder {
         name: "direct",
         part: 3,
         title: "Hemisphere and light sampling",
-        says: "Direct light. Both estimate the same integral: the means agree, the noise does not.",
+        says: "Direct light. Both estimate the same integral: the means should agree, the noise need not.",
         rungs,
     }
 }
@@ -155,7 +155,7 @@ fn accumulated(effort: Effort) -> Ladder {
         name: "depth",
         part: 4,
         title: "Maximum depth, bounces accumulated",
-        says: "All light of up to m bounces; each step adds less.",
+        says: "All light of up to m bounces; each step should add less.",
         rungs: DEPTHS.map(one).collect(),
     }
 }
@@ -169,7 +169,7 @@ fn isolated(effort: Effort) -> Ladder {
         name: "bounce",
         part: 4,
         title: "Each bounce alone, not accumulated",
-        says: "Light of exactly m bounces: together they are the image of all.",
+        says: "Light of exactly m bounces: together they should be the image of all.",
         rungs: DEPTHS.map(one).collect(),
     }
 }
@@ -233,7 +233,7 @@ impl System {
             name: self.name,
             part: 4,
             title: self.title,
-            says: "Survivors are divided by the survival probability: each mean is that of the same \
+            says: "Survivors are divided by the survival probability: each mean should be that of the same \
                    depth without roulette, with more noise.",
             rungs: DEPTHS.chain([100]).map(one).collect(),
         }
@@ -246,7 +246,7 @@ fn samples() -> Ladder {
         name: "samples",
         part: 4,
         title: "Samples per pixel",
-        says: "Four light rays. Four times the samples halve the noise; the mean stays.",
+        says: "Four light rays. Four times the samples should halve the noise; the mean should stay.",
         rungs: [1, 2, 4, 8, 16, 64, 1024].map(one).to_vec(),
     }
 }

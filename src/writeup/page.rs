@@ -229,7 +229,8 @@ fn mesh(row: &Row<Timed>) -> Line {
 
 fn mesh_cells(timed: &Timed) -> Vec<String> {
     let tests = |traced: &Traced, which: usize| {
-        traced.tests.map_or_else(|| "not counted".to_owned(), |tests| figure(tests[which]))
+        let counted = traced.tests.map(|tests| tests[which]).filter(|tests| *tests > 0.0);
+        counted.map_or_else(|| "not counted".to_owned(), figure)
     };
     let [without, tests_without] = match &timed.without {
         Ok(traced) => [seconds_of_all(traced, timed.rays), tests(traced, 0)],

@@ -32,7 +32,7 @@ points = 4
 cases  = ["ray-sphere-hit-is"]
 
 [build]
-library  = "libmine"
+makes    = "libmine"
 commands = [["{compiler}", "-std=c++17", "-O1", "-shared", "-fPIC", "-I{{bench}}/include", "{{submission}}/mine.cpp", "-o", "{{build}}/libmine.so"]]
 "#
         );

@@ -47,11 +47,11 @@ impl Submission {
         hex(Sha256::new().chain_update(&self.content).chain_update(conditions))
     }
 
-    /// The library that it is, contains, or is built into in `folder`.
+    /// The core: the library that it is, contains, or is built into in `folder`.
     ///
     /// # Errors
     /// In words for its author: it is empty, or does not compile.
-    pub(crate) fn library(
+    pub(crate) fn core(
         &self,
         project: &Project,
         suite: &Suite,
@@ -60,8 +60,8 @@ impl Submission {
         if is_library(&self.path) {
             return Ok(self.path.clone());
         }
-        if let Some(library) = library_in(&self.path, None) {
-            return Ok(library);
+        if let Some(core) = library_in(&self.path, None) {
+            return Ok(core);
         }
         if WalkDir::new(&self.path).into_iter().flatten().all(|it| !it.file_type().is_file()) {
             return Err("the submission is empty".to_owned());
@@ -87,8 +87,8 @@ impl Submission {
             }
             std::fs::write(folder.join(DONE), "").map_err(failed)?;
         }
-        let missing = || format!("its build made no `{}.{}`", build.library, ENDINGS[0]);
-        library_in(folder, Some(&build.library)).ok_or_else(missing)
+        let missing = || format!("its build made no `{}.{}`", build.makes, ENDINGS[0]);
+        library_in(folder, Some(&build.makes)).ok_or_else(missing)
     }
 
     fn carry_out(&self, command: &[String], bench: &Path, folder: &Path) -> Result<(), String> {

@@ -71,7 +71,7 @@ pub(crate) enum Partial {
 pub(crate) struct Build {
     pub(crate) commands: Vec<Vec<String>>,
     /// The library that they make, below `{build}`, without `.so`, `.dylib` or `.dll`.
-    pub(crate) library: String,
+    pub(crate) makes: String,
 }
 
 /// Why there is no suite to grade by.

@@ -101,8 +101,8 @@ fn of_one(
         return Ok(grade);
     }
     let builds = home.join("builds").join(key);
-    let mut grade = match submission.library(&desk.project, &desk.suite, &builds) {
-        Ok(library) => of_library(arguments, desk, &library, &runs)?,
+    let mut grade = match submission.core(&desk.project, &desk.suite, &builds) {
+        Ok(core) => of_core(arguments, desk, &core, &runs)?,
         Err(problem) => Grade::absent(&desk.suite, "", &problem),
     };
     // Where it was built says whose it is.
@@ -111,13 +111,13 @@ fn of_one(
     Ok(grade)
 }
 
-fn of_library(
+fn of_core(
     arguments: &GradeArguments,
     desk: &Desk,
-    library: &Path,
+    file: &Path,
     runs: &Path,
 ) -> Result<Grade, Failure> {
-    let word = library.to_string_lossy();
+    let word = file.to_string_lossy();
     let core: CoreSpec = match word.parse() {
         Ok(core) => core,
         Err(unknown) => return Ok(Grade::absent(&desk.suite, "", &format!("{unknown}"))),

@@ -40,6 +40,11 @@ impl Series {
             Self::Directions(_) | Self::Stops(_) | Self::Survival(_) => None,
         }
     }
+
+    /// Whether [`Self::headline`] is better where it is larger.
+    pub(crate) const fn more_is_better(&self) -> bool {
+        matches!(self, Self::SpeedUp(_))
+    }
 }
 
 /// Errors of pictures, root mean square over pixels and pictures, as shares of the mean luminance that is right.

@@ -210,7 +210,7 @@ fn leaderboard(core: &CoreRecord) -> Vec<Entry> {
     let entry = |number: &Number| Entry {
         name: format!("{} ({})", number.what, number.case.rsplit('/').next().unwrap_or_default()),
         value: number.value,
-        more_is_better: number.what.contains("as fast as"),
+        more_is_better: number.more_is_better,
     };
     numbers.filter(|number| number.value.is_finite()).map(entry).collect()
 }

@@ -84,6 +84,7 @@ pub(crate) mod tests {
                     case: "bvh/soup".to_owned(),
                     what: "tests a ray".to_owned(),
                     value: 30.0,
+                    more_is_better: false,
                 }],
             });
             example.write_records(&folder.path().join(format!("run-{day}")));

@@ -121,6 +121,8 @@ pub(crate) struct Number {
     pub(crate) what: String,
     #[serde(with = "number")]
     pub(crate) value: f64,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) more_is_better: bool,
 }
 
 impl Score {
@@ -140,8 +142,12 @@ impl Score {
 impl Number {
     fn of(trial: &TrialRecord) -> impl Iterator<Item = Self> {
         let series = trial.outcome.finding().map(|finding| &finding.series);
-        let headlines = series.into_iter().flatten().filter_map(Series::headline);
-        headlines.map(|(what, value)| Self { case: trial.case.clone(), what, value })
+        let number = |series: &Series| {
+            let (what, value) = series.headline()?;
+            let more_is_better = series.more_is_better();
+            Some(Self { case: trial.case.clone(), what, value, more_is_better })
+        };
+        series.into_iter().flatten().filter_map(number)
     }
 }
 

@@ -241,6 +241,7 @@ fn write_earlier_runs(folder: &Path) {
         case: format!("image/cornell-spheres-{number}"),
         what: "error / mean luminance, 256 samples per pixel".to_owned(),
         value: 0.123,
+        more_is_better: false,
     };
     let numbers = (0..30).map(number).collect();
     let score = Score { passes: 187, graded: 190, seconds: 71.3, numbers };

@@ -34,6 +34,11 @@ impl Likeness {
     pub(super) fn is_known(self) -> bool {
         !matches!(self, Self::Unsized | Self::Unknown)
     }
+
+    /// Whether nothing tells the two apart.
+    pub(super) fn is_reproduced(self) -> bool {
+        matches!(self, Self::Same | Self::Unsized)
+    }
 }
 
 /// How what a core answered compares with what a planted mistake answers; a core that stopped answering has no finding.

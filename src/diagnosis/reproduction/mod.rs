@@ -14,6 +14,7 @@ use crate::cause::{self, Cause, bvh};
 use crate::checks::Finding;
 use crate::contract::Components;
 use std::collections::{BTreeMap, BTreeSet};
+use std::slice;
 
 /// Cases in which a suspicion is put to the proof, the quickest of those that it explains.
 const CASES: usize = 4;
@@ -103,12 +104,15 @@ impl<'a> Sifted<'a> {
     ) -> Self {
         let proof = Proof { evidence, planted, made_in };
         let (refuted, ranked) = proof.uncontradicted();
+        let look = |found: &[Suspicion]| look_without(evidence, &refuted, found.to_vec());
         let mut confirmed = proof.confirmed(&ranked, &refuted);
         confirmed.extend(proof.followers(&ranked));
-        let ranked = match confirmed.is_empty() {
-            true => ranked,
-            false => look_without(evidence, &refuted, confirmed.clone()),
-        };
+        let ranked = if confirmed.is_empty() { ranked } else { look(&confirmed) };
+        let rivals: Vec<_> =
+            ranked.with_cause().flat_map(|told| proof.rivals(told, &ranked)).collect();
+        let ranked =
+            if rivals.is_empty() { ranked } else { look(&[&confirmed[..], &rivals].concat()) };
+        confirmed.extend(rivals);
         Self { proof, refuted, ranked, confirmed }
     }
 
@@ -186,6 +190,7 @@ impl<'a> Proof<'a> {
         let unproven = self.unproven_beside(told).into_iter();
         unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
         unfounded.extend(self.lost_in_a_crowd(told));
+        unfounded.extend(self.following(told));
         unfounded
     }
 
@@ -278,8 +283,7 @@ impl<'a> Proof<'a> {
     /// Whether one mistake gives the numbers of every case of `headline` that is tried.
     fn is_reproduced(&self, mistake: Mistake, headline: &Headline) -> bool {
         let cases = self.quickest(&headline.explains);
-        let answers = self.compare(&[vec![mistake]], &cases);
-        !cases.is_empty() && answers.iter().flatten().all(|likeness| *likeness == Likeness::Same)
+        !self.fitting(&[vec![mistake]], &cases).is_empty()
     }
 
     /// Whether its mistakes are planted in other components than those that mend the core.
@@ -342,6 +346,36 @@ impl<'a> Proof<'a> {
         groups.iter().flat_map(|group| self.reproducing(&group.explains, &told)).collect()
     }
 
+    /// Mistakes that reproduce what a cause explains, and failures of its part that its own do not.
+    fn rivals(&self, headline: &Headline, ranked: &Ranked) -> Vec<Suspicion> {
+        let of_part = ranked.without_cause(headline).filter(|case| is_of_one_part(headline, case));
+        let beside =
+            quickest(of_part.filter_map(|case| self.evidence.failure_of(case)), siblings::FAILED);
+        let own = self.quickest(&headline.explains);
+        if own.is_empty() || beside.is_empty() || self.is_needed(headline) {
+            return Vec::new();
+        }
+        let others = self.in_sight().into_iter().filter(|one| one.cause.name != headline.cause);
+        let others: Vec<_> = others.map(|mistake| vec![mistake]).collect();
+        let fitting = kinds(self.fitting(&others, &own));
+        let explaining_more = fitting.into_iter().filter_map(|set| {
+            let answers = self.compare(slice::from_ref(set), &beside).remove(0).into_iter();
+            let same = beside.iter().zip(answers).filter(|(_, of)| *of == Likeness::Same);
+            let same: Vec<_> = same.map(|(seen, _)| *seen).collect();
+            (!same.is_empty()).then(|| (set, [&own[..], &same].concat()))
+        });
+        let rivals: Vec<_> = explaining_more.collect();
+        let found = rivals.iter().flat_map(|(set, cases)| {
+            let degree = degree(rivals.len(), others.len(), cases);
+            degree.map_or_else(Vec::new, |degree| suspicions(set, cases, degree))
+        });
+        let mut found: Vec<_> = found.collect();
+        for suspicion in &mut found {
+            suspicion.cases.extend(headline.explains.iter().cloned());
+        }
+        found
+    }
+
     /// Mistakes that reproduce these cases alone, or all that is told, or one beside it, or pairs do.
     fn reproducing(&self, cases: &[String], told: &[Mistake]) -> Vec<Suspicion> {
         let cases = self.quickest(cases);
@@ -386,27 +420,30 @@ impl<'a> Proof<'a> {
 
     /// The suspicions of those sets that reproduce every case; none where too many do.
     fn of_sets(&self, sets: &[Vec<Mistake>], cases: &[&Observation<'a>]) -> Vec<Suspicion> {
-        let mut fitting: Vec<&Vec<Mistake>> = sets.iter().collect();
+        let fitting = self.fitting(sets, cases);
+        let kinds = kinds(fitting);
+        let degree = degree(kinds.len(), sets.len(), cases);
+        degree.map_or_else(Vec::new, |degree| {
+            kinds.into_iter().flat_map(|set| suspicions(set, cases, degree)).collect()
+        })
+    }
+
+    /// Those sets that reproduce every case: its numbers, or that it fails without any, but not all of them without.
+    fn fitting<'s>(
+        &self,
+        sets: &'s [Vec<Mistake>],
+        cases: &[&Observation<'a>],
+    ) -> Vec<&'s Vec<Mistake>> {
+        let mut fitting: Vec<_> = sets.iter().map(|set| (set, false)).collect();
         // The quickest case leaves few for the others.
         for seen in cases {
-            let tried: Vec<_> = fitting.iter().map(|set| (*set).clone()).collect();
-            let answers = self.compare(&tried, &[seen]);
-            let fits = fitting.iter().zip(answers).filter(|(_, of)| of[0] == Likeness::Same);
-            fitting = fits.map(|(set, _)| *set).collect();
+            let tried: Vec<_> = fitting.iter().map(|(set, _)| (*set).clone()).collect();
+            let answers = self.compare(&tried, &[seen]).into_iter().map(|of| of[0]);
+            let fits = fitting.into_iter().zip(answers).filter(|(_, of)| of.is_reproduced());
+            fitting =
+                fits.map(|((set, is_sized), of)| (set, is_sized || of == Likeness::Same)).collect();
         }
-        let mut kinds: BTreeMap<Vec<&str>, &Vec<Mistake>> = BTreeMap::new();
-        for set in fitting {
-            let mut causes: Vec<_> = set.iter().map(|mistake| mistake.cause.name).collect();
-            causes.sort_unstable();
-            kinds.entry(causes).or_insert(set);
-        }
-        let by_chance = sets.len() as f64 * ALIKE.powi(apart(cases));
-        if kinds.len() > 2 || by_chance > 1.0 {
-            return Vec::new();
-        }
-        let is_clear = by_chance < BY_CHANCE;
-        let degree = Degree::of_one_among(if is_clear { kinds.len() } else { 2 });
-        kinds.values().flat_map(|set| suspicions(set, cases, degree)).collect()
+        fitting.into_iter().filter(|(_, is_sized)| *is_sized).map(|(set, _)| set).collect()
     }
 
     /// The planted mistakes of a headline's cause.
@@ -472,6 +509,25 @@ fn quickest<'s, 'a: 's>(
 /// Whether `case` is about what the headline's are about.
 fn is_of_one_part(headline: &Headline, case: &str) -> bool {
     headline.explains.iter().any(|own| Subject::of_case(own) == Subject::of_case(case))
+}
+
+/// Sets of mistakes, one for all that have the same causes.
+fn kinds(sets: Vec<&Vec<Mistake>>) -> Vec<&Vec<Mistake>> {
+    let mut kinds: BTreeMap<Vec<&str>, &Vec<Mistake>> = BTreeMap::new();
+    for set in sets {
+        let mut causes: Vec<_> = set.iter().map(|mistake| mistake.cause.name).collect();
+        causes.sort_unstable();
+        kinds.entry(causes).or_insert(set);
+    }
+    kinds.into_values().collect()
+}
+
+/// How sure it is that one of so many `fitting` kinds, of so many that were tried, is there; not at all where too many fit.
+fn degree(fitting: usize, tried: usize, cases: &[&Observation<'_>]) -> Option<Degree> {
+    let by_chance = tried as f64 * ALIKE.powi(apart(cases));
+    let is_clear = by_chance < BY_CHANCE;
+    let degree = Degree::of_one_among(if is_clear { fitting } else { 2 });
+    (fitting <= 2 && by_chance <= 1.0).then_some(degree)
 }
 
 fn refuted(cause: &'static Cause, cases: &[String]) -> Refuted {
@@ -672,6 +728,22 @@ mod tests {
         let planted = Bench { mistakes: &[PI, DIVIDED], gives };
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::Named, 2)]);
+    }
+
+    #[test]
+    fn of_two_mistakes_that_give_the_numbers_of_a_cause_the_one_that_gives_more_is_told() {
+        let made = Made::new()
+            .with("light/b", light(1.5).because(&bsdf::WITHOUT_PI, "y"))
+            .with("light/c", light(1.2));
+        let gives: &[(&[&str], _, _)] = &[
+            (&["pi"], "light/b", 1.5),
+            (&["again"], "light/b", 1.5),
+            (&["again"], "light/c", 1.2),
+        ];
+        let planted = Bench { mistakes: &[PI, AGAIN], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let again = integrator::EMISSION_AGAIN.name;
+        assert_eq!(told(&diagnosis), [(again, Degree::Named, 2)]);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::diagnosis::rank::Ranked;
 use crate::diagnosis::{Degree, Headline, Observation, Suspicion};
 
 /// Failures without a cause that are put to each, the quickest.
-const FAILED: usize = 16;
+pub(super) const FAILED: usize = 16;
 /// Cases of its part that passed and are put to it, the quickest.
 const PASSED: usize = 6;
 /// A cause is not told if so many times more speaks against it than for it, and no less than this many cases.

@@ -3,6 +3,7 @@
 //! A checkout has them all. Anywhere else the folder where one stands is the project: what it has of its own is laid over
 //! the bench's, which the program carries and unpacks once into the user's cache.
 
+use crate::text::hexadecimal;
 use sha2::{Digest, Sha256};
 use std::borrow::Cow;
 use std::io;
@@ -179,7 +180,7 @@ fn fingerprint(files: Carried) -> String {
         digest.update(format!("{path} {}\n", content.len()));
         digest.update(&content);
     }
-    digest.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(digest)[..16].to_owned()
 }
 
 /// The user's folder for what can be made again.

@@ -4,9 +4,8 @@
 use super::{Case, Foundation, PARTS, Role, SceneChoice, Tier};
 use crate::checks::{self, PrepareError, RENAMED};
 use crate::contract::Capabilities;
-use crate::text::{Diagnostic, Source, Spanned, Words, did_you_mean, listed};
+use crate::text::{Diagnostic, Source, Spanned, Words, did_you_mean, fingerprint, listed};
 use serde::Deserialize;
-use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// What every case says, whatever its check.
@@ -65,7 +64,7 @@ pub(crate) fn parse(id: &str, path: &Path, source: &Source) -> Result<Case, Diag
         check,
         prepared,
         path: path.to_owned(),
-        hash: hash(&source.text),
+        hash: fingerprint(source.text.as_bytes()),
     })
 }
 
@@ -135,10 +134,6 @@ fn scene_choice(source: &Source, entry: Spanned<SceneEntry>) -> Result<SceneChoi
 fn expect_span(text: &str) -> std::ops::Range<usize> {
     let start = text.find("[expect]").unwrap_or(0);
     start..start + "[expect]".len().min(text.len() - start)
-}
-
-fn hash(text: &str) -> String {
-    Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

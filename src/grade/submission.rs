@@ -2,6 +2,7 @@
 
 use super::suite::{Build, Suite};
 use crate::project::Project;
+use crate::text::hexadecimal;
 use sha2::{Digest, Sha256};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -44,7 +45,7 @@ impl Submission {
 
     /// What its result is known by: the same content under the same `conditions` has the same.
     pub(crate) fn key(&self, conditions: &str) -> String {
-        hex(Sha256::new().chain_update(&self.content).chain_update(conditions))
+        hexadecimal(Sha256::new().chain_update(&self.content).chain_update(conditions))
     }
 
     /// The core: the library that it is, contains, or is built into in `folder`.
@@ -141,9 +142,5 @@ fn content(path: &Path) -> io::Result<String> {
             digest.update(bytes);
         }
     }
-    Ok(hex(digest))
-}
-
-fn hex(digest: Sha256) -> String {
-    digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    Ok(hexadecimal(digest))
 }

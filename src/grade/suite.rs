@@ -3,9 +3,8 @@
 use crate::case::{Case, Filter, NothingSelected};
 use crate::math::rng::{Seed, shuffle};
 use crate::project::Project;
-use crate::scene::reference::fingerprint;
 use crate::stats::Budget;
-use crate::text::{Diagnostic, Source, all_of, hint};
+use crate::text::{Diagnostic, Source, all_of, fingerprint, hint};
 use serde::{Deserialize, Deserializer};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -2,6 +2,7 @@
 //! else does. Names, comments, the order of materials and materials without use do not count.
 
 use super::{Camera, Cap, Light, Material, Mesh, Rgb, SceneDescription, Sphere, Surface};
+use crate::text::hexadecimal;
 use glam::DVec3;
 use sha2::{Digest, Sha256};
 
@@ -27,7 +28,7 @@ pub(crate) fn content_hash(scene: &SceneDescription) -> String {
     }
     content.count(scene.lights.len());
     scene.lights.iter().for_each(|light| content.light(light));
-    content.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(content.0)
 }
 
 /// Takes in values one after another. Every list is preceded by its length and every choice by its

@@ -4,6 +4,7 @@
 //! Not here: what any key of a file means. Scenes and cases keep their own vocabulary.
 
 mod diagnostic;
+mod digest;
 mod document;
 pub(crate) mod number;
 mod program;
@@ -13,6 +14,8 @@ mod suggestion;
 mod units;
 
 pub(crate) use diagnostic::{Diagnostic, Source};
+pub use digest::fingerprint;
+pub(crate) use digest::hexadecimal;
 pub(crate) use document::read_table;
 pub(crate) use document::{Spanned, TomlError, read_key, read_toml};
 pub(crate) use program::program;

@@ -9,6 +9,7 @@ use crate::disk;
 use crate::image::ImageError;
 use crate::scene::SceneDescription;
 use crate::scene::hash::content_hash;
+use crate::text::hexadecimal;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -130,5 +131,5 @@ fn stamp(core: &CoreSpec) -> String {
         let built = program.and_then(|program| Ok((program.len(), program.modified()?)));
         hash.update(format!("{built:?}"));
     }
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(hash)
 }

@@ -18,7 +18,7 @@ use super::hash::content_hash;
 use crate::image::Image;
 use crate::image::exr::{self, Exr};
 use crate::text::Source;
-use sha2::{Digest, Sha256};
+pub use crate::text::fingerprint;
 use std::path::{Path, PathBuf};
 
 /// Channels of the standard error are called `se.R`, `se.G` and `se.B`.
@@ -79,11 +79,6 @@ pub fn picture_path(folder: &Path, name: &str) -> PathBuf {
 /// Where the provenance of reference `name` is, below the folder of references.
 pub fn provenance_path(folder: &Path, name: &str) -> PathBuf {
     folder.join(name).join("provenance.toml")
-}
-
-/// The SHA-256 of a file's content, in hexadecimal: how provenance knows its image.
-pub fn fingerprint(content: &[u8]) -> String {
-    Sha256::digest(content).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Reference `name` from the first of these folders that has it.

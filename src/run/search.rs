@@ -16,6 +16,7 @@ use super::record::{CoreRecord, Transplanted, Transplants, TrialRecord};
 use crate::case::asked_about;
 use crate::contract::{Capabilities, Components};
 use crate::stats::{Allowance, Budget};
+use crate::worker::crowding;
 use std::cmp::Reverse;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -25,8 +26,10 @@ use std::time::{Duration, Instant};
 /// How long the search may take for one core, as a share of what its trials took: who waits for a wrong core waits
 /// little longer. Time of all threads together, as that of trials is.
 const SHARE: f64 = 0.5;
-/// It always may take so many seconds.
-const LEAST: f64 = 10.0;
+/// It always may take so many seconds of a processor.
+const LEAST: f64 = 20.0;
+/// On a crowded machine it is waited for that so many times as long.
+const MOST_CROWDED: f64 = 4.0;
 /// What a trial of the search may take: at its budget a right core needs a second or two.
 const LONGEST_TRIAL: f64 = 10.0;
 /// What the search takes for one failing case, in times of its trial in the run: twelve components are halved four
@@ -141,7 +144,7 @@ pub(super) struct Purse(Mutex<Duration>);
 impl Purse {
     /// A share of the time that trials took.
     pub(super) fn of_share(share: f64, taken: f64) -> Self {
-        Self::of((share * taken).max(LEAST))
+        Self::of((share * taken).max(LEAST * crowding().min(MOST_CROWDED)))
     }
 
     fn of(seconds: f64) -> Self {

@@ -39,6 +39,7 @@ pub use scene::build_request;
 pub use serve::{refuse, serve};
 pub use spec::Limits;
 pub(crate) use spec::{Confinement, CoreOrigin, WorkerSpec};
+pub(crate) use usage::crowding;
 
 use std::io::{Read, Write};
 

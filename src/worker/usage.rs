@@ -18,6 +18,22 @@ pub(crate) struct Usage {
     pub(crate) would_compute: bool,
 }
 
+/// How many times as long as on an idle machine work takes here now, 1 at least: what has wanted a processor in the last
+/// minute, for each processor that there is.
+#[cfg(target_os = "linux")]
+pub(crate) fn crowding() -> f64 {
+    let wanting = std::fs::read_to_string("/proc/loadavg").ok();
+    let wanting = wanting.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
+    let processors = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    wanting.map_or(1.0, |wanting| (wanting / processors as f64).max(1.0))
+}
+
+/// Elsewhere nobody is asked, and the machine is taken for idle.
+#[cfg(not(target_os = "linux"))]
+pub(crate) fn crowding() -> f64 {
+    1.0
+}
+
 /// Of `child` and, where it is a program, of all it has started.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn usage(_: &Child, spec: &WorkerSpec) -> Usage {
@@ -104,6 +120,11 @@ mod tests {
         child.kill().unwrap();
         child.wait().unwrap();
         assert_eq!(members.len(), 1);
+    }
+
+    #[test]
+    fn a_machine_is_never_less_than_idle() {
+        assert!(crowding() >= 1.0);
     }
 
     #[test]

@@ -77,7 +77,7 @@ pub(crate) fn shared(causes: &[Option<&'static Cause>]) -> Option<(&'static Caus
         |cause: &Cause| causes.iter().flatten().filter(|other| goes_with(cause, other)).count();
     let most = causes.iter().flatten().max_by_key(|cause| (count(cause), !is_vague(cause)))?;
     let evidence = format!(
-        "is the pattern of the wrong answers of {} of {} wrong BVHs",
+        "predicts which answers are wrong in {} of {} wrong BVHs",
         count(most),
         causes.len()
     );

@@ -32,6 +32,8 @@ pub(crate) enum Slip {
     SearchesShadows,
     /// Shadow rays are tested against one triangle after the other.
     ShadowsByTheLoop,
+    /// The same, up to the first that is hit.
+    ShadowsByTheLoopToTheFirst,
     ShrinksTriangles,
     CullsBack,
     LosesTheLast,
@@ -109,6 +111,7 @@ impl FakeScene {
             }
             Slip::SearchesShadows => self.walk(ray, Walk::Unshortened),
             Slip::ShadowsByTheLoop => self.bvh.test_all(ray),
+            Slip::ShadowsByTheLoopToTheFirst => self.bvh.test_up_to_a_hit(ray),
             _ => self.walk(ray, Walk::AnyHit),
         }
     }

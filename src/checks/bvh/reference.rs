@@ -134,6 +134,20 @@ impl ReferenceBvh {
         search.found
     }
 
+    /// Without the BVH, in the order of the mesh, until something is hit.
+    pub(crate) fn test_up_to_a_hit(&self, ray: &Ray) -> Walked {
+        let mut search = Search::new(ray, Walk::Ordered);
+        let mut triangles: Vec<_> = self.triangles.iter().collect();
+        triangles.sort_by_key(|(number, _)| *number);
+        for triangle in triangles {
+            search.test(triangle);
+            if search.found.nearest.is_some() {
+                break;
+            }
+        }
+        search.found
+    }
+
     /// Puts other boxes in the place of all.
     pub(crate) fn change_boxes(&mut self, change: impl Fn(Aabb) -> Aabb) {
         self.nodes.iter_mut().for_each(|node| node.bounds = change(node.bounds));

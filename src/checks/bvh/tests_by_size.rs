@@ -101,13 +101,19 @@ pub(super) fn cause(sizes: &[Size], slope: f64, failed: bool) -> Option<&'static
     let shadows_search = sizes.last().is_some_and(Size::shadows_search_on);
     if failed && slope >= ALL_TESTED {
         Some(&bvh::BVH_NOT_USED)
-    } else if failed && growth(sizes, |size| size.any) >= ALL_TESTED {
+    } else if failed && is_like_a_loop(growth(sizes, |size| size.any), slope) {
         Some(&bvh::SHADOWS_WITHOUT_BVH)
     } else if failed && shadows_search {
         Some(&bvh::SHADOWS_SEARCH_ON)
     } else {
         walk_of(sizes)
     }
+}
+
+/// Whether tests of shadow rays grow rather as a loop's than as those of the tree that other rays walk: a loop that ends at
+/// the first hit is a little less than linear.
+fn is_like_a_loop(of_shadows: f64, of_tree: f64) -> bool {
+    of_shadows >= (of_tree + 1.0) / 2.0
 }
 
 /// Which walk has the same counts at every size, if it is not the best.

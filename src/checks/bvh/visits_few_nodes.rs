@@ -162,6 +162,7 @@ mod tests {
             (Slip::IsAList, "bumpy-sphere", &bvh::UNBALANCED),
             (Slip::SearchesShadows, "soup", &bvh::SHADOWS_SEARCH_ON),
             (Slip::ShadowsByTheLoop, "soup", &bvh::SHADOWS_WITHOUT_BVH),
+            (Slip::ShadowsByTheLoopToTheFirst, "soup", &bvh::SHADOWS_WITHOUT_BVH),
         ] {
             let finding = found(slip, mesh);
             assert_eq!(causes(&finding), [cause.name]);

@@ -106,7 +106,6 @@ impl<'a> Sifted<'a> {
         let (refuted, ranked) = proof.uncontradicted();
         let look = |found: &[Suspicion]| look_without(evidence, &refuted, found.to_vec());
         let mut confirmed = proof.confirmed(&ranked, &refuted);
-        confirmed.extend(proof.followers(&ranked));
         let ranked = if confirmed.is_empty() { ranked } else { look(&confirmed) };
         let rivals: Vec<_> =
             ranked.with_cause().flat_map(|told| proof.rivals(told, &ranked)).collect();
@@ -315,8 +314,8 @@ impl<'a> Proof<'a> {
         known.peek().is_some() && !known.any(is_same)
     }
 
-    /// The causes whose mistake gives the same numbers, with that for evidence: those that are named, and those of which
-    /// every rival is refuted.
+    /// The causes whose mistake gives the same numbers, with that for evidence: in their own cases, for those that are named
+    /// and those of which every rival is refuted, and in whatever else has no cause.
     fn confirmed(&self, ranked: &Ranked, refuted: &Refuted) -> Vec<Suspicion> {
         let is_rival = |headline: &Headline, case: &String, (cause, of): &(&str, String)| {
             of == case && *cause != headline.cause
@@ -325,13 +324,18 @@ impl<'a> Proof<'a> {
             let mut cases = headline.explains.iter();
             cases.all(|case| refuted.iter().any(|other| is_rival(headline, case, other)))
         };
-        let is_clear = |told: &&Headline| told.degree == Degree::Named || stands_alone(told);
+        let is_clear = |told: &Headline| told.degree == Degree::Named || stands_alone(told);
         let confirmed = |headline: &Headline| {
-            let mistake = self.of(headline).find(|one| self.is_reproduced(*one, headline))?;
-            let cases = self.quickest(&headline.explains);
-            suspicions(&[mistake], &cases, Degree::Named).pop()
+            let gives_own = |mistake: &Mistake| self.is_reproduced(*mistake, headline);
+            let certain = self.of(headline).find(gives_own).filter(|_| is_clear(headline));
+            let own = certain.map_or_else(Vec::new, |_| self.quickest(&headline.explains));
+            let cases = [own, self.followers(headline, ranked)].concat();
+            let mistake = certain.or_else(|| self.of(headline).next())?;
+            let likely = headline.degree.max(Degree::LooksLike);
+            let degree = certain.map_or(likely, |_| Degree::Named);
+            suspicions(&[mistake], &cases, degree).pop().filter(|_| !cases.is_empty())
         };
-        ranked.with_cause().filter(is_clear).filter_map(confirmed).collect()
+        ranked.with_cause().filter_map(confirmed).collect()
     }
 
     /// Mistakes that reproduce all that has no name yet; else what each headline without a name explains.

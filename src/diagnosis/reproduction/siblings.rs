@@ -2,12 +2,12 @@
 //! explains them; where it fails what the core passes, or fails it otherwise, something else is wrong.
 
 use super::likeness::{Likeness, likeness};
-use super::{Proof, Refuted, is_of_one_part, quickest, refuted, suspicions};
+use super::{Proof, Refuted, is_of_one_part, quickest, refuted};
 use crate::cause;
 use crate::checks::Finding;
 use crate::contract::Components;
 use crate::diagnosis::rank::Ranked;
-use crate::diagnosis::{Degree, Headline, Observation, Suspicion};
+use crate::diagnosis::{Degree, Headline, Observation};
 
 /// Failures without a cause that are put to each, the quickest.
 pub(super) const FAILED: usize = 16;
@@ -91,16 +91,10 @@ impl Proof<'_> {
         !made.is_empty() && others.any(|case| is_of_one_part(headline, case) && is_lower(case))
     }
 
-    /// What else is explained by the causes that are told.
-    pub(super) fn followers(&self, ranked: &Ranked) -> Vec<Suspicion> {
-        let of_cause = |headline: &Headline| {
-            let same = self.siblings(headline, ranked).same;
-            let seen = same.iter().filter_map(|case| self.evidence.failure_of(case));
-            let seen: Vec<_> = seen.collect();
-            let mistake = self.of(headline).next().filter(|_| !seen.is_empty())?;
-            suspicions(&[mistake], &seen, headline.degree.max(Degree::LooksLike)).pop()
-        };
-        ranked.with_cause().filter_map(of_cause).collect()
+    /// What else is explained by a cause that is told.
+    pub(super) fn followers(&self, headline: &Headline, ranked: &Ranked) -> Vec<&Observation<'_>> {
+        let same = self.siblings(headline, ranked).same;
+        same.iter().filter_map(|case| self.evidence.failure_of(case)).collect()
     }
 
     fn siblings(&self, headline: &Headline, ranked: &Ranked) -> Siblings {

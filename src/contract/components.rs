@@ -68,6 +68,24 @@ impl Components {
         }
     }
 
+    /// Whether one is among those that this one is made of.
+    pub(crate) fn is_made_of(self, one: Self) -> bool {
+        let of_geometry = Self::TRIANGLE_TEST | Self::SPHERE_TEST | Self::BOX_TEST;
+        let parts = match self {
+            Self::TRAVERSAL => of_geometry,
+            Self::BSDF => Self::DIRECTION_SAMPLING,
+            Self::DIRECT_LIGHTING => Self::below(self) - Self::CAMERA,
+            Self::PATH | Self::PIXEL => Self::below(self),
+            _ => Self::empty(),
+        };
+        parts.intersects(one)
+    }
+
+    /// All that come before one.
+    fn below(self) -> Self {
+        Self::from_bits_truncate(self.bits() - 1)
+    }
+
     /// The words for one.
     fn word(self) -> &'static str {
         match self {

@@ -300,18 +300,39 @@ fn smallest(takes: Components, failures: &Failures<'_>, try_cases: Try<'_>) -> F
     let Tried { passing, failing: unmended } = try_cases(takes, &rest);
     let mut lowest = Vec::new();
     halve(&order, 0..order.len(), passing, try_cases, &mut lowest);
-    let mut set: Components = found.iter().map(|of: &Needed| of.component).collect();
+    let mut beside = Components::empty();
     for (place, cases) in lowest {
         let component = order[place];
         let Tried { passing: alone, failing: with_others } = try_cases(component, &cases);
         let below = order[..place].iter().copied().collect();
-        set |= component | needed(below, component, &with_others, try_cases);
+        beside |= needed(below, component, &with_others, try_cases);
         found.push(Needed { component, alone, with_others });
     }
+    let found = without_needless(found, try_cases);
+    let set = beside | found.iter().map(|of| of.component).collect();
     let mut found = Found { set: together(set, &found, try_cases), mended: 0, unmended };
     found.mended = found.set.iter().map(|part| part.together.len()).sum();
     found.try_on(late, try_cases);
     found.set.sort_by_key(|part| Reverse(part.together.len()));
+    found
+}
+
+/// Of components that are not made of each other, two may mend a case: it belongs to the one that mends more.
+fn without_needless(mut found: Vec<Needed>, try_cases: Try<'_>) -> Vec<Needed> {
+    found.sort_by_key(|of| of.alone.len());
+    for number in 0..found.len() {
+        let [few, more @ ..] = &mut found[number..] else { break };
+        for other in more.iter_mut().rev() {
+            let mends_more = other.alone.len() > few.alone.len();
+            if mends_more && !other.component.is_made_of(few.component) {
+                let Tried { passing, .. } = try_cases(other.component, &few.alone);
+                few.alone.retain(|case| !passing.contains(case));
+                other.alone.extend(passing);
+            }
+        }
+    }
+    found.retain(|of| of.cases().next().is_some());
+    found.sort_by_key(|of| of.component.bits());
     found
 }
 
@@ -444,6 +465,27 @@ mod tests {
         assert_eq!(counts(&found), [(BSDF, 3, 3), (BOX, 1, 1), (PATH, 1, 1)]);
         assert_eq!(found.set[0].together, [1, 2, 4]);
         assert_eq!((found.mended, found.unmended.len()), (5, 0));
+    }
+
+    #[test]
+    fn what_two_can_mend_belongs_to_the_one_that_mends_more() {
+        const LIGHTS: Components = Components::LIGHT_SAMPLING;
+        const EMISSION: Components = Components::EMISSION;
+        // The first two pass with either; the last is mended by what emission is no part of.
+        let mut try_cases = |with: Components, cases: &[usize]| {
+            let passes = |case: &usize| match case {
+                0 | 1 => with.contains(EMISSION) || with.contains(LIGHTS),
+                5 => with.contains(BOX) || with.contains(PATH),
+                _ => with.contains(EMISSION),
+            };
+            let (passing, failing) = cases.iter().partition(|case| passes(case));
+            Tried { passing, failing }
+        };
+        let asks = |case: usize| [LIGHTS, LIGHTS, EMISSION, EMISSION, EMISSION, BOX][case];
+        let turns = [(0..6).collect(), Vec::new()];
+        let failures = Failures { turns, asks: &asks, affordable: &|_| 6 };
+        let found = smallest(Components::all(), &failures, &mut try_cases);
+        assert_eq!(counts(&found), [(EMISSION, 5, 5), (BOX, 1, 1)]);
     }
 
     #[test]

@@ -205,11 +205,25 @@ impl Judged {
         })
     }
 
-    /// Samples used on average, in the last stage drawn.
+    /// Samples used on average, in the last stage drawn; beyond the maximum, one more than that.
     fn mean_count(&self) -> f64 {
-        let counts = self.counts.observed.iter().enumerate();
-        let sum: f64 = counts.map(|(n, streams)| n as f64 * *streams as f64).sum();
-        sum / (self.counts.observed.iter().sum::<u64>() + self.counts.absorbed_observed) as f64
+        let CountReport { observed, absorbed_observed: beyond, .. } = &self.counts;
+        let all = || observed.iter().chain([beyond]);
+        let sum: f64 = (0..).zip(all()).map(|(n, streams)| f64::from(n) * *streams as f64).sum();
+        sum / all().sum::<u64>() as f64
+    }
+
+    /// What the numbers of samples are that the streams of the last stage told, and what they should be.
+    fn told_of_counts(&self) -> String {
+        let CountReport { observed, absorbed_observed: beyond, .. } = &self.counts;
+        if *beyond > 0 {
+            let (all, most) = (observed.iter().sum::<u64>() + beyond, observed.len() - 1);
+            return format!(
+                "{beyond} of {all} streams tell more than the maximum of {most} samples"
+            );
+        }
+        let (is, should) = (figure(self.mean_count()), figure(self.law.expected_count()));
+        format!("{is} samples are used on average where the rule uses {should}")
     }
 
     /// Whether the mean is so far from the truth that a stream that is read to its end has another.
@@ -221,10 +235,7 @@ impl Judged {
     pub(super) fn complaint(&self) -> Option<String> {
         let (name, law) = (&self.name, &self.law);
         if self.counts.verdict == Verdict::Fail {
-            let (is, should) = (figure(self.mean_count()), figure(law.expected_count()));
-            return Some(format!(
-                "{name}: {is} samples are used on average where the rule uses {should}"
-            ));
+            return Some(format!("{name}: {}", self.told_of_counts()));
         }
         (self.mean.verdict == Verdict::Fail).then(|| {
             let (is, should) = (figure(self.mean.mean), figure(law.mean));

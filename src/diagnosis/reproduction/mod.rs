@@ -18,6 +18,8 @@ use std::slice;
 
 /// Cases in which a suspicion is put to the proof, the quickest of those that it explains.
 const CASES: usize = 4;
+/// Cases of it that may contradict it one by one: what it does not explain may be another mistake of the same lines.
+const CONTRADICTING: usize = 16;
 /// Rounds in which what is contradicted makes room for the next suspicion.
 const ROUNDS: usize = 6;
 /// Mistakes of which pairs are tried.
@@ -210,7 +212,8 @@ impl<'a> Proof<'a> {
         if !sets.is_empty() && all.len() > 1 {
             sets.push(all.to_vec());
         }
-        let cases = self.quickest(&headline.explains);
+        let explained = headline.explains.iter().filter_map(|case| self.evidence.failure_of(case));
+        let cases = quickest(explained, CONTRADICTING);
         let answers = self.compare(&sets, &cases);
         let is_contradicted = |number: usize| {
             let of_sets = || answers.iter().map(|of_set| of_set[number]);

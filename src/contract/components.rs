@@ -94,7 +94,8 @@ impl Components {
             Self::TRIANGLE_TEST => "triangle test",
             Self::SPHERE_TEST => "sphere test",
             Self::BOX_TEST => "box test",
-            Self::TRAVERSAL => "traversal",
+            // With the traversal comes the tree that it walks.
+            Self::TRAVERSAL => "BVH",
             Self::DIRECTION_SAMPLING => "direction sampling",
             Self::BSDF => "BSDF",
             Self::LIGHT_SAMPLING => "light sampling",

@@ -145,7 +145,7 @@ mod tests {
         let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 2));
-        assert_eq!(only.mistake, "what differs is the core's traversal");
+        assert_eq!(only.mistake, "what differs is the core's BVH");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What the rules see: the findings of one core in one run.
 
 use crate::case::{Foundation, Part, Role, Subject, Tier};
-use crate::checks::{Finding, Measure};
+use crate::checks::{Clue, Finding, Measure};
 use crate::contract::{Components, Conventions};
 use crate::image::Channel;
 use std::cmp::Ordering;
@@ -94,6 +94,14 @@ impl<'a> Evidence<'a> {
         self.observations
             .iter()
             .filter(|seen| seen.standing == Standing::Failed && seen.tier == Tier::Robustness)
+    }
+
+    /// What checks recognised in cases that only inform.
+    pub(crate) fn informed(&self) -> impl Iterator<Item = &Clue> {
+        let informs =
+            |seen: &&Observation<'_>| seen.has_failed() && seen.tier == Tier::Informational;
+        let findings = self.observations.iter().filter(informs).filter_map(|seen| seen.finding);
+        findings.flat_map(|finding| &finding.clues)
     }
 
     /// Everything that failed, what counts nothing last.

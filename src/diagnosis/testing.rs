@@ -38,7 +38,7 @@ impl From<Role> for Name {
 pub(crate) struct Made {
     findings: Vec<(Name, Finding)>,
     blocked: Vec<(String, String)>,
-    robustness: Vec<String>,
+    tiers: Vec<(String, Tier)>,
     specular: Vec<String>,
     resting: Vec<(String, Vec<Foundation>)>,
     proving: Vec<(String, Vec<Foundation>)>,
@@ -50,19 +50,9 @@ pub(crate) struct Made {
 impl Made {
     pub(crate) fn new() -> Self {
         let (findings, blocked, conventions) = Default::default();
-        let (robustness, specular, resting, proving, ended) = Default::default();
+        let (tiers, specular, resting, proving, ended) = Default::default();
         let seconds = 1.0;
-        Self {
-            findings,
-            blocked,
-            robustness,
-            specular,
-            resting,
-            proving,
-            ended,
-            seconds,
-            conventions,
-        }
+        Self { findings, blocked, tiers, specular, resting, proving, ended, seconds, conventions }
     }
 
     pub(crate) fn with(mut self, case: impl Into<Name>, finding: Finding) -> Self {
@@ -72,7 +62,13 @@ impl Made {
 
     /// The same with a case that counts nothing.
     pub(crate) fn beside_the_grade(mut self, case: &str) -> Self {
-        self.robustness.push(case.to_owned());
+        self.tiers.push((case.to_owned(), Tier::Robustness));
+        self
+    }
+
+    /// The same with a case that only informs.
+    pub(crate) fn informing(mut self, case: &str) -> Self {
+        self.tiers.push((case.to_owned(), Tier::Informational));
         self
     }
 
@@ -122,10 +118,8 @@ impl Made {
                 Verdict::Fail => Standing::Failed,
                 Verdict::Inconclusive => Standing::Unknown,
             };
-            let tier = match self.robustness.contains(case) {
-                true => Tier::Robustness,
-                false => Tier::Graded,
-            };
+            let tier = self.tiers.iter().find(|(of, _)| of == case).map(|(_, tier)| *tier);
+            let tier = tier.unwrap_or_default();
             let (role, is_specular) = (*role, self.specular.contains(case));
             let finding = Some(finding);
             Observation { tier, role, is_specular, ..observation(case, standing, finding) }

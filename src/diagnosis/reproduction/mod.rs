@@ -121,7 +121,8 @@ impl<'a> Sifted<'a> {
     pub(super) fn and_searched(self) -> Ranked {
         let Self { proof, mut refuted, ranked, confirmed: mut found } = self;
         let suspected: BTreeSet<_> = ranked.with_cause().map(|told| told.cause.clone()).collect();
-        found.extend(proof.reproduced(&ranked));
+        let searched = proof.reproduced(&ranked);
+        found.extend(if searched.is_empty() { proof.informed(&ranked) } else { searched });
         let mut told = proof.doubted(&refuted, &found);
         // What the search has found has to stand beside the rest as well, and so has what is doubted.
         for _ in 0..ROUNDS {
@@ -351,6 +352,28 @@ impl<'a> Proof<'a> {
             return found;
         }
         groups.iter().flat_map(|group| self.reproducing(&group.explains, &told)).collect()
+    }
+
+    /// What a case that only informs has recognised, where its mistake fails in the same places what has no name.
+    fn informed(&self, ranked: &Ranked) -> Vec<Suspicion> {
+        let causes: BTreeSet<_> = self.evidence.informed().map(|clue| &clue.cause[..]).collect();
+        let is_informed = |mistake: &&Mistake| causes.contains(mistake.cause.name);
+        let nameless = ranked.unnamed().flat_map(|told| &told.explains).cloned();
+        let cases = self.quickest(&nameless.collect::<Vec<_>>());
+        let alike = |mistake: &Mistake| {
+            let answers = self.compare(&[vec![*mistake]], &cases).remove(0);
+            let is_alike = |(_, of): &(_, Likeness)| matches!(of, Likeness::Same | Likeness::Alike);
+            let alike: Vec<_> = cases.iter().zip(answers).filter(is_alike).collect();
+            let cases: Vec<_> = alike.into_iter().map(|(seen, _)| *seen).collect();
+            let found = suspicions(&[*mistake], &cases, Degree::LooksLike).pop()?;
+            let sentence = format!(
+                "a case that only informs has recognised it, and the bench's own core with this mistake is wrong in the same \
+                 places in {}",
+                found.cases.join(", ")
+            );
+            (!cases.is_empty()).then(|| Suspicion { evidence: vec![sentence], ..found })
+        };
+        self.planted.mistakes().iter().filter(is_informed).filter_map(alike).collect()
     }
 
     /// Mistakes that reproduce what a cause explains, and failures of its part that its own do not.
@@ -751,6 +774,19 @@ mod tests {
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         let again = integrator::EMISSION_AGAIN.name;
         assert_eq!(told(&diagnosis), [(again, Degree::Named, 2)]);
+    }
+
+    #[test]
+    fn what_only_informs_says_what_a_failure_looks_like() {
+        let told_by = failing("the other way").because(&bsdf::WITHOUT_PI, "x");
+        let made =
+            Made::new().with("light/b", light(0.4)).with("bsdf/a", told_by).informing("bsdf/a");
+        for (ratio, cause) in [(0.7, bsdf::WITHOUT_PI.name), (1.5, "")] {
+            let gives: &[(&[&str], _, _)] = &[(&["pi"], "light/b", ratio)];
+            let diagnosis = diagnose_proven(&made.evidence(), &Bench { mistakes: &[PI], gives });
+            assert_eq!(told(&diagnosis)[0].0, cause);
+            assert_ne!(told(&diagnosis)[0].1, Degree::Named);
+        }
     }
 
     #[test]

@@ -95,12 +95,24 @@ Scene of_one(const Geometry &geometry) {
    return made;
 }
 
+// Embree's segments are closed, the contract's open: the next number inside.
+float after(double t) {
+   float next = float(t);
+   return double(next) > t ? next : std::nextafter(next, std::numeric_limits<float>::infinity());
+}
+
+float before(double t) {
+   float next = float(t);
+   if (std::isinf(t) || double(next) < t) return next;
+   return std::nextafter(next, -std::numeric_limits<float>::infinity());
+}
+
 RTCRay ray_of(const furnace_ray &ray) {
    RTCRay made{};
    put(&made.org_x, ray.origin);
    put(&made.dir_x, ray.direction);
-   made.tnear = float(ray.t_min);
-   made.tfar = float(ray.t_max);
+   made.tnear = after(ray.t_min);
+   made.tfar = before(ray.t_max);
    made.mask = ~0u;
    return made;
 }
@@ -117,8 +129,7 @@ bool meet(RTCScene scene, const furnace_ray &ray, RTCRayHit &found) {
    rtcInitIntersectContext(&context);
    rtcIntersect1(scene, &context, &found);
 #endif
-   // Embree's segments are closed, the contract's open.
-   return found.hit.geomID != RTC_INVALID_GEOMETRY_ID && found.ray.tfar > ray.t_min && found.ray.tfar < ray.t_max;
+   return found.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
 // What is told of a hit with `geometry`, which is a mesh, a smooth mesh or a sphere.

@@ -17,7 +17,7 @@ const PASSED: usize = 6;
 const OUTNUMBERED: usize = 2;
 const LEAST_AGAINST: usize = 2;
 /// What looks like a cause and explains one of so many failures of its part says little.
-const CROWD: usize = 9;
+const CROWD: usize = 5;
 
 /// What was asked beside the cases of a cause.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

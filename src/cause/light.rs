@@ -108,9 +108,13 @@ causes! {
         at "the choice between hemisphere sampling and light sampling",
         fix "Let the setting choose the estimator.";
     DIVIDED_BY_ZERO_LIGHTS = "divided-by-zero-lights":
-        "without lights, hemisphere sampling divides an empty sum by 0 samples",
-        at "hemisphere sampling",
-        fix "Draw at least one direction, or return 0 where there is no light.";
+        "without lights, direct lighting divides an empty sum by 0 samples",
+        at "direct lighting, where the mean over the samples of all lights is taken",
+        fix "Return 0 where there is no light, or draw at least one direction.";
+    LIGHT_FROM_BELOW_SUBTRACTED = "light-from-below-subtracted":
+        "light that arrives from below the surface is subtracted: its cosine is negative",
+        at "direct lighting, where the cosine of a light sample is taken",
+        fix "Add a light sample only where cos θ > 0 at the surface.";
     NO_SHADOWS = "no-shadows":
         "direct light ignores occlusion",
         at "the shadow ray: whether there is one, its origin, t_min and t_max",

@@ -111,7 +111,7 @@ const fn what(subject: Subject) -> &'static str {
     match subject {
         Subject::Camera => "the camera",
         Subject::Shape => "ray intersection",
-        Subject::Bvh => "the BVH",
+        Subject::Bvh => "the BVH or its box test",
         Subject::Sampling => "direction sampling",
         Subject::Bsdf => "the BSDF",
         Subject::Light => "direct light",

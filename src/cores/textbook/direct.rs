@@ -121,7 +121,8 @@ impl Scatter<'_> {
             return DVec3::ZERO;
         };
         let wi = self.vertex.frame.to_local(sample.wi);
-        let f_cosine = self.f(wi) * self.steps.light_cosine(wi, sample.wi);
+        let f = self.f(self.steps.lit_direction(wi, self.vertex.wo));
+        let f_cosine = f * self.steps.light_cosine(wi, sample.wi);
         if f_cosine == DVec3::ZERO || self.is_shadowed(&sample) {
             return DVec3::ZERO;
         }
@@ -203,6 +204,11 @@ pub(crate) fn hemisphere_mean(total: DVec3, samples: u32) -> DVec3 {
 /// The numbers for sample `number` of so many of one light.
 pub(crate) fn light_point(random: &mut Random<'_>, _number: u32, _of: u32) -> DVec2 {
     random.point()
+}
+
+/// The direction for which f is evaluated, for a light sample from `wi`.
+pub(crate) fn lit_direction(wi: DVec3, _wo: DVec3) -> DVec3 {
+    wi
 }
 
 /// |cos θ| at the surface, of a direction that is known in both frames.

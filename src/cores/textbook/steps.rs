@@ -225,6 +225,7 @@ steps! {
         direct::combines(surface: &Surface) -> bool;
         direct::mis_light_weight(light_pdf: f64, surface_pdf: f64) -> f64;
         direct::mis_surface_weight(surface_pdf: f64, light_pdf: f64) -> f64;
+        direct::lit_direction(wi: DVec3, wo: DVec3) -> DVec3;
         direct::light_cosine(local: DVec3, world: DVec3) -> f64;
         direct::light_estimate(light: DVec3, pdf: f64) -> DVec3;
         direct::light_mean(total: DVec3, drawn: u32, asked_for: u32) -> DVec3;

@@ -75,6 +75,11 @@ faults! { part 3;
     "world-cosine": "wi.z for cos θ, in the world",
         fails "light/rectangle-light-slanted-matches-closed-form", told light::WORLD_COSINE,
         light_cosine = |_, world| world.z.abs();
+    "light-from-below-subtracted":
+        "neither a test for cos θ > 0 nor |cos θ|, and f is the same for every direction",
+        fails "light/light-below-the-horizon-adds-nothing", told light::LIGHT_FROM_BELOW_SUBTRACTED,
+        lit_direction = |wi, wo| DVec3 { z: wi.z.abs().copysign(wo.z), ..wi },
+        light_cosine = |local, _| local.z;
     "light-times-pdf": "× pdf in place of / pdf",
         fails "light/rectangle-light-slanted-matches-closed-form", told light::TIMES_PDF,
         light_estimate = |light, pdf| light * pdf;

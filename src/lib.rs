@@ -6,7 +6,7 @@
 //! A module names only modules further down; two modules of one line do not name each other (`tests/architecture.rs`).
 //!
 //! ```text
-//!                              cli
+//!                         cli   harness
 //!                             grade
 //!      report    reference    faults    agreement    writeup
 //!                              run
@@ -32,10 +32,16 @@
 //!
 //! # Where to begin
 //!
-//! - To put a renderer of yours to the bench: implement [`contract::Core`], which begins with one method; `cores::textbook`
+//! - To put a renderer of yours to the bench: implement [`contract::Core`], which begins with one method, and hand it to
+//!   [`trials`]: five lines make every case a test of your crate. What to implement, task by task: `cores::textbook`
 //!   is the model to read, one function a task, in the order of a course.
 //! - To follow a verdict: [`run`] brings case and core together, a check of [`checks`] asks, [`stats`] decides.
 //! - To see how a mistake gets its name: [`cause`] is the glossary, [`diagnosis`] has one rule a file.
+
+#![cfg_attr(
+    not(feature = "cli"),
+    expect(dead_code, unused_imports, reason = "much is for the command line alone")
+)]
 
 // The order of the layers, from below.
 pub mod disk;
@@ -58,6 +64,7 @@ pub mod checks;
 pub mod cores;
 
 pub mod case;
+#[cfg(feature = "cli")]
 pub(crate) mod render;
 
 pub mod diagnosis;
@@ -68,8 +75,16 @@ pub mod agreement;
 pub mod faults;
 pub mod reference;
 pub mod report;
+#[cfg(feature = "cli")]
 pub(crate) mod writeup;
 
 pub(crate) mod grade;
 
+#[cfg(feature = "cli")]
 pub mod cli;
+
+mod harness;
+
+pub use glam;
+pub use grade::{CaseGrade, Entry, Grade, PartGrade, Points, Standing, Told};
+pub use harness::{Trials, TrialsError, grade, trials};

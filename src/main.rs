@@ -36,7 +36,8 @@ carried! {
     References "references": "*.toml" "*.txt" "*/reference.exr" "*/provenance.toml";
     Header "include":;
     Adapters "adapters":;
-    Examples "examples":;
+    // Not the crate that has this one as its dependency.
+    Examples "examples": "cpp/*" "python/*" "rust/*";
     Suites "suites":;
 }
 

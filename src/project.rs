@@ -32,6 +32,12 @@ pub(crate) enum NoProject {
          hint: --project and FURNACE_HOME name the folder with cases, scenes or suites of your own"
     )]
     Missing(String),
+    /// Neither the library's own source nor a checkout is on this machine.
+    #[error(
+        "the cases of furnace were in {0} when this program was built, and are not there any more\n\
+         hint: build it again here, or set FURNACE_HOME to a checkout of furnace"
+    )]
+    Moved(PathBuf),
     /// What the program carries could not be written.
     #[error(
         "cannot unpack the cases into {folder}: {error}\n\
@@ -79,6 +85,21 @@ impl Project {
             Some(files) => Ok(Self { root, bench: Some(unpacked(*files)?) }),
             None if root.join("cases").is_dir() => Ok(Self::at(root)),
             None => Err(NoProject::Nowhere),
+        }
+    }
+
+    /// What programs of others try: the source that this library was built from, or the checkout that `FURNACE_HOME`
+    /// names, below a folder of their own.
+    pub(crate) fn of_the_library(own: Option<PathBuf>) -> Result<Self, NoProject> {
+        let home = std::env::var_os("FURNACE_HOME").map(PathBuf::from);
+        let bench = home.unwrap_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")));
+        if !is_checkout(&bench) {
+            return Err(NoProject::Moved(bench));
+        }
+        match own {
+            None => Ok(Self::at(bench)),
+            Some(root) if root.is_dir() => Ok(Self { root, bench: Some(bench) }),
+            Some(root) => Err(NoProject::Missing(root.display().to_string())),
         }
     }
 

@@ -34,6 +34,7 @@ const LAYERS: &[(&str, u32)] = &[
     ("writeup", 10),
     ("grade", 11),
     ("cli", 12),
+    ("harness", 12),
 ];
 
 /// `unsafe` stands in these files alone.

@@ -4,8 +4,11 @@
 use super::{Case, Foundation, PARTS, Role, SceneChoice, Tier};
 use crate::checks::{self, PrepareError, RENAMED};
 use crate::contract::Capabilities;
+use crate::text::document::trace;
+use crate::text::schema::{self, Instead};
 use crate::text::{Diagnostic, Source, Spanned, Words, did_you_mean, fingerprint, listed};
 use serde::Deserialize;
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// What every case says, whatever its check.
@@ -38,6 +41,25 @@ struct Head {
 enum SceneEntry {
     Name(String),
     Changed(toml::Table),
+}
+
+/// The JSON Schema of a case: its head, and for each check what `[expect]` holds.
+pub(crate) fn schema() -> Value {
+    let mut schema = schema::of(trace::<Head>, Instead::Nothing);
+    let of_check = |check: &checks::CheckKind| {
+        let is_it = json!({ "properties": { "check": { "const": check.name } } });
+        let expect = schema::of(check.trace, Instead::Nothing);
+        json!({ "if": is_it, "then": { "properties": { "expect": expect } } })
+    };
+    let names: Vec<_> = checks::all().map(|check| check.name).collect();
+    let changed = json!({ "type": "object", "required": ["name"] });
+    schema["properties"]["scene"] = json!({ "anyOf": [{ "type": "string" }, changed] });
+    schema["properties"]["check"] = json!({ "enum": names });
+    schema["properties"]["promise"] = json!({ "enum": Capabilities::PROMISES.names() });
+    schema["properties"]["expect"] = json!({ "type": "object" });
+    schema["required"] = json!(["title", "teaches", "source", "check", "expect"]);
+    schema["allOf"] = checks::all().map(of_check).collect();
+    schema
 }
 
 /// Makes the case `id` of the text of its file.

@@ -14,6 +14,8 @@ mod tier;
 
 pub(crate) use catalog::load_project;
 pub use catalog::{CatalogError, load_all, load_one};
+#[cfg(feature = "cli")]
+pub(crate) use file::schema;
 pub use filter::{Filter, NothingSelected};
 pub(crate) use foundation::{Foundation, asked_about, foundations};
 pub(crate) use next_step::{best_step, next_steps};

@@ -38,6 +38,8 @@ pub(crate) use declared::{Declared, check, checks};
 pub(crate) use finding::{Clue, Finding, Measure, number};
 
 use crate::contract::Capabilities;
+use crate::text::document::trace;
+use crate::text::schema::Trace;
 use crate::text::{TomlError, read_key};
 
 /// A way to judge a core. The struct that implements it is the `[expect]` of its cases.
@@ -128,12 +130,14 @@ pub struct CheckKind {
     pub(crate) summary: &'static str,
     /// Reads the `[expect]` table out of the whole text of a case, so that errors know their line.
     pub(crate) prepare: fn(&str) -> Result<Box<dyn Prepared>, PrepareError>,
+    /// Tells which keys `[expect]` has.
+    pub(crate) trace: Trace,
 }
 
 impl CheckKind {
     /// The line for check `C`.
     pub(crate) const fn of<C: Check>() -> Self {
-        Self { name: C::NAME, summary: C::SUMMARY, prepare: prepare::<C> }
+        Self { name: C::NAME, summary: C::SUMMARY, prepare: prepare::<C>, trace: trace::<C> }
     }
 }
 

@@ -13,7 +13,7 @@ use crate::disk;
 use crate::grade::{Grade, Standing, Suite, SuiteError, csv, github, gradescope, junit, text};
 use crate::project::Project;
 use crate::report::{self, RunTree};
-use crate::run::{self, Plan, Request, RunError};
+use crate::run::{self, Plan, RunError};
 use clap::Args;
 use std::io::Write;
 use std::num::NonZeroUsize;
@@ -134,16 +134,8 @@ impl Desk {
     /// The cases of the suite on a core, with the numbers of its version and salt.
     fn plan(&self, core: CoreSpec, jobs: usize) -> Result<Plan, Failure> {
         let selected = self.suite.select(&self.cases).map_err(suite_failure)?;
-        let request = Request {
-            cores: vec![core],
-            budget: self.suite.budget,
-            seed: self.suite.seed(&self.salt),
-            jobs,
-            ..Request::default()
-        };
-        let plan = Plan::new(self.project.clone(), request, &selected.cases());
-        let plan = plan.map_err(Failure::nothing)?.salted(self.salt.clone());
-        Ok(plan.within(self.suite.time))
+        let plan = self.suite.plan(&self.project, &selected, &self.salt, core, jobs);
+        plan.map_err(Failure::nothing)
     }
 
     fn of_run(&self, folder: &Path) -> Result<(Grade, Option<PathBuf>), Failure> {

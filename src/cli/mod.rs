@@ -4,23 +4,30 @@
 
 mod agreement;
 mod compare;
+mod completions;
+mod debug;
 mod doctor;
 mod exit_code;
 mod explain;
 mod export;
+mod failures;
 mod faults;
 mod grade;
+mod history;
 mod hosting;
 mod interrupt;
 mod lint;
 mod list;
+mod man;
 mod new;
 mod progress;
 mod reference;
 mod render;
+mod repeat;
 mod report;
 mod run;
 mod say;
+mod schema;
 mod watch;
 mod worker;
 mod writeup;
@@ -28,6 +35,7 @@ mod writeup;
 pub(crate) use exit_code::ExitCode;
 
 use crate::project::{self, Carried, Project};
+use crate::text::colour::Colour;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use say::complain;
 use std::num::NonZeroUsize;
@@ -74,6 +82,16 @@ Exit codes:
 struct Arguments {
     #[command(subcommand)]
     verb: Option<Verb>,
+    /// Colour what is printed: where there is a terminal and NO_COLOR is not set, or CLICOLOR_FORCE is; always; never.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "WHEN",
+        default_value_t,
+        global = true,
+        hide_possible_values = true
+    )]
+    color: Colour,
     #[command(flatten)]
     run: run::RunArguments,
 }
@@ -87,6 +105,8 @@ enum Verb {
     List(list::ListArguments),
     /// Explain a case: what it checks, why it is true, its smallest detectable error and error rate.
     Explain(explain::ExplainArguments),
+    /// Look at single answers of a core beside the right ones, and stop a debugger in one.
+    Debug(debug::DebugArguments),
     /// Run planted mistakes against the cases: each must be caught and named.
     Faults(faults::FaultsArguments),
     /// Test whether images differ from the last by more than noise, and by which mistake.
@@ -114,6 +134,14 @@ enum Verb {
     New(new::NewArguments),
     /// Make, verify or list Mitsuba references.
     Reference(reference::ReferenceArguments),
+    /// Show what earlier runs have reached: passes, times.
+    History(history::HistoryArguments),
+    /// Print the JSON Schema of a kind of file, for editors.
+    Schema(schema::SchemaArguments),
+    /// Print what a shell needs to complete commands.
+    Completions(completions::CompletionsArguments),
+    /// Write a manual page for each verb.
+    Man(man::ManArguments),
 }
 
 /// Where the project is, if not here or above.
@@ -141,12 +169,14 @@ pub fn main(carried: Carried) -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
     };
+    arguments.color.choose();
     let answer = match arguments.verb {
         None => run::refuse_a_misplaced_verb(&arguments.run, &verbs())
             .and_then(|()| run_or_watch(&arguments.run)),
         Some(Verb::Run(arguments)) => run_or_watch(&arguments),
         Some(Verb::List(arguments)) => list::list(&arguments),
         Some(Verb::Explain(arguments)) => explain::explain(&arguments),
+        Some(Verb::Debug(arguments)) => debug::debug(&arguments),
         Some(Verb::Faults(arguments)) => faults::faults(&arguments),
         Some(Verb::Doctor(arguments)) => doctor::doctor(&arguments),
         Some(Verb::Worker(arguments)) => worker::worker(&arguments),
@@ -160,6 +190,10 @@ pub fn main(carried: Carried) -> ExitCode {
         Some(Verb::Grade(arguments)) => grade::grade(&arguments),
         Some(Verb::New(arguments)) => new::new(&arguments),
         Some(Verb::Reference(arguments)) => reference::reference(&arguments),
+        Some(Verb::History(arguments)) => history::history(&arguments),
+        Some(Verb::Schema(arguments)) => schema::schema(&arguments),
+        Some(Verb::Completions(arguments)) => completions::completions(&arguments),
+        Some(Verb::Man(arguments)) => man::man(&arguments),
     };
     answer.unwrap_or_else(|failure| {
         complain(failure.message);

@@ -3,6 +3,7 @@
 
 use crate::report::text::{Detail, Style, clean, cut, paint_of};
 use crate::run::{Counts, Event, RunRecord, Status, TrialRecord};
+use crate::text::colour::Colour;
 use crate::text::number::{count, duration};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::{BTreeMap, BTreeSet};
@@ -56,7 +57,7 @@ impl Progress {
         let display = match () {
             () if quiet => Display::Quiet,
             () if std::io::stderr().is_terminal() && !is_dumb => {
-                let colour = std::env::var_os("NO_COLOR").is_none();
+                let colour = Colour::is_wanted(true);
                 Display::Live(Live::new(ProgressDrawTarget::stderr(), colour))
             }
             () => Display::Lines(Lines::new(std::io::stderr())),

@@ -2,8 +2,10 @@
 
 use super::say::{say, say_line};
 use super::{Answer, ExitCode, Failure, ProjectArguments};
+pub(crate) use crate::report::address;
 use crate::report::text::{Detail, Style};
 use crate::report::{self, RunTree};
+use crate::text::colour::Colour;
 use clap::Args;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -44,7 +46,7 @@ pub(crate) fn report(arguments: &ReportArguments) -> Answer {
 }
 
 /// The last folder by name: names are times.
-fn newest(runs: &Path) -> Result<PathBuf, Failure> {
+pub(crate) fn newest(runs: &Path) -> Result<PathBuf, Failure> {
     let none = || Failure::request(format!("{} holds no run", runs.display()));
     let entries = std::fs::read_dir(runs).map_err(|_| none())?;
     let folders = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -53,7 +55,7 @@ fn newest(runs: &Path) -> Result<PathBuf, Failure> {
 
 /// How the summary is dressed on this terminal.
 pub(crate) fn style(detail: Detail) -> Style {
-    let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    let colour = Colour::is_wanted(std::io::stdout().is_terminal());
     Style { colour, detail, columns: columns(), ..Style::PLAIN }
 }
 
@@ -62,10 +64,4 @@ fn columns() -> usize {
     let said = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
     let terminal = || terminal_size::terminal_size().map(|(width, _)| usize::from(width.0));
     said.or_else(terminal).unwrap_or(Style::PLAIN.columns).min(MOST_COLUMNS)
-}
-
-/// What a browser opens.
-pub(crate) fn address(page: &Path) -> String {
-    let page = page.canonicalize().unwrap_or_else(|_| page.to_owned());
-    format!("file://{}", page.display())
 }

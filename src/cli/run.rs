@@ -1,8 +1,10 @@
 //! `furnace run`: the default verb.
 
+use super::failures::Failures;
 use super::hosting::HostingArguments;
 use super::interrupt::Running;
 use super::progress::Progress;
+use super::repeat;
 use super::say::{say, say_line};
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, CatalogError};
@@ -46,6 +48,12 @@ pub(crate) struct RunArguments {
     /// Try again whenever a case, a scene or the core's file changes, what failed last first; ctrl-c ends.
     #[arg(long, conflicts_with_all = ["resume", "verbose", "strict"])]
     pub(crate) watch: bool,
+    /// Only what failed in the last run: its cases, on its cores.
+    #[arg(long, conflicts_with_all = ["resume", "watch"])]
+    failed: bool,
+    /// Run N times, each with other random numbers, and tell how often each case passes.
+    #[arg(long, value_name = "N", conflicts_with_all = ["resume", "watch", "fail_fast"])]
+    repeat: Option<NonZeroUsize>,
     /// Resume an interrupted run; its request is read from its folder.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["filters", "cores", "budget", "seed", "fail_fast", "with"])]
     resume: Option<PathBuf>,
@@ -105,8 +113,19 @@ pub(crate) fn run(arguments: &RunArguments) -> Answer {
         None => (arguments.request(), arguments.with.iter().copied().collect()),
     };
     let hosting = arguments.hosting.hosting(&runs);
-    let plan = Plan::new(project, request, &cases).map_err(Failure::nothing)?;
+    let failures = if arguments.failed { Some(Failures::of_the_last(&runs)?) } else { None };
+    let request = match &failures {
+        Some(failures) if arguments.cores.is_empty() => failures.request(request)?,
+        _ => request,
+    };
+    let mut plan = Plan::new(project, request, &cases).map_err(Failure::nothing)?;
+    if let Some(failures) = failures {
+        failures.restrict(&mut plan)?;
+    }
     let plan = plan.hosted(hosting).taking(with).salted(salt());
+    if let Some(times) = arguments.repeat {
+        return repeat::repeat(plan, &runs, times, arguments.quiet);
+    }
     let mut progress = Progress::new(arguments.quiet);
     let running = Running::ends_in_words(super::report::style(arguments.detail()));
     let mut listen = |event: run::Event<'_>| {

@@ -14,6 +14,8 @@ pub mod abi;
 pub mod answer;
 pub mod argument;
 mod batch;
+#[cfg(feature = "cli")]
+pub(crate) mod beside;
 mod breach;
 mod capability;
 mod components;

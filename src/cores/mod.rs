@@ -23,6 +23,7 @@ use dylib::{Dylib, LoadError};
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
+use std::sync::Arc;
 use textbook::variant::{self, NoVariant};
 
 /// A line of [`CORES`].
@@ -53,7 +54,31 @@ pub static CORES: &[CoreKind] = &[
 pub struct CoreSpec {
     word: String,
     origin: CoreOrigin,
+    /// Of one that the program brings along, which no word leads to.
+    brought: Option<Brought>,
 }
+
+/// A core of the program that uses this library.
+#[derive(Clone)]
+struct Brought {
+    make: Arc<dyn Fn() -> Box<dyn Core> + Send + Sync>,
+    /// What repeats a case, before its name.
+    command: String,
+}
+
+impl fmt::Debug for Brought {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Brought").field("command", &self.command).finish_non_exhaustive()
+    }
+}
+
+impl PartialEq for Brought {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.make, &other.make)
+    }
+}
+
+impl Eq for Brought {}
 
 /// The words after `--core` name no core.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -67,6 +92,25 @@ impl UnknownCore {
 }
 
 impl CoreSpec {
+    /// A core that this program makes; `command` and the name of a case repeat that case.
+    pub(crate) fn brought(
+        name: &str,
+        command: String,
+        make: Arc<dyn Fn() -> Box<dyn Core> + Send + Sync>,
+    ) -> Self {
+        let brought = Some(Brought { make, command });
+        Self { word: name.to_owned(), origin: CoreOrigin::BuiltIn, brought }
+    }
+
+    fn of(word: &str, origin: CoreOrigin) -> Self {
+        Self { word: word.to_owned(), origin, brought: None }
+    }
+
+    /// The command that repeats cases, where it is not `furnace run`.
+    pub(crate) fn command(&self) -> Option<&str> {
+        self.brought.as_ref().map(|brought| brought.command.as_str())
+    }
+
     /// Makes the core in this process. A library can do anything to it: only a worker loads one.
     ///
     /// # Errors
@@ -84,8 +128,11 @@ impl CoreSpec {
         }
     }
 
-    /// One of our own.
+    /// One of our own, or of the program.
     fn resident(&self) -> Box<dyn Core> {
+        if let Some(brought) = &self.brought {
+            return (brought.make)();
+        }
         if let Some(change) = self.change() {
             return variant::core(change).expect("checked when it was read");
         }
@@ -123,13 +170,13 @@ impl FromStr for CoreSpec {
 
     fn from_str(word: &str) -> Result<Self, UnknownCore> {
         if CORES.iter().any(|kind| kind.name == word) {
-            return Ok(Self { word: word.to_owned(), origin: CoreOrigin::BuiltIn });
+            return Ok(Self::of(word, CoreOrigin::BuiltIn));
         }
         if let Some(change) = word.strip_prefix(CHANGED) {
             return changed(word, change);
         }
         match foreign::origin(word) {
-            Some(Ok(origin)) => Ok(Self { word: word.to_owned(), origin }),
+            Some(Ok(origin)) => Ok(Self::of(word, origin)),
             Some(Err(problem)) => Err(UnknownCore(problem)),
             None => Err(UnknownCore::new(word, &meant(word))),
         }
@@ -150,7 +197,7 @@ fn meant(word: &str) -> String {
 /// A copy of the plain core, if there is one with these changes.
 fn changed(word: &str, changes: &str) -> Result<CoreSpec, UnknownCore> {
     let hint = match variant::core(changes) {
-        Ok(_) => return Ok(CoreSpec { word: word.to_owned(), origin: CoreOrigin::BuiltIn }),
+        Ok(_) => return Ok(CoreSpec::of(word, CoreOrigin::BuiltIn)),
         Err(NoVariant::Unknown(name)) => {
             let names: Vec<_> = variant::names().collect();
             let all = || "`furnace list faults` shows every fault".to_owned();

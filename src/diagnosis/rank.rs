@@ -18,26 +18,32 @@ const NAMED: f64 = 0.95;
 /// One cause and all that it explains, as `run.json` keeps it: in the words of the furnace that found it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Headline {
+pub struct Headline {
     /// The name of the mistake in the glossary; empty where nothing in it explains these failures.
-    pub(crate) cause: String,
+    pub cause: String,
+    /// How sure that is.
     #[serde(default)]
     pub(crate) degree: Degree,
     /// The mistake as one sentence without full stop.
-    pub(crate) mistake: String,
-    pub(crate) look_at: String,
-    pub(crate) fix: String,
-    pub(crate) tier: Tier,
-    pub(crate) evidence: Vec<String>,
+    pub mistake: String,
+    /// Where in a path tracer.
+    pub look_at: String,
+    /// What to do about it.
+    pub fix: String,
+    /// What the failures count for.
+    pub tier: Tier,
+    /// What was seen.
+    pub evidence: Vec<String>,
     /// What else could have been, and why it is not.
-    pub(crate) ruled_out: Vec<String>,
+    pub ruled_out: Vec<String>,
     /// The failing cases that it explains, the earliest part first.
-    pub(crate) explains: Vec<String>,
+    pub explains: Vec<String>,
     /// Failing cases that nothing explains and that rest on what these prove: they may follow from it.
-    pub(crate) may_follow: Vec<String>,
-    pub(crate) blocked: usize,
+    pub may_follow: Vec<String>,
+    /// How many cases were not tried because of it.
+    pub blocked: usize,
     /// The command that repeats the quickest of the failing cases.
-    pub(crate) command: String,
+    pub command: String,
 }
 
 impl Headline {

@@ -24,25 +24,30 @@ use serde::{Deserialize, Serialize};
 /// What a core has earned of a suite.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Grade {
-    /// [`VERSION`]
-    pub(crate) version: u32,
+pub struct Grade {
+    /// Of this format.
+    pub version: u32,
     /// The suite's file name without `.toml`.
-    pub(crate) suite: String,
-    pub(crate) suite_version: String,
-    pub(crate) title: String,
+    pub suite: String,
+    /// Another one draws other random numbers.
+    pub suite_version: String,
+    /// The suite in words.
+    pub title: String,
     /// As the user typed it.
-    pub(crate) core: String,
-    pub(crate) points: Points,
-    pub(crate) parts: Vec<PartGrade>,
+    pub core: String,
+    /// Of all parts.
+    pub points: Points,
+    /// In the order of the suite.
+    pub parts: Vec<PartGrade>,
     /// What is wrong, as far as it does not tell of hidden cases.
-    pub(crate) causes: Vec<Told>,
-    pub(crate) leaderboard: Vec<Entry>,
+    pub causes: Vec<Told>,
+    /// Numbers that cores are compared by.
+    pub leaderboard: Vec<Entry>,
     /// Why the core could not be asked at all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) problem: Option<String>,
+    pub problem: Option<String>,
     /// Of the run, wall time; none where it was cut off.
-    pub(crate) seconds: Option<f64>,
+    pub seconds: Option<f64>,
 }
 
 /// Of the format of a [`Grade`] as JSON.
@@ -51,55 +56,76 @@ pub(crate) const VERSION: u32 = 1;
 /// What can be earned, and what became of it. What is neither earned nor open is lost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Points {
-    pub(crate) of: f64,
-    pub(crate) earned: f64,
+pub struct Points {
+    /// All that can be earned.
+    pub of: f64,
+    /// Proven.
+    pub earned: f64,
     /// Neither proven right nor proven wrong: not earned, and somebody may decide.
-    pub(crate) open: f64,
+    pub open: f64,
 }
 
+/// A part of a suite.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct PartGrade {
-    pub(crate) name: String,
-    pub(crate) points: Points,
-    pub(crate) cases: Vec<CaseGrade>,
+pub struct PartGrade {
+    /// As the suite has it.
+    pub name: String,
+    /// Of all its cases.
+    pub points: Points,
+    /// Those that are graded.
+    pub cases: Vec<CaseGrade>,
 }
 
+/// A case of a part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct CaseGrade {
-    pub(crate) case: String,
-    pub(crate) title: String,
-    pub(crate) teaches: String,
-    pub(crate) standing: Standing,
+pub struct CaseGrade {
+    /// Folder and claim.
+    pub case: String,
+    /// The claim in words.
+    pub title: String,
+    /// What a student should keep in mind.
+    pub teaches: String,
+    /// What became of it.
+    pub standing: Standing,
     /// Nothing can be earned where it does not count for this core.
-    pub(crate) points: Points,
-    pub(crate) hidden: bool,
+    pub points: Points,
+    /// Not to be told before grades are published.
+    pub hidden: bool,
     /// How many of its rows pass, of how many.
-    pub(crate) rows: [usize; 2],
+    pub rows: [usize; 2],
     /// Components that were the bench's own, since the core's failed elsewhere.
-    pub(crate) with: Vec<String>,
-    pub(crate) statement: String,
+    pub with: Vec<String>,
+    /// What was found, in a sentence.
+    pub statement: String,
     /// The command that repeats it.
-    pub(crate) rerun: String,
-    pub(crate) seconds: f64,
+    pub rerun: String,
+    /// Wall time.
+    pub seconds: f64,
 }
 
 /// How a case stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Standing {
+pub enum Standing {
+    /// Proven right.
     Pass,
+    /// Proven wrong.
     Fail,
+    /// Neither.
     Inconclusive,
     /// The core lacks what is asked for.
     Missing,
     /// The core lacks what the suite does not ask for, or the contract leaves it free: it does not count.
     LeftOut,
+    /// What it rests on failed.
     Blocked,
+    /// The core stopped working.
     Crashed,
+    /// The core did not answer in time.
     TimedOut,
+    /// The case's or the bench's own fault.
     Broken,
     /// The time of the suite was up.
     NotTried,
@@ -125,24 +151,33 @@ impl Standing {
 /// A headline of the diagnosis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Told {
+pub struct Told {
     /// Its name in the glossary; empty where there is none.
-    pub(crate) cause: String,
-    pub(crate) mistake: String,
-    pub(crate) evidence: Vec<String>,
-    pub(crate) look_at: String,
-    pub(crate) fix: String,
-    pub(crate) command: String,
-    pub(crate) explains: Vec<String>,
+    pub cause: String,
+    /// In a sentence.
+    pub mistake: String,
+    /// What was seen.
+    pub evidence: Vec<String>,
+    /// Where in a path tracer.
+    pub look_at: String,
+    /// What to do about it.
+    pub fix: String,
+    /// What repeats it.
+    pub command: String,
+    /// The failing cases that it explains.
+    pub explains: Vec<String>,
 }
 
 /// A number that cores are compared by.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Entry {
-    pub(crate) name: String,
-    pub(crate) value: f64,
-    pub(crate) more_is_better: bool,
+pub struct Entry {
+    /// What it is, with its unit.
+    pub name: String,
+    /// It.
+    pub value: f64,
+    /// Whether more is better.
+    pub more_is_better: bool,
 }
 
 impl Points {

@@ -1,8 +1,10 @@
 //! `suites/<name>.toml`: parts, their points, and which cases each consists of.
 
 use crate::case::{Case, Filter, NothingSelected};
+use crate::cores::CoreSpec;
 use crate::math::rng::{Seed, shuffle};
 use crate::project::Project;
+use crate::run::{Plan, Request};
 use crate::stats::Budget;
 use crate::text::{Diagnostic, Source, all_of, fingerprint, hint};
 use serde::{Deserialize, Deserializer};
@@ -150,6 +152,26 @@ impl Suite {
             parts.push(selected.into_iter().cloned().collect());
         }
         Ok(Selected { parts })
+    }
+
+    /// Its cases on a core, with the random numbers of its version and salt.
+    pub(crate) fn plan(
+        &self,
+        project: &Project,
+        selected: &Selected,
+        salt: &str,
+        core: CoreSpec,
+        jobs: usize,
+    ) -> Result<Plan, NothingSelected> {
+        let request = Request {
+            cores: vec![core],
+            budget: self.budget,
+            seed: self.seed(salt),
+            jobs,
+            ..Request::default()
+        };
+        let plan = Plan::new(project.clone(), request, &selected.cases())?;
+        Ok(plan.salted(salt.to_owned()).within(self.time))
     }
 
     /// The seed of its random numbers: no other version or salt has the same.

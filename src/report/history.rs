@@ -2,7 +2,9 @@
 
 use super::tree::RunTree;
 use crate::run::RunRecord;
-use crate::run::record::{Score, VERSION, read_json};
+use crate::run::record::{CoreRecord, Score, VERSION, read_json};
+use crate::stats::Budget;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// Runs that are shown, the last ones.
@@ -64,6 +66,69 @@ fn asks_the_same(one: &RunRecord, other: &RunRecord) -> bool {
         && question(one) == question(other)
 }
 
+/// What one core reached in one run, for whoever lists runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Reached {
+    /// The folder of the run.
+    pub(crate) run: PathBuf,
+    /// Seconds since 1970, UTC.
+    pub(crate) started: u64,
+    /// As the user named it.
+    pub(crate) core: String,
+    pub(crate) filters: Vec<String>,
+    pub(crate) budget: Budget,
+    pub(crate) seed: u64,
+    /// Graded trials that pass, and all graded ones.
+    pub(crate) passes: usize,
+    pub(crate) graded: usize,
+    /// Of all its trials, added up.
+    pub(crate) seconds: f64,
+}
+
+impl Reached {
+    /// What was asked, where it was not all as usual.
+    pub(crate) fn asked(&self) -> String {
+        let filters = self.filters.join(" ");
+        let cases = if filters.is_empty() { "every case".to_owned() } else { filters };
+        let budget = match self.budget == Budget::default() {
+            true => String::new(),
+            false => format!(", {}", self.budget),
+        };
+        cases + &budget
+    }
+
+    pub(crate) fn asks_as(&self, other: &Self) -> bool {
+        (&self.filters, self.budget, self.graded) == (&other.filters, other.budget, other.graded)
+    }
+}
+
+/// Every core of every run below a folder that has come to its end, the earliest first.
+pub(crate) fn reached(runs: &Path) -> Vec<Reached> {
+    let none = runs.join("none");
+    let mut reached: Vec<_> = folders_beside(&none).flat_map(of_run).collect();
+    reached.sort_by(|a, b| (a.started, &a.run).cmp(&(b.started, &b.run)));
+    reached
+}
+
+fn of_run(folder: PathBuf) -> Vec<Reached> {
+    let Ok(run) = read_json::<RunRecord>(&folder.join("run.json")) else { return Vec::new() };
+    let of = |core: &CoreRecord| {
+        let Score { passes, graded, seconds, .. } = core.score.clone()?;
+        Some(Reached {
+            run: folder.clone(),
+            started: run.timing.started,
+            core: core.spec.clone(),
+            filters: run.filters.clone(),
+            budget: run.budget,
+            seed: run.seed,
+            passes,
+            graded,
+            seconds,
+        })
+    };
+    run.cores.iter().filter_map(of).collect()
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
@@ -101,7 +166,7 @@ pub(crate) mod tests {
         std::fs::create_dir(&broken).unwrap();
         std::fs::write(broken.join("run.json"), "{").unwrap();
         let mut strict = Example::green();
-        strict.run.budget = crate::stats::Budget::Strict;
+        strict.run.budget = Budget::Strict;
         strict.run.cores[0].score = tree.run.cores[0].score.clone();
         strict.write_records(&folder.path().join("strict"));
         let histories = histories(&tree);
@@ -109,6 +174,16 @@ pub(crate) mod tests {
             history.runs.iter().map(|past| past.score.passes).collect::<Vec<_>>()
         };
         assert_eq!(histories.iter().map(passes).collect::<Vec<_>>(), [vec![7, 9, 12], vec![]]);
+    }
+
+    #[test]
+    fn all_that_was_reached_is_listed_in_its_order() {
+        let (folder, _) = runs(&[7, 9]);
+        let reached = reached(folder.path());
+        let of_builtin = reached.iter().filter(|one| one.core == "builtin");
+        let told = of_builtin.map(|one| (one.passes, one.graded, one.seconds));
+        assert_eq!(told.collect::<Vec<_>>(), [(7, 12, 10.0), (9, 12, 11.0)]);
+        assert!(super::reached(&folder.path().join("none")).is_empty());
     }
 
     #[test]

@@ -16,10 +16,18 @@ pub mod text;
 mod transplants;
 pub(crate) mod tree;
 
+#[cfg(feature = "cli")]
+pub(crate) use history::{Reached, reached};
 pub use text::{Style, summary};
 pub use tree::{RunTree, TreeError};
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+/// What a browser opens.
+pub(crate) fn address(page: &Path) -> String {
+    let page = page.canonicalize().unwrap_or_else(|_| page.to_owned());
+    format!("file://{}", page.display())
+}
 
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]

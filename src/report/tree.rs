@@ -5,7 +5,7 @@
 //! pictures, which are read when they are drawn, and whose absence is shown in their place.
 
 use crate::case::Part;
-use crate::diagnosis::Diagnosis;
+use crate::diagnosis::{Diagnosis, Headline};
 use crate::run::record::{self, PictureFile, read_json, sidecar_path};
 use crate::run::{self, Counts, RecordError, RunRecord, TrialRecord};
 use crate::text::program;
@@ -106,6 +106,12 @@ impl RunTree {
             .collect::<Result<Vec<_>, _>>()?;
         trials.sort_by_cached_key(|trial| place(&run, trial));
         Ok(Self { run, trials, folder: folder.to_owned() }.diagnosed())
+    }
+
+    /// What is wrong with the cores, the likeliest causes of each first.
+    pub fn headlines(&self) -> impl Iterator<Item = &Headline> {
+        let diagnoses = self.run.cores.iter().filter_map(|core| core.diagnosis.as_ref());
+        diagnoses.flat_map(|diagnosis| &diagnosis.headlines)
     }
 
     /// Diagnoses what a run that was cut off, or one of an earlier furnace, does not say of itself.

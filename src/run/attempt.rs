@@ -56,7 +56,7 @@ pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended 
     let mut record = record_of(bench, trial, attempt.outcome);
     record.tier = attempt.tier;
     record.with = with;
-    if !with.is_empty() {
+    if !with.is_empty() && trial.core.command().is_none() {
         record.rerun += &format!(" --with {}", with.names().join(","));
     }
     record.scene = attempt.scene;
@@ -227,6 +227,9 @@ fn judge(
 /// The command that tries this again, at full length: a run that stops at the first failure measures
 /// gross errors less precisely.
 fn rerun_command(bench: &Bench, trial: &Trial) -> String {
+    if let Some(command) = trial.core.command() {
+        return format!("{command} {}", trial.case.id);
+    }
     let core = shell_words::quote(trial.core.as_str());
     let mut command = format!("{} run {} --core {core}", program(), trial.case.id);
     let budget = bench.allowance.budget;

@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::contract::{Components, CoreError};
-use crate::cores::{CoreSpec, Hosting};
+use crate::cores::{CoreSpec, HostError, Hosted, Hosting};
 use crate::math::rng::Seed;
 use crate::scene::Library;
 use crate::scene::motion::Motion;
@@ -37,6 +37,12 @@ impl Bench {
     /// Where the scenes of a case are shown: the same for every core.
     pub(crate) fn motion_of(&self, case: &Case) -> Motion {
         Motion::drawn(self.motions.child(&case.id))
+    }
+
+    /// Brings up a core as a trial does. Fails if it does not start.
+    #[cfg(feature = "cli")]
+    pub(crate) fn host(&self, core: &CoreSpec) -> Result<Hosted, HostError> {
+        self.hosting.host(core)
     }
 
     /// What a core can take from the bench. It is started for that question once, where something has failed.

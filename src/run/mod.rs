@@ -28,6 +28,8 @@ pub use plan::{Plan, Request, Trial};
 pub(crate) use planted::{Excluded, excluded};
 pub use record::{RecordError, RunRecord, TrialRecord};
 pub(crate) use record::{Transplanted, Transplants};
+#[cfg(feature = "harness")]
+pub(crate) use schedule::of_case as rests_on;
 use second_look::look_again;
 pub(crate) use tally::{Counts, Tally};
 

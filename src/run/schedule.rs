@@ -172,7 +172,7 @@ fn provers(plan: &Plan, bench: &Bench) -> Vec<Vec<(Foundation, usize)>> {
 }
 
 /// What a case rests on. A scene that cannot be read rests on nothing: its trial is broken by itself.
-pub(super) fn of_case(bench: &Bench, case: &Case) -> BTreeSet<Foundation> {
+pub(crate) fn of_case(bench: &Bench, case: &Case) -> BTreeSet<Foundation> {
     let load = |choice: &crate::case::SceneChoice| choice.load(&bench.scenes).ok();
     foundations(case, case.scene.as_ref().and_then(load).as_deref())
 }

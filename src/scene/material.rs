@@ -72,9 +72,9 @@ impl Surface {
 #[serde(rename_all = "kebab-case")]
 pub struct Emission {
     /// In every direction of the front side.
-    pub(crate) radiance: Rgb,
+    pub radiance: Rgb,
     /// On a sphere: only this part of it emits.
-    pub(crate) cap: Option<Cap>,
+    pub cap: Option<Cap>,
 }
 
 /// The part of a sphere within `half_angle` of `axis`, seen from its centre.
@@ -82,14 +82,14 @@ pub struct Emission {
 #[serde(rename_all = "kebab-case")]
 pub struct Cap {
     /// Unit.
-    pub(crate) axis: DVec3,
+    pub axis: DVec3,
     /// Radians, in (0, π).
-    pub(crate) half_angle: f64,
+    pub half_angle: f64,
 }
 
 impl Emission {
     /// Radiance at a point of a sphere in direction `from_centre` (unit) from its centre.
-    pub(crate) fn at_sphere_point(&self, from_centre: DVec3) -> Rgb {
+    pub fn at_sphere_point(&self, from_centre: DVec3) -> Rgb {
         match self.cap {
             Some(cap) if from_centre.dot(cap.axis) < cap.half_angle.cos() => [0.0; 3],
             _ => self.radiance,

@@ -22,6 +22,8 @@ mod shape;
 pub use camera::Camera;
 pub(crate) use error::SceneError;
 pub use file::Overrides;
+#[cfg(feature = "cli")]
+pub(crate) use file::schema;
 pub use library::{Library, load_file};
 pub use light::Light;
 pub use material::{Cap, Emission, Material, Surface};

@@ -18,12 +18,19 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    pub(crate) fn corners(&self, number: usize) -> [DVec3; 3] {
+    /// The vertices of triangle `number`, world space.
+    ///
+    /// # Panics
+    /// If there is no such triangle.
+    pub fn corners(&self, number: usize) -> [DVec3; 3] {
         self.indices[number].map(|index| self.positions[index as usize])
     }
 
     /// The shading normals at the corners of triangle `number`: its own normal three times if the mesh is flat.
-    pub(crate) fn corner_normals(&self, number: usize) -> [DVec3; 3] {
+    ///
+    /// # Panics
+    /// If there is no such triangle.
+    pub fn corner_normals(&self, number: usize) -> [DVec3; 3] {
         if self.normals.is_empty() {
             let [a, b, c] = self.corners(number);
             [(b - a).cross(c - a).normalize_or_zero(); 3]
@@ -69,15 +76,15 @@ impl Mesh {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sphere {
     /// As the scene file calls it, for messages.
-    pub(crate) name: String,
+    pub name: String,
     /// World space.
-    pub(crate) centre: DVec3,
+    pub centre: DVec3,
     /// Scene units, positive.
-    pub(crate) radius: f64,
+    pub radius: f64,
     /// Normals (and so the front side) point to the centre: a room, not a sphere.
-    pub(crate) inward: bool,
+    pub inward: bool,
     /// Number of the material.
-    pub(crate) material: u32,
+    pub material: u32,
 }
 
 /// An axis-aligned box, closed: flat and point boxes are boxes.

@@ -9,6 +9,7 @@ use serde::de::{
     IntoDeserializer, MapAccess, Unexpected, VariantAccess, Visitor,
 };
 use serde::{Deserialize, forward_to_deserialize_any};
+use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
@@ -115,6 +116,8 @@ struct Node<'a> {
 }
 
 enum Content<'a> {
+    /// No file: what is asked of it is noted.
+    Probe(&'a Probe<'a>, &'a [Step]),
     Text(&'a str),
     Signed(i64),
     Unsigned(u64),
@@ -198,6 +201,7 @@ impl<'a> Content<'a> {
             Self::Date(_) => Unexpected::Other("date"),
             Self::List(_) => Unexpected::Seq,
             Self::Map(_) => Unexpected::Map,
+            Self::Probe(..) => Unexpected::Other("a probe"),
             Self::Overflow(message) => Unexpected::Other(message),
         }
     }
@@ -209,6 +213,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, TomlError> {
         let span = self.span.clone();
         let value = match self.content {
+            Content::Probe(probe, _) => return Err(probe.expects(&visitor)),
             Content::Text(text) => visitor.visit_str(text),
             Content::Date(date) => visitor.visit_str(&date),
             Content::Signed(number) => visitor.visit_i64(number),
@@ -224,6 +229,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, TomlError> {
         match self.content {
+            Content::Probe(probe, steps) => probe.table(steps, Level::Map, visitor),
             Content::Map(table) => {
                 visitor.visit_map(Entries::of(table)).map_err(|error| error.within(self.span))
             }
@@ -234,14 +240,21 @@ impl<'de> Deserializer<'de> for Node<'de> {
     fn deserialize_struct<V: Visitor<'de>>(
         self,
         _: &'static str,
-        _: &'static [&'static str],
+        keys: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, TomlError> {
-        self.deserialize_map(visitor)
+        match self.content {
+            Content::Probe(probe, steps) => probe.table(steps, Level::Keys(keys), visitor),
+            _ => self.deserialize_map(visitor),
+        }
     }
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, TomlError> {
         match self.content {
+            Content::Probe(probe, [Step::Item, steps @ ..]) => {
+                visitor.visit_seq(SeqDeserializer::new(vec![probe.node(steps)].into_iter()))
+            }
+            Content::Probe(probe, _) => Err(probe.is(Level::List)),
             Content::List(items) => {
                 visitor.visit_seq(list(items)).map_err(|error| error.within(self.span))
             }
@@ -271,6 +284,7 @@ impl<'de> Deserializer<'de> for Node<'de> {
 
     fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, TomlError> {
         match self.content {
+            Content::Probe(probe, _) => Err(probe.is(Level::Text)),
             Content::Text(text) => {
                 visitor.visit_str(text).map_err(|error: TomlError| error.within(self.span))
             }
@@ -287,6 +301,9 @@ impl<'de> Deserializer<'de> for Node<'de> {
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, TomlError> {
+        if let Content::Probe(probe, []) = self.content {
+            probe.is_optional.set(true);
+        }
         visitor.visit_some(self)
     }
 
@@ -302,10 +319,17 @@ impl<'de> Deserializer<'de> for Node<'de> {
     fn deserialize_enum<V: Visitor<'de>>(
         self,
         _: &'static str,
-        _: &'static [&'static str],
+        words: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, TomlError> {
         let span = self.span.clone();
+        if let Content::Probe(probe, steps) = self.content {
+            let [Step::Key(name), steps @ ..] = steps else {
+                return Err(probe.is(Level::Variants(words)));
+            };
+            let payload = Some(probe.node(steps));
+            return visitor.visit_enum(Variant { name, span, payload });
+        }
         visitor.visit_enum(self.variant()?).map_err(|error| error.within(span))
     }
 
@@ -317,6 +341,86 @@ impl<'de> Deserializer<'de> for Node<'de> {
         bool u8 u16 u32 u64 i8 i16 i32 i64 u128 i128 f32 f64 char bytes byte_buf unit unit_struct
     }
 }
+
+/// One way down in what a type is read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Step {
+    /// Of a table, or the word of a variant.
+    Key(&'static str),
+    /// Of a list.
+    Item,
+}
+
+/// What stands at the end of a way.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Level {
+    /// A table with these keys.
+    Keys(&'static [&'static str]),
+    /// A table with keys of the writer's own.
+    Map,
+    List,
+    /// One of these words.
+    Variants(&'static [&'static str]),
+    Text,
+    /// A variant that is a word alone.
+    Nothing,
+    /// Anything, as far as its reader says in words.
+    Other(String),
+}
+
+/// Stands in the place of a file, and notes what its reader asks for at the end of a way.
+pub(crate) struct Probe<'a> {
+    steps: &'a [Step],
+    found: RefCell<Option<Level>>,
+    is_optional: Cell<bool>,
+}
+
+impl<'a> Probe<'a> {
+    pub(crate) fn new(steps: &'a [Step]) -> Self {
+        Self { steps, found: RefCell::new(None), is_optional: Cell::new(false) }
+    }
+
+    /// What was asked for; where nobody came there, anything.
+    pub(crate) fn found(self) -> Level {
+        self.found.into_inner().unwrap_or(Level::Other(String::new()))
+    }
+
+    /// Whether what was found may be left out.
+    pub(crate) fn is_optional(&self) -> bool {
+        self.is_optional.get()
+    }
+
+    fn node<'b>(&'b self, steps: &'b [Step]) -> Node<'b> {
+        Node { content: Content::Probe(self, steps), span: 0..0 }
+    }
+
+    /// Ends the reading.
+    fn is(&self, level: Level) -> TomlError {
+        self.found.borrow_mut().get_or_insert(level);
+        TomlError::custom("a probe has come to its end")
+    }
+
+    fn expects(&self, what: &dyn Expected) -> TomlError {
+        self.is(Level::Other(what.to_string()))
+    }
+
+    fn table<'b, V: Visitor<'b>>(
+        &'b self,
+        steps: &'b [Step],
+        level: Level,
+        visitor: V,
+    ) -> Result<V::Value, TomlError> {
+        let [Step::Key(key), steps @ ..] = steps else { return Err(self.is(level)) };
+        let entry = (Node::text(key, 0..0), self.node(steps));
+        visitor.visit_map(Entries(vec![entry].into_iter(), None))
+    }
+}
+
+/// Lets a type be read from a probe.
+pub(crate) fn trace<T: DeserializeOwned>(probe: &Probe<'_>) -> Option<TomlError> {
+    T::deserialize(probe.node(probe.steps)).err()
+}
+
 type List<'a> = SeqDeserializer<std::vec::IntoIter<Node<'a>>, TomlError>;
 
 impl<'de> IntoDeserializer<'de, TomlError> for Node<'de> {
@@ -400,6 +504,7 @@ impl<'de> VariantAccess<'de> for Variant<'de> {
 
     fn unit_variant(self) -> Result<(), TomlError> {
         match self.payload {
+            Some(Node { content: Content::Probe(probe, _), .. }) => Err(probe.is(Level::Nothing)),
             Some(Node { content: Content::List([]), .. }) | None => Ok(()),
             Some(Node { content: Content::Map(table), .. }) if table.is_empty() => Ok(()),
             Some(payload) => Err(payload.other_than(&"empty table")),
@@ -420,6 +525,9 @@ impl<'de> VariantAccess<'de> for Variant<'de> {
         visitor: V,
     ) -> Result<V::Value, TomlError> {
         let payload = self.payload(&"struct variant")?;
+        if let Content::Probe(probe, steps) = payload.content {
+            return probe.table(steps, Level::Keys(fields), visitor);
+        }
         if let Content::Map(table) = payload.content {
             known_keys(table, fields)?;
         }

@@ -3,12 +3,14 @@
 //!
 //! Not here: what any key of a file means. Scenes and cases keep their own vocabulary.
 
+pub(crate) mod colour;
 mod diagnostic;
 mod digest;
-mod document;
+pub(crate) mod document;
 pub(crate) mod number;
 mod program;
 mod range;
+pub(crate) mod schema;
 mod spoken;
 mod suggestion;
 mod units;

@@ -7,7 +7,7 @@
 //!
 //! Pictures are never kept for another time: a core that is asked twice for one seed has to answer twice.
 
-mod adapter;
+pub(crate) mod adapter;
 mod picture;
 mod process;
 mod program;

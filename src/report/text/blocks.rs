@@ -89,7 +89,7 @@ fn transplants(core: &CoreRecord, style: Style) -> Vec<String> {
 }
 
 /// Verdict and size, the numbers, the place, the next command.
-fn full_block(trial: &TrialRecord, style: Style) -> Vec<String> {
+pub(crate) fn full_block(trial: &TrialRecord, style: Style) -> Vec<String> {
     let mut lines = brief_block(trial, style);
     lines.push(String::new());
     lines.extend(numbers(trial, style));
@@ -155,7 +155,7 @@ pub(super) fn claim(trial: &TrialRecord) -> String {
 }
 
 /// The worst measures as a table, and how many there are besides.
-fn measures(finding: &Finding, style: Style) -> Vec<String> {
+pub(crate) fn measures(finding: &Finding, style: Style) -> Vec<String> {
     if finding.measures.is_empty() {
         return Vec::new();
     }

@@ -4,7 +4,7 @@
 //! A pure function of the run's folder: no clock, no core, no look at the terminal beyond the
 //! [`Style`] it is given.
 
-mod blocks;
+pub(crate) mod blocks;
 mod ending;
 mod headlines;
 mod layout;

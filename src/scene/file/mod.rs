@@ -43,9 +43,12 @@ mod parameter;
 mod shape;
 
 use super::{SceneDescription, SceneError};
+use crate::text::document::trace;
+use crate::text::schema::{self, Instead};
 use crate::text::{Diagnostic, Source, Spanned, listed, read_table};
 use parameter::Parameters;
 use serde::Deserialize;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
@@ -64,6 +67,14 @@ tables! {
         #[serde(default)] shape: Vec<Spanned<shape::Entry>>,
         #[serde(default)] light: Vec<Spanned<light::Entry>>,
     }
+}
+
+/// The JSON Schema of a scene.
+pub(crate) fn schema() -> Value {
+    let mut schema = schema::of(trace::<SceneFile>, Instead::Parameter);
+    schema["properties"]["parameters"] = json!({ "type": "object" });
+    schema["required"] = json!(["title", "source"]);
+    schema
 }
 
 /// What every part of the vocabulary needs in order to resolve itself or to complain.

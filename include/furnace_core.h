@@ -80,7 +80,7 @@ typedef struct furnace_vec2 { double x, y; } furnace_vec2;
 typedef struct furnace_vec3 { double x, y, z; } furnace_vec3;
 typedef struct furnace_rgb { double r, g, b; } furnace_rgb;
 
-/* The points origin + t * direction with t_min < t < t_max. */
+/* The points origin + t * direction with t_min < t < t_max, where 0 <= t_min. */
 typedef struct furnace_ray {
    furnace_vec3 origin;
    double       t_min;

@@ -10,7 +10,8 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// A ray segment: the points `origin + t · direction` for t in (t_min, t_max). 64 bytes: one cache line.
+/// A ray segment: the points `origin + t · direction` for t in (t_min, t_max), where t_min is not
+/// negative: Embree takes no other segments. 64 bytes: one cache line.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Ray {

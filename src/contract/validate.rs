@@ -46,6 +46,10 @@ macro_rules! validated {
                 capabilities: self.capabilities,
                 primitives_of_shape: &self.primitives_of_shape,
             };
+            // An empty batch has its answer; libraries of arrays may have none that is empty.
+            if asked.size.contains(&0) {
+                return Ok(Default::default());
+            }
             $out.untouch(&asked);
             let told =
                 guarded(stringify!($method), || self.$behind.$method($($arg,)* &mut *$out))?;
@@ -108,6 +112,13 @@ fn guarded<T>(during: &str, request: impl FnOnce() -> Result<T>) -> Result<T> {
 mod tests {
     use super::*;
     use crate::scene::Surface;
+
+    #[test]
+    fn an_empty_batch_is_not_asked() {
+        let mut core = Answers(|_| panic!("asked of nothing"));
+        let sphere = Primitive::Sphere { centre: DVec3::ZERO, radius: 1.0 };
+        Validated::new(&mut core).intersect_primitive(&sphere, &[], &mut []).unwrap();
+    }
 
     /// A core that answers by calling a closure on the hits it is to fill.
     struct Answers(fn(&mut [Hit]));

@@ -114,6 +114,12 @@ pub struct Encoding {
     pub(crate) exposure: f64,
 }
 
+impl Default for Encoding {
+    fn default() -> Self {
+        Self::of(Curve::Srgb)
+    }
+}
+
 const fn unexposed() -> f64 {
     1.0
 }

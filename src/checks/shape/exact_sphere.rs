@@ -52,9 +52,11 @@ impl Encounter {
         let length = 2f64.powf(6.0 * uniform(stream) - 3.0);
         let direction = held(length * (target - origin).normalize_or(DVec3::Z));
         let ray = Ray::new(origin, direction);
-        // Every fourth ray begins between the roots, every eighth behind both.
+        // Every fourth ray begins between the roots where they lie ahead, every eighth behind both.
         let t_min = match (uniform(stream) * 8.0) as u32 {
-            0 | 1 => held_number((centre - origin).dot(direction) / direction.length_squared()),
+            0 | 1 => {
+                held_number((centre - origin).dot(direction) / direction.length_squared()).max(0.0)
+            }
             2 => held_number((distance + 2.0) * radius / length),
             _ => 0.0,
         };

@@ -42,10 +42,14 @@ impl Check for HitsPrimitive {
         if !self.ray.iter().any(Row::is_graded) {
             return Err("no ray is graded".to_owned());
         }
-        for (number, row) in self.ray.iter().enumerate().filter(|(_, row)| row.is_graded()) {
+        for (number, row) in self.ray.iter().enumerate() {
             let ray = row.ray();
-            if ray.t_min.is_nan() || ray.t_max.is_nan() {
-                return Err(format!("{}: a segment ends at numbers", row.label(number)));
+            if ray.t_min.is_nan() || ray.t_max.is_nan() || ray.t_min < 0.0 {
+                let told = "a segment ends at numbers, and begins at 0 or later";
+                return Err(format!("{}: {told}", row.label(number)));
+            }
+            if !row.is_graded() {
+                continue;
             }
             let answer = intersection(&primitive, &ray);
             if !row.is_true_of(answer.as_ref()) {

@@ -145,6 +145,8 @@ pub(super) struct Ranked {
     differing: Vec<Headline>,
     /// What counts nothing.
     beside: Vec<Headline>,
+    /// Cases that causes do not explain.
+    refuted: Refuted,
 }
 
 impl Ranked {
@@ -219,8 +221,12 @@ impl Ranked {
     pub(super) fn of_component(mut self, own: Components) -> Self {
         match (&mut self.causes[..], &self.endings[..]) {
             ([only], []) => {
-                let others = self.differing.drain(..).flat_map(|headline| headline.explains);
-                only.may_follow.extend(others);
+                for headline in &mut self.differing {
+                    let may_follow =
+                        |case: &mut String| !is_refuted(&self.refuted, &only.cause, case);
+                    only.may_follow.extend(headline.explains.extract_if(.., may_follow));
+                }
+                self.differing.retain(|headline| !headline.explains.is_empty());
             }
             ([], []) => {
                 let one = self.differing.drain(..).reduce(Headline::and);
@@ -260,6 +266,7 @@ impl Ranked {
         join(&mut self.causes, other.causes);
         self.causes.sort_by_key(Headline::part);
         join(&mut self.beside, other.beside);
+        self.refuted.extend(other.refuted);
         self.differing.extend(other.differing);
         let causes = &self.causes;
         let has_cause = |case: &String| causes.iter().any(|headline| headline.accounts_for(case));
@@ -269,6 +276,10 @@ impl Ranked {
         self.differing.retain(|headline| !headline.explains.is_empty());
         self
     }
+}
+
+fn is_refuted(refuted: &Refuted, cause: &str, case: &str) -> bool {
+    refuted.iter().any(|(of, other)| *of == cause && other == case)
 }
 
 /// Headlines of one mistake become one.
@@ -326,7 +337,7 @@ pub(super) fn rank(
         beside.retain(|case| !candidate.cases.contains_key(case));
         headlines.push(headline(evidence, Tier::Graded, candidate, &failures, &mut left));
     }
-    let orphans = attribute(evidence, orphans, &mut headlines);
+    let orphans = attribute(evidence, refuted, orphans, &mut headlines);
     let differing = differences::headlines(evidence, &orphans);
     let mut told_beside = Vec::new();
     while let Some(best) = best_of(&candidates, &of_robustness, &beside) {
@@ -335,7 +346,8 @@ pub(super) fn rank(
         told_beside.push(told);
     }
     let causes = headlines.split_off(endings);
-    Ranked { endings: headlines, causes, differing, beside: told_beside }
+    let refuted = refuted.clone();
+    Ranked { endings: headlines, causes, differing, beside: told_beside, refuted }
 }
 
 fn collect(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Vec<Candidate> {
@@ -440,10 +452,11 @@ fn headline(
     }
 }
 
-/// What no cause explains may follow from a headline whose cases prove what it rests on: of those from the one that
-/// explains the most, of equals from the first. Answers what is left.
+/// What no cause explains may follow from a headline whose cases prove what it rests on and that is not refuted: of those
+/// from the one that explains the most, of equals from the first. Answers what is left.
 fn attribute(
     evidence: &Evidence<'_>,
+    refuted: &Refuted,
     orphans: Vec<String>,
     headlines: &mut [Headline],
 ) -> Vec<String> {
@@ -452,7 +465,8 @@ fn attribute(
     for case in orphans {
         let rests_on = evidence.rests_on(&case);
         let is_broken = |number: &usize| proven[*number].iter().any(|f| rests_on.contains(f));
-        let likely = (0..headlines.len()).rev().filter(is_broken);
+        let may_be = |number: &usize| !is_refuted(refuted, &headlines[*number].cause, &case);
+        let likely = (0..headlines.len()).rev().filter(is_broken).filter(may_be);
         match likely.max_by_key(|number| headlines[*number].explains.len()) {
             Some(number) => headlines[number].may_follow.push(case),
             None => unexplained.push(case),

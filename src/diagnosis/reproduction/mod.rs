@@ -105,15 +105,16 @@ impl<'a> Sifted<'a> {
         made_in: MadeIn,
     ) -> Self {
         let proof = Proof { evidence, planted, made_in };
-        let (refuted, ranked) = proof.uncontradicted();
-        let look = |found: &[Suspicion]| look_without(evidence, &refuted, found.to_vec());
+        let (mut refuted, ranked) = proof.uncontradicted();
         let mut confirmed = proof.confirmed(&ranked, &refuted);
-        let ranked = if confirmed.is_empty() { ranked } else { look(&confirmed) };
-        let rivals: Vec<_> =
-            ranked.with_cause().flat_map(|told| proof.rivals(told, &ranked)).collect();
-        let ranked =
-            if rivals.is_empty() { ranked } else { look(&[&confirmed[..], &rivals].concat()) };
-        confirmed.extend(rivals);
+        let look = |refuted: &Refuted, confirmed: &[Suspicion]| {
+            look_without(evidence, refuted, confirmed.to_vec())
+        };
+        let ranked = look(&refuted, &confirmed);
+        confirmed.extend(ranked.with_cause().flat_map(|told| proof.rivals(told, &ranked)));
+        let ranked = look(&refuted, &confirmed);
+        refuted.extend(proof.not_following(&ranked));
+        let ranked = look(&refuted, &confirmed);
         Self { proof, refuted, ranked, confirmed }
     }
 
@@ -588,6 +589,7 @@ fn suspicions(set: &[Mistake], cases: &[&Observation<'_>], degree: Degree) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Foundation;
     use crate::cause::{bsdf, integrator, light};
     use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::diagnosis::{Diagnosis, diagnose, diagnose_proven};
@@ -774,6 +776,22 @@ mod tests {
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         let again = integrator::EMISSION_AGAIN.name;
         assert_eq!(told(&diagnosis), [(again, Degree::Named, 2)]);
+    }
+
+    #[test]
+    fn what_passes_with_a_named_mistake_does_not_follow_from_it() {
+        let made = || {
+            let pi = light(0.5).because(&bsdf::WITHOUT_PI, "x");
+            let made = Made::new().with("bsdf/a", pi).with("light/b", light(0.9));
+            let on = [Foundation::Diffuse];
+            made.proving("bsdf/a", &on).resting("light/b", &on)
+        };
+        for (ratio, headlines) in [(0.7, 1), (1.0, 2)] {
+            let gives: &[(&[&str], _, _)] =
+                &[(&["pi"], "bsdf/a", 0.5), (&["pi"], "light/b", ratio)];
+            let planted = Bench { mistakes: &[PI], gives };
+            assert_eq!(diagnose_proven(&made().evidence(), &planted).headlines.len(), headlines);
+        }
     }
 
     #[test]

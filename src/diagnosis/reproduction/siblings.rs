@@ -8,6 +8,7 @@ use crate::checks::Finding;
 use crate::contract::Components;
 use crate::diagnosis::rank::Ranked;
 use crate::diagnosis::{Degree, Headline, Observation};
+use crate::stats::Verdict;
 
 /// Failures without a cause that are put to each, the quickest.
 pub(super) const FAILED: usize = 16;
@@ -95,6 +96,27 @@ impl Proof<'_> {
     pub(super) fn followers(&self, headline: &Headline, ranked: &Ranked) -> Vec<&Observation<'_>> {
         let same = self.siblings(headline, ranked).same;
         same.iter().filter_map(|case| self.evidence.failure_of(case)).collect()
+    }
+
+    /// Failures that would follow from a cause whose mistake gives the numbers of its own cases, and passes them.
+    pub(super) fn not_following(&self, ranked: &Ranked) -> Refuted {
+        let of_headline = |headline: &Headline| {
+            let alone: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+            let following = headline.may_follow.iter();
+            let following = following.filter_map(|case| self.evidence.failure_of(case));
+            let following = quickest(following, FAILED);
+            let answers = self.planted(&alone, &following);
+            let passes = |number: &usize| {
+                let mut known = answers.iter().filter_map(|of| of[*number].as_ref()).peekable();
+                known.peek().is_some() && known.all(|of| of.verdict == Verdict::Pass)
+            };
+            let apart = (0..following.len()).filter(passes);
+            let apart: Vec<_> = apart.map(|number| following[number].case.to_owned()).collect();
+            Some(refuted(cause::find(&headline.cause)?, &apart))
+        };
+        let is_reproduced =
+            |told: &&Headline| self.of(told).any(|one| self.is_reproduced(one, told));
+        ranked.with_cause().filter(is_reproduced).filter_map(of_headline).flatten().collect()
     }
 
     fn siblings(&self, headline: &Headline, ranked: &Ranked) -> Siblings {

@@ -200,3 +200,230 @@ fn a_class_tells_no_names_unless_asked() {
     let all = all.map(Result::unwrap).concat() + &told;
     assert!(!all.contains("lovelace"), "{all}");
 }
+
+#[test]
+fn shares_of_a_class_are_merged_into_the_same_table() {
+    let room = Room::new();
+    hand_in(&room);
+    let share = |number: &str| {
+        let words = [&CLASS[..], &["--shard", number]].concat();
+        let output = room.furnace(&words);
+        assert_eq!(output.status.code(), Some(0), "{}", printed(&output));
+    };
+    share("1/2");
+    let early = room.furnace(&["merge", "classes/small"]);
+    assert_eq!(early.status.code(), Some(2));
+    assert!(printed(&early).contains("a share is missing: 2/2"), "{}", printed(&early));
+    share("2/2");
+    let rows = ["class-1-of-2.json", "class-2-of-2.json"].map(|name| {
+        let share = room.read(&format!("classes/small/{name}"));
+        let share: serde_json::Value = serde_json::from_str(&share).unwrap();
+        share["rows"].as_array().unwrap().len()
+    });
+    assert_eq!(rows.iter().sum::<usize>(), 6);
+    assert!(rows.iter().all(|rows| *rows > 1), "{rows:?}");
+    let merged = room.furnace(&["merge", "classes/small", "--into", "all"]);
+    assert_eq!(merged.status.code(), Some(0), "{}", printed(&merged));
+    // All of it is known by now: nothing is graded again.
+    room.furnace(&CLASS);
+    assert_eq!(room.read("all/class.csv"), room.read("classes/small/class.csv"));
+    assert!(
+        room.read("all/class.html").contains("classes/small/runs/"),
+        "links lead to the shares"
+    );
+    let wrong = room.furnace(&[&CLASS[..], &["--shard", "3/2"]].concat());
+    assert_eq!(wrong.status.code(), Some(2));
+}
+
+#[test]
+fn a_single_submission_is_built_and_graded() {
+    let room = Room::new();
+    hand_in(&room);
+    let grade = |name: &str| {
+        let path = format!("handed-in/{name}");
+        let words =
+            ["grade", "--suite", "small", "--submission", &path, "--gradescope", "results.json"];
+        let output = room.furnace(&words);
+        let results: serde_json::Value = serde_json::from_str(&room.read("results.json")).unwrap();
+        (printed(&output), results)
+    };
+    // It has one function: camera rays.
+    let (told, results) = grade("ada");
+    assert_eq!(results["score"], 3.0, "{told}");
+    let (told, results) = grade("eve");
+    assert!(told.contains("does not compile"), "{told}");
+    assert_eq!(results["score"], 0.0);
+    let (_, results) = grade("fay");
+    assert!(results["output"].as_str().unwrap().contains("the submission is empty"));
+}
+
+#[test]
+fn a_build_that_takes_too_long_is_ended() {
+    let room = Room::new();
+    let suite = room.read("suites/small.toml");
+    let (head, _) = suite.split_once("commands").unwrap();
+    let slow = format!("{head}time = \"1 s\"\ncommands = [[\"sleep\", \"600\"]]\n");
+    room.write("suites/small.toml", &slow);
+    room.write("handed-in/gus/mine.cpp", "");
+    let begun = std::time::Instant::now();
+    let told = printed(&room.furnace(&CLASS));
+    assert!(told.contains("it does not compile in time: `sleep` took over 1.0 s"), "{told}");
+    assert!(begun.elapsed() < Duration::from_secs(60));
+}
+
+/// What a student of the sample class has changed in `examples/cpp`: file, text, other text.
+type Changes = &'static [[&'static str; 3]];
+
+/// Two that are right, eight mistakes, a crash and an endless loop. Two more do not compile and are empty.
+const FOURTEEN: [(&str, Changes); 12] = [
+    ("ada-right", &[]),
+    ("bea-in-single-precision", &[["types.hpp", "#define REAL double", "#define REAL float"]]),
+    (
+        "cem-whole-fov",
+        &[["pathtracer.cpp", "camera.horizontal_fov) / 2", "camera.horizontal_fov)"]],
+    ),
+    ("dan-y-down", &[["pathtracer.cpp", "(2 * film.y - 1)", "(1 - 2 * film.y)"]]),
+    (
+        "eli-box-without-z",
+        &[[
+            "shapes.hpp",
+            "axis < 3; ++axis) {\n         Real from",
+            "axis < 2; ++axis) {\n         Real from",
+        ]],
+    ),
+    (
+        "fay-brdf-without-pi",
+        &[["surfaces.hpp", "Rgb(m.reflectance) / PI, wi.z / PI", "Rgb(m.reflectance), wi.z / PI"]],
+    ),
+    ("gus-pdf-uniform", &[["surfaces.hpp", "/ PI, wi.z / PI}", "/ PI, 1 / (2 * PI)}"]]),
+    (
+        "hal-no-shadows",
+        &[[
+            "scene.hpp",
+            "if (bvh.any(v.ray_along(s.wi, s.distance), unused)) return {0, 0, 0};",
+            "(void)unused;",
+        ]],
+    ),
+    (
+        "ida-normal-not-unit",
+        &[[
+            "shapes.hpp",
+            "normal() const { return unit(cross_edges); }",
+            "normal() const { return cross_edges; }",
+        ]],
+    ),
+    ("jon-no-t-max", &[["shapes.hpp", "ray.t_min < t && t < ray.t_max", "ray.t_min < t"]]),
+    (
+        "kim-crashes",
+        &[[
+            "pathtracer.cpp",
+            "Real x = (2 * film.x - 1)",
+            "__builtin_trap();\n   Real x = (2 * film.x - 1)",
+        ]],
+    ),
+    (
+        "lea-hangs",
+        &[[
+            "pathtracer.cpp",
+            "Real x = (2 * film.x - 1)",
+            "for (volatile int i = 0;;) i = i;\n   Real x = (2 * film.x - 1)",
+        ]],
+    ),
+];
+
+/// The suite of the sample class: some of parts 1 to 3.
+const SAMPLE: &str = r#"
+title   = "A sample class"
+version = "1"
+budget  = "quick"
+
+[[part]]
+name   = "Part 1: rays and intersections"
+points = 40
+cases  = ["rays-pass-through", "image-is-upright", "ray-sphere-hit", "ray-triangle"]
+
+[[part]]
+name   = "Part 2: BVH"
+points = 30
+cases  = ["bvh/flat-boxes", "bvh/triangle-soup-hits"]
+
+[[part]]
+name   = "Part 3: direct light"
+points = 30
+cases  = ["point-light-follows", "light/rectangle-light-slanted-matches", "bsdf/diffuse"]
+
+[build]
+time     = "5 min"
+makes    = "libmine"
+commands = [["c++", "-std=c++17", "-O1", "-shared", "-fPIC", "-I{bench}/include", "{submission}/pathtracer.cpp", "-o", "{build}/libmine.so"]]
+"#;
+
+fn hand_in_fourteen(room: &Room) {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/cpp");
+    room.write("suites/sample.toml", SAMPLE);
+    for (name, changes) in FOURTEEN {
+        for entry in fs::read_dir(&examples).unwrap().map(Result::unwrap) {
+            let file = entry.file_name().into_string().unwrap();
+            let mut text = fs::read_to_string(entry.path()).unwrap();
+            for [_, from, to] in changes.iter().filter(|change| change[0] == file) {
+                assert!(text.contains(from), "{file} does not say `{from}`");
+                text = text.replacen(from, to, 1);
+            }
+            room.write(&format!("handed-in/{name}/{file}"), &text);
+        }
+    }
+    room.write("handed-in/max-does-not-compile/pathtracer.cpp", "int main( {");
+    fs::create_dir_all(room.path().join("handed-in/nia-empty")).unwrap();
+}
+
+/// Its log is in `docs/simulations/class.log`.
+#[test]
+#[ignore = "takes a quarter of an hour"]
+fn a_class_of_fourteen_killed_twenty_times_has_the_table_of_one_that_was_not() {
+    const WORDS: [&str; 9] = [
+        "grade",
+        "--suite",
+        "sample",
+        "--submissions",
+        "handed-in",
+        "--names",
+        "--jobs",
+        "2",
+        "--time-limit=8",
+    ];
+    let room = Room::new();
+    hand_in_fourteen(&room);
+    let known = |room: &Room| {
+        let runs = fs::read_dir(room.path().join("classes/sample/runs")).into_iter().flatten();
+        runs.flatten().filter(|run| run.path().join("grade.json").is_file()).count()
+    };
+    // Times that look random, and are the same in every run of this test.
+    let mut state = 1_u64;
+    for kill in 1..=20 {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let after = Duration::from_millis(1_000 + (state >> 33) % 11_000);
+        let command = &mut room.command(&WORDS);
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(after);
+        let ended = child.try_wait().unwrap().is_some();
+        _ = child.kill();
+        child.wait().unwrap();
+        let how = if ended { "had ended before" } else { "killed" };
+        println!(
+            "{kill:2}: {how} after {:4.1} s, {} of 14 graded",
+            after.as_secs_f64(),
+            known(&room)
+        );
+    }
+    let told = printed(&room.furnace(&WORDS));
+    println!("{told}");
+    let fresh = Room::new();
+    hand_in_fourteen(&fresh);
+    let begun = std::time::Instant::now();
+    fresh.furnace(&WORDS);
+    println!("never killed: {:.0} s", begun.elapsed().as_secs_f64());
+    let table = room.read("classes/sample/class.csv");
+    assert_eq!(table.lines().count(), 15, "{table}");
+    assert_eq!(fresh.read("classes/sample/class.csv"), table);
+}

@@ -1,6 +1,6 @@
 //! `furnace grade`: a run by a suite, and its points.
 
-mod class;
+pub(super) mod class;
 
 use super::hosting::HostingArguments;
 use super::progress::Progress;
@@ -10,7 +10,10 @@ use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Case};
 use crate::cores::CoreSpec;
 use crate::disk;
-use crate::grade::{Grade, Standing, Suite, SuiteError, csv, github, gradescope, junit, text};
+use crate::grade::class::Shard;
+use crate::grade::{
+    Grade, Standing, Submission, Suite, SuiteError, Workshop, csv, github, gradescope, junit, text,
+};
 use crate::project::Project;
 use crate::report::{self, RunTree};
 use crate::run::{self, Plan, RunError};
@@ -27,17 +30,26 @@ pub(crate) struct GradeArguments {
     #[arg(long, value_name = "SUITE")]
     suite: String,
     /// The renderer to grade.
-    #[arg(long, value_name = "CORE", required_unless_present_any = ["run", "submissions"])]
+    #[arg(long, value_name = "CORE", required_unless_present_any = ["run", "submission", "submissions"])]
     core: Option<String>,
     /// Grade a run that is there, without running anything.
     #[arg(long, value_name = "DIR", conflicts_with = "core")]
     run: Option<PathBuf>,
+    /// Grade one submission: a library, or a folder that the suite's commands build.
+    #[arg(long, value_name = "PATH", conflicts_with_all = ["core", "run"])]
+    submission: Option<PathBuf>,
     /// Grade a class: every library and every folder in DIR is a submission.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["core", "run", "gradescope", "junit", "github"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["core", "run", "submission", "gradescope", "junit", "github"])]
     submissions: Option<PathBuf>,
     /// Call submissions by their names, where a class is graded.
     #[arg(long, requires = "submissions")]
     names: bool,
+    /// Grade the K-th of N equal shares of a class; `furnace merge` puts them together.
+    #[arg(long, value_name = "K/N", requires = "submissions")]
+    shard: Option<Shard>,
+    /// Build submissions as this user, who can read less than the superuser.
+    #[arg(long, value_name = "USER")]
+    build_as: Option<String>,
     /// Number of trials, or of submissions, to run in parallel [default: one per hardware thread].
     #[arg(short, long, value_name = "N", value_parser = super::jobs)]
     jobs: Option<NonZeroUsize>,
@@ -90,9 +102,10 @@ pub(crate) fn grade(arguments: &GradeArguments) -> Answer {
     if let Some(folder) = &arguments.submissions {
         return class::grade(arguments, &desk, folder);
     }
-    let (grade, page) = match (&arguments.run, &arguments.core) {
-        (Some(folder), _) => desk.of_run(folder)?,
-        (None, core) => desk.of_core(arguments, core.as_deref().unwrap_or_default())?,
+    let (grade, page) = match (&arguments.run, &arguments.submission, &arguments.core) {
+        (Some(folder), _, _) => desk.of_run(folder)?,
+        (None, Some(path), _) => desk.of_submission(arguments, path)?,
+        (None, None, core) => desk.of_core(arguments, core.as_deref().unwrap_or_default())?,
     };
     tell(arguments, &grade, page.as_deref())?;
     Ok(code(&grade))
@@ -125,6 +138,30 @@ impl Desk {
             Err(error @ RunError::NoCore { .. }) => Ok(self.absent(word, &error)),
             Err(error) => Err(Failure::broken(error)),
         }
+    }
+
+    /// Builds a submission where nobody else is, and tries what comes of it.
+    fn of_submission(
+        &self,
+        arguments: &GradeArguments,
+        path: &Path,
+    ) -> Result<(Grade, Option<PathBuf>), Failure> {
+        let unreadable =
+            |error| Failure::request(format!("cannot read {}: {error}", path.display()));
+        let submission = Submission::at(path).map_err(unreadable)?;
+        let folder = tempfile::tempdir().map_err(Failure::broken)?;
+        let (mut grade, page) = match submission.core(&self.workshop(arguments), folder.path()) {
+            Ok(core) => self.of_core(arguments, &core.to_string_lossy())?,
+            Err(problem) => self.absent("", &problem),
+        };
+        // Where it was built is no name of its.
+        grade.core.clone_from(&submission.name);
+        Ok((grade, page))
+    }
+
+    fn workshop<'a>(&'a self, arguments: &'a GradeArguments) -> Workshop<'a> {
+        let (project, suite) = (&self.project, &self.suite);
+        Workshop { project, suite, user: arguments.build_as.as_deref() }
     }
 
     fn absent(&self, core: &str, problem: &dyn std::fmt::Display) -> (Grade, Option<PathBuf>) {

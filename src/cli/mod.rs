@@ -19,6 +19,7 @@ mod interrupt;
 mod lint;
 mod list;
 mod man;
+mod merge;
 mod new;
 mod progress;
 mod reference;
@@ -130,7 +131,9 @@ enum Verb {
     Export(export::ExportArguments),
     /// Grade a core by a suite: points for each part, for people, Gradescope, JUnit, GitHub and spreadsheets.
     Grade(grade::GradeArguments),
-    /// Write a core, a case or a suite that is ready to run.
+    /// Merge the shares of a class, `furnace grade --shard`, into one table.
+    Merge(merge::MergeArguments),
+    /// Write a core, a case, a suite or an autograder that is ready to run.
     New(new::NewArguments),
     /// Make, verify or list Mitsuba references.
     Reference(reference::ReferenceArguments),
@@ -188,6 +191,7 @@ pub fn main(carried: Carried) -> ExitCode {
         Some(Verb::Agreement(arguments)) => agreement::agreement(&arguments),
         Some(Verb::Export(arguments)) => export::export(&arguments),
         Some(Verb::Grade(arguments)) => grade::grade(&arguments),
+        Some(Verb::Merge(arguments)) => merge::merge(&arguments),
         Some(Verb::New(arguments)) => new::new(&arguments),
         Some(Verb::Reference(arguments)) => reference::reference(&arguments),
         Some(Verb::History(arguments)) => history::history(&arguments),

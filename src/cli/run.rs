@@ -10,6 +10,7 @@ use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, CatalogError};
 use crate::contract::Components;
 use crate::cores::{CORES, CoreSpec};
+use crate::grade::SALT_VARIABLE;
 use crate::math::rng::Seed;
 use crate::project::Project;
 use crate::report;
@@ -92,10 +93,7 @@ pub(crate) fn refuse_a_misplaced_verb(
     Err(Failure::request(format!("{problem}\nhint: {other}")))
 }
 
-/// A secret by which a grader's scenes are moved, so that nobody has seen them. No core is told it, and no result.
-const SALT_VARIABLE: &str = "FURNACE_SALT";
-
-/// It, or nothing.
+/// The salt of grades, or nothing.
 pub(crate) fn salt() -> String {
     std::env::var(SALT_VARIABLE).unwrap_or_default()
 }

@@ -3,18 +3,121 @@
 use super::{Grade, Standing, csv, hundredths};
 use crate::text::number::count;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use std::collections::BTreeMap;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::str::FromStr;
 
 /// Cases and causes that the page tells of.
 const MOST: usize = 25;
 
-/// All that were handed in, in the order of what they are called.
+/// All that were handed in, or a share of them, in the order of what they are called.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Class {
     pub(crate) title: String,
+    /// Of everything but the submissions that the grades depend on: shares of one class have the same.
+    conditions: String,
+    shard: Option<Shard>,
     pub(crate) rows: Vec<Row>,
 }
 
+/// One of equal shares of a class, `2/8`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Shard {
+    /// From 1.
+    number: usize,
+    of: usize,
+}
+
+impl Shard {
+    /// Whether it is given the submission at this place, counted from 0.
+    pub(crate) const fn has(self, place: usize) -> bool {
+        place % self.of == self.number - 1
+    }
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<Self, String> {
+        let numbers =
+            word.split_once('/').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+        match numbers {
+            Some((number, of)) if 1 <= number && number <= of => Ok(Self { number, of }),
+            _ => Err("must be a share such as 2/8: the second of eight".to_owned()),
+        }
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.of)
+    }
+}
+
+impl Class {
+    pub(crate) fn new(
+        title: String,
+        conditions: String,
+        shard: Option<Shard>,
+        mut rows: Vec<Row>,
+    ) -> Self {
+        rows.sort_by(|a, b| a.called.cmp(&b.called));
+        Self { title, conditions, shard, rows }
+    }
+
+    /// What its files are called: `class`, or `class-2-of-8`.
+    pub(crate) fn name(&self) -> String {
+        match self.shard {
+            Some(Shard { number, of }) => format!("class-{number}-of-{of}"),
+            None => "class".to_owned(),
+        }
+    }
+
+    /// The file that it is merged from.
+    pub(crate) fn file(&self) -> String {
+        format!("{}.json", self.name())
+    }
+
+    /// A whole class of its shares.
+    ///
+    /// # Errors
+    /// If they are not the shares of one class, or not all of them.
+    pub(crate) fn merged(shares: Vec<Self>) -> Result<Self, String> {
+        let Some(first) = shares.first() else { return Err("there is no share to merge".into()) };
+        let (title, conditions) = (first.title.clone(), first.conditions.clone());
+        if let Some(other) = shares.iter().find(|share| share.conditions != conditions) {
+            return Err(format!(
+                "`{title}` and `{}` were graded under different conditions\n\
+                 hint: suite, salt, cases and program have to be the same for all shares",
+                other.title
+            ));
+        }
+        let numbers: BTreeSet<_> = shares.iter().filter_map(|share| share.shard).collect();
+        let of = numbers.first().map_or(0, |shard| shard.of);
+        if numbers.len() != shares.len() || numbers.iter().any(|shard| shard.of != of) {
+            return Err("these are not different shares of one class".to_owned());
+        }
+        let missing = (1..=of).map(|number| Shard { number, of });
+        let missing = missing.filter(|shard| !numbers.contains(shard));
+        let missing: Vec<_> = missing.map(|shard| shard.to_string()).collect();
+        if !missing.is_empty() {
+            return Err(format!(
+                "a share is missing: {}\nhint: `furnace grade --submissions … --shard {}` grades it",
+                missing.join(", "),
+                missing[0]
+            ));
+        }
+        let rows = shares.into_iter().flat_map(|share| share.rows).collect();
+        Ok(Self::new(title, conditions, None, rows))
+    }
+}
+
 /// One submission.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Row {
     /// Its name, or else a word that nobody can tell it by.
     pub(crate) called: String,

@@ -3,7 +3,7 @@
 //! A [`Suite`] is a file: parts with points, and the cases of each. A [`Grade`] is a pure function of a suite and the
 //! folder of a run, and each format in which it is told (`text`, `gradescope`, `junit`, `github`, `csv`) a pure function of
 //! a grade. Verdicts are the run's: nothing is judged here. What each verdict is worth stands in `score`, and for teachers
-//! in `docs/grading.md`.
+//! in `docs/book/src/grading.md`.
 
 pub(crate) mod class;
 pub(crate) mod csv;
@@ -16,10 +16,14 @@ mod submission;
 mod suite;
 pub(crate) mod text;
 
-pub(crate) use submission::Submission;
+pub(crate) use submission::{Submission, Workshop};
 pub(crate) use suite::{Suite, SuiteError};
 
 use serde::{Deserialize, Serialize};
+
+/// The variable with a secret by which a grader's scenes are moved, so that nobody has seen them. No core is told it,
+/// no build, and no result.
+pub(crate) const SALT_VARIABLE: &str = "FURNACE_SALT";
 
 /// What a core has earned of a suite.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,20 +1,35 @@
 //! What a student has handed in: a library, or a folder that the suite's commands make one of.
 
+use super::SALT_VARIABLE;
 use super::suite::{Build, Suite};
+use crate::cores::command::found;
+use crate::cores::command::process::{self, Ended, Group};
 use crate::project::Project;
 use crate::text::hexadecimal;
+use crate::text::number::duration;
 use sha2::{Digest, Sha256};
+use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use walkdir::WalkDir;
 
 /// What shared libraries end in.
 const ENDINGS: [&str; 3] = ["so", "dylib", "dll"];
 /// Lines of a failed build that are told.
 const LINES: usize = 30;
+/// The submission, beside what is built of it.
+const COPY: &str = "submission";
 /// Written when a build has come to its end.
 const DONE: &str = "furnace-built";
+
+/// Who builds submissions, and with whose files.
+pub(crate) struct Workshop<'a> {
+    pub(crate) project: &'a Project,
+    pub(crate) suite: &'a Suite,
+    /// The user that runs the commands, where that is another; only the superuser may say so.
+    pub(crate) user: Option<&'a str>,
+}
 
 /// One of a class.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,12 +50,18 @@ impl Submission {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             if !name.starts_with('.') && (path.is_dir() || is_library(&path)) {
                 // Where it lies may be given relative to where one stands; a build stands elsewhere.
-                let path = path.canonicalize()?;
-                found.push(Self { name, content: content(&path)?, path });
+                found.push(Self { name, ..Self::at(&path)? });
             }
         }
         found.sort_by(|a, b| a.name.cmp(&b.name));
         Ok(found)
+    }
+
+    /// The library or the folder at a path.
+    pub(crate) fn at(path: &Path) -> io::Result<Self> {
+        let path = path.canonicalize()?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { name, content: content(&path)?, path })
     }
 
     /// What its result is known by: the same content under the same `conditions` has the same.
@@ -52,12 +73,7 @@ impl Submission {
     ///
     /// # Errors
     /// In words for its author: it is empty, or does not compile.
-    pub(crate) fn core(
-        &self,
-        project: &Project,
-        suite: &Suite,
-        folder: &Path,
-    ) -> Result<PathBuf, String> {
+    pub(crate) fn core(&self, workshop: &Workshop<'_>, folder: &Path) -> Result<PathBuf, String> {
         if is_library(&self.path) {
             return Ok(self.path.clone());
         }
@@ -67,54 +83,134 @@ impl Submission {
         if WalkDir::new(&self.path).into_iter().flatten().all(|it| !it.file_type().is_file()) {
             return Err("the submission is empty".to_owned());
         }
-        match &suite.build {
-            Some(build) => self.built(project, build, folder),
+        match &workshop.suite.build {
+            Some(build) => self.built(workshop, build, folder),
             None => {
                 Err("there is no library in it, and the suite does not say how to build one".into())
             }
         }
     }
 
-    fn built(&self, project: &Project, build: &Build, folder: &Path) -> Result<PathBuf, String> {
+    fn built(
+        &self,
+        workshop: &Workshop<'_>,
+        build: &Build,
+        folder: &Path,
+    ) -> Result<PathBuf, String> {
         let failed = |error: io::Error| format!("cannot build in {}: {error}", folder.display());
+        // Commands run in it, and know no other place.
+        let folder = &std::path::absolute(folder).map_err(failed)?;
         if !folder.join(DONE).is_file() {
             // Half of a build that was cut off is worth nothing.
             if folder.exists() {
                 std::fs::remove_dir_all(folder).map_err(failed)?;
             }
-            std::fs::create_dir_all(folder).map_err(failed)?;
+            let copied = folder.join(COPY);
+            copy(&self.path, &copied).map_err(failed)?;
+            if let Some(user) = workshop.user {
+                give(folder, user)?;
+            }
             for command in &build.commands {
-                self.carry_out(command, &project.of_the_bench(""), folder)?;
+                let words = filled(command, &workshop.project.of_the_bench(""), folder);
+                carry_out(&words, workshop.user, build, folder)?;
             }
             std::fs::write(folder.join(DONE), "").map_err(failed)?;
         }
         let missing = || format!("its build made no `{}.{}`", build.makes, ENDINGS[0]);
         library_in(folder, Some(&build.makes)).ok_or_else(missing)
     }
+}
 
-    fn carry_out(&self, command: &[String], bench: &Path, folder: &Path) -> Result<(), String> {
-        let places =
-            [("{submission}", self.path.as_path()), ("{build}", folder), ("{bench}", bench)];
-        let filled = command.iter().map(|word| {
-            places.iter().fold(word.clone(), |word, (mark, path)| {
-                word.replace(mark, path.to_string_lossy().trim_end_matches('/'))
-            })
-        });
-        let mut words = filled;
-        let program = words.next().unwrap_or_default();
-        let mut process = Command::new(&program);
-        process.args(words).current_dir(folder).stdin(Stdio::null());
-        let output =
-            process.output().map_err(|error| format!("cannot run `{program}`: {error}"))?;
-        if output.status.success() {
-            return Ok(());
+/// A command with the folders in the places of their names.
+fn filled(command: &[String], bench: &Path, folder: &Path) -> Vec<String> {
+    let copied = folder.join(COPY);
+    let places = [("{submission}", copied.as_path()), ("{build}", folder), ("{bench}", bench)];
+    let filled = command.iter().map(|word| {
+        places.iter().fold(word.clone(), |word, (mark, path)| {
+            word.replace(mark, path.to_string_lossy().trim_end_matches('/'))
+        })
+    });
+    filled.collect()
+}
+
+/// Runs one command of a build.
+fn carry_out(
+    words: &[String],
+    user: Option<&str>,
+    build: &Build,
+    folder: &Path,
+) -> Result<(), String> {
+    let Some(program) = words.first() else { return Ok(()) };
+    let mut command = by(user, words);
+    // Who builds runs what was handed in: the salt is not for it to know.
+    command.envs(cached(folder)).env_remove(SALT_VARIABLE);
+    let ran = process::run(&mut command, folder, build.time, Group::Own);
+    let (ended, said) = ran.map_err(|error| format!("cannot run `{program}`: {error}"))?;
+    let status = match ended {
+        Ended::Exited(status) => status,
+        Ended::OutOfTime => {
+            let limit = duration(build.time.as_secs_f64());
+            return Err(format!("it does not compile in time: `{program}` took over {limit}"));
         }
-        let told = [output.stdout, output.stderr].concat();
-        let told = String::from_utf8_lossy(&told).replace(&*self.path.to_string_lossy(), "");
-        let lines: Vec<_> = told.lines().collect();
-        let end = &lines[lines.len().saturating_sub(LINES)..];
-        Err(format!("it does not compile: `{program}` says\n{}", end.join("\n")))
+    };
+    if status.success() {
+        return Ok(());
     }
+    let told = said.all().replace(&*folder.join(COPY).to_string_lossy(), "");
+    let lines: Vec<_> = told.lines().collect();
+    let end = &lines[lines.len().saturating_sub(LINES)..];
+    Err(format!("it does not compile: `{program}` says\n{}", end.join("\n")))
+}
+
+/// Makes a folder this user's.
+fn give(folder: &Path, user: &str) -> Result<(), String> {
+    let failed = |how: &dyn std::fmt::Display| {
+        format!("cannot give the build to `{user}`: {how}; only the superuser can")
+    };
+    let status = Command::new("chown").arg("-R").arg(user).arg(folder).status();
+    match status.map_err(|error| failed(&error))? {
+        status if status.success() => Ok(()),
+        status => Err(failed(&status)),
+    }
+}
+
+/// A command as this user runs it.
+fn by(user: Option<&str>, words: &[String]) -> Command {
+    let Some(user) = user else {
+        let mut command = Command::new(&words[0]);
+        command.args(&words[1..]);
+        return command;
+    };
+    let mut command = Command::new("runuser");
+    command.args(["-u", user, "--"]).args(words);
+    command
+}
+
+/// What makes CMake compile through ccache, where there is one: much of a class is the course's own code. It is the same
+/// code in every build, since paths are taken from the build's folder on, where the copy lies.
+fn cached(folder: &Path) -> Vec<(&'static str, OsString)> {
+    if found("ccache").is_none() {
+        return Vec::new();
+    }
+    let launchers = ["CMAKE_C_COMPILER_LAUNCHER", "CMAKE_CXX_COMPILER_LAUNCHER"];
+    let launchers = launchers.map(|name| (name, OsString::from("ccache")));
+    let places = [("CCACHE_BASEDIR", folder.into()), ("CCACHE_NOHASHDIR", "1".into())];
+    launchers.into_iter().chain(places).collect()
+}
+
+/// Copies the files of a folder, but for its history. What a link leads to stays where it is.
+fn copy(from: &Path, to: &Path) -> io::Result<()> {
+    let is_wanted = |entry: &walkdir::DirEntry| entry.file_name() != ".git";
+    for entry in WalkDir::new(from).into_iter().filter_entry(is_wanted) {
+        let entry = entry?;
+        let to = to.join(entry.path().strip_prefix(from).unwrap_or(from));
+        if entry.file_type().is_dir() {
+            std::fs::create_dir_all(to)?;
+        } else if entry.file_type().is_file() {
+            std::fs::copy(entry.path(), to)?;
+        }
+    }
+    Ok(())
 }
 
 fn is_library(path: &Path) -> bool {

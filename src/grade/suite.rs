@@ -71,6 +71,9 @@ pub(crate) enum Partial {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct Build {
     pub(crate) commands: Vec<Vec<String>>,
+    /// What each of them may take.
+    #[serde(default = "ten_minutes", deserialize_with = "short")]
+    pub(crate) time: Duration,
     /// The library that they make, below `{build}`, without `.so`, `.dylib` or `.dll`.
     pub(crate) makes: String,
 }
@@ -86,6 +89,14 @@ pub(crate) enum SuiteError {
     Malformed(Box<Diagnostic>),
     #[error("{path}: part `{part}`: {problem}")]
     Part { path: PathBuf, part: String, problem: String },
+}
+
+const fn ten_minutes() -> Duration {
+    Duration::from_secs(600)
+}
+
+fn short<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Duration, D::Error> {
+    Ok(duration(deserializer)?.unwrap_or(ten_minutes()))
 }
 
 fn duration<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Duration>, D::Error> {

@@ -10,12 +10,12 @@ use crate::grade::{Grade, Submission};
 use crate::report::{self, RunTree};
 use crate::run::record::{read_json, write_json};
 use crate::run::{self, RunError};
+use crate::text::fingerprint;
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::UNIX_EPOCH;
 
 /// Letters of the word by which a submission without a name is called.
 const ALIAS: usize = 8;
@@ -32,7 +32,10 @@ pub(super) fn grade(arguments: &GradeArguments, desk: &Desk, folder: &Path) -> A
     let keys: Vec<_> = submissions.iter().map(|one| one.key(&conditions)).collect();
     // Of equal ones only one is tried.
     let first: BTreeMap<_, _> = keys.iter().zip(&submissions).rev().collect();
-    let todo: Vec<_> = first.into_iter().collect();
+    let shares = first.into_iter().enumerate();
+    let is_ours = |place: usize| arguments.shard.is_none_or(|shard| shard.has(place));
+    let ours = shares.filter(|(place, _)| is_ours(*place));
+    let todo: Vec<_> = ours.map(|(_, submission)| submission).collect();
     let graded = Mutex::new(BTreeMap::new());
     let next = AtomicUsize::new(0);
     let work = || {
@@ -53,29 +56,46 @@ pub(super) fn grade(arguments: &GradeArguments, desk: &Desk, folder: &Path) -> A
         graded.into_iter().map(|(key, grade)| Ok((key, grade?))).collect::<Result<_, Failure>>()?;
     let mut rows = Vec::new();
     for (submission, key) in submissions.iter().zip(&keys) {
+        let Some(grade) = graded.get(key) else { continue };
         let called =
             if arguments.names { submission.name.clone() } else { key[..ALIAS].to_owned() };
         let report = newest(&home.join("runs").join(key)).map(|run| {
             let inside = run.strip_prefix(&home).unwrap_or(&run).join("index.html");
             inside.to_string_lossy().into_owned()
         });
-        rows.push(Row { called, grade: graded[key].clone(), report });
+        rows.push(Row { called, grade: grade.clone(), report });
     }
-    rows.sort_by(|a, b| a.called.cmp(&b.called));
-    tell(arguments, desk, &home, &Class { title: desk.suite.title.clone(), rows })
-}
-
-fn tell(arguments: &GradeArguments, desk: &Desk, home: &Path, class: &Class) -> Answer {
-    let csv = arguments.outputs.csv.clone().unwrap_or_else(|| home.join("class.csv"));
-    put(&csv, &table(class))?;
-    let html = home.join("class.html");
-    put(&html, &page(class))?;
+    let title = format!("{} ({} {})", desk.suite.title, desk.suite.name, desk.suite.version);
+    let conditions = fingerprint(conditions.as_bytes());
+    let class = Class::new(title, conditions, arguments.shard, rows);
+    write_json(&home.join(class.file()), &class).map_err(Failure::broken)?;
+    let files = write(&class, &home, arguments.outputs.csv.as_deref())?;
     if arguments.json {
         let grades: Vec<_> = class.rows.iter().map(|row| &row.grade).collect();
         say_line!("{}", serde_json::to_string_pretty(&grades).map_err(Failure::broken)?);
         return Ok(ExitCode::Good);
     }
-    say_line!("\n  {} ({} {})\n", desk.suite.title, desk.suite.name, desk.suite.version);
+    tell(&class, &files);
+    Ok(ExitCode::Good)
+}
+
+/// Writes the table and the page of a class, or of a share of it, and answers where they are.
+pub(in crate::cli) fn write(
+    class: &Class,
+    home: &Path,
+    csv: Option<&Path>,
+) -> Result<[PathBuf; 2], Failure> {
+    let named = class.name();
+    let csv = csv.map_or_else(|| home.join(format!("{named}.csv")), Path::to_owned);
+    put(&csv, &table(class))?;
+    let html = home.join(format!("{named}.html"));
+    put(&html, &page(class))?;
+    Ok([csv, html])
+}
+
+/// Says the points of each submission, and where more is.
+pub(in crate::cli) fn tell(class: &Class, [csv, html]: &[PathBuf; 2]) {
+    say_line!("\n  {}\n", class.title);
     let width = class.rows.iter().map(|row| row.called.chars().count()).max().unwrap_or(0);
     for row in &class.rows {
         let problem = row.grade.problem.iter().filter_map(|problem| problem.lines().next());
@@ -83,8 +103,7 @@ fn tell(arguments: &GradeArguments, desk: &Desk, home: &Path, class: &Class) -> 
         say_line!("    {:width$}  {:<22}{words}", row.called, row.grade.points.words());
     }
     say_line!("\n  table   {}", csv.display());
-    say_line!("  page    {}", crate::cli::report::address(&html));
-    Ok(ExitCode::Good)
+    say_line!("  page    {}", crate::cli::report::address(html));
 }
 
 /// The grade of one submission: as it was found before, or by building and running it.
@@ -101,7 +120,7 @@ fn of_one(
         return Ok(grade);
     }
     let builds = home.join("builds").join(key);
-    let mut grade = match submission.core(&desk.project, &desk.suite, &builds) {
+    let mut grade = match submission.core(&desk.workshop(arguments), &builds) {
         Ok(core) => of_core(arguments, desk, &core, &runs)?,
         Err(problem) => Grade::absent(&desk.suite, "", &problem),
     };
@@ -153,15 +172,13 @@ impl Desk {
         let selected = self.suite.select(&self.cases).map_err(suite_failure)?;
         let hashes: BTreeSet<_> =
             selected.cases().iter().map(|case| format!("{} {}", case.id, case.hash)).collect();
-        let program = std::env::current_exe().and_then(|path| path.metadata());
-        let program = program.map_err(Failure::broken)?;
-        let built = program.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
-        let built = built.map_or(0, |time| time.as_secs());
+        // A copy of the program on another machine is the same program.
+        let program = std::env::current_exe().and_then(std::fs::read).map_err(Failure::broken)?;
         let hashes: Vec<_> = hashes.into_iter().collect();
         Ok(format!(
-            "{} {} {built}\n{}\n{}\n{}",
+            "{} {}\n{}\n{}\n{}",
             env!("CARGO_PKG_VERSION"),
-            program.len(),
+            fingerprint(&program),
             self.suite.hash,
             self.salt,
             hashes.join("\n")

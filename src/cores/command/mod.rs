@@ -9,7 +9,7 @@
 
 pub(crate) mod adapter;
 mod picture;
-mod process;
+pub(crate) mod process;
 mod program;
 
 pub(crate) use picture::Picture;

@@ -142,3 +142,33 @@ fn every_other_kind_of_core_is_written_with_all_that_its_commands_name() {
             .for_each(|file| assert!(here.path().join(kind).join(file).is_file(), "{file}"));
     }
 }
+
+#[test]
+fn a_new_autograder_has_all_that_its_scripts_name() {
+    let here = Elsewhere::new();
+    here.told(".", &["new", "suite", "mine"]);
+    let told = here.told(".", &["new", "autograder", "--suite", "mine"]);
+    assert!(told.contains("gradescope.zip"), "{told}");
+    let gradescope = here.path().join("autograder/gradescope");
+    for file in ["setup.sh", "run_autograder", "furnace", "salt", "suites/mine.toml"] {
+        assert!(gradescope.join(file).is_file(), "{file}");
+    }
+    let salt = std::fs::read_to_string(gradescope.join("salt")).unwrap();
+    assert_eq!(salt.trim().len(), 32, "{salt}");
+    let github = here.path().join("autograder/github/.github");
+    assert!(github.join("furnace/suites/mine.toml").is_file());
+    let workflow = std::fs::read_to_string(github.join("workflows/furnace.yml")).unwrap();
+    assert!(workflow.contains("--suite mine --submission ."), "{workflow}");
+    let script = std::fs::read_to_string(gradescope.join("run_autograder")).unwrap();
+    assert!(script.contains("--suite mine") && !script.contains("SUITE"), "{script}");
+    let again = here.furnace(&["new", "autograder", "--suite", "mine"]);
+    assert_eq!(again.status.code(), Some(2), "nothing is overwritten");
+    let unknown = here.furnace(&["new", "autograder", "--suite", "yours", "other"]);
+    assert_eq!(unknown.status.code(), Some(2), "a suite that is not there");
+    here.told(".", &["new", "slurm", "--suite", "mine"]);
+    for script in
+        ["autograder/gradescope/setup.sh", "autograder/gradescope/run_autograder", "class.sbatch"]
+    {
+        here.shell(".", &format!("bash -n {script}"));
+    }
+}

@@ -1,4 +1,6 @@
-//! `furnace new`: a core, a case or a suite that is ready to run, copied from the bench's own.
+//! `furnace new`: a core, a case, a suite or an autograder that is ready to run, copied from the bench's own.
+
+mod autograder;
 
 use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
@@ -42,6 +44,24 @@ enum What {
     Suite {
         /// File name without `.toml`.
         name: String,
+    },
+    /// What Gradescope and GitHub take to grade each submission: scripts, this program, a suite and a salt.
+    Autograder {
+        /// The suite to grade by.
+        #[arg(long, default_value = "cs184-hw3")]
+        suite: String,
+        /// The folder for it; created if missing.
+        #[arg(default_value = "autograder")]
+        folder: PathBuf,
+    },
+    /// A job array that grades a class on a cluster with Slurm.
+    Slurm {
+        /// The suite to grade by.
+        #[arg(long, default_value = "cs184-hw3")]
+        suite: String,
+        /// The script.
+        #[arg(default_value = "class.sbatch")]
+        file: PathBuf,
     },
 }
 
@@ -122,16 +142,13 @@ pub(crate) fn new(arguments: &NewArguments) -> Answer {
         What::Core { lang, folder } => core(&project, *lang, folder),
         What::Case { name, like } => new_case(&project, name, like.as_deref()),
         What::Suite { name } => suite(&project, name),
+        What::Autograder { suite, folder } => autograder::autograder(&project, suite, folder),
+        What::Slurm { suite, file } => autograder::slurm(&project, suite, file),
     }
 }
 
 fn core(project: &Project, language: Language, folder: &Path) -> Answer {
-    if std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
-        return Err(Failure::request(format!(
-            "`{}` is not empty\nhint: name a folder that is new: `furnace new core --lang ... DIR`",
-            folder.display()
-        )));
-    }
+    refuse_what_is_there(folder)?;
     let Some(kit) = KITS.iter().find(|kit| kit.language == language) else {
         return Err(Failure::broken("there is nothing to copy for this language"));
     };
@@ -144,6 +161,16 @@ fn core(project: &Project, language: Language, folder: &Path) -> Answer {
         say_line!("        {}", line.replace("FURNACE", program()));
     }
     Ok(ExitCode::Good)
+}
+
+fn refuse_what_is_there(folder: &Path) -> Result<(), Failure> {
+    if std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
+        return Err(Failure::request(format!(
+            "`{}` is not empty\nhint: name a folder that is new, as the last word",
+            folder.display()
+        )));
+    }
+    Ok(())
 }
 
 /// Copies a file, or all files below a folder, but for what Python leaves behind.

@@ -146,7 +146,7 @@ fn rows(page: &str) -> BTreeMap<String, Vec<String>> {
 
 #[test]
 fn the_page_of_the_protocol_has_the_requests_of_the_table() {
-    let page = read("docs/protocol.md");
+    let page = read("docs/book/src/protocol.md");
     let rows = rows(&page);
     for question in QUESTIONS {
         let of_it: Vec<_> = question.requests().iter().map(|name| rows[name].clone()).collect();
@@ -173,7 +173,7 @@ fn the_page_of_the_protocol_has_the_requests_of_the_table() {
 
 #[test]
 fn the_page_of_the_protocol_has_the_elements_and_the_capabilities() {
-    let page = read("docs/protocol.md");
+    let page = read("docs/book/src/protocol.md");
     let (_, table) = page.split_once("## Elements").unwrap();
     let (table, _) = table.split_once("## Requests").unwrap();
     for (name, layout) in elements() {

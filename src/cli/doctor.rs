@@ -160,7 +160,7 @@ const ADVICE: &[(Capabilities, &str)] = &[
     (Capabilities::RENDER, "of that type: render(camera, settings, pixels, sample_counts)"),
     (
         Capabilities::RENDER_CODES,
-        "nothing: programs that write 8 bits are described by an adapter, see docs/adapters.md",
+        "nothing: programs that write 8 bits are described by an adapter, see docs/book/src/adapters.md",
     ),
     (Capabilities::BRUTE_FORCE, "honour settings.accelerate == 0, and say FURNACE_BRUTE_FORCE"),
     (Capabilities::SPLIT_RULES, "honour settings.split, and say FURNACE_SPLIT_RULES"),

@@ -1,7 +1,7 @@
 //! How questions leave the process: their names, members of a JSON object, and arrays of plain elements.
 //!
 //! Not here: how each type of argument crosses ([`super::argument`]), the bytes of a frame, and whoever is at the other
-//! end (`worker`). `docs/protocol.md` is this for people who write a core in another language.
+//! end (`worker`). `docs/book/src/protocol.md` is this for people who write a core in another language.
 
 use bytemuck::Pod;
 use glam::{DVec2, DVec3};

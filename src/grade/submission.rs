@@ -8,7 +8,6 @@ use crate::project::Project;
 use crate::text::hexadecimal;
 use crate::text::number::duration;
 use sha2::{Digest, Sha256};
-use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -18,8 +17,6 @@ use walkdir::WalkDir;
 const ENDINGS: [&str; 3] = ["so", "dylib", "dll"];
 /// Lines of a failed build that are told.
 const LINES: usize = 30;
-/// The submission, beside what is built of it.
-const COPY: &str = "submission";
 /// Written when a build has come to its end.
 const DONE: &str = "furnace-built";
 
@@ -98,68 +95,59 @@ impl Submission {
         folder: &Path,
     ) -> Result<PathBuf, String> {
         let failed = |error: io::Error| format!("cannot build in {}: {error}", folder.display());
-        // Commands run in it, and know no other place.
-        let folder = &std::path::absolute(folder).map_err(failed)?;
         if !folder.join(DONE).is_file() {
             // Half of a build that was cut off is worth nothing.
             if folder.exists() {
                 std::fs::remove_dir_all(folder).map_err(failed)?;
             }
-            let copied = folder.join(COPY);
-            copy(&self.path, &copied).map_err(failed)?;
+            std::fs::create_dir_all(folder).map_err(failed)?;
             if let Some(user) = workshop.user {
                 give(folder, user)?;
             }
             for command in &build.commands {
-                let words = filled(command, &workshop.project.of_the_bench(""), folder);
-                carry_out(&words, workshop.user, build, folder)?;
+                let words = self.filled(command, &workshop.project.of_the_bench(""), folder);
+                self.carry_out(&by(workshop.user, words), build, folder)?;
             }
             std::fs::write(folder.join(DONE), "").map_err(failed)?;
         }
         let missing = || format!("its build made no `{}.{}`", build.makes, ENDINGS[0]);
         library_in(folder, Some(&build.makes)).ok_or_else(missing)
     }
-}
 
-/// A command with the folders in the places of their names.
-fn filled(command: &[String], bench: &Path, folder: &Path) -> Vec<String> {
-    let copied = folder.join(COPY);
-    let places = [("{submission}", copied.as_path()), ("{build}", folder), ("{bench}", bench)];
-    let filled = command.iter().map(|word| {
-        places.iter().fold(word.clone(), |word, (mark, path)| {
-            word.replace(mark, path.to_string_lossy().trim_end_matches('/'))
-        })
-    });
-    filled.collect()
-}
-
-/// Runs one command of a build.
-fn carry_out(
-    words: &[String],
-    user: Option<&str>,
-    build: &Build,
-    folder: &Path,
-) -> Result<(), String> {
-    let Some(program) = words.first() else { return Ok(()) };
-    let mut command = by(user, words);
-    // Who builds runs what was handed in: the salt is not for it to know.
-    command.envs(cached(folder)).env_remove(SALT_VARIABLE);
-    let ran = process::run(&mut command, folder, build.time, Group::Own);
-    let (ended, said) = ran.map_err(|error| format!("cannot run `{program}`: {error}"))?;
-    let status = match ended {
-        Ended::Exited(status) => status,
-        Ended::OutOfTime => {
-            let limit = duration(build.time.as_secs_f64());
-            return Err(format!("it does not compile in time: `{program}` took over {limit}"));
-        }
-    };
-    if status.success() {
-        return Ok(());
+    /// A command with the folders in the places of their names.
+    fn filled(&self, command: &[String], bench: &Path, folder: &Path) -> Vec<String> {
+        let places =
+            [("{submission}", self.path.as_path()), ("{build}", folder), ("{bench}", bench)];
+        let filled = command.iter().map(|word| {
+            places.iter().fold(word.clone(), |word, (mark, path)| {
+                word.replace(mark, path.to_string_lossy().trim_end_matches('/'))
+            })
+        });
+        filled.collect()
     }
-    let told = said.all().replace(&*folder.join(COPY).to_string_lossy(), "");
-    let lines: Vec<_> = told.lines().collect();
-    let end = &lines[lines.len().saturating_sub(LINES)..];
-    Err(format!("it does not compile: `{program}` says\n{}", end.join("\n")))
+
+    fn carry_out(&self, words: &[String], build: &Build, folder: &Path) -> Result<(), String> {
+        let Some((program, arguments)) = words.split_first() else { return Ok(()) };
+        let mut command = Command::new(program);
+        // Who builds runs what was handed in: the salt is not for it to know.
+        command.args(arguments).envs(cached()).env_remove(SALT_VARIABLE);
+        let ran = process::run(&mut command, folder, build.time, Group::Own);
+        let (ended, said) = ran.map_err(|error| format!("cannot run `{program}`: {error}"))?;
+        let status = match ended {
+            Ended::Exited(status) => status,
+            Ended::OutOfTime => {
+                let limit = duration(build.time.as_secs_f64());
+                return Err(format!("it does not compile in time: `{program}` took over {limit}"));
+            }
+        };
+        if status.success() {
+            return Ok(());
+        }
+        let told = said.all().replace(&*self.path.to_string_lossy(), "");
+        let lines: Vec<_> = told.lines().collect();
+        let end = &lines[lines.len().saturating_sub(LINES)..];
+        Err(format!("it does not compile: `{program}` says\n{}", end.join("\n")))
+    }
 }
 
 /// Makes a folder this user's.
@@ -167,7 +155,7 @@ fn give(folder: &Path, user: &str) -> Result<(), String> {
     let failed = |how: &dyn std::fmt::Display| {
         format!("cannot give the build to `{user}`: {how}; only the superuser can")
     };
-    let status = Command::new("chown").arg("-R").arg(user).arg(folder).status();
+    let status = Command::new("chown").arg(user).arg(folder).status();
     match status.map_err(|error| failed(&error))? {
         status if status.success() => Ok(()),
         status => Err(failed(&status)),
@@ -175,42 +163,17 @@ fn give(folder: &Path, user: &str) -> Result<(), String> {
 }
 
 /// A command as this user runs it.
-fn by(user: Option<&str>, words: &[String]) -> Command {
-    let Some(user) = user else {
-        let mut command = Command::new(&words[0]);
-        command.args(&words[1..]);
-        return command;
-    };
-    let mut command = Command::new("runuser");
-    command.args(["-u", user, "--"]).args(words);
-    command
+fn by(user: Option<&str>, words: Vec<String>) -> Vec<String> {
+    let Some(user) = user else { return words };
+    ["runuser", "-u", user, "--"].map(str::to_owned).into_iter().chain(words).collect()
 }
 
-/// What makes CMake compile through ccache, where there is one: much of a class is the course's own code. It is the same
-/// code in every build, since paths are taken from the build's folder on, where the copy lies.
-fn cached(folder: &Path) -> Vec<(&'static str, OsString)> {
-    if found("ccache").is_none() {
-        return Vec::new();
-    }
+/// What makes CMake compile through ccache, where there is one: much of a class is the course's own code.
+fn cached() -> impl Iterator<Item = (&'static str, &'static str)> {
     let launchers = ["CMAKE_C_COMPILER_LAUNCHER", "CMAKE_CXX_COMPILER_LAUNCHER"];
-    let launchers = launchers.map(|name| (name, OsString::from("ccache")));
-    let places = [("CCACHE_BASEDIR", folder.into()), ("CCACHE_NOHASHDIR", "1".into())];
-    launchers.into_iter().chain(places).collect()
-}
-
-/// Copies the files of a folder, but for its history. What a link leads to stays where it is.
-fn copy(from: &Path, to: &Path) -> io::Result<()> {
-    let is_wanted = |entry: &walkdir::DirEntry| entry.file_name() != ".git";
-    for entry in WalkDir::new(from).into_iter().filter_entry(is_wanted) {
-        let entry = entry?;
-        let to = to.join(entry.path().strip_prefix(from).unwrap_or(from));
-        if entry.file_type().is_dir() {
-            std::fs::create_dir_all(to)?;
-        } else if entry.file_type().is_file() {
-            std::fs::copy(entry.path(), to)?;
-        }
-    }
-    Ok(())
+    let is_there = found("ccache").is_some();
+    let is_wanted = move |name: &&str| is_there && std::env::var_os(name).is_none();
+    launchers.into_iter().filter(is_wanted).map(|name| (name, "ccache"))
 }
 
 fn is_library(path: &Path) -> bool {

@@ -1,7 +1,7 @@
 //! What headers say: requests to a core and its answers.
 //!
 //! A request is one call of [`crate::contract`], which says what crosses; an answer is what came of it.
-//! `docs/protocol.md` is this for people who write a core in another language; `tests/contract.rs` holds the two
+//! `docs/book/src/protocol.md` is this for people who write a core in another language; `tests/contract.rs` holds the two
 //! together.
 
 use super::frame::{self, FrameError};

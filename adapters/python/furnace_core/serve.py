@@ -1,4 +1,4 @@
-"""The channel: requests come, answers go. `docs/protocol.md` says what they are made of."""
+"""The channel: requests come, answers go. `docs/book/src/protocol.md` says what they are made of."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-//! `docs/library.md` lists what the library offers: every public item, with the first sentence of its docs.
+//! `docs/book/src/library.md` lists what the library offers: every public item, with the first sentence of its docs.
 //! `FURNACE_BLESS=1 cargo test --test library` writes it again.
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
@@ -24,11 +24,10 @@ name = \"furnace\"
 harness = false
 ```
 
-```rust
-// tests/furnace.rs
-fn main() -> std::process::ExitCode {
-    furnace::trials(\"mine\", mine::Core::new).test()
-}
+As `tests/furnace.rs` of `examples/downstream` has it:
+
+```rust file=furnace.rs
+{{#include ../../../examples/downstream/tests/furnace.rs}}
 ```
 
 `cargo test` then tries the cases in one run: what rests on something broken is tried with the bench's own component in its
@@ -127,7 +126,7 @@ fn listed() -> String {
 
 #[test]
 fn every_public_item_is_listed() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/library.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/book/src/library.md");
     let listed = listed();
     if std::env::var_os("FURNACE_BLESS").is_some() {
         fs::write(&path, &listed).unwrap();
@@ -136,7 +135,7 @@ fn every_public_item_is_listed() {
     let first = listed.lines().zip(written.lines()).find(|(now, then)| now != then);
     assert!(
         listed == written,
-        "docs/library.md is out of date, first in {first:?}; FURNACE_BLESS=1 writes it"
+        "docs/book/src/library.md is out of date, first in {first:?}; FURNACE_BLESS=1 writes it"
     );
 }
 

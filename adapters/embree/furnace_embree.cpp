@@ -7,7 +7,7 @@
 // With Embree 4 (Debian 13, Homebrew) it is -lembree4. -DFURNACE_EMBREE_FAST leaves out RTC_SCENE_FLAG_ROBUST, as most
 // renderers do. Embree computes in single precision, counts nothing and offers no box test. Its brute force is a scene
 // for each primitive, so that every primitive is met by the same arithmetic as in a BVH, and without one.
-// docs/trusted-renderers.md tells what comes of it.
+// docs/book/src/trusted-renderers.md tells what comes of it.
 #include "furnace_core.hpp"
 
 #include <algorithm>

@@ -12,7 +12,7 @@ What this file adds, because Mitsuba has no such thing: rays begin at t_min (Mit
 moved), directions have any length (Mitsuba's are unit), and a bounce by itself is the difference of two depths along the
 same paths.
 
-docs/trusted-renderers.md tells what comes of it.
+docs/book/src/trusted-renderers.md tells what comes of it.
 """
 
 import glob

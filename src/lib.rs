@@ -8,7 +8,7 @@
 //! ```text
 //!                         cli   harness
 //!                             grade
-//!      report    reference    faults    agreement    writeup
+//!      report    reference    faults    agreement    bench    writeup
 //!                              run
 //!                           diagnosis
 //!                             case     render
@@ -72,6 +72,7 @@ pub mod diagnosis;
 pub mod run;
 
 pub mod agreement;
+pub mod bench;
 pub mod faults;
 pub mod reference;
 pub mod report;

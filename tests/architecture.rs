@@ -28,6 +28,7 @@ const LAYERS: &[(&str, u32)] = &[
     ("diagnosis", 8),
     ("run", 9),
     ("agreement", 10),
+    ("bench", 10),
     ("faults", 10),
     ("report", 10),
     ("reference", 10),

@@ -183,7 +183,7 @@ fn frames() -> Vec<Vec<u8>> {
     let mut frames = Vec::new();
     let mut push = |request: Request<'_>| {
         let mut buffer = Vec::new();
-        encode(&mut buffer, 1, request.members(), request.arrays()).unwrap();
+        encode(&mut buffer, 1, request.members(), request.arrays(), None).unwrap();
         frames.push(buffer);
     };
     let rays = [Ray::new(DVec3::ZERO, DVec3::Z); 2];
@@ -207,7 +207,7 @@ fn frames() -> Vec<Vec<u8>> {
         push(build_request(&scene, Acceleration::DEFAULT));
     }
     let mut answer = Vec::new();
-    encode(&mut answer, 1, Answer::Done, &[Sent::new("hits", &[Hit::MISS; 2])]).unwrap();
+    encode(&mut answer, 1, Answer::Done, &[Sent::new("hits", &[Hit::MISS; 2])], None).unwrap();
     frames.push(answer);
     frames
 }

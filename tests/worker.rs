@@ -100,3 +100,41 @@ fn the_numpy_example_is_right() {
     let core = format!("exec: {python} '{}'", script.display());
     assert_nothing_fails(&run(&core, &["camera/", "shape/", "bvh/"], false), 15);
 }
+
+/// Renderers that others wrote and everybody trusts; `docs/trusted-renderers.md` tells of every case.
+#[test]
+fn embree_is_right() {
+    let library = Path::new(env!("CARGO_TARGET_TMPDIR")).join("libfurnace_embree.so");
+    let [source, include] =
+        ["adapters/embree/furnace_embree.cpp", "include"].map(|p| root().join(p));
+    let linked = |name: &str| {
+        let mut compiler = Command::new(cpp_compiler());
+        compiler.args(["-std=c++17", "-O2", "-shared", "-fPIC", "-I"]).arg(&include);
+        compiler.arg(&source).arg(format!("-l{name}")).arg("-o").arg(&library).output().unwrap()
+    };
+    let made = [linked("embree4"), linked("embree3")];
+    if !made.iter().any(|output| output.status.success()) {
+        let told = String::from_utf8_lossy(&made[1].stderr).into_owned();
+        assert!(told.contains("Embree is not installed"), "{told}");
+        eprintln!("skipped: Embree is not installed, as `apt install libembree-dev` would");
+        return;
+    }
+    let filters = ["shape/ray", "shape/random", "shape/hits-lie", "bvh/", "!bvh/bvh-is-faster"];
+    assert_nothing_fails(&run(&library.to_string_lossy(), &filters, false), 10);
+}
+
+#[test]
+fn mitsuba_is_right() {
+    let python = std::env::var("FURNACE_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let script = root().join("adapters/python/mitsuba_core.py");
+    let starts = Command::new(&python).arg(&script).stdin(std::process::Stdio::null()).output();
+    let starts = starts.map(|output| (output.status.success(), output.stderr));
+    if !matches!(starts, Ok((true, _))) {
+        let why = starts.map(|(_, told)| String::from_utf8_lossy(&told).trim().to_owned());
+        eprintln!("skipped: {}", why.unwrap_or_else(|error| format!("{python}: {error}")));
+        return;
+    }
+    let core = format!("exec: {python} '{}'", script.display());
+    let filters = ["shape/ray-t", "bsdf/glass", "bsdf/sampling-agrees", "light/point-light-f"];
+    assert_nothing_fails(&run(&core, &filters, false), 4);
+}

@@ -19,13 +19,6 @@ pub fn now() -> Duration {
     START.get_or_init(std::time::Instant::now).elapsed()
 }
 
-/// How long `work` takes, in seconds.
-pub fn seconds(work: impl FnOnce()) -> f64 {
-    let start = now();
-    work();
-    (now() - start).as_secs_f64()
-}
-
 /// Criterion's measure of [`now`].
 pub struct ThreadTime;
 

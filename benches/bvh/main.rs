@@ -1,27 +1,27 @@
-//! How much faster than brute force a BVH is, by mesh and by split rule: `cargo bench`.
+//! How much faster than brute force a BVH is, by mesh and by split rule: `cargo bench`, of another core
+//! `FURNACE_CORE=path/to/lib.so cargo bench`.
 //!
-//! Criterion times each structure by itself and keeps baselines. The table at the end is our own: speed-ups are
-//! ratios of passes that were interleaved in random order, on the same rays, in the same thread, by its CPU time,
-//! with an interval; and every hit of every rule is compared with brute force in the same run, because a fast
-//! wrong answer is worth nothing.
+//! Criterion times each structure of `builtin` by itself and keeps baselines. The table at the end is that of
+//! `furnace bench`: speed-ups are ratios of passes that were interleaved in random order, on the same rays, with an
+//! interval; and hits are compared with brute force in the same run.
 //!
 //! `cargo bench --bench bvh -- teapot` takes the subjects whose name contains `teapot`.
 
 mod clock;
-mod paired;
 mod structures;
-mod subjects;
-mod table;
 
 use clock::ThreadTime;
 use criterion::{Criterion, SamplingMode, Throughput};
+use furnace::bench::{Bench, Subject, made_here, table};
 use furnace::cores::builtin::Builtin;
+use furnace::cores::{CoreSpec, Hosting};
 use std::time::Duration;
 use structures::RULES;
-use subjects::Subject;
 
 /// Brute force is timed on so many rays in a criterion pass that it tests about this many triangles.
 const BRUTE_FORCE_TESTS: usize = 4_000_000;
+/// Turns of each structure in the table.
+const ROUNDS: usize = 11;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -36,16 +36,29 @@ fn main() {
         .noise_threshold(0.05)
         .without_plots()
         .configure_from_args();
-    let mut rows = Vec::new();
-    for (name, make) in subjects::ALL.iter().filter(|(name, _)| is_wanted(name)) {
-        let subject = Subject::new(name, make());
-        time_alone(&mut criterion, &subject);
+    let named = std::env::var("FURNACE_CORE").ok();
+    let cores = named
+        .as_deref()
+        .into_iter()
+        .chain(["builtin"].into_iter().filter(|builtin| named.as_deref() != Some(*builtin)));
+    let cores: Result<Vec<CoreSpec>, _> = cores.map(str::parse).collect();
+    let bench = Bench {
+        cores: cores.expect("FURNACE_CORE names a core"),
+        hosting: Hosting { program: env!("CARGO_BIN_EXE_furnace").into(), ..Hosting::default() },
+        rounds: ROUNDS,
+    };
+    let mut measured = Vec::new();
+    for subject in made_here(is_wanted) {
+        if named.is_none() {
+            time_alone(&mut criterion, &subject);
+        }
         if is_measuring {
-            rows.push(paired::measure(&subject));
+            measured.push(bench.measure(&subject).expect("the cores answer"));
         }
     }
     criterion.final_summary();
-    table::print(&rows);
+    println!("{}", table(&measured));
+    assert!(!measured.iter().any(|one| one.is_wrong()), "hits differ from those of brute force");
 }
 
 /// The criterion group of one subject.

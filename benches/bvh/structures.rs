@@ -32,11 +32,6 @@ pub const RULES: [Rule; 5] = [
     Rule::bvh("surface-area", Split::SurfaceArea),
 ];
 
-/// A core for each rule, so that all of them can hold a scene at once.
-pub fn cores() -> [Builtin; RULES.len()] {
-    [Builtin::new(); RULES.len()]
-}
-
 /// Builds by `rule` with the given core.
 pub fn build<'a>(
     core: &'a mut Builtin,

@@ -3,6 +3,7 @@
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod agreement;
+mod bench;
 mod compare;
 mod completions;
 mod debug;
@@ -116,6 +117,8 @@ enum Verb {
     Render(render::RenderArguments),
     /// Write the course's write-up of a core: its ladders of images and its tables, as Markdown and HTML.
     Writeup(writeup::WriteupArguments),
+    /// Measure how fast BVHs of cores are: speed-ups over brute force, tests a ray, growth.
+    Bench(bench::BenchArguments),
     /// Validate every case and scene.
     Lint(lint::LintArguments),
     /// Write the report of a run again.
@@ -186,6 +189,7 @@ pub fn main(carried: Carried) -> ExitCode {
         Some(Verb::Compare(arguments)) => compare::compare(&arguments),
         Some(Verb::Render(arguments)) => render::render(&arguments),
         Some(Verb::Writeup(arguments)) => writeup::writeup(&arguments),
+        Some(Verb::Bench(arguments)) => bench::bench(&arguments),
         Some(Verb::Lint(arguments)) => lint::lint(&arguments),
         Some(Verb::Report(arguments)) => report::report(&arguments),
         Some(Verb::Agreement(arguments)) => agreement::agreement(&arguments),

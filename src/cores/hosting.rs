@@ -4,7 +4,9 @@ use super::CoreSpec;
 use super::dylib::LoadError;
 use super::remote::Remote;
 use crate::contract::Core;
-use crate::worker::{Confinement, CoreOrigin, Launch, Limits, Patience, StartError, WorkerSpec};
+use crate::worker::{
+    Confinement, CoreOrigin, CpuClock, Launch, Limits, Patience, StartError, WorkerSpec,
+};
 use std::path::PathBuf;
 
 /// How cores are hosted in a run.
@@ -126,6 +128,14 @@ impl Hosted {
         match self {
             Self::Here(_) => None,
             Self::Away(remote) => Some(remote.confinement()),
+        }
+    }
+
+    /// CPU time of its process while it answers; stands still for a core in this process.
+    pub(crate) fn clock(&self) -> CpuClock {
+        match self {
+            Self::Here(_) => CpuClock::default(),
+            Self::Away(remote) => remote.clock(),
         }
     }
 

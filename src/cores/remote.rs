@@ -8,7 +8,7 @@ use crate::contract::question::*;
 use crate::contract::{Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo};
 use crate::worker::message::{Answer, Request, Told, Wanted};
 use crate::worker::narrow::narrow;
-use crate::worker::{Confinement, Launch, StartError, Worker, build_request};
+use crate::worker::{Confinement, CpuClock, Launch, StartError, Worker, build_request};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
@@ -42,6 +42,11 @@ impl Remote {
     /// What the system enforces on it.
     pub(crate) const fn confinement(&self) -> &Confinement {
         self.worker.confinement()
+    }
+
+    /// CPU time of its process while the core answers.
+    pub(crate) fn clock(&self) -> CpuClock {
+        self.worker.clock()
     }
 
     /// What it has printed.

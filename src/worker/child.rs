@@ -30,7 +30,7 @@ pub(crate) enum ChildError {
 pub(crate) fn begin(worker: &WorkerSpec) -> Result<Inherited, ChildError> {
     let mut channel = inherited::take()?;
     let mut buffer = Vec::new();
-    encode(&mut buffer, 0, Answer::Confined { confinement: confine(worker) }, &[])?;
+    encode(&mut buffer, 0, Answer::Confined { confinement: confine(worker) }, &[], None)?;
     frame::send(&mut channel.output(), &buffer)?;
     Ok(channel)
 }

@@ -1,6 +1,7 @@
 //! The side of the bench: sends a request, and reads the answer into the memory it is meant for.
 
 use super::Channel;
+use super::clock::CpuClock;
 use super::frame::{self, FrameError};
 use super::message::{Answer, ArrayHeader, Header, Request, Wanted, encode, parse};
 use crate::contract::crossing::padded;
@@ -11,6 +12,7 @@ pub struct Client {
     channel: Channel,
     number: u64,
     buffer: Vec<u8>,
+    clock: CpuClock,
 }
 
 /// Why there is no answer.
@@ -38,7 +40,12 @@ fn nonsense(what: impl Display) -> Silence {
 impl Client {
     /// At this end of `channel`.
     pub fn new(channel: Channel) -> Self {
-        Self { channel, number: 0, buffer: Vec::new() }
+        Self { channel, number: 0, buffer: Vec::new(), clock: CpuClock::default() }
+    }
+
+    /// What the other side says of its CPU time.
+    pub(super) const fn clock(&self) -> &CpuClock {
+        &self.clock
     }
 
     /// Asks, and fills `wanted` if the core could answer.
@@ -51,7 +58,7 @@ impl Client {
         wanted: &mut [Wanted<'_>],
     ) -> Result<Answer, Silence> {
         self.number += 1;
-        encode(&mut self.buffer, self.number, request.members(), request.arrays())?;
+        encode(&mut self.buffer, self.number, request.members(), request.arrays(), None)?;
         frame::send(&mut self.channel.output, &self.buffer)?;
         self.hear(wanted)
     }
@@ -67,6 +74,7 @@ impl Client {
             let (number, asked) = (opening.number, self.number);
             return Err(nonsense(format!("it answered request {number}, and was asked {asked}")));
         }
+        self.clock.add(header.cpu_seconds.unwrap_or(0.0));
         let has_arrays =
             matches!(header.message, Answer::Done | Answer::Traced { .. } | Answer::Coded { .. });
         let wanted = if has_arrays { wanted } else { &mut [] };

@@ -195,6 +195,9 @@ pub(crate) struct Header<M> {
     /// In the order in which they lie in the body.
     #[serde(default)]
     pub(crate) arrays: Vec<ArrayHeader>,
+    /// CPU time that the core's process has used for an answer, if it says so.
+    #[serde(default, rename = "cpu-seconds", skip_serializing_if = "Option::is_none")]
+    pub(crate) cpu_seconds: Option<f64>,
 }
 
 /// Puts a message and its arrays into `buffer` as one frame.
@@ -206,8 +209,10 @@ pub fn encode<M: Serialize>(
     number: u64,
     message: M,
     arrays: &[Sent<'_>],
+    cpu_seconds: Option<f64>,
 ) -> Result<(), FrameError> {
-    let header = Header { message, arrays: arrays.iter().map(Sent::header).collect() };
+    let arrays_named = arrays.iter().map(Sent::header).collect();
+    let header = Header { message, arrays: arrays_named, cpu_seconds };
     let header = serde_json::to_vec(&header)
         .map_err(|error| FrameError::Malformed(format!("a header that cannot be: {error}")))?;
     let arrays: Vec<_> = arrays.iter().map(Sent::bytes).collect();

@@ -10,6 +10,7 @@
 
 pub(crate) mod child;
 mod client;
+mod clock;
 mod confine;
 #[cfg(target_os = "linux")]
 mod confine_linux;
@@ -31,6 +32,7 @@ mod spec;
 mod usage;
 
 pub use client::{Client, Silence};
+pub(crate) use clock::CpuClock;
 #[cfg(target_os = "linux")]
 pub(crate) use confine_linux::end_with_us;
 pub use patience::Patience;

@@ -2,6 +2,7 @@
 
 use super::Channel;
 use super::client::{Client, Silence};
+use super::clock::CpuClock;
 use super::guard::{Guard, Watch};
 use super::message::{Answer, Request, Wanted};
 use super::output::Output;
@@ -134,6 +135,11 @@ impl Worker {
         wanted: &mut [Wanted<'_>],
     ) -> Result<Answer, CoreError> {
         self.guarded(request.name(), |client| client.ask(request, wanted))?.into_result()
+    }
+
+    /// CPU time of its process while the core answers.
+    pub(crate) fn clock(&self) -> CpuClock {
+        self.client.clock().clone()
     }
 
     fn guarded(

@@ -2,7 +2,7 @@
 
 use super::frame::{self, Body, FrameError};
 use super::message::{Answer, Received, Sent, Told, encode, parse};
-use super::{Channel, scene};
+use super::{Channel, clock, scene};
 use crate::contract::answer::{Answer as Filled, Asked};
 use crate::contract::argument::{Argument, size_of_answer};
 use crate::contract::question::*;
@@ -30,7 +30,10 @@ pub fn serve(core: &mut dyn Core, channel: Channel) -> Served {
                 let scene = scene::decode(&mut request)?;
                 let acceleration = request.member("acceleration")?;
                 let capabilities = core.info().capabilities;
-                match core.build_scene(&scene, acceleration) {
+                let begun = clock::now();
+                let built = core.build_scene(&scene, acceleration);
+                outbox.cpu_seconds = Some((clock::now() - begun).as_secs_f64());
+                match built {
                     Ok(built) => serve_built(built, capabilities, &mut inbox, &mut outbox)?,
                     Err(error) => outbox.fail(error)?,
                 }
@@ -86,7 +89,10 @@ macro_rules! answer_if_asked {
             let size = size_of_answer([$(Argument::size($arg)),*]);
             let asked = Asked { size, capabilities: $capabilities, primitives_of_shape: &[] };
             let mut answer = <$answer as Filled>::blank(&asked);
-            return match $core.$method($($arg,)* &mut answer) {
+            let begun = clock::now();
+            let answered = $core.$method($($arg,)* &mut answer);
+            $outbox.cpu_seconds = Some((clock::now() - begun).as_secs_f64());
+            return match answered {
                 Ok(told) => {
                     let arrays = answer.sent(stringify!($out), $capabilities);
                     $outbox.send(Told::into_answer(told), &arrays)
@@ -116,7 +122,8 @@ fn answer_built(
 }
 
 fn ends(channel: Channel) -> (Inbox, Outbox) {
-    let outbox = Outbox { output: channel.output, buffer: Vec::new(), number: 0 };
+    let outbox =
+        Outbox { output: channel.output, buffer: Vec::new(), number: 0, cpu_seconds: None };
     (Inbox { input: channel.input, body: Body::default() }, outbox)
 }
 
@@ -145,11 +152,13 @@ struct Outbox {
     buffer: Vec<u8>,
     /// Of the request that is being answered.
     number: u64,
+    /// What the core took for it.
+    cpu_seconds: Option<f64>,
 }
 
 impl Outbox {
     fn send(&mut self, message: Answer, arrays: &[Sent<'_>]) -> Served {
-        encode(&mut self.buffer, self.number, message, arrays)?;
+        encode(&mut self.buffer, self.number, message, arrays, self.cpu_seconds.take())?;
         frame::send(&mut self.output, &self.buffer)
     }
 

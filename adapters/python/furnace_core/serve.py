@@ -4,6 +4,7 @@ import json
 import os
 import struct
 import sys
+import time
 import traceback
 
 import numpy as np
@@ -100,8 +101,10 @@ def serve(core):
         if request is None:
             return
         number, header, arrays = request
+        begun = time.process_time()
         try:
             answer, sent, built = ask(core, built, header, arrays)
+            answer["cpu-seconds"] = time.process_time() - begun
             channel.write(number, answer, sent)
         except (Unsupported, NotImplementedError) as error:
             why = str(error) or f"{header['request']} is not there"

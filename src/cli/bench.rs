@@ -1,0 +1,89 @@
+//! `furnace bench`: how fast the BVHs of cores are.
+
+use super::hosting::HostingArguments;
+use super::say::{complain, say_line};
+use super::{Answer, ExitCode, Failure, ProjectArguments};
+use crate::bench::{Bench, FOUNDING, Subject, in_folder, made_here, table};
+use crate::cores::CoreSpec;
+use crate::scene::Library;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Measuring takes longer than a trial.
+const SECONDS: f64 = 3600.0;
+/// Left out unless it is asked for: textbook brute force takes a minute.
+const LARGEST: &str = "bumpy-sphere-1.3M";
+
+/// What `furnace bench` understands.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct BenchArguments {
+    /// Meshes: parts of their names [default: all that are made here but the largest].
+    filters: Vec<String>,
+    /// The core; may be repeated to compare several. `builtin` comes along.
+    #[arg(long = "core", value_name = "CORE", required = true)]
+    cores: Vec<CoreSpec>,
+    /// The folder of the course's `.dae` scenes: cow, teapot, beetle, maxplanck and bunny in place of the meshes made
+    /// here.
+    #[arg(long, value_name = "DIR")]
+    scenes: Option<PathBuf>,
+    /// How often each structure takes its turn.
+    #[arg(long, value_name = "N", default_value_t = 11, value_parser = clap::value_parser!(u16).range(3..))]
+    rounds: u16,
+    #[command(flatten)]
+    hosting: HostingArguments,
+    #[command(flatten)]
+    project: ProjectArguments,
+}
+
+/// Measures, and prints the tables.
+pub(crate) fn bench(arguments: &BenchArguments) -> Answer {
+    let project = arguments.project.find()?;
+    let subjects = match &arguments.scenes {
+        Some(folder) => of_the_course(arguments, folder, &Library::of(&project))?,
+        None => made_here(|name| is_wanted(arguments, name)).collect(),
+    };
+    if subjects.is_empty() {
+        return Err(Failure::nothing("no mesh has such a name"));
+    }
+    let hosting = arguments.hosting.with_time_limit(SECONDS).hosting(&project.runs());
+    let bench = Bench {
+        cores: with_builtin(&arguments.cores)?,
+        hosting: hosting.hiding(project.secrets()),
+        rounds: arguments.rounds.into(),
+    };
+    let mut measured = Vec::new();
+    for subject in &subjects {
+        measured.push(bench.measure(subject).map_err(Failure::broken)?);
+        complain(format!("{} of {} meshes measured", measured.len(), subjects.len()));
+    }
+    say_line!("{}", table(&measured));
+    let is_wrong = measured.iter().any(crate::bench::Measured::is_wrong);
+    Ok(if is_wrong { ExitCode::Failed } else { ExitCode::Good })
+}
+
+fn is_wanted(arguments: &BenchArguments, name: &str) -> bool {
+    let filters = &arguments.filters;
+    let is_named = filters.iter().any(|part| name.contains(part.as_str()));
+    is_named || filters.is_empty() && name != LARGEST
+}
+
+fn of_the_course(
+    arguments: &BenchArguments,
+    folder: &Path,
+    library: &Library,
+) -> Result<Vec<Subject>, Failure> {
+    let wanted = |name: &str| is_wanted(arguments, name);
+    let found = in_folder(folder, library, wanted).map_err(Failure::request)?;
+    for name in FOUNDING.iter().filter(|name| wanted(name)) {
+        if !found.iter().any(|subject| subject.name == *name) {
+            complain(format!("`{}` has no {name}.dae", folder.display()));
+        }
+    }
+    Ok(found)
+}
+
+fn with_builtin(cores: &[CoreSpec]) -> Result<Vec<CoreSpec>, Failure> {
+    let builtin: CoreSpec = "builtin".parse().map_err(Failure::request)?;
+    let is_there = cores.contains(&builtin);
+    Ok(cores.iter().cloned().chain((!is_there).then_some(builtin)).collect())
+}

@@ -376,7 +376,7 @@ fn hand_in_fourteen(room: &Room) {
     fs::create_dir_all(room.path().join("handed-in/nia-empty")).unwrap();
 }
 
-/// Its log is in `docs/simulations/class.log`.
+/// Twenty kills, each a while after the start.
 #[test]
 #[ignore = "takes a quarter of an hour"]
 fn a_class_of_fourteen_killed_twenty_times_has_the_table_of_one_that_was_not() {
@@ -424,6 +424,10 @@ fn a_class_of_fourteen_killed_twenty_times_has_the_table_of_one_that_was_not() {
     fresh.furnace(&WORDS);
     println!("never killed: {:.0} s", begun.elapsed().as_secs_f64());
     let table = room.read("classes/sample/class.csv");
-    assert_eq!(table.lines().count(), 15, "{table}");
+    // What a compiler says goes on over lines.
+    let names = FOURTEEN.map(|(name, _)| name);
+    for name in names.into_iter().chain(["max-does-not-compile", "nia-empty"]) {
+        assert!(table.lines().any(|line| line.starts_with(&format!("{name},"))), "{name}: {table}");
+    }
     assert_eq!(fresh.read("classes/sample/class.csv"), table);
 }

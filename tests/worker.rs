@@ -101,7 +101,7 @@ fn the_numpy_example_is_right() {
     assert_nothing_fails(&run(&core, &["camera/", "shape/", "bvh/"], false), 15);
 }
 
-/// Renderers that others wrote and everybody trusts; `docs/trusted-renderers.md` tells of every case.
+/// Renderers that others wrote and everybody trusts; `docs/book/src/trusted-renderers.md` tells of every case.
 #[test]
 fn embree_is_right() {
     let library = Path::new(env!("CARGO_TARGET_TMPDIR")).join("libfurnace_embree.so");

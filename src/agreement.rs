@@ -99,7 +99,7 @@ pub(crate) fn references(project: &Project) -> Vec<String> {
 ///
 /// # Errors
 /// If the reference cannot be had or the renderer does not answer.
-pub fn compare(
+pub(crate) fn compare(
     project: &Project,
     core: &CoreSpec,
     name: &str,

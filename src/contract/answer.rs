@@ -159,7 +159,7 @@ impl Batch for [bool] {
 ///
 /// # Errors
 /// If one is neither 0 nor 1.
-pub fn read_flags(bytes: &[u8], flags: &mut [bool]) -> Result<()> {
+pub(crate) fn read_flags(bytes: &[u8], flags: &mut [bool]) -> Result<()> {
     for (index, (flag, byte)) in flags.iter_mut().zip(bytes).enumerate() {
         *flag = match byte {
             0 => false,

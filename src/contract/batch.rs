@@ -71,7 +71,7 @@ impl Hit {
     };
 
     /// Whether anything was hit.
-    pub const fn is_hit(&self) -> bool {
+    pub(crate) const fn is_hit(&self) -> bool {
         self.primitive != Self::NONE
     }
 }

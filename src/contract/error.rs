@@ -64,7 +64,7 @@ impl From<Breach> for CoreError {
 
 impl CoreError {
     /// An answer that is not what was asked for, in words.
-    pub fn breach(words: impl Into<String>) -> Self {
+    pub(crate) fn breach(words: impl Into<String>) -> Self {
         Breach::other(words).into()
     }
 }

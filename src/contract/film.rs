@@ -23,7 +23,7 @@ pub struct Film {
 
 impl Film {
     /// A film that nothing has been written to, as a core with these capabilities is handed it.
-    pub fn blank(width: u32, height: u32, capabilities: Capabilities) -> Self {
+    pub(crate) fn blank(width: u32, height: u32, capabilities: Capabilities) -> Self {
         let count = width as usize * height as usize;
         let reports = capabilities.contains(Capabilities::REPORTED_VARIANCE);
         Self {

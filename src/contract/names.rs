@@ -13,7 +13,7 @@ macro_rules! by_names {
             ///
             /// # Errors
             /// With the word that names none.
-            pub fn from_names(names: &[String]) -> Result<Self, String> {
+            pub(crate) fn from_names(names: &[String]) -> Result<Self, String> {
                 names.iter().try_fold(Self::empty(), |all, name| {
                     let flag = Self::from_name(&name.to_uppercase().replace('-', "_"));
                     let unknown = || format!("there is no {} `{name}`", $kind);

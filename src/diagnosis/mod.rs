@@ -31,7 +31,7 @@ mod testing;
 pub(crate) use apart::{View, diagnose_apart};
 pub(crate) use evidence::{Ending, Evidence, Observation, Standing};
 pub(crate) use rank::Diagnosis;
-pub use rank::Headline;
+pub(crate) use rank::Headline;
 pub(crate) use reproduction::{Mistake, Planted, Question};
 
 use crate::cause::Cause;

@@ -125,7 +125,7 @@ impl Matrix {
     }
 
     /// The cases of the parts of the course whose answers a core changes.
-    pub fn touched_by(&self, core: &Different) -> Self {
+    pub(crate) fn touched_by(&self, core: &Different) -> Self {
         self.with_cases(|case| case.part().is_some_and(|part| core.parts.contains(&part.number)))
     }
 

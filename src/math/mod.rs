@@ -2,7 +2,7 @@
 
 pub mod closed_form;
 pub(crate) mod frame;
-pub mod harmonics;
+pub(crate) mod harmonics;
 mod precision;
 pub mod quadrature;
 pub mod ratios;

@@ -15,7 +15,7 @@ pub enum Precision {
 
 impl Precision {
     /// The distance from 1 to the next number.
-    pub const fn epsilon(self) -> f64 {
+    pub(crate) const fn epsilon(self) -> f64 {
         match self {
             Self::Single => f32::EPSILON as f64,
             Self::Double => f64::EPSILON,

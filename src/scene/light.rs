@@ -50,7 +50,7 @@ impl Light {
     }
 
     /// Radiance of the sky from direction `w` (unit, away from the scene); zero for other lights.
-    pub fn sky_radiance(&self, w: DVec3) -> Rgb {
+    pub(crate) fn sky_radiance(&self, w: DVec3) -> Rgb {
         match *self {
             Self::ConstantSky { radiance } => radiance,
             Self::GradientSky { up, horizon, zenith } => {

@@ -89,7 +89,7 @@ pub struct Cap {
 
 impl Emission {
     /// Radiance at a point of a sphere in direction `from_centre` (unit) from its centre.
-    pub fn at_sphere_point(&self, from_centre: DVec3) -> Rgb {
+    pub(crate) fn at_sphere_point(&self, from_centre: DVec3) -> Rgb {
         match self.cap {
             Some(cap) if from_centre.dot(cap.axis) < cap.half_angle.cos() => [0.0; 3],
             _ => self.radiance,

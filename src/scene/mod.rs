@@ -15,7 +15,7 @@ mod light;
 mod material;
 pub mod mesh;
 pub(crate) mod motion;
-pub mod procedural;
+pub(crate) mod procedural;
 pub mod reference;
 mod shape;
 

@@ -108,7 +108,7 @@ impl Aabb {
     }
 
     /// Length of the diagonal.
-    pub fn diagonal(&self) -> f64 {
+    pub(crate) fn diagonal(&self) -> f64 {
         (self.max - self.min).length()
     }
 }

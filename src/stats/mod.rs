@@ -21,31 +21,25 @@ mod law;
 mod plan;
 mod test;
 
-pub use image::ImageEffort;
-pub use image::judge_image_pair;
-pub(crate) use image::{CellScore, Clipped, Ends, Extent, Measured, flip_map, misfit};
-pub use image::{
-    CodeReference, CodeReport, CodeSettings, CodesCompared, Comparison, Component, Deciphered,
-    DifferenceReport, GlobalRatio, ImageDraw, ImageReport, Impossible, NoiseSource, OddPixels,
-    Pattern, PatternReport, Question, Reference, Sample, Scale, ScaleReport, Side, compare,
-    judge_codes, judge_image,
+pub(crate) use image::{
+    CellScore, Clipped, CodeReference, CodeReport, CodeSettings, CodesCompared, Comparison,
+    Component, Deciphered, DifferenceReport, Ends, Extent, GlobalRatio, ImageDraw, ImageReport,
+    Impossible, Measured, NoiseSource, OddPixels, PatternReport, Scale, ScaleReport, Side, compare,
+    flip_map, judge_codes, misfit,
 };
-pub use law::Moments;
-pub use law::normal_upper;
-use law::student_upper;
-pub use law::{
-    CellProbabilities, Counts, SphereCells, StoppingLaw, TwoValues, binomial_at_least,
-    chi_square_upper, share_interval,
+pub use image::{ImageEffort, Question, Reference, judge_image, judge_image_pair};
+pub(crate) use law::{
+    CellProbabilities, SphereCells, StoppingLaw, TwoValues, chi_square_upper, student_upper,
 };
-pub use plan::Budget;
-pub use plan::{
+pub use law::{Counts, Moments, binomial_at_least, normal_upper, share_interval};
+pub(crate) use plan::{
     Allowance, Band, Claim, Doubt, Effort, Hypothesis, Ledger, LedgerEntry, Report,
-    SUITE_FALSE_ALARM, Sides, Stage, TestKind, Verdict,
+    SUITE_FALSE_ALARM, Sides, Stage,
 };
-pub(crate) use test::timing;
+pub use plan::{Budget, TestKind, Verdict};
 pub(crate) use test::{
     Compared, CorrelationReport, CountDoubt, CountReport, CountSource, ErrorLevel, ExactReport,
     MeanReport, RareReport, Rarity, ReportedVariance, Sampling, ShareReport, SlopeReport,
     Tolerance, TwoVariances, batch_size, follows_law, judge_count_source, judge_counts,
-    judge_exact, judge_means, judge_rare, judge_share, judge_slope, judge_uncorrelated,
+    judge_exact, judge_means, judge_rare, judge_share, judge_slope, judge_uncorrelated, timing,
 };

@@ -31,14 +31,15 @@ mod serve;
 mod spec;
 mod usage;
 
-pub use client::{Client, Silence};
+pub use client::Client;
 pub(crate) use clock::CpuClock;
 #[cfg(target_os = "linux")]
 pub(crate) use confine_linux::end_with_us;
-pub use patience::Patience;
-pub use process::{Launch, StartError, Worker};
+pub(crate) use patience::Patience;
+pub(crate) use process::{Launch, StartError, Worker};
 pub use scene::build_request;
-pub use serve::{refuse, serve};
+pub(crate) use serve::refuse;
+pub use serve::serve;
 pub use spec::Limits;
 pub(crate) use spec::{Confinement, CoreOrigin, WorkerSpec};
 pub(crate) use usage::crowding;

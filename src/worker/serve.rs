@@ -67,7 +67,7 @@ fn serve_built(
 ///
 /// # Errors
 /// As [`serve`].
-pub fn refuse(why: String, channel: Channel) -> Served {
+pub(crate) fn refuse(why: String, channel: Channel) -> Served {
     let (mut inbox, mut outbox) = ends(channel);
     while let Some((number, _)) = inbox.next()? {
         outbox.number = number;

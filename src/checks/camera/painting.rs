@@ -7,7 +7,7 @@ use crate::scene::{Camera, Emission, Material, Mesh, SceneDescription, Surface};
 use glam::{DVec2, DVec3};
 
 /// Columns and rows of the film; odd, so that every second pixel of every second row has neighbours on all sides.
-pub const FILM: [u32; 2] = [17, 13];
+pub(crate) const FILM: [u32; 2] = [17, 13];
 /// Between the border of a pixel, or of a part of it, and what is painted there, in pixels: no rounding carries a
 /// sample across.
 pub(crate) const MARGIN: f64 = 0.002;

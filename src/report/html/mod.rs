@@ -78,7 +78,7 @@ pub fn write(tree: &RunTree, folder: &Path) -> Result<PathBuf, ReportError> {
 ///
 /// # Errors
 /// On an I/O error.
-pub fn write_single(tree: &RunTree, folder: &Path) -> Result<PathBuf, ReportError> {
+pub(crate) fn write_single(tree: &RunTree, folder: &Path) -> Result<PathBuf, ReportError> {
     put(&folder.join("report.html"), &single(tree, folder))
 }
 

@@ -10,9 +10,10 @@ mod sphere;
 mod sphereflake;
 mod teapot;
 
-pub use pathological::{Layout, pathological, soup};
+pub(crate) use pathological::pathological;
+pub use pathological::{Layout, soup};
 pub(crate) use polyhedron::{block, parallelogram};
-pub use sphere::{bumpy_sphere, icosphere};
+pub(crate) use sphere::{bumpy_sphere, icosphere};
 pub use sphereflake::sphereflake;
-pub use sphereflake::sphereflake_spheres;
+pub(crate) use sphereflake::sphereflake_spheres;
 pub use teapot::teapot;

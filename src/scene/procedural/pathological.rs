@@ -33,7 +33,7 @@ pub fn soup(triangles: u32, seed: Seed) -> Mesh {
 }
 
 /// `triangles` triangles in the unit cube, arranged as `layout` says. `seed` matters where chance does.
-pub fn pathological(layout: Layout, triangles: u32, seed: Seed) -> Mesh {
+pub(crate) fn pathological(layout: Layout, triangles: u32, seed: Seed) -> Mesh {
     let stream = &mut seed.stream();
     let step = f64::from(triangles.max(1)).recip();
     let along = |k: u32| f64::from(k) * step;

@@ -9,13 +9,13 @@ const BUMP_HEIGHT: f64 = 0.1;
 
 /// A unit sphere around the origin made of 20 · 4ˢ triangles: an icosahedron, each triangle of
 /// which has been divided into four s times.
-pub fn icosphere(subdivisions: u32) -> Mesh {
+pub(crate) fn icosphere(subdivisions: u32) -> Mesh {
     (0..subdivisions).fold(icosahedron(), |mesh, _| subdivided(&mesh))
 }
 
 /// A closed sphere with bumps, 20 · 4ˢ triangles: radius 1 + 0.1 sin(7θ) cos(5φ), θ from the y
 /// axis. No two triangles alike, and concave enough for rays to meet it several times.
-pub fn bumpy_sphere(subdivisions: u32) -> Mesh {
+pub(crate) fn bumpy_sphere(subdivisions: u32) -> Mesh {
     let mut mesh = icosphere(subdivisions);
     for position in &mut mesh.positions {
         let theta = position.y.clamp(-1.0, 1.0).acos();

@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_3, TAU};
 
 /// Centres and radii of a sphereflake, biggest first: one sphere of radius 1 around the origin and
 /// (9ᵈ⁺¹ − 1)/8 spheres in all. The whole stays within distance 2 of the origin.
-pub fn sphereflake_spheres(depth: u32) -> Vec<(DVec3, f64)> {
+pub(crate) fn sphereflake_spheres(depth: u32) -> Vec<(DVec3, f64)> {
     let mut all = vec![(DVec3::ZERO, 1.0)];
     let mut generation = vec![(DVec3::ZERO, 1.0, DQuat::IDENTITY)];
     for _ in 0..depth {

@@ -207,7 +207,7 @@ pub struct Question {
 ///
 /// # Errors
 /// [`ImageError::DifferentSizes`], of the pictures or of what counts.
-pub fn compare(
+pub(crate) fn compare(
     picture: &Side,
     reference: &Side,
     question: Question,

@@ -17,12 +17,16 @@ mod screening;
 mod simulation;
 mod target;
 
-pub use cells::{Component, Extent, Scale};
-pub use codes::{CodeReference, CodeReport, CodeSettings, Deciphered, NoiseSource, judge_codes};
+pub(crate) use cells::{Component, Extent, Scale};
+pub(crate) use codes::{
+    CodeReference, CodeReport, CodeSettings, Deciphered, NoiseSource, judge_codes,
+};
+pub use comparison::Question;
 pub(crate) use comparison::{Clipped, Ends, Measured, flip_map};
-pub use comparison::{CodesCompared, Comparison, Question, Side, compare};
-pub use difference::{DifferenceReport, OddPixels, Pattern, PatternReport, Sample};
-pub use draw::{ImageDraw, ImageEffort};
+pub(crate) use comparison::{CodesCompared, Comparison, Side, compare};
+pub(crate) use difference::{DifferenceReport, OddPixels, PatternReport, Sample};
+pub(crate) use draw::ImageDraw;
+pub use draw::ImageEffort;
 pub(crate) use report::CellScore;
-pub use report::{GlobalRatio, ImageReport, Impossible, ScaleReport};
+pub(crate) use report::{GlobalRatio, ImageReport, Impossible, ScaleReport};
 pub use screen::{Reference, judge_image, judge_image_pair};

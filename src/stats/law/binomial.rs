@@ -14,7 +14,7 @@ pub fn binomial_at_least(hits: u64, trials: u64, probability: f64) -> f64 {
 }
 
 /// P(X ≤ `hits`) of `trials` with this probability.
-pub fn binomial_at_most(hits: u64, trials: u64, probability: f64) -> f64 {
+pub(crate) fn binomial_at_most(hits: u64, trials: u64, probability: f64) -> f64 {
     if hits >= trials {
         return 1.0;
     }

@@ -8,13 +8,15 @@ mod quantile;
 mod spread;
 mod stopping;
 
-pub use binomial::{binomial_at_least, binomial_at_most, share_interval};
-pub use histogram::{CellProbabilities, Counts, SphereCells};
+pub(crate) use binomial::binomial_at_most;
+pub use binomial::{binomial_at_least, share_interval};
+pub use histogram::Counts;
+pub(crate) use histogram::{CellProbabilities, SphereCells};
 pub use moments::Moments;
-pub use quantile::{
-    chi_square_tail, chi_square_upper, detectable_noncentrality, fisher_upper, normal_upper,
-    student_upper,
+pub use quantile::normal_upper;
+pub(crate) use quantile::{
+    chi_square_tail, chi_square_upper, detectable_noncentrality, fisher_upper, student_upper,
 };
 pub(super) use quantile::{student_tail, upper_median};
 pub(super) use spread::Spread;
-pub use stopping::{StoppingLaw, TwoValues};
+pub(crate) use stopping::{StoppingLaw, TwoValues};

@@ -11,7 +11,7 @@ pub fn normal_upper(level: f64) -> f64 {
 
 /// What Student's t with `freedom` degrees of freedom exceeds with probability `level`.
 /// Infinite without any freedom: one value alone proves nothing.
-pub fn student_upper(level: f64, freedom: f64) -> f64 {
+pub(crate) fn student_upper(level: f64, freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |law| -law.inverse_cdf(level))
 }
 
@@ -22,17 +22,17 @@ pub(crate) fn student_tail(value: f64, freedom: f64) -> f64 {
 
 /// What χ² with `freedom` degrees of freedom exceeds with probability `level`. Infinite without any
 /// freedom.
-pub fn chi_square_upper(level: f64, freedom: f64) -> f64 {
+pub(crate) fn chi_square_upper(level: f64, freedom: f64) -> f64 {
     ChiSquared::new(freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(1.0 - level))
 }
 
 /// What the ratio of two χ², each over its own `freedom`, exceeds with probability `level` (Fisher's F).
-pub fn fisher_upper(level: f64, above: f64, below: f64) -> f64 {
+pub(crate) fn fisher_upper(level: f64, above: f64, below: f64) -> f64 {
     FisherSnedecor::new(above, below).map_or(f64::INFINITY, |law| law.inverse_cdf(1.0 - level))
 }
 
 /// The probability that χ² with `freedom` degrees of freedom exceeds `value`; NaN for NaN.
-pub fn chi_square_tail(value: f64, freedom: f64) -> f64 {
+pub(crate) fn chi_square_tail(value: f64, freedom: f64) -> f64 {
     ChiSquared::new(freedom).map_or(f64::NAN, |law| law.sf(value))
 }
 
@@ -58,7 +58,7 @@ pub(crate) fn noncentral_chi_square_tail(value: f64, freedom: f64, noncentrality
 
 /// The noncentrality that a χ² test at `level` misses with probability `miss`.
 /// Infinite without any freedom.
-pub fn detectable_noncentrality(freedom: f64, level: f64, miss: f64) -> f64 {
+pub(crate) fn detectable_noncentrality(freedom: f64, level: f64, miss: f64) -> f64 {
     if freedom.is_nan() || freedom <= 0.0 {
         return f64::INFINITY;
     }

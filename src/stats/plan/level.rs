@@ -2,7 +2,7 @@
 //! has these numbers; the ledger adds them up, the tests judge by them.
 
 /// What a whole suite may spend.
-pub const SUITE_FALSE_ALARM: f64 = 1e-6;
+pub(crate) const SUITE_FALSE_ALARM: f64 = 1e-6;
 
 /// Probability of missing an error as large as the smallest detectable one.
 pub(in crate::stats) const MISS_LEVEL: f64 = 1e-3;

@@ -9,10 +9,12 @@ pub(super) mod level;
 mod report;
 mod verdict;
 
-pub use budget::{Allowance, Budget, Effort};
-pub use claim::{Band, Claim, Sides};
-pub use escalation::{Escalation, Scored, Stage};
-pub use ledger::{Hypothesis, Ledger, LedgerEntry, TestKind};
-pub use level::SUITE_FALSE_ALARM;
-pub use report::{Doubt, Judgement, Report};
+pub use budget::Budget;
+pub(crate) use budget::{Allowance, Effort};
+pub(crate) use claim::{Band, Claim, Sides};
+pub(crate) use escalation::{Escalation, Scored, Stage};
+pub use ledger::TestKind;
+pub(crate) use ledger::{Hypothesis, Ledger, LedgerEntry};
+pub(crate) use level::SUITE_FALSE_ALARM;
+pub(crate) use report::{Doubt, Judgement, Report};
 pub use verdict::Verdict;

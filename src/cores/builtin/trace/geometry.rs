@@ -183,7 +183,7 @@ impl Geometry {
 }
 
 /// How far rays must keep away from a shape inside `bounds`.
-pub fn clearance_of(points: impl IntoIterator<Item = DVec3>) -> f64 {
+pub(crate) fn clearance_of(points: impl IntoIterator<Item = DVec3>) -> f64 {
     CLEARANCE
         * points.into_iter().fold(0.0, |largest: f64, point| largest.max(point.abs().max_element()))
 }

@@ -21,7 +21,8 @@ mod equivalence;
 
 pub(crate) use build::Plan;
 pub(crate) use collapse::{brute_force, build_bvh};
-pub use geometry::{Geometry, Surface, clearance_of};
+pub use geometry::Surface;
+pub(crate) use geometry::{Geometry, clearance_of};
 pub(crate) use segment::Segment;
 pub(crate) use tracer::Tracer;
 pub(crate) use tree::Tree;

@@ -3,5 +3,6 @@
 mod read;
 mod write;
 
-pub use read::{FILM, Reading, load, load_camera};
+pub use read::load;
+pub(crate) use read::{FILM, load_camera};
 pub(super) use write::export;

@@ -64,7 +64,7 @@ impl LightOfCodes {
 
 /// Reads the light off the codes of pictures of one thing. `variance` is that of every value of
 /// their mean, if it is known.
-pub fn light_of_codes(
+pub(crate) fn light_of_codes(
     reference: CodeReference<'_>,
     pictures: &[&Codes],
     variance: Option<&Image>,

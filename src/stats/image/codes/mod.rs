@@ -30,8 +30,8 @@ mod simulation;
 mod tests;
 
 pub(crate) use clipping::ClippingReport;
-pub use decipher::Deciphered;
-pub use light::{LightOfCodes, NoiseSource, light_of_codes};
+pub(crate) use decipher::Deciphered;
+pub(crate) use light::{LightOfCodes, NoiseSource, light_of_codes};
 
 use super::draw::Levels;
 use super::screening::Screening;
@@ -115,7 +115,7 @@ impl Report for CodeReport {
 /// # Panics
 ///
 /// If a picture has another size than the reference.
-pub fn judge_codes<E>(
+pub(crate) fn judge_codes<E>(
     reference: CodeReference<'_>,
     settings: &CodeSettings,
     draw: &mut dyn FnMut(ImageDraw) -> Result<Codes, E>,

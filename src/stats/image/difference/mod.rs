@@ -25,8 +25,8 @@ mod unit;
 #[cfg(test)]
 mod tests;
 
-pub use pattern::Pattern;
-pub use report::{DifferenceReport, OddPixels, PatternReport};
+pub(crate) use pattern::Pattern;
+pub(crate) use report::{DifferenceReport, OddPixels, PatternReport};
 
 use super::cells::COMPONENTS;
 use crate::image::Image;

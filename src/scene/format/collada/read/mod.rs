@@ -31,7 +31,7 @@ mod xml;
 
 pub(super) use normals::vertex_normals;
 pub(super) use settings::degrees_for;
-pub use settings::load_camera;
+pub(crate) use settings::load_camera;
 
 use crate::scene::error::read_source;
 use crate::scene::{SceneDescription, SceneError};
@@ -39,7 +39,7 @@ use crate::text::Source;
 use std::path::Path;
 
 /// The size of the course's images where nothing else is asked for.
-pub const FILM: [u32; 2] = [800, 600];
+pub(crate) const FILM: [u32; 2] = [800, 600];
 
 /// A scene, and what it does not say as the course says it.
 #[derive(Clone, Debug, PartialEq)]

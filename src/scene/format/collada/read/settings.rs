@@ -14,7 +14,7 @@ const COUNT: usize = 30;
 ///
 /// # Errors
 /// If the file cannot be read, or is not 30 finite numbers that make a camera.
-pub fn load_camera(path: &Path, film: [u32; 2]) -> Result<Camera, SceneError> {
+pub(crate) fn load_camera(path: &Path, film: [u32; 2]) -> Result<Camera, SceneError> {
     parse(&read_source(path)?, film)
 }
 

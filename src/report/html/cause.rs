@@ -15,6 +15,8 @@ use maud::{Markup, html};
 const CASES: usize = 5;
 /// Sentences that are shown before the others are folded away.
 const SENTENCES: usize = 3;
+/// Causes that are printed whole; of the others paper says what, where and how to mend it.
+const PRINTED_WHOLE: usize = 2;
 
 /// The causes of all cores with the core of each, what is graded first. One failure without a cause is no headline.
 pub(super) fn told(tree: &RunTree) -> Vec<(&str, &Headline)> {
@@ -38,13 +40,13 @@ pub(super) fn card(
 ) -> Markup {
     let part = headline.explains.first().and_then(|case| Part::of_case(case));
     html! {
-        div.card.first.beside[!headline.tier.is_graded()] {
+        div.card.first.beside[!headline.tier.is_graded()].further[number > PRINTED_WHOLE] {
             p.kicker {
                 @if number == 1 { b { "Start here. " } }
                 @if all > 1 { (number) " of " (all) " causes · " }
                 @if !headline.tier.is_graded() { "not graded · " }
-                "on " b { (core) }
-                @if let Some(part) = part { " · part " (part.number) ", " (part.title) }
+                @if view.tree.run.cores.len() > 1 { "on " b { (core) } " · " }
+                @if let Some(part) = part { "part " (part.number) ", " (part.title) }
             }
             h3.said { (sentence(&headline.mistake)) }
             p.degree { b { (capitalised(headline.degree.word())) } ": " (certainty(headline.degree)) "." }
@@ -103,8 +105,8 @@ fn list(label: &str, sentences: &[String]) -> Markup {
     let (shown, rest) = sentences.split_at(SENTENCES.min(sentences.len()));
     html! {
         @if !sentences.is_empty() {
-            dt { (label) }
-            dd {
+            dt.reason { (label) }
+            dd.reason {
                 @for words in shown { p { (sentence(words)) } }
                 @if !rest.is_empty() {
                     details.rest {

@@ -2,6 +2,7 @@
 //! it. Where a browser is not installed, each test says so and passes without it; `FURNACE_CHROMIUM` and
 //! `FURNACE_FIREFOX` name those that are not on the path.
 
+use crate::diagnosis::{Diagnosis, Headline};
 use crate::image::encoding::{Curve, Encoding};
 use crate::image::tonemap::{NOT_A_NUMBER, srgb_code, tonemap};
 use crate::image::{Image, exr};
@@ -355,16 +356,41 @@ fn a_phone_scrolls_in_one_direction_whatever_the_core_is_called() {
     }
 }
 
-#[test]
-fn the_index_prints_on_four_pages_at_most() {
-    let Some(chromium) = chromium() else { return };
-    let driven = Driven::of(&Example::mixed());
+/// The pages that the index of a run takes on paper; nothing where there is no Chromium.
+fn printed(example: &Example) -> Option<usize> {
+    let chromium = chromium()?;
+    let driven = Driven::of(example);
     let file = driven.folder.join("index.pdf");
     let address = format!("file://{}", driven.folder.join("index.html").display());
     let profile = tempfile::tempdir().unwrap();
     let mut command = chromium.command(profile.path());
     command.arg(format!("--print-to-pdf={}", file.display())).arg(address).status().unwrap();
     let text = String::from_utf8_lossy(&std::fs::read(&file).unwrap()).into_owned();
-    let pages = text.matches("/Type /Page\n").count();
-    assert!((1..=4).contains(&pages), "{pages} pages");
+    Some(text.matches("/Type /Page\n").count())
+}
+
+#[test]
+fn the_index_prints_on_four_pages_at_most() {
+    if let Some(pages) = printed(&Example::mixed()) {
+        assert!((1..=4).contains(&pages), "{pages} pages");
+    }
+}
+
+#[test]
+fn eight_causes_print_on_four_pages_at_most() {
+    let mut example = Example::mixed();
+    let trials: Vec<_> = example.trials.iter().map(|trial| trial.case.clone()).collect();
+    let headline = Headline {
+        mistake: "the farther root is used where the nearer one is valid".to_owned(),
+        look_at: "the ray-sphere test, where the root of the quadratic is chosen".to_owned(),
+        fix: "take the smallest root inside (t_min, t_max).".to_owned(),
+        evidence: vec!["predicts the answers to all 12 rays".repeat(4); 4],
+        explains: trials,
+        ..Headline::default()
+    };
+    let diagnosis = Diagnosis { headlines: vec![headline; 8], ..Diagnosis::default() };
+    example.run.cores[0].diagnosis = Some(diagnosis);
+    if let Some(pages) = printed(&example) {
+        assert!((1..=4).contains(&pages), "{pages} pages");
+    }
 }

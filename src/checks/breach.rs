@@ -1,7 +1,33 @@
 //! Which mistake an answer is that has not the contract's form.
 
+use super::{CheckError, Finding};
 use crate::cause::{Cause, camera, contract, shape};
-use crate::contract::{Breach, BreachKind};
+use crate::contract::{Breach, BreachKind, CoreError};
+use crate::stats::Verdict;
+
+/// The failure that a breach of the contract is.
+pub(crate) fn failure(breach: &Breach) -> Finding {
+    let statement = CoreError::from(breach.clone()).to_string();
+    Finding::failure(statement).because_each(cause_of(breach), &breach.to_string())
+}
+
+/// The same with what the check found once directions were made unit. What is wrong then as well is behind the breach:
+/// weights that are another corner's give normals that are not unit, and to normalise them mends nothing.
+pub(crate) fn failure_beside(breach: &Breach, mended: Result<Finding, CheckError>) -> Finding {
+    let alone = failure(breach);
+    match mended {
+        Ok(found) if found.failed() => {
+            let statement = format!("{}; made unit, {}", alone.statement, found.statement);
+            let not_enough = cause_of(breach).map(|cause| cause.name.to_owned());
+            Finding { statement, not_enough, ..found }
+        }
+        Ok(found) if found.verdict == Verdict::Pass => {
+            let evidence = format!("{breach}; made unit, everything else is right");
+            Finding { clues: Vec::new(), ..alone }.because_each(cause_of(breach), &evidence)
+        }
+        _ => alone,
+    }
+}
 
 /// The mistake that a breach of the contract is, if its kind says so.
 pub(crate) fn cause_of(breach: &Breach) -> Option<&'static Cause> {
@@ -24,6 +50,24 @@ pub(crate) fn cause_of(breach: &Breach) -> Option<&'static Cause> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_wrong_with_unit_directions_too_is_no_missing_normalisation() {
+        let breach = Breach::of("shading_normal", BreachKind::NotUnit(0.9)).in_element("hit", 3, 9);
+        let wrong = failure_beside(&breach, Ok(Finding::failure("7 of 9 normals are wrong")));
+        assert!(wrong.clues.is_empty());
+        assert_eq!(wrong.not_enough.as_deref(), Some("normal-not-unit"));
+        assert!(
+            wrong.statement.ends_with("not 1; made unit, 7 of 9 normals are wrong"),
+            "{}",
+            wrong.statement
+        );
+        let right = Finding { verdict: Verdict::Pass, ..Finding::failure("all normals are right") };
+        let alone = failure_beside(&breach, Ok(right));
+        assert!(alone.failed());
+        assert_eq!(alone.clues[0].cause, "normal-not-unit");
+        assert!(alone.clues[0].evidence.ends_with("made unit, everything else is right"));
+    }
 
     #[test]
     fn a_breach_is_known_by_its_kind_and_its_place() {

@@ -24,6 +24,10 @@ pub struct Finding {
     /// Mistakes that the check recognised, the likeliest first; empty where it passes, or knows none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub clues: Vec<Clue>,
+    /// The mistake that was seen and put right, and that did not explain what is wrong: a direction that is not unit, and
+    /// points elsewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) not_enough: Option<String>,
     /// What plots show of it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) series: Vec<Series>,
@@ -255,6 +259,7 @@ impl Finding {
             measures,
             resolution: resolution.into(),
             clues: Vec::new(),
+            not_enough: None,
             series: Vec::new(),
         }
         .doubting()

@@ -27,7 +27,7 @@ pub(crate) fn worker(arguments: &WorkerArguments) -> Answer {
     let channel = inherited.into_channel().map_err(Failure::broken)?;
     dylib::let_faults_kill();
     let served = match load(&spec) {
-        Ok(mut core) => worker::serve(&mut Validated::new(core.as_mut()), channel),
+        Ok(mut core) => worker::serve(&mut Validated::in_worker(core.as_mut()), channel),
         Err(why) => worker::refuse(why, channel),
     };
     served.map_err(Failure::broken)?;

@@ -11,6 +11,18 @@ use glam::DVec3;
 /// How far from 1 the length of a unit vector may be: f32 cores normalise to about 1e-7.
 const UNIT_LENGTH_ERROR: f64 = 1e-5;
 
+/// What becomes of elements that have not the contract's form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unformed {
+    /// The answer is refused.
+    Refused,
+    /// What was meant takes their place, where that is clear: whoever asks knows of the breach, and wants to know what
+    /// else there is.
+    Mended,
+    /// They stay: whoever asked looks at them.
+    Left,
+}
+
 /// What an answer has to fit.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
@@ -20,6 +32,8 @@ pub struct Asked<'a> {
     pub(crate) capabilities: Capabilities,
     /// Primitives of each shape of the scene, to tell hits that cannot be.
     pub(crate) primitives_of_shape: &'a [usize],
+    /// What becomes of elements that have not the contract's form.
+    pub(crate) unformed: Unformed,
 }
 
 /// What a question fills: a batch, or a picture.
@@ -68,7 +82,32 @@ pub(crate) trait Answered: Element {
     /// # Errors
     /// What is wrong first.
     fn check(&self, asked: &Asked<'_>) -> Form;
+
+    /// Puts what was meant in the place of what breaks the form; whether that is known.
+    fn mend(&mut self, _: &Breach) -> bool {
+        false
+    }
 }
+
+/// A value whose meaning may be clear though it has not the contract's form.
+pub(crate) trait Meaning {
+    /// Puts what was meant in its place; whether that is known.
+    fn meant(&mut self, _: &BreachKind) -> bool {
+        false
+    }
+}
+
+impl Meaning for DVec3 {
+    fn meant(&mut self, kind: &BreachKind) -> bool {
+        let unit = self.try_normalize().filter(|_| matches!(kind, BreachKind::NotUnit(_)));
+        *self = unit.unwrap_or(*self);
+        unit.is_some()
+    }
+}
+
+impl Meaning for f64 {}
+impl Meaning for u32 {}
+impl Meaning for [f64; 3] {}
 
 impl<T: Answered> Answer for [T] {
     const PARTS: &'static [Part] = &[Part::array::<T>("")];
@@ -82,6 +121,11 @@ impl<T: Answered> Answer for [T] {
     }
 
     fn accept(&mut self, asked: &Asked<'_>) -> Result<()> {
+        match asked.unformed {
+            Unformed::Left => return Ok(()),
+            Unformed::Mended => self.iter_mut().for_each(|element| mend(element, asked)),
+            Unformed::Refused => {}
+        }
         each(self, T::NOUN, |element| element.check(asked))
     }
 
@@ -204,6 +248,13 @@ impl Answer for Picture {
     fn receive(&mut self, name: &'static str, _: Capabilities, fill: Fill<'_>) -> Result<()> {
         fill(&mut [Wanted::new(name, &mut self.pixels)])
     }
+}
+
+/// Mends one field after the other, as far as it is known how.
+fn mend<T: Answered>(element: &mut T, asked: &Asked<'_>) {
+    while let Err(breach) = element.check(asked)
+        && element.mend(&breach)
+    {}
 }
 
 pub(super) fn each<T>(

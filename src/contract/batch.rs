@@ -1,8 +1,8 @@
 //! The elements of batches: rays, hits, samples. Plain `repr(C)` data, the same in Rust and in C.
 
 use super::answer::{
-    Answered, Asked, Form, colour, finite, finite_vector, flag, holds, not_nan, not_negative,
-    touched, unit,
+    Answered, Asked, Form, Meaning, colour, finite, finite_vector, flag, holds, not_nan,
+    not_negative, touched, unit,
 };
 use super::crossing::elements;
 use super::{Breach, BreachKind};
@@ -273,6 +273,13 @@ macro_rules! answered {
                 $($form(stringify!($field), self.$field)?;)*
                 Ok(())
             }
+
+            fn mend(&mut self, breach: &Breach) -> bool {
+                match breach.field.as_ref() {
+                    $(stringify!($field) => self.$field.meant(&breach.kind),)*
+                    _ => false,
+                }
+            }
         }
     )* };
 }
@@ -303,6 +310,14 @@ impl Answered for Hit {
         finite("t", self.t)?;
         unit("geometric_normal", self.geometric_normal)?;
         unit("shading_normal", self.shading_normal)
+    }
+
+    fn mend(&mut self, breach: &Breach) -> bool {
+        match breach.field.as_ref() {
+            "geometric_normal" => self.geometric_normal.meant(&breach.kind),
+            "shading_normal" => self.shading_normal.meant(&breach.kind),
+            _ => false,
+        }
     }
 }
 
@@ -337,6 +352,7 @@ mod tests {
             size: [1, 1],
             capabilities: super::super::Capabilities::empty(),
             primitives_of_shape: &[],
+            unformed: crate::contract::answer::Unformed::Refused,
         };
         assert!([-0.25, 0.5, 0.0].check(&asked).is_ok());
         assert!([0.0, f64::INFINITY, 0.0].check(&asked).is_err());

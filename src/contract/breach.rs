@@ -90,6 +90,11 @@ impl Breach {
         Self { place: Place::Element { what: what.into(), index, of }, ..self }
     }
 
+    /// Whether what was meant is clear: a direction that is not unit points somewhere.
+    pub(crate) const fn can_be_mended(&self) -> bool {
+        matches!(self.kind, BreachKind::NotUnit(length) if length > 0.0)
+    }
+
     /// What the elements of the answer are; nothing of one that is wrong as a whole.
     pub(crate) fn element(&self) -> &str {
         match &self.place {

@@ -5,7 +5,7 @@
 //! are not finite, directions that are not unit, pdfs below zero, shapes that do not exist. Checks need not
 //! defend themselves. Not here: whether an answer is *right*, which is what checks are for.
 
-use super::answer::{Answer, Asked};
+use super::answer::{Answer, Asked, Unformed};
 use super::argument::{Argument, needed_by, size_of_answer};
 use super::question::*;
 use super::{Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo};
@@ -16,6 +16,7 @@ pub struct Validated<'a> {
     core: &'a mut dyn Core,
     capabilities: Capabilities,
     primitives_of_shape: Vec<usize>,
+    unformed: Unformed,
 }
 
 /// A built scene whose answers have the contract's form, or else are errors.
@@ -23,13 +24,29 @@ struct ValidatedScene<'a> {
     scene: Built<'a>,
     capabilities: Capabilities,
     primitives_of_shape: Vec<usize>,
+    unformed: Unformed,
 }
 
 impl<'a> Validated<'a> {
     /// Stands in front of `core`.
     pub fn new(core: &'a mut dyn Core) -> Self {
+        Self::before(core, Unformed::Refused)
+    }
+
+    /// The same where the breaches of the core are known: what was meant takes the place of what has not the form, where
+    /// that is clear.
+    pub(crate) fn mending(core: &'a mut dyn Core) -> Self {
+        Self::before(core, Unformed::Mended)
+    }
+
+    /// In a worker, whose answers are looked at by whoever asked.
+    pub(crate) fn in_worker(core: &'a mut dyn Core) -> Self {
+        Self::before(core, Unformed::Left)
+    }
+
+    fn before(core: &'a mut dyn Core, unformed: Unformed) -> Self {
         let capabilities = core.info().capabilities;
-        Self { core, capabilities, primitives_of_shape: vec![1] }
+        Self { core, capabilities, primitives_of_shape: vec![1], unformed }
     }
 }
 
@@ -45,6 +62,7 @@ macro_rules! validated {
                 size: size_of_answer([$(Argument::size($arg)),*]),
                 capabilities: self.capabilities,
                 primitives_of_shape: &self.primitives_of_shape,
+                unformed: self.unformed,
             };
             // An empty batch has its answer; libraries of arrays may have none that is empty.
             if asked.size.contains(&0) {
@@ -76,8 +94,9 @@ impl Core for Validated<'_> {
         knows(capabilities, needed)?;
         let of_meshes = scene.meshes.iter().map(|mesh| mesh.indices.len());
         let primitives_of_shape = of_meshes.chain(scene.spheres.iter().map(|_| 1)).collect();
+        let unformed = self.unformed;
         let scene = guarded("build_scene", || self.core.build_scene(scene, how))?;
-        Ok(Box::new(ValidatedScene { scene, capabilities, primitives_of_shape }))
+        Ok(Box::new(ValidatedScene { scene, capabilities, primitives_of_shape, unformed }))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::{Degree, Evidence, Suspicion};
 use crate::case::Subject;
 use crate::cause;
+use crate::checks::Finding;
 
 /// By how much each clue weighs less than the one before it.
 const NEXT: f64 = 0.7;
@@ -18,6 +19,9 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
         for clue in &finding.clues {
             // A name that the glossary does not know comes from another version: it explains nothing here.
             let Some(cause) = cause::find(&clue.cause) else { continue };
+            if is_not_enough(evidence, &clue.cause) {
+                continue;
+            }
             suspicions.push(Suspicion {
                 cause,
                 cases: vec![failure.case.to_owned()],
@@ -35,11 +39,31 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     suspicions
 }
 
+/// Whether as many cases fail with it put right as those that it explains.
+fn is_not_enough(evidence: &Evidence<'_>, cause: &str) -> bool {
+    let findings = || evidence.failures().filter_map(|failure| failure.finding);
+    let remains = |finding: &&Finding| finding.not_enough.as_deref() == Some(cause);
+    let explained = |finding: &&Finding| finding.clues.iter().any(|clue| clue.cause == cause);
+    let remaining = findings().filter(remains).count();
+    remaining > 0 && remaining >= findings().filter(explained).count()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::cause::{camera, shape};
     use crate::diagnosis::testing::{Made, failing, passing};
+
+    #[test]
+    fn what_fails_with_a_mistake_put_right_is_not_explained_by_it() {
+        let unit = || failing("not unit").because(&shape::NORMAL_NOT_UNIT, "1.2");
+        let not_enough = Some(shape::NORMAL_NOT_UNIT.name.to_owned());
+        let beside = || Finding { not_enough: not_enough.clone(), ..failing("made unit, wrong") };
+        let once = Made::new().with("shape/a", unit()).with("shape/b", beside());
+        assert_eq!(suspect(&once.evidence()).len(), 0);
+        let twice = Made::new().with("shape/a", unit()).with("shape/b", beside());
+        assert_eq!(suspect(&twice.with("shape/c", unit()).evidence()).len(), 2);
+    }
 
     #[test]
     fn only_failing_cases_give_clues_and_the_first_weighs_most() {

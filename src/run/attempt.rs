@@ -7,6 +7,7 @@ use super::record::{self, SceneStamp, TrialRecord, TrialTiming};
 use super::schedule::Transplant;
 use crate::case::{Case, Tier, asked_about};
 use crate::cause::bvh;
+use crate::checks::breach::failure_beside;
 use crate::checks::{CheckError, Context, Finding, Picture};
 use crate::contract::turned::Turned;
 use crate::contract::validate::Validated;
@@ -190,7 +191,7 @@ fn stamp(scene: &SceneDescription, motion: &Motion) -> SceneStamp {
     }
 }
 
-/// Asks whether the core can, and lets the check run.
+/// Puts the case to the core; once more where directions are not unit, with those that were meant.
 fn judge(
     bench: &Bench,
     case: &Case,
@@ -199,14 +200,32 @@ fn judge(
     pictures: &mut Vec<Picture>,
 ) -> Result<Finding, CheckError> {
     let mut core = Turned::new(core, bench.motion_of(case));
-    let mut core = Validated::new(&mut core);
+    let found = run_check(bench, case, &mut Validated::new(&mut core), scene.clone(), pictures);
+    match found {
+        Err(CheckError::Core(CoreError::BrokeContract(breach))) if breach.can_be_mended() => {
+            let mut core = Validated::mending(&mut core);
+            let mended = run_check(bench, case, &mut core, scene, pictures);
+            Ok(failure_beside(&breach, mended))
+        }
+        found => found,
+    }
+}
+
+/// Asks whether the core can, and lets the check run.
+fn run_check(
+    bench: &Bench,
+    case: &Case,
+    core: &mut Validated<'_>,
+    scene: Option<Arc<SceneDescription>>,
+    pictures: &mut Vec<Picture>,
+) -> Result<Finding, CheckError> {
     let info = core.info();
     let missing = case.prepared.missing(info.capabilities);
     if missing != Capabilities::empty() {
         return Err(CoreError::Unsupported(missing).into());
     }
     let mut context = Context {
-        core: &mut core,
+        core,
         info,
         scene,
         scenes: &bench.scenes,

@@ -130,11 +130,7 @@ impl Outcome {
                 Self::TimedOut { limit: limit.as_secs_f64(), during }
             }
             CoreError::Refused(_) => Self::Judged { finding: Finding::failure(error.to_string()) },
-            CoreError::BrokeContract(ref breach) => {
-                let finding = Finding::failure(error.to_string());
-                let cause = breach::cause_of(breach);
-                Self::Judged { finding: finding.because_each(cause, &breach.to_string()) }
-            }
+            CoreError::BrokeContract(breach) => Self::Judged { finding: breach::failure(&breach) },
         }
     }
 

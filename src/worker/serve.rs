@@ -3,7 +3,7 @@
 use super::frame::{self, Body, FrameError};
 use super::message::{Answer, Received, Sent, Told, encode, parse};
 use super::{Channel, clock, scene};
-use crate::contract::answer::{Answer as Filled, Asked};
+use crate::contract::answer::{Answer as Filled, Asked, Unformed};
 use crate::contract::argument::{Argument, size_of_answer};
 use crate::contract::question::*;
 use crate::contract::{BuiltScene, Core};
@@ -87,7 +87,12 @@ macro_rules! answer_if_asked {
             $(let $arg = <$ty as Argument<'_>>::keep(stringify!($arg), &mut $request)?;)*
             $(let $arg: $ty = Argument::lend(&$arg);)*
             let size = size_of_answer([$(Argument::size($arg)),*]);
-            let asked = Asked { size, capabilities: $capabilities, primitives_of_shape: &[] };
+            let asked = Asked {
+                size,
+                capabilities: $capabilities,
+                primitives_of_shape: &[],
+                unformed: Unformed::Left,
+            };
             let mut answer = <$answer as Filled>::blank(&asked);
             let begun = clock::now();
             let answered = $core.$method($($arg,)* &mut answer);

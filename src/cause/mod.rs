@@ -77,6 +77,11 @@ pub(crate) fn is_vague(cause: &Cause) -> bool {
     *cause == bvh::HITS_LOST
 }
 
+/// Whether the cause says what form an answer has not, and not what gave it that.
+pub(crate) fn is_symptom(cause: &Cause) -> bool {
+    contract::CAUSES.contains(&cause)
+}
+
 /// Whether hits are lost by the cause: which of them is told by the pattern of what is lost alone.
 pub(crate) fn loses_hits(cause: &Cause) -> bool {
     let patterns = [

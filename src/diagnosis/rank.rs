@@ -93,6 +93,22 @@ impl Headline {
         earliest.max(cause::find(&self.cause).map_or(0, part_of_mistake))
     }
 
+    /// Where the earliest case that it explains stands in the order of subjects.
+    fn position(&self) -> usize {
+        self.explains.iter().map(|case| Part::position(case)).min().unwrap_or(usize::MAX)
+    }
+
+    /// Whether `case` may follow from it: what rests on nothing that it explains does not.
+    fn comes_before(&self, case: &str) -> bool {
+        self.position() <= Part::position(case)
+    }
+
+    /// Whether it tells what gave the answers their numbers.
+    fn is_sure(&self) -> bool {
+        let is_symptom = cause::find(&self.cause).is_some_and(cause::is_symptom);
+        self.degree == Degree::Named && !is_symptom
+    }
+
     /// Takes in another headline of the same cause.
     fn absorb(&mut self, other: Self) {
         self.degree = self.degree.max(other.degree);
@@ -155,7 +171,8 @@ impl Ranked {
         let without_cause = this.endings.iter().chain(&this.differing);
         let without_cause = without_cause.filter(|headline| headline.cause.is_empty());
         let unexplained = without_cause.flat_map(|headline| headline.explains.clone()).collect();
-        let kinds = [this.endings, this.causes, this.differing, this.beside];
+        let causes = behind_what_differs_below(this.causes, this.differing);
+        let kinds = [this.endings, causes, this.beside];
         Diagnosis { headlines: kinds.into_iter().flatten().collect(), unexplained }
     }
 
@@ -222,20 +239,25 @@ impl Ranked {
         match (&mut self.causes[..], &self.endings[..]) {
             ([only], []) => {
                 for headline in &mut self.differing {
-                    let may_follow =
-                        |case: &mut String| !is_refuted(&self.refuted, &only.cause, case);
+                    let told = only.clone();
+                    let may_follow = |case: &mut String| {
+                        told.comes_before(case) && !is_refuted(&self.refuted, &told.cause, case)
+                    };
                     only.may_follow.extend(headline.explains.extract_if(.., may_follow));
                 }
                 self.differing.retain(|headline| !headline.explains.is_empty());
+                self.differing_as_one(own);
             }
-            ([], []) => {
-                let one = self.differing.drain(..).reduce(Headline::and);
-                let mistake = format!("what differs is the core's {}", own.in_words());
-                self.differing.extend(one.map(|one| Headline { mistake, ..one }));
-            }
+            ([], []) => self.differing_as_one(own),
             _ => {}
         }
         self
+    }
+
+    fn differing_as_one(&mut self, own: Components) {
+        let one = self.differing.drain(..).reduce(Headline::and);
+        let mistake = format!("what differs is the core's {}", own.in_words());
+        self.differing.extend(one.map(|one| Headline { mistake, ..one }));
     }
 
     /// The same where what has no cause is told of these cases alone.
@@ -276,6 +298,18 @@ impl Ranked {
         self.differing.retain(|headline| !headline.explains.is_empty());
         self
     }
+}
+
+/// Causes, then what differs; but what only looks like a cause, or is a symptom, is told behind what differs below it, on
+/// which it may rest.
+fn behind_what_differs_below(causes: Vec<Headline>, differing: Vec<Headline>) -> Vec<Headline> {
+    let below = differing.iter().filter(|one| !one.is_alone()).map(Headline::position).min();
+    let stands_above = |one: &Headline| below.is_some_and(|below| below < one.position());
+    let (first, unsure): (Vec<_>, Vec<_>) =
+        causes.into_iter().partition(|one| one.is_sure() || !stands_above(one));
+    let mut others = [differing, unsure].concat();
+    others.sort_by_key(Headline::position);
+    [first, others].concat()
 }
 
 fn is_refuted(refuted: &Refuted, cause: &str, case: &str) -> bool {
@@ -465,7 +499,10 @@ fn attribute(
     for case in orphans {
         let rests_on = evidence.rests_on(&case);
         let is_broken = |number: &usize| proven[*number].iter().any(|f| rests_on.contains(f));
-        let may_be = |number: &usize| !is_refuted(refuted, &headlines[*number].cause, &case);
+        let may_be = |number: &usize| {
+            let headline = &headlines[*number];
+            headline.comes_before(&case) && !is_refuted(refuted, &headline.cause, &case)
+        };
         let likely = (0..headlines.len()).rev().filter(is_broken).filter(may_be);
         match likely.max_by_key(|number| headlines[*number].explains.len()) {
             Some(number) => headlines[number].may_follow.push(case),
@@ -495,7 +532,7 @@ fn quickest(evidence: &Evidence<'_>, cases: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use crate::case::{Foundation, Tier};
-    use crate::cause::{bsdf, bvh, image, integrator, light, shape};
+    use crate::cause::{bsdf, bvh, contract, image, integrator, light, shape};
     use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::diagnosis::{Degree, diagnose};
     use crate::image::Channel;
@@ -514,6 +551,21 @@ mod tests {
         assert_eq!(degree(&shared), Degree::LooksLike);
         let proven = shared.with("light/b", failing("a").because(&bsdf::WITHOUT_PI, "x"));
         assert_eq!(degree(&proven), Degree::Named);
+    }
+
+    #[test]
+    fn what_stands_below_a_cause_does_not_follow_from_it() {
+        let made = Made::new()
+            .with("bsdf/a", failing("9 of 9 samples are missing"))
+            .with("bsdf/b", failing("6 of 6 samples are missing"))
+            .with("integrator/c", failing("NaN").because(&contract::NOT_A_NUMBER, "NaN"))
+            .proving("integrator/c", &[Foundation::Diffuse])
+            .resting("bsdf/a", &[Foundation::Diffuse])
+            .resting("bsdf/b", &[Foundation::Diffuse]);
+        let headlines = diagnose(&made.evidence()).headlines;
+        let told: Vec<_> = headlines.iter().map(|one| one.mistake.as_str()).collect();
+        assert_eq!(told, ["the BSDF differs in scenes with diffuse surfaces", "an answer is NaN"]);
+        assert_eq!(headlines[1].may_follow, Vec::<String>::new());
     }
 
     #[test]

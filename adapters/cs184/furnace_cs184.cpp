@@ -34,6 +34,7 @@
 #include <random>
 #include <string>
 #include <sys/time.h>
+#include <tuple>
 #include <vector>
 
 // ---- random numbers -----------------------------------------------------------------------------
@@ -143,20 +144,41 @@ furnace::Bench &bench() {
 
 bool takes(uint32_t component) { return bench().has(component); }
 
-// What is put before the submission's own by the loader.
-#ifdef __ELF__
-constexpr uint32_t interposed = FURNACE_TAKES_CAMERA | FURNACE_TAKES_BOX_TEST |
-                                FURNACE_TAKES_EMISSION | FURNACE_TAKES_DIRECT_LIGHTING;
-#else
-constexpr uint32_t interposed = 0;
-#endif
-
 // The submission's own function of that name. The submission is a library of its own, which this one needs: the loader
 // looks for what the submission calls here first, and so finds the functions at the end of this file.
 template <class Function> Function *submitted(const char *symbol) {
    void *found = dlsym(RTLD_NEXT, symbol);
    if (!found) throw std::runtime_error(std::string("the submission has no ") + symbol);
    return reinterpret_cast<Function *>(found);
+}
+
+// The functions of light along a ray, by the names that the loader knows.
+#define LIGHT_OF(name) "_ZN3CGL10PathTracer" name "ERKNS_3RayERKNS_12SceneObjects12IntersectionE"
+#define ZERO_BOUNCE LIGHT_OF("20zero_bounce_radiance")
+#define ONE_BOUNCE LIGHT_OF("19one_bounce_radiance")
+#define BY_HEMISPHERE LIGHT_OF("35estimate_direct_lighting_hemisphere")
+#define BY_LIGHT LIGHT_OF("35estimate_direct_lighting_importance")
+
+// What is put before the submission's own by the loader. A function that the submission has given more parameters has
+// another name there.
+uint32_t interposed() {
+#ifdef __ELF__
+   const auto has = [](const char *symbol) { return dlsym(RTLD_NEXT, symbol) != nullptr; };
+   const bool emission = has(ZERO_BOUNCE);
+   const bool direct = has(ONE_BOUNCE) && has(BY_HEMISPHERE) && has(BY_LIGHT);
+   return FURNACE_TAKES_CAMERA | FURNACE_TAKES_BOX_TEST | (emission ? FURNACE_TAKES_EMISSION : 0) |
+          (direct ? FURNACE_TAKES_DIRECT_LIGHTING : 0);
+#else
+   return 0;
+#endif
+}
+
+// Light by a function of the submission. What it has been given to take beside, for fog say, is 0.
+template <class... More>
+Vector3D light(Vector3D (PathTracer::*along)(const Ray &, const Intersection &, More...),
+               PathTracer &tracer, const Ray &ray, const Intersection &hit) {
+   std::tuple<std::decay_t<More>...> none{};
+   return std::apply([&](auto &...more) { return (tracer.*along)(ray, hit, more...); }, none);
 }
 
 // ---- from one side to the other -----------------------------------------------------------------
@@ -865,12 +887,11 @@ struct Built {
       hides_emission = false; // some come back for each bounce
       Intersection hit;
       const Ray    met = ray;
-      Vector3D     light;
+      Vector3D     seen;
       if (bvh->intersect(met, &hit))
-         light = settings.last_bounce == 1 ? tracer.one_bounce_radiance(met, hit)
-                                           : own() - tracer.zero_bounce_radiance(met, hit);
+         seen = settings.last_bounce == 1 ? one_bounce(met, hit) : own() - zero_bounce(met, hit);
       hides_emission = true;
-      return light;
+      return seen;
    }
 
    // The scene that is asked about, for the submission's functions that the bench's stand in for.
@@ -898,7 +919,7 @@ struct Built {
       if (last > 0) ask_for_paths(last);
       const bool by_bench = takes(FURNACE_TAKES_PATH);
       const bool is_summed = first == 0 || by_bench || !HasAccumulate<PathTracer>::value;
-      if (is_summed && !by_bench && first > (interposed ? 1 : 0))
+      if (is_summed && !by_bench && first > (interposed() ? 1 : 0))
          throw furnace::Unsupported("images of later bounces alone: this skeleton adds them up");
       hides_emission = is_summed && first > 0;
       for (uint32_t bounce = is_summed ? last : first; bounce <= last; ++bounce) {
@@ -1071,12 +1092,19 @@ struct Built {
       if (last > 1) ask_for(written().indirect, "indirect light (part 4)");
    }
 
+   Vector3D zero_bounce(const Ray &ray, const Intersection &hit) {
+      return light(&PathTracer::zero_bounce_radiance, tracer, ray, hit);
+   }
+   Vector3D one_bounce(const Ray &ray, const Intersection &hit) {
+      return light(&PathTracer::one_bounce_radiance, tracer, ray, hit);
+   }
+
    // Bounce 0 alone. Few submissions are right at a depth of 0, and the course does not insist.
    // The ray is a copy: a hit ends it.
    Vector3D emitted(Ray ray) {
       ask_for(written().emission, "zero_bounce_radiance (part 3)");
       Intersection hit;
-      return bvh->intersect(ray, &hit) ? tracer.zero_bounce_radiance(ray, hit) : Vector3D();
+      return bvh->intersect(ray, &hit) ? zero_bounce(ray, hit) : Vector3D();
    }
 
    // Bounce 1 alone.
@@ -1084,7 +1112,7 @@ struct Built {
       tracer.max_ray_depth = 1;
       ray.depth = depth_of_camera_rays(1);
       Intersection hit;
-      return bvh->intersect(ray, &hit) ? tracer.one_bounce_radiance(ray, hit) : Vector3D();
+      return bvh->intersect(ray, &hit) ? one_bounce(ray, hit) : Vector3D();
    }
 
    Vector3D up_to(Ray ray, uint32_t last) {
@@ -1133,9 +1161,9 @@ struct Built {
 // ---- the core -----------------------------------------------------------------------------------
 
 struct Course {
-   static constexpr uint32_t components =
+   static inline const uint32_t components =
        FURNACE_TAKES_TRIANGLE_TEST | FURNACE_TAKES_SPHERE_TEST | FURNACE_TAKES_TRAVERSAL |
-       FURNACE_TAKES_BSDF | FURNACE_TAKES_PATH | FURNACE_TAKES_PIXEL | interposed;
+       FURNACE_TAKES_BSDF | FURNACE_TAKES_PATH | FURNACE_TAKES_PIXEL | interposed();
 
    void take_components(const furnace::Bench &given) { bench() = given; }
 
@@ -1305,7 +1333,7 @@ struct Probe {
       stage.tracer.direct_hemisphere_sample = by_hemisphere;
       stage.tracer.max_ray_depth = 3;
       ray.depth = depth;
-      return is(stage.tracer.at_least_one_bounce_radiance(ray, hit), 0, 0, 0);
+      return is(light(&PathTracer::at_least_one_bounce_radiance, stage.tracer, ray, hit), 0, 0, 0);
    }
 };
 
@@ -1440,16 +1468,16 @@ void find_written(Written &is) {
       return pdf == -7;
    });
    is.emission = !Probe::is_white([](Probe &probe, PathTracer &tracer) {
-      return tracer.zero_bounce_radiance(probe.ray, probe.hit);
+      return light(&PathTracer::zero_bounce_radiance, tracer, probe.ray, probe.hit);
    });
    is.direct = !Probe::is_white([](Probe &probe, PathTracer &tracer) {
-      return tracer.one_bounce_radiance(probe.ray, probe.hit);
+      return light(&PathTracer::one_bounce_radiance, tracer, probe.ray, probe.hit);
    });
    is.by_light = !Probe::is_white([](Probe &probe, PathTracer &tracer) {
-      return tracer.estimate_direct_lighting_importance(probe.ray, probe.hit);
+      return light(&PathTracer::estimate_direct_lighting_importance, tracer, probe.ray, probe.hit);
    });
    is.by_hemisphere = !Probe::is_white([](Probe &probe, PathTracer &tracer) {
-      return tracer.estimate_direct_lighting_hemisphere(probe.ray, probe.hit);
+      return light(&PathTracer::estimate_direct_lighting_hemisphere, tracer, probe.ray, probe.hit);
    });
    is.indirect = !is_skeleton([] {
       Probe probe;
@@ -1533,14 +1561,22 @@ bool BBox::intersect(const Ray &ray, double &t0, double &t1) const {
    return hit.hit;
 }
 
-using SceneObjects::Intersection;
-typedef Vector3D Light(PathTracer *, const Ray &, const Intersection &);
-#define LIGHT(name) "_ZN3CGL10PathTracer" name "ERKNS_3RayERKNS_12SceneObjects12IntersectionE"
-
-Vector3D PathTracer::zero_bounce_radiance(const Ray &ray, const Intersection &hit) {
-   SUBMITTED(Light, LIGHT("20zero_bounce_radiance"));
-   return takes(FURNACE_TAKES_EMISSION) ? hit.bsdf->get_emission() : own(this, ray, hit);
+Vector3D PathTracer::est_radiance_global_illumination(const Ray &ray) {
+   typedef Vector3D Along(PathTracer *, const Ray &);
+   SUBMITTED(Along, "_ZN3CGL10PathTracer32est_radiance_global_illuminationERKNS_3RayE");
+   Built *built = Built::at_hand();
+   if (built && built->hides_emission && !takes(FURNACE_TAKES_PATH))
+      return built->from_first_bounce(ray, [&] { return own(this, ray); });
+   if (!takes(FURNACE_TAKES_PATH) || !built || Surface::all_black()) return own(this, ray);
+   const furnace_integrator &asked = built->settings;
+   return theirs(built->light_of_bench(ours(ray), asked.first_bounce, asked.last_bounce));
 }
+
+} // namespace CGL
+
+#ifdef __ELF__
+
+typedef Vector3D Light(PathTracer *, const Ray &, const Intersection &);
 
 // Bounce 1 by the bench, at the end of a ray that the submission has traced.
 static Vector3D direct_by_bench(const Ray &ray) {
@@ -1553,36 +1589,37 @@ static bool is_direct_by_bench() {
    return takes(FURNACE_TAKES_DIRECT_LIGHTING) && Built::at_hand();
 }
 
-Vector3D PathTracer::one_bounce_radiance(const Ray &ray, const Intersection &hit) {
-   SUBMITTED(Light, LIGHT("19one_bounce_radiance"));
-   return is_direct_by_bench() ? direct_by_bench(ray) : own(this, ray, hit);
+// Members by their names for the loader: a submission whose functions take more need not declare these.
+#define BEFORE(name, symbol)                                                                       \
+   Vector3D name(PathTracer *, const Ray &, const Intersection &) __asm__(symbol)
+BEFORE(furnace_zero_bounce, ZERO_BOUNCE);
+BEFORE(furnace_one_bounce, ONE_BOUNCE);
+BEFORE(furnace_by_hemisphere, BY_HEMISPHERE);
+BEFORE(furnace_by_light, BY_LIGHT);
+#undef BEFORE
+
+Vector3D furnace_zero_bounce(PathTracer *tracer, const Ray &ray, const Intersection &hit) {
+   SUBMITTED(Light, ZERO_BOUNCE);
+   return takes(FURNACE_TAKES_EMISSION) ? hit.bsdf->get_emission() : own(tracer, ray, hit);
 }
 
-Vector3D PathTracer::estimate_direct_lighting_hemisphere(const Ray &ray, const Intersection &hit) {
-   SUBMITTED(Light, LIGHT("35estimate_direct_lighting_hemisphere"));
-   return is_direct_by_bench() ? direct_by_bench(ray) : own(this, ray, hit);
+Vector3D furnace_one_bounce(PathTracer *tracer, const Ray &ray, const Intersection &hit) {
+   SUBMITTED(Light, ONE_BOUNCE);
+   return is_direct_by_bench() ? direct_by_bench(ray) : own(tracer, ray, hit);
 }
 
-Vector3D PathTracer::estimate_direct_lighting_importance(const Ray &ray, const Intersection &hit) {
-   SUBMITTED(Light, LIGHT("35estimate_direct_lighting_importance"));
-   return is_direct_by_bench() ? direct_by_bench(ray) : own(this, ray, hit);
+Vector3D furnace_by_hemisphere(PathTracer *tracer, const Ray &ray, const Intersection &hit) {
+   SUBMITTED(Light, BY_HEMISPHERE);
+   return is_direct_by_bench() ? direct_by_bench(ray) : own(tracer, ray, hit);
 }
 
-Vector3D PathTracer::est_radiance_global_illumination(const Ray &ray) {
-   typedef Vector3D Along(PathTracer *, const Ray &);
-   SUBMITTED(Along, "_ZN3CGL10PathTracer32est_radiance_global_illuminationERKNS_3RayE");
-   Built *built = Built::at_hand();
-   if (built && built->hides_emission && !takes(FURNACE_TAKES_PATH))
-      return built->from_first_bounce(ray, [&] { return own(this, ray); });
-   if (!takes(FURNACE_TAKES_PATH) || !built || Surface::all_black()) return own(this, ray);
-   const furnace_integrator &asked = built->settings;
-   return theirs(built->light_of_bench(ours(ray), asked.first_bounce, asked.last_bounce));
+Vector3D furnace_by_light(PathTracer *tracer, const Ray &ray, const Intersection &hit) {
+   SUBMITTED(Light, BY_LIGHT);
+   return is_direct_by_bench() ? direct_by_bench(ray) : own(tracer, ray, hit);
 }
 
-#undef LIGHT
+#endif
 #undef SUBMITTED
-
-} // namespace CGL
 
 extern "C" FURNACE_EXPORT const furnace_core *furnace_core_entry(uint32_t bench_abi) {
    static bool              known = (find_written(written()), true);

@@ -120,3 +120,31 @@ fn a_right_core_stays_right_with_everything_of_the_bench() {
         }
     }
 }
+
+/// It can do one thing, and that wrongly: every ray misses every sphere.
+const ONE_THING: &str = r#"#include "furnace_core.hpp"
+struct OneThing {
+   furnace_hit intersect_sphere(furnace_vec3, double, const furnace_ray &) { return furnace::miss(); }
+};
+FURNACE_CORE(OneThing, "one thing", "1", FURNACE_DETERMINISTIC)
+"#;
+
+#[test]
+fn what_a_core_lacks_is_skipped_whatever_else_is_broken() {
+    let folder = tempfile::tempdir().unwrap();
+    let (source, library) = (folder.path().join("one.cpp"), folder.path().join("one.so"));
+    std::fs::write(&source, ONE_THING).unwrap();
+    compile_core(&cpp_compiler(), &[], &source, &library);
+    let records = run_in_memory(&plan(&library.to_string_lossy(), &[]));
+    assert!(subjects(&records, Status::Fail).contains("shape"));
+    let said = |case: &str| {
+        let of_it = records.iter().find(|record| record.case == case).unwrap();
+        of_it.outcome.statement()
+    };
+    // It rests on spheres, which are broken; but what it asks for is not there at all.
+    assert_eq!(
+        said("integrator/furnace-matches-geometric-series"),
+        "the core has no build-scene, radiance, isolated-bounces"
+    );
+    assert_eq!(subjects(&records, Status::Blocked), BTreeSet::new());
+}

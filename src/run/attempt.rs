@@ -40,9 +40,10 @@ pub fn run_trial(bench: &Bench, trial: &Trial) -> Ended {
 /// Runs one trial with components of the bench in place of what is broken. It is blocked if the core cannot take them.
 pub(crate) fn run_transplanted(bench: &Bench, trial: &Trial, transplant: Transplant) -> Ended {
     let Transplant { with, by } = transplant;
-    match with.within(bench.takes(&trial.core)) {
+    let takes = bench.info(&trial.core).map_or(Components::empty(), |core| core.components);
+    match with.within(takes) {
         Some(with) if !asked_about(&trial.case).intersects(with) => run_with(bench, trial, with),
-        _ => blocked(bench, trial, by),
+        _ => untried(bench, trial, by),
     }
 }
 
@@ -112,9 +113,18 @@ fn take(core: &mut dyn Core, with: Components) -> Result<(), CoreError> {
     })
 }
 
-/// A trial that was not tried, since `by` failed.
-pub(crate) fn blocked(bench: &Bench, trial: &Trial, by: String) -> Ended {
-    Ended { record: record_of(bench, trial, Outcome::Blocked { by }), pictures: Vec::new() }
+/// A trial that was not tried, since `by` failed. What a core lacks is not broken: then it is skipped, whatever failed.
+pub(crate) fn untried(bench: &Bench, trial: &Trial, by: String) -> Ended {
+    let case = &trial.case;
+    let can = bench.info(&trial.core).map(|core| core.capabilities);
+    let missing = can.map(|can| case.prepared.missing(can)).filter(|missing| !missing.is_empty());
+    let outcome = match missing {
+        Some(missing) => Outcome::of(Err(CoreError::Unsupported(missing).into())),
+        None => Outcome::Blocked { by },
+    };
+    let mut record = record_of(bench, trial, outcome);
+    record.tier = can.map_or(case.tier, |can| case.tier_on(can));
+    Ended { record, pictures: Vec::new() }
 }
 
 fn record_of(bench: &Bench, trial: &Trial, outcome: Outcome) -> TrialRecord {

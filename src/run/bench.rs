@@ -1,7 +1,7 @@
 //! What every trial of a run shares.
 
 use crate::case::Case;
-use crate::contract::{Components, CoreError};
+use crate::contract::{CoreError, CoreInfo};
 use crate::cores::{CoreSpec, HostError, Hosted, Hosting};
 use crate::math::rng::Seed;
 use crate::scene::Library;
@@ -24,8 +24,8 @@ pub struct Bench {
     pub(crate) hosting: Hosting,
     /// Cores that died before they said who they are: how, and what they printed. Nothing else is asked of them.
     pub(crate) unfit: BTreeMap<String, (CoreError, String)>,
-    /// What cores can take from the bench, of those that were asked.
-    pub(crate) takes: Arc<Mutex<BTreeMap<String, Components>>>,
+    /// Who cores are, of those that were asked; nothing of one that does not start.
+    pub(crate) known: Arc<Mutex<BTreeMap<String, Option<CoreInfo>>>>,
 }
 
 impl Bench {
@@ -45,13 +45,10 @@ impl Bench {
         self.hosting.host(core)
     }
 
-    /// What a core can take from the bench. It is started for that question once, where something has failed.
-    pub(crate) fn takes(&self, core: &CoreSpec) -> Components {
-        let mut takes = self.takes.lock().unwrap_or_else(PoisonError::into_inner);
-        let ask = || match self.hosting.host(core) {
-            Ok(mut hosted) => hosted.core_mut().info().components,
-            Err(_) => Components::empty(),
-        };
-        *takes.entry(core.to_string()).or_insert_with(ask)
+    /// Who a core is. It is started for that question once, where something has failed; nothing if it does not start.
+    pub(crate) fn info(&self, core: &CoreSpec) -> Option<CoreInfo> {
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let ask = || Some(self.hosting.host(core).ok()?.core_mut().info());
+        known.entry(core.to_string()).or_insert_with(ask).clone()
     }
 }

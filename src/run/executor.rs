@@ -1,6 +1,6 @@
 //! Runs trials, several at a time; each result is written as soon as it is there.
 
-use super::attempt::{Ended, blocked, run_transplanted, run_with};
+use super::attempt::{Ended, run_transplanted, run_with, untried};
 use super::bench::Bench;
 use super::event::Event;
 use super::outcome::Outcome;
@@ -62,7 +62,8 @@ fn work(
             Next::Try(number) => (number, None),
             Next::Transplanted(number, transplant) => (number, Some(transplant)),
             Next::Blocked(number, by) => {
-                let ended = blocked(bench, &plan.trials[number], by);
+                let ended = untried(bench, &plan.trials[number], by);
+                schedule.ended(number, &ended.record.outcome);
                 if sender.send(Message::Ended(Box::new(ended))).is_err() {
                     return;
                 }

@@ -135,7 +135,7 @@ impl Plan {
             motions: self.request.seed.child("motion").child(&self.salt),
             hosting: self.hosting().patient(),
             unfit: BTreeMap::new(),
-            takes: Arc::default(),
+            known: Arc::default(),
         }
     }
 

@@ -82,12 +82,8 @@ impl<'a> Schedule<'a> {
             }
             let waiting = || (0..state.fates.len()).filter(|n| state.fates[*n] == Fate::Waiting);
             if let Some(number) = waiting().find(|number| self.is_ready(&state, *number)) {
-                let next = self.next_of(&state, number);
-                state.fates[number] = match &next {
-                    Next::Blocked(_, by) => Fate::Ended(Some(by.clone())),
-                    _ => Fate::Running,
-                };
-                return Some(next);
+                state.fates[number] = Fate::Running;
+                return Some(self.next_of(&state, number));
             }
             waiting().next()?;
             state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
@@ -267,8 +263,9 @@ mod tests {
                     let proves = &plan.trials[number].case.proves;
                     schedule.ended(number, &outcome(proves.contains(&Foundation::Hits)));
                 }
-                Next::Blocked(number, _) => {
+                Next::Blocked(number, by) => {
                     blocked.insert(plan.trials[number].case.id.clone());
+                    schedule.ended(number, &Outcome::Blocked { by });
                 }
             }
         }

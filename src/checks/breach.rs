@@ -36,7 +36,10 @@ pub(crate) fn cause_of(breach: &Breach) -> Option<&'static Cause> {
         (_, "geometric_normal" | "shading_normal", BreachKind::NotUnit(_)) => {
             &shape::NORMAL_NOT_UNIT
         }
-        ("hit", "t", BreachKind::NotANumber) => &shape::NAN_HIT_ACCEPTED,
+        // The NaN of a sphere is the square root of a negative number, or what it was made of.
+        ("hit", "t", BreachKind::NotANumber) if !breach.is_about("intersect-sphere") => {
+            &shape::NAN_HIT_ACCEPTED
+        }
         (_, _, BreachKind::Untouched) => &contract::UNTOUCHED,
         (_, _, BreachKind::NotUnit(_)) => &contract::NOT_UNIT,
         (_, _, BreachKind::NotANumber) => &contract::NOT_A_NUMBER,
@@ -50,6 +53,9 @@ pub(crate) fn cause_of(breach: &Breach) -> Option<&'static Cause> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::Ray;
+    use crate::contract::crossing::{Request, Sent};
+    use glam::DVec3;
 
     #[test]
     fn what_is_wrong_with_unit_directions_too_is_no_missing_normalisation() {
@@ -85,6 +91,11 @@ mod tests {
         );
         assert_eq!(told("hit", "t", BreachKind::Infinite), Some("answer-infinite"));
         assert_eq!(told("pixel", "radiance", BreachKind::Negative(-1.0)), Some("answer-negative"));
+        let rays = [Ray::new(DVec3::ZERO, DVec3::X); 9];
+        let request = Request::new("intersect_sphere").with_array(Sent::new("rays", &rays));
+        let nan = Breach::of("t", BreachKind::NotANumber).in_element("hit", 0, 9);
+        let nan = nan.with_question(&request);
+        assert_eq!(cause_of(&nan).map(|cause| cause.name), Some("answer-not-a-number"));
         let ghost = BreachKind::NoSuchPrimitive { shape: 7, primitive: 0 };
         assert_eq!(told("hit", "primitive", ghost), None);
         assert_eq!(cause_of(&Breach::other("NaN, inf, negative")), None);

@@ -2,6 +2,7 @@
 //!
 //! Sentences are made where they are shown ([`fmt::Display`]); causes are matched by value (`checks::breach`).
 
+use super::crossing::Request;
 use crate::image::CHANNELS;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -18,6 +19,18 @@ pub struct Breach {
     pub(crate) channel: Option<usize>,
     /// What is wrong with that.
     pub(crate) kind: BreachKind,
+    /// What the core was asked there, where somebody knows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) asked: Option<Box<AskedFor>>,
+}
+
+/// One element of a question.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct AskedFor {
+    /// In the words of the protocol: `intersect-sphere`.
+    pub(crate) question: String,
+    /// With these numbers.
+    pub(crate) numbers: String,
 }
 
 /// Where an answer is wrong.
@@ -76,7 +89,8 @@ pub enum BreachKind {
 impl Breach {
     /// A breach by `field`; where, the caller says.
     pub(crate) fn of(field: impl Into<Cow<'static, str>>, kind: BreachKind) -> Self {
-        Self { place: Place::Answer, field: field.into(), channel: None, kind }
+        let (place, field) = (Place::Answer, field.into());
+        Self { place, field, channel: None, kind, asked: None }
     }
 
     /// A breach that only words can tell.
@@ -95,6 +109,23 @@ impl Breach {
         matches!(self.kind, BreachKind::NotUnit(length) if length > 0.0)
     }
 
+    /// The same with what was asked for its element in this request.
+    #[must_use]
+    pub(crate) fn with_question(self, request: &Request<'_>) -> Self {
+        let numbers = match self.place {
+            Place::Element { index, of, .. } => request.describe(index, of),
+            Place::Answer | Place::Pixel { .. } => None,
+        };
+        let question = || request.name().to_owned();
+        let asked = |numbers| Box::new(AskedFor { question: question(), numbers });
+        Self { asked: numbers.map(asked), ..self }
+    }
+
+    /// Whether this was asked, in the words of the protocol.
+    pub(crate) fn is_about(&self, question: &str) -> bool {
+        self.asked.as_ref().is_some_and(|asked| asked.question == question)
+    }
+
     /// What the elements of the answer are; nothing of one that is wrong as a whole.
     pub(crate) fn element(&self) -> &str {
         match &self.place {
@@ -104,9 +135,22 @@ impl Breach {
     }
 }
 
+impl BreachKind {
+    /// What would have been right, where the words for what is wrong do not say so.
+    const fn right(&self) -> Option<&'static str> {
+        match self {
+            Self::Untouched => Some("every field of an answer has to be written"),
+            Self::NotANumber | Self::Infinite => Some("a finite number is right"),
+            Self::Negative(_) => Some("0 or more is right"),
+            _ => None,
+        }
+    }
+}
+
+/// What came, what would have been right, what was asked.
 impl fmt::Display for Breach {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { place, field, channel, kind } = self;
+        let Self { place, field, channel, kind, asked } = self;
         match place {
             Place::Answer => {}
             Place::Element { what, index, of } => write!(f, "{what} {index} of {of}: ")?,
@@ -119,7 +163,7 @@ impl fmt::Display for Breach {
             BreachKind::Negative(value) => write!(f, "{field} = {value} is negative"),
             BreachKind::NotUnit(length) => write!(f, "{field} has length {length}, not 1"),
             BreachKind::NotAFlag(value) => write!(f, "{field} is {value}, neither 0 nor 1"),
-            BreachKind::OutOfRange(value) => write!(f, "{field} is {value}"),
+            BreachKind::OutOfRange(value) => write!(f, "{field} is {value}, which cannot be"),
             BreachKind::NoSuchPrimitive { shape, primitive } => {
                 write!(f, "shape {shape} has no primitive {primitive}")
             }
@@ -128,8 +172,15 @@ impl fmt::Display for Breach {
         if let Some(channel) = *channel {
             write!(f, " ({})", CHANNELS[channel % 3])?;
         }
+        if let Some(right) = kind.right() {
+            write!(f, "; {right}")?;
+        }
         if (self.element(), field.as_ref()) == ("hit", "t") {
-            f.write_str("; did the ray miss? set primitive to NONE")?;
+            f.write_str(", or a miss (`primitive` is NONE) where the ray meets nothing")?;
+        }
+        if let Some(asked) = asked {
+            let AskedFor { question, numbers } = &**asked;
+            write!(f, "; asked was {question} with {numbers}")?;
         }
         Ok(())
     }

@@ -168,6 +168,18 @@ impl<'a> Request<'a> {
         &self.arrays
     }
 
+    /// The arrays that have an element for each of a batch of `count`; none if this is no batch.
+    pub(crate) fn batch(&self, count: usize) -> Option<Vec<&Sent<'a>>> {
+        let of_batch: Vec<_> = self.arrays.iter().filter(|array| !array.is_shared()).collect();
+        let is_whole = of_batch.iter().all(|array| array.count() == count);
+        (count > 0 && !of_batch.is_empty() && is_whole).then_some(of_batch)
+    }
+
+    /// One element of a batch of `count` in words: its numbers.
+    pub(crate) fn describe(&self, index: usize, count: usize) -> Option<String> {
+        Some(self.batch(count)?.first()?.describe(index))
+    }
+
     #[must_use]
     pub(crate) fn with(mut self, name: &str, member: impl Serialize) -> Self {
         self.member(name, member);

@@ -7,6 +7,7 @@
 
 use super::answer::{Answer, Asked, Unformed};
 use super::argument::{Argument, needed_by, size_of_answer};
+use super::crossing::Request;
 use super::question::*;
 use super::{Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -71,7 +72,11 @@ macro_rules! validated {
             $out.untouch(&asked);
             let told =
                 guarded(stringify!($method), || self.$behind.$method($($arg,)* &mut *$out))?;
-            $out.accept(&asked)?;
+            $out.accept(&asked).map_err(|error| {
+                let request =
+                    Request::new(stringify!($method))$(.with_argument(stringify!($arg), $arg))*;
+                with_its_question(error, &request)
+            })?;
             Ok(told)
         }
     };
@@ -112,6 +117,14 @@ impl BuiltScene for ValidatedScene<'_> {
 fn knows(capabilities: Capabilities, needed: Capabilities) -> Result<()> {
     let missing = needed - capabilities;
     if missing.is_empty() { Ok(()) } else { Err(CoreError::Unsupported(missing)) }
+}
+
+/// The same error, where it is of one element with what was asked for that.
+fn with_its_question(error: CoreError, request: &Request<'_>) -> CoreError {
+    match error {
+        CoreError::BrokeContract(breach) => breach.with_question(request).into(),
+        other => other,
+    }
 }
 
 /// Runs one request; a panic inside it is the core's crash.
@@ -184,10 +197,15 @@ mod tests {
     }
 
     #[test]
-    fn a_nan_distance_is_the_cores_fault_and_says_what_to_do() {
+    fn a_nan_distance_is_told_with_what_was_asked_and_what_is_right() {
         let nan = complaint_about(|hits| hits.fill(Hit { t: f64::NAN, ..GOOD }));
         assert!(nan.contains("broke the contract: hit 0 of 2: t is NaN"), "{nan}");
-        assert!(nan.contains("set primitive to NONE"), "{nan}");
+        assert_eq!(
+            nan,
+            "the core broke the contract: hit 0 of 2: t is NaN; a finite number is right, or a miss \
+             (`primitive` is NONE) where the ray meets nothing; asked was \
+             intersect-sphere with origin [0, 0, 3], direction [-0, -0, -1], t from 0 to inf"
+        );
     }
 
     #[test]

@@ -83,15 +83,8 @@ impl Remote {
         wanted: &[Wanted<'_>],
     ) -> Option<(String, Option<Box<Culprit>>)> {
         let count = wanted.first()?.count();
-        let arrays = request.arrays().iter();
-        let of_batch: Vec<_> = arrays.filter(|array| !array.is_shared()).collect();
         // A picture has no elements that could be asked for alone.
-        let is_batch = count > 0
-            && !of_batch.is_empty()
-            && of_batch.iter().all(|array| array.count() == count);
-        if !is_batch {
-            return None;
-        }
+        request.batch(count)?;
         let begun = Instant::now();
         let found = narrow(count, |range| {
             (begun.elapsed() < SEARCH).then(|| self.dies_of(request, wanted, &range))
@@ -99,7 +92,7 @@ impl Remote {
         Some(match found {
             None => (format!(" of {count} elements, though not of them alone"), None),
             Some(Range { start: index, end }) if end == index + 1 => {
-                let numbers = of_batch.first().map(|array| array.describe(index));
+                let numbers = request.describe(index, count);
                 let culprit = numbers.map(|numbers| Box::new(Culprit { index, numbers }));
                 (format!(", element {index} of {count}"), culprit)
             }

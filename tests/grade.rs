@@ -186,6 +186,97 @@ fn a_class_is_graded_at_once_and_ends_the_same_however_often_it_was_killed() {
     assert!(page.contains("bea, cem"), "those with the same mistake stand together");
 }
 
+/// Whether no process has the number that a file holds, soon.
+#[cfg(unix)]
+fn is_gone(file: &Path) -> bool {
+    let number = fs::read_to_string(file).unwrap();
+    let is_there = || {
+        let status = Command::new("kill").args(["-0", number.trim()]).output().unwrap().status;
+        status.success()
+    };
+    (0..200).any(|_| {
+        std::thread::sleep(Duration::from_millis(50));
+        !is_there()
+    })
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_class_leaves_nothing_behind_and_goes_on() {
+    let room = Room::new();
+    hand_in(&room);
+    // Every build waits for something that it has started, until it is told to go on.
+    let wait = r#"commands = [["sh", "-c", "test -e {submission}/../../go || { sleep 600 & echo $! > waiting; wait; }"], "#;
+    let suite = room.read("suites/small.toml").replace("commands = [", wait);
+    room.write("suites/small.toml", &suite);
+    let mut command = room.command(&CLASS);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let waiting = || -> Vec<PathBuf> {
+        let builds = fs::read_dir(room.path().join("classes/small/builds")).into_iter().flatten();
+        let files = builds.map(|build| build.unwrap().path().join("waiting"));
+        files
+            .filter(|file| fs::read_to_string(file).is_ok_and(|text| text.ends_with('\n')))
+            .collect()
+    };
+    while waiting().len() < 2 {
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    let output = child.wait_with_output().unwrap();
+    let told = printed(&output);
+    assert_eq!(output.status.code(), Some(130), "{told}");
+    assert!(told.contains(" of 5 submissions graded\n"), "{told}");
+    let again = shell_words::join(CLASS);
+    assert!(told.ends_with(&format!("  resume  cargo furnace {again}\n")), "{told}");
+    assert!(waiting().iter().all(|file| is_gone(file)));
+    // That its build was ended says nothing about a submission.
+    let runs = fs::read_dir(room.path().join("classes/small/runs")).into_iter().flatten();
+    let grades = runs.map(|run| run.unwrap().path().join("grade.json"));
+    let grades: String = grades.filter_map(|grade| fs::read_to_string(grade).ok()).collect();
+    assert!(!grades.contains("does not compile"), "{grades}");
+    room.write("go", "");
+    assert_eq!(room.furnace(&CLASS).status.code(), Some(0));
+    let table = room.read("classes/small/class.csv");
+    assert!(table.contains("ada,3,10,0,3,0,"), "{table}");
+}
+
+#[test]
+fn a_class_says_which_submission_is_graded_as_it_may_be_called() {
+    let room = Room::new();
+    hand_in(&room);
+    let told = |words: &[&str]| String::from_utf8(room.furnace(words).stderr).unwrap();
+    let named = told(&CLASS);
+    assert!(named.starts_with("5 submissions; results go to "), "{named}");
+    assert!(named.contains("  ada: 3 of 10\n"), "{named}");
+    assert!(named.contains("5 of 5  "), "{named}");
+    let words: Vec<_> = CLASS.into_iter().filter(|word| *word != "--names").collect();
+    let unnamed = told(&words);
+    assert!(unnamed.contains("  submission 1 of 5 (") && !unnamed.contains("ada"), "{unnamed}");
+}
+
+#[test]
+fn a_graded_run_whose_time_was_up_goes_on() {
+    let room = Room::new();
+    let suite = room.read("suites/small.toml");
+    room.write("suites/small.toml", &suite.replace("\"60 s\"", "\"1 ns\""));
+    let output = room.furnace(&["grade", "--suite", "small", "--core", "builtin"]);
+    let told = printed(&output);
+    assert_eq!(output.status.code(), Some(5), "{told}");
+    assert!(told.contains("  NOT RUN: 3 of 3 trials, for the time was up\n"), "{told}");
+    let (_, resume) = told.split_once("  resume  cargo furnace ").unwrap();
+    let words = shell_words::split(resume.lines().next().unwrap()).unwrap();
+    let words: Vec<_> = words.iter().map(String::as_str).collect();
+    room.write("suites/small.toml", &suite);
+    // Another salt draws other numbers; and without the suite it would be another run.
+    let salted = room.command(&words).env("FURNACE_SALT", "x").output().unwrap();
+    assert_eq!(salted.status.code(), Some(2), "{}", printed(&salted));
+    let plain = room.furnace(&["run", "--resume", words[words.len() - 1]]);
+    assert!(printed(&plain).contains(resume.lines().next().unwrap()), "{}", printed(&plain));
+    let output = room.furnace(&words);
+    assert!(printed(&output).contains("10 of 10"), "{}", printed(&output));
+}
+
 #[test]
 fn a_class_tells_no_names_unless_asked() {
     let room = Room::new();

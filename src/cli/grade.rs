@@ -3,6 +3,7 @@
 pub(super) mod class;
 
 use super::hosting::HostingArguments;
+use super::interrupt::Running;
 use super::progress::Progress;
 use super::run::salt;
 use super::say::{say, say_line};
@@ -15,8 +16,9 @@ use crate::grade::{
     Grade, Standing, Submission, Suite, SuiteError, Workshop, csv, github, gradescope, junit, text,
 };
 use crate::project::Project;
+use crate::report::text::Detail;
 use crate::report::{self, RunTree};
-use crate::run::{self, Plan, RunError};
+use crate::run::{self, Event, Plan, RunError};
 use clap::Args;
 use std::io::Write;
 use std::num::NonZeroUsize;
@@ -30,16 +32,19 @@ pub(crate) struct GradeArguments {
     #[arg(long, value_name = "SUITE")]
     suite: String,
     /// The renderer to grade.
-    #[arg(long, value_name = "CORE", required_unless_present_any = ["run", "submission", "submissions"])]
+    #[arg(long, value_name = "CORE", required_unless_present_any = ["run", "resume", "submission", "submissions"])]
     core: Option<String>,
     /// Grade a run that is there, without running anything.
     #[arg(long, value_name = "DIR", conflicts_with = "core")]
     run: Option<PathBuf>,
+    /// Go on with a graded run that was cut off, or whose time was up.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["core", "run"])]
+    resume: Option<PathBuf>,
     /// Grade one submission: a library, or a folder that the suite's commands build.
-    #[arg(long, value_name = "PATH", conflicts_with_all = ["core", "run"])]
+    #[arg(long, value_name = "PATH", conflicts_with_all = ["core", "run", "resume"])]
     submission: Option<PathBuf>,
     /// Grade a class: every library and every folder in DIR is a submission.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["core", "run", "submission", "gradescope", "junit", "github"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["core", "run", "resume", "submission", "gradescope", "junit", "github"])]
     submissions: Option<PathBuf>,
     /// Call submissions by their names, where a class is graded.
     #[arg(long, requires = "submissions")]
@@ -84,6 +89,13 @@ struct Outputs {
     github: bool,
 }
 
+/// Where a run can be read.
+struct Pages {
+    index: PathBuf,
+    /// That it has not come to its end, and how it goes on; nothing of one that has.
+    unfinished: String,
+}
+
 /// What a grade needs beside a core.
 struct Desk {
     project: Project,
@@ -102,13 +114,24 @@ pub(crate) fn grade(arguments: &GradeArguments) -> Answer {
     if let Some(folder) = &arguments.submissions {
         return class::grade(arguments, &desk, folder);
     }
-    let (grade, page) = match (&arguments.run, &arguments.submission, &arguments.core) {
+    let (grade, pages) = match (&arguments.run, &arguments.resume, &arguments.submission) {
         (Some(folder), _, _) => desk.of_run(folder)?,
-        (None, Some(path), _) => desk.of_submission(arguments, path)?,
-        (None, None, core) => desk.of_core(arguments, core.as_deref().unwrap_or_default())?,
+        (_, Some(folder), _) => desk.of_resumed(arguments, folder)?,
+        (_, _, Some(path)) => desk.of_submission(arguments, path)?,
+        _ => desk.of_core(arguments, arguments.core.as_deref().unwrap_or_default())?,
     };
-    tell(arguments, &grade, page.as_deref())?;
+    tell(arguments, &grade, pages.as_ref())?;
     Ok(code(&grade))
+}
+
+/// Who shows how a run goes on, and at ctrl-c what it has shown by then.
+fn listener(arguments: &GradeArguments) -> impl FnMut(Event<'_>) {
+    let mut progress = Progress::new(arguments.json);
+    let running = Running::ends_in_words(super::report::style(Detail::Usual));
+    move |event| {
+        running.hear(&event);
+        progress.hear(event);
+    }
 }
 
 fn suite_failure(error: SuiteError) -> Failure {
@@ -124,7 +147,7 @@ impl Desk {
         &self,
         arguments: &GradeArguments,
         word: &str,
-    ) -> Result<(Grade, Option<PathBuf>), Failure> {
+    ) -> Result<(Grade, Option<Pages>), Failure> {
         let core: CoreSpec = match word.parse() {
             Ok(core) => core,
             Err(unknown) => return Ok(self.absent(word, &unknown)),
@@ -132,12 +155,36 @@ impl Desk {
         let runs = arguments.report.clone().unwrap_or_else(|| self.project.runs());
         let plan = self.plan(core, arguments.jobs.map_or(0, NonZeroUsize::get))?;
         let plan = plan.hosted(arguments.hosting.hosting(&runs));
-        let mut progress = Progress::new(arguments.json);
-        match run::run(&plan, &runs, &mut |event| progress.hear(event)) {
+        match run::run(&plan, &runs, &mut listener(arguments)) {
             Ok(folder) => self.of_run(&folder),
             Err(error @ RunError::NoCore { .. }) => Ok(self.absent(word, &error)),
             Err(error) => Err(Failure::broken(error)),
         }
+    }
+
+    /// Goes on with a run of this very suite.
+    fn of_resumed(
+        &self,
+        arguments: &GradeArguments,
+        folder: &Path,
+    ) -> Result<(Grade, Option<Pages>), Failure> {
+        let tree = RunTree::load(folder).map_err(Failure::request)?;
+        let (Some(core), true) = (tree.run.cores.first(), tree.run.seed == self.seed()) else {
+            return Err(Failure::request(format!(
+                "{} was begun with another suite, version or salt",
+                folder.display()
+            )));
+        };
+        let core = core.spec.parse().map_err(Failure::request)?;
+        let runs = folder.parent().unwrap_or(folder);
+        let plan = self.plan(core, arguments.jobs.map_or(0, NonZeroUsize::get))?;
+        let plan = plan.hosted(arguments.hosting.hosting(runs));
+        run::resume(&plan, folder, &mut listener(arguments)).map_err(Failure::broken)?;
+        self.of_run(folder)
+    }
+
+    fn seed(&self) -> u64 {
+        self.suite.seed(&self.salt).0
     }
 
     /// Builds a submission where nobody else is, and tries what comes of it.
@@ -145,18 +192,18 @@ impl Desk {
         &self,
         arguments: &GradeArguments,
         path: &Path,
-    ) -> Result<(Grade, Option<PathBuf>), Failure> {
+    ) -> Result<(Grade, Option<Pages>), Failure> {
         let unreadable =
             |error| Failure::request(format!("cannot read {}: {error}", path.display()));
         let submission = Submission::at(path).map_err(unreadable)?;
         let folder = tempfile::tempdir().map_err(Failure::broken)?;
-        let (mut grade, page) = match submission.core(&self.workshop(arguments), folder.path()) {
+        let (mut grade, pages) = match submission.core(&self.workshop(arguments), folder.path()) {
             Ok(core) => self.of_core(arguments, &core.to_string_lossy())?,
             Err(problem) => self.absent("", &problem),
         };
         // Where it was built is no name of its.
         grade.core.clone_from(&submission.name);
-        Ok((grade, page))
+        Ok((grade, pages))
     }
 
     fn workshop<'a>(&'a self, arguments: &'a GradeArguments) -> Workshop<'a> {
@@ -164,7 +211,7 @@ impl Desk {
         Workshop { project, suite, user: arguments.build_as.as_deref() }
     }
 
-    fn absent(&self, core: &str, problem: &dyn std::fmt::Display) -> (Grade, Option<PathBuf>) {
+    fn absent(&self, core: &str, problem: &dyn std::fmt::Display) -> (Grade, Option<Pages>) {
         (Grade::absent(&self.suite, core, &problem.to_string()), None)
     }
 
@@ -175,16 +222,18 @@ impl Desk {
         plan.map_err(Failure::nothing)
     }
 
-    fn of_run(&self, folder: &Path) -> Result<(Grade, Option<PathBuf>), Failure> {
+    fn of_run(&self, folder: &Path) -> Result<(Grade, Option<Pages>), Failure> {
         let tree = RunTree::load(folder).map_err(Failure::request)?;
-        let page = report::html::write(&tree, folder).map_err(Failure::broken)?;
+        let index = report::html::write(&tree, folder).map_err(Failure::broken)?;
         let selected = self.suite.select(&self.cases).map_err(suite_failure)?;
-        Ok((Grade::of(&self.suite, &selected, &self.salt, &tree), Some(page)))
+        let unfinished = report::text::unfinished(&tree, super::report::style(Detail::Usual));
+        let grade = Grade::of(&self.suite, &selected, &self.salt, &tree);
+        Ok((grade, Some(Pages { index, unfinished })))
     }
 }
 
 /// Writes what was asked for, and says the rest.
-fn tell(arguments: &GradeArguments, grade: &Grade, page: Option<&Path>) -> Result<(), Failure> {
+fn tell(arguments: &GradeArguments, grade: &Grade, pages: Option<&Pages>) -> Result<(), Failure> {
     let outputs = &arguments.outputs;
     if let Some(path) = &outputs.gradescope {
         put(path, &gradescope::results(grade).map_err(Failure::broken)?)?;
@@ -200,8 +249,9 @@ fn tell(arguments: &GradeArguments, grade: &Grade, page: Option<&Path>) -> Resul
         return Ok(());
     }
     say!("\n{}", text::table(grade));
-    if let Some(page) = page {
-        say_line!("\n  report  {}", super::report::address(page));
+    if let Some(Pages { index, unfinished }) = pages {
+        say!("\n{unfinished}");
+        say_line!("  report  {}", super::report::address(index));
     }
     if outputs.github {
         say!("{}", github::annotations(grade));

@@ -14,9 +14,9 @@ use std::time::{Duration, Instant};
 const WHOLE: &str =
     "  {pos}/{len} trials  {wide_bar}  {elapsed} elapsed, about {eta} left\n  {msg}";
 /// A log that is silent for longer looks dead.
-const HEARTBEAT: Duration = Duration::from_secs(30);
+pub(super) const HEARTBEAT: Duration = Duration::from_secs(30);
 /// The line of a trial that runs now.
-const RUNNING: &str = "  {elapsed:>5}  {msg}";
+pub(super) const RUNNING: &str = "  {elapsed:>5}  {msg}";
 
 /// Listens to a run and shows how it goes.
 pub(crate) struct Progress {
@@ -53,10 +53,9 @@ struct Live {
 impl Progress {
     /// What suits standard error. Quiet shows nothing.
     pub(crate) fn new(quiet: bool) -> Self {
-        let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
         let display = match () {
             () if quiet => Display::Quiet,
-            () if std::io::stderr().is_terminal() && !is_dumb => {
+            () if is_live() => {
                 let colour = Colour::is_wanted(true);
                 Display::Live(Live::new(ProgressDrawTarget::stderr(), colour))
             }
@@ -202,8 +201,14 @@ impl Drop for Live {
     }
 }
 
+/// Whether standard error is where a display can draw over itself.
+pub(super) fn is_live() -> bool {
+    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    std::io::stderr().is_terminal() && !is_dumb
+}
+
 /// The style of a bar; a mistake in it costs the looks, not the run.
-fn template(text: &str) -> ProgressStyle {
+pub(super) fn template(text: &str) -> ProgressStyle {
     let style = ProgressStyle::with_template(text).unwrap_or_else(|_| ProgressStyle::default_bar());
     style.progress_chars("##-")
 }
@@ -253,7 +258,7 @@ impl Told {
 }
 
 /// A closed standard error must not end the run.
-fn print(out: &mut impl Write, line: &str) {
+pub(super) fn print(out: &mut impl Write, line: &str) {
     let _ = writeln!(out, "{line}");
 }
 

@@ -18,7 +18,7 @@ use crate::report::TreeError;
 use crate::report::text::Detail;
 use crate::run::{self, Plan, Request, RunError, RunRecord, record};
 use crate::stats::Budget;
-use crate::text::{all_of, did_you_mean, hint};
+use crate::text::{all_of, did_you_mean, hint, program};
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -127,9 +127,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Answer {
     let mut progress = Progress::new(arguments.quiet);
     let running = Running::ends_in_words(super::report::style(arguments.detail()));
     let mut listen = |event: run::Event<'_>| {
-        if let run::Event::Planned { folder, .. } = event {
-            running.begins(folder);
-        }
+        running.hear(&event);
         progress.hear(event);
     };
     let folder = match &arguments.resume {
@@ -181,6 +179,14 @@ fn request_of(folder: &Path, jobs: usize) -> Result<(Request, Components), Failu
         return Err(Failure::request(TreeError::NotARun(folder.to_owned())));
     }
     let record: RunRecord = record::read_json(&path).map_err(Failure::request)?;
+    if let Some(suite) = &record.suite {
+        let suite = shell_words::quote(suite);
+        return Err(Failure::request(format!(
+            "{folder} is a run of the suite {suite}\nhint: `{} grade --suite {suite} --resume {folder}`",
+            program(),
+            folder = folder.display()
+        )));
+    }
     let cores = record.cores.iter().map(|core| core.spec.parse());
     let request = Request {
         cores: cores.collect::<Result<_, _>>().map_err(Failure::request)?,

@@ -19,6 +19,9 @@ pub(crate) struct Suite {
     /// Its file's, without `.toml`.
     #[serde(skip)]
     pub(crate) name: String,
+    /// As the user named it.
+    #[serde(skip)]
+    pub(crate) word: String,
     /// Of its file's text.
     #[serde(skip)]
     pub(crate) hash: String,
@@ -108,13 +111,18 @@ fn duration<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Duratio
 impl Suite {
     /// A suite of the project or of the bench, or the file of a path that ends in `.toml`.
     pub(crate) fn find(project: &Project, name: &str) -> Result<Self, SuiteError> {
+        let suite = Self::read(&Self::file(project, name)?)?;
+        Ok(Self { word: name.to_owned(), ..suite })
+    }
+
+    fn file(project: &Project, name: &str) -> Result<PathBuf, SuiteError> {
         if Path::new(name).extension().is_some_and(|ending| ending == "toml") {
-            return Self::read(Path::new(name));
+            return Ok(PathBuf::from(name));
         }
         let folders = project.layers("suites");
         let files = folders.iter().map(|folder| folder.join(format!("{name}.toml")));
         match files.into_iter().find(|file| file.is_file()) {
-            Some(file) => Self::read(&file),
+            Some(file) => Ok(file),
             None => {
                 let known = names(&folders);
                 let known = || known.iter().map(String::as_str);
@@ -182,6 +190,7 @@ impl Suite {
             ..Request::default()
         };
         let plan = Plan::new(project.clone(), request, &selected.cases())?;
+        let plan = plan.of_suite(self.word.clone());
         Ok(plan.salted(salt.to_owned()).within(self.time))
     }
 

@@ -126,6 +126,7 @@ impl Example {
             furnace: "0.1.0".to_owned(),
             cores: cores.to_vec(),
             filters: Vec::new(),
+            suite: None,
             budget: Budget::Default,
             seed: 1,
             trials: trials.len(),

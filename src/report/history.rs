@@ -59,7 +59,8 @@ pub(super) fn folders_beside(folder: &Path) -> impl Iterator<Item = PathBuf> {
 /// Whether two runs can be held against each other: the same cases, as closely looked at.
 fn asks_the_same(one: &RunRecord, other: &RunRecord) -> bool {
     let question = |run: &RunRecord| {
-        (run.filters.clone(), run.budget, run.with, run.trials / run.cores.len().max(1))
+        let of_each = run.trials / run.cores.len().max(1);
+        (run.filters.clone(), run.suite.clone(), run.budget, run.with, of_each)
     };
     one.version == VERSION
         && one.timing.started <= other.timing.started
@@ -76,6 +77,8 @@ pub(crate) struct Reached {
     /// As the user named it.
     pub(crate) core: String,
     pub(crate) filters: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) suite: Option<String>,
     pub(crate) budget: Budget,
     pub(crate) seed: u64,
     /// Graded trials that pass, and all graded ones.
@@ -88,8 +91,11 @@ pub(crate) struct Reached {
 impl Reached {
     /// What was asked, where it was not all as usual.
     pub(crate) fn asked(&self) -> String {
-        let filters = self.filters.join(" ");
-        let cases = if filters.is_empty() { "every case".to_owned() } else { filters };
+        let cases = match (&self.suite, &self.filters[..]) {
+            (Some(suite), _) => format!("suite {suite}"),
+            (None, []) => "every case".to_owned(),
+            (None, filters) => filters.join(" "),
+        };
         let budget = match self.budget == Budget::default() {
             true => String::new(),
             false => format!(", {}", self.budget),
@@ -98,7 +104,9 @@ impl Reached {
     }
 
     pub(crate) fn asks_as(&self, other: &Self) -> bool {
-        (&self.filters, self.budget, self.graded) == (&other.filters, other.budget, other.graded)
+        let question =
+            |one: &Self| (one.filters.clone(), one.suite.clone(), one.budget, one.graded);
+        question(self) == question(other)
     }
 }
 
@@ -119,6 +127,7 @@ fn of_run(folder: PathBuf) -> Vec<Reached> {
             started: run.timing.started,
             core: core.spec.clone(),
             filters: run.filters.clone(),
+            suite: run.suite.clone(),
             budget: run.budget,
             seed: run.seed,
             passes,

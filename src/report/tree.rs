@@ -34,6 +34,19 @@ pub(crate) struct AbsentCore<'a> {
     pub(crate) witness: &'a TrialRecord,
 }
 
+/// Why a run has not come to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unfinished {
+    /// It stopped at a failure, as it was asked to.
+    AtFailure,
+    /// The time of its suite was up before the last trial began.
+    OutOfTime,
+    /// It was cut off between its trials.
+    Trials,
+    /// It was cut off when all trials had a result, and causes were searched for.
+    Causes,
+}
+
 impl AbsentCore<'_> {
     /// What tries to bring it up, and nothing else.
     pub(crate) fn command(&self) -> String {
@@ -164,14 +177,31 @@ impl RunTree {
         self.run.trials.saturating_sub(self.trials.len())
     }
 
-    /// Whether the run ended before its last trial because that was asked of it: at a failure.
-    pub(crate) fn stopped_at_failure(&self) -> bool {
-        self.run.fail_fast && self.missing() > 0 && self.run.timing.seconds.is_some()
+    /// Why the run did not come to its end with a result for every trial, if it did not.
+    pub(crate) fn unfinished(&self) -> Option<Unfinished> {
+        match (self.missing(), self.run.timing.seconds) {
+            (0, Some(_)) => None,
+            (0, None) => Some(Unfinished::Causes),
+            (_, None) => Some(Unfinished::Trials),
+            (_, Some(_)) if self.run.fail_fast => Some(Unfinished::AtFailure),
+            // Only suites have a time. A folder that lacks files for another reason is none of ours.
+            (_, Some(_)) if self.run.suite.is_some() => Some(Unfinished::OutOfTime),
+            (_, Some(_)) => Some(Unfinished::Trials),
+        }
     }
 
-    /// Whether the run came to its end with a result for every trial.
     pub(crate) fn is_finished(&self) -> bool {
-        self.missing() == 0 && self.run.timing.seconds.is_some()
+        self.unfinished().is_none()
+    }
+
+    /// The command that goes on with it.
+    pub(crate) fn resume(&self) -> String {
+        let verb = match &self.run.suite {
+            Some(suite) => format!("grade --suite {}", shell_words::quote(suite)),
+            None => "run".to_owned(),
+        };
+        let folder = self.folder.to_string_lossy();
+        format!("{} {verb} --resume {}", program(), shell_words::quote(&folder))
     }
 
     pub(crate) fn picture_path(&self, trial: &TrialRecord, picture: &PictureFile) -> PathBuf {

@@ -187,6 +187,7 @@ fn describe(plan: &Plan, cores: Vec<CoreRecord>, started: SystemTime) -> RunReco
         furnace: env!("CARGO_PKG_VERSION").to_owned(),
         cores,
         filters: plan.request.filters.clone(),
+        suite: plan.suite.clone(),
         budget: plan.request.budget,
         seed: plan.request.seed.0,
         trials: plan.trials.len(),

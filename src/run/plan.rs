@@ -47,6 +47,8 @@ pub struct Plan {
     pub trials: Vec<Trial>,
     /// Where cores live.
     pub hosting: Hosting,
+    /// The suite whose cases these are, as the user named it.
+    pub(crate) suite: Option<String>,
     /// What every core is to take from the bench, whatever it is found to do wrong.
     pub with: Components,
     /// What scenes are moved by besides the seed, for graders who publish no motion.
@@ -90,6 +92,7 @@ impl Plan {
             request,
             trials,
             hosting: Hosting::default(),
+            suite: None,
             with: Components::empty(),
             salt: String::new(),
             searches: true,
@@ -117,6 +120,11 @@ impl Plan {
 }
 
 impl Plan {
+    /// The same, as what a suite asks.
+    pub(crate) fn of_suite(self, suite: String) -> Self {
+        Self { suite: Some(suite), ..self }
+    }
+
     /// The same, where no trial begins after so long.
     pub(crate) fn within(self, time: Option<Duration>) -> Self {
         Self { time, ..self }

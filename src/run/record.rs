@@ -36,6 +36,9 @@ pub struct RunRecord {
     pub(crate) cores: Vec<CoreRecord>,
     /// What was selected, as the user typed it.
     pub(crate) filters: Vec<String>,
+    /// The suite whose cases these are, as the user named it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) suite: Option<String>,
     /// How much was spent, and so how small an error was looked for.
     pub(crate) budget: Budget,
     pub(crate) seed: u64,

@@ -1,10 +1,12 @@
 //! A program run to its end or to the end of its time, with everything it has started.
 
+use std::collections::BTreeSet;
 use std::env;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How much of the end of what a program said is shown.
@@ -84,8 +86,27 @@ pub(crate) fn run<'a>(
     }
     #[cfg(target_os = "linux")]
     crate::worker::end_with_us(command);
+    let mut groups = groups();
     let child = command.spawn()?;
+    if group == Group::Own {
+        groups.insert(child.id());
+    }
+    drop(groups);
     Ok((wait(child, limit, group)?, Words { folder }))
+}
+
+/// The groups that run now, by their leaders.
+fn groups() -> MutexGuard<'static, BTreeSet<u32>> {
+    static GROUPS: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
+    GROUPS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Ends every program that runs in a group of its own, for a process that is about to end. Whoever waits for one waits for
+/// ever: that it was ended says nothing about it.
+pub(crate) fn end_all() {
+    let groups = groups();
+    groups.iter().for_each(|leader| end_group(*leader));
+    std::mem::forget(groups);
 }
 
 /// Waits until it ends, and ends it if that takes too long; with what it has left behind.
@@ -102,6 +123,7 @@ fn wait(mut child: Child, limit: Duration, group: Group) -> std::io::Result<Ende
     };
     // Not yet reaped: the number of its group is still its own.
     kill(&mut child, group);
+    groups().remove(&child.id());
     let status = child.wait()?;
     Ok(if in_time { Ended::Exited(status) } else { Ended::OutOfTime })
 }
@@ -122,16 +144,27 @@ fn has_ended(child: &mut Child) -> std::io::Result<bool> {
     Ok(child.try_wait()?.is_some())
 }
 
-/// Ends a process, with its group if that is its own. Nobody left to end is as good.
+/// Ends a process, with its group if that is its own.
 #[cfg(unix)]
 fn kill(child: &mut Child, group: Group) {
-    use rustix::process::{Pid, Signal, kill_process, kill_process_group};
-    let leader = Pid::from_child(child);
-    let _ = match group {
-        Group::Own => kill_process_group(leader, Signal::KILL),
-        Group::Workers => kill_process(leader, Signal::KILL),
-    };
+    match group {
+        Group::Own => end_group(child.id()),
+        // Nobody left to end is as good.
+        Group::Workers => drop(child.kill()),
+    }
 }
+
+/// Nobody left to end is as good.
+#[cfg(unix)]
+fn end_group(leader: u32) {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    let leader = i32::try_from(leader).ok().and_then(Pid::from_raw);
+    let _ = leader.map(|leader| kill_process_group(leader, Signal::KILL));
+}
+
+/// There are no groups: a program ends with nobody.
+#[cfg(not(unix))]
+fn end_group(_leader: u32) {}
 
 /// Ends a process; what it has started goes on. Nobody left to end is as good.
 #[cfg(not(unix))]

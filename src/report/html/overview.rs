@@ -4,9 +4,9 @@ use super::parts::{badge, cell, command};
 use super::view::Place;
 use super::{Section, View};
 use crate::report::digest::{PartGroup, Tally, by_part};
+use crate::report::tree::Unfinished;
 use crate::run::{Outcome, Status, TrialRecord};
 use crate::text::number::{count, duration};
-use crate::text::program;
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 use std::time::{Duration, UNIX_EPOCH};
@@ -59,16 +59,25 @@ pub(crate) fn date(seconds: u64) -> String {
 fn unfinished(view: &View<'_>) -> Markup {
     let (present, planned) = (view.tree.trials.len(), view.tree.run.trials);
     html! {
-        @if !view.tree.is_finished() {
+        @if let Some(why) = view.tree.unfinished() {
             div.card.notice {
-                @if view.tree.stopped_at_failure() {
-                    strong { "This run stopped at the first failure." }
-                } @else {
-                    strong { "This run is incomplete." }
+                strong {
+                    @match why {
+                        Unfinished::AtFailure => "This run stopped at the first failure.",
+                        Unfinished::OutOfTime => "The time of this run was up.",
+                        Unfinished::Trials | Unfinished::Causes => "This run is incomplete.",
+                    }
                 }
-                " " (present) " of " (planned) " planned trials have a result; "
-                "the others were not run."
-                (command(&format!("{} run --resume {}", program(), view.tree.folder.display())))
+                @match why {
+                    Unfinished::Causes => {
+                        " Every trial has a result; the search for causes was cut off."
+                    }
+                    _ => {
+                        " " (present) " of " (planned) " planned trials have a result; "
+                        "the others were not run."
+                    }
+                }
+                (command(&view.tree.resume()))
             }
         }
     }

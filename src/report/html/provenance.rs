@@ -19,7 +19,8 @@ fn body(view: &View<'_>) -> Option<Markup> {
             dl.about {
                 dt { "furnace" } dd { (run.furnace) }
                 dt { "selected" } dd {
-                    @if run.filters.is_empty() { "every case" }
+                    @if let Some(suite) = &run.suite { "the suite " code { (suite) } }
+                    @else if run.filters.is_empty() { "every case" }
                     @else { code { (run.filters.join(" ")) } }
                 }
                 dt { "budget" } dd { (run.budget) }

@@ -5,7 +5,7 @@ use super::cause::told;
 use super::overview;
 use super::view::{Place, View};
 use crate::report::digest::{Tally, capitalised, failures};
-use crate::report::tree::RunTree;
+use crate::report::tree::{RunTree, Unfinished};
 use crate::run::{Outcome, Status};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -92,11 +92,13 @@ impl Page {
 /// The first cause, and how many fail; a run that was cut off says so first, and claims nothing of the rest.
 pub(super) fn index_title(tree: &RunTree) -> String {
     let tally = Tally::of(tree.graded());
-    if !tree.is_finished() {
-        return unfinished(tree, &tally);
+    let counted = counted(&tally);
+    match tree.unfinished() {
+        None => {}
+        Some(Unfinished::Causes) => return format!("Search for causes cut off: {counted}"),
+        Some(_) => return unfinished(tree, &tally),
     }
     let absent = tree.absent_cores().next();
-    let counted = counted(&tally);
     if let Some(core) = absent {
         return format!("{} fails to start: no trial could run", core.spec);
     }
@@ -139,7 +141,7 @@ fn unfinished(tree: &RunTree, tally: &Tally) -> String {
         1 => "1 fails".to_owned(),
         failures => format!("{failures} fail"),
     };
-    format!("Unfinished at {} of {} trials: {fail} so far", tally.total(), tree.run.trials)
+    format!("Unfinished at {} of {} trials: {fail} so far", tree.trials.len(), tree.run.trials)
 }
 
 /// A tab's icon: shape and colour of the result.

@@ -8,7 +8,7 @@ use super::style::{Paint, Style, clean, is_drawn, paint_of};
 use super::subject::{Subject, subjects};
 use crate::diagnosis::{Degree, Headline};
 use crate::report::digest::in_order_of_parts;
-use crate::report::tree::{AbsentCore, RunTree};
+use crate::report::tree::{AbsentCore, RunTree, Unfinished};
 use crate::run::{Counts, Status, TrialRecord};
 use crate::text::number::{count, duration};
 use crate::text::program;
@@ -141,18 +141,21 @@ pub(super) fn totals(tree: &RunTree, style: Style) -> Vec<String> {
 }
 
 /// That a run was cut off or stopped, and how to go on.
-fn unfinished(tree: &RunTree, style: Style) -> Vec<String> {
-    if tree.is_finished() {
-        return Vec::new();
-    }
+pub(super) fn unfinished(tree: &RunTree, style: Style) -> Vec<String> {
+    let Some(why) = tree.unfinished() else { return Vec::new() };
     let missing = format!("{} of {}", tree.missing(), count(tree.run.trials, "trial"));
-    let what = match tree.stopped_at_failure() {
-        true => format!("  NOT RUN: {missing}, after the first failure"),
-        false => format!("  UNFINISHED: {missing} have no result"),
+    let what = match why {
+        Unfinished::AtFailure => format!("  NOT RUN: {missing}, after the first failure"),
+        Unfinished::OutOfTime => format!("  NOT RUN: {missing}, for the time was up"),
+        Unfinished::Trials => format!("  UNFINISHED: {missing} have no result"),
+        Unfinished::Causes => {
+            "  UNFINISHED: every trial has a result, and the search for causes was \
+                               cut off"
+                .to_owned()
+        }
     };
-    let folder = tree.folder.display().to_string();
-    let next = format!("{} run --resume {}", program(), shell_words::quote(&folder));
-    vec![style.paint(Paint::Unknown, &what)].into_iter().chain(command("resume", &next)).collect()
+    let resume = command("resume", &tree.resume());
+    vec![style.paint(Paint::Unknown, &what)].into_iter().chain(resume).collect()
 }
 
 /// A label and what it says, unless that is nothing, in few lines.

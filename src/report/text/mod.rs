@@ -45,6 +45,11 @@ pub fn summary(tree: &RunTree, style: Style) -> String {
     lines.join("\n") + "\n"
 }
 
+/// That a run was cut off or stopped, and how to go on; nothing of one that has come to its end.
+pub(crate) fn unfinished(tree: &RunTree, style: Style) -> String {
+    ending::unfinished(tree, style).into_iter().map(|line| line + "\n").collect()
+}
+
 fn in_full(tree: &RunTree, style: Style) -> Vec<String> {
     let mut lines = vec![String::new()];
     lines.extend(header(tree, style));

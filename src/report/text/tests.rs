@@ -204,6 +204,27 @@ fn an_unfinished_run_says_so_and_how_to_go_on() {
 }
 
 #[test]
+fn a_run_that_was_cut_off_in_its_search_misses_no_result() {
+    let mut example = Example::green();
+    example.run.timing.seconds = None;
+    let text = plain(example);
+    let says = "\n  24 trials: 24 pass\n  UNFINISHED: every trial has a result, and the search for \
+                causes was cut off\n  resume  ";
+    assert!(text.contains(says), "{text}");
+}
+
+#[test]
+fn a_graded_run_whose_time_was_up_goes_on_with_its_suite() {
+    let mut example = Example::green();
+    example.run.suite = Some("small".to_owned());
+    example.trials.truncate(20);
+    let text = plain(example);
+    assert!(text.contains("\n  NOT RUN: 4 of 24 trials, for the time was up\n"), "{text}");
+    let resume = "\n  resume  cargo furnace grade --suite small --resume no-such-folder\n";
+    assert!(text.ends_with(resume), "{text}");
+}
+
+#[test]
 fn a_run_without_a_single_result_is_no_success() {
     let mut example = Example::green();
     example.trials.clear();

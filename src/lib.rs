@@ -86,6 +86,7 @@ pub mod cli;
 
 mod harness;
 
+pub use diagnosis::Degree;
 pub use glam;
 pub use grade::{CaseGrade, Entry, Grade, PartGrade, Points, Standing, Told};
 pub use harness::{Trials, TrialsError, grade, trials};

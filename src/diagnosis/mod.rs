@@ -42,7 +42,7 @@ use serde::{Deserialize, Serialize};
 /// How sure a headline is of its cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Degree {
+pub enum Degree {
     /// Where and by how much; no cause.
     DiffersHere,
     /// It fits, and others may too.

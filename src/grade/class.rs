@@ -1,6 +1,7 @@
 //! A class: the grades of all submissions, as a table and as a page. Without names unless they are asked for.
 
-use super::{Grade, Standing, csv, hundredths};
+use super::{Grade, Standing, Told, csv, hundredths};
+use crate::diagnosis::Degree;
 use crate::text::number::count;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::{Deserialize, Serialize};
@@ -131,25 +132,31 @@ pub(crate) fn table(class: &Class) -> String {
     let parts = class.rows.first().map(|row| &row.grade.parts).into_iter().flatten();
     let head = ["submission", "earned", "of", "open"].map(str::to_owned).into_iter();
     let head = head.chain(parts.map(|part| part.name.clone()));
-    let head: Vec<_> = head.chain(["problem", "causes"].map(str::to_owned)).collect();
+    let ends = ["problem", "causes", "looks like", "differs"].map(str::to_owned);
+    let head: Vec<_> = head.chain(ends).collect();
     let row = |row: &Row| {
         let points = row.grade.points;
         let numbers = [points.earned, points.of, points.open].map(|p| hundredths(p).to_string());
         let parts = row.grade.parts.iter().map(|part| hundredths(part.points.earned).to_string());
-        let causes: Vec<_> = causes(&row.grade).collect();
-        let ends = [row.grade.problem.clone().unwrap_or_default(), causes.join("; ")];
-        let cells = [row.called.clone()].into_iter().chain(numbers).chain(parts).chain(ends);
+        let told =
+            |degree: Degree| told(&row.grade, degree).map(named).collect::<Vec<_>>().join("; ");
+        let problem = row.grade.problem.clone().unwrap_or_default();
+        let surest_first = [Degree::Named, Degree::LooksLike, Degree::DiffersHere];
+        let cells = [row.called.clone()].into_iter().chain(numbers).chain(parts);
+        let cells = cells.chain([problem]).chain(surest_first.map(told));
         csv::line(&cells.collect::<Vec<_>>())
     };
     csv::line(&head) + &class.rows.iter().map(row).collect::<String>()
 }
 
-/// What is wrong with a submission, each once.
-fn causes(grade: &Grade) -> impl Iterator<Item = &str> {
-    grade.causes.iter().map(|told| match told.cause.is_empty() {
-        true => told.mistake.as_str(),
-        false => told.cause.as_str(),
-    })
+/// What is told of a submission, and how surely.
+fn told(grade: &Grade, degree: Degree) -> impl Iterator<Item = &Told> {
+    grade.causes.iter().filter(move |told| told.degree == degree)
+}
+
+/// By its name in the glossary, if it has one.
+fn named(told: &Told) -> &str {
+    if told.cause.is_empty() { &told.mistake } else { &told.cause }
 }
 
 const STYLE: &str = "
@@ -175,6 +182,7 @@ pub(crate) fn page(class: &Class) -> String {
                 h1 { (class.title) }
                 p { (count(class.rows.len(), "submission")) ". " (middle(class)) }
                 (by_cause(class))
+                (by_place(class))
                 (by_case(class))
                 (submissions(class))
             }
@@ -193,20 +201,61 @@ fn middle(class: &Class) -> String {
     })
 }
 
+/// Who made a mistake surely, and who perhaps.
+#[derive(Default)]
+struct Cluster<'a> {
+    mistake: &'a str,
+    named: Vec<&'a str>,
+    looks_like: Vec<&'a str>,
+}
+
 /// Those that have made the same mistake.
 fn by_cause(class: &Class) -> Markup {
-    let mut who: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    let mut clusters: BTreeMap<&str, Cluster<'_>> = BTreeMap::new();
     for row in &class.rows {
-        causes(&row.grade).for_each(|cause| who.entry(cause).or_default().push(&row.called));
+        for cause in row.grade.causes.iter().filter(|told| told.degree > Degree::DiffersHere) {
+            let cluster = clusters.entry(named(cause)).or_default();
+            cluster.mistake = &cause.mistake;
+            let is_sure = cause.degree == Degree::Named;
+            let who = if is_sure { &mut cluster.named } else { &mut cluster.looks_like };
+            who.push(&row.called);
+        }
     }
-    let rows = most_first(who);
+    let count = |cluster: &Cluster<'_>| cluster.named.len() + cluster.looks_like.len();
+    let rows = most_first(clusters, count);
     html! {
         h2 { "Mistakes" }
         @if rows.is_empty() { p { "None that has a name." } } @else {
             table {
-                tr { th { "mistake" } th.number { "submissions" } th { "which" } }
-                @for (cause, who) in rows {
-                    tr { td { (cause) } td.number { (who.len()) } td { (who.join(", ")) } }
+                tr { th { "mistake" } th.number { "submissions" } th { "made it" } th { "look like it" } }
+                @for (cause, cluster) in &rows {
+                    tr {
+                        td { (cluster.mistake) " " code { (cause) } }
+                        td.number { (count(cluster)) }
+                        td { (cluster.named.join(", ")) }
+                        td { (cluster.looks_like.join(", ")) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Those that differ in the same place, and nobody knows why: that is no mistake that they share.
+fn by_place(class: &Class) -> Markup {
+    let mut who: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for row in &class.rows {
+        let places = told(&row.grade, Degree::DiffersHere);
+        places.for_each(|told| who.entry(&told.mistake).or_default().push(&row.called));
+    }
+    let rows = most_first(who, Vec::len);
+    html! {
+        @if !rows.is_empty() {
+            h2 { "Places where they differ, without a known cause" }
+            table {
+                tr { th { "what is seen" } th.number { "submissions" } th { "which" } }
+                @for (place, who) in rows {
+                    tr { td { (place) } td.number { (who.len()) } td { (who.join(", ")) } }
                 }
             }
         }
@@ -224,16 +273,16 @@ fn by_case(class: &Class) -> Markup {
         h2 { "Cases" }
         table {
             tr { th { "case" } th.number { "submissions that lose points" } }
-            @for (case, who) in most_first(who) {
+            @for (case, who) in most_first(who, Vec::len) {
                 tr { td { (case) } td.number { (who.len()) } }
             }
         }
     }
 }
 
-fn most_first<'a>(who: BTreeMap<&'a str, Vec<&'a str>>) -> Vec<(&'a str, Vec<&'a str>)> {
-    let mut rows: Vec<_> = who.into_iter().collect();
-    rows.sort_by_key(|(_, who)| std::cmp::Reverse(who.len()));
+fn most_first<K: Ord, V>(all: BTreeMap<K, V>, count: impl Fn(&V) -> usize) -> Vec<(K, V)> {
+    let mut rows: Vec<_> = all.into_iter().collect();
+    rows.sort_by_key(|(_, one)| std::cmp::Reverse(count(one)));
     rows.truncate(MOST);
     rows
 }

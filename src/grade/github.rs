@@ -11,7 +11,7 @@ pub(crate) fn annotations(grade: &Grade) -> String {
         grade.problem.iter().map(|problem| ("fails to start".to_owned(), problem.clone()));
     let causes = grade.causes.iter().map(|told| {
         let seen = told.evidence.first().map_or("", String::as_str);
-        (told.mistake.clone(), format!("{seen}\n{}\n{}", told.fix, told.command))
+        (told.in_words(), format!("{seen}\n{}\n{}", told.fix, told.command))
     });
     let lost = grade.cases().filter(|(_, case)| case.points.are_lost() && !case.hidden);
     let told = |case: &str| grade.causes.iter().any(|told| told.explains.iter().any(|c| c == case));

@@ -18,7 +18,7 @@ pub(super) fn causes(grade: &Grade) -> String {
 }
 
 fn cause(told: &Told) -> String {
-    let mut text = format!("### {}\n\n", plain(&told.mistake));
+    let mut text = format!("### {}\n\n", plain(&told.in_words()));
     if let Some(seen) = told.evidence.first() {
         _ = writeln!(text, "- **seen** {}", plain(seen));
     }

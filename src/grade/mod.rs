@@ -19,6 +19,7 @@ pub(crate) mod text;
 pub(crate) use submission::{Submission, Workshop};
 pub(crate) use suite::{Suite, SuiteError};
 
+use crate::diagnosis::Degree;
 use serde::{Deserialize, Serialize};
 
 /// The variable with a secret by which a grader's scenes are moved, so that nobody has seen them. No core is told it,
@@ -55,7 +56,7 @@ pub struct Grade {
 }
 
 /// Of the format of a [`Grade`] as JSON.
-pub(crate) const VERSION: u32 = 1;
+pub(crate) const VERSION: u32 = 2;
 
 /// What can be earned, and what became of it. What is neither earned nor open is lost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -158,6 +159,8 @@ impl Standing {
 pub struct Told {
     /// Its name in the glossary; empty where there is none.
     pub cause: String,
+    /// How sure that is. What merely differs is a place, and no cause.
+    pub degree: Degree,
     /// In a sentence.
     pub mistake: String,
     /// What was seen.
@@ -182,6 +185,17 @@ pub struct Entry {
     pub value: f64,
     /// Whether more is better.
     pub more_is_better: bool,
+}
+
+impl Told {
+    /// The mistake, or what it looks like, or what differs.
+    pub(crate) fn in_words(&self) -> String {
+        match self.degree {
+            Degree::Named => self.mistake.clone(),
+            Degree::LooksLike => format!("looks like: {}", self.mistake),
+            Degree::DiffersHere => format!("{}; no cause is known", self.mistake),
+        }
+    }
 }
 
 impl Points {

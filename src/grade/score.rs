@@ -108,7 +108,10 @@ fn case_grade(
         hidden,
         rows,
         with: trial.map_or(Vec::new(), |trial| trial.with.names()),
-        statement: trial.map_or_else(|| "the time was up".to_owned(), |t| t.outcome.statement()),
+        statement: trial.map_or_else(
+            || "the time was up".to_owned(),
+            |t| t.outcome.statement(),
+        ),
         rerun: trial.map_or(String::new(), |trial| trial.rerun.clone()),
         seconds: trial.map_or(0.0, |trial| trial.timing.seconds),
     }
@@ -193,6 +196,7 @@ fn told(core: &CoreRecord, hidden: &BTreeSet<String>) -> Vec<Told> {
         let may_be_told = headline.tier.is_graded() && !explains.is_empty();
         may_be_told.then(|| Told {
             cause: headline.cause.clone(),
+            degree: headline.degree,
             mistake: headline.mistake.clone(),
             evidence: headline.evidence.clone(),
             look_at: headline.look_at.clone(),

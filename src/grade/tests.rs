@@ -163,4 +163,40 @@ fn the_suites_of_the_bench_select_and_know_what_they_excuse() {
     words.for_each(|word| assert!(adapter.contains(word), "{word}"));
 }
 
+/// What is told of a submission.
+fn told(cause: &str, degree: Degree, mistake: &str) -> Told {
+    let [cause, mistake] = [cause, mistake].map(str::to_owned);
+    let (evidence, explains) = (vec!["seen".to_owned()], vec!["a/b".to_owned()]);
+    let [look_at, fix, command] = ["here", "this", "that"].map(str::to_owned);
+    Told { cause, degree, mistake, evidence, look_at, fix, command, explains }
+}
+
+#[test]
+fn a_class_is_grouped_by_causes_and_apart_from_them_by_places() {
+    let row = |called: &str, causes: Vec<Told>| {
+        let grade = Grade::absent(&suite(SMALL).unwrap(), called, "");
+        class::Row { called: called.to_owned(), grade: Grade { causes, ..grade }, report: None }
+    };
+    let pi = |degree| told("brdf-without-pi", degree, "the BRDF is not divided by pi");
+    let place = || told("", Degree::DiffersHere, "direct light differs");
+    let rows = vec![
+        row("ada", vec![pi(Degree::Named), place()]),
+        row("bea", vec![place()]),
+        row("cem", vec![pi(Degree::LooksLike)]),
+    ];
+    let class = class::Class::new("A class".to_owned(), String::new(), None, rows);
+    let page = class::page(&class);
+    let (causes, places) = page.split_once("Places where they differ").unwrap();
+    let (_, causes) = causes.split_once("Mistakes").unwrap();
+    assert!(!causes.contains("direct light differs"), "{causes}");
+    let row =
+        "<code>brdf-without-pi</code></td><td class=\"number\">2</td><td>ada</td><td>cem</td>";
+    assert!(causes.contains(row), "{causes}");
+    assert!(
+        places.contains("direct light differs</td><td class=\"number\">2</td><td>ada, bea</td>")
+    );
+    let table = class::table(&class);
+    assert!(table.contains("brdf-without-pi,,direct light differs\r\n"), "{table}");
+}
+
 mod formats;

@@ -42,7 +42,7 @@ fn what_is_wrong(told: &Told) -> impl Iterator<Item = String> {
     let rest = [("where", &told.look_at), ("fix", &told.fix)].into_iter();
     let rest = rest.filter(|(_, words)| !words.is_empty());
     let rest = rest.map(|(label, words)| format!("      {label:<5}  {}", clean(words)));
-    std::iter::once(format!("    {}", clean(&told.mistake))).chain(rest)
+    std::iter::once(format!("    {}", clean(&told.in_words()))).chain(rest)
 }
 
 fn costs(case: &CaseGrade) -> f64 {

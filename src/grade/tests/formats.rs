@@ -204,12 +204,13 @@ fn the_terminal_says_what_is_wrong_below_the_points() {
         ["t is the farther root", "the root", "Take the nearer."].map(str::to_owned);
     let (cause, command) = Default::default();
     let (evidence, explains) = Default::default();
-    grade.causes = vec![Told { cause, mistake, evidence, look_at, fix, command, explains }];
+    let degree = Degree::LooksLike;
+    grade.causes = vec![Told { cause, degree, mistake, evidence, look_at, fix, command, explains }];
     let table = text::table(&grade);
     let (_, wrong) = table.split_once("what is wrong\n").unwrap();
     assert_eq!(
         wrong,
-        "    t is the farther root\n      where  the root\n      fix    Take the nearer.\n"
+        "    looks like: t is the farther root\n      where  the root\n      fix    Take the nearer.\n"
     );
     grade.causes.clear();
     assert!(!text::table(&grade).contains("what is wrong"));

@@ -7,7 +7,7 @@
 use super::bounce_laws::{Channel, LAWS, Law, indirect};
 use super::evidence::measure;
 use super::readings::{Reading, channels, fails_as};
-use super::{Degree, Evidence, Suspicion};
+use super::{Degree, Evidence, RuledOut, Suspicion};
 use crate::case::{Role, Subject};
 use crate::cause::integrator;
 use crate::checks::Finding;
@@ -107,7 +107,7 @@ impl Furnace {
     }
 
     /// The first row at which each other law of the same family fails.
-    fn ruled_out(&self, law: &Law) -> Vec<String> {
+    fn ruled_out(&self, law: &Law) -> Vec<RuledOut> {
         let rivals = LAWS.iter().filter(|rival| rival.cause.name != law.cause.name);
         let refuted = rivals.filter_map(|rival| {
             let row = self.rows.iter().find(|row| !self.row_admits(row, &rival.predict))?;
@@ -115,13 +115,9 @@ impl Furnace {
                 self.channels.iter().zip(&row.readings).find_map(|(c, r)| Some((c, (*r)?)))?;
             let right = channel.sum(row.bounces, |_| 1.0);
             let predicted = (rival.predict)(channel, row.bounces) / right;
-            Some(format!(
-                "{} ({} would be {}, not {})",
-                rival.cause.headline,
-                name(row.bounces),
-                figure(predicted),
-                figure(reading.ratio)
-            ))
+            let [predicted, read] = [predicted, reading.ratio].map(figure);
+            let why = format!("{} would be {predicted}, not {read}", name(row.bounces));
+            Some(RuledOut::new(rival.cause.headline, why))
         });
         refuted.take(2).collect()
     }
@@ -172,7 +168,7 @@ impl Furnace {
                 cause: &integrator::INDIRECT_FACTOR_ONCE,
                 cases: vec![case.to_owned()],
                 evidence: vec![self.table(), fit],
-                ruled_out: vec!["a factor a bounce (it would be a power of k)".to_owned()],
+                ruled_out: vec![RuledOut::new("a factor a bounce", "it would be a power of k")],
                 weight: SHARED,
                 degree: Degree::LooksLike,
                 beside: false,
@@ -195,7 +191,7 @@ impl Furnace {
             cause: &integrator::BOUNCE_DIRECTIONS,
             cases: vec![case.to_owned()],
             evidence: vec![self.table(), "the same in all colours, and no power of k".to_owned()],
-            ruled_out: vec!["a wrong weight of bounces (it would be a power of k)".to_owned()],
+            ruled_out: vec![RuledOut::new("a wrong weight of bounces", "it would be a power of k")],
             weight: SHARED,
             degree: Degree::LooksLike,
             beside: false,
@@ -222,7 +218,10 @@ impl Furnace {
             cause: &integrator::INDIRECT_FACTOR,
             cases: vec![case.to_owned()],
             evidence,
-            ruled_out: vec!["the albedo twice or not at all (it would be coloured)".to_owned()],
+            ruled_out: vec![RuledOut::new(
+                "the albedo twice or not at all",
+                "it would be coloured",
+            )],
             weight: SHARED,
             degree: Degree::LooksLike,
             beside: false,

@@ -3,7 +3,7 @@
 
 use super::bounces::{FURNACES, rows};
 use super::readings::channels;
-use super::{Degree, Evidence, Suspicion};
+use super::{Degree, Evidence, RuledOut, Suspicion};
 use crate::case::{Role, Subject};
 use crate::cause::integrator;
 
@@ -35,7 +35,7 @@ fn wrong_directions(evidence: &Evidence<'_>) -> Option<Suspicion> {
             "bounce 1 of the cavity is right and bounce 2 is not".to_owned(),
             format!("{} passes: the energy of each bounce is right", evidence.case(FURNACES[0])),
         ],
-        ruled_out: vec!["a wrong weight of bounces (the furnace would see it)".to_owned()],
+        ruled_out: vec![RuledOut::new("a wrong weight of bounces", "the furnace would see it")],
         weight: 1.0,
         degree: Degree::LooksLike,
         beside: false,
@@ -64,7 +64,7 @@ fn world_cosine(evidence: &Evidence<'_>) -> Option<Suspicion> {
                 evidence.case(CAVITY)
             ),
         ],
-        ruled_out: vec!["bounces in wrong directions (the cavity would see it)".to_owned()],
+        ruled_out: vec![RuledOut::new("bounces in wrong directions", "the cavity would see it")],
         weight: 1.0,
         degree: Degree::LooksLike,
         beside: false,

@@ -4,7 +4,7 @@
 //! tells them apart (1.795 and 1.922). The predictions are integrals over the light, checked by this file's test.
 
 use super::readings::{Reading, channels};
-use super::{Degree, Evidence, Suspicion};
+use super::{Degree, Evidence, RuledOut, Suspicion};
 use crate::case::Role;
 use crate::cause::{Cause, bsdf, light, sampling};
 use crate::text::number::figure;
@@ -128,7 +128,7 @@ fn sentence(signature: &Signature, readings: &[Vec<Reading>; 2]) -> String {
 }
 
 /// The mistakes that come nearest and still are outside an interval.
-fn nearest_misses(others: &[&Signature], readings: &[Vec<Reading>; 2]) -> Vec<String> {
+fn nearest_misses(others: &[&Signature], readings: &[Vec<Reading>; 2]) -> Vec<RuledOut> {
     let measured = [best(&readings[0]).ratio, best(&readings[1]).ratio];
     let distance = |signature: &Signature| -> f64 {
         let apart = |number: usize| signature.ratios[number] - measured[number];
@@ -138,7 +138,7 @@ fn nearest_misses(others: &[&Signature], readings: &[Vec<Reading>; 2]) -> Vec<St
     sorted.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
     let words = |signature: &&Signature| {
         let [first, second] = signature.ratios.map(figure);
-        format!("{} (would give {first} and {second})", signature.cause.headline)
+        RuledOut::new(signature.cause.headline, format!("would give {first} and {second}"))
     };
     sorted.iter().take(2).map(words).collect()
 }
@@ -183,6 +183,21 @@ mod tests {
         let ruled_out = diagnosis.headlines[0].ruled_out.join("; ");
         assert!(ruled_out.contains("the cosine at the light"), "{ruled_out}");
         assert!(ruled_out.contains("1.12 and 1.92"), "{ruled_out}");
+    }
+
+    #[test]
+    fn what_both_ways_of_sampling_rule_out_is_said_once() {
+        // Both pairs are half as bright: what comes near is, among others, the same mistake with other numbers.
+        let finding =
+            |ratio| means(CHANNELS.map(|channel| mean(ROW, channel, 0.05, ratio, 0.004)).into());
+        let all = BY_LIGHTS.into_iter().chain(BY_HEMISPHERE);
+        let made = all.fold(Made::new(), |made, role| made.with(role, finding(0.5)));
+        let diagnosis = diagnose(&made.evidence());
+        let told = diagnosis.headlines[0].ruled_out.iter();
+        let told: Vec<_> = told.map(|one| one.split(" (").next().unwrap()).collect();
+        let once: std::collections::BTreeSet<_> = told.iter().collect();
+        assert_eq!(once.len(), told.len(), "{told:?}");
+        assert!(told.len() > 1);
     }
 
     /// Floor normal, light centre and edges of the two scenes.

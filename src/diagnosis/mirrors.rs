@@ -1,7 +1,7 @@
 //! Mirror and glass where everything else is right: only the path itself can meet a light there.
 
 use super::readings::fails_as;
-use super::{Degree, Evidence, Suspicion};
+use super::{Degree, Evidence, RuledOut, Suspicion};
 use crate::case::{Role, Subject};
 use crate::cause::integrator;
 use crate::checks::Finding;
@@ -27,7 +27,7 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
         cause: &integrator::NO_EMISSION_AFTER_SPECULAR,
         cases,
         evidence: vec!["emission seen in mirrors is 0 of what it should be".to_owned()],
-        ruled_out: vec!["a bounce short (the furnace is right)".to_owned()],
+        ruled_out: vec![RuledOut::new("a bounce short", "the furnace is right")],
         weight: 1.0,
         degree: Degree::LooksLike,
         beside: false,

@@ -74,13 +74,25 @@ pub(crate) struct Suspicion {
     pub(crate) cases: Vec<String>,
     /// What speaks for it, a sentence each, with numbers.
     pub(crate) evidence: Vec<String>,
-    /// What else could have been, and why it is not.
-    pub(crate) ruled_out: Vec<String>,
+    pub(crate) ruled_out: Vec<RuledOut>,
     /// How well it explains a case: 1 if it is the first thing to think of, less for each that comes before it.
     pub(crate) weight: f64,
     pub(crate) degree: Degree,
     /// Whether it explains in these cases what no other does.
     pub(crate) beside: bool,
+}
+
+/// What else could have been, and why it is not.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct RuledOut {
+    what: String,
+    why: String,
+}
+
+impl RuledOut {
+    fn new(what: impl Into<String>, why: impl Into<String>) -> Self {
+        Self { what: what.into(), why: why.into() }
+    }
 }
 
 pub(crate) struct Rule {

@@ -2,7 +2,7 @@
 //! are told once.
 
 use super::reproduction::Refuted;
-use super::{Degree, Evidence, Observation, Suspicion, differences, endings};
+use super::{Degree, Evidence, Observation, RuledOut, Suspicion, differences, endings};
 use crate::case::{Part, Tier};
 use crate::cause::{self, Cause};
 use crate::contract::Components;
@@ -329,7 +329,7 @@ fn join(headlines: &mut Vec<Headline>, others: Vec<Headline>) {
 struct Candidate {
     cause: &'static Cause,
     evidence: Vec<String>,
-    ruled_out: Vec<String>,
+    ruled_out: Vec<RuledOut>,
     /// The failing cases, how well each is explained, and how surely.
     cases: BTreeMap<String, (f64, Degree)>,
     /// Those in which it explains what no other does, and so stays, whatever else is told of them.
@@ -474,9 +474,8 @@ fn headline(
     let explains: Vec<_> = candidate.explained(failures, left).cloned().collect();
     left.retain(|case| !explains.contains(case));
     let degree = explains.iter().filter_map(|case| Some(candidate.cases.get(case)?.1)).max();
-    let Candidate { cause, evidence: sentences, mut ruled_out, .. } = candidate;
-    ruled_out.dedup();
-    ruled_out.truncate(EVIDENCE);
+    let Candidate { cause, evidence: sentences, ruled_out, .. } = candidate;
+    let ruled_out = each_once(ruled_out);
     let degree = degree.unwrap_or_default();
     Headline {
         tier,
@@ -484,6 +483,13 @@ fn headline(
         ruled_out,
         ..Headline::of(evidence, explains, sentences).because(cause)
     }
+}
+
+/// What several rules exclude, each with its own numbers, is excluded once.
+fn each_once(all: Vec<RuledOut>) -> Vec<String> {
+    let mut known = BTreeSet::new();
+    let first = all.into_iter().filter(|one| known.insert(one.what.clone()));
+    first.take(EVIDENCE).map(|RuledOut { what, why }| format!("{what} ({why})")).collect()
 }
 
 /// What no cause explains may follow from a headline whose cases prove what it rests on and that is not refuted: of those

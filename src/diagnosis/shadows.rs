@@ -2,7 +2,7 @@
 
 use super::evidence::measure;
 use super::readings::channels;
-use super::{Degree, Evidence, Suspicion};
+use super::{Degree, Evidence, RuledOut, Suspicion};
 use crate::case::{Role, Subject};
 use crate::cause::light;
 use crate::checks::{Finding, Measure};
@@ -62,8 +62,8 @@ fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
             figure(variance.measured)
         )],
         ruled_out: vec![
-            "a wrong pdf or cosine (samples would be too dark, not missing)".to_owned(),
-            "a wrong emission (hemisphere sampling finds all of it)".to_owned(),
+            RuledOut::new("a wrong pdf or cosine", "samples would be too dark, not missing"),
+            RuledOut::new("a wrong emission", "hemisphere sampling finds all of it"),
         ],
         weight: 1.0,
         degree: Degree::Named,
@@ -99,7 +99,7 @@ fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
             "behind a wall there is light ({}), behind a blocker too much, and without one it is right",
             figure(light)
         )],
-        ruled_out: vec!["a wrong strength of lights (open light is right)".to_owned()],
+        ruled_out: vec![RuledOut::new("a wrong strength of lights", "open light is right")],
         weight: 1.0,
         degree: Degree::Named,
         beside: false,
@@ -124,7 +124,7 @@ fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
             "a light 1.6 units away is found by rays of a camera 2.3 away, and not of one 0.6 away"
                 .to_owned(),
         ],
-        ruled_out: vec!["a wrong strength of lights (from afar it is right)".to_owned()],
+        ruled_out: vec![RuledOut::new("a wrong strength of lights", "from afar it is right")],
         weight: 1.0,
         degree: Degree::Named,
         beside: false,

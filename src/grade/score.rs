@@ -28,8 +28,10 @@ impl Grade {
         // Names that no furnace of today knows are no capabilities of today's.
         let can = Capabilities::from_names(&core.capabilities).unwrap_or_default();
         for (part, cases, lots) in selected.parts(suite, salt) {
+            // Where nothing is to be replaced, what was found with something replaced is no answer.
+            let is_asked = |trial: &&TrialRecord| part.transplants || trial.with.is_empty();
             let grade = |case: &Arc<Case>| {
-                let trial = trials.get(case.id.as_str()).copied();
+                let trial = trials.get(case.id.as_str()).copied().filter(is_asked);
                 let standing = standing(suite, case, trial, can);
                 case_grade(part, case, standing, lots.contains(&case.id), trial)
             };
@@ -109,7 +111,7 @@ fn case_grade(
         rows,
         with: trial.map_or(Vec::new(), |trial| trial.with.names()),
         statement: trial.map_or_else(
-            || "the time was up".to_owned(),
+            || "not tried in time, or not as the suite asks".to_owned(),
             |t| t.outcome.statement(),
         ),
         rerun: trial.map_or(String::new(), |trial| trial.rerun.clone()),

@@ -56,6 +56,13 @@ pub(crate) struct Part {
     pub(crate) hidden: usize,
     #[serde(default)]
     pub(crate) partial: Partial,
+    /// Whether what rests on something broken is judged with the bench's own in its place.
+    #[serde(default = "yes")]
+    pub(crate) transplants: bool,
+}
+
+const fn yes() -> bool {
+    true
 }
 
 /// What a failing case is worth.
@@ -190,7 +197,7 @@ impl Suite {
             ..Request::default()
         };
         let plan = Plan::new(project.clone(), request, &selected.cases())?;
-        let plan = plan.of_suite(self.word.clone());
+        let plan = plan.of_suite(self.word.clone(), selected.as_they_are(self));
         Ok(plan.salted(salt.to_owned()).within(self.time))
     }
 
@@ -217,6 +224,12 @@ pub(crate) struct Selected {
 impl Selected {
     pub(crate) fn cases(&self) -> Vec<Arc<Case>> {
         self.parts.iter().flatten().cloned().collect()
+    }
+
+    /// The cases of parts without transplants.
+    fn as_they_are(&self, suite: &Suite) -> BTreeSet<String> {
+        let parts = suite.parts.iter().zip(&self.parts).filter(|(part, _)| !part.transplants);
+        parts.flat_map(|(_, cases)| cases).map(|case| case.id.clone()).collect()
     }
 
     /// Each part with its cases, and which of them are hidden.

@@ -163,6 +163,40 @@ fn the_suites_of_the_bench_select_and_know_what_they_excuse() {
     words.for_each(|word| assert!(adapter.contains(word), "{word}"));
 }
 
+const WITH_IMAGES: &str = "
+budget = \"quick\"
+[[part]]
+name = \"Triangles\"
+points = 10
+cases = [\"hits-lie-between-t-min\"]
+[[part]]
+name = \"Light\"
+points = 10
+cases = [\"light/point-light-follows\"]
+[[part]]
+name = \"Images\"
+points = 10
+transplants = false
+partial = \"none\"
+cases = [\"image/area-light-plane-matches\"]
+";
+
+#[test]
+fn images_are_judged_as_they_are_whatever_costs_points_elsewhere() {
+    let suite = suite(WITH_IMAGES).unwrap();
+    let cases = load_project(&project()).unwrap();
+    let selected = suite.select(&cases).unwrap();
+    let core = "textbook:triangle-ignores-t-max";
+    let plan = suite.plan(&project(), &selected, "", core.parse().unwrap(), 2).unwrap();
+    let grade = Grade::of(&suite, &selected, "", &tree(core, run_in_memory(&plan)));
+    let [triangles, light, images] = &grade.parts[..] else { panic!("three parts") };
+    assert!(triangles.points.are_lost());
+    assert_eq!(light.points.earned, 10.0);
+    assert!(!light.cases[0].with.is_empty());
+    assert_eq!(images.points, Points { of: 10.0, earned: 0.0, open: 0.0 });
+    assert!(images.cases[0].with.is_empty());
+}
+
 /// What is told of a submission.
 fn told(cause: &str, degree: Degree, mistake: &str) -> Told {
     let [cause, mistake] = [cause, mistake].map(str::to_owned);

@@ -7,7 +7,7 @@ use crate::cores::{CoreSpec, Hosting};
 use crate::math::rng::Seed;
 use crate::project::Project;
 use crate::stats::{Allowance, Budget};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -51,6 +51,8 @@ pub struct Plan {
     pub(crate) suite: Option<String>,
     /// What every core is to take from the bench, whatever it is found to do wrong.
     pub with: Components,
+    /// Cases that are tried with nothing of the bench's in any place, whatever is found broken.
+    pub(crate) as_they_are: BTreeSet<String>,
     /// What scenes are moved by besides the seed, for graders who publish no motion.
     pub salt: String,
     /// Whether a run with failures goes on to search for the components of the bench that mend them, and puts causes to
@@ -93,6 +95,7 @@ impl Plan {
             trials,
             hosting: Hosting::default(),
             suite: None,
+            as_they_are: BTreeSet::new(),
             with: Components::empty(),
             salt: String::new(),
             searches: true,
@@ -120,9 +123,9 @@ impl Plan {
 }
 
 impl Plan {
-    /// The same, as what a suite asks.
-    pub(crate) fn of_suite(self, suite: String) -> Self {
-        Self { suite: Some(suite), ..self }
+    /// The same, as what a suite asks; in these cases nothing is replaced.
+    pub(crate) fn of_suite(self, suite: String, as_they_are: BTreeSet<String>) -> Self {
+        Self { suite: Some(suite), as_they_are, ..self }
     }
 
     /// The same, where no trial begins after so long.

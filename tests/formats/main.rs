@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod json;
+mod schemas;
 mod xml;
 
 use regex_lite::Regex;
@@ -41,6 +42,7 @@ fn graded(core: &str) -> (tempfile::TempDir, Output) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_furnace"));
     command.args(["grade", "--suite", "small", "--core", core, "--github"]);
     command.args(["--gradescope", "results.json", "--junit", "grade.xml"]);
+    command.env("GITHUB_STEP_SUMMARY", room.path().join("summary.md"));
     command.current_dir(room.path()).env("FURNACE_CACHE", room.path().join("cache"));
     command.env_remove("FURNACE_HOME").env_remove("FURNACE_SALT");
     let output = command.output().unwrap();
@@ -61,11 +63,29 @@ fn every_format_is_as_it_is_documented() {
         let results = serde_json::from_str(&read("results.json")).unwrap();
         assert_eq!(json::complaint(&results, &schema, &schema), None, "{core}");
         assert_eq!(xml::complaint(&read("grade.xml"), &xsd), None, "{core}");
+        let summary = read("summary.md");
+        assert!(summary.len() < MOST_OF_A_SUMMARY);
+        assert_eq!(ragged_row(&summary), None, "{core}: {summary}");
         let told = String::from_utf8(output.stdout).unwrap();
         let commands: Vec<_> = told.lines().filter(|line| line.starts_with("::")).collect();
         assert_eq!(commands.is_empty(), core == "builtin", "{told}");
         assert!(commands.iter().all(|line| is_annotation(line)), "{commands:#?}");
     }
+}
+
+/// Bytes of a summary that GitHub shows: 1 MiB a step.
+const MOST_OF_A_SUMMARY: usize = 1 << 20;
+
+/// A row of a table that has not as many cells as the line that makes it one: GitHub's Markdown drops what is too much.
+fn ragged_row(markdown: &str) -> Option<&str> {
+    let cells = |line: &str| line.replace("\\\\", "").replace("\\|", "").matches('|').count();
+    let mut width = None;
+    markdown.lines().find(|line| {
+        let is_row = line.starts_with('|');
+        let is_ragged = is_row && width.is_some_and(|width| width != cells(line));
+        width = is_row.then(|| width.unwrap_or(cells(line)));
+        is_ragged
+    })
 }
 
 /// `::error title=…::message`: in properties `%`, line ends, `:` and `,` are escaped, in messages the first two.
@@ -80,6 +100,8 @@ fn is_annotation(line: &str) -> bool {
 
 #[test]
 fn what_breaks_a_grammar_is_found() {
+    assert_eq!(ragged_row("| a | b |\n|---|---|\n| 1 \\| 2 | 3 |\n\n| one |\n"), None);
+    assert_eq!(ragged_row("| a | b |\n|---|---|\n| 1 | 2 | 3 |\n"), Some("| 1 | 2 | 3 |"));
     assert!(is_annotation("::error title=a%3A b::half: 50%25%0Aof it"));
     for wrong in [
         "::error title=a: b::c",

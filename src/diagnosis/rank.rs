@@ -272,9 +272,13 @@ impl Ranked {
         self
     }
 
-    /// Whether `case` follows from its first headline.
+    /// Whether `case` follows from its first cause that may be below it, or from what differs.
     pub(super) fn followed_by(&mut self, case: &str) -> bool {
-        match (self.causes.first_mut(), self.differing.first_mut()) {
+        let Self { causes, differing, refuted, .. } = self;
+        let may_follow = |cause: &&mut Headline| {
+            cause.comes_before(case) && !is_refuted(refuted, &cause.cause, case)
+        };
+        match (causes.iter_mut().find(may_follow), differing.first_mut()) {
             (Some(cause), _) => cause.may_follow.push(case.to_owned()),
             (None, Some(difference)) => difference.explains.push(case.to_owned()),
             (None, None) => return false,

@@ -49,7 +49,8 @@ impl<'a> Integrator<'a> {
     /// One estimate of the radiance that arrives along `ray`.
     pub(crate) fn radiance(&self, ray: &Ray, random: &mut Random<'_>) -> DVec3 {
         let view = self.world.look(ray);
-        let seen = if self.wants(0) { zero_bounce(self.world, &view) } else { DVec3::ZERO };
+        let shows_emission = self.wants(0) && self.steps.shows_emission(&self.bounces());
+        let seen = if shows_emission { zero_bounce(self.world, &view) } else { DVec3::ZERO };
         seen + self.at_least_one_bounce(view, random)
     }
 
@@ -80,7 +81,11 @@ impl<'a> Integrator<'a> {
     }
 
     fn wants(&self, bounce: u32) -> bool {
-        self.steps.wants(&self.settings.bounces, bounce)
+        self.steps.counts(&self.bounces(), bounce)
+    }
+
+    fn bounces(&self) -> RangeInclusive<u32> {
+        self.steps.first_bounce(&self.settings.bounces)..=self.last_bounce()
     }
 
     /// Beyond it nothing is followed but mirror and glass.
@@ -112,13 +117,23 @@ impl<'a> Integrator<'a> {
     }
 }
 
-/// Whether the light of this bounce is asked for: accumulated from 0, or isolated.
-pub(crate) fn wants(bounces: &RangeInclusive<u32>, bounce: u32) -> bool {
-    bounces.contains(&bounce)
+/// The first bounce that is asked for: 0 where they are accumulated, the last one where it is isolated.
+pub(crate) fn first_bounce(bounces: &RangeInclusive<u32>) -> u32 {
+    *bounces.start()
 }
 
 pub(crate) fn last_bounce(bounces: &RangeInclusive<u32>) -> u32 {
     *bounces.end()
+}
+
+/// Whether the light of this bounce is part of the sum.
+pub(crate) fn counts(bounces: &RangeInclusive<u32>, bounce: u32) -> bool {
+    bounces.contains(&bounce)
+}
+
+/// Whether emission that the camera sees is, where bounce 0 counts.
+pub(crate) fn shows_emission(_bounces: &RangeInclusive<u32>) -> bool {
+    true
 }
 
 /// The light of this very bounce, from the lights.

@@ -239,8 +239,10 @@ steps! {
     }
     // Part 4: bounces.
     Components::PATH => {
-        integrator::wants(bounces: &RangeInclusive<u32>, bounce: u32) -> bool;
+        integrator::first_bounce(bounces: &RangeInclusive<u32>) -> u32;
         integrator::last_bounce(bounces: &RangeInclusive<u32>) -> u32;
+        integrator::counts(bounces: &RangeInclusive<u32>, bounce: u32) -> bool;
+        integrator::shows_emission(bounces: &RangeInclusive<u32>) -> bool;
         integrator::light_of_bounce(
             integrator: &Integrator<'_>, vertex: &Vertex<'_>, bounce: u32, random: &mut Random<'_>
         ) -> DVec3;

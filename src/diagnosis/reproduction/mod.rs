@@ -24,6 +24,9 @@ const CONTRADICTING: usize = 16;
 const ROUNDS: usize = 6;
 /// Mistakes of which pairs are tried.
 const PAIRED: usize = 8;
+/// Mistakes that a set may grow by, and the cases that it has to reproduce.
+const GROWN: usize = 4;
+const GROWN_CASES: usize = 8;
 /// Fewer sets of mistakes may come to the same numbers by chance, where one of them is named.
 const BY_CHANCE: f64 = 0.1;
 
@@ -149,8 +152,13 @@ impl<'a> Proof<'a> {
     /// What is told after everything that is contradicted has made room for the next suspicion.
     fn uncontradicted(&self) -> (Refuted, Ranked) {
         // What takes the least time is asked first.
-        let doubts: [fn(&Self, &Ranked) -> Refuted; 4] =
-            [Self::contradicted, Self::following, Self::lost_in_the_dark, Self::outnumbered];
+        let doubts: [fn(&Self, &Ranked) -> Refuted; 5] = [
+            Self::contradicted,
+            Self::following,
+            Self::superfluous,
+            Self::lost_in_the_dark,
+            Self::outnumbered,
+        ];
         let mut refuted = Refuted::new();
         let mut ranked = look_without(self.evidence, &refuted, Vec::new());
         for _ in 0..ROUNDS {
@@ -190,6 +198,7 @@ impl<'a> Proof<'a> {
     /// What says too little beside the other cases of its part; of what rules suspected, less is asked.
     fn unfounded(&self, told: &Ranked, suspected: &BTreeSet<String>) -> Refuted {
         let mut unfounded = self.outnumbered(told);
+        unfounded.extend(self.superfluous(told));
         let unproven = self.unproven_beside(told).into_iter();
         unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
         unfounded.extend(self.lost_in_a_crowd(told));
@@ -245,6 +254,22 @@ impl<'a> Proof<'a> {
         let following = told.iter().filter(follows).filter(|told| !self.is_needed(told));
         let cases = |told: &&Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
         following.filter_map(cases).flatten().collect()
+    }
+
+    /// A cause whose numbers all others that are told give together: nothing takes it. Of several the one that explains the
+    /// least.
+    fn superfluous(&self, ranked: &Ranked) -> Refuted {
+        let told: Vec<_> = ranked.with_cause().collect();
+        let is_superfluous = |one: &&&Headline| {
+            let others = told.iter().filter(|other| other.cause != one.cause);
+            let others: Vec<_> = others.filter_map(|other| self.of(other).next()).collect();
+            !others.is_empty()
+                && !self.is_needed(one)
+                && !self.fitting(&[others], &self.quickest(&one.explains)).is_empty()
+        };
+        let least = told.iter().filter(is_superfluous).min_by_key(|one| one.explains.len());
+        let cases = |told: &&Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
+        least.and_then(cases).unwrap_or_default()
     }
 
     /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
@@ -408,8 +433,8 @@ impl<'a> Proof<'a> {
     }
 
     /// Mistakes that reproduce these cases alone, or all that is told, or one beside it, or pairs do.
-    fn reproducing(&self, cases: &[String], told: &[Mistake]) -> Vec<Suspicion> {
-        let cases = self.quickest(cases);
+    fn reproducing(&self, failing: &[String], told: &[Mistake]) -> Vec<Suspicion> {
+        let cases = self.quickest(failing);
         if cases.is_empty() {
             return Vec::new();
         }
@@ -432,21 +457,74 @@ impl<'a> Proof<'a> {
             let rest = others[number + 1..].iter().filter(|other| other.cause != one.cause);
             sets.extend(rest.map(|other| vec![**one, **other]));
         }
-        self.of_sets(&sets, &cases)
+        let found = self.of_sets(&sets, &cases);
+        if found.is_empty() { self.grown(told, &mistakes, failing) } else { found }
     }
 
     /// Everything that is told, where it reproduces every case: each in the cases that it is needed for.
     fn of_all(&self, told: &[Mistake], cases: &[&Observation<'a>]) -> Vec<Suspicion> {
-        let mut found = self.of_sets(&[told.to_vec()], cases);
+        let found = self.of_sets(&[told.to_vec()], cases);
+        self.where_needed(found, told, cases)
+    }
+
+    /// Each suspicion of a `set` in the cases that the others alone do not reproduce.
+    fn where_needed(
+        &self,
+        mut found: Vec<Suspicion>,
+        set: &[Mistake],
+        cases: &[&Observation<'a>],
+    ) -> Vec<Suspicion> {
         let all_but = |left_out: &Mistake| -> Vec<_> {
-            told.iter().filter(|one| one.name != left_out.name).copied().collect()
+            set.iter().filter(|one| one.name != left_out.name).copied().collect()
         };
-        let answers = self.compare(&told.iter().map(all_but).collect::<Vec<_>>(), cases);
+        let answers = self.compare(&set.iter().map(all_but).collect::<Vec<_>>(), cases);
         for (suspicion, without) in found.iter_mut().zip(answers) {
             let needs = cases.iter().zip(without).filter(|(_, l)| *l != Likeness::Same);
             suspicion.cases = needs.map(|(seen, _)| seen.case.to_owned()).collect();
         }
+        found.retain(|suspicion| !suspicion.cases.is_empty());
         found
+    }
+
+    /// Three mistakes and more in one function show in all numbers together: from what is told, and from nothing, the one is
+    /// taken in that reproduces the most cases more, until all of them are.
+    fn grown(&self, told: &[Mistake], mistakes: &[Mistake], failing: &[String]) -> Vec<Suspicion> {
+        let failing = failing.iter().filter_map(|case| self.evidence.failure_of(case));
+        let cases = quickest(failing, GROWN_CASES);
+        let from = [told, &[]];
+        let starts = from.iter().take(if told.is_empty() { 1 } else { 2 });
+        let grown = starts.map(|start| self.grown_from(start.to_vec(), mistakes, &cases));
+        let Some(set) = grown.flatten().next() else { return Vec::new() };
+        let tried = mistakes.len().saturating_pow(set.len() as u32);
+        let found = degree(1, tried, &cases).map(|degree| suspicions(&set, &cases, degree));
+        self.where_needed(found.unwrap_or_default(), &set, &cases)
+    }
+
+    fn grown_from(
+        &self,
+        mut set: Vec<Mistake>,
+        mistakes: &[Mistake],
+        cases: &[&Observation<'a>],
+    ) -> Option<Vec<Mistake>> {
+        let count = |answers: Vec<Likeness>| {
+            answers.into_iter().filter(|likeness| *likeness == Likeness::Same).count()
+        };
+        let mut reproduced = 0;
+        for _ in 0..GROWN {
+            let is_new = |one: &&Mistake| set.iter().all(|of_set| of_set.cause != one.cause);
+            let with = |one: &Mistake| [&set[..], &[*one]].concat();
+            let sets: Vec<_> = mistakes.iter().filter(is_new).map(with).collect();
+            let counts = self.compare(&sets, cases).into_iter().map(count);
+            let (best, most) = sets.iter().zip(counts).rev().max_by_key(|(_, count)| *count)?;
+            if most <= reproduced {
+                return None;
+            }
+            (set, reproduced) = (best.clone(), most);
+            if reproduced == cases.len() {
+                return Some(set);
+            }
+        }
+        None
     }
 
     /// The suspicions of those sets that reproduce every case; none where too many do.

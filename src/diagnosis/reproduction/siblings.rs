@@ -98,20 +98,25 @@ impl Proof<'_> {
         same.iter().filter_map(|case| self.evidence.failure_of(case)).collect()
     }
 
-    /// Failures that would follow from a cause whose mistake gives the numbers of its own cases, and passes them.
+    /// Failures that would follow from a cause whose mistake gives the numbers of its own cases, and passes them. If it passes
+    /// all that there is time to ask, none follows.
     pub(super) fn not_following(&self, ranked: &Ranked) -> Refuted {
         let of_headline = |headline: &Headline| {
             let alone: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
-            let following = headline.may_follow.iter();
-            let following = following.filter_map(|case| self.evidence.failure_of(case));
-            let following = quickest(following, FAILED);
+            let left: Vec<_> = ranked.without_cause(headline).cloned().collect();
+            let failures = left.iter().filter_map(|case| self.evidence.failure_of(case));
+            let following = quickest(failures, FAILED);
             let answers = self.planted(&alone, &following);
             let passes = |number: &usize| {
                 let mut known = answers.iter().filter_map(|of| of[*number].as_ref()).peekable();
                 known.peek().is_some() && known.all(|of| of.verdict == Verdict::Pass)
             };
-            let apart = (0..following.len()).filter(passes);
-            let apart: Vec<_> = apart.map(|number| following[number].case.to_owned()).collect();
+            let apart: Vec<_> = (0..following.len()).filter(passes).collect();
+            let names = |number: usize| following[number].case.to_owned();
+            let apart: Vec<_> = match apart.len() == FAILED {
+                true => left,
+                false => apart.into_iter().map(names).collect(),
+            };
             Some(refuted(cause::find(&headline.cause)?, &apart))
         };
         let is_reproduced =

@@ -31,18 +31,16 @@ faults! { part 4;
         last_bounce = |bounces| match *bounces.end() {
             0 => 0,
             last => last.max(DEPTH_IGNORED),
-        },
-        wants = |bounces, bounce| *bounces.start() <= bounce;
+        };
     "first-bounce-only": "est_radiance calls one_bounce only",
         fails FURNACE, told integrator::NO_INDIRECT,
         last_bounce = |bounces| *bounces.end().min(&1);
     "zero-depth-lit": "-m 0 shows direct light",
         fails FURNACE, told integrator::ZERO_DEPTH_LIT,
-        last_bounce = |bounces| *bounces.end().max(&1),
-        wants = |bounces, bounce| bounces.contains(&bounce) || bounce == 1 && *bounces.start() <= 1;
+        last_bounce = |bounces| *bounces.end().max(&1);
     "emission-forgotten": "with bounces, the emission that the camera sees is left out",
         fails FURNACE, told integrator::EMISSION_LOST,
-        wants = |bounces, bounce| bounces.contains(&bounce) && (bounce > 0 || *bounces.end() == 0);
+        shows_emission = |bounces| *bounces.end() == 0;
     "emission-every-bounce": "zero_bounce in the recursion, on top of light sampling",
         fails FURNACE, told integrator::EMISSION_AGAIN,
         path_meets_light = |surface, is_last| !is_last || lesson::bsdf::is_delta(surface);
@@ -52,7 +50,7 @@ faults! { part 4;
         path_meets_light = |_, _| false;
     "isolation-ignored": "-o 0 has no effect: bounces before the one asked for remain",
         fails FURNACE, told integrator::ISOLATION_IGNORED,
-        wants = |bounces, bounce| bounce <= *bounces.end();
+        first_bounce = |_| 0;
     "direct-only-with-bounce": "direct light is added only if the bounce hits something",
         fails "integrator/plane-under-environment-has-one-bounce",
         told integrator::DIRECT_ONLY_WITH_BOUNCE,
@@ -92,6 +90,10 @@ faults! { part 4;
         survival_divisor = |roulette, survival| {
             roulette.map_or(survival, |roulette| 1.0 - roulette.stop)
         };
+    "roulette-not-played": "every path goes on to the last bounce",
+        fails "integrator/russian-roulette-path-lengths-are-geometric",
+        told integrator::ROULETTE_NOT_PLAYED,
+        survival_probability = |_, _, _| 1.0;
     "roulette-stops-direct": "roulette is played before direct light is added",
         fails ROULETTE, told integrator::ROULETTE_STOPS_DIRECT,
         light_of_bounce = light_if_the_path_survives;
@@ -100,9 +102,6 @@ faults! { part 4;
         last_bounce = |bounces| match *bounces.end() {
             0 => 0,
             last => last + 1,
-        },
-        wants = |bounces, bounce| {
-            bounces.contains(&bounce) || *bounces.end() > 0 && bounce == *bounces.end() + 1
         };
     "albedo-twice": "the weight of a bounce is multiplied in again in the recursion",
         fails FURNACE, told integrator::ALBEDO_TWICE,
@@ -118,10 +117,10 @@ faults! { part 4;
         };
     "first-bounce-left-out": "with more bounces, direct light of the first vertex is left out",
         fails FURNACE, told integrator::BOUNCE_MISSING,
-        wants = |bounces, bounce| bounces.contains(&bounce) && (bounce != 1 || *bounces.end() < 2);
+        counts = |bounces, bounce| bounces.contains(&bounce) && (bounce != 1 || *bounces.end() < 2);
     "last-bounce-only": "`L =` in place of `L +=`",
         fails FURNACE, told integrator::LAST_BOUNCE_ONLY,
-        wants = |bounces, bounce| bounce == *bounces.end();
+        counts = |bounces, bounce| bounce == *bounces.end();
 }
 
 /// The bounces that are followed where a student's recursion would not end.

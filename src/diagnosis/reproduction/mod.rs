@@ -675,6 +675,7 @@ mod tests {
 
     const PI: Mistake = mistake("pi", &bsdf::WITHOUT_PI, "bsdf/a");
     const DIVIDED: Mistake = mistake("divided", &light::DIVIDED_BY_LIGHTS, "light/b");
+    const COSINE: Mistake = mistake("cosine", &light::WORLD_COSINE, "light/b");
     const AGAIN: Mistake = mistake("again", &integrator::EMISSION_AGAIN, "light/b");
 
     const fn mistake(
@@ -732,6 +733,59 @@ mod tests {
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         let pi = bsdf::WITHOUT_PI.name;
         assert_eq!(told(&diagnosis), [(pi, Degree::LooksLike, 1)], "it is of another size");
+    }
+
+    #[test]
+    fn three_mistakes_that_only_together_give_all_numbers_are_named() {
+        let cases = ["bsdf/a", "light/b", "light/c", "light/d", "light/e", "light/f"];
+        let ratios = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0];
+        let made = cases.iter().zip(ratios);
+        let made = made.fold(Made::new(), |made, (case, ratio)| made.with(*case, light(ratio)));
+        let sets: [(&[&str], usize); 3] =
+            [(&["pi"], 1), (&["pi", "cosine"], 3), (&["pi", "cosine", "again"], 6)];
+        let given = |(set, known): (&'static [&'static str], usize)| {
+            cases.iter().zip(ratios).take(known).map(move |(case, ratio)| (set, *case, ratio))
+        };
+        let gives: Vec<_> = sets.into_iter().flat_map(given).collect();
+        let planted = Bench { mistakes: &[PI, COSINE, AGAIN], gives: &gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let mut named = told(&diagnosis);
+        named.sort_unstable();
+        let name = |cause: &'static Cause, cases| (cause.name, Degree::Named, cases);
+        let expected = [
+            name(&light::WORLD_COSINE, 6),
+            name(&integrator::EMISSION_AGAIN, 3),
+            name(&bsdf::WITHOUT_PI, 6),
+        ];
+        let mut expected = expected.to_vec();
+        expected.sort_unstable();
+        assert_eq!(named, expected);
+    }
+
+    #[test]
+    fn a_cause_whose_numbers_all_others_give_together_is_not_told() {
+        let seen = |ratio, cause: &Cause| light(ratio).because(cause, "x");
+        let made = Made::new()
+            .with("bsdf/a", seen(2.0, &bsdf::WITHOUT_PI))
+            .with("light/b", seen(3.0, &light::WORLD_COSINE))
+            .with("integrator/c", seen(5.0, &integrator::ROULETTE_NOT_PLAYED));
+        let pi = bsdf::WITHOUT_PI.name;
+        let names = |gives: &[(&[&str], &str, f64)]| -> Vec<String> {
+            let planted = Bench { mistakes: &[PI, COSINE], gives };
+            let diagnosis = diagnose_proven(&made.evidence(), &planted);
+            diagnosis.headlines.into_iter().map(|told| told.cause).collect()
+        };
+        let apart: [(&[&str], &str, f64); 4] = [
+            (&["pi"], "bsdf/a", 2.0),
+            (&["cosine"], "light/b", 3.0),
+            (&["pi", "cosine"], "bsdf/a", 2.0),
+            (&["pi", "cosine"], "light/b", 3.0),
+        ];
+        let roulette = integrator::ROULETTE_NOT_PLAYED.name;
+        assert!(names(&apart).contains(&roulette.to_owned()));
+        let together = [&apart[..], &[(&["pi", "cosine"], "integrator/c", 5.0)]].concat();
+        let told = names(&together);
+        assert!(told.contains(&pi.to_owned()) && !told.contains(&roulette.to_owned()), "{told:?}");
     }
 
     /// A bench whose time is up.

@@ -101,7 +101,7 @@ causes! {
         fix "Pass copies of t_min and t_max to the slab test: it writes t_enter and t_exit into them.";
     HIT_OVERWRITTEN = "hit-overwritten":
         "a farther hit overwrites a closer one",
-        at "the loop over the primitives of a leaf",
+        at "the loop over the primitives of a leaf, or the test of a primitive, where it sets t_max",
         fix "Set t_max to each hit, or keep a hit only if it is closer than the best so far.";
     LEAF_ORDER_NUMBERS = "leaf-order-numbers":
         "hits report the primitive's index in leaf order, not in the scene",

@@ -115,6 +115,10 @@ causes! {
         "the nearer root is reported even where only the farther one lies in (t_min, t_max)",
         at "the ray-sphere test, where the root of the quadratic is chosen",
         fix "Report the root that passed the test against (t_min, t_max).";
+    NORMAL_AT_OTHER_ROOT = "normal-at-other-root":
+        "the normal of a sphere is taken at the nearer root, also where the farther one is hit",
+        at "the ray-sphere test, where normals are written",
+        fix "Take the point of the normal at the root that is reported.";
     QUADRATIC_PRECEDENCE = "quadratic-precedence":
         "the quadratic is divided by 2 and multiplied by a: `/ 2 * a` is not `/ (2 * a)`",
         at "the ray-sphere test, where the quadratic is solved",

@@ -249,6 +249,13 @@ fn at_first(
     Some(Meeting::of_sphere(t, (ray.at(t) - *centre).normalize_or_zero()))
 }
 
+/// The hit, and where the line of the ray meets the primitive first.
+fn hit_and_first(primitive: &Primitive, ray: &Ray) -> Option<(Meeting, Meeting)> {
+    let all = meetings(primitive, ray);
+    let hit = all.iter().find(|m| m.is_hit(ray))?;
+    Some((*hit, *all.first()?))
+}
+
 /// Steps that people write otherwise: what was done, and what it finds or says.
 pub(super) const MISTAKES: &[(&Cause, Made)] = &[
     (
@@ -345,6 +352,20 @@ pub(super) const MISTAKES: &[(&Cause, Made)] = &[
     (
         &shape::NORMALS_FACE_RAY,
         Made::Describes(|ray, m| m.answer().turned(-m.geometric.dot(ray.direction).signum())),
+    ),
+    (
+        &shape::NORMAL_AT_OTHER_ROOT,
+        Made::Finds(|p, ray| {
+            let (hit, Meeting { geometric, vertex_normals, .. }) = hit_and_first(p, ray)?;
+            Some(Meeting { geometric, vertex_normals, ..hit })
+        }),
+    ),
+    (
+        &shape::NORMAL_AT_OTHER_ROOT,
+        Made::Finds(|p, ray| {
+            let (hit, Meeting { vertex_normals, .. }) = hit_and_first(p, ray)?;
+            Some(Meeting { vertex_normals, ..hit })
+        }),
     ),
     (&shape::NORMALS_INSIDE_OUT, Made::Describes(|_, m| m.answer().turned(-1.0))),
 ];

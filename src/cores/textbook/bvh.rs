@@ -239,7 +239,7 @@ pub(crate) fn closest_among(bvh: &Bvh<'_>, range: Range<usize>, search: &mut Sea
 
 /// Keeps a crossing, and what is left of the segment before it.
 pub(crate) fn keep(search: &mut Search<'_>, primitive: usize, crossing: Crossing) {
-    search.segment.t_max = crossing.t;
+    search.segment.t_max = crossing.ray_end;
     search.found = Some((primitive, crossing));
 }
 

@@ -15,6 +15,8 @@ pub(crate) struct Crossing {
     pub(crate) t: f64,
     /// Triangle: the weights of vertices 1 and 2. Sphere: zero.
     pub(crate) uv: DVec2,
+    /// Nothing behind this is looked at any more.
+    pub(crate) ray_end: f64,
 }
 
 /// A triangle thinner than this, relative to its longest edge, has no area as far as f64 can tell:
@@ -85,8 +87,14 @@ impl Triangle {
             return None;
         }
         let error = steps.weight_error(self, ray, from_corner, determinant)?;
-        steps.triangle_holds(u, v, error).then_some(Crossing { t, uv: DVec2::new(u, v) })
+        let ray_end = steps.end_at_triangle(ray, t);
+        steps.triangle_holds(u, v, error).then_some(Crossing { t, uv: DVec2::new(u, v), ray_end })
     }
+}
+
+/// Where a ray that hits a triangle at `t` ends from now on.
+pub(crate) fn end_at_triangle(_ray: &Ray, t: f64) -> f64 {
+    t
 }
 
 /// Whether the plane of a triangle is met on the segment.
@@ -157,14 +165,20 @@ impl Sphere {
         }
         let (first, second) = steps.roots(quadratic);
         let (near, far) = if first <= second { (first, second) } else { (second, first) };
-        steps.nearer_root(ray, near, far).map(|t| Crossing { t, uv: DVec2::ZERO })
+        let t = steps.nearer_root(ray, near, far)?;
+        Some(Crossing { t, uv: DVec2::ZERO, ray_end: t })
+    }
+
+    /// Outward, where `ray` hits it at `t`.
+    pub(crate) fn normal(&self, ray: &Ray, t: f64, steps: &Steps) -> DVec3 {
+        steps.outward_normal(self, ray.at(steps.normal_taken_at(self, ray, t)))
     }
 
     /// |origin + t·direction − centre|² = radius².
     ///
     /// The discriminant comes from the distance between centre and line: no large equal numbers are
     /// subtracted when the sphere is small and far away (Haines et al., Ray Tracing Gems, chapter 7).
-    fn quadratic(&self, ray: &Ray) -> Quadratic {
+    pub(crate) fn quadratic(&self, ray: &Ray) -> Quadratic {
         let from_centre = ray.origin - self.centre;
         let a = ray.direction.length_squared();
         let half_b = from_centre.dot(ray.direction);
@@ -185,6 +199,11 @@ pub(crate) fn roots(Quadratic { a, half_b, c, discriminant }: Quadratic) -> (f64
 /// The first of the two that lies on the segment.
 pub(crate) fn nearer_root(ray: &Ray, near: f64, far: f64) -> Option<f64> {
     [near, far].into_iter().find(|t| contains(ray, *t))
+}
+
+/// Where on the ray the normal of a sphere that it hits at `t` is taken.
+pub(crate) fn normal_taken_at(_sphere: &Sphere, _ray: &Ray, t: f64) -> f64 {
+    t
 }
 
 /// Unit, away from the centre.

@@ -126,11 +126,13 @@ steps! {
         ) -> Option<f64>;
         intersect::triangle_reached(ray: &Ray, t: f64) -> bool;
         intersect::triangle_holds(u: f64, v: f64, error: f64) -> bool;
+        intersect::end_at_triangle(ray: &Ray, t: f64) -> f64;
         world::interpolated_normal(normals: [DVec3; 3], uv: DVec2) -> Option<DVec3>;
     }
     Components::SPHERE_TEST => {
         intersect::roots(quadratic: Quadratic) -> (f64, f64);
         intersect::nearer_root(ray: &Ray, near: f64, far: f64) -> Option<f64>;
+        intersect::normal_taken_at(sphere: &Sphere, ray: &Ray, t: f64) -> f64;
         intersect::outward_normal(sphere: &Sphere, point: DVec3) -> DVec3;
     }
     Components::TRIANGLE_TEST.union(Components::SPHERE_TEST) => {

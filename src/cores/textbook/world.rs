@@ -88,10 +88,8 @@ impl<'a> World<'a> {
         let shape = &self.shapes[primitive.shape as usize];
         let normal = match &primitive.form {
             Form::Triangle(triangle) => triangle.normal(),
-            Form::Sphere(sphere) if shape.inward => {
-                -self.steps.outward_normal(sphere, ray.at(crossing.t))
-            }
-            Form::Sphere(sphere) => self.steps.outward_normal(sphere, ray.at(crossing.t)),
+            Form::Sphere(sphere) if shape.inward => -sphere.normal(ray, crossing.t, self.steps),
+            Form::Sphere(sphere) => sphere.normal(ray, crossing.t, self.steps),
         };
         let interpolated = shape.shading_normal(primitive.number, crossing.uv, self.steps);
         let numbers = [primitive.shape, primitive.number];
@@ -169,7 +167,7 @@ pub(crate) fn interpolated_normal([n0, n1, n2]: [DVec3; 3], uv: DVec2) -> Option
 /// their side, wherever the ray comes from.
 pub(crate) fn hit(_ray: &Ray, crossing: Crossing, numbers: [u32; 2], normals: [DVec3; 2]) -> Hit {
     let ([shape, primitive], [geometric_normal, shading_normal]) = (numbers, normals);
-    let Crossing { t, uv } = crossing;
+    let Crossing { t, uv, .. } = crossing;
     Hit { t, shape, primitive, geometric_normal, shading_normal, uv }
 }
 
@@ -184,7 +182,7 @@ pub(crate) fn hit_alone(primitive: &contract::Primitive, ray: &Ray, steps: &Step
         contract::Primitive::Sphere { centre, radius } => {
             let sphere = Sphere::new(centre, radius)?;
             let crossing = sphere.intersect(ray, steps)?;
-            (crossing, steps.outward_normal(&sphere, ray.at(crossing.t)), None)
+            (crossing, sphere.normal(ray, crossing.t, steps), None)
         }
     };
     Some(steps.hit(ray, crossing, [0, 0], [normal, interpolated.unwrap_or(normal)]))

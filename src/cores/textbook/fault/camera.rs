@@ -31,6 +31,9 @@ faults! { part 1;
         sensor_point = |camera, film, half_size| {
             sensor_point(camera, (film + 1.0) / 2.0, half_size)
         };
+    "film-from-corner": "2x tan(fov/2): a corner of the film looks straight ahead",
+        fails RAYS, told camera::FILM_NOT_CENTRED,
+        sensor_point = |camera, film, half_size| sensor_point(camera, film + 0.5, half_size);
     "film-y-down": "the camera takes the film's y axis to point down",
         fails RAYS, told camera::FILM_Y_DOWN,
         sensor_point = |camera, film, half_size| {

@@ -1,7 +1,7 @@
 //! Part 1: triangle and sphere.
 
 use super::faults;
-use crate::cause::shape;
+use crate::cause::{bvh, shape};
 use crate::cores::textbook as lesson;
 use lesson::intersect::{Quadratic, contains, weight_error};
 
@@ -11,6 +11,7 @@ const IN_PLANE: &str = "shape/rays-in-the-plane-of-a-triangle-miss";
 const RANDOM: &str = "shape/random-triangles-match-exact-arithmetic";
 const SEGMENT: &str = "shape/hits-lie-between-t-min-and-t-max";
 const SPHERE: &str = "shape/ray-sphere-hit-is-the-nearest-root-ahead";
+const SOUP: &str = "bvh/triangle-soup-order-does-not-matter";
 
 faults! { part 1;
     "vertex-normals-swapped": "barycentric weights multiply the wrong vertex normals",
@@ -108,6 +109,15 @@ faults! { part 1;
     "sphere-inside-out": "the normal of a sphere points to its centre",
         fails SPHERE, told shape::NORMALS_INSIDE_OUT,
         outward_normal = |sphere, point| -lesson::intersect::outward_normal(sphere, point);
+    "triangle-leaves-ray": "isect->t is set, r.max_t is not",
+        fails SOUP, told bvh::HIT_OVERWRITTEN,
+        end_at_triangle = |ray, _| ray.t_max;
+    "sphere-normal-at-near-root": "the normal is that of t1, also where t2 is the hit",
+        fails SPHERE, told shape::NORMAL_AT_OTHER_ROOT,
+        normal_taken_at = |sphere, ray, _| {
+            let (one, other) = lesson::intersect::roots(sphere.quadratic(ray));
+            one.min(other)
+        };
     "normals-moved-back": "the weights of vertices 0, 1, 2 multiply the normals of 1, 2, 0",
         fails INTERPOLATION, told shape::NORMALS_MOVED_BACK,
         interpolated_normal = |[n0, n1, n2], uv| {

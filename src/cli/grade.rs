@@ -59,7 +59,7 @@ pub(crate) struct GradeArguments {
     #[arg(short, long, value_name = "N", value_parser = super::jobs)]
     jobs: Option<NonZeroUsize>,
     /// Where runs go [default: reports/runs].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", conflicts_with = "submissions")]
     report: Option<PathBuf>,
     /// Print JSON instead of the table.
     #[arg(long)]

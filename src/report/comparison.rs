@@ -5,7 +5,7 @@ use crate::stats::{
     Clipped, CodesCompared, Comparison, DifferenceReport, Ends, Impossible, Measured, NoiseSource,
     OddPixels, PatternReport, Verdict,
 };
-use crate::text::number::{figure, percent, ratio, signed_percent, significant};
+use crate::text::number::{count, figure, percent, ratio, signed_percent, significant};
 use serde::Serialize;
 
 /// What was compared with what.
@@ -155,15 +155,23 @@ fn impossible(odd: &OddPixels) -> String {
         _ => "negative",
     };
     format!(
-        "{} pixels are {kind} or otherwise invalid, the first at ({}, {}) from the top left",
-        odd.pixels, odd.x, odd.y
+        "{} {kind} or otherwise invalid, the first at ({}, {}) from the top left",
+        are(odd.pixels),
+        odd.x,
+        odd.y
     )
+}
+
+/// `1 pixel is`, `5 pixels are`
+fn are(pixels: usize) -> String {
+    let verb = if pixels == 1 { "is" } else { "are" };
+    format!("{} {verb}", count(pixels, "pixel"))
 }
 
 fn outliers(odd: &OddPixels) -> String {
     format!(
-        "{} pixels are darker than noise explains; the worst, at ({}, {}), by {} standard errors",
-        odd.pixels,
+        "{} darker than noise explains; the worst, at ({}, {}), by {} standard errors",
+        are(odd.pixels),
         odd.x,
         odd.y,
         figure(odd.sigmas.unwrap_or(0.0).abs())

@@ -197,8 +197,29 @@ fn a_page_holds_all_images_their_noise_and_numbers() {
     let roles: Vec<_> = frames.iter().map(|frame| frame["role"].as_str().unwrap()).collect();
     assert_eq!(roles, ["reference", "render", "render", "flip", "flip"]);
     assert!(frames[0]["noise"].is_object() && frames[1]["noise"].is_null());
+    let rejected = |number: usize| frames[number]["rejected"].as_array().unwrap();
+    let cell = &rejected(1)[0];
+    let ratio = cell["measured"].as_f64().unwrap() / cell["expected"].as_f64().unwrap();
+    assert!((ratio - 1.05).abs() < 0.02, "{cell}");
+    assert!(rejected(2).is_empty(), "{:?}", rejected(2));
     assert!(!page.contains("src=\"http") && !page.contains("href=\"http"), "it stands alone");
     assert!(page.contains("#images?region="), "a rejected pattern leads to its place");
+}
+
+#[test]
+fn pixels_that_are_not_numbers_are_said_counted_and_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let reference = file(folder.path(), "r.pfm", &render(1, 0.01, 1.0));
+    let mut image = render(2, 0.02, 1.0);
+    image.pixels[192 + 5] = [f32::NAN; 3];
+    let spoilt = file(folder.path(), "nan.pfm", &image);
+    let path = folder.path().join("page.html");
+    let words = [&spoilt, &reference, "--html", path_of(&path)];
+    let line = Line::try_parse_from(std::iter::once("compare").chain(words)).unwrap();
+    assert_eq!(compare(&line.compare).unwrap(), ExitCode::Failed);
+    let page = std::fs::read_to_string(&path).unwrap();
+    assert!(page.contains("1 pixel is NaN") && page.contains("(5, 1)"), "{page:.4000}");
+    assert!(page.contains(r#""nan":1,"#) && page.contains(r#"src="data:image/png"#));
 }
 
 #[test]
@@ -234,5 +255,5 @@ fn a_pixel_that_is_no_number_fails() {
     broken.pixels[193] = [f32::NAN; 3];
     let broken = file(folder.path(), "a.pfm", &broken);
     let told = told_of(&compared(&[&broken, &reference]).unwrap());
-    assert!(told.starts_with("fail: 1 pixels are NaN"), "{told}");
+    assert!(told.starts_with("fail: 1 pixel is NaN"), "{told}");
 }

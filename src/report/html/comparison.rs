@@ -7,17 +7,20 @@ use super::parts::{badge, command};
 use super::shell::{Document, icon};
 use super::viewer::{Frame, Noisy, look, viewer};
 use super::{ReportError, light_enough, put};
-use crate::image::Image;
+use crate::checks::RejectedCell;
 use crate::image::metric::METRICS;
 use crate::image::pair::Plane;
+use crate::image::{Image, luminance};
 use crate::report::comparison::{Compared, Comparisons, evidence, statement, value};
-use crate::stats::{Extent, Verdict};
+use crate::stats::{Extent, OddCell, Pattern, Verdict};
 use crate::text::number::figure;
 use maud::{Markup, PreEscaped, html};
 use std::path::Path;
 
 /// What the viewer is called in addresses.
 const VIEWER: &str = "images";
+/// As [`OddCell`] numbers them.
+const COMPONENTS: [&str; 4] = ["red", "green", "blue", "luminance"];
 
 /// The page, before it is text.
 pub(crate) struct Page<'a> {
@@ -150,14 +153,38 @@ impl Page<'_> {
         let reference =
             frame(&self.comparisons.reference, Shows::Reference, &self.reference, longest);
         let images = self.comparisons.images.iter().zip(&self.images);
-        let renders = images
-            .clone()
-            .map(|(compared, pixels)| frame(&compared.name(), Shows::Render, pixels, longest));
+        let rejected: Vec<_> =
+            images.clone().map(|(one, pixels)| self.rejected(one, pixels)).collect();
+        let renders = images.clone().zip(&rejected).map(|((compared, pixels), rejected)| Frame {
+            rejected,
+            ..frame(&compared.name(), Shows::Render, pixels, longest)
+        });
         let flips = images.filter_map(|(compared, pixels)| flip(compared, pixels, longest));
         let frames: Vec<_> = std::iter::once(reference).chain(renders).chain(flips).collect();
         // Codes are shown as any other program shows them.
         let look = if self.reference.is_coded { Look { stops: 0.0 } } else { look(&frames) };
         viewer(&frames, VIEWER, look)
+    }
+
+    /// The cells that stand out by themselves, with their means.
+    fn rejected(&self, compared: &Compared, pixels: &Pixels) -> Vec<RejectedCell> {
+        let told = |pattern: Pattern, odd: &OddCell| {
+            let Extent { x, y, width, height } = odd.extent;
+            let mean = |image: &Image| mean(image, [x, y, width, height], odd.component);
+            RejectedCell {
+                scale: pattern.to_string(),
+                component: COMPONENTS[odd.component].to_owned(),
+                extent: [x, y, width, height],
+                measured: mean(&pixels.image),
+                expected: mean(&self.reference.image),
+                t: odd.t,
+                p: odd.p,
+            }
+        };
+        let patterns = compared.comparison.difference.patterns.iter();
+        patterns
+            .flat_map(|found| found.odd.iter().map(move |odd| told(found.pattern, odd)))
+            .collect()
     }
 
     fn metrics(&self) -> Markup {
@@ -185,6 +212,17 @@ impl Page<'_> {
             }
         }
     }
+}
+
+/// Of the pixels of a cell; those at the border may be fewer.
+fn mean(image: &Image, [x, y, width, height]: [usize; 4], component: usize) -> f64 {
+    let rows = image.pixels.chunks(image.width).skip(y).take(height);
+    let pixels: Vec<_> = rows.flat_map(|row| row.iter().skip(x).take(width)).collect();
+    let value = |pixel: &[f32; 3]| match component {
+        3 => luminance(*pixel),
+        channel => f64::from(pixel[channel]),
+    };
+    pixels.iter().map(|pixel| value(pixel)).sum::<f64>() / pixels.len() as f64
 }
 
 /// The number of a metric; nothing where it says nothing of these images.

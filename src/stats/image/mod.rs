@@ -24,7 +24,7 @@ pub(crate) use codes::{
 pub use comparison::Question;
 pub(crate) use comparison::{Clipped, Ends, Measured, flip_map};
 pub(crate) use comparison::{CodesCompared, Comparison, Side, compare};
-pub(crate) use difference::{DifferenceReport, OddPixels, PatternReport, Sample};
+pub(crate) use difference::{DifferenceReport, OddCell, OddPixels, Pattern, PatternReport, Sample};
 pub(crate) use draw::ImageDraw;
 pub use draw::ImageEffort;
 pub(crate) use report::CellScore;

@@ -26,17 +26,20 @@ mod unit;
 mod tests;
 
 pub(crate) use pattern::Pattern;
-pub(crate) use report::{DifferenceReport, OddPixels, PatternReport};
+pub(crate) use report::{DifferenceReport, OddCell, OddPixels, PatternReport};
 
 use super::cells::COMPONENTS;
 use crate::image::Image;
 use crate::stats::plan::level::{CONFIRM_LEVEL, MISS_LEVEL};
 use crate::stats::{Verdict, student_upper};
-use pattern::{Score, confirm};
+use pattern::{Cell, Choice, Score, confirm};
 use unit::Units;
 
 /// Stages that units are dealt to: one to choose, two to confirm.
 const STAGES: usize = 3;
+
+/// A cell is shown as odd where so many of all cells would be by chance.
+const ODD: f64 = 0.01;
 
 /// One picture, and how well it is known.
 #[derive(Clone, Copy, Debug)]
@@ -100,6 +103,7 @@ fn judge_pattern(pattern: Pattern, units: &Units, level: f64) -> PatternReport {
     let choices = pattern.choices(&cells);
     let scores = [1, 2].map(|stage| confirm(&cells, &choices, stage));
     let rejects = |score: &Score| score.t > student_upper(level, score.freedom);
+    let rejects = !choices.is_empty() && scores.iter().all(rejects);
     let worst = choices.first();
     PatternReport {
         pattern,
@@ -107,8 +111,21 @@ fn judge_pattern(pattern: Pattern, units: &Units, level: f64) -> PatternReport {
         worst: worst.map(|choice| cells[choice.cell].extent()),
         difference: worst.map_or(0.0, |choice| cells[choice.cell].relative(choice)),
         t: scores.map(|score| score.t.clamp(-1e9, 1e9)),
-        rejects: !choices.is_empty() && scores.iter().all(rejects),
+        rejects,
+        odd: if rejects { odd_cells(&cells, &choices) } else { Vec::new() },
     }
+}
+
+/// The cells of light that stand out by themselves, the most extreme first.
+fn odd_cells(cells: &[Cell<'_>], choices: &[Choice]) -> Vec<OddCell> {
+    let tests = (cells.len() * COMPONENTS) as f64;
+    let odd = |choice: &Choice| {
+        let cell = &cells[choice.cell];
+        let (t, p) = (choice.t.min(1e9), cell.tail(choice));
+        let (component, extent) = (choice.component()?, cell.extent());
+        (p * tests < ODD).then_some(OddCell { component, extent, t, p })
+    };
+    choices.iter().filter_map(odd).collect()
 }
 
 /// The relative error of the whole picture's luminance that both confirmations would have seen with

@@ -5,6 +5,7 @@ use super::unit::{MEASURES, SIDE, Unit, Units};
 use crate::stats::Moments;
 use crate::stats::image::Extent;
 use crate::stats::image::cells::COMPONENTS;
+use crate::stats::law::student_tail;
 use crate::text::spoken;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -93,7 +94,14 @@ pub(crate) struct Choice {
     sign: f64,
     weight: f64,
     /// How far outside its band, in standard errors.
-    t: f64,
+    pub(super) t: f64,
+}
+
+impl Choice {
+    /// What of light it is about; nothing of an edge.
+    pub(super) fn component(&self) -> Option<usize> {
+        (self.measure < COMPONENTS).then_some(self.measure)
+    }
 }
 
 impl Cell<'_> {
@@ -138,6 +146,11 @@ impl Cell<'_> {
             weight,
             t: departure / error,
         })
+    }
+
+    /// How often a choice of the first stage stands out so far by chance.
+    pub(super) fn tail(&self, choice: &Choice) -> f64 {
+        student_tail(choice.t, self.stages[0].len() as f64 - 1.0)
     }
 
     /// The difference of a choice over what it is relative to, in all stages.

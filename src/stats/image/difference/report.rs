@@ -31,6 +31,20 @@ pub struct PatternReport {
     pub(crate) t: [f64; 2],
     /// Whether both reject.
     pub(crate) rejects: bool,
+    /// Where both reject: the cells that stand out by themselves.
+    pub(crate) odd: Vec<OddCell>,
+}
+
+/// A cell that the first stage suspects for itself.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OddCell {
+    /// Red, green, blue, luminance: its number.
+    pub(crate) component: usize,
+    pub(crate) extent: Extent,
+    /// How far it lies outside its band, in standard errors.
+    pub(crate) t: f64,
+    /// How often it would by chance.
+    pub(crate) p: f64,
 }
 
 /// The comparison of two single pictures.

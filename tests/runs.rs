@@ -173,6 +173,13 @@ fn the_same_run_twice_in_one_go_or_killed_half_way_gives_the_same_sidecars() {
     let resumed = results(&folder);
     let run = std::fs::read_to_string(folder.join("run.json")).unwrap();
     assert!(run.contains("\"diagnosis\""), "a run that has ended says what is wrong: {run}");
+    let run: serde_json::Value = serde_json::from_str(&run).unwrap();
+    let counts = &run["counts"];
+    let graded = counts["graded"].as_object().unwrap().values().map(|n| n.as_u64().unwrap());
+    let counted = graded.sum::<u64>() + counts["ungraded"].as_u64().unwrap();
+    let all = sidecar_paths(&folder).len() as u64;
+    assert_eq!([&counts["planned"], &run["trials"]], [all, all], "{counts}");
+    assert_eq!(counted, all, "{counts}");
     assert_eq!(resumed.keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>());
     for (name, bytes) in &expected {
         assert!(resumed[name] == *bytes, "{name} differs after the run was resumed");

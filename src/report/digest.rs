@@ -19,7 +19,13 @@ pub(crate) struct PartGroup<'a> {
     pub(crate) trials: Vec<&'a TrialRecord>,
 }
 
-impl PartGroup<'_> {
+impl<'a> PartGroup<'a> {
+    /// What the core could be asked: that it cannot says nothing about it.
+    pub(crate) fn asked(&self) -> impl Iterator<Item = &'a TrialRecord> {
+        let trials = self.trials.iter().copied();
+        trials.filter(|trial| trial.outcome.status() != Status::Skipped)
+    }
+
     pub(crate) fn seconds(&self) -> f64 {
         self.trials.iter().map(|trial| trial.timing.seconds).sum()
     }
@@ -189,9 +195,14 @@ mod tests {
         let pass = trial("builtin", "bvh/a");
         let mut skipped = trial("builtin", "bvh/b");
         skipped.outcome = Outcome::Skipped { missing: vec!["render".to_owned()] };
-        assert_eq!(Tally::of([]).headline(), "no graded trial has a result");
-        assert_eq!(Tally::of([&pass]).headline(), "1 trial passes");
-        assert_eq!(Tally::of([&pass, &skipped]).headline(), "1 of 2 trials pass, none fails");
+        let headline = |trials: &[&TrialRecord]| Counts::of(9, trials.iter().copied()).headline();
+        assert_eq!(headline(&[]), "no graded trial has a result");
+        assert_eq!(headline(&[&pass]), "1 trial passes");
+        assert_eq!(headline(&[&pass, &pass]), "all 2 trials pass");
+        assert_eq!(headline(&[&skipped]), "0 of 1 trial pass, none fails");
+        assert_eq!(headline(&[&pass, &skipped]), "1 of 2 trials pass, none fails");
+        skipped.tier = Tier::Informational;
+        assert_eq!(headline(&[&pass, &pass, &skipped]), "all 2 graded trials pass");
     }
 
     #[test]

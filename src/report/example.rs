@@ -130,6 +130,7 @@ impl Example {
             budget: Budget::Default,
             seed: 1,
             trials: trials.len(),
+            counts: None,
             fail_fast: false,
             with: Components::empty(),
             machine: Machine {

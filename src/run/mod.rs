@@ -85,6 +85,7 @@ pub(crate) fn resume(
     let path = folder.join("run.json");
     let mut record: RunRecord = record::read_json(&path)?;
     // It holds of the trials of then.
+    record.counts = None;
     record.cores.iter_mut().for_each(|core| (core.diagnosis, core.score) = (None, None));
     record::write_json(&path, &record)?;
     carry_out(plan, &plan.bench(), record, folder, events)
@@ -110,6 +111,7 @@ fn carry_out(
         conclude(plan, bench, core, &records, events);
         core.score = Some(Score::of(records.iter().filter(|trial| trial.core == core.spec)));
     }
+    record.counts = Some(Counts::of(record.trials, &records));
     let before = record.timing.seconds.unwrap_or(0.0);
     record.timing.seconds = Some(before + clock.elapsed().as_secs_f64());
     record::write_json(&folder.join("run.json"), &record)?;
@@ -191,6 +193,7 @@ fn describe(plan: &Plan, cores: Vec<CoreRecord>, started: SystemTime) -> RunReco
         budget: plan.request.budget,
         seed: plan.request.seed.0,
         trials: plan.trials.len(),
+        counts: None,
         fail_fast: plan.request.fail_fast,
         with: plan.with,
         machine: Machine::this(),

@@ -46,7 +46,8 @@ pub enum Outcome {
 }
 
 /// The few words by which reports, counts and exit codes know an outcome.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// Judged: pass.
     Pass,

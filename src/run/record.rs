@@ -10,6 +10,7 @@
 //! `timing`.
 
 use super::outcome::{Outcome, Status};
+use super::tally::Counts;
 use crate::case::{Foundation, Role, Tier};
 use crate::checks::series::Series;
 use crate::checks::{PictureRole, RejectedCell, number};
@@ -43,6 +44,9 @@ pub struct RunRecord {
     pub(crate) budget: Budget,
     pub(crate) seed: u64,
     pub(crate) trials: usize,
+    /// What became of them. None while the run has not ended.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) counts: Option<Counts>,
     /// Whether the run was to stop at the first graded failure. Trials without a sidecar were not run then.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) fail_fast: bool,

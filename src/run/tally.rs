@@ -4,10 +4,11 @@
 use super::outcome::Status;
 use super::record::TrialRecord;
 use crate::text::number::count;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// How many trials ended with each status.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Tally(BTreeMap<Status, usize>);
 
 impl Tally {
@@ -35,25 +36,6 @@ impl Tally {
     pub(crate) fn iter(&self) -> impl Iterator<Item = (Status, usize)> {
         self.0.iter().map(|(status, count)| (*status, *count))
     }
-
-    /// The result of a run in a few words, for titles.
-    pub(crate) fn headline(&self) -> String {
-        let (total, failures, passes) = (self.total(), self.failures(), self.count(Status::Pass));
-        if total == 0 {
-            "no graded trial has a result".to_owned()
-        } else if failures > 0 {
-            let verb = if failures == 1 { "fails" } else { "fail" };
-            format!("{failures} of {} {verb}", count(total, "trial"))
-        } else if passes == total {
-            if total == 1 {
-                "1 trial passes".to_owned()
-            } else {
-                format!("all {total} trials pass")
-            }
-        } else {
-            format!("{passes} of {total} trials pass, none fails")
-        }
-    }
 }
 
 impl FromIterator<Status> for Tally {
@@ -66,7 +48,8 @@ impl FromIterator<Status> for Tally {
 
 /// What became of the trials of a run: of each that is graded how it ended; the others beside them, for they count
 /// neither for nor against a core.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Counts {
     /// How many the run was to try.
     pub(crate) planned: usize,
@@ -102,6 +85,21 @@ impl Counts {
         match self.ended() == self.planned {
             true => count(self.planned, "trial"),
             false => format!("{} of {}", self.ended(), count(self.planned, "trial")),
+        }
+    }
+
+    /// The result in a few words, for titles. What is not graded fails nobody, and passes for nobody.
+    pub(crate) fn headline(&self) -> String {
+        let (total, passes) = (self.graded.total(), self.graded.count(Status::Pass));
+        let trial = if self.ungraded > 0 { "graded trial" } else { "trial" };
+        let all = count(total, trial);
+        match (total, self.graded.failures()) {
+            (0, _) => "no graded trial has a result".to_owned(),
+            (_, 1) => format!("1 of {all} fails"),
+            (_, failures @ 2..) => format!("{failures} of {all} fail"),
+            (1, 0) if passes == 1 => format!("{all} passes"),
+            (_, 0) if passes == total => format!("all {all} pass"),
+            _ => format!("{passes} of {all} pass, none fails"),
         }
     }
 

@@ -84,18 +84,18 @@ fn unfinished(view: &View<'_>) -> Markup {
 }
 
 fn score(view: &View<'_>) -> Markup {
-    let tally = Tally::of(view.tree.graded());
-    let planned = tally.total() + view.tree.missing();
+    let counts = view.tree.counts();
     html! {
         div.card.score {
-            p.large { b { (tally.count(Status::Pass)) } " of " (planned) " pass" }
+            p.large { b { (counts.graded.count(Status::Pass)) } " pass" }
             ul {
-                @for (status, number) in tally.iter().filter(|(status, _)| *status != Status::Pass) {
+                @for (status, number) in counts.graded.iter().filter(|(status, _)| *status != Status::Pass) {
                     li { (badge(status)) span.number { (number) } }
                 }
-                @if view.tree.missing() > 0 {
-                    li { "no result" span.number { (view.tree.missing()) } }
+                @for (number, words) in [(counts.ungraded, "not graded"), (view.tree.missing(), "no result")] {
+                    @if number > 0 { li { (words) span.number { (number) } } }
                 }
+                li { "trials" span.number { (counts.planned) } }
             }
             (untried(view))
         }
@@ -143,14 +143,16 @@ fn grid(view: &View<'_>) -> Markup {
 }
 
 fn cells(view: &View<'_>, group: &PartGroup<'_>, core: &str) -> Markup {
-    let trials: Vec<&TrialRecord> =
-        group.trials.iter().copied().filter(|trial| trial.core == core).collect();
-    let passes = Tally::of(trials.iter().copied()).count(Status::Pass);
+    let of_core = |trial: &&TrialRecord| trial.core == core;
+    let trials: Vec<&TrialRecord> = group.trials.iter().copied().filter(of_core).collect();
+    let asked = Tally::of(group.asked().filter(of_core));
     html! {
         div.strip {
             span.cells { @for trial in &trials { (cell(view, trial)) } }
             span.fraction {
-                @if trials.is_empty() { "no result" } @else { (passes) "/" (trials.len()) }
+                @if trials.is_empty() { "no result" }
+                @else if asked.total() == 0 { "not asked" }
+                @else { (asked.count(Status::Pass)) "/" (asked.total()) }
             }
         }
     }

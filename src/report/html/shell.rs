@@ -91,12 +91,12 @@ impl Page {
 
 /// The first cause, and how many fail; a run that was cut off says so first, and claims nothing of the rest.
 pub(super) fn index_title(tree: &RunTree) -> String {
-    let tally = Tally::of(tree.graded());
-    let counted = counted(&tally);
+    let counts = tree.counts();
+    let counted = counted(&counts.graded);
     match tree.unfinished() {
         None => {}
         Some(Unfinished::Causes) => return format!("Search for causes cut off: {counted}"),
-        Some(_) => return unfinished(tree, &tally),
+        Some(_) => return unfinished(tree, &counts.graded),
     }
     let absent = tree.absent_cores().next();
     if let Some(core) = absent {
@@ -108,7 +108,7 @@ pub(super) fn index_title(tree: &RunTree) -> String {
     match mistakes[..] {
         [] => match died(tree) {
             Some(how) => format!("{how}: {counted}"),
-            None => capitalised(&tally.headline()),
+            None => capitalised(&counts.headline()),
         },
         [first] => format!("{}: {counted}", capitalised(first)),
         [first, _] => format!("{}, and one more cause: {counted}", capitalised(first)),
@@ -128,20 +128,24 @@ fn died(tree: &RunTree) -> Option<String> {
     }
 }
 
-/// `22 of 195 trials fail, 53 not tried`
+/// `22 fail, 53 not tried`: the page says of how many.
 fn counted(tally: &Tally) -> String {
     let blocked = tally.count(Status::Blocked);
     let untried = (blocked > 0).then(|| format!(", {blocked} not tried"));
-    format!("{}{}", tally.headline(), untried.unwrap_or_default())
+    format!("{}{}", failing(tally), untried.unwrap_or_default())
 }
 
-fn unfinished(tree: &RunTree, tally: &Tally) -> String {
-    let fail = match tally.failures() {
+fn failing(tally: &Tally) -> String {
+    match tally.failures() {
         0 => "none fails".to_owned(),
         1 => "1 fails".to_owned(),
         failures => format!("{failures} fail"),
-    };
-    format!("Unfinished at {} of {} trials: {fail} so far", tree.trials.len(), tree.run.trials)
+    }
+}
+
+fn unfinished(tree: &RunTree, tally: &Tally) -> String {
+    let (ended, planned) = (tree.trials.len(), tree.run.trials);
+    format!("Unfinished at {ended} of {planned} trials: {} so far", failing(tally))
 }
 
 /// A tab's icon: shape and colour of the result.

@@ -3,9 +3,10 @@
 
 use super::assets::EARLY_SCRIPT;
 use super::*;
+use crate::case::Tier;
 use crate::report::example::{Example, HOSTILE};
-use crate::run::RunRecord;
 use crate::run::record::{Number, Score, read_json, write_json};
+use crate::run::{Counts, RunRecord, Status};
 use std::collections::{BTreeMap, BTreeSet};
 
 mod browser;
@@ -38,6 +39,11 @@ fn target(page: &str, address: &str) -> (String, String) {
     (path, anchor.to_owned())
 }
 
+/// A page whose commands are not in pieces.
+fn commands(page: &str) -> String {
+    page.replace("<span>", "").replace("</span>", "")
+}
+
 /// Every value of an attribute.
 fn values<'a>(page: &'a str, attribute: &str) -> Vec<&'a str> {
     let start = format!(" {attribute}=\"");
@@ -52,6 +58,24 @@ fn the_title_carries_the_result() {
     let mut cut_off = Example::green();
     cut_off.trials.truncate(5);
     assert!(title(cut_off).starts_with("Unfinished at 5 of 24 trials: none fails so far"));
+}
+
+#[test]
+fn the_page_counts_every_trial_once_as_the_terminal_does() {
+    let mut example = Example::mixed();
+    example.trials[0].tier = Tier::Informational;
+    let counts = Counts::of(24, &example.trials);
+    let page = page(example);
+    let score = page.split("class=\"card score\"").nth(1).unwrap();
+    let score = score.split("</ul>").next().unwrap();
+    let numbers = score.split("class=\"number\">").skip(1);
+    let mut numbers: Vec<usize> =
+        numbers.map(|rest| rest.split('<').next().unwrap().parse().unwrap()).collect();
+    assert_eq!(numbers.pop(), Some(counts.planned));
+    let passes = counts.graded.count(Status::Pass);
+    assert!(score.contains(&format!("<b>{passes}</b> pass")), "{score}");
+    assert_eq!(passes + numbers.iter().sum::<usize>(), 24, "{score}");
+    assert_eq!(numbers.last(), Some(&counts.ungraded));
 }
 
 #[test]
@@ -131,7 +155,8 @@ fn the_earliest_failure_is_where_to_start() {
     let first = values(card, "href")[0];
     let trial = "shape/the-nearer-root-wins.html#shape/the-nearer-root-wins@textbook";
     assert_eq!(first, format!("case/{trial}"));
-    assert!(card.contains("cargo furnace run shape/the-nearer-root-wins --core textbook"));
+    let command = "cargo furnace run shape/the-nearer-root-wins --core textbook";
+    assert!(commands(card).contains(command), "{card}");
 }
 
 #[test]
@@ -142,7 +167,7 @@ fn a_core_that_does_not_start_is_one_card() {
     let start = page.split("id=\"start\"").nth(1).unwrap().split("<section").next().unwrap();
     assert!(start.contains("textbook fails to start: no trial could run."), "{start}");
     assert!(start.contains("the core crashed during hello"), "{start}");
-    assert!(start.contains("cargo furnace doctor --core textbook"), "{start}");
+    assert!(commands(start).contains("cargo furnace doctor --core textbook"), "{start}");
     assert!(start.contains("on <b>builtin</b>"), "{start}");
     assert!(!start.contains("@textbook"), "none of its trials says more: {start}");
 }

@@ -93,7 +93,7 @@ fn core_lines(tree: &RunTree, core: &CoreRecord, style: Style) -> Vec<String> {
     };
     let title = format!("  {name} {} ({arithmetic})", clean(&core.version));
     let groups = by_part(trials);
-    let most = groups.iter().map(|group| asked(group).len()).max().unwrap_or(0);
+    let most = groups.iter().map(|group| group.asked().count()).max().unwrap_or(0);
     let bar = most.min(longest_bar(style));
     let mut lines = vec![title];
     if groups.is_empty() {
@@ -108,16 +108,10 @@ fn longest_bar(style: Style) -> usize {
     LONGEST_BAR.min(style.columns.saturating_sub(BEFORE_BAR + PASSES + time)).max(1)
 }
 
-/// What a core cannot be asked says nothing about it.
-fn asked<'a>(group: &PartGroup<'a>) -> Vec<&'a TrialRecord> {
-    let trials = group.trials.iter().copied();
-    trials.filter(|trial| trial.outcome.status() != Status::Skipped).collect()
-}
-
 /// One part: its name, one cell a trial, how many pass, how long it took.
 fn part_lines(group: &PartGroup<'_>, bar: usize, style: Style) -> Vec<String> {
     let number = group.number.map_or_else(|| " ".to_owned(), |number| number.to_string());
-    let asked = asked(group);
+    let asked: Vec<_> = group.asked().collect();
     let passes = Tally::of(asked.iter().copied()).count(Status::Pass);
     let counts = match asked.len() {
         0 => "not asked".to_owned(),

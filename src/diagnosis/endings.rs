@@ -94,15 +94,21 @@ fn headline(
     let place = format!("`{}` in furnace_core.h", kind.request);
     // Equal endings: one is told.
     let sentences = cases.iter().find_map(|seen| sentence(seen)).into_iter().collect();
-    let told = Headline::of(evidence, explains, sentences);
+    let told = Headline { is_ending: true, ..Headline::of(evidence, explains, sentences) };
     match cause {
-        None => Headline { mistake: kind.mistake(), look_at: place, ..told },
+        None => Headline { mistake: kind.mistake(), look_at: place, fix: debugger(&told), ..told },
         Some(cause) => Headline {
             degree: Degree::LooksLike,
             look_at: format!("{}: {place}", cause.look_at),
             ..told.because(cause)
         },
     }
+}
+
+/// What helps where the cause is unknown.
+fn debugger(told: &Headline) -> String {
+    let case = told.explains.first().map_or("", String::as_str);
+    format!("`furnace debug {case}` prints the commands that stop a debugger there, for your core.")
 }
 
 fn sentence(seen: &Observation<'_>) -> Option<String> {
@@ -141,7 +147,8 @@ mod tests {
         let first = &diagnosis.headlines[0];
         assert_eq!(first.explains, ["bvh/b", "light/c"]);
         assert_eq!(first.mistake, "the core crashes in `intersect`: signal 11");
-        assert_eq!(first.degree, Degree::DiffersHere);
+        assert_eq!((first.degree, first.is_ending), (Degree::DiffersHere, true));
+        assert!(first.fix.starts_with("`furnace debug bvh/b` prints"), "{}", first.fix);
         assert_eq!(diagnosis.first(), Some(&bsdf::WITHOUT_PI));
     }
 

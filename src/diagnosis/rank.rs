@@ -24,6 +24,9 @@ pub struct Headline {
     /// How sure that is.
     #[serde(default)]
     pub(crate) degree: Degree,
+    /// Whether the core crashed there, or did not answer in time: that is seen, whatever made it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) is_ending: bool,
     /// The mistake as one sentence without full stop.
     pub mistake: String,
     /// Where in a path tracer.
@@ -87,7 +90,7 @@ impl Headline {
     }
 
     /// The number of the part it is told in.
-    fn part(&self) -> u32 {
+    pub(crate) fn part(&self) -> u32 {
         let parts = self.explains.iter().filter_map(|case| Part::of_case(case));
         let earliest = parts.map(|part| part.number).min().unwrap_or(u32::MAX);
         earliest.max(cause::find(&self.cause).map_or(0, part_of_mistake))
@@ -173,7 +176,9 @@ impl Ranked {
         let unexplained = without_cause.flat_map(|headline| headline.explains.clone()).collect();
         let causes = behind_what_differs_below(this.causes, this.differing);
         let kinds = [this.endings, causes, this.beside];
-        Diagnosis { headlines: kinds.into_iter().flatten().collect(), unexplained }
+        let mut headlines: Vec<_> = kinds.into_iter().flatten().collect();
+        rule_out_once(&mut headlines);
+        Diagnosis { headlines, unexplained }
     }
 
     /// Graded headlines that tell a cause.
@@ -496,6 +501,16 @@ fn each_once(all: Vec<RuledOut>) -> Vec<String> {
     first.take(EVIDENCE).map(|RuledOut { what, why }| format!("{what} ({why})")).collect()
 }
 
+/// What several headlines exclude, each with its own numbers, is excluded by the first; what one of them tells by none.
+fn rule_out_once(headlines: &mut [Headline]) {
+    // As `each_once` has put it: what, and in brackets why.
+    let what = |told: &str| told.split(" (").next().unwrap_or(told).to_owned();
+    let mut known: BTreeSet<_> = headlines.iter().map(|one| what(&one.mistake)).collect();
+    for headline in headlines {
+        headline.ruled_out.retain(|told| known.insert(what(told)));
+    }
+}
+
 /// What no cause explains may follow from a headline whose cases prove what it rests on and that is not refuted: of those
 /// from the one that explains the most, of equals from the first. Answers what is left.
 fn attribute(
@@ -551,6 +566,22 @@ mod tests {
     fn nothing_failed_and_nothing_is_blamed() {
         let made = Made::new().with("bsdf/a", passing());
         assert_eq!(diagnose(&made.evidence()), super::Diagnosis::default());
+    }
+
+    #[test]
+    fn what_is_ruled_out_stands_once_and_never_beside_itself() {
+        let told = |mistake: &str, out: &[&str]| super::Headline {
+            mistake: mistake.to_owned(),
+            ruled_out: out.iter().map(|one| (*one).to_owned()).collect(),
+            ..Default::default()
+        };
+        let mut told = [
+            told("no shadows", &["no cosine (would give 2)", "two lights (it is dark)"]),
+            told("two lights", &["no cosine (would give 3)", "no shadows (x)", "no pi (grey)"]),
+        ];
+        super::rule_out_once(&mut told);
+        assert_eq!(told[0].ruled_out, ["no cosine (would give 2)"]);
+        assert_eq!(told[1].ruled_out, ["no pi (grey)"]);
     }
 
     #[test]

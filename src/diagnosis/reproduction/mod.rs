@@ -646,11 +646,12 @@ fn refuted(cause: &'static Cause, cases: &[String]) -> Refuted {
 fn suspicions(set: &[Mistake], cases: &[&Observation<'_>], degree: Degree) -> Vec<Suspicion> {
     let names: Vec<_> = cases.iter().map(|seen| seen.case.to_owned()).collect();
     let together = if set.len() > 1 { " beside the others" } else { "" };
-    let (shown, rest) = names.split_at(names.len().min(CASES));
-    let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
+    let in_cases = match &names[..] {
+        [first, _, ..] => format!("{first} and {} more", names.len() - 1),
+        _ => names.concat(),
+    };
     let sentence = format!(
-        "the bench's own core with this mistake{together} gives the same numbers in {}{more}",
-        shown.join(", ")
+        "the bench's own core with this mistake{together} gives the same numbers in {in_cases}"
     );
     let suspicion = |mistake: &Mistake| Suspicion {
         cause: mistake.cause,

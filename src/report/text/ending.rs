@@ -58,7 +58,8 @@ fn cause(core: &str, headline: &Headline, others: &str, style: Style) -> Vec<Str
         true => head(style, Paint::Bad, "FAIL", &what),
         false => head(style, Paint::Unknown, "NOTE", &format!("{what} (not graded)")),
     };
-    let label = if headline.degree == Degree::DiffersHere { "found" } else { "cause" };
+    let is_known = headline.is_ending || headline.degree > Degree::DiffersHere;
+    let label = if is_known { "cause" } else { "found" };
     let sentence = labelled(label, &headlines::sentence(headline), style);
     lines.extend(sentence.iter().map(|line| style.paint(Paint::Strong, line)));
     let seen = headline.evidence.first().map_or("", String::as_str);

@@ -48,6 +48,7 @@ pub(super) fn count(headline: &Headline) -> String {
     let mut words = match headline.degree {
         Degree::Named => format!("one cause explains {failures}"),
         Degree::LooksLike => format!("looks like one cause of {failures}"),
+        Degree::DiffersHere if headline.is_ending => format!("the core stops here: {failures}"),
         Degree::DiffersHere => format!("differs here: {failures} without a known cause"),
     };
     if !headline.may_follow.is_empty() {

@@ -257,8 +257,8 @@ fn a_core_that_crashes_everywhere_is_told_once() {
     let text = plain(example);
     assert_eq!(text.matches("CRASHED").count(), 0, "{text}");
     let told = end(&text);
-    assert!(told.starts_with("  FAIL  differs here: 12 failures without a known cause on builtin"));
-    assert!(told.contains("  found   The core crashes in `render`: abort."), "{text}");
+    assert!(told.starts_with("  FAIL  the core stops here: 12 failures on builtin"), "{text}");
+    assert!(told.contains("  cause   The core crashes in `render`: abort."), "{text}");
     assert_eq!(text.matches("  try     ").count(), 1, "{text}");
 }
 

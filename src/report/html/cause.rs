@@ -1,9 +1,9 @@
 //! A cause in the page: the mistake in one sentence, how sure that is, what speaks for it, what takes it away, where to
 //! look, one command, and the failing cases that it explains.
 
-use super::parts::{command, folded_rows};
+use super::parts::{command, folded_rows, with_code};
 use super::{View, plot};
-use crate::case::Part;
+use crate::case::PARTS;
 use crate::diagnosis::{Degree, Headline};
 use crate::report::digest::capitalised;
 use crate::report::transplants::proofs;
@@ -15,8 +15,9 @@ use maud::{Markup, html};
 const CASES: usize = 5;
 /// Sentences that are shown before the others are folded away.
 const SENTENCES: usize = 3;
-/// Causes that are printed whole; of the others paper says what, where and how to mend it.
+/// Causes that are printed whole, and those of which paper says what, where and how to mend it.
 const PRINTED_WHOLE: usize = 2;
+pub(super) const PRINTED: usize = 6;
 
 /// The causes of all cores with the core of each, what is graded first. One failure without a cause is no headline.
 pub(super) fn told(tree: &RunTree) -> Vec<(&str, &Headline)> {
@@ -38,9 +39,10 @@ pub(super) fn card(
     headline: &Headline,
     [number, all]: [usize; 2],
 ) -> Markup {
-    let part = headline.explains.first().and_then(|case| Part::of_case(case));
+    let part = headline.part();
+    let part = PARTS.iter().find(|known| known.number == part);
     html! {
-        div.card.first.beside[!headline.tier.is_graded()].further[number > PRINTED_WHOLE] {
+        div.card.first.beside[!headline.tier.is_graded()].further[number > PRINTED_WHOLE].unprinted[number > PRINTED] {
             p.kicker {
                 @if number == 1 { b { "Start here. " } }
                 @if all > 1 { (number) " of " (all) " causes · " }
@@ -49,35 +51,46 @@ pub(super) fn card(
                 @if let Some(part) = part { "part " (part.number) ", " (part.title) }
             }
             h3.said { (sentence(&headline.mistake)) }
-            p.degree { b { (capitalised(headline.degree.word())) } ": " (certainty(headline.degree)) "." }
+            @let [degree, certainty] = certainty(headline);
+            p.degree { b { (degree) } ": " (certainty) "." }
             (reasons(view.tree, core, headline))
             (command(&headline.command))
-            @if let Some(plot) = evidence_plot(view.tree, core, headline) { (plot) }
+            @if let Some(plot) = evidence_plot(view.tree, core, headline, number == 1) { (plot) }
             (cases(view, core, headline))
         }
     }
 }
 
 /// The plot of a failing case that says the most.
-fn evidence_plot(tree: &RunTree, core: &str, headline: &Headline) -> Option<Markup> {
+fn evidence_plot(
+    tree: &RunTree,
+    core: &str,
+    headline: &Headline,
+    is_first: bool,
+) -> Option<Markup> {
     let explained = trials(tree, core, &headline.explains);
     let findings: Vec<_> = explained.iter().filter_map(|trial| trial.outcome.finding()).collect();
-    Some(plot::most_telling(&findings)?.markup())
+    Some(plot::most_telling(&findings, is_first)?.markup())
 }
 
-const fn certainty(degree: Degree) -> &'static str {
-    match degree {
+/// How sure that is, and what it means.
+fn certainty(headline: &Headline) -> [String; 2] {
+    let what = match headline.degree {
         Degree::Named => "this mistake alone predicts the numbers",
         Degree::LooksLike => "it fits, and others may too",
+        Degree::DiffersHere if headline.is_ending => {
+            return ["Seen", "a debugger shows what leads to it"].map(str::to_owned);
+        }
         Degree::DiffersHere => "where and by how much; no cause is known",
-    }
+    };
+    [capitalised(headline.degree.word()), what.to_owned()]
 }
 
 /// What differs without a known cause is no reason.
-const fn fails(degree: Degree) -> &'static str {
-    match degree {
-        Degree::Named | Degree::LooksLike => "Failing because of it",
-        Degree::DiffersHere => "Failing here",
+const fn fails(headline: &Headline) -> &'static str {
+    match headline.degree {
+        Degree::DiffersHere if !headline.is_ending => "Failing here",
+        _ => "Failing because of it",
     }
 }
 
@@ -87,7 +100,7 @@ fn reasons(tree: &RunTree, core: &str, headline: &Headline) -> Markup {
             @if !headline.look_at.is_empty() {
                 dt { "where" } dd { (sentence(&headline.look_at)) }
             }
-            @if !headline.fix.is_empty() { dt { "fix" } dd { (headline.fix) } }
+            @if !headline.fix.is_empty() { dt { "fix" } dd { (with_code(&headline.fix)) } }
             (list("seen", &headline.evidence))
             (list("proof", &proofs_of(tree, core, headline)))
             (list("ruled out", &headline.ruled_out))
@@ -125,7 +138,7 @@ fn cases(view: &View<'_>, core: &str, headline: &Headline) -> Markup {
     let following = trials(view.tree, core, &headline.may_follow);
     html! {
         p.kicker {
-            (fails(headline.degree)) ": " b { (explained.len()) }
+            (fails(headline)) ": " b { (explained.len()) }
             @if headline.blocked > 0 { " · not tried because of it: " b { (headline.blocked) } }
         }
         (folded_rows(view, &explained, CASES))
@@ -143,9 +156,9 @@ fn trials<'a>(tree: &'a RunTree, core: &str, cases: &[String]) -> Vec<&'a TrialR
 }
 
 /// With a full stop, and a capital unless it begins with the name of a case.
-fn sentence(words: &str) -> String {
+fn sentence(words: &str) -> Markup {
     let words = words.trim_end_matches('.');
     let is_name = words.split(' ').next().is_some_and(|word| word.contains('/'));
     let begun = if is_name { words.to_owned() } else { capitalised(words) };
-    format!("{begun}.")
+    with_code(&format!("{begun}."))
 }

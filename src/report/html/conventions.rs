@@ -1,5 +1,6 @@
 //! Conventions: what the contract fixes for every core, and what each core of the run has freely chosen.
 
+use super::parts::with_code;
 use super::shell::Page;
 use super::view::View;
 use crate::contract::{Conventions, RULES};
@@ -12,7 +13,7 @@ pub(super) fn page(view: &View<'_>) -> String {
     let body = html! {
         div.card {
             h3 { "What the contract fixes" }
-            ul { @for rule in rules() { li { (with_code(&rule)) } } }
+            ul { @for rule in rules() { li { (with_code(&rule.replace('*', ""))) } } }
         }
         div.card.wide {
             h3 { "What a core chooses, and declares" }
@@ -35,15 +36,6 @@ pub(super) fn summary(view: &View<'_>) -> Markup {
 fn rules() -> Vec<String> {
     let points = RULES.trim_start_matches("- ").split("\n- ");
     points.map(|point| point.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
-}
-
-/// Every second piece between backticks is code.
-fn with_code(words: &str) -> Markup {
-    html! {
-        @for (number, piece) in words.replace('*', "").split('`').enumerate() {
-            @if number % 2 == 1 { code { (piece) } } @else { (piece) }
-        }
-    }
 }
 
 fn table(view: &View<'_>) -> Markup {

@@ -83,10 +83,25 @@ pub(crate) fn folded_rows(view: &View<'_>, trials: &[&TrialRecord], shown: usize
     }
 }
 
+/// Words of ours, in which every second piece between backticks is code.
+pub(super) fn with_code(words: &str) -> Markup {
+    html! {
+        @for (number, piece) in words.split('`').enumerate() {
+            @if number % 2 == 1 { code { (piece) } } @else { (piece) }
+        }
+    }
+}
+
+/// A command to copy. A line ends between its words and not at their hyphens.
 pub(crate) fn command(text: &str) -> Markup {
     html! {
         div.command {
-            code { (text) }
+            code {
+                @for (number, word) in text.split(' ').enumerate() {
+                    @if number > 0 { " " }
+                    span { (word) }
+                }
+            }
             button.copy.scripted type="button" { "copy" }
         }
     }

@@ -2,7 +2,7 @@
 //! look at.
 
 use super::case::{measures, resolution};
-use super::cause::{self, told};
+use super::cause::{self, PRINTED, told};
 use super::parts::{badge, case_name, cell, command, folded_rows};
 use super::{Section, View};
 use crate::case::{Part, best_step};
@@ -44,6 +44,9 @@ fn of_trials(view: &View<'_>) -> Markup {
         @if failures.is_empty() && tally.total() > 0 { (not_failed(view, &tally)) }
         @for (number, (core, headline)) in told.iter().enumerate() {
             (cause::card(view, core, headline, [number + 1, told.len()]))
+        }
+        @if told.len() > PRINTED {
+            p.printed { (count(told.len() - PRINTED, "more cause")) " in the report on screen" }
         }
         @if told.is_empty() && let Some((first, others)) = failures.split_first() {
             (failed(view, first, others))

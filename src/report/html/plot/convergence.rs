@@ -13,6 +13,9 @@ const SHOULD: &str = "The error falls along the 1/√n guide, to a quarter with 
 /// Standard errors on each side of a 99.9 % interval.
 const THREE_NINES: f64 = 3.29;
 
+/// An error so many times the 1/√n guide has not fallen as it should.
+const STUCK: f64 = 2.0;
+
 const ERROR: Mark = Mark::new("line-a", Shape::Circle);
 const NOISE: Mark = Mark::new("line-b", Shape::Frame);
 
@@ -28,6 +31,13 @@ impl Convergence {
         let (_, [error, _, noise]) = self.places().last()?;
         let square = error.powi(2) - noise.powi(2) - self.reference_noise.powi(2);
         square.is_finite().then(|| square.max(0.0).sqrt())
+    }
+
+    /// Whether something is left that samples do not take away: bias, or noise that does not fall.
+    pub(super) fn is_wrong(&self) -> bool {
+        let ends = (guide(self).pop(), self.places().last());
+        let (Some([_, fallen]), Some((_, [error, ..]))) = ends else { return false };
+        self.bias().is_some() || error > STUCK * fallen
     }
 
     /// The plateau, where it is more than the noise of one picture can bring.
@@ -164,6 +174,16 @@ mod tests {
         let noisy = drawn(&errors(0.0, 0.1));
         assert!(noisy.contains("the reference itself has a noise of 10 %"), "{noisy}");
         assert!(!noisy.contains("plateau: bias"));
+    }
+
+    #[test]
+    fn an_error_that_falls_as_noise_does_shows_nothing_wrong() {
+        assert!(!errors(0.0, 0.0).is_wrong());
+        assert!(errors(0.1, 0.0).is_wrong());
+        let mut repeated = errors(0.0, 0.0);
+        repeated.noise = OneLine::rounded([0.5; 5]);
+        repeated.error = repeated.noise.clone();
+        assert!(repeated.bias().is_none() && repeated.is_wrong());
     }
 
     #[test]

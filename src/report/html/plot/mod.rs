@@ -35,11 +35,16 @@ pub(super) fn tell_once(plots: &mut [Figure]) {
     }
 }
 
-/// Of plots that are small enough for the page of the run the first by bounces, which say where light goes wrong, or else
-/// the first of all.
-pub(super) fn most_telling(findings: &[&Finding]) -> Option<Figure> {
-    let is_small = |series: &&Series| !matches!(series, Series::Directions(_));
-    let mut series = findings.iter().flat_map(|finding| &finding.series).filter(is_small);
+/// The first plot by bounces, which says where light goes wrong; or else the first of those that show what fails. Maps of
+/// directions are heavy: they are for `large` places.
+pub(super) fn most_telling(findings: &[&Finding], large: bool) -> Option<Figure> {
+    let tells = |series: &&Series| match series {
+        Series::Directions(counts) => large && counts.chi_square > counts.critical,
+        // An error that falls as noise does says nothing of a cause.
+        Series::Convergence(errors) => errors.is_wrong(),
+        _ => true,
+    };
+    let mut series = findings.iter().flat_map(|finding| &finding.series).filter(tells);
     let by_bounce = findings.iter().find_map(|finding| energy::plot(finding));
     by_bounce.or_else(|| series.find_map(of_series))
 }

@@ -104,6 +104,7 @@ async function driveViewer(viewer) {
 async function drive() {
   const started = typeof viewers === 'undefined' ? [] : await viewers;
   await frameOfBrowser();
+  await Promise.all(started.map(viewer => viewer?.unpacked));
   if (started[0]) await driveViewer(started[0]);
   const loaded = performance.getEntriesByType('resource').map(entry => entry.name);
   seen.fetched = loaded.filter(name => !/^(file|data|blob):/.test(name));

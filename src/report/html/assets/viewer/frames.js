@@ -7,10 +7,17 @@ async function unpackFrames({ width, height, frames }) {
     Object.assign(frame, await unpack(packed.image, frame.pixels));
     if (packed.noise) frame.noise = await unpack(packed.noise, frame.pixels);
     frame.mean = meanLuminance(frame);
-    const layer = async ({ name, image }) => [name, await unpack(image, frame.pixels)];
-    frame.layers = new Map(await Promise.all(packed.layers.map(layer)));
+    frame.layers = new Map(packed.layers.map(({ name, image }) => [name, image]));
     return frame;
   }));
+}
+
+/** Unpacks the parts of the images, which are many: the page is there before them. */
+async function unpackLayers(frames) {
+  for (const frame of frames) {
+    for (const [name, image] of frame.layers) frame.layers.set(name, await unpack(image, frame.pixels));
+    frame.hasParts = true;
+  }
 }
 
 function meanLuminance(frame) {
@@ -35,7 +42,7 @@ function partsOf(frames) {
 
 /** A part of an image, made once; all of one that does not have it, which its label says. */
 function partOf(frame, part) {
-  if (part === WHOLE || !isRadiance(frame)) return frame;
+  if (part === WHOLE || !isRadiance(frame) || !frame.hasParts) return frame;
   frame.made = frame.made || new Map();
   if (!frame.made.has(part)) frame.made.set(part, makePart(frame, part));
   return frame.made.get(part);

@@ -28,6 +28,8 @@ async function startViewer(root) {
   addEventListener('hashchange', restore);
   root.classList.add('started');
   restore();
+  const drawn = new Promise(done => requestAnimationFrame(() => setTimeout(done)));
+  viewer.unpacked = drawn.then(() => unpackLayers(frames)).then(redraw).catch(error => tell(root, error));
   return viewer;
 }
 
@@ -96,7 +98,9 @@ function drawAll(viewer) {
   viewer.bars.replaceChildren(...drawn);
 }
 
-const viewers = Promise.all(all('.viewer:has(script)').map(root => startViewer(root).catch(error => {
-  // The images without scripts stay.
+/** The images without scripts stay. */
+function tell(root, error) {
   root.append(make('p', { className: 'bad' }, `The viewer does not start: ${error.message}`));
-})));
+}
+
+const viewers = Promise.all(all('.viewer:has(script)').map(root => startViewer(root).catch(error => tell(root, error))));

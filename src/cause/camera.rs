@@ -52,7 +52,7 @@ causes! {
         at "camera ray generation, where film coordinates become a direction",
         fix "x runs along a row of the image, y along a column.";
     FILM_NOT_CENTRED = "film-not-centred":
-        "the film is not centred: (0, 0) looks straight ahead, not (½, ½)",
+        "the film is not centred: a corner of it looks straight ahead, not (½, ½)",
         at "camera ray generation, where film coordinates become a direction",
         fix "Map film coordinates with 2x − 1, so that the centre (½, ½) looks straight ahead.";
     HALF_PIXEL_TWICE = "half-pixel-twice":

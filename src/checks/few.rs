@@ -11,11 +11,15 @@ pub(crate) enum Few<T> {
     Both(Vec<T>),
 }
 
-/// Every mistake that fits alone, or else what all pairs that fit have in common.
+/// Every mistake that fits alone, or else what all pairs that fit have in common. None where nothing wrong fits as well:
+/// a mistake that does not show here would fit too.
 pub(crate) fn few_that_fit<'a, Mistake>(
     known: &'a [Mistake],
     fits: impl Fn(&[&'a Mistake]) -> bool,
 ) -> Few<&'a Mistake> {
+    if fits(&[]) {
+        return Few::OneOf(Vec::new());
+    }
     let alone: Vec<_> = known.iter().filter(|one| fits(&[one])).collect();
     if !alone.is_empty() {
         return Few::OneOf(alone);
@@ -68,6 +72,12 @@ mod tests {
         assert_eq!(of_product(&[2, 3, 5, 6], 6), Few::OneOf(vec![&6]));
         assert_eq!(of_product(&[2, 3, 5, 6], 15), Few::Both(vec![&3, &5]));
         assert!(of_product(&[2, 3, 5, 6], 7).is_empty());
+    }
+
+    #[test]
+    fn what_is_right_needs_no_mistake_that_changes_nothing() {
+        assert!(of_product(&[1, 2, 3], 1).is_empty());
+        assert_eq!(of_product(&[1, 2, 3], 2), Few::OneOf(vec![&2]));
     }
 
     #[test]

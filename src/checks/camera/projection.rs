@@ -86,8 +86,9 @@ pub(crate) const MISTAKES: &[Mistake] = &[
     }),
     mistake(&camera::FILM_TRANSPOSED, |p| Projection { film: |_, film| film.yx(), ..p }),
     mistake(&camera::FILM_NOT_CENTRED, |p| Projection { film: |_, film| 0.5 * film + 0.5, ..p }),
-    // On a sensor of the right size.
+    // On a sensor of the right size: to the one side and to the other.
     mistake(&camera::FILM_NOT_CENTRED, |p| Projection { film: |_, film| film + 0.5, ..p }),
+    mistake(&camera::FILM_NOT_CENTRED, |p| Projection { film: |_, film| film - 0.5, ..p }),
     mistake(&camera::HALF_PIXEL_TWICE, |p| Projection {
         film: |camera, film| film + 0.5 / DVec2::from(camera.film.map(f64::from)),
         ..p

@@ -113,9 +113,6 @@ fn direction_complaint(
 
 /// The mistakes that predict every direction, the right ones among them.
 fn explanation(shots: &[Shot], film: &[DVec2], allowed: f64) -> Few<&'static Cause> {
-    if errors(shots, film, Projection::RIGHT).all(|error| error <= allowed) {
-        return Few::OneOf(Vec::new());
-    }
     // A mistake may magnify rounding, but not a hundredfold; different mistakes are degrees apart.
     let explains = |made: &[&Mistake]| {
         let formula =

@@ -6,6 +6,7 @@ use super::style::{Paint, Style, clean, cut, paint_of};
 use super::subject::{Subject, subjects};
 use crate::case::Part;
 use crate::checks::{Finding, Measure};
+use crate::image::CHANNELS;
 use crate::report::digest::{in_order_of_parts, ungraded_failures};
 use crate::report::measure::{MeasureWords, worst_in_order};
 use crate::report::transplants::sentences;
@@ -21,6 +22,8 @@ use std::collections::BTreeMap;
 const MOST: usize = 5;
 /// Measures shown of a failure, the worst of them.
 const MEASURES: usize = 4;
+/// Columns for the name of a measure.
+const NAME: usize = 30;
 /// Reasons told why something was not tried, those of the most cases.
 const REASONS: usize = 3;
 /// Lines shown of what a core printed before it crashed.
@@ -189,7 +192,22 @@ fn table(measures: &[&Measure], style: Style) -> Vec<String> {
 
 fn row(measure: &Measure) -> [String; 5] {
     let words = MeasureWords::of(measure);
-    [cut(&words.name, 30), words.measured, words.expected, words.allowed, words.off_by]
+    [brief(&words.name), words.measured, words.expected, words.allowed, words.off_by]
+}
+
+/// A name cut before its channel, which tells it from others: `brightness of the wh..., red`.
+fn brief(name: &str) -> String {
+    let is_channel = |last: &str| {
+        let begins = |word: &str| last.starts_with(word);
+        begins("luminance") || CHANNELS.iter().any(|channel| begins(&channel.to_string()))
+    };
+    match name.rsplit_once(", ").filter(|(_, last)| is_channel(last)) {
+        Some((of, last)) => {
+            let room = NAME.saturating_sub(2 + last.chars().count());
+            format!("{}, {last}", cut(of, room))
+        }
+        None => cut(name, NAME),
+    }
 }
 
 /// Names to the left, numbers to the right.
@@ -246,5 +264,20 @@ fn reason(outcome: &Outcome) -> String {
     match outcome {
         Outcome::Blocked { by } => format!("{by} failed, and these rest on it"),
         _ => outcome.statement(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_name_keeps_its_channel() {
+        assert_eq!(brief("bounce 2, red"), "bounce 2, red");
+        let long = brief("brightness of the whole picture, green");
+        assert_eq!(long, "brightness of the wh..., green");
+        let whole = brief("pixels that see another shape, of 12123");
+        assert_eq!(whole, "pixels that see another sha...");
+        assert!(brief("a name without any part that is very long").ends_with("..."));
     }
 }

@@ -55,6 +55,10 @@ causes! {
         "bounces go in wrong directions: their energy is right, their distribution is not",
         at "indirect light, where the sampled local direction becomes a ray",
         fix "Transform with the local-to-world matrix of the shading frame, not its transpose.";
+    FIXED_LENGTH = "fixed-length":
+        "a length in the code does not grow with the scene: an offset of rays (ε), or a threshold",
+        at "offsets of rays and t_min; thresholds for determinants, distances and areas",
+        fix "Take ε relative to what it stands beside: the coordinates of the hit, the edges of a triangle, the distance.";
     EMISSION_LOST = "emission-lost-in-sum":
         "directly visible emission (bounce 0) is missing from the accumulated image",
         at "the sum over bounces, where bounce 0 is added",

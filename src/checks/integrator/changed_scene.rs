@@ -5,8 +5,6 @@ use crate::scene::{Light, SceneDescription};
 /// A power of two, so that doubling commutes with every rounding.
 pub(super) const BRIGHTER: f64 = 2.0;
 
-pub(super) const LARGER: f64 = 2.0;
-
 /// The scene with every light [`BRIGHTER`].
 pub(super) fn brightened(scene: &SceneDescription) -> SceneDescription {
     let mut scene = scene.clone();
@@ -68,20 +66,20 @@ fn darken(scene: &mut SceneDescription, shape: u32) {
     }
 }
 
-/// The scene [`LARGER`]; a point light needs that much squared to light it as before.
-pub(super) fn enlarged(scene: &SceneDescription) -> SceneDescription {
+/// The scene so many times as large; a point light needs that much squared to light it as before.
+pub(super) fn scaled(scene: &SceneDescription, factor: f64) -> SceneDescription {
     let mut scene = scene.clone();
     for position in scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.positions) {
-        *position *= LARGER;
+        *position *= factor;
     }
     for sphere in &mut scene.spheres {
-        sphere.centre *= LARGER;
-        sphere.radius *= LARGER;
+        sphere.centre *= factor;
+        sphere.radius *= factor;
     }
     for light in &mut scene.lights {
         if let Light::Point { position, intensity } = light {
-            *position *= LARGER;
-            intensity.iter_mut().for_each(|value| *value *= LARGER * LARGER);
+            *position *= factor;
+            intensity.iter_mut().for_each(|value| *value *= factor * factor);
         }
     }
     scene

@@ -1,6 +1,6 @@
 //! What twice the light, one light of two and twice the size make of the radiance along a ray.
 
-use super::changed_scene::{BRIGHTER, LARGER, brightened, enlarged, only};
+use super::changed_scene::{BRIGHTER, brightened, only, scaled};
 use super::estimate::{estimate, judge_difference};
 use crate::cause::{Cause, light};
 use crate::checks::{Measure, Result};
@@ -118,20 +118,21 @@ impl Trial {
         })
     }
 
-    /// Everything twice as large, and the ray starts twice as far away.
+    /// Everything `factor` times as large, and the ray starts as many times as far away.
     pub(super) fn ignores_size(
         &self,
         core: &mut dyn Core,
         scene: &SceneDescription,
+        factor: f64,
     ) -> Result<Vec<Measure>> {
-        let large = enlarged(scene);
-        let far = Ray { origin: LARGER * self.ray.origin, ..self.ray };
+        let other = scaled(scene, factor);
+        let from_there = Ray { origin: factor * self.ray.origin, ..self.ray };
         let scale = self.mean(core, scene, self.ray, self.seed.child("scale"), SCALE_SAMPLES)?;
         let reports = judge_difference(scale, &self.effort, self.seed, &mut |seed, samples| {
             let one = self.mean(core, scene, self.ray, seed.child("one"), samples)?;
-            let two = self.mean(core, &large, far, seed.child("two"), samples)?;
+            let two = self.mean(core, &other, from_there, seed.child("two"), samples)?;
             Ok([0, 1, 2].map(|c| two[c] - one[c]))
         })?;
-        Ok(Measure::of_channels("twice as large minus as it is", &reports))
+        Ok(Measure::of_channels(&format!("{factor} times as large minus as it is"), &reports))
     }
 }

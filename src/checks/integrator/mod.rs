@@ -21,6 +21,7 @@ mod roulette_law;
 mod roulette_stops_paths;
 mod same_seed_same_picture;
 mod seeds_matter;
+mod size_does_not_matter;
 mod variance_is_known;
 
 pub(crate) use changed_scene::lit_by;
@@ -32,6 +33,7 @@ checks! {
     mean_radiance::MeanRadiance,
     estimators_agree::EstimatorsAgree,
     radiance_is_linear::RadianceIsLinear,
+    size_does_not_matter::SizeDoesNotMatter,
     bounces_add_up::BouncesAddUp,
     roulette_stops_paths::RouletteStopsPaths,
     same_seed_same_picture::SameSeedSamePicture,

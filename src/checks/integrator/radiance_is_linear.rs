@@ -8,6 +8,9 @@ use crate::contract::{Capabilities, DirectSampling};
 use crate::text::number::apart;
 use crate::text::{Bounces, Count, Percent};
 
+/// Everything is so many times as large.
+const LARGER: f64 = 2.0;
+
 check! {
     pub(crate) struct RadianceIsLinear {
         ray: RayEntry,
@@ -44,7 +47,7 @@ impl Check for RadianceIsLinear {
             true => trial.what_lights_make_of_each_other(context.core, &scene)?,
             false => None,
         };
-        measures.extend(trial.ignores_size(context.core, &scene)?);
+        measures.extend(trial.ignores_size(context.core, &scene, LARGER)?);
         let complaint = measures.iter().find(|measure| measure.failed()).map(|measure| {
             let [measured, expected] = apart([measure.measured, measure.expected]);
             format!("light does not add up: {} is {measured} instead of {expected}", measure.name())

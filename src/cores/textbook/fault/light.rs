@@ -1,7 +1,7 @@
 //! Part 3: lights and direct light.
 
 use super::faults;
-use crate::cause::{convention, light};
+use crate::cause::{convention, integrator, light};
 use crate::contract::{DirectSampling, Ray};
 use crate::cores::textbook as lesson;
 use glam::{DVec2, DVec3};
@@ -112,6 +112,9 @@ faults! { part 3;
     "shadow-acne": "rays that leave a surface have no min_t",
         fails "light/point-light-at-the-camera-sees-no-shadows", told light::SHADOW_ACNE,
         clearance = |_| 0.0;
+    "offset-of-fixed-length": "rays start 1e-3 ahead, however large the scene is",
+        fails "integrator/radiance-is-the-same-at-every-size", told integrator::FIXED_LENGTH,
+        clearance = |_| 1e-3;
     "divided-in-loop": "`L_out /= n` inside the loop over lights",
         fails "light/every-light-is-divided-by-its-own-samples", told light::DIVIDED_IN_LOOP,
         sum_over_lights = |each, samples| {

@@ -1,6 +1,7 @@
 //! What questions are asked with: each type of argument says once how it crosses.
 
 use super::crossing::{Element, Malformed, Part, Received, Request, Sent};
+use super::work::{of_path, of_pixel};
 use super::{
     AdaptiveSettings, Capabilities, IntegratorSettings, Primitive, Randomness, RenderSettings,
     Sampler,
@@ -33,6 +34,11 @@ pub trait Argument<'a>: Copy {
         None
     }
 
+    /// What each element of the answer takes because of it, in times of a ray that meets little.
+    fn work(self) -> u64 {
+        1
+    }
+
     /// What a core needs to understand it: what is younger than the contract is not shown to cores that do not say
     /// that they know it.
     fn needs(self) -> Capabilities {
@@ -56,7 +62,7 @@ pub(crate) fn size_of_answer<const N: usize>(sizes: [Option<[usize; 2]>; N]) -> 
 
 /// Members of the header.
 macro_rules! members {
-    ($($of:ty: $kept:ty, |$it:ident| $lent:expr $(, $method:ident = $by:path => $answer:ty)?;)*) => { $(
+    ($($of:ty: $kept:ty, |$it:ident| $lent:expr $(, $method:ident = $by:path => $answer:ty)*;)*) => { $(
         impl<'a> Argument<'a> for $of {
             type Kept<'b> = $kept;
             const PARTS: &'static [Part] = &[Part::member("")];
@@ -75,7 +81,7 @@ macro_rules! members {
 
             $(fn $method(self) -> $answer {
                 $by(self)
-            })?
+            })*
         }
     )* };
 }
@@ -84,10 +90,10 @@ members! {
     f64: f64, |number| *number;
     Sampler: Sampler, |sampler| *sampler;
     &'a Camera: Camera, |camera| camera;
-    &'a IntegratorSettings: IntegratorSettings, |settings| settings;
+    &'a IntegratorSettings: IntegratorSettings, |settings| settings, work = of_path => u64;
     &'a Material: Material, |material| material, needs = needed_by => Capabilities;
     &'a RenderSettings: RenderSettings, |settings| settings,
-        size = size_of_picture => Option<[usize; 2]>;
+        size = size_of_picture => Option<[usize; 2]>, work = of_pixel => u64;
 }
 
 /// What a core has to know before it is shown a material.

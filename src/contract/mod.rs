@@ -28,6 +28,7 @@ pub mod questions;
 mod settings;
 pub(crate) mod turned;
 pub mod validate;
+mod work;
 
 pub use batch::{
     AdaptiveMean, BoxHit, BsdfQuery, BsdfSample, BsdfValue, DirectionSample, Hit, LightSample,
@@ -48,6 +49,7 @@ pub use settings::{
 };
 
 pub use crate::math::Precision;
+pub(crate) use work::Work;
 
 use question::*;
 

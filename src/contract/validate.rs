@@ -9,6 +9,7 @@ use super::answer::{Answer, Asked, Unformed};
 use super::argument::{Argument, needed_by, size_of_answer};
 use super::crossing::Request;
 use super::question::*;
+use super::work::{self, Work};
 use super::{Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -18,6 +19,9 @@ pub struct Validated<'a> {
     capabilities: Capabilities,
     primitives_of_shape: Vec<usize>,
     unformed: Unformed,
+    work: Work,
+    /// Of each element that it is asked.
+    work_of_one: u64,
 }
 
 /// A built scene whose answers have the contract's form, or else are errors.
@@ -26,6 +30,9 @@ struct ValidatedScene<'a> {
     capabilities: Capabilities,
     primitives_of_shape: Vec<usize>,
     unformed: Unformed,
+    work: Work,
+    /// Of each element that it is asked.
+    work_of_one: u64,
 }
 
 impl<'a> Validated<'a> {
@@ -45,9 +52,15 @@ impl<'a> Validated<'a> {
         Self::before(core, Unformed::Left)
     }
 
+    /// The same, where what is asked is counted.
+    pub(crate) fn counted(self, work: &Work) -> Self {
+        Self { work: work.clone(), ..self }
+    }
+
     fn before(core: &'a mut dyn Core, unformed: Unformed) -> Self {
         let capabilities = core.info().capabilities;
-        Self { core, capabilities, primitives_of_shape: vec![1], unformed }
+        let work = Work::default();
+        Self { core, capabilities, primitives_of_shape: vec![1], unformed, work, work_of_one: 1 }
     }
 }
 
@@ -69,6 +82,8 @@ macro_rules! validated {
             if asked.size.contains(&0) {
                 return Ok(Default::default());
             }
+            let work = self.work_of_one $(* Argument::work($arg))*;
+            self.work.add(work * (asked.size[0] * asked.size[1]) as u64);
             $out.untouch(&asked);
             let told =
                 guarded(stringify!($method), || self.$behind.$method($($arg,)* &mut *$out))?;
@@ -99,9 +114,18 @@ impl Core for Validated<'_> {
         knows(capabilities, needed)?;
         let of_meshes = scene.meshes.iter().map(|mesh| mesh.indices.len());
         let primitives_of_shape = of_meshes.chain(scene.spheres.iter().map(|_| 1)).collect();
-        let unformed = self.unformed;
+        self.work.add(scene.primitive_count() as u64);
+        let work_of_one = work::of_ray(scene, how);
+        let (unformed, work) = (self.unformed, self.work.clone());
         let scene = guarded("build_scene", || self.core.build_scene(scene, how))?;
-        Ok(Box::new(ValidatedScene { scene, capabilities, primitives_of_shape, unformed }))
+        Ok(Box::new(ValidatedScene {
+            scene,
+            capabilities,
+            primitives_of_shape,
+            unformed,
+            work,
+            work_of_one,
+        }))
     }
 }
 

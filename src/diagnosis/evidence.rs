@@ -40,8 +40,8 @@ pub(crate) struct Observation<'a> {
     pub(crate) ending: Option<Ending<'a>>,
     pub(crate) finding: Option<&'a Finding>,
     pub(crate) rerun: &'a str,
-    /// Seconds it took.
-    pub(crate) seconds: f64,
+    /// How much the core was asked.
+    pub(crate) work: u64,
     /// What the core took from the bench.
     pub(crate) with: Components,
 }

@@ -550,7 +550,7 @@ fn attribute(
 fn quickest(evidence: &Evidence<'_>, cases: &[String]) -> String {
     let failures = evidence.failures().chain(evidence.failures_of_robustness());
     let failures = failures.filter(|seen| cases.iter().any(|case| case == seen.case));
-    let quickest = failures.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    let quickest = failures.min_by_key(|seen| seen.work);
     quickest.map(|seen| seen.rerun.to_owned()).unwrap_or_default()
 }
 

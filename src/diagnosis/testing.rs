@@ -43,7 +43,7 @@ pub(crate) struct Made {
     resting: Vec<(String, Vec<Foundation>)>,
     proving: Vec<(String, Vec<Foundation>)>,
     ended: Vec<(String, Ending<'static>)>,
-    seconds: f64,
+    work: u64,
     pub(crate) conventions: Conventions,
 }
 
@@ -51,8 +51,8 @@ impl Made {
     pub(crate) fn new() -> Self {
         let (findings, blocked, conventions) = Default::default();
         let (tiers, specular, resting, proving, ended) = Default::default();
-        let seconds = 1.0;
-        Self { findings, blocked, tiers, specular, resting, proving, ended, seconds, conventions }
+        let work = 1;
+        Self { findings, blocked, tiers, specular, resting, proving, ended, work, conventions }
     }
 
     pub(crate) fn with(mut self, case: impl Into<Name>, finding: Finding) -> Self {
@@ -96,9 +96,9 @@ impl Made {
         self
     }
 
-    /// The same where each trial took so long.
-    pub(crate) fn taking(self, seconds: f64) -> Self {
-        Self { seconds, ..self }
+    /// The same where each trial asked so much.
+    pub(crate) fn taking(self, work: u64) -> Self {
+        Self { work, ..self }
     }
 
     pub(crate) fn blocked(mut self, case: &str, by: &str) -> Self {
@@ -135,7 +135,7 @@ impl Made {
         let observed = tried.chain(blocked).chain(ended).map(|seen| Observation {
             rests_on: of_case(&self.resting, seen.case).to_vec(),
             proves: of_case(&self.proving, seen.case),
-            seconds: self.seconds,
+            work: self.work,
             ..seen
         });
         Evidence::new(observed.collect(), self.conventions)
@@ -162,7 +162,7 @@ fn observation<'a>(
         ending: None,
         finding,
         rerun: case,
-        seconds: 1.0,
+        work: 1,
         with: Components::empty(),
     }
 }

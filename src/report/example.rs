@@ -217,6 +217,7 @@ pub(crate) fn trial(core: &str, case: &str) -> TrialRecord {
         budget: Budget::Default,
         seed: seed.0,
         outcome: Outcome::Judged { finding: if is_random { agreeing(seed) } else { exact(seed) } },
+        work: 0,
         pictures: if case.starts_with("image/") { pictures(name) } else { Vec::new() },
         printed: String::new(),
         rerun: format!("cargo furnace run {case} --core {core}"),

@@ -11,7 +11,7 @@ use crate::checks::breach::failure_beside;
 use crate::checks::{CheckError, Context, Finding, Picture};
 use crate::contract::turned::Turned;
 use crate::contract::validate::Validated;
-use crate::contract::{Capabilities, Components, Core, CoreError};
+use crate::contract::{Capabilities, Components, Core, CoreError, Work};
 use crate::cores::HostError;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
@@ -56,6 +56,7 @@ pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended 
             Outcome::of(Err(CoreError::Unsupported(Capabilities::TRAVERSAL_STATS).into()));
     }
     let mut record = record_of(bench, trial, attempt.outcome);
+    record.work = attempt.work;
     record.tier = attempt.tier;
     record.with = with;
     if !with.is_empty() && trial.core.command().is_none() {
@@ -147,6 +148,7 @@ fn record_of(bench: &Bench, trial: &Trial, outcome: Outcome) -> TrialRecord {
         budget: bench.allowance.budget,
         seed: bench.seed_of(case).0,
         outcome,
+        work: 0,
         pictures: Vec::new(),
         printed: String::new(),
         rerun: rerun_command(bench, trial),
@@ -163,13 +165,15 @@ pub struct Attempt {
     pub tier: Tier,
     pub(crate) scene: Option<SceneStamp>,
     pub(crate) pictures: Vec<Picture>,
+    /// How much the core was asked.
+    pub(crate) work: u64,
 }
 
 impl Attempt {
     /// Of a core that did not start.
     fn without_core(case: &Case, error: CheckError) -> Self {
         let outcome = Outcome::of(Err(error));
-        Self { outcome, tier: case.tier, scene: None, pictures: Vec::new() }
+        Self { outcome, tier: case.tier, scene: None, pictures: Vec::new(), work: 0 }
     }
 }
 
@@ -177,12 +181,13 @@ impl Attempt {
 pub fn attempt(bench: &Bench, case: &Case, core: &mut dyn Core) -> Attempt {
     let mut pictures = Vec::new();
     let mut scene = None;
+    let work = Work::default();
     let tier = case.tier_on(core.info().capabilities);
     let result = load_scene(bench, case).and_then(|loaded| {
         scene = loaded.as_deref().map(|scene| stamp(scene, &bench.motion_of(case)));
-        judge(bench, case, core, loaded, &mut pictures)
+        judge(bench, case, core, &work, loaded, &mut pictures)
     });
-    Attempt { outcome: Outcome::of(result), tier, scene, pictures }
+    Attempt { outcome: Outcome::of(result), tier, scene, pictures, work: work.done() }
 }
 
 fn load_scene(bench: &Bench, case: &Case) -> Result<Option<Arc<SceneDescription>>, CheckError> {
@@ -206,14 +211,16 @@ fn judge(
     bench: &Bench,
     case: &Case,
     core: &mut dyn Core,
+    work: &Work,
     scene: Option<Arc<SceneDescription>>,
     pictures: &mut Vec<Picture>,
 ) -> Result<Finding, CheckError> {
     let mut core = Turned::new(core, bench.motion_of(case));
-    let found = run_check(bench, case, &mut Validated::new(&mut core), scene.clone(), pictures);
+    let mut strict = Validated::new(&mut core).counted(work);
+    let found = run_check(bench, case, &mut strict, scene.clone(), pictures);
     match found {
         Err(CheckError::Core(CoreError::BrokeContract(breach))) if breach.can_be_mended() => {
-            let mut core = Validated::mending(&mut core);
+            let mut core = Validated::mending(&mut core).counted(work);
             let mended = run_check(bench, case, &mut core, scene, pictures);
             Ok(failure_beside(&breach, mended))
         }

@@ -82,7 +82,7 @@ fn observation(trial: &TrialRecord) -> Observation<'_> {
         ending: ending(&trial.outcome),
         finding: trial.outcome.finding(),
         rerun: &trial.rerun,
-        seconds: trial.timing.seconds,
+        work: trial.work,
         with: trial.with,
     }
 }

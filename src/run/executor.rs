@@ -130,12 +130,7 @@ pub fn run_in_memory(plan: &Plan) -> Vec<TrialRecord> {
         Ok(())
     });
     let Ok(()) = heard;
-    let position = |record: &TrialRecord| {
-        let is_it =
-            |trial: &Trial| trial.case.id == record.case && trial.core.as_str() == record.core;
-        plan.trials.iter().position(is_it)
-    };
-    records.sort_by_cached_key(position);
+    plan.sort(&mut records);
     records
 }
 

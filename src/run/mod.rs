@@ -10,6 +10,7 @@ pub(crate) mod executor;
 pub(crate) mod outcome;
 pub(crate) mod plan;
 mod planted;
+mod purse;
 pub mod record;
 mod schedule;
 mod search;
@@ -107,6 +108,8 @@ fn carry_out(
     let done: Vec<_> =
         outcomes.enumerate().filter_map(|(n, outcome)| Some((n, outcome?))).collect();
     records.extend(executor::run_into(plan, bench, &todo, &done, folder, events)?);
+    // Whatever was tried first, and in which process.
+    plan.sort(&mut records);
     for core in &mut record.cores {
         conclude(plan, bench, core, &records, events);
         core.score = Some(Score::of(records.iter().filter(|trial| trial.core == core.spec)));
@@ -134,7 +137,7 @@ fn conclude(
         core.transplants = search::search(plan, bench, core, records, events);
     }
     let of_core = records.iter().filter(|record| record.core == core.spec);
-    let planted = planted::PlantedFaults::new(plan, bench, search::taken(of_core));
+    let planted = planted::PlantedFaults::new(plan, bench, of_core);
     core.diagnosis = Some(match &core.transplants {
         None => diagnose::diagnose_proven(core, records, &planted),
         Some(transplants) => {

@@ -1,6 +1,7 @@
 //! What is to be run: cases × cores, in the order in which one part rests on another.
 
 use super::bench::Bench;
+use super::record::TrialRecord;
 use crate::case::{Case, Filter, NothingSelected};
 use crate::contract::Components;
 use crate::cores::{CoreSpec, Hosting};
@@ -153,6 +154,22 @@ impl Plan {
     /// Where cores live, out of sight of what is expected of them.
     pub(crate) fn hosting(&self) -> Hosting {
         self.hosting.clone().hiding(self.project.secrets())
+    }
+
+    /// The trial that a record is of.
+    pub(super) fn trial_of(&self, record: &TrialRecord) -> Option<&Trial> {
+        self.place_of(record).map(|place| &self.trials[place])
+    }
+
+    /// Puts records into the order of their trials.
+    pub(super) fn sort(&self, records: &mut [TrialRecord]) {
+        records.sort_by_cached_key(|record| self.place_of(record));
+    }
+
+    fn place_of(&self, record: &TrialRecord) -> Option<usize> {
+        let is_it =
+            |trial: &Trial| trial.core.as_str() == record.core && trial.case.id == record.case;
+        self.trials.iter().position(is_it)
     }
 
     pub(crate) fn jobs(&self) -> usize {

@@ -3,15 +3,16 @@
 use super::attempt::run_with;
 use super::bench::Bench;
 use super::plan::{Plan, Trial};
-use super::search::{Purse, each_in_parallel};
+use super::purse::{Purse, price};
+use super::record::TrialRecord;
 use crate::checks::Finding;
 use crate::contract::Components;
 use crate::cores::textbook::fault;
 use crate::diagnosis::{Mistake, Planted, Question};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// How long planted mistakes may be asked for one core, as a share of what its trials took.
+/// How much planted mistakes may be asked for one core, as a share of what its trials did.
 const SHARE: f64 = 0.25;
 
 /// What was asked: the core, the case, what was the bench's own.
@@ -50,12 +51,16 @@ pub(super) struct PlantedFaults<'a> {
     bench: &'a Bench,
     mistakes: Vec<Mistake>,
     purse: Purse,
-    known: Mutex<BTreeMap<Asked, Finding>>,
+    known: Mutex<BTreeMap<Asked, Option<Finding>>>,
 }
 
 impl<'a> PlantedFaults<'a> {
-    /// For a core whose trials took so many seconds.
-    pub(super) fn new(plan: &'a Plan, bench: &'a Bench, taken: f64) -> Self {
+    /// For a core with these trials.
+    pub(super) fn new<'r>(
+        plan: &'a Plan,
+        bench: &'a Bench,
+        records: impl Iterator<Item = &'r TrialRecord> + Clone,
+    ) -> Self {
         let mistake = |fault: &'static fault::Fault| Mistake {
             name: fault.name,
             cause: fault.cause,
@@ -63,32 +68,26 @@ impl<'a> PlantedFaults<'a> {
             caught_by: fault.caught_by,
         };
         let (mistakes, known) = (fault::all().map(mistake).collect(), Mutex::default());
-        Self { plan, bench, mistakes, purse: Purse::of_share(SHARE, taken), known }
+        Self { plan, bench, mistakes, purse: Purse::of_share(SHARE, records), known }
     }
 
-    fn answer(&self, question: &Question<'_>) -> Option<Finding> {
-        let names: Vec<_> = question.mistakes.iter().map(|mistake| mistake.name).collect();
-        let core = format!("textbook:{}", names.join("+"));
-        let asked = (core, question.case.to_owned(), question.with);
-        if let Some(known) = self.known().get(&asked) {
-            return Some(known.clone());
-        }
-        let finding = self.try_out(&asked.0, question)?;
-        self.known().insert(asked, finding.clone());
-        Some(finding)
+    /// Tries what was asked. Mistakes that exclude each other, and cases that were not selected, have no answer.
+    fn try_out(&self, (core, case, with): &Asked) -> (Option<Finding>, u64) {
+        let case = self.plan.trials.iter().find(|trial| trial.case.id == *case);
+        let (Some(case), Ok(core)) = (case, core.parse()) else { return (None, 0) };
+        let trial = Trial { case: Arc::clone(&case.case), core };
+        let ended = run_with(self.bench, &trial, *with).record;
+        (ended.outcome.finding().cloned(), price(&ended))
     }
 
-    fn try_out(&self, core: &str, question: &Question<'_>) -> Option<Finding> {
-        let core = core.parse().ok()?;
-        let case = &self.plan.trials.iter().find(|trial| trial.case.id == question.case)?.case;
-        let trial = Trial { case: Arc::clone(case), core };
-        let ended = self.purse.pay(|| run_with(self.bench, &trial, question.with))?;
-        ended.record.outcome.finding().cloned()
-    }
-
-    fn known(&self) -> MutexGuard<'_, BTreeMap<Asked, Finding>> {
+    fn known(&self) -> MutexGuard<'_, BTreeMap<Asked, Option<Finding>>> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+fn asked(question: &Question<'_>) -> Asked {
+    let names: Vec<_> = question.mistakes.iter().map(|mistake| mistake.name).collect();
+    (format!("textbook:{}", names.join("+")), question.case.to_owned(), question.with)
 }
 
 impl Planted for PlantedFaults<'_> {
@@ -97,7 +96,15 @@ impl Planted for PlantedFaults<'_> {
     }
 
     fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
-        let answer = |number: usize| Some(self.answer(&questions[number]));
-        each_in_parallel(self.plan.jobs(), questions.len(), &answer)
+        let all: Vec<_> = questions.iter().map(asked).collect();
+        let mut new: Vec<_> =
+            all.iter().filter(|asked| !self.known().contains_key(asked)).collect();
+        let mut seen = BTreeSet::new();
+        new.retain(|asked| seen.insert(*asked));
+        let answers =
+            self.purse.pay_each(self.plan.jobs(), new.len(), &|place| self.try_out(new[place]));
+        self.known().extend(new.into_iter().cloned().zip(answers));
+        let known = self.known();
+        all.iter().map(|asked| known.get(asked).cloned().flatten()).collect()
     }
 }

@@ -294,6 +294,9 @@ pub struct TrialRecord {
     pub seed: u64,
     /// How it ended.
     pub outcome: Outcome,
+    /// How much the core was asked, in the work of a ray.
+    #[serde(default)]
+    pub(crate) work: u64,
     /// Files beside this one.
     pub pictures: Vec<PictureFile>,
     /// The end of what the core printed, if it lives in a worker and did not pass.

@@ -11,31 +11,22 @@ use super::attempt::run_with;
 use super::bench::Bench;
 use super::event::Event;
 use super::outcome::Status;
-use super::plan::{Plan, Trial};
+use super::plan::Plan;
+use super::purse::{LONGEST_TRIAL, Purse, price};
 use super::record::{CoreRecord, Transplanted, Transplants, TrialRecord};
 use crate::case::asked_about;
 use crate::contract::{Capabilities, Components};
 use crate::stats::{Allowance, Budget};
-use crate::worker::crowding;
 use std::cmp::Reverse;
 use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
-/// How long the search may take for one core, as a share of what its trials took: who waits for a wrong core waits
-/// little longer. Time of all threads together, as that of trials is.
+/// How much the search may ask one core, as a share of what its trials did: who waits for a wrong core waits little
+/// longer.
 const SHARE: f64 = 0.5;
-/// It always may take so many seconds of a processor.
-const LEAST: f64 = 20.0;
-/// On a crowded machine it is waited for that so many times as long.
-const MOST_CROWDED: f64 = 4.0;
-/// What a trial of the search may take: at its budget a right core needs a second or two.
-const LONGEST_TRIAL: f64 = 10.0;
 /// What the search takes for one failing case, in times of its trial in the run: twelve components are halved four
 /// times, and each is looked at alone and with the others; each trial is shorter, but on components that cross a
 /// boundary.
-const COST: f64 = 6.0;
+const COST: u64 = 6;
 
 /// Tries the failing cases of a core again. None where nothing failed, or the core takes nothing.
 pub(crate) fn search(
@@ -47,19 +38,17 @@ pub(crate) fn search(
 ) -> Option<Transplants> {
     let of_core = records.iter().filter(|record| record.core == core.spec);
     let ended: Vec<_> =
-        of_core.filter_map(|record| Some((trial_of(plan, record)?, record))).collect();
+        of_core.filter_map(|record| Some((plan.trial_of(record)?, record))).collect();
     // What is only informational stays the core's own affair.
     let mut failing: Vec<_> = ended.iter().filter(|(_, record)| record.fails_the_core()).collect();
     if failing.is_empty() || core.components.is_empty() {
         return None;
     }
-    // Should the time be too short, it is for the longest.
-    let seconds = |record: &TrialRecord| record.timing.seconds;
-    failing.sort_by(|a, b| seconds(a.1).total_cmp(&seconds(b.1)));
-    let taken = taken(ended.iter().map(|(_, record)| *record));
-    let purse = Purse::of_share(SHARE, taken);
+    // Should there be too little for all, it is for the longest.
+    failing.sort_by_key(|(_, record)| price(record));
+    let purse = Purse::of_share(SHARE, ended.iter().map(|(_, record)| *record));
     let affordable = |cases: &[usize]| {
-        affordable(cases.iter().map(|number| seconds(failing[*number].1)), purse.seconds())
+        affordable(cases.iter().map(|number| price(failing[*number].1)), purse.left())
     };
     let allowance = Allowance { budget: Budget::Quick, stops_at_failure: true };
     let bench = Bench { allowance, ..without_patience(bench) };
@@ -67,20 +56,24 @@ pub(crate) fn search(
         let (trial, record) = failing[number];
         // So it was tried in the run.
         if record.with.contains(with) {
-            return Some(false);
+            return (Some(false), 0);
         }
-        let ended = || run_with(&bench, trial, record.with | with).record.outcome.status();
+        let ended = run_with(&bench, trial, record.with | with).record;
         // Of silence it cannot be told what would have come of waiting longer, where there was none before.
         let was_silent = record.outcome.status() == Status::TimedOut;
-        match purse.pay(ended)? {
+        let passes = match ended.outcome.status() {
             Status::TimedOut if !was_silent => None,
             // With these it cannot be asked.
             Status::Skipped | Status::Blocked | Status::Broken => None,
             ended => Some(ended == Status::Pass),
-        }
+        };
+        (passes, price(&ended))
     };
     let mut tried = |with: Components, cases: &[usize]| {
-        in_parallel(plan.jobs(), cases, &|number| passes(number, with))
+        sorted(purse.pay_each(plan.jobs(), cases.len(), &|place| {
+            let (passes, price) = passes(cases[place], with);
+            ((cases[place], passes), price)
+        }))
     };
     events(Event::Transplanting { core: &core.spec });
     // What died or hung may hang again, for longer than others take: it comes last.
@@ -119,65 +112,21 @@ pub(crate) fn search(
 /// The bench for trials with transplants: it knows nothing of the silences of a core without them.
 pub(super) fn without_patience(bench: &Bench) -> Bench {
     let mut hosting = bench.hosting.clone().patient();
-    hosting.limits.seconds = hosting.limits.seconds.map(|seconds| seconds.min(LONGEST_TRIAL));
+    hosting.limits.seconds =
+        hosting.limits.seconds.map(|seconds| seconds.min(LONGEST_TRIAL as f64));
     Bench { hosting, ..bench.clone() }
 }
 
-/// What trials that were answered took.
-pub(super) fn taken<'a>(records: impl Iterator<Item = &'a TrialRecord>) -> f64 {
-    let answered = records.filter(|record| record.outcome.status() != Status::TimedOut);
-    answered.map(|record| record.timing.seconds).sum()
-}
-
-/// How many cases of such lengths, the shortest first, can be searched in `seconds`: one at least.
-fn affordable(lengths: impl Iterator<Item = f64>, seconds: f64) -> usize {
-    let costs = lengths.scan(0.0, |sum, length| {
-        *sum += COST * length;
+/// How many cases of such prices, the cheapest first, can be searched with what is left: one at least.
+fn affordable(prices: impl Iterator<Item = u64>, left: u64) -> usize {
+    let costs = prices.scan(0, |sum, price| {
+        *sum += COST * price;
         Some(*sum)
     });
-    costs.take_while(|cost| *cost <= seconds).count().max(1)
+    costs.take_while(|cost| *cost <= left).count().max(1)
 }
 
-/// Time that is left, of all threads together.
-pub(super) struct Purse(Mutex<Duration>);
-
-impl Purse {
-    /// A share of the time that trials took.
-    pub(super) fn of_share(share: f64, taken: f64) -> Self {
-        Self::of((share * taken).max(LEAST * crowding().min(MOST_CROWDED)))
-    }
-
-    fn of(seconds: f64) -> Self {
-        Self(Mutex::new(Duration::try_from_secs_f64(seconds).unwrap_or_default()))
-    }
-
-    fn seconds(&self) -> f64 {
-        self.left().as_secs_f64()
-    }
-
-    /// Does some work, if there is time, and takes from it what that took.
-    pub(super) fn pay<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
-        if self.left().is_zero() {
-            return None;
-        }
-        let begun = Instant::now();
-        let done = work();
-        let mut left = self.left();
-        *left = left.saturating_sub(begun.elapsed());
-        Some(done)
-    }
-
-    fn left(&self) -> MutexGuard<'_, Duration> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-pub(super) fn trial_of<'a>(plan: &'a Plan, record: &TrialRecord) -> Option<&'a Trial> {
-    let is_it = |trial: &&Trial| trial.core.as_str() == record.core && trial.case.id == record.case;
-    plan.trials.iter().find(is_it)
-}
-
-/// What came of trying some cases; those that there was no time for are in neither.
+/// What came of trying some cases; those that could not be paid are in neither.
 #[derive(Debug, Default)]
 struct Tried {
     passing: Vec<usize>,
@@ -187,46 +136,13 @@ struct Tried {
 /// Tries cases with these components.
 type Try<'a> = &'a mut dyn FnMut(Components, &[usize]) -> Tried;
 
-/// Tries `cases`, several at a time.
-fn in_parallel(
-    jobs: usize,
-    cases: &[usize],
-    passes: &(dyn Fn(usize) -> Option<bool> + Sync),
-) -> Tried {
-    let tried = each_in_parallel(jobs, cases.len(), &|n| Some((cases[n], passes(cases[n])?)));
-    let (passing, failing): (Vec<_>, Vec<_>) = tried.into_iter().partition(|(_, passes)| *passes);
-    let numbers = |tried: Vec<(usize, bool)>| tried.into_iter().map(|(case, _)| case).collect();
-    Tried { passing: numbers(passing), failing: numbers(failing) }
-}
-
-/// What `work` answers to each of so many numbers, several at a time; where it answers nothing, nothing.
-pub(super) fn each_in_parallel<T: Send>(
-    jobs: usize,
-    count: usize,
-    work: &(dyn Fn(usize) -> Option<T> + Sync),
-) -> Vec<T> {
-    let (next, answers) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    let take = || {
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            if number >= count {
-                return;
-            }
-            let answer = work(number);
-            answers
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .extend(answer.map(|a| (number, a)));
-        }
+/// What passes of `cases`, and what fails, as told by their numbers.
+fn sorted(tried: Vec<(usize, Option<bool>)>) -> Tried {
+    let of = |wanted: bool| {
+        let tried = tried.iter().filter(|(_, passes)| *passes == Some(wanted));
+        tried.map(|(case, _)| *case).collect()
     };
-    std::thread::scope(|threads| {
-        for _ in 0..jobs.min(count) {
-            threads.spawn(take);
-        }
-    });
-    let mut answers = answers.into_inner().unwrap_or_else(PoisonError::into_inner);
-    answers.sort_by_key(|(number, _)| *number);
-    answers.into_iter().map(|(_, answer)| answer).collect()
+    Tried { passing: of(true), failing: of(false) }
 }
 
 /// What the search comes to; failing cases by their numbers.
@@ -495,12 +411,9 @@ mod tests {
     }
 
     #[test]
-    fn the_shortest_cases_are_searched_for_as_long_as_there_is_time() {
-        let affordable = |seconds| affordable([0.5, 1.0, 2.0, 30.0].into_iter(), seconds);
-        assert_eq!([0.5, 9.5, 20.0, 21.5, 300.0].map(affordable), [1, 2, 2, 3, 4]);
-        let purse = Purse::of(0.001);
-        assert_eq!(purse.pay(|| std::thread::sleep(Duration::from_millis(2))), Some(()));
-        assert_eq!(purse.pay(|| ()), None);
+    fn the_cheapest_cases_are_searched_for_as_far_as_the_purse_goes() {
+        let affordable = |left| affordable([5, 10, 20, 300].into_iter(), left);
+        assert_eq!([5, 95, 200, 215, 3000].map(affordable), [1, 2, 2, 3, 4]);
     }
 
     #[test]

@@ -8,11 +8,13 @@ use super::attempt::run_with;
 use super::bench::Bench;
 use super::outcome::Status;
 use super::plan::Plan;
+use super::purse::{Purse, price};
 use super::record::{CoreRecord, Transplants, TrialRecord};
-use super::search::{Purse, each_in_parallel, taken, trial_of, without_patience};
+use super::search::without_patience;
 use crate::case::asked_about;
 use crate::contract::Components;
-/// How long the second look may take for one core, as a share of what its trials took.
+
+/// How much the second look may ask one core, as a share of what its trials did.
 const SHARE: f64 = 0.5;
 
 /// What is seen of a core with one of its broken components.
@@ -35,7 +37,7 @@ pub(crate) fn look_again(
 ) -> Vec<SecondLook> {
     let broken: Components = transplants.components.iter().map(|one| one.component).collect();
     let of_core = || records.iter().filter(|record| record.core == core.spec);
-    let purse = Purse::of_share(SHARE, taken(of_core()));
+    let purse = Purse::of_share(SHARE, of_core());
     let bench = without_patience(bench);
     let view = |own: Components| {
         let is_of_own = |record: &TrialRecord| is_of(plan, record, own, transplants);
@@ -43,17 +45,17 @@ pub(crate) fn look_again(
         let told: Vec<_> = of_core().filter(|record| has_no_answer(record)).filter(tells).collect();
         let of_own = told.iter().filter(|record| is_of_own(record));
         let of_own = of_own.map(|record| record.case.clone()).collect();
-        let again = each_in_parallel(plan.jobs(), told.len(), &|number| {
-            purse.pay(|| again(plan, &bench, told[number], broken, own))?
+        let again = purse.pay_each(plan.jobs(), told.len(), &|number| {
+            again(plan, &bench, told[number], broken, own)
         });
-        SecondLook { own, again, of_own }
+        SecondLook { own, again: again.into_iter().flatten().collect(), of_own }
     };
     broken.iter().map(view).collect()
 }
 
 /// Whether a case asks about `own` or is mended by it.
 fn is_of(plan: &Plan, record: &TrialRecord, own: Components, transplants: &Transplants) -> bool {
-    let trial = trial_of(plan, record);
+    let trial = plan.trial_of(record);
     let asks = trial.is_some_and(|trial| asked_about(&trial.case).intersects(own));
     asks || transplants.place_of(&record.case) == Some(own)
 }
@@ -69,19 +71,22 @@ fn has_no_answer(record: &TrialRecord) -> bool {
     status.is_failure() || status == Status::Blocked
 }
 
-/// The trial with all that is broken taken from the bench but `own`. What would be the same is not tried again.
+/// The trial with all that is broken taken from the bench but `own`, and its price. What would be the same is not tried
+/// again.
 fn again(
     plan: &Plan,
     bench: &Bench,
     record: &TrialRecord,
     broken: Components,
     own: Components,
-) -> Option<TrialRecord> {
+) -> (Option<TrialRecord>, u64) {
     let with = (record.with | broken) - own;
     if with == record.with && record.outcome.status() != Status::Blocked {
-        return Some(record.clone());
+        return (Some(record.clone()), 0);
     }
-    let seen = run_with(bench, trial_of(plan, record)?, with).record;
+    let Some(trial) = plan.trial_of(record) else { return (None, 0) };
+    let seen = run_with(bench, trial, with).record;
+    let price = price(&seen);
     // A trial has less time here: what it did not come to, the first look holds.
-    (seen.outcome.status() != Status::TimedOut).then_some(seen)
+    ((seen.outcome.status() != Status::TimedOut).then_some(seen), price)
 }

@@ -180,3 +180,42 @@ fn colour_is_there_where_it_is_wanted() {
     assert!(!is_coloured("", Some(["NO_COLOR", "1"])));
     assert_eq!(place.told(&format!("{run} --color sometimes")).1, 2);
 }
+
+/// What a command writes to a terminal with these variables, if one can be had here.
+#[cfg(target_os = "linux")]
+fn on_a_terminal(place: &Place, words: &str, variables: &[(&str, &str)]) -> Option<String> {
+    let program = shell_words::quote(env!("CARGO_BIN_EXE_furnace"));
+    let typed = format!("{program} {words}");
+    let mut command = Command::new("script");
+    command.args(["-qec", &typed, "/dev/null"]).current_dir(place.path()).stdin(Stdio::null());
+    for variable in ["TERM_PROGRAM", "LC_TERMINAL", "NO_COLOR", "CLICOLOR_FORCE"] {
+        command.env_remove(variable);
+    }
+    let output = command.envs(variables.iter().copied()).output().ok()?;
+    Some(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_that_can_is_shown_images() {
+    let place = Place::new();
+    let render = "render cornell-diffuse-spheres --size 32x24 --spp 1 -o a.png";
+    let kitty = [("TERM", "xterm-kitty")];
+    let Some(told) = on_a_terminal(&place, render, &kitty) else {
+        println!("nothing is shown here: there is no `script`");
+        return;
+    };
+    assert!(told.contains("\x1b_Ga=T,f=100,q=2,c="), "{told:?}");
+    let shows = |words: &str, variables: &[(&str, &str)]| {
+        let told = on_a_terminal(&place, words, variables).unwrap();
+        told.contains("\x1b_G") || told.contains("\x1b]1337;")
+    };
+    let compare = "compare a.png a.png --no-flip";
+    assert!(shows(compare, &kitty));
+    assert!(shows(compare, &[("TERM", "xterm-256color"), ("TERM_PROGRAM", "WezTerm")]));
+    assert!(!shows(compare, &[("TERM", "xterm-256color")]), "it does not say that it can");
+    assert!(!shows(&format!("{compare} --color never"), &kitty));
+    assert!(!shows(&format!("{compare} --json"), &kitty), "JSON stays JSON");
+    let piped = place.command(compare).envs(kitty).output().unwrap();
+    assert!(!piped.stdout.contains(&0x1b), "a pipe is no terminal");
+}

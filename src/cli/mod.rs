@@ -16,6 +16,7 @@ mod faults;
 mod grade;
 mod history;
 mod hosting;
+mod inline;
 mod interrupt;
 mod lint;
 mod list;

@@ -1,12 +1,14 @@
 //! `furnace render`: one image of one scene, by one core.
 
 use super::hosting::HostingArguments;
+use super::inline;
 use super::say::{complain, say_line};
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::contract::{Core, CoreError, RenderSettings};
 use crate::cores::{CoreSpec, HostError};
 use crate::project::Project;
 use crate::render::{Made, Output, Request, Shot, Shown, renders_codes_alone};
+use crate::report::html::develop::Shows;
 use crate::scene::reference::{Provenance, folder_of};
 use crate::scene::{Library, SceneDescription};
 use crate::text::number::{count, duration};
@@ -63,6 +65,10 @@ pub(crate) fn render(arguments: &RenderArguments) -> Answer {
     arguments.output.write(&made.shown, from).map_err(Failure::broken)?;
     say_line!("{}", arguments.output.path.display());
     if !arguments.quiet {
+        match &made.shown {
+            Shown::Radiance(rendered) => inline::show(&[(&rendered.image, Shows::Render)]),
+            Shown::Codes(picture) => inline::show_pictures(std::slice::from_ref(picture)),
+        }
         let size = format!("{} × {} pixels", camera.film[0], camera.film[1]);
         complain(format_args!(
             "  {size} in {}; {}",

@@ -2,6 +2,7 @@
 
 use super::failures::Failures;
 use super::hosting::HostingArguments;
+use super::inline;
 use super::interrupt::Running;
 use super::progress::Progress;
 use super::repeat;
@@ -11,17 +12,22 @@ use crate::case::{self, CatalogError};
 use crate::contract::Components;
 use crate::cores::{CORES, CoreSpec};
 use crate::grade::SALT_VARIABLE;
+use crate::image::exr;
 use crate::math::rng::Seed;
 use crate::project::Project;
-use crate::report;
-use crate::report::TreeError;
+use crate::report::html::develop::Shows;
 use crate::report::text::Detail;
-use crate::run::{self, Plan, Request, RunError, RunRecord, record};
+use crate::report::{self, RunTree, TreeError};
+use crate::run::record::{self, PictureFile};
+use crate::run::{self, Plan, Request, RunError, RunRecord, TrialRecord};
 use crate::stats::Budget;
 use crate::text::{all_of, did_you_mean, hint, program};
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+
+/// Cases whose images are shown on a terminal that can.
+const MOST_SHOWN: usize = 3;
 
 /// What `furnace run` understands.
 #[derive(Clone, Debug, Args)]
@@ -214,9 +220,29 @@ fn component(word: &str) -> Result<Components, String> {
 
 /// Summary and report, both of them readers of the folder.
 fn finish(arguments: &RunArguments, folder: &Path) -> Answer {
-    let tree = report::RunTree::load(folder).map_err(Failure::broken)?;
+    let tree = RunTree::load(folder).map_err(Failure::broken)?;
     let page = report::html::write(&tree, folder).map_err(Failure::broken)?;
+    if arguments.verbose && !arguments.quiet && inline::is_possible() {
+        show_failures(&tree);
+    }
     say!("{}", report::text::summary(&tree, super::report::style(arguments.detail())));
     say_line!("  report  {}", super::report::address(&page));
     Ok(ExitCode::of(&tree.counts().graded, arguments.strict))
+}
+
+/// The images of the first cases that fail, each with what it should be and where it is not.
+fn show_failures(tree: &RunTree) {
+    let shown =
+        |trial: &&TrialRecord| trial.outcome.status().is_failure() && !trial.pictures.is_empty();
+    for trial in tree.trials.iter().filter(shown).take(MOST_SHOWN) {
+        let read = |picture: &PictureFile| {
+            let image = exr::read_image(&tree.picture_path(trial, picture)).ok()?;
+            Some((image, Shows::from(picture.role)))
+        };
+        let images: Vec<_> = trial.pictures.iter().filter_map(read).collect();
+        let captions = trial.pictures.iter().map(|picture| picture.caption.as_str());
+        let captions = captions.collect::<Vec<_>>().join(" · ");
+        say_line!("\n  {} on {}: {captions}", trial.case, trial.core);
+        inline::show(&images.iter().map(|(image, shows)| (image, *shows)).collect::<Vec<_>>());
+    }
 }

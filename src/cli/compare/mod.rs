@@ -2,6 +2,7 @@
 
 mod side;
 
+use super::inline;
 use super::say::{complain, say, say_line};
 use super::{Answer, ExitCode, Failure};
 use crate::image::ImageError;
@@ -10,6 +11,7 @@ use crate::image::file::load;
 use crate::image::mask::{Mask, Rectangle};
 use crate::report::comparison::{Compared, Comparisons, told};
 use crate::report::html::comparison::{Page, Pixels};
+use crate::report::html::develop::Shows;
 use crate::stats::{Question, Side, Verdict, flip_map};
 use clap::Args;
 use side::encoding;
@@ -63,6 +65,9 @@ impl CompareArguments {
 
 pub(crate) fn compare(arguments: &CompareArguments) -> Answer {
     let (comparisons, sides) = measure(arguments)?;
+    if !arguments.json {
+        show(&sides);
+    }
     if let Some(path) = &arguments.html {
         page(arguments, &comparisons, sides)?.write(path).map_err(Failure::broken)?;
         complain(format_args!("page   {}", path.display()));
@@ -104,6 +109,13 @@ fn measure(arguments: &CompareArguments) -> Result<(Comparisons, Sides), Failure
     let (compared, images) = compared.into_iter().unzip();
     let comparisons = Comparisons { reference: named.reference.names().concat(), images: compared };
     Ok((comparisons, Sides { images, reference }))
+}
+
+/// The images and the reference, on a terminal that can show them.
+fn show(sides: &Sides) {
+    let images = sides.images.iter().map(|side| (side.image(), Shows::Render));
+    let reference = [(sides.reference.image(), Shows::Reference)];
+    inline::show(&images.chain(reference).collect::<Vec<_>>());
 }
 
 /// The page of what was compared.

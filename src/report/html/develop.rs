@@ -17,7 +17,7 @@ const COLOUR_STEPS: f64 = 24.0;
 /// What an image of a viewer shows, and so how its values become colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum Shows {
+pub(crate) enum Shows {
     Reference,
     Render,
     /// What an earlier run rendered.
@@ -41,7 +41,7 @@ impl From<PictureRole> for Shows {
 
 impl Shows {
     /// The colours of what is not radiance.
-    pub(super) const fn scale(self) -> Option<Scale> {
+    pub(crate) const fn scale(self) -> Option<Scale> {
         match self {
             Self::Reference | Self::Render | Self::Earlier => None,
             Self::SignedError => Some(Scale::Signed { limit: 1.0 }),
@@ -76,13 +76,18 @@ impl Look {
 
     /// The picture as an address that holds all of it. Fails if the picture is empty.
     pub(super) fn address(self, image: &Image, shows: Shows) -> Result<String, String> {
-        let small = image.shrunk_to(SIDE);
-        let picture = match shows.scale() {
-            None => tonemap(&small, self.stops),
-            Some(scale) => false_colour(&small, scale),
-        };
+        let picture = self.picture(image, shows);
         let file = png::encode(&picture).map_err(|error| error.to_string())?;
         Ok(format!("data:image/png;base64,{}", BASE64_STANDARD.encode(file)))
+    }
+
+    /// The picture, small enough to be looked at beside others.
+    pub(crate) fn picture(self, image: &Image, shows: Shows) -> Picture {
+        let small = image.shrunk_to(SIDE);
+        match shows.scale() {
+            None => tonemap(&small, self.stops),
+            Some(scale) => false_colour(&small, scale),
+        }
     }
 }
 

@@ -10,7 +10,7 @@ mod cause;
 mod chance;
 pub(crate) mod comparison;
 mod conventions;
-mod develop;
+pub(crate) mod develop;
 mod history;
 mod image;
 mod interval;

@@ -58,11 +58,12 @@ pub(crate) fn scene_of(mesh: Mesh) -> SceneDescription {
 /// Half the rays cross the scene from outside, the rest start inside it, run along an axis or in a
 /// plane of two. All are in general position: none is aimed at an edge.
 pub(crate) fn generic_rays(bounds: Aabb, count: usize, stream: &mut Stream) -> Vec<Ray> {
+    let around = with_room(bounds);
     let ray = |number: usize| match number % 6 {
         0..=2 => from_outside(bounds, stream),
-        3 => Ray::new(point_in(bounds, stream), on_sphere(stream)),
-        4 => along_axis(bounds, stream),
-        _ => in_plane(bounds, stream),
+        3 => Ray::new(point_in(around, stream), on_sphere(stream)),
+        4 => along_axis(around, stream),
+        _ => in_plane(around, stream),
     };
     (0..count).map(ray).collect()
 }
@@ -103,6 +104,14 @@ fn point_in(bounds: Aabb, stream: &mut Stream) -> DVec3 {
     bounds.min + in_cube(stream) * (bounds.max - bounds.min)
 }
 
+/// Where `bounds` are flat, with room on both sides: whether a ray that starts in the plane of all triangles hits them
+/// there is a matter of rounding.
+fn with_room(bounds: Aabb) -> Aabb {
+    let is_flat = bounds.min.cmpeq(bounds.max);
+    let room = DVec3::select(is_flat, DVec3::splat(0.5 * bounds.diagonal().max(1.0)), DVec3::ZERO);
+    Aabb { min: bounds.min - room, max: bounds.max + room }
+}
+
 fn from_outside(bounds: Aabb, stream: &mut Stream) -> Ray {
     let middle = 0.5 * (bounds.min + bounds.max);
     let origin = middle + bounds.diagonal().max(1.0) * on_sphere(stream);
@@ -134,6 +143,13 @@ mod tests {
     use crate::math::rng::Seed;
 
     const UNIT: Aabb = Aabb { min: DVec3::ZERO, max: DVec3::ONE };
+
+    #[test]
+    fn no_ray_starts_in_the_plane_of_a_flat_scene() {
+        let flat = Aabb { min: DVec3::ZERO, max: DVec3::new(1.0, 2.0, 0.0) };
+        let rays = generic_rays(flat, 600, &mut Seed(2).stream());
+        assert!(rays.iter().all(|ray| ray.origin.z != 0.0));
+    }
 
     #[test]
     fn rules_are_asked_for_only_where_they_can_be() {

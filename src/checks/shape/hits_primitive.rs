@@ -2,13 +2,13 @@
 
 use super::entry::{SphereEntry, TriangleEntry};
 use super::hit_row::{Row, complaint, measures};
-use super::imitation::{explanations, intersection};
+use super::imitation::{Answer, explanations, intersection};
 use crate::cause::Cause;
 use crate::checks::few::Few;
 use crate::checks::phrase::{percent, some_are};
 use crate::checks::ray_row::{Grades, RayRow};
 use crate::checks::{Check, CheckError, Context, Finding, check};
-use crate::contract::{Hit, Precision, Primitive};
+use crate::contract::{Hit, Precision, Primitive, Ray};
 use crate::stats::Tolerance;
 
 /// Wrong rays that a statement spells out.
@@ -73,7 +73,7 @@ impl Check for HitsPrimitive {
 fn judge(rows: &[Row], primitive: &Primitive, hits: &[Hit], precision: Precision) -> Finding {
     let mut grades = Grades::default();
     for (number, (row, hit)) in rows.iter().zip(hits).enumerate() {
-        let answer = intersection(primitive, &row.ray());
+        let answer = right_for(primitive, &row.ray(), hit.t, precision);
         let measures = measures(row, number, answer.as_ref(), hit, precision);
         grades.take(row, measures, |worst| complaint(row, number, answer.as_ref(), hit, worst));
     }
@@ -93,6 +93,20 @@ fn judge(rows: &[Row], primitive: &Primitive, hits: &[Hit], precision: Precision
     finding.complaining([statement]).because_few(few, &evidence)
 }
 
+/// What has to come out of a ray that hits at `t`. The normal of a sphere is that of the point where the core hits, if it may hit
+/// there: near the silhouette normals turn by more than t is off.
+fn right_for(primitive: &Primitive, ray: &Ray, t: f64, precision: Precision) -> Option<Answer> {
+    let answer = intersection(primitive, ray)?;
+    let allowed = Tolerance::INTERSECTION.of(precision) * answer.t.abs();
+    match primitive {
+        Primitive::Sphere { centre, .. } if (t - answer.t).abs() <= allowed => {
+            let normal = (ray.at(t) - *centre).normalize();
+            Some(Answer { geometric_normal: normal, shading_normal: normal, ..answer })
+        }
+        _ => Some(answer),
+    }
+}
+
 fn failing_statement(complaints: &[String], all: usize, few: &Few<&'static Cause>) -> String {
     let wrong = some_are(complaints.len(), all, "rays");
     let details = complaints[..complaints.len().min(SPELT_OUT)].join("; ");
@@ -103,12 +117,11 @@ fn failing_statement(complaints: &[String], all: usize, few: &Few<&'static Cause
 
 #[cfg(test)]
 mod tests {
-    use super::super::imitation::{Answer, Intersection, MISTAKES, mistake};
+    use super::super::imitation::{Intersection, MISTAKES, mistake};
     use super::*;
     use crate::cause::shape;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, causes, check_of, failure, judge, try_judge};
-    use crate::contract::Ray;
 
     const CASES: [&str; 4] = [
         include_str!("../../../cases/shape/ray-triangle-hits-are-right.toml"),
@@ -160,6 +173,19 @@ mod tests {
     fn a_ray_from_inside_that_misses_is_told_where_it_should_hit() {
         let finding = found(3, mistake(&shape::NEAR_ROOT_ONLY));
         assert!(failure(&finding).contains("misses; it should hit at t = "), "{finding:?}");
+    }
+
+    #[test]
+    fn near_the_silhouette_a_normal_is_that_of_where_the_core_hits() {
+        let sphere = Primitive::Sphere { centre: glam::DVec3::ZERO, radius: 1.0 };
+        let ray = Ray::new(glam::DVec3::new(0.999_999, 0.0, 3.0), glam::DVec3::NEG_Z);
+        let right = intersection(&sphere, &ray).unwrap();
+        let t = right.t * (1.0 + 0.5 * Tolerance::INTERSECTION.of(Precision::Single));
+        let there = right_for(&sphere, &ray, t, Precision::Single).unwrap();
+        let turned = there.geometric_normal.distance(right.geometric_normal);
+        assert!(turned > Tolerance::DIRECTION.of(Precision::Single), "{turned}");
+        assert_eq!(there.t, right.t);
+        assert_eq!(right_for(&sphere, &ray, 2.0 * t, Precision::Single), Some(right), "elsewhere");
     }
 
     #[test]

@@ -56,11 +56,13 @@ pub(super) fn headlines(evidence: &Evidence<'_>, refuted: &Refuted) -> Vec<Headl
     }
     // The same cases ask for nearest hits before they ask for shadows.
     let shadows_alone = kinds.keys().all(|kind| kind.request != "intersect");
+    // A recursion that ends in other scenes has no end in these; what crashes in every scene may be anything.
+    let builds_others = evidence.has_lit_a_scene();
     let told = |(kind, cases): (&Kind<'_>, &Vec<_>)| {
         let refutes = |cause: &Cause, seen: &Observation<'_>| {
             refuted.contains(&(cause.name, seen.case.to_owned()))
         };
-        let cause = cause(kind, cases, shadows_alone);
+        let cause = cause(kind, cases, shadows_alone, builds_others);
         let cause = cause.filter(|cause| !cases.iter().any(|seen| refutes(cause, seen)));
         headline(evidence, kind, cases, cause)
     };
@@ -73,12 +75,15 @@ fn cause(
     kind: &Kind<'_>,
     cases: &[&Observation<'_>],
     shadows_alone: bool,
+    builds_others: bool,
 ) -> Option<&'static Cause> {
     let is_adaptive = || cases.iter().all(|seen| seen.is_about(Subject::Adaptive));
     match (kind.is_timeout, kind.request.as_str()) {
         (true, "adaptive_mean") => Some(&adaptive::LOOP_ENDLESS),
         (true, _) if is_adaptive() => Some(&adaptive::LOOP_ENDLESS),
-        (false, "build") if kind.how == "signal 11" => Some(&bvh::RECURSION_ENDLESS),
+        (false, "build") if kind.how == "signal 11" && builds_others => {
+            Some(&bvh::RECURSION_ENDLESS)
+        }
         (false, "occluded") if shadows_alone => Some(&bvh::ANY_HIT_CRASHES),
         _ => None,
     }
@@ -122,7 +127,7 @@ fn sentence(seen: &Observation<'_>) -> Option<String> {
 mod tests {
     use super::*;
     use crate::cause::{bsdf, find};
-    use crate::diagnosis::testing::{Made, failing};
+    use crate::diagnosis::testing::{Made, failing, passing};
     use crate::diagnosis::{Diagnosis, diagnose};
 
     const SEGMENTATION: &str = "signal 11 (SIGSEGV: memory that is not its own)";
@@ -154,8 +159,10 @@ mod tests {
 
     #[test]
     fn a_build_that_overflows_the_stack_looks_like_endless_recursion() {
-        let made = Made::new().ended("bvh/a", crash("build")).ended("light/b", crash("build"));
-        let diagnosis = diagnose(&made.evidence());
+        let everywhere =
+            Made::new().ended("bvh/a", crash("build")).ended("light/b", crash("build"));
+        assert_eq!(causes(&diagnose(&everywhere.evidence())), [""], "no scene is built");
+        let diagnosis = diagnose(&everywhere.with("light/c", passing()).evidence());
         assert_eq!(causes(&diagnosis), [bvh::RECURSION_ENDLESS.name]);
         assert_eq!(diagnosis.headlines[0].degree, Degree::LooksLike);
         assert!(diagnosis.headlines[0].look_at.ends_with("`build` in furnace_core.h"));

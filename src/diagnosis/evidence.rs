@@ -114,6 +114,11 @@ impl<'a> Evidence<'a> {
         self.observations.iter().filter(|seen| seen.standing == Standing::Passed)
     }
 
+    /// Whether light was judged in some scene, so that it was built.
+    pub(crate) fn has_lit_a_scene(&self) -> bool {
+        self.observations.iter().any(|seen| seen.is_about_light() && seen.finding.is_some())
+    }
+
     pub(crate) fn fails(&self, case: &str) -> bool {
         self.failure_of(case).is_some()
     }

@@ -109,8 +109,8 @@ causes! {
         fix "Keep each primitive's own index through BVH construction.";
     SHADOW_SECOND_CHILD_SKIPPED = "shadow-second-child-skipped":
         "shadow rays miss what other rays hit, as where they visit only one child of a node",
-        at "the any-hit traversal of shadow rays, where the children of a node are visited",
-        fix "A miss in the first child says nothing about the second: `a || b`.";
+        at "the any-hit traversal of shadow rays: which nodes and which kinds of shapes it visits",
+        fix "Visit all that a nearest hit visits until one is hit: a miss in the first child (`a || b`), or of one kind of shape, says nothing about the rest.";
     SHADOW_END_IGNORED = "shadow-end-ignored":
         "shadow rays ignore t_max: surfaces behind their end occlude",
         at "the any-hit traversal of shadow rays, where the children of a node are visited",

@@ -152,10 +152,17 @@ async function unpackFrames({ width, height, frames }) {
     Object.assign(frame, await unpack(packed.image, frame.pixels));
     if (packed.noise) frame.noise = await unpack(packed.noise, frame.pixels);
     frame.mean = meanLuminance(frame);
-    const layer = async ({ name, image }) => [name, await unpack(image, frame.pixels)];
-    frame.layers = new Map(await Promise.all(packed.layers.map(layer)));
+    frame.layers = new Map(packed.layers.map(({ name, image }) => [name, image]));
     return frame;
   }));
+}
+
+/** Unpacks the parts of the images, which are many: the page is there before them. */
+async function unpackLayers(frames) {
+  for (const frame of frames) {
+    for (const [name, image] of frame.layers) frame.layers.set(name, await unpack(image, frame.pixels));
+    frame.hasParts = true;
+  }
 }
 
 function meanLuminance(frame) {
@@ -180,7 +187,7 @@ function partsOf(frames) {
 
 /** A part of an image, made once; all of one that does not have it, which its label says. */
 function partOf(frame, part) {
-  if (part === WHOLE || !isRadiance(frame)) return frame;
+  if (part === WHOLE || !isRadiance(frame) || !frame.hasParts) return frame;
   frame.made = frame.made || new Map();
   if (!frame.made.has(part)) frame.made.set(part, makePart(frame, part));
   return frame.made.get(part);
@@ -1166,6 +1173,8 @@ async function startViewer(root) {
   addEventListener('hashchange', restore);
   root.classList.add('started');
   restore();
+  const drawn = new Promise(done => requestAnimationFrame(() => setTimeout(done)));
+  viewer.unpacked = drawn.then(() => unpackLayers(frames)).then(redraw).catch(error => tell(root, error));
   return viewer;
 }
 
@@ -1234,7 +1243,9 @@ function drawAll(viewer) {
   viewer.bars.replaceChildren(...drawn);
 }
 
-const viewers = Promise.all(all('.viewer:has(script)').map(root => startViewer(root).catch(error => {
-  // The images without scripts stay.
+/** The images without scripts stay. */
+function tell(root, error) {
   root.append(make('p', { className: 'bad' }, `The viewer does not start: ${error.message}`));
-})));
+}
+
+const viewers = Promise.all(all('.viewer:has(script)').map(root => startViewer(root).catch(error => tell(root, error))));

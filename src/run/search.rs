@@ -50,14 +50,11 @@ pub(crate) fn search(
     let affordable = |cases: &[usize]| {
         affordable(cases.iter().map(|number| price(failing[*number].1)), purse.left())
     };
+    let is_as_sharp = bench.allowance.budget == Budget::Quick;
     let allowance = Allowance { budget: Budget::Quick, stops_at_failure: true };
     let bench = Bench { allowance, ..without_patience(bench) };
-    let passes = |number: usize, with: Components| {
+    let try_again = |number: usize, with: Components| {
         let (trial, record) = failing[number];
-        // So it was tried in the run.
-        if record.with.contains(with) {
-            return (Some(false), 0);
-        }
         let ended = run_with(&bench, trial, record.with | with).record;
         // Of silence it cannot be told what would have come of waiting longer, where there was none before.
         let was_silent = record.outcome.status() == Status::TimedOut;
@@ -69,17 +66,30 @@ pub(crate) fn search(
         };
         (passes, price(&ended))
     };
-    let mut tried = |with: Components, cases: &[usize]| {
+    let passes = |number: usize, with: Components| match failing[number].1.with.contains(with) {
+        // So it was tried in the run.
+        true => (Some(false), 0),
+        false => try_again(number, with),
+    };
+    type Answer = (Option<bool>, u64);
+    let each = |cases: &[usize], answer: &(dyn Fn(usize) -> Answer + Sync)| {
         sorted(purse.pay_each(plan.jobs(), cases.len(), &|place| {
-            let (passes, price) = passes(cases[place], with);
+            let (passes, price) = answer(cases[place]);
             ((cases[place], passes), price)
         }))
     };
+    let mut tried = |with: Components, cases: &[usize]| each(cases, &|number| passes(number, with));
     events(Event::Transplanting { core: &core.spec });
     // What died or hung may hang again, for longer than others take: it comes last.
     let is_judged = |number: &usize| failing[*number].1.outcome.finding().is_some();
+    let (mut judged_first, ended_last): (Vec<_>, Vec<_>) = (0..failing.len()).partition(is_judged);
+    // A small error that only a larger budget sees would pass here whatever is taken, and prove nothing.
+    if !is_as_sharp {
+        judged_first =
+            each(&judged_first, &|number| try_again(number, Components::empty())).failing;
+    }
     let failures = Failures {
-        turns: <[_; 2]>::from((0..failing.len()).partition(is_judged)),
+        turns: [judged_first, ended_last],
         asks: &|number| asked_about(&failing[number].0.case),
         affordable: &affordable,
     };

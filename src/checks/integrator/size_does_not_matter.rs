@@ -7,6 +7,7 @@ use crate::cause::integrator::FIXED_LENGTH;
 use crate::checks::phrase::figure;
 use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{Capabilities, DirectSampling};
+use crate::stats::Verdict;
 use crate::text::{Bounces, Count, Percent};
 
 /// From metres to millimetres and to kilometres.
@@ -39,11 +40,13 @@ impl Check for SizeDoesNotMatter {
             seed: context.seed,
         };
         let mut measures = Vec::new();
-        let mut differing = Vec::new();
+        let (mut differing, mut agreeing) = (Vec::new(), Vec::new());
         for factor in FACTORS {
             let of_size = trial.ignores_size(context.core, &scene, factor)?;
             if of_size.iter().any(Measure::failed) {
                 differing.push(factor);
+            } else if of_size.iter().all(|measure| measure.verdict == Verdict::Pass) {
+                agreeing.push(factor);
             }
             measures.extend(of_size);
         }
@@ -55,13 +58,14 @@ impl Check for SizeDoesNotMatter {
             )
         });
         // A power of length that is missing shows in both.
-        let cause = (differing.len() == 1).then_some(&FIXED_LENGTH);
-        let evidence = format!(
-            "the scene {} times as large has another radiance, and the other sizes have the same",
-            differing.first().copied().unwrap_or_default()
-        );
+        let evidence = match (&differing[..], &agreeing[..]) {
+            ([other], [same]) => Some(format!(
+                "the scene {other} times as large has another radiance, {same} times as large it has its own"
+            )),
+            _ => None,
+        };
         Ok(Finding::measured("radiance does not depend on the unit of length", measures)
             .complaining(complaint)
-            .because_each(cause, &evidence))
+            .because_of(evidence.map(|evidence| (&FIXED_LENGTH, evidence))))
     }
 }

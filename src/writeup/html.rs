@@ -39,7 +39,7 @@ fn of_section(section: &Section, number: usize) -> Markup {
             @if !section.figures.is_empty() {
                 div.figures { @for figure in &section.figures { (of_figure(figure)) } }
             }
-            div.wide { (of_table(&section.table)) }
+            div.wide role="group" aria-label=(section.title) tabindex="0" { (of_table(&section.table)) }
             details {
                 summary { "The commands that make these figures" }
                 @for command in section.table.commands() { code { (command) } }

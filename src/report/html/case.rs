@@ -2,7 +2,7 @@
 
 use super::image::pictures;
 use super::interval;
-use super::parts::{badge, command};
+use super::parts::{badge, command, scrolls};
 use super::plot;
 use super::shell::Page;
 use super::view::{Place, View, anchor, has_failed};
@@ -172,26 +172,26 @@ fn all_measures(finding: &Finding) -> Markup {
 
 pub(crate) fn measures<'a>(measures: impl IntoIterator<Item = &'a Measure>) -> Markup {
     let measures: Vec<_> = measures.into_iter().collect();
+    html! { @if !measures.is_empty() { (scrolls("measures", &table(&measures))) } }
+}
+
+fn table(measures: &[&Measure]) -> Markup {
     let noisy = measures.iter().any(|measure| measure.interval.is_some());
     html! {
-        @if !measures.is_empty() {
-            div.wide {
-                table.measures {
-                    thead { tr {
-                        th scope="col" { "measure" }
-                        @for name in ["measured", "expected", "allowed", "ratio"] {
-                            th.number scope="col" { (name) }
-                        }
-                        @if noisy {
-                            th.number scope="col" { "99.9 % CI" }
-                            th scope="col" { "confidence interval and tolerance band" }
-                        }
-                        th.number scope="col" { "catches" }
-                        th scope="col" { "verdict" }
-                    } }
-                    tbody { @for measure in measures { (row(measure, noisy)) } }
+        table.measures {
+            thead { tr {
+                th scope="col" { "measure" }
+                @for name in ["measured", "expected", "allowed", "ratio"] {
+                    th.number scope="col" { (name) }
                 }
-            }
+                @if noisy {
+                    th.number scope="col" { "99.9 % CI" }
+                    th scope="col" { "confidence interval and tolerance band" }
+                }
+                th.number scope="col" { "catches" }
+                th scope="col" { "verdict" }
+            } }
+            tbody { @for measure in measures { (row(measure, noisy)) } }
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::assets::{STYLE, pages_script, viewer_script};
 use super::develop::{Look, Shows};
-use super::parts::{badge, command};
+use super::parts::{badge, command, scrolls};
 use super::shell::{Document, icon};
 use super::viewer::{Frame, Noisy, look, viewer};
 use super::{ReportError, light_enough, put};
@@ -192,22 +192,23 @@ impl Page<'_> {
         let names = images.iter().flat_map(|one| &one.comparison.metrics).map(|metric| metric.name);
         let names: Vec<_> =
             METRICS.iter().filter(|of| names.clone().any(|n| n == of.name)).collect();
+        let table = html! {
+            table.small {
+                thead { tr {
+                    th scope="col" { "metric" }
+                    @for one in images { th.number scope="col" { (name(one)) } }
+                    th.number scope="col" { "of equal images" }
+                } }
+                tbody { @for metric in names { tr {
+                    th scope="row" { (metric.name) }
+                    @for one in images { td.number { (measured(one, metric.name)) } }
+                    td.number { (figure(metric.of_equals)) }
+                } } }
+            }
+        };
         html! {
             div.card {
-                div.wide {
-                    table.small {
-                        thead { tr {
-                            th scope="col" { "metric" }
-                            @for one in images { th.number scope="col" { (name(one)) } }
-                            th.number scope="col" { "of equal images" }
-                        } }
-                        tbody { @for metric in names { tr {
-                            th scope="row" { (metric.name) }
-                            @for one in images { td.number { (measured(one, metric.name)) } }
-                            td.number { (figure(metric.of_equals)) }
-                        } } }
-                    }
-                }
+                (scrolls("metrics", &table))
                 p.faint { "Metrics inform: they know no noise, and no verdict rests on them." }
             }
         }

@@ -1,6 +1,6 @@
 //! Conventions: what the contract fixes for every core, and what each core of the run has freely chosen.
 
-use super::parts::with_code;
+use super::parts::{scrolls, with_code};
 use super::shell::Page;
 use super::view::View;
 use crate::contract::{Conventions, RULES};
@@ -12,16 +12,16 @@ pub(super) const FILE: &str = "conventions.html";
 pub(super) fn page(view: &View<'_>) -> String {
     let body = html! {
         div.card {
-            h3 { "What the contract fixes" }
+            h2.minor { "What the contract fixes" }
             ul { @for rule in rules() { li { (with_code(&rule.replace('*', ""))) } } }
         }
-        div.card.wide {
-            h3 { "What a core chooses, and declares" }
+        div.card {
+            h2.minor { "What a core chooses, and declares" }
             p {
                 "No core is blamed for a choice: cases are judged by what it declares, and a core that does "
                 "otherwise than it declares fails."
             }
-            (table(view))
+            (scrolls("conventions", &table(view)))
         }
     };
     Page { title: "Conventions".to_owned(), is_index: false, body }.render(view)

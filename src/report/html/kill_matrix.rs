@@ -1,6 +1,6 @@
 //! The kill matrix: which mistake is caught by which case, and how that case ended in this run. What a pass excludes.
 
-use super::parts::cell;
+use super::parts::{cell, scrolls};
 use super::shell::Page;
 use super::view::View;
 use crate::run::{Excluded, TrialRecord, excluded};
@@ -11,13 +11,13 @@ pub(super) const FILE: &str = "kill-matrix.html";
 
 pub(super) fn page(view: &View<'_>) -> String {
     let body = html! {
-        div.card.wide {
+        div.card {
             p {
                 "Each of these mistakes, planted in the textbook core, fails the case beside it; the tests of the bench "
                 "hold that. A core that passes the case does not make that mistake, unless another hides it. Most "
                 "mistakes fail further cases too; " code { "furnace faults" } " puts each to all of them."
             }
-            (table(view))
+            (scrolls("planted mistakes", &table(view)))
         }
     };
     Page { title: "Kill matrix".to_owned(), is_index: false, body }.render(view)

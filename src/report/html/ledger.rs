@@ -1,6 +1,6 @@
 //! Error rates: what every trial has spent of the probability to fail a correct core, and what it would have caught.
 
-use super::parts::case_name;
+use super::parts::{case_name, scrolls};
 use super::shell::Page;
 use super::view::{Place, View};
 use crate::report::digest::{
@@ -17,7 +17,7 @@ pub(super) const FILE: &str = "ledger.html";
 pub(super) fn page(view: &View<'_>) -> String {
     let body = html! {
         (sums(view))
-        div.card.wide { (table(view)) }
+        div.card { (scrolls("error rates trial by trial", &table(view))) }
     };
     let title = "Error rates and smallest detectable errors".to_owned();
     Page { title, is_index: false, body }.render(view)
@@ -37,7 +37,7 @@ pub(super) fn summary(view: &View<'_>) -> Markup {
 /// Every core is judged for itself: a book a core.
 fn sums(view: &View<'_>) -> Markup {
     html! {
-        div.card.wide {
+        div.card {
             p {
                 "A check that draws random numbers can fail a correct core by chance. The probabilities "
                 "below add up to a bound for the whole run, whatever the trials have in common; "
@@ -49,18 +49,24 @@ fn sums(view: &View<'_>) -> Markup {
                 "often first stages suspect a correct core is known: if the counts below are far "
                 "from what is expected, do not trust the bound."
             }
-            table.small.sums {
-                thead { tr {
-                    th scope="col" { "core" }
-                    th scope="col" { "kind of test" }
-                    th.number scope="col" { "hypotheses" }
-                    th.number scope="col" { "needed a second look" }
-                    th.number scope="col" { "expected of a correct core" }
-                    th.number scope="col" { "would have caught at least" }
-                    th.number scope="col" { "probability that a correct core fails any, at most" }
-                } }
-                @for core in &view.tree.run.cores { (book(view, &core.spec)) }
-            }
+            (scrolls("error rates by kind of test", &books(view)))
+        }
+    }
+}
+
+fn books(view: &View<'_>) -> Markup {
+    html! {
+        table.small.sums {
+            thead { tr {
+                th scope="col" { "core" }
+                th scope="col" { "kind of test" }
+                th.number scope="col" { "hypotheses" }
+                th.number scope="col" { "needed a second look" }
+                th.number scope="col" { "expected of a correct core" }
+                th.number scope="col" { "would have caught at least" }
+                th.number scope="col" { "probability that a correct core fails any, at most" }
+            } }
+            @for core in &view.tree.run.cores { (book(view, &core.spec)) }
         }
     }
 }

@@ -4,6 +4,11 @@ use super::view::View;
 use crate::run::{Status, TrialRecord};
 use maud::{Markup, html};
 
+/// A table that scrolls sideways where it is wider than the page, with the keyboard too.
+pub(crate) fn scrolls(of: &str, table: &Markup) -> Markup {
+    html! { div.wide role="group" aria-label=(of) tabindex="0" { (table) } }
+}
+
 pub(crate) fn class(status: Status) -> &'static str {
     match status {
         Status::TimedOut => "timed-out",

@@ -1,6 +1,6 @@
 //! The table of all trials, which can be searched.
 
-use super::parts::{badge, case_name, class, glyph};
+use super::parts::{badge, case_name, class, glyph, scrolls};
 use super::{Section, View};
 use crate::case::Part;
 use crate::report::digest::Tally;
@@ -12,24 +12,28 @@ pub(super) static SECTION: Section = Section { id: "trials", title: "All trials"
 
 fn body(view: &View<'_>) -> Option<Markup> {
     let trials = failures_first(view);
-    let many = view.tree.run.cores.len() > 1;
     Some(html! {
         (filter(&Tally::of(&view.tree.trials)))
         @let apart = trials.iter().filter(|trial| !trial.tier.is_graded()).count();
         @if apart > 0 { p.faint { (apart) " of these " (trials.len()) " trials are not graded" } }
-        div.card.wide {
-            table #all-trials {
-                thead { tr {
-                    th scope="col" { "outcome" }
-                    th scope="col" { "case" }
-                    @if many { th scope="col" { "core" } }
-                    th scope="col" { "what was found" }
-                    th.number scope="col" { "time" }
-                } }
-                tbody { @for trial in trials { (row(view, trial, many)) } }
-            }
-        }
+        div.card { (scrolls("all trials", &table(view, &trials))) }
     })
+}
+
+fn table(view: &View<'_>, trials: &[&TrialRecord]) -> Markup {
+    let many = view.tree.run.cores.len() > 1;
+    html! {
+        table #all-trials {
+            thead { tr {
+                th scope="col" { "outcome" }
+                th scope="col" { "case" }
+                @if many { th scope="col" { "core" } }
+                th scope="col" { "what was found" }
+                th.number scope="col" { "time" }
+            } }
+            tbody { @for trial in trials { (row(view, trial, many)) } }
+        }
+    }
 }
 
 /// What fails, what is not decided, what was not asked, what passes; each in the order of parts.

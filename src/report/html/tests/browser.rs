@@ -1,16 +1,22 @@
 //! The pages in real browsers, opened from disk and driven from within: what a page saw it sends to the test that opened
 //! it. Where a browser is not installed, each test says so and passes without it; `FURNACE_CHROMIUM` and
-//! `FURNACE_FIREFOX` name those that are not on the path.
+//! `FURNACE_FIREFOX` name those that are not on the path. What keeps people from reading a page, axe finds: `npm install -g
+//! axe-core`, or `FURNACE_AXE` names its file.
 
 use crate::diagnosis::{Diagnosis, Headline};
 use crate::image::encoding::{Curve, Encoding};
+use crate::image::exr::Exr;
+use crate::image::file::load;
 use crate::image::tonemap::{NOT_A_NUMBER, srgb_code, tonemap};
 use crate::image::{Image, exr};
+use crate::report::comparison::{Compared, Comparisons};
 use crate::report::example::{Example, FAILING};
+use crate::report::html::comparison::{Page as ComparisonPage, Pixels};
 use crate::report::html::pixels::as_unpacked;
-use crate::report::html::{write, write_single};
+use crate::report::html::{BESIDE, write, write_single};
 use crate::report::tree::RunTree;
 use crate::run::TrialRecord;
+use crate::stats::{Question, Side, compare};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use half::f16;
@@ -57,6 +63,9 @@ struct Seen {
     parts: Value,
     #[serde(default)]
     insets: Value,
+    /// What axe finds that is serious, everything unfolded.
+    #[serde(default)]
+    barriers: Vec<String>,
 }
 
 /// A program that shows pages.
@@ -179,9 +188,14 @@ impl Driven {
 
     /// The address of a page that drives itself.
     fn address(&self, page: &str) -> String {
+        self.address_with(page, "")
+    }
+
+    /// The same of one with more in its head.
+    fn address_with(&self, page: &str, more: &str) -> String {
         let path = self.folder.join(page);
         let text = std::fs::read_to_string(&path).unwrap();
-        let early = format!("<head><script>{EARLY}</script>");
+        let early = format!("<head><script>{EARLY}</script>{more}");
         let driving = format!("<script>'use strict';{DRIVE}</script></body>");
         let text = text.replacen("<head>", &early, 1).replacen("</body>", &driving, 1);
         std::fs::write(&path, text).unwrap();
@@ -329,13 +343,13 @@ fn what_was_looked_at_stands_in_the_address() {
     }
 }
 
-/// A page as wide as a phone.
-fn on_a_phone(driven: &Driven, page: &str) -> String {
-    let address = driven.address(page);
+/// A page in the light or the dark, so many pixels wide.
+fn framed(driven: &Driven, address: &str, scheme: &str, width: u32) -> String {
     let text = format!(
-        "<!DOCTYPE html><body><iframe src=\"{address}\" width=\"390\" height=\"844\"></iframe>"
+        "<!DOCTYPE html><meta name=color-scheme content={scheme}><body>\
+        <iframe src=\"{address}\" width={width} height=844 style=\"color-scheme:{scheme}\"></iframe>"
     );
-    let path = driven.folder.join("phone.html");
+    let path = driven.folder.join("framed.html");
     std::fs::write(&path, text).unwrap();
     format!("file://{}", path.display())
 }
@@ -346,7 +360,7 @@ fn a_phone_scrolls_in_one_direction_whatever_the_core_is_called() {
     example.rename_core("textbook", "a-path-tracer-with-forty-letters-in-name");
     let driven = Driven::of(&example);
     for page in ["index.html", "case/bvh/a-flat-box-is-hit.html"] {
-        let phone = on_a_phone(&driven, page);
+        let phone = framed(&driven, &driven.address(page), "light", 390);
         for browser in browsers() {
             let seen = browser.seen(&driven, &phone);
             assert_eq!(seen.errors, Vec::<String>::new());
@@ -407,6 +421,60 @@ fn four_pages_of_paper_are_enough_whatever_fails() {
     for example in [Example::mixed(), everything_wrong()] {
         for pages in printed(&example).into_iter().flatten() {
             assert!((1..=4).contains(&pages), "{pages} pages");
+        }
+    }
+}
+
+/// The file that finds barriers, where it is installed.
+fn axe() -> Option<PathBuf> {
+    let global = || {
+        let told = Command::new("npm").args(["root", "-g"]).output().ok()?;
+        let folder = String::from_utf8(told.stdout).ok()?;
+        Some(Path::new(folder.trim()).join("axe-core/axe.min.js"))
+    };
+    let file = std::env::var_os("FURNACE_AXE").map(PathBuf::from).or_else(global);
+    let file = file.filter(|file| file.is_file());
+    if file.is_none() {
+        println!("skipped: no axe is installed; FURNACE_AXE can name its axe.min.js");
+    }
+    file
+}
+
+/// The page of two images that differ.
+fn write_comparison(path: &Path) {
+    let [image, reference] =
+        [1.2, 1.0].map(|gain| Image::from_fn(64, 48, |x, y| [gain * (1 + x + y) as f32; 3]));
+    let side = |image: &Image| {
+        let file = path.with_extension("exr");
+        exr::write(&file, &Exr::from_image(image)).unwrap();
+        Side::of(load(&file, None).unwrap(), None, Vec::new())
+    };
+    let encoding = Encoding::of(Curve::Srgb);
+    let question = Question { encoding, counted: vec![true; 64 * 48], slow_metrics: true };
+    let comparison = compare(&side(&image), &side(&reference), question).unwrap();
+    let images = vec![Compared { files: vec!["a.exr".to_owned()], comparison }];
+    let comparisons = Comparisons { reference: "b.exr".to_owned(), images };
+    let pixels = |image| Pixels { image, standard_error: None, flip: None, is_coded: false };
+    let command = "furnace compare a.exr b.exr --html a.html".to_owned();
+    let (images, reference) = (vec![pixels(image)], pixels(reference));
+    let page = ComparisonPage { comparisons: &comparisons, images, reference, command };
+    page.write(path).unwrap();
+}
+
+#[test]
+fn nothing_keeps_people_from_reading_a_page() {
+    let (Some(axe), Some(chromium)) = (axe(), chromium()) else { return };
+    let axe = format!("<script src=\"file://{}\"></script>", axe.display());
+    let driven = Driven::of(&Example::mixed());
+    write_comparison(&driven.folder.join("comparison.html"));
+    let beside = BESIDE.iter().map(|(name, _)| *name);
+    let pages = ["index.html", CASE, "case/bvh/a-flat-box-is-hit.html", "comparison.html"];
+    for page in pages.into_iter().chain(beside) {
+        let address = driven.address_with(page, &axe);
+        for (scheme, width) in [("light", 1280), ("dark", 390)] {
+            let seen = chromium.seen(&driven, &framed(&driven, &address, scheme, width));
+            assert_eq!(seen.errors, Vec::<String>::new(), "{page}");
+            assert_eq!(seen.barriers, Vec::<String>::new(), "{page}, {scheme}, {width} wide");
         }
     }
 }

@@ -101,10 +101,20 @@ async function driveViewer(viewer) {
   seen.canvas = [viewer.canvas.width, viewer.canvas.height];
 }
 
+/** What is serious, with everything unfolded. */
+async function barriers() {
+  for (const folded of document.querySelectorAll('details')) folded.open = true;
+  await frameOfBrowser();
+  const { violations } = await axe.run(document, { preload: false });
+  const serious = violations.filter(found => ['serious', 'critical'].includes(found.impact));
+  return serious.map(({ id, nodes }) => `${id}: ${nodes.map(node => node.html.slice(0, 160)).join('\n')}`);
+}
+
 async function drive() {
   const started = typeof viewers === 'undefined' ? [] : await viewers;
   await frameOfBrowser();
   await Promise.all(started.map(viewer => viewer?.unpacked));
+  if (typeof axe !== 'undefined') seen.barriers = await barriers();
   if (started[0]) await driveViewer(started[0]);
   const loaded = performance.getEntriesByType('resource').map(entry => entry.name);
   seen.fetched = loaded.filter(name => !/^(file|data|blob):/.test(name));

@@ -53,7 +53,7 @@ function furniture(frames) {
   const columns = make('tr', {}, ...COLUMNS.map(([words, title]) => make('th', { scope: 'col', title }, words)));
   const cell = make('p', { className: 'cell-text' });
   const bars = make('div', { className: 'histogram' });
-  const values = make('div', { className: 'wide' }, make('table', { className: 'small values' }, place, make('thead', {}, columns), table));
+  const values = make('div', { className: 'wide', role: 'group', ariaLabel: 'values under the pointer', tabIndex: 0 }, make('table', { className: 'small values' }, place, make('thead', {}, columns), table));
   const notes = frames.map(frame => make('p', { className: 'faint' }, `${frame.label}: ${frame.caption}`, broken(frame)));
   const below = make('div', { className: 'below' }, make('div', {}, values, cell, ...notes), bars);
   return { canvas, place, table, cell, bars, parts: [canvas, below] };

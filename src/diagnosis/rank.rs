@@ -45,7 +45,7 @@ pub struct Headline {
     pub may_follow: Vec<String>,
     /// How many cases were not tried because of it.
     pub blocked: usize,
-    /// The command that repeats the quickest of the failing cases.
+    /// The command that repeats the quickest of the failing cases that the evidence is about.
     pub command: String,
 }
 
@@ -56,13 +56,14 @@ impl Headline {
         explains: Vec<String>,
         mut sentences: Vec<String>,
     ) -> Self {
+        let command = quickest(evidence, &explains, &sentences);
         sentences.dedup();
         sentences.truncate(EVIDENCE);
         Self {
             degree: Degree::DiffersHere,
             evidence: sentences,
             blocked: evidence.blocked_by(&explains),
-            command: quickest(evidence, &explains),
+            command,
             explains,
             ..Self::default()
         }
@@ -547,10 +548,12 @@ fn attribute(
     unexplained
 }
 
-fn quickest(evidence: &Evidence<'_>, cases: &[String]) -> String {
+/// Of the cases that the sentences are about, or else of all.
+fn quickest(evidence: &Evidence<'_>, cases: &[String], sentences: &[String]) -> String {
     let failures = evidence.failures().chain(evidence.failures_of_robustness());
     let failures = failures.filter(|seen| cases.iter().any(|case| case == seen.case));
-    let quickest = failures.min_by_key(|seen| seen.work);
+    let tells = |case: &str| sentences.iter().any(|sentence| sentence.starts_with(case));
+    let quickest = failures.min_by_key(|seen| (!tells(seen.case), seen.work));
     quickest.map(|seen| seen.rerun.to_owned()).unwrap_or_default()
 }
 

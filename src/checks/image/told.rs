@@ -6,7 +6,7 @@ use crate::stats::{
     CellScore, Component, GlobalRatio, Hypothesis, ImageReport, Impossible, Scale, ScaleReport,
     Verdict,
 };
-use crate::text::number::{apart, percent, with_interval};
+use crate::text::number::{apart, count, percent, with_interval};
 
 /// Standard errors at the ends of the scale of the error picture.
 pub(super) const ERROR_SCALE: f32 = 6.0;
@@ -82,14 +82,16 @@ fn statement(report: &ImageReport) -> String {
             Impossible::Negative => "negative",
         };
         return format!(
-            "{} pixels are {kind}, the first at ({}, {}) from the top left",
-            impossible.pixels, impossible.x, impossible.y
+            "{} {kind}, the first at ({}, {}) from the top left",
+            pixels(impossible.pixels, ["is", "are"]),
+            impossible.x,
+            impossible.y
         );
     }
     if let Some([x, y]) = report.dead_pixels.first() {
         return format!(
-            "{} pixels stay black in every run, the first at ({x}, {y}) from the top left",
-            report.dead_pixels.len()
+            "{} black in every run, the first at ({x}, {y}) from the top left",
+            pixels(report.dead_pixels.len(), ["stays", "stay"])
         );
     }
     match report.worst_scale {
@@ -103,6 +105,11 @@ fn statement(report: &ImageReport) -> String {
             percent(report.detects)
         ),
     }
+}
+
+/// "1 pixel is", "2 pixels are".
+fn pixels(number: usize, [one, many]: [&str; 2]) -> String {
+    format!("{} {}", count(number, "pixel"), if number == 1 { one } else { many })
 }
 
 /// "the picture has 0.991 of the light it should have".

@@ -41,13 +41,13 @@ fn of_trials(view: &View<'_>) -> Markup {
     let told = told(view.tree);
     let failures = failures(view.tree);
     html! {
-        @if failures.is_empty() && tally.total() > 0 { (not_failed(view, &tally)) }
         @for (number, (core, headline)) in told.iter().enumerate() {
             (cause::card(view, core, headline, [number + 1, told.len()]))
         }
         @if told.len() > PRINTED {
             p.printed { (count(told.len() - PRINTED, "more cause")) " in the report on screen" }
         }
+        @if failures.is_empty() && tally.total() > 0 { (not_failed(view, &tally)) }
         @if told.is_empty() && let Some((first, others)) = failures.split_first() {
             (failed(view, first, others))
         } @else { (unexplained(view, &failures)) }
@@ -132,10 +132,12 @@ fn not_failed(view: &View<'_>, tally: &Tally) -> Markup {
     let all_good = passes == tally.total() && view.tree.is_finished();
     let silent = |trial: &&TrialRecord| trial.outcome.status() != Status::Pass;
     let unknown: Vec<_> = view.tree.graded().filter(silent).collect();
+    let mut unpassed = view.tree.trials.iter().filter(silent);
     html! {
         div class={ "card " (if all_good { "good" } else { "open" }) } {
             h3 {
-                @if all_good { "Every trial passes." }
+                @if all_good && unpassed.next().is_some() { "Every graded trial passes." }
+                @else if all_good { "Every trial passes." }
                 @else { "Nothing fails, but not everything is decided." }
             }
             @for core in &view.tree.run.cores { (next_step(view, &core.spec)) }
@@ -197,6 +199,9 @@ fn slowest(view: &View<'_>) -> Markup {
 fn named(view: &View<'_>, trial: &TrialRecord) -> Markup {
     html! {
         td.mark { (cell(view, trial)) }
-        td { (case_name(view, trial)) span.faint { " on " (trial.core) } }
+        td {
+            (case_name(view, trial))
+            @if view.tree.run.cores.len() > 1 { span.faint { " on " (trial.core) } }
+        }
     }
 }

@@ -47,7 +47,7 @@ const noiseOf = (frame, pixel) => frame.noise ? pixelOf(frame.noise, pixel) : [N
 
 /** The end of a scale that shows nearly all of the errors: 1, 2 or 5 times a power of ten. */
 function limitOf(errors) {
-  const sizes = Float32Array.from(errors.filter(Number.isFinite), Math.abs).sort();
+  const sizes = errors.filter(Number.isFinite).map(Math.abs).sort();
   const high = sizes[Math.floor(0.95 * sizes.length)] || 1e-3;
   const power = 10 ** Math.floor(Math.log10(high));
   return [1, 2, 5, 10].map(step => step * power).find(limit => limit >= 0.999 * high);

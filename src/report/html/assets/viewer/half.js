@@ -32,7 +32,9 @@ const isFiniteHalf = code => (code & 0x7c00) !== 0x7c00;
  * They were packed as planes of high bytes, then of low bytes, for neighbours are alike.
  */
 async function unpack({ data, exponent }, pixels) {
-  const deflated = Uint8Array.from(atob(data), letter => letter.charCodeAt(0));
+  const text = atob(data);
+  const deflated = new Uint8Array(text.length);
+  for (let at = 0; at < text.length; at++) deflated[at] = text.charCodeAt(at);
   const stream = new Blob([deflated]).stream().pipeThrough(new DecompressionStream('deflate'));
   const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
   const codes = new Uint16Array(3 * pixels);
@@ -46,4 +48,4 @@ async function unpack({ data, exponent }, pixels) {
 }
 
 const valueOf = (image, pixel, channel) => HALVES[image.codes[3 * pixel + channel]] * image.scale;
-const pixelOf = (image, pixel) => [0, 1, 2].map(channel => valueOf(image, pixel, channel));
+const pixelOf = (image, pixel) => [valueOf(image, pixel, 0), valueOf(image, pixel, 1), valueOf(image, pixel, 2)];

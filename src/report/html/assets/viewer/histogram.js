@@ -6,7 +6,7 @@ const HISTOGRAM = { width: 320, height: 120, axis: 16 };
 function histogram({ frames, state }) {
   const shown = frames.filter(isRadiance);
   const logs = shown.map(logLuminances);
-  const [low, high] = rangeOf(logs.flatMap(values => [...values]));
+  const [low, high] = rangeOf(logs.flat());
   const { width, height, axis } = HISTOGRAM;
   const counts = logs.map(values => binned(values, low, high));
   const most = Math.max(1, ...counts.flat());

@@ -27,15 +27,17 @@ function statistics(frame, [left, top, width, height]) {
 }
 
 /** Red, green, blue, and luminance, whose noise is at most this, whatever the channels have in common. */
-const withLuminance = colour => [...colour, luminance(colour)];
+const withLuminance = colour => [colour[0], colour[1], colour[2], luminance(colour)];
 
 function add(sums, frame, pixel) {
   const colour = pixelOf(frame, pixel);
   if (!colour.every(Number.isFinite)) return;
+  const [values, noise] = [withLuminance(colour), withLuminance(noiseOf(frame, pixel))];
   sums.count++;
-  withLuminance(colour).forEach((value, channel) => { sums.mean[channel] += value; });
-  if (!frame.noise) return;
-  withLuminance(noiseOf(frame, pixel)).forEach((value, channel) => { sums.variance[channel] += value ** 2; });
+  for (let channel = 0; channel < 4; channel++) {
+    sums.mean[channel] += values[channel];
+    sums.variance[channel] += noise[channel] ** 2;
+  }
 }
 
 /** The rows of the table: texts, image by image. */

@@ -1,6 +1,6 @@
-//! What a core could implement next, by the number of cases that it would then be tried on.
+//! What a core could implement next: part by part, by the number of cases that it would then be tried on.
 
-use super::Case;
+use super::{Case, Part};
 use crate::contract::Capabilities;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ pub(crate) struct NextStep {
     pub(crate) cases: Vec<String>,
 }
 
-/// What is worth most for each capability comes first; each step supposes those before it.
+/// What is worth most for each capability in the earliest part comes first; each step supposes those before it.
 pub(crate) fn next_steps(cases: &[Arc<Case>], has: Capabilities) -> Vec<NextStep> {
     let lacking = |has| {
         let lacks = |case: &Arc<Case>| (case.id.clone(), case.prepared.missing(has));
@@ -34,7 +34,8 @@ fn steps(lacking: &dyn Fn(Capabilities) -> Lacking, mut has: Capabilities) -> Ve
     steps
 }
 
-/// Of cases with what a core lacks for each: the step that opens most of them for each capability; none where all are open.
+/// Of cases with what a core lacks for each: the step that opens most of those of the earliest part for each capability;
+/// none where all are open.
 pub(crate) fn best_step(lacking: &[(String, Capabilities)]) -> Option<NextStep> {
     let closed = || lacking.iter().filter(|(_, lacks)| !lacks.is_empty());
     let distinct: BTreeMap<_, _> = closed().map(|(_, lacks)| (lacks.bits(), *lacks)).collect();
@@ -45,8 +46,11 @@ pub(crate) fn best_step(lacking: &[(String, Capabilities)]) -> Option<NextStep> 
             .map(|(case, _)| case.clone())
             .collect(),
     };
+    let part = |case: &str| Part::of_case(case).map(|part| part.number);
+    let earliest = closed().map(|(case, _)| part(case)).min()?;
+    let gain = |step: &NextStep| step.cases.iter().filter(|case| part(case) == earliest).count();
     // a / b against c / d, without dividing.
-    let worth = |step: &NextStep| (step.cases.len(), step.missing.iter().count());
+    let worth = |step: &NextStep| (gain(step), step.missing.iter().count());
     distinct.into_values().map(step).max_by(|a, b| {
         let ((gain_a, size_a), (gain_b, size_b)) = (worth(a), worth(b));
         // Of equals the smaller step.
@@ -68,8 +72,8 @@ mod tests {
     fn what_opens_most_cases_for_each_function_comes_first() {
         let build = Can::BUILD_SCENE | Can::RADIANCE;
         let needs = [
-            ("camera", Can::GENERATE_RAYS),
-            ("light", build),
+            ("rays", Can::GENERATE_RAYS),
+            ("sky", build),
             ("furnace", build),
             ("bounces", build | Can::ISOLATED_BOUNCES),
             ("picture", build | Can::ISOLATED_BOUNCES | Can::RENDER),
@@ -77,6 +81,17 @@ mod tests {
         let steps = steps(&of(&needs), Can::GENERATE_RAYS);
         let told: Vec<_> = steps.iter().map(|s| (s.missing, s.cases.len())).collect();
         assert_eq!(told, [(build, 2), (Can::ISOLATED_BOUNCES, 1), (Can::RENDER, 1)]);
+    }
+
+    #[test]
+    fn an_earlier_part_comes_first_whatever_a_later_one_would_open() {
+        let needs = [
+            ("shape/sphere", Can::INTERSECT_PRIMITIVE),
+            ("light/point", Can::RADIANCE),
+            ("light/area", Can::RADIANCE),
+        ];
+        let told: Vec<_> = steps(&of(&needs), Can::empty()).iter().map(|s| s.missing).collect();
+        assert_eq!(told, [Can::INTERSECT_PRIMITIVE, Can::RADIANCE]);
     }
 
     #[test]

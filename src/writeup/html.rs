@@ -18,14 +18,14 @@ pub(super) fn text(page: &Page) -> String {
                 title { (page.title) }
                 style { (PreEscaped(STYLE)) }
             }
-            body {
+            body { main {
                 h1 { (page.title) }
-                ul.facts { @for fact in &page.facts { li { (fact) } } }
+                ul.facts { @for fact in &page.facts { li { (fact.replace('`', "")) } } }
                 nav { @for (number, section) in page.sections.iter().enumerate() {
                     a href={ "#" (number) } { (section.title) }
                 } }
                 @for (number, section) in page.sections.iter().enumerate() { (of_section(section, number)) }
-            }
+            } }
         }
     };
     page.into_string()
@@ -79,7 +79,7 @@ fn of_line(line: &Line, columns: usize) -> Markup {
             th scope="row" { (line.label) }
             @match &line.cells {
                 Ok(cells) => { @for cell in cells { td { (cell) } } }
-                Err(why) => { td.missing colspan=(columns - 1) { "not made: " (why) } }
+                Err(why) => { td.missing colspan=(columns - 1) { "not made: " (why.replace('`', "")) } }
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The head of a page, and the run at a glance: how many of what, and one cell a trial, part by part.
 
-use super::parts::{badge, cell, command};
+use super::parts::{badge, cell, command, with_code};
 use super::view::Place;
 use super::{Section, View};
 use crate::report::digest::{PartGroup, Tally, by_part};
@@ -26,7 +26,7 @@ pub(crate) fn header(view: &View<'_>, title: &str, is_index: bool) -> Markup {
     let run = &view.tree.run;
     html! {
         header {
-            h1 { (title) }
+            h1 { (with_code(title)) }
             @if !is_index && view.place != Place::Alone {
                 p.facts { a href={ (view.up()) "index.html" } { "← the whole run" } }
             }

@@ -60,7 +60,7 @@ impl Page {
             (self.scripts(view))
         };
         Document {
-            title: format!("{} · {} · furnace", self.title, cores.join(" and ")),
+            title: format!("{} · {} · furnace", self.title.replace('`', ""), cores.join(" and ")),
             icon: icon(tally.failures() > 0, passes),
             style: self.style(view),
             body,

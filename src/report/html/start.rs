@@ -135,6 +135,7 @@ fn not_failed(view: &View<'_>, tally: &Tally) -> Markup {
     let mut unpassed = view.tree.trials.iter().filter(silent);
     html! {
         div class={ "card " (if all_good { "good" } else { "open" }) } {
+            @if !all_good { p.kicker { b { "Start here. " } } }
             h3 {
                 @if all_good && unpassed.next().is_some() { "Every graded trial passes." }
                 @else if all_good { "Every trial passes." }

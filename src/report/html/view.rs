@@ -65,7 +65,9 @@ impl<'a> View<'a> {
             Place::Alone => is_shown().then_some(anchor),
             Place::Top | Place::Below(_) => {
                 let file = escaped(&Self::file_of(&trial.case));
-                let anchor = if self.tree.run.cores.len() > 1 { &anchor } else { "" };
+                // The page of a case begins with its first core.
+                let is_first = self.tree.run.cores.first().is_some_and(|c| c.spec == trial.core);
+                let anchor = if is_first { "" } else { &anchor };
                 Some(format!("{}{file}{anchor}", self.up()))
             }
         }

@@ -9,6 +9,8 @@ const SIZE: [f64; 2] = [360.0, 224.0];
 /// Where the axes end: left and right, top and bottom.
 const X: [f64; 2] = [56.0, 350.0];
 const Y: [f64; 2] = [24.0, 182.0];
+/// A bar that is thinner is not seen.
+const THINNEST: f64 = 1.5;
 
 pub(super) struct Axis {
     /// With its unit.
@@ -91,7 +93,7 @@ impl Chart {
             self.left_out += 1;
             return;
         };
-        let (width, height) = (right - left, bottom - top);
+        let (width, height) = ((right - left).max(THINNEST), bottom - top);
         self.marks.push(html! {
             rect class={ (class) " area" } x=(px(left)) y=(px(top)) width=(px(width)) height=(px(height)) {
                 @if !title.is_empty() { title { (title) } }

@@ -51,7 +51,8 @@ fn counts_chart(counts: &StopCounts) -> Option<Chart> {
         let title = format!("{samples} samples: {observed} streams, {} expected", figure(expected));
         chart.bar(class, [samples - half, samples + half], [0.0, observed], &title);
     }
-    for (samples, [_, expected]) in places(counts) {
+    // Where the rule never stops there is no mark that could hide a bar.
+    for (samples, [_, expected]) in places(counts).filter(|(_, [_, expected])| *expected > 0.0) {
         chart.point(LAW, [samples, expected], "");
     }
     Some(chart)

@@ -14,6 +14,7 @@ use crate::report::transplants::sentences;
 use crate::report::tree::AbsentCore;
 use crate::run::{Outcome, Status, TrialRecord};
 use crate::text::number::{count, duration, percent};
+use crate::text::program;
 use maud::{Markup, html};
 
 /// Measures in the card; the case has them all.
@@ -166,7 +167,7 @@ fn next_step(view: &View<'_>, core: &str) -> Markup {
             b { "Write next: " } (step.missing.names().join(", ")) ". It opens "
             (count(step.cases.len(), "case")) " of the " (lacking.len()) " that " (core) " was not tried on."
         }
-        (command(&format!("cargo furnace doctor --core {}", shell_words::quote(core))))
+        (command(&format!("{} doctor --core {}", program(), shell_words::quote(core))))
     }
 }
 

@@ -91,6 +91,46 @@ fn a_run_is_repeated_with_other_numbers_each_time() {
     assert_eq!(seeds, [7, 8, 9]);
 }
 
+/// A smooth mesh.
+const BALL: &str = r#"
+title  = "A smooth mesh"
+source = "none"
+
+[camera]
+position       = [0, 0, 5]
+look-at        = [0, 0, 0]
+horizontal-fov = "40 deg"
+film           = [32, 32]
+
+[material.white]
+diffuse = 0.5
+
+[[shape]]
+name      = "ball"
+material  = "white"
+icosphere = { radius = 1, subdivisions = 1 }
+shading   = "smooth"
+
+[[light]]
+point = { position = [0, 3, 0], intensity = 1 }
+"#;
+
+/// A normal that is not unit moves no hit: it is told, and what is timed is timed.
+#[test]
+fn a_core_whose_normals_are_not_unit_is_timed_all_the_same() {
+    let place = Place::new();
+    fs::write(place.path().join("ball.toml"), BALL).unwrap();
+    place.told("export ball.toml --format collada -o scenes");
+    let scenes = place.path().join("scenes");
+    fs::rename(scenes.join("scene.dae"), scenes.join("cow.dae")).unwrap();
+    let core = "textbook:interpolated-normal-not-unit";
+    let (told, code) = place.told(&format!("bench cow --scenes scenes --rounds 3 --core {core}"));
+    assert_eq!(code, 0, "{told}");
+    assert!(told.contains("All hits that were compared are equal."), "{told}");
+    let breaches: Vec<_> = told.lines().filter(|line| line.contains("made unit")).collect();
+    assert!(breaches.len() == 1 && breaches[0].starts_with(core), "{told}");
+}
+
 #[test]
 fn history_tells_what_earlier_runs_have_reached() {
     let place = Place::new();

@@ -3,7 +3,8 @@
 use super::Subject;
 use crate::contract::validate::Validated;
 use crate::contract::{
-    Acceleration, Built, Capabilities, Core, CoreError, Hit, Precision, Ray, Split, TraversalStats,
+    Acceleration, Breach, Built, Capabilities, Core, CoreError, Hit, Precision, Ray, Split,
+    TraversalStats,
 };
 use crate::cores::{CoreSpec, HostError, Hosted, Hosting};
 use crate::math::rng::{Seed, Stream, uniform};
@@ -55,6 +56,14 @@ impl Structure {
     fn is_brute_force(&self) -> bool {
         self.acceleration == Acceleration::BruteForce
     }
+
+    /// On which it is timed.
+    fn rays<'a>(&self, subject: &'a Subject) -> &'a [Ray] {
+        let [few, many] = BRUTE_FORCE_RAYS;
+        let few = (BRUTE_FORCE_TESTS / subject.scene.primitive_count()).clamp(few, many);
+        let count = if self.is_brute_force() { few } else { subject.rays.len() };
+        &subject.rays[..count]
+    }
 }
 
 /// Who is timed, and how.
@@ -100,6 +109,8 @@ pub(super) struct Row {
     pub(super) different: [usize; 2],
     /// Whether so many are too many.
     pub(super) is_wrong: bool,
+    /// What its hits lack of the contract's form; what was meant took its place.
+    pub(super) breach: Option<Breach>,
     /// Whether the core's process told no CPU time, so that this is wall time, with the channel in it.
     pub(super) by_the_wall: bool,
 }
@@ -133,7 +144,8 @@ impl Bench {
 
     fn measured(&self, subject: &Subject) -> Result<Measured, NotMeasured> {
         let mut hosted = self.hosted()?;
-        let mut entries: Vec<_> = hosted.iter_mut().map(Entry::of).collect();
+        let entries = hosted.iter_mut().map(|one| Entry::of(one, subject));
+        let mut entries = entries.collect::<Result<Vec<_>, _>>()?;
         let contestants = entries.iter_mut().map(|entry| Contestant::new(entry, subject));
         let mut contestants = contestants.collect::<Result<Vec<_>, _>>()?;
         let mut stream = Seed::SUITE.child("rounds").child(&subject.name).stream();
@@ -177,13 +189,28 @@ struct Entry<'a> {
     core: String,
     structure: Structure,
     clock: CpuClock,
+    breach: Option<Breach>,
     validated: Validated<'a>,
 }
 
 impl<'a> Entry<'a> {
-    fn of((core, structure, hosted): &'a mut (String, Structure, Hosted)) -> Self {
-        let (core, clock) = (core.clone(), hosted.clock());
-        Self { core, structure: *structure, clock, validated: Validated::new(hosted.core_mut()) }
+    /// Looks once at what its hits lack of the contract's form; from then on they are mended.
+    fn of(
+        (core, structure, hosted): &'a mut (String, Structure, Hosted),
+        subject: &Subject,
+    ) -> Result<Self, NotMeasured> {
+        let (core, structure, clock) = (core.clone(), *structure, hosted.clock());
+        let mut hits = vec![Hit::MISS; structure.rays(subject).len()];
+        let answered = Validated::new(hosted.core_mut())
+            .build_scene(&subject.scene, structure.acceleration)
+            .and_then(|mut built| built.intersect(structure.rays(subject), &mut hits));
+        let breach = match answered {
+            Ok(_) => None,
+            Err(CoreError::BrokeContract(breach)) if breach.can_be_mended() => Some(*breach),
+            Err(error) => return Err(not_answered(&core, structure.name, error)),
+        };
+        let validated = Validated::mending(hosted.core_mut());
+        Ok(Self { core, structure, clock, breach, validated })
     }
 }
 
@@ -203,14 +230,12 @@ struct Contestant<'a> {
 
 impl<'a> Contestant<'a> {
     fn new(entry: &'a mut Entry<'_>, subject: &'a Subject) -> Result<Self, NotMeasured> {
-        let Entry { core, structure, clock, validated } = entry;
+        let Entry { core, structure, clock, breach, validated } = entry;
         let failed = |error| not_answered(core, structure.name, error);
         let info = validated.info();
         let triangles = subject.scene.primitive_count();
-        let [few, many] = BRUTE_FORCE_RAYS;
-        let few = (BRUTE_FORCE_TESTS / triangles).clamp(few, many);
-        let count = if structure.is_brute_force() { few } else { subject.rays.len() };
-        let rays = &subject.rays[..count];
+        let rays = structure.rays(subject);
+        let count = rays.len();
         let mut hits = vec![Hit::MISS; count];
         let how = structure.acceleration;
         let (built, build) =
@@ -235,6 +260,7 @@ impl<'a> Contestant<'a> {
             bytes_per_triangle: (bytes > 0.0).then_some(bytes),
             different: [0, count],
             is_wrong: false,
+            breach: breach.clone(),
             by_the_wall: pass.by_the_wall,
         };
         let passes_a_turn = (SHORTEST_PASS / pass.seconds).ceil().clamp(1.0, 1000.0) as usize;

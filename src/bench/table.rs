@@ -3,6 +3,7 @@
 use super::growth::growths;
 use super::{Measured, Row};
 use crate::stats::timing::SpeedUp;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// A speed-up whose interval is wider than this share of it is not printed.
@@ -104,6 +105,13 @@ fn notes(text: &mut String, subjects: &[Measured]) -> std::fmt::Result {
             let (core, structure) = (short(&row.core), row.structure);
             writeln!(text, "  {core}, {structure}: {different} of {all} hits differ: {verdict}")?;
         }
+    }
+    let rows = subjects.iter().flat_map(|one| &one.rows);
+    // Said once, though the same mistake is in every structure and mesh of a core.
+    let breaches: BTreeMap<_, _> =
+        rows.filter_map(|row| Some((short(&row.core), row.breach.as_ref()?))).collect();
+    for (core, breach) in breaches {
+        writeln!(text, "{core}: {breach}; made unit, and timed as it is")?;
     }
     let all_equal = subjects.iter().flat_map(|one| &one.rows).all(|row| row.different[0] == 0);
     if all_equal {

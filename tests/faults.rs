@@ -13,11 +13,14 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 /// Not yet caught, not yet named, or not yet spared: shown as ignored, and counted against us.
-const OPEN: &[&str] = &[
-    UNCAUGHT,
-    // The rules alone take them for another that gives the same numbers somewhere. A run names them: there a cause is put to
-    // the proof, which here would be the mistake itself.
+const OPEN: &[&str] = &[UNCAUGHT];
+
+/// Caught here, and named by a run: there causes are put to the proof, and what no rule foretells is searched for among the
+/// mistakes that the bench can plant, which here would be the mistake itself.
+const NAMED_BY_A_RUN: &[&str] = &[
+    // The rules alone take them for another that gives the same numbers somewhere.
     "light-halved",
+    "light-area-of-one-triangle",
     "light-pdf-inverted",
     "first-bounce-left-out",
     // What it takes away is what the scene has below the horizon.
@@ -29,6 +32,12 @@ const OPEN: &[&str] = &[
     "mis-light-in-full-everywhere",
     "mis-heuristics-differ",
     "mis-heuristics-differ-everywhere",
+    // No rule looks for them.
+    "back-of-surface-unlit",
+    "light-met-for-ever-after-a-mirror",
+    "metal-pdf-of-all-normals",
+    "mirror-shows-no-sky",
+    "sphere-light-as-disk",
 ];
 
 fn main() -> ExitCode {
@@ -56,10 +65,14 @@ fn trials(matrix: &Arc<Matrix>) -> Result<Vec<Trial>, NothingSelected> {
     let faults = faults.into_iter().map(|fault| {
         let matrix = Arc::clone(matrix);
         Trial::test(format!("fault::{}", fault.name), move || {
+            let not_caught = || Err(Failed::from(format!("not caught by {}", fault.caught_by)));
+            if NAMED_BY_A_RUN.contains(&fault.name) {
+                return if matrix.is_caught(fault)? { Ok(()) } else { not_caught() };
+            }
             let tried = matrix.try_fault_briefly(fault)?;
             match (tried.caught, tried.named) {
                 (true, true) => Ok(()),
-                (false, _) => Err(Failed::from(format!("not caught by {}", fault.caught_by))),
+                (false, _) => not_caught(),
                 (true, false) => Err(Failed::from(format!(
                     "told as {}, not as {}",
                     tried.told.unwrap_or("nothing"),

@@ -27,6 +27,10 @@ causes! {
         "the half width uses the variance, not the standard deviation",
         at "adaptive sampling, where the half width of the confidence interval is computed",
         fix "The confidence interval's half width is 1.96 σ/√n ≤ tolerance · μ, with σ² over n − 1.";
+    HALF_WIDTH_SQUARED = "half-width-squared":
+        "the squared half width of the confidence interval is compared with the tolerance",
+        at "adaptive sampling, where the half width is compared with the tolerance",
+        fix "The confidence interval's half width is 1.96 σ/√n ≤ tolerance · μ: take the root, or square both sides.";
     TOLERANCE_ABSOLUTE = "tolerance-absolute":
         "the tolerance is absolute: it is not multiplied by the mean",
         at "adaptive sampling, where the half width is compared with the tolerance",

@@ -43,6 +43,10 @@ causes! {
         "Fresnel reflectance is Schlick's approximation in a form that the core does not declare",
         at "the Fresnel reflectance of the dielectric, or the declared conventions",
         fix "Use the Fresnel equations, or declare `glass-fresnel = \"schlick\"`, or `\"schlick-outside\"` if the cosine is always taken on the side of lower index.";
+    ONE_POLARISATION = "one-polarisation":
+        "the Fresnel reflectance is that of one polarisation, not the mean of both",
+        at "the Fresnel reflectance of the dielectric",
+        fix "Unpolarised light: (rs² + rp²) / 2.";
     TOTAL_REFLECTION_FORGOTTEN = "total-reflection-forgotten":
         "total internal reflection is missing: beyond the critical angle light is lost",
         at "the dielectric, where refraction has no solution",
@@ -123,6 +127,18 @@ causes! {
         "masking without shadowing: G has the factor for wo, not the one for wi",
         at "the masking-shadowing term G of the rough conductor",
         fix "G = G1(wo) G1(wi), or Smith's height-correlated form of both.";
+    MASKING_OF_ALPHA = "masking-of-alpha":
+        "the masking-shadowing term has α where α² belongs",
+        at "G1 or Λ of the rough conductor, where α multiplies tan θ",
+        fix "GGX: G1 = 2 / (1 + √(1 + α² tan² θ)), Λ = (−1 + √(1 + α² tan² θ)) / 2.";
+    D_NOT_SQUARED = "d-not-squared":
+        "the denominator of the normal distribution function D is not squared",
+        at "the normal distribution function D of the rough conductor",
+        fix "GGX: D = α² / (π (cos² θ (α² − 1) + 1)²).";
+    PDF_OF_ALL_NORMALS = "pdf-of-all-normals":
+        "visible normals are sampled, and the pdf is that of all normals",
+        at "sampling the rough conductor, where the pdf is computed",
+        fix "pdf = G1(wo) D / (4 cos θo) for visible normals; D cos θh / (4 wo · h) belongs to samples of D.";
     D_WITHOUT_PI = "d-without-pi":
         "the normal distribution function D lacks the factor 1/π",
         at "the normal distribution function D of the rough conductor",

@@ -115,6 +115,10 @@ causes! {
         "shadow rays ignore t_max: surfaces behind their end occlude",
         at "the any-hit traversal of shadow rays, where the children of a node are visited",
         fix "Only hits inside (t_min, t_max) occlude.";
+    SHADOW_START_IGNORED = "shadow-start-ignored":
+        "shadow rays ignore t_min: surfaces before their start occlude",
+        at "the any-hit traversal of shadow rays, where t_min goes to boxes and primitives",
+        fix "Only hits inside (t_min, t_max) occlude.";
     SHADOWS_HIT_BOXES = "shadows-hit-boxes":
         "shadow rays count a hit bounding box as an occluder",
         at "the any-hit traversal of shadow rays, where the children of a node are visited",

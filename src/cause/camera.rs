@@ -79,6 +79,10 @@ causes! {
         "camera rays ignore the near and far clip distances",
         at "camera ray generation, where t_min and t_max are set",
         fix "Set t_min to the near clip distance and t_max to the far one.";
+    CLIPS_ALONG_AXIS = "clips-along-the-axis":
+        "the clip distances are taken along the camera's axis, not along the ray",
+        at "camera ray generation, where t_min and t_max are set",
+        fix "Clip distances are values of t of the unit direction: do not divide them by its cosine with the axis.";
     ORIGIN_NOT_AT_CAMERA = "origin-not-at-camera":
         "camera rays do not start at the camera's position",
         at "camera ray generation, where the origin is set",

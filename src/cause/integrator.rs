@@ -91,6 +91,14 @@ causes! {
         "emission is not added after a specular bounce: mirrors and glass show no light sources",
         at "indirect light, after a specular bounce (mirror or dielectric)",
         fix "Light sampling cannot reach delta lobes: add the emission at the end of the ray.";
+    NO_ENVIRONMENT_AFTER_SPECULAR = "no-environment-after-specular":
+        "the environment is not added where a path leaves the scene after a specular bounce",
+        at "indirect light, where a ray after a mirror or dielectric hits nothing",
+        fix "Light sampling cannot reach delta lobes: add the environment where such a ray escapes.";
+    SPECULAR_FLAG_KEPT = "specular-flag-kept":
+        "after one specular bounce all light that the path meets is added, though light sampling has counted it",
+        at "indirect light, where the flag of a specular bounce is set",
+        fix "The flag is of the last bounce alone: a diffuse one takes it back.";
     ISOLATION_IGNORED = "isolation-ignored":
         "a single bounce is requested, and earlier bounces are added too",
         at "indirect light, where the light of a vertex is added",

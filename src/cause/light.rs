@@ -143,6 +143,18 @@ causes! {
         "only one of the lights counts",
         at "light sampling, the loop over lights",
         fix "Declare the sum outside the loop, and add to it inside.";
+    LIGHT_TRIANGLE_NOT_PICKED = "light-pdf-of-one-triangle":
+        "the pdf of a mesh light is that of one triangle: the probability of picking it is missing",
+        at "sampling the area light, where the pdf is computed",
+        fix "Triangles picked by area: 1 / (area of the whole mesh) per area; otherwise multiply by the probability of the pick.";
+    SPHERE_LIGHT_AS_DISK = "sphere-light-pdf-of-disk":
+        "the solid angle of a sphere light is that of a small disk: π sin² θ",
+        at "sampling the sphere light, where the pdf of its cone is computed",
+        fix "A cone of half angle θ fills 2π (1 − cos θ): the pdf is one over that.";
+    BACK_UNLIT = "back-unlit":
+        "surfaces that are seen from their back get no direct light",
+        at "direct light, where the cosine at the surface is clamped",
+        fix "A diffuse surface has two sides: take |cos θ| where wi and wo lie on the same side.";
     MIS_SURFACE_IN_FULL = "mis-surface-samples-in-full":
         "light that BSDF sampling meets counts in full beside weighted light samples",
         at "direct light by multiple importance sampling, where a direction of the BSDF meets a light",

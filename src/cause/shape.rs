@@ -39,6 +39,10 @@ causes! {
         "the hit distance t counts scene units, not lengths of the ray's direction vector",
         at "the intersection test, where t is computed",
         fix "The hit point is origin + t · direction, whatever the length of the direction.";
+    MISSED_IF_CENTRE_BEHIND = "sphere-missed-from-inside":
+        "a sphere is missed if its centre lies behind the ray's origin, though the origin may be inside",
+        at "the ray-sphere test, where spheres behind the origin are rejected",
+        fix "Only where the origin is outside is a sphere with its centre behind it missed.";
     PARALLELOGRAM = "parallelogram":
         "the test u + v ≤ 1 is missing: the triangle has become a parallelogram",
         at "the ray-triangle test, where the barycentric coordinates are compared",

@@ -153,6 +153,14 @@ impl Matrix {
         if alike.is_good() { Ok(alike) } else { folder.try_fault(fault) }
     }
 
+    /// Whether the case named for a fault catches it.
+    ///
+    /// # Errors
+    /// If that is not there.
+    pub fn is_caught(&self, fault: &Fault) -> Result<bool, NothingSelected> {
+        Ok(self.with_cases(|case| case.id == fault.caught_by).try_fault(fault)?.caught)
+    }
+
     fn folder_of(&self, fault: &Fault) -> Self {
         let subject = Subject::of_case(fault.caught_by);
         self.with_cases(|case| Subject::of_case(&case.id) == subject)

@@ -47,6 +47,10 @@ pub(crate) const WRONG_RULES: &[(&Cause, InRule)] = &[
         half_width: |variance, n| NORMAL_95 * variance / n.sqrt(),
         ..rule
     }),
+    (&adaptive::HALF_WIDTH_SQUARED, |rule| Rule {
+        half_width: |variance, n| NORMAL_95 * NORMAL_95 * variance / n,
+        ..rule
+    }),
     (&adaptive::TOLERANCE_ABSOLUTE, |rule| Rule { limit: |tolerance, _| tolerance, ..rule }),
     (&adaptive::COUNT_ONE_SHORT, |rule| Rule {
         variance: |s| (s.squares - s.sum * s.sum / (s.n - 1.0)) / (s.n - 2.0),

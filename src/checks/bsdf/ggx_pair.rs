@@ -65,7 +65,11 @@ pub(crate) const MISTAKES: &[(&Cause, Mistake)] = &[
     (&cause::ROUGHNESS_SQUARED, |pair| {
         Pair { roughness: pair.roughness.powi(2), ..*pair }.right() / pair.right()
     }),
+    (&cause::MASKING_OF_ALPHA, |pair| {
+        Pair { roughness: pair.roughness.sqrt(), ..*pair }.both_masked() / pair.both_masked()
+    }),
     (&cause::D_WITHOUT_PI, |_| PI),
+    (&cause::D_NOT_SQUARED, |pair| pair.roughness / (PI * pair.distribution()).sqrt()),
     (&cause::BECKMANN_FOR_GGX, |pair| {
         beckmann(pair.half().z, pair.roughness) / pair.distribution()
     }),

@@ -30,6 +30,8 @@ pub(crate) struct Truth {
     pub(crate) segments: Vec<Hit>,
     /// Whether each segment would be occluded if it had no end.
     pub(crate) endless: Vec<bool>,
+    /// The same if it started at its origin.
+    pub(crate) from_origin: Vec<bool>,
     /// Rays that hit something nearer than their hit, once they are told to end just before it.
     pub(crate) overwritten: usize,
 }

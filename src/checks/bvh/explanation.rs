@@ -27,7 +27,11 @@ pub(crate) fn explain(found: &Answers, right: &Truth, d: &Differences) -> Option
 }
 
 fn shadows_stopped_by_nothing(found: &Answers, right: &Truth) -> &'static Cause {
-    if found.occluded == right.endless { &bvh::SHADOW_END_IGNORED } else { &bvh::SHADOWS_HIT_BOXES }
+    match &found.occluded {
+        occluded if *occluded == right.endless => &bvh::SHADOW_END_IGNORED,
+        occluded if *occluded == right.from_origin => &bvh::SHADOW_START_IGNORED,
+        _ => &bvh::SHADOWS_HIT_BOXES,
+    }
 }
 
 /// Nearest hits are missed, and nothing else is wrong. A primitive that is in no leaf occludes nothing either.
@@ -101,7 +105,8 @@ mod tests {
         let segments = rays.clone();
         let mut answers =
             Answers { rays: rays.clone(), segments: rays.clone(), occluded: vec![true; 30] };
-        let mut truth = Truth { rays, segments, endless: vec![true; 30], overwritten: 0 };
+        let [endless, from_origin] = [(); 2].map(|()| vec![true; 30]);
+        let mut truth = Truth { rays, segments, endless, from_origin, overwritten: 0 };
         change(&mut answers, &mut truth);
         let ray = Ray::new(DVec3::ZERO, DVec3::X);
         let questions = Questions { rays: vec![ray; 30], segments: vec![ray; 30] };
@@ -146,9 +151,14 @@ mod tests {
         });
         tell(&bvh::SHADOW_SECOND_CHILD_SKIPPED, |answers, _| answers.occluded[0] = false);
         tell(&bvh::SHADOW_END_IGNORED, stopped_by_nothing);
+        tell(&bvh::SHADOW_START_IGNORED, |answers, truth| {
+            stopped_by_nothing(answers, truth);
+            truth.endless[0] = false;
+        });
         tell(&bvh::SHADOWS_HIT_BOXES, |answers, truth| {
             stopped_by_nothing(answers, truth);
             truth.endless[0] = false;
+            truth.from_origin[0] = false;
         });
         tell(&bvh::HIT_OVERWRITTEN, |answers, truth| {
             answers.rays[0].t = 0.5;

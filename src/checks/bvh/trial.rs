@@ -65,12 +65,16 @@ impl<'a> Trial<'a> {
     ) -> Result<(Questions, Truth), CheckError> {
         let hits = closest_hits(brute, &rays)?;
         let segments = segments(&rays, &hits, bounds, &mut seed.stream());
-        let without_end: Vec<_> =
-            segments.iter().map(|ray| Ray { t_max: f64::INFINITY, ..*ray }).collect();
-        let endless = closest_hits(brute, &without_end)?.iter().map(Hit::is_hit).collect();
+        let mut occluded = |changed: fn(&Ray) -> Ray| -> Result<Vec<bool>, CheckError> {
+            let rays: Vec<_> = segments.iter().map(changed).collect();
+            Ok(closest_hits(brute, &rays)?.iter().map(Hit::is_hit).collect())
+        };
+        let endless = occluded(|ray| Ray { t_max: f64::INFINITY, ..*ray })?;
+        let from_origin = occluded(|ray| Ray { t_min: 0.0, ..*ray })?;
         let truth = Truth {
             segments: closest_hits(brute, &segments)?,
             endless,
+            from_origin,
             overwritten: overwritten(brute, &rays, &hits)?,
             rays: hits,
         };

@@ -9,7 +9,7 @@ use crate::contract::Ray;
 use crate::math::sphere::angle_between;
 use crate::scene::Camera;
 use crate::stats::{Compared, ExactReport, judge_exact};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// A camera and the rays a core made for it.
 pub(super) struct Shot {
@@ -64,7 +64,7 @@ pub(super) fn judge(shots: &[Shot], film: &[DVec2], allowed: f64) -> Finding {
     let all = shots.len() * film.len();
     let right = format!("{all} rays of {} cameras leave through their film points", shots.len());
     let resolution = format!("would have caught a ray {} off", degrees(allowed));
-    let elsewhere = causes_elsewhere(&measures);
+    let elsewhere = causes_elsewhere(shots, &measures, allowed);
     Finding::of(right, resolution, measures)
         .complaining(complaints)
         .because_few(explained, &format!("predicts the directions of all {all} rays"))
@@ -72,11 +72,32 @@ pub(super) fn judge(shots: &[Shot], film: &[DVec2], allowed: f64) -> Finding {
 }
 
 /// What is wrong beside directions.
-fn causes_elsewhere(measures: &[Measure]) -> Vec<&'static Cause> {
+fn causes_elsewhere(shots: &[Shot], measures: &[Measure], allowed: f64) -> Vec<&'static Cause> {
     let fails = |what: &str| measures.iter().any(|m| m.failed() && m.quantity.starts_with(what));
     let origin = fails("origin").then_some(&camera::ORIGIN_NOT_AT_CAMERA);
-    let clips = (fails("t_min") || fails("t_max")).then_some(&camera::CLIPS_NOT_SET);
+    let ends = [fails("t_min"), fails("t_max")];
+    let clips = ends.contains(&true).then(|| mistake_of_clips(shots, ends, allowed)).flatten();
     origin.into_iter().chain(clips).collect()
+}
+
+/// What makes those ends of segments that are wrong: t_min, t_max.
+fn mistake_of_clips(shots: &[Shot], wrong: [bool; 2], allowed: f64) -> Option<&'static Cause> {
+    let rays = || shots.iter().flat_map(|shot| shot.rays.iter().map(move |ray| (shot, ray)));
+    let ends = |ray: &Ray| [ray.t_min, ray.t_max];
+    let first = rays().next().map(|(_, ray)| ends(ray))?;
+    let is_same = |end: usize| rays().all(|(_, ray)| ends(ray)[end] == first[end]);
+    let is_along_axis = |(shot, ray): (&Shot, &Ray)| {
+        let Camera { camera_to_world, near, far, .. } = shot.camera;
+        let cosine = ray.direction.normalize().dot(camera_to_world * DVec3::NEG_Z);
+        let on_axis = ends(ray).map(|end| end * cosine);
+        on_axis.iter().zip([near, far]).all(|(end, clip)| (end / clip - 1.0).abs() <= allowed)
+    };
+    // Whatever the camera, they are the same.
+    if (0..2).all(|end| !wrong[end] || is_same(end)) {
+        Some(&camera::CLIPS_NOT_SET)
+    } else {
+        rays().all(is_along_axis).then_some(&camera::CLIPS_ALONG_AXIS)
+    }
 }
 
 fn complaint(camera: usize, what: &str, worst: &Measure) -> String {

@@ -317,6 +317,23 @@ pub(super) const MISTAKES: &[(&Cause, Made)] = &[
     ),
     (
         &shape::T_IN_SCENE_UNITS,
+        Made::Finds(|p, ray| {
+            let length = ray.direction.length();
+            at_first(p, ray, meetings(p, ray).into_iter().map(|m| m.t * length))
+        }),
+    ),
+    (
+        &shape::MISSED_IF_CENTRE_BEHIND,
+        Made::Finds(|p, ray| {
+            let Primitive::Sphere { centre, .. } = p else {
+                return first(p, ray, |m| m.is_hit(ray));
+            };
+            let is_ahead = (*centre - ray.origin).dot(ray.direction) >= 0.0;
+            first(p, ray, |m| m.is_hit(ray) && is_ahead)
+        }),
+    ),
+    (
+        &shape::T_IN_SCENE_UNITS,
         Made::Describes(|ray, m| Answer { t: m.t * ray.direction.length(), ..m.answer() }),
     ),
     (

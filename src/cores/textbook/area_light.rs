@@ -65,7 +65,8 @@ impl MeshLight {
 
     /// The pdf of the direction from `from` to the point `at` with this normal.
     pub(crate) fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
-        steps.mesh_pdf(per_steradian(from, at, normal, steps), self.area())
+        let area_per_steradian = per_steradian(from, at, normal, steps);
+        steps.mesh_pdf(area_per_steradian, self.area(), self.triangles.len())
     }
 }
 
@@ -76,7 +77,7 @@ pub(crate) fn triangle_point(point: DVec2) -> DVec2 {
 }
 
 /// Per steradian, of points that are uniform over the area.
-pub(crate) fn mesh_pdf(area_per_steradian: f64, area: f64) -> f64 {
+pub(crate) fn mesh_pdf(area_per_steradian: f64, area: f64, _triangles: usize) -> f64 {
     area_per_steradian / area
 }
 
@@ -105,6 +106,12 @@ pub(crate) fn area_per_steradian(distance_squared: f64, cosine: f64) -> f64 {
     distance_squared / cosine
 }
 
+/// Per steradian, uniform over the cone of directions that meet a sphere: it cuts a cap of this height out of the unit
+/// sphere, with an area of 2π times that.
+pub(crate) fn cone_pdf(height: f64) -> f64 {
+    FRAC_1_PI / (2.0 * height)
+}
+
 #[derive(Clone, Debug)]
 pub(crate) struct SphereLight {
     sphere: Sphere,
@@ -121,7 +128,7 @@ impl SphereLight {
 
     pub(crate) fn sample(&self, from: DVec3, point: DVec2, steps: &Steps) -> Option<LightSample> {
         if self.fills_cone(from) {
-            self.sample_cone(from, point)
+            self.sample_cone(from, point, steps)
         } else {
             self.sample_emitting_part(from, point, steps)
         }
@@ -130,7 +137,7 @@ impl SphereLight {
     /// The pdf of the direction from `from` to the emitting point `at` with this normal.
     pub(crate) fn pdf(&self, from: DVec3, at: DVec3, normal: DVec3, steps: &Steps) -> f64 {
         if self.fills_cone(from) {
-            self.cone_pdf(from)
+            steps.cone_pdf(self.cone_height(from))
         } else {
             per_steradian(from, at, normal, steps) / self.emitting_area()
         }
@@ -150,18 +157,14 @@ impl SphereLight {
         sine_squared / (1.0 + (1.0 - sine_squared).max(0.0).sqrt())
     }
 
-    /// Uniform over the cone of directions that meet the sphere.
-    fn cone_pdf(&self, from: DVec3) -> f64 {
-        FRAC_1_PI / (2.0 * self.cone_height(from))
-    }
-
-    fn sample_cone(&self, from: DVec3, point: DVec2) -> Option<LightSample> {
+    fn sample_cone(&self, from: DVec3, point: DVec2, steps: &Steps) -> Option<LightSample> {
         let to_centre = self.sphere.centre - from;
-        let height = point.x * self.cone_height(from);
+        let cone_height = self.cone_height(from);
+        let height = point.x * cone_height;
         let axis = Frame::around(to_centre.try_normalize()?);
         let wi = axis.to_world(direction_below_tip(height, point.y));
         let at = from + self.near_distance(to_centre, height) * wi;
-        towards(from, at, self.emission.radiance, self.cone_pdf(from))
+        towards(from, at, self.emission.radiance, steps.cone_pdf(cone_height))
     }
 
     /// To the near side of the sphere, in a direction whose cosine with `to_centre` is 1 − height.

@@ -11,7 +11,7 @@ pub(crate) fn generate_ray(camera: &Camera, film: DVec2, steps: &Steps) -> Ray {
         steps.fields_of_view(camera).map(|field_of_view| steps.half_size(field_of_view));
     let sensor = steps.sensor_point(camera, film, half_size.into());
     let direction = steps.unit(steps.turned_to_world(camera, sensor));
-    let (t_min, t_max) = steps.clip_distances(camera);
+    let (t_min, t_max) = steps.clip_distances(camera, direction);
     Ray { origin: camera.position, t_min, direction, t_max }
 }
 
@@ -42,6 +42,6 @@ pub(crate) fn unit(direction: DVec3) -> DVec3 {
 }
 
 /// What lies before the near or behind the far clip distance is not seen.
-pub(crate) fn clip_distances(camera: &Camera) -> (f64, f64) {
+pub(crate) fn clip_distances(camera: &Camera, _direction: DVec3) -> (f64, f64) {
     (camera.near, camera.far)
 }

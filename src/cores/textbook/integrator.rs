@@ -59,6 +59,7 @@ impl<'a> Integrator<'a> {
     fn at_least_one_bounce(&self, mut view: View<'a>, random: &mut Random<'_>) -> DVec3 {
         let mut radiance = DVec3::ZERO;
         let mut throughput = DVec3::ONE;
+        let mut passed_delta = false;
         let last = self.last_bounce();
         for bounce in 1..=last {
             let View::Surface(vertex) = &view else { break };
@@ -71,10 +72,12 @@ impl<'a> Integrator<'a> {
             let path = Progress { continuation: bounce - 1, throughput };
             let Some(next) = self.continue_path(vertex, path, random) else { break };
             throughput = self.steps.next_throughput(throughput, next.weight);
-            let meets_light = self.steps.path_meets_light(vertex.surface, bounce == last);
+            passed_delta |= bsdf::is_delta(vertex.surface);
+            let is_last = bounce == last;
+            let meets_light = self.steps.path_meets_light(vertex.surface, passed_delta, is_last);
             view = self.world.look(&next.ray);
             if meets_light && self.wants(bounce) {
-                radiance += throughput * zero_bounce(self.world, &view);
+                radiance += throughput * self.steps.light_met_by_path(self.world, &view);
             }
         }
         radiance
@@ -147,9 +150,14 @@ pub(crate) fn light_of_bounce(
 }
 
 /// Whether what is emitted at the end of the next segment is light of the bounce at this surface:
-/// at mirror and glass it comes over the path.
-pub(crate) fn path_meets_light(surface: &Surface, _is_last: bool) -> bool {
+/// at mirror and glass it comes over the path, whatever surfaces that has passed before.
+pub(crate) fn path_meets_light(surface: &Surface, _passed_delta: bool, _is_last: bool) -> bool {
     bsdf::is_delta(surface)
+}
+
+/// What a path sees that meets a light.
+pub(crate) fn light_met_by_path(world: &World<'_>, view: &View<'_>) -> DVec3 {
+    zero_bounce(world, view)
 }
 
 /// Out in the world.

@@ -22,7 +22,8 @@ use super::random::Random;
 use super::rough_glass::RoughGlass;
 use super::split::Item;
 use super::spread::Spread;
-use super::vertex::Vertex;
+use super::vertex::{Vertex, View};
+use super::world::World;
 use crate::contract::{
     AdaptiveSettings, BsdfSample, BsdfValue, Components, DirectSampling, Hit, IntegratorSettings,
     LightSample, Randomness, Ray, RenderSettings, Roulette, Sampler, Split, TraversalStats,
@@ -110,7 +111,7 @@ steps! {
         camera::sensor_point(camera: &Camera, film: DVec2, half_size: DVec2) -> DVec3;
         camera::turned_to_world(camera: &Camera, direction: DVec3) -> DVec3;
         camera::unit(direction: DVec3) -> DVec3;
-        camera::clip_distances(camera: &Camera) -> (f64, f64);
+        camera::clip_distances(camera: &Camera, direction: DVec3) -> (f64, f64);
     }
     // Part 1: the samples of a pixel.
     Components::PIXEL => {
@@ -210,7 +211,8 @@ steps! {
         area_light::triangle_point(point: DVec2) -> DVec2;
         area_light::cosine_at_light(to_light: DVec3, normal: DVec3) -> f64;
         area_light::area_per_steradian(distance_squared: f64, cosine: f64) -> f64;
-        area_light::mesh_pdf(area_per_steradian: f64, area: f64) -> f64;
+        area_light::mesh_pdf(area_per_steradian: f64, area: f64, triangles: usize) -> f64;
+        area_light::cone_pdf(height: f64) -> f64;
         area_light::mesh_radiance(radiance: Rgb, to_light: DVec3, normal: DVec3) -> Rgb;
     }
     Components::EMISSION => {
@@ -248,7 +250,8 @@ steps! {
         integrator::light_of_bounce(
             integrator: &Integrator<'_>, vertex: &Vertex<'_>, bounce: u32, random: &mut Random<'_>
         ) -> DVec3;
-        integrator::path_meets_light(surface: &Surface, is_last: bool) -> bool;
+        integrator::path_meets_light(surface: &Surface, passed_delta: bool, is_last: bool) -> bool;
+        integrator::light_met_by_path(world: &World<'_>, view: &View<'_>) -> DVec3;
         integrator::bounce_direction(frame: &Frame, wi: DVec3) -> DVec3;
         integrator::bounce_weight(f: DVec3, sample: &BsdfSample, direction: DVec3) -> DVec3;
         integrator::next_throughput(throughput: DVec3, weight: DVec3) -> DVec3;

@@ -3,14 +3,22 @@
 
 /// Unpolarised reflectance (Fresnel 1823); 1 under total internal reflection.
 pub(crate) fn reflectance(cos_incident: f64, eta: f64) -> f64 {
+    let [perpendicular, parallel] = amplitudes(cos_incident, eta);
+    0.5 * (perpendicular * perpendicular + parallel * parallel)
+}
+
+/// The amplitudes that are reflected of light polarised across the plane of incidence and along it; 1 under total internal
+/// reflection, but for a phase.
+pub(crate) fn amplitudes(cos_incident: f64, eta: f64) -> [f64; 2] {
     let sine_squared = (1.0 - cos_incident * cos_incident) / (eta * eta);
     if sine_squared >= 1.0 {
-        return 1.0;
+        return [1.0; 2];
     }
     let cos_refracted = (1.0 - sine_squared).sqrt();
-    let perpendicular = (cos_incident - eta * cos_refracted) / (cos_incident + eta * cos_refracted);
-    let parallel = (eta * cos_incident - cos_refracted) / (eta * cos_incident + cos_refracted);
-    0.5 * (perpendicular * perpendicular + parallel * parallel)
+    [
+        (cos_incident - eta * cos_refracted) / (cos_incident + eta * cos_refracted),
+        (eta * cos_incident - cos_refracted) / (eta * cos_incident + cos_refracted),
+    ]
 }
 
 /// Schlick's approximation (1994): R₀ + (1 − R₀)(1 − cos θ)⁵ with the cosine on the side of lower index; 1

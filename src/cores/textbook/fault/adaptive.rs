@@ -28,6 +28,9 @@ faults! { part 5;
     "variance-for-sigma": "σ² for σ",
         fails STREAMS, told adaptive::VARIANCE_FOR_SIGMA,
         half_width = |variance, n| Z_95 * variance / n.sqrt();
+    "half-width-squared": "(1.96 σ)²/n against the tolerance",
+        fails STREAMS, told adaptive::HALF_WIDTH_SQUARED,
+        half_width = |variance, n| Z_95 * Z_95 * variance / n;
     "tolerance-absolute": "the tolerance is not multiplied by the mean",
         fails STREAMS, told adaptive::TOLERANCE_ABSOLUTE,
         tolerance = |max_tolerance, _| max_tolerance;

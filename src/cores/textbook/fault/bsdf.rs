@@ -78,6 +78,14 @@ faults! { part 3;
     "glass-schlick-undeclared": "Schlick's approximation, while Fresnel's equations are declared",
         fails "bsdf/glass-follows-snell-and-fresnel", told bsdf::SCHLICK_UNDECLARED,
         fresnel = different::schlick_outside;
+    "glass-fresnel-of-one-polarisation": "the reflectance of perpendicular light alone, not the mean of both",
+        fails "bsdf/glass-follows-snell-and-fresnel", told bsdf::ONE_POLARISATION,
+        fresnel = |cosine, ratio| {
+            let refracted = lesson::glass::refracted_cosine(cosine, ratio);
+            refracted.map_or(1.0, |refracted| {
+                ((cosine - ratio * refracted) / (cosine + ratio * refracted)).powi(2)
+            })
+        };
     "glass-unscaled-undeclared":
         "radiance is not scaled by the index squared, while that is declared",
         fails "bsdf/glass-follows-snell-and-fresnel", told convention::UNSCALED_RADIANCE,
@@ -89,6 +97,19 @@ faults! { part 3;
     "metal-without-masking": "G = 1",
         fails "bsdf/rough-conductor-conserves-energy", told bsdf::MASKING_FORGOTTEN,
         metal_f = |microfacets| microfacets.distribution / (4.0 * microfacets.wo.z * microfacets.wi.z);
+    "metal-masking-of-alpha": "α in place of α² in the masking term",
+        fails "bsdf/rough-conductor-matches-ggx", told bsdf::MASKING_OF_ALPHA,
+        metal_f = |microfacets| lesson::ggx::metal_f(&masked_by_root(microfacets)),
+        metal_pdf = |microfacets| lesson::ggx::metal_pdf(&masked_by_root(microfacets));
+    "metal-distribution-not-squared": "the denominator of D is not squared",
+        fails "bsdf/rough-conductor-matches-ggx", told bsdf::D_NOT_SQUARED,
+        metal_f = |microfacets| lesson::ggx::metal_f(&with_unsquared_distribution(microfacets)),
+        metal_pdf = |microfacets| lesson::ggx::metal_pdf(&with_unsquared_distribution(microfacets));
+    "metal-pdf-of-all-normals": "visible normals are sampled, and the pdf is that of all: D cos θh / (4 wo·h)",
+        fails "bsdf/rough-conductor-samples-match-their-pdf", told bsdf::PDF_OF_ALL_NORMALS,
+        metal_pdf = |Microfacets { distribution, wo, normal, .. }| {
+            distribution * normal.z / (4.0 * wo.dot(*normal))
+        };
     "metal-pdf-of-half-vector": "the pdf of the half vector, without 1/(4 wo·h)",
         fails "bsdf/rough-conductor-pdf-matches-the-jacobian", told bsdf::PDF_OF_HALF_VECTOR,
         metal_pdf = |Microfacets { distribution, masking_over_cosine: [masked, _], wo, normal, .. }| {
@@ -138,4 +159,20 @@ faults! { part 3;
         metal_f = |Microfacets { distribution, masking_over_cosine: [masked, _], wi, .. }| {
             distribution * masked / (4.0 * wi.z)
         };
+}
+
+/// With √α in place of α in the masking term.
+fn masked_by_root(microfacets: &Microfacets) -> Microfacets {
+    let Microfacets { roughness, wo, wi, .. } = *microfacets;
+    let masking_over_cosine =
+        [wo, wi].map(|w| lesson::ggx::masking_over_cosine(roughness.sqrt(), w));
+    Microfacets { masking_over_cosine, ..*microfacets }
+}
+
+/// With D = α²/(π s) in place of α²/(π s²).
+fn with_unsquared_distribution(microfacets: &Microfacets) -> Microfacets {
+    let Microfacets { roughness, distribution, .. } = *microfacets;
+    let alpha_squared = roughness * roughness;
+    let distribution = (distribution * alpha_squared * FRAC_1_PI).sqrt();
+    Microfacets { distribution, ..*microfacets }
 }

@@ -109,6 +109,9 @@ faults! { part 2;
     "shadow-end-ignored": "any-hit does not look at max_t",
         fails SOUP, told bvh::SHADOW_END_IGNORED,
         any = |bvh, ray, stats| lesson::bvh::any(bvh, &Ray { t_max: f64::INFINITY, ..*ray }, stats);
+    "shadow-start-ignored": "any-hit starts at 0, not at min_t",
+        fails SOUP, told bvh::SHADOW_START_IGNORED,
+        any = |bvh, ray, stats| lesson::bvh::any(bvh, &Ray { t_min: 0.0, ..*ray }, stats);
     "shadows-search-on": "any-hit evaluates both children",
         fails TESTS, told bvh::SHADOWS_SEARCH_ON,
         any_below_children = |bvh, [left, right], ray, stats| {

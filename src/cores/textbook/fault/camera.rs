@@ -3,7 +3,7 @@
 use super::faults;
 use crate::cause::{camera, image};
 use crate::cores::textbook as lesson;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use lesson::camera::sensor_point;
 use lesson::render::{film_point, stratum};
 
@@ -53,7 +53,13 @@ faults! { part 1;
         unit = |direction| direction;
     "clips-ignored": "min_t and max_t are not set to the clip distances",
         fails RAYS, told camera::CLIPS_NOT_SET,
-        clip_distances = |_| (0.0, f64::INFINITY);
+        clip_distances = |_, _| (0.0, f64::INFINITY);
+    "clips-along-the-axis": "clip distances are taken along the camera's axis, not along the ray",
+        fails RAYS, told camera::CLIPS_ALONG_AXIS,
+        clip_distances = |camera, direction| {
+            let cosine = (camera.camera_to_world * DVec3::NEG_Z).dot(direction);
+            (camera.near / cosine, camera.far / cosine)
+        };
     "pixel-corner": "the corner of the pixel in place of a random point of it",
         fails "camera/pixel-samples-are-uniform", told camera::PIXEL_CORNER,
         pixel_point = |random, _, _, _| 0.0 * random.point();

@@ -5,6 +5,7 @@ use crate::cause::integrator;
 use crate::contract::Roulette;
 use crate::cores::textbook as lesson;
 use glam::DVec3;
+use lesson::direct::zero_bounce;
 use lesson::integrator::{
     Integrator, Progress, bounce_weight, light_of_bounce, survival_probability,
 };
@@ -43,11 +44,23 @@ faults! { part 4;
         shows_emission = |bounces| *bounces.end() == 0;
     "emission-every-bounce": "zero_bounce in the recursion, on top of light sampling",
         fails FURNACE, told integrator::EMISSION_AGAIN,
-        path_meets_light = |surface, is_last| !is_last || lesson::bsdf::is_delta(surface);
+        path_meets_light = |surface, _, is_last| !is_last || lesson::bsdf::is_delta(surface);
+    "light-met-for-ever-after-a-mirror":
+        "the flag of a mirror is never taken back: light met behind it counts beside light sampling",
+        fails "integrator/direct-light-in-a-mirror-is-counted-once",
+        told integrator::SPECULAR_FLAG_KEPT,
+        path_meets_light = |_, passed_delta, _| passed_delta;
+    "mirror-shows-no-sky": "what leaves the scene after a mirror or glass is black",
+        fails "integrator/smooth-mirror-reflects-by-its-shading-normals",
+        told integrator::NO_ENVIRONMENT_AFTER_SPECULAR,
+        light_met_by_path = |world, view| match view {
+            View::Sky(_) => DVec3::ZERO,
+            View::Surface(_) => zero_bounce(world, view),
+        };
     "mirror-shows-no-light": "emission is not added after a mirror",
         fails "integrator/three-mirrors-multiply-their-reflectance",
         told integrator::NO_EMISSION_AFTER_SPECULAR,
-        path_meets_light = |_, _| false;
+        path_meets_light = |_, _, _| false;
     "isolation-ignored": "-o 0 has no effect: bounces before the one asked for remain",
         fails FURNACE, told integrator::ISOLATION_IGNORED,
         first_bounce = |_| 0;

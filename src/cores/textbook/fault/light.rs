@@ -6,7 +6,7 @@ use crate::contract::{DirectSampling, Ray};
 use crate::cores::textbook as lesson;
 use glam::{DVec2, DVec3};
 use lesson::vertex::shadow_ray;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_PI, PI};
 
 /// What a rough conductor shows of lights that light sampling and BSDF sampling both find.
 const GLOSSY: &str = "light/lights-over-rough-conductor-match-quadrature";
@@ -26,7 +26,19 @@ faults! { part 3;
         area_per_steradian = |_, _| 1.0;
     "light-area-forgotten": "distance²/cos θ, without the area",
         fails RECTANGLE, told light::LIGHT_AREA_FORGOTTEN,
-        mesh_pdf = |area_per_steradian, _| area_per_steradian;
+        mesh_pdf = |area_per_steradian, _, _| area_per_steradian;
+    "light-area-of-one-triangle":
+        "distance²/(cos θ · area of the triangle): that it was picked among several is forgotten",
+        fails RECTANGLE, told light::LIGHT_TRIANGLE_NOT_PICKED,
+        mesh_pdf = |area_per_steradian, area, triangles| {
+            area_per_steradian / area * triangles as f64
+        };
+    "sphere-light-as-disk": "1/(π sin² θ) for directions to a sphere: the solid angle of its cone as if it were small",
+        fails "light/sphere-light-samples-reach-the-light", told light::SPHERE_LIGHT_AS_DISK,
+        cone_pdf = |height| FRAC_1_PI / (height * (2.0 - height));
+    "back-of-surface-unlit": "max(0, cos θ) at a surface that is seen from its back",
+        fails "light/back-of-a-surface-is-lit-like-its-front", told light::BACK_UNLIT,
+        light_cosine = |local, _| local.z.max(0.0);
     "light-cosine-moved":
         "the cosine at the light in the radiance, not in the pdf: the picture is right",
         fails RECTANGLE, told light::LIGHT_COSINE_FORGOTTEN,
@@ -145,7 +157,7 @@ faults! { part 3;
         mis_light_weight = |_, _| 1.0;
     "mis-light-in-full-everywhere":
         "light samples are not weighted, light that BSDF sampling meets is, at diffuse surfaces too",
-        fails SLANTED, told light::MIS_LIGHT_IN_FULL,
+        fails "light/constant-environment-lights-a-plane-by-its-albedo", told light::MIS_LIGHT_IN_FULL,
         combines = |_| true,
         mis_light_weight = |_, _| 1.0;
     "mis-heuristics-differ":
@@ -172,10 +184,10 @@ faults! { part 3;
         area_per_steradian = |_, cosine| cosine.recip();
     "light-area-multiplied": "· area in place of / area",
         fails RECTANGLE, told light::LIGHT_AREA_MULTIPLIED,
-        mesh_pdf = |area_per_steradian, area| area_per_steradian * area;
+        mesh_pdf = |area_per_steradian, area, _| area_per_steradian * area;
     "light-pdf-inverted": "the pdf is upside down",
         fails RECTANGLE, told light::LIGHT_PDF_INVERTED,
-        mesh_pdf = |area_per_steradian, area| area / area_per_steradian;
+        mesh_pdf = |area_per_steradian, area, _| area / area_per_steradian;
     "point-light-by-distance": "intensity / distance",
         fails "light/point-light-follows-the-inverse-square-law", told light::FADES_WITH_DISTANCE,
         point_light_radiance = |intensity, distance| intensity.map(|i| i / distance);

@@ -91,6 +91,18 @@ faults! { part 1;
             let q = -(half_b + discriminant.sqrt().copysign(half_b));
             (c / q * a * a, q * a)
         };
+    "sphere-t-in-scene-units": "t is a length, whatever the length of the direction",
+        fails SPHERE, told shape::T_IN_SCENE_UNITS,
+        nearer_root = |ray, near, far| {
+            let length = ray.direction.length();
+            lesson::intersect::nearer_root(ray, length * near, length * far)
+        };
+    "sphere-missed-from-inside": "a sphere whose centre lies behind the origin is missed",
+        fails SPHERE, told shape::MISSED_IF_CENTRE_BEHIND,
+        nearer_root = |ray, near, far| {
+            let is_centre_ahead = near + far >= 0.0;
+            lesson::intersect::nearer_root(ray, near, far).filter(|_| is_centre_ahead)
+        };
     "sphere-cancellation": "b² − 4ac as it stands: far spheres lose their digits",
         fails "shape/distant-spheres-do-not-cancel", told shape::SPHERE_CANCELLATION,
         roots = |Quadratic { a, half_b, c, .. }| {

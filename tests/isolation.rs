@@ -32,11 +32,17 @@ static ALONE: Mutex<()> = Mutex::new(());
 /// How a trial has to end: a status, and words of its statement.
 type Ending = (Status, &'static str);
 
+/// Where nothing watches the stack, a segmentation fault may be anything.
+const OVERFLOW: &str = match cfg!(target_os = "linux") {
+    true => "stack overflow (SIGSEGV",
+    false => "a stack that overflowed",
+};
+
 /// What each C++ core comes to.
 const LIBRARIES: &[(&str, Ending)] = &[
     ("segfault", (Status::Crashed, "SIGSEGV")),
     ("raise", (Status::Crashed, "SIGSEGV")),
-    ("overflow", (Status::Crashed, "a stack that overflowed")),
+    ("overflow", (Status::Crashed, OVERFLOW)),
     ("divide", (Status::Crashed, "SIGFPE")),
     ("abort", (Status::Crashed, "SIGABRT")),
     ("exit", (Status::Crashed, "exit code 0 without an answer")),

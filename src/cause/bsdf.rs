@@ -43,10 +43,10 @@ causes! {
         "Fresnel reflectance is Schlick's approximation in a form that the core does not declare",
         at "the Fresnel reflectance of the dielectric, or the declared conventions",
         fix "Use the Fresnel equations, or declare `glass-fresnel = \"schlick\"`, or `\"schlick-outside\"` if the cosine is always taken on the side of lower index.";
-    ONE_POLARISATION = "one-polarisation":
-        "the Fresnel reflectance is that of one polarisation, not the mean of both",
-        at "the Fresnel reflectance of the dielectric",
-        fix "Unpolarised light: (rs² + rp²) / 2.";
+    POLARISATIONS_NOT_AVERAGED = "polarisations-not-averaged":
+        "the Fresnel reflectance is not the mean of both polarisations",
+        at "the Fresnel reflectance of the dielectric, where rs and rp are put together",
+        fix "Unpolarised light: (rs² + rp²) / 2, the mean of the squares of both.";
     TOTAL_REFLECTION_FORGOTTEN = "total-reflection-forgotten":
         "total internal reflection is missing: beyond the critical angle light is lost",
         at "the dielectric, where refraction has no solution",

@@ -77,6 +77,13 @@ pub(crate) fn is_vague(cause: &Cause) -> bool {
     *cause == bvh::HITS_LOST
 }
 
+/// Whether the second is no mistake of its own where the first is made: what is lost by it, or t_max that stays as it is
+/// where hits do not shorten it.
+pub(crate) fn brings_along(cause: &Cause, other: &Cause) -> bool {
+    let loses = is_of_bvh(cause) && !is_vague(cause) && is_vague(other);
+    loses || *cause == bvh::HIT_OVERWRITTEN && *other == bvh::SEGMENT_NOT_SHORTENED
+}
+
 /// Whether the cause says what form an answer has not, and not what gave it that.
 pub(crate) fn is_symptom(cause: &Cause) -> bool {
     contract::CAUSES.contains(&cause)

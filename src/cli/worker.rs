@@ -26,6 +26,7 @@ pub(crate) fn worker(arguments: &WorkerArguments) -> Answer {
     }
     let channel = inherited.into_channel().map_err(Failure::broken)?;
     dylib::let_faults_kill();
+    worker::overflow::watch();
     let served = match load(&spec) {
         Ok(mut core) => worker::serve(&mut Validated::in_worker(core.as_mut()), channel),
         Err(why) => worker::refuse(why, channel),

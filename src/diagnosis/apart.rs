@@ -59,7 +59,7 @@ pub(crate) fn diagnose_apart(
     for (view, sifted) in views.iter().zip(sifted) {
         let of_view = sifted.and_searched();
         let of_view = of_view.differing_in(&view.evidence, |case| view.is_of_own(case));
-        let mut of_view = of_view.of_component(view.own);
+        let mut of_view = of_view.of_component(view.own, first);
         let unseen: Vec<_> = of_views
             .iter()
             .filter(|case| view.mends(case) && !of_view.followed_by(case))
@@ -70,7 +70,7 @@ pub(crate) fn diagnose_apart(
         if !unseen.is_empty() {
             let unseen = first.with_failures_of(&unseen);
             let made_in = MadeIn::Mended(view.own);
-            told = told.and(proven(&unseen, planted, made_in).of_component(view.own));
+            told = told.and(proven(&unseen, planted, made_in).of_component(view.own, first));
         }
     }
     told.and(left.and_searched()).told()
@@ -79,6 +79,7 @@ pub(crate) fn diagnose_apart(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Foundation;
     use crate::cause::{bsdf, shape};
     use crate::diagnosis::testing::{Made, Nothing, failing, passing};
     use crate::diagnosis::{Degree, Ending, diagnose};
@@ -146,6 +147,29 @@ mod tests {
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 2));
         assert_eq!(only.mistake, "what differs is the core's BVH");
+    }
+
+    #[test]
+    fn what_passes_its_own_cases_is_called_wrongly() {
+        let made = |boxes| {
+            let made = Made::new().with("bvh/boxes", boxes).with("bvh/a", failing("a"));
+            let made = made.proving("bvh/boxes", &[Foundation::Boxes]);
+            let again = Made::new().with("bvh/a", failing("a"));
+            let view = View {
+                evidence: again.evidence(),
+                own: Components::BOX_TEST,
+                of_own: vec!["bvh/a".to_owned()],
+                mended: vec!["bvh/a".to_owned()],
+            };
+            let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+            let mistakes = told.headlines.into_iter().map(|headline| headline.mistake);
+            mistakes.collect::<Vec<_>>().join(", ")
+        };
+        assert_eq!(
+            made(passing()),
+            "the core's box test passes its own cases, and what calls it does not"
+        );
+        assert!(made(failing("b")).contains("what differs is the core's box test"));
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::reproduction::Refuted;
 use super::{Degree, Ending, Evidence, Headline, Observation};
 use crate::case::{Part, Subject};
 use crate::cause::{Cause, adaptive, bvh};
+use crate::worker::overflow;
 use std::collections::BTreeMap;
 
 /// What crashes of one mistake have in common.
@@ -24,6 +25,12 @@ impl<'a> Kind<'a> {
         };
         let how = how.split(['(', ';', ':']).next().unwrap_or(how).trim();
         Self { how, request: function(during), is_timeout }
+    }
+
+    /// Where nobody watches the stack, a segmentation fault may be an overflow: in some scenes it is, where others are built.
+    fn is_endless_recursion(&self, builds_others: bool) -> bool {
+        let may_be = !overflow::IS_WATCHED && self.how == "signal 11" && builds_others;
+        self.how == "stack overflow" || may_be
     }
 
     fn mistake(&self) -> String {
@@ -56,7 +63,6 @@ pub(super) fn headlines(evidence: &Evidence<'_>, refuted: &Refuted) -> Vec<Headl
     }
     // The same cases ask for nearest hits before they ask for shadows.
     let shadows_alone = kinds.keys().all(|kind| kind.request != "intersect");
-    // A recursion that ends in other scenes has no end in these; what crashes in every scene may be anything.
     let builds_others = evidence.has_lit_a_scene();
     let told = |(kind, cases): (&Kind<'_>, &Vec<_>)| {
         let refutes = |cause: &Cause, seen: &Observation<'_>| {
@@ -81,7 +87,7 @@ fn cause(
     match (kind.is_timeout, kind.request.as_str()) {
         (true, "adaptive_mean") => Some(&adaptive::LOOP_ENDLESS),
         (true, _) if is_adaptive() => Some(&adaptive::LOOP_ENDLESS),
-        (false, "build") if kind.how == "signal 11" && builds_others => {
+        (false, "build") if kind.is_endless_recursion(builds_others) => {
             Some(&bvh::RECURSION_ENDLESS)
         }
         (false, "occluded") if shadows_alone => Some(&bvh::ANY_HIT_CRASHES),
@@ -162,7 +168,12 @@ mod tests {
         let everywhere =
             Made::new().ended("bvh/a", crash("build")).ended("light/b", crash("build"));
         assert_eq!(causes(&diagnose(&everywhere.evidence())), [""], "no scene is built");
-        let diagnosis = diagnose(&everywhere.with("light/c", passing()).evidence());
+        let elsewhere = diagnose(&everywhere.with("light/c", passing()).evidence());
+        let endless = if overflow::IS_WATCHED { "" } else { bvh::RECURSION_ENDLESS.name };
+        assert_eq!(causes(&elsewhere), [endless]);
+        let how = "stack overflow (SIGSEGV)";
+        let overflow = Made::new().ended("bvh/a", Ending::Crashed { how, during: "build" });
+        let diagnosis = diagnose(&overflow.evidence());
         assert_eq!(causes(&diagnosis), [bvh::RECURSION_ENDLESS.name]);
         assert_eq!(diagnosis.headlines[0].degree, Degree::LooksLike);
         assert!(diagnosis.headlines[0].look_at.ends_with("`build` in furnace_core.h"));

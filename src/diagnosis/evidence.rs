@@ -187,6 +187,16 @@ impl<'a> Evidence<'a> {
     }
 
     /// How many graded cases rest on one of these.
+    /// Whether the core's own `component` has passed all that prove it.
+    pub(crate) fn has_proven(&self, component: Components) -> bool {
+        let is_of_it = |foundation: &Foundation| foundation.components() == component;
+        let proves = |seen: &&Observation<'_>| {
+            seen.proves.iter().any(is_of_it) && !seen.with.intersects(component)
+        };
+        let mut proving = self.observations.iter().filter(proves).peekable();
+        proving.peek().is_some() && proving.all(|seen| seen.standing == Standing::Passed)
+    }
+
     pub(crate) fn blocked_by(&self, cases: &[String]) -> usize {
         let is_blocked = |seen: &&Observation<'_>| match &seen.standing {
             Standing::Blocked(by) => seen.tier.is_graded() && cases.contains(by),

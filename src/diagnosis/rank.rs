@@ -206,19 +206,21 @@ impl Ranked {
         self.causes.splice(at.unwrap_or(0)..at.unwrap_or(0), one);
     }
 
-    /// What merely says what is lost follows from a mistake of the BVH that has a name.
+    /// What merely says what is lost follows from a mistake of the BVH that has a name, and some mistakes bring others
+    /// along.
     fn without_the_vague(mut self) -> Self {
         let of = |headline: &Headline| cause::find(&headline.cause);
-        let is_vague = |headline: &Headline| of(headline).is_some_and(cause::is_vague);
-        let explains = |headline: &Headline| {
-            let of_bvh =
-                of(headline).is_some_and(|it| cause::is_of_bvh(it) && !cause::is_vague(it));
-            of_bvh && headline.degree == Degree::Named
+        let brings = |told: &Headline, other: &Headline| match (of(told), of(other)) {
+            (Some(told), Some(other)) => cause::brings_along(told, other),
+            _ => false,
         };
-        if self.causes.iter().any(explains) {
-            let vague: Vec<_> = self.causes.extract_if(.., |one| is_vague(one)).collect();
-            if let Some(told) = self.causes.iter_mut().find(|one| explains(one)) {
-                told.may_follow.extend(vague.into_iter().flat_map(|one| one.explains));
+        let named = self.causes.iter().filter(|headline| headline.degree == Degree::Named);
+        let named: Vec<_> = named.cloned().collect();
+        for told in named {
+            let brought: Vec<_> =
+                self.causes.extract_if(.., |other| brings(&told, other)).collect();
+            if let Some(told) = self.causes.iter_mut().find(|one| one.cause == told.cause) {
+                told.may_follow.extend(brought.into_iter().flat_map(|one| one.explains));
             }
         }
         self
@@ -241,7 +243,7 @@ impl Ranked {
 
     /// The same where everything but `own` is the bench's: whatever else failed is of its only cause too, and what has no
     /// cause differs there.
-    pub(super) fn of_component(mut self, own: Components) -> Self {
+    pub(super) fn of_component(mut self, own: Components, evidence: &Evidence<'_>) -> Self {
         match (&mut self.causes[..], &self.endings[..]) {
             ([only], []) => {
                 for headline in &mut self.differing {
@@ -252,18 +254,29 @@ impl Ranked {
                     only.may_follow.extend(headline.explains.extract_if(.., may_follow));
                 }
                 self.differing.retain(|headline| !headline.explains.is_empty());
-                self.differing_as_one(own);
+                self.differing_as_one(own, evidence);
             }
-            ([], []) => self.differing_as_one(own),
+            ([], []) => self.differing_as_one(own, evidence),
             _ => {}
         }
         self
     }
 
-    fn differing_as_one(&mut self, own: Components) {
+    /// A component that answers rightly where it is asked alone may be called wrongly.
+    fn differing_as_one(&mut self, own: Components, evidence: &Evidence<'_>) {
         let one = self.differing.drain(..).reduce(Headline::and);
-        let mistake = format!("what differs is the core's {}", own.in_words());
-        self.differing.extend(one.map(|one| Headline { mistake, ..one }));
+        let component = own.in_words();
+        let (mistake, look_at) = if evidence.has_proven(own) {
+            (
+                format!("the core's {component} passes its own cases, and what calls it does not"),
+                format!(
+                    "where the core calls its {component}: what it hands over and what it does with the answer"
+                ),
+            )
+        } else {
+            (format!("what differs is the core's {component}"), String::new())
+        };
+        self.differing.extend(one.map(|one| Headline { mistake, look_at, ..one }));
     }
 
     /// The same where what has no cause is told of these cases alone.
@@ -722,6 +735,17 @@ mod tests {
         let [only] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
         assert_eq!(only.cause, bvh::RANGE_OVERWRITTEN.name);
         assert_eq!((only.explains.len(), diagnosis.unexplained.len()), (2, 0));
+    }
+
+    #[test]
+    fn a_mistake_that_another_brings_along_is_not_told_beside_it() {
+        let made = Made::new()
+            .with("bvh/a", failing("a").because(&bvh::HIT_OVERWRITTEN, "x"))
+            .with("bvh/b", failing("b").because(&bvh::SEGMENT_NOT_SHORTENED, "y"));
+        let diagnosis = diagnose(&made.evidence());
+        let [only] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
+        assert_eq!(only.cause, bvh::HIT_OVERWRITTEN.name);
+        assert_eq!(only.may_follow, ["bvh/b"]);
     }
 
     #[test]

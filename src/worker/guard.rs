@@ -230,6 +230,7 @@ use unix::{bury, death, has_ended, kill};
 
 #[cfg(unix)]
 mod unix {
+    use crate::worker::overflow;
     use rustix::process::{
         Pid, Signal, WaitId, WaitIdOptions, WaitOptions, kill_process_group, waitid, waitpgid,
     };
@@ -255,6 +256,10 @@ mod unix {
 
     pub(crate) fn death(status: ExitStatus) -> String {
         match (status.signal(), status.code()) {
+            (Some(signal), _) if overflow::tells(signal) => {
+                "stack overflow (SIGSEGV: the end of the stack, as of a recursion without end)"
+                    .to_owned()
+            }
             (Some(signal), _) => format!("signal {signal}{}", meaning(signal)),
             (None, Some(code)) => format!("exit code {code} without an answer"),
             (None, None) => "it ended in an unknown way".to_owned(),

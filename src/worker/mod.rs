@@ -21,6 +21,7 @@ mod guard;
 pub mod message;
 pub(crate) mod narrow;
 mod output;
+pub(crate) mod overflow;
 mod patience;
 mod process;
 #[cfg(target_os = "linux")]

@@ -82,8 +82,15 @@ pub(crate) static MISTAKES: &[(&Cause, Mistake)] = &[
     (&cause::SNELL_INVERTED, |w| w.bends_by = f64::recip),
     (&cause::SCHLICK_UNDECLARED, |w| w.reflectance = fresnel::schlick),
     (&cause::SCHLICK_UNDECLARED, |w| w.reflectance = fresnel::schlick_of_view),
-    (&cause::ONE_POLARISATION, |w| w.reflectance = |c, eta| fresnel::amplitudes(c, eta)[0].powi(2)),
-    (&cause::ONE_POLARISATION, |w| w.reflectance = |c, eta| fresnel::amplitudes(c, eta)[1].powi(2)),
+    (&cause::POLARISATIONS_NOT_AVERAGED, |w| {
+        w.reflectance = |c, eta| fresnel::amplitudes(c, eta)[0].powi(2)
+    }),
+    (&cause::POLARISATIONS_NOT_AVERAGED, |w| {
+        w.reflectance = |c, eta| fresnel::amplitudes(c, eta)[1].powi(2)
+    }),
+    (&cause::POLARISATIONS_NOT_AVERAGED, |w| {
+        w.reflectance = |c, eta| (fresnel::amplitudes(c, eta).iter().sum::<f64>() / 2.0).powi(2)
+    }),
     (&cause::TOTAL_REFLECTION_FORGOTTEN, |w| w.reflects_totally = false),
     (&convention::UNSCALED_RADIANCE, |w| w.crossing = |_| 1.0),
     (&cause::GLASS_RADIANCE_SCALED_BACKWARDS, |w| w.crossing = |ratio| ratio * ratio),

@@ -392,11 +392,8 @@ impl<'a> Proof<'a> {
             let alike: Vec<_> = cases.iter().zip(answers).filter(is_alike).collect();
             let cases: Vec<_> = alike.into_iter().map(|(seen, _)| *seen).collect();
             let found = suspicions(&[*mistake], &cases, Degree::LooksLike).pop()?;
-            let sentence = format!(
-                "a case that only informs has recognised it, and the bench's own core with this mistake is wrong in the same \
-                 places in {}",
-                found.cases.join(", ")
-            );
+            let recognised = "a case that only informs has recognised it, and ";
+            let sentence = wrong_in_the_same_places(recognised, &found.cases.join(", "));
             (!cases.is_empty()).then(|| Suspicion { evidence: vec![sentence], ..found })
         };
         self.planted.mistakes().iter().filter(is_informed).filter_map(alike).collect()
@@ -457,8 +454,45 @@ impl<'a> Proof<'a> {
             let rest = others[number + 1..].iter().filter(|other| other.cause != one.cause);
             sets.extend(rest.map(|other| vec![**one, **other]));
         }
-        let found = self.of_sets(&sets, &cases);
-        if found.is_empty() { self.grown(told, &mistakes, failing) } else { found }
+        let mut found = self.of_sets(&sets, &cases);
+        if found.is_empty() {
+            found = self.grown(told, &mistakes, failing);
+        }
+        if found.is_empty() {
+            // A core may do what the bench has a component for in the midst of a higher one.
+            let is_below =
+                |components| !self.made_in.may_be(components) && !self.made_in.leaves(components);
+            let elsewhere = self.failing_alike(|mistake| is_below(mistake.components));
+            let elsewhere: Vec<_> = elsewhere.into_iter().map(|mistake| vec![mistake]).collect();
+            found = self.of_sets(&elsewhere, &cases);
+        }
+        if found.is_empty() { self.nearly_reproducing(&alone, failing) } else { found }
+    }
+
+    /// The only mistake that fails every case in the same places and to the same side, and half of them by as much: the rest
+    /// may be the noise of another sampler, or a second mistake.
+    fn nearly_reproducing(&self, alone: &[Vec<Mistake>], failing: &[String]) -> Vec<Suspicion> {
+        let failing = failing.iter().filter_map(|case| self.evidence.failure_of(case));
+        let cases = quickest(failing, GROWN_CASES);
+        let mut near: Vec<_> = alone.iter().map(|set| (set, 0)).collect();
+        for seen in &cases {
+            let tried: Vec<_> = near.iter().map(|(set, _)| (*set).clone()).collect();
+            let answers = self.compare(&tried, &[seen]).into_iter().map(|of| of[0]);
+            let is_near = |of: &Likeness| of.is_reproduced() || *of == Likeness::Alike;
+            let with_answer = near.into_iter().zip(answers).filter(|(_, of)| is_near(of));
+            let counted = with_answer
+                .map(|((set, same), of)| (set, same + usize::from(of == Likeness::Same)));
+            near = counted.collect();
+        }
+        let half = near.into_iter().filter(|(_, same)| *same > 0 && 2 * same >= cases.len());
+        let kinds = kinds(half.map(|(set, _)| set).collect());
+        let [only] = kinds[..] else { return Vec::new() };
+        let mut found = suspicions(only, &cases, Degree::LooksLike);
+        for suspicion in &mut found {
+            let names = suspicion.cases.join(", ");
+            suspicion.evidence = vec![wrong_in_the_same_places("", &names)];
+        }
+        found
     }
 
     /// Everything that is told, where it reproduces every case: each in the cases that it is needed for.
@@ -563,10 +597,14 @@ impl<'a> Proof<'a> {
 
     /// Mistakes that may be made in what is the core's own, whose own cases fail here.
     fn in_sight(&self) -> Vec<Mistake> {
+        self.failing_alike(|mistake| self.made_in.may_be(mistake.components))
+    }
+
+    /// Those of the `wanted` mistakes whose own cases fail here, asked of what is the core's own.
+    fn failing_alike(&self, wanted: impl Fn(&Mistake) -> bool) -> Vec<Mistake> {
         let fails = |mistake: &&Mistake| {
             let seen = self.evidence.failure_of(mistake.caught_by);
-            let is_own = seen.is_some_and(|seen| !seen.with.intersects(mistake.components));
-            is_own && self.made_in.may_be(mistake.components)
+            seen.is_some_and(|seen| !seen.with.intersects(mistake.components)) && wanted(mistake)
         };
         self.planted.mistakes().iter().filter(fails).copied().collect()
     }
@@ -641,6 +679,10 @@ fn degree(fitting: usize, tried: usize, cases: &[&Observation<'_>]) -> Option<De
 
 fn refuted(cause: &'static Cause, cases: &[String]) -> Refuted {
     cases.iter().map(|case| (cause.name, case.clone())).collect()
+}
+
+fn wrong_in_the_same_places(before: &str, cases: &str) -> String {
+    format!("{before}the bench's own core with this mistake is wrong in the same places in {cases}")
 }
 
 fn suspicions(set: &[Mistake], cases: &[&Observation<'_>], degree: Degree) -> Vec<Suspicion> {
@@ -873,6 +915,22 @@ mod tests {
     }
 
     #[test]
+    fn one_mistake_that_is_wrong_alike_everywhere_and_mostly_by_as_much_is_looked_like() {
+        let made = Made::new().with("light/b", light(0.5)).with("light/c", light(0.25));
+        let told_where = |ratio| {
+            let gives: &[(&[&str], _, _)] =
+                &[(&["divided"], "light/b", 0.5), (&["divided"], "light/c", ratio)];
+            let planted = Bench { mistakes: &[DIVIDED, AGAIN], gives };
+            let diagnosis = diagnose_proven(&made.evidence(), &planted);
+            let (cause, degree, cases) = told(&diagnosis)[0];
+            (cause.to_owned(), degree, cases)
+        };
+        let divided = light::DIVIDED_BY_LIGHTS.name.to_owned();
+        assert_eq!(told_where(0.4), (divided, Degree::LooksLike, 2));
+        assert_eq!(told_where(1.4).1, Degree::DiffersHere, "to the other side");
+    }
+
+    #[test]
     fn two_mistakes_that_give_the_numbers_only_together_are_both_named() {
         let made = Made::new().with("bsdf/a", light(0.7)).with("light/b", light(0.4));
         let both: &[&str] = &["pi", "divided"];
@@ -1089,6 +1147,16 @@ mod tests {
         let both = one.with("bvh/b", overwritten);
         let diagnosis = diagnose_proven(&both.evidence(), &planted);
         assert_eq!(told(&diagnosis), [(bvh::HITS_LOST.name, Degree::Named, 2)]);
+    }
+
+    #[test]
+    fn a_mistake_of_a_lower_component_that_alone_gives_the_numbers_is_looked_like() {
+        let made = Made::new().with("bsdf/a", light(0.5)).with("bsdf/b", light(0.7));
+        let gives: &[(&[&str], _, _)] = &[(&["pi"], "bsdf/a", 0.5), (&["pi"], "bsdf/b", 0.7)];
+        let planted = Bench { mistakes: &[PI], gives };
+        let ranked = proven(&made.evidence(), &planted, MadeIn::Mended(Components::PATH));
+        let pi = bsdf::WITHOUT_PI.name;
+        assert_eq!(told(&ranked.told()), [(pi, Degree::LooksLike, 2)]);
     }
 
     #[test]

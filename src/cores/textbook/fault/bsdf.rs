@@ -79,7 +79,7 @@ faults! { part 3;
         fails "bsdf/glass-follows-snell-and-fresnel", told bsdf::SCHLICK_UNDECLARED,
         fresnel = different::schlick_outside;
     "glass-fresnel-of-one-polarisation": "the reflectance of perpendicular light alone, not the mean of both",
-        fails "bsdf/glass-follows-snell-and-fresnel", told bsdf::ONE_POLARISATION,
+        fails "bsdf/glass-follows-snell-and-fresnel", told bsdf::POLARISATIONS_NOT_AVERAGED,
         fresnel = |cosine, ratio| {
             let refracted = lesson::glass::refracted_cosine(cosine, ratio);
             refracted.map_or(1.0, |refracted| {

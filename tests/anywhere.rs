@@ -129,6 +129,21 @@ fn a_new_core_in_rust_passes_as_its_commands_say() {
 }
 
 #[test]
+fn a_new_core_in_python_answers_beside_its_reports() {
+    let numpy = Command::new("python3").args(["-c", "import numpy"]).output();
+    if !numpy.is_ok_and(|output| output.status.success()) {
+        return eprintln!("skipped: `python3` has no numpy");
+    }
+    let here = Elsewhere::new();
+    here.told(".", &["new", "core", "--lang", "python", "py"]);
+    let core = "exec: python3 numpy_core.py";
+    here.told("py", &["run", "shape/ray-sphere-hits", "--core", core]);
+    // By now what is hidden from cores lies beside it.
+    assert!(here.path().join("py/reports/runs").is_dir());
+    here.told("py", &["doctor", "--core", core]);
+}
+
+#[test]
 fn every_other_kind_of_core_is_written_with_all_that_its_commands_name() {
     let here = Elsewhere::new();
     for (kind, files) in [

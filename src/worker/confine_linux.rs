@@ -1,7 +1,7 @@
 //! All that only Linux can do for a worker: Landlock for files, seccomp for the rest, and orphans
 //! that come back to whoever has to end them.
 
-use super::readable::readable;
+use super::readable::{listable, readable};
 use super::spec::{Confinement, CoreOrigin, WorkerSpec};
 use landlock::{
     ABI, Access, AccessFs, AccessNet, CompatLevel, Compatible, Ruleset, RulesetAttr,
@@ -64,6 +64,7 @@ fn shut_files(worker: &WorkerSpec) -> Result<RulesetStatus, RulesetError> {
         .scope(Scope::from_all(NEWEST))?
         .create()?
         .add_rules(path_beneath_rules(readable(worker), AccessFs::from_read(NEWEST)))?
+        .add_rules(path_beneath_rules(listable(&worker.origin, &worker.hidden), AccessFs::ReadDir))?
         .add_rules(path_beneath_rules(scratch, all))?
         .restrict_self()?;
     Ok(status.ruleset)

@@ -38,6 +38,33 @@ pub(crate) fn readable(worker: &WorkerSpec) -> Vec<PathBuf> {
     paths
 }
 
+/// Folders of the core's own files in which something hidden lies. What is in them may be listed, for Python looks modules up
+/// by listing; of what is hidden that tells no more than names.
+pub(crate) fn listable(origin: &CoreOrigin, hidden: &[PathBuf]) -> Vec<PathBuf> {
+    let own: Vec<&Path> = match origin {
+        CoreOrigin::BuiltIn => Vec::new(),
+        CoreOrigin::Library(library) => vec![library],
+        CoreOrigin::Program(words) => named(words).collect(),
+        CoreOrigin::Renderer { adapter, words } => {
+            named(words).chain([adapter.as_path()]).collect()
+        }
+    };
+    let folders = own.into_iter().filter_map(folder_of);
+    let is_shared = |folder: &&Path| !is_within(folder, hidden) && !is_harmless(folder, hidden);
+    folders.filter(is_shared).map(Path::to_owned).collect()
+}
+
+/// Files and folders among the words of a command.
+fn named(words: &[String]) -> impl Iterator<Item = &Path> {
+    words.iter().skip(1).map(Path::new).filter(|path| path.is_absolute())
+}
+
+/// Where a file lies, unless that is everywhere.
+fn folder_of(file: &Path) -> Option<&Path> {
+    let folder = if file.is_dir() { Some(file) } else { file.parent() };
+    folder.filter(|folder| *folder != Path::new("/"))
+}
+
 fn split_paths(value: &std::ffi::OsStr) -> Vec<PathBuf> {
     std::env::split_paths(value).filter(|path| path.is_absolute()).collect()
 }
@@ -55,17 +82,15 @@ fn of_program(words: &[String], hidden: &[PathBuf]) -> Vec<PathBuf> {
             paths.extend(prefix.filter(|p| is_harmless(p, hidden)).map(Path::to_owned));
         }
     }
-    let named = words.iter().skip(1).map(PathBuf::from).filter(|path| path.is_absolute());
-    paths.extend(named.flat_map(|path| with_folder(&path, hidden)));
+    paths.extend(named(words).flat_map(|path| with_folder(path, hidden)));
     paths
 }
 
-/// A file and what lies beside it; the file alone, if its folder holds what is hidden.
+/// A file and what lies beside it, but for what is hidden: people run where their core lies, and reports come to lie there.
 fn with_folder(file: &Path, hidden: &[PathBuf]) -> Vec<PathBuf> {
-    let folder = if file.is_dir() { Some(file) } else { file.parent() };
-    let folder = folder.filter(|folder| is_harmless(folder, hidden));
-    let file = (!is_within(file, hidden) && file.is_file()).then_some(file);
-    file.into_iter().chain(folder).map(Path::to_owned).collect()
+    let beside = folder_of(file).into_iter().flat_map(|folder| without_hidden(folder, hidden));
+    let file = (!is_within(file, hidden) && file.is_file()).then(|| file.to_owned());
+    file.into_iter().chain(beside).collect()
 }
 
 /// Whether nothing that is hidden lies in a folder, nor the folder in it.
@@ -118,10 +143,22 @@ mod tests {
     }
 
     #[test]
-    fn a_core_beside_the_cases_is_read_alone() {
+    fn a_core_beside_the_cases_is_read_with_all_that_lies_there_but_them() {
         let (_folder, root, hidden) = project();
-        assert_eq!(with_folder(&root.join("core.so"), &hidden), [root.join("core.so")]);
+        let core = root.join("core.so");
+        let mut open = with_folder(&core, &hidden);
+        open.sort();
+        assert_eq!(open, [root.join("build"), core.clone(), core]);
         assert!(with_folder(&root.join("cases/a.toml"), &hidden).is_empty());
+    }
+
+    #[test]
+    fn a_folder_that_holds_what_is_hidden_is_listed() {
+        let (_folder, root, hidden) = project();
+        let of = |library: &str| listable(&CoreOrigin::Library(root.join(library)), &hidden);
+        assert_eq!(of("core.so"), [root.clone()]);
+        assert!(of("build/core.so").is_empty(), "it is read as a whole");
+        assert!(of("cases/core.so").is_empty());
     }
 
     #[test]

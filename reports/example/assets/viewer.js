@@ -48,7 +48,9 @@ const isFiniteHalf = code => (code & 0x7c00) !== 0x7c00;
  * They were packed as planes of high bytes, then of low bytes, for neighbours are alike.
  */
 async function unpack({ data, exponent }, pixels) {
-  const deflated = Uint8Array.from(atob(data), letter => letter.charCodeAt(0));
+  const text = atob(data);
+  const deflated = new Uint8Array(text.length);
+  for (let at = 0; at < text.length; at++) deflated[at] = text.charCodeAt(at);
   const stream = new Blob([deflated]).stream().pipeThrough(new DecompressionStream('deflate'));
   const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
   const codes = new Uint16Array(3 * pixels);
@@ -62,7 +64,7 @@ async function unpack({ data, exponent }, pixels) {
 }
 
 const valueOf = (image, pixel, channel) => HALVES[image.codes[3 * pixel + channel]] * image.scale;
-const pixelOf = (image, pixel) => [0, 1, 2].map(channel => valueOf(image, pixel, channel));
+const pixelOf = (image, pixel) => [valueOf(image, pixel, 0), valueOf(image, pixel, 1), valueOf(image, pixel, 2)];
 // Tone mapping: exposure, offset, then a curve to 8 bits. Byte for byte what furnace does in Rust.
 
 const CURVES = {
@@ -280,7 +282,7 @@ const noiseOf = (frame, pixel) => frame.noise ? pixelOf(frame.noise, pixel) : [N
 
 /** The end of a scale that shows nearly all of the errors: 1, 2 or 5 times a power of ten. */
 function limitOf(errors) {
-  const sizes = Float32Array.from(errors.filter(Number.isFinite), Math.abs).sort();
+  const sizes = errors.filter(Number.isFinite).map(Math.abs).sort();
   const high = sizes[Math.floor(0.95 * sizes.length)] || 1e-3;
   const power = 10 ** Math.floor(Math.log10(high));
   return [1, 2, 5, 10].map(step => step * power).find(limit => limit >= 0.999 * high);
@@ -692,15 +694,17 @@ function statistics(frame, [left, top, width, height]) {
 }
 
 /** Red, green, blue, and luminance, whose noise is at most this, whatever the channels have in common. */
-const withLuminance = colour => [...colour, luminance(colour)];
+const withLuminance = colour => [colour[0], colour[1], colour[2], luminance(colour)];
 
 function add(sums, frame, pixel) {
   const colour = pixelOf(frame, pixel);
   if (!colour.every(Number.isFinite)) return;
+  const [values, noise] = [withLuminance(colour), withLuminance(noiseOf(frame, pixel))];
   sums.count++;
-  withLuminance(colour).forEach((value, channel) => { sums.mean[channel] += value; });
-  if (!frame.noise) return;
-  withLuminance(noiseOf(frame, pixel)).forEach((value, channel) => { sums.variance[channel] += value ** 2; });
+  for (let channel = 0; channel < 4; channel++) {
+    sums.mean[channel] += values[channel];
+    sums.variance[channel] += noise[channel] ** 2;
+  }
 }
 
 /** The rows of the table: texts, image by image. */
@@ -757,7 +761,7 @@ const HISTOGRAM = { width: 320, height: 120, axis: 16 };
 function histogram({ frames, state }) {
   const shown = frames.filter(isRadiance);
   const logs = shown.map(logLuminances);
-  const [low, high] = rangeOf(logs.flatMap(values => [...values]));
+  const [low, high] = rangeOf(logs.flat());
   const { width, height, axis } = HISTOGRAM;
   const counts = logs.map(values => binned(values, low, high));
   const most = Math.max(1, ...counts.flat());
@@ -1198,7 +1202,7 @@ function furniture(frames) {
   const columns = make('tr', {}, ...COLUMNS.map(([words, title]) => make('th', { scope: 'col', title }, words)));
   const cell = make('p', { className: 'cell-text' });
   const bars = make('div', { className: 'histogram' });
-  const values = make('div', { className: 'wide' }, make('table', { className: 'small values' }, place, make('thead', {}, columns), table));
+  const values = make('div', { className: 'wide', role: 'group', ariaLabel: 'values under the pointer', tabIndex: 0 }, make('table', { className: 'small values' }, place, make('thead', {}, columns), table));
   const notes = frames.map(frame => make('p', { className: 'faint' }, `${frame.label}: ${frame.caption}`, broken(frame)));
   const below = make('div', { className: 'below' }, make('div', {}, values, cell, ...notes), bars);
   return { canvas, place, table, cell, bars, parts: [canvas, below] };

@@ -99,14 +99,22 @@ pub(crate) fn asked_about(case: &Case) -> Components {
             Components::PIXEL
         }
         Some(Subject::Camera) => Components::CAMERA,
-        Some(Subject::Shape) => Components::TRIANGLE_TEST | Components::SPHERE_TEST,
-        Some(Subject::Bvh) => Components::TRAVERSAL,
-        Some(Subject::Sampling) => Components::DIRECTION_SAMPLING,
-        Some(Subject::Bsdf) => Components::BSDF,
-        Some(Subject::Light) => Components::LIGHT_SAMPLING | Components::DIRECT_LIGHTING,
-        Some(Subject::Integrator) => Components::PATH,
-        Some(Subject::Adaptive) => Components::PIXEL,
-        Some(Subject::Image) | None => Components::empty(),
+        subject => subject.map_or(Components::empty(), asked_by),
+    }
+}
+
+/// What cases about `subject` ask about.
+pub(crate) fn asked_by(subject: Subject) -> Components {
+    match subject {
+        Subject::Camera => Components::CAMERA | Components::PIXEL,
+        Subject::Shape => Components::TRIANGLE_TEST | Components::SPHERE_TEST,
+        Subject::Bvh => Components::TRAVERSAL,
+        Subject::Sampling => Components::DIRECTION_SAMPLING,
+        Subject::Bsdf => Components::BSDF,
+        Subject::Light => Components::LIGHT_SAMPLING | Components::DIRECT_LIGHTING,
+        Subject::Integrator => Components::PATH,
+        Subject::Adaptive => Components::PIXEL,
+        Subject::Image => Components::empty(),
     }
 }
 

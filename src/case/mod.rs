@@ -17,7 +17,7 @@ pub use catalog::{CatalogError, load_all, load_one};
 #[cfg(feature = "cli")]
 pub(crate) use file::schema;
 pub use filter::{Filter, NothingSelected};
-pub(crate) use foundation::{Foundation, asked_about, foundations};
+pub(crate) use foundation::{Foundation, asked_about, asked_by, foundations};
 pub(crate) use next_step::{best_step, next_steps};
 pub(crate) use part::{PARTS, Part, Subject};
 pub(crate) use role::Role;

@@ -173,6 +173,18 @@ mod tests {
     }
 
     #[test]
+    fn what_fails_cases_about_itself_is_not_called_wrongly() {
+        let made = Made::new()
+            .with("integrator/furnace", passing())
+            .proving("integrator/furnace", &[Foundation::Bounces])
+            .with("integrator/a", failing("a"));
+        let (own, case) = (Components::PATH, || vec!["integrator/a".to_owned()]);
+        let view = View { evidence: made.evidence(), own, of_own: case(), mended: case() };
+        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        assert_eq!(told.headlines[0].mistake, "what differs is the core's path");
+    }
+
+    #[test]
     fn what_a_component_neither_mends_nor_is_asked_by_is_no_difference_of_it() {
         let made = Made::new().with("shape/a", failing("a")).with("light/b", failing("b"));
         let mended = vec!["shape/a".to_owned()];

@@ -3,7 +3,7 @@
 
 use super::reproduction::Refuted;
 use super::{Degree, Evidence, Observation, RuledOut, Suspicion, differences, endings};
-use crate::case::{Part, Tier};
+use crate::case::{Part, Subject, Tier, asked_by};
 use crate::cause::{self, Cause};
 use crate::contract::Components;
 use serde::{Deserialize, Serialize};
@@ -264,9 +264,13 @@ impl Ranked {
 
     /// A component that answers rightly where it is asked alone may be called wrongly.
     fn differing_as_one(&mut self, own: Components, evidence: &Evidence<'_>) {
-        let one = self.differing.drain(..).reduce(Headline::and);
+        let Some(one) = self.differing.drain(..).reduce(Headline::and) else { return };
         let component = own.in_words();
-        let (mistake, look_at) = if evidence.has_proven(own) {
+        let asks_itself = |case: &String| {
+            Subject::of_case(case).is_some_and(|subject| asked_by(subject).intersects(own))
+        };
+        let is_called = !one.explains.iter().any(asks_itself);
+        let (mistake, look_at) = if is_called && evidence.has_proven(own) {
             (
                 format!("the core's {component} passes its own cases, and what calls it does not"),
                 format!(
@@ -276,7 +280,7 @@ impl Ranked {
         } else {
             (format!("what differs is the core's {component}"), String::new())
         };
-        self.differing.extend(one.map(|one| Headline { mistake, look_at, ..one }));
+        self.differing.push(Headline { mistake, look_at, ..one });
     }
 
     /// The same where what has no cause is told of these cases alone.

@@ -92,7 +92,7 @@ fn a_run_is_repeated_with_other_numbers_each_time() {
 }
 
 /// A smooth mesh.
-const BALL: &str = r#"
+const SMOOTH_SPHERE: &str = r#"
 title  = "A smooth mesh"
 source = "none"
 
@@ -106,7 +106,7 @@ film           = [32, 32]
 diffuse = 0.5
 
 [[shape]]
-name      = "ball"
+name      = "sphere"
 material  = "white"
 icosphere = { radius = 1, subdivisions = 1 }
 shading   = "smooth"
@@ -119,8 +119,8 @@ point = { position = [0, 3, 0], intensity = 1 }
 #[test]
 fn a_core_whose_normals_are_not_unit_is_timed_all_the_same() {
     let place = Place::new();
-    fs::write(place.path().join("ball.toml"), BALL).unwrap();
-    place.told("export ball.toml --format collada -o scenes");
+    fs::write(place.path().join("sphere.toml"), SMOOTH_SPHERE).unwrap();
+    place.told("export sphere.toml --format collada -o scenes");
     let scenes = place.path().join("scenes");
     fs::rename(scenes.join("scene.dae"), scenes.join("cow.dae")).unwrap();
     let core = "textbook:interpolated-normal-not-unit";

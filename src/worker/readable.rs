@@ -88,9 +88,19 @@ fn of_program(words: &[String], hidden: &[PathBuf]) -> Vec<PathBuf> {
 
 /// A file and what lies beside it, but for what is hidden: people run where their core lies, and reports come to lie there.
 fn with_folder(file: &Path, hidden: &[PathBuf]) -> Vec<PathBuf> {
-    let beside = folder_of(file).into_iter().flat_map(|folder| without_hidden(folder, hidden));
+    let beside = folder_of(file).into_iter().flat_map(|folder| beside(folder, hidden));
     let file = (!is_within(file, hidden) && file.is_file()).then(|| file.to_owned());
     file.into_iter().chain(beside).collect()
+}
+
+/// A folder; where something hidden lies in it, all but that and what begins with a dot: a repository keeps copies.
+fn beside(folder: &Path, hidden: &[PathBuf]) -> Vec<PathBuf> {
+    let mut open = without_hidden(folder, hidden);
+    if !is_harmless(folder, hidden) {
+        let is_dotted = |name: &std::ffi::OsStr| name.to_string_lossy().starts_with('.');
+        open.retain(|path| !path.file_name().is_some_and(is_dotted));
+    }
+    open
 }
 
 /// Whether nothing that is hidden lies in a folder, nor the folder in it.
@@ -145,6 +155,7 @@ mod tests {
     #[test]
     fn a_core_beside_the_cases_is_read_with_all_that_lies_there_but_them() {
         let (_folder, root, hidden) = project();
+        fs::create_dir(root.join(".git")).unwrap();
         let core = root.join("core.so");
         let mut open = with_folder(&core, &hidden);
         open.sort();

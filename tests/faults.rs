@@ -1,5 +1,5 @@
-//! The kill matrix: every planted mistake is caught by the case that is named for it and told by its cause, and cores
-//! that are right but different pass. One trial each; `cargo furnace faults` shows the same as a table.
+//! The kill matrix: every planted mistake is caught by the case that is named for it and told by its cause, here or
+//! in a run, and cores that are right but different pass. One trial each; `cargo furnace faults` shows the same as a table.
 //!
 //! Budgets are quick, and each fault is put to the case named for it first: this is the part of the matrix that a test
 //! run can afford. `cargo furnace faults` without `--brief` puts each fault to the whole suite.

@@ -171,7 +171,7 @@ pub(super) struct Ranked {
 
 impl Ranked {
     pub(super) fn told(self) -> Diagnosis {
-        let this = self.without_the_vague();
+        let this = self.without_what_others_bring();
         let without_cause = this.endings.iter().chain(&this.differing);
         let without_cause = without_cause.filter(|headline| headline.cause.is_empty());
         let unexplained = without_cause.flat_map(|headline| headline.explains.clone()).collect();
@@ -208,7 +208,7 @@ impl Ranked {
 
     /// What merely says what is lost follows from a mistake of the BVH that has a name, and some mistakes bring others
     /// along.
-    fn without_the_vague(mut self) -> Self {
+    fn without_what_others_bring(mut self) -> Self {
         let of = |headline: &Headline| cause::find(&headline.cause);
         let brings = |told: &Headline, other: &Headline| match (of(told), of(other)) {
             (Some(told), Some(other)) => cause::brings_along(told, other),

@@ -23,12 +23,18 @@ pub(crate) struct ReportArguments {
     /// Write one file with the failing cases, to be sent, in place of a page a case.
     #[arg(long)]
     single_file: bool,
+    /// Where people look for it first; it renders, so it has a verb of its own.
+    #[arg(long, hide = true)]
+    writeup: bool,
     #[command(flatten)]
     project: ProjectArguments,
 }
 
 /// Prints the summary and writes the page.
 pub(crate) fn report(arguments: &ReportArguments) -> Answer {
+    if arguments.writeup {
+        return Err(Failure::request("a write-up is made by `furnace writeup --core CORE`"));
+    }
     let folder = match &arguments.run {
         Some(folder) => folder.clone(),
         None => newest(&arguments.project.find()?.runs())?,

@@ -1,7 +1,7 @@
 //! What did not pass, one block each. What to look at first stands last, next to the ending: there a terminal is read.
 
 use super::headlines;
-use super::layout::{INDENT, command, head, indented, labelled, on};
+use super::layout::{INDENT, briefly, command, head, indented, labelled, on};
 use super::style::{Paint, Style, clean, cut, paint_of};
 use super::subject::{Subject, subjects};
 use crate::case::Part;
@@ -30,11 +30,9 @@ const REASONS: usize = 3;
 const LAST_WORDS: usize = 3;
 
 pub(crate) fn all(tree: &RunTree, style: Style) -> Vec<String> {
-    let notes: Vec<_> = ungraded_failures(tree).into_iter().map(|t| note(t, style)).collect();
-    let mut lines = first_of(notes, Paint::Unknown, "NOTE", style);
-    for status in [Status::Skipped, Status::Blocked] {
-        lines.extend(untried(tree, status, style));
-    }
+    let untried = [Status::Skipped, Status::Blocked].map(|status| untried(tree, status, style));
+    let mut lines = untried.concat();
+    lines.extend(notes(tree, style));
     for status in [Status::Inconclusive, Status::Broken] {
         let trials = graded(tree, status).into_iter();
         let blocks = trials.map(|trial| brief_block(trial, style)).collect();
@@ -131,12 +129,29 @@ fn head_of(status: Status, what: &str, style: Style) -> Vec<String> {
     head(style, paint_of(status), &status.word().to_uppercase(), what)
 }
 
+/// What fails and is not graded: in few words, unless all is asked for.
+fn notes(tree: &RunTree, style: Style) -> Vec<String> {
+    let trials = ungraded_failures(tree);
+    if trials.is_empty() {
+        return Vec::new();
+    }
+    let told = trials.iter().take(MOST).flat_map(|trial| note(trial, style));
+    let what = format!("{} not graded", count(trials.len(), "failure"));
+    head(style, Paint::Unknown, "NOTE", &what).into_iter().chain(told).collect()
+}
+
 fn note(trial: &TrialRecord, style: Style) -> Vec<String> {
-    let (case, on) = (clean(&trial.case), on(&trial.core, style));
-    let what = format!("{case}{on} ({}, not graded)", trial.tier.word());
-    let mut lines = head(style, Paint::Unknown, "NOTE", &what);
-    lines.extend(indented(&trial.outcome.statement(), style));
-    lines
+    let words = format!(
+        "{}{}, {}: {}",
+        clean(&trial.case),
+        on(&trial.core, style),
+        trial.tier.word(),
+        trial.outcome.statement()
+    );
+    match style.is_verbose() {
+        true => indented(&words, style),
+        false => briefly(style, |style| indented(&words, style)),
+    }
 }
 
 /// The end of what a core printed that has crashed or hung.

@@ -3,7 +3,7 @@
 
 use super::blocks::{claim, last_words};
 use super::headlines;
-use super::layout::{head, labelled_at, on};
+use super::layout::{briefly, head, labelled_at, on};
 use super::style::{Paint, Style, clean, is_drawn, paint_of};
 use super::subject::{Subject, subjects};
 use crate::diagnosis::{Degree, Headline};
@@ -15,8 +15,6 @@ use crate::text::program;
 
 /// Where labels begin.
 const MARGIN: usize = 2;
-/// Lines of one label: what is longer is in the report.
-const LINES: usize = 2;
 
 /// The verdict, and the counts.
 pub(super) fn ending(tree: &RunTree, present: &RunTree, style: Style) -> Vec<String> {
@@ -164,15 +162,7 @@ fn labelled(label: &str, words: &str, style: Style) -> Vec<String> {
     if words.is_empty() {
         return Vec::new();
     }
-    let lines = labelled_at(MARGIN, label, words, style);
-    if lines.len() <= LINES {
-        return lines;
-    }
-    let narrower = Style { columns: style.columns.saturating_sub(" …".chars().count()), ..style };
-    let mut lines = labelled_at(MARGIN, label, words, narrower);
-    lines.truncate(LINES);
-    lines.iter_mut().skip(LINES - 1).for_each(|last| last.push_str(" …"));
-    lines
+    briefly(style, |style| labelled_at(MARGIN, label, words, style))
 }
 
 /// A label and a command, which stays whole.

@@ -5,6 +5,9 @@ use super::style::{Paint, Style, clean};
 /// Where the text of a block begins.
 pub(crate) const INDENT: usize = 8;
 
+/// Lines of what is told briefly: the rest is in the report.
+const FEW: usize = 2;
+
 /// An empty line and the first line of a block: `  FAIL  bvh/a on builtin`. It goes on below itself.
 pub(crate) fn head(style: Style, paint: Paint, word: &str, what: &str) -> Vec<String> {
     let painted = style.paint(paint, word);
@@ -41,4 +44,17 @@ pub(crate) fn labelled_at(column: usize, label: &str, text: &str, style: Style) 
     let label_of = |number| if number == 0 { label } else { "" };
     let lines = style.wrap(text, column + 8).into_iter().enumerate();
     lines.map(|(number, line)| format!("{:column$}{:<8}{line}", "", label_of(number))).collect()
+}
+
+/// The first few lines of what is laid out, and dots where there is more.
+pub(super) fn briefly(style: Style, lay_out: impl Fn(Style) -> Vec<String>) -> Vec<String> {
+    let lines = lay_out(style);
+    if lines.len() <= FEW {
+        return lines;
+    }
+    let narrower = Style { columns: style.columns.saturating_sub(" …".chars().count()), ..style };
+    let mut lines = lay_out(narrower);
+    lines.truncate(FEW);
+    lines.iter_mut().skip(FEW - 1).for_each(|last| last.push_str(" …"));
+    lines
 }

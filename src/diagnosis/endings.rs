@@ -119,7 +119,9 @@ fn headline(
 /// What helps where the cause is unknown.
 fn debugger(told: &Headline) -> String {
     let case = told.explains.first().map_or("", String::as_str);
-    format!("`furnace debug {case}` prints the commands that stop a debugger there, for your core.")
+    format!(
+        "`furnace debug {case}` with the same `--core` prints the commands that stop a debugger there."
+    )
 }
 
 fn sentence(seen: &Observation<'_>) -> Option<String> {
@@ -159,7 +161,7 @@ mod tests {
         assert_eq!(first.explains, ["bvh/b", "light/c"]);
         assert_eq!(first.mistake, "the core crashes in `intersect`: signal 11");
         assert_eq!((first.degree, first.is_ending), (Degree::DiffersHere, true));
-        assert!(first.fix.starts_with("`furnace debug bvh/b` prints"), "{}", first.fix);
+        assert!(first.fix.starts_with("`furnace debug bvh/b` with the"), "{}", first.fix);
         assert_eq!(diagnosis.first(), Some(&bsdf::WITHOUT_PI));
     }
 

@@ -157,6 +157,22 @@ fn look_without(evidence: &Evidence<'_>, refuted: &Refuted, found: Vec<Suspicion
         let cause = suspicion.cause.name;
         suspicion.cases.retain(|case| !refuted.contains(&(cause, case.clone())));
     }
-    suspicions.extend(found);
+    suspicions.extend(each_told_once(found));
     rank::rank(evidence, suspicions, refuted)
+}
+
+/// What is found again, and in more cases, is told with these alone.
+fn each_told_once(mut found: Vec<Suspicion>) -> Vec<Suspicion> {
+    let tells_more = |later: &Suspicion, one: &Suspicion| {
+        let has = |case: &String| later.cases.contains(case);
+        later.cause.name == one.cause.name && one.cases.iter().all(has)
+    };
+    for number in 0..found.len() {
+        let (before, after) = found.split_at_mut(number + 1);
+        let one = &mut before[number];
+        if after.iter().any(|later| tells_more(later, one)) {
+            one.evidence.clear();
+        }
+    }
+    found
 }

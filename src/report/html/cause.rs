@@ -45,7 +45,7 @@ pub(super) fn card(
         div.card.first.beside[!headline.tier.is_graded()].further[number > PRINTED_WHOLE].unprinted[number > PRINTED] {
             p.kicker {
                 @if number == 1 { b { "Start here. " } }
-                @if all > 1 { (number) " of " (all) " causes · " }
+                @if all > 1 { (number) " of " (all) " · " }
                 @if !headline.tier.is_graded() { "not graded · " }
                 @if view.tree.run.cores.len() > 1 { "on " b { (core) } " · " }
                 @if let Some(part) = part { "part " (part.number) ", " (part.title) }
@@ -53,8 +53,9 @@ pub(super) fn card(
             h3.said { (sentence(&headline.mistake)) }
             @let [degree, certainty] = certainty(headline);
             p.degree { b { (degree) } ": " (certainty) "." }
-            (reasons(view.tree, core, headline))
+            (what_to_do(headline))
             (command(&headline.command))
+            (reasons(view.tree, core, headline))
             @if let Some(plot) = evidence_plot(view.tree, core, headline, number == 1) { (plot) }
             (cases(view, core, headline))
         }
@@ -94,13 +95,21 @@ const fn fails(headline: &Headline) -> &'static str {
     }
 }
 
-fn reasons(tree: &RunTree, core: &str, headline: &Headline) -> Markup {
+/// Before why: a phone shows little at once.
+fn what_to_do(headline: &Headline) -> Markup {
     html! {
         dl.cause {
             @if !headline.look_at.is_empty() {
                 dt { "where" } dd { (sentence(&headline.look_at)) }
             }
             @if !headline.fix.is_empty() { dt { "fix" } dd { (with_code(&headline.fix)) } }
+        }
+    }
+}
+
+fn reasons(tree: &RunTree, core: &str, headline: &Headline) -> Markup {
+    html! {
+        dl.cause {
             (list("seen", &headline.evidence))
             (list("proof", &proofs_of(tree, core, headline)))
             (list("ruled out", &headline.ruled_out))

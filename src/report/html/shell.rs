@@ -111,9 +111,8 @@ pub(super) fn index_title(tree: &RunTree) -> String {
             None => capitalised(&counts.headline()),
         },
         [first] => format!("{}: {counted}", capitalised(first)),
-        [first, _] => format!("{}, and one more cause: {counted}", capitalised(first)),
-        [first, ..] => {
-            format!("{}, and {} more causes: {counted}", capitalised(first), mistakes.len() - 1)
+        [first, ref others @ ..] => {
+            format!("{}, and {} more: {counted}", capitalised(first), others.len())
         }
     }
 }

@@ -46,7 +46,7 @@ fn of_trials(view: &View<'_>) -> Markup {
             (cause::card(view, core, headline, [number + 1, told.len()]))
         }
         @if told.len() > PRINTED {
-            p.printed { (count(told.len() - PRINTED, "more cause")) " in the report on screen" }
+            p.printed { (told.len() - PRINTED) " more in the report on screen" }
         }
         @if failures.is_empty() && tally.total() > 0 { (not_failed(view, &tally)) }
         @if told.is_empty() && let Some((first, others)) = failures.split_first() {

@@ -56,6 +56,8 @@ struct Seen {
     #[serde(default)]
     dead: Vec<String>,
     #[serde(default)]
+    saved: Vec<String>,
+    #[serde(default)]
     hover: Value,
     #[serde(default)]
     canvas: [f64; 2],
@@ -63,6 +65,12 @@ struct Seen {
     parts: Value,
     #[serde(default)]
     insets: Value,
+    /// The trials of the index that a filter leaves.
+    #[serde(default)]
+    listed: Vec<String>,
+    /// Of a page without scripts: the sizes of its images, what only scripts could use, its text.
+    #[serde(default)]
+    plain: Value,
     /// What axe finds that is serious, everything unfolded.
     #[serde(default)]
     barriers: Vec<String>,
@@ -255,7 +263,8 @@ fn a_viewer_shows_the_pixels_of_the_files_and_obeys_every_key_and_control() {
 fn shows_the_pixels_of_the_files(driven: &Driven, seen: &Seen) {
     assert_eq!(seen.errors, Vec::<String>::new());
     assert_eq!(seen.fetched, Vec::<String>::new());
-    assert_eq!(seen.dead, Vec::<String>::new(), "keys without effect");
+    assert_eq!(seen.dead, Vec::<String>::new(), "keys and controls without effect");
+    assert_eq!(seen.saved, ["image-cornell-spheres-images.png"; 2]);
     assert!(seen.width[0] <= seen.width[1], "{:?}", seen.width);
     let images = driven.images();
     assert_eq!(seen.values.len(), images.len());
@@ -340,6 +349,58 @@ fn what_was_looked_at_stands_in_the_address() {
         for (name, value) in expected.as_object().unwrap() {
             assert_eq!(&state[name], value, "{name}");
         }
+    }
+}
+
+#[test]
+fn which_trials_were_listed_stands_in_the_address() {
+    let driven = Driven::of(&Example::mixed());
+    let address =
+        format!("{}#trials?words=textbook+bvh&status=crashed", driven.address("index.html"));
+    for browser in browsers() {
+        let seen = browser.seen(&driven, &address);
+        assert_eq!(seen.errors, Vec::<String>::new());
+        let [listed] = &seen.listed[..] else { panic!("{:?}", seen.listed) };
+        assert!(listed.contains("bvh/a-flat-box-is-hit"), "{listed}");
+    }
+}
+
+/// Shows a page in a frame that runs no scripts, and sends what stands in it.
+fn without_scripts(driven: &Driven, page: &str) -> String {
+    let path = driven.folder.join(page);
+    let text = std::fs::read_to_string(&path).unwrap();
+    let text = text.replace('&', "&amp;").replace('"', "&quot;");
+    let port = driven.listener.local_addr().unwrap().port();
+    let show = "const inside = document.querySelector('iframe').contentDocument;\
+        const isSeen = element => element.getClientRects().length > 0;\
+        const shown = name => [...inside.querySelectorAll(name)].filter(isSeen);\
+        const images = shown('img').map(image => [image.naturalWidth, image.clientWidth]);\
+        const seen = { errors: drivenErrors, fetched: [], width: [0, 0],\
+            plain: { images, scripted: shown('.scripted').length, text: inside.body.innerText } };";
+    let framing = format!(
+        "<!DOCTYPE html><meta charset=utf-8><script>{EARLY}function send() {{{show}\
+        fetch('http://127.0.0.1:{port}/', {{ method: 'POST', mode: 'no-cors', body: JSON.stringify(seen) }});}}</script>\
+        <iframe sandbox=allow-same-origin width=1280 height=900 onload=send() srcdoc=\"{text}\"></iframe>"
+    );
+    let framed = path.with_extension("framed.html");
+    std::fs::write(&framed, framing).unwrap();
+    format!("file://{}", framed.display())
+}
+
+#[test]
+fn a_page_without_scripts_shows_what_matters() {
+    let driven = Driven::of(&Example::mixed());
+    let [index, case] = ["index.html", CASE].map(|page| without_scripts(&driven, page));
+    for browser in browsers() {
+        let [index, case] = [&index, &case].map(|page| browser.seen(&driven, page).plain);
+        for page in [&index, &case] {
+            assert_eq!(page["scripted"], 0, "controls that do nothing are seen");
+        }
+        let says = |page: &Value, words: &str| page["text"].as_str().unwrap().contains(words);
+        assert!(says(&index, "Start here.") && says(&index, "cargo furnace run"), "{index}");
+        let images = case["images"].as_array().unwrap();
+        let is_shown = |image: &Value| (0..2).all(|side| image[side].as_u64().unwrap() > 0);
+        assert!(images.len() >= 4 && images.iter().all(is_shown), "{images:?}");
     }
 }
 

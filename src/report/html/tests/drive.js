@@ -26,18 +26,52 @@ function deadKeys(viewer) {
   }).map(press => press.key);
 }
 
-async function operateControls(viewer) {
-  const buttons = all('.tools button', viewer.root).filter(button => button.textContent !== 'PNG');
-  for (const button of buttons) button.click();
-  for (const select of all('.tools select', viewer.root)) {
-    for (const option of select.options) {
-      select.value = option.value;
-      select.dispatchEvent(new Event('change'));
-      await frameOfBrowser();
-    }
+/** Whether that changes what is shown, from one of two states. */
+async function hasEffect(viewer, operate) {
+  const last = { tone: TONES.at(-1), channel: CHANNELS.at(-1), part: viewer.partNames.at(-1), metric: viewer.metrics.at(-1) };
+  for (const other of [{}, { ...last, layout: 'all', show: 0, under: 1, cells: NO_CELLS }]) {
+    unsettle(viewer);
+    Object.assign(viewer.state, other);
+    drawAll(viewer);
+    const before = shownBy(viewer);
+    operate();
+    await frameOfBrowser();
+    if (shownBy(viewer) !== before) return true;
   }
-  for (const slider of all('.tools input', viewer.root)) slider.dispatchEvent(new Event('input'));
-  await frameOfBrowser();
+  return false;
+}
+
+const setTo = (control, value, event) => {
+  control.value = value;
+  control.dispatchEvent(new Event(event));
+};
+
+/** The controls that change nothing, at any of their values. */
+async function deadControls(viewer) {
+  const dead = [];
+  const operate = async (name, action) => { if (!await hasEffect(viewer, action)) dead.push(name); };
+  for (const button of all('.tools button', viewer.root).filter(button => button.textContent !== 'PNG')) {
+    await operate(button.textContent, () => button.click());
+  }
+  for (const select of all('.tools select', viewer.root)) {
+    for (const { value } of select.options) await operate(`${select.title}: ${value}`, () => setTo(select, value, 'change'));
+  }
+  for (const slider of all('.tools input', viewer.root)) {
+    await operate(slider.ariaLabel, () => setTo(slider, slider.min, 'input'));
+  }
+  return dead;
+}
+
+/** The files that are saved by the key and by the button for it. */
+async function savedFiles(viewer) {
+  const saved = [];
+  const click = HTMLAnchorElement.prototype.click;
+  HTMLAnchorElement.prototype.click = function () { saved.push(this.download); };
+  viewer.root.dispatchEvent(new KeyboardEvent('keydown', { key: 's', bubbles: true }));
+  all('.tools button', viewer.root).find(button => button.textContent === 'PNG').click();
+  for (let turn = 0; turn < 200 && saved.length < 2; turn += 1) await frameOfBrowser();
+  HTMLAnchorElement.prototype.click = click;
+  return saved;
 }
 
 /** The 8-bit colours of every image under each tone curve. */
@@ -93,8 +127,8 @@ async function driveViewer(viewer) {
   });
   seen.tables = Object.keys(CURVES).map(tone => encoded(toneTable(1, { tone, stops: 0.3, offset: 0 })));
   seen.shaded = shaded(viewer, 1.3);
-  seen.dead = deadKeys(viewer);
-  await operateControls(viewer);
+  seen.dead = [...deadKeys(viewer), ...await deadControls(viewer)];
+  seen.saved = await savedFiles(viewer);
   seen.hover = await hover(viewer);
   seen.parts = partsSeen(viewer);
   seen.insets = insetsSeen(viewer);
@@ -116,6 +150,7 @@ async function drive() {
   await Promise.all(started.map(viewer => viewer?.unpacked));
   if (typeof axe !== 'undefined') seen.barriers = await barriers();
   if (started[0]) await driveViewer(started[0]);
+  seen.listed = all('#all-trials tbody tr').filter(row => !row.hidden).map(row => row.textContent);
   const loaded = performance.getEntriesByType('resource').map(entry => entry.name);
   seen.fetched = loaded.filter(name => !/^(file|data|blob):/.test(name));
   seen.width = [document.documentElement.scrollWidth, innerWidth];

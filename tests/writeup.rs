@@ -179,6 +179,17 @@ fn what_a_core_cannot_do_is_a_row_that_says_so() {
 }
 
 #[test]
+fn normals_that_are_not_unit_are_shown_and_told() {
+    let place = Place::new();
+    let core = "textbook:sphere-normal-not-unit";
+    let words = ["render", "course-cornell-box", "--normals", "--core", core, "-o", "normals.exr"];
+    let output = place.command(&words).args(["--size", "16x12"]).output().unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(1) && told.contains("_normal has length 0."), "{told}");
+    assert!(place.path("normals.exr").is_file());
+}
+
+#[test]
 fn a_kill_loses_at_most_the_image_in_flight() {
     let place = Place::new();
     let words = ["writeup", "--budget", "quick", "-o", ".", "--size", "32x24"];

@@ -81,7 +81,10 @@ pub(crate) fn render(arguments: &RenderArguments) -> Answer {
     Ok(match made.breach() {
         None => ExitCode::Good,
         Some(breach) => {
-            complain(format_args!("{}: {breach}; the image was written as it is", arguments.core));
+            complain(format_args!(
+                "{}: {breach}; the image was written all the same",
+                arguments.core
+            ));
             ExitCode::Failed
         }
     })

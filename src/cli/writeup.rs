@@ -35,7 +35,8 @@ pub(crate) struct WriteupArguments {
     /// How large and how well sampled figures are: quick, default or strict.
     #[arg(long, default_value_t = Budget::Default)]
     budget: Budget,
-    /// Columns and rows of figures [default: 120x90 quick, 240x180 default, 480x360 strict].
+    /// Columns and rows of figures; a quick one of 1024 samples has half of both [default: 120x90 quick,
+    /// 240x180 default, 480x360 strict].
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
     /// The folder of the pages and their images. Figures that it has with equal settings are taken.
@@ -111,6 +112,8 @@ impl Progress {
 
     fn hear(&mut self, told: &Told<'_>) {
         let [done, all] = told.figures;
+        let samples = told.samples.map(|[some, of]| format!(", {some} of {of} samples"));
+        let now = format!("{}{}", told.name, samples.unwrap_or_default());
         match self {
             Self::Quiet => {}
             Self::Live(bar, left) => {
@@ -118,11 +121,11 @@ impl Progress {
                 *left.lock().unwrap_or_else(PoisonError::into_inner) = known;
                 bar.set_length(all as u64);
                 bar.set_position(done as u64);
-                bar.set_message(told.name.to_owned());
+                bar.set_message(now);
             }
             Self::Lines(last) if last.elapsed() > HEARTBEAT => {
                 let left = told.left.map(in_words).unwrap_or_default();
-                complain(format_args!("{done} of {all} figures{left}; now {}", told.name));
+                complain(format_args!("{done} of {all} figures{left}; now {now}"));
                 *last = Instant::now();
             }
             Self::Lines(_) => {}

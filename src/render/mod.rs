@@ -61,15 +61,15 @@ impl Request<'_> {
         core: &mut dyn Core,
         tell: impl FnMut(u32),
     ) -> Result<Made, CoreError> {
-        let mut core = Validated::new(core);
         let info = core.info();
         let missing = missing(self.shot, &info);
         if !missing.is_empty() {
             return Err(CoreError::Unsupported(missing));
         }
         if self.shot.normals {
-            return self.normals(&mut core, info.capabilities);
+            return self.normals(core, info.capabilities);
         }
+        let mut core = Validated::new(core);
         let mut built = core.build_scene(self.scene, self.shot.acceleration())?;
         let begun = Instant::now();
         let shown = match renders_codes_alone(&info) {
@@ -90,9 +90,17 @@ impl Request<'_> {
         Ok(Shown::Codes(codes))
     }
 
+    /// Normals that are not unit are shown in their directions, and said.
     fn normals(&self, core: &mut dyn Core, capabilities: Capabilities) -> Result<Made, CoreError> {
-        let (image, seconds) = normals::render(core, capabilities, self)?;
-        Ok(Made { shown: Shown::Radiance(Rendered::of_values(image)), seconds })
+        let render = |mut core: Validated<'_>| normals::render(&mut core, capabilities, self);
+        let ((image, seconds), breach) = match render(Validated::new(core)) {
+            Err(CoreError::BrokeContract(breach)) if breach.can_be_mended() => {
+                (render(Validated::mending(core))?, Some(CoreError::BrokeContract(breach)))
+            }
+            answer => (answer?, None),
+        };
+        let shown = Rendered { breach, ..Rendered::of_values(image) };
+        Ok(Made { shown: Shown::Radiance(shown), seconds })
     }
 }
 

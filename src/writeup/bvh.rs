@@ -76,7 +76,8 @@ pub(super) fn time(
     shot: &Shot,
 ) -> Result<Timed, CoreError> {
     let capabilities = core.info().capabilities;
-    let mut core = Validated::new(core);
+    // The figures of normals tell of those that are not unit.
+    let mut core = Validated::mending(core);
     let camera = shot.camera(scene).map_err(CoreError::Beyond)?;
     let rays = camera_rays(&camera);
     let counts = capabilities.contains(Capabilities::TRAVERSAL_STATS);

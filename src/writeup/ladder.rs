@@ -28,6 +28,13 @@ impl Effort {
     fn samples(self, usual: u32) -> u32 {
         (usual / self.divisor).max(1)
     }
+
+    /// Of a figure with so many samples, whose number is what it shows: in a hurry it is small, or it would take
+    /// longer than all others together.
+    fn size_of(self, samples: u32) -> [u32; 2] {
+        let is_dear = self.divisor > 1 && samples > 256;
+        if is_dear { self.size.map(|side| side.div_ceil(2)) } else { self.size }
+    }
 }
 
 /// Figures that differ in one setting.
@@ -61,7 +68,8 @@ impl Rung {
     /// Why it is not.
     pub(super) fn shot(&self, cast: &Cast, effort: Effort) -> Result<Shot, String> {
         let Shot { scene, set, .. } = cast.shot(self.role)?;
-        Ok(Shot { scene, set, size: Some(effort.size), ..self.settings.clone() })
+        let size = Some(effort.size_of(self.settings.spp));
+        Ok(Shot { scene, set, size, ..self.settings.clone() })
     }
 }
 
@@ -90,7 +98,7 @@ pub(crate) fn ladders(effort: Effort) -> Vec<Ladder> {
     ladders.extend([hemisphere(effort), light_rays()]);
     ladders.extend([accumulated(effort), isolated(effort), direct_and_indirect(effort)]);
     ladders.extend(SYSTEMS.iter().map(|system| system.ladder(effort)));
-    ladders.extend([samples(), adaptive(effort)]);
+    ladders.extend([samples(effort), adaptive(effort)]);
     ladders
 }
 
@@ -240,8 +248,15 @@ impl System {
     }
 }
 
-fn samples() -> Ladder {
-    let one = |s: u32| rung(SPHERES, s, format!("s = {s}"), global(s, 4));
+fn samples(effort: Effort) -> Ladder {
+    let one = |s: u32| {
+        let [width, height] = effort.size_of(s);
+        let size = match [width, height] == effort.size {
+            true => String::new(),
+            false => format!(", {width} × {height} pixels"),
+        };
+        rung(SPHERES, s, format!("s = {s}{size}"), global(s, 4))
+    };
     Ladder {
         name: "samples",
         part: 4,

@@ -2,13 +2,14 @@
 
 use super::bvh::{self, Mesh, Timed};
 use super::ladder::Ladder;
-use super::measured::{Measured, Pace};
+use super::measured::{Measured, Pace, rays};
 use super::store::{FIGURES, Figure, Kept, Key, Store};
 use super::{Plan, Row, Told, WriteupError};
 use crate::contract::{Core, CoreError};
 use crate::render::{Output, Request, Shot, missing, renders_codes_alone};
 use crate::scene::SceneDescription;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Makes one figure after another, or takes it from an earlier write-up.
 pub(super) struct Maker<'a> {
@@ -26,8 +27,8 @@ impl Maker<'_> {
         let name = format!("bvh-{}", mesh.role.name);
         let shot = mesh.shot(self.plan.cast, self.plan.effort.size);
         let label = self.plan.cast.name(mesh.role);
-        self.row(&name, label, shot, |maker, shot, scene, _| {
-            maker.with_core(|core| bvh::time(core, scene, shot))
+        self.row(&name, label, shot, |maker, shot, scene| {
+            with_core(maker.plan, |core| bvh::time(core, scene, shot))
         })
     }
 
@@ -37,9 +38,11 @@ impl Maker<'_> {
             let name = format!("{}-{}", ladder.name, rung.name);
             let shot = rung.shot(self.plan.cast, self.plan.effort);
             let label = rung.label.clone().unwrap_or_else(|| self.plan.cast.name(rung.role));
-            rows.push(self.row(&name, label, shot, |maker, shot, scene, file| {
-                maker.figure(shot, scene, file)
-            })?);
+            rows.push(
+                self.row(&name, label, shot, |maker, shot, scene| {
+                    maker.figure(&name, shot, scene)
+                })?,
+            );
         }
         Ok(rows)
     }
@@ -50,13 +53,12 @@ impl Maker<'_> {
         name: &str,
         label: String,
         shot: Result<Shot, String>,
-        make: impl FnOnce(&mut Self, &Shot, &SceneDescription, &str) -> Result<T, String>,
+        make: impl FnOnce(&mut Self, &Shot, &SceneDescription) -> Result<T, String>,
     ) -> Result<Row<T>, WriteupError> {
-        self.tell(name);
+        let left = self.pace.left(0.0, 0.0);
+        (self.tell)(Told { name, figures: [self.done, self.all], samples: None, left });
         self.done += 1;
-        let ending = if renders_codes_alone(&self.plan.info) { "png" } else { "exr" };
-        let file = format!("{name}.{ending}");
-        let command = shot.as_ref().map_or(String::new(), |shot| self.command(shot, &file));
+        let command = shot.as_ref().map_or(String::new(), |shot| self.command(shot, name));
         let read = shot.and_then(|shot| Ok((self.scene(&shot)?, shot)));
         let (scene, shot) = match read {
             Ok(read) => read,
@@ -65,7 +67,7 @@ impl Maker<'_> {
         let key = Key::new(&command, &scene, self.plan.core);
         let result = match self.taken(name, &key) {
             Some(taken) => Ok(taken),
-            None => self.able(&shot).and_then(|()| make(self, &shot, &scene, &file)),
+            None => self.able(&shot).and_then(|()| make(self, &shot, &scene)),
         };
         if let Ok(result) = &result {
             self.store.keep(name, key, result)?;
@@ -90,9 +92,15 @@ impl Maker<'_> {
         shot.load(self.plan.scenes).map_err(|error| error.to_string())
     }
 
-    fn command(&self, shot: &Shot, file: &str) -> String {
+    /// The image of a figure.
+    fn file(&self, name: &str) -> String {
+        let ending = if renders_codes_alone(&self.plan.info) { "png" } else { "exr" };
+        format!("{name}.{ending}")
+    }
+
+    fn command(&self, shot: &Shot, name: &str) -> String {
         let core = self.plan.core.as_str();
-        let file = format!("{FIGURES}/{file}");
+        let file = format!("{FIGURES}/{}", self.file(name));
         let words = ["furnace", "render"].into_iter().map(str::to_owned);
         let more = ["--core", core, "-o", &file].map(str::to_owned);
         shell_words::join(words.chain(shot.words()).chain(more))
@@ -100,34 +108,36 @@ impl Maker<'_> {
 
     fn figure(
         &mut self,
+        name: &str,
         shot: &Shot,
         scene: &SceneDescription,
-        file: &str,
     ) -> Result<Figure, String> {
         let camera = shot.camera(scene)?;
         let settings = shot.settings(&camera, 0);
         let passes = shot.passes(self.plan.core.program().is_some());
         let request = Request { shot, scene, camera: &camera, settings: &settings, passes };
-        let made = self.with_core(|core| request.put_to(core, |_| {}))?;
+        let (figures, begun) = ([self.done - 1, self.all], Instant::now());
+        let tell = |samples: u32| {
+            let rays = rays(shot) * f64::from(samples) / f64::from(shot.spp);
+            let left = self.pace.left(rays, begun.elapsed().as_secs_f64());
+            (self.tell)(Told { name, figures, samples: Some([samples, shot.spp]), left });
+        };
+        let made = with_core(self.plan, |core| request.put_to(core, tell))?;
         self.pace.took(shot, made.seconds);
-        let path = self.store.path(file);
+        let file = self.file(name);
+        let path = self.store.path(&file);
         let output: Output = path.to_string_lossy().parse()?;
         output.write(&made.shown, Vec::new()).map_err(|error| error.to_string())?;
-        Ok(Figure { file: file.to_owned(), measured: Measured::of(&made) })
+        Ok(Figure { file, measured: Measured::of(&made) })
     }
+}
 
-    /// A core of its own for each figure: whatever becomes of it, the next begins anew.
-    fn with_core<T>(
-        &self,
-        ask: impl FnOnce(&mut dyn Core) -> Result<T, CoreError>,
-    ) -> Result<T, String> {
-        let hosted = self.plan.hosting.host(self.plan.core);
-        let mut hosted = hosted.map_err(|error| format!("the core fails to start: {error}"))?;
-        ask(hosted.core_mut()).map_err(|error| error.to_string())
-    }
-
-    fn tell(&mut self, name: &str) {
-        let (figures, left) = ([self.done, self.all], self.pace.left());
-        (self.tell)(Told { name, figures, left });
-    }
+/// A core of its own for each figure: whatever becomes of it, the next begins anew.
+fn with_core<T>(
+    plan: &Plan<'_>,
+    ask: impl FnOnce(&mut dyn Core) -> Result<T, CoreError>,
+) -> Result<T, String> {
+    let hosted = plan.hosting.host(plan.core);
+    let mut hosted = hosted.map_err(|error| format!("the core fails to start: {error}"))?;
+    ask(hosted.core_mut()).map_err(|error| error.to_string())
 }

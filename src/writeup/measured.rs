@@ -78,9 +78,11 @@ impl Pace {
         self.left -= to_render(plan, shot);
     }
 
-    /// Seconds, if anything was rendered by now.
-    pub(super) fn left(&self) -> Option<f64> {
-        (self.rendered > 0.0).then(|| self.left.max(0.0) * self.seconds / self.rendered)
+    /// Seconds, if anything was rendered by now: `rays` of the figure that is being made, in `seconds`.
+    pub(super) fn left(&self, rays: f64, seconds: f64) -> Option<f64> {
+        let rendered = self.rendered + rays;
+        let left = (self.left - rays).max(0.0);
+        (rendered > 0.0).then(|| left * (self.seconds + seconds) / rendered)
     }
 }
 
@@ -90,7 +92,7 @@ fn to_render(plan: &Plan<'_>, shot: &Shot) -> f64 {
 }
 
 /// About how many rays an image takes: roulette ends paths long before the hundredth bounce.
-fn rays(shot: &Shot) -> f64 {
+pub(super) fn rays(shot: &Shot) -> f64 {
     let [width, height] = shot.size.unwrap_or_default().map(f64::from);
     let last = shot.bounces.as_ref().map_or(1, |bounces| (*bounces.end()).min(8));
     let a_path = f64::from(1 + last * (1 + shot.light_samples));

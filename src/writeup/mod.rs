@@ -69,6 +69,8 @@ pub(crate) struct Told<'a> {
     pub(crate) name: &'a str,
     /// Figures before it, and all.
     pub(crate) figures: [usize; 2],
+    /// Samples of a pixel that it has, and all; none before the first.
+    pub(crate) samples: Option<[u32; 2]>,
     /// Seconds that the rest may take, once that is known.
     pub(crate) left: Option<f64>,
 }

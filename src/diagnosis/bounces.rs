@@ -93,17 +93,22 @@ impl Furnace {
         })
     }
 
-    /// Isolated bounces beside what they should be.
+    /// Isolated bounces beside what they should be; where these are right, their sums.
     fn table(&self) -> String {
-        let isolated = self.rows.iter().filter(|row| row.bounces[0] == row.bounces[1]);
-        let cells: Vec<_> = isolated
+        let is_isolated = |row: &&Row| row.bounces[0] == row.bounces[1];
+        let is_right = |row: &Row| row.readings.iter().flatten().all(|one| one.admits(1.0));
+        let adds_up = self.rows.iter().filter(is_isolated).all(is_right);
+        let rows = self.rows.iter().filter(|row| is_isolated(row) != adds_up);
+        let cells: Vec<_> = rows
             .filter_map(|row| {
                 let ratios: Vec<_> =
                     row.readings.iter().flatten().map(|reading| figure(reading.ratio)).collect();
-                (!ratios.is_empty()).then(|| format!("{}: {}", row.bounces[0], ratios.join(" ")))
+                let label = name(row.bounces).replace("bounces ", "").replace("bounce ", "");
+                (!ratios.is_empty()).then(|| format!("{label}: {}", ratios.join(" ")))
             })
             .collect();
-        format!("bounce by bounce, over what it should be (red green blue): {}", cells.join(" · "))
+        let what = if adds_up { "sums of bounces" } else { "bounce by bounce" };
+        format!("{what}, over what it should be (red green blue): {}", cells.join(" · "))
     }
 
     /// The first row at which each other law of the same family fails.
@@ -294,6 +299,11 @@ mod tests {
         for law in LAWS {
             let made = Made::new().with(FURNACES[0], furnace(law.predict));
             assert_eq!(made.first(), Some(law.cause.name), "{}", law.words);
+            let seen = &diagnose(&made.evidence()).headlines[0].evidence[0];
+            assert!(
+                !seen.ends_with(": 0: 1 1 1 · 1: 1 1 1 · 2: 1 1 1 · 3: 1 1 1 · 5: 1 1 1"),
+                "{seen}"
+            );
         }
     }
 

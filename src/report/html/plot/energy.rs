@@ -128,6 +128,12 @@ pub(super) fn plot(finding: &Finding) -> Option<Figure> {
     (lines[0].bounces.len() >= FEWEST).then(|| draw(&lines))?
 }
 
+/// Whether it is a bounce that fails: where a sum does, each may be right.
+pub(super) fn is_wrong(finding: &Finding) -> bool {
+    let mut failed = finding.measures.iter().filter(|measure| measure.failed());
+    failed.any(|measure| Bounce::of(measure).is_some())
+}
+
 fn draw(lines: &[Line; 3]) -> Option<Figure> {
     let [radiance, ratios] = [radiance(lines)?, ratios(lines)?];
     let found = found(lines);
@@ -275,6 +281,7 @@ mod tests {
         assert!(page.contains("Furthest from 1 is bounce 5, blue: 0.24."), "{page}");
         assert_eq!(page.matches("<svg role=\"img\"").count(), 2);
         assert_eq!(page.matches("<title>bounce ").count(), 18);
+        assert!(is_wrong(&furnace(0.7, |_| 1.0)) && !is_wrong(&furnace(1.0, |_| 1.0)));
         let right = plot(&furnace(1.0, |_| 1.0)).unwrap().markup().into_string();
         assert!(right.contains("No factor a bounce: red 1.0000 ± 0.00"), "{right}");
         assert!(page.contains("<desc>") && page.contains("measured / expected"));

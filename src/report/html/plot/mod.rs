@@ -45,7 +45,8 @@ pub(super) fn most_telling(findings: &[&Finding], large: bool) -> Option<Figure>
         _ => true,
     };
     let mut series = findings.iter().flat_map(|finding| &finding.series).filter(tells);
-    let by_bounce = findings.iter().find_map(|finding| energy::plot(finding));
+    let mut wrong = findings.iter().filter(|finding| energy::is_wrong(finding));
+    let by_bounce = wrong.find_map(|finding| energy::plot(finding));
     by_bounce.or_else(|| series.find_map(of_series))
 }
 

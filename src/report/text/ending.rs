@@ -95,8 +95,17 @@ fn calm(tree: &RunTree, style: Style) -> Vec<String> {
     }
     match counts.graded.count(Status::Pass) {
         0 => nothing_proven(tree, &counts, style),
-        passes => head(style, Paint::Good, "PASS", &passed(passes, &counts)),
+        passes => {
+            let lines = head(style, Paint::Good, "PASS", &passed(passes, &counts));
+            let skipped = tree.graded().find(|trial| trial.outcome.status() == Status::Skipped);
+            lines.into_iter().chain(skipped.and_then(|trial| doctor(&trial.core))).collect()
+        }
     }
+}
+
+/// Who tells what a core can do, and what to write next.
+fn doctor(core: &str) -> Option<String> {
+    command("try", &format!("{} doctor --core {}", program(), shell_words::quote(core)))
 }
 
 fn passed(passes: usize, counts: &Counts) -> String {
@@ -113,12 +122,10 @@ fn nothing_proven(tree: &RunTree, counts: &Counts, style: Style) -> Vec<String> 
         head(style, Paint::Unknown, "NOTHING PROVEN", "no graded trial passes or fails");
     let Some(trial) = tree.graded().next().or(tree.trials.first()) else { return lines };
     lines.extend(labelled("cause", &trial.outcome.statement(), style));
-    let doctor = format!("{} doctor --core {}", program(), shell_words::quote(&trial.core));
-    let next = match counts.graded.count(Status::Skipped) {
-        0 => &trial.rerun,
-        _ => &doctor,
-    };
-    lines.extend(command("try", next));
+    lines.extend(match counts.graded.count(Status::Skipped) {
+        0 => command("try", &trial.rerun),
+        _ => doctor(&trial.core),
+    });
     lines
 }
 

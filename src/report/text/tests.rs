@@ -152,6 +152,17 @@ fn nothing_proven_is_no_pass() {
 }
 
 #[test]
+fn who_passes_what_is_written_reads_what_to_write_next() {
+    let mut example = Example::green();
+    example.set("builtin", FAILING, Outcome::Skipped { missing: vec!["render".to_owned()] });
+    let text = plain(example);
+    let expected = "  PASS  all that was decided; of 1 nothing is known
+  try     cargo furnace doctor --core builtin
+";
+    assert!(text.contains(expected), "{text}");
+}
+
+#[test]
 fn who_wants_quiet_reads_the_counts() {
     let style = Style { detail: Detail::Counts, ..Style::PLAIN };
     let text = summary(&Example::green().tree(), style);

@@ -51,7 +51,7 @@ fn of_trials(view: &View<'_>) -> Markup {
         @if failures.is_empty() && tally.total() > 0 { (not_failed(view, &tally)) }
         @if told.is_empty() && let Some((first, others)) = failures.split_first() {
             (failed(view, first, others))
-        } @else { (unexplained(view, &failures)) }
+        } @else { (unexplained(view, &told, &failures)) }
         (transplants(view, &told))
     }
 }
@@ -69,14 +69,19 @@ fn does_not_start(core: AbsentCore<'_>) -> Markup {
     }
 }
 
-/// Failures that no cause explains.
-fn unexplained(view: &View<'_>, failures: &[&TrialRecord]) -> Markup {
+/// Failures that no cause explains, and no card of what differs lists.
+fn unexplained(view: &View<'_>, told: &[(&str, &Headline)], failures: &[&TrialRecord]) -> Markup {
     let diagnoses = view.tree.diagnoses();
     let is_open = |trial: &&TrialRecord| {
         let of_core = diagnoses.iter().filter(|(core, _)| *core == trial.core);
         of_core.clone().any(|(_, diagnosis)| diagnosis.unexplained.contains(&trial.case))
     };
-    let open: Vec<_> = failures.iter().copied().filter(is_open).collect();
+    let is_told = |trial: &TrialRecord| {
+        told.iter()
+            .any(|(core, headline)| *core == trial.core && headline.accounts_for(&trial.case))
+    };
+    let open: Vec<_> =
+        failures.iter().copied().filter(|trial| is_open(trial) && !is_told(trial)).collect();
     html! {
         @if !open.is_empty() {
             div.card.beside {

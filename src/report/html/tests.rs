@@ -4,9 +4,10 @@
 use super::assets::EARLY_SCRIPT;
 use super::*;
 use crate::case::Tier;
-use crate::report::example::{Example, HOSTILE};
+use crate::checks::Finding;
+use crate::report::example::{Example, HOSTILE, trial};
 use crate::run::record::{Number, Score, read_json, write_json};
-use crate::run::{Counts, RunRecord, Status};
+use crate::run::{Counts, Outcome, RunRecord, Status};
 use std::collections::{BTreeMap, BTreeSet};
 
 mod browser;
@@ -195,6 +196,18 @@ fn a_run_without_results_has_a_page_too() {
     let page = page(example);
     assert!(page.contains("<title>Unfinished at 0 of 24 trials"));
     assert!(!page.contains("Every trial passes."));
+}
+
+#[test]
+fn what_differs_without_a_cause_is_listed_once() {
+    let mut example = Example::green();
+    example.trials = [1, 2].map(|n| trial("builtin", &format!("camera/case-{n}"))).to_vec();
+    for trial in &mut example.trials {
+        trial.outcome = Outcome::Judged { finding: Finding::failure("off") };
+    }
+    let page = page(example);
+    assert!(page.contains("Failing here"), "{page}");
+    assert!(!page.contains("No cause is known for these"), "{page}");
 }
 
 #[test]

@@ -235,6 +235,21 @@ impl Ranked {
         differing.flat_map(|other| &other.explains).chain(&headline.may_follow)
     }
 
+    /// Failures that follow from no cause.
+    pub(super) fn differing(&self) -> impl Iterator<Item = &String> {
+        self.differing.iter().flat_map(|headline| &headline.explains)
+    }
+
+    /// These failures follow from what is named.
+    pub(super) fn follow(&mut self, cases: &[String]) {
+        let named = |headline: &&mut Headline| headline.degree == Degree::Named;
+        let Some(first) = self.causes.iter_mut().find(named) else { return };
+        for headline in &mut self.differing {
+            first.may_follow.extend(headline.explains.extract_if(.., |case| cases.contains(case)));
+        }
+        self.differing.retain(|headline| !headline.explains.is_empty());
+    }
+
     /// What differs, and what no more than looks like a cause.
     pub(super) fn unnamed(&self) -> impl Iterator<Item = &Headline> {
         let vague = self.causes.iter().filter(|headline| headline.degree == Degree::LooksLike);

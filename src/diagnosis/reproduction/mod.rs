@@ -3,9 +3,11 @@
 //!
 //! What it contradicts is not told; what no rule recognises, and one planted mistake reproduces, is told by its name.
 
+mod composition;
 mod likeness;
 mod siblings;
 
+use self::composition::Seen;
 use self::likeness::{ALIKE, Likeness, apart, likeness};
 use super::rank::Ranked;
 use super::{Degree, Evidence, Headline, Observation, Suspicion, look_without};
@@ -14,7 +16,7 @@ use crate::cause::{self, Cause, bvh};
 use crate::checks::Finding;
 use crate::contract::Components;
 use std::collections::{BTreeMap, BTreeSet};
-use std::slice;
+use std::{ptr, slice};
 
 /// Cases in which a suspicion is put to the proof, the quickest of those that it explains.
 const CASES: usize = 4;
@@ -22,11 +24,13 @@ const CASES: usize = 4;
 const CONTRADICTING: usize = 16;
 /// Rounds in which what is contradicted makes room for the next suspicion.
 const ROUNDS: usize = 6;
+/// Searches for what has no name, each beside what the last has found.
+const SEARCHES: usize = 3;
 /// Mistakes of which pairs are tried.
 const PAIRED: usize = 8;
-/// Mistakes that a set may grow by, and the cases that it has to reproduce.
-const GROWN: usize = 4;
-const GROWN_CASES: usize = 8;
+/// Sets of several mistakes that are tried, and the cases that they have to reproduce.
+const FORETOLD: usize = 12;
+const PROVING: usize = 8;
 /// Fewer sets of mistakes may come to the same numbers by chance, where one of them is named.
 const BY_CHANCE: f64 = 0.1;
 
@@ -123,10 +127,24 @@ impl<'a> Sifted<'a> {
 
     /// The same with the mistakes that reproduce what has no name.
     pub(super) fn and_searched(self) -> Ranked {
-        let Self { proof, mut refuted, ranked, confirmed: mut found } = self;
+        let Self { proof, mut refuted, mut ranked, confirmed: mut found } = self;
         let suspected: BTreeSet<_> = ranked.with_cause().map(|told| told.cause.clone()).collect();
-        let searched = proof.reproduced(&ranked);
-        found.extend(if searched.is_empty() { proof.informed(&ranked) } else { searched });
+        // What is found explains some of it, and of the rest the next may be found.
+        for _ in 0..SEARCHES {
+            let is_known = |one: &Suspicion| {
+                let known = found.iter().filter(|other| other.cause.name == one.cause.name);
+                let known: Vec<_> = known.flat_map(|other| &other.cases).collect();
+                one.cases.iter().all(|case| known.contains(&case))
+            };
+            let searched = proof.reproduced(&ranked);
+            let new: Vec<_> = searched.into_iter().filter(|one| !is_known(one)).collect();
+            if new.is_empty() {
+                break;
+            }
+            found.extend(new);
+            ranked = look_without(proof.evidence, &refuted, found.clone());
+        }
+        found.extend(proof.informed(&ranked));
         let mut told = proof.doubted(&refuted, &found);
         // What the search has found has to stand beside the rest as well, and so has what is doubted.
         for _ in 0..ROUNDS {
@@ -138,6 +156,8 @@ impl<'a> Sifted<'a> {
             refuted.extend(unfounded);
             told = proof.doubted(&refuted, &found);
         }
+        let following = proof.given_by_all(&told);
+        told.follow(&following);
         told
     }
 }
@@ -429,7 +449,8 @@ impl<'a> Proof<'a> {
         found
     }
 
-    /// Mistakes that reproduce these cases alone, or all that is told, or one beside it, or pairs do.
+    /// Mistakes that reproduce these cases alone, or all that is told does, or sets that foretell them; or pairs, or one that
+    /// does it nearly.
     fn reproducing(&self, failing: &[String], told: &[Mistake]) -> Vec<Suspicion> {
         let cases = self.quickest(failing);
         if cases.is_empty() {
@@ -437,26 +458,22 @@ impl<'a> Proof<'a> {
         }
         let mistakes = self.in_sight();
         let alone: Vec<_> = mistakes.iter().map(|mistake| vec![*mistake]).collect();
-        let found = self.of_sets(&alone, &cases);
+        let mut found = self.of_sets(&alone, &cases);
+        if found.is_empty() && told.len() > 1 {
+            found = self.of_all(told, &cases);
+        }
         if !found.is_empty() {
             return found;
         }
-        let found = if told.len() > 1 { self.of_all(told, &cases) } else { Vec::new() };
-        if !found.is_empty() {
-            return found;
-        }
-        let is_told = |mistake: &&Mistake| told.iter().any(|told| told.cause == mistake.cause);
-        let others: Vec<_> = mistakes.iter().filter(|m| !is_told(m)).take(PAIRED).collect();
-        let beside = others.iter().filter(|_| !told.is_empty());
-        let mut sets: Vec<Vec<_>> =
-            beside.map(|other| told.iter().copied().chain([**other]).collect()).collect();
-        for (number, one) in others.iter().enumerate() {
-            let rest = others[number + 1..].iter().filter(|other| other.cause != one.cause);
-            sets.extend(rest.map(|other| vec![**one, **other]));
-        }
-        let mut found = self.of_sets(&sets, &cases);
+        let failing = failing.iter().filter_map(|case| self.evidence.failure_of(case));
+        let many = quickest(failing, PROVING);
+        let is_new = |told: &&Mistake| mistakes.iter().all(|other| other.cause != told.cause);
+        let pool =
+            [&mistakes[..], &told.iter().filter(is_new).copied().collect::<Vec<_>>()].concat();
+        let likely = self.foretelling(&pool, &cases);
+        found = self.composed(&likely, pool.len(), &many);
         if found.is_empty() {
-            found = self.grown(told, &mistakes, failing);
+            found = self.of_sets(&pairs(&mistakes, told), &cases);
         }
         if found.is_empty() {
             // A core may do what the bench has a component for in the midst of a higher one.
@@ -466,39 +483,66 @@ impl<'a> Proof<'a> {
             let elsewhere: Vec<_> = elsewhere.into_iter().map(|mistake| vec![mistake]).collect();
             found = self.of_sets(&elsewhere, &cases);
         }
-        if found.is_empty() { self.nearly_reproducing(&alone, failing) } else { found }
+        if found.is_empty() {
+            found = self.nearly_reproducing(&[alone, likely].concat(), &many);
+        }
+        found
     }
 
-    /// The only mistake that fails every case in the same places and to the same side, and half of them by as much: the rest
-    /// may be the noise of another sampler, or a second mistake.
-    fn nearly_reproducing(&self, alone: &[Vec<Mistake>], failing: &[String]) -> Vec<Suspicion> {
-        let failing = failing.iter().filter_map(|case| self.evidence.failure_of(case));
-        let cases = quickest(failing, GROWN_CASES);
-        let mut near: Vec<_> = alone.iter().map(|set| (set, 0)).collect();
-        for seen in &cases {
-            let tried: Vec<_> = near.iter().map(|(set, _)| (*set).clone()).collect();
-            let answers = self.compare(&tried, &[seen]).into_iter().map(|of| of[0]);
-            let is_near = |of: &Likeness| of.is_reproduced() || *of == Likeness::Alike;
-            let with_answer = near.into_iter().zip(answers).filter(|(_, of)| is_near(of));
-            let counted = with_answer
-                .map(|((set, same), of)| (set, same + usize::from(of == Likeness::Same)));
-            near = counted.collect();
-        }
-        let half = near.into_iter().filter(|(_, same)| *same > 0 && 2 * same >= cases.len());
-        let kinds = kinds(half.map(|(set, _)| set).collect());
-        let [only] = kinds[..] else { return Vec::new() };
-        let mut found = suspicions(only, &cases, Degree::LooksLike);
+    /// The only set that gives the numbers of most cases; or of half of them, where it fails the others in the same places
+    /// and to the same side. The rest may be the noise of another sampler, or one mistake more.
+    fn nearly_reproducing(
+        &self,
+        sets: &[Vec<Mistake>],
+        cases: &[&Observation<'a>],
+    ) -> Vec<Suspicion> {
+        let answers = self.compare(sets, cases);
+        let count = |of_set: &[Likeness], wanted: fn(&Likeness) -> bool| {
+            of_set.iter().filter(|likeness| wanted(likeness)).count()
+        };
+        let same = |of_set: &[Likeness]| count(of_set, |one| *one == Likeness::Same);
+        let is_near = |of_set: &[Likeness]| {
+            let near = count(of_set, |one| one.is_reproduced() || *one == Likeness::Alike);
+            let (same, all) = (same(of_set), cases.len());
+            same > 0 && (2 * same > all || 2 * same == all && near == all)
+        };
+        let most = answers.iter().filter(|of_set| is_near(of_set)).map(|of_set| same(of_set)).max();
+        let nearest = sets.iter().zip(&answers).filter(|(_, of_set)| Some(same(of_set)) == most);
+        let kinds = kinds(nearest.map(|(set, _)| set).collect());
+        let ([only], true) = (&kinds[..], most.is_some()) else { return Vec::new() };
+        let of_only = sets.iter().zip(&answers).filter(|(set, _)| ptr::eq(*set, *only));
+        let of_cases = of_only.flat_map(|(_, of_set)| cases.iter().zip(of_set));
+        let told = of_cases.filter(|(_, of)| **of != Likeness::Other);
+        let told: Vec<_> = told.map(|(seen, _)| *seen).collect();
+        let mut found = suspicions(only, &told, Degree::LooksLike);
         for suspicion in &mut found {
             let names = suspicion.cases.join(", ");
             suspicion.evidence = vec![wrong_in_the_same_places("", &names)];
         }
-        found
+        if only.len() > 1 { self.where_needed(found, only, &told) } else { found }
     }
 
     /// Everything that is told, where it reproduces every case: each in the cases that it is needed for.
     fn of_all(&self, told: &[Mistake], cases: &[&Observation<'a>]) -> Vec<Suspicion> {
         let found = self.of_sets(&[told.to_vec()], cases);
         self.where_needed(found, told, cases)
+    }
+
+    /// Failures without a cause of which all that is named together gives the numbers; if it gives those of all that are
+    /// asked, all of them.
+    fn given_by_all(&self, told: &Ranked) -> Vec<String> {
+        let named = told.with_cause().filter(|headline| headline.degree == Degree::Named);
+        let named: Vec<_> = named.filter_map(|headline| self.of(headline).next()).collect();
+        let left: Vec<_> = told.differing().cloned().collect();
+        let failures = left.iter().filter_map(|case| self.evidence.failure_of(case));
+        let asked = quickest(failures, siblings::FAILED);
+        if named.is_empty() || asked.is_empty() {
+            return Vec::new();
+        }
+        let answers = self.compare(&[named], &asked).remove(0);
+        let given = asked.iter().zip(answers).filter(|(_, of)| *of == Likeness::Same);
+        let given: Vec<_> = given.map(|(seen, _)| seen.case.to_owned()).collect();
+        if given.len() == asked.len() { left } else { given }
     }
 
     /// Each suspicion of a `set` in the cases that the others alone do not reproduce.
@@ -520,45 +564,34 @@ impl<'a> Proof<'a> {
         found
     }
 
-    /// Three mistakes and more in one function show in all numbers together: from what is told, and from nothing, the one is
-    /// taken in that reproduces the most cases more, until all of them are.
-    fn grown(&self, told: &[Mistake], mistakes: &[Mistake], failing: &[String]) -> Vec<Suspicion> {
-        let failing = failing.iter().filter_map(|case| self.evidence.failure_of(case));
-        let cases = quickest(failing, GROWN_CASES);
-        let from = [told, &[]];
-        let starts = from.iter().take(if told.is_empty() { 1 } else { 2 });
-        let grown = starts.map(|start| self.grown_from(start.to_vec(), mistakes, &cases));
-        let Some(set) = grown.flatten().next() else { return Vec::new() };
-        let tried = mistakes.len().saturating_pow(set.len() as u32);
-        let found = degree(1, tried, &cases).map(|degree| suspicions(&set, &cases, degree));
-        self.where_needed(found.unwrap_or_default(), &set, &cases)
+    /// The sets of several mistakes that foretell what failed, the likeliest first.
+    fn foretelling(&self, mistakes: &[Mistake], cases: &[&Observation<'a>]) -> Vec<Vec<Mistake>> {
+        let alone: Vec<_> = mistakes.iter().map(|mistake| vec![*mistake]).collect();
+        let mut answers = self.planted(&alone, cases);
+        let of_case = |(number, seen): (usize, &&Observation<'a>)| {
+            let alone = answers.iter_mut().map(|of_mistake| of_mistake[number].take()).collect();
+            Some(Seen { core: seen.finding?, alone })
+        };
+        let seen: Vec<_> = cases.iter().enumerate().filter_map(of_case).collect();
+        composition::likely(mistakes, &seen, FORETOLD)
     }
 
-    fn grown_from(
+    /// The smallest of these sets that reproduce every case, each mistake in the cases that it is needed for.
+    fn composed(
         &self,
-        mut set: Vec<Mistake>,
-        mistakes: &[Mistake],
+        sets: &[Vec<Mistake>],
+        mistakes: usize,
         cases: &[&Observation<'a>],
-    ) -> Option<Vec<Mistake>> {
-        let count = |answers: Vec<Likeness>| {
-            answers.into_iter().filter(|likeness| *likeness == Likeness::Same).count()
+    ) -> Vec<Suspicion> {
+        let fitting = self.fitting(sets, cases);
+        let smallest = fitting.iter().map(|set| set.len()).min().unwrap_or_default();
+        let [set] = kinds(fitting.into_iter().filter(|set| set.len() == smallest).collect())[..]
+        else {
+            return Vec::new();
         };
-        let mut reproduced = 0;
-        for _ in 0..GROWN {
-            let is_new = |one: &&Mistake| set.iter().all(|of_set| of_set.cause != one.cause);
-            let with = |one: &Mistake| [&set[..], &[*one]].concat();
-            let sets: Vec<_> = mistakes.iter().filter(is_new).map(with).collect();
-            let counts = self.compare(&sets, cases).into_iter().map(count);
-            let (best, most) = sets.iter().zip(counts).rev().max_by_key(|(_, count)| *count)?;
-            if most <= reproduced {
-                return None;
-            }
-            (set, reproduced) = (best.clone(), most);
-            if reproduced == cases.len() {
-                return Some(set);
-            }
-        }
-        None
+        let tried = mistakes.saturating_pow(set.len() as u32);
+        let found = degree(1, tried, cases).map(|degree| suspicions(set, cases, degree));
+        self.where_needed(found.unwrap_or_default(), set, cases)
     }
 
     /// The suspicions of those sets that reproduce every case; none where too many do.
@@ -656,6 +689,20 @@ fn quickest<'s, 'a: 's>(
 /// Whether `case` is about what the headline's are about.
 fn is_of_one_part(headline: &Headline, case: &str) -> bool {
     headline.explains.iter().any(|own| Subject::of_case(own) == Subject::of_case(case))
+}
+
+/// One of the first `mistakes` beside all that is told, and pairs of them: what they do together need not follow from what
+/// each does alone.
+fn pairs(mistakes: &[Mistake], told: &[Mistake]) -> Vec<Vec<Mistake>> {
+    let is_told = |mistake: &&Mistake| told.iter().any(|told| told.cause == mistake.cause);
+    let others: Vec<_> = mistakes.iter().filter(|m| !is_told(m)).take(PAIRED).collect();
+    let beside = others.iter().filter(|_| !told.is_empty());
+    let mut sets: Vec<Vec<_>> = beside.map(|other| [told, &[**other]].concat()).collect();
+    for (number, one) in others.iter().enumerate() {
+        let rest = others[number + 1..].iter().filter(|other| other.cause != one.cause);
+        sets.extend(rest.map(|other| vec![**one, **other]));
+    }
+    sets
 }
 
 /// Sets of mistakes, one for all that have the same causes.
@@ -780,27 +827,40 @@ mod tests {
 
     #[test]
     fn three_mistakes_that_only_together_give_all_numbers_are_named() {
+        const ALONE: [(&str, [f64; 6]); 3] = [
+            ("pi", [2.0, 2.5, 1.0, 1.0, 4.0, 1.0]),
+            ("cosine", [1.0, 1.5, 7.0, 5.0, 1.0, 3.0]),
+            ("again", [3.0, 1.0, 1.0, 8.0, 5.0, 9.0]),
+        ];
         let cases = ["bsdf/a", "light/b", "light/c", "light/d", "light/e", "light/f"];
-        let ratios = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0];
-        let made = cases.iter().zip(ratios);
-        let made = made.fold(Made::new(), |made, (case, ratio)| made.with(*case, light(ratio)));
-        let sets: [(&[&str], usize); 3] =
-            [(&["pi"], 1), (&["pi", "cosine"], 3), (&["pi", "cosine", "again"], 6)];
-        let given = |(set, known): (&'static [&'static str], usize)| {
-            cases.iter().zip(ratios).take(known).map(move |(case, ratio)| (set, *case, ratio))
+        let ratio = |set: &[usize], case: usize| -> f64 {
+            set.iter().map(|mistake| ALONE[*mistake].1[case]).product()
         };
-        let gives: Vec<_> = sets.into_iter().flat_map(given).collect();
+        let made = (0..6)
+            .fold(Made::new(), |made, case| made.with(cases[case], light(ratio(&[0, 1, 2], case))));
+        let sets: [(&[usize], &[&str]); 7] = [
+            (&[0], &["pi"]),
+            (&[1], &["cosine"]),
+            (&[2], &["again"]),
+            (&[0, 1], &["pi", "cosine"]),
+            (&[0, 2], &["pi", "again"]),
+            (&[1, 2], &["cosine", "again"]),
+            (&[0, 1, 2], &["pi", "cosine", "again"]),
+        ];
+        let given = sets.iter().flat_map(|(set, names)| {
+            (0..6).map(move |case| (*names, cases[case], ratio(set, case)))
+        });
+        let gives: Vec<_> = given.collect();
         let planted = Bench { mistakes: &[PI, COSINE, AGAIN], gives: &gives };
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         let mut named = told(&diagnosis);
         named.sort_unstable();
         let name = |cause: &'static Cause, cases| (cause.name, Degree::Named, cases);
-        let expected = [
-            name(&light::WORLD_COSINE, 6),
-            name(&integrator::EMISSION_AGAIN, 3),
-            name(&bsdf::WITHOUT_PI, 6),
+        let mut expected = [
+            name(&light::WORLD_COSINE, 4),
+            name(&integrator::EMISSION_AGAIN, 4),
+            name(&bsdf::WITHOUT_PI, 3),
         ];
-        let mut expected = expected.to_vec();
         expected.sort_unstable();
         assert_eq!(named, expected);
     }

@@ -217,8 +217,9 @@ impl Ranked {
         let named = self.causes.iter().filter(|headline| headline.degree == Degree::Named);
         let named: Vec<_> = named.cloned().collect();
         for told in named {
-            let brought: Vec<_> =
-                self.causes.extract_if(.., |other| brings(&told, other)).collect();
+            let brought = self.causes.extract_if(.., |other| brings(&told, other));
+            let beside = self.beside.extract_if(.., |other| brings(&told, other));
+            let brought: Vec<_> = brought.chain(beside).collect();
             if let Some(told) = self.causes.iter_mut().find(|one| one.cause == told.cause) {
                 told.may_follow.extend(brought.into_iter().flat_map(|one| one.explains));
             }
@@ -758,13 +759,17 @@ mod tests {
 
     #[test]
     fn a_mistake_that_another_brings_along_is_not_told_beside_it() {
-        let made = Made::new()
-            .with("bvh/a", failing("a").because(&bvh::HIT_OVERWRITTEN, "x"))
-            .with("bvh/b", failing("b").because(&bvh::SEGMENT_NOT_SHORTENED, "y"));
-        let diagnosis = diagnose(&made.evidence());
-        let [only] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
-        assert_eq!(only.cause, bvh::HIT_OVERWRITTEN.name);
-        assert_eq!(only.may_follow, ["bvh/b"]);
+        let made = || {
+            Made::new()
+                .with("bvh/a", failing("a").because(&bvh::HIT_OVERWRITTEN, "x"))
+                .with("bvh/b", failing("b").because(&bvh::SEGMENT_NOT_SHORTENED, "y"))
+        };
+        for made in [made(), made().beside_the_grade("bvh/b")] {
+            let diagnosis = diagnose(&made.evidence());
+            let [only] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
+            assert_eq!(only.cause, bvh::HIT_OVERWRITTEN.name);
+            assert_eq!(only.may_follow, ["bvh/b"]);
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! explains them; where it fails what the core passes, or fails it otherwise, something else is wrong.
 
 use super::likeness::{Likeness, likeness};
-use super::{Proof, Refuted, is_of_one_part, quickest, refuted};
+use super::{CASES, Proof, Refuted, is_of_one_part, quickest, refuted};
 use crate::cause;
 use crate::checks::Finding;
 use crate::contract::Components;
@@ -57,7 +57,9 @@ impl Proof<'_> {
         let is_unproven = |headline: &&Headline| {
             let Siblings { same, against, of_another_size, unasked } =
                 self.siblings(headline, ranked);
-            same.is_empty() && against + of_another_size == 0 && unasked > 0
+            let is_unasked = same.is_empty() && against + of_another_size == 0 && unasked > 0;
+            // More cases than one mistake is tried on are proof enough.
+            is_unasked && headline.explains.len() <= CASES
         };
         ranked.with_cause().filter(is_unproven).filter_map(all_of).flatten().collect()
     }

@@ -16,8 +16,12 @@ use std::time::Instant;
 const BRUTE_FORCE_TESTS: usize = 16_000_000;
 /// but not on fewer or more than so many.
 const BRUTE_FORCE_RAYS: [usize; 2] = [64, 1000];
-/// Shorter passes are repeated.
-const SHORTEST_PASS: f64 = 0.02;
+/// Passes are repeated for so many seconds,
+const SHORTEST_TURN: f64 = 0.02;
+/// and a structure takes so many turns a round, of which the fastest counts.
+const TURNS: usize = 3;
+/// How wide an interval may be, as a share of its speed-up.
+const WIDEST_INTERVAL: f64 = 0.1;
 /// How far apart the distances of two cores to one hit may be, as a share.
 const SAME_HIT: f64 = 1e-4;
 /// Rays that pass an edge of a mesh on the other side in another core's arithmetic, as a share.
@@ -73,7 +77,7 @@ pub struct Bench {
     pub cores: Vec<CoreSpec>,
     /// Where they live: every structure has a process of its own.
     pub hosting: Hosting,
-    /// Every structure is timed once a round.
+    /// Every structure is built anew and timed once a round; there are as many again of subjects that were noisy.
     pub rounds: usize,
 }
 
@@ -96,10 +100,8 @@ pub(super) struct Row {
     pub(super) is_brute_force: bool,
     /// On how many rays it was timed.
     pub(super) rays: usize,
-    /// Median over the rounds.
-    pub(super) seconds_per_ray: f64,
-    /// Time of the first row's brute force over this one's; none without brute force.
-    pub(super) speed_up: Option<SpeedUp>,
+    /// Seconds a ray, one for each round.
+    pub(super) times: Vec<f64>,
     /// Primitives and boxes tested for a ray; none where the core does not count.
     pub(super) tests: Option<[f64; 2]>,
     pub(super) build_seconds: f64,
@@ -115,11 +117,33 @@ pub(super) struct Row {
     pub(super) by_the_wall: bool,
 }
 
+impl Row {
+    /// Median over the rounds.
+    pub(super) fn seconds_per_ray(&self) -> f64 {
+        median(&self.times)
+    }
+}
+
 impl Measured {
     /// Whether some structure finds other hits than it should.
     pub fn is_wrong(&self) -> bool {
         self.rows.iter().any(|row| row.is_wrong)
     }
+
+    /// Time of the first row's brute force over that of a row; none without a BVH.
+    pub(super) fn speed_up(&self, row: &Row) -> Option<SpeedUp> {
+        let times = self.rows[0].times.iter().copied().zip(row.times.iter().copied());
+        (!row.is_brute_force).then(|| speed_up(&times.collect::<Vec<_>>()))
+    }
+
+    fn is_noisy(&self) -> bool {
+        self.rows.iter().filter_map(|row| self.speed_up(row)).any(|one| is_noisy(&one))
+    }
+}
+
+/// Such a speed-up is not printed.
+pub(super) fn is_noisy(SpeedUp { ratio, interval: [low, high], .. }: &SpeedUp) -> bool {
+    high - low > WIDEST_INTERVAL * ratio
 }
 
 /// Why nothing was measured.
@@ -134,138 +158,220 @@ pub(crate) enum NotMeasured {
 }
 
 impl Bench {
-    /// Builds every structure over the subject, compares their hits, and times them against each other.
+    /// Builds every structure over every subject, compares their hits, and times them against each other. A round goes
+    /// over all subjects, so that those of one subject are spread over the whole time; `tell` hears how many are done,
+    /// and of how many subjects the last was.
     ///
     /// # Errors
     /// If a core fails to start, or to answer.
-    pub fn measure(&self, subject: &Subject) -> Result<Measured, Box<dyn std::error::Error>> {
-        Ok(self.measured(subject)?)
+    pub fn measure(
+        &self,
+        subjects: &[Subject],
+        tell: impl Fn(usize, usize),
+    ) -> Result<Vec<Measured>, Box<dyn std::error::Error>> {
+        Ok(self.measured(subjects, tell)?)
     }
 
-    fn measured(&self, subject: &Subject) -> Result<Measured, NotMeasured> {
-        let mut hosted = self.hosted()?;
-        let entries = hosted.iter_mut().map(|one| Entry::of(one, subject));
-        let mut entries = entries.collect::<Result<Vec<_>, _>>()?;
-        let contestants = entries.iter_mut().map(|entry| Contestant::new(entry, subject));
-        let mut contestants = contestants.collect::<Result<Vec<_>, _>>()?;
-        let mut stream = Seed::SUITE.child("rounds").child(&subject.name).stream();
-        for _ in 0..self.rounds {
-            for index in shuffled(contestants.len(), &mut stream) {
-                contestants[index].take_a_turn()?;
+    fn measured(
+        &self,
+        subjects: &[Subject],
+        tell: impl Fn(usize, usize),
+    ) -> Result<Vec<Measured>, NotMeasured> {
+        let entries = self.entries()?;
+        let looked_at = subjects.iter().map(|subject| self.look(&entries, subject));
+        let mut measured = looked_at.collect::<Result<Vec<_>, _>>()?;
+        let mut stream = Seed::SUITE.child("rounds").stream();
+        let mut asked: Vec<_> = subjects.iter().zip(&mut measured).collect();
+        let mut done = 0;
+        // As many again where it was noisy. That is looked at once: who stops as soon as an interval is narrow stops at
+        // those that are narrow by chance.
+        for _ in 0..2 {
+            for _ in 0..if asked.is_empty() { 0 } else { self.rounds } {
+                for (subject, measured) in &mut asked {
+                    let times = self.round(&entries, subject, &mut stream)?;
+                    let rows = measured.rows.iter_mut().zip(times);
+                    rows.for_each(|(row, time)| row.times.push(time));
+                }
+                done += 1;
+                tell(done, asked.len());
+            }
+            asked.retain(|(_, measured)| measured.is_noisy());
+        }
+        Ok(measured)
+    }
+
+    /// What is timed; the brute force that all are compared with comes first.
+    fn entries(&self) -> Result<Vec<Entry<'_>>, NotMeasured> {
+        let mut entries: Vec<Entry<'_>> = Vec::new();
+        for core in &self.cores {
+            for structure in Structure::of(self.host(core)?.core_mut().info().capabilities) {
+                // One brute force is enough: the other cores are compared with it too.
+                let has_brute_force = entries.iter().any(|entry| entry.structure.is_brute_force());
+                if !(structure.is_brute_force() && has_brute_force) {
+                    entries.push(Entry { core, structure });
+                }
             }
         }
-        let first = (contestants[0].times.clone(), contestants[0].hits.clone());
-        let core = contestants[0].row.core.clone();
-        let rows = contestants.into_iter().map(|one| one.finish(&core, &first)).collect();
+        let first = entries.iter().position(|entry| entry.structure.is_brute_force());
+        entries[..=first.ok_or(NotMeasured::NoBruteForce)?].rotate_right(1);
+        Ok(entries)
+    }
+
+    fn host(&self, core: &CoreSpec) -> Result<Hosted, NotMeasured> {
+        let hosting = Hosting { isolates_own: true, ..self.hosting.clone() };
+        hosting.host(core).map_err(|error| NotMeasured::Host(core.clone(), error.into()))
+    }
+
+    /// Everything but times.
+    fn look(&self, entries: &[Entry<'_>], subject: &Subject) -> Result<Measured, NotMeasured> {
+        let mut looks = Vec::new();
+        for entry in entries {
+            looks.push(entry.look(&mut self.host(entry.core)?, subject)?);
+        }
+        let (first, hits) = (looks[0].row.core.clone(), looks[0].hits.clone());
+        let rows = looks.into_iter().map(|look| look.beside(&first, &hits)).collect();
         let triangles = subject.scene.primitive_count();
         Ok(Measured { subject: subject.name.clone(), triangles, rows })
     }
 
-    /// A process for each structure; that of the brute force that all are compared with comes first.
-    fn hosted(&self) -> Result<Vec<(String, Structure, Hosted)>, NotMeasured> {
-        let hosting = Hosting { isolates_own: true, ..self.hosting.clone() };
-        let mut hosted: Vec<(String, Structure, Hosted)> = Vec::new();
-        let mut has_brute_force = false;
-        for spec in &self.cores {
-            let host = || {
-                hosting.host(spec).map_err(|error| NotMeasured::Host(spec.clone(), error.into()))
-            };
-            for structure in Structure::of(host()?.core_mut().info().capabilities) {
-                // One brute force is enough: the other cores are compared with it too.
-                if structure.is_brute_force() && std::mem::replace(&mut has_brute_force, true) {
-                    continue;
-                }
-                hosted.push((spec.to_string(), structure, host()?));
+    /// Seconds a ray of every structure, in processes of this round alone: how fast a process is depends on where its
+    /// memory lies, too.
+    fn round(
+        &self,
+        entries: &[Entry<'_>],
+        subject: &Subject,
+        stream: &mut Stream,
+    ) -> Result<Vec<f64>, NotMeasured> {
+        let hosted = entries.iter().map(|entry| self.host(entry.core));
+        let mut hosted = hosted.collect::<Result<Vec<_>, _>>()?;
+        let clocks: Vec<_> = hosted.iter().map(Hosted::clock).collect();
+        let mut cores: Vec<_> =
+            hosted.iter_mut().map(|one| Validated::mending(one.core_mut())).collect();
+        let contestants = entries.iter().zip(&mut cores).zip(clocks);
+        let contestants =
+            contestants.map(|((entry, core), clock)| Contestant::new(*entry, core, clock, subject));
+        let mut contestants = contestants.collect::<Result<Vec<_>, _>>()?;
+        for _ in 0..TURNS {
+            for index in shuffled(contestants.len(), stream) {
+                contestants[index].take_a_turn()?;
             }
         }
-        let first = hosted.iter().position(|(_, structure, _)| structure.is_brute_force());
-        hosted[..=first.ok_or(NotMeasured::NoBruteForce)?].rotate_right(1);
-        Ok(hosted)
+        Ok(contestants.into_iter().map(|one| one.fastest).collect())
     }
 }
 
-/// A core that is to build one structure.
+/// A structure of a core.
+#[derive(Clone, Copy)]
 struct Entry<'a> {
-    core: String,
+    core: &'a CoreSpec,
     structure: Structure,
-    clock: CpuClock,
-    breach: Option<Breach>,
-    validated: Validated<'a>,
 }
 
-impl<'a> Entry<'a> {
-    /// Looks once at what its hits lack of the contract's form; from then on they are mended.
-    fn of(
-        (core, structure, hosted): &'a mut (String, Structure, Hosted),
-        subject: &Subject,
-    ) -> Result<Self, NotMeasured> {
-        let (core, structure, clock) = (core.clone(), *structure, hosted.clock());
-        let mut hits = vec![Hit::MISS; structure.rays(subject).len()];
-        let answered = Validated::new(hosted.core_mut())
-            .build_scene(&subject.scene, structure.acceleration)
-            .and_then(|mut built| built.intersect(structure.rays(subject), &mut hits));
-        let breach = match answered {
-            Ok(_) => None,
-            Err(CoreError::BrokeContract(breach)) if breach.can_be_mended() => Some(*breach),
-            Err(error) => return Err(not_answered(&core, structure.name, error)),
+impl Entry<'_> {
+    fn not_answered(&self, error: CoreError) -> NotMeasured {
+        let (core, structure) = (self.core.to_string(), self.structure.name);
+        NotMeasured::Core { core, structure, error: error.into() }
+    }
+
+    fn look(&self, hosted: &mut Hosted, subject: &Subject) -> Result<Look, NotMeasured> {
+        let breach = self.breach(hosted, subject)?;
+        let (clock, triangles) = (hosted.clock(), subject.scene.primitive_count());
+        let info = hosted.core_mut().info();
+        let rays = self.structure.rays(subject);
+        let mut hits = vec![Hit::MISS; rays.len()];
+        let mut core = Validated::mending(hosted.core_mut());
+        let (built, build) =
+            clock.time(|| core.build_scene(&subject.scene, self.structure.acceleration));
+        let mut built = built.map_err(|error| self.not_answered(error))?;
+        let (stats, pass) = clock.time(|| built.intersect(rays, &mut hits));
+        let stats = stats.map_err(|error| self.not_answered(error))?;
+        let bytes = built.stats().bytes as f64 / triangles as f64;
+        let counts = info.capabilities.contains(Capabilities::TRAVERSAL_STATS);
+        let row = Row {
+            core: self.core.to_string(),
+            structure: self.structure.name,
+            is_brute_force: self.structure.is_brute_force(),
+            rays: rays.len(),
+            times: Vec::new(),
+            tests: counts.then(|| tests(stats, rays.len())),
+            build_seconds: build.seconds,
+            bytes_per_triangle: (bytes > 0.0).then_some(bytes),
+            different: [0, rays.len()],
+            is_wrong: false,
+            breach,
+            by_the_wall: pass.by_the_wall,
         };
-        let validated = Validated::mending(hosted.core_mut());
-        Ok(Self { core, structure, clock, breach, validated })
+        Ok(Look { row, precision: info.precision, hits })
+    }
+
+    /// What its hits lack of the contract's form; after this they are mended.
+    fn breach(
+        &self,
+        hosted: &mut Hosted,
+        subject: &Subject,
+    ) -> Result<Option<Breach>, NotMeasured> {
+        let rays = self.structure.rays(subject);
+        let mut hits = vec![Hit::MISS; rays.len()];
+        let answered = Validated::new(hosted.core_mut())
+            .build_scene(&subject.scene, self.structure.acceleration)
+            .and_then(|mut built| built.intersect(rays, &mut hits));
+        match answered {
+            Ok(_) => Ok(None),
+            Err(CoreError::BrokeContract(breach)) if breach.can_be_mended() => Ok(Some(*breach)),
+            Err(error) => Err(self.not_answered(error)),
+        }
     }
 }
 
-/// One structure in the race.
-struct Contestant<'a> {
-    /// Without what the race is for: its times.
+/// What there is to know of a structure before it is timed.
+struct Look {
     row: Row,
     precision: Precision,
+    hits: Vec<Hit>,
+}
+
+impl Look {
+    /// Its row, beside the hits of the first one, which is of the core `first`.
+    fn beside(self, first: &str, hits: &[Hit]) -> Row {
+        // The same arithmetic finds the same hits, in double precision to the last bit.
+        let is_own = self.row.core == first;
+        let to_the_bit = is_own && self.precision == Precision::Double;
+        let compared = hits.iter().zip(&self.hits);
+        let different = compared.filter(|(right, hit)| !is_same(right, hit, to_the_bit)).count();
+        let allowed = if is_own { 0.0 } else { AT_EDGES * hits.len() as f64 };
+        let is_wrong = different as f64 > allowed;
+        Row { different: [different, hits.len()], is_wrong, ..self.row }
+    }
+}
+
+/// One structure in a round.
+struct Contestant<'a> {
+    entry: Entry<'a>,
     built: Built<'a>,
     clock: CpuClock,
     rays: &'a [Ray],
     hits: Vec<Hit>,
     passes_a_turn: usize,
-    /// Seconds per ray, one for each round.
-    times: Vec<f64>,
+    /// Seconds a ray of the fastest turn: what else a machine does only adds to a time.
+    fastest: f64,
 }
 
 impl<'a> Contestant<'a> {
-    fn new(entry: &'a mut Entry<'_>, subject: &'a Subject) -> Result<Self, NotMeasured> {
-        let Entry { core, structure, clock, breach, validated } = entry;
-        let failed = |error| not_answered(core, structure.name, error);
-        let info = validated.info();
-        let triangles = subject.scene.primitive_count();
-        let rays = structure.rays(subject);
-        let count = rays.len();
-        let mut hits = vec![Hit::MISS; count];
-        let how = structure.acceleration;
-        let (built, build) =
-            clock.time(|| validated.build_scene(&subject.scene, how).map_err(failed));
-        let mut built = built?;
-        let (stats, _) = clock.time(|| built.intersect(rays, &mut hits).map_err(failed));
-        let stats = stats?;
+    fn new(
+        entry: Entry<'a>,
+        core: &'a mut Validated<'_>,
+        clock: CpuClock,
+        subject: &'a Subject,
+    ) -> Result<Self, NotMeasured> {
+        let rays = entry.structure.rays(subject);
+        let mut hits = vec![Hit::MISS; rays.len()];
+        let built = core.build_scene(&subject.scene, entry.structure.acceleration);
+        let mut built = built.map_err(|error| entry.not_answered(error))?;
         // The first pass is slower: nothing is cached.
-        let (again, pass) = clock.time(|| built.intersect(rays, &mut hits).map_err(failed));
-        again?;
-        let bytes = built.stats().bytes as f64 / triangles as f64;
-        let counts = info.capabilities.contains(Capabilities::TRAVERSAL_STATS);
-        let row = Row {
-            core: core.clone(),
-            structure: structure.name,
-            is_brute_force: structure.is_brute_force(),
-            rays: count,
-            seconds_per_ray: f64::NAN,
-            speed_up: None,
-            tests: counts.then(|| tests(stats, count)),
-            build_seconds: build.seconds,
-            bytes_per_triangle: (bytes > 0.0).then_some(bytes),
-            different: [0, count],
-            is_wrong: false,
-            breach: breach.clone(),
-            by_the_wall: pass.by_the_wall,
-        };
-        let passes_a_turn = (SHORTEST_PASS / pass.seconds).ceil().clamp(1.0, 1000.0) as usize;
-        let (precision, clock) = (info.precision, clock.clone());
-        Ok(Self { row, precision, built, clock, rays, hits, passes_a_turn, times: Vec::new() })
+        let (answered, pass) = clock.time(|| built.intersect(rays, &mut hits));
+        answered.map_err(|error| entry.not_answered(error))?;
+        let passes_a_turn = (SHORTEST_TURN / pass.seconds).ceil().clamp(1.0, 1000.0) as usize;
+        Ok(Self { entry, built, clock, rays, hits, passes_a_turn, fastest: f64::INFINITY })
     }
 
     fn take_a_turn(&mut self) -> Result<(), NotMeasured> {
@@ -273,32 +379,11 @@ impl<'a> Contestant<'a> {
         let (answered, took) = self
             .clock
             .time(|| (0..*passes_a_turn).try_for_each(|_| built.intersect(rays, hits).map(drop)));
-        answered.map_err(|error| not_answered(&self.row.core, self.row.structure, error))?;
-        self.times.push(took.seconds / (self.passes_a_turn * self.rays.len()) as f64);
+        answered.map_err(|error| self.entry.not_answered(error))?;
+        let seconds = took.seconds / (self.passes_a_turn * self.rays.len()) as f64;
+        self.fastest = self.fastest.min(seconds);
         Ok(())
     }
-
-    /// Its row, beside the times and the hits of the first one, which is of `core`.
-    fn finish(self, core: &str, (brute_force, hits): &(Vec<f64>, Vec<Hit>)) -> Row {
-        let pairs: Vec<_> = brute_force.iter().copied().zip(self.times.iter().copied()).collect();
-        // The same arithmetic finds the same hits, in double precision to the last bit.
-        let is_own = self.row.core == core;
-        let to_the_bit = is_own && self.precision == Precision::Double;
-        let compared = hits.iter().zip(&self.hits);
-        let different = compared.filter(|(right, hit)| !is_same(right, hit, to_the_bit)).count();
-        let allowed = if is_own { 0.0 } else { AT_EDGES * hits.len() as f64 };
-        Row {
-            seconds_per_ray: median(&self.times),
-            speed_up: (!self.row.is_brute_force).then(|| speed_up(&pairs)),
-            different: [different, hits.len()],
-            is_wrong: different as f64 > allowed,
-            ..self.row
-        }
-    }
-}
-
-fn not_answered(core: &str, structure: &'static str, error: CoreError) -> NotMeasured {
-    NotMeasured::Core { core: core.to_owned(), structure, error: error.into() }
 }
 
 fn is_same(right: &Hit, hit: &Hit, to_the_bit: bool) -> bool {

@@ -31,5 +31,5 @@ pub(super) fn growths(subjects: &[Measured]) -> Vec<Growth<'_>> {
 
 fn grown(few: &Row, many: &Row, power: impl Fn(f64, f64) -> f64) -> (f64, Option<f64>) {
     let tests = few.tests.zip(many.tests).map(|([few, _], [many, _])| power(few, many));
-    (power(few.seconds_per_ray, many.seconds_per_ray), tests)
+    (power(few.seconds_per_ray(), many.seconds_per_ray()), tests)
 }

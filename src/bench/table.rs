@@ -1,13 +1,11 @@
 //! The tables, as text.
 
+use super::contest::is_noisy;
 use super::growth::growths;
 use super::{Measured, Row};
 use crate::stats::timing::SpeedUp;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-
-/// A speed-up whose interval is wider than this share of it is not printed.
-const WIDEST_INTERVAL: f64 = 0.1;
 
 /// Everything that was measured.
 pub fn table(subjects: &[Measured]) -> String {
@@ -40,8 +38,8 @@ fn write_all(text: &mut String, subjects: &[Measured]) -> std::fmt::Result {
         "build ms",
         "B/tri"
     )?;
-    for Measured { subject, triangles, rows } in subjects {
-        let times = rows.iter().map(|row| row.seconds_per_ray);
+    for measured @ Measured { subject, triangles, rows } in subjects {
+        let times = rows.iter().map(Row::seconds_per_ray);
         let fastest = times.min_by(f64::total_cmp).unwrap_or(f64::NAN);
         for (index, row) in rows.iter().enumerate() {
             if index == 0 {
@@ -49,15 +47,15 @@ fn write_all(text: &mut String, subjects: &[Measured]) -> std::fmt::Result {
             } else {
                 write!(text, "{:<30}", "")?;
             }
-            writeln!(text, "{}", line(row, fastest))?;
+            writeln!(text, "{}", line(row, measured.speed_up(row).as_ref(), fastest))?;
         }
     }
     notes(text, subjects)?;
     cost_against_size(text, subjects)
 }
 
-fn line(row: &Row, fastest: f64) -> String {
-    let (speed_up, interval) = row.speed_up.as_ref().map(in_words).unwrap_or_default();
+fn line(row: &Row, speed_up: Option<&SpeedUp>, fastest: f64) -> String {
+    let (speed_up, interval) = speed_up.map(in_words).unwrap_or_default();
     let number = |value: Option<f64>, decimals: usize| {
         value.map_or_else(|| "-".to_owned(), |value| format!("{value:.decimals$}"))
     };
@@ -66,8 +64,8 @@ fn line(row: &Row, fastest: f64) -> String {
     let wall = if row.by_the_wall { " (wall time)" } else { "" };
     format!(
         "{who:<38}{:>9}{speed_up:>10}  {interval:<17}{:>9}{tests:>10}{boxes:>8}{:>10.1}{:>7}{wall}",
-        three_digits(1e6 * row.seconds_per_ray),
-        three_digits(row.seconds_per_ray / fastest),
+        three_digits(1e6 * row.seconds_per_ray()),
+        three_digits(row.seconds_per_ray() / fastest),
         1e3 * row.build_seconds,
         number(row.bytes_per_triangle, 0),
     )
@@ -78,13 +76,11 @@ fn short(core: &str) -> &str {
     core.rsplit(['/', '\\']).next().unwrap_or(core)
 }
 
-fn in_words(SpeedUp { ratio, interval: [low, high], .. }: &SpeedUp) -> (String, String) {
-    let interval = format!("{} .. {}", three_digits(*low), three_digits(*high));
-    if high - low <= WIDEST_INTERVAL * ratio {
-        (format!("x{}", three_digits(*ratio)), interval)
-    } else {
-        ("too noisy".to_owned(), interval)
-    }
+fn in_words(speed_up: &SpeedUp) -> (String, String) {
+    let [low, high] = speed_up.interval.map(three_digits);
+    let ratio = format!("x{}", three_digits(speed_up.ratio));
+    let told = if is_noisy(speed_up) { "too noisy".to_owned() } else { ratio };
+    (told, format!("{low} .. {high}"))
 }
 
 fn three_digits(number: f64) -> String {

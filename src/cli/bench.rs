@@ -26,8 +26,9 @@ pub(crate) struct BenchArguments {
     /// here.
     #[arg(long, value_name = "DIR")]
     scenes: Option<PathBuf>,
-    /// How often each structure takes its turn.
-    #[arg(long, value_name = "N", default_value_t = 11, value_parser = clap::value_parser!(u16).range(3..))]
+    /// How often each structure is built and timed, with as many again where it was noisy. Of fewer than 6 there is no
+    /// interval.
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u16).range(1..))]
     rounds: u16,
     #[command(flatten)]
     hosting: HostingArguments,
@@ -51,11 +52,15 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Answer {
         hosting: hosting.hiding(project.secrets()),
         rounds: arguments.rounds.into(),
     };
-    let mut measured = Vec::new();
-    for subject in &subjects {
-        measured.push(bench.measure(subject).map_err(Failure::broken)?);
-        complain(format!("{} of {} meshes measured", measured.len(), subjects.len()));
-    }
+    let rounds = bench.rounds;
+    let tell = |round, meshes| {
+        let (all, again) = match round {
+            _ if round > rounds => (2 * rounds, ", again where it was noisy"),
+            _ => (rounds, ""),
+        };
+        complain(format!("round {round} of {all}, {meshes} meshes{again}"));
+    };
+    let measured = bench.measure(&subjects, tell).map_err(Failure::broken)?;
     say_line!("{}", table(&measured));
     let is_wrong = measured.iter().any(crate::bench::Measured::is_wrong);
     Ok(if is_wrong { ExitCode::Failed } else { ExitCode::Good })

@@ -79,7 +79,8 @@ fn sentence(attributes: &[Attribute]) -> String {
         lines.iter().map(|line| line.trim()).take_while(|l| !l.is_empty()).collect();
     let paragraph = paragraph.join(" ");
     let end = paragraph.find(". ").map_or(paragraph.len(), |end| end + 1);
-    paragraph[..end].replace('|', "\\|")
+    // Links into the code lead nowhere in the book.
+    paragraph[..end].replace("[`", "`").replace("`]", "`").replace('|', "\\|")
 }
 
 fn entry(item: &Item) -> Option<Entry> {

@@ -15,19 +15,27 @@ use std::path::Path;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Head {
+    /// The claim in words.
     title: Words,
+    /// What a student learns from it.
     teaches: Words,
+    /// Why the expected numbers are true.
     source: Words,
+    /// Words to select by, without `@`.
     #[serde(default)]
     tags: Vec<Spanned<Words>>,
     #[serde(default)]
     tier: Tier,
+    /// What is proven where it passes, for other cases to rest on.
     #[serde(default)]
     proves: Vec<Foundation>,
+    /// What it rests on beside what follows from its scene.
     #[serde(default)]
     rests_on: Vec<Foundation>,
     role: Option<Role>,
+    /// What a core has to promise to be graded by it: the contract leaves it free.
     promise: Option<Spanned<String>>,
+    /// How answers are judged.
     check: Spanned<String>,
     scene: Option<Spanned<SceneEntry>>,
     /// The check's own; it reads it with its own words.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What a case shows to the rules of `crate::diagnosis`. One case has each.
+/// What the rules of the diagnosis ask a case for. One case has each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Role {
@@ -27,9 +27,9 @@ pub enum Role {
     TiltedLight,
     /// Another general position, by light sampling with 5 samples.
     SlantedLight,
-    /// [`Self::TiltedLight`] by hemisphere sampling.
+    /// The light of `tilted-light` by hemisphere sampling.
     TiltedLightByHemisphere,
-    /// [`Self::SlantedLight`] by hemisphere sampling.
+    /// The light of `slanted-light` by hemisphere sampling.
     SlantedLightByHemisphere,
     /// Direct light that nothing occludes, by light sampling.
     OpenLight,
@@ -38,7 +38,7 @@ pub enum Role {
     /// An area light behind an occluder that hides a part of it.
     OccludedInPart,
     OccludedInFull,
-    /// The variance of one light sample under [`Self::OpenLight`].
+    /// The variance of one light sample under `open-light`.
     LightSamplingVariance,
 }
 

@@ -25,6 +25,7 @@ pub(crate) struct Suite {
     /// Of its file's text.
     #[serde(skip)]
     pub(crate) hash: String,
+    /// What tables and reports call it.
     pub(crate) title: String,
     /// A new one draws other random numbers and other hidden cases.
     pub(crate) version: String,
@@ -36,6 +37,7 @@ pub(crate) struct Suite {
     /// Capabilities, or words of a core's own, without which a case is left out and not lost.
     #[serde(default)]
     pub(crate) optional: Vec<String>,
+    /// What there are points for, in the order of the table.
     #[serde(rename = "part")]
     pub(crate) parts: Vec<Part>,
     /// How a folder that was handed in becomes a core.
@@ -80,6 +82,7 @@ pub(crate) enum Partial {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct Build {
+    /// Programs with their arguments, one after another; `{submission}`, `{build}` and `{bench}` stand for folders.
     pub(crate) commands: Vec<Vec<String>>,
     /// What each of them may take.
     #[serde(default = "ten_minutes", deserialize_with = "short")]

@@ -42,10 +42,14 @@ impl Recipe {
 struct Entry {
     /// The reference's own name unless said otherwise.
     scene: Option<String>,
+    /// What is changed in the scene.
     #[serde(default)]
     parameters: Overrides,
+    /// The last bounce that is added up.
     bounces: u32,
+    /// Independent images, whose differences are the noise.
     passes: u32,
+    /// Of a pixel.
     samples_per_pass: u32,
 }
 

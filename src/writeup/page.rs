@@ -52,6 +52,17 @@ pub(super) struct Shown {
     pub(super) images: Vec<Developed>,
 }
 
+/// Lines in a row that lack the same are one, which says all their labels.
+fn folded(lines: &[Line]) -> Vec<Line> {
+    let alike = lines.chunk_by(|one, next| one.cells.is_err() && one.cells == next.cells);
+    let fold = |alike: &[Line]| {
+        let labels: Vec<_> = alike.iter().map(|line| line.label.as_str()).collect();
+        let commands = alike.iter().flat_map(|line| line.commands.clone()).collect();
+        Some(Line { label: labels.join(", "), cells: alike.first()?.cells.clone(), commands })
+    };
+    alike.filter_map(fold).collect()
+}
+
 impl Page {
     /// # Errors
     /// If an image cannot be written.
@@ -113,7 +124,7 @@ fn of_ladder(
         figures.extend(shown(store, row, exposures)?);
     }
     let head = &["figure", "scene", "s", "l", "depth", "time", "mean", "noise"];
-    let table = Table { head, rows: rows.iter().map(line).collect() };
+    let table = Table { head, rows: folded(&rows.iter().map(line).collect::<Vec<_>>()) };
     let title = format!("Part {}: {}", ladder.part, ladder.title);
     Ok(Section { title, says: ladder.says.to_owned(), table, figures })
 }
@@ -269,5 +280,31 @@ fn seconds_of_all(traced: &Traced, rays: usize) -> String {
     match traced.rays == rays {
         true => seconds,
         false => format!("{seconds}, by {} rays", traced.rays),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_in_a_row_that_lack_the_same_are_one() {
+        let line = |label: &str, cells: Result<&str, &str>| Line {
+            label: label.to_owned(),
+            cells: cells.map(|cell| vec![cell.to_owned()]).map_err(str::to_owned),
+            commands: vec![label.to_owned()],
+        };
+        let lines = [
+            line("m = 0", Ok("1 s")),
+            line("m = 1", Ok("1 s")),
+            line("m = 2", Err("no roulette")),
+            line("m = 3", Err("no roulette")),
+            line("m = 4", Err("no roulette")),
+            line("m = 5", Err("a crash")),
+        ];
+        let folded = folded(&lines);
+        let labels: Vec<_> = folded.iter().map(|line| line.label.as_str()).collect();
+        assert_eq!(labels, ["m = 0", "m = 1", "m = 2, m = 3, m = 4", "m = 5"]);
+        assert_eq!(folded[2].commands, ["m = 2", "m = 3", "m = 4"]);
     }
 }

@@ -6,7 +6,6 @@
 use super::Mistake;
 use super::likeness::ALIKE;
 use crate::checks::{Finding, Measure};
-use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 /// Mistakes of one set.
@@ -35,8 +34,11 @@ struct Number {
 pub(super) fn likely(mistakes: &[Mistake], seen: &[Seen<'_>], count: usize) -> Vec<Vec<Mistake>> {
     let cases: Vec<_> = seen.iter().map(|one| numbers(one, mistakes.len())).collect();
     let shows = |mistake: &usize| {
-        let numbers = || cases.iter().flatten();
-        numbers().any(|number| !is_near(number.alone[*mistake], number.right, number.slack))
+        let is_wrong = |number: &Number| {
+            let alone = number.alone[*mistake];
+            alone.is_finite() && !is_near(alone, number.right, number.slack)
+        };
+        cases.iter().flatten().any(is_wrong)
     };
     let showing: Vec<_> = (0..mistakes.len()).filter(shows).collect();
     let mut scored = Vec::new();
@@ -104,7 +106,8 @@ fn numbers(seen: &Seen<'_>, mistakes: usize) -> Vec<Number> {
         let alone: Vec<_> = (0..mistakes).map(|mistake| of_mistake(mistake, core)).collect();
         let is_wrong = core.failed() || alone.iter().flatten().any(|measure| measure.failed());
         let noise = core.interval.map_or(0.0, |[low, high]| 0.5 * (high - low));
-        is_wrong.then(|| Number {
+        // What is infinite is near everything, and foretold by anything.
+        (is_wrong && core.measured.is_finite()).then(|| Number {
             right: core.expected,
             core: core.measured,
             slack: core.allowed + noise + ALIKE * (core.measured - core.expected).abs(),
@@ -113,7 +116,8 @@ fn numbers(seen: &Seen<'_>, mistakes: usize) -> Vec<Number> {
     };
     let mut all: Vec<_> = seen.core.measures.iter().filter_map(number).collect();
     // What is the furthest off tells the most.
-    all.sort_by_key(|number| Reverse(((number.core / number.right).ln().abs() * 1e6) as i64));
+    let error = |number: &Number| ((number.core - number.right) / number.right).abs();
+    all.sort_by(|one, other| error(other).total_cmp(&error(one)));
     all.truncate(NUMBERS);
     all
 }
@@ -154,5 +158,6 @@ mod tests {
         assert_eq!(likely([1.5, 0.75, 1.05]), ["pi", "cosine", "divided"]);
         assert_eq!(likely([3.0, 3.5, 3.0]), ["pi", "again"]);
         assert!(likely([7.0, 11.0, 13.0]).is_empty());
+        assert!(likely([f64::INFINITY, f64::INFINITY, f64::NAN]).is_empty());
     }
 }

@@ -413,7 +413,7 @@ impl<'a> Proof<'a> {
             let cases: Vec<_> = alike.into_iter().map(|(seen, _)| *seen).collect();
             let found = suspicions(&[*mistake], &cases, Degree::LooksLike).pop()?;
             let recognised = "a case that only informs has recognised it, and ";
-            let sentence = wrong_in_the_same_places(recognised, &found.cases.join(", "));
+            let sentence = wrong_in_the_same_places(recognised, "", &found.cases.join(", "));
             (!cases.is_empty()).then(|| Suspicion { evidence: vec![sentence], ..found })
         };
         self.planted.mistakes().iter().filter(is_informed).filter_map(alike).collect()
@@ -497,27 +497,26 @@ impl<'a> Proof<'a> {
         cases: &[&Observation<'a>],
     ) -> Vec<Suspicion> {
         let answers = self.compare(sets, cases);
-        let count = |of_set: &[Likeness], wanted: fn(&Likeness) -> bool| {
-            of_set.iter().filter(|likeness| wanted(likeness)).count()
+        let is_near = |of: &Likeness| of.is_reproduced() || *of == Likeness::Alike;
+        let same = |of_set: &[Likeness]| {
+            of_set.iter().filter(|likeness| **likeness == Likeness::Same).count()
         };
-        let same = |of_set: &[Likeness]| count(of_set, |one| *one == Likeness::Same);
-        let is_near = |of_set: &[Likeness]| {
-            let near = count(of_set, |one| one.is_reproduced() || *one == Likeness::Alike);
+        let may_be = |of_set: &[Likeness]| {
             let (same, all) = (same(of_set), cases.len());
-            same > 0 && (2 * same > all || 2 * same == all && near == all)
+            same > 0 && (2 * same > all || 2 * same == all && of_set.iter().all(is_near))
         };
-        let most = answers.iter().filter(|of_set| is_near(of_set)).map(|of_set| same(of_set)).max();
+        let most = answers.iter().filter(|of_set| may_be(of_set)).map(|of_set| same(of_set)).max();
         let nearest = sets.iter().zip(&answers).filter(|(_, of_set)| Some(same(of_set)) == most);
         let kinds = kinds(nearest.map(|(set, _)| set).collect());
         let ([only], true) = (&kinds[..], most.is_some()) else { return Vec::new() };
         let of_only = sets.iter().zip(&answers).filter(|(set, _)| ptr::eq(*set, *only));
         let of_cases = of_only.flat_map(|(_, of_set)| cases.iter().zip(of_set));
-        let told = of_cases.filter(|(_, of)| **of != Likeness::Other);
+        let told = of_cases.filter(|(_, of)| is_near(of));
         let told: Vec<_> = told.map(|(seen, _)| *seen).collect();
         let mut found = suspicions(only, &told, Degree::LooksLike);
         for suspicion in &mut found {
             let names = suspicion.cases.join(", ");
-            suspicion.evidence = vec![wrong_in_the_same_places("", &names)];
+            suspicion.evidence = vec![wrong_in_the_same_places("", together(only), &names)];
         }
         if only.len() > 1 { self.where_needed(found, only, &told) } else { found }
     }
@@ -576,7 +575,7 @@ impl<'a> Proof<'a> {
         composition::likely(mistakes, &seen, FORETOLD)
     }
 
-    /// The smallest of these sets that reproduce every case, each mistake in the cases that it is needed for.
+    /// The only smallest of these sets that reproduce every case, each mistake in the cases that it is needed for.
     fn composed(
         &self,
         sets: &[Vec<Mistake>],
@@ -728,13 +727,20 @@ fn refuted(cause: &'static Cause, cases: &[String]) -> Refuted {
     cases.iter().map(|case| (cause.name, case.clone())).collect()
 }
 
-fn wrong_in_the_same_places(before: &str, cases: &str) -> String {
-    format!("{before}the bench's own core with this mistake is wrong in the same places in {cases}")
+fn wrong_in_the_same_places(before: &str, together: &str, cases: &str) -> String {
+    format!(
+        "{before}the bench's own core with this mistake{together} is wrong in the same places in {cases}"
+    )
+}
+
+/// What a mistake of `set` is planted with.
+fn together(set: &[Mistake]) -> &'static str {
+    if set.len() > 1 { " beside the others" } else { "" }
 }
 
 fn suspicions(set: &[Mistake], cases: &[&Observation<'_>], degree: Degree) -> Vec<Suspicion> {
     let names: Vec<_> = cases.iter().map(|seen| seen.case.to_owned()).collect();
-    let together = if set.len() > 1 { " beside the others" } else { "" };
+    let together = together(set);
     let in_cases = match &names[..] {
         [first, _, ..] => format!("{first} and {} more", names.len() - 1),
         _ => names.concat(),

@@ -314,6 +314,17 @@ fn what_a_core_is_lent_lives_as_long_as_the_scene() {
     assert_eq!(hits_with(Components::TRAVERSAL).0, [0, 1], "the bench's own scene");
 }
 
+/// What a crate of somebody else's has in its `lib.rs`.
+mod exporting {
+    furnace::export_core!("textbook:film-y-down+brdf-without-pi");
+}
+
+#[test]
+fn a_crate_exports_a_core_to_who_speaks_its_version() {
+    assert!(!exporting::furnace_core_entry(1).is_null());
+    assert!(exporting::furnace_core_entry(2).is_null());
+}
+
 #[test]
 fn a_core_without_the_function_takes_nothing() {
     let mut core = load("echo");

@@ -42,6 +42,8 @@ const LAYERS: &[(&str, u32)] = &[
 const UNSAFE_FILES: &[&str] = &[
     "src/cores/builtin/trace/simd.rs",
     "src/cores/dylib.rs",
+    "src/cores/dylib/answering.rs",
+    "src/cores/dylib/export.rs",
     "src/cores/dylib/lent.rs",
     "src/worker/confine_linux.rs",
     "src/worker/overflow.rs",

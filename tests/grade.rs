@@ -348,6 +348,41 @@ fn a_single_submission_is_built_and_graded() {
     assert!(results["output"].as_str().unwrap().contains("the submission is empty"));
 }
 
+/// A crate without dependencies, and called as all others; `kind` of its library.
+fn hand_in_crate(room: &Room, name: &str, kind: &str, from: &str, to: &str) {
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/rust/core.rs");
+    let source = fs::read_to_string(example).unwrap();
+    assert!(source.contains(from));
+    let manifest = format!(
+        "[package]\nname = \"mine\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
+         [lib]\ncrate-type = [\"{kind}\"]\n"
+    );
+    room.write(&format!("handed-in/{name}/Cargo.toml"), &manifest);
+    room.write(&format!("handed-in/{name}/src/lib.rs"), &source.replace(from, to));
+}
+
+#[test]
+fn a_crate_is_built_by_cargo_and_graded() {
+    let room = Room::new();
+    let half = "horizontal_fov / 2.0";
+    hand_in_crate(&room, "ada", "cdylib", half, half);
+    hand_in_crate(&room, "bea", "cdylib", half, "horizontal_fov");
+    hand_in_crate(&room, "cem", "rlib", half, half);
+    hand_in_crate(&room, "dan", "cdylib", half, "horizontal_fov /");
+    let told = printed(&room.furnace(&CLASS));
+    let table = room.read("classes/small/class.csv");
+    assert!(table.contains("\nada,7,10,0,3,4,"), "{table}{told}");
+    let bea = table.lines().find(|line| line.starts_with("bea,")).unwrap();
+    assert!(bea.starts_with("bea,4,10,0,0,4,"), "{table}");
+    assert!(table.contains("crate-type = [\"\"cdylib\"\"]"), "{table}");
+    let room_is_told = table.contains(&*room.path().to_string_lossy());
+    assert!(table.contains("it does not compile: `cargo` says") && !room_is_told, "{table}");
+    // Cargo writes beside a manifest, and that would be another submission.
+    assert!(!room.path().join("handed-in/ada/Cargo.lock").exists());
+    let again = room.furnace(&CLASS);
+    assert_eq!(room.read("classes/small/class.csv"), table, "{}", printed(&again));
+}
+
 #[test]
 fn a_build_that_takes_too_long_is_ended() {
     let room = Room::new();

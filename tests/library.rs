@@ -40,7 +40,8 @@ trial's outcome; an endless loop, or a crash, ends the test, for the core lives 
 what it rests on, so that it says the same as under `cargo test`.
 
 `furnace::trials(..).run(DIR)` answers the run as data, and `furnace::grade(\"cs184-hw3\", mine::Core::new)` the points.
-`examples/downstream` is a whole crate, and CI runs it.
+`examples/downstream` is a whole crate, and CI runs it. `furnace::export_core!` makes a library of a core, for
+[`furnace run --core` and for grading](rust.md#a-crate).
 
 | feature | has | by default |
 |---|---|---|
@@ -84,6 +85,12 @@ fn sentence(attributes: &[Attribute]) -> String {
 }
 
 fn entry(item: &Item) -> Option<Entry> {
+    if let Item::Macro(it) = item
+        && let Some(name) = &it.ident
+        && it.attrs.iter().any(|attribute| attribute.path().is_ident("macro_export"))
+    {
+        return Some(Entry { kind: "macro", name: name.to_string(), line: sentence(&it.attrs) });
+    }
     let (visibility, kind, name, attributes) = match item {
         Item::Fn(it) => (&it.vis, "fn", it.sig.ident.to_string(), &it.attrs),
         Item::Struct(it) => (&it.vis, "struct", it.ident.to_string(), &it.attrs),

@@ -5,6 +5,7 @@
 //!
 //! The first half is yours: functions of one ray at a time. The second half is the table of
 //! `furnace_core.h`, by which the bench finds them; a function that is `None` is skipped, never failed.
+//! With furnace as a dependency, `furnace::export_core!(Mine)` stands in its place.
 
 use std::ffi::{c_char, c_void};
 use std::ops::{Add, Mul, Sub};

@@ -40,7 +40,7 @@ pub(crate) struct GradeArguments {
     /// Go on with a graded run that was cut off, or whose time was up.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["core", "run"])]
     resume: Option<PathBuf>,
-    /// Grade one submission: a library, or a folder that the suite's commands build.
+    /// Grade one submission: a library, a Rust crate, or a folder that the suite's commands build.
     #[arg(long, value_name = "PATH", conflicts_with_all = ["core", "run", "resume"])]
     submission: Option<PathBuf>,
     /// Grade a class: every library and every folder in DIR is a submission.

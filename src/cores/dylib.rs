@@ -1,14 +1,18 @@
 //! A core that is a shared library, called through the table of `include/furnace_core.h`.
 //!
-//! One of the files with `unsafe`: everything that follows a foreign pointer is here, or in `lent`, through which the core
-//! asks back. A library can do anything to the process it is loaded into, so a run loads it in a worker process
+//! One of the files with `unsafe`: everything that follows a foreign pointer is here, in `lent`, through which the core
+//! asks back, or in what that shares (`answering`) with a core of this side that is a library itself (`export`). A library can do anything to the process it is loaded into, so a run loads it in a worker process
 //! (`cores::remote`) and never beside its own results. Not here: what the answers are worth (`contract::validate`), and
 //! what happens if none comes (`worker`).
 #![expect(unsafe_code, reason = "a shared library is called through C")]
 
+mod answering;
 mod counted;
 mod declaration;
+mod export;
 mod lent;
+
+pub use export::exported;
 
 use crate::contract::abi::given::{self, Given, SceneTables, struct_size};
 use crate::contract::abi::{self, CoreTable, Traits};
@@ -39,7 +43,7 @@ pub enum LoadError {
         why: String,
     },
     /// It does not export the one symbol.
-    #[error("{0} exports no `{entry}`; does it end with FURNACE_CORE(...)?", entry = abi::ENTRY)]
+    #[error("{0} exports no `{entry}`; does it end with FURNACE_CORE(...), or furnace::export_core!(...)?", entry = abi::ENTRY)]
     NoEntry(PathBuf),
     /// It answered no table.
     #[error("{0} does not support version {abi} of furnace_core.h", abi = abi::ABI)]
@@ -75,8 +79,8 @@ pub struct Dylib {
     /// What it has taken from the bench, and the bench's own, lent to it from then on.
     taken: Components,
     lent: Option<Lent>,
-    /// The code behind the table.
-    _library: Library,
+    /// The code behind the table, where it is foreign.
+    _library: Option<Library>,
 }
 
 // SAFETY: the boundary allows one call at a time and says nothing about which thread calls, so a core may not rely
@@ -109,6 +113,15 @@ impl Dylib {
             .map_err(|_| LoadError::NoEntry(path.to_owned()))?;
         // SAFETY: as above.
         let table = unsafe { entry(abi::ABI) };
+        Self::of(path, table, Some(library))
+    }
+
+    /// The core behind a table.
+    fn of(
+        path: &Path,
+        table: *const CoreTable,
+        library: Option<Library>,
+    ) -> std::result::Result<Self, LoadError> {
         let table = read_table(path, table)?;
         let info = core_info(path, &table)?;
         Ok(Self { table, info, taken: Components::empty(), lent: None, _library: library })

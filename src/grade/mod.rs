@@ -16,7 +16,7 @@ mod submission;
 mod suite;
 pub(crate) mod text;
 
-pub(crate) use submission::{Submission, Workshop};
+pub(crate) use submission::{NoCore, Submission, Workshop};
 pub(crate) use suite::{Suite, SuiteError};
 
 use crate::diagnosis::Degree;

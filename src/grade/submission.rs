@@ -1,4 +1,4 @@
-//! What a student has handed in: a library, or a folder that the suite's commands make one of.
+//! What a student has handed in: a library, a crate that Cargo makes one of, or a folder that the suite's commands do.
 
 use super::SALT_VARIABLE;
 use super::suite::{Build, Suite};
@@ -8,15 +8,21 @@ use crate::project::Project;
 use crate::text::hexadecimal;
 use crate::text::number::duration;
 use sha2::{Digest, Sha256};
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Duration;
 use walkdir::WalkDir;
 
 /// What shared libraries end in.
 const ENDINGS: [&str; 3] = ["so", "dylib", "dll"];
 /// Lines of a failed build that are told.
 const LINES: usize = 30;
+/// A folder with this file is a crate.
+const MANIFEST: &str = "Cargo.toml";
+/// Where Cargo works, below the folder of a build.
+const TARGET: &str = "target";
 /// Written when a build has come to its end.
 const DONE: &str = "furnace-built";
 
@@ -26,6 +32,22 @@ pub(crate) struct Workshop<'a> {
     pub(crate) suite: &'a Suite,
     /// The user that runs the commands, where that is another; only the superuser may say so.
     pub(crate) user: Option<&'a str>,
+}
+
+/// Why a submission has no core.
+#[derive(Debug)]
+pub(crate) enum NoCore {
+    /// In words for its author.
+    Authors(String),
+    /// Not its author's doing: it may be tried again.
+    Machines(String),
+}
+
+impl fmt::Display for NoCore {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::Authors(why) | Self::Machines(why)) = self;
+        f.write_str(why)
+    }
 }
 
 /// One of a class.
@@ -69,8 +91,8 @@ impl Submission {
     /// The core: the library that it is, contains, or is built into in `folder`.
     ///
     /// # Errors
-    /// In words for its author: it is empty, or does not compile.
-    pub(crate) fn core(&self, workshop: &Workshop<'_>, folder: &Path) -> Result<PathBuf, String> {
+    /// If it is empty, or does not compile.
+    pub(crate) fn core(&self, workshop: &Workshop<'_>, folder: &Path) -> Result<PathBuf, NoCore> {
         if is_library(&self.path) {
             return Ok(self.path.clone());
         }
@@ -78,40 +100,63 @@ impl Submission {
             return Ok(core);
         }
         if WalkDir::new(&self.path).into_iter().flatten().all(|it| !it.file_type().is_file()) {
-            return Err("the submission is empty".to_owned());
+            return Err(NoCore::Authors("the submission is empty".to_owned()));
         }
-        match &workshop.suite.build {
-            Some(build) => self.built(workshop, build, folder),
-            None => {
-                Err("there is no library in it, and the suite does not say how to build one".into())
-            }
+        if self.path.join(MANIFEST).is_file() {
+            return self.built_by_cargo(workshop, folder);
         }
-    }
-
-    fn built(
-        &self,
-        workshop: &Workshop<'_>,
-        build: &Build,
-        folder: &Path,
-    ) -> Result<PathBuf, String> {
-        let failed = |error: io::Error| format!("cannot build in {}: {error}", folder.display());
+        let Some(build) = &workshop.suite.build else {
+            let nothing = "there is no library in it, and the suite does not say how to build one";
+            return Err(NoCore::Authors(nothing.to_owned()));
+        };
         if !folder.join(DONE).is_file() {
             // Half of a build that was cut off is worth nothing.
             if folder.exists() {
-                std::fs::remove_dir_all(folder).map_err(failed)?;
+                std::fs::remove_dir_all(folder).map_err(cannot_build(folder))?;
             }
-            std::fs::create_dir_all(folder).map_err(failed)?;
-            if let Some(user) = workshop.user {
-                give(folder, user)?;
-            }
-            for command in &build.commands {
-                let words = self.filled(command, &workshop.project.of_the_bench(""), folder);
-                self.carry_out(&by(workshop.user, words), build, folder)?;
-            }
-            std::fs::write(folder.join(DONE), "").map_err(failed)?;
+            self.carry_out_all(&build.commands, build.time, workshop, folder)?;
+            std::fs::write(folder.join(DONE), "").map_err(cannot_build(folder))?;
         }
         let missing = || format!("its build made no `{}.{}`", build.makes, ENDINGS[0]);
-        library_in(folder, Some(&build.makes)).ok_or_else(missing)
+        library_in(folder, Some(&build.makes)).ok_or_else(|| NoCore::Authors(missing()))
+    }
+
+    /// Of all that Cargo makes, hundreds of megabytes, the library is kept.
+    fn built_by_cargo(&self, workshop: &Workshop<'_>, folder: &Path) -> Result<PathBuf, NoCore> {
+        if folder.join(DONE).is_file()
+            && let Some(known) = library_in(folder, None)
+        {
+            return Ok(known);
+        }
+        // After a build that was cut off, Cargo knows which half is whole.
+        let time = workshop.suite.build.as_ref().map_or(Build::TIME, |build| build.time);
+        self.carry_out_all(&commands_of_a_crate(), time, workshop, folder)?;
+        let made = library_in(&folder.join(TARGET).join("release"), None);
+        let made = made.ok_or_else(|| NoCore::Authors(NO_LIBRARY.to_owned()))?;
+        let kept = folder.join(made.file_name().unwrap_or_default());
+        std::fs::copy(&made, &kept)
+            .and_then(|_| std::fs::write(folder.join(DONE), ""))
+            .and_then(|()| std::fs::remove_dir_all(folder.join(TARGET)))
+            .map_err(cannot_build(folder))?;
+        Ok(kept)
+    }
+
+    fn carry_out_all(
+        &self,
+        commands: &[Vec<String>],
+        time: Duration,
+        workshop: &Workshop<'_>,
+        folder: &Path,
+    ) -> Result<(), NoCore> {
+        std::fs::create_dir_all(folder).map_err(cannot_build(folder))?;
+        if let Some(user) = workshop.user {
+            give(folder, user).map_err(NoCore::Machines)?;
+        }
+        for command in commands {
+            let words = self.filled(command, &workshop.project.of_the_bench(""), folder);
+            self.carry_out(&by(workshop.user, words), time, folder)?;
+        }
+        Ok(())
     }
 
     /// A command with the folders in the places of their names.
@@ -126,33 +171,61 @@ impl Submission {
         filled.collect()
     }
 
-    fn carry_out(&self, words: &[String], build: &Build, folder: &Path) -> Result<(), String> {
+    fn carry_out(&self, words: &[String], time: Duration, folder: &Path) -> Result<(), NoCore> {
         let Some((program, arguments)) = words.split_first() else { return Ok(()) };
         let mut command = Command::new(program);
         // Who builds runs what was handed in: the salt is not for it to know.
         command.args(arguments).envs(cached()).env_remove(SALT_VARIABLE);
-        let ran = process::run(&mut command, folder, build.time, Group::Own);
-        let (ended, said) = ran.map_err(|error| format!("cannot run `{program}`: {error}"))?;
+        let ran = process::run(&mut command, folder, time, Group::Own);
+        let cannot_run = |error| NoCore::Machines(format!("cannot run `{program}`: {error}"));
+        let (ended, said) = ran.map_err(cannot_run)?;
         let status = match ended {
             Ended::Exited(status) => status,
             Ended::OutOfTime => {
-                let limit = duration(build.time.as_secs_f64());
-                return Err(format!("it does not compile in time: `{program}` took over {limit}"));
+                let limit = duration(time.as_secs_f64());
+                return Err(NoCore::Authors(format!(
+                    "it does not compile in time: `{program}` took over {limit}"
+                )));
             }
         };
         if status.success() {
             return Ok(());
         }
-        let told = said.all().replace(&*self.path.to_string_lossy(), "");
+        let here = [self.path.to_string_lossy(), folder.to_string_lossy()];
+        let told = here.iter().fold(said.all(), |told, here| told.replace(&**here, ""));
         let lines: Vec<_> = told.lines().collect();
         let end = &lines[lines.len().saturating_sub(LINES)..];
-        Err(format!("it does not compile: `{program}` says\n{}", end.join("\n")))
+        let end = end.join("\n");
+        Err(NoCore::Authors(format!("it does not compile: `{program}` says\n{end}")))
     }
+}
+
+fn cannot_build(folder: &Path) -> impl Fn(io::Error) -> NoCore {
+    move |error| NoCore::Machines(format!("cannot build in {}: {error}", folder.display()))
+}
+
+/// What the author of a crate is told that is no renderer's library.
+const NO_LIBRARY: &str = "its Cargo.toml makes no library: it needs `crate-type = [\"cdylib\"]` below `[lib]`, and \
+                          src/lib.rs `furnace::export_core!(Mine::new());`";
+
+/// How Cargo makes a library of a crate: of a copy, since Cargo writes beside the manifest.
+fn commands_of_a_crate() -> [Vec<String>; 2] {
+    let copy: &[&str] = &["cp", "-R", "{submission}/.", "{build}/crate"];
+    let build: &[&str] = &[
+        "cargo",
+        "build",
+        "--quiet",
+        "--release",
+        "--lib",
+        "--manifest-path={build}/crate/Cargo.toml",
+        &format!("--target-dir={{build}}/{TARGET}"),
+    ];
+    [copy, build].map(|words| words.iter().map(ToString::to_string).collect())
 }
 
 /// Makes a folder this user's.
 fn give(folder: &Path, user: &str) -> Result<(), String> {
-    let failed = |how: &dyn std::fmt::Display| {
+    let failed = |how: &dyn fmt::Display| {
         format!("cannot give the build to `{user}`: {how}; only the superuser can")
     };
     let status = Command::new("chown").arg(user).arg(folder).status();

@@ -104,12 +104,17 @@ pub(crate) enum SuiteError {
     Part { path: PathBuf, part: String, problem: String },
 }
 
+impl Build {
+    /// What a command may take where nobody says otherwise.
+    pub(crate) const TIME: Duration = Duration::from_secs(600);
+}
+
 const fn ten_minutes() -> Duration {
-    Duration::from_secs(600)
+    Build::TIME
 }
 
 fn short<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Duration, D::Error> {
-    Ok(duration(deserializer)?.unwrap_or(ten_minutes()))
+    Ok(duration(deserializer)?.unwrap_or(Build::TIME))
 }
 
 fn duration<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Duration>, D::Error> {

@@ -29,7 +29,7 @@ fn count(length: usize) -> u32 {
 }
 
 /// A name for C: without the NUL that would end it early.
-fn c_name(name: &str) -> CString {
+pub(crate) fn c_name(name: &str) -> CString {
     CString::new(name.replace('\0', " ")).unwrap_or_default()
 }
 

@@ -1,10 +1,13 @@
-//! Structs of the boundary as the contract has them, where a core asks the bench's own components.
+//! Structs of the boundary as the contract has them, where a core in Rust is asked through C.
 //!
 //! Not here: anything `unsafe`; who has followed the pointer hands over what it found.
 
 use crate::contract::abi;
-use crate::contract::{AdaptiveSettings, DirectSampling, IntegratorSettings, Roulette, Sampler};
-use crate::scene::{Camera, Material, Surface};
+use crate::contract::{
+    Acceleration, AdaptiveSettings, DirectSampling, IntegratorSettings, RenderSettings, Roulette,
+    Sampler, Split,
+};
+use crate::scene::{Camera, Cap, Emission, Light, Material, Sphere, Surface};
 use glam::DMat3;
 
 /// A camera.
@@ -20,7 +23,7 @@ pub(crate) fn camera(camera: &abi::Camera) -> Camera {
     }
 }
 
-/// How a material scatters; its name and its emission are the scene's business. None for a kind that nobody knows.
+/// A material; its name is the scene's business. None for a kind that nobody knows.
 pub(crate) fn material(material: &abi::Material) -> Option<Material> {
     let abi::Material { reflectance, transmittance, index, roughness, .. } = *material;
     let surface = match material.kind {
@@ -31,7 +34,62 @@ pub(crate) fn material(material: &abi::Material) -> Option<Material> {
         abi::ROUGH_GLASS => Surface::RoughGlass { index, roughness, reflectance, transmittance },
         _ => return None,
     };
-    Some(Material { name: String::new(), surface, emission: None })
+    let has_cap = material.cap_half_angle != 0.0;
+    let cap = Cap { axis: material.cap_axis, half_angle: material.cap_half_angle };
+    let emission = Emission { radiance: material.emission, cap: has_cap.then_some(cap) };
+    let emission = (material.emits != 0).then_some(emission);
+    Some(Material { name: String::new(), surface, emission })
+}
+
+/// A sphere without its name.
+pub(crate) const fn sphere(sphere: &abi::Sphere) -> Sphere {
+    let abi::Sphere { centre, radius, inward, material, .. } = *sphere;
+    Sphere { name: String::new(), centre, radius, inward: inward != 0, material }
+}
+
+/// A light; none for a kind that nobody knows.
+pub(crate) const fn light(light: &abi::Light) -> Option<Light> {
+    let abi::Light { kind, shape, place, radiance, zenith, .. } = *light;
+    Some(match kind {
+        abi::POINT => Light::Point { position: place, intensity: radiance },
+        abi::DIRECTIONAL => Light::Directional { direction: place, irradiance: radiance },
+        abi::CONSTANT_SKY => Light::ConstantSky { radiance },
+        abi::GRADIENT_SKY => Light::GradientSky { up: place, horizon: radiance, zenith },
+        abi::AREA => Light::Area { shape },
+        _ => return None,
+    })
+}
+
+/// What is to be built; none for a rule that nobody knows.
+pub(crate) const fn acceleration(settings: &abi::Build) -> Option<Acceleration> {
+    if settings.accelerate == 0 {
+        return Some(Acceleration::BruteForce);
+    }
+    let split = match settings.split {
+        abi::SPLIT_CORES_CHOICE => Split::CoresChoice,
+        abi::SPLIT_MEDIAN => Split::Median,
+        abi::SPLIT_MEAN_OF_CENTROIDS => Split::MeanOfCentroids,
+        abi::SPLIT_MIDPOINT => Split::Midpoint,
+        abi::SPLIT_SURFACE_AREA => Split::SurfaceArea,
+        _ => return None,
+    };
+    Some(Acceleration::Bvh { split, max_leaf_size: settings.max_leaf_size })
+}
+
+/// How to render, with the two structs that it points to.
+pub(crate) fn render(
+    settings: &abi::Render,
+    integrated: &abi::Integrator,
+    adapted: Option<&abi::Adaptive>,
+) -> RenderSettings {
+    RenderSettings {
+        width: settings.width,
+        height: settings.height,
+        samples_per_pixel: settings.samples_per_pixel,
+        integrator: integrator(integrated),
+        adaptive: adapted.map(adaptive),
+        stratified: settings.stratified != 0,
+    }
 }
 
 /// Which sampler of directions; none for a number that has no name.

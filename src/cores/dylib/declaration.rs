@@ -6,36 +6,69 @@ use crate::contract::{
     Capabilities, Conventions, EmissionSides, Falloff, GlassFresnel, GlassRadiance, SmithTerm,
 };
 
-/// What the core declares; `None` for a number that no convention has.
-pub(crate) fn conventions(declared: &abi::Conventions) -> Option<Conventions> {
-    Some(Conventions {
-        point_light_falloff: match declared.point_light_falloff {
-            abi::FALLOFF_INVERSE_SQUARE => Falloff::InverseSquare,
-            abi::FALLOFF_NONE => Falloff::None,
-            _ => return None,
-        },
-        emission: match declared.emission {
-            abi::EMISSION_FRONT => EmissionSides::Front,
-            abi::EMISSION_BOTH => EmissionSides::Both,
-            _ => return None,
-        },
-        smith_term: match declared.smith_term {
-            abi::SMITH_SEPARABLE => SmithTerm::Separable,
-            abi::SMITH_CORRELATED => SmithTerm::HeightCorrelated,
-            _ => return None,
-        },
-        glass_fresnel: match declared.glass_fresnel {
-            abi::FRESNEL_EXACT => GlassFresnel::Exact,
-            abi::FRESNEL_SCHLICK => GlassFresnel::Schlick,
-            abi::FRESNEL_SCHLICK_OUTSIDE => GlassFresnel::SchlickOutside,
-            _ => return None,
-        },
-        glass_radiance: match declared.glass_radiance {
-            abi::RADIANCE_SCALED => GlassRadiance::Scaled,
-            abi::RADIANCE_UNSCALED => GlassRadiance::Unscaled,
-            _ => return None,
-        },
-    })
+/// What is freely chosen, and the number of each choice.
+macro_rules! choices {
+    ($($field:ident: $type:ident { $($choice:ident = $number:ident),* })*) => {
+        /// What the core declares; `None` for a number that no convention has.
+        pub(crate) fn conventions(declared: &abi::Conventions) -> Option<Conventions> {
+            Some(Conventions {
+                $($field: match declared.$field {
+                    $(abi::$number => $type::$choice,)*
+                    _ => return None,
+                },)*
+            })
+        }
+
+        /// What a core declares that has chosen so.
+        pub(super) const fn of_conventions(chosen: &Conventions) -> abi::Conventions {
+            abi::Conventions {
+                $($field: match chosen.$field {
+                    $($type::$choice => abi::$number,)*
+                },)*
+                reserved: [0; 3],
+            }
+        }
+    };
+}
+choices! {
+    point_light_falloff: Falloff { InverseSquare = FALLOFF_INVERSE_SQUARE, None = FALLOFF_NONE }
+    emission: EmissionSides { Front = EMISSION_FRONT, Both = EMISSION_BOTH }
+    smith_term: SmithTerm { Separable = SMITH_SEPARABLE, HeightCorrelated = SMITH_CORRELATED }
+    glass_fresnel: GlassFresnel {
+        Exact = FRESNEL_EXACT, Schlick = FRESNEL_SCHLICK, SchlickOutside = FRESNEL_SCHLICK_OUTSIDE
+    }
+    glass_radiance: GlassRadiance { Scaled = RADIANCE_SCALED, Unscaled = RADIANCE_UNSCALED }
+}
+
+/// What each trait says, of a core that can do one of these; of any, where there is none.
+const TRAITS: &[(Traits, Capabilities, Capabilities)] = {
+    use {Capabilities as Can, Traits as Has};
+    const INTEGRATES: Capabilities = Can::RENDER.union(Can::RADIANCE);
+    &[
+        (Has::BRUTE_FORCE, Can::BRUTE_FORCE, Can::BUILD_SCENE),
+        (Has::SPLIT_RULES, Can::SPLIT_RULES, Can::BUILD_SCENE),
+        (Has::COUNTS_TRAVERSAL, Can::TRAVERSAL_STATS, Can::INTERSECT),
+        (Has::COUNTED_TESTS, Can::TRAVERSAL_STATS, Can::INTERSECT),
+        (Has::HEMISPHERE_SAMPLING, Can::HEMISPHERE_SAMPLING, INTEGRATES),
+        (Has::ISOLATED_BOUNCES, Can::ISOLATED_BOUNCES, INTEGRATES),
+        (Has::DEPTH_LIMIT, Can::DEPTH_LIMIT, INTEGRATES),
+        (Has::ROULETTE, Can::ROULETTE, INTEGRATES),
+        (Has::ADAPTIVE_SAMPLING, Can::ADAPTIVE_SAMPLING, Can::RENDER),
+        (Has::REPORTED_VARIANCE, Can::REPORTED_VARIANCE, Can::RENDER),
+        (Has::STRATIFIED_PIXELS, Can::STRATIFIED_PIXELS, Can::RENDER),
+        (Has::KNOWS_ROUGH_GLASS, Can::ROUGH_GLASS, Can::empty()),
+        (Has::CALLERS_RANDOMNESS, Can::CALLERS_RANDOMNESS, Can::empty()),
+        (Has::DETERMINISTIC, Can::DETERMINISTIC, Can::empty()),
+        (Has::INDEPENDENT_PIXELS, Can::INDEPENDENT_PIXELS, Can::empty()),
+        (Has::INDEPENDENT_SAMPLES, Can::INDEPENDENT_SAMPLES, Can::empty()),
+        (Has::PLAIN_ESTIMATORS, Can::PLAIN_ESTIMATORS, Can::empty()),
+    ]
+};
+
+/// The traits of a core that can do this; its ray tests are its own.
+pub(super) fn traits(can: Capabilities) -> Traits {
+    let said = TRAITS.iter().filter(|(_, says, _)| can.contains(*says));
+    said.fold(Traits::empty(), |all, (one, ..)| all | *one) - Traits::COUNTED_TESTS
 }
 
 /// The capabilities of plain questions whose functions are there.
@@ -51,41 +84,21 @@ macro_rules! add_if_there {
 
 /// What a core can be asked: the functions it has, and of its traits those that go with them.
 pub(crate) fn capabilities(table: &abi::CoreTable) -> Capabilities {
-    let traits = Traits::from_bits_truncate(table.traits);
-    let has = |wanted| traits.contains(wanted);
     let mut found = Capabilities::empty();
     each_question! { PlainCore add_if_there (found, table) }
-    let builds = table.build.is_some() && table.release.is_some();
-    if builds {
-        each_question! { PlainScene add_if_there (found, table) }
-    }
-    let renders = builds && table.render.is_some();
-    let integrates = renders || found.contains(Capabilities::RADIANCE);
-    let counts = has(Traits::COUNTS_TRAVERSAL) || has(Traits::COUNTED_TESTS);
     let hits_primitives = table.intersect_triangle.is_some() || table.intersect_sphere.is_some();
-    let others = [
-        (hits_primitives, Capabilities::INTERSECT_PRIMITIVE),
-        (table.intersect_box.is_some(), Capabilities::INTERSECT_BOX),
-        (builds, Capabilities::BUILD_SCENE),
-        (renders, Capabilities::RENDER),
-        (builds && has(Traits::BRUTE_FORCE), Capabilities::BRUTE_FORCE),
-        (builds && has(Traits::SPLIT_RULES), Capabilities::SPLIT_RULES),
-        (found.contains(Capabilities::INTERSECT) && counts, Capabilities::TRAVERSAL_STATS),
-        (integrates && has(Traits::HEMISPHERE_SAMPLING), Capabilities::HEMISPHERE_SAMPLING),
-        (integrates && has(Traits::ISOLATED_BOUNCES), Capabilities::ISOLATED_BOUNCES),
-        (integrates && has(Traits::DEPTH_LIMIT), Capabilities::DEPTH_LIMIT),
-        (integrates && has(Traits::ROULETTE), Capabilities::ROULETTE),
-        (renders && has(Traits::ADAPTIVE_SAMPLING), Capabilities::ADAPTIVE_SAMPLING),
-        (has(Traits::KNOWS_ROUGH_GLASS), Capabilities::ROUGH_GLASS),
-        (renders && has(Traits::REPORTED_VARIANCE), Capabilities::REPORTED_VARIANCE),
-        (renders && has(Traits::STRATIFIED_PIXELS), Capabilities::STRATIFIED_PIXELS),
-        (has(Traits::CALLERS_RANDOMNESS), Capabilities::CALLERS_RANDOMNESS),
-        (has(Traits::DETERMINISTIC), Capabilities::DETERMINISTIC),
-        (has(Traits::INDEPENDENT_PIXELS), Capabilities::INDEPENDENT_PIXELS),
-        (has(Traits::INDEPENDENT_SAMPLES), Capabilities::INDEPENDENT_SAMPLES),
-        (has(Traits::PLAIN_ESTIMATORS), Capabilities::PLAIN_ESTIMATORS),
-    ];
-    others.into_iter().filter(|(can, _)| *can).fold(found, |all, (_, one)| all | one)
+    found.set(Capabilities::INTERSECT_PRIMITIVE, hits_primitives);
+    found.set(Capabilities::INTERSECT_BOX, table.intersect_box.is_some());
+    if table.build.is_some() && table.release.is_some() {
+        found |= Capabilities::BUILD_SCENE;
+        each_question! { PlainScene add_if_there (found, table) }
+        found.set(Capabilities::RENDER, table.render.is_some());
+    }
+    let has = Traits::from_bits_truncate(table.traits);
+    let said = TRAITS.iter().filter(|(one, _, with)| {
+        has.contains(*one) && (with.is_empty() || found.intersects(*with))
+    });
+    said.fold(found, |all, (_, says, _)| all | *says)
 }
 
 #[cfg(test)]

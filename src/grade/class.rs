@@ -2,6 +2,7 @@
 
 use super::{Grade, Standing, Told, csv, hundredths};
 use crate::diagnosis::Degree;
+use crate::report::html::with_code;
 use crate::text::number::count;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::{Deserialize, Serialize};
@@ -164,6 +165,7 @@ const STYLE: &str = "
 body { max-width: 70rem; margin: 2rem auto; padding: 0 1rem }
 table { border-collapse: collapse; width: 100%; margin-bottom: 2rem }
 th, td { text-align: left; padding: .25rem .75rem .25rem 0; border-bottom: 1px solid #8884; vertical-align: top }
+pre { max-width: 30rem; overflow-x: auto; font-size: .8rem }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums }
 ";
 
@@ -255,7 +257,7 @@ fn by_place(class: &Class) -> Markup {
             table {
                 tr { th { "what is seen" } th.number { "submissions" } th { "which" } }
                 @for (place, who) in rows {
-                    tr { td { (place) } td.number { (who.len()) } td { (who.join(", ")) } }
+                    tr { td { (with_code(place)) } td.number { (who.len()) } td { (who.join(", ")) } }
                 }
             }
         }
@@ -315,13 +317,16 @@ fn submissions(class: &Class) -> Markup {
     }
 }
 
-/// `41 of 60 cases`, or why there is none.
-fn outcome(grade: &Grade) -> String {
-    match &grade.problem {
-        Some(problem) => problem.lines().next().unwrap_or_default().to_owned(),
-        None => {
-            let counting = grade.cases().count() - grade.count(Standing::LeftOut);
-            format!("{} of {counting} cases", grade.count(Standing::Pass))
-        }
+/// `41 of 60 cases`, or why there is none, where what a compiler says opens below.
+fn outcome(grade: &Grade) -> Markup {
+    let Some(problem) = &grade.problem else {
+        let counting = grade.cases().count() - grade.count(Standing::LeftOut);
+        return html! { (grade.count(Standing::Pass)) " of " (counting) " cases" };
+    };
+    match problem.split_once('\n') {
+        Some((first, said)) => html! {
+            details { summary { (with_code(first)) } pre { (said.trim()) } }
+        },
+        None => with_code(problem),
     }
 }

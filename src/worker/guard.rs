@@ -270,7 +270,7 @@ mod unix {
         match signal {
             libc::SIGSEGV => " (SIGSEGV: memory that is not its own, or a stack that overflowed)",
             libc::SIGBUS => " (SIGBUS: memory that is not there)",
-            libc::SIGABRT => " (SIGABRT: it gave up, as after an uncaught exception)",
+            libc::SIGABRT => " (SIGABRT: it gave up, as after an uncaught exception or a panic)",
             libc::SIGFPE => " (SIGFPE: an integer divided by zero)",
             libc::SIGILL => " (SIGILL: an instruction that does not exist)",
             libc::SIGTRAP => " (SIGTRAP: a trap, as at the end of a function without return)",

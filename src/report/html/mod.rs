@@ -32,6 +32,7 @@ use super::tree::RunTree;
 use crate::disk;
 use assets::{FOLDER, STYLE, pages_script, viewer_script};
 use maud::{Markup, html};
+pub(crate) use parts::with_code;
 use shell::{Page, index_title};
 use std::path::{Path, PathBuf};
 use view::{Place, View};

@@ -89,7 +89,7 @@ pub(crate) fn folded_rows(view: &View<'_>, trials: &[&TrialRecord], shown: usize
 }
 
 /// Words of ours, in which every second piece between backticks is code.
-pub(super) fn with_code(words: &str) -> Markup {
+pub(crate) fn with_code(words: &str) -> Markup {
     html! {
         @for (number, piece) in words.split('`').enumerate() {
             @if number % 2 == 1 { code { (piece) } } @else { (piece) }

@@ -140,8 +140,8 @@ impl Plan {
             scenes: Arc::new(crate::scene::Library::of(&self.project)),
             references: self.project.layers("references"),
             allowance: Allowance {
-                budget: self.request.budget,
                 stops_at_failure: self.request.fail_fast,
+                ..self.request.budget.into()
             },
             seed: self.request.seed,
             motions: self.request.seed.child("motion").child(&self.salt),

@@ -9,14 +9,15 @@ use crate::checks::Finding;
 use crate::contract::Components;
 use crate::cores::textbook::fault;
 use crate::diagnosis::{Mistake, Planted, Question};
+use crate::stats::Allowance;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// How much planted mistakes may be asked for one core, as a share of what its trials did.
 const SHARE: f64 = 0.25;
 
-/// What was asked: the core, the case, what was the bench's own.
-type Asked = (String, String, Components);
+/// What was asked: the core, the case, what was the bench's own, and whether a first look is enough.
+type Asked = (String, String, Components, bool);
 
 /// A mistake that some case is known to catch: planted, it fails that case (`tests/faults.rs`).
 pub(crate) struct Excluded {
@@ -49,6 +50,7 @@ pub(crate) fn excluded() -> Vec<Excluded> {
 pub(super) struct PlantedFaults<'a> {
     plan: &'a Plan,
     bench: &'a Bench,
+    rough: Bench,
     mistakes: Vec<Mistake>,
     purse: Purse,
     known: Mutex<BTreeMap<Asked, Option<Finding>>>,
@@ -68,15 +70,18 @@ impl<'a> PlantedFaults<'a> {
             caught_by: fault.caught_by,
         };
         let (mistakes, known) = (fault::all().map(mistake).collect(), Mutex::default());
-        Self { plan, bench, mistakes, purse: Purse::of_share(SHARE, records), known }
+        let allowance = Allowance { looks_roughly: true, ..bench.allowance };
+        let rough = Bench { allowance, ..bench.clone() };
+        Self { plan, bench, rough, mistakes, purse: Purse::of_share(SHARE, records), known }
     }
 
     /// Tries what was asked. Mistakes that exclude each other, and cases that were not selected, have no answer.
-    fn try_out(&self, (core, case, with): &Asked) -> (Option<Finding>, u64) {
+    fn try_out(&self, (core, case, with, roughly): &Asked) -> (Option<Finding>, u64) {
         let case = self.plan.trials.iter().find(|trial| trial.case.id == *case);
         let (Some(case), Ok(core)) = (case, core.parse()) else { return (None, 0) };
         let trial = Trial { case: Arc::clone(&case.case), core };
-        let ended = run_with(self.bench, &trial, *with).record;
+        let bench = if *roughly { &self.rough } else { self.bench };
+        let ended = run_with(bench, &trial, *with).record;
         (ended.outcome.finding().cloned(), price(&ended))
     }
 
@@ -87,7 +92,8 @@ impl<'a> PlantedFaults<'a> {
 
 fn asked(question: &Question<'_>) -> Asked {
     let names: Vec<_> = question.mistakes.iter().map(|mistake| mistake.name).collect();
-    (format!("textbook:{}", names.join("+")), question.case.to_owned(), question.with)
+    let core = format!("textbook:{}", names.join("+"));
+    (core, question.case.to_owned(), question.with, question.roughly)
 }
 
 impl Planted for PlantedFaults<'_> {
@@ -103,6 +109,15 @@ impl Planted for PlantedFaults<'_> {
         new.retain(|asked| seen.insert(*asked));
         let answers =
             self.purse.pay_each(self.plan.jobs(), new.len(), &|place| self.try_out(new[place]));
+        if std::env::var_os("DBG").is_some() && !new.is_empty() {
+            eprintln!(
+                "ASK {} new, paid {}, left {:.2} s  {:?}",
+                new.len(),
+                answers.len(),
+                self.purse.left() as f64 / 15e6,
+                new[0]
+            );
+        }
         self.known().extend(new.into_iter().cloned().zip(answers));
         let known = self.known();
         all.iter().map(|asked| known.get(asked).cloned().flatten()).collect()

@@ -51,7 +51,7 @@ pub(crate) fn search(
         affordable(cases.iter().map(|number| price(failing[*number].1)), purse.left())
     };
     let is_as_sharp = bench.allowance.budget == Budget::Quick;
-    let allowance = Allowance { budget: Budget::Quick, stops_at_failure: true };
+    let allowance = Allowance { stops_at_failure: true, ..Budget::Quick.into() };
     let bench = Bench { allowance, ..without_patience(bench) };
     let try_again = |number: usize, with: Components| {
         let (trial, record) = failing[number];

@@ -18,7 +18,7 @@ const NUMBERS: usize = 24;
 /// What came of one case.
 pub(super) struct Seen<'a> {
     pub(super) core: &'a Finding,
-    /// By each mistake alone; none where it could not be asked.
+    /// By each mistake alone, at a first look; none where it could not be asked.
     pub(super) alone: Vec<Option<Finding>>,
 }
 
@@ -27,7 +27,14 @@ struct Number {
     right: f64,
     core: f64,
     slack: f64,
-    alone: Vec<f64>,
+    alone: Vec<Alone>,
+}
+
+/// NaN where it could not be asked.
+#[derive(Clone, Copy)]
+struct Alone {
+    measured: f64,
+    noise: f64,
 }
 
 /// The sets of two mistakes and more that foretell the most of what was seen, the likeliest first, each of other causes.
@@ -35,8 +42,8 @@ pub(super) fn likely(mistakes: &[Mistake], seen: &[Seen<'_>], count: usize) -> V
     let cases: Vec<_> = seen.iter().map(|one| numbers(one, mistakes.len())).collect();
     let shows = |mistake: &usize| {
         let is_wrong = |number: &Number| {
-            let alone = number.alone[*mistake];
-            alone.is_finite() && !is_near(alone, number.right, number.slack)
+            let Alone { measured, noise } = number.alone[*mistake];
+            measured.is_finite() && !is_near(measured, number.right, number.slack + noise)
         };
         cases.iter().flatten().any(is_wrong)
     };
@@ -84,11 +91,28 @@ fn sets(of: &[usize]) -> impl Iterator<Item = Vec<usize>> + use<> {
 fn foretold(case: &[Number], set: &[usize]) -> f64 {
     let is_foretold = |number: &&Number| {
         let alone = || set.iter().map(|mistake| number.alone[*mistake]);
-        let product: f64 = alone().map(|one| one / number.right).product::<f64>() * number.right;
-        let sum: f64 = alone().map(|one| one - number.right).sum::<f64>() + number.right;
-        [product, sum].into_iter().any(|given| is_near(given, number.core, number.slack))
+        let right = number.right;
+        let product = alone().map(|one| one.measured / right).product::<f64>() * right;
+        let largest = |one: Alone| (one.measured.abs() + one.noise) / right.abs();
+        let of_product = alone().map(largest).product::<f64>() * right.abs() - product.abs();
+        let sum = alone().map(|one| one.measured - right).sum::<f64>() + right;
+        let of_sum: f64 = alone().map(|one| one.noise).sum();
+        let is_given = |given, noise: f64| is_near(given, number.core, number.slack + noise);
+        is_given(product, of_product) || is_given(sum, of_sum)
     };
     case.iter().filter(is_foretold).count() as f64 / case.len().max(1) as f64
+}
+
+impl Alone {
+    fn of(measure: Option<&Measure>) -> Self {
+        let none = Self { measured: f64::NAN, noise: 0.0 };
+        measure.map_or(none, |one| Self { measured: one.measured, noise: noise(one) })
+    }
+}
+
+/// Half of the interval that it lies in.
+fn noise(measure: &Measure) -> f64 {
+    measure.interval.map_or(0.0, |[low, high]| 0.5 * (high - low))
 }
 
 /// NaN is near nothing.
@@ -105,13 +129,12 @@ fn numbers(seen: &Seen<'_>, mistakes: usize) -> Vec<Number> {
     let number = |core: &Measure| {
         let alone: Vec<_> = (0..mistakes).map(|mistake| of_mistake(mistake, core)).collect();
         let is_wrong = core.failed() || alone.iter().flatten().any(|measure| measure.failed());
-        let noise = core.interval.map_or(0.0, |[low, high]| 0.5 * (high - low));
         // What is infinite is near everything, and foretold by anything.
         (is_wrong && core.measured.is_finite()).then(|| Number {
             right: core.expected,
             core: core.measured,
-            slack: core.allowed + noise + ALIKE * (core.measured - core.expected).abs(),
-            alone: alone.into_iter().map(|one| one.map_or(f64::NAN, |one| one.measured)).collect(),
+            slack: core.allowed + noise(core) + ALIKE * (core.measured - core.expected).abs(),
+            alone: alone.into_iter().map(Alone::of).collect(),
         })
     };
     let mut all: Vec<_> = seen.core.measures.iter().filter_map(number).collect();

@@ -35,6 +35,11 @@ impl Likeness {
         !matches!(self, Self::Unsized | Self::Unknown)
     }
 
+    /// Whether nothing tells the two apart, as far as it is known.
+    pub(super) fn may_be_reproduced(self) -> bool {
+        self.is_reproduced() || self == Self::Unknown
+    }
+
     /// Whether nothing tells the two apart.
     pub(super) fn is_reproduced(self) -> bool {
         matches!(self, Self::Same | Self::Unsized)

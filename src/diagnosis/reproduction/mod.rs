@@ -52,6 +52,8 @@ pub(crate) struct Question<'a> {
     pub(crate) case: &'a str,
     /// What is the bench's own, without any mistake.
     pub(crate) with: Components,
+    /// Whether a first look is enough: more noise, for less.
+    pub(crate) roughly: bool,
 }
 
 /// The bench's own core with mistakes planted in it.
@@ -136,8 +138,10 @@ impl<'a> Sifted<'a> {
                 let known: Vec<_> = known.flat_map(|other| &other.cases).collect();
                 one.cases.iter().all(|case| known.contains(&case))
             };
-            let searched = proof.reproduced(&ranked);
-            let new: Vec<_> = searched.into_iter().filter(|one| !is_known(one)).collect();
+            let given = proof.given_by_all(&ranked);
+            let of_all = proof.of_all(&proof.named(&ranked), &proof.quickest(&given));
+            let searched = proof.reproduced(&ranked, &given).into_iter().chain(of_all);
+            let new: Vec<_> = searched.filter(|one| !is_known(one)).collect();
             if new.is_empty() {
                 break;
             }
@@ -388,16 +392,18 @@ impl<'a> Proof<'a> {
         ranked.with_cause().filter_map(confirmed).collect()
     }
 
-    /// Mistakes that reproduce all that has no name yet; else what each headline without a name explains.
-    fn reproduced(&self, ranked: &Ranked) -> Vec<Suspicion> {
-        let groups: Vec<_> = ranked.unnamed().collect();
+    /// Mistakes that reproduce all that has no name yet and is not `given`; else what each headline without a name explains.
+    fn reproduced(&self, ranked: &Ranked, given: &[String]) -> Vec<Suspicion> {
+        let left = |told: &Headline| -> Vec<_> {
+            told.explains.iter().filter(|case| !given.contains(case)).cloned().collect()
+        };
+        let groups: Vec<_> = ranked.unnamed().map(left).collect();
         let told: Vec<_> = ranked.with_cause().filter_map(|told| self.of(told).next()).collect();
-        let all: Vec<_> = groups.iter().flat_map(|told| told.explains.clone()).collect();
-        let found = self.reproducing(&all, &told);
+        let found = self.reproducing(&groups.concat(), &told);
         if !found.is_empty() || groups.len() < 2 {
             return found;
         }
-        groups.iter().flat_map(|group| self.reproducing(&group.explains, &told)).collect()
+        groups.iter().flat_map(|group| self.reproducing(group, &told)).collect()
     }
 
     /// What a case that only informs has recognised, where its mistake fails in the same places what has no name.
@@ -449,8 +455,8 @@ impl<'a> Proof<'a> {
         found
     }
 
-    /// Mistakes that reproduce these cases alone, or all that is told does, or sets that foretell them; or pairs, or one that
-    /// does it nearly.
+    /// Mistakes that reproduce these cases alone, or all that is told does, with one more or without; or sets that foretell
+    /// them, or pairs, or one that does it nearly.
     fn reproducing(&self, failing: &[String], told: &[Mistake]) -> Vec<Suspicion> {
         let cases = self.quickest(failing);
         if cases.is_empty() {
@@ -459,8 +465,14 @@ impl<'a> Proof<'a> {
         let mistakes = self.in_sight();
         let alone: Vec<_> = mistakes.iter().map(|mistake| vec![*mistake]).collect();
         let mut found = self.of_sets(&alone, &cases);
-        if found.is_empty() && told.len() > 1 {
+        if found.is_empty() {
             found = self.of_all(told, &cases);
+        }
+        let is_told = |mistake: &&Mistake| told.iter().any(|told| told.cause == mistake.cause);
+        let others: Vec<_> = mistakes.iter().filter(|one| !is_told(one)).copied().collect();
+        if found.is_empty() && !told.is_empty() {
+            let one_more = others.iter().map(|other| [told, &[*other]].concat());
+            found = self.composed(&one_more.collect::<Vec<_>>(), &cases, |_| others.len());
         }
         if !found.is_empty() {
             return found;
@@ -471,9 +483,9 @@ impl<'a> Proof<'a> {
         let pool =
             [&mistakes[..], &told.iter().filter(is_new).copied().collect::<Vec<_>>()].concat();
         let likely = self.foretelling(&pool, &cases);
-        found = self.composed(&likely, pool.len(), &many);
+        found = self.composed(&likely, &many, |size| pool.len().saturating_pow(size as u32));
         if found.is_empty() {
-            found = self.of_sets(&pairs(&mistakes, told), &cases);
+            found = self.of_sets(&pairs(&others), &cases);
         }
         if found.is_empty() {
             // A core may do what the bench has a component for in the midst of a higher one.
@@ -496,7 +508,6 @@ impl<'a> Proof<'a> {
         sets: &[Vec<Mistake>],
         cases: &[&Observation<'a>],
     ) -> Vec<Suspicion> {
-        let answers = self.compare(sets, cases);
         let is_near = |of: &Likeness| of.is_reproduced() || *of == Likeness::Alike;
         let same = |of_set: &[Likeness]| {
             of_set.iter().filter(|likeness| **likeness == Likeness::Same).count()
@@ -505,6 +516,13 @@ impl<'a> Proof<'a> {
             let (same, all) = (same(of_set), cases.len());
             same > 0 && (2 * same > all || 2 * same == all && of_set.iter().all(is_near))
         };
+        let glimpsed = self.glimpsed(sets, cases).into_iter().map(|of_set| {
+            let of_cases = cases.iter().zip(&of_set);
+            of_cases.map(|(seen, of)| compared(seen, of.as_ref())).collect::<Vec<_>>()
+        });
+        let may_be_near = sets.iter().zip(glimpsed).filter(|(_, of_set)| may_be(of_set));
+        let sets: Vec<_> = may_be_near.map(|(set, _)| set.clone()).collect();
+        let answers = self.compare(&sets, cases);
         let most = answers.iter().filter(|of_set| may_be(of_set)).map(|of_set| same(of_set)).max();
         let nearest = sets.iter().zip(&answers).filter(|(_, of_set)| Some(same(of_set)) == most);
         let kinds = kinds(nearest.map(|(set, _)| set).collect());
@@ -523,6 +541,9 @@ impl<'a> Proof<'a> {
 
     /// Everything that is told, where it reproduces every case: each in the cases that it is needed for.
     fn of_all(&self, told: &[Mistake], cases: &[&Observation<'a>]) -> Vec<Suspicion> {
+        if told.len() < 2 || cases.is_empty() {
+            return Vec::new();
+        }
         let found = self.of_sets(&[told.to_vec()], cases);
         self.where_needed(found, told, cases)
     }
@@ -530,8 +551,7 @@ impl<'a> Proof<'a> {
     /// Failures without a cause of which all that is named together gives the numbers; if it gives those of all that are
     /// asked, all of them.
     fn given_by_all(&self, told: &Ranked) -> Vec<String> {
-        let named = told.with_cause().filter(|headline| headline.degree == Degree::Named);
-        let named: Vec<_> = named.filter_map(|headline| self.of(headline).next()).collect();
+        let named = self.named(told);
         let left: Vec<_> = told.differing().cloned().collect();
         let failures = left.iter().filter_map(|case| self.evidence.failure_of(case));
         let asked = quickest(failures, siblings::FAILED);
@@ -566,7 +586,7 @@ impl<'a> Proof<'a> {
     /// The sets of several mistakes that foretell what failed, the likeliest first.
     fn foretelling(&self, mistakes: &[Mistake], cases: &[&Observation<'a>]) -> Vec<Vec<Mistake>> {
         let alone: Vec<_> = mistakes.iter().map(|mistake| vec![*mistake]).collect();
-        let mut answers = self.planted(&alone, cases);
+        let mut answers = self.glimpsed(&alone, cases);
         let of_case = |(number, seen): (usize, &&Observation<'a>)| {
             let alone = answers.iter_mut().map(|of_mistake| of_mistake[number].take()).collect();
             Some(Seen { core: seen.finding?, alone })
@@ -575,12 +595,13 @@ impl<'a> Proof<'a> {
         composition::likely(mistakes, &seen, FORETOLD)
     }
 
-    /// The only smallest of these sets that reproduce every case, each mistake in the cases that it is needed for.
+    /// The only smallest of these sets that reproduce every case, each mistake in the cases that it is needed for. `tried` is
+    /// how many sets of a size there were to try.
     fn composed(
         &self,
         sets: &[Vec<Mistake>],
-        mistakes: usize,
         cases: &[&Observation<'a>],
+        tried: impl Fn(usize) -> usize,
     ) -> Vec<Suspicion> {
         let fitting = self.fitting(sets, cases);
         let smallest = fitting.iter().map(|set| set.len()).min().unwrap_or_default();
@@ -588,8 +609,7 @@ impl<'a> Proof<'a> {
         else {
             return Vec::new();
         };
-        let tried = mistakes.saturating_pow(set.len() as u32);
-        let found = degree(1, tried, cases).map(|degree| suspicions(set, cases, degree));
+        let found = degree(1, tried(set.len()), cases).map(|degree| suspicions(set, cases, degree));
         self.where_needed(found.unwrap_or_default(), set, cases)
     }
 
@@ -610,15 +630,29 @@ impl<'a> Proof<'a> {
         cases: &[&Observation<'a>],
     ) -> Vec<&'s Vec<Mistake>> {
         let mut fitting: Vec<_> = sets.iter().map(|set| (set, false)).collect();
-        // The quickest case leaves few for the others.
+        let tried = |fitting: &[(&Vec<Mistake>, bool)]| -> Vec<_> {
+            fitting.iter().map(|(set, _)| (*set).clone()).collect()
+        };
+        // The quickest case leaves few for the others, and a first look leaves few for the second.
         for seen in cases {
-            let tried: Vec<_> = fitting.iter().map(|(set, _)| (*set).clone()).collect();
-            let answers = self.compare(&tried, &[seen]).into_iter().map(|of| of[0]);
+            if fitting.len() > CASES {
+                let glimpsed = self.glimpsed(&tried(&fitting), &[seen]).into_iter();
+                let mut may_fit =
+                    glimpsed.map(|of| compared(seen, of[0].as_ref()).may_be_reproduced());
+                fitting.retain(|_| may_fit.next() == Some(true));
+            }
+            let answers = self.compare(&tried(&fitting), &[seen]).into_iter().map(|of| of[0]);
             let fits = fitting.into_iter().zip(answers).filter(|(_, of)| of.is_reproduced());
             fitting =
                 fits.map(|((set, is_sized), of)| (set, is_sized || of == Likeness::Same)).collect();
         }
         fitting.into_iter().filter(|(_, is_sized)| *is_sized).map(|(set, _)| set).collect()
+    }
+
+    /// A mistake of each cause that is named.
+    fn named(&self, told: &Ranked) -> Vec<Mistake> {
+        let named = told.with_cause().filter(|headline| headline.degree == Degree::Named);
+        named.filter_map(|headline| self.of(headline).next()).collect()
     }
 
     /// The planted mistakes of a headline's cause.
@@ -648,12 +682,11 @@ impl<'a> Proof<'a> {
 
     /// For each set of mistakes, how it compares in each case.
     fn compare(&self, sets: &[Vec<Mistake>], cases: &[&Observation<'a>]) -> Vec<Vec<Likeness>> {
-        let likeness = |(seen, planted): (&&Observation<'_>, Option<Finding>)| match planted {
-            Some(planted) => likeness(seen.finding, &planted),
-            None => Likeness::Unknown,
-        };
         let answers = self.planted(sets, cases).into_iter();
-        answers.map(|of_set| cases.iter().zip(of_set).map(likeness).collect()).collect()
+        let of_set = |of_set: Vec<Option<Finding>>| {
+            cases.iter().zip(&of_set).map(|(seen, of)| compared(seen, of.as_ref())).collect()
+        };
+        answers.map(of_set).collect()
     }
 
     /// For each set of mistakes, what comes of each case.
@@ -662,16 +695,43 @@ impl<'a> Proof<'a> {
         sets: &[Vec<Mistake>],
         cases: &[&Observation<'a>],
     ) -> Vec<Vec<Option<Finding>>> {
+        self.asked(sets, cases, |_| false)
+    }
+
+    /// The same at a first look, where that takes less: of numbers that are known within their noise.
+    fn glimpsed(
+        &self,
+        sets: &[Vec<Mistake>],
+        cases: &[&Observation<'a>],
+    ) -> Vec<Vec<Option<Finding>>> {
+        let is_noisy = |seen: &Observation<'_>| {
+            let mut measures = seen.finding.into_iter().flat_map(|finding| &finding.measures);
+            measures.any(|measure| measure.interval.is_some())
+        };
+        self.asked(sets, cases, is_noisy)
+    }
+
+    fn asked(
+        &self,
+        sets: &[Vec<Mistake>],
+        cases: &[&Observation<'a>],
+        roughly: impl Fn(&Observation<'_>) -> bool,
+    ) -> Vec<Vec<Option<Finding>>> {
         let question = |set: &Vec<Mistake>, seen: &&Observation<'a>| Question {
             mistakes: set.clone(),
             case: seen.case,
             with: seen.with,
+            roughly: roughly(seen),
         };
         let questions: Vec<_> =
             sets.iter().flat_map(|set| cases.iter().map(move |seen| question(set, seen))).collect();
         let mut answers = self.planted.ask(&questions).into_iter();
         sets.iter().map(|_| answers.by_ref().take(cases.len()).collect()).collect()
     }
+}
+
+fn compared(seen: &Observation<'_>, planted: Option<&Finding>) -> Likeness {
+    planted.map_or(Likeness::Unknown, |planted| likeness(seen.finding, planted))
 }
 
 /// Those that ask the least: what it takes is known to whoever asks, and ends the asking.
@@ -690,18 +750,14 @@ fn is_of_one_part(headline: &Headline, case: &str) -> bool {
     headline.explains.iter().any(|own| Subject::of_case(own) == Subject::of_case(case))
 }
 
-/// One of the first `mistakes` beside all that is told, and pairs of them: what they do together need not follow from what
-/// each does alone.
-fn pairs(mistakes: &[Mistake], told: &[Mistake]) -> Vec<Vec<Mistake>> {
-    let is_told = |mistake: &&Mistake| told.iter().any(|told| told.cause == mistake.cause);
-    let others: Vec<_> = mistakes.iter().filter(|m| !is_told(m)).take(PAIRED).collect();
-    let beside = others.iter().filter(|_| !told.is_empty());
-    let mut sets: Vec<Vec<_>> = beside.map(|other| [told, &[**other]].concat()).collect();
-    for (number, one) in others.iter().enumerate() {
-        let rest = others[number + 1..].iter().filter(|other| other.cause != one.cause);
-        sets.extend(rest.map(|other| vec![**one, **other]));
-    }
-    sets
+/// Pairs of the first `mistakes`: what they do together need not follow from what each does alone.
+fn pairs(mistakes: &[Mistake]) -> Vec<Vec<Mistake>> {
+    let first = &mistakes[..mistakes.len().min(PAIRED)];
+    let of = |(number, one): (usize, &Mistake)| {
+        let rest = first[number + 1..].iter().filter(|other| other.cause != one.cause);
+        rest.map(|other| vec![*one, *other]).collect::<Vec<_>>()
+    };
+    first.iter().enumerate().flat_map(of).collect()
 }
 
 /// Sets of mistakes, one for all that have the same causes.
@@ -908,6 +964,45 @@ mod tests {
         fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
             vec![None; questions.len()]
         }
+    }
+
+    /// A bench that counts what it is asked not only roughly.
+    struct Counting(std::sync::Mutex<BTreeSet<&'static str>>);
+
+    impl Planted for Counting {
+        fn mistakes(&self) -> &[Mistake] {
+            const FACTORS: [&str; 6] = ["1.2", "1.4", "1.6", "1.8", "2.0", "2.2"];
+            const ALL: [Mistake; 6] = {
+                let mut all = [mistake("", &bsdf::WITHOUT_PI, "light/b"); 6];
+                let mut number = 0;
+                while number < 6 {
+                    all[number].name = FACTORS[number];
+                    number += 1;
+                }
+                all
+            };
+            &ALL
+        }
+
+        fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+            let answer = |question: &Question<'_>| {
+                let name = question.mistakes[0].name;
+                if !question.roughly {
+                    self.0.lock().unwrap().insert(name);
+                }
+                Some(light(name.parse().unwrap()))
+            };
+            questions.iter().map(answer).collect()
+        }
+    }
+
+    #[test]
+    fn a_first_look_leaves_few_mistakes_for_the_second() {
+        let made = Made::new().with("light/b", light(1.8));
+        let bench = Counting(Default::default());
+        let diagnosis = diagnose_proven(&made.evidence(), &bench);
+        assert_eq!(diagnosis.headlines[0].cause, bsdf::WITHOUT_PI.name);
+        assert_eq!(bench.0.into_inner().unwrap(), BTreeSet::from(["1.8"]));
     }
 
     /// Of one mistake in two places, one fails what the other passes, without a number.

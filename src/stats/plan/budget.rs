@@ -58,25 +58,36 @@ pub struct Allowance {
     pub(crate) budget: Budget,
     /// Whether one failure is enough: `--fail-fast`.
     pub(crate) stops_at_failure: bool,
+    /// Whether a first look is enough: errors are seen that are as many times larger as a quick run's are than the default's.
+    pub(crate) looks_roughly: bool,
 }
 
 impl Allowance {
     pub(crate) fn scale(self, effort: Effort) -> Effort {
-        Effort { coarse_first: self.stops_at_failure, ..self.budget.scale(effort) }
+        let Effort { detects, most_samples, .. } = effort;
+        Effort {
+            detects: detects * self.coarseness(),
+            most_samples: self.samples(most_samples),
+            coarse_first: self.stops_at_failure,
+            ..effort
+        }
     }
 
+    /// What a number of samples meant for the default budget becomes under this one.
     pub(crate) fn samples(self, default: u64) -> u64 {
-        self.budget.samples(default)
+        (default as f64 / self.coarseness().powi(2)).ceil() as u64
     }
 
+    /// By how much the smallest error that must be seen is multiplied.
     pub(crate) const fn coarseness(self) -> f64 {
-        self.budget.coarseness()
+        let look = if self.looks_roughly { Budget::Quick.coarseness() } else { 1.0 };
+        self.budget.coarseness() * look
     }
 }
 
 impl From<Budget> for Allowance {
     fn from(budget: Budget) -> Self {
-        Self { budget, stops_at_failure: false }
+        Self { budget, ..Self::default() }
     }
 }
 
@@ -104,26 +115,6 @@ impl Budget {
             Budget::Strict => 0.25,
         }
     }
-
-    /// By how much a number of samples is multiplied: an error half as large takes four times as
-    /// many.
-    pub(crate) const fn samples_factor(self) -> f64 {
-        1.0 / (self.coarseness() * self.coarseness())
-    }
-
-    /// What `effort` becomes under this budget.
-    pub(crate) fn scale(self, effort: Effort) -> Effort {
-        Effort {
-            detects: effort.detects * self.coarseness(),
-            most_samples: self.samples(effort.most_samples),
-            ..effort
-        }
-    }
-
-    /// What a number of samples meant for the default budget becomes under this one.
-    pub(crate) fn samples(self, default: u64) -> u64 {
-        (default as f64 * self.samples_factor()).ceil() as u64
-    }
 }
 
 impl std::str::FromStr for Budget {
@@ -146,7 +137,7 @@ mod tests {
 
     #[test]
     fn the_three_budgets_see_five_two_and_half_a_per_cent() {
-        let sees = |budget: Budget| budget.scale(Effort::new(0.02)).detects;
+        let sees = |budget: Budget| Allowance::from(budget).scale(Effort::new(0.02)).detects;
         assert!((sees(Budget::Quick) - 0.05).abs() < 1e-15);
         assert!((sees(Budget::Default) - 0.02).abs() < 1e-15);
         assert!((sees(Budget::Strict) - 0.005).abs() < 1e-15);
@@ -154,8 +145,11 @@ mod tests {
 
     #[test]
     fn a_quarter_of_the_error_costs_sixteen_times_the_samples() {
-        assert_eq!(Budget::Strict.samples(1000), 16_000);
-        assert_eq!(Budget::Quick.samples(1000), 160);
+        let samples = |allowance: Allowance| allowance.samples(1000);
+        assert_eq!(samples(Budget::Strict.into()), 16_000);
+        assert_eq!(samples(Budget::Quick.into()), 160);
+        let roughly = Allowance { looks_roughly: true, ..Allowance::default() };
+        assert_eq!(samples(roughly), 160);
     }
 
     #[test]

@@ -109,15 +109,6 @@ impl Planted for PlantedFaults<'_> {
         new.retain(|asked| seen.insert(*asked));
         let answers =
             self.purse.pay_each(self.plan.jobs(), new.len(), &|place| self.try_out(new[place]));
-        if std::env::var_os("DBG").is_some() && !new.is_empty() {
-            eprintln!(
-                "ASK {} new, paid {}, left {:.2} s  {:?}",
-                new.len(),
-                answers.len(),
-                self.purse.left() as f64 / 15e6,
-                new[0]
-            );
-        }
         self.known().extend(new.into_iter().cloned().zip(answers));
         let known = self.known();
         all.iter().map(|asked| known.get(asked).cloned().flatten()).collect()

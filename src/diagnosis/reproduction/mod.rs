@@ -516,11 +516,8 @@ impl<'a> Proof<'a> {
             let (same, all) = (same(of_set), cases.len());
             same > 0 && (2 * same > all || 2 * same == all && of_set.iter().all(is_near))
         };
-        let glimpsed = self.glimpsed(sets, cases).into_iter().map(|of_set| {
-            let of_cases = cases.iter().zip(&of_set);
-            of_cases.map(|(seen, of)| compared(seen, of.as_ref())).collect::<Vec<_>>()
-        });
-        let may_be_near = sets.iter().zip(glimpsed).filter(|(_, of_set)| may_be(of_set));
+        let at_first = likenesses(cases, &self.glimpsed(sets, cases));
+        let may_be_near = sets.iter().zip(at_first).filter(|(_, of_set)| may_be(of_set));
         let sets: Vec<_> = may_be_near.map(|(set, _)| set.clone()).collect();
         let answers = self.compare(&sets, cases);
         let most = answers.iter().filter(|of_set| may_be(of_set)).map(|of_set| same(of_set)).max();
@@ -636,10 +633,9 @@ impl<'a> Proof<'a> {
         // The quickest case leaves few for the others, and a first look leaves few for the second.
         for seen in cases {
             if fitting.len() > CASES {
-                let glimpsed = self.glimpsed(&tried(&fitting), &[seen]).into_iter();
-                let mut may_fit =
-                    glimpsed.map(|of| compared(seen, of[0].as_ref()).may_be_reproduced());
-                fitting.retain(|_| may_fit.next() == Some(true));
+                let at_first = likenesses(&[seen], &self.glimpsed(&tried(&fitting), &[seen]));
+                let mut at_first = at_first.into_iter();
+                fitting.retain(|_| at_first.next().is_some_and(|of| of[0].may_be_reproduced()));
             }
             let answers = self.compare(&tried(&fitting), &[seen]).into_iter().map(|of| of[0]);
             let fits = fitting.into_iter().zip(answers).filter(|(_, of)| of.is_reproduced());
@@ -682,11 +678,7 @@ impl<'a> Proof<'a> {
 
     /// For each set of mistakes, how it compares in each case.
     fn compare(&self, sets: &[Vec<Mistake>], cases: &[&Observation<'a>]) -> Vec<Vec<Likeness>> {
-        let answers = self.planted(sets, cases).into_iter();
-        let of_set = |of_set: Vec<Option<Finding>>| {
-            cases.iter().zip(&of_set).map(|(seen, of)| compared(seen, of.as_ref())).collect()
-        };
-        answers.map(of_set).collect()
+        likenesses(cases, &self.planted(sets, cases))
     }
 
     /// For each set of mistakes, what comes of each case.
@@ -730,8 +722,13 @@ impl<'a> Proof<'a> {
     }
 }
 
-fn compared(seen: &Observation<'_>, planted: Option<&Finding>) -> Likeness {
-    planted.map_or(Likeness::Unknown, |planted| likeness(seen.finding, planted))
+/// How the answers of each set of mistakes compare, case by case.
+fn likenesses(cases: &[&Observation<'_>], answers: &[Vec<Option<Finding>>]) -> Vec<Vec<Likeness>> {
+    let of_case = |(seen, planted): (&&Observation<'_>, &Option<Finding>)| match planted {
+        Some(planted) => likeness(seen.finding, planted),
+        None => Likeness::Unknown,
+    };
+    answers.iter().map(|of_set| cases.iter().zip(of_set).map(of_case).collect()).collect()
 }
 
 /// Those that ask the least: what it takes is known to whoever asks, and ends the asking.
@@ -966,29 +963,22 @@ mod tests {
         }
     }
 
-    /// A bench that counts what it is asked not only roughly.
-    struct Counting(std::sync::Mutex<BTreeSet<&'static str>>);
+    /// Mistakes that are called by what they multiply by, and which of them were asked not only roughly.
+    struct Factors {
+        mistakes: Vec<Mistake>,
+        asked: std::sync::Mutex<BTreeSet<&'static str>>,
+    }
 
-    impl Planted for Counting {
+    impl Planted for Factors {
         fn mistakes(&self) -> &[Mistake] {
-            const FACTORS: [&str; 6] = ["1.2", "1.4", "1.6", "1.8", "2.0", "2.2"];
-            const ALL: [Mistake; 6] = {
-                let mut all = [mistake("", &bsdf::WITHOUT_PI, "light/b"); 6];
-                let mut number = 0;
-                while number < 6 {
-                    all[number].name = FACTORS[number];
-                    number += 1;
-                }
-                all
-            };
-            &ALL
+            &self.mistakes
         }
 
         fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
             let answer = |question: &Question<'_>| {
                 let name = question.mistakes[0].name;
                 if !question.roughly {
-                    self.0.lock().unwrap().insert(name);
+                    self.asked.lock().unwrap().insert(name);
                 }
                 Some(light(name.parse().unwrap()))
             };
@@ -999,10 +989,12 @@ mod tests {
     #[test]
     fn a_first_look_leaves_few_mistakes_for_the_second() {
         let made = Made::new().with("light/b", light(1.8));
-        let bench = Counting(Default::default());
+        let of = |name| mistake(name, &bsdf::WITHOUT_PI, "light/b");
+        let mistakes = ["1.2", "1.4", "1.6", "1.8", "2.0", "2.2"].map(of).to_vec();
+        let bench = Factors { mistakes, asked: Default::default() };
         let diagnosis = diagnose_proven(&made.evidence(), &bench);
         assert_eq!(diagnosis.headlines[0].cause, bsdf::WITHOUT_PI.name);
-        assert_eq!(bench.0.into_inner().unwrap(), BTreeSet::from(["1.8"]));
+        assert_eq!(bench.asked.into_inner().unwrap(), BTreeSet::from(["1.8"]));
     }
 
     /// Of one mistake in two places, one fails what the other passes, without a number.

@@ -1,8 +1,9 @@
 //! A core that is a shared library, called through the table of `include/furnace_core.h`.
 //!
 //! One of the files with `unsafe`: everything that follows a foreign pointer is here, in `lent`, through which the core
-//! asks back, or in what that shares (`answering`) with a core of this side that is a library itself (`export`). A library can do anything to the process it is loaded into, so a run loads it in a worker process
-//! (`cores::remote`) and never beside its own results. Not here: what the answers are worth (`contract::validate`), and
+//! asks back, or in what that shares (`answering`) with a core of this side that is a library itself (`export`). A
+//! library can do anything to the process it is loaded into, so a run loads it in a worker process (`cores::remote`) and
+//! never beside its own results. Not here: what the answers are worth (`contract::validate`), and
 //! what happens if none comes (`worker`).
 #![expect(unsafe_code, reason = "a shared library is called through C")]
 

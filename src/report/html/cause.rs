@@ -47,7 +47,7 @@ pub(super) fn card(
                 @if number == 1 { b { "Start here. " } }
                 @if all > 1 { (number) " of " (all) " · " }
                 @if !headline.tier.is_graded() { "not graded · " }
-                @if view.tree.run.cores.len() > 1 { "on " b { (core) } " · " }
+                @if view.has_several_cores() { "on " b { (core) } " · " }
                 @if let Some(part) = part { "part " (part.number) ", " (part.title) }
             }
             h3.said { (sentence(&headline.mistake)) }

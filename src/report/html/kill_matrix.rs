@@ -1,6 +1,6 @@
 //! The kill matrix: which mistake is caught by which case, and how that case ended in this run. What a pass excludes.
 
-use super::parts::{cell, scrolls};
+use super::parts::{cell, scrolls, with_code};
 use super::shell::Page;
 use super::view::View;
 use crate::run::{Excluded, TrialRecord, excluded};
@@ -51,7 +51,7 @@ fn row(view: &View<'_>, mistake: &Excluded) -> Markup {
     html! {
         tr {
             td { (mistake.part) }
-            td { (mistake.wrote) }
+            td { (with_code(mistake.wrote)) }
             td {
                 @match trials.first().and_then(|trial| view.link(trial)) {
                     Some(link) => { a href=(link) { (mistake.caught_by) } }
@@ -62,7 +62,7 @@ fn row(view: &View<'_>, mistake: &Excluded) -> Markup {
                 @if trials.is_empty() { span.faint { "not tried" } }
                 span.cells { @for trial in &trials { (cell(view, trial)) } }
             }
-            td { (mistake.told) }
+            td { (with_code(mistake.told)) }
             td { code { (mistake.name) } }
         }
     }
@@ -86,5 +86,6 @@ mod tests {
         assert!(mistakes.len() > 100 && mistakes.iter().all(has));
         assert!(page.contains(&format!("href=\"case/{}.html", mistakes[0].caught_by)));
         assert!(page.contains("not tried"));
+        assert!(page.contains("<code>d.unit();</code>") && !page.contains("`d.unit"));
     }
 }

@@ -58,7 +58,7 @@ fn books(view: &View<'_>) -> Markup {
     html! {
         table.small.sums {
             thead { tr {
-                th scope="col" { "core" }
+                @if view.has_several_cores() { th scope="col" { "core" } }
                 th scope="col" { "kind of test" }
                 th.number scope="col" { "hypotheses" }
                 th.number scope="col" { "needed a second look" }
@@ -77,8 +77,8 @@ fn book(view: &View<'_>, core: &str) -> Markup {
         tbody {
             @for (kind, entry) in ledger.entries() { (entry_row(view, core, kind, entry)) }
             tr {
-                th scope="row" { (core) }
-                td { b { "all" } }
+                @if view.has_several_cores() { th scope="row" { (core) } }
+                th scope="row" { b { "all" } }
                 td.number { b { (ledger.hypotheses()) } }
                 td.number { b { (ledger.suspected()) } }
                 td {}
@@ -94,8 +94,8 @@ fn entry_row(view: &View<'_>, core: &str, kind: TestKind, entry: LedgerEntry) ->
     let resolution = worst_resolution(view.tree.trials_of(core), kind);
     html! {
         tr {
-            th scope="row" { (core) }
-            td { (kind.plural()) }
+            @if view.has_several_cores() { th scope="row" { (core) } }
+            th scope="row" { (kind.plural()) }
             td.number { (entry.hypotheses) }
             td.number { @if expected.is_some() { (entry.suspected) } @else { "no stages" } }
             td.number { @if let Some(expected) = expected { (significant(expected, 2)) } }
@@ -111,7 +111,7 @@ fn table(view: &View<'_>) -> Markup {
         table {
             thead { tr {
                 th scope="col" { "case" }
-                th scope="col" { "core" }
+                @if view.has_several_cores() { th scope="col" { "core" } }
                 th.number scope="col" { "probability spent" }
                 th scope="col" { "the smallest detectable error" }
             } }
@@ -124,7 +124,7 @@ fn row(view: &View<'_>, trial: &TrialRecord) -> Markup {
     html! {
         tr {
             th scope="row" { (case_name(view, trial)) }
-            td { (trial.core) }
+            @if view.has_several_cores() { td { (trial.core) } }
             td.number { (probability(ledger([trial]).spent())) }
             td { (resolution_in_words(trial)) }
         }

@@ -65,7 +65,7 @@ pub(crate) fn trial_rows(view: &View<'_>, trials: &[&TrialRecord]) -> Markup {
                     td.mark { (badge(trial.outcome.status())) }
                     td {
                         (case_name(view, trial))
-                        @if view.tree.run.cores.len() > 1 { span.faint { " on " (trial.core) } }
+                        @if view.has_several_cores() { span.faint { " on " (trial.core) } }
                         p.said.faint { (trial.outcome.statement()) }
                     }
                 }

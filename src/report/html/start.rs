@@ -208,7 +208,7 @@ fn named(view: &View<'_>, trial: &TrialRecord) -> Markup {
         td.mark { (cell(view, trial)) }
         td {
             (case_name(view, trial))
-            @if view.tree.run.cores.len() > 1 { span.faint { " on " (trial.core) } }
+            @if view.has_several_cores() { span.faint { " on " (trial.core) } }
         }
     }
 }

@@ -21,7 +21,7 @@ fn body(view: &View<'_>) -> Option<Markup> {
 }
 
 fn table(view: &View<'_>, trials: &[&TrialRecord]) -> Markup {
-    let many = view.tree.run.cores.len() > 1;
+    let many = view.has_several_cores();
     html! {
         table #all-trials {
             thead { tr {

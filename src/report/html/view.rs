@@ -34,6 +34,11 @@ impl<'a> View<'a> {
         Self { tree, folder, place, longest: usize::MAX, whole: true }
     }
 
+    /// Whether a row has to say which core it is of.
+    pub(super) fn has_several_cores(&self) -> bool {
+        self.tree.run.cores.len() > 1
+    }
+
     /// The way to the folder of the report.
     pub(super) fn up(&self) -> String {
         match self.place {

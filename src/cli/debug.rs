@@ -7,8 +7,8 @@ use super::run::salt;
 use super::say::say_line;
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::case::{self, Case, Filter};
-use crate::contract::Core;
 use crate::contract::beside::{Beside, Note, Notes, Shown, Which};
+use crate::contract::{Core, CoreError};
 use crate::cores::{CoreSpec, Hosted};
 use crate::report::text::Detail;
 use crate::report::text::blocks::measures;
@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 /// Column where the text begins.
 const INDENT: usize = 12;
-/// Questions that are told of: those with answers that differ come first.
+/// Questions that are told of.
 const MOST: usize = 4;
 
 /// What `furnace debug` understands.
@@ -124,11 +124,13 @@ fn tell_outcome(arguments: &DebugArguments, case: &Case, outcome: &Outcome) {
     measures.iter().for_each(|line| say_line!("{line}"));
 }
 
-/// The questions whose answers differ, or else the first ones; then how to stop in the first of them.
+/// The questions without an answer, which ended the case, and then those whose answers differ; or else the first ones. Then
+/// how to stop in the first of them.
 fn tell_questions(arguments: &DebugArguments, case: &Case, notes: &[Note]) {
     let numbered = || notes.iter().enumerate();
     let is_told = |note: &Note| note.error.is_some() || note.differing.is_some_and(|n| n > 0);
-    let differing: Vec<_> = numbered().filter(|(_, note)| is_told(note)).collect();
+    let mut differing: Vec<_> = numbered().filter(|(_, note)| is_told(note)).collect();
+    differing.sort_by_key(|(_, note)| note.error.is_none());
     let told = if differing.is_empty() { numbered().collect() } else { differing };
     for (number, note) in told.iter().take(MOST) {
         say_line!();
@@ -154,15 +156,17 @@ fn tell_question(number: usize, note: &Note) {
         (None, None) => "random, or the core's own to choose".to_owned(),
     };
     say_line!("  {:<INDENT$}{}. {}, {of}: {differs}", "asked", number + 1, note.method);
-    note.shown.iter().for_each(tell_element);
+    let has_answered = !matches!(note.error, Some(CoreError::Crashed { .. }));
+    note.shown.iter().for_each(|shown| tell_element(shown, has_answered));
 }
 
-fn tell_element(shown: &Shown) {
+fn tell_element(shown: &Shown, has_answered: bool) {
     for (number, (name, words)) in shown.asked.iter().enumerate() {
         let label = if number == 0 { format!("element {}", shown.index) } else { String::new() };
         say_line!("  {label:<INDENT$}{name}: {words}");
     }
-    say_line!("  {:<INDENT$}{}", "  yours", shown.yours);
+    let yours = if has_answered { &shown.yours } else { "no answer" };
+    say_line!("  {:<INDENT$}{yours}", "  yours");
     say_line!("  {:<INDENT$}{}", "  textbook", shown.right);
 }
 

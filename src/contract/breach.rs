@@ -121,6 +121,11 @@ impl Breach {
         Self { asked: numbers.map(asked), ..self }
     }
 
+    /// What came and what would have been right alone.
+    pub(crate) fn without_question(&self) -> Self {
+        Self { asked: None, ..self.clone() }
+    }
+
     /// Whether this was asked, in the words of the protocol.
     pub(crate) fn is_about(&self, question: &str) -> bool {
         self.asked.as_ref().is_some_and(|asked| asked.question == question)

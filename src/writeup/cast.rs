@@ -48,6 +48,9 @@ pub(super) const MESHES: &[Role] = &[
     alone("wall-e", &["wall-e"]),
 ];
 
+/// What the course's write-ups show of the 800 x 600 pixels of a scene of theirs: the part that `-r 480 360` cuts out.
+const FRAME: [i64; 2] = [480, 360];
+
 /// Where scenes are looked for.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cast {
@@ -91,6 +94,15 @@ impl Cast {
         Ok(Shot { set: set.into_iter().collect(), ..Shot::of(scene) })
     }
 
+    /// The same as a figure frames it.
+    pub(super) fn framed(&self, role: Role) -> Result<Shot, String> {
+        let mut shot = self.shot(role)?;
+        if self.file(role).is_some() {
+            shot.set.push(("film".to_owned(), FRAME.to_vec().into()));
+        }
+        Ok(shot)
+    }
+
     /// What people call its scene, and whose place that takes.
     pub(super) fn name(&self, role: Role) -> String {
         let course = format!("{}.dae", role.files[0]);
@@ -130,7 +142,11 @@ impl Cast {
         let mut absent: Vec<_> = absent.map(|role| format!("{}.dae", role.files[0])).collect();
         absent.sort();
         absent.dedup();
-        let scenes = format!("Scenes: the course's, from `{}`", folder.display());
+        let [width, height] = FRAME;
+        let scenes = format!(
+            "Scenes: the course's, from `{}`, framed as by its `-r {width} {height}`",
+            folder.display()
+        );
         match absent.as_slice() {
             [] => format!("{scenes}."),
             absent => {
@@ -152,6 +168,9 @@ mod tests {
         let cast = Cast::in_folder(folder.path()).unwrap();
         assert!(cast.shot(BOX_BUNNY).unwrap().scene.ends_with("sky/cbBunny.dae"));
         assert_eq!(cast.shot(SPHERES).unwrap().scene, "course-cornell-box");
+        let framed = |role| cast.framed(role).unwrap().set;
+        assert_eq!(framed(BOX_BUNNY), [("film".to_owned(), vec![480, 360].into())]);
+        assert_eq!(framed(SPHERES), []);
         assert_eq!(cast.name(BOX_BUNNY), "cbBunny.dae");
         assert_eq!(cast.name(SPHERES), "course-cornell-box (for CBspheres_lambertian.dae)");
         let missing = cast.shot(alone("wall-e", &["wall-e"])).unwrap_err();

@@ -67,7 +67,7 @@ impl Rung {
     /// # Errors
     /// Why it is not.
     pub(super) fn shot(&self, cast: &Cast, effort: Effort) -> Result<Shot, String> {
-        let Shot { scene, set, .. } = cast.shot(self.role)?;
+        let Shot { scene, set, .. } = cast.framed(self.role)?;
         let size = Some(effort.size_of(self.settings.spp));
         Ok(Shot { scene, set, size, ..self.settings.clone() })
     }

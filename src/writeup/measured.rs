@@ -3,6 +3,7 @@
 use super::Plan;
 use super::bvh::Mesh;
 use super::ladder::Ladder;
+use crate::contract::CoreError;
 use crate::image::{Image, luminance};
 use crate::render::{Made, Shot, Shown, missing};
 use serde::{Deserialize, Serialize};
@@ -25,7 +26,14 @@ pub(super) struct Measured {
 
 impl Measured {
     pub(super) fn of(made: &Made) -> Self {
-        let (seconds, breach) = (made.seconds, made.breach().map(ToString::to_string));
+        let breach = made.breach().map(|error| match error {
+            // What was asked for an answer is no matter of a figure.
+            CoreError::BrokeContract(breach) => {
+                CoreError::BrokeContract(Box::new(breach.without_question())).to_string()
+            }
+            other => other.to_string(),
+        });
+        let seconds = made.seconds;
         let rendered = match &made.shown {
             Shown::Codes(_) => {
                 return Self { seconds, mean: None, noise: None, samples: None, breach };

@@ -157,11 +157,12 @@ fn cells(shot: &Shot, figure: &Figure) -> Vec<String> {
     vec![scene_name(shot), samples, rays, depth(shot), duration(measured.seconds), mean, noise]
 }
 
-/// The scene as people call it: of a path the file's name, and its parameters.
+/// The scene as people call it: of a path the file's name, and its parameters but for the frame, which all have.
 fn scene_name(shot: &Shot) -> String {
     let path = std::path::Path::new(&shot.scene);
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    shot.set.iter().fold(name, |name, (parameter, value)| format!("{name}, {parameter} {value}"))
+    let told = shot.set.iter().filter(|(parameter, _)| parameter != "film");
+    told.fold(name, |name, (parameter, value)| format!("{name}, {parameter} {value}"))
 }
 
 fn depth(shot: &Shot) -> String {

@@ -131,6 +131,15 @@ fn what_is_mistyped_is_answered_with_what_was_meant() {
         "reference verify nothing-like-it --project CASES",
         "reference lst --project CASES",
         "agreement --core builtin cornel-box --project CASES",
+        "bench teapt-1k --core builtin --project CASES",
+        "bench cow --core builtin --project CASES",
+        "render sphere-furnac -o image.exr --project CASES",
+        "render sphere-furnace --set albdo=0.5 -o image.exr --project CASES",
+        "render cornell-diffuse-spheres --set albedo=0.5 -o image.exr --project CASES",
+        "run camera/rays-pass --core builtin -q --report runs --project CASES",
+        "history --core bultin --report runs --project CASES",
+        "report runs --project CASES",
+        "report runs/latest --project CASES",
     ];
     review("mistyped", &all(&place, &commands));
 }

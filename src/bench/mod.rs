@@ -19,4 +19,4 @@ pub use contest::{Bench, Measured};
 pub use subject::{Subject, made_here};
 pub use table::table;
 
-pub(crate) use subject::{FOUNDING, in_folder};
+pub(crate) use subject::{FOUNDING, in_folder, names};

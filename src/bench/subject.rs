@@ -41,6 +41,11 @@ const MADE_HERE: [(&str, Maker); 7] = [
 /// Of the course: those whose speed-ups students show.
 pub(crate) const FOUNDING: [&str; 5] = ["cow", "teapot", "beetle", "maxplanck", "bunny"];
 
+/// What subjects that need no file are called.
+pub(crate) fn names() -> Vec<&'static str> {
+    MADE_HERE.iter().map(|(name, _)| *name).collect()
+}
+
 /// Subjects that need no file, of which `wanted` takes some by their names.
 pub fn made_here(wanted: impl Fn(&str) -> bool) -> impl Iterator<Item = Subject> {
     let those = MADE_HERE.iter().filter(move |(name, _)| wanted(name));

@@ -30,9 +30,7 @@ impl SceneChoice {
             SceneError::NoSuchScene { name, hint, .. } => {
                 self.complaint("name", format!("there is no scene `{name}`"), Some(hint))
             }
-            SceneError::NoSuchParameter { scene, parameter, known, hint } => {
-                let problem =
-                    format!("scene `{scene}` has no parameter `{parameter}`, only {known}");
+            SceneError::NoSuchParameter { parameter, problem, hint } => {
                 self.complaint(&parameter, problem, hint)
             }
             SceneError::WrongParameter { parameter, diagnostic } => {

@@ -3,9 +3,10 @@
 use super::hosting::HostingArguments;
 use super::say::{complain, say_line};
 use super::{Answer, ExitCode, Failure, ProjectArguments};
-use crate::bench::{Bench, FOUNDING, Subject, in_folder, made_here, table};
+use crate::bench::{Bench, FOUNDING, Subject, in_folder, made_here, names, table};
 use crate::cores::CoreSpec;
 use crate::scene::Library;
+use crate::text::{all_of, hint, listed};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -44,7 +45,7 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Answer {
         None => made_here(|name| is_wanted(arguments, name)).collect(),
     };
     if subjects.is_empty() {
-        return Err(Failure::nothing("no mesh has such a name"));
+        return Err(Failure::nothing(none(arguments)));
     }
     let hosting = arguments.hosting.with_time_limit(SECONDS).hosting(&project.runs());
     let bench = Bench {
@@ -64,6 +65,18 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Answer {
     say_line!("{}", table(&measured));
     let is_wrong = measured.iter().any(crate::bench::Measured::is_wrong);
     Ok(if is_wrong { ExitCode::Failed } else { ExitCode::Good })
+}
+
+/// Why there is no mesh, and which there could be.
+fn none(arguments: &BenchArguments) -> String {
+    let names = if arguments.scenes.is_some() { FOUNDING.to_vec() } else { names() };
+    let names = names.into_iter();
+    if let (Some(folder), []) = (&arguments.scenes, arguments.filters.as_slice()) {
+        return format!("`{}` has none of {}", folder.display(), listed(names));
+    }
+    let word = arguments.filters.join(" ");
+    let hint = hint(&word, names.clone(), || all_of(names));
+    format!("no mesh is called `{word}`\nhint: {hint}")
 }
 
 fn is_wanted(arguments: &BenchArguments, name: &str) -> bool {

@@ -6,8 +6,10 @@ use super::{Answer, ExitCode, Failure, ProjectArguments};
 use crate::report::text::{Detail, Paint};
 use crate::report::{self, Reached};
 use crate::text::number::{count, duration};
+use crate::text::{all_of, hint};
 use clap::Args;
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::{Duration, UNIX_EPOCH};
 
@@ -36,14 +38,19 @@ pub(crate) fn history(arguments: &HistoryArguments) -> Answer {
         None => arguments.project.find()?.runs(),
     };
     let mut reached = report::reached(&runs);
-    if let Some(core) = &arguments.core {
-        reached.retain(|one| one.core == *core);
-    }
     if reached.is_empty() {
-        return Err(Failure::nothing(match &arguments.core {
-            Some(core) => format!("no run in {} has a result of `{core}`", runs.display()),
-            None => format!("{} holds no run that has come to its end", runs.display()),
-        }));
+        let none = format!("{} holds no run that has come to its end", runs.display());
+        return Err(Failure::nothing(none));
+    }
+    if let Some(core) = &arguments.core {
+        let cores: BTreeSet<_> = reached.iter().map(|one| one.core.as_str()).collect();
+        let cores = cores.iter().copied();
+        let meant = hint(core, cores.clone(), || all_of(cores));
+        reached.retain(|one| one.core == *core);
+        if reached.is_empty() {
+            let none = format!("no run in {} has a result of `{core}`", runs.display());
+            return Err(Failure::nothing(format!("{none}\nhint: {meant}")));
+        }
     }
     let first = reached.len().saturating_sub(arguments.number);
     if arguments.json {

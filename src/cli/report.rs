@@ -4,8 +4,9 @@ use super::say::{say, say_line};
 use super::{Answer, ExitCode, Failure, ProjectArguments};
 pub(crate) use crate::report::address;
 use crate::report::text::{Detail, Style};
-use crate::report::{self, RunTree};
+use crate::report::{self, RunTree, TreeError};
 use crate::text::colour::Colour;
+use crate::text::did_you_mean;
 use clap::Args;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -39,7 +40,10 @@ pub(crate) fn report(arguments: &ReportArguments) -> Answer {
         Some(folder) => folder.clone(),
         None => newest(&arguments.project.find()?.runs())?,
     };
-    let tree = RunTree::load(&folder).map_err(Failure::request)?;
+    let tree = RunTree::load(&folder).map_err(|error| match error {
+        TreeError::NotARun(_) => Failure::request(format!("{error}{}", meant(&folder))),
+        _ => Failure::request(error),
+    })?;
     let write = match arguments.single_file {
         true => report::html::write_single,
         false => report::html::write,
@@ -51,12 +55,27 @@ pub(crate) fn report(arguments: &ReportArguments) -> Answer {
     Ok(ExitCode::Good)
 }
 
+/// The run beside it that was probably meant, or else the newest; the newest of a folder of runs.
+fn meant(folder: &Path) -> String {
+    let runs = if folder.is_dir() { folder } else { folder.parent().unwrap_or(folder) };
+    let found: Vec<_> = in_folder(runs).map(|path| path.display().to_string()).collect();
+    let wrong = folder.display().to_string();
+    let nearest = did_you_mean(&wrong, found.iter().map(String::as_str));
+    let newest = || found.iter().max().map(|path| format!("the newest run there is `{path}`"));
+    nearest.or_else(newest).map_or_else(String::new, |hint| format!("\nhint: {hint}"))
+}
+
 /// The last folder by name: names are times.
 pub(crate) fn newest(runs: &Path) -> Result<PathBuf, Failure> {
     let none = || Failure::request(format!("{} holds no run", runs.display()));
-    let entries = std::fs::read_dir(runs).map_err(|_| none())?;
+    in_folder(runs).max().ok_or_else(none)
+}
+
+/// The runs in a folder, in no order.
+fn in_folder(runs: &Path) -> impl Iterator<Item = PathBuf> {
+    let entries = std::fs::read_dir(runs).into_iter().flatten();
     let folders = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    folders.filter(|path| path.join("run.json").is_file()).max().ok_or_else(none)
+    folders.filter(|path| path.join("run.json").is_file())
 }
 
 /// How the summary is dressed on this terminal.

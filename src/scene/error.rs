@@ -10,8 +10,8 @@ pub enum SceneError {
     Wrong(Box<Diagnostic>),
     #[error("there is no scene `{name}` in `{folder}`\nhint: {hint}")]
     NoSuchScene { name: String, folder: String, hint: String },
-    #[error("scene `{scene}` has no parameter `{parameter}`, only {known}")]
-    NoSuchParameter { scene: String, parameter: String, known: String, hint: Option<String> },
+    #[error("{problem}{}", hint.as_ref().map_or_else(String::new, |hint| format!("\nhint: {hint}")))]
+    NoSuchParameter { parameter: String, problem: String, hint: Option<String> },
     #[error("{diagnostic}")]
     WrongParameter { parameter: String, diagnostic: Box<Diagnostic> },
     #[error("cannot read `{path}`: {problem}")]

@@ -5,7 +5,7 @@ use super::file::{self, Overrides};
 use super::format::collada;
 use super::{SceneDescription, SceneError};
 use crate::project::Project;
-use crate::text::{all_of, hint};
+use crate::text::{all_of, did_you_mean, hint};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -117,10 +117,13 @@ fn load_collada(path: &Path, overrides: &Overrides) -> Result<SceneDescription, 
             _ => None,
         };
         known.ok_or_else(|| SceneError::NoSuchParameter {
-            scene: path.display().to_string(),
             parameter: parameter.clone(),
-            known: "`film`, such as [480, 360], and `camera`, such as \"camera.txt\"".to_owned(),
-            hint: None,
+            problem: format!(
+                "scene `{}` has no parameter `{parameter}`, only `film`, such as [480, 360], and \
+                 `camera`, such as \"camera.txt\"",
+                path.display()
+            ),
+            hint: did_you_mean(parameter, ["film", "camera"]),
         })?;
     }
     let mut scene = collada::load(path, film)?.scene;

@@ -126,10 +126,13 @@ impl Parameters {
     }
 
     fn unknown(&self, scene: &str, name: &str) -> SceneError {
+        let problem = match self.0.is_empty() {
+            true => format!("scene `{scene}` has no parameters, and `{name}` is set"),
+            false => format!("scene `{scene}` has no parameter `{name}`, only {}", self.names()),
+        };
         SceneError::NoSuchParameter {
-            scene: scene.to_owned(),
             parameter: name.to_owned(),
-            known: self.names(),
+            problem,
             hint: did_you_mean(name, self.0.keys().map(String::as_str)),
         }
     }

@@ -90,7 +90,9 @@ fn a_parameter_may_be_a_table_or_part_of_a_list() {
 #[test]
 fn an_unknown_parameter_is_answered_with_the_known_ones() {
     let message = load(ROOM, "albeto = 1").unwrap_err().to_string();
-    assert_eq!(message, "scene `room` has no parameter `albeto`, only `albedo`");
+    let told =
+        "scene `room` has no parameter `albeto`, only `albedo`\nhint: did you mean `albedo`?";
+    assert_eq!(message, told);
     let expected = "\
 error: there is no parameter `albeto`, only `albedo`
   --> scenes/room.toml:15:12

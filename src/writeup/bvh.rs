@@ -14,6 +14,10 @@ use std::time::Instant;
 const LONG_ENOUGH: f64 = 0.25;
 /// The first that it is timed on.
 const FIRST_RAYS: usize = 16;
+/// The quickest of so many passes counts, for other work on the machine can only add to a time; and fewer of those that
+/// took so long together.
+const PASSES: usize = 3;
+const LONG_TOGETHER: f64 = 2.0;
 /// How far apart two distances to one hit may be, as a share.
 const SAME_HIT: f64 = 1e-4;
 
@@ -126,9 +130,17 @@ fn trace(
     counts: bool,
 ) -> Result<(Vec<Hit>, Traced), CoreError> {
     let mut hits = vec![Hit::MISS; rays.len()];
-    let begun = Instant::now();
-    let stats = scene.intersect(rays, &mut hits)?;
-    let seconds = begun.elapsed().as_secs_f64();
+    let (mut seconds, mut together) = (f64::INFINITY, 0.0);
+    let mut stats = TraversalStats::default();
+    for _ in 0..PASSES {
+        let begun = Instant::now();
+        stats = scene.intersect(rays, &mut hits)?;
+        let pass = begun.elapsed().as_secs_f64();
+        (seconds, together) = (seconds.min(pass), together + pass);
+        if together > LONG_TOGETHER {
+            break;
+        }
+    }
     let tests = counts.then(|| tests(stats, rays.len()));
     Ok((hits, Traced { seconds, rays: rays.len(), tests }))
 }
@@ -143,4 +155,42 @@ fn different(sample: &Sample, hits: &[Hit]) -> usize {
         (one, other) => one == other,
     };
     sample.iter().filter(|(number, hit)| !is_same(hit, &hits[*number])).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::BuildStats;
+    use std::time::Duration;
+
+    /// Is held up in its first pass.
+    struct HeldUp(usize);
+
+    impl BuiltScene for HeldUp {
+        fn stats(&self) -> BuildStats {
+            BuildStats::default()
+        }
+
+        fn intersect(&mut self, _: &[Ray], _: &mut [Hit]) -> Result<TraversalStats, CoreError> {
+            self.0 += 1;
+            if self.0 == 1 {
+                std::thread::sleep(Duration::from_millis(400));
+            }
+            Ok(TraversalStats { rays: 1, primitive_tests: 2, box_tests: 3 })
+        }
+    }
+
+    #[test]
+    fn a_pass_that_was_held_up_does_not_count() {
+        let ray = Ray {
+            origin: Default::default(),
+            direction: Default::default(),
+            t_min: 0.0,
+            t_max: 1.0,
+        };
+        let mut scene = HeldUp(0);
+        let (hits, traced) = trace(&mut scene, &[ray], true).unwrap();
+        assert_eq!((hits.len(), scene.0, traced.tests), (1, PASSES, Some([2.0, 3.0])));
+        assert!(traced.seconds < 0.4, "{traced:?}");
+    }
 }

@@ -130,7 +130,8 @@ impl Submission {
         }
         // After a build that was cut off, Cargo knows which half is whole.
         let time = workshop.suite.build.as_ref().map_or(Build::TIME, |build| build.time);
-        self.carry_out_all(&commands_of_a_crate(), time, workshop, folder)?;
+        self.copy_crate(time, workshop, folder)?;
+        self.carry_out_all(&[build_of_a_crate()], time, workshop, folder)?;
         let made = library_in(&folder.join(TARGET).join("release"), None);
         let made = made.ok_or_else(|| NoCore::Authors(NO_LIBRARY.to_owned()))?;
         let kept = folder.join(made.file_name().unwrap_or_default());
@@ -139,6 +140,21 @@ impl Submission {
             .and_then(|()| std::fs::remove_dir_all(folder.join(TARGET)))
             .map_err(cannot_build(folder))?;
         Ok(kept)
+    }
+
+    /// Cargo builds a copy, since it writes beside the manifest. Another user makes it itself: the bench may read more
+    /// than that user does, and there is `cp` wherever there are such users.
+    fn copy_crate(
+        &self,
+        time: Duration,
+        workshop: &Workshop<'_>,
+        folder: &Path,
+    ) -> Result<(), NoCore> {
+        if workshop.user.is_some() {
+            let copy = ["cp", "-R", "{submission}/.", "{build}/crate"].map(str::to_owned).to_vec();
+            return self.carry_out_all(&[copy], time, workshop, folder);
+        }
+        copy_tree(&self.path, &folder.join("crate")).map_err(cannot_build(folder))
     }
 
     fn carry_out_all(
@@ -208,10 +224,9 @@ fn cannot_build(folder: &Path) -> impl Fn(io::Error) -> NoCore {
 const NO_LIBRARY: &str = "its Cargo.toml makes no library: it needs `crate-type = [\"cdylib\"]` below `[lib]`, and \
                           src/lib.rs `furnace::export_core!(Mine::new());`";
 
-/// How Cargo makes a library of a crate: of a copy, since Cargo writes beside the manifest.
-fn commands_of_a_crate() -> [Vec<String>; 2] {
-    let copy: &[&str] = &["cp", "-R", "{submission}/.", "{build}/crate"];
-    let build: &[&str] = &[
+/// How Cargo makes a library of the copy of a crate.
+fn build_of_a_crate() -> Vec<String> {
+    let words: &[&str] = &[
         "cargo",
         "build",
         "--quiet",
@@ -220,7 +235,38 @@ fn commands_of_a_crate() -> [Vec<String>; 2] {
         "--manifest-path={build}/crate/Cargo.toml",
         &format!("--target-dir={{build}}/{TARGET}"),
     ];
-    [copy, build].map(|words| words.iter().map(ToString::to_string).collect())
+    words.iter().map(ToString::to_string).collect()
+}
+
+/// Copies what is below a folder over what is there. A link stays one.
+fn copy_tree(from: &Path, to: &Path) -> io::Result<()> {
+    for entry in WalkDir::new(from) {
+        let entry = entry?;
+        let copy = to.join(entry.path().strip_prefix(from).unwrap_or(Path::new("")));
+        let kind = entry.file_type();
+        if kind.is_dir() {
+            std::fs::create_dir_all(copy)?;
+        } else if kind.is_symlink() {
+            copy_link(entry.path(), &copy)?;
+        } else if kind.is_file() {
+            std::fs::copy(entry.path(), copy)?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(unix)]
+fn copy_link(from: &Path, to: &Path) -> io::Result<()> {
+    if to.is_symlink() {
+        std::fs::remove_file(to)?;
+    }
+    std::os::unix::fs::symlink(std::fs::read_link(from)?, to)
+}
+
+/// Links are for administrators there: what it leads to stands in its place.
+#[cfg(not(unix))]
+fn copy_link(from: &Path, to: &Path) -> io::Result<()> {
+    if from.is_file() { std::fs::copy(from, to).map(|_| ()) } else { Ok(()) }
 }
 
 /// Makes a folder this user's.
@@ -275,4 +321,28 @@ fn content(path: &Path) -> io::Result<String> {
         }
     }
     Ok(hexadecimal(digest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_copied_crate_has_all_files_and_is_copied_again_over_itself() {
+        let [from, to] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+        std::fs::create_dir(from.path().join("src")).unwrap();
+        std::fs::write(from.path().join("src/lib.rs"), "mod shape;").unwrap();
+        std::fs::write(from.path().join(MANIFEST), "[package]").unwrap();
+        #[cfg(unix)]
+        std::os::unix::fs::symlink("/etc/hostname", from.path().join("link")).unwrap();
+        let to = to.path().join("crate");
+        for _ in 0..2 {
+            copy_tree(from.path(), &to).unwrap();
+            assert_eq!(std::fs::read_to_string(to.join("src/lib.rs")).unwrap(), "mod shape;");
+            assert!(to.join(MANIFEST).is_file());
+            // What a link leads to is not the submission's.
+            #[cfg(unix)]
+            assert_eq!(to.join("link").read_link().unwrap(), Path::new("/etc/hostname"));
+        }
+    }
 }

@@ -657,6 +657,7 @@ void set_adaptive(PathTracer &tracer, const furnace_adaptive *adaptive, size_t s
 
 furnace_camera any_camera() {
    furnace_camera camera{};
+   camera.struct_size = sizeof camera;
    camera.position = {0, 0, 5};
    camera.right = {1, 0, 0}, camera.up = {0, 1, 0}, camera.backward = {0, 0, 1};
    // Narrow: every ray meets the box of a `Stage` of 1, or a BVH never asks what is in it.

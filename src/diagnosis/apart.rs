@@ -173,6 +173,18 @@ mod tests {
     }
 
     #[test]
+    fn a_shape_whose_nearest_hit_is_right_may_be_wrong_itself() {
+        let made = Made::new().with("shape/alone", passing()).with("bvh/a", failing("a"));
+        let made = made.proving("shape/alone", &[Foundation::Spheres]);
+        let (own, case) = (Components::SPHERE_TEST, || vec!["bvh/a".to_owned()]);
+        let view = View { evidence: made.evidence(), own, of_own: case(), mended: case() };
+        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        let [only] = &told.headlines[..] else { panic!("{told:?}") };
+        assert!(!only.mistake.contains("what calls it"), "{}", only.mistake);
+        assert!(only.look_at.contains("any-hit function"), "{}", only.look_at);
+    }
+
+    #[test]
     fn what_fails_cases_about_itself_is_not_called_wrongly() {
         let made = Made::new()
             .with("integrator/furnace", passing())

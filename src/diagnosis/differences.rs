@@ -109,7 +109,7 @@ fn how(group: &[&Observation<'_>]) -> &'static str {
 
 const fn what(subject: Subject) -> &'static str {
     match subject {
-        Subject::Camera => "the camera",
+        Subject::Camera => "the camera or the pixel",
         Subject::Shape => "ray intersection",
         Subject::Bvh => "the BVH or its box test",
         Subject::Sampling => "direction sampling",
@@ -171,5 +171,12 @@ mod tests {
         assert_eq!((first.degree, first.is_alone()), (Degree::DiffersHere, false));
         assert!(diagnosis.headlines[2].is_alone());
         assert_eq!(diagnosis.first(), None);
+    }
+
+    #[test]
+    fn a_picture_of_part_1_is_not_of_the_camera_alone() {
+        let made = Made::new().with("camera/a", failing("0 instead of 1"));
+        let diagnosis = diagnose(&made.evidence());
+        assert_eq!(diagnosis.headlines[0].mistake, "the camera or the pixel differs");
     }
 }

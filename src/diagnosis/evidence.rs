@@ -186,7 +186,6 @@ impl<'a> Evidence<'a> {
         of_cases.flat_map(|seen| seen.proves).copied().collect()
     }
 
-    /// How many graded cases rest on one of these.
     /// Whether the core's own `component` has passed all that prove it.
     pub(crate) fn has_proven(&self, component: Components) -> bool {
         let is_of_it = |foundation: &Foundation| foundation.components() == component;
@@ -197,6 +196,7 @@ impl<'a> Evidence<'a> {
         proving.peek().is_some() && proving.all(|seen| seen.standing == Standing::Passed)
     }
 
+    /// How many graded cases rest on one of these.
     pub(crate) fn blocked_by(&self, cases: &[String]) -> usize {
         let is_blocked = |seen: &&Observation<'_>| match &seen.standing {
             Standing::Blocked(by) => seen.tier.is_graded() && cases.contains(by),

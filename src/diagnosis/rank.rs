@@ -278,7 +278,8 @@ impl Ranked {
         self
     }
 
-    /// A component that answers rightly where it is asked alone may be called wrongly.
+    /// A component that answers rightly where it is asked alone may be called wrongly. A shape's test is asked for its
+    /// nearest hit alone: its any-hit function is part of it too, and so is what it leaves in a record that it misses.
     fn differing_as_one(&mut self, own: Components, evidence: &Evidence<'_>) {
         let Some(one) = self.differing.drain(..).reduce(Headline::and) else { return };
         let component = own.in_words();
@@ -287,12 +288,25 @@ impl Ranked {
         };
         let is_called = !one.explains.iter().any(asks_itself);
         let (mistake, look_at) = if is_called && evidence.has_proven(own) {
-            (
-                format!("the core's {component} passes its own cases, and what calls it does not"),
-                format!(
-                    "where the core calls its {component}: what it hands over and what it does with the answer"
+            let calls = format!(
+                "where the core calls its {component}: what it hands over and what it does with the answer"
+            );
+            match own.intersects(Components::TRIANGLE_TEST | Components::SPHERE_TEST) {
+                true => (
+                    format!(
+                        "the core's {component} passes its own cases, and what rests on it does not"
+                    ),
+                    format!(
+                        "what its cases do not ask, its any-hit function and what it writes on a miss, and {calls}"
+                    ),
                 ),
-            )
+                false => (
+                    format!(
+                        "the core's {component} passes its own cases, and what calls it does not"
+                    ),
+                    calls,
+                ),
+            }
         } else {
             (format!("what differs is the core's {component}"), String::new())
         };

@@ -259,3 +259,27 @@ fn a_terminal_that_can_is_shown_images() {
     let piped = place.command(compare).envs(kitty).output().unwrap();
     assert!(!piped.stdout.contains(&0x1b), "a pipe is no terminal");
 }
+
+#[test]
+fn a_single_answer_is_asked_for_and_what_is_not_there_is_said() {
+    let place = Place::new();
+    let case = "shape/ray-sphere-hit-is-the-nearest-root-ahead";
+    let words = format!("debug {case} --core textbook:sphere-near-root-only");
+    let (told, code) = place.told(&words);
+    assert_eq!(code, 1, "{told}");
+    assert!(told.contains("yours     a miss\n    textbook  t = 2,"), "{told}");
+    assert!(told.contains("origin: (1.0, 2.0, 3.0)"), "{told}");
+    let (told, code) = place.told(&format!("{words} --ask 1:2"));
+    assert_eq!(code, 0, "{told}");
+    assert!(told.contains("1 answer: 1 not as textbook's"), "{told}");
+    let complaint = |ask: &str| {
+        let output = place.furnace(&format!("{words} --ask {ask}"));
+        assert_eq!(output.status.code(), Some(4));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert!(complaint("1:99").contains("has 14 elements, counted from 0"), "{}", complaint("1:99"));
+    assert!(complaint("9:0").contains("asks 1 question"), "{}", complaint("9:0"));
+    let output = place.furnace("debug bsdf/ --core textbook");
+    let complaint = String::from_utf8(output.stderr).unwrap();
+    assert!(complaint.contains(" more") && complaint.len() < 400, "{complaint}");
+}

@@ -14,6 +14,7 @@ use crate::report::text::Detail;
 use crate::report::text::blocks::measures;
 use crate::run::{Bench, Outcome, Plan, Request, attempt};
 use crate::stats::Budget;
+use crate::text::number::count;
 use crate::text::program;
 use crate::worker::CoreOrigin;
 use clap::Args;
@@ -23,6 +24,8 @@ use std::sync::Arc;
 const INDENT: usize = 12;
 /// Questions that are told of.
 const MOST: usize = 4;
+/// Cases that are told where several are meant.
+const MOST_NAMES: usize = 5;
 
 /// What `furnace debug` understands.
 #[derive(Clone, Debug, Args)]
@@ -75,13 +78,7 @@ fn find(arguments: &DebugArguments) -> Result<(Bench, Arc<Case>), Failure> {
     let case = match (whole, found.as_slice()) {
         (Some(case), _) | (None, [case]) => Arc::clone(case),
         _ => {
-            let names: Vec<_> = found.iter().map(|case| case.id.as_str()).collect();
-            return Err(Failure::request(format!(
-                "`{}` is a part of {} names\nhint: one of {}",
-                arguments.case,
-                names.len(),
-                names.join(", ")
-            )));
+            return Err(Failure::request(several(&arguments.case, &found)));
         }
     };
     let request = Request {
@@ -93,6 +90,14 @@ fn find(arguments: &DebugArguments) -> Result<(Bench, Arc<Case>), Failure> {
     let plan = Plan::new(project, request, &[Arc::clone(&case)]).map_err(Failure::nothing)?;
     let plan = plan.hosted(arguments.hosting.hosting(&runs)).salted(salt());
     Ok((plan.bench(), case))
+}
+
+fn several(word: &str, found: &[&Arc<Case>]) -> String {
+    let names: Vec<_> = found.iter().take(MOST_NAMES).map(|case| case.id.as_str()).collect();
+    let more = found.len() - names.len();
+    let more = if more > 0 { format!(", and {more} more") } else { String::new() };
+    let names = names.join(", ");
+    format!("`{word}` is a part of {} names\nhint: one of {names}{more}", found.len())
 }
 
 /// The whole case, with the core where a run has it: a crash ends it there and not here.
@@ -220,14 +225,21 @@ fn ask(
     let mut beside = Beside { core, right, notes: notes.clone(), alone: Some(which) };
     let attempt = attempt(bench, case, &mut beside);
     let notes = notes.lock();
-    let Some(note) = notes.get(which.question).filter(|note| !note.shown.is_empty()) else {
-        let statement = attempt.outcome.statement();
-        return Err(Failure::nothing(format!(
-            "{} asks {} questions, and not for that element: {statement}",
-            case.id,
-            notes.len()
-        )));
+    let Some(note) = notes.get(which.question) else {
+        let asks = count(notes.len(), "question");
+        let end = match &attempt.outcome {
+            Outcome::Judged { .. } => String::new(),
+            other => format!(": {}", other.statement()),
+        };
+        return Err(Failure::nothing(format!("{} asks {asks}{end}", case.id)));
     };
+    if note.shown.is_empty() {
+        let (asked, elements) = (which.question + 1, count(note.count, "element"));
+        return Err(Failure::nothing(format!(
+            "question {asked} of {} has {elements}, counted from 0",
+            case.id
+        )));
+    }
     tell_question(which.question, note);
     Ok(ExitCode::Good)
 }

@@ -180,6 +180,11 @@ impl BuiltScene for SceneBeside<'_> {
     each_question! { Scene beside () }
 }
 
+/// Without the names of our types of vectors: they are not the reader's.
+fn plain(value: impl Debug) -> String {
+    format!("{value:?}").replace("DVec3(", "(").replace("DVec2(", "(")
+}
+
 /// What a question is asked with, an element at a time.
 trait Asked: Sized {
     fn in_words(self, index: usize) -> String;
@@ -192,7 +197,7 @@ trait Asked: Sized {
 
 impl<T: Debug> Asked for &[T] {
     fn in_words(self, index: usize) -> String {
-        self.get(index).map_or_else(String::new, |element| format!("{element:?}"))
+        self.get(index).map_or_else(String::new, plain)
     }
 
     fn part(self, range: &Range<usize>) -> Self {
@@ -216,7 +221,7 @@ macro_rules! shared {
     ($($of:ty),*) => { $(
         impl Asked for $of {
             fn in_words(self, _: usize) -> String {
-                format!("{self:?}")
+                plain(&self)
             }
         }
     )* };

@@ -102,7 +102,7 @@ impl Furnace {
         let cells: Vec<_> = rows
             .filter_map(|row| {
                 let ratios: Vec<_> =
-                    row.readings.iter().flatten().map(|reading| figure(reading.ratio)).collect();
+                    row.readings.iter().flatten().map(Reading::told_from_one).collect();
                 let label = name(row.bounces).replace("bounces ", "").replace("bounce ", "");
                 (!ratios.is_empty()).then(|| format!("{label}: {}", ratios.join(" ")))
             })
@@ -318,6 +318,14 @@ mod tests {
         assert!(fit.ends_with("with f = 0.7000 ± 0.0009"), "{fit}");
         assert!(roulette.starts_with("Russian roulette of your own"), "{roulette}");
         assert!(headline.ruled_out[0].contains("coloured"));
+    }
+
+    #[test]
+    fn a_small_factor_is_told_with_the_digits_that_show_it() {
+        let once = |c: &Channel, rows: [u32; 2]| c.sum(rows, |k| if k > 1 { 1.0061 } else { 1.0 });
+        let diagnosis = diagnose(&Made::new().with(FURNACES[0], furnace(once)).evidence());
+        let seen = &diagnosis.headlines[0].evidence[0];
+        assert!(seen.contains("1: 1 1 1 · 2: 1.0061 1.0061 1.0061"), "{seen}");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::evidence::measure;
 use crate::checks::{Finding, Measure};
 use crate::image::CHANNELS;
 use crate::stats::Band;
-use crate::text::number::{figure, plus_minus};
+use crate::text::number::{apart, figure, plus_minus};
 
 /// Relative error that a comparison forgives on top of an interval: what is forgiven of a radiance, once for what was
 /// measured and once for what a rule predicts from the radiance of another question.
@@ -43,6 +43,12 @@ impl Reading {
 
     pub(crate) fn half_width(&self) -> f64 {
         0.5 * (self.interval[1] - self.interval[0])
+    }
+
+    /// The ratio, with the digits that tell it from 1 where it is not 1: `1.0025`.
+    pub(crate) fn told_from_one(&self) -> String {
+        let [told, _] = apart([self.ratio, 1.0]);
+        if self.admits(1.0) { figure(self.ratio) } else { told }
     }
 
     /// With its uncertainty, and what a rule predicts.

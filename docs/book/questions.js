@@ -12,6 +12,7 @@ const QUESTIONS = [
   ["my renderer is y-down", "conventions.html"],
   ["grade my class", "grading.html"],
   ["make a reference", "references.html"],
+  ["how fast is my BVH", "part-2.html"],
 ];
 
 const book = path.join(__dirname, "../../target/book");

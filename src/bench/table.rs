@@ -113,6 +113,10 @@ fn notes(text: &mut String, subjects: &[Measured]) -> std::fmt::Result {
     if all_equal {
         writeln!(text, "All hits that were compared are equal.")?;
     }
+    writeln!(
+        text,
+        "An interval is of the median: another run's figure lies in it about five times of six, and its interval overlaps."
+    )?;
     Ok(())
 }
 

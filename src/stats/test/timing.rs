@@ -145,6 +145,27 @@ mod tests {
         assert!((945..=995).contains(&spread), "{spread} of 1000");
     }
 
+    /// What the bench says of its intervals: the median of another run has noise of its own.
+    #[test]
+    fn another_run_lies_in_the_interval_five_times_of_six_and_its_own_overlaps() {
+        let mut stream = Seed(8).stream();
+        let mut run = |rounds: usize| {
+            let mut noise = || (0..12).map(|_| uniform(&mut stream)).sum::<f64>() - 6.0;
+            speed_up(&(0..rounds).map(|_| ((0.03 * noise()).exp(), 1.0)).collect::<Vec<_>>())
+        };
+        for (rounds, inside) in [(6, 880..=950), (12, 800..=900)] {
+            let (mut within, mut overlapping) = (0, 0);
+            for _ in 0..1000 {
+                let [first, second] = [run(rounds), run(rounds)];
+                let [low, high] = first.interval;
+                within += u32::from((low..=high).contains(&second.ratio));
+                overlapping += u32::from(low <= second.interval[1] && second.interval[0] <= high);
+            }
+            assert!(inside.contains(&within), "{within} of 1000 medians of {rounds}");
+            assert!(overlapping >= 990, "{overlapping} of 1000 intervals of {rounds}");
+        }
+    }
+
     #[test]
     fn all_of_fifteen_pairs_have_to_agree() {
         let mut pairs = [(4.0, 1.0); 15];

@@ -3,11 +3,11 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-use syn::{Attribute, Expr, ExprLit, Item, Lit, Meta, Visibility};
+use syn::{Attribute, Expr, ExprLit, Item, Lit, Meta, UseTree, Visibility};
 use walkdir::WalkDir;
 
 const HEAD: &str = "\
@@ -104,28 +104,133 @@ fn entry(item: &Item) -> Option<Entry> {
     is_public(visibility).then(|| Entry { kind, name, line: sentence(attributes) })
 }
 
+/// One file of the library.
+#[derive(Default)]
+struct Module {
+    entries: Vec<Entry>,
+    /// Modules below it that anybody may name.
+    open: Vec<String>,
+    /// What it names of other modules, from the root of the crate on; `true` where that is for everybody.
+    uses: Vec<(Vec<String>, bool)>,
+}
+
+type Modules = BTreeMap<Vec<String>, Module>;
+
+impl Module {
+    fn of(path: &[String], items: &[Item]) -> Self {
+        let mut module =
+            Self { entries: items.iter().filter_map(entry).collect(), ..Self::default() };
+        for item in items {
+            match item {
+                Item::Mod(it) if is_public(&it.vis) => module.open.push(it.ident.to_string()),
+                Item::Use(it) => {
+                    let mut named = Vec::new();
+                    name_all(&it.tree, &mut Vec::new(), &mut named);
+                    let resolved = named.into_iter().map(|name| from_root(path, name));
+                    module.uses.extend(resolved.map(|name| (name, is_public(&it.vis))));
+                }
+                _ => {}
+            }
+        }
+        module
+    }
+}
+
+fn name_all(tree: &UseTree, before: &mut Vec<String>, named: &mut Vec<Vec<String>>) {
+    let with = |last: String| before.iter().cloned().chain([last]).collect();
+    match tree {
+        UseTree::Path(it) => {
+            before.push(it.ident.to_string());
+            name_all(&it.tree, before, named);
+            before.pop();
+        }
+        UseTree::Group(it) => it.items.iter().for_each(|tree| name_all(tree, before, named)),
+        UseTree::Name(it) => named.push(with(it.ident.to_string())),
+        UseTree::Rename(it) => named.push(with(it.ident.to_string())),
+        UseTree::Glob(_) => named.push(with("*".to_owned())),
+    }
+}
+
+fn from_root(path: &[String], name: Vec<String>) -> Vec<String> {
+    match name[0].as_str() {
+        "crate" => name[1..].to_vec(),
+        "self" => [path, &name[1..]].concat(),
+        "super" => from_root(&path[..path.len() - 1], [&["self".to_owned()], &name[1..]].concat()),
+        _ => [path, &name].concat(),
+    }
+}
+
+/// The items that a user of the crate can name, each by the module that it stands in.
+fn reachable(modules: &Modules) -> BTreeSet<(Vec<String>, String)> {
+    let (mut found, mut seen, mut open) = (BTreeSet::new(), BTreeSet::new(), vec![Vec::new()]);
+    while let Some(path) = open.pop() {
+        let Some(module) = modules.get(&path).filter(|_| seen.insert(path.clone())) else {
+            continue;
+        };
+        found.extend(module.entries.iter().map(|entry| (path.clone(), entry.name.clone())));
+        open.extend(
+            module.open.iter().map(|name| [&path[..], std::slice::from_ref(name)].concat()),
+        );
+        let mut named: Vec<_> = module
+            .uses
+            .iter()
+            .filter(|(_, public)| *public)
+            .map(|(name, _)| name.clone())
+            .collect();
+        while let Some(name) = named.pop() {
+            let (last, parent) = name.split_last().unwrap();
+            if modules.contains_key(&name) {
+                open.push(name.clone());
+            } else if last == "*" {
+                open.push(parent.to_vec());
+            } else if found.insert((parent.to_vec(), last.clone()))
+                && let Some(parent) = modules.get(parent)
+            {
+                // Handed on from a third module.
+                let handed = parent.uses.iter().filter(|(name, _)| name.last() == Some(last));
+                named.extend(handed.map(|(name, _)| name.clone()));
+            }
+        }
+    }
+    found
+}
+
 /// The public items of each module of the library: files below a folder count as its own.
 fn listed() -> String {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut modules: BTreeMap<String, Vec<Entry>> = BTreeMap::new();
+    let mut modules = Modules::new();
     for file in WalkDir::new(&source).sort_by_file_name() {
         let path = file.unwrap().into_path();
         let label = path.strip_prefix(&source).unwrap().to_string_lossy().replace('\\', "/");
         let Some(label) = label.strip_suffix(".rs") else { continue };
-        let module = label.split('/').next().unwrap().to_owned();
-        // What is written for the command line alone is no library.
-        if ["main", "lib", "cli"].contains(&module.as_str()) {
-            continue;
+        let mut name: Vec<_> = label.split('/').map(str::to_owned).collect();
+        if ["mod", "lib"].contains(&name.last().unwrap().as_str()) {
+            name.pop();
         }
         let items = syn::parse_file(&fs::read_to_string(&path).unwrap()).unwrap().items;
-        modules.entry(module).or_default().extend(items.iter().filter_map(entry));
+        let module = Module::of(&name, &items);
+        modules.insert(name, module);
+    }
+    let reachable = reachable(&modules);
+    let mut rooms: BTreeMap<String, Vec<Entry>> = BTreeMap::new();
+    for (path, module) in modules {
+        let room = path.first().cloned().unwrap_or_default();
+        // What is written for the command line alone is no library.
+        if ["main", "cli"].contains(&room.as_str()) {
+            continue;
+        }
+        let is_reachable = |entry: &Entry| {
+            entry.kind == "macro" || reachable.contains(&(path.clone(), entry.name.clone()))
+        };
+        rooms.entry(room).or_default().extend(module.entries.into_iter().filter(is_reachable));
     }
     let mut text = HEAD.to_owned();
-    for (module, mut entries) in modules.into_iter().filter(|(_, entries)| !entries.is_empty()) {
+    for (room, mut entries) in rooms.into_iter().filter(|(_, entries)| !entries.is_empty()) {
         entries
             .sort_by(|a, b| (a.name.to_lowercase(), a.kind).cmp(&(b.name.to_lowercase(), b.kind)));
-        write!(text, "\n### {module}\n\n| item | what it is |\n|---|---|\n").unwrap();
+        write!(text, "\n### {room}\n\n| item | what it is |\n|---|---|\n").unwrap();
         for Entry { kind, name, line } in entries {
+            assert!(!line.is_empty(), "{kind} {name} of {room} has no line of its own");
             writeln!(text, "| {kind} `{name}` | {line} |").unwrap();
         }
     }

@@ -22,7 +22,7 @@ pub(crate) use next_step::{best_step, next_steps};
 pub(crate) use part::{PARTS, Part, Subject};
 pub(crate) use role::Role;
 pub(crate) use scene_choice::SceneChoice;
-pub(crate) use tier::Tier;
+pub use tier::Tier;
 
 use crate::checks::{CheckKind, Prepared};
 use crate::contract::Capabilities;

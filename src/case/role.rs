@@ -20,6 +20,7 @@ pub enum Role {
     SidewaysWall,
     /// Emission inside glass of index 1.5.
     LightInsideGlass,
+    /// Direct light of a point light on a diffuse plane.
     PointLight,
     /// An area light seen directly, from both sides.
     VisibleLight,
@@ -37,6 +38,7 @@ pub enum Role {
     OpenLightByHemisphere,
     /// An area light behind an occluder that hides a part of it.
     OccludedInPart,
+    /// An area light behind an occluder that hides all of it.
     OccludedInFull,
     /// The variance of one light sample under `open-light`.
     LightSamplingVariance,

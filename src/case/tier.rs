@@ -13,6 +13,7 @@ pub enum Tier {
     Graded,
     /// Where even textbook code goes wrong: shown, and nothing is held against the core.
     Robustness,
+    /// What the contract leaves free, such as noise and time: told, and nothing is held against the core.
     Informational,
 }
 
@@ -25,6 +26,7 @@ impl Tier {
         }
     }
 
+    /// Whether a failure is held against a core.
     pub const fn is_graded(self) -> bool {
         matches!(self, Self::Graded)
     }

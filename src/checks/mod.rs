@@ -35,7 +35,8 @@ pub(crate) use context::{
     CheckError, Context, Layer, Picture, PictureRole, RejectedCell, Result, camera_of,
 };
 pub(crate) use declared::{Declared, check, checks};
-pub(crate) use finding::{Clue, Finding, Measure, number};
+pub(crate) use finding::number;
+pub use finding::{Clue, Finding, Measure};
 
 use crate::contract::Capabilities;
 use crate::text::document::trace;

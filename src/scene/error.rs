@@ -6,16 +6,45 @@ use std::path::Path;
 /// Why a scene cannot be had. Displays with file, line and caret where a file is at fault.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SceneError {
+    /// The file has a mistake.
     #[error("{0}")]
     Wrong(Box<Diagnostic>),
+    /// No file has that name.
     #[error("there is no scene `{name}` in `{folder}`\nhint: {hint}")]
-    NoSuchScene { name: String, folder: String, hint: String },
+    NoSuchScene {
+        /// What was asked for.
+        name: String,
+        /// Where it was looked for.
+        folder: String,
+        /// The nearest names.
+        hint: String,
+    },
+    /// A value is given to a parameter that the scene has not.
     #[error("{problem}{}", hint.as_ref().map_or_else(String::new, |hint| format!("\nhint: {hint}")))]
-    NoSuchParameter { parameter: String, problem: String, hint: Option<String> },
+    NoSuchParameter {
+        /// The parameter's name.
+        parameter: String,
+        /// What is wrong, in a sentence.
+        problem: String,
+        /// The nearest names, or those that there are.
+        hint: Option<String>,
+    },
+    /// A value is not one that the parameter can have.
     #[error("{diagnostic}")]
-    WrongParameter { parameter: String, diagnostic: Box<Diagnostic> },
+    WrongParameter {
+        /// Its name.
+        parameter: String,
+        /// What is wrong with the value.
+        diagnostic: Box<Diagnostic>,
+    },
+    /// The file is there and cannot be read, or is not there.
     #[error("cannot read `{path}`: {problem}")]
-    Unreadable { path: String, problem: String },
+    Unreadable {
+        /// The file's.
+        path: String,
+        /// In the words of the system.
+        problem: String,
+    },
 }
 
 impl SceneError {

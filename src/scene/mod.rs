@@ -20,7 +20,7 @@ pub mod reference;
 mod shape;
 
 pub use camera::Camera;
-pub(crate) use error::SceneError;
+pub use error::SceneError;
 pub use file::Overrides;
 #[cfg(feature = "cli")]
 pub(crate) use file::schema;

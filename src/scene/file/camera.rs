@@ -9,15 +9,21 @@ use std::f64::consts::PI;
 
 tables! {
     pub(super) struct Entry {
+        /// The pinhole.
         position: Vector,
+        /// A point in the middle of the image.
         look_at: Spanned<Vector>,
         /// Upwards in the image; y unless said otherwise.
         up: Option<Direction>,
+        /// From the left edge of the image to the right one.
         horizontal_fov: Spanned<Angle>,
         /// Square pixels unless said otherwise.
         vertical_fov: Option<Spanned<Angle>>,
+        /// Columns and rows of pixels.
         film: [Between<1, 65536>; 2],
+        /// `t_min` of camera rays; 0.001 unless said otherwise.
         near: Option<Positive>,
+        /// `t_max` of camera rays; a million unless said otherwise.
         far: Option<Positive>,
     }
 }
@@ -27,7 +33,7 @@ impl Entry {
         let up = self.up.map_or(DVec3::Y, |up| up.0);
         let target = self.look_at.get_ref().0;
         if (target - self.position.0).cross(up).try_normalize().is_none() {
-            let problem = "invalid camera: `target` equals the position, or lies along `up`";
+            let problem = "invalid camera: `look-at` equals the position, or lies along `up`";
             return Err(context.wrong(self.look_at.span(), problem));
         }
         let horizontal_fov = field_of_view(&self.horizontal_fov, context)?;

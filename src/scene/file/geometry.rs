@@ -17,16 +17,30 @@ pub(super) enum Geometry {
 }
 
 tables! {
-    pub(super) struct Quad { corner: Option<Vector>, centre: Option<Vector>, edges: [Vector; 2] }
-    pub(super) struct Block { min: Vector, max: Vector, #[serde(default)] inward: bool }
+    pub(super) struct Quad {
+        /// Where both edges begin; or `centre`.
+        corner: Option<Vector>,
+        centre: Option<Vector>,
+        /// The normal is their cross product.
+        edges: [Vector; 2],
+    }
+    pub(super) struct Block {
+        min: Vector,
+        max: Vector,
+        /// Whether normals point into it.
+        #[serde(default)] inward: bool,
+    }
     pub(super) struct Triangles {
         positions: Vec<Vector>,
+        /// The vertices of each triangle, counterclockwise where its normal faces the viewer.
         indices: Vec<[u32; 3]>,
+        /// One for each vertex.
         #[serde(default)] normals: Vec<Direction>,
     }
     pub(super) struct SphereTable {
         #[serde(default)] centre: Vector,
         radius: Positive,
+        /// Whether normals point into it.
         #[serde(default)] inward: bool,
     }
     pub(super) struct Icosphere {
@@ -40,7 +54,10 @@ tables! {
         /// Icospheres of so many subdivisions instead of spheres.
         subdivisions: Option<Between<0, 4>>,
     }
-    pub(super) struct Teapot { segments: Between<1, 256> }
+    pub(super) struct Teapot {
+        /// Of each patch along either side.
+        segments: Between<1, 256>,
+    }
     pub(super) struct Soup { triangles: Between<1, 10_000_000>, #[serde(default)] seed: u32 }
     pub(super) struct Pathological {
         layout: Layout,

@@ -7,16 +7,35 @@ use serde::Deserialize;
 
 tables! {
     pub(super) struct Entry {
+        /// Shines from a point equally in all directions.
         point: Option<Point>,
+        /// Shines from infinitely far away.
         directional: Option<Directional>,
+        /// The same radiance from every direction that meets no shape.
         constant_sky: Option<ConstantSky>,
+        /// Radiance from direction w: horizon + (zenith − horizon) · max(0, w · up).
         gradient_sky: Option<GradientSky>,
     }
 
-    struct Point { position: Vector, intensity: Colour }
-    struct Directional { direction: Direction, irradiance: Colour }
+    struct Point {
+        position: Vector,
+        /// Watts per steradian.
+        intensity: Colour,
+    }
+    struct Directional {
+        /// The way the light travels.
+        direction: Direction,
+        /// Watts per square unit on a surface that faces the light.
+        irradiance: Colour,
+    }
     struct ConstantSky { radiance: Colour }
-    struct GradientSky { up: Direction, horizon: Colour, zenith: Colour }
+    struct GradientSky {
+        up: Direction,
+        /// Radiance at and below the horizon.
+        horizon: Colour,
+        /// Radiance straight above.
+        zenith: Colour,
+    }
 }
 
 pub(super) fn resolve_all(

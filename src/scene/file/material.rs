@@ -14,31 +14,55 @@ use std::ops::Range;
 
 tables! {
     pub(super) struct Entry {
+        /// f = reflectance/π.
         diffuse: Option<Reflectance>,
+        /// Reflects about the normal: the share that is reflected, the same at every angle.
         mirror: Option<Reflectance>,
+        /// A smooth interface: outside, on the side of the normal, is vacuum.
         glass: Option<Glass>,
+        /// Single scattering from GGX microfacets.
         conductor: Option<Conductor>,
+        /// GGX microfacets that are smooth interfaces each.
         rough_glass: Option<RoughGlass>,
+        /// Radiance that the surface emits, on the side of its normal.
         emission: Option<Colour>,
+        /// The part of a sphere that emits; all of it unless said otherwise.
         cap: Option<Spanned<CapEntry>>,
     }
 
     struct Glass {
+        /// Index of refraction inside.
         index: Positive,
+        /// Multiplies the Fresnel reflectance; 1 unless said otherwise.
         reflectance: Option<Reflectance>,
+        /// Multiplies the Fresnel transmittance; 1 unless said otherwise.
         transmittance: Option<Reflectance>,
     }
 
-    struct Conductor { reflectance: Reflectance, roughness: Roughness }
+    struct Conductor {
+        /// Of a single microfacet, the same at every angle.
+        reflectance: Reflectance,
+        /// The width parameter α of the distribution.
+        roughness: Roughness,
+    }
 
     struct RoughGlass {
+        /// Index of refraction inside.
         index: Bending,
+        /// The width parameter α of the distribution.
         roughness: Roughness,
+        /// Multiplies the Fresnel reflectance; 1 unless said otherwise.
         reflectance: Option<Reflectance>,
+        /// Multiplies the Fresnel transmittance; 1 unless said otherwise.
         transmittance: Option<Reflectance>,
     }
 
-    struct CapEntry { axis: Direction, half_angle: Angle }
+    struct CapEntry {
+        /// From the centre of the sphere to the middle of the cap.
+        axis: Direction,
+        /// From the axis to the edge of the cap.
+        half_angle: Angle,
+    }
 }
 
 /// The materials of a file, numbered by the alphabet, and which of them were asked for.

@@ -62,9 +62,12 @@ tables! {
         #[serde(rename = "title")] _title: String,
         /// Where the scene, or the number it is known by, comes from.
         #[serde(rename = "source")] _source: String,
+        /// What images are rendered with.
         camera: Option<camera::Entry>,
+        /// Each with a name of its own.
         #[serde(default)] material: BTreeMap<String, Spanned<material::Entry>>,
         #[serde(default)] shape: Vec<Spanned<shape::Entry>>,
+        /// The lights that are not shapes.
         #[serde(default)] light: Vec<Spanned<light::Entry>>,
     }
 }

@@ -16,23 +16,33 @@ use std::ops::Range;
 
 tables! {
     pub(super) struct Entry {
+        /// What messages call it; no other shape has it.
         name: Spanned<String>,
+        /// The name of a material of this file.
         material: Spanned<String>,
         transform: Option<Spanned<Transform>>,
         shading: Option<Spanned<Shading>>,
 
+        /// A parallelogram. Of this key and those below a shape has one.
         quad: Option<Spanned<Quad>>,
+        /// Its six faces.
         r#box: Option<Spanned<Block>>,
         triangles: Option<Spanned<Triangles>>,
+        /// A Wavefront file, named relative to the scene.
         obj: Option<Spanned<String>>,
+        /// A PLY file, named relative to the scene.
         ply: Option<Spanned<String>>,
+        /// An STL file, named relative to the scene.
         stl: Option<Spanned<String>>,
         sphere: Option<SphereTable>,
+        /// A sphere of triangles.
         icosphere: Option<Icosphere>,
         bumpy_sphere: Option<BumpySphere>,
         sphereflake: Option<Sphereflake>,
         teapot: Option<Teapot>,
+        /// Random triangles.
         soup: Option<Soup>,
+        /// Triangles that BVHs find difficult.
         pathological: Option<Pathological>,
     }
 

@@ -233,18 +233,35 @@ fn faults(subject: &str) -> Vec<(String, String)> {
     let path = root().join(format!("src/cores/textbook/fault/{subject}.rs"));
     let text = fs::read_to_string(path).unwrap_or_default();
     let row = Regex::new(r#"\n    "([a-z0-9-]+)":\s+"([^"]+)",\s+fails"#).unwrap();
-    row.captures_iter(&text).map(|found| (found[1].to_owned(), found[2].to_owned())).collect()
+    // A text that goes on in the next line.
+    let broken = Regex::new(r"\\\n\s*").unwrap();
+    let told = |text: &str| broken.replace_all(text, "").into_owned();
+    row.captures_iter(&text).map(|found| (found[1].to_owned(), told(&found[2]))).collect()
 }
 
-/// A page that includes each decision, so that the book has them where links look for them.
+const DECISIONS: &str = "\
+# Decisions
+
+What is dear to undo has a page: what was chosen, what was not, and the measurement behind it. The newest is the last. A page is not rewritten when the world moves on; a later one says
+what has replaced it.
+";
+
+/// A page that includes each decision, so that the book has them where links look for them, and their list.
 fn decisions() -> Vec<(String, String)> {
     let folder = root().join("docs/decisions");
-    let pages = pages_below(&folder);
+    let files = pages_below(&folder);
+    let row = |path: &PathBuf| {
+        let (text, name) = (read(path), below(path, &folder));
+        let title = text.lines().next().unwrap_or_default().trim_start_matches("# ");
+        format!("- [{title}](decisions/{name})\n")
+    };
+    let rows: String = files.iter().map(row).collect();
+    let list = ("decisions.md".to_owned(), format!("{DECISIONS}\n{rows}"));
     let page = |path: PathBuf| {
         let name = below(&path, &folder);
         (format!("decisions/{name}"), format!("{{{{#include ../../../decisions/{name}}}}}\n"))
     };
-    pages.into_iter().map(page).collect()
+    files.into_iter().map(page).chain([list]).collect()
 }
 
 fn capitalised(text: &str) -> String {

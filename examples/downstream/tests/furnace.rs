@@ -1,3 +1,5 @@
+//! Each case is a test.
+
 mod adapter;
 
 fn main() -> std::process::ExitCode {

@@ -25,6 +25,8 @@ use std::collections::BTreeMap;
 
 /// Sets for a look in passing.
 const IN_PASSING: u32 = 8;
+/// Sets of two faults, which a test run can afford.
+const IN_A_TEST_RUN: [u32; 2] = [102, 192];
 
 fn matrix() -> Matrix {
     let project = Project::at(env!("CARGO_MANIFEST_DIR"));
@@ -128,6 +130,16 @@ fn audit(matrix: &Matrix, sets: impl Iterator<Item = (u32, Vec<&'static Fault>)>
     }
     audit.print();
     audit
+}
+
+#[test]
+fn of_two_sets_something_is_named_and_nothing_that_is_not_there() {
+    let matrix = matrix().of_telling_cases();
+    let audit =
+        audit(&matrix, IN_A_TEST_RUN.map(|number| (number, draw(&matrix, number))).into_iter());
+    assert!(audit.told("named", true) > 0);
+    assert_eq!(audit.told("named", false), 0);
+    assert_eq!(audit.judged, audit.askable);
 }
 
 #[test]

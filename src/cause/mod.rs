@@ -77,11 +77,13 @@ pub(crate) fn is_vague(cause: &Cause) -> bool {
     *cause == bvh::HITS_LOST
 }
 
-/// Whether the second is no mistake of its own where the first is made: what is lost by it, or t_max that stays as it is
-/// where hits do not shorten it.
+/// Whether the second is no mistake of its own where the first is made: what is lost by it, t_max that stays as it is
+/// where hits do not shorten it, or a length of fixed size where a threshold is one.
 pub(crate) fn brings_along(cause: &Cause, other: &Cause) -> bool {
     let loses = is_of_bvh(cause) && !is_vague(cause) && is_vague(other);
-    loses || *cause == bvh::HIT_OVERWRITTEN && *other == bvh::SEGMENT_NOT_SHORTENED
+    loses
+        || *cause == bvh::HIT_OVERWRITTEN && *other == bvh::SEGMENT_NOT_SHORTENED
+        || *cause == shape::DETERMINANT_THRESHOLD && *other == integrator::FIXED_LENGTH
 }
 
 /// Whether the cause says what form an answer has not, and not what gave it that.

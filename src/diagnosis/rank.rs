@@ -188,6 +188,13 @@ impl Ranked {
         told.filter(|headline| !headline.cause.is_empty())
     }
 
+    /// Causes that are sure are named.
+    pub(super) fn assure(&mut self, is_sure: impl Fn(&Headline) -> bool) {
+        for headline in self.causes.iter_mut().filter(|headline| is_sure(headline)) {
+            headline.degree = Degree::Named;
+        }
+    }
+
     /// Causes that are not sure become what it looks like.
     pub(super) fn doubt(&mut self, is_doubtful: impl Fn(&Headline) -> bool) {
         for headline in self.causes.iter_mut().filter(|headline| is_doubtful(headline)) {
@@ -222,6 +229,15 @@ impl Ranked {
             let brought: Vec<_> = brought.chain(beside).collect();
             if let Some(told) = self.causes.iter_mut().find(|one| one.cause == told.cause) {
                 told.may_follow.extend(brought.into_iter().flat_map(|one| one.explains));
+            }
+        }
+        // What a likeness may bring is no surer than it is.
+        let unsure: Vec<_> = self.causes.iter().filter(|one| !one.is_sure()).cloned().collect();
+        for other in self.causes.iter_mut().chain(&mut self.beside) {
+            if !of(other).is_some_and(cause::is_vague)
+                && unsure.iter().any(|one| brings(one, other))
+            {
+                other.degree = other.degree.min(Degree::LooksLike);
             }
         }
         self
@@ -784,6 +800,21 @@ mod tests {
             assert_eq!(only.cause, bvh::HIT_OVERWRITTEN.name);
             assert_eq!(only.may_follow, ["bvh/b"]);
         }
+    }
+
+    #[test]
+    fn what_a_likeness_may_bring_along_is_no_surer() {
+        let hit_overwritten =
+            |other| failing("a").because(&bvh::HIT_OVERWRITTEN, "x").because(other, "z");
+        let made = Made::new()
+            .with("bvh/a", hit_overwritten(&bvh::BOX_OF_CENTROIDS))
+            .with("bvh/b", hit_overwritten(&bvh::RANGE_OVERWRITTEN))
+            .with("bvh/c", failing("c").because(&bvh::SEGMENT_NOT_SHORTENED, "y"));
+        let diagnosis = diagnose(&made.evidence());
+        let told: Vec<_> = diagnosis.headlines.iter().map(|h| (&h.cause[..], h.degree)).collect();
+        let likeness = |cause: &crate::cause::Cause| (cause.name, Degree::LooksLike);
+        let expected = [&bvh::HIT_OVERWRITTEN, &bvh::SEGMENT_NOT_SHORTENED].map(likeness);
+        assert_eq!(told, expected);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::Observation;
 use crate::checks::{Finding, Measure};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Of the numbers that are wrong in one core or the other, so many have to agree.
 const MOST: f64 = 0.95;
@@ -104,22 +104,40 @@ fn errs_alike(a: &Measure, b: &Measure) -> bool {
 fn errs_as_much(a: &Measure, b: &Measure) -> bool {
     let error = (a.measured - a.expected).abs().max((b.measured - b.expected).abs());
     let are_light = a.channel.is_some() && b.channel.is_some();
-    let share = match (are_light, a.interval.or(b.interval)) {
-        (true, None) => EXACTLY,
-        (true, Some(_)) => NEARLY,
-        (false, _) => ALIKE,
-    };
-    a.meets(b, share * error)
+    a.meets(b, share(are_light, a.interval.or(b.interval).is_some()) * error)
 }
 
-/// How many wrong numbers of these cases tell something that the others do not: those off by another factor.
-pub(super) fn apart(cases: &[&Observation<'_>]) -> i32 {
+/// By how much of itself an error of the same mistake may differ.
+fn share(is_light: bool, is_noisy: bool) -> f64 {
+    match (is_light, is_noisy) {
+        (true, false) => EXACTLY,
+        (true, true) => NEARLY,
+        (false, _) => ALIKE,
+    }
+}
+
+/// The chance that a mistake which is not made comes to the numbers of these cases all the same. Each number that is off by
+/// another factor tells something that the others do not: as much as its error is known to.
+pub(super) fn by_chance(cases: &[&Observation<'_>]) -> f64 {
     let measures = cases.iter().filter_map(|seen| seen.finding).flat_map(|found| &found.measures);
     let wrong = measures.filter(|measure| measure.failed() && !measure.is_degenerate());
     let scale = |measure: &Measure| if measure.expected == 0.0 { 1.0 } else { measure.expected };
     let class =
         |measure: &Measure| ((measure.measured / scale(measure)).abs().ln() / ALIKE).round() as i64;
-    wrong.map(class).collect::<BTreeSet<_>>().len() as i32
+    let mut chances: BTreeMap<i64, f64> = BTreeMap::new();
+    for measure in wrong {
+        let of_class = chances.entry(class(measure)).or_insert(1.0);
+        *of_class = of_class.min(chance_of(measure));
+    }
+    chances.values().product()
+}
+
+/// The part of what an error might be that counts as the same.
+fn chance_of(measure: &Measure) -> f64 {
+    let is_light = measure.channel.is_some();
+    let width = measure.interval.map_or(0.0, |[low, high]| high - low);
+    let error = (measure.measured - measure.expected).abs();
+    share(is_light, measure.interval.is_some()) + width / error
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ mod likeness;
 mod siblings;
 
 use self::composition::Seen;
-use self::likeness::{ALIKE, Likeness, apart, likeness};
+use self::likeness::{Likeness, by_chance, likeness};
 use super::rank::Ranked;
 use super::{Degree, Evidence, Headline, Observation, Suspicion, look_without};
 use crate::case::Subject;
@@ -205,8 +205,14 @@ impl<'a> Proof<'a> {
         let against: BTreeSet<_> =
             told.with_cause().filter(is_against).map(|one| one.cause.clone()).collect();
         let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
+        let is_alone = |one: &&Headline| self.is_the_only_one_in_sight(one, &told);
+        let alone: BTreeSet<_> =
+            told.with_cause().filter(is_alone).map(|one| one.cause.clone()).collect();
+        told.assure(|headline| alone.contains(&headline.cause));
         told.doubt(|headline| {
-            let is_proven = causes.contains(&headline.cause[..]) || self.is_needed(headline);
+            let is_proven = causes.contains(&headline.cause[..])
+                || alone.contains(&headline.cause)
+                || self.is_needed(headline);
             let is_unsure = || self.is_dark_alone(headline) || self.is_of_another_size(headline);
             let is_doubtful = self.is_made_elsewhere(headline) || against.contains(&headline.cause);
             is_doubtful || !is_proven && is_unsure()
@@ -457,14 +463,14 @@ impl<'a> Proof<'a> {
 
     /// Mistakes that reproduce these cases alone, or all that is told does, with one more or without; or sets that foretell
     /// them, or pairs, or one that does it nearly.
-    fn reproducing(&self, failing: &[String], told: &[Mistake]) -> Vec<Suspicion> {
-        let cases = self.quickest(failing);
+    fn reproducing(&self, names: &[String], told: &[Mistake]) -> Vec<Suspicion> {
+        let cases = self.quickest(names);
         if cases.is_empty() {
             return Vec::new();
         }
         let mistakes = self.in_sight();
         let alone: Vec<_> = mistakes.iter().map(|mistake| vec![*mistake]).collect();
-        let mut found = self.of_sets(&alone, &cases);
+        let mut found = self.of_sets(&alone, &cases, names);
         if found.is_empty() {
             found = self.of_all(told, &cases);
         }
@@ -477,7 +483,7 @@ impl<'a> Proof<'a> {
         if !found.is_empty() {
             return found;
         }
-        let failing = failing.iter().filter_map(|case| self.evidence.failure_of(case));
+        let failing = names.iter().filter_map(|case| self.evidence.failure_of(case));
         let many = quickest(failing, PROVING);
         let is_new = |told: &&Mistake| mistakes.iter().all(|other| other.cause != told.cause);
         let pool =
@@ -485,7 +491,7 @@ impl<'a> Proof<'a> {
         let likely = self.foretelling(&pool, &cases);
         found = self.composed(&likely, &many, |size| pool.len().saturating_pow(size as u32));
         if found.is_empty() {
-            found = self.of_sets(&pairs(&others), &cases);
+            found = self.of_sets(&pairs(&others), &cases, names);
         }
         if found.is_empty() {
             // A core may do what the bench has a component for in the midst of a higher one.
@@ -493,7 +499,7 @@ impl<'a> Proof<'a> {
                 |components| !self.made_in.may_be(components) && !self.made_in.leaves(components);
             let elsewhere = self.failing_alike(|mistake| is_below(mistake.components));
             let elsewhere: Vec<_> = elsewhere.into_iter().map(|mistake| vec![mistake]).collect();
-            found = self.of_sets(&elsewhere, &cases);
+            found = self.of_sets(&elsewhere, &cases, names);
         }
         if found.is_empty() {
             found = self.nearly_reproducing(&[alone, likely].concat(), &many);
@@ -541,7 +547,7 @@ impl<'a> Proof<'a> {
         if told.len() < 2 || cases.is_empty() {
             return Vec::new();
         }
-        let found = self.of_sets(&[told.to_vec()], cases);
+        let found = self.of_sets(&[told.to_vec()], cases, &[]);
         self.where_needed(found, told, cases)
     }
 
@@ -610,11 +616,23 @@ impl<'a> Proof<'a> {
         self.where_needed(found.unwrap_or_default(), set, cases)
     }
 
-    /// The suspicions of those sets that reproduce every case; none where too many do.
-    fn of_sets(&self, sets: &[Vec<Mistake>], cases: &[&Observation<'a>]) -> Vec<Suspicion> {
+    /// The suspicions of those sets that reproduce every case; none where too many do. What fails its own case among those
+    /// that `failed` is thought of first, and has only its like beside it.
+    fn of_sets(
+        &self,
+        sets: &[Vec<Mistake>],
+        cases: &[&Observation<'a>],
+        failed: &[String],
+    ) -> Vec<Suspicion> {
+        let fails_its_own = |mistake: &Mistake| failed.iter().any(|c| c == mistake.caught_by);
+        let is_first = |set: &[Mistake]| set.iter().all(fails_its_own);
         let fitting = self.fitting(sets, cases);
         let kinds = kinds(fitting);
-        let degree = degree(kinds.len(), sets.len(), cases);
+        let tried = match kinds.iter().all(|set| is_first(set)) {
+            true => sets.iter().filter(|set| is_first(set)).count(),
+            false => sets.len(),
+        };
+        let degree = degree(kinds.len(), tried, cases);
         degree.map_or_else(Vec::new, |degree| {
             kinds.into_iter().flat_map(|set| suspicions(set, cases, degree)).collect()
         })
@@ -770,7 +788,7 @@ fn kinds(sets: Vec<&Vec<Mistake>>) -> Vec<&Vec<Mistake>> {
 
 /// How sure it is that one of so many `fitting` kinds, of so many that were tried, is there; not at all where too many fit.
 fn degree(fitting: usize, tried: usize, cases: &[&Observation<'_>]) -> Option<Degree> {
-    let by_chance = tried as f64 * ALIKE.powi(apart(cases));
+    let by_chance = tried as f64 * by_chance(cases);
     let is_clear = by_chance < BY_CHANCE;
     let degree = Degree::of_one_among(if is_clear { fitting } else { 2 });
     (fitting <= 2 && by_chance <= 1.0).then_some(degree)
@@ -1208,6 +1226,29 @@ mod tests {
         };
         assert_eq!(of(1.0), "");
         assert_eq!(of(0.0), light::DIVIDED_BY_LIGHTS.name, "dark there too");
+    }
+
+    #[test]
+    fn the_only_mistake_in_sight_that_darkens_its_own_case_is_named() {
+        let dark = || light(0.0).because(&light::DIVIDED_BY_LIGHTS, "nothing arrives");
+        let lit = |count: usize| {
+            let cases = ["light/c", "light/d", "light/e", "light/f"].into_iter().take(count);
+            cases.fold(Made::new().with("light/b", dark()), |made, case| made.with(case, passing()))
+        };
+        let of_one: &[(&[&str], _, _)] = &[(&["divided"], "light/b", 0.0)];
+        let of_both: &[(&[&str], _, _)] = &[of_one[0], (&["again"], "light/b", 0.0)];
+        let degree = |lit_beside, mistakes: &[Mistake], gives| {
+            let planted = Bench { mistakes, gives };
+            told(&diagnose_proven(&lit(lit_beside).evidence(), &planted))[0].1
+        };
+        assert_eq!(degree(4, &[DIVIDED], of_one), Degree::Named);
+        assert_eq!(
+            degree(4, &[DIVIDED, AGAIN], of_one),
+            Degree::Named,
+            "the other changes nothing"
+        );
+        assert_eq!(degree(4, &[DIVIDED, AGAIN], of_both), Degree::LooksLike);
+        assert_eq!(degree(1, &[DIVIDED], of_one), Degree::LooksLike, "who knows what else is dark");
     }
 
     #[test]

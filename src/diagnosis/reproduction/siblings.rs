@@ -2,7 +2,7 @@
 //! explains them; where it fails what the core passes, or fails it otherwise, something else is wrong.
 
 use super::likeness::{Likeness, likeness};
-use super::{CASES, Proof, Refuted, is_of_one_part, quickest, refuted};
+use super::{CASES, Mistake, Proof, Refuted, is_of_one_part, likenesses, quickest, refuted};
 use crate::cause;
 use crate::checks::Finding;
 use crate::contract::Components;
@@ -17,6 +17,8 @@ const PASSED: usize = 6;
 /// A cause is not told if so many times more speaks against it than for it, and no less than this many cases.
 const OUTNUMBERED: usize = 2;
 const LEAST_AGAINST: usize = 2;
+/// So many cases of its part that the core passes speak for a mistake that passes them too.
+const AGREEING: usize = 4;
 /// What looks like a cause and explains one of so many failures of its part says little.
 const CROWD: usize = 5;
 
@@ -29,11 +31,18 @@ struct Siblings {
     against: usize,
     /// How many it fails in the same places, by another size.
     of_another_size: usize,
+    /// How many it passes as the core does.
+    agreeing: usize,
     /// How many there was no time for.
     unasked: usize,
 }
 
 impl Siblings {
+    /// Whether nothing speaks against a cause, and enough was asked to say so.
+    fn stand_by(&self) -> bool {
+        self.against + self.of_another_size == 0 && self.agreeing >= AGREEING
+    }
+
     fn doubt(&self, headline: &Headline) -> bool {
         self.against + self.of_another_size > headline.explains.len() + self.same.len()
     }
@@ -55,7 +64,7 @@ impl Proof<'_> {
     /// Causes that nothing beside their own cases was asked of, though there is something.
     pub(super) fn unproven_beside(&self, ranked: &Ranked) -> Refuted {
         let is_unproven = |headline: &&Headline| {
-            let Siblings { same, against, of_another_size, unasked } =
+            let Siblings { same, against, of_another_size, unasked, .. } =
                 self.siblings(headline, ranked);
             let is_unasked = same.is_empty() && against + of_another_size == 0 && unasked > 0;
             // More cases than one mistake is tried on are proof enough.
@@ -78,6 +87,33 @@ impl Proof<'_> {
     /// Whether more of its part speaks against a cause than for it.
     pub(super) fn is_outnumbered(&self, headline: &Headline, ranked: &Ranked) -> bool {
         !self.is_needed(headline) && self.siblings(headline, ranked).doubt(headline)
+    }
+
+    /// Whether its mistake alone, of all whose own cases fail, gives what its cases show, and leaves right what was asked
+    /// beside them: what else failed its own case would be seen there, too.
+    pub(super) fn is_the_only_one_in_sight(&self, headline: &Headline, ranked: &Ranked) -> bool {
+        let cases = self.quickest(&headline.explains);
+        let sets = self.in_sight().into_iter().map(|mistake| vec![mistake]);
+        let (own, others): (Vec<_>, Vec<_>) =
+            sets.partition(|set| set[0].cause.name == headline.cause);
+        let fails_its_own =
+            |set: &Vec<Mistake>| headline.explains.iter().any(|case| case == set[0].caught_by);
+        own.iter().any(fails_its_own)
+            && self.is_given_by_some(own, &cases)
+            && !self.is_given_by_some(others, &cases)
+            && self.siblings(headline, ranked).stand_by()
+    }
+
+    /// Whether one of `sets` gives all that `cases` show; a first look leaves few of them for a second.
+    fn is_given_by_some(&self, sets: Vec<Vec<Mistake>>, cases: &[&Observation<'_>]) -> bool {
+        let at_first = likenesses(cases, &self.glimpsed(&sets, cases));
+        let may_give = |(_, of_set): &(_, Vec<Likeness>)| {
+            of_set.iter().all(|likeness| likeness.may_be_reproduced())
+        };
+        let left = sets.into_iter().zip(at_first).filter(may_give);
+        let left: Vec<_> = left.map(|(set, _)| set).collect();
+        let gives = |of_set: Vec<Likeness>| of_set.into_iter().all(Likeness::is_reproduced);
+        !cases.is_empty() && self.compare(&left, cases).into_iter().any(gives)
     }
 
     /// Whether something that its mistake is built upon is wrong by itself, for a reason that is not told.
@@ -153,6 +189,8 @@ impl Proof<'_> {
                 found.against += 1;
             } else if of_sets.iter().all(|one| likeness(seen.finding, one) == Likeness::Alike) {
                 found.of_another_size += 1;
+            } else if !seen.has_failed() {
+                found.agreeing += 1;
             }
         }
         found

@@ -3,6 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+use regex_lite::Regex;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
@@ -52,7 +53,8 @@ Cases, scenes and references are read where the crate was built; `FURNACE_HOME` 
 
 ## Every public item
 
-`cargo doc --open` has the rest of each; vectors are those of `furnace::glam`.
+`cargo doc --open` has the rest of each; vectors are those of `furnace::glam`. What `furnace_core.h` has is in `contract::abi` once
+more, and not repeated here.
 ";
 
 /// A public item, as it is listed.
@@ -76,6 +78,10 @@ fn sentence(attributes: &[Attribute]) -> String {
         _ => None,
     };
     let lines: Vec<_> = attributes.iter().filter_map(text).collect();
+    first_sentence(&lines.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+fn first_sentence(lines: &[&str]) -> String {
     let paragraph: Vec<_> =
         lines.iter().map(|line| line.trim()).take_while(|l| !l.is_empty()).collect();
     let paragraph = paragraph.join(" ");
@@ -102,6 +108,27 @@ fn entry(item: &Item) -> Option<Entry> {
         _ => return None,
     };
     is_public(visibility).then(|| Entry { kind, name, line: sentence(attributes) })
+}
+
+/// What stands in the braces of a macro, with its docs: no item for who reads the file.
+fn in_macros(source: &str) -> Vec<Entry> {
+    let docs = r"((?:[ \t]+///[^\n]*\n)+)";
+    let attributes = r"(?:[ \t]+(?:#\[|\$\(#)[^\n]*\n)*";
+    let item = r"[ \t]+pub (struct|enum|static) ([A-Za-z_]+)";
+    let entry = Regex::new(&format!("{docs}{attributes}{item}")).unwrap();
+    let told = |docs: &str| {
+        let lines: Vec<_> = docs.lines().map(|line| line.trim().trim_start_matches('/')).collect();
+        first_sentence(&lines)
+    };
+    let kind = |word: &str| match word {
+        "struct" => "struct",
+        "enum" => "enum",
+        _ => "static",
+    };
+    let found = entry.captures_iter(source);
+    found
+        .map(|it| Entry { kind: kind(&it[2]), name: it[3].to_owned(), line: told(&it[1]) })
+        .collect()
 }
 
 /// One file of the library.
@@ -207,8 +234,9 @@ fn listed() -> String {
         if ["mod", "lib"].contains(&name.last().unwrap().as_str()) {
             name.pop();
         }
-        let items = syn::parse_file(&fs::read_to_string(&path).unwrap()).unwrap().items;
-        let module = Module::of(&name, &items);
+        let source = fs::read_to_string(&path).unwrap().replace("\r\n", "\n");
+        let mut module = Module::of(&name, &syn::parse_file(&source).unwrap().items);
+        module.entries.extend(in_macros(&source));
         modules.insert(name, module);
     }
     let reachable = reachable(&modules);

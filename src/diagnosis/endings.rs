@@ -12,6 +12,8 @@ use std::collections::BTreeMap;
 struct Kind<'a> {
     /// `signal 11`, without what differs from case to case.
     how: &'a str,
+    /// What such a signal means, where that is known: `memory that is not its own`.
+    meaning: &'a str,
     /// As the core's header spells it.
     request: String,
     is_timeout: bool,
@@ -23,8 +25,9 @@ impl<'a> Kind<'a> {
             Ending::Crashed { how, during } => (how, during, false),
             Ending::TimedOut { during } => ("no answer in time", during, true),
         };
-        let how = how.split(['(', ';', ':']).next().unwrap_or(how).trim();
-        Self { how, request: function(during), is_timeout }
+        let (how, meaning) =
+            (how.split(['(', ';', ':']).next().unwrap_or(how).trim(), meaning(how));
+        Self { how, meaning, request: function(during), is_timeout }
     }
 
     /// Where nobody watches the stack, a segmentation fault may be an overflow: in some scenes it is, where others are built.
@@ -36,9 +39,21 @@ impl<'a> Kind<'a> {
     fn mistake(&self) -> String {
         match self.is_timeout {
             true => format!("the core does not answer `{}` in time", self.request),
-            false => format!("the core crashes in `{}`: {}", self.request, self.how),
+            false if self.meaning.is_empty() => {
+                format!("the core crashes in `{}`: {}", self.request, self.how)
+            }
+            false => {
+                format!("the core crashes in `{}`: {} ({})", self.request, self.meaning, self.how)
+            }
         }
     }
+}
+
+/// Behind a signal's name: `signal 11 (SIGSEGV: memory that is not its own)`.
+fn meaning(how: &str) -> &str {
+    let inside = how.split_once('(').and_then(|(_, rest)| rest.split_once(')'));
+    let told = inside.and_then(|(inside, _)| inside.split_once(": "));
+    told.filter(|(name, _)| name.starts_with("SIG")).map_or("", |(_, meaning)| meaning)
 }
 
 /// The function of a request, which may be followed by where in it: `intersect, ray 3 of 100`.
@@ -159,7 +174,10 @@ mod tests {
         assert_eq!(causes(&diagnosis), ["", "", bsdf::WITHOUT_PI.name]);
         let first = &diagnosis.headlines[0];
         assert_eq!(first.explains, ["bvh/b", "light/c"]);
-        assert_eq!(first.mistake, "the core crashes in `intersect`: signal 11");
+        assert_eq!(
+            first.mistake,
+            "the core crashes in `intersect`: memory that is not its own (signal 11)"
+        );
         assert_eq!((first.degree, first.is_ending), (Degree::DiffersHere, true));
         assert!(first.fix.starts_with("`furnace debug bvh/b` with the"), "{}", first.fix);
         assert_eq!(diagnosis.first(), Some(&bsdf::WITHOUT_PI));

@@ -11,7 +11,7 @@ use glam::DVec3;
 use serde::Deserialize;
 
 /// Squares one behind the other, each of so many cells along a side.
-const LAYERS: u32 = 64;
+pub(super) const LAYERS: u32 = 64;
 
 const CELLS: u32 = 4;
 

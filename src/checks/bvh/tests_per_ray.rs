@@ -1,7 +1,7 @@
 //! Triangles tested a ray where an arrangement shows what a BVH does wrong, against a plain BVH. Counts,
 //! which no clock and no machine can change.
 
-use super::arrangement::{Arrangement, TRIANGLES, View, across_long_boxes, through_layers};
+use super::arrangement::{Arrangement, LAYERS, TRIANGLES, View, across_long_boxes, through_layers};
 use super::question::scene_of;
 use super::reference::{ReferenceBvh, SLACK, Walk};
 use crate::cause::{Cause, bvh};
@@ -70,6 +70,8 @@ struct Tried {
     unsorted: f64,
     /// The same of rays that end just behind what they hit first, in the core and in a plain BVH.
     ending: Option<[f64; 2]>,
+    /// The same of rays that are no longer than from before the middle layer to behind it.
+    within: Option<[f64; 2]>,
 }
 
 impl View {
@@ -89,14 +91,17 @@ impl View {
             Ok(stats.primitive_tests as f64 / rays.len() as f64)
         };
         let tests = tests_of(&self.rays)?;
-        let ending = match arrangement {
-            Arrangement::LongBoxes => None,
-            Arrangement::Layers => {
-                let rays = ending_at_first_hits(&bvh, &self.rays);
-                Some([tests_of(&rays)?, bvh.tests_per_ray(&rays, Walk::Ordered)])
-            }
+        let mut beside_plain = |rays: &[Ray]| -> Result<_, CheckError> {
+            Ok(Some([tests_of(rays)?, bvh.tests_per_ray(rays, Walk::Ordered)]))
         };
-        Ok(Tried { name: self.name, tests, plain, unshortened, unsorted, ending })
+        let [ending, within] = match arrangement {
+            Arrangement::LongBoxes => [None; 2],
+            Arrangement::Layers => [
+                beside_plain(&ending_at_first_hits(&bvh, &self.rays))?,
+                beside_plain(&within_the_middle(&bvh, &self.rays))?,
+            ],
+        };
+        Ok(Tried { name: self.name, tests, plain, unshortened, unsorted, ending, within })
     }
 }
 
@@ -105,6 +110,18 @@ fn ending_at_first_hits(bvh: &ReferenceBvh, rays: &[Ray]) -> Vec<Ray> {
     let first = |ray: &Ray| bvh.walk(ray, Walk::Ordered).nearest;
     let ending = |ray: &Ray| Some(Ray { t_max: first(ray)?.0 + 0.5, ..*ray });
     rays.iter().filter_map(ending).collect()
+}
+
+/// The rays that hit, each from halfway before the middle layer to halfway behind it. Where leaves have layers of anywhere,
+/// few of them reach as far as the first.
+fn within_the_middle(bvh: &ReferenceBvh, rays: &[Ray]) -> Vec<Ray> {
+    let piece = |ray: &Ray| {
+        let to_next = 1.0 / ray.direction.z.abs();
+        let first = bvh.walk(ray, Walk::Ordered).nearest?.0;
+        let t_min = first + (f64::from(LAYERS / 2) - 0.5) * to_next;
+        Some(Ray { t_min, t_max: t_min + to_next, ..*ray })
+    };
+    rays.iter().filter_map(piece).collect()
 }
 
 impl Tried {
@@ -122,9 +139,10 @@ impl Tried {
         self.tests <= OTHER_LEAVES * self.unshortened
     }
 
-    /// Whether nodes lie across the layers, however they are walked: even rays that end at the first meet many.
+    /// Whether nodes lie across the layers, however they are walked: even rays that meet one layer alone test many.
     fn mixes_layers(&self) -> bool {
-        self.ending.is_some_and(|[tests, plain]| tests > SLACK * plain)
+        let mut of_one_layer = [self.ending, self.within].into_iter().flatten();
+        of_one_layer.any(|[tests, plain]| tests > SLACK * plain)
     }
 
     fn measure(&self) -> Measure {
@@ -202,6 +220,7 @@ mod tests {
     use super::super::fake::{FakeCore, Slip};
     use super::*;
     use crate::checks::testing::{assert_passes, causes, check_of, judge};
+    use crate::math::rng::Seed;
 
     fn found(arrangement: &str, slip: Slip) -> Finding {
         let text = format!("[expect]\narrangement = \"{arrangement}\"\nrays = 200");
@@ -237,15 +256,41 @@ mod tests {
 
     #[test]
     fn nodes_that_divide_nothing_are_not_the_walk() {
-        let told = |ending: [f64; 2]| {
+        let told = |ending: [f64; 2], within: [f64; 2]| {
             let check = layers_from_each_side();
-            let tried = ["from below", "from above"]
-                .map(|name| Tried { ending: Some(ending), ..tried(name, 260.0, 4.0) });
+            let [ending, within] = [Some(ending), Some(within)];
+            let tried = ["from below", "from above"].map(|name| Tried {
+                ending,
+                within,
+                ..tried(name, 260.0, 4.0)
+            });
             let finding = check.judge(&tried);
             (finding.failed(), finding.clues.first().map(|clue| clue.cause.clone()))
         };
-        assert_eq!(told([4.0, 4.0]), (true, Some("t-max-not-shortened".to_owned())));
-        assert_eq!(told([240.0, 4.0]), (true, None));
+        let not_shortened = || Some("t-max-not-shortened".to_owned());
+        assert_eq!(told([4.0, 4.0], [4.0, 4.0]), (true, not_shortened()));
+        assert_eq!(told([240.0, 4.0], [4.0, 4.0]), (true, None));
+        assert_eq!(told([4.0, 4.0], [70.0, 4.0]), (true, None));
+    }
+
+    #[test]
+    fn leaves_with_layers_of_anywhere_are_seen_from_the_middle_alone() {
+        let mut mesh = layers();
+        let of_one = mesh.indices.len() / LAYERS as usize;
+        let shuffled = (0..LAYERS as usize).map(|layer| 27 * layer % LAYERS as usize);
+        let in_columns =
+            (0..of_one).flat_map(|place| shuffled.clone().map(move |layer| layer * of_one + place));
+        mesh.indices = in_columns.map(|number| mesh.indices[number]).collect();
+        let [plain, mixed] = [ReferenceBvh::new(&mesh), ReferenceBvh::unsorted(&mesh)];
+        for view in through_layers(200, Seed(1)) {
+            let is_slow = |rays: &[Ray]| {
+                let [tests, due] =
+                    [&mixed, &plain].map(|bvh| bvh.tests_per_ray(rays, Walk::Ordered));
+                tests > SLACK * due
+            };
+            assert!(!is_slow(&ending_at_first_hits(&plain, &view.rays)), "{}", view.name);
+            assert!(is_slow(&within_the_middle(&plain, &view.rays)), "{}", view.name);
+        }
     }
 
     fn layers_from_each_side() -> TestsPerRay {
@@ -253,7 +298,15 @@ mod tests {
     }
 
     fn tried(name: &'static str, tests: f64, plain: f64) -> Tried {
-        Tried { name, tests, plain, unshortened: 256.0, unsorted: 256.0, ending: None }
+        Tried {
+            name,
+            tests,
+            plain,
+            unshortened: 256.0,
+            unsorted: 256.0,
+            ending: None,
+            within: None,
+        }
     }
 
     #[test]

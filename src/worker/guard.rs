@@ -81,14 +81,17 @@ impl Guard {
     pub(crate) fn watch(self: &Arc<Self>) -> Watch {
         let guard = Arc::clone(self);
         let (sender, receiver) = mpsc::channel();
-        let is_program = self.spec.origin.may_start_processes();
-        let tick = if is_program { TICK_OF_PROGRAMS } else { TICK };
+        let tick = self.tick();
         thread::spawn(move || {
             while receiver.recv_timeout(tick) == Err(mpsc::RecvTimeoutError::Timeout) {
                 guard.look();
             }
         });
         Watch(sender)
+    }
+
+    fn tick(&self) -> Duration {
+        if self.spec.origin.may_start_processes() { TICK_OF_PROGRAMS } else { TICK }
     }
 
     /// It is asked a question that it may think about for so long.
@@ -107,26 +110,11 @@ impl Guard {
             return;
         }
         let usage = usage(&state.child, &self.spec);
-        Self::charge(&mut state, usage);
+        charge(&mut state, usage, self.tick());
         let Some(sentence) = self.judge(&state) else { return };
         state.sentence = Some(sentence);
         kill(&mut state.child);
         (self.hang_up)();
-    }
-
-    /// Charges the time since the last look, if the bench waits. To a worker that would compute,
-    /// only as much as it was given: a machine that is busy with something else makes nobody late.
-    fn charge(state: &mut State, usage: Usage) {
-        let (seen, before) = std::mem::replace(&mut state.seen, (Instant::now(), usage));
-        if state.asked.is_some() {
-            let passed = seen.elapsed();
-            let computed = usage.computed.saturating_sub(before.computed);
-            let is_idle = !before.would_compute && !usage.would_compute && computed.is_zero();
-            let charged = if is_idle { passed } else { passed.min(computed) };
-            state.charged += charged;
-            state.thought += charged;
-            state.waited += passed;
-        }
     }
 
     fn judge(&self, state: &State) -> Option<Sentence> {
@@ -225,6 +213,22 @@ fn is_about_memory(printed: &str) -> bool {
     words.iter().any(|word| printed.contains(word))
 }
 
+/// Charges the time since the last look, if the bench waits. To a worker that would compute, only as much as it was given:
+/// a machine that is busy with something else makes nobody late. To one that does nothing, no more than a look takes:
+/// where looks come late, so does whoever reads what it may have answered.
+fn charge(state: &mut State, usage: Usage, tick: Duration) {
+    let (seen, before) = std::mem::replace(&mut state.seen, (Instant::now(), usage));
+    if state.asked.is_some() {
+        let passed = seen.elapsed();
+        let computed = usage.computed.saturating_sub(before.computed);
+        let is_idle = !before.would_compute && !usage.would_compute && computed.is_zero();
+        let charged = passed.min(if is_idle { 2 * tick } else { computed });
+        state.charged += charged;
+        state.thought += charged;
+        state.waited += passed;
+    }
+}
+
 #[cfg(unix)]
 use unix::{bury, death, has_ended, kill};
 
@@ -309,5 +313,37 @@ mod elsewhere {
             Some(code) => format!("exit code {code} without an answer"),
             None => "it ended in an unknown way".to_owned(),
         }
+    }
+}
+
+#[cfg(test)]
+#[cfg(unix)]
+mod tests {
+    use super::*;
+    use std::process::Command;
+
+    #[test]
+    fn a_look_that_comes_late_charges_an_idle_worker_no_more_than_one_in_time() {
+        let five = Duration::from_secs(5);
+        let mut state = State {
+            child: Command::new("sleep").arg("10").spawn().unwrap(),
+            asked: Some(five),
+            thought: Duration::ZERO,
+            charged: Duration::ZERO,
+            waited: Duration::ZERO,
+            seen: (Instant::now().checked_sub(five).unwrap(), Usage::default()),
+            sentence: None,
+            status: None,
+        };
+        charge(&mut state, Usage::default(), TICK);
+        assert_eq!((state.thought, state.charged), (2 * TICK, 2 * TICK));
+        assert!(state.waited >= five);
+        // What it computes is its own, however late the look.
+        state.seen.0 = Instant::now().checked_sub(five).unwrap();
+        let computed = Duration::from_secs(1);
+        charge(&mut state, Usage { computed, ..Usage::default() }, TICK);
+        assert_eq!(state.thought, 2 * TICK + computed);
+        state.child.kill().unwrap();
+        state.child.wait().unwrap();
     }
 }

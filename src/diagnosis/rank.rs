@@ -232,11 +232,14 @@ impl Ranked {
             }
         }
         // What a likeness may bring is no surer than it is.
-        let unsure: Vec<_> = self.causes.iter().filter(|one| !one.is_sure()).cloned().collect();
+        let likenesses = self.causes.iter().filter(|one| one.degree == Degree::LooksLike);
+        let likenesses: Vec<_> = likenesses.cloned().collect();
+        let may_be_brought = |other: &Headline| {
+            !of(other).is_some_and(cause::is_vague)
+                && likenesses.iter().any(|one| brings(one, other))
+        };
         for other in self.causes.iter_mut().chain(&mut self.beside) {
-            if !of(other).is_some_and(cause::is_vague)
-                && unsure.iter().any(|one| brings(one, other))
-            {
+            if may_be_brought(other) {
                 other.degree = other.degree.min(Degree::LooksLike);
             }
         }
@@ -307,22 +310,20 @@ impl Ranked {
             let calls = format!(
                 "where the core calls its {component}: what it hands over and what it does with the answer"
             );
-            match own.intersects(Components::TRIANGLE_TEST | Components::SPHERE_TEST) {
+            let is_shape = own.intersects(Components::TRIANGLE_TEST | Components::SPHERE_TEST);
+            let (others, look_at) = match is_shape {
                 true => (
-                    format!(
-                        "the core's {component} passes its own cases, and what rests on it does not"
-                    ),
+                    "rests on it",
                     format!(
                         "what its cases do not ask, its any-hit function and what it writes on a miss, and {calls}"
                     ),
                 ),
-                false => (
-                    format!(
-                        "the core's {component} passes its own cases, and what calls it does not"
-                    ),
-                    calls,
-                ),
-            }
+                false => ("calls it", calls),
+            };
+            (
+                format!("the core's {component} passes its own cases, and what {others} does not"),
+                look_at,
+            )
         } else {
             (format!("what differs is the core's {component}"), String::new())
         };
@@ -789,16 +790,22 @@ mod tests {
 
     #[test]
     fn a_mistake_that_another_brings_along_is_not_told_beside_it() {
-        let made = || {
-            Made::new()
-                .with("bvh/a", failing("a").because(&bvh::HIT_OVERWRITTEN, "x"))
-                .with("bvh/b", failing("b").because(&bvh::SEGMENT_NOT_SHORTENED, "y"))
-        };
-        for made in [made(), made().beside_the_grade("bvh/b")] {
-            let diagnosis = diagnose(&made.evidence());
-            let [only] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
-            assert_eq!(only.cause, bvh::HIT_OVERWRITTEN.name);
-            assert_eq!(only.may_follow, ["bvh/b"]);
+        let pairs = [
+            (&bvh::HIT_OVERWRITTEN, &bvh::SEGMENT_NOT_SHORTENED),
+            (&shape::DETERMINANT_THRESHOLD, &integrator::FIXED_LENGTH),
+        ];
+        for (cause, brought) in pairs {
+            let made = || {
+                Made::new()
+                    .with("bvh/a", failing("a").because(cause, "x"))
+                    .with("bvh/b", failing("b").because(brought, "y"))
+            };
+            for made in [made(), made().beside_the_grade("bvh/b")] {
+                let diagnosis = diagnose(&made.evidence());
+                let [only] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
+                assert_eq!(only.cause, cause.name);
+                assert_eq!(only.may_follow, ["bvh/b"]);
+            }
         }
     }
 

@@ -214,8 +214,8 @@ fn is_about_memory(printed: &str) -> bool {
 }
 
 /// Charges the time since the last look, if the bench waits. To a worker that would compute, only as much as it was given:
-/// a machine that is busy with something else makes nobody late. To one that does nothing, no more than a look takes:
-/// where looks come late, so does whoever reads what it may have answered.
+/// a machine that is busy with something else makes nobody late. To one that does nothing, no more than until the next look
+/// but one was due: where looks come later, so does whoever reads what it may have answered.
 fn charge(state: &mut State, usage: Usage, tick: Duration) {
     let (seen, before) = std::mem::replace(&mut state.seen, (Instant::now(), usage));
     if state.asked.is_some() {
@@ -323,7 +323,7 @@ mod tests {
     use std::process::Command;
 
     #[test]
-    fn a_look_that_comes_late_charges_an_idle_worker_no_more_than_one_in_time() {
+    fn a_look_that_comes_late_charges_an_idle_worker_two_looks_at_most() {
         let five = Duration::from_secs(5);
         let mut state = State {
             child: Command::new("sleep").arg("10").spawn().unwrap(),

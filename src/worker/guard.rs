@@ -34,7 +34,7 @@ struct State {
     asked: Option<Duration>,
     /// The time that is charged to it for that question.
     thought: Duration,
-    /// The time that is charged to it; see [`Guard::charge`].
+    /// The time that is charged to it; see [`charge`].
     charged: Duration,
     /// The time that the bench has waited for it.
     waited: Duration,

@@ -21,7 +21,7 @@ use structures::RULES;
 /// Brute force is timed on so many rays in a criterion pass that it tests about this many triangles.
 const BRUTE_FORCE_TESTS: usize = 4_000_000;
 /// Of each structure in the table.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 9;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -115,7 +115,7 @@ fn notes(text: &mut String, subjects: &[Measured]) -> std::fmt::Result {
     }
     writeln!(
         text,
-        "An interval is of the median: another run's figure lies in it about three times of four, and its interval overlaps nearly always."
+        "Another run's figure lies in the interval 19 times of 20, if the machine is as busy then."
     )?;
     Ok(())
 }

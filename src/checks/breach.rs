@@ -11,18 +11,18 @@ pub(crate) fn failure(breach: &Breach) -> Finding {
     Finding::failure(statement).because_each(cause_of(breach), &breach.to_string())
 }
 
-/// The same with what the check found once directions were made unit. What is wrong then as well is behind the breach:
+/// The same with what the check found once it was mended. What is wrong then as well is behind the breach:
 /// weights that are another corner's give normals that are not unit, and to normalise them mends nothing.
 pub(crate) fn failure_beside(breach: &Breach, mended: Result<Finding, CheckError>) -> Finding {
-    let alone = failure(breach);
+    let (alone, mend) = (failure(breach), breach.mend().unwrap_or_default());
     match mended {
         Ok(found) if found.failed() => {
-            let statement = format!("{}; made unit, {}", alone.statement, found.statement);
+            let statement = format!("{}; {mend}, {}", alone.statement, found.statement);
             let not_enough = cause_of(breach).map(|cause| cause.name.to_owned());
             Finding { statement, not_enough, ..found }
         }
         Ok(found) if found.verdict == Verdict::Pass => {
-            let evidence = format!("{breach}; made unit, everything else is right");
+            let evidence = format!("{breach}; {mend}, everything else is right");
             Finding { clues: Vec::new(), ..alone }.because_each(cause_of(breach), &evidence)
         }
         _ => alone,

@@ -27,9 +27,9 @@ pub(crate) struct BenchArguments {
     /// here.
     #[arg(long, value_name = "DIR")]
     scenes: Option<PathBuf>,
-    /// How often each structure is built and timed, with as many again where it was noisy. Of fewer than 6 there is no
+    /// How often each structure is built and timed, with as many again where it was noisy. Of fewer than 9 there is no
     /// interval.
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(1..))]
     rounds: u16,
     #[command(flatten)]
     hosting: HostingArguments,

@@ -104,9 +104,19 @@ impl Breach {
         Self { place: Place::Element { what: what.into(), index, of }, ..self }
     }
 
-    /// Whether what was meant is clear: a direction that is not unit points somewhere.
+    /// Whether what was meant is clear: a direction that is not unit points somewhere, and a mean can be taken of pixels
+    /// some of which are negative.
     pub(crate) const fn can_be_mended(&self) -> bool {
-        matches!(self.kind, BreachKind::NotUnit(length) if length > 0.0)
+        self.mend().is_some()
+    }
+
+    /// What is done to mend it, in words.
+    pub(crate) const fn mend(&self) -> Option<&'static str> {
+        match (&self.kind, &self.place) {
+            (BreachKind::NotUnit(length), _) if *length > 0.0 => Some("made unit"),
+            (BreachKind::Negative(_), Place::Pixel { .. }) => Some("taken as it is"),
+            _ => None,
+        }
     }
 
     /// The same with what was asked for its element in this request.

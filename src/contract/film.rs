@@ -1,6 +1,6 @@
 //! A picture: what it holds, and what form it has to have.
 
-use super::answer::{Answer, Asked, Fill, Form, colour, each, holds, touched};
+use super::answer::{Answer, Asked, Fill, Form, Unformed, colour, each, holds, touched};
 use super::crossing::{Part, Sent, Value, Wanted};
 use super::{Breach, BreachKind, Capabilities, CoreError, Place, Result};
 
@@ -71,7 +71,7 @@ impl Answer for Film {
                 self.sample_counts.len(),
             )));
         }
-        each_pixel(&self.pixels, width, "pixel", "radiance")?;
+        each_pixel(&self.pixels, width, "pixel", "radiance", asked.unformed)?;
         each(&self.sample_counts, "sample count", |count| touched("it", *count))?;
         if !reports(asked.capabilities) {
             self.variances.clear();
@@ -81,7 +81,7 @@ impl Answer for Film {
                 "the picture has {found} variances of {count} pixels"
             )));
         }
-        each_pixel(&self.variances, width, "variance of pixel", "it")
+        each_pixel(&self.variances, width, "variance of pixel", "it", Unformed::Refused)
     }
 
     fn sent(&self, _: &'static str, can: Capabilities) -> Vec<Sent<'_>> {
@@ -107,17 +107,21 @@ fn reports(capabilities: Capabilities) -> bool {
     capabilities.contains(Capabilities::REPORTED_VARIANCE)
 }
 
-/// Whether every value of the pixels of a film is written, finite and not negative.
+/// Whether every value of the pixels of a film is written, finite and not negative; whoever mends takes negative ones as
+/// they are.
 fn each_pixel(
     values: &[[f32; 3]],
     width: usize,
     what: &'static str,
     field: &'static str,
+    unformed: Unformed,
 ) -> Result<()> {
     values.iter().enumerate().try_for_each(|(index, value)| {
         let place = || Place::Pixel { what: what.into(), x: index % width, y: index / width };
-        let breach = |breach| CoreError::from(Breach { place: place(), ..breach });
-        valid_pixel(field, *value).map_err(breach)
+        let Err(breach) = valid_pixel(field, *value) else { return Ok(()) };
+        let breach = Breach { place: place(), ..breach };
+        let is_taken = unformed == Unformed::Mended && breach.can_be_mended();
+        if is_taken { Ok(()) } else { Err(breach.into()) }
     })
 }
 

@@ -127,18 +127,22 @@ impl<'a> Schedule<'a> {
     }
 }
 
-/// What others are blocked by if this trial ended so. A renderer that dies on its way says nothing of its random numbers,
-/// on which all rests that is judged by a mean.
+/// What others are blocked by if this trial ended so.
 fn blocker(trial: &Trial, outcome: &Outcome) -> Option<String> {
-    match outcome {
-        Outcome::Blocked { by } => Some(by.clone()),
-        Outcome::Crashed { .. } | Outcome::TimedOut { .. }
-            if trial.case.proves == [Foundation::Seeds] =>
-        {
-            None
-        }
-        _ => outcome.status().is_failure().then(|| trial.case.id.clone()),
+    if let Outcome::Blocked { by } = outcome {
+        return Some(by.clone());
     }
+    let is_broken = match trial.case.proves == [Foundation::Seeds] {
+        true => has_bad_numbers(outcome),
+        false => outcome.status().is_failure(),
+    };
+    is_broken.then(|| trial.case.id.clone())
+}
+
+/// Whether the random numbers were measured, and failed. A renderer that dies on its way, or whose picture has not the
+/// contract's form, says nothing of them, and all that is judged by a mean rests on them.
+fn has_bad_numbers(outcome: &Outcome) -> bool {
+    outcome.finding().is_some_and(|finding| finding.failed_measures().next().is_some())
 }
 
 /// For each trial what it rests on, with the numbers of the trials of the same core that prove it.
@@ -180,6 +184,7 @@ pub(crate) fn of_case(bench: &Bench, case: &Case) -> BTreeSet<Foundation> {
 mod tests {
     use super::*;
     use crate::case;
+    use crate::checks::{Finding, Measure};
     use crate::project::Project;
     use crate::run::Request;
     use crate::stats::Budget;
@@ -255,16 +260,26 @@ mod tests {
     }
 
     #[test]
-    fn a_crash_on_the_way_to_the_noise_blocks_nothing() {
+    fn numbers_block_where_they_were_measured_not_where_something_failed_on_the_way() {
         const SEEDS: &str = "integrator/seeds-and-pixels-have-different-noise";
         let plan = plan(&[SEEDS, FURNACE]);
-        let schedule = schedule(&plan);
-        let mut tried = 0;
-        while let Some(Next::Try(number)) = schedule.next() {
-            schedule.ended(number, &outcome(plan.trials[number].case.id == SEEDS));
-            tried += 1;
-        }
-        assert_eq!(tried, 2);
+        let nothing = outcome(false);
+        let tried_after = |seeds: &Outcome| {
+            let schedule = schedule(&plan);
+            let mut tried = 0;
+            while let Some(Next::Try(number)) = schedule.next() {
+                let is_proof = plan.trials[number].case.id == SEEDS;
+                schedule.ended(number, if is_proof { seeds } else { &nothing });
+                tried += 1;
+            }
+            tried
+        };
+        let negative = Finding::failure("a pixel is negative");
+        let repeated = Measure::none("pictures that an earlier seed has given", 31);
+        let of_seeds = Finding::of("the noise is not independent", "", vec![repeated]);
+        assert_eq!(tried_after(&outcome(true)), 2);
+        assert_eq!(tried_after(&Outcome::Judged { finding: negative }), 2);
+        assert_eq!(tried_after(&Outcome::Judged { finding: of_seeds }), 1);
     }
 
     #[test]

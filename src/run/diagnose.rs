@@ -77,7 +77,7 @@ fn observation(trial: &TrialRecord) -> Observation<'_> {
         role: trial.role,
         is_specular: trial.scene.as_ref().is_some_and(|scene| scene.is_specular),
         rests_on: of_the_core(&trial.rests_on, trial.with),
-        proves: &trial.proves,
+        proves: proven(&trial.proves, &trial.outcome),
         standing,
         ending: ending(&trial.outcome),
         finding: trial.outcome.finding(),
@@ -91,6 +91,12 @@ fn observation(trial: &TrialRecord) -> Observation<'_> {
 fn of_the_core(rests_on: &[Foundation], with: Components) -> Vec<Foundation> {
     let is_own = |foundation: &Foundation| !with.contains(foundation.components());
     rests_on.iter().copied().filter(is_own).collect()
+}
+
+/// What a case proves by how it ended: nothing, where it failed for something else.
+fn proven<'a>(proves: &'a [Foundation], outcome: &Outcome) -> &'a [Foundation] {
+    let fails_otherwise = outcome.status().is_failure() && !outcome.breaks(proves);
+    if fails_otherwise { &[] } else { proves }
 }
 
 fn ending(outcome: &Outcome) -> Option<Ending<'_>> {
@@ -111,11 +117,19 @@ fn unknown(trial: &TrialRecord) -> Standing {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::checks::Finding;
 
     #[test]
     fn nothing_follows_from_what_was_taken_from_the_bench() {
         let (hits, seeds) = (Foundation::Hits, Foundation::Seeds);
         assert_eq!(of_the_core(&[seeds, hits], Components::empty()), [seeds, hits]);
         assert_eq!(of_the_core(&[seeds, hits], hits.components()), [seeds]);
+    }
+
+    #[test]
+    fn nothing_follows_from_a_negative_pixel_in_the_case_of_the_random_numbers() {
+        let negative = Outcome::Judged { finding: Finding::failure("a pixel is negative") };
+        assert_eq!(proven(&[Foundation::Seeds], &negative), []);
+        assert_eq!(proven(&[Foundation::Camera], &negative), [Foundation::Camera]);
     }
 }

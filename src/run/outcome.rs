@@ -1,5 +1,6 @@
 //! How a trial ended. Absence of evidence is never success: each way of not being judged has its own name.
 
+use crate::case::Foundation;
 use crate::checks::{CheckError, Finding, breach};
 use crate::contract::{Capabilities, CoreError, numbers_of};
 use crate::stats::Verdict;
@@ -160,6 +161,18 @@ impl Outcome {
             Self::Crashed { how, during } => format!("the core crashed ({how}) during {during}"),
             Self::TimedOut { limit, during } => format!("no answer in {limit} s during {during}"),
             Self::Broken { why } => why.clone(),
+        }
+    }
+
+    /// Whether a case that proves these foundations found them broken. A renderer that dies on its way, or whose picture has
+    /// not the contract's form, says nothing of its random numbers, and all that is judged by a mean rests on them: they
+    /// have to be measured.
+    pub(super) fn breaks(&self, proven: &[Foundation]) -> bool {
+        match proven {
+            [Foundation::Seeds] => {
+                self.finding().is_some_and(|finding| finding.failed_measures().next().is_some())
+            }
+            _ => self.status().is_failure(),
         }
     }
 

@@ -129,20 +129,10 @@ impl<'a> Schedule<'a> {
 
 /// What others are blocked by if this trial ended so.
 fn blocker(trial: &Trial, outcome: &Outcome) -> Option<String> {
-    if let Outcome::Blocked { by } = outcome {
-        return Some(by.clone());
+    match outcome {
+        Outcome::Blocked { by } => Some(by.clone()),
+        _ => outcome.breaks(&trial.case.proves).then(|| trial.case.id.clone()),
     }
-    let is_broken = match trial.case.proves == [Foundation::Seeds] {
-        true => has_bad_numbers(outcome),
-        false => outcome.status().is_failure(),
-    };
-    is_broken.then(|| trial.case.id.clone())
-}
-
-/// Whether the random numbers were measured, and failed. A renderer that dies on its way, or whose picture has not the
-/// contract's form, says nothing of them, and all that is judged by a mean rests on them.
-fn has_bad_numbers(outcome: &Outcome) -> bool {
-    outcome.finding().is_some_and(|finding| finding.failed_measures().next().is_some())
 }
 
 /// For each trial what it rests on, with the numbers of the trials of the same core that prove it.

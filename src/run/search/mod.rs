@@ -7,26 +7,31 @@
 //!
 //! Not here: what is broken inside a component, which is what the cases of that component tell (`diagnosis`).
 
-use super::attempt::run_with;
+mod again;
+
 use super::bench::Bench;
 use super::event::Event;
-use super::outcome::Status;
 use super::plan::Plan;
-use super::purse::{LONGEST_TRIAL, Purse, price};
+use super::purse::Purse;
 use super::record::{CoreRecord, Transplanted, Transplants, TrialRecord};
 use crate::case::asked_about;
 use crate::contract::{Capabilities, Components};
-use crate::stats::{Allowance, Budget};
+use again::Again;
+pub(in crate::run) use again::without_patience;
 use std::cmp::Reverse;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// How much the search may ask one core, as a share of what its trials did: who waits for a wrong core waits little
 /// longer.
-const SHARE: f64 = 0.5;
-/// What the search takes for one failing case, in times of its trial in the run: twelve components are halved four
-/// times, and each is looked at alone and with the others; each trial is shorter, but on components that cross a
-/// boundary.
-const COST: u64 = 6;
+const SHARE: f64 = 0.75;
+/// What the search takes for one failing case, in times of its trial: twelve components are halved four times, and each is
+/// looked at alone, with those below it, with all that was found, and closely.
+const COST: u64 = 9;
+/// What of the purse is for that; the rest is for cases that are only tried with what was found for others.
+const HALF: u64 = 2;
+/// A component that mends none of so many cases that ask about it mends hardly any alone.
+const FEW: usize = 4;
 
 /// Tries the failing cases of a core again. None where nothing failed, or the core takes nothing.
 pub(crate) fn search(
@@ -39,64 +44,18 @@ pub(crate) fn search(
     let of_core = records.iter().filter(|record| record.core == core.spec);
     let ended: Vec<_> =
         of_core.filter_map(|record| Some((plan.trial_of(record)?, record))).collect();
+    let purse = Purse::of_share(SHARE, ended.iter().map(|(_, record)| *record));
     // What is only informational stays the core's own affair.
-    let mut failing: Vec<_> = ended.iter().filter(|(_, record)| record.fails_the_core()).collect();
-    if failing.is_empty() || core.components.is_empty() {
+    let failing = ended.iter().filter(|(_, record)| record.fails_the_core()).copied();
+    let again = Again::new(failing.collect(), purse, plan.jobs(), bench);
+    if again.failing.is_empty() || core.components.is_empty() {
         return None;
     }
-    // Should there be too little for all, it is for the longest.
-    failing.sort_by_key(|(_, record)| price(record));
-    let purse = Purse::of_share(SHARE, ended.iter().map(|(_, record)| *record));
-    let affordable = |cases: &[usize]| {
-        affordable(cases.iter().map(|number| price(failing[*number].1)), purse.left())
-    };
-    let is_as_sharp = bench.allowance.budget == Budget::Quick;
-    let allowance = Allowance { stops_at_failure: true, ..Budget::Quick.into() };
-    let bench = Bench { allowance, ..without_patience(bench) };
-    let try_again = |number: usize, with: Components| {
-        let (trial, record) = failing[number];
-        let ended = run_with(&bench, trial, record.with | with).record;
-        // Of silence it cannot be told what would have come of waiting longer, where there was none before.
-        let was_silent = record.outcome.status() == Status::TimedOut;
-        let passes = match ended.outcome.status() {
-            Status::TimedOut if !was_silent => None,
-            // With these it cannot be asked.
-            Status::Skipped | Status::Blocked | Status::Broken => None,
-            ended => Some(ended == Status::Pass),
-        };
-        (passes, price(&ended))
-    };
-    let passes = |number: usize, with: Components| match failing[number].1.with.contains(with) {
-        // So it was tried in the run.
-        true => (Some(false), 0),
-        false => try_again(number, with),
-    };
-    type Answer = (Option<bool>, u64);
-    let each = |cases: &[usize], answer: &(dyn Fn(usize) -> Answer + Sync)| {
-        sorted(purse.pay_each(plan.jobs(), cases.len(), &|place| {
-            let (passes, price) = answer(cases[place]);
-            ((cases[place], passes), price)
-        }))
-    };
-    let mut tried = |with: Components, cases: &[usize]| each(cases, &|number| passes(number, with));
     events(Event::Transplanting { core: &core.spec });
-    // What died or hung may hang again, for longer than others take: it comes last.
-    let is_judged = |number: &usize| failing[*number].1.outcome.finding().is_some();
-    let (mut judged_first, ended_last): (Vec<_>, Vec<_>) = (0..failing.len()).partition(is_judged);
-    // A small error that only a larger budget sees would pass here whatever is taken, and prove nothing.
-    if !is_as_sharp {
-        judged_first =
-            each(&judged_first, &|number| try_again(number, Components::empty())).failing;
-    }
-    let failures = Failures {
-        turns: [judged_first, ended_last],
-        asks: &|number| asked_about(&failing[number].0.case),
-        affordable: &affordable,
-    };
-    let found = smallest(core.components, &failures, &mut tried);
+    let found = found(core.components, &again);
     let judged =
         |one: Components| ended.iter().filter(|(_, record)| record.with.contains(one)).count();
-    let name = |number: &usize| failing[*number].1.case.clone();
+    let name = |number: &usize| again.failing[*number].1.case.clone();
     let of = |part: Mending| Transplanted {
         component: part.component,
         alone: part.alone,
@@ -106,34 +65,56 @@ pub(crate) fn search(
     };
     // Where the bench traverses, the core counts nothing.
     let can_be_mended = |number: &&usize| {
-        let (trial, _) = failing[**number];
+        let (trial, _) = again.failing[**number];
         !trial.case.prepared.needs().contains(Capabilities::TRAVERSAL_STATS)
     };
     let unmended = found.unmended.iter().filter(can_be_mended);
     Some(Transplants {
-        failures: failing.len(),
-        components: found.set.into_iter().map(of).collect(),
-        mended: found.mended,
+        failures: again.failing.len(),
+        mended: found.mended(),
+        untried: again.failing.len() - found.mended() - found.unmended.len(),
         unmended: unmended.map(name).collect(),
-        untried: failing.len() - found.mended - found.unmended.len(),
+        components: found.set.into_iter().map(of).collect(),
     })
 }
 
-/// The bench for trials with transplants: it knows nothing of the silences of a core without them.
-pub(super) fn without_patience(bench: &Bench) -> Bench {
-    let mut hosting = bench.hosting.clone().patient();
-    hosting.limits.seconds =
-        hosting.limits.seconds.map(|seconds| seconds.min(LONGEST_TRIAL as f64));
-    Bench { hosting, ..bench.clone() }
+/// The set that mends what fails. What fails at a glance is looked at so until it passes: the same purse goes further. At the
+/// end all of it is looked at closely, as far as there is time; what fails then needs something else, too, and is searched
+/// for again.
+fn found(takes: Components, again: &Again<'_>) -> Found {
+    // What died or hung may hang again, for longer than others take: it comes last.
+    let is_judged = |number: &usize| again.failing[*number].1.outcome.finding().is_some();
+    let (judged_first, ended_last): (Vec<_>, Vec<_>) =
+        (0..again.failing.len()).partition(is_judged);
+    let failures = Failures {
+        turns: [again.failing_still(judged_first), ended_last],
+        asks: &|number| asked_about(&again.failing[number].0.case),
+        affordable: &|cases| {
+            let prices: Vec<_> = cases.iter().map(|number| again.price(*number)).collect();
+            affordable(&prices, again.purse.left())
+        },
+    };
+    let mut closely = BTreeSet::new();
+    loop {
+        let mut look = |with: Components, cases: &[usize]| again.tried(with, cases, &closely);
+        let mut found = smallest(takes, &failures, &mut look);
+        let all = found.cases().collect();
+        let spoiled = found.without_spoiled(&mut |with, cases| again.tried(with, cases, &all));
+        let before = closely.len();
+        closely.extend(spoiled);
+        if closely.len() == before || again.purse.left() == 0 {
+            return found;
+        }
+    }
 }
 
-/// How many cases of such prices, the cheapest first, can be searched with what is left: one at least.
-fn affordable(prices: impl Iterator<Item = u64>, left: u64) -> usize {
-    let costs = prices.scan(0, |sum, price| {
+/// How many cases of such prices, the cheapest first, can be searched with half of what is left: one at least.
+fn affordable(prices: &[u64], left: u64) -> usize {
+    let costs = prices.iter().scan(0, |sum, price| {
         *sum += COST * price;
         Some(*sum)
     });
-    costs.take_while(|cost| *cost <= left).count().max(1)
+    costs.take_while(|cost| *cost <= left / HALF).count().max(1)
 }
 
 /// What came of trying some cases; those that could not be paid are in neither.
@@ -146,20 +127,10 @@ struct Tried {
 /// Tries cases with these components.
 type Try<'a> = &'a mut dyn FnMut(Components, &[usize]) -> Tried;
 
-/// What passes of `cases`, and what fails, as told by their numbers.
-fn sorted(tried: Vec<(usize, Option<bool>)>) -> Tried {
-    let of = |wanted: bool| {
-        let tried = tried.iter().filter(|(_, passes)| *passes == Some(wanted));
-        tried.map(|(case, _)| *case).collect()
-    };
-    Tried { passing: of(true), failing: of(false) }
-}
-
 /// What the search comes to; failing cases by their numbers.
 #[derive(Debug, PartialEq)]
 struct Found {
     set: Vec<Mending>,
-    mended: usize,
     unmended: Vec<usize>,
 }
 
@@ -176,17 +147,37 @@ struct Mending {
 impl Found {
     /// Cases that there was no time to halve, tried with what was found for others: each belongs to the highest component
     /// that it needs.
-    fn try_on(&mut self, mut cases: Vec<usize>, try_cases: Try<'_>) {
+    fn try_on(&mut self, cases: &[usize], try_cases: Try<'_>) {
         self.set.sort_by_key(|part| part.component.bits());
-        let mut with = Components::empty();
-        for part in &mut self.set {
-            with |= part.component;
-            let Tried { passing, failing } = try_cases(with, &cases);
-            part.alone += if with == part.component { passing.len() } else { 0 };
-            self.mended += passing.len();
-            part.together.extend(passing);
-            cases = failing;
+        let order: Vec<_> = self.set.iter().map(|part| part.component).collect();
+        let passing = try_cases(order.iter().copied().collect(), cases).passing;
+        let mut highest = Vec::new();
+        halve(&order, 0..order.len(), passing, try_cases, &mut highest);
+        for (place, cases) in highest {
+            let part = &mut self.set[place];
+            part.alone += if place == 0 { cases.len() } else { 0 };
+            part.together.extend(cases);
         }
+    }
+
+    /// What passes with the whole set.
+    fn cases(&self) -> impl Iterator<Item = usize> + '_ {
+        self.set.iter().flat_map(|part| &part.together).copied()
+    }
+
+    fn mended(&self) -> usize {
+        self.cases().count()
+    }
+
+    /// Leaves out the cases that fail with the whole set when `prove` looks, and answers them.
+    fn without_spoiled(&mut self, prove: Try<'_>) -> Vec<usize> {
+        let set = self.set.iter().map(|part| part.component).collect();
+        let spoiled = prove(set, &Vec::from_iter(self.cases())).failing;
+        for part in &mut self.set {
+            part.together.retain(|case| !spoiled.contains(case));
+            part.alone = part.alone.min(part.together.len());
+        }
+        spoiled
     }
 }
 
@@ -236,9 +227,8 @@ fn smallest(takes: Components, failures: &Failures<'_>, try_cases: Try<'_>) -> F
     }
     let found = without_needless(found, try_cases);
     let set = beside | found.iter().map(|of| of.component).collect();
-    let mut found = Found { set: together(set, &found, try_cases), mended: 0, unmended };
-    found.mended = found.set.iter().map(|part| part.together.len()).sum();
-    found.try_on(late, try_cases);
+    let mut found = Found { set: together(set, &found, try_cases), unmended };
+    found.try_on(&late, try_cases);
     found.set.sort_by_key(|part| Reverse(part.together.len()));
     found
 }
@@ -292,7 +282,11 @@ fn of_what_they_ask(
     for (place, component) in order.iter().copied().enumerate() {
         let asking: Vec<_> =
             cases.iter().copied().filter(|case| asks(*case).contains(component)).collect();
-        let alone = try_cases(component, &asking).passing;
+        let (first, others) = asking.split_at(asking.len().min(FEW));
+        let mut alone = try_cases(component, first).passing;
+        if !alone.is_empty() {
+            alone.extend(try_cases(component, others).passing);
+        }
         let below = order[..place].iter().copied().collect();
         let alone = if place == 0 { alone } else { try_cases(below, &alone).failing };
         cases.retain(|case| !alone.contains(case));
@@ -325,22 +319,22 @@ fn halve(
     }
 }
 
-/// Which of `below` these cases need beside `one`: each is given back, the highest first.
-fn needed(
-    mut below: Components,
-    one: Components,
-    cases: &[usize],
-    try_cases: Try<'_>,
-) -> Components {
+/// Which of `below` these cases need beside `one`: each is given back, the highest first. A few cases tell, and those that
+/// need more tell again.
+fn needed(below: Components, one: Components, cases: &[usize], try_cases: Try<'_>) -> Components {
     if cases.is_empty() {
         return Components::empty();
     }
+    let first = &cases[..cases.len().min(FEW)];
+    let mut kept = below;
     for other in Vec::from_iter(below.iter()).into_iter().rev() {
-        if try_cases(one | (below - other), cases).passing.len() == cases.len() {
-            below -= other;
+        if try_cases(one | (kept - other), first).failing.is_empty() {
+            kept -= other;
         }
     }
-    below
+    let failing = try_cases(one | kept, cases).failing;
+    let is_fewer = failing.len() < cases.len();
+    kept | if is_fewer { needed(below, one, &failing, try_cases) } else { Components::empty() }
 }
 
 #[cfg(test)]
@@ -390,7 +384,7 @@ mod tests {
         let found = found(&[BOX, BSDF, BSDF, PATH, BSDF].map(Some));
         assert_eq!(counts(&found), [(BSDF, 3, 3), (BOX, 1, 1), (PATH, 1, 1)]);
         assert_eq!(found.set[0].together, [1, 2, 4]);
-        assert_eq!((found.mended, found.unmended.len()), (5, 0));
+        assert_eq!((found.mended(), found.unmended.len()), (5, 0));
     }
 
     #[test]
@@ -422,8 +416,8 @@ mod tests {
 
     #[test]
     fn the_cheapest_cases_are_searched_for_as_far_as_the_purse_goes() {
-        let affordable = |left| affordable([5, 10, 20, 300].into_iter(), left);
-        assert_eq!([5, 95, 200, 215, 3000].map(affordable), [1, 2, 2, 3, 4]);
+        let affordable = |left| affordable(&[5, 10, 20, 300], left);
+        assert_eq!([5, 90, 270, 629, 630, 6030].map(affordable), [1, 1, 2, 2, 3, 4]);
     }
 
     #[test]
@@ -433,7 +427,7 @@ mod tests {
         assert_eq!(counts(&found), [(PATH, 1, 3), (BOX, 2, 2)]);
         let of_path = found.set.iter().find(|part| part.component == PATH);
         assert_eq!(
-            (found.mended, of_path.map(|part| &part.together[..])),
+            (found.mended(), of_path.map(|part| &part.together[..])),
             (5, Some(&[1, 3, 4][..]))
         );
     }
@@ -479,6 +473,18 @@ mod tests {
         let turns = [(0..4).collect(), Vec::new()];
         let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 4 };
         let found = smallest(Components::all(), &failures, &mut try_cases);
-        assert_eq!(found, Found { set: Vec::new(), mended: 0, unmended: Vec::new() });
+        assert_eq!(found, Found { set: Vec::new(), unmended: Vec::new() });
+    }
+
+    #[test]
+    fn what_passes_at_a_glance_alone_is_told_apart() {
+        // The first is mended by the box test for the most part, and wholly with the path.
+        let needs = [[Some(BOX), Some(BOX)], [Some(BOX | PATH), Some(BOX)]];
+        let [mut look, mut prove] = needs.each_ref().map(|needs| trying(needs));
+        let turns = [vec![0, 1], Vec::new()];
+        let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 2 };
+        let mut found = smallest(Components::all(), &failures, &mut look);
+        assert_eq!(found.without_spoiled(&mut prove), [0]);
+        assert_eq!(counts(&found), [(BOX, 1, 1)]);
     }
 }

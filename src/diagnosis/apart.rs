@@ -5,6 +5,7 @@ use super::rank::Ranked;
 use super::reproduction::{MadeIn, Sifted, proven};
 use super::{Diagnosis, Evidence, Planted};
 use crate::contract::Components;
+use std::collections::BTreeMap;
 
 /// What a core does with one of its broken components.
 pub(crate) struct View<'a> {
@@ -52,12 +53,16 @@ pub(crate) fn diagnose_apart(
         true => MadeIn::Unknown,
         false => MadeIn::Likely(broken),
     };
-    // What is suspected of any is proven before the search for what is wrong with one, which may take all the time.
-    let sifted: Vec<_> = views.iter().map(|view| view.sifted(planted)).collect();
+    // What is suspected of any is proven before the search for what is wrong with one, which may take all the time. A view
+    // with many failures may take it, too: those with few come first.
+    let mut order: Vec<_> = (0..views.len()).collect();
+    order.sort_by_key(|number| views[*number].evidence.failures().count());
+    let sifted: Vec<_> = order.iter().map(|number| views[*number].sifted(planted)).collect();
     let left = Sifted::of(&left, planted, made_in);
+    let searched = order.iter().zip(sifted).map(|(number, sifted)| (number, sifted.and_searched()));
+    let searched: BTreeMap<_, _> = searched.collect();
     let mut told = Ranked::default();
-    for (view, sifted) in views.iter().zip(sifted) {
-        let of_view = sifted.and_searched();
+    for (view, of_view) in views.iter().zip(searched.into_values()) {
         let of_view = of_view.differing_in(&view.evidence, |case| view.is_of_own(case));
         let mut of_view = of_view.of_component(view.own, first);
         let unseen: Vec<_> = of_views

@@ -15,7 +15,7 @@ use crate::case::asked_about;
 use crate::contract::Components;
 
 /// How much the second look may ask one core, as a share of what its trials did.
-const SHARE: f64 = 0.5;
+const SHARE: f64 = 0.75;
 
 /// What is seen of a core with one of its broken components.
 pub(crate) struct SecondLook {
@@ -39,18 +39,26 @@ pub(crate) fn look_again(
     let of_core = || records.iter().filter(|record| record.core == core.spec);
     let purse = Purse::of_share(SHARE, of_core());
     let bench = without_patience(bench);
-    let view = |own: Components| {
+    let telling = |own: Components| -> Vec<_> {
         let is_of_own = |record: &TrialRecord| is_of(plan, record, own, transplants);
         let tells = |record: &&TrialRecord| is_of_own(record) || is_seen_by_rules(record);
-        let told: Vec<_> = of_core().filter(|record| has_no_answer(record)).filter(tells).collect();
-        let of_own = told.iter().filter(|record| is_of_own(record));
+        of_core().filter(|record| has_no_answer(record)).filter(tells).collect()
+    };
+    let view = |own: Components| {
+        let told = telling(own);
+        let of_own = told.iter().filter(|record| is_of(plan, record, own, transplants));
         let of_own = of_own.map(|record| record.case.clone()).collect();
         let again = purse.pay_each(plan.jobs(), told.len(), &|number| {
             again(plan, &bench, told[number], broken, own)
         });
         SecondLook { own, again: again.into_iter().flatten().collect(), of_own }
     };
-    broken.iter().map(view).collect()
+    // One with many cases may take all there is: those with few come first.
+    let mut order: Vec<_> = broken.iter().collect();
+    order.sort_by_cached_key(|own| telling(*own).len());
+    let mut views: Vec<_> = order.into_iter().map(view).collect();
+    views.sort_by_key(|view| view.own.bits());
+    views
 }
 
 /// Whether a case asks about `own` or is mended by it.

@@ -159,6 +159,16 @@ mod tests {
     }
 
     #[test]
+    fn an_error_far_below_the_roundings_of_a_float_is_not_one() {
+        let finding = found("stable", |primitive, ray| {
+            let answer = stable(primitive, ray)?;
+            Some(Meeting { t: answer.t * (1.0 + 1e-11), ..answer })
+        });
+        failure(&finding);
+        assert!(finding.clues.is_empty(), "{:?}", finding.clues);
+    }
+
+    #[test]
     fn normals_that_lose_their_length_far_away_are_a_failure_and_nearby_break_the_contract() {
         let far: FarSpheres =
             check_of("[expect]\ndistances = [1e4, 1e6]\nrays = 300\nformula = \"stable\"");

@@ -96,6 +96,13 @@ impl Range {
         Judged { measures, wrong_sides, spoilt, clear: clear.len(), worst_t }
     }
 
+    /// Whether some t is off by a hundredth of a rounding of single precision, at least: the worst of many is about one.
+    fn is_off_by_single_roundings(&self) -> bool {
+        let Judged { clear, worst_t, .. } = self.judge(Formula::Stable, Precision::Single);
+        let rounding = Precision::Single.epsilon() * self.distance.max(1.0);
+        clear == 0 || worst_t >= 0.01 * rounding
+    }
+
     /// Decimal digits of the distance that t has lost.
     pub(super) fn digits_lost(&self, worst_t: f64, precision: Precision) -> f64 {
         (worst_t / (precision.epsilon() * self.distance.max(1.0))).max(1.0).log10()
@@ -134,7 +141,10 @@ pub(super) fn explain(finding: Finding, ranges: &[Range], precision: Precision) 
     if near_is_right && fits(Formula::Quadratic, precision) {
         let what = "the roundings of b² − 4ac, which grow as the square of the distance";
         finding.because(&shape::SPHERE_CANCELLATION, evidence(what))
-    } else if precision == Precision::Double && fits(Formula::Stable, Precision::Single) {
+    } else if precision == Precision::Double
+        && fits(Formula::Stable, Precision::Single)
+        && ranges.iter().all(Range::is_off_by_single_roundings)
+    {
         let what = "the roundings of single precision";
         finding.because(&shape::SINGLE_PRECISION_INSIDE, evidence(what))
     } else {

@@ -118,15 +118,28 @@ fn each_pixel(
 ) -> Result<()> {
     values.iter().enumerate().try_for_each(|(index, value)| {
         let place = || Place::Pixel { what: what.into(), x: index % width, y: index / width };
-        let Err(breach) = valid_pixel(field, *value) else { return Ok(()) };
-        let breach = Breach { place: place(), ..breach };
-        let is_taken = unformed == Unformed::Mended && breach.can_be_mended();
-        if is_taken { Ok(()) } else { Err(breach.into()) }
+        let breach = |breach| CoreError::from(Breach { place: place(), ..breach });
+        valid_pixel(field, *value, unformed).map_err(breach)
     })
 }
 
-fn valid_pixel(field: &'static str, value: [f32; 3]) -> Form {
+fn valid_pixel(field: &'static str, value: [f32; 3], unformed: Unformed) -> Form {
     let is_touched = value.iter().all(|value| value.to_bits() != f32::UNTOUCHED.to_bits());
     holds(is_touched, field, || BreachKind::Untouched)?;
-    colour(field, value.map(f64::from))
+    let size = if unformed == Unformed::Mended { value.map(f32::abs) } else { value };
+    colour(field, size.map(f64::from))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whoever_mends_takes_a_negative_pixel_and_no_nan_beside_it() {
+        let valid = |value, unformed| valid_pixel("radiance", value, unformed).is_ok();
+        let [negative, nan] = [[-1.0, 0.0, 2.0], [-1.0, f32::NAN, 2.0]];
+        assert!(valid(negative, Unformed::Mended) && !valid(negative, Unformed::Refused));
+        assert!(!valid(nan, Unformed::Mended) && !valid([-f32::INFINITY; 3], Unformed::Mended));
+        assert!(!valid([f32::UNTOUCHED; 3], Unformed::Mended));
+    }
 }

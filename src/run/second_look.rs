@@ -44,8 +44,7 @@ pub(crate) fn look_again(
         let tells = |record: &&TrialRecord| is_of_own(record) || is_seen_by_rules(record);
         of_core().filter(|record| has_no_answer(record)).filter(tells).collect()
     };
-    let view = |own: Components| {
-        let told = telling(own);
+    let view = |(own, told): (Components, Vec<&TrialRecord>)| {
         let of_own = told.iter().filter(|record| is_of(plan, record, own, transplants));
         let of_own = of_own.map(|record| record.case.clone()).collect();
         let again = purse.pay_each(plan.jobs(), told.len(), &|number| {
@@ -54,9 +53,9 @@ pub(crate) fn look_again(
         SecondLook { own, again: again.into_iter().flatten().collect(), of_own }
     };
     // One with many cases may take all there is: those with few come first.
-    let mut order: Vec<_> = broken.iter().collect();
-    order.sort_by_cached_key(|own| telling(*own).len());
-    let mut views: Vec<_> = order.into_iter().map(view).collect();
+    let mut told: Vec<_> = broken.iter().map(|own| (own, telling(own))).collect();
+    told.sort_by_key(|(_, told)| told.len());
+    let mut views: Vec<_> = told.into_iter().map(view).collect();
     views.sort_by_key(|view| view.own.bits());
     views
 }

@@ -28,8 +28,6 @@ const SHARE: f64 = 0.75;
 /// What the search takes for one failing case, in times of its trial: twelve components are halved four times, and each is
 /// looked at alone, with those below it, with all that was found, and closely.
 const COST: u64 = 9;
-/// What of the purse is for that; the rest is for cases that are only tried with what was found for others.
-const HALF: u64 = 2;
 /// A component that mends none of so many cases that ask about it mends hardly any alone.
 const FEW: usize = 4;
 
@@ -58,7 +56,7 @@ pub(crate) fn search(
     let name = |number: &usize| again.failing[*number].1.case.clone();
     let of = |part: Mending| Transplanted {
         component: part.component,
-        alone: part.alone,
+        alone: part.alone.len(),
         together: part.together.len(),
         judged: judged(part.component),
         cases: part.together.iter().map(name).collect(),
@@ -108,13 +106,14 @@ fn found(takes: Components, again: &Again<'_>) -> Found {
     }
 }
 
-/// How many cases of such prices, the cheapest first, can be searched with half of what is left: one at least.
+/// How many cases of such prices, the cheapest first, can be searched with half of what is left: one at least. The other
+/// half is for the rest, which is only tried with what was found for these.
 fn affordable(prices: &[u64], left: u64) -> usize {
     let costs = prices.iter().scan(0, |sum, price| {
         *sum += COST * price;
         Some(*sum)
     });
-    costs.take_while(|cost| *cost <= left / HALF).count().max(1)
+    costs.take_while(|cost| *cost <= left / 2).count().max(1)
 }
 
 /// What came of trying some cases; those that could not be paid are in neither.
@@ -138,9 +137,9 @@ struct Found {
 #[derive(Debug, PartialEq)]
 struct Mending {
     component: Components,
-    /// How many cases it mends alone.
-    alone: usize,
-    /// Those it mends with the others.
+    /// The cases that it mends alone, of those
+    alone: Vec<usize>,
+    /// that it mends with the others.
     together: Vec<usize>,
 }
 
@@ -155,7 +154,7 @@ impl Found {
         halve(&order, 0..order.len(), passing, try_cases, &mut highest);
         for (place, cases) in highest {
             let part = &mut self.set[place];
-            part.alone += if place == 0 { cases.len() } else { 0 };
+            part.alone.extend(cases.iter().filter(|_| place == 0));
             part.together.extend(cases);
         }
     }
@@ -174,8 +173,8 @@ impl Found {
         let set = self.set.iter().map(|part| part.component).collect();
         let spoiled = prove(set, &Vec::from_iter(self.cases())).failing;
         for part in &mut self.set {
+            part.alone.retain(|case| !spoiled.contains(case));
             part.together.retain(|case| !spoiled.contains(case));
-            part.alone = part.alone.min(part.together.len());
         }
         spoiled
     }
@@ -265,7 +264,9 @@ fn together(set: Components, found: &[Needed], try_cases: Try<'_>) -> Vec<Mendin
         let of_one = |of: &Needed| Vec::from_iter(of.cases().filter(|case| stands(of, *case)));
         let mut together: Vec<_> = known().flat_map(of_one).collect();
         together.sort_unstable();
-        Mending { component, alone: known().map(|of| of.alone.len()).sum(), together }
+        let alone = known().flat_map(|of| &of.alone).copied();
+        let alone = alone.filter(|case| together.contains(case)).collect();
+        Mending { component, alone, together }
     };
     set.iter().map(mending).collect()
 }
@@ -371,7 +372,11 @@ mod tests {
 
     /// Each component, how many cases it mends alone, and how many with the others.
     fn counts(found: &Found) -> Vec<(Components, usize, usize)> {
-        found.set.iter().map(|part| (part.component, part.alone, part.together.len())).collect()
+        found
+            .set
+            .iter()
+            .map(|part| (part.component, part.alone.len(), part.together.len()))
+            .collect()
     }
 
     #[test]
@@ -478,13 +483,14 @@ mod tests {
 
     #[test]
     fn what_passes_at_a_glance_alone_is_told_apart() {
-        // The first is mended by the box test for the most part, and wholly with the path.
-        let needs = [[Some(BOX), Some(BOX)], [Some(BOX | PATH), Some(BOX)]];
-        let [mut look, mut prove] = needs.each_ref().map(|needs| trying(needs));
-        let turns = [vec![0, 1], Vec::new()];
-        let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 2 };
-        let mut found = smallest(Components::all(), &failures, &mut look);
-        assert_eq!(found.without_spoiled(&mut prove), [0]);
-        assert_eq!(counts(&found), [(BOX, 1, 1)]);
+        // The first is mended by the box test for the most part, and needs the BSDF for the rest; the last needs the path.
+        let needs = [BOX, BOX, BOX | PATH].map(Some);
+        let closely = [BOX | BSDF, BOX, BOX | PATH].map(Some);
+        let turns = [vec![0, 1, 2], Vec::new()];
+        let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 3 };
+        let mut found = smallest(Components::all(), &failures, &mut trying(&needs));
+        assert_eq!(counts(&found), [(BOX, 2, 2), (PATH, 0, 1)]);
+        assert_eq!(found.without_spoiled(&mut trying(&closely)), [0]);
+        assert_eq!(counts(&found), [(BOX, 1, 1), (PATH, 0, 1)]);
     }
 }

@@ -81,8 +81,8 @@ fn interval_of_another_median(values: &[f64]) -> [f64; 2] {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let count = sorted.len();
-    let outside = |few: &usize| 2.0 * chance_of_a_median_below(*few, count) <= 1.0 - CONFIDENCE;
-    match (0..count / 2).take_while(outside).last() {
+    let holds = |few: &usize| 2.0 * chance_of_a_median_below(*few, count) <= 1.0 - CONFIDENCE;
+    match (0..count / 2).take_while(holds).last() {
         Some(few) => [sorted[few], sorted[count - 1 - few]],
         None => [0.0, f64::INFINITY],
     }

@@ -147,6 +147,10 @@ impl Found {
     /// Cases that there was no time to halve, tried with what was found for others: each belongs to the highest component
     /// that it needs.
     fn try_on(&mut self, cases: &[usize], try_cases: Try<'_>) {
+        // Nothing was found for others. What fails only at times may pass with nothing, and needs nothing of the bench.
+        if self.set.is_empty() {
+            return;
+        }
         self.set.sort_by_key(|part| part.component.bits());
         let order: Vec<_> = self.set.iter().map(|part| part.component).collect();
         let passing = try_cases(order.iter().copied().collect(), cases).passing;
@@ -479,6 +483,18 @@ mod tests {
         let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 4 };
         let found = smallest(Components::all(), &failures, &mut try_cases);
         assert_eq!(found, Found { set: Vec::new(), unmended: Vec::new() });
+    }
+
+    #[test]
+    fn what_is_left_and_passes_with_nothing_taken_has_no_component() {
+        let mut try_cases = |_: Components, cases: &[usize]| {
+            let (passing, failing) = cases.iter().partition(|case| **case == 1);
+            Tried { passing, failing }
+        };
+        let turns = [vec![0, 1], Vec::new()];
+        let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 1 };
+        let found = smallest(Components::all(), &failures, &mut try_cases);
+        assert_eq!(found, Found { set: Vec::new(), unmended: vec![0] });
     }
 
     #[test]

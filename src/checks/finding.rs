@@ -94,12 +94,22 @@ pub struct Measure {
     pub hypothesis: Option<Hypothesis>,
 }
 
+/// The unit of numbers whose noise is one of them.
+pub(crate) const STANDARD_ERRORS: &str = "standard errors";
+/// Of such numbers, half of a 99.9 % interval.
+const OF_ONE: f64 = 3.29;
 /// With a larger error than this an integral is not known.
 const KNOWN: f64 = 0.1;
 /// Of many answers to one question, the one that is told.
 const WORST: &str = ", worst of ";
 
 impl Measure {
+    /// Half of the 99.9 % interval of what was measured; none for deterministic measures.
+    pub(crate) fn noise(&self) -> Option<f64> {
+        let of_one = (self.unit == STANDARD_ERRORS).then_some(OF_ONE);
+        self.interval.map(|[low, high]| 0.5 * (high - low)).or(of_one)
+    }
+
     /// A deterministic measure: passes if it is within `allowed` of `expected`; NaN fails.
     pub(crate) fn exact(
         quantity: impl Display,

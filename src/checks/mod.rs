@@ -35,8 +35,8 @@ pub(crate) use context::{
     CheckError, Context, Layer, Picture, PictureRole, RejectedCell, Result, camera_of,
 };
 pub(crate) use declared::{Declared, check, checks};
-pub(crate) use finding::number;
 pub use finding::{Clue, Finding, Measure};
+pub(crate) use finding::{STANDARD_ERRORS, number};
 
 use crate::contract::Capabilities;
 use crate::text::document::trace;

@@ -49,8 +49,8 @@ pub(crate) fn excluded() -> Vec<Excluded> {
 /// Every fault of the textbook, and what was asked of them before.
 pub(super) struct PlantedFaults<'a> {
     plan: &'a Plan,
-    bench: &'a Bench,
-    rough: Bench,
+    closely: Bench,
+    roughly: Bench,
     mistakes: Vec<Mistake>,
     purse: Purse,
     known: Mutex<BTreeMap<Asked, Option<Finding>>>,
@@ -60,7 +60,7 @@ impl<'a> PlantedFaults<'a> {
     /// For a core with these trials.
     pub(super) fn new<'r>(
         plan: &'a Plan,
-        bench: &'a Bench,
+        bench: &Bench,
         records: impl Iterator<Item = &'r TrialRecord> + Clone,
     ) -> Self {
         let mistake = |fault: &'static fault::Fault| Mistake {
@@ -70,9 +70,11 @@ impl<'a> PlantedFaults<'a> {
             caught_by: fault.caught_by,
         };
         let (mistakes, known) = (fault::all().map(mistake).collect(), Mutex::default());
-        let allowance = Allowance { looks_roughly: true, ..bench.allowance };
-        let rough = Bench { allowance, ..bench.clone() };
-        Self { plan, bench, rough, mistakes, purse: Purse::of_share(SHARE, records), known }
+        let allowance = Allowance { judges_alone: true, ..bench.allowance };
+        let closely = Bench { allowance, ..bench.clone() };
+        let allowance = Allowance { looks_roughly: true, ..allowance };
+        let roughly = Bench { allowance, ..bench.clone() };
+        Self { plan, closely, roughly, mistakes, purse: Purse::of_share(SHARE, records), known }
     }
 
     /// Tries what was asked. Mistakes that exclude each other, and cases that were not selected, have no answer.
@@ -80,7 +82,7 @@ impl<'a> PlantedFaults<'a> {
         let case = self.plan.trials.iter().find(|trial| trial.case.id == *case);
         let (Some(case), Ok(core)) = (case, core.parse()) else { return (None, 0) };
         let trial = Trial { case: Arc::clone(&case.case), core };
-        let bench = if *roughly { &self.rough } else { self.bench };
+        let bench = if *roughly { &self.roughly } else { &self.closely };
         let ended = run_with(bench, &trial, *with).record;
         (ended.outcome.finding().cloned(), price(&ended))
     }

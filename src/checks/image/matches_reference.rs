@@ -116,11 +116,12 @@ impl MatchesReference {
             shot.samples,
             &reference,
         )]);
-        if report.verdict == Verdict::Fail && report.impossible.is_none() {
+        let tells_why = !context.budget.judges_alone;
+        if report.verdict == Verdict::Fail && report.impossible.is_none() && tells_why {
             let seed = seed.child("clues");
             finding = clues::explained(finding, &report, &reference, &shot, built.as_mut(), seed)?;
         }
-        let first = first.filter(|_| self.shows_parts && report.impossible.is_none());
+        let first = first.filter(|_| self.shows_parts && report.impossible.is_none() && tells_why);
         let parts = match first {
             Some(first) => {
                 let asked = Parts { shot: &shot, scene: &scene, can: context.info.capabilities };

@@ -1,6 +1,6 @@
 //! What a report on pictures says: in words, in numbers and as a picture.
 
-use crate::checks::{Finding, Measure, RejectedCell};
+use crate::checks::{Finding, Measure, RejectedCell, STANDARD_ERRORS};
 use crate::image::Image;
 use crate::stats::{
     CellScore, Component, GlobalRatio, Hypothesis, ImageReport, Impossible, Scale, ScaleReport,
@@ -70,7 +70,7 @@ fn scale_measure(scale: &ScaleReport) -> Measure {
     let name = format!("worst {}{place}{name}", scale_name(scale.scale));
     Measure {
         verdict: Verdict::pass_if(!scale.rejects),
-        ..Measure::exact(name, measured, 0.0, scale.critical).in_unit("standard errors")
+        ..Measure::exact(name, measured, 0.0, scale.critical).in_unit(STANDARD_ERRORS)
     }
 }
 

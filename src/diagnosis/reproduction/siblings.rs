@@ -151,7 +151,8 @@ impl Proof<'_> {
             };
             let apart: Vec<_> = (0..following.len()).filter(passes).collect();
             let names = |number: usize| following[number].case.to_owned();
-            let apart: Vec<_> = match apart.len() == FAILED {
+            let all_pass = apart.len() == following.len() && apart.len() >= CASES;
+            let apart: Vec<_> = match all_pass {
                 true => left,
                 false => apart.into_iter().map(names).collect(),
             };

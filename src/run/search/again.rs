@@ -1,7 +1,7 @@
 //! The failing cases of a core, tried again with components of the bench: at a glance where that is enough, and never twice.
 
-use super::Tried;
-use crate::checks::{Finding, Measure};
+use super::{Tried, Tries};
+use crate::checks::{Finding, Measure, STANDARD_ERRORS};
 use crate::contract::Components;
 use crate::run::attempt::run_with;
 use crate::run::bench::Bench;
@@ -11,12 +11,23 @@ use crate::run::purse::{LONGEST_TRIAL, Purse, price};
 use crate::run::record::TrialRecord;
 use crate::stats::{Allowance, Budget};
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::SQRT_2;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What was asked: which case, with what of the bench, and whether closely.
-type Asked = (usize, Components, bool);
+/// What was asked: which case, with what of the bench, and how.
+type Asked = (usize, Components, Look);
 /// Whether a case passes; none where it could not be asked. And its price.
 type Answer = (Option<bool>, u64);
+
+/// How a case is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Look {
+    /// With few samples.
+    Glance,
+    Closely,
+    /// Closely, with random numbers that nothing was found with.
+    Anew,
+}
 
 /// What failed, and what came of trying it again.
 pub(super) struct Again<'a> {
@@ -26,8 +37,9 @@ pub(super) struct Again<'a> {
     jobs: usize,
     closely: Bench,
     glancing: Bench,
-    /// Whether the run was a quick one, as this is.
-    is_as_sharp: bool,
+    anew: Bench,
+    /// By how much the smallest error that was seen in the run is multiplied, as a budget says it.
+    coarseness: f64,
     known: Mutex<BTreeMap<Asked, Option<bool>>>,
 }
 
@@ -39,39 +51,31 @@ impl<'a> Again<'a> {
         bench: &Bench,
     ) -> Self {
         failing.sort_by_key(|(_, record)| price(record));
-        let allowance = Allowance { stops_at_failure: true, ..Budget::Quick.into() };
+        let allowance =
+            Allowance { stops_at_failure: true, judges_alone: true, ..Budget::Quick.into() };
         let closely = Bench { allowance, ..without_patience(bench) };
         let allowance = Allowance { looks_roughly: true, ..allowance };
         let glancing = Bench { allowance, ..closely.clone() };
-        let is_as_sharp = bench.allowance.budget == Budget::Quick;
+        let anew = Bench { seed: closely.seed.child("anew"), ..closely.clone() };
+        let coarseness = bench.allowance.coarseness();
         let known = Mutex::default();
-        Self { failing, purse, jobs, closely, glancing, is_as_sharp, known }
+        Self { failing, purse, jobs, closely, glancing, anew, coarseness, known }
     }
 
     /// Those that fail here as they did in the run. A small error that only a larger budget sees would pass here whatever is
-    /// taken, and prove nothing.
+    /// taken, and prove nothing; a gross one is not asked for.
     pub(super) fn failing_still(&self, cases: Vec<usize>) -> Vec<usize> {
-        if self.is_as_sharp {
-            return cases;
-        }
-        let asked: Vec<_> = cases.iter().map(|case| (*case, Components::empty(), true)).collect();
-        let failing = |case: &usize| {
-            self.known().get(&(*case, Components::empty(), true)) == Some(&Some(false))
-        };
+        let is_as_sharp = self.times_coarser(&self.closely) <= 1.0;
+        let is_sure = |case: &usize| is_as_sharp || self.is_gross(*case, &self.closely);
+        let with_nothing = |case: &usize| (*case, Components::empty(), Look::Closely);
+        let asked: Vec<_> = cases.iter().filter(|case| !is_sure(case)).map(with_nothing).collect();
         self.ask(&asked);
-        cases.into_iter().filter(failing).collect()
+        let known = self.known();
+        let fails = |case: &usize| known.get(&with_nothing(case)) == Some(&Some(false));
+        cases.into_iter().filter(|case| is_sure(case) || fails(case)).collect()
     }
 
-    /// Tries cases with these components; closely those that are among `closely`, or whose failure is too small to be seen
-    /// at a glance.
-    pub(super) fn tried(
-        &self,
-        with: Components,
-        cases: &[usize],
-        closely: &BTreeSet<usize>,
-    ) -> Tried {
-        let asked = |case: &usize| (*case, with, closely.contains(case) || !self.is_gross(*case));
-        let asked: Vec<_> = cases.iter().map(asked).collect();
+    fn seen(&self, asked: Vec<Asked>) -> Tried {
         self.ask(&asked);
         let known = self.known();
         let of = |wanted: bool| {
@@ -83,11 +87,8 @@ impl<'a> Again<'a> {
 
     /// What a case may take when it is tried again.
     pub(super) fn price(&self, number: usize) -> u64 {
-        let price = price(self.failing[number].1);
-        match self.is_gross(number) {
-            true => (price as f64 / self.times_coarser().powi(2)) as u64,
-            false => price,
-        }
+        let look = if self.is_rough(number) { &self.glancing } else { &self.closely };
+        (price(self.failing[number].1) as f64 / self.times_coarser(look).powi(2)) as u64
     }
 
     /// Asks what is not known, for as much as can be paid.
@@ -97,13 +98,17 @@ impl<'a> Again<'a> {
         self.known().extend(new.into_iter().copied().zip(answers));
     }
 
-    fn answer(&self, (number, with, closely): Asked) -> Answer {
+    fn answer(&self, (number, with, look): Asked) -> Answer {
         let (trial, record) = self.failing[number];
         if !with.is_empty() && record.with.contains(with) {
             // So it was tried in the run.
             return (Some(false), 0);
         }
-        let bench = if closely { &self.closely } else { &self.glancing };
+        let bench = match look {
+            Look::Glance => &self.glancing,
+            Look::Closely => &self.closely,
+            Look::Anew => &self.anew,
+        };
         let ended = run_with(bench, trial, record.with | with).record;
         // Of silence it cannot be told what would have come of waiting longer, where there was none before.
         let was_silent = record.outcome.status() == Status::TimedOut;
@@ -116,13 +121,14 @@ impl<'a> Again<'a> {
         (passes, price(&ended))
     }
 
-    fn is_gross(&self, number: usize) -> bool {
+    /// Whether the failure would be seen by such a look.
+    fn is_gross(&self, number: usize, look: &Bench) -> bool {
         let finding = self.failing[number].1.outcome.finding();
-        finding.is_some_and(|finding| is_gross(finding, self.times_coarser()))
+        finding.is_some_and(|finding| is_gross(finding, self.times_coarser(look)))
     }
 
-    fn times_coarser(&self) -> f64 {
-        self.glancing.allowance.coarseness() / self.closely.allowance.coarseness()
+    fn times_coarser(&self, look: &Bench) -> f64 {
+        look.allowance.coarseness() / self.coarseness
     }
 
     fn known(&self) -> MutexGuard<'_, BTreeMap<Asked, Option<bool>>> {
@@ -130,12 +136,37 @@ impl<'a> Again<'a> {
     }
 }
 
+impl Tries for Again<'_> {
+    fn tried(&self, with: Components, cases: &[usize], closely: &BTreeSet<usize>) -> Tried {
+        let look = |case: usize| match closely.contains(&case) || !self.is_rough(case) {
+            true => Look::Closely,
+            false => Look::Glance,
+        };
+        self.seen(cases.iter().map(|case| (*case, with, look(*case))).collect())
+    }
+
+    fn proven(&self, with: Components, cases: &[usize]) -> Tried {
+        self.seen(cases.iter().map(|case| (*case, with, Look::Anew)).collect())
+    }
+
+    fn is_rough(&self, case: usize) -> bool {
+        self.is_gross(case, &self.glancing)
+    }
+
+    fn is_spent(&self) -> bool {
+        self.purse.left() == 0
+    }
+}
+
 /// Whether something is so wrong that it would still fail were its error and its noise that many times as large as what is
 /// seen of them.
 fn is_gross(finding: &Finding, coarser: f64) -> bool {
-    finding.failed_measures().any(|Measure { measured, expected, allowed, interval, .. }| {
-        let noise = interval.map(|[low, high]| 0.5 * (high - low));
-        noise.is_some_and(|noise| (measured - expected).abs() > coarser * (allowed + noise))
+    finding.failed_measures().any(|measure| {
+        let Measure { measured, expected, allowed, .. } = measure;
+        // A picture is screened by half of the runs that confirm it.
+        let coarser = if measure.unit == STANDARD_ERRORS { SQRT_2 * coarser } else { coarser };
+        let is_far = |noise: f64| (measured - expected).abs() > coarser * (allowed + noise);
+        measure.noise().is_some_and(is_far)
     })
 }
 

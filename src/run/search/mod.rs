@@ -16,14 +16,15 @@ use super::purse::Purse;
 use super::record::{CoreRecord, Transplanted, Transplants, TrialRecord};
 use crate::case::asked_about;
 use crate::contract::{Capabilities, Components};
+use crate::stats::Budget;
 use again::Again;
 pub(in crate::run) use again::without_patience;
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// How much the search may ask one core, as a share of what its trials did: who waits for a wrong core waits little
-/// longer.
+/// How much the search may ask one core, as a share of what its trials did in a quick run: who waits for a wrong core waits
+/// little longer. Trials of a finer run asked more; the search asks no more than before.
 const SHARE: f64 = 0.75;
 /// What the search takes for one failing case, in times of its trial: twelve components are halved four times, and each is
 /// looked at alone, with those below it, with all that was found, and closely.
@@ -42,7 +43,8 @@ pub(crate) fn search(
     let of_core = records.iter().filter(|record| record.core == core.spec);
     let ended: Vec<_> =
         of_core.filter_map(|record| Some((plan.trial_of(record)?, record))).collect();
-    let purse = Purse::of_share(SHARE, ended.iter().map(|(_, record)| *record));
+    let share = SHARE * bench.allowance.coarseness() / Budget::Quick.coarseness();
+    let purse = Purse::of_share(share, ended.iter().map(|(_, record)| *record));
     // What is only informational stays the core's own affair.
     let failing = ended.iter().filter(|(_, record)| record.fails_the_core()).copied();
     let again = Again::new(failing.collect(), purse, plan.jobs(), bench);
@@ -76,9 +78,6 @@ pub(crate) fn search(
     })
 }
 
-/// The set that mends what fails. What fails at a glance is looked at so until it passes: the same purse goes further. At the
-/// end all of it is looked at closely, as far as there is time; what fails then needs something else, too, and is searched
-/// for again.
 fn found(takes: Components, again: &Again<'_>) -> Found {
     // What died or hung may hang again, for longer than others take: it comes last.
     let is_judged = |number: &usize| again.failing[*number].1.outcome.finding().is_some();
@@ -92,17 +91,43 @@ fn found(takes: Components, again: &Again<'_>) -> Found {
             affordable(&prices, again.purse.left())
         },
     };
+    settled(takes, failures, again)
+}
+
+/// Whoever tries cases again.
+trait Tries {
+    /// Tries cases with these components: closely those of `closely`, others at a glance where that is enough.
+    fn tried(&self, with: Components, cases: &[usize], closely: &BTreeSet<usize>) -> Tried;
+
+    /// The same closely, and with other random numbers.
+    fn proven(&self, with: Components, cases: &[usize]) -> Tried;
+
+    /// Whether a glance is enough for a case.
+    fn is_rough(&self, case: usize) -> bool;
+
+    /// Whether nothing more can be paid.
+    fn is_spent(&self) -> bool;
+}
+
+/// The set that mends what fails. What fails at a glance is looked at so until it passes: the same purse goes further. At the
+/// end all of it is looked at closely and with other random numbers, as far as there is time. What fails then needs
+/// something else, too, and is searched for again; what had been looked at closely has passed by luck.
+fn settled(takes: Components, mut failures: Failures<'_>, tries: &dyn Tries) -> Found {
     let mut closely = BTreeSet::new();
+    let mut by_luck: Vec<usize> = Vec::new();
     loop {
-        let mut look = |with: Components, cases: &[usize]| again.tried(with, cases, &closely);
+        let mut look = |with: Components, cases: &[usize]| tries.tried(with, cases, &closely);
         let mut found = smallest(takes, &failures, &mut look);
-        let all = found.cases().collect();
-        let spoiled = found.without_spoiled(&mut |with, cases| again.tried(with, cases, &all));
-        let before = closely.len();
-        closely.extend(spoiled);
-        if closely.len() == before || again.purse.left() == 0 {
+        let spoiled = found.without_spoiled(&mut |with, cases| tries.proven(with, cases));
+        let (seen_closely, at_a_glance): (Vec<_>, Vec<_>) =
+            spoiled.into_iter().partition(|case| closely.contains(case) || !tries.is_rough(*case));
+        failures.leave_out(&seen_closely);
+        by_luck.extend(&seen_closely);
+        if seen_closely.is_empty() && at_a_glance.is_empty() || tries.is_spent() {
+            found.unmended.extend(by_luck);
             return found;
         }
+        closely.extend(at_a_glance);
     }
 }
 
@@ -192,6 +217,12 @@ struct Failures<'a> {
     asks: &'a dyn Fn(usize) -> Components,
     /// How many of these there is time to halve.
     affordable: &'a dyn Fn(&[usize]) -> usize,
+}
+
+impl Failures<'_> {
+    fn leave_out(&mut self, cases: &[usize]) {
+        self.turns.iter_mut().for_each(|turn| turn.retain(|case| !cases.contains(case)));
+    }
 }
 
 /// A component that cases need so that they pass, however much below it is taken.
@@ -495,6 +526,39 @@ mod tests {
         let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 1 };
         let found = smallest(Components::all(), &failures, &mut try_cases);
         assert_eq!(found, Found { set: Vec::new(), unmended: vec![0] });
+    }
+
+    /// Of the first case the path is wrong; the second passes whenever the bench's random numbers are others than at first.
+    struct Lucky {
+        is_rough: bool,
+    }
+
+    impl Tries for Lucky {
+        fn tried(&self, with: Components, cases: &[usize], _: &BTreeSet<usize>) -> Tried {
+            trying(&[PATH, Components::RANDOM_NUMBERS].map(Some))(with, cases)
+        }
+
+        fn proven(&self, with: Components, cases: &[usize]) -> Tried {
+            trying(&[Some(PATH), None])(with, cases)
+        }
+
+        fn is_rough(&self, _: usize) -> bool {
+            self.is_rough
+        }
+
+        fn is_spent(&self) -> bool {
+            false
+        }
+    }
+
+    #[test]
+    fn what_passes_by_luck_is_mended_by_nothing() {
+        for is_rough in [false, true] {
+            let turns = [vec![0, 1], Vec::new()];
+            let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 2 };
+            let found = settled(Components::all(), failures, &Lucky { is_rough });
+            assert_eq!((counts(&found), found.unmended), (vec![(PATH, 1, 1)], vec![1]));
+        }
     }
 
     #[test]

@@ -60,6 +60,8 @@ pub struct Allowance {
     pub(crate) stops_at_failure: bool,
     /// Whether a first look is enough: errors are seen that are as many times larger as a quick run's are than the default's.
     pub(crate) looks_roughly: bool,
+    /// Whether a failure is enough as it is: nothing is asked that only tells why.
+    pub(crate) judges_alone: bool,
 }
 
 impl Allowance {

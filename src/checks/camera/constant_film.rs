@@ -1,6 +1,6 @@
 //! Equal samples: every pixel of every film is that sample, whatever the size and the number of samples.
 
-use super::exposed::{Exposed, causes, channels};
+use super::exposed::{Exposed, channels, explained};
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
@@ -56,7 +56,7 @@ impl ConstantFilm {
             return finding;
         }
         let complaint = complaint(films, radiance, allowed);
-        finding.complaining([complaint]).because_of(causes(films, radiance, allowed))
+        explained(finding.complaining([complaint]), films, radiance, allowed)
     }
 }
 
@@ -157,5 +157,15 @@ mod tests {
         let finding = found(FakeFilm { count: Step(-1), ..FakeFilm::default() });
         assert!(failure(&finding).contains("a pixel's count says "), "{}", finding.statement);
         assert_eq!(causes(&finding), ["sample-counts-off-by-one"]);
+    }
+
+    #[test]
+    fn what_is_wrong_with_counts_stands_beside_what_is_wrong_with_pixels() {
+        let mistake = MISTAKES.iter().find(|one| one.cause.name == "pixel-adds-one-too-many");
+        let develop = mistake.unwrap().develop;
+        let finding = found(FakeFilm { develop, count: Step(1), ..FakeFilm::default() });
+        let told: Vec<_> =
+            finding.clues.iter().map(|clue| (&clue.cause[..], clue.beside)).collect();
+        assert_eq!(told, [("pixel-adds-one-too-many", false), ("sample-counts-off-by-one", true)]);
     }
 }

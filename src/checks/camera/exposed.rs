@@ -2,6 +2,7 @@
 
 use super::film_mistakes::{MISTAKES, Place, TILES, whole_tiles_only};
 use crate::cause::{Cause, adaptive, image};
+use crate::checks::Finding;
 use crate::checks::rendering::places;
 use crate::contract::Film;
 use crate::stats::Compared;
@@ -37,34 +38,38 @@ pub(super) fn channels(pixel: [f64; 3], radiance: [f64; 3], allowed: f64) -> [Co
     std::array::from_fn(|c| Compared::relative(pixel[c], radiance[c], allowed))
 }
 
-/// The mistakes that make these films, with what speaks for them.
-pub(super) fn causes(
+/// The finding, with the mistakes that make these films and what speaks for them: of pixels one of those that it names, and
+/// whatever there is, of counts.
+pub(super) fn explained(
+    finding: Finding,
     films: &[Exposed],
     radiance: [f64; 3],
     allowed: f64,
-) -> Vec<(&'static Cause, String)> {
+) -> Finding {
     let all: usize = films.iter().map(|exposed| exposed.film.pixels.len()).sum();
     let mut pixels = films.iter().flat_map(Exposed::pixels);
     let is_wrong =
         pixels.any(|(_, pixel)| channels(pixel, radiance, allowed).iter().any(|c| !c.agrees()));
-    let mut causes = Vec::new();
+    let mut finding = finding;
     if is_wrong {
         let evidence = |words: String| format!("{words}predicts all {all} pixels");
         let of_pixels = causes_of_pixels(films, radiance).into_iter();
-        causes.extend(of_pixels.map(|(cause, words)| (cause, evidence(words))));
+        finding = finding.because_of(of_pixels.map(|(cause, words)| (cause, evidence(words))));
     }
     for step in [1, -1] {
         let is_off = |film: &Exposed| film.counts_all(film.samples.checked_add_signed(step));
         if films.iter().all(is_off) {
             let evidence = format!("all {all} counts are {step:+} off");
-            causes.push((&image::COUNTS_OFF_BY_ONE, evidence));
+            finding = finding.because_all([&image::COUNTS_OFF_BY_ONE], &evidence);
         }
     }
-    if let Some(count) = stops_early(films).filter(|_| !is_wrong) {
-        let evidence = format!("pixels of more samples than {count} stop at {count}");
-        causes.push((&adaptive::ADAPTIVE_ALWAYS, evidence));
+    match stops_early(films).filter(|_| !is_wrong) {
+        Some(count) => {
+            let evidence = format!("pixels of more samples than {count} stop at {count}");
+            finding.because(&adaptive::ADAPTIVE_ALWAYS, evidence)
+        }
+        None => finding,
     }
-    causes
 }
 
 /// The mistakes that write just these pixels.

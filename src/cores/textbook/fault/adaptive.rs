@@ -61,6 +61,12 @@ faults! { part 5;
     "count-without-last-batch": "sampleCountBuffer says n − batch",
         fails STREAMS, told adaptive::LAST_BATCH_NOT_COUNTED,
         reported_count = |count, _, batch| count.saturating_sub(batch.unwrap_or(0));
+    "counts-one-more": "sampleCountBuffer says the loop's counter, which is one past the samples",
+        fails "camera/constant-radiance-gives-a-constant-image", told image::COUNTS_OFF_BY_ONE,
+        reported_count = |count, _, _| count + 1;
+    "counts-one-less": "sampleCountBuffer says the number of the last sample, which counts from 0",
+        fails "camera/constant-radiance-gives-a-constant-image", told image::COUNTS_OFF_BY_ONE,
+        reported_count = |count, _, _| count.saturating_sub(1);
     "adaptive-always": "adaptive sampling is on by default",
         fails "camera/constant-radiance-gives-a-constant-image", told adaptive::ADAPTIVE_ALWAYS,
         adaptive_settings = |settings| settings.adaptive.or(ADAPTIVE_DEFAULT);

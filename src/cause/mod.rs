@@ -91,6 +91,11 @@ pub(crate) fn is_symptom(cause: &Cause) -> bool {
     contract::CAUSES.contains(&cause)
 }
 
+/// Whether it is a mistake of the film that only a whole image shows.
+pub(crate) fn is_of_the_film_alone(cause: &Cause) -> bool {
+    [&image::FACTOR, &image::STRIPE].contains(&cause)
+}
+
 /// Whether hits are lost by the cause: which of them is told by the pattern of what is lost alone.
 pub(crate) fn loses_hits(cause: &Cause) -> bool {
     let patterns = [

@@ -247,7 +247,8 @@ impl<'a> Proof<'a> {
 
     fn contradicting(&self, headline: &Headline, all: &[Mistake]) -> Refuted {
         let Some(cause) = cause::find(&headline.cause) else { return Refuted::new() };
-        let made: Components = self.of(headline).map(|mistake| mistake.components).collect();
+        let planted: Components = self.of(headline).map(|mistake| mistake.components).collect();
+        let made = if cause::is_of_the_film_alone(cause) { Components::PIXEL } else { planted };
         if !made.is_empty() && self.made_in.leaves(made) {
             return refuted(cause, &headline.explains);
         }
@@ -1364,6 +1365,20 @@ mod tests {
         let planted = Bench { mistakes: &[pixel], gives: &[(&["pi"], "bsdf/a", 0.5)] };
         let of = |made_in| told(&proven(&made.evidence(), &planted, made_in).told())[0].1;
         assert_eq!(of(MadeIn::Mended(Components::TRAVERSAL)), Degree::DiffersHere);
+        assert_eq!(of(MadeIn::Mended(Components::PIXEL)), Degree::Named);
+    }
+
+    #[test]
+    fn a_factor_of_images_that_the_direct_light_mends_is_none_of_the_film() {
+        use crate::cause::image;
+        let factor = || Finding {
+            measures: Vec::new(),
+            ..light(0.5).because_in_size(&image::FACTOR, "half", Some([0.49, 0.51]))
+        };
+        let made = Made::new().with("image/a", factor()).with("image/b", factor());
+        let planted = Bench { mistakes: &[], gives: &[] };
+        let of = |made_in| told(&proven(&made.evidence(), &planted, made_in).told())[0].1;
+        assert_eq!(of(MadeIn::Mended(Components::DIRECT_LIGHTING)), Degree::DiffersHere);
         assert_eq!(of(MadeIn::Mended(Components::PIXEL)), Degree::Named);
     }
 

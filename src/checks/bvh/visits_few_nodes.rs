@@ -82,7 +82,8 @@ fn judge(sizes: &[Size]) -> Finding {
         Some(boxes) if boxes >= ALL_TESTED && slope < STEEPEST => Some(&bvh::UNBALANCED),
         _ => cause(sizes, slope, failed),
     };
-    let resolution = "would have caught growth as n^0.5, twice the tests of a BVH that visits every box on the ray, or shadow rays that search on";
+    let resolution = "would have caught growth as n^0.5, twice the tests of an unordered BVH, or \
+                      shadow rays that search on";
     let boxes =
         slope_of_boxes.map_or_else(String::new, |s| format!(", of boxes as n^{}", figure(s)));
     let of_shadows = figure(growth(sizes, |size| size.any));

@@ -23,8 +23,8 @@ use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// How much the search may ask one core, as a share of what its trials did in a quick run: who waits for a wrong core waits
-/// little longer. Trials of a finer run asked more; the search asks no more than before.
+/// How much the search may ask one core, as a share of what the trials of a quick run did: who waits for a wrong core waits
+/// little longer. Trials of a finer run ask more and the search does not, so its share falls as they see smaller errors.
 const SHARE: f64 = 0.75;
 /// What the search takes for one failing case, in times of its trial: twelve components are halved four times, and each is
 /// looked at alone, with those below it, with all that was found, and closely.

@@ -10,9 +10,6 @@ use glam::DVec3;
 
 const LEAF: usize = 4;
 
-/// A core may test this many times the triangles that a plain median BVH tests.
-pub(crate) const SLACK: f64 = 4.0;
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Walk {
     /// The nearer child first, and the ray ends at what was found.

@@ -41,7 +41,7 @@ pub(super) fn channels(pixel: [f64; 3], radiance: [f64; 3], allowed: f64) -> [Co
 /// The finding, with the mistakes that make these films and what speaks for them: of pixels one of those that it names, and
 /// whatever there is, of counts.
 pub(super) fn explained(
-    finding: Finding,
+    mut finding: Finding,
     films: &[Exposed],
     radiance: [f64; 3],
     allowed: f64,
@@ -50,7 +50,6 @@ pub(super) fn explained(
     let mut pixels = films.iter().flat_map(Exposed::pixels);
     let is_wrong =
         pixels.any(|(_, pixel)| channels(pixel, radiance, allowed).iter().any(|c| !c.agrees()));
-    let mut finding = finding;
     if is_wrong {
         let evidence = |words: String| format!("{words}predicts all {all} pixels");
         let of_pixels = causes_of_pixels(films, radiance).into_iter();

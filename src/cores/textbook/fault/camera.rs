@@ -66,7 +66,8 @@ faults! { part 1;
     "half-pixel-added": "half a pixel is added to points that are random in it already",
         fails "camera/pixel-samples-are-uniform", told camera::HALF_A_PIXEL,
         pixel_point = |random, _, _, _| random.point() + 0.5;
-    "half-pixel-added-upwards": "the same where the film's y points up",
+    "half-pixel-added-upwards":
+        "half a pixel is added to points that are random in it already, where the film's y points up",
         fails "camera/pixel-samples-are-uniform", told camera::HALF_A_PIXEL,
         pixel_point = |random, _, _, _| random.point() + DVec2::new(0.5, -0.5);
     "half-pixel-both-ways":

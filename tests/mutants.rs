@@ -21,6 +21,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Mutation operators: a name, what is looked for (in code without comments; binary operators stand between blanks), and
 /// what comes in place of its group.
@@ -161,7 +162,8 @@ struct Workshop {
 /// What came of a mutant.
 struct Tried {
     killed_by: Vec<String>,
-    told: String,
+    /// All headlines: degree, cause and what is told.
+    told: Vec<String>,
 }
 
 impl Workshop {
@@ -227,16 +229,19 @@ impl Tried {
         let fails = tree.trials.iter().filter(|trial| kills(trial));
         let killed_by = fails.map(|trial| trial.case.clone()).collect();
         let record: serde_json::Value = read_json(&run.join("run.json")).unwrap();
-        let first = &record["cores"][0]["diagnosis"]["headlines"][0];
-        let word = |key: &str| first[key].as_str().unwrap_or_default().to_owned();
-        let told = format!("{} {} {}", word("degree"), word("cause"), word("mistake"));
-        Self { killed_by, told: told.trim().to_owned() }
+        let headlines = record["cores"][0]["diagnosis"]["headlines"].as_array();
+        let told = headlines.into_iter().flatten().map(|headline| {
+            let word = |key: &str| headline[key].as_str().unwrap_or_default();
+            format!("{} {} {}", word("degree"), word("cause"), word("mistake"))
+        });
+        Self { killed_by, told: told.collect() }
     }
 
     fn describe(&self) -> String {
         let Some(first) = self.killed_by.first() else { return "  SURVIVED".to_owned() };
         let others = self.killed_by.len() - 1;
-        format!("  killed by {first} and {others} more\n  first headline: {}", self.told)
+        let told: String = self.told.iter().map(|told| format!("\n  told: {told}")).collect();
+        format!("  killed by {first} and {others} more{told}")
     }
 }
 
@@ -252,22 +257,26 @@ fn range() -> Range<usize> {
 fn what_the_suite_sees_of_mutants() {
     let seed =
         std::env::var("FURNACE_SEED").map_or(Seed::SUITE, |word| Seed(word.parse().unwrap()));
-    let workshop = Workshop::new("all", "-O2", &["!image/"]);
     let sources = sources();
     let all = sources.iter().flat_map(|(file, text)| mutants_of(file, text)).collect();
     let mutants = in_random_order(all, seed);
     println!("{} mutants of examples/cpp, seed {}", mutants.len(), seed.0);
-    let (mut tried, mut killed) = (0, 0);
-    for number in range().take_while(|number| *number < mutants.len()) {
+    let (tried, killed) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let numbers = range().start..range().end.min(mutants.len());
+    let workshop = |thread| Workshop::new(&format!("all-{thread}"), "-O2", &["!image/"]);
+    let workshops: Vec<_> = (0..rayon::current_num_threads()).map(workshop).collect();
+    numbers.into_par_iter().with_max_len(1).for_each(|number| {
+        let workshop = &workshops[rayon::current_thread_index().unwrap_or_default()];
         let mutant = &mutants[number];
         if !workshop.compiles(&mutant.apply(&sources)) {
-            continue;
+            return;
         }
         let found = workshop.try_out();
-        tried += 1;
-        killed += usize::from(!found.killed_by.is_empty());
+        tried.fetch_add(1, Relaxed);
+        killed.fetch_add(usize::from(!found.killed_by.is_empty()), Relaxed);
         println!("{number} {}\n{}", mutant.describe(&sources), found.describe());
-    }
+    });
+    let (tried, killed) = (tried.into_inner(), killed.into_inner());
     println!("{killed} of {tried} killed");
 }
 
@@ -316,6 +325,9 @@ const HANDMADE: &[[&str; 4]] = &[
     ["pathtracer.cpp", "adaptive/batches-draw-samples-of-their-own",
      "index, tally.count + 1);",
      "index, tally.count % (settings.adaptive ? settings.adaptive->samples_per_batch : -1));"],
+    ["numbers.hpp", "adaptive/pixels-stop-as-their-samples-say",
+     "Real(0.7152) * c.g",
+     "Real(0.3333) * c.g"],
     ["shapes.hpp", "bvh/ray-box-overlap-is-right",
      "exit >= ray.t_min",
      "exit > ray.t_min"],

@@ -2,6 +2,7 @@
 
 mod answered_stream;
 mod known_stream;
+mod picture_counts;
 mod random_stream;
 mod rule;
 mod sample_counts;
@@ -14,4 +15,5 @@ checks! {
     stops_where_it_should::StopsWhereItShould,
     stops_by_its_law::StopsByItsLaw,
     sample_counts::SampleCounts,
+    picture_counts::PictureCounts,
 }

@@ -81,6 +81,12 @@ impl Sums {
         Self { n: n as f64, sum: lows * low + highs * high, squares }
     }
 
+    pub(crate) fn push(&mut self, sample: f64) {
+        self.n += 1.0;
+        self.sum += sample;
+        self.squares += sample * sample;
+    }
+
     pub(crate) fn mean(&self) -> f64 {
         self.sum / self.n
     }

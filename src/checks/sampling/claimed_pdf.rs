@@ -126,7 +126,7 @@ impl ClaimedPdf {
     }
 
     /// The law of heights that gives this product of pdf and Jacobian.
-    pub(crate) fn law_of_product(self, product: Form) -> Option<Law> {
+    pub(crate) fn law_of_product(self, product: Form, leaves_azimuths_out: bool) -> Option<Law> {
         let pdf = self.form?;
         let jacobian =
             Form { constant: product.constant / pdf.constant, power: product.power - pdf.power };
@@ -137,7 +137,7 @@ impl ClaimedPdf {
             Some(Law::Uniform)
         } else if is(Form::COSINE) {
             Some(Law::Cosine)
-        } else if product.constant < 0.75 && product.power == 0 {
+        } else if leaves_azimuths_out && product.constant < 0.75 && product.power == 0 {
             Some(Law::PartOfAzimuths)
         } else {
             None

@@ -12,6 +12,7 @@ use crate::contract::{Precision, Randomness};
 use crate::math::ratios::names_of;
 use crate::stats::{Tolerance, Verdict};
 use glam::DVec2;
+use std::f64::consts::TAU;
 
 /// Points of the unit square.
 pub(super) const POINTS: usize = 2000;
@@ -35,6 +36,8 @@ pub(crate) struct Products {
     pub(super) name: String,
     /// (product, cos θ), sorted by product; points whose neighbours fail are left out.
     pub(super) values: Vec<(f64, f64)>,
+    /// In an eighth of the circle at least there is no direction.
+    pub(super) leaves_azimuths_out: bool,
     pub(super) precision: Precision,
     pub(super) pdf: Option<ClaimedPdf>,
 }
@@ -78,7 +81,9 @@ impl Products {
         let mut values: Vec<_> = (0..points.len()).filter_map(product).collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
         let pdf = ClaimedPdf::of(context.core, distribution)?;
-        Ok(Self { name: distribution.name() + way.words(), values, precision, pdf })
+        let name = distribution.name() + way.words();
+        let leaves_azimuths_out = leave_azimuths_out(&centre);
+        Ok(Self { name, values, leaves_azimuths_out, precision, pdf })
     }
 
     /// The error that this share of the points does not exceed.
@@ -127,7 +132,7 @@ impl Products {
             |(value, cosine): &(f64, f64)| (value / (1.0 - cosine * cosine).sqrt(), *cosine);
         let by_angle: Vec<_> = self.values.iter().map(over_sine).collect();
         match Form::of(&self.values) {
-            Some(product) => pdf.law_of_product(product),
+            Some(product) => pdf.law_of_product(product, self.leaves_azimuths_out),
             None => pdf.law_of_angle(Form::of(&by_angle)?),
         }
     }
@@ -149,6 +154,17 @@ impl Products {
         });
         format!("between {} and {} instead of 1", figure(low), figure(high))
     }
+}
+
+/// Whether one of eight sectors has no direction. Of [`POINTS`] directions that go all around, each has hundreds.
+fn leave_azimuths_out(drawn: &[Drawn]) -> bool {
+    const SECTORS: usize = 8;
+    let mut is_met = [false; SECTORS];
+    for direction in drawn.iter().filter_map(|one| one.direction) {
+        let turn = direction.y.atan2(direction.x) / TAU + 0.5;
+        is_met[((turn * SECTORS as f64) as usize).min(SECTORS - 1)] = true;
+    }
+    is_met.contains(&false)
 }
 
 /// `2π`, or the figure.

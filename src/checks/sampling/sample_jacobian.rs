@@ -116,6 +116,12 @@ mod tests {
         assert_named(named(half, cosine_pdf), "is 1/2 instead of 1", "half-of-azimuths");
     }
 
+    #[test]
+    fn half_of_the_heights_is_not_half_of_the_azimuths() {
+        let upper = |p: DVec2| Some(at_height((1.0 - 0.5 * p.x).sqrt(), TAU * p.y));
+        assert_named(named(upper, cosine_pdf), "is 1/2 instead of 1", "");
+    }
+
     fn of_both_ways(pdf: fn(DVec3) -> f64) -> Finding {
         let check: SampleJacobian = check_of(
             "[expect]\ndistribution = { surface = { rough-glass = { index = 1.5, roughness = 0.5 } }, \

@@ -634,6 +634,16 @@ template <class T>
 struct HasAccumulate<T, std::void_t<decltype(std::declval<T &>().isAccumBounces)>>
     : std::true_type {};
 
+// What a submission adds to its path tracer and sets from its command line alone is 0 and false here, not anything.
+struct Tracer {
+   alignas(PathTracer) unsigned char place[sizeof(PathTracer)] = {};
+   PathTracer *const tracer = new (place) PathTracer;
+
+   Tracer() = default;
+   Tracer(const Tracer &) = delete;
+   ~Tracer() { tracer->~PathTracer(); }
+};
+
 void prepare(PathTracer &tracer) {
    tracer.max_ray_depth = 1;
    tracer.ns_aa = tracer.ns_area_light = 1;
@@ -674,7 +684,8 @@ struct OnePixel {
    PointLamp                lamp{Vector3D(0, 0, 100), Vector3D()};
    CGL::SceneObjects::Scene scene{{}, {&lamp}};
    std::unique_ptr<BVHAccel> bvh;
-   PathTracer               tracer;
+   Tracer                   own_tracer;
+   PathTracer              &tracer = *own_tracer.tracer;
 
    explicit OnePixel(Primitive *met) : primitives{met}, bvh(new BVHAccel(primitives)) {
       bvh->total_rays = bvh->total_isects = 0;
@@ -783,7 +794,8 @@ struct Built {
    std::unique_ptr<CGL::SceneObjects::Scene> scene, scene_for_hemisphere;
    std::unique_ptr<BVHAccel>                own;
    BVHAccel                                *bvh;
-   PathTracer                               tracer;
+   Tracer                                   own_tracer;
+   PathTracer                              &tracer = *own_tracer.tracer;
    Counts                                   counts;
    bool                                     accelerated;
    furnace_built                           *in_bench;

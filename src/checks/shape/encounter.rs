@@ -67,6 +67,10 @@ fn is_on_segment(e: &Encounter) -> bool {
 
 /// The mistake that explains every clear ray, if one does, and what speaks for it.
 pub(super) fn explanation(encounters: &[Encounter]) -> Option<(&'static Cause, String)> {
+    // Where nothing is hit any rule that has no hits here fits.
+    if encounters.iter().all(|e| e.found.is_none()) {
+        return None;
+    }
     if encounters.iter().filter_map(Encounter::t_compared).any(|t| !t.agrees()) {
         return None;
     }

@@ -202,7 +202,9 @@ impl<'a> Proof<'a> {
     fn doubted(&self, refuted: &Refuted, found: &[Suspicion]) -> Ranked {
         let mut told = look_without(self.evidence, refuted, found.to_vec());
         let is_against = |one: &&Headline| {
-            self.is_outnumbered(one, &told) || self.is_built_on_what_is_wrong(one, &told)
+            self.is_outnumbered(one, &told)
+                || self.is_built_on_what_is_wrong(one, &told)
+                || self.passes_its_own(one) && !self.is_needed(one)
         };
         let against: BTreeSet<_> =
             told.with_cause().filter(is_against).map(|one| one.cause.clone()).collect();
@@ -234,6 +236,7 @@ impl<'a> Proof<'a> {
         let unproven = self.unproven_beside(told).into_iter();
         unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
         unfounded.extend(self.lost_in_a_crowd(told));
+        unfounded.extend(self.unlike_in_their_own(told));
         unfounded.extend(self.following(told));
         unfounded
     }
@@ -904,6 +907,23 @@ mod tests {
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         let pi = bsdf::WITHOUT_PI.name;
         assert_eq!(told(&diagnosis), [(pi, Degree::LooksLike, 1)], "it is of another size");
+    }
+
+    #[test]
+    fn a_mistake_whose_own_case_passes_is_not_told_of_one_other() {
+        let seen = light(2.0).because(&bsdf::WITHOUT_PI, "too bright");
+        let planted =
+            Bench { mistakes: &[PI], gives: &[(&["pi"], "bsdf/a", 3.0), (&["pi"], "bsdf/b", 2.0)] };
+        let causes = |made: Made| {
+            let diagnosis = diagnose_proven(&made.evidence(), &planted);
+            diagnosis.headlines.into_iter().map(|told| told.cause).collect::<Vec<_>>()
+        };
+        let pi = bsdf::WITHOUT_PI.name;
+        assert_eq!(causes(Made::new().with("bsdf/b", seen.clone())), [pi]);
+        assert_eq!(
+            causes(Made::new().with("bsdf/b", seen.clone()).with("bsdf/a", passing())),
+            [""]
+        );
     }
 
     #[test]

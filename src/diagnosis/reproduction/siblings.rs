@@ -17,6 +17,8 @@ const PASSED: usize = 6;
 /// A cause is not told if so many times more speaks against it than for it, and no less than this many cases.
 const OUTNUMBERED: usize = 2;
 const LEAST_AGAINST: usize = 2;
+/// The case that was written for a mistake speaks against it as loud as so many others.
+const OWN_CASE: usize = 2;
 /// So many cases of its part that the core passes speak for a mistake that passes them too.
 const AGREEING: usize = 4;
 /// What looks like a cause and explains one of so many failures of its part says little.
@@ -84,6 +86,28 @@ impl Proof<'_> {
         ranked.with_cause().filter(is_lost).filter_map(all_of).flatten().collect()
     }
 
+    /// Likenesses that are none in the cases that were written for their mistakes: the core fails those otherwise.
+    pub(super) fn unlike_in_their_own(&self, ranked: &Ranked) -> Refuted {
+        let all: Vec<_> = ranked.with_cause().filter_map(|told| self.of(told).next()).collect();
+        let is_unlike = |headline: &Headline, mistake: Mistake| {
+            let own = self.evidence.failure_of(mistake.caught_by);
+            let own = own.filter(|seen| !seen.with.intersects(mistake.components));
+            own.is_some_and(|seen| {
+                let sets = [vec![mistake], all.clone()];
+                let answers = likenesses(&[seen], &self.glimpsed(&sets, &[seen]));
+                !headline.explains.iter().any(|case| case == seen.case)
+                    && answers.iter().all(|of_set| of_set[0] == Likeness::Other)
+            })
+        };
+        let is_refuted = |headline: &&Headline| {
+            let mut mistakes = self.of(headline).peekable();
+            headline.degree == Degree::LooksLike
+                && mistakes.peek().is_some()
+                && mistakes.all(|mistake| is_unlike(headline, mistake))
+        };
+        ranked.with_cause().filter(is_refuted).filter_map(all_of).flatten().collect()
+    }
+
     /// Whether more of its part speaks against a cause than for it.
     pub(super) fn is_outnumbered(&self, headline: &Headline, ranked: &Ranked) -> bool {
         !self.is_needed(headline) && self.siblings(headline, ranked).doubt(headline)
@@ -128,6 +152,18 @@ impl Proof<'_> {
         };
         let mut others = ranked.without_cause(headline);
         !made.is_empty() && others.any(|case| is_of_one_part(headline, case) && is_lower(case))
+    }
+
+    /// Whether the core passes, with what is its own, every case that was written for a mistake of this cause.
+    pub(super) fn passes_its_own(&self, headline: &Headline) -> bool {
+        let passed = |mistake: Mistake| {
+            let mut passed = self.evidence.passed();
+            passed.any(|seen| {
+                seen.case == mistake.caught_by && !seen.with.intersects(mistake.components)
+            })
+        };
+        let mut mistakes = self.of(headline).peekable();
+        mistakes.peek().is_some() && mistakes.all(passed)
     }
 
     /// What else is explained by a cause that is told.
@@ -179,7 +215,10 @@ impl Proof<'_> {
         let answer = |number: usize, sets: &[Vec<Option<Finding>>]| -> Vec<Finding> {
             sets.iter().filter_map(|of_set| of_set[number].clone()).collect()
         };
-        let mut found = Siblings::default();
+        let is_its_own =
+            |seen: &Observation<'_>| self.of(headline).any(|one| one.caught_by == seen.case);
+        let against = if self.passes_its_own(headline) { OWN_CASE } else { 0 };
+        let mut found = Siblings { against, ..Siblings::default() };
         for (number, seen) in asked.into_iter().enumerate() {
             let of_sets = answer(number, &answers);
             if of_sets.is_empty() {
@@ -187,7 +226,7 @@ impl Proof<'_> {
             } else if is_same(seen, &answer(number, &answers[..own])) {
                 found.same.push(seen.case.to_owned());
             } else if speak_against(seen, &of_sets) {
-                found.against += 1;
+                found.against += if is_its_own(seen) { OWN_CASE } else { 1 };
             } else if of_sets.iter().all(|one| likeness(seen.finding, one) == Likeness::Alike) {
                 found.of_another_size += 1;
             } else if !seen.has_failed() {

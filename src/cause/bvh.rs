@@ -64,9 +64,9 @@ causes! {
         at "the any-hit query of shadow rays",
         fix "Traverse the BVH as for the nearest hit, and return as soon as anything is hit.";
     SEGMENT_NOT_SHORTENED = "t-max-not-shortened":
-        "traversal does not shorten t_max to the closest hit, so it visits nodes behind it",
+        "traversal visits nodes behind the closest hit: it does not shorten t_max, or visits the farther child first",
         at "BVH traversal, where the children of a node are visited",
-        fix "Set the ray's t_max to the closest hit so far before testing the next box.";
+        fix "Visit the nearer child first, and set the ray's t_max to the closest hit so far before testing the next box.";
     CHILDREN_UNORDERED = "children-unordered":
         "traversal does not visit the nearer child first",
         at "BVH traversal, where the children of a node are visited",

@@ -15,7 +15,7 @@ pub(crate) fn explain(found: &Answers, right: &Truth, d: &Differences) -> Option
     match (closest, d.unoccluded, d.occluded) {
         (0, 0, 0) => None,
         _ if right.overwritten > 0 => Some(&bvh::HIT_OVERWRITTEN),
-        (0, 0, _) => Some(shadows_stopped_by_nothing(found, right)),
+        (0, 0, _) => shadows_stopped_by_nothing(found, right),
         (0, _, 0) => Some(&bvh::SHADOW_SECOND_CHILD_SKIPPED),
         (all, 0, 0) if all == d.misnamed => Some(&bvh::LEAF_ORDER_NUMBERS),
         (all, _, 0) if all == d.lost + d.farther => hits_lost(found, right, d),
@@ -26,11 +26,15 @@ pub(crate) fn explain(found: &Answers, right: &Truth, d: &Differences) -> Option
     }
 }
 
-fn shadows_stopped_by_nothing(found: &Answers, right: &Truth) -> &'static Cause {
+/// Boxes stop rays whose line meets nothing else; the test of a shape that forgets its segment does not.
+fn shadows_stopped_by_nothing(found: &Answers, right: &Truth) -> Option<&'static Cause> {
+    let meets_boxes = || {
+        found.occluded.iter().zip(&right.on_line).any(|(occluded, on_line)| *occluded && !on_line)
+    };
     match &found.occluded {
-        occluded if *occluded == right.endless => &bvh::SHADOW_END_IGNORED,
-        occluded if *occluded == right.from_origin => &bvh::SHADOW_START_IGNORED,
-        _ => &bvh::SHADOWS_HIT_BOXES,
+        occluded if *occluded == right.endless => Some(&bvh::SHADOW_END_IGNORED),
+        occluded if *occluded == right.from_origin => Some(&bvh::SHADOW_START_IGNORED),
+        _ => meets_boxes().then_some(&bvh::SHADOWS_HIT_BOXES),
     }
 }
 
@@ -105,8 +109,8 @@ mod tests {
         let segments = rays.clone();
         let mut answers =
             Answers { rays: rays.clone(), segments: rays.clone(), occluded: vec![true; 30] };
-        let [endless, from_origin] = [(); 2].map(|()| vec![true; 30]);
-        let mut truth = Truth { rays, segments, endless, from_origin, overwritten: 0 };
+        let [endless, from_origin, on_line] = [(); 3].map(|()| vec![true; 30]);
+        let mut truth = Truth { rays, segments, endless, from_origin, on_line, overwritten: 0 };
         change(&mut answers, &mut truth);
         let ray = Ray::new(DVec3::ZERO, DVec3::X);
         let questions = Questions { rays: vec![ray; 30], segments: vec![ray; 30] };
@@ -155,10 +159,17 @@ mod tests {
             stopped_by_nothing(answers, truth);
             truth.endless[0] = false;
         });
+        let by_neither = |answers: &mut Answers, truth: &mut Truth| {
+            stopped_by_nothing(answers, truth);
+            truth.endless[0] = false;
+            truth.from_origin[0] = false;
+        };
+        assert_eq!(told(by_neither), None, "a shape that forgets the segment");
         tell(&bvh::SHADOWS_HIT_BOXES, |answers, truth| {
             stopped_by_nothing(answers, truth);
             truth.endless[0] = false;
             truth.from_origin[0] = false;
+            truth.on_line[0] = false;
         });
         tell(&bvh::HIT_OVERWRITTEN, |answers, truth| {
             answers.rays[0].t = 0.5;

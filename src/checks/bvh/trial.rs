@@ -71,10 +71,14 @@ impl<'a> Trial<'a> {
         };
         let endless = occluded(|ray| Ray { t_max: f64::INFINITY, ..*ray })?;
         let from_origin = occluded(|ray| Ray { t_min: 0.0, ..*ray })?;
+        let ahead = occluded(|ray| Ray::new(ray.origin, ray.direction))?;
+        let behind = occluded(|ray| Ray::new(ray.origin, -ray.direction))?;
+        let on_line = ahead.iter().zip(behind).map(|(ahead, behind)| *ahead || behind).collect();
         let truth = Truth {
             segments: closest_hits(brute, &segments)?,
             endless,
             from_origin,
+            on_line,
             overwritten: overwritten(brute, &rays, &hits)?,
             rays: hits,
         };

@@ -83,7 +83,12 @@ fn finding(reports: &[MeanReport], all: &Tally) -> Finding {
     let finding =
         Finding::measured(format!("{} samples lie evenly in their pixels", all.samples), measures)
             .in_terms(" of the share of a fifth of the pixel");
-    if finding.failed() { explain(finding.complaining([complaint(all)]), all) } else { finding }
+    if !finding.failed() {
+        return finding;
+    }
+    let finding = finding.complaining([complaint(all)]);
+    // Of pixels that cannot be read it is not known where their samples lie.
+    if all.unreadable > 0 { finding } else { explain(finding, all) }
 }
 
 fn complaint(all: &Tally) -> String {
@@ -110,8 +115,9 @@ fn explain(mut finding: Finding, all: &Tally) -> Finding {
     for mistake in MISTAKES {
         let expected = Tally::of_law(mistake.law).shares();
         let errors = found.iter().zip(&expected).map(|(found, right)| (found - right).abs());
-        let largest = errors.fold(0.0, |largest: f64, e| if e <= largest { largest } else { e });
-        if largest <= EXPLAINED {
+        let errors: Vec<_> = errors.collect();
+        if errors.iter().all(|error| *error <= EXPLAINED) {
+            let largest = errors.into_iter().fold(0.0, f64::max);
             let what = "predicts the share of every fifth and of every border to";
             finding = finding.because(mistake.cause, format!("{what} {}", percent(largest)));
         }

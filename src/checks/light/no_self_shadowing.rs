@@ -210,7 +210,7 @@ fn finding(seen: &[Seen<'_>], tolerance: f64, allowed: f64) -> Finding {
         return Finding::of(right, resolution, measures);
     }
     let finding = Finding::of(complaints.join("; "), resolution, measures);
-    if dark == points {
+    if dark == points || rare.verdict == Verdict::Fail && !are_lit_by_a_law(all(), tolerance) {
         finding
     } else if rare.verdict == Verdict::Fail {
         let evidence = format!("{dark} of {points} points that light at the camera has to reach");
@@ -221,6 +221,17 @@ fn finding(seen: &[Seen<'_>], tolerance: f64, allowed: f64) -> Finding {
         let evidence = format!("predicts the radiance of {points} points");
         finding.because_each(made.map(|(cause, _)| *cause), &evidence)
     }
+}
+
+/// Whether points that are not dark are as bright as they should be, by a mistake or all by one factor: where the light is
+/// wrong otherwise, those that are dark need not be shadowed.
+fn are_lit_by_a_law<'a>(points: impl Iterator<Item = &'a Point>, tolerance: f64) -> bool {
+    let lit: Vec<_> = points.filter(|point| !point.is_dark()).collect();
+    let Some(first) = lit.first() else { return false };
+    let factor = first.radiance[0] / first.right(0);
+    let is_by = |mistake| lit.iter().all(|point| point.is_by(mistake, tolerance));
+    lit.iter().all(|point| point.is_times(factor, tolerance))
+        || MISTAKES.iter().any(|(_, mistake)| is_by(*mistake))
 }
 
 #[cfg(test)]
@@ -259,6 +270,13 @@ mod tests {
         let finding = seen(|_| 1.0, 7);
         assert!(failure(&finding).contains("7 of 100 points that the camera sees are dark"));
         assert_eq!(finding.clues[0].cause, cause::SHADOW_ACNE.name);
+    }
+
+    #[test]
+    fn darkness_beside_light_that_follows_no_law_is_not_named() {
+        let in_any_direction: Mistake = |point| (10.0 * point.distance).sin();
+        assert!(seen(in_any_direction, 7).clues.is_empty());
+        assert_eq!(causes(&seen(|_| 0.5, 7)), [cause::SHADOW_ACNE.name]);
     }
 
     #[test]

@@ -68,7 +68,12 @@ impl Point {
     }
 
     pub(super) fn is_by(&self, mistake: Mistake, tolerance: f64) -> bool {
-        let compare = |channel| self.compared(channel, mistake(self), LIKENESS * tolerance);
+        self.is_times(mistake(self), tolerance)
+    }
+
+    /// Whether it is so many times as bright as it should be.
+    pub(super) fn is_times(&self, factor: f64, tolerance: f64) -> bool {
+        let compare = |channel| self.compared(channel, factor, LIKENESS * tolerance);
         (0..3).all(|channel| compare(channel).agrees())
     }
 }

@@ -56,8 +56,12 @@ fn unmended(of: &Transplants) -> impl Iterator<Item = String> {
     };
     let cases = of.unmended.join(", ");
     let stay = stay.map(|stay| format!("{stay}, whatever is taken from the bench: {cases}"));
-    let untried =
-        (of.untried > 0).then(|| format!("of {} the time was too short to tell", of.untried));
+    let untried = (of.untried > 0).then(|| {
+        format!(
+            "of {} this is not known: the time was too short, or they cannot be asked so",
+            of.untried
+        )
+    });
     stay.into_iter().chain(untried)
 }
 

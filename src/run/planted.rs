@@ -5,11 +5,12 @@ use super::bench::Bench;
 use super::plan::{Plan, Trial};
 use super::purse::{Purse, price};
 use super::record::TrialRecord;
+use super::search::is_gross;
 use crate::checks::Finding;
 use crate::contract::Components;
 use crate::cores::textbook::fault;
 use crate::diagnosis::{Mistake, Planted, Question};
-use crate::stats::Allowance;
+use crate::stats::{Allowance, Budget};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -49,11 +50,28 @@ pub(crate) fn excluded() -> Vec<Excluded> {
 /// Every fault of the textbook, and what was asked of them before.
 pub(super) struct PlantedFaults<'a> {
     plan: &'a Plan,
-    closely: Bench,
-    roughly: Bench,
+    /// Cases that failed so little that a quick run would not see it: they are asked as the core was.
+    subtle: BTreeSet<String>,
+    as_the_core: Looks,
+    /// As a quick run asks.
+    quickly: Looks,
     mistakes: Vec<Mistake>,
     purse: Purse,
     known: Mutex<BTreeMap<Asked, Option<Finding>>>,
+}
+
+/// The bench for a first look, and for the one that counts.
+struct Looks {
+    roughly: Bench,
+    closely: Bench,
+}
+
+impl Looks {
+    fn of(bench: &Bench, allowance: Allowance) -> Self {
+        let with = |allowance| Bench { allowance, ..bench.clone() };
+        let roughly = with(Allowance { looks_roughly: true, ..allowance });
+        Self { roughly, closely: with(allowance) }
+    }
 }
 
 impl<'a> PlantedFaults<'a> {
@@ -71,10 +89,20 @@ impl<'a> PlantedFaults<'a> {
         };
         let (mistakes, known) = (fault::all().map(mistake).collect(), Mutex::default());
         let allowance = Allowance { judges_alone: true, ..bench.allowance };
-        let closely = Bench { allowance, ..bench.clone() };
-        let allowance = Allowance { looks_roughly: true, ..allowance };
-        let roughly = Bench { allowance, ..bench.clone() };
-        Self { plan, closely, roughly, mistakes, purse: Purse::of_share(SHARE, records), known }
+        let quick = Allowance { budget: Budget::Quick, ..allowance };
+        let coarser = quick.coarseness() / allowance.coarseness();
+        let is_subtle = |finding: &Finding| finding.failed() && !is_gross(finding, coarser);
+        let of_subtle = |record: &'r TrialRecord| record.outcome.finding().is_some_and(is_subtle);
+        let subtle = records.clone().filter(|record| of_subtle(record));
+        Self {
+            plan,
+            subtle: subtle.map(|record| record.case.clone()).collect(),
+            as_the_core: Looks::of(bench, allowance),
+            quickly: Looks::of(bench, quick),
+            mistakes,
+            purse: Purse::of_share(SHARE, records),
+            known,
+        }
     }
 
     /// Tries what was asked. Mistakes that exclude each other, and cases that were not selected, have no answer.
@@ -82,7 +110,9 @@ impl<'a> PlantedFaults<'a> {
         let case = self.plan.trials.iter().find(|trial| trial.case.id == *case);
         let (Some(case), Ok(core)) = (case, core.parse()) else { return (None, 0) };
         let trial = Trial { case: Arc::clone(&case.case), core };
-        let bench = if *roughly { &self.roughly } else { &self.closely };
+        let is_subtle = self.subtle.contains(&trial.case.id);
+        let looks = if is_subtle { &self.as_the_core } else { &self.quickly };
+        let bench = if *roughly { &looks.roughly } else { &looks.closely };
         let ended = run_with(bench, &trial, *with).record;
         (ended.outcome.finding().cloned(), price(&ended))
     }

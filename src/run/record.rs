@@ -196,7 +196,7 @@ pub(crate) struct Transplants {
     pub(crate) mended: usize,
     /// Failing cases that fail with everything that the core can take.
     pub(crate) unmended: Vec<String>,
-    /// Failing cases of which the time was too short to tell.
+    /// Failing cases of which the time was too short to tell, or that cannot be asked with what mends others.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub(crate) untried: usize,
 }

@@ -10,9 +10,10 @@ use super::outcome::Status;
 use super::plan::Plan;
 use super::purse::{Purse, price};
 use super::record::{CoreRecord, Transplants, TrialRecord};
-use super::search::without_patience;
+use super::search::{is_gross, without_patience};
 use crate::case::asked_about;
 use crate::contract::Components;
+use crate::stats::{Allowance, Budget};
 
 /// How much the second look may ask one core, as a share of what its trials did.
 const SHARE: f64 = 0.75;
@@ -39,6 +40,8 @@ pub(crate) fn look_again(
     let of_core = || records.iter().filter(|record| record.core == core.spec);
     let purse = Purse::of_share(SHARE, of_core());
     let bench = without_patience(bench);
+    let allowance = Allowance { budget: Budget::Quick, ..bench.allowance };
+    let quick = Bench { allowance, ..bench.clone() };
     let telling = |own: Components| -> Vec<_> {
         let is_of_own = |record: &TrialRecord| is_of(plan, record, own, transplants);
         let tells = |record: &&TrialRecord| is_of_own(record) || is_seen_by_rules(record);
@@ -48,7 +51,14 @@ pub(crate) fn look_again(
         let of_own = told.iter().filter(|record| is_of(plan, record, own, transplants));
         let of_own = of_own.map(|record| record.case.clone()).collect();
         let again = purse.pay_each(plan.jobs(), told.len(), &|number| {
-            again(plan, &bench, told[number], broken, own)
+            let record = told[number];
+            // Of a case that one component mends those that are made of it stay the core's: with theirs it is not asked.
+            let hides = |one: &Components| one.is_made_of(own);
+            let hiding: Components = match transplants.place_of(&record.case) == Some(own) {
+                true => broken.iter().filter(hides).collect(),
+                false => Components::empty(),
+            };
+            again(plan, [&quick, &bench], record, (record.with | broken) - own - hiding)
         });
         SecondLook { own, again: again.into_iter().flatten().collect(), of_own }
     };
@@ -78,22 +88,26 @@ fn has_no_answer(record: &TrialRecord) -> bool {
     status.is_failure() || status == Status::Blocked
 }
 
-/// The trial with all that is broken taken from the bench but `own`, and its price. What would be the same is not tried
-/// again.
+/// The trial with these components of the bench, and its price. What would be the same is not tried again. Of what fails grossly a quick look is enough, unless it passes: it may have failed for what is taken.
 fn again(
     plan: &Plan,
-    bench: &Bench,
+    [quick, closely]: [&Bench; 2],
     record: &TrialRecord,
-    broken: Components,
-    own: Components,
+    with: Components,
 ) -> (Option<TrialRecord>, u64) {
-    let with = (record.with | broken) - own;
     if with == record.with && record.outcome.status() != Status::Blocked {
         return (Some(record.clone()), 0);
     }
     let Some(trial) = plan.trial_of(record) else { return (None, 0) };
-    let seen = run_with(bench, trial, with).record;
-    let price = price(&seen);
+    let coarser = quick.allowance.coarseness() / closely.allowance.coarseness();
+    let is_gross = record.outcome.finding().is_some_and(|finding| is_gross(finding, coarser));
+    let look = |bench: &Bench| run_with(bench, trial, with).record;
+    let mut seen = look(if is_gross { quick } else { closely });
+    let mut price_of_all = price(&seen);
+    if is_gross && coarser > 1.0 && !seen.outcome.status().is_failure() {
+        seen = look(closely);
+        price_of_all += price(&seen);
+    }
     // A trial has less time here: what it did not come to, the first look holds.
-    ((seen.outcome.status() != Status::TimedOut).then_some(seen), price)
+    ((seen.outcome.status() != Status::TimedOut).then_some(seen), price_of_all)
 }

@@ -160,7 +160,7 @@ impl Tries for Again<'_> {
 
 /// Whether something is so wrong that it would still fail were its error and its noise that many times as large as what is
 /// seen of them.
-fn is_gross(finding: &Finding, coarser: f64) -> bool {
+pub(in crate::run) fn is_gross(finding: &Finding, coarser: f64) -> bool {
     finding.failed_measures().any(|measure| {
         let Measure { measured, expected, allowed, .. } = measure;
         // A picture is screened by half of the runs that confirm it.

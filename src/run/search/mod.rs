@@ -18,7 +18,7 @@ use crate::case::asked_about;
 use crate::contract::{Capabilities, Components};
 use crate::stats::Budget;
 use again::Again;
-pub(in crate::run) use again::without_patience;
+pub(in crate::run) use again::{is_gross, without_patience};
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::ops::Range;

@@ -499,16 +499,16 @@ impl<'a> Proof<'a> {
         if found.is_empty() {
             found = self.of_sets(&pairs(&others), &cases, names);
         }
+        // A core may do what the bench has a component for in the midst of a higher one.
+        let is_below =
+            |components| !self.made_in.may_be(components) && !self.made_in.leaves(components);
+        let elsewhere = self.failing_alike(|mistake| is_below(mistake.components));
+        let elsewhere: Vec<_> = elsewhere.into_iter().map(|mistake| vec![mistake]).collect();
         if found.is_empty() {
-            // A core may do what the bench has a component for in the midst of a higher one.
-            let is_below =
-                |components| !self.made_in.may_be(components) && !self.made_in.leaves(components);
-            let elsewhere = self.failing_alike(|mistake| is_below(mistake.components));
-            let elsewhere: Vec<_> = elsewhere.into_iter().map(|mistake| vec![mistake]).collect();
             found = self.of_sets(&elsewhere, &cases, names);
         }
         if found.is_empty() {
-            found = self.nearly_reproducing(&[alone, likely].concat(), &many);
+            found = self.nearly_reproducing(&[alone, likely, elsewhere].concat(), &many);
         }
         found
     }
@@ -594,8 +594,10 @@ impl<'a> Proof<'a> {
 
     /// The sets of several mistakes that foretell what failed, the likeliest first.
     fn foretelling(&self, mistakes: &[Mistake], cases: &[&Observation<'a>]) -> Vec<Vec<Mistake>> {
+        // Light alone is multiplied and added up: where counts are wrong, what each mistake makes of them foretells nothing.
+        let cases: Vec<_> = cases.iter().copied().filter(|seen| is_of_light(seen)).collect();
         let alone: Vec<_> = mistakes.iter().map(|mistake| vec![*mistake]).collect();
-        let mut answers = self.glimpsed(&alone, cases);
+        let mut answers = self.glimpsed(&alone, &cases);
         let of_case = |(number, seen): (usize, &&Observation<'a>)| {
             let alone = answers.iter_mut().map(|of_mistake| of_mistake[number].take()).collect();
             Some(Seen { core: seen.finding?, alone })
@@ -765,6 +767,12 @@ fn quickest<'s, 'a: 's>(
     let cheap = seen.partition_point(|seen| seen.work <= COSTLY);
     seen.truncate(count.min(cheap + CASES));
     seen
+}
+
+/// Whether light is wrong in it, channel by channel.
+fn is_of_light(seen: &Observation<'_>) -> bool {
+    let wrong = seen.finding.into_iter().flat_map(Finding::failed_measures);
+    wrong.filter(|measure| measure.channel.is_some()).count() > 0
 }
 
 /// Whether `case` is about what the headline's are about.

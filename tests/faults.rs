@@ -24,6 +24,7 @@ const NAMED_BY_A_RUN: &[&str] = &[
     "light-pdf-inverted",
     "first-bounce-left-out",
     // What it takes away is what the scene has below the horizon.
+    "light-from-below-added",
     "light-from-below-subtracted",
     // What wrong MIS weights give depends on the scene's pdfs, and no rule foretells it.
     "mis-surface-in-full",

@@ -115,6 +115,10 @@ causes! {
         "light that arrives from below the surface is subtracted: its cosine is negative",
         at "direct lighting, where the cosine of a light sample is taken",
         fix "Add a light sample only where cos θ > 0 at the surface.";
+    LIGHT_FROM_BELOW_ADDED = "light-from-below-added":
+        "light that arrives from below the surface is added: its cosine lost its sign",
+        at "direct lighting, where the cosine of a light sample is taken",
+        fix "Add a light sample only where cos θ > 0 at the surface; |cos θ| is positive on both sides.";
     NO_SHADOWS = "no-shadows":
         "direct light ignores occlusion",
         at "the shadow ray: whether there is one, its origin, t_min and t_max",

@@ -92,6 +92,9 @@ faults! { part 3;
         fails "light/light-below-the-horizon-adds-nothing", told light::LIGHT_FROM_BELOW_SUBTRACTED,
         lit_direction = |wi, wo| DVec3 { z: wi.z.abs().copysign(wo.z), ..wi },
         light_cosine = |local, _| local.z;
+    "light-from-below-added": "|cos θ| > 0 in place of cos θ > 0, and f is the same for every direction",
+        fails "light/light-below-the-horizon-adds-nothing", told light::LIGHT_FROM_BELOW_ADDED,
+        lit_direction = |wi, wo| DVec3 { z: wi.z.abs().copysign(wo.z), ..wi };
     "light-times-pdf": "× pdf in place of / pdf",
         fails "light/rectangle-light-slanted-matches-closed-form", told light::TIMES_PDF,
         light_estimate = |light, pdf| light * pdf;

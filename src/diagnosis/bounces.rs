@@ -40,8 +40,8 @@ fn explain(evidence: &Evidence<'_>, role: Role) -> Vec<Suspicion> {
         beside: false,
     };
     if fitting.is_empty() {
-        let factor = furnace.constant_factor(case);
-        let factor = factor.or_else(|| furnace.factor_once(case));
+        let factor = furnace.constant_factor(case, evidence);
+        let factor = factor.or_else(|| furnace.factor_once(case, evidence));
         return factor.or_else(|| furnace.lost_ways(case)).into_iter().collect();
     }
     fitting.iter().map(told).collect()
@@ -128,7 +128,7 @@ impl Furnace {
     }
 
     /// One grey factor for every indirect bounce, if all isolated bounces agree on it and it is not 1.
-    fn constant_factor(&self, case: &str) -> Option<Suspicion> {
+    fn constant_factor(&self, case: &str, evidence: &Evidence<'_>) -> Option<Suspicion> {
         let mut interval = [f64::NEG_INFINITY, f64::INFINITY];
         let mut most = 0;
         for row in self.rows.iter().filter(|row| row.bounces[0] == row.bounces[1]) {
@@ -148,12 +148,15 @@ impl Furnace {
         }
         let [low, high] = interval;
         let is_wrong = high < 1.0 || 1.0 < low;
-        (most > 2 && low <= high && high.is_finite() && is_wrong)
-            .then(|| self.of_factor(case, interval))
+        (most > 2 && low <= high && high.is_finite() && is_wrong).then(|| {
+            let cases =
+                fitting_too(evidence, case, |bounce| interval.map(|f| f.powi(indirect(bounce))));
+            Suspicion { cases, ..self.of_factor(case, interval) }
+        })
     }
 
     /// One grey factor for all indirect light, if all isolated bounces agree on it and it is not 1.
-    fn factor_once(&self, case: &str) -> Option<Suspicion> {
+    fn factor_once(&self, case: &str, evidence: &Evidence<'_>) -> Option<Suspicion> {
         let isolated = || self.rows.iter().filter(|row| row.bounces[0] == row.bounces[1]);
         let of = |bounces: std::ops::RangeInclusive<u32>| {
             isolated().filter(move |row| bounces.contains(&row.bounces[0]))
@@ -171,7 +174,7 @@ impl Furnace {
                 format!("from bounce 2 on it is f times what it should be, with f = {factor}");
             Suspicion {
                 cause: &integrator::INDIRECT_FACTOR_ONCE,
-                cases: vec![case.to_owned()],
+                cases: fitting_too(evidence, case, |_| [low, high]),
                 evidence: vec![self.table(), fit],
                 ruled_out: vec![RuledOut::new("a factor a bounce", "it would be a power of k")],
                 weight: SHARED,
@@ -232,6 +235,26 @@ impl Furnace {
             beside: false,
         }
     }
+}
+
+/// The furnace's case, and every other that fails by what `factor` says of its isolated bounces from the second on.
+fn fitting_too(
+    evidence: &Evidence<'_>,
+    case: &str,
+    factor: impl Fn(u32) -> [f64; 2],
+) -> Vec<String> {
+    let predicted = |row: &Row| {
+        let [low, high] = if row.bounces[0] < 2 { [1.0; 2] } else { factor(row.bounces[0]) };
+        let fits = |one: &Reading| one.interval[0] <= high && low <= one.interval[1];
+        row.readings.iter().flatten().all(fits)
+    };
+    let fits = |finding: &Finding| {
+        let isolated = || rows(finding).into_iter().filter(|row| row.bounces[0] == row.bounces[1]);
+        isolated().any(|row| row.bounces[0] > 1) && isolated().all(|row| predicted(&row))
+    };
+    let others =
+        evidence.failures().filter(|seen| seen.case != case && seen.finding.is_some_and(fits));
+    std::iter::once(case).chain(others.map(|seen| seen.case)).map(str::to_owned).collect()
 }
 
 /// Whether one ratio fits all channels.
@@ -318,6 +341,20 @@ mod tests {
         assert!(fit.ends_with("with f = 0.7000 ± 0.0009"), "{fit}");
         assert!(roulette.starts_with("Russian roulette of your own"), "{roulette}");
         assert!(headline.ruled_out[0].contains("coloured"));
+    }
+
+    #[test]
+    fn a_factor_explains_every_case_whose_bounces_are_off_by_it() {
+        let rr = |c: &Channel, rows: [u32; 2]| c.sum(rows, |k| 0.7_f64.powi(indirect(k)));
+        let second = |ratio| means(vec![mean("bounce 2", CHANNELS[0], 0.5, ratio, 0.003)]);
+        let made = Made::new()
+            .with(FURNACES[0], furnace(rr))
+            .with("integrator/fits", second(0.7))
+            .with("integrator/other", second(0.5));
+        let diagnosis = diagnose(&made.evidence());
+        let explains = &diagnosis.headlines[0].explains;
+        assert!(explains.contains(&"integrator/fits".to_owned()), "{explains:?}");
+        assert!(!explains.contains(&"integrator/other".to_owned()), "{explains:?}");
     }
 
     #[test]

@@ -53,17 +53,21 @@ impl Check for PictureCounts {
         let picture =
             Rendering::of(&scene, self.size.0, self.bounces.0, self.cap)?.adaptive(settings);
         let pixels = u64::from(self.size.0[0]) * u64::from(self.size.0[1]);
-        let effort = context.effort(self.detects, self.at_most).in_steps_of(pixels);
+        let effort = context.effort(self.detects, self.at_most).with_runs(32);
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let scale = self.own_count(built.as_mut(), &camera, seed.child("scale"), SCALE_PIXELS)?;
+        let of_picture = (pixels as f64 * scale).ceil() as u64;
+        let effort = effort.in_steps_of(of_picture);
         let mut taken = (0.0, 0);
         let claim = Claim::difference(scale, Band::RADIANCE);
         let reports = judge_means(&[claim], &effort, &mut |draw| {
             let seed = draw.seed(seed);
-            let own = self.own_count(built.as_mut(), &camera, seed.child("own"), draw.samples)?;
-            let count = mean_count(built.as_mut(), &picture, seed, draw.samples / pixels)?;
-            taken = (taken.0 + count * draw.samples as f64, taken.1 + draw.samples);
+            let pictures = draw.samples / of_picture;
+            let seen = pictures * pixels;
+            let own = self.own_count(built.as_mut(), &camera, seed.child("own"), seen)?;
+            let count = mean_count(built.as_mut(), &picture, seed, pictures)?;
+            taken = (taken.0 + count * seen as f64, taken.1 + seen);
             Ok::<_, CheckError>(vec![count - own])
         })?;
         let measure = Measure {
@@ -168,7 +172,7 @@ mod tests {
     use crate::math::rng::{Stream, uniform};
 
     const EXPECT: &str = "[expect]\nsize = [4, 3]\nbounces = [0, 1]\ncap = 90\nbatch = 8\n\
-                          tolerance = \"20 %\"\ndetects = \"5 %\"\nat-most = \"40 k\"\n";
+                          tolerance = \"20 %\"\ndetects = \"5 %\"\nat-most = \"2 M\"\n";
 
     /// What a picture does with the sums of a pixel before it looks at the next one.
     type Ends = fn(&mut Sums);

@@ -296,12 +296,17 @@ impl<'a> Proof<'a> {
     /// least.
     fn superfluous(&self, ranked: &Ranked) -> Refuted {
         let told: Vec<_> = ranked.with_cause().collect();
+        // That all others leave it dark where it is dark is enough here: they are told already.
         let is_superfluous = |one: &&&Headline| {
             let others = told.iter().filter(|other| other.cause != one.cause);
             let others: Vec<_> = others.filter_map(|other| self.of(other).next()).collect();
-            !others.is_empty()
-                && !self.is_needed(one)
-                && !self.fitting(&[others], &self.quickest(&one.explains)).is_empty()
+            let cases = self.quickest(&one.explains);
+            let is_given = || {
+                self.compare(slice::from_ref(&others), &cases)[0]
+                    .iter()
+                    .all(|of| of.is_reproduced())
+            };
+            !others.is_empty() && !cases.is_empty() && !self.is_needed(one) && is_given()
         };
         let least = told.iter().filter(is_superfluous).min_by_key(|one| one.explains.len());
         let cases = |told: &&Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
@@ -998,6 +1003,29 @@ mod tests {
         let together = [&apart[..], &[(&["pi", "cosine"], "integrator/c", 5.0)]].concat();
         let told = names(&together);
         assert!(told.contains(&pi.to_owned()) && !told.contains(&roulette.to_owned()), "{told:?}");
+    }
+
+    #[test]
+    fn a_cause_of_darkness_that_all_others_leave_dark_is_not_told() {
+        let seen = |ratio, cause: &Cause| light(ratio).because(cause, "x");
+        let made = Made::new()
+            .with("bsdf/a", seen(2.0, &bsdf::WITHOUT_PI))
+            .with("light/b", seen(3.0, &light::WORLD_COSINE))
+            .with("integrator/c", seen(0.0, &integrator::ROULETTE_NOT_PLAYED));
+        let names = |dark: f64| -> Vec<String> {
+            let gives: [(&[&str], &str, f64); 5] = [
+                (&["pi"], "bsdf/a", 2.0),
+                (&["cosine"], "light/b", 3.0),
+                (&["pi", "cosine"], "bsdf/a", 2.0),
+                (&["pi", "cosine"], "light/b", 3.0),
+                (&["pi", "cosine"], "integrator/c", dark),
+            ];
+            let planted = Bench { mistakes: &[PI, COSINE], gives: &gives };
+            let diagnosis = diagnose_proven(&made.evidence(), &planted);
+            diagnosis.headlines.into_iter().map(|told| told.cause).collect()
+        };
+        let roulette = integrator::ROULETTE_NOT_PLAYED.name.to_owned();
+        assert!(names(1.0).contains(&roulette) && !names(0.0).contains(&roulette));
     }
 
     /// A bench whose time is up.

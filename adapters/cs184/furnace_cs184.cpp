@@ -474,6 +474,12 @@ struct Nothing : Stage {
    bool intersect(const Ray &, Intersection *) const override { return false; }
 };
 
+// What every ray of the camera meets, which stands outside its box. A traversal may ask for any hit first.
+struct Met : Stage {
+   using Stage::Stage;
+   bool has_intersection(const Ray &ray) const override { return ray.o.z > box.max.z; }
+};
+
 // A constant environment light: an emissive sphere far away, which `SkyLamp` ends before.
 struct Sky : Stage {
    static constexpr double radius = 1e4;
@@ -699,10 +705,10 @@ struct OnePixel {
 
 // Whether rays of the camera begin at the last bounce and count down, or at 0 and count up: a student's choice.
 size_t depth_of_camera_rays(size_t last_bounce) {
-   struct Probe : Stage {
+   struct Probe : Met {
       mutable size_t depth = 7;
 
-      Probe() : Stage(1) {}
+      Probe() : Met(1) {}
       bool intersect(const Ray &ray, Intersection *) const override {
          depth = ray.depth;
          return false;
@@ -722,14 +728,14 @@ size_t depth_of_camera_rays(size_t last_bounce) {
 }
 
 // Every ray of the camera meets the next luminance of a stream, as light.
-struct Luminances : Stage {
+struct Luminances : Met {
    const double   *values;
    size_t          count;
    mutable size_t  next = 0;
    mutable bool    counted = false;
    mutable Surface surface{Vector3D(), Vector3D()};
 
-   Luminances(const double *values, size_t count) : Stage(1), values(values), count(count) {}
+   Luminances(const double *values, size_t count) : Met(1), values(values), count(count) {}
    bool intersect(const Ray &ray, Intersection *hit) const override {
       const size_t number = counted ? next - 1 : next++;
       surface.glow = Vector3D(number < count ? values[number] : 0);
@@ -1351,10 +1357,10 @@ struct Probe {
 };
 
 bool shows_normals() {
-   struct Slanted : Stage {
+   struct Slanted : Met {
       mutable Surface surface{Vector3D(), Vector3D()};
 
-      Slanted() : Stage(1) {}
+      Slanted() : Met(1) {}
       bool intersect(const Ray &ray, Intersection *hit) const override {
          ray.max_t = hit->t = 4.5;
          hit->n = Vector3D(0.6, 0, 0.8);

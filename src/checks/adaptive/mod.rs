@@ -17,3 +17,11 @@ checks! {
     sample_counts::SampleCounts,
     picture_counts::PictureCounts,
 }
+
+/// Whether a pixel can stop at all before its last sample.
+fn looks_before_the_end(batch: u32, cap: u32) -> Result<(), String> {
+    if batch < 2 || cap < batch {
+        return Err("`batch` must be at least 2, and `cap` at least `batch`".to_owned());
+    }
+    Ok(())
+}

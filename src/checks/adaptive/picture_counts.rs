@@ -4,6 +4,7 @@
 //! one on. So the bench asks for samples one by one, applies the rule, and compares the counts with those of pictures.
 //! What the samples are does not matter, as long as one says nothing of the next.
 
+use super::looks_before_the_end;
 use super::rule::{Rule, Sums};
 use crate::checks::phrase::{figure, percent};
 use crate::checks::rendering::Rendering;
@@ -40,10 +41,7 @@ check! {
 
 impl Check for PictureCounts {
     fn validate(&self) -> Result<(), String> {
-        if self.batch < 2 || self.cap < self.batch {
-            return Err("`batch` must be at least 2, and `cap` at least `batch`".to_owned());
-        }
-        Ok(())
+        looks_before_the_end(self.batch, self.cap)
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding> {

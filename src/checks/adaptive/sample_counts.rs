@@ -1,5 +1,6 @@
 //! Adaptive pictures: sample counts in range, and means divided by the samples that were used.
 
+use super::looks_before_the_end;
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, Context, Finding, Measure, Picture, PictureRole, Result, check};
 use crate::contract::{Acceleration, AdaptiveSettings, Film};
@@ -30,10 +31,7 @@ check! {
 
 impl Check for SampleCounts {
     fn validate(&self) -> Result<(), String> {
-        if self.batch < 2 || self.cap < self.batch {
-            return Err("`batch` must be at least 2, and `cap` at least `batch`".to_owned());
-        }
-        Ok(())
+        looks_before_the_end(self.batch, self.cap)
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding> {

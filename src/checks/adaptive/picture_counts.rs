@@ -2,7 +2,8 @@
 //!
 //! Known streams show the rule; they do not show what a picture hands to it: which luminance, which samples, from which
 //! one on. So the bench asks for samples one by one, applies the rule, and compares the counts with those of pictures.
-//! What the samples are does not matter, as long as one says nothing of the next.
+//! What the samples are does not matter, as long as one says nothing of the next: a lattice over a pixel stops elsewhere, and
+//! rightly. A core that tells the variance of its pixels has no such lattice.
 
 use super::looks_before_the_end;
 use super::rule::{Rule, Sums};
@@ -36,7 +37,7 @@ check! {
     }
     name: "picture-counts",
     summary: "sample counts of adaptive pictures against the rule on the core's own samples",
-    needs: BUILD_SCENE | RENDER | RADIANCE | ADAPTIVE_SAMPLING | INDEPENDENT_SAMPLES,
+    needs: BUILD_SCENE | RENDER | RADIANCE | ADAPTIVE_SAMPLING | INDEPENDENT_SAMPLES | REPORTED_VARIANCE,
 }
 
 impl Check for PictureCounts {

@@ -23,7 +23,7 @@ const NAMED_BY_A_RUN: &[&str] = &[
     "light-area-of-one-triangle",
     "light-pdf-inverted",
     "first-bounce-left-out",
-    // What it takes away is what the scene has below the horizon.
+    // What it adds or takes away is what the scene has below the horizon.
     "light-from-below-added",
     "light-from-below-subtracted",
     // What wrong MIS weights give depends on the scene's pdfs, and no rule foretells it.

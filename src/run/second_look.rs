@@ -88,7 +88,8 @@ fn has_no_answer(record: &TrialRecord) -> bool {
     status.is_failure() || status == Status::Blocked
 }
 
-/// The trial with these components of the bench, and its price. What would be the same is not tried again. Of what fails grossly a quick look is enough, unless it passes: it may have failed for what is taken.
+/// The trial with these components of the bench, and its price. What would be the same is not tried again. Of what fails
+/// grossly a quick look is enough, unless it passes: it may have failed for what is taken.
 fn again(
     plan: &Plan,
     [quick, closely]: [&Bench; 2],

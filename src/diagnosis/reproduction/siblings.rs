@@ -217,7 +217,8 @@ impl Proof<'_> {
         };
         let is_its_own =
             |seen: &Observation<'_>| self.of(headline).any(|one| one.caught_by == seen.case);
-        let against = if self.passes_its_own(headline) { OWN_CASE } else { 0 };
+        let passes_its_own = self.passes_its_own(headline);
+        let against = if passes_its_own { OWN_CASE } else { 0 };
         let mut found = Siblings { against, ..Siblings::default() };
         for (number, seen) in asked.into_iter().enumerate() {
             let of_sets = answer(number, &answers);
@@ -226,7 +227,12 @@ impl Proof<'_> {
             } else if is_same(seen, &answer(number, &answers[..own])) {
                 found.same.push(seen.case.to_owned());
             } else if speak_against(seen, &of_sets) {
-                found.against += if is_its_own(seen) { OWN_CASE } else { 1 };
+                found.against += match is_its_own(seen) {
+                    // It is counted already.
+                    true if passes_its_own && !seen.has_failed() => 0,
+                    true => OWN_CASE,
+                    false => 1,
+                };
             } else if of_sets.iter().all(|one| likeness(seen.finding, one) == Likeness::Alike) {
                 found.of_another_size += 1;
             } else if !seen.has_failed() {

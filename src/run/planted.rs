@@ -52,6 +52,8 @@ pub(super) struct PlantedFaults<'a> {
     plan: &'a Plan,
     /// Cases that failed so little that a quick run would not see it: they are asked as the core was.
     subtle: BTreeSet<String>,
+    /// Cases that failed so much that a first look sees it.
+    glaring: BTreeSet<String>,
     as_the_core: Looks,
     /// As a quick run asks.
     quickly: Looks,
@@ -93,10 +95,16 @@ impl<'a> PlantedFaults<'a> {
         let coarser = quick.coarseness() / allowance.coarseness();
         let is_subtle = |finding: &Finding| finding.failed() && !is_gross(finding, coarser);
         let of_subtle = |record: &'r TrialRecord| record.outcome.finding().is_some_and(is_subtle);
-        let subtle = records.clone().filter(|record| of_subtle(record));
+        let coarsest = Looks::of(bench, quick).roughly.allowance.coarseness();
+        let is_glaring = |record: &&TrialRecord| {
+            let finding = record.outcome.finding();
+            finding.is_some_and(|seen| is_gross(seen, coarsest / allowance.coarseness()))
+        };
+        let names = |record: &TrialRecord| record.case.clone();
         Self {
             plan,
-            subtle: subtle.map(|record| record.case.clone()).collect(),
+            subtle: records.clone().filter(|record| of_subtle(record)).map(names).collect(),
+            glaring: records.clone().filter(is_glaring).map(names).collect(),
             as_the_core: Looks::of(bench, allowance),
             quickly: Looks::of(bench, quick),
             mistakes,
@@ -131,6 +139,10 @@ fn asked(question: &Question<'_>) -> Asked {
 impl Planted for PlantedFaults<'_> {
     fn mistakes(&self) -> &[Mistake] {
         &self.mistakes
+    }
+
+    fn is_seen_roughly(&self, case: &str) -> bool {
+        self.glaring.contains(case)
     }
 
     fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {

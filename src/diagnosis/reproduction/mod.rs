@@ -63,6 +63,11 @@ pub(crate) trait Planted {
     /// All there are.
     fn mistakes(&self) -> &[Mistake];
 
+    /// Whether a first look sees what a case fails by.
+    fn is_seen_roughly(&self, _case: &str) -> bool {
+        false
+    }
+
     /// What comes of each question; nothing where the mistakes exclude each other, or time is up.
     fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>>;
 }
@@ -255,24 +260,33 @@ impl<'a> Proof<'a> {
         if !made.is_empty() && self.made_in.leaves(made) {
             return refuted(cause, &headline.explains);
         }
-        let mut sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
-        if !sets.is_empty() && all.len() > 1 {
-            sets.push(all.to_vec());
-        }
         let explained = headline.explains.iter().filter_map(|case| self.evidence.failure_of(case));
         let cases = quickest(explained, CONTRADICTING);
-        let answers = self.compare(&sets, &cases);
-        let is_contradicted = |number: usize| {
-            let of_sets = || answers.iter().map(|of_set| of_set[number]);
-            of_sets().any(|likeness| likeness == Likeness::Other)
-                && of_sets().all(|l| matches!(l, Likeness::Other | Likeness::Unknown))
-        };
-        let against: Vec<_> = (0..cases.len()).filter(|number| is_contradicted(*number)).collect();
+        let alone: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+        let mut against = self.other_than(&alone, &cases);
+        if all.len() > 1 {
+            against = self.other_than(&[all.to_vec()], &against);
+        }
         // What every case that was tried contradicts is not the cause of those that were not.
         if !against.is_empty() && against.len() == cases.len() {
             return refuted(cause, &headline.explains);
         }
-        against.into_iter().map(|number| (cause.name, cases[number].case.to_owned())).collect()
+        against.into_iter().map(|seen| (cause.name, seen.case.to_owned())).collect()
+    }
+
+    /// Cases that the core fails otherwise than each of these sets of mistakes would.
+    fn other_than<'s>(
+        &self,
+        sets: &[Vec<Mistake>],
+        cases: &[&'s Observation<'a>],
+    ) -> Vec<&'s Observation<'a>> {
+        let answers = likenesses(cases, &self.weighed(sets, cases));
+        let is_other = |number: usize| {
+            let of_sets = || answers.iter().map(|of_set| of_set[number]);
+            of_sets().any(|likeness| likeness == Likeness::Other)
+                && of_sets().all(|l| matches!(l, Likeness::Other | Likeness::Unknown))
+        };
+        (0..cases.len()).filter(|number| is_other(*number)).map(|number| cases[number]).collect()
     }
 
     /// Causes whose cases another one's mistake reproduces too, and that reproduce not all of that one's: one mistake is
@@ -721,6 +735,16 @@ impl<'a> Proof<'a> {
         self.asked(sets, cases, |_| false)
     }
 
+    /// The same, no closer than it takes to see what the core fails by: enough to speak for a mistake or against it, and not
+    /// for what its numbers are alone.
+    fn weighed(
+        &self,
+        sets: &[Vec<Mistake>],
+        cases: &[&Observation<'a>],
+    ) -> Vec<Vec<Option<Finding>>> {
+        self.asked(sets, cases, |seen| self.planted.is_seen_roughly(seen.case))
+    }
+
     /// The same at a first look, where that takes less: of numbers that are known within their noise.
     fn glimpsed(
         &self,
@@ -770,7 +794,7 @@ fn quickest<'s, 'a: 's>(
     let mut seen: Vec<_> = seen.collect();
     seen.sort_by_key(|seen| seen.work);
     let cheap = seen.partition_point(|seen| seen.work <= COSTLY);
-    seen.truncate(count.min(cheap + CASES));
+    seen.truncate(count.min(cheap.max(CASES)));
     seen
 }
 

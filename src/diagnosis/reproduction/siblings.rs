@@ -9,6 +9,7 @@ use crate::contract::Components;
 use crate::diagnosis::rank::Ranked;
 use crate::diagnosis::{Degree, Headline, Observation};
 use crate::stats::Verdict;
+use std::slice;
 
 /// Failures without a cause that are put to each, the quickest.
 pub(super) const FAILED: usize = 16;
@@ -55,7 +56,7 @@ impl Siblings {
     }
 }
 
-impl Proof<'_> {
+impl<'a> Proof<'a> {
     /// Causes that far more of their part speaks against than for.
     pub(super) fn outnumbered(&self, ranked: &Ranked) -> Refuted {
         let told = ranked.with_cause().filter(|headline| !self.is_needed(headline));
@@ -151,7 +152,21 @@ impl Proof<'_> {
                     .all(|one| one.components.bits() < made.bits() & made.bits().wrapping_neg())
         };
         let mut others = ranked.without_cause(headline);
-        !made.is_empty() && others.any(|case| is_of_one_part(headline, case) && is_lower(case))
+        !made.is_empty()
+            && others.any(|case| {
+                is_of_one_part(headline, case)
+                    && is_lower(case)
+                    && !self.is_failed_by_told(case, ranked)
+            })
+    }
+
+    /// Whether some mistake that is told fails a case, too: then nothing else need be wrong in it.
+    fn is_failed_by_told(&self, case: &str, ranked: &Ranked) -> bool {
+        let told: Vec<_> = ranked.with_cause().flat_map(|told| self.of(told)).collect();
+        let sets: Vec<_> = told.into_iter().map(|mistake| vec![mistake]).collect();
+        let seen = self.evidence.failure_of(case);
+        let mut answers = seen.into_iter().flat_map(|seen| self.weighed(&sets, &[seen])).flatten();
+        answers.any(|answer| answer.is_some_and(|finding| finding.failed()))
     }
 
     /// Whether the core passes, with what is its own, every case that was written for a mistake of this cause.
@@ -200,40 +215,34 @@ impl Proof<'_> {
     }
 
     fn siblings(&self, headline: &Headline, ranked: &Ranked) -> Siblings {
-        let alone: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
-        if alone.is_empty() {
+        let own: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+        if own.is_empty() {
             return Siblings::default();
         }
-        let all: Vec<_> = ranked.with_cause().filter_map(|told| self.of(told).next()).collect();
-        let own = alone.len();
-        let sets: Vec<_> = alone.into_iter().chain((all.len() > 1).then_some(all)).collect();
         let failed = ranked.without_cause(headline);
         let failed = failed.filter_map(|case| self.evidence.failure_of(case));
         let passed = self.evidence.passed().filter(|seen| is_of_one_part(headline, seen.case));
         let asked = [quickest(failed, FAILED), quickest(passed, PASSED)].concat();
-        let answers = self.planted(&sets, &asked);
-        let answer = |number: usize, sets: &[Vec<Option<Finding>>]| -> Vec<Finding> {
-            sets.iter().filter_map(|of_set| of_set[number].clone()).collect()
-        };
         let is_its_own =
             |seen: &Observation<'_>| self.of(headline).any(|one| one.caught_by == seen.case);
         let passes_its_own = self.passes_its_own(headline);
         let against = if passes_its_own { OWN_CASE } else { 0 };
         let mut found = Siblings { against, ..Siblings::default() };
-        for (number, seen) in asked.into_iter().enumerate() {
-            let of_sets = answer(number, &answers);
-            if of_sets.is_empty() {
+        let is_same_closely =
+            |seen| is_same(seen, &findings(self.planted(&own, slice::from_ref(&seen))).remove(0));
+        for (seen, answers) in asked.iter().copied().zip(self.beside(&own, ranked, &asked)) {
+            if answers.is_empty() {
                 found.unasked += 1;
-            } else if is_same(seen, &answer(number, &answers[..own])) {
-                found.same.push(seen.case.to_owned());
-            } else if speak_against(seen, &of_sets) {
+            } else if is_same(seen, &answers) {
+                found.same.extend(is_same_closely(seen).then(|| seen.case.to_owned()));
+            } else if speak_against(seen, &answers) {
                 found.against += match is_its_own(seen) {
                     // It is counted already.
                     true if passes_its_own && !seen.has_failed() => 0,
                     true => OWN_CASE,
                     false => 1,
                 };
-            } else if of_sets.iter().all(|one| likeness(seen.finding, one) == Likeness::Alike) {
+            } else if are_alike(seen, &answers) {
                 found.of_another_size += 1;
             } else if !seen.has_failed() {
                 found.agreeing += 1;
@@ -241,6 +250,43 @@ impl Proof<'_> {
         }
         found
     }
+
+    /// What each of these sets of mistakes makes of each case, and where none of them stands by the core, all that is told
+    /// together.
+    fn beside(
+        &self,
+        own: &[Vec<Mistake>],
+        ranked: &Ranked,
+        cases: &[&Observation<'a>],
+    ) -> Vec<Vec<Finding>> {
+        let mut answers = findings(self.weighed(own, cases));
+        let all: Vec<_> = ranked.with_cause().filter_map(|told| self.of(told).next()).collect();
+        let is_doubtful = |number: &usize| {
+            let (seen, of_own) = (cases[*number], &answers[*number]);
+            !of_own.is_empty() && (speak_against(seen, of_own) || are_alike(seen, of_own))
+        };
+        let doubtful: Vec<_> = (0..cases.len()).filter(is_doubtful).collect();
+        if all.len() > 1 {
+            let left: Vec<_> = doubtful.iter().map(|number| cases[*number]).collect();
+            for (number, of_all) in doubtful.into_iter().zip(findings(self.weighed(&[all], &left)))
+            {
+                answers[number].extend(of_all);
+            }
+        }
+        answers
+    }
+}
+
+/// Case by case, the answers that there are.
+fn findings(of_sets: Vec<Vec<Option<Finding>>>) -> Vec<Vec<Finding>> {
+    let cases = of_sets.first().map_or(0, Vec::len);
+    let mut findings = vec![Vec::new(); cases];
+    for of_set in of_sets {
+        for (of_case, answer) in findings.iter_mut().zip(of_set) {
+            of_case.extend(answer);
+        }
+    }
+    findings
 }
 
 /// All that a cause explains, against it.
@@ -252,6 +298,11 @@ fn all_of(headline: &Headline) -> Option<Refuted> {
 fn is_same(seen: &Observation<'_>, planted: &[Finding]) -> bool {
     let is_same = |planted: &Finding| likeness(seen.finding, planted) == Likeness::Same;
     seen.has_failed() && planted.iter().any(is_same)
+}
+
+/// Whether all of these are wrong where the core is, by another size.
+fn are_alike(seen: &Observation<'_>, planted: &[Finding]) -> bool {
+    planted.iter().all(|one| likeness(seen.finding, one) == Likeness::Alike)
 }
 
 /// Whether all of these fail a case that the core passes, or fails otherwise.

@@ -2,6 +2,8 @@
 //!
 //! Known streams show the rule; they do not show what a picture hands to it: which luminance, which samples, from which
 //! one on. So the bench asks for samples one by one, applies the rule, and compares the counts with those of pictures.
+//! How noisy samples are is the core's affair, and so the tolerance is one that stops its own half way: with a fixed one the
+//! pixels of one core all stop at the first look and those of another never, whatever the rule looks at.
 //! What the samples are does not matter, as long as one says nothing of the next: a lattice over a pixel stops elsewhere, and
 //! rightly. A core that tells the variance of its pixels has no such lattice.
 
@@ -19,6 +21,12 @@ use crate::text::{Bounces, Count, Percent, Size};
 
 /// Pixels of the estimate that relative errors are relative to.
 const SCALE_PIXELS: u64 = 1024;
+/// Samples from which the tolerance follows.
+const NOISE_SAMPLES: u32 = 4096;
+/// The part of the most samples after which pixels are to stop.
+const HALF_WAY: f64 = 0.3;
+/// The tolerance of samples without noise, which all stop at the first look.
+const OF_NO_NOISE: f64 = 0.01;
 
 check! {
     /// Pixels that look alike: the camera sees a small part of a smooth surface.
@@ -29,8 +37,6 @@ check! {
         cap: u32,
         /// Samples between two looks.
         batch: u32,
-        /// Half width of the interval that is good enough.
-        tolerance: Percent,
         /// The smallest error of the mean count that must be seen.
         detects: Percent,
         at_most: Count,
@@ -48,14 +54,19 @@ impl Check for PictureCounts {
     fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let camera = camera_of(&scene)?;
-        let settings = self.settings();
-        let picture =
-            Rendering::of(&scene, self.size.0, self.bounces.0, self.cap)?.adaptive(settings);
         let pixels = u64::from(self.size.0[0]) * u64::from(self.size.0[1]);
         let effort = context.effort(self.detects, self.at_most).with_runs(32);
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let scale = self.own_count(built.as_mut(), &camera, seed.child("scale"), SCALE_PIXELS)?;
+        let noise = self.samples(built.as_mut(), &camera, seed.child("noise"), 1, NOISE_SAMPLES)?;
+        let settings = self.settings(&Sums::of(&noise));
+        let tolerance = settings.max_tolerance;
+        let picture =
+            Rendering::of(&scene, self.size.0, self.bounces.0, self.cap)?.adaptive(settings);
+        let own_count = |built: &mut dyn BuiltScene, seed: Seed, pixels: u64| {
+            self.own_count(built, &camera, seed, pixels, tolerance)
+        };
+        let scale = own_count(built.as_mut(), seed.child("scale"), SCALE_PIXELS)?;
         let of_picture = (pixels as f64 * scale).ceil() as u64;
         let effort = effort.in_steps_of(of_picture);
         let mut taken = (0.0, 0);
@@ -64,7 +75,7 @@ impl Check for PictureCounts {
             let seed = draw.seed(seed);
             let pictures = draw.samples / of_picture;
             let seen = pictures * pixels;
-            let own = self.own_count(built.as_mut(), &camera, seed.child("own"), seen)?;
+            let own = own_count(built.as_mut(), seed.child("own"), seen)?;
             let count = mean_count(built.as_mut(), &picture, seed, pictures)?;
             taken = (taken.0 + count * seen as f64, taken.1 + seen);
             Ok::<_, CheckError>(vec![count - own])
@@ -79,8 +90,13 @@ impl Check for PictureCounts {
 }
 
 impl PictureCounts {
-    fn settings(&self) -> AdaptiveSettings {
-        AdaptiveSettings { samples_per_batch: self.batch, max_tolerance: self.tolerance.0 }
+    /// Those that stop pixels of samples such as these half way.
+    fn settings(&self, samples: &Sums) -> AdaptiveSettings {
+        let half_way = HALF_WAY * f64::from(self.cap);
+        let tolerance = Rule::tolerance_to_stop_after(half_way, samples);
+        let is_noisy = tolerance.is_finite() && tolerance > 0.0;
+        let max_tolerance = if is_noisy { tolerance } else { OF_NO_NOISE };
+        AdaptiveSettings { samples_per_batch: self.batch, max_tolerance }
     }
 
     /// The mean number of samples after which the rule stops the core's own, of so many pixels.
@@ -90,6 +106,7 @@ impl PictureCounts {
         camera: &Camera,
         seed: Seed,
         pixels: u64,
+        tolerance: f64,
     ) -> Result<f64> {
         let mut going = vec![Sums::default(); usize::try_from(pixels).unwrap_or(usize::MAX)];
         let (mut count, mut sum) = (0, 0);
@@ -102,7 +119,7 @@ impl PictureCounts {
             count += batch;
             let before = going.len();
             if count < self.cap {
-                going.retain(|sums| !Rule::RIGHT.stops(sums, self.tolerance.0));
+                going.retain(|sums| !Rule::RIGHT.stops(sums, tolerance));
             } else {
                 going.clear();
             }
@@ -171,7 +188,7 @@ mod tests {
     use crate::math::rng::{Stream, uniform};
 
     const EXPECT: &str = "[expect]\nsize = [4, 3]\nbounces = [0, 1]\ncap = 90\nbatch = 8\n\
-                          tolerance = \"20 %\"\ndetects = \"5 %\"\nat-most = \"2 M\"\n";
+                          detects = \"5 %\"\nat-most = \"2 M\"\n";
 
     /// What a picture does with the sums of a pixel before it looks at the next one.
     type Ends = fn(&mut Sums);

@@ -27,6 +27,11 @@ impl Rule {
         let half_width = (self.half_width)((self.variance)(sums), sums.n);
         half_width <= (self.limit)(tolerance, sums.mean())
     }
+
+    /// The tolerance with which the course's rule stops such samples after about so many.
+    pub(crate) fn tolerance_to_stop_after(count: f64, samples: &Sums) -> f64 {
+        NORMAL_95 * (samples.variance() / count).sqrt() / samples.mean()
+    }
 }
 
 /// What a mistake makes of a rule.

@@ -1,7 +1,8 @@
 //! Sampled directions reach the light, at the distance they say, with a pdf that integrates to one.
 //!
 //! Two means need no BSDF and no shadow ray: the mean of 1/pdf is the solid angle of the light, that of cos/pdf is π
-//! times its form factor. A wrong Jacobian from area to solid angle shows in both.
+//! times its form factor. A wrong Jacobian from area to solid angle shows in both. Where samples crowd though their pdf does
+//! not say so, the solid angle of a part of the light shows it.
 
 use super::area_pdf::{self, area_of};
 use super::traced::{Traced, is_lit};
@@ -14,7 +15,8 @@ use crate::math::rng::Seed;
 use crate::scene::{Light, SceneDescription};
 use crate::stats::{Band, Claim, MeanReport, Tolerance, Verdict, judge_means};
 use crate::text::number::with_interval;
-use crate::text::{Chance, Count, Direction, Percent, Positive, Several, Vector};
+use crate::text::{Angle, Chance, Count, Direction, Percent, Positive, Several, Vector};
+use glam::DVec3;
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -42,6 +44,27 @@ struct Point {
     solid_angle: Option<Positive>,
     /// Of the light as seen by the surface; 0 where the light looks away.
     form_factor: Chance,
+    /// A cone of directions that the light fills.
+    within: Option<Cone>,
+}
+
+/// Directions around `axis`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Cone {
+    axis: Direction,
+    half_angle: Angle,
+}
+
+impl Cone {
+    /// Steradians.
+    fn solid_angle(&self) -> f64 {
+        2.0 * PI * (1.0 - self.half_angle.0.cos())
+    }
+
+    fn holds(&self, direction: DVec3) -> bool {
+        direction.dot(self.axis.0) >= self.half_angle.0.cos()
+    }
 }
 
 impl Check for LightSamplesReachLight {
@@ -106,7 +129,9 @@ impl Point {
         let solid_angle =
             self.solid_angle.map(|value| ("mean of 1/pdf", Claim::value(value.0, band)));
         let factor = ("mean of cos/pdf", Claim::value(PI * self.form_factor.0, band));
-        solid_angle.into_iter().chain([factor]).collect()
+        let of_cone =
+            |cone: &Cone| ("mean of 1/pdf, inner part", Claim::value(cone.solid_angle(), band));
+        solid_angle.into_iter().chain([factor]).chain(self.within.as_ref().map(of_cone)).collect()
     }
 
     /// Means over one run, in the order of the claims. A sample that sees no light counts as zero.
@@ -123,8 +148,12 @@ impl Point {
         let lit = || samples.iter().filter(|sample| is_lit(sample));
         let inverse: f64 = lit().map(|sample| sample.pdf.recip()).sum();
         let cosine: f64 = lit().map(|s| s.wi.dot(normal).max(0.0) / s.pdf).sum();
-        let n = count as f64;
-        Ok(self.solid_angle.map(|_| inverse / n).into_iter().chain([cosine / n]).collect())
+        let inner = self.within.as_ref().map(|cone| -> f64 {
+            lit().filter(|sample| cone.holds(sample.wi)).map(|sample| sample.pdf.recip()).sum()
+        });
+        let inverse = self.solid_angle.map(|_| inverse);
+        let sums = inverse.into_iter().chain([cosine]).chain(inner);
+        Ok(sums.map(|sum| sum / count as f64).collect())
     }
 
     fn samples(

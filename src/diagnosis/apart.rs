@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn what_passes_its_own_cases_is_called_wrongly() {
+    fn what_passes_its_own_cases_may_be_called_wrongly() {
         let made = |boxes| {
             let made = Made::new().with("bvh/boxes", boxes).with("bvh/a", failing("a"));
             let made = made.proving("bvh/boxes", &[Foundation::Boxes]);
@@ -172,7 +172,7 @@ mod tests {
         };
         assert_eq!(
             made(passing()),
-            "the core's box test passes its own cases, and what calls it does not"
+            "the core's box test passes its own cases, and what rests on it does not"
         );
         assert!(made(failing("b")).contains("what differs is the core's box test"));
     }

@@ -186,9 +186,9 @@ impl<'a> Evidence<'a> {
         of_cases.flat_map(|seen| seen.proves).copied().collect()
     }
 
-    /// Whether the core's own `component` has passed all that prove it.
+    /// Whether the core's own `component` has passed all that prove it, alone or with what it is made of.
     pub(crate) fn has_proven(&self, component: Components) -> bool {
-        let is_of_it = |foundation: &Foundation| foundation.components() == component;
+        let is_of_it = |foundation: &Foundation| foundation.components().contains(component);
         let proves = |seen: &&Observation<'_>| {
             seen.proves.iter().any(is_of_it) && !seen.with.intersects(component)
         };

@@ -297,8 +297,9 @@ impl Ranked {
         self
     }
 
-    /// A component that answers rightly where it is asked alone may be called wrongly. A shape's test is asked for its
-    /// nearest hit alone: its any-hit function is part of it too, and so is what it leaves in a record that it misses.
+    /// A component that answers rightly where it is asked alone may be called wrongly, or be wrong where no case asks it. A
+    /// shape's test is asked for its nearest hit alone: its any-hit function is part of it too, and so is what it leaves in a
+    /// record that it misses.
     fn differing_as_one(&mut self, own: Components, evidence: &Evidence<'_>) {
         let Some(one) = self.differing.drain(..).reduce(Headline::and) else { return };
         let component = own.in_words();
@@ -311,18 +312,13 @@ impl Ranked {
                 "where the core calls its {component}: what it hands over and what it does with the answer"
             );
             let is_shape = own.intersects(Components::TRIANGLE_TEST | Components::SPHERE_TEST);
-            let (others, look_at) = match is_shape {
-                true => (
-                    "rests on it",
-                    format!(
-                        "what its cases do not ask, its any-hit function and what it writes on a miss, and {calls}"
-                    ),
-                ),
-                false => ("calls it", calls),
-            };
+            let of_shape =
+                if is_shape { ", its any-hit function and what it writes on a miss" } else { "" };
             (
-                format!("the core's {component} passes its own cases, and what {others} does not"),
-                look_at,
+                format!(
+                    "the core's {component} passes its own cases, and what rests on it does not"
+                ),
+                format!("what its cases do not ask{of_shape}, and {calls}"),
             )
         } else {
             (format!("what differs is the core's {component}"), String::new())

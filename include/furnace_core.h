@@ -131,7 +131,7 @@ typedef struct furnace_light_sample {
    furnace_rgb  radiance; /* delta light: such that radiance * f * cos is what is reflected */
    double       pdf;      /* 1 for a delta light */
    uint32_t     is_delta; /* 1: a point or directional light */
-   uint32_t     is_valid; /* 0: sampling failed, the sample counts as zero */
+   uint32_t     is_valid; /* 0: sampling failed, the sample counts as zero, as one without radiance does */
 } furnace_light_sample;
 
 /* What the adaptive stopping rule made of one stream. */
@@ -371,6 +371,7 @@ enum { /* furnace_conventions; 0 is the default of every field */
    FURNACE_FALLOFF_NONE = 1,     /* equally bright at every distance: the course's base code */
    FURNACE_EMISSION_FRONT = 0,
    FURNACE_EMISSION_BOTH = 1,    /* surfaces emit on both sides */
+   /* Of rough conductors, and of both sides of rough glass. */
    FURNACE_SMITH_SEPARABLE = 0,  /* G1(wo) G1(wi) */
    FURNACE_SMITH_CORRELATED = 1, /* 1 / (1 + L(wo) + L(wi)) */
    FURNACE_FRESNEL_EXACT = 0,
@@ -382,8 +383,10 @@ enum { /* furnace_conventions; 0 is the default of every field */
 
 /* Components of a path tracer that a core may take from the bench (furnace_core.components): with
  * the bench's in place of a broken one, everything above it is judged as if it were right. Change nothing
- * else with it: a core that weights by MIS goes on to, by the pdfs that the bench answers. What is left out
- * beside a component is told as that component's mistake. */
+ * else with it: what is left out beside a component is told as that component's mistake. A core that weights by
+ * MIS goes on to, and both weights take the pdf of the bench's light samples: they are uniform over the area of a
+ * mesh, or of a sphere that is not seen whole; over the cone of a sphere seen from outside; over all directions
+ * for a sky. */
 enum {
    FURNACE_TAKES_RANDOM_NUMBERS = 1u << 0,
    FURNACE_TAKES_CAMERA = 1u << 1,             /* generate_rays */

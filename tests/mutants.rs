@@ -328,6 +328,28 @@ const HANDMADE: &[[&str; 4]] = &[
     ["numbers.hpp", "adaptive/pixels-stop-as-their-samples-say",
      "Real(0.7152) * c.g",
      "Real(0.3333) * c.g"],
+    ["scene.hpp", "light/occluder-close-to-a-light-hides-it",
+     "whole, 1 - std::max(CLEARANCE, clearance / distance)",
+     "whole, Real(0.95)"],
+    ["lights.hpp", "light/sphere-light-samples-reach-the-light",
+     "Real depth = u.x * cone_depth(from), distance",
+     "Real depth = 1 - std::cos(std::sqrt(u.x) * std::acos(1 - cone_depth(from))), distance"],
+    ["scene.hpp", "integrator/bright-light-is-not-clamped",
+     "sum = sum + throughput * direct_light(v, settings, random);",
+     "{ Rgb more = throughput * direct_light(v, settings, random);
+       if (bounce > 0) more = {std::min(Real(2), more.r), std::min(Real(2), more.g), std::min(Real(2), more.b)};
+       sum = sum + more; }"],
+    ["scene.hpp", "light/samples-below-the-horizon-are-counted",
+     "for (uint32_t i = 0; i < count; ++i)
+            sum = sum + from_light(v, light, random.numbers(), glossy) / Real(count);",
+     "Rgb lit{0, 0, 0};
+      Real seen = 0;
+      for (uint32_t i = 0; i < count; ++i) {
+         Rgb one = from_light(v, light, random.numbers(), glossy);
+         lit = lit + one;
+         seen += is_black(one) ? 0 : 1;
+      }
+      if (seen > 0) sum = sum + lit / seen;"],
     ["shapes.hpp", "bvh/ray-box-overlap-is-right",
      "exit >= ray.t_min",
      "exit > ray.t_min"],

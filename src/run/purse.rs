@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 /// What the textbook core does in a second of a processor, about: of all cases it is asked 1.66 · 10⁹ in 91 s.
 const A_SECOND: u64 = 15_000_000;
 /// Seconds of it that may always be tried.
-const LEAST: u64 = 20;
+pub(super) const LEAST: u64 = 20;
 /// What begins and ends with every trial.
 const A_TRIAL: u64 = A_SECOND / 50;
 /// How many times the time that it would take the textbook core is waited for, on a machine with nothing else to do.
@@ -30,20 +30,22 @@ pub(super) struct Purse {
 }
 
 impl Purse {
-    /// A share of what the trials of a core took.
+    /// A share of what the trials of a core took, and no less than so many seconds of the textbook core.
     pub(super) fn of_share<'a>(
         share: f64,
+        least: u64,
         records: impl Iterator<Item = &'a TrialRecord> + Clone,
     ) -> Self {
         let answered = records.filter(|record| record.outcome.status() != Status::TimedOut);
         let work: u64 = answered.clone().map(price).sum();
         let seconds: f64 = answered.map(|record| record.timing.seconds).sum();
-        let seconds = (share * seconds).max(LEAST as f64) * SLOWEST * crowding();
-        Self::of((share * work as f64) as u64, Duration::from_secs_f64(seconds))
+        let seconds = (share * seconds).max(least as f64) * SLOWEST * crowding();
+        let work = ((share * work as f64) as u64).max(least * A_SECOND);
+        Self::of(work, Duration::from_secs_f64(seconds))
     }
 
     fn of(work: u64, time: Duration) -> Self {
-        Self { left: Mutex::new(work.max(LEAST * A_SECOND)), end: Instant::now() + time }
+        Self { left: Mutex::new(work), end: Instant::now() + time }
     }
 
     pub(super) fn left(&self) -> u64 {
@@ -135,15 +137,15 @@ mod tests {
     }
 
     #[test]
-    fn little_is_always_paid_for_and_nothing_with_an_empty_purse() {
-        let purse = Purse::of(0, MINUTE);
+    fn what_begins_with_something_left_is_paid_for_and_nothing_with_an_empty_purse() {
+        let purse = Purse::of(LEAST * A_SECOND, MINUTE);
         assert_eq!(purse.pay_each(1, 2, &|number| (number, LEAST * A_SECOND)), [0]);
         assert_eq!(purse.pay_each(2, 2, &|number| (number, 1)), [0; 0]);
     }
 
     #[test]
     fn a_core_that_is_much_slower_is_not_waited_for() {
-        let purse = Purse::of(0, Duration::ZERO);
+        let purse = Purse::of(LEAST * A_SECOND, Duration::ZERO);
         assert_eq!(purse.pay_each(2, 2, &|number| (number, 1)), [0; 0]);
     }
 }

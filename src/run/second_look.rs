@@ -8,7 +8,7 @@ use super::attempt::run_with;
 use super::bench::Bench;
 use super::outcome::Status;
 use super::plan::Plan;
-use super::purse::{Purse, price};
+use super::purse::{LEAST, Purse, price};
 use super::record::{CoreRecord, Transplants, TrialRecord};
 use super::search::{is_gross, without_patience};
 use crate::case::asked_about;
@@ -38,7 +38,7 @@ pub(crate) fn look_again(
 ) -> Vec<SecondLook> {
     let broken: Components = transplants.components.iter().map(|one| one.component).collect();
     let of_core = || records.iter().filter(|record| record.core == core.spec);
-    let purse = Purse::of_share(SHARE, of_core());
+    let purse = Purse::of_share(SHARE, LEAST, of_core());
     let bench = without_patience(bench);
     let allowance = Allowance { budget: Budget::Quick, ..bench.allowance };
     let quick = Bench { allowance, ..bench.clone() };

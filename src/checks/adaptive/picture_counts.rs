@@ -18,11 +18,12 @@ use crate::math::rng::{Seed, in_square};
 use crate::scene::Camera;
 use crate::stats::{Band, Claim, judge_means};
 use crate::text::{Bounces, Count, Percent, Size};
+use glam::DVec2;
 
 /// Pixels of the estimate that relative errors are relative to.
 const SCALE_PIXELS: u64 = 1024;
 /// Samples from which the tolerance follows.
-const NOISE_SAMPLES: u32 = 4096;
+const NOISE_SAMPLES: u64 = 4096;
 /// The part of the most samples after which pixels are to stop.
 const HALF_WAY: f64 = 0.3;
 /// The tolerance of samples without noise, which all stop at the first look.
@@ -58,7 +59,8 @@ impl Check for PictureCounts {
         let effort = context.effort(self.detects, self.at_most).with_runs(32);
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let noise = self.samples(built.as_mut(), &camera, seed.child("noise"), 1, NOISE_SAMPLES)?;
+        let everywhere: Vec<_> = (0..NOISE_SAMPLES).collect();
+        let noise = self.samples(built.as_mut(), &camera, seed.child("noise"), &everywhere, 1)?;
         let settings = self.settings(&Sums::of(&noise));
         let tolerance = settings.max_tolerance;
         let picture =
@@ -108,18 +110,19 @@ impl PictureCounts {
         pixels: u64,
         tolerance: f64,
     ) -> Result<f64> {
-        let mut going = vec![Sums::default(); usize::try_from(pixels).unwrap_or(usize::MAX)];
+        let mut going: Vec<_> = (0..pixels).map(|pixel| (pixel, Sums::default())).collect();
         let (mut count, mut sum) = (0, 0);
         while !going.is_empty() {
             let batch = self.batch.min(self.cap - count);
-            let samples = self.samples(scene, camera, seed.child(count), going.len(), batch)?;
-            for (sums, samples) in going.iter_mut().zip(samples.chunks(batch as usize)) {
+            let pixels: Vec<_> = going.iter().map(|(pixel, _)| *pixel).collect();
+            let samples = self.samples(scene, camera, seed.child(count), &pixels, batch)?;
+            for ((_, sums), samples) in going.iter_mut().zip(samples.chunks(batch as usize)) {
                 samples.iter().for_each(|sample| sums.push(*sample));
             }
             count += batch;
             let before = going.len();
             if count < self.cap {
-                going.retain(|sums| !Rule::RIGHT.stops(sums, tolerance));
+                going.retain(|(_, sums)| !Rule::RIGHT.stops(sums, tolerance));
             } else {
                 going.clear();
             }
@@ -128,18 +131,26 @@ impl PictureCounts {
         Ok(sum as f64 / pixels as f64)
     }
 
-    /// Luminances of rays through random points of the film, `batch` of them for each of some pixels.
+    /// Luminances of rays through random points of pixels, `batch` of them for each. Pixels are counted row by row, and from
+    /// the first one again after the last: what is noisier in a part of the picture is so in the same part of the pixels.
     fn samples(
         &self,
         scene: &mut dyn BuiltScene,
         camera: &Camera,
         seed: Seed,
-        pixels: usize,
+        pixels: &[u64],
         batch: u32,
     ) -> Result<Vec<f64>> {
         let mut points = seed.child("film").stream();
-        let mut ray = || Ray::new(camera.position, camera.towards(in_square(&mut points)));
-        let rays: Vec<_> = (0..pixels * batch as usize).map(|_| ray()).collect();
+        let [width, height] = self.size.0.map(u64::from);
+        let mut ray = |pixel: u64| {
+            let corner = DVec2::new((pixel % width) as f64, (pixel / width % height) as f64);
+            let film = DVec2::new(width as f64, height as f64);
+            let point = (corner + in_square(&mut points)) / film;
+            Ray::new(camera.position, camera.towards(point))
+        };
+        let of_pixel = |pixel: &u64| std::iter::repeat_n(*pixel, batch as usize);
+        let rays: Vec<_> = pixels.iter().flat_map(of_pixel).map(&mut ray).collect();
         let [first, last] = self.bounces.0;
         let settings =
             IntegratorSettings { bounces: first..=last, seed: seed.0, ..Default::default() };

@@ -12,7 +12,7 @@ mod again;
 use super::bench::Bench;
 use super::event::Event;
 use super::plan::Plan;
-use super::purse::Purse;
+use super::purse::{LEAST, Purse};
 use super::record::{CoreRecord, Transplanted, Transplants, TrialRecord};
 use crate::case::asked_about;
 use crate::contract::{Capabilities, Components};
@@ -44,7 +44,7 @@ pub(crate) fn search(
     let ended: Vec<_> =
         of_core.filter_map(|record| Some((plan.trial_of(record)?, record))).collect();
     let share = SHARE * bench.allowance.coarseness() / Budget::Quick.coarseness();
-    let purse = Purse::of_share(share, ended.iter().map(|(_, record)| *record));
+    let purse = Purse::of_share(share, LEAST, ended.iter().map(|(_, record)| *record));
     // What is only informational stays the core's own affair.
     let failing = ended.iter().filter(|(_, record)| record.fails_the_core()).copied();
     let again = Again::new(failing.collect(), purse, plan.jobs(), bench);

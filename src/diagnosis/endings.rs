@@ -25,8 +25,10 @@ impl<'a> Kind<'a> {
             Ending::Crashed { how, during } => (how, during, false),
             Ending::TimedOut { during } => ("no answer in time", during, true),
         };
-        let (how, meaning) =
-            (how.split(['(', ';', ':']).next().unwrap_or(how).trim(), meaning(how));
+        let meaning = meaning(how);
+        // Whoever watches a core ends it for a reason, and then says how far it went.
+        let how = how.strip_prefix("ended: ").unwrap_or(how);
+        let how = how.split(['(', ';', ':', ',']).next().unwrap_or(how).trim();
         Self { how, meaning, request: function(during), is_timeout }
     }
 
@@ -181,6 +183,15 @@ mod tests {
         assert_eq!((first.degree, first.is_ending), (Degree::DiffersHere, true));
         assert!(first.fix.starts_with("`furnace debug bvh/b` with the"), "{}", first.fix);
         assert_eq!(diagnosis.first(), Some(&bsdf::WITHOUT_PI));
+    }
+
+    #[test]
+    fn what_was_ended_for_a_reason_says_the_reason() {
+        let how = "ended: out of memory, 4098 MiB in all its processes";
+        let made =
+            Made::new().ended("adaptive/a", Ending::Crashed { how, during: "adaptive-mean" });
+        let mistake = &diagnose(&made.evidence()).headlines[0].mistake;
+        assert_eq!(mistake, "the core crashes in `adaptive_mean`: out of memory");
     }
 
     #[test]

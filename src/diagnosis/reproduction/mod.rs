@@ -241,6 +241,7 @@ impl<'a> Proof<'a> {
         let unproven = self.unproven_beside(told).into_iter();
         unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
         unfounded.extend(self.lost_in_a_crowd(told));
+        unfounded.extend(self.dark_and_not_alone(told, suspected));
         unfounded.extend(self.unlike_in_their_own(told));
         unfounded.extend(self.following(told));
         unfounded
@@ -385,6 +386,15 @@ impl<'a> Proof<'a> {
         seen.peek().is_some() && seen.all(|seen| seen.is_about_light() && seen.is_dark())
     }
 
+    /// What the search has found of darkness alone, and what is not the only one in sight.
+    fn dark_and_not_alone(&self, told: &Ranked, suspected: &BTreeSet<String>) -> Refuted {
+        let found = told.with_cause().filter(|one| !suspected.contains(&one.cause));
+        let dark = found.filter(|one| self.is_dark_alone(one));
+        let unsure = dark.filter(|one| !self.is_the_only_one_in_sight(one, told));
+        let cases = |told: &Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
+        unsure.filter_map(cases).flatten().collect()
+    }
+
     /// Whether its mistakes are wrong in the same places, and nowhere by as much.
     fn is_of_another_size(&self, headline: &Headline) -> bool {
         let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
@@ -527,9 +537,36 @@ impl<'a> Proof<'a> {
             found = self.of_sets(&elsewhere, &cases, names);
         }
         if found.is_empty() {
+            found = self.darkening(&alone, &cases, names);
+        }
+        if found.is_empty() {
             found = self.nearly_reproducing(&[alone, likely, elsewhere].concat(), &many);
         }
         found
+    }
+
+    /// Where all that fails is dark, the only kind of mistake that leaves it dark, its own case among it. Darkness has no
+    /// size: whether the cause is told is up to what passes with it.
+    fn darkening(
+        &self,
+        alone: &[Vec<Mistake>],
+        cases: &[&Observation<'a>],
+        names: &[String],
+    ) -> Vec<Suspicion> {
+        let mut failing = names.iter().filter_map(|case| self.evidence.failure_of(case));
+        if !failing.all(|seen| seen.is_about_light() && seen.is_dark()) {
+            return Vec::new();
+        }
+        let fails_its_own = |set: &&Vec<Mistake>| names.iter().any(|c| c == set[0].caught_by);
+        let own: Vec<_> = alone.iter().filter(fails_its_own).cloned().collect();
+        let answers = self.compare(&own, cases);
+        let leaves_dark =
+            |of_set: &[Likeness]| of_set.iter().all(|likeness| likeness.is_reproduced());
+        let fitting = own.iter().zip(&answers).filter(|(_, of_set)| leaves_dark(of_set));
+        match kinds(fitting.map(|(set, _)| set).collect())[..] {
+            [only] => suspicions(only, cases, Degree::LooksLike),
+            _ => Vec::new(),
+        }
     }
 
     /// The only set that gives the numbers of most cases; or of half of them, where it fails the others in the same places
@@ -1050,6 +1087,32 @@ mod tests {
         };
         let roulette = integrator::ROULETTE_NOT_PLAYED.name.to_owned();
         assert!(names(1.0).contains(&roulette) && !names(0.0).contains(&roulette));
+    }
+
+    #[test]
+    fn darkness_is_named_where_one_mistake_alone_leaves_it_and_its_neighbours_light() {
+        const OTHER: Mistake = mistake("other", &light::WORLD_COSINE, "light/c");
+        let causes = |by_other: f64, neighbours: usize| {
+            let mut made = Made::new().with("light/b", light(0.0)).with("light/c", light(0.0));
+            for name in &["light/d", "light/e", "light/f", "light/g"][..neighbours] {
+                made = made.with(*name, light(1.0));
+            }
+            let gives: [(&[&str], &str, f64); 4] = [
+                (&["divided"], "light/b", 0.0),
+                (&["divided"], "light/c", 0.0),
+                (&["other"], "light/b", by_other),
+                (&["other"], "light/c", 0.0),
+            ];
+            let planted = Bench { mistakes: &[DIVIDED, OTHER], gives: &gives };
+            let diagnosis = diagnose_proven(&made.evidence(), &planted);
+            let told = diagnosis.headlines.into_iter().map(|told| (told.cause, told.degree));
+            told.collect::<Vec<_>>()
+        };
+        let nothing = [(String::new(), Degree::DiffersHere)];
+        let divided = light::DIVIDED_BY_LIGHTS.name.to_owned();
+        assert_eq!(causes(0.5, 4), [(divided, Degree::Named)]);
+        assert_eq!(causes(0.0, 4), nothing, "another leaves it dark, too");
+        assert_eq!(causes(0.5, 1), nothing, "too little was asked beside it");
     }
 
     /// A bench whose time is up.

@@ -2,7 +2,7 @@
 //!
 //! Known streams show the rule; they do not show what a picture hands to it: which luminance, which samples, from which
 //! one on. So the bench asks for samples one by one, applies the rule, and compares the counts with those of pictures.
-//! How noisy samples are is the core's affair, and so the tolerance is one that stops its own half way: with a fixed one the
+//! How noisy samples are is the core's affair, and so the tolerance is one that stops its own between the first look and the last: with a fixed one the
 //! pixels of one core all stop at the first look and those of another never, whatever the rule looks at.
 //! What the samples are does not matter, as long as one says nothing of the next: a lattice over a pixel stops elsewhere, and
 //! rightly. A core that tells the variance of its pixels has no such lattice.
@@ -24,8 +24,9 @@ use glam::DVec2;
 const SCALE_PIXELS: u64 = 1024;
 /// Samples from which the tolerance follows.
 const NOISE_SAMPLES: u64 = 4096;
-/// The part of the most samples after which pixels are to stop.
-const HALF_WAY: f64 = 0.3;
+/// The part of the most samples after which pixels are to stop: far from the first look and from the last, so that counts
+/// may err to either side.
+const STOPPING_AT: f64 = 0.3;
 /// The tolerance of samples without noise, which all stop at the first look.
 const OF_NO_NOISE: f64 = 0.01;
 
@@ -92,10 +93,10 @@ impl Check for PictureCounts {
 }
 
 impl PictureCounts {
-    /// Those that stop pixels of samples such as these half way.
+    /// Those that stop pixels of samples such as these between the first look and the last.
     fn settings(&self, samples: &Sums) -> AdaptiveSettings {
-        let half_way = HALF_WAY * f64::from(self.cap);
-        let tolerance = Rule::tolerance_to_stop_after(half_way, samples);
+        let count = STOPPING_AT * f64::from(self.cap);
+        let tolerance = Rule::tolerance_to_stop_after(count, samples);
         let is_noisy = tolerance.is_finite() && tolerance > 0.0;
         let max_tolerance = if is_noisy { tolerance } else { OF_NO_NOISE };
         AdaptiveSettings { samples_per_batch: self.batch, max_tolerance }

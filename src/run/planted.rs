@@ -16,8 +16,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// How much planted mistakes may be asked for one core, as a share of what its trials did.
 const SHARE: f64 = 0.25;
-/// Seconds of the textbook core that they may always be asked: what that share comes to in a run of all cases at the default
-/// budget. With less, several mistakes in one core stay without names at the quick one.
+/// Seconds of the textbook core that they may always be asked: about what that share comes to in a run of all cases at the
+/// default budget. With less, several mistakes in one core stay without names at the quick one.
 const LEAST: u64 = 30;
 
 /// What was asked: the core, the case, what was the bench's own, and whether a first look is enough.
@@ -95,21 +95,20 @@ impl<'a> PlantedFaults<'a> {
         let (mistakes, known) = (fault::all().map(mistake).collect(), Mutex::default());
         let allowance = Allowance { judges_alone: true, ..bench.allowance };
         let quick = Allowance { budget: Budget::Quick, ..allowance };
-        let coarser = quick.coarseness() / allowance.coarseness();
-        let is_subtle = |finding: &Finding| finding.failed() && !is_gross(finding, coarser);
-        let of_subtle = |record: &'r TrialRecord| record.outcome.finding().is_some_and(is_subtle);
-        let coarsest = Looks::of(bench, quick).roughly.allowance.coarseness();
-        let is_glaring = |record: &&TrialRecord| {
-            let finding = record.outcome.finding();
-            finding.is_some_and(|seen| is_gross(seen, coarsest / allowance.coarseness()))
+        let quickly = Looks::of(bench, quick);
+        let coarser = |look: &Bench| look.allowance.coarseness() / allowance.coarseness();
+        let failing = |is_so: &dyn Fn(&Finding) -> bool| {
+            let so = records.clone().filter(|record| record.outcome.finding().is_some_and(is_so));
+            so.map(|record| record.case.clone()).collect()
         };
-        let names = |record: &TrialRecord| record.case.clone();
+        let is_subtle =
+            |seen: &Finding| seen.failed() && !is_gross(seen, coarser(&quickly.closely));
         Self {
             plan,
-            subtle: records.clone().filter(|record| of_subtle(record)).map(names).collect(),
-            glaring: records.clone().filter(is_glaring).map(names).collect(),
+            subtle: failing(&is_subtle),
+            glaring: failing(&|seen| is_gross(seen, coarser(&quickly.roughly))),
             as_the_core: Looks::of(bench, allowance),
-            quickly: Looks::of(bench, quick),
+            quickly,
             mistakes,
             purse: Purse::of_share(SHARE, LEAST, records),
             known,

@@ -303,8 +303,7 @@ impl<'a> Proof<'a> {
             of_both.any(|one| !reproduces(other, one))
         };
         let following = told.iter().filter(follows).filter(|told| !self.is_needed(told));
-        let cases = |told: &&Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
-        following.filter_map(cases).flatten().collect()
+        following.copied().filter_map(all_of).flatten().collect()
     }
 
     /// A cause whose numbers all others that are told give together: nothing takes it. Of several the one that explains the
@@ -324,8 +323,7 @@ impl<'a> Proof<'a> {
             !others.is_empty() && !cases.is_empty() && !self.is_needed(one) && is_given()
         };
         let least = told.iter().filter(is_superfluous).min_by_key(|one| one.explains.len());
-        let cases = |told: &&Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
-        least.and_then(cases).unwrap_or_default()
+        least.copied().and_then(all_of).unwrap_or_default()
     }
 
     /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
@@ -344,8 +342,7 @@ impl<'a> Proof<'a> {
                 free.iter().filter(|case| is_of_one_part(one, case)).cloned().collect();
             own == one.explains.len() && others.len() >= own && self.are_right(one, &others)
         };
-        let cases = |told: &&Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
-        told.iter().filter(is_lost).filter_map(cases).flatten().collect()
+        told.iter().filter(is_lost).copied().filter_map(all_of).flatten().collect()
     }
 
     /// Whether the mistakes of `headline` leave right what was tried of `cases`.
@@ -391,8 +388,7 @@ impl<'a> Proof<'a> {
         let found = told.with_cause().filter(|one| !suspected.contains(&one.cause));
         let dark = found.filter(|one| self.is_dark_alone(one));
         let unsure = dark.filter(|one| !self.is_the_only_one_in_sight(one, told));
-        let cases = |told: &Headline| Some(refuted(cause::find(&told.cause)?, &told.explains));
-        unsure.filter_map(cases).flatten().collect()
+        unsure.filter_map(all_of).flatten().collect()
     }
 
     /// Whether its mistakes are wrong in the same places, and nowhere by as much.
@@ -873,6 +869,11 @@ fn degree(fitting: usize, tried: usize, cases: &[&Observation<'_>]) -> Option<De
     let is_clear = by_chance < BY_CHANCE;
     let degree = Degree::of_one_among(if is_clear { fitting } else { 2 });
     (fitting <= 2 && by_chance <= 1.0).then_some(degree)
+}
+
+/// All that a cause explains, against it.
+fn all_of(headline: &Headline) -> Option<Refuted> {
+    Some(refuted(cause::find(&headline.cause)?, &headline.explains))
 }
 
 fn refuted(cause: &'static Cause, cases: &[String]) -> Refuted {

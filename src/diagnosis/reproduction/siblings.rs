@@ -2,7 +2,9 @@
 //! explains them; where it fails what the core passes, or fails it otherwise, something else is wrong.
 
 use super::likeness::{Likeness, likeness};
-use super::{CASES, Mistake, Proof, Refuted, is_of_one_part, likenesses, quickest, refuted};
+use super::{
+    CASES, Mistake, Proof, Refuted, all_of, is_of_one_part, likenesses, quickest, refuted,
+};
 use crate::cause;
 use crate::checks::Finding;
 use crate::contract::Components;
@@ -287,11 +289,6 @@ fn findings(of_sets: Vec<Vec<Option<Finding>>>) -> Vec<Vec<Finding>> {
         }
     }
     findings
-}
-
-/// All that a cause explains, against it.
-fn all_of(headline: &Headline) -> Option<Refuted> {
-    Some(refuted(cause::find(&headline.cause)?, &headline.explains))
 }
 
 /// Whether the core fails a case as any of these do.

@@ -268,8 +268,8 @@ enum { /* furnace_build.split */
    FURNACE_SPLIT_SURFACE_AREA = 4
 };
 
-/* The bench's own ray tests, which count themselves. A core with FURNACE_COUNTED_TESTS calls them
- * for every ray of `intersect` and `occluded` in place of its own, and cannot miscount: a hit that none of
+/* The bench's own ray tests, which count themselves. A core with FURNACE_COUNTED_TESTS calls them, where it
+ * is handed them, for every ray of `intersect` and `occluded` in place of its own, and cannot miscount: a hit that none of
  * them has found breaks the contract, and so does a counter that they have not set. They live as long
  * as the built scene, and may be called from any thread. */
 typedef struct furnace_counted_tests {
@@ -291,7 +291,8 @@ typedef struct furnace_build {
    uint32_t accelerate;    /* 0: a loop over every primitive, brute force, the baseline of every BVH */
    uint32_t split;         /* FURNACE_SPLIT_CORES_CHOICE unless the core has FURNACE_SPLIT_RULES */
    uint32_t max_leaf_size; /* primitives in a leaf, as far as they can be told apart */
-   const furnace_counted_tests *counted; /* null unless the core has FURNACE_COUNTED_TESTS */
+   const furnace_counted_tests *counted; /* null unless the core has FURNACE_COUNTED_TESTS; with
+                                          * FURNACE_OWN_TESTS null, too, where nothing is counted */
    /* The same scene as the bench has built it, for the functions of furnace_components.bench that
     * want one; it lives as long as the built scene. Null if nothing is taken. */
    struct furnace_built *bench;
@@ -363,7 +364,9 @@ enum { /* furnace_core.traits: what no function pointer can say */
    FURNACE_INDEPENDENT_SAMPLES = 1u << 15, /* own directions and points are independent of each other */
    FURNACE_PLAIN_ESTIMATORS = 1u << 16,    /* uniform hemisphere, uniform points on lights, roulette as told
                                             * and no other: the variance is the one courses derive */
-   FURNACE_DEPTH_LIMIT = 1u << 17          /* by_depth is honoured */
+   FURNACE_DEPTH_LIMIT = 1u << 17,         /* by_depth is honoured */
+   FURNACE_OWN_TESTS = 1u << 18            /* beside COUNTED_TESTS: furnace_build.counted may be null, and is
+                                            * but where tests are counted: then your own tests are tried */
 };
 
 enum { /* furnace_conventions; 0 is the default of every field */

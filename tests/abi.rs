@@ -303,15 +303,20 @@ fn what_a_core_is_lent_lives_as_long_as_the_scene() {
     assert_eq!(core.info().components, Components::TRAVERSAL);
     let down = |x: f64, y: f64| Ray::new(DVec3::new(x, y, 1.0), DVec3::NEG_Z);
     let rays = [down(0.2, 0.3), down(0.7, 0.8)];
-    let mut hits_with = |taken: Components| {
+    let mut hits_with = |taken: Components, how: Acceleration| {
         core.take_components(taken).unwrap();
-        let mut built = core.build_scene(&scene(), Acceleration::DEFAULT).unwrap();
+        let mut built = core.build_scene(&scene(), how).unwrap();
         let mut hits = [Hit::MISS; 2];
         let stats = built.intersect(&rays, &mut hits).unwrap();
         (hits.map(|hit| hit.primitive), stats.primitive_tests)
     };
-    assert_eq!(hits_with(Components::empty()), ([0, u32::MAX], 2), "counted, the first alone");
-    assert_eq!(hits_with(Components::TRAVERSAL).0, [0, 1], "the bench's own scene");
+    let own = Components::empty();
+    let counted = hits_with(own, Acceleration::COUNTED);
+    assert_eq!(counted, ([0, u32::MAX], 2), "counted, the first alone");
+    let uncounted = hits_with(own, Acceleration::DEFAULT);
+    assert_eq!(uncounted.0, [u32::MAX; 2], "its own tests, of which it has none");
+    let of_bench = hits_with(Components::TRAVERSAL, Acceleration::DEFAULT);
+    assert_eq!(of_bench.0, [0, 1], "the bench's own scene");
 }
 
 /// What a crate of somebody else's has in its `lib.rs`.

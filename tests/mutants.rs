@@ -353,6 +353,17 @@ const HANDMADE: &[[&str; 4]] = &[
     ["shapes.hpp", "bvh/ray-box-overlap-is-right",
      "exit >= ray.t_min",
      "exit > ray.t_min"],
+    ["scene.hpp", "light/emitters-cast-shadows",
+     "if (bvh.any(v.ray_along(s.wi, s.distance), unused)) return {0, 0, 0};",
+     "Hit met;
+      bool is_met = bvh.closest(v.ray_along(s.wi, s.distance), met, unused) >= 0;
+      if (is_met && !materials[material_of_shape[met.shape]].emits) return {0, 0, 0};"],
+    ["scene.hpp", "light/two-lights-by-hemisphere-sampling-match-closed-form",
+     "from_hemisphere(v, random.numbers()) / Real(count)",
+     "from_hemisphere(v, random.numbers()) / Real(samples)"],
+    ["lights.hpp", "light/gradient-environment-samples-cover-the-sphere",
+     "return is_sky() ? 1 / (4 * PI) : 0;",
+     "return is_sky() ? (light.kind == FURNACE_GRADIENT_SKY ? 2 : 1) / (4 * PI) : 0;"],
 ];
 
 #[test]

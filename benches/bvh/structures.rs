@@ -14,7 +14,7 @@ pub struct Rule {
 
 impl Rule {
     const fn bvh(name: &'static str, split: Split) -> Self {
-        Self { name, acceleration: Acceleration::Bvh { split, max_leaf_size: 4 } }
+        Self { name, acceleration: Acceleration::Bvh { split, max_leaf_size: 4, counted: true } }
     }
 
     /// Whether this is what the others are compared with.

@@ -45,7 +45,7 @@ impl Structure {
     ];
 
     const fn bvh(name: &'static str, split: Split) -> Self {
-        Self { name, acceleration: Acceleration::Bvh { split, max_leaf_size: 4 } }
+        Self { name, acceleration: Acceleration::Bvh { split, max_leaf_size: 4, counted: true } }
     }
 
     /// All that a core can build: without split rules, one BVH of its own choice.

@@ -28,6 +28,9 @@ pub struct Finding {
     /// points elsewhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) not_enough: Option<String>,
+    /// What gives every wrong answer of a function: `f is 2 cos θo times what it should be`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) laws: Vec<String>,
     /// What plots show of it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) series: Vec<Series>,
@@ -270,6 +273,7 @@ impl Finding {
             resolution: resolution.into(),
             clues: Vec::new(),
             not_enough: None,
+            laws: Vec::new(),
             series: Vec::new(),
         }
         .doubting()
@@ -320,6 +324,26 @@ impl Finding {
         let complaints: Vec<_> = complaints.into_iter().collect();
         if !complaints.is_empty() {
             self.statement = complaints.join("; ");
+        }
+        self
+    }
+
+    /// The same with the laws of what is wrong, if it is: a law that several rows share is told once.
+    pub(crate) fn by_law(mut self, laws: impl IntoIterator<Item = String>) -> Self {
+        let before = self.laws.len();
+        self = self.knowing_laws(laws);
+        for law in &self.laws[before..] {
+            self.statement += &format!("; {law}");
+        }
+        self
+    }
+
+    /// The same where the statement tells them already.
+    pub(crate) fn knowing_laws(mut self, laws: impl IntoIterator<Item = String>) -> Self {
+        for law in laws.into_iter().filter(|_| self.verdict == Verdict::Fail) {
+            if !self.laws.contains(&law) {
+                self.laws.push(law);
+            }
         }
         self
     }

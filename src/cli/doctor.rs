@@ -166,7 +166,7 @@ const ADVICE: &[(Capabilities, &str)] = &[
     (Capabilities::SPLIT_RULES, "honour settings.split, and say FURNACE_SPLIT_RULES"),
     (
         Capabilities::TRAVERSAL_STATS,
-        "count tests, and say FURNACE_COUNTS_TRAVERSAL; or use the bench's own with FURNACE_COUNTED_TESTS",
+        "count tests, and say FURNACE_COUNTS_TRAVERSAL; or use the bench's own with FURNACE_COUNTED_TESTS | FURNACE_OWN_TESTS",
     ),
     (
         Capabilities::HEMISPHERE_SAMPLING,

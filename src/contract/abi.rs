@@ -103,6 +103,7 @@ bitflags! {
         const INDEPENDENT_SAMPLES = 1 << 15;
         const PLAIN_ESTIMATORS = 1 << 16;
         const DEPTH_LIMIT = 1 << 17;
+        const OWN_TESTS = 1 << 18;
     }
 }
 

@@ -3,8 +3,8 @@
 use super::crossing::{Element, Malformed, Part, Received, Request, Sent};
 use super::work::{of_path, of_pixel};
 use super::{
-    AdaptiveSettings, Capabilities, IntegratorSettings, Primitive, Randomness, RenderSettings,
-    Sampler,
+    AdaptiveSettings, Capabilities, Circumstances, IntegratorSettings, Primitive, Randomness,
+    RenderSettings, Sampler,
 };
 use crate::scene::{Aabb, Camera, Material, Surface};
 use glam::{DVec2, DVec3};
@@ -37,6 +37,11 @@ pub trait Argument<'a>: Copy {
     /// What each element of the answer takes because of it, in times of a ray that meets little.
     fn work(self) -> u64 {
         1
+    }
+
+    /// Under what it lets the core answer.
+    fn circumstances(self) -> Circumstances {
+        Circumstances::empty()
     }
 
     /// What a core needs to understand it: what is younger than the contract is not shown to cores that do not say
@@ -90,10 +95,12 @@ members! {
     f64: f64, |number| *number;
     Sampler: Sampler, |sampler| *sampler;
     &'a Camera: Camera, |camera| camera;
-    &'a IntegratorSettings: IntegratorSettings, |settings| settings, work = of_path => u64;
+    &'a IntegratorSettings: IntegratorSettings, |settings| settings,
+        work = of_path => u64, circumstances = Circumstances::of_path => Circumstances;
     &'a Material: Material, |material| material, needs = needed_by => Capabilities;
     &'a RenderSettings: RenderSettings, |settings| settings,
-        size = size_of_picture => Option<[usize; 2]>, work = of_pixel => u64;
+        size = size_of_picture => Option<[usize; 2]>, work = of_pixel => u64,
+        circumstances = Circumstances::of_picture => Circumstances;
 }
 
 /// What a core has to know before it is shown a material.

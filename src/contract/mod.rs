@@ -18,6 +18,7 @@ mod batch;
 pub(crate) mod beside;
 mod breach;
 mod capability;
+mod circumstances;
 mod components;
 pub mod crossing;
 mod error;
@@ -49,6 +50,7 @@ pub use settings::{
 };
 
 pub use crate::math::Precision;
+pub use circumstances::Circumstances;
 pub(crate) use work::Work;
 
 use question::*;

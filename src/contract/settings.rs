@@ -15,12 +15,24 @@ pub enum Acceleration {
         split: Split,
         /// At most this many primitives in a leaf, as far as they can be told apart.
         max_leaf_size: u32,
+        /// Whether the tests of its rays are asked for: a core that is lent counted tests is lent them then.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        counted: bool,
     },
 }
 
 impl Acceleration {
     /// The core's own best structure.
-    pub const DEFAULT: Self = Self::Bvh { split: Split::CoresChoice, max_leaf_size: 4 };
+    pub const DEFAULT: Self =
+        Self::Bvh { split: Split::CoresChoice, max_leaf_size: 4, counted: false };
+    /// The same with tests that are counted.
+    pub const COUNTED: Self =
+        Self::Bvh { split: Split::CoresChoice, max_leaf_size: 4, counted: true };
+
+    /// Whether tests of rays are asked for.
+    pub(crate) const fn is_counted(self) -> bool {
+        matches!(self, Self::Bvh { counted: true, .. })
+    }
 }
 
 /// How a node of the BVH is divided.

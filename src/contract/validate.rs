@@ -10,7 +10,9 @@ use super::argument::{Argument, needed_by, size_of_answer};
 use super::crossing::Request;
 use super::question::*;
 use super::work::{self, Work};
-use super::{Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo};
+use super::{
+    Acceleration, BuildStats, Built, BuiltScene, Circumstances, Components, Core, CoreInfo,
+};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// A core whose answers have the contract's form, or else are errors.
@@ -84,6 +86,7 @@ macro_rules! validated {
             }
             let work = self.work_of_one $(* Argument::work($arg))*;
             self.work.add(work * (asked.size[0] * asked.size[1]) as u64);
+            $(self.work.see(Argument::circumstances($arg));)*
             $out.untouch(&asked);
             let told =
                 guarded(stringify!($method), || self.$behind.$method($($arg,)* &mut *$out))?;
@@ -115,6 +118,7 @@ impl Core for Validated<'_> {
         let of_meshes = scene.meshes.iter().map(|mesh| mesh.indices.len());
         let primitives_of_shape = of_meshes.chain(scene.spheres.iter().map(|_| 1)).collect();
         self.work.add(scene.primitive_count() as u64);
+        self.work.see(Circumstances::of_scene(scene));
         let work_of_one = work::of_ray(scene, how);
         let (unformed, work) = (self.unformed, self.work.clone());
         let scene = guarded("build_scene", || self.core.build_scene(scene, how))?;

@@ -1,22 +1,37 @@
 //! How much a core has been asked, in the work of a ray that meets little. It is the same in every run, unlike the time
 //! that it takes, so that what ends when enough has been done ends at the same place on every machine.
 
-use super::{Acceleration, IntegratorSettings, RenderSettings};
+use super::{Acceleration, Circumstances, IntegratorSettings, RenderSettings};
 use crate::scene::SceneDescription;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 /// Counted while questions are asked, also those that are never answered.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Work(Arc<AtomicU64>);
+pub(crate) struct Work(Arc<Counted>);
+
+#[derive(Debug, Default)]
+struct Counted {
+    work: AtomicU64,
+    circumstances: AtomicU32,
+}
 
 impl Work {
     pub(crate) fn done(&self) -> u64 {
-        self.0.load(Ordering::Relaxed)
+        self.0.work.load(Ordering::Relaxed)
+    }
+
+    /// Under which it was done.
+    pub(crate) fn circumstances(&self) -> Circumstances {
+        Circumstances::from_bits_truncate(self.0.circumstances.load(Ordering::Relaxed))
     }
 
     pub(super) fn add(&self, work: u64) {
-        self.0.fetch_add(work, Ordering::Relaxed);
+        self.0.work.fetch_add(work, Ordering::Relaxed);
+    }
+
+    pub(super) fn see(&self, circumstances: Circumstances) {
+        self.0.circumstances.fetch_or(circumstances.bits(), Ordering::Relaxed);
     }
 }
 

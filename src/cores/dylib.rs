@@ -155,9 +155,11 @@ impl Dylib {
     }
 
     /// The table of counted tests that a core with that trait is handed.
-    fn counted_tests(&self, scene: &SceneDescription) -> Option<CountedTests> {
+    fn counted_tests(&self, scene: &SceneDescription, how: Acceleration) -> Option<CountedTests> {
         let traits = Traits::from_bits_truncate(self.table.traits);
-        traits.contains(Traits::COUNTED_TESTS).then(|| CountedTests::new(scene))
+        let takes = traits.contains(Traits::COUNTED_TESTS)
+            && (how.is_counted() || !traits.contains(Traits::OWN_TESTS));
+        takes.then(|| CountedTests::new(scene))
     }
 
     /// The scene as the bench takes it in, for a core that has taken anything from it.
@@ -342,7 +344,7 @@ impl Core for Dylib {
 
     fn build_scene(&mut self, scene: &SceneDescription, how: Acceleration) -> Result<Built<'_>> {
         self.can_build(how)?;
-        let counted = self.counted_tests(scene);
+        let counted = self.counted_tests(scene, how);
         let bench = self.bench_scene(scene, how);
         let settings = given::build(
             how,

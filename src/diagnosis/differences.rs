@@ -4,6 +4,7 @@ use super::bounces;
 use super::readings::Reading;
 use super::{Evidence, Headline, Observation};
 use crate::case::{Foundation, Part, Subject};
+use crate::contract::Components;
 use crate::text::number::figure;
 use std::collections::BTreeMap;
 
@@ -49,7 +50,9 @@ fn headline(
         let words: Vec<_> = surfaces.iter().map(|surface| surface.word()).collect();
         mistake += &format!(" in scenes with {}", words.join(", "));
     }
-    Headline { mistake, ..Headline::of(evidence, explains, sentences.collect()) }
+    Headline::of(evidence, explains, sentences.collect())
+        .differing(&mistake)
+        .under(evidence, Components::empty())
 }
 
 /// What a group shows of single bounces, over what it should be.

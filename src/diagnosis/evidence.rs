@@ -2,7 +2,7 @@
 
 use crate::case::{Foundation, Part, Role, Subject, Tier};
 use crate::checks::{Clue, Finding, Measure};
-use crate::contract::{Components, Conventions};
+use crate::contract::{Circumstances, Components, Conventions};
 use crate::image::Channel;
 use std::cmp::Ordering;
 
@@ -42,6 +42,8 @@ pub(crate) struct Observation<'a> {
     pub(crate) rerun: &'a str,
     /// How much the core was asked.
     pub(crate) work: u64,
+    /// What was in its scenes and settings.
+    pub(crate) circumstances: Circumstances,
     /// What the core took from the bench.
     pub(crate) with: Components,
 }

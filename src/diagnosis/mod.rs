@@ -25,6 +25,7 @@ mod readings;
 mod reproduction;
 mod roulette;
 mod shadows;
+mod shared;
 #[cfg(test)]
 mod testing;
 

@@ -2,10 +2,11 @@
 //! are told once.
 
 use super::reproduction::Refuted;
+use super::shared::Shared;
 use super::{Degree, Evidence, Observation, RuledOut, Suspicion, differences, endings};
 use crate::case::{Part, Subject, Tier, asked_by};
 use crate::cause::{self, Cause};
-use crate::contract::Components;
+use crate::contract::{Circumstances, Components};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,6 +36,9 @@ pub struct Headline {
     pub fix: String,
     /// What the failures count for.
     pub tier: Tier,
+    /// What gives the wrong answers of single functions, where no cause does.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) laws: Vec<String>,
     /// What was seen.
     pub evidence: Vec<String>,
     /// What else could have been, and why it is not.
@@ -59,8 +63,11 @@ impl Headline {
         let command = quickest(evidence, &explains, &sentences);
         sentences.dedup();
         sentences.truncate(EVIDENCE);
+        let findings = explains.iter().filter_map(|case| evidence.failure_of(case)?.finding);
+        let laws = findings.flat_map(|finding| finding.laws.clone()).collect();
         Self {
             degree: Degree::DiffersHere,
+            laws,
             evidence: sentences,
             blocked: evidence.blocked_by(&explains),
             command,
@@ -78,6 +85,37 @@ impl Headline {
             fix: cause.fix.to_owned(),
             ..self
         }
+    }
+
+    /// The same, which differs in this way: `what differs is the core's BSDF: its f is …`.
+    pub(super) fn differing(self, what: &str) -> Self {
+        let mut laws: Vec<_> = self.laws.iter().map(String::as_str).collect();
+        laws.dedup();
+        let mistake = match &laws[..] {
+            [] => what.to_owned(),
+            [first] => format!("{what}: {first}"),
+            [first, second, ..] => format!("{what}: {first}, {second}"),
+        };
+        Self { mistake, ..self }
+    }
+
+    /// The same with what these failures share, and what passes with the core's own has not.
+    pub(super) fn under(mut self, evidence: &Evidence<'_>, own: Components) -> Self {
+        let failing = self.explains.iter().filter_map(|case| evidence.failure_of(case));
+        let passing = evidence.passed().filter(|seen| !seen.with.intersects(own));
+        let Some(shared) = Shared::of(
+            failing.filter(|seen| seen.is_about_light()),
+            passing.filter(|seen| seen.is_about_light()),
+        ) else {
+            return self;
+        };
+        if self.laws.is_empty() {
+            let place = shared.place().map(|place| format!(", {place}"));
+            self.mistake += &place.unwrap_or_default();
+        }
+        self.evidence.insert(self.evidence.len().min(1), shared.in_words());
+        self.evidence.truncate(EVIDENCE);
+        self
     }
 
     /// One failure without a cause: its trial says all there is.
@@ -116,6 +154,7 @@ impl Headline {
     /// Takes in another headline of the same cause.
     fn absorb(&mut self, other: Self) {
         self.degree = self.degree.max(other.degree);
+        self.laws.extend(other.laws);
         self.evidence.extend(other.evidence);
         self.evidence.truncate(EVIDENCE);
         for case in other.explains {
@@ -303,10 +342,15 @@ impl Ranked {
     fn differing_as_one(&mut self, own: Components, evidence: &Evidence<'_>) {
         let Some(one) = self.differing.drain(..).reduce(Headline::and) else { return };
         let component = own.in_words();
-        let asks_itself = |case: &String| {
-            Subject::of_case(case).is_some_and(|subject| asked_by(subject).intersects(own))
+        // Light sampling is asked alone where its samples are, and not what comes of them.
+        let is_sampler = own == Components::LIGHT_SAMPLING;
+        let asks_itself = |seen: &Observation<'_>| {
+            let subject = Subject::of_case(seen.case);
+            subject.is_some_and(|subject| asked_by(subject).intersects(own))
+                && !(is_sampler && seen.circumstances.contains(Circumstances::RADIANCE))
         };
-        let is_called = !one.explains.iter().any(asks_itself);
+        let failures = one.explains.iter().filter_map(|case| evidence.failure_of(case));
+        let is_called = !failures.into_iter().any(asks_itself);
         let (mistake, look_at) = if is_called && evidence.has_proven(own) {
             let calls = format!(
                 "where the core calls its {component}: what it hands over and what it does with the answer"
@@ -323,7 +367,7 @@ impl Ranked {
         } else {
             (format!("what differs is the core's {component}"), String::new())
         };
-        self.differing.push(Headline { mistake, look_at, ..one });
+        self.differing.push(Headline { look_at, ..one }.differing(&mistake).under(evidence, own));
     }
 
     /// The same where what has no cause is told of these cases alone.

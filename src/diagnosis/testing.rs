@@ -3,7 +3,7 @@
 use super::{Ending, Evidence, Mistake, Observation, Planted, Question, Standing, diagnose};
 use crate::case::{Foundation, Role, Tier};
 use crate::checks::{Finding, Measure};
-use crate::contract::{Components, Conventions};
+use crate::contract::{Circumstances, Components, Conventions};
 use crate::image::Channel;
 use crate::stats::Verdict;
 
@@ -43,6 +43,7 @@ pub(crate) struct Made {
     resting: Vec<(String, Vec<Foundation>)>,
     proving: Vec<(String, Vec<Foundation>)>,
     ended: Vec<(String, Ending<'static>)>,
+    under: Vec<(String, Circumstances)>,
     work: u64,
     pub(crate) conventions: Conventions,
 }
@@ -50,9 +51,20 @@ pub(crate) struct Made {
 impl Made {
     pub(crate) fn new() -> Self {
         let (findings, blocked, conventions) = Default::default();
-        let (tiers, specular, resting, proving, ended) = Default::default();
+        let (tiers, specular, resting, proving, ended, under) = Default::default();
         let work = 1;
-        Self { findings, blocked, tiers, specular, resting, proving, ended, work, conventions }
+        Self {
+            findings,
+            blocked,
+            tiers,
+            specular,
+            resting,
+            proving,
+            ended,
+            under,
+            work,
+            conventions,
+        }
     }
 
     pub(crate) fn with(mut self, case: impl Into<Name>, finding: Finding) -> Self {
@@ -96,6 +108,12 @@ impl Made {
         self
     }
 
+    /// The same with what a case asks with.
+    pub(crate) fn under(mut self, case: &str, circumstances: Circumstances) -> Self {
+        self.under.push((case.to_owned(), circumstances));
+        self
+    }
+
     /// The same where each trial asked so much.
     pub(crate) fn taking(self, work: u64) -> Self {
         Self { work, ..self }
@@ -136,6 +154,11 @@ impl Made {
             rests_on: of_case(&self.resting, seen.case).to_vec(),
             proves: of_case(&self.proving, seen.case),
             work: self.work,
+            circumstances: self
+                .under
+                .iter()
+                .find(|(of, _)| of == seen.case)
+                .map_or_else(Circumstances::empty, |(_, circumstances)| *circumstances),
             ..seen
         });
         Evidence::new(observed.collect(), self.conventions)
@@ -163,6 +186,7 @@ fn observation<'a>(
         finding,
         rerun: case,
         work: 1,
+        circumstances: Circumstances::empty(),
         with: Components::empty(),
     }
 }

@@ -3,7 +3,7 @@
 use super::tree::RunTree;
 use crate::case::Tier;
 use crate::checks::{Finding, Measure, PictureRole, RejectedCell};
-use crate::contract::{Capabilities, Components, CoreInfo, Precision};
+use crate::contract::{Capabilities, Circumstances, Components, CoreInfo, Precision};
 use crate::image::exr::{Exr, Storage};
 use crate::image::{CHANNELS, Channel, Image, exr};
 use crate::math::rng::{Seed, uniform};
@@ -218,6 +218,7 @@ pub(crate) fn trial(core: &str, case: &str) -> TrialRecord {
         seed: seed.0,
         outcome: Outcome::Judged { finding: if is_random { agreeing(seed) } else { exact(seed) } },
         work: 0,
+        circumstances: Circumstances::empty(),
         pictures: if case.starts_with("image/") { pictures(name) } else { Vec::new() },
         printed: String::new(),
         rerun: format!("cargo furnace run {case} --core {core}"),

@@ -11,7 +11,7 @@ use crate::checks::breach::failure_beside;
 use crate::checks::{CheckError, Context, Finding, Picture};
 use crate::contract::turned::Turned;
 use crate::contract::validate::Validated;
-use crate::contract::{Capabilities, Components, Core, CoreError, Work};
+use crate::contract::{Capabilities, Circumstances, Components, Core, CoreError, Work};
 use crate::cores::HostError;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
@@ -56,7 +56,8 @@ pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended 
             Outcome::of(Err(CoreError::Unsupported(Capabilities::TRAVERSAL_STATS).into()));
     }
     let mut record = record_of(bench, trial, attempt.outcome);
-    record.work = attempt.work;
+    record.work = attempt.work.done();
+    record.circumstances = attempt.work.circumstances();
     record.tier = attempt.tier;
     record.with = with;
     if !with.is_empty() && trial.core.command().is_none() {
@@ -149,6 +150,7 @@ fn record_of(bench: &Bench, trial: &Trial, outcome: Outcome) -> TrialRecord {
         seed: bench.seed_of(case).0,
         outcome,
         work: 0,
+        circumstances: Circumstances::empty(),
         pictures: Vec::new(),
         printed: String::new(),
         rerun: rerun_command(bench, trial),
@@ -166,14 +168,14 @@ pub struct Attempt {
     pub(crate) scene: Option<SceneStamp>,
     pub(crate) pictures: Vec<Picture>,
     /// How much the core was asked.
-    pub(crate) work: u64,
+    pub(crate) work: Work,
 }
 
 impl Attempt {
     /// Of a core that did not start.
     fn without_core(case: &Case, error: CheckError) -> Self {
         let outcome = Outcome::of(Err(error));
-        Self { outcome, tier: case.tier, scene: None, pictures: Vec::new(), work: 0 }
+        Self { outcome, tier: case.tier, scene: None, pictures: Vec::new(), work: Work::default() }
     }
 }
 
@@ -187,7 +189,7 @@ pub fn attempt(bench: &Bench, case: &Case, core: &mut dyn Core) -> Attempt {
         scene = loaded.as_deref().map(|scene| stamp(scene, &bench.motion_of(case)));
         judge(bench, case, core, &work, loaded, &mut pictures)
     });
-    Attempt { outcome: Outcome::of(result), tier, scene, pictures, work: work.done() }
+    Attempt { outcome: Outcome::of(result), tier, scene, pictures, work }
 }
 
 fn load_scene(bench: &Bench, case: &Case) -> Result<Option<Arc<SceneDescription>>, CheckError> {

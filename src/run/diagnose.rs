@@ -83,6 +83,7 @@ fn observation(trial: &TrialRecord) -> Observation<'_> {
         finding: trial.outcome.finding(),
         rerun: &trial.rerun,
         work: trial.work,
+        circumstances: trial.circumstances,
         with: trial.with,
     }
 }

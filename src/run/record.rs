@@ -14,7 +14,7 @@ use super::tally::Counts;
 use crate::case::{Foundation, Role, Tier};
 use crate::checks::series::Series;
 use crate::checks::{PictureRole, RejectedCell, number};
-use crate::contract::{Components, Conventions, CoreInfo, Precision};
+use crate::contract::{Circumstances, Components, Conventions, CoreInfo, Precision};
 use crate::diagnosis::Diagnosis;
 use crate::disk;
 use crate::stats::Budget;
@@ -297,6 +297,9 @@ pub struct TrialRecord {
     /// How much the core was asked, in the work of a ray.
     #[serde(default)]
     pub(crate) work: u64,
+    /// What was in its scenes and settings.
+    #[serde(default, skip_serializing_if = "Circumstances::is_empty")]
+    pub(crate) circumstances: Circumstances,
     /// Files beside this one.
     pub pictures: Vec<PictureFile>,
     /// The end of what the core printed, if it lives in a worker and did not pass.

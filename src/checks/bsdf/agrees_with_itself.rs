@@ -28,11 +28,14 @@ impl Check for AgreesWithItself {
         let mut causes: Vec<_> = judged.iter().filter_map(|one| one.cause).collect();
         causes.dedup();
         let complaints: Vec<_> = judged.iter_mut().filter_map(|one| one.complaint.take()).collect();
+        let laws: Vec<_> =
+            judged.iter_mut().flat_map(|one| std::mem::take(&mut one.laws)).collect();
         let measures = judged.into_iter().flat_map(|one| one.measures).collect();
         let right = format!("{} surfaces agree with themselves", self.surface.len());
         Ok(Finding::of(right, "would have caught one sample in a hundred thousand", measures)
             .complaining(complaints)
-            .because_each(causes, "predicts all samples and values that were compared"))
+            .because_each(causes, "predicts all samples and values that were compared")
+            .by_law(laws))
     }
 }
 

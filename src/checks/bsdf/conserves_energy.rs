@@ -1,8 +1,7 @@
 //! The albedo of a surface, as in a white furnace test: never above one, and what its parameters say it is.
 
 use super::albedo::Albedo;
-use super::wrong_value::{DIRECTIONS, mistake_of};
-use crate::cause::Cause;
+use super::wrong_value::{DIRECTIONS, Made, made};
 use crate::checks::phrase::{degrees, figure};
 use crate::checks::surface::{SurfaceEntry, evaluated, kink, seen_from};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, check};
@@ -42,26 +41,26 @@ impl Check for ConservesEnergy {
             }
         }
         let worst = measures.iter().find(|measure| measure.failed()).map(complaint);
-        let causes = match worst {
-            Some(_) => self.mistakes(context)?,
+        let made = match worst {
+            Some(_) => self.made(context)?,
             None => Vec::new(),
         };
+        // It is the same with all surfaces that something is wrong with.
+        let mut causes: Vec<_> = made.iter().filter_map(|of_one| of_one.cause).collect();
+        causes.dedup();
+        causes.truncate(if causes.len() == 1 { 1 } else { 0 });
         let right = format!("{} albedos are what they should be", measures.len());
         Ok(Finding::measured(right, measures)
             .complaining(worst)
-            .because_each(causes, &format!("predicts f at {DIRECTIONS} pairs of directions")))
+            .because_each(causes, &format!("predicts f at {DIRECTIONS} pairs of directions"))
+            .by_law(made.into_iter().filter_map(|of_one| of_one.law)))
     }
 }
 
 impl ConservesEnergy {
-    /// What is wrong with the surfaces, if it is the same with all of them that something is wrong with.
-    fn mistakes(&self, context: &mut Context<'_>) -> Result<Vec<&'static Cause>> {
-        let mut causes = Vec::new();
-        for surface in self.surface.iter() {
-            causes.extend(mistake_of(context, *surface)?);
-        }
-        causes.dedup();
-        Ok(if causes.len() == 1 { causes } else { Vec::new() })
+    /// What makes f of each surface.
+    fn made(&self, context: &mut Context<'_>) -> Result<Vec<Made>> {
+        self.surface.iter().map(|surface| made(context, *surface)).collect()
     }
 }
 

@@ -1,12 +1,13 @@
 //! Samples of one surface, beside what it evaluates to.
 
+use super::terms::Scattering;
 use crate::cause::{Cause, bsdf};
 use crate::checks::form::Form;
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::some_are;
 use crate::checks::surface::{SurfaceEntry, evaluated, sampled};
 use crate::checks::{Context, Measure, Result};
-use crate::contract::{BsdfQuery, BsdfSample, BsdfValue};
+use crate::contract::{BsdfQuery, BsdfSample, BsdfValue, Conventions};
 use crate::math::frame::direction;
 use crate::math::rng::{Stream, uniform};
 use crate::math::sphere::{at_height, on_hemisphere};
@@ -19,6 +20,9 @@ const VIEWS: usize = 64;
 
 const SAMPLES_PER_VIEW: usize = 512;
 
+/// Samples in which a law is looked for, about.
+const LOOKED_AT: usize = 400;
+
 /// Angles from the horizon at which mistakes divide by nearly nothing, radians.
 pub(super) const GRAZING: [f64; 4] = [1e-2, 1e-4, 1e-8, 1e-12];
 
@@ -27,6 +31,7 @@ pub(super) struct Judged {
     pub(super) measures: Vec<Measure>,
     pub(super) complaint: Option<String>,
     pub(super) cause: Option<&'static Cause>,
+    pub(super) laws: Vec<String>,
 }
 
 /// Samples of one surface, with the views they were drawn for.
@@ -106,7 +111,33 @@ impl Drawn {
             _ => None,
         };
         let complaint = complaint.map(|complaint| format!("{name}: {complaint}"));
-        Ok(Judged { measures, complaint, cause })
+        let laws = self.laws(context.info.conventions, &valid, &values, allowed);
+        Ok(Judged { measures, complaint, cause, laws })
+    }
+
+    /// What samples are over what is evaluated, of some of them.
+    fn laws(
+        &self,
+        conventions: Conventions,
+        valid: &[(DVec3, BsdfSample)],
+        values: &[BsdfValue],
+        allowed: f64,
+    ) -> Vec<String> {
+        let scattering = Scattering { surface: self.surface.material().surface, conventions };
+        let apart = (valid.len() / LOOKED_AT).max(1);
+        let pairs = || valid.iter().zip(values).step_by(apart);
+        let law = |what: &str,
+                   of: &dyn Fn(&BsdfSample) -> f64,
+                   right: &dyn Fn(&BsdfValue) -> f64| {
+            let numbers = pairs().map(|((wo, sample), value)| {
+                (BsdfQuery { wo: *wo, wi: sample.wi }, of(sample), right(value))
+            });
+            let numbers: Vec<_> = numbers.collect();
+            let law = scattering.law_of_numbers(&numbers, "what is evaluated", 10.0 * allowed)?;
+            Some(format!("the {what} of samples of {} {law}", scattering.kind()))
+        };
+        let pdf = law("pdf", &|sample| sample.pdf, &|value| value.pdf);
+        pdf.into_iter().chain(law("f", &|sample| sample.f[1], &|value| value.f[1])).collect()
     }
 
     /// A mirror or glass says so, and is nothing to whoever evaluates it.
@@ -125,7 +156,7 @@ impl Drawn {
         let complaint = (unmarked + lit > 0)
             .then(|| format!("{name} is certain of its direction: mark it, and evaluate to zero"));
         let cause = (unmarked > 0 && lit == 0).then_some(&bsdf::MIRROR_NOT_DELTA);
-        Ok(Judged { measures, complaint, cause })
+        Ok(Judged { measures, complaint, cause, laws: Vec::new() })
     }
 
     pub(super) fn valid(&self) -> impl Iterator<Item = (DVec3, BsdfSample)> {

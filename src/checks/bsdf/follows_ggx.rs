@@ -5,11 +5,13 @@
 
 use super::albedo;
 use super::ggx_pair::{MISTAKES, Mistake, Pair};
+use super::terms::{Scattering, Value};
+use super::wrong_value::DIRECTIONS;
 use crate::cause::Cause;
 use crate::checks::phrase::{figure, percent, some_are};
 use crate::checks::surface::{SurfaceEntry, evaluated};
 use crate::checks::{Check, Context, Finding, Measure, Result, check};
-use crate::contract::{BsdfQuery, BsdfValue, SmithTerm};
+use crate::contract::{BsdfQuery, BsdfValue, Conventions, SmithTerm};
 use crate::math::sphere::on_hemisphere;
 use crate::scene::Surface;
 use crate::stats::{Compared, ExactReport, Tolerance, judge_exact};
@@ -46,7 +48,9 @@ impl Check for FollowsGgx {
         for surface in self.surface.iter() {
             tried.extend(Tried::of(context, *surface, smith)?);
         }
-        Ok(finding(&tried, Tolerance::FORMULA.of(context.info.precision)))
+        let tolerance = Tolerance::FORMULA.of(context.info.precision);
+        let laws = tried.iter().filter_map(|one| one.law(context.info.conventions, tolerance));
+        Ok(finding(&tried, tolerance).by_law(laws))
     }
 }
 
@@ -94,6 +98,22 @@ impl Tried {
 
     fn measure(&self, tolerance: f64) -> Measure {
         Measure::worst("f", &self.report(|_| 1.0, tolerance)).of_row(&self.name)
+    }
+
+    /// Of the first pairs: what all obey they obey.
+    fn law(&self, conventions: Conventions, tolerance: f64) -> Option<String> {
+        let Pair { reflectance, roughness, .. } = *self.pairs.first()?;
+        let surface = Surface::Conductor { reflectance, roughness };
+        let value = |(pair, value): (&Pair, &BsdfValue)| {
+            let query = BsdfQuery { wo: pair.wo, wi: pair.wi };
+            let right = reflectance.map(|r| r * pair.right());
+            Value { query, found: value.f, right }
+        };
+        let values: Vec<_> =
+            self.pairs.iter().zip(&self.values).take(DIRECTIONS).map(value).collect();
+        let scattering = Scattering { surface, conventions };
+        let law = scattering.law_of_values(&values, tolerance)?;
+        Some(format!("f of {} {law}", scattering.kind()))
     }
 
     fn complaint(&self, tolerance: f64) -> Option<String> {

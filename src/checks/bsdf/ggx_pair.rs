@@ -41,6 +41,21 @@ impl Pair {
         self.distribution() * self.both_masked() / (4.0 * self.wo.z * self.wi.z)
     }
 
+    /// What f is made of ([`super::terms`]).
+    pub(super) fn factors(&self) -> Vec<f64> {
+        vec![
+            self.wo.z,
+            self.wi.z,
+            self.half().z,
+            self.wo.dot(self.half()),
+            self.distribution(),
+            self.both_masked(),
+            masking(self.wo.z, self.roughness),
+            masking(self.wi.z, self.roughness),
+            self.roughness,
+        ]
+    }
+
     /// The pdf of visible normals: of the microfacets that `wo` sees.
     fn visible(&self) -> f64 {
         let seen = masking(self.wo.z, self.roughness) * self.wo.dot(self.half());

@@ -14,6 +14,7 @@ mod reflects_and_refracts;
 pub(super) mod rough_glass;
 mod smooth_trial;
 mod smooth_view;
+pub(super) mod terms;
 mod weights_make_the_albedo;
 mod wrong_value;
 

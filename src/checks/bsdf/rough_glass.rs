@@ -161,6 +161,32 @@ impl RoughGlass {
         self.mistake(pairs, Microfacet::pdf, PDFS)
     }
 
+    /// f of white glass and what it is made of at this pair of directions ([`super::terms`]); none where no microfacet
+    /// takes light from one to the other.
+    pub(super) fn factors(self, query: &BsdfQuery) -> Option<(f64, Vec<f64>, bool)> {
+        let facet = Microfacet::of(self, query, RIGHT_INDEX);
+        let fresnel = fresnel::reflectance(facet.o_m, facet.ratio);
+        let form = declared(self.conventions.smith_term);
+        let factors = vec![
+            facet.cos_o,
+            facet.cos_i,
+            facet.cos_m,
+            facet.o_m,
+            facet.i_m,
+            distribution(facet.cos_m, self.roughness),
+            facet.masking(form),
+            masking(facet.cos_o, self.roughness),
+            masking(facet.cos_i, self.roughness),
+            fresnel,
+            1.0 - fresnel,
+            facet.ratio,
+            facet.denominator(),
+            self.roughness,
+            self.index,
+        ];
+        facet.is_possible().then(|| (facet.value(), factors, facet.passes))
+    }
+
     fn mistake(
         self,
         pairs: &[(BsdfQuery, f64)],

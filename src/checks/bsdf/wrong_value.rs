@@ -3,12 +3,14 @@
 use super::albedo::masking;
 use super::ggx_pair::{self, Pair};
 use super::rough_glass::RoughGlass;
+use super::terms::{Scattering, Value};
 use crate::cause::{Cause, bsdf};
 use crate::checks::form::Form;
 use crate::checks::surface::{SurfaceEntry, evaluated};
 use crate::checks::{Context, Result};
 use crate::contract::{BsdfQuery, BsdfValue};
 use crate::scene::{Rgb, Surface};
+use crate::stats::Tolerance;
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Pairs of directions at which f is looked at.
@@ -17,17 +19,24 @@ pub(super) const DIRECTIONS: usize = 200;
 /// How far from the mean albedo a channel may be to be it, relative.
 const AVERAGED: f64 = 1e-4;
 
-/// The mistake that predicts f at many pairs of directions.
-pub(super) fn mistake_of(
-    context: &mut Context<'_>,
-    surface: SurfaceEntry,
-) -> Result<Option<&'static Cause>> {
+/// What makes f at many pairs of directions.
+#[derive(Default)]
+pub(super) struct Made {
+    /// The mistake that predicts all of them.
+    pub(super) cause: Option<&'static Cause>,
+    /// Of the wrong ones.
+    pub(super) law: Option<String>,
+}
+
+/// What makes f of this surface.
+pub(super) fn made(context: &mut Context<'_>, surface: SurfaceEntry) -> Result<Made> {
     let mut stream = context.seed.child("form of a value").stream();
     let mut direction = || surface.direction(&mut stream);
     let queries: Vec<_> =
         (0..DIRECTIONS).map(|_| BsdfQuery { wo: direction(), wi: direction() }).collect();
     let values = evaluated(context.core, &surface.material(), &queries)?;
-    Ok(match surface.material().surface {
+    let law = law(context, surface, &queries, &values);
+    let cause = match surface.material().surface {
         Surface::Diffuse { reflectance } if is_averaged(reflectance, &values) => {
             Some(&bsdf::ALBEDO_AVERAGED)
         }
@@ -57,7 +66,24 @@ pub(super) fn mistake_of(
             RoughGlass { index, roughness, conventions }.mistake_of_value(&pairs)
         }
         Surface::Mirror { .. } | Surface::Glass { .. } => None,
-    })
+    };
+    Ok(Made { cause, law })
+}
+
+fn law(
+    context: &Context<'_>,
+    surface: SurfaceEntry,
+    queries: &[BsdfQuery],
+    values: &[BsdfValue],
+) -> Option<String> {
+    let conventions = context.info.conventions;
+    let scattering = Scattering { surface: surface.material().surface, conventions };
+    let value = |(query, value): (&BsdfQuery, &BsdfValue)| {
+        Some(Value { query: *query, found: value.f, right: scattering.value(query)? })
+    };
+    let values: Vec<_> = queries.iter().zip(values).filter_map(value).collect();
+    let law = scattering.law_of_values(&values, Tolerance::FORMULA.of(context.info.precision))?;
+    Some(format!("f of {} {law}", scattering.kind()))
 }
 
 /// Whether a coloured surface answers the mean of its albedos in every channel.

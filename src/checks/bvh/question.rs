@@ -30,7 +30,7 @@ impl Build {
     }
 
     pub(crate) fn acceleration(self) -> Acceleration {
-        Acceleration::Bvh { split: self.split, max_leaf_size: self.max_leaf_size }
+        Acceleration::Bvh { split: self.split, max_leaf_size: self.max_leaf_size, counted: false }
     }
 
     /// `split at the median, leaves of 4`
@@ -90,6 +90,8 @@ pub(crate) fn rays_at_vertices(
 /// Some segment of each ray: it may begin before or behind the ray's hit, and end before or behind it.
 pub(crate) fn segments(rays: &[Ray], hits: &[Hit], bounds: Aabb, stream: &mut Stream) -> Vec<Ray> {
     let size = bounds.diagonal().max(1.0);
+    // Each line is asked twice, one segment after the other: what a core keeps of the first has to fit the second.
+    let lines = rays.iter().zip(hits).step_by(2).flat_map(|line| [line; 2]);
     let segment = |(ray, hit): (&Ray, &Hit)| {
         let scale = if hit.is_hit() { hit.t } else { size };
         let ends = [uniform(stream), uniform(stream)].map(|share| 2.0 * scale * share);
@@ -97,7 +99,7 @@ pub(crate) fn segments(rays: &[Ray], hits: &[Hit], bounds: Aabb, stream: &mut St
         let t_min = if starts_at_once { ray.t_min } else { ends[0].min(ends[1]) };
         Ray { t_min, t_max: ends[0].max(ends[1]), ..*ray }
     };
-    rays.iter().zip(hits).map(segment).collect()
+    lines.take(rays.len()).map(segment).collect()
 }
 
 fn point_in(bounds: Aabb, stream: &mut Stream) -> DVec3 {

@@ -7,6 +7,7 @@
 
 use super::random_segments::{RAYS_EACH, Trial, Truth};
 use super::slabs::{because, wrong_as};
+use crate::checks::law::{Terms, place_of_wrong};
 use crate::checks::phrase::{figure, one_in, percent, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
 use crate::contract::{BoxHit, Ray};
@@ -56,6 +57,18 @@ struct Tally {
 /// Answers by which a mistake is named: more would be as sure, and slower.
 const ENOUGH: usize = 20_000;
 
+const TERMS: Terms = Terms {
+    quantities: &[],
+    places: &[
+        ["along -x", "along +x"],
+        ["along -y", "along +y"],
+        ["along -z", "along +z"],
+        ["that start inside", "that start outside"],
+        ["that end inside", "that end outside"],
+    ],
+    right: "",
+};
+
 impl Tally {
     fn take(&mut self, trial: &Trial, hits: &[BoxHit], margin: f64) {
         for (ray, hit) in trial.rays.iter().zip(hits) {
@@ -71,6 +84,24 @@ impl Tally {
                 self.answers.push((trial.bounds, *ray, found));
             }
         }
+    }
+
+    /// Where the boxes are missed that are met, and no others.
+    fn place_of_misses(&self, margin: f64) -> Option<String> {
+        let met = self
+            .answers
+            .iter()
+            .filter(|(bounds, ray, _)| Truth::of(bounds, ray, margin) == Truth::Meet);
+        let of = |(bounds, ray, found): &(Aabb, Ray, bool)| {
+            let holds = |t: f64| {
+                let point = ray.at(t);
+                point.cmpge(bounds.min).all() && point.cmple(bounds.max).all()
+            };
+            let backwards = ray.direction.to_array().map(|along| along < 0.0);
+            let ends = [holds(ray.t_min), holds(ray.t_max)];
+            (*found, Vec::new(), backwards.into_iter().chain(ends).collect())
+        };
+        place_of_wrong(TERMS, met.map(of))
     }
 
     fn finding(&self, margin: f64) -> Finding {
@@ -96,7 +127,9 @@ impl Tally {
             "would have caught a miss in one of {one_in} boxes, by an overlap of {overlap} of t"
         );
         let wrong = if self.missed > 0 { wrong_as(&self.answers) } else { None };
-        let finding = Finding::of(statement, resolution, measures);
+        let place = if wrong.is_none() { self.place_of_misses(margin) } else { None };
+        let place = place.map(|place| format!("boxes are missed by rays {place}"));
+        let finding = Finding::of(statement, resolution, measures).by_law(place);
         because(finding, wrong.as_ref(), &format!("which of {} segments hit", self.answers.len()))
     }
 }

@@ -56,7 +56,7 @@ pub(super) fn measure_size(
     let reference = ReferenceBvh::new(&mesh);
     let triangles = mesh.indices.len() as f64;
     let scene = scene_of(mesh);
-    let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+    let mut built = context.core.build_scene(&scene, Acceleration::COUNTED)?;
     let (mut hits, mut occluded) = (vec![Hit::MISS; rays.len()], vec![false; rays.len()]);
     let closest = built.intersect(rays, &mut hits)?;
     let any = built.occluded(rays, &mut occluded)?;

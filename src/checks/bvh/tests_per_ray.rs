@@ -87,7 +87,7 @@ impl View {
             [Walk::Ordered, Walk::Unshortened].map(|walk| bvh.tests_per_ray(&self.rays, walk));
         let unsorted = ReferenceBvh::unsorted(&self.mesh).tests_per_ray(&self.rays, Walk::Ordered);
         let scene = scene_of(self.mesh);
-        let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        let mut built = context.core.build_scene(&scene, Acceleration::COUNTED)?;
         let mut tests_of = |rays: &[Ray]| -> Result<f64, CheckError> {
             let stats = built.intersect(rays, &mut vec![Hit::MISS; rays.len()])?;
             Ok(stats.primitive_tests as f64 / rays.len() as f64)

@@ -5,6 +5,7 @@ mod constant_film;
 mod exposed;
 #[cfg(test)]
 pub(in crate::checks) mod fake;
+mod film_law;
 mod film_mistakes;
 mod orientation;
 mod painting;

@@ -1,5 +1,6 @@
 //! The rays that a core makes for cameras, against formulas of projection.
 
+use super::film_law;
 use super::projection::{MISTAKES, Mistake, Projection, projection};
 use crate::cause::{Cause, camera};
 use crate::checks::few::{Few, few_that_fit};
@@ -65,10 +66,12 @@ pub(super) fn judge(shots: &[Shot], film: &[DVec2], allowed: f64) -> Finding {
     let right = format!("{all} rays of {} cameras leave through their film points", shots.len());
     let resolution = format!("would have caught a ray {} off", degrees(allowed));
     let elsewhere = causes_elsewhere(shots, &measures, allowed);
+    let laws = if explained.is_empty() { film_law::laws(shots, film) } else { Vec::new() };
     Finding::of(right, resolution, measures)
         .complaining(complaints)
         .because_few(explained, &format!("predicts the directions of all {all} rays"))
         .because_all(elsewhere, "the directions have no part in it")
+        .by_law(laws)
 }
 
 /// What is wrong beside directions.

@@ -410,6 +410,10 @@ impl Row<'_> {
             }
             Light::Point { position, intensity } => {
                 let to = *position - point;
+                let way = Ray { t_min: BORDER, t_max: 1.0 - BORDER, ..Ray::new(point, to) };
+                if nearest(self.scene, &way).is_some() {
+                    return 0.0;
+                }
                 let (height, distance) = (to.dot(normal), to.length());
                 let aside = (distance * distance - height * height).sqrt();
                 let falloff = match self.conventions.point_light_falloff {

@@ -1,6 +1,7 @@
 //! The pdf of uniform points of a mesh light, right and wrong.
 
 use crate::cause::{Cause, light};
+use crate::checks::law::{Answered, Terms, law_of};
 use crate::contract::{Hit, LightSample};
 use crate::scene::{SceneDescription, Shape};
 use glam::DVec3;
@@ -18,6 +19,14 @@ pub struct Geometry {
     cosine_at_surface: f64,
     area: f64,
 }
+
+const TERMS: Terms = Terms {
+    quantities: &["distance", "cos θ at the light", "cos θ at the surface", "area"],
+    places: &[],
+    right: "that of points uniform over the light",
+};
+/// Samples in which a law is looked for, about.
+const LOOKED_AT: usize = 400;
 
 type Formula = fn(&Geometry) -> f64;
 
@@ -48,6 +57,19 @@ pub(crate) fn mistake(geometries: &[(Geometry, f64)]) -> Option<&'static Cause> 
         return Some(&light::LIGHT_POINTS_UNEVEN);
     }
     MISTAKES.iter().find(|(_, formula)| predicts(*formula)).map(|(cause, _)| *cause)
+}
+
+/// The law of pdfs that are not those of uniform points.
+pub(crate) fn law(geometries: &[(Geometry, f64)], allowed: f64) -> Option<String> {
+    let answered = |(g, pdf): &(Geometry, f64)| Answered {
+        found: *pdf,
+        right: right(g),
+        quantities: vec![g.distance, g.cosine, g.cosine_at_surface, g.area],
+        places: Vec::new(),
+    };
+    let apart = (geometries.len() / LOOKED_AT).max(1);
+    let answers: Vec<_> = geometries.iter().step_by(apart).map(answered).collect();
+    Some(format!("the pdf {}", law_of(TERMS, &answers, allowed)?))
 }
 
 impl Geometry {

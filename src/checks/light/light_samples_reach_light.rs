@@ -105,11 +105,14 @@ impl Check for LightSamplesReachLight {
         let backwards = shines_backwards.then_some(&cause::light::LIGHT_SHINES_BACKWARDS);
         let off = measures.iter().any(|m| m.failed() && m.interval.is_some());
         let pdf = if off { area_pdf::mistake(&met) } else { None };
+        let formula = Tolerance::FORMULA.of(precision);
+        let law = if off { area_pdf::law(&met, formula) } else { None };
         Ok(Finding::measured("samples reach the light with the pdf they say", measures)
             .or_else_caught(format!("would have caught one wrong sample among {TRACED}"))
             .complaining(complaints)
             .because_each(backwards, "there are lit samples where the light looks away")
-            .because_each(pdf, &format!("predicts the pdfs of {} samples", met.len())))
+            .because_each(pdf, &format!("predicts the pdfs of {} samples", met.len()))
+            .by_law(law))
     }
 }
 

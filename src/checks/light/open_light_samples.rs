@@ -1,5 +1,5 @@
 //! Samples of lights that are no shapes: points, the sun, skies. Direction, distance and radiance of the first two are
-//! known exactly; of a constant environment light the mean of radiance over pdf is 4π times its radiance, however it is sampled.
+//! known exactly; of an environment light the mean of radiance over pdf is the integral of its radiance, however it is sampled.
 
 use super::delta_samples::{Judged, Sampled};
 use crate::cause::{Cause, light as cause};
@@ -22,7 +22,7 @@ check! {
         at_most: Count,
     }
     name: "open-light-samples",
-    summary: "samples of point, directional and constant environment lights",
+    summary: "samples of point, directional and environment lights",
     needs: BUILD_SCENE | SAMPLE_LIGHT,
 }
 
@@ -44,10 +44,17 @@ impl Check for OpenLightSamples {
                     found.push(samples.judge_delta(light, falloff, tolerance));
                 }
                 Light::ConstantSky { radiance } => {
-                    let sky = Sky { number, radiance: *radiance, seed };
+                    let sky = Sky { number, integral: 4.0 * PI * radiance[1], seed };
                     found.push(sky.judge(built.as_mut(), &effort, band)?);
                 }
-                Light::GradientSky { .. } | Light::Area { .. } => {}
+                Light::GradientSky { horizon, zenith, .. } => {
+                    // The mean of a cosine that is 0 over half of the sphere is 1/4.
+                    let integral = PI * (4.0 * horizon[1] + (zenith[1] - horizon[1]));
+                    let judged =
+                        Sky { number, integral, seed }.judge(built.as_mut(), &effort, band)?;
+                    found.push(Judged { cause: None, ..judged });
+                }
+                Light::Area { .. } => {}
             }
         }
         if found.is_empty() {
@@ -75,17 +82,17 @@ fn finding(found: Vec<Judged>) -> Finding {
         .because_each(causes, "predicts the samples of the light")
 }
 
-/// A sky that is bright alike everywhere.
+/// An environment light.
 struct Sky {
     number: u32,
-    radiance: [f64; 3],
+    /// Of the green radiance, over all directions.
+    integral: f64,
     seed: Seed,
 }
 
 impl Sky {
     fn judge(&self, scene: &mut dyn BuiltScene, effort: &Effort, band: Band) -> Result<Judged> {
-        let expected = 4.0 * PI * self.radiance[1];
-        let claims = [Claim::value(expected, band)];
+        let claims = [Claim::value(self.integral, band)];
         let mut drawn = Drawn::default();
         let reports = judge_means(&claims, effort, &mut |draw| {
             let seed = draw.seed(self.seed);

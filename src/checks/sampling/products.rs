@@ -4,18 +4,28 @@ use super::claimed_pdf::{ClaimedPdf, Law};
 use super::distribution::{Distribution, Drawn};
 use super::way::{Way, is_same_way};
 use crate::cause::Cause;
+use crate::checks::bsdf::terms::Scattering;
 use crate::checks::form::Form;
+use crate::checks::law::{Answered, Terms, law_of};
 use crate::checks::numbers::Numbers;
 use crate::checks::phrase::figure;
 use crate::checks::{Context, Measure, Result};
-use crate::contract::{Precision, Randomness};
+use crate::contract::{BsdfQuery, Conventions, Core, Precision, Randomness};
 use crate::math::ratios::names_of;
+use crate::math::rng::Seed;
+use crate::math::sphere::on_sphere;
 use crate::stats::{Tolerance, Verdict};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
 /// Points of the unit square.
 pub(super) const POINTS: usize = 2000;
+
+/// What central differences may be off by, where nothing is wrong.
+const DIFFERENCES: f64 = 1e-3;
+
+/// Points in which a law is looked for, about.
+const LOOKED_AT: usize = 400;
 
 /// Fewer points with a derivative than this prove nothing: most of the map fails, or has a kink.
 const FEWEST_POINTS: usize = POINTS / 10;
@@ -40,6 +50,8 @@ pub(crate) struct Products {
     pub(super) leaves_azimuths_out: bool,
     pub(super) precision: Precision,
     pub(super) pdf: Option<ClaimedPdf>,
+    /// What the pdf is to that of the samples.
+    law: Option<String>,
 }
 
 impl Products {
@@ -76,14 +88,20 @@ impl Products {
             };
             let jacobian = along(&right, &left)?.cross(along(&above, &below)?).length();
             let product = centre[i].pdf * jacobian / chances[i];
-            goes_on.then_some((product, centre[i].direction?.z))
+            goes_on.then_some((product, centre[i].direction?))
         };
-        let mut values: Vec<_> = (0..points.len()).filter_map(product).collect();
+        let products: Vec<_> = (0..points.len()).filter_map(product).collect();
+        let conventions = context.info.conventions;
+        let of_pdf = law_of_pdf(context.core, distribution, conventions, precision)?;
+        let of_products = || law(distribution, conventions, &products, precision);
+        let law = of_pdf.or_else(of_products);
+        let law = law.map(|law| format!("the pdf of {} {law}", kind(distribution, conventions)));
+        let mut values: Vec<_> = products.iter().map(|(value, wi)| (*value, wi.z)).collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
         let pdf = ClaimedPdf::of(context.core, distribution)?;
         let name = distribution.name() + way.words();
         let leaves_azimuths_out = leave_azimuths_out(&centre);
-        Ok(Self { name, values, leaves_azimuths_out, precision, pdf })
+        Ok(Self { name, values, leaves_azimuths_out, precision, pdf, law })
     }
 
     /// The error that this share of the points does not exceed.
@@ -115,7 +133,14 @@ impl Products {
     }
 
     pub(super) fn complaint(&self) -> Option<String> {
-        self.fails().then(|| format!("{}: pdf times Jacobian is {}", self.name, self.factor()))
+        let factor = || format!("{}: pdf times Jacobian is {}", self.name, self.factor());
+        let law = self.law_in_words().filter(|_| Form::of(&self.values).is_none());
+        let law = law.map(|law| format!("{}: {law}", self.name));
+        self.fails().then(|| law.unwrap_or_else(factor))
+    }
+
+    pub(super) fn law_in_words(&self) -> Option<String> {
+        self.law.clone().filter(|_| self.fails())
     }
 
     /// A wrong pdf, or else a wrong map.
@@ -153,6 +178,63 @@ impl Products {
             self.values.get((share * self.values.len() as f64) as usize).map_or(f64::NAN, |v| v.0)
         });
         format!("between {} and {} instead of 1", figure(low), figure(high))
+    }
+}
+
+fn kind(distribution: &Distribution, conventions: Conventions) -> String {
+    match distribution {
+        Distribution::Sampler(_) => distribution.name(),
+        Distribution::Bsdf { material, .. } => {
+            Scattering { surface: material.surface, conventions }.kind().to_owned()
+        }
+    }
+}
+
+/// What gives the pdf by itself, at many directions.
+fn law_of_pdf(
+    core: &mut dyn Core,
+    distribution: &Distribution,
+    conventions: Conventions,
+    precision: Precision,
+) -> Result<Option<String>> {
+    let Distribution::Bsdf { material, wo, .. } = distribution else { return Ok(None) };
+    let mut stream = Seed::SUITE.child("law of a pdf").stream();
+    let directions: Vec<_> = (0..LOOKED_AT).map(|_| on_sphere(&mut stream)).collect();
+    let mut pdfs = vec![0.0; directions.len()];
+    distribution.pdf(core, &directions, &mut pdfs)?;
+    let query = |(wi, pdf): (&DVec3, &f64)| (BsdfQuery { wo: *wo, wi: *wi }, *pdf);
+    let pdfs: Vec<_> = directions.iter().zip(&pdfs).map(query).collect();
+    let scattering = Scattering { surface: material.surface, conventions };
+    Ok(scattering.law_of_pdfs(&pdfs, Tolerance::FORMULA.of(precision)))
+}
+
+/// What these products of pdf and Jacobian are made of.
+fn law(
+    distribution: &Distribution,
+    conventions: Conventions,
+    products: &[(f64, DVec3)],
+    precision: Precision,
+) -> Option<String> {
+    const AGAINST: &str = "that of its samples";
+    let allowed = Tolerance::JACOBIAN_MEDIAN.of(precision).max(DIFFERENCES);
+    let apart = (products.len() / LOOKED_AT).max(1);
+    let products = products.iter().step_by(apart);
+    match distribution {
+        Distribution::Sampler(_) => {
+            let answered = |(found, wi): &(f64, DVec3)| Answered {
+                found: *found,
+                right: 1.0,
+                quantities: vec![wi.z],
+                places: Vec::new(),
+            };
+            let terms = Terms { quantities: &["cos θ"], places: &[], right: AGAINST };
+            law_of(terms, &products.map(answered).collect::<Vec<_>>(), allowed)
+        }
+        Distribution::Bsdf { material, wo, .. } => {
+            let scattering = Scattering { surface: material.surface, conventions };
+            let number = |(found, wi): &(f64, DVec3)| (BsdfQuery { wo: *wo, wi: *wi }, *found, 1.0);
+            scattering.law_of_numbers(&products.map(number).collect::<Vec<_>>(), AGAINST, allowed)
+        }
     }
 }
 

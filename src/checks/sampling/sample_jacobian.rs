@@ -51,6 +51,7 @@ impl OfDistributions for SampleJacobian {
                 products().filter_map(Products::cause),
                 "predicts pdf and Jacobian at nearly all points",
             )
+            .knowing_laws(products().filter_map(Products::law_in_words))
     }
 }
 

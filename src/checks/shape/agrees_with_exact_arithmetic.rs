@@ -3,10 +3,11 @@
 use super::encounter::{Encounter, explanation};
 use super::exact_triangle::{GridRay, GridTriangle};
 use crate::cause::Cause;
+use crate::checks::law::{Answered, Terms, law_of, place_of_wrong};
 use crate::checks::phrase::{figure, one_in, some_are};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, check};
-use crate::contract::{Hit, Ray};
-use crate::stats::judge_exact;
+use crate::contract::{Hit, Precision, Ray};
+use crate::stats::{Tolerance, judge_exact};
 use crate::text::Count;
 
 /// Rays at each triangle.
@@ -64,6 +65,9 @@ fn judge(encounters: &[Encounter]) -> Finding {
     ];
     let wrong = lost + invented + t.disagree;
     let explained = if wrong == 0 { None } else { explanation(encounters) };
+    let places = [place(&hits, "hits are lost"), place(&misses, "hits are invented")];
+    let laws = places.into_iter().chain([law_of_t(&hits)]).flatten();
+    let laws: Vec<_> = laws.filter(|_| explained.is_none()).collect();
     let statement = if wrong == 0 {
         format!("{} clear hits and {} clear misses agree", hits.len(), misses.len())
     } else {
@@ -71,7 +75,37 @@ fn judge(encounters: &[Encounter]) -> Finding {
     };
     let rare = one_in(encounters.len());
     let resolution = format!("would have caught a mistake in one ray of {rare}");
-    Finding::of(statement, resolution, measures).because_of(explained)
+    Finding::of(statement, resolution, measures).because_of(explained).by_law(laws)
+}
+
+const TERMS: Terms = Terms {
+    quantities: &["the determinant", "b0", "b1", "b2", "t"],
+    places: &[["from behind", "from the front"]],
+    right: "what it should be",
+};
+
+/// What a ray and a triangle come to.
+fn quantities(e: &Encounter) -> (Vec<f64>, Vec<bool>) {
+    let [b0, b1, b2] = e.meeting.weights;
+    let determinant = e.meeting.determinant;
+    (vec![determinant.abs(), b0, b1, b2, e.meeting.t], vec![determinant < 0.0])
+}
+
+fn place(encounters: &[&Encounter], what: &str) -> Option<String> {
+    let answers = encounters.iter().map(|e| {
+        let (quantities, places) = quantities(e);
+        (e.found.is_some() == e.should_hit(), quantities, places)
+    });
+    Some(format!("{what} {}", place_of_wrong(TERMS, answers)?))
+}
+
+fn law_of_t(hits: &[&Encounter]) -> Option<String> {
+    let answered = |e: &&Encounter| {
+        let (quantities, places) = quantities(e);
+        Some(Answered { found: e.found?, right: e.meeting.t, quantities, places })
+    };
+    let answers: Vec<_> = hits.iter().filter_map(answered).collect();
+    Some(format!("t {}", law_of(TERMS, &answers, Tolerance::FORMULA.of(Precision::Double))?))
 }
 
 /// `counts` are of hits lost, hits invented, and wrong t.

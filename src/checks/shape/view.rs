@@ -2,6 +2,7 @@
 
 use crate::cause::{Cause, shape};
 use crate::checks::camera::projection;
+use crate::checks::law::{Answered, Terms, law_of};
 use crate::checks::oracle::{Met, nearest};
 use crate::checks::phrase::{figure, some_are};
 use crate::checks::{Finding, Measure};
@@ -9,6 +10,7 @@ use crate::contract::{Hit, Precision, Ray};
 use crate::scene::{Camera, SceneDescription, Shape};
 use crate::stats::{Compared, Tolerance, Verdict, judge_exact};
 use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
 
 /// Pixels whose view changes within this much of their centre, in pixels, lie on an edge and are not graded.
 const EDGE: f64 = 0.05;
@@ -138,13 +140,54 @@ impl View<'_> {
         let away = figure(allowed.fold(0.0, f64::max));
         let resolution = format!("would have caught a surface {away} away from its place");
         let causes = if complaints.is_empty() { Vec::new() } else { causes(&clear) };
+        let laws = if causes.is_empty() { self.laws(&clear, precision) } else { Vec::new() };
         let all = both().count();
-        Finding::of(right, resolution, measures).complaining(complaints).because_each(
-            causes,
-            &format!("predicts the normals of all {all} pixels that see a surface"),
-        )
+        Finding::of(right, resolution, measures)
+            .complaining(complaints)
+            .because_each(
+                causes,
+                &format!("predicts the normals of all {all} pixels that see a surface"),
+            )
+            .by_law(laws)
+    }
+
+    /// What depths and normals are where they are wrong.
+    fn laws(&self, pixels: &[&Pixel], precision: Precision) -> Vec<String> {
+        let both = || pixels.iter().filter_map(|pixel| Some((&pixel.ray, pixel.both()?)));
+        let law = |what: &str, of: &dyn Fn(&Hit, &Met) -> [f64; 2]| {
+            let answered = |(ray, (hit, met)): (&Ray, (&Hit, &Met))| {
+                let [found, right] = of(hit, met);
+                let is_mesh = matches!(self.scene.shape(met.shape), Shape::Mesh(_));
+                let behind = met.answer.geometric_normal.dot(ray.direction) > 0.0;
+                let quantities = vec![met.answer.t];
+                Answered { found, right, quantities, places: vec![is_mesh, behind] }
+            };
+            let answers: Vec<_> = both().map(answered).collect();
+            let allowed = Tolerance::FORMULA.of(precision);
+            Some((what.to_owned(), law_of(TERMS, &answers, allowed)?))
+        };
+        let along = |found: DVec3, right: DVec3| [found.dot(right), 1.0];
+        let laws = [
+            law("depth", &|hit, met| [hit.t, met.answer.t]),
+            law("the geometric normal", &|hit, met| {
+                along(hit.geometric_normal, met.answer.geometric_normal)
+            }),
+            law("the shading normal", &|hit, met| {
+                along(hit.shading_normal, met.answer.shading_normal)
+            }),
+        ];
+        // What is wrong with all three is told once.
+        let laws: BTreeMap<_, _> =
+            laws.into_iter().flatten().rev().map(|(what, law)| (law, what)).collect();
+        laws.into_iter().map(|(law, what)| format!("{what} {law}")).collect()
     }
 }
+
+const TERMS: Terms = Terms {
+    quantities: &["the distance"],
+    places: &[["on meshes", "on spheres"], ["seen from behind", "seen from the front"]],
+    right: "what it should be",
+};
 
 /// A way to get normals wrong: what comes out of the right ones for a ray.
 type Normals = fn(&Met, &Ray) -> [DVec3; 2];

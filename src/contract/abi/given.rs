@@ -303,7 +303,7 @@ pub(crate) fn build(
 ) -> abi::Build {
     let (accelerate, split, max_leaf_size) = match acceleration {
         Acceleration::BruteForce => (0, abi::SPLIT_CORES_CHOICE, 0),
-        Acceleration::Bvh { split, max_leaf_size } => (1, split_number(split), max_leaf_size),
+        Acceleration::Bvh { split, max_leaf_size, .. } => (1, split_number(split), max_leaf_size),
     };
     let struct_size = struct_size::<abi::Build>();
     abi::Build { struct_size, accelerate, split, max_leaf_size, counted, bench }

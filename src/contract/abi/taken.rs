@@ -73,7 +73,8 @@ pub(crate) const fn acceleration(settings: &abi::Build) -> Option<Acceleration> 
         abi::SPLIT_SURFACE_AREA => Split::SurfaceArea,
         _ => return None,
     };
-    Some(Acceleration::Bvh { split, max_leaf_size: settings.max_leaf_size })
+    let (max_leaf_size, counted) = (settings.max_leaf_size, !settings.counted.is_null());
+    Some(Acceleration::Bvh { split, max_leaf_size, counted })
 }
 
 /// How to render, with the two structs that it points to.

@@ -24,7 +24,7 @@ impl BuiltinScene {
         let geometry = Geometry::new(scene);
         let tree = match acceleration {
             Acceleration::BruteForce => trace::brute_force(&geometry),
-            Acceleration::Bvh { split, max_leaf_size } => trace::build_bvh(
+            Acceleration::Bvh { split, max_leaf_size, .. } => trace::build_bvh(
                 &geometry,
                 trace::Plan { split, max_leaf_size: max_leaf_size as usize },
             ),

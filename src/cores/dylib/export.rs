@@ -312,7 +312,8 @@ mod tests {
     #[test]
     fn what_is_built_crosses_and_comes_back() {
         let splits = [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea];
-        let hows = splits.map(|split| Acceleration::Bvh { split, max_leaf_size: 3 });
+        let hows =
+            splits.map(|split| Acceleration::Bvh { split, max_leaf_size: 3, counted: false });
         for how in hows.into_iter().chain([Acceleration::BruteForce, Acceleration::DEFAULT]) {
             let in_c = how_in_c(how, ptr::null(), ptr::null_mut());
             assert_eq!(taken::acceleration(&in_c), Some(how));

@@ -64,7 +64,7 @@ impl<'a> Bvh<'a> {
         acceleration: Acceleration,
         steps: &'a Steps,
     ) -> Self {
-        let Acceleration::Bvh { split, max_leaf_size } = acceleration else {
+        let Acceleration::Bvh { split, max_leaf_size, .. } = acceleration else {
             return Self { nodes: Vec::new(), primitives, steps };
         };
         let boxes = primitives.iter().map(|primitive| primitive.form.bounds());
@@ -282,7 +282,11 @@ mod tests {
         [Split::Median, Split::MeanOfCentroids, Split::Midpoint, Split::SurfaceArea];
 
     fn bvh(primitives: &[Primitive], split: Split, max_leaf_size: u32) -> Bvh<'static> {
-        Bvh::new(primitives.to_vec(), Acceleration::Bvh { split, max_leaf_size }, &LESSON)
+        Bvh::new(
+            primitives.to_vec(),
+            Acceleration::Bvh { split, max_leaf_size, counted: false },
+            &LESSON,
+        )
     }
 
     fn vector(random: &mut Random<'_>) -> DVec3 {

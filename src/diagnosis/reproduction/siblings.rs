@@ -189,8 +189,8 @@ impl<'a> Proof<'a> {
         same.iter().filter_map(|case| self.evidence.failure_of(case)).collect()
     }
 
-    /// Failures that would follow from a cause whose mistake gives the numbers of its own cases, and passes them. If it passes
-    /// all that there is time to ask, none follows.
+    /// Failures that would follow from a cause whose mistake passes them. If it passes all that there is time to ask, none
+    /// follows.
     pub(super) fn not_following(&self, ranked: &Ranked) -> Refuted {
         let of_headline = |headline: &Headline| {
             let alone: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
@@ -211,9 +211,7 @@ impl<'a> Proof<'a> {
             };
             Some(refuted(cause::find(&headline.cause)?, &apart))
         };
-        let is_reproduced =
-            |told: &&Headline| self.of(told).any(|one| self.is_reproduced(one, told));
-        ranked.with_cause().filter(is_reproduced).filter_map(of_headline).flatten().collect()
+        ranked.with_cause().filter_map(of_headline).flatten().collect()
     }
 
     fn siblings(&self, headline: &Headline, ranked: &Ranked) -> Siblings {

@@ -87,8 +87,10 @@ mod tests {
 
     fn shared(failures: &[Circumstances], passed: &[Circumstances]) -> Option<String> {
         let cases = |prefix: &'static str, of: &[Circumstances]| {
-            let of = of.to_vec().into_iter().enumerate();
-            of.map(move |(number, under)| (format!("light/{prefix}{number}"), under))
+            let named = |(number, under): (usize, &Circumstances)| {
+                (format!("light/{prefix}{number}"), *under)
+            };
+            of.iter().enumerate().map(named).collect::<Vec<_>>()
         };
         let mut made = Made::new();
         for (case, under) in cases("a", failures) {

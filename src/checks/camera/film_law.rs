@@ -101,7 +101,9 @@ mod tests {
     use crate::contract::Ray;
     use crate::math::rng::{Seed, in_square};
 
-    fn laws_of(film_of: fn(DVec2) -> DVec2) -> Vec<String> {
+    type Taken = fn(DVec2) -> DVec2;
+
+    fn laws_of(film_of: Taken) -> Vec<String> {
         let mut stream = Seed(1).stream();
         let film: Vec<_> = (0..20).map(|_| in_square(&mut stream)).collect();
         let camera =
@@ -114,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_film_that_is_scaled_moved_or_mirrored_says_so() {
-        let told: [(fn(DVec2) -> DVec2, &str); 3] = [
+        let told: [(Taken, &str); 3] = [
             (|film| DVec2::new(0.5 + 0.8 * (film.x - 0.5), film.y), "(0.8 x, y)"),
             (|film| DVec2::new(1.0 - film.y, film.x + 0.05), "(-y, x + 0.1)"),
             (|film| DVec2::new(film.x, 0.5), "(x, 0)"),

@@ -1,6 +1,6 @@
 //! Laws of wrong numbers: what gives every wrong answer of a function, though nobody has made that mistake before.
 //!
-//! - [`replaced`]: the right formula with one quantity in the place of another (`takes ωi in place of ωo in G1`);
+//! - [`replaced()`]: the right formula with one quantity in the place of another (`takes ωi in place of ωo in G1`);
 //! - [`law_of`]: a product of few quantities (`is 4 (ωo · h) times what it should be, where light passes`);
 //! - [`place_of_wrong`]: where answers are wrong, and nowhere else.
 //!
@@ -82,6 +82,9 @@ mod tests {
         right: "what it should be",
     };
 
+    /// Of what is right.
+    type Found = fn(f64, &Answered) -> f64;
+
     fn law(found: impl Fn(f64, &Answered) -> f64) -> String {
         let mut stream = Seed(3).stream();
         let mut answers = Vec::new();
@@ -96,7 +99,7 @@ mod tests {
 
     #[test]
     fn a_product_of_few_quantities_is_told() {
-        let told: [(&str, fn(f64, &Answered) -> f64); 10] = [
+        let told: [(&str, Found); 10] = [
             ("is 2 times what it should be", |right, _| 2.0 * right),
             ("has the opposite sign", |right, _| -right),
             ("is 4 cos θi times what it should be", |right, one| 4.0 * one.quantities[1] * right),
@@ -126,7 +129,7 @@ mod tests {
 
     #[test]
     fn where_it_holds_is_told() {
-        let told: [(&str, fn(f64, &Answered) -> f64); 6] = [
+        let told: [(&str, Found); 6] = [
             ("is wrong where cos θo is below 0.5, and right elsewhere", |right, one| {
                 if one.quantities[0] > 0.5 { right } else { f64::INFINITY }
             }),
@@ -152,7 +155,7 @@ mod tests {
 
     #[test]
     fn what_no_law_gives_has_none() {
-        let told: [fn(f64, &Answered) -> f64; 4] = [
+        let told: [Found; 4] = [
             |right, _| right,
             |right, one| right * (1.0 + 0.3 * (40.0 * one.quantities[1]).sin()),
             |right, one| right * (one.quantities[0] + one.quantities[1]),

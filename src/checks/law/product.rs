@@ -166,17 +166,21 @@ fn candidates(count: usize) -> impl Iterator<Item = Vec<(usize, f64)>> {
 /// What is left of every point without these factors, if it is one number.
 fn constant_of(points: &[Point], factors: &[(usize, f64)]) -> Option<f64> {
     let lost = points.len() / LOST;
+    let middle_of = |points: &[Point]| {
+        median(&mut points.iter().map(|point| point.without(factors)).collect::<Vec<_>>())
+    };
+    let are_met = |points: &[Point], middle: f64, slack: f64| {
+        let is_met =
+            |point: &&Point| (point.without(factors) - middle).abs() <= slack * point.slack;
+        points.iter().filter(is_met).count() + lost >= points.len()
+    };
     // Most products fail at the first few points.
-    let mut left: Vec<_> = points.iter().take(2 * lost + 3).map(|p| p.without(factors)).collect();
-    let middle = median(&mut left);
-    let misses = |point: &&Point| !((point.without(factors) - middle).abs() <= 2.0 * point.slack);
-    if points.iter().filter(misses).take(lost + 1).count() > lost {
+    let first = &points[..points.len().min(2 * lost + 3)];
+    if !are_met(first, middle_of(first), 2.0) {
         return None;
     }
-    let mut left: Vec<_> = points.iter().map(|point| point.without(factors)).collect();
-    let middle = median(&mut left);
-    let misses = |point: &&Point| !((point.without(factors) - middle).abs() <= point.slack);
-    (points.iter().filter(misses).count() <= lost).then(|| middle.exp())
+    let middle = middle_of(points);
+    are_met(points, middle, 1.0).then(|| middle.exp())
 }
 
 fn median(values: &mut [f64]) -> f64 {

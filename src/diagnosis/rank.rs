@@ -102,7 +102,12 @@ impl Headline {
     /// The same with what these failures share, and what passes with the core's own has not.
     pub(super) fn under(mut self, evidence: &Evidence<'_>, own: Components) -> Self {
         let failing = self.explains.iter().filter_map(|case| evidence.failure_of(case));
-        let passing = evidence.passed().filter(|seen| !seen.with.intersects(own));
+        // What passes with the bench's own says nothing; where no component is known, with any of its own.
+        let may_fail = |seen: &&Observation<'_>| match own.is_empty() {
+            true => seen.with.is_empty(),
+            false => !seen.with.intersects(own),
+        };
+        let passing = evidence.passed().filter(may_fail);
         let Some(shared) = Shared::of(
             failing.filter(|seen| seen.is_about_light()),
             passing.filter(|seen| seen.is_about_light()),

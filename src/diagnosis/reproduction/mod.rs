@@ -527,7 +527,16 @@ impl<'a> Proof<'a> {
         // A core may do what the bench has a component for in the midst of a higher one.
         let is_below =
             |components| !self.made_in.may_be(components) && !self.made_in.leaves(components);
-        let elsewhere = self.failing_alike(|mistake| is_below(mistake.components));
+        // With the bench's direct lighting a path that weighs both kinds of samples has no weights: its own mistakes go, too.
+        let is_asked = |mistake: &Mistake| names.iter().any(|case| case == mistake.caught_by);
+        let is_of_weights = |mistake: &Mistake| {
+            matches!(self.made_in, MadeIn::Mended(Components::DIRECT_LIGHTING))
+                && mistake.components == Components::PATH
+                && is_asked(mistake)
+        };
+        let is_elsewhere =
+            |mistake: &Mistake| is_below(mistake.components) || is_of_weights(mistake);
+        let elsewhere = self.failing_alike(is_elsewhere);
         let elsewhere: Vec<_> = elsewhere.into_iter().map(|mistake| vec![mistake]).collect();
         if found.is_empty() {
             found = self.of_sets(&elsewhere, &cases, names);
@@ -1499,6 +1508,24 @@ mod tests {
         let ranked = proven(&made.evidence(), &planted, MadeIn::Mended(Components::PATH));
         let pi = bsdf::WITHOUT_PI.name;
         assert_eq!(told(&ranked.told()), [(pi, Degree::LooksLike, 2)]);
+    }
+
+    #[test]
+    fn a_mistake_of_the_path_that_direct_lighting_mends_is_looked_like_if_its_own_case_fails() {
+        let of_path = |caught_by| Mistake {
+            components: Components::PATH,
+            ..mistake("pi", &bsdf::WITHOUT_PI, caught_by)
+        };
+        let made = Made::new().with("light/b", light(0.5)).with("light/c", light(0.7));
+        let gives: &[(&[&str], _, _)] = &[(&["pi"], "light/b", 0.5), (&["pi"], "light/c", 0.7)];
+        let degree = |mistake: Mistake, broken: Components| {
+            let planted = Bench { mistakes: &[mistake], gives };
+            let ranked = proven(&made.evidence(), &planted, MadeIn::Mended(broken));
+            told(&ranked.told())[0].1
+        };
+        let direct = Components::DIRECT_LIGHTING;
+        assert_eq!(degree(of_path("light/b"), direct), Degree::LooksLike);
+        assert_eq!(degree(of_path("light/b"), Components::BSDF), Degree::DiffersHere);
     }
 
     #[test]

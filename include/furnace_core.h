@@ -268,10 +268,10 @@ enum { /* furnace_build.split */
    FURNACE_SPLIT_SURFACE_AREA = 4
 };
 
-/* The bench's own ray tests, which count themselves. A core with FURNACE_COUNTED_TESTS calls them, where it
- * is handed them, for every ray of `intersect` and `occluded` in place of its own, and cannot miscount: a hit that none of
- * them has found breaks the contract, and so does a counter that they have not set. They live as long
- * as the built scene, and may be called from any thread. */
+/* The bench's own ray tests, which count themselves. A core with FURNACE_COUNTED_TESTS calls them, where
+ * it is handed them, for every ray of `intersect` and `occluded` in place of its own, and cannot
+ * miscount: a hit that none of them has found breaks the contract, and so does a counter that they have
+ * not set. They live as long as the built scene, and may be called from any thread. */
 typedef struct furnace_counted_tests {
    uint32_t struct_size, reserved;
    void    *bench; /* handed back as the first argument */

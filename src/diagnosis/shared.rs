@@ -1,5 +1,5 @@
 //! What the failures of a difference have in common, and what passes has not: where there is no cause yet, it says where to
-//! look. `With Russian roulette: so are all 4 failures, and 1 of 63 cases that pass.`
+//! look. `all 4 failures are with Russian roulette, and 1 of 63 cases that pass`
 //!
 //! One circumstance, or two at once, that all failures share. That they share it by chance has a probability: of the ways in
 //! which as many cases may fail, the share in which they all have it. It is told where that is small for all that were tried.
@@ -68,7 +68,7 @@ impl Shared {
         (with * FEW <= passing).then(|| format!("with {}", self.words()))
     }
 
-    /// `all 4 failures have several lights, of 63 cases that pass 2`.
+    /// `all 4 failures are with several lights, and 2 of 63 cases that pass`.
     pub(super) fn in_words(&self) -> String {
         let [passing, with] = self.passing;
         let (failing, words) = (self.failing, self.words());

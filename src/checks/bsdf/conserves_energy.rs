@@ -48,7 +48,7 @@ impl Check for ConservesEnergy {
         // It is the same with all surfaces that something is wrong with.
         let mut causes: Vec<_> = made.iter().filter_map(|of_one| of_one.cause).collect();
         causes.dedup();
-        causes.truncate(if causes.len() == 1 { 1 } else { 0 });
+        let causes = if causes.len() == 1 { causes } else { Vec::new() };
         let right = format!("{} albedos are what they should be", measures.len());
         Ok(Finding::measured(right, measures)
             .complaining(worst)

@@ -360,3 +360,43 @@ impl Scattering {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::GlassRadiance;
+    use crate::math::rng::Seed;
+    use crate::math::sphere::on_sphere;
+
+    /// What stands in the formulas by its place has to be what belongs there.
+    #[test]
+    fn the_formulas_give_what_is_right() {
+        let metal = Surface::Conductor { reflectance: [1.0; 3], roughness: 0.3 };
+        let (reflectance, transmittance) = ([1.0; 3], [1.0; 3]);
+        let glass = Surface::RoughGlass { index: 1.5, roughness: 0.3, reflectance, transmittance };
+        for (surface, scale) in [(metal, 0.25), (glass, 1.0)] {
+            for smith_term in [SmithTerm::Separable, SmithTerm::HeightCorrelated] {
+                let glass_radiance = GlassRadiance::Scaled;
+                let conventions =
+                    Conventions { smith_term, glass_radiance, ..Conventions::default() };
+                let scattering = Scattering { surface, conventions };
+                let formula = scattering.formula().unwrap();
+                let mut stream = Seed(5).stream();
+                let mut query =
+                    || BsdfQuery { wo: on_sphere(&mut stream), wi: on_sphere(&mut stream) };
+                let (mut compared, queries) = (0, (0..200).map(|_| query()));
+                for query in queries.collect::<Vec<_>>() {
+                    let Some(right) = scattering.value(&query) else { continue };
+                    let value = Value { query, found: right, right };
+                    let one = &scattering.answered(&value)[0];
+                    let taken: Vec<_> =
+                        formula.takes.iter().map(|(_, of)| one.quantities[*of]).collect();
+                    let given = scale * (formula.value)(&taken, &one.places);
+                    assert!((given / right[0] - 1.0).abs() <= 1e-9, "{surface:?} {query:?}");
+                    compared += 1;
+                }
+                assert!(compared > 20);
+            }
+        }
+    }
+}

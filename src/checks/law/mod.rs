@@ -50,6 +50,7 @@ const FEWEST: usize = 16;
 const FIT: f64 = 0.002;
 /// One wrong number in so many may be lost to rounding.
 const LOST: usize = 50;
+
 /// The law of these answers, in words that go on after the name of what was answered: `is 2 cos θo times what it should
 /// be`. `allowed` is what rounding may do, relative.
 pub(crate) fn law_of(terms: Terms, answers: &[Answered], allowed: f64) -> Option<String> {

@@ -92,16 +92,19 @@ impl Products {
         };
         let products: Vec<_> = (0..points.len()).filter_map(product).collect();
         let conventions = context.info.conventions;
-        let of_pdf = law_of_pdf(context.core, distribution, conventions, precision)?;
-        let of_products = || law(distribution, conventions, &products, precision);
-        let law = of_pdf.or_else(of_products);
-        let law = law.map(|law| format!("the pdf of {} {law}", kind(distribution, conventions)));
         let mut values: Vec<_> = products.iter().map(|(value, wi)| (*value, wi.z)).collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
         let pdf = ClaimedPdf::of(context.core, distribution)?;
         let name = distribution.name() + way.words();
         let leaves_azimuths_out = leave_azimuths_out(&centre);
-        Ok(Self { name, values, leaves_azimuths_out, precision, pdf, law })
+        let judged = Self { name, values, leaves_azimuths_out, precision, pdf, law: None };
+        if !judged.fails() {
+            return Ok(judged);
+        }
+        let of_pdf = law_of_pdf(context.core, distribution, conventions, precision)?;
+        let law = of_pdf.or_else(|| law(distribution, conventions, &products, precision));
+        let kind = kind(distribution, conventions);
+        Ok(Self { law: law.map(|law| format!("the pdf of {kind} {law}")), ..judged })
     }
 
     /// The error that this share of the points does not exceed.
@@ -140,7 +143,7 @@ impl Products {
     }
 
     pub(super) fn law_in_words(&self) -> Option<String> {
-        self.law.clone().filter(|_| self.fails())
+        self.law.clone()
     }
 
     /// A wrong pdf, or else a wrong map.

@@ -309,7 +309,7 @@ const HANDMADE: &[[&str; 4]] = &[
      "!sphere.inward"],
     ["scene.hpp", "light/far-occluder-hides-the-sun",
      "if (!std::isfinite(distance)) return ray_along(way);",
-     "if (!std::isfinite(distance)) distance = 5;"],
+     "if (!std::isfinite(distance)) distance = 50;"],
     ["numbers.hpp", "integrator/blue-light-alone-is-no-darkness",
      "c.r == 0 && c.g == 0 && c.b == 0",
      "c.r == 0 && c.g == 0"],
@@ -361,6 +361,14 @@ const HANDMADE: &[[&str; 4]] = &[
     ["scene.hpp", "light/two-lights-by-hemisphere-sampling-match-closed-form",
      "from_hemisphere(v, random.numbers()) / Real(count)",
      "from_hemisphere(v, random.numbers()) / Real(samples)"],
+    ["scene.hpp", "integrator/glass-slab-under-roulette-matches-fresnel",
+     "if (random.number() >= survival) return sum;
+         auto way = sample_surface(*v.material, v.wo, random.numbers());",
+     "Real chance = random.number();
+         if (chance >= survival) return sum;
+         Numbers numbers = random.numbers();
+         if (plays) numbers.lobe = chance;
+         auto way = sample_surface(*v.material, v.wo, numbers);"],
     ["lights.hpp", "light/gradient-environment-samples-cover-the-sphere",
      "return is_sky() ? 1 / (4 * PI) : 0;",
      "return is_sky() ? (light.kind == FURNACE_GRADIENT_SKY ? 2 : 1) / (4 * PI) : 0;"],

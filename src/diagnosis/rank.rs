@@ -341,33 +341,20 @@ impl Ranked {
         self
     }
 
-    /// A component that answers rightly where it is asked alone may be called wrongly, or be wrong where no case asks it. A
-    /// shape's test is asked for its nearest hit alone: its any-hit function is part of it too, and so is what it leaves in a
-    /// record that it misses.
+    /// A component that answers rightly where it is asked alone may be called wrongly, or be wrong where no case asks it.
     fn differing_as_one(&mut self, own: Components, evidence: &Evidence<'_>) {
         let Some(one) = self.differing.drain(..).reduce(Headline::and) else { return };
         let component = own.in_words();
-        // Light sampling is asked alone where its samples are, and not what comes of them.
-        let is_sampler = own == Components::LIGHT_SAMPLING;
-        let asks_itself = |seen: &Observation<'_>| {
-            let subject = Subject::of_case(seen.case);
-            subject.is_some_and(|subject| asked_by(subject).intersects(own))
-                && !(is_sampler && seen.circumstances.contains(Circumstances::RADIANCE))
-        };
-        let failures = one.explains.iter().filter_map(|case| evidence.failure_of(case));
-        let is_called = !failures.into_iter().any(asks_itself);
-        let (mistake, look_at) = if is_called && evidence.has_proven(own) {
-            let calls = format!(
-                "where the core calls its {component}: what it hands over and what it does with the answer"
-            );
-            let is_shape = own.intersects(Components::TRIANGLE_TEST | Components::SPHERE_TEST);
-            let of_shape =
-                if is_shape { ", its any-hit function and what it writes on a miss" } else { "" };
+        let (mistake, look_at) = if passes_its_own_cases(own, evidence) {
             (
                 format!(
                     "the core's {component} passes its own cases, and what rests on it does not"
                 ),
-                format!("what its cases do not ask{of_shape}, and {calls}"),
+                format!(
+                    "what its cases do not ask{}, and where the core calls its {component}: what it hands over and what it \
+                     does with the answer",
+                    not_asked_of(own)
+                ),
             )
         } else {
             (format!("what differs is the core's {component}"), String::new())
@@ -416,6 +403,34 @@ impl Ranked {
         }
         self.differing.retain(|headline| !headline.explains.is_empty());
         self
+    }
+}
+
+/// Whether no case that asks about the core's own `component` itself fails, and those that prove it pass.
+fn passes_its_own_cases(component: Components, evidence: &Evidence<'_>) -> bool {
+    // Light sampling is asked alone where its samples are, and not what comes of them.
+    let is_sampler = component == Components::LIGHT_SAMPLING;
+    let asks_itself = |seen: &Observation<'_>| {
+        let subject = Subject::of_case(seen.case);
+        subject.is_some_and(|subject| asked_by(subject).intersects(component))
+            && !(is_sampler && seen.circumstances.contains(Circumstances::RADIANCE))
+    };
+    let is_own = |seen: &Observation<'_>| asks_itself(seen) && !seen.with.intersects(component);
+    let is_proven = match is_sampler {
+        true => evidence.passed().any(is_own),
+        false => evidence.has_proven(component),
+    };
+    is_proven && !evidence.failures().any(asks_itself)
+}
+
+/// What no case asks a component alone. Shapes are asked for their nearest hit, light sampling for what it samples.
+fn not_asked_of(component: Components) -> &'static str {
+    if component.intersects(Components::TRIANGLE_TEST | Components::SPHERE_TEST) {
+        ", its any-hit function and what it writes on a miss"
+    } else if component == Components::LIGHT_SAMPLING {
+        ", the pdf that MIS takes for a direction which it has not sampled"
+    } else {
+        ""
     }
 }
 

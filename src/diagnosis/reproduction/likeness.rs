@@ -49,6 +49,9 @@ impl Likeness {
 /// How what a core answered compares with what a planted mistake answers; a core that stopped answering has no finding.
 pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
     let Some(core) = core else { return by_verdict(planted) };
+    if follow_other_formulas(core, planted) {
+        return Likeness::Other;
+    }
     let pairs = core.measures.iter().filter_map(|of_core| {
         let is_same = |other: &&Measure| asks_the_same(of_core, other);
         Some((of_core, planted.measures.iter().find(is_same)?))
@@ -70,6 +73,22 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
         (true, false) => Likeness::Alike,
         (false, false) => Likeness::Other,
     }
+}
+
+/// Whether the case has recognised each by a formula of its own: sizes may meet by chance, and answers follow one formula.
+/// Light is recognised by ratios, which noise blurs.
+fn follow_other_formulas(core: &Finding, planted: &Finding) -> bool {
+    let [of_core, of_planted] = [core, planted].map(formulas);
+    let are_known = !of_core.is_empty() && !of_planted.is_empty();
+    are_known && of_core.is_disjoint(&of_planted)
+}
+
+/// The causes whose formula gives every answer of a finding about single functions.
+fn formulas(finding: &Finding) -> BTreeSet<&str> {
+    let is_light = finding.measures.iter().any(|measure| measure.channel.is_some());
+    let is_numbered = finding.failed_measures().next().is_some();
+    let alone = finding.clues.iter().filter(|clue| !clue.beside && is_numbered && !is_light);
+    alone.map(|clue| &clue.cause[..]).collect()
 }
 
 /// How a finding is known to have broken the contract.
@@ -143,9 +162,22 @@ fn chance_of(measure: &Measure) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cause::contract;
+    use crate::cause::{contract, shape};
     use crate::diagnosis::testing::{failing, mean, means, passing};
     use crate::image::Channel;
+
+    #[test]
+    fn answers_of_another_formula_are_not_alike_though_their_sizes_meet() {
+        let wrong = |cause: &'static crate::cause::Cause| {
+            let error = Measure::exact("ray 1: error of the normal", 0.17, 0.0, 1e-9);
+            means(vec![error]).because(cause, "predicts the answers to all 2 rays")
+        };
+        let [swapped, moved_on] = [&shape::NORMALS_SWAPPED, &shape::NORMALS_MOVED_ON].map(wrong);
+        assert_eq!(likeness(Some(&moved_on), &swapped), Likeness::Other);
+        assert_eq!(likeness(Some(&swapped), &swapped), Likeness::Same);
+        let nameless = Finding { clues: Vec::new(), ..moved_on };
+        assert_eq!(likeness(Some(&nameless), &swapped), Likeness::Same);
+    }
 
     #[test]
     fn numbers_are_compared_row_by_row_and_what_has_none_by_its_verdict() {

@@ -28,6 +28,8 @@ enum Wrong {
     UntouchedPixel,
     /// The pdf of light samples falls with the distance, not with its square.
     LightPdfByDistance,
+    /// Two of five estimates of radiance are 0.
+    LosesSamples,
 }
 
 /// A core that is right but for one thing.
@@ -86,8 +88,15 @@ impl BuiltScene for WrongScene<'_> {
         radiance: &mut [[f64; 3]],
     ) -> Result<()> {
         self.scene.radiance(rays, settings, radiance)?;
-        if let Wrong::OnePercentBright = self.wrong {
-            radiance.iter_mut().flatten().for_each(|value| *value *= 1.01);
+        match self.wrong {
+            Wrong::OnePercentBright => {
+                radiance.iter_mut().flatten().for_each(|value| *value *= 1.01);
+            }
+            Wrong::LosesSamples => {
+                let lost = radiance.iter_mut().enumerate().filter(|(number, _)| number % 5 < 2);
+                lost.for_each(|(_, radiance)| *radiance = [0.0; 3]);
+            }
+            _ => {}
         }
         Ok(())
     }
@@ -107,7 +116,7 @@ impl BuiltScene for WrongScene<'_> {
             }
             Wrong::NanPixel => film.pixels[middle] = [f32::NAN; 3],
             Wrong::UntouchedPixel => film.pixels[middle] = before[middle],
-            Wrong::LightPdfByDistance => {}
+            Wrong::LightPdfByDistance | Wrong::LosesSamples => {}
         }
         Ok(())
     }
@@ -183,6 +192,13 @@ fn a_light_pdf_without_the_square_is_seen_in_the_solid_angle() {
         .map(|l| format!("light/{l}-light-samples-reach-the-light"));
     let area_lights = area_lights.each_ref().map(String::as_str);
     assert_named(Wrong::LightPdfByDistance, "textbook", &area_lights, &["1/pdf"]);
+}
+
+#[test]
+fn samples_that_are_lost_are_told_from_light_that_is_weighted() {
+    let filters = ["light/sphere-light-matches", "light/rectangle-light-tilted-matches"];
+    let words = ["40 % of the samples bring no light, and the others bring what all should"];
+    assert_named(Wrong::LosesSamples, "textbook", &filters, &words);
 }
 
 /// Mean radiances by the scene and the ray that they were asked for: a sum, and of how many.

@@ -18,7 +18,7 @@ mod finding;
 mod form;
 pub(crate) mod image;
 pub(crate) mod integrator;
-mod law;
+pub(crate) mod law;
 pub(crate) mod light;
 mod numbers;
 mod oracle;

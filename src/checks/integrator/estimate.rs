@@ -153,6 +153,8 @@ pub(crate) fn draw_estimates(
 pub(crate) struct Estimate {
     pub(crate) mean: [f64; 3],
     pub(crate) largest: [f64; 3],
+    /// How many are 0 in every channel.
+    pub(crate) dark: u64,
 }
 
 /// One seeded run: `samples` independent estimates.
@@ -165,15 +167,17 @@ pub(crate) fn estimate(
 ) -> Result<Estimate> {
     let mut sum = [0.0; 3];
     let mut largest = [0.0_f64; 3];
+    let mut dark = 0;
     draw_estimates(scene, aim, settings, seed, samples, &mut |radiance| {
         for value in radiance {
+            dark += u64::from(*value == [0.0; 3]);
             for channel in 0..3 {
                 sum[channel] += value[channel];
                 largest[channel] = largest[channel].max(value[channel].abs());
             }
         }
     })?;
-    Ok(Estimate { mean: sum.map(|sum| sum / samples as f64), largest })
+    Ok(Estimate { mean: sum.map(|sum| sum / samples as f64), largest, dark })
 }
 
 /// Whether a difference of means is 0, to an error that is relative to `scale`.

@@ -5,6 +5,7 @@ use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, needs, one, sett
 use super::foretold::MistakeEntry;
 use super::question::{DARK_SAMPLES, Question};
 use crate::cause::{contract, light};
+use crate::checks::law::LOST_SAMPLES;
 use crate::checks::phrase::{figure, percent, ratio_of};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, breach, check};
 use crate::contract::{
@@ -87,17 +88,21 @@ impl Check for MeanRadiance {
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let (info, brightest) = (context.info.clone(), brightest(&scene));
         let mut rows = Vec::new();
+        let mut lost = Vec::new();
         for (number, row) in self.row.iter().enumerate() {
             let question = Question { brightest, ..self.question(row, seed.child(number), &info) };
-            let measures = match question.judge(built.as_mut(), &effort) {
+            let judged = match question.judge(built.as_mut(), &effort) {
                 Err(CheckError::Core(error)) if divides_by_no_lights(&scene, &error) => {
                     let finding = Finding::failure(error.to_string());
                     return Ok(finding.because(&light::DIVIDED_BY_ZERO_LIGHTS, NO_LIGHTS));
                 }
                 judged => judged?,
             };
-            let failed = measures.iter().any(Measure::failed);
-            rows.push(measures);
+            let failed = judged.measures.iter().any(Measure::failed);
+            rows.push(judged.measures);
+            if failed {
+                lost.push(judged.lost);
+            }
             if failed && context.budget.stops_at_failure {
                 break;
             }
@@ -105,9 +110,13 @@ impl Check for MeanRadiance {
         let causes: Vec<_> =
             self.mistake.iter().filter_map(|mistake| mistake.explains(&rows)).collect();
         let measures: Vec<_> = rows.into_iter().flatten().collect();
-        Ok(Finding::measured(statement(&measures), measures)
+        let lost: Option<Vec<_>> = lost.into_iter().collect();
+        let statement = statement(&measures) + &lost.as_deref().map_or_else(String::new, of_lost);
+        let law = lost.filter(|shares| !shares.is_empty()).map(|_| LOST_SAMPLES.to_owned());
+        Ok(Finding::measured(statement, measures)
             .or_else_caught(format!("would have caught one lit sample among {DARK_SAMPLES}"))
-            .because_of(causes))
+            .because_of(causes)
+            .knowing_laws(law))
     }
 }
 
@@ -164,6 +173,18 @@ impl Row {
             [first, last] => format!("bounces {first} to {last}"),
         })
     }
+}
+
+/// `; 43 % of the samples bring no light, and the others bring what all should`, of the row that loses the most.
+fn of_lost(shares: &[f64]) -> String {
+    let most = shares.iter().copied().reduce(f64::max);
+    let told = |most| {
+        format!(
+            "; {} of the samples bring no light, and the others bring what all should",
+            percent(most)
+        )
+    };
+    most.map_or_else(String::new, told)
 }
 
 /// The sentence on top: the worst number, or that all agree.

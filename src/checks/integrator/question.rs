@@ -1,6 +1,7 @@
 //! One row of a case of mean radiance, put to one core.
 
 use super::estimate::{Aim, estimate};
+use crate::checks::law::Lost;
 use crate::checks::{CheckError, Measure, Result};
 use crate::contract::{BuiltScene, IntegratorSettings};
 use crate::image::CHANNELS;
@@ -30,23 +31,29 @@ pub(super) struct Question {
     pub(super) brightest: f64,
 }
 
+/// What came of a row.
+pub(super) struct Judged {
+    /// Of each of the three channels.
+    pub(super) measures: Vec<Measure>,
+    /// The share of samples that bring no light, where the others bring what all should.
+    pub(super) lost: Option<f64>,
+}
+
 impl Question {
-    /// The measures of the three channels.
-    pub(super) fn judge(
-        &self,
-        scene: &mut dyn BuiltScene,
-        effort: &Effort,
-    ) -> Result<Vec<Measure>> {
+    pub(super) fn judge(&self, scene: &mut dyn BuiltScene, effort: &Effort) -> Result<Judged> {
         let (lit, dark): (Vec<_>, Vec<_>) = (0..3).partition(|c| self.expected[*c] != 0.0);
+        let mut lost = Lost::default();
         let mut measures = match self.exact {
             _ if lit.is_empty() => Vec::new(),
             Some(tolerance) => self.judge_exact(scene, &lit, tolerance)?,
-            None => self.judge_lit(scene, &lit, effort)?,
+            None => self.judge_lit(scene, &lit, effort, &mut lost)?,
         };
+        let lost = lost.share(&measures);
         if !dark.is_empty() {
             measures.extend(self.judge_dark(scene, &dark)?);
         }
-        Ok(measures.into_iter().map(|measure| measure.of_row(&self.name)).collect())
+        let measures = measures.into_iter().map(|measure| measure.of_row(&self.name)).collect();
+        Ok(Judged { measures, lost })
     }
 
     /// The means of channels with light.
@@ -55,12 +62,15 @@ impl Question {
         scene: &mut dyn BuiltScene,
         channels: &[usize],
         effort: &Effort,
+        lost: &mut Lost,
     ) -> Result<Vec<Measure>> {
         let claim = |channel: &usize| Claim::value(self.expected[*channel], Band::RADIANCE);
         let claims: Vec<_> = channels.iter().map(claim).collect();
         let reports = judge_means(&claims, effort, &mut |draw| {
             let seed = draw.seed(self.seed);
             let run = estimate(scene, self.aim, &self.settings, seed, draw.samples)?;
+            lost.samples += draw.samples;
+            lost.dark += run.dark;
             Ok::<_, CheckError>(channels.iter().map(|channel| run.mean[*channel]).collect())
         })?;
         let measures = channels.iter().zip(&reports);

@@ -2,14 +2,17 @@
 //!
 //! - [`replaced()`]: the right formula with one quantity in the place of another (`takes ωi in place of ωo in G1`);
 //! - [`law_of`]: a product of few quantities (`is 4 (ωo · h) times what it should be, where light passes`);
-//! - [`place_of_wrong`]: where answers are wrong, and nowhere else.
+//! - [`place_of_wrong`]: where answers are wrong, and nowhere else;
+//! - [`Lost`]: estimates of light of which some bring nothing, and the others all they should.
 //!
 //! A law has to give every wrong number, each to a five hundredth of its error; what no law gives has none.
 
+mod lost;
 mod place;
 mod product;
 mod replaced;
 
+pub(crate) use lost::{LOST_SAMPLES, Lost};
 use place::place_of;
 pub(crate) use place::place_of_wrong;
 use product::{Rule, Search};

@@ -1,6 +1,7 @@
 //! Whether two cores are wrong alike, number by number.
 
 use super::Observation;
+use crate::checks::law::LOST_SAMPLES;
 use crate::checks::{Finding, Measure};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -76,11 +77,13 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
 }
 
 /// Whether the case has recognised each by a formula of its own: sizes may meet by chance, and answers follow one formula.
-/// Light is recognised by ratios, which noise blurs.
+/// Light is recognised by ratios, which noise blurs; but what loses samples weighs the others rightly.
 fn follow_other_formulas(core: &Finding, planted: &Finding) -> bool {
     let [of_core, of_planted] = [core, planted].map(formulas);
     let are_known = !of_core.is_empty() && !of_planted.is_empty();
+    let loses_samples = |finding: &Finding| finding.laws.iter().any(|law| law == LOST_SAMPLES);
     are_known && of_core.is_disjoint(&of_planted)
+        || loses_samples(core) && planted.failed() && !loses_samples(planted)
 }
 
 /// The causes whose formula gives every answer of a finding about single functions.
@@ -175,6 +178,14 @@ mod tests {
         let [swapped, moved_on] = [&shape::NORMALS_SWAPPED, &shape::NORMALS_MOVED_ON].map(wrong);
         assert_eq!(likeness(Some(&moved_on), &swapped), Likeness::Other);
         assert_eq!(likeness(Some(&swapped), &swapped), Likeness::Same);
+        let half = || means(vec![mean("a", Channel::Red, 0.5, 0.5, 0.01)]);
+        let lost = half().knowing_laws([LOST_SAMPLES.to_owned()]);
+        assert_eq!(
+            likeness(Some(&lost), &half()),
+            Likeness::Other,
+            "no light is weighted by a half"
+        );
+        assert_eq!(likeness(Some(&half()), &lost), Likeness::Same);
         let nameless = Finding { clues: Vec::new(), ..moved_on };
         assert_eq!(likeness(Some(&nameless), &swapped), Likeness::Same);
     }

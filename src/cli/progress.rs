@@ -1,7 +1,7 @@
 //! What is shown while a run goes on, on standard error: a live display on a terminal, elsewhere a line for what does
 //! not pass and now and then how far it is, nothing if the user wants quiet. Results go to standard output, and not from here.
 
-use crate::report::text::{Detail, Style, clean, cut, paint_of};
+use crate::report::text::{Detail, Paint, Style, clean, cut, paint_of};
 use crate::run::{Counts, Event, RunRecord, Status, TrialRecord};
 use crate::text::colour::Colour;
 use crate::text::number::{count, duration};
@@ -228,7 +228,8 @@ fn deserves_a_line(trial: &TrialRecord) -> bool {
 
 /// One trial in one line.
 struct Told {
-    status: Status,
+    word: &'static str,
+    paint: Paint,
     /// Time, core if there are several, case, and what was found.
     words: String,
 }
@@ -242,17 +243,23 @@ fn line(trial: &TrialRecord, longest_core: usize) -> Told {
     let statement = trial.outcome.statement();
     let statement = clean(statement.lines().next().unwrap_or_default());
     let words = format!("{seconds:>9}  {core}{}: {statement}", clean(&trial.case));
-    Told { status: trial.outcome.status(), words }
+    match trial.outcome.status() {
+        // What counts nothing has not failed.
+        Status::Fail if !trial.tier.is_graded() => {
+            Told { word: "note", paint: Paint::Unknown, words }
+        }
+        status => Told { word: status.word(), paint: paint_of(status), words },
+    }
 }
 
 impl Told {
     fn plain(&self) -> String {
-        format!("{:<12} {}", self.status.word(), self.words)
+        format!("{:<12} {}", self.word, self.words)
     }
 
     /// Cut at the end of the line: a display that goes on needs the room.
     fn painted(&self, style: Style) -> String {
-        let word = style.paint(paint_of(self.status), &format!("{:<12}", self.status.word()));
+        let word = style.paint(self.paint, &format!("{:<12}", self.word));
         format!("  {word} {}", cut(&self.words, style.columns.saturating_sub(15)))
     }
 }
@@ -265,6 +272,7 @@ pub(super) fn print(out: &mut impl Write, line: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Tier;
     use crate::report::example::Example;
     use std::cell::RefCell;
     use std::rc::Rc;
@@ -309,6 +317,18 @@ mod tests {
         assert!(lines.iter().all(|line| !line.contains('\x1b')));
         assert!(lines.iter().any(|line| line.starts_with("timed out") && line.contains("30 s")));
         assert!(lines[1..].iter().all(|line| line.contains(": ")), "{lines:?}");
+    }
+
+    #[test]
+    fn what_counts_nothing_is_a_note() {
+        let words = |tier| {
+            let mut example = Example::mixed();
+            example.trials.iter_mut().for_each(|trial| trial.tier = tier);
+            let lines = lines(&example, 0);
+            ["fail ", "note "].map(|word| lines.iter().any(|line| line.starts_with(word)))
+        };
+        assert_eq!(words(Tier::Graded), [true, false]);
+        assert_eq!(words(Tier::Informational), [false, true]);
     }
 
     #[test]

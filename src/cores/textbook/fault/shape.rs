@@ -19,6 +19,16 @@ faults! { part 1;
         interpolated_normal = |[n0, n1, n2], uv| {
             ((1.0 - uv.x - uv.y) * n0 + uv.y * n1 + uv.x * n2).try_normalize()
         };
+    "vertex-normals-moved-on": "the first weight multiplies the third vertex normal, and so on",
+        fails INTERPOLATION, told shape::NORMALS_MOVED_ON,
+        interpolated_normal = |[n0, n1, n2], uv| {
+            (uv.x * n0 + uv.y * n1 + (1.0 - uv.x - uv.y) * n2).try_normalize()
+        };
+    "vertex-normals-moved-back": "the first weight multiplies the second vertex normal, and so on",
+        fails INTERPOLATION, told shape::NORMALS_MOVED_BACK,
+        interpolated_normal = |[n0, n1, n2], uv| {
+            (uv.y * n0 + (1.0 - uv.x - uv.y) * n1 + uv.x * n2).try_normalize()
+        };
     "interpolated-normal-not-unit": "the interpolated normal is not normalised",
         fails INTERPOLATION, told shape::NORMAL_NOT_UNIT,
         interpolated_normal = |[n0, n1, n2], uv| {

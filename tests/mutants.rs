@@ -309,7 +309,7 @@ const HANDMADE: &[[&str; 4]] = &[
      "!sphere.inward"],
     ["scene.hpp", "light/far-occluder-hides-the-sun",
      "if (!std::isfinite(distance)) return ray_along(way);",
-     "if (!std::isfinite(distance)) distance = 50;"],
+     "if (!std::isfinite(distance)) distance = 11;"],
     ["numbers.hpp", "integrator/blue-light-alone-is-no-darkness",
      "c.r == 0 && c.g == 0 && c.b == 0",
      "c.r == 0 && c.g == 0"],

@@ -25,14 +25,20 @@ fn sentence(one: &Transplanted, of: &Transplants) -> String {
     let gone = one.together;
     let failures = count(of.failures, "failure");
     let mut words = match (gone, one.alone < gone) {
-        (0, _) => format!("the bench's {component} is needed with the others"),
+        (0, _) => {
+            format!("some failures go only where the bench's {component} stands beside the others")
+        }
         (1, false) => {
             format!("with the bench's {component} in place of yours, 1 of {failures} is gone")
         }
         (_, false) => {
             format!("with the bench's {component} in place of yours, {gone} of {failures} are gone")
         }
-        _ => format!("with the bench's {component} and the others, {gone} of {failures} are gone"),
+        (_, true) => format!(
+            "with the bench's {component} in place of yours, {} of {failures} are gone, and {gone} where the others are \
+             the bench's, too",
+            one.alone
+        ),
     };
     if one.judged > 0 {
         words += &format!(", and {} above it could be judged", count(one.judged, "case"));
@@ -58,8 +64,8 @@ fn unmended(of: &Transplants) -> impl Iterator<Item = String> {
     let stay = stay.map(|stay| format!("{stay}, whatever is taken from the bench: {cases}"));
     let untried = (of.untried > 0).then(|| {
         format!(
-            "of {} this is not known: the time was too short, or they cannot be asked so",
-            of.untried
+            "of {} this is not known: there was no time for more trials, or the case takes nothing from the bench",
+            count(of.untried, "failure")
         )
     });
     stay.into_iter().chain(untried)
@@ -103,5 +109,14 @@ mod tests {
         let told = told(&two, &[]);
         assert_eq!(told.len(), 3);
         assert_eq!(told[2], "with the bench's box test and BSDF, 76 of 76 failures are gone");
+    }
+
+    #[test]
+    fn what_goes_only_with_others_says_so() {
+        let told = told(&[(Components::BSDF, 2, 5, 0), (Components::BOX_TEST, 71, 71, 0)], &[]);
+        assert_eq!(
+            told[0],
+            "with the bench's BSDF in place of yours, 2 of 76 failures are gone, and 5 where the others are the bench's, too"
+        );
     }
 }

@@ -60,13 +60,20 @@ pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended 
     record.circumstances = attempt.work.circumstances();
     record.tier = attempt.tier;
     record.with = with;
-    if !with.is_empty() && trial.core.command().is_none() {
+    if !with.is_empty() && may_call_others(&trial.case) && trial.core.command().is_none() {
         record.rerun += &format!(" --with {}", with.names().join(","));
     }
     record.scene = attempt.scene;
     record.keep_printed(&printed);
     record.timing.seconds = started.elapsed().as_secs_f64();
     Ended { record, pictures: attempt.pictures }
+}
+
+/// Whether what a case asks may call other components: single functions of shapes, directions and materials are what they are,
+/// whatever stands in the place of others.
+fn may_call_others(case: &Case) -> bool {
+    let calls = Capabilities::BUILD_SCENE | Capabilities::RENDER | Capabilities::ADAPTIVE_MEAN;
+    case.prepared.needs().intersects(calls)
 }
 
 /// Whether counts are not real because a core does not count the tests that it took from the bench.

@@ -476,7 +476,8 @@ struct Nothing : Stage {
    bool intersect(const Ray &, Intersection *) const override { return false; }
 };
 
-// What every ray of the camera meets, which stands outside its box. A traversal may ask for any hit first.
+// What every ray of the camera meets, which stands above its box, and what leaves from there does not. A traversal may ask for
+// any hit first.
 struct Met : Stage {
    using Stage::Stage;
    bool has_intersection(const Ray &ray) const override { return ray.o.z > box.max.z; }
@@ -746,6 +747,7 @@ struct Luminances : Met {
 
    Luminances(const double *values, size_t count) : Met(1), values(values), count(count) {}
    bool intersect(const Ray &ray, Intersection *hit) const override {
+      if (!has_intersection(ray)) return false;
       const size_t number = counted ? next - 1 : next++;
       surface.glow = Vector3D(number < count ? values[number] : 0);
       ray.max_t = hit->t = 4.5;

@@ -60,8 +60,9 @@ pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended 
     record.circumstances = attempt.work.circumstances();
     record.tier = attempt.tier;
     record.with = with;
-    if !with.is_empty() && may_call_others(&trial.case) && trial.core.command().is_none() {
-        record.rerun += &format!(" --with {}", with.names().join(","));
+    let asked = with.intersection(may_be_asked(&trial.case));
+    if !asked.is_empty() && trial.core.command().is_none() {
+        record.rerun += &format!(" --with {}", asked.names().join(","));
     }
     record.scene = attempt.scene;
     record.keep_printed(&printed);
@@ -69,11 +70,15 @@ pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended 
     Ended { record, pictures: attempt.pictures }
 }
 
-/// Whether what a case asks may call other components: single functions of shapes, directions and materials are what they are,
-/// whatever stands in the place of others.
-fn may_call_others(case: &Case) -> bool {
+/// The components that a case may reach. Single functions of shapes, directions and materials are what they are, whatever
+/// stands in the place of others.
+fn may_be_asked(case: &Case) -> Components {
     let calls = Capabilities::BUILD_SCENE | Capabilities::RENDER | Capabilities::ADAPTIVE_MEAN;
-    case.prepared.needs().intersects(calls)
+    if case.prepared.needs().intersects(calls) {
+        return Components::all();
+    }
+    let below = case.proves.iter().chain(&case.rests_on).map(|foundation| foundation.components());
+    below.fold(asked_about(case), Components::union)
 }
 
 /// Whether counts are not real because a core does not count the tests that it took from the bench.

@@ -82,6 +82,9 @@ fn certainty(headline: &Headline) -> [String; 2] {
         Degree::DiffersHere if headline.is_ending => {
             return ["Seen", "a debugger shows what leads to it"].map(str::to_owned);
         }
+        Degree::DiffersHere if !headline.laws.is_empty() => {
+            "where, by how much, and what gives the wrong numbers"
+        }
         Degree::DiffersHere => "where and by how much; no cause is known",
     };
     [capitalised(headline.degree.word()), what.to_owned()]

@@ -197,7 +197,7 @@ fn a_light_pdf_without_the_square_is_seen_in_the_solid_angle() {
 #[test]
 fn samples_that_are_lost_are_told_from_light_that_is_weighted() {
     let filters = ["light/sphere-light-matches", "light/rectangle-light-tilted-matches"];
-    let words = ["40 % of the samples bring no light, and the others bring what all should"];
+    let words = ["40 % of the samples contribute nothing, and the others what all should"];
     assert_named(Wrong::LosesSamples, "textbook", &filters, &words);
 }
 

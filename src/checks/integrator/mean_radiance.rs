@@ -5,7 +5,7 @@ use super::estimate::{Aim, PatchEntry, RayEntry, RouletteEntry, needs, one, sett
 use super::foretold::MistakeEntry;
 use super::question::{DARK_SAMPLES, Question};
 use crate::cause::{contract, light};
-use crate::checks::law::LOST_SAMPLES;
+use crate::checks::law::{LOST_SAMPLES, lost_in_words};
 use crate::checks::phrase::{figure, percent, ratio_of};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, breach, check};
 use crate::contract::{
@@ -102,21 +102,24 @@ impl Check for MeanRadiance {
             rows.push(judged.measures);
             if failed {
                 lost.push(judged.lost);
-            }
-            if failed && context.budget.stops_at_failure {
-                break;
+                if context.budget.stops_at_failure {
+                    break;
+                }
             }
         }
         let causes: Vec<_> =
             self.mistake.iter().filter_map(|mistake| mistake.explains(&rows)).collect();
         let measures: Vec<_> = rows.into_iter().flatten().collect();
         let lost: Option<Vec<_>> = lost.into_iter().collect();
-        let statement = statement(&measures) + &lost.as_deref().map_or_else(String::new, of_lost);
-        let law = lost.filter(|shares| !shares.is_empty()).map(|_| LOST_SAMPLES.to_owned());
+        let most = lost.and_then(|shares| shares.into_iter().reduce(f64::max));
+        let mut statement = statement(&measures);
+        if let Some(share) = most {
+            statement += &format!("; {}", lost_in_words(share));
+        }
         Ok(Finding::measured(statement, measures)
             .or_else_caught(format!("would have caught one lit sample among {DARK_SAMPLES}"))
             .because_of(causes)
-            .knowing_laws(law))
+            .knowing_laws(most.map(|_| LOST_SAMPLES.to_owned())))
     }
 }
 
@@ -173,18 +176,6 @@ impl Row {
             [first, last] => format!("bounces {first} to {last}"),
         })
     }
-}
-
-/// `; 43 % of the samples bring no light, and the others bring what all should`, of the row that loses the most.
-fn of_lost(shares: &[f64]) -> String {
-    let most = shares.iter().copied().reduce(f64::max);
-    let told = |most| {
-        format!(
-            "; {} of the samples bring no light, and the others bring what all should",
-            percent(most)
-        )
-    };
-    most.map_or_else(String::new, told)
 }
 
 /// The sentence on top: the worst number, or that all agree.

@@ -2,14 +2,20 @@
 //! Of light that is weighted wrongly no sample is 0 that should not be.
 
 use crate::checks::Measure;
+use crate::checks::phrase::percent;
 
 /// The law, in the words of a headline.
 pub(crate) const LOST_SAMPLES: &str =
-    "a share of the samples brings no light, and the others bring what all should";
+    "a share of the samples contributes nothing, and the others what all should";
+
+/// The same of one case: `40 % of the samples contribute nothing, and the others what all should`.
+pub(crate) fn lost_in_words(share: f64) -> String {
+    format!("{} of the samples contribute nothing, and the others what all should", percent(share))
+}
 
 /// Fewer estimates tell no share.
 const FEWEST: u64 = 1000;
-/// How many standard errors of the share of dark estimates are forgiven.
+/// How many standard errors of the share of dark estimates are forgiven: more come once in 16,000 times.
 const ERRORS: f64 = 4.0;
 
 /// Estimates of one mean, and how many of them were 0.

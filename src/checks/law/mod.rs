@@ -5,14 +5,15 @@
 //! - [`place_of_wrong`]: where answers are wrong, and nowhere else;
 //! - [`Lost`]: estimates of light of which some bring nothing, and the others all they should.
 //!
-//! A law has to give every wrong number, each to a five hundredth of its error; what no law gives has none.
+//! A law has to give every wrong number, each to a five hundredth of its error, or of means within their noise; what no law
+//! gives has none.
 
 mod lost;
 mod place;
 mod product;
 mod replaced;
 
-pub(crate) use lost::{LOST_SAMPLES, Lost};
+pub(crate) use lost::{LOST_SAMPLES, Lost, lost_in_words};
 use place::place_of;
 pub(crate) use place::place_of_wrong;
 use product::{Rule, Search};

@@ -65,6 +65,10 @@ fn what_is_asked_for_is_taken_whatever_fails() {
     let mended = run_in_memory(&wrong.taking(Components::BSDF));
     assert_eq!(mended[0].outcome.status(), Status::Pass);
     assert!(mended[0].rerun.ends_with(" --with bsdf"), "{}", mended[0].rerun);
+    // Nothing that a triangle test calls.
+    let triangles = plan("textbook", &["shape/ray-triangle-hits-are-right"]);
+    let record = &run_in_memory(&triangles.taking(Components::BSDF))[0];
+    assert!(record.with.contains(Components::BSDF) && !record.rerun.contains("--with"));
 }
 
 #[test]

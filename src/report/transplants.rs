@@ -22,24 +22,20 @@ pub(crate) fn proofs(core: &CoreRecord, cases: &[String]) -> Vec<String> {
 /// `with the bench's box test in place of yours, 71 of 76 failures are gone`
 fn sentence(one: &Transplanted, of: &Transplants) -> String {
     let component = one.component.in_words();
-    let gone = one.together;
+    let (alone, gone) = (one.alone.min(one.together), one.together);
     let failures = count(of.failures, "failure");
-    let mut words = match (gone, one.alone < gone) {
-        (0, _) => {
+    let are = if alone == 1 { "is" } else { "are" };
+    let mut words = match gone {
+        0 => {
             format!("some failures go only where the bench's {component} stands beside the others")
         }
-        (1, false) => {
-            format!("with the bench's {component} in place of yours, 1 of {failures} is gone")
-        }
-        (_, false) => {
-            format!("with the bench's {component} in place of yours, {gone} of {failures} are gone")
-        }
-        (_, true) => format!(
-            "with the bench's {component} in place of yours, {} of {failures} are gone, and {gone} where the others are \
-             the bench's, too",
-            one.alone
+        _ => format!(
+            "with the bench's {component} in place of yours, {alone} of {failures} {are} gone"
         ),
     };
+    if alone < gone {
+        words += &format!(", and {gone} where the others are the bench's, too");
+    }
     if one.judged > 0 {
         words += &format!(", and {} above it could be judged", count(one.judged, "case"));
     }

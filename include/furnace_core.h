@@ -36,8 +36,8 @@
  *     (see the promises of furnace_core.traits).
  *   - The value of a pixel is the plain mean of its samples, which are uniform over its square (box
  *     filter). Adaptive sampling goes by 0.2126 R + 0.7152 G + 0.0722 B.
- *   - The shading normal gives the cosine. What emits, and glass that a ray enters or leaves, goes by
- *     the geometric normal. Where the two disagree about the side of a light, either may decide.
+ *   - Emission leaves by the geometric normal; the shading normal gives the cosine, and what mirrors
+ *     and glass reflect about. Where the two disagree about a side, either may decide.
  *
  * Growing: only structs that carry `struct_size` grow, at their end, and that field tells each side
  * how much the other knows; they always travel by pointer. Values and array elements are frozen.

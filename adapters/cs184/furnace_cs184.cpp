@@ -476,8 +476,8 @@ struct Nothing : Stage {
    bool intersect(const Ray &, Intersection *) const override { return false; }
 };
 
-// What every ray of the camera meets, which stands above its box, and what leaves from there does not. A traversal may ask for
-// any hit first.
+// What every ray of the camera meets, since it starts above the box; rays that leave its surface do not meet it again.
+// A traversal may ask for any hit first.
 struct Met : Stage {
    using Stage::Stage;
    bool has_intersection(const Ray &ray) const override { return ray.o.z > box.max.z; }

@@ -7,6 +7,12 @@
 //! FURNACE_BRIEF=1 ...                        # only the cases that faults have to fail, and those that rules look at
 //! ```
 //!
+//! What images alone tell of one fault, as of a program that only writes images:
+//!
+//! ```sh
+//! FURNACE_SHARD=1/8 cargo test --test many_faults -- --ignored --nocapture on_images
+//! ```
+//!
 //! A set is drawn fault by fault. One that excludes another of the set, or that cannot be seen beside it though everything
 //! else is the bench's, is left out, and the next is drawn.
 
@@ -149,6 +155,18 @@ fn no_cause_is_named_that_is_not_there() {
     let audit = audit(&matrix, (0..IN_PASSING).map(|number| (number, draw(&matrix, number))));
     assert!(audit.told("named", true) > 0);
     assert_eq!(audit.told("named", false), 0);
+}
+
+#[test]
+#[ignore = "an hour: every fault through all images, for audits"]
+fn on_images_alone_nothing_is_named_that_is_not_there() {
+    let (part, of) = shard();
+    let project = Project::at(env!("CARGO_MANIFEST_DIR"));
+    let cases = case::load_all(&project.cases()).unwrap();
+    let matrix = Matrix::on_images_alone(project, &cases, Budget::Quick, 0);
+    let (faults, _) = select(&[]).unwrap();
+    let alone = (0..).zip(faults.into_iter().map(|fault| vec![fault]));
+    audit(&matrix, alone.filter(|(number, _)| number % of == part - 1));
 }
 
 /// The cases that an audit looks at: all, or those that tell.

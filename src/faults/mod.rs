@@ -1,7 +1,8 @@
 //! The matrix: every planted fault has to fail the case that is named for it and to be told by its cause; cores that
 //! are right but different have to fail nothing.
 //!
-//! Pictures against references are left out: a mistake that only a picture shows is one that nobody is told of.
+//! Pictures against references are left out: a mistake that only a picture shows is one that nobody is told of. What they
+//! tell alone is asked by themselves ([`Matrix::on_images_alone`]).
 
 mod together;
 
@@ -30,6 +31,8 @@ pub struct Matrix {
     budget: Budget,
     /// Trials at the same time; 0 means one a hardware thread.
     jobs: usize,
+    /// What every core chooses.
+    chooses: Option<&'static str>,
 }
 
 /// What came of a fault.
@@ -116,7 +119,19 @@ impl Matrix {
     pub fn new(project: Project, cases: &[Arc<Case>], budget: Budget, jobs: usize) -> Self {
         let is_picture = |case: &Arc<Case>| case.part().is_some_and(is_of_pictures);
         let cases = cases.iter().filter(|case| !is_picture(case)).cloned().collect();
-        Self { project, cases, budget, jobs }
+        Self { project, cases, budget, jobs, chooses: None }
+    }
+
+    /// Puts changed cores of which images are all that can be had, as of a program, to those of `cases`.
+    pub fn on_images_alone(
+        project: Project,
+        cases: &[Arc<Case>],
+        budget: Budget,
+        jobs: usize,
+    ) -> Self {
+        let is_picture = |case: &Arc<Case>| case.part().is_some_and(is_of_pictures);
+        let cases = cases.iter().filter(|case| is_picture(case)).cloned().collect();
+        Self { project, cases, budget, jobs, chooses: Some("images-alone") }
     }
 
     pub(crate) fn with_cases(&self, wanted: impl Fn(&Case) -> bool) -> Self {

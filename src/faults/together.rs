@@ -45,7 +45,7 @@ impl Matrix {
     /// Whether these can be on together, and each can be seen: with the bench's own in every component but those that the
     /// fault is made in, the case named for it answers otherwise than without the fault.
     pub fn are_in_sight(&self, faults: &[&Fault]) -> bool {
-        joined(faults).is_some() && faults.iter().all(|fault| self.is_in_sight(fault, faults))
+        self.joined(faults).is_some() && faults.iter().all(|fault| self.is_in_sight(fault, faults))
     }
 
     fn is_in_sight(&self, fault: &Fault, faults: &[&Fault]) -> bool {
@@ -64,7 +64,7 @@ impl Matrix {
     fn outcome_with(&self, faults: &[&Fault], fault: &Fault) -> Option<Outcome> {
         let with = Components::all() - fault.components();
         let alone = self.with_cases(|case| case.id == fault.caught_by);
-        let plan = alone.plan(joined(faults)?)?;
+        let plan = alone.plan(self.joined(faults)?)?;
         Some(run_with(&plan.bench(), plan.trials.first()?, with).record.outcome)
     }
 
@@ -72,7 +72,7 @@ impl Matrix {
     /// together, or there are no cases.
     pub fn try_together(&self, faults: &[&Fault]) -> Option<Together> {
         let clock = Instant::now();
-        let core = joined(faults)?;
+        let core = self.joined(faults)?;
         let info = core.make().ok()?.info();
         let mut record = CoreRecord::new(core.as_str(), &info);
         let plan = self.plan(core)?;
@@ -93,21 +93,21 @@ impl Matrix {
         self.with_cases(|case| case.role.is_some() || is_named(case))
     }
 
+    /// The core with these faults; the right one where there are none. None where two of them exclude each other.
+    fn joined(&self, faults: &[&Fault]) -> Option<CoreSpec> {
+        let names: Vec<_> = self.chooses.into_iter().chain(faults.iter().map(|f| f.name)).collect();
+        let spec = match names.is_empty() {
+            true => "textbook".to_owned(),
+            false => format!("textbook:{}", names.join("+")),
+        };
+        spec.parse().ok()
+    }
+
     fn plan(&self, core: CoreSpec) -> Option<Plan> {
         let (cores, budget, jobs) = (vec![core], self.budget, self.jobs);
         let request = Request { cores, budget, jobs, ..Request::default() };
         Plan::new(self.project.clone(), request, &self.cases).ok()
     }
-}
-
-/// The core with these faults; the right one where there are none. None where two of them exclude each other.
-fn joined(faults: &[&Fault]) -> Option<CoreSpec> {
-    let names: Vec<_> = faults.iter().map(|fault| fault.name).collect();
-    let spec = match names.is_empty() {
-        true => "textbook".to_owned(),
-        false => format!("textbook:{}", names.join("+")),
-    };
-    spec.parse().ok()
 }
 
 fn degree_of(fault: &Fault, headlines: &[Headline]) -> String {

@@ -50,8 +50,8 @@ impl References {
 /// The seeds of all runs of a stage: rendered together, for starting Mitsuba takes longer than a pass.
 fn seeds_of(stage: Stage, effort: &ImageEffort) -> Vec<u32> {
     let (block, runs) = match stage {
-        Stage::Second => (1, effort.confirm_runs),
-        Stage::Third => (2, effort.confirm_runs),
+        Stage::Second => (1, effort.confirm_runs()),
+        Stage::Third => (2, effort.confirm_runs()),
         _ => (0, effort.screen_runs),
     };
     let first = FIRST_SEED + 1_000 * block;

@@ -24,8 +24,8 @@ mod test;
 pub(crate) use image::{
     CellScore, Clipped, CodeReference, CodeReport, CodeSettings, CodesCompared, Comparison,
     Component, Deciphered, DifferenceReport, Ends, Extent, GlobalRatio, ImageDraw, ImageReport,
-    Impossible, Measured, NoiseSource, OddCell, OddPixels, Pattern, PatternReport, Scale,
-    ScaleReport, Side, compare, flip_map, judge_codes, misfit,
+    Impossible, Measured, NoiseSource, OddCell, OddPixels, PARTS, PartRatio, Pattern,
+    PatternReport, Scale, ScaleReport, Side, compare, flip_map, judge_codes, misfit,
 };
 pub use image::{ImageEffort, Question, Reference, judge_image, judge_image_pair};
 pub(crate) use law::{

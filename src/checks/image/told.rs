@@ -3,8 +3,8 @@
 use crate::checks::{Finding, Measure, RejectedCell, STANDARD_ERRORS};
 use crate::image::Image;
 use crate::stats::{
-    CellScore, Component, GlobalRatio, Hypothesis, ImageReport, Impossible, Scale, ScaleReport,
-    Verdict,
+    CellScore, Component, GlobalRatio, Hypothesis, ImageReport, Impossible, PARTS, PartRatio,
+    Scale, ScaleReport, Verdict,
 };
 use crate::text::number::{apart, count, percent, with_interval};
 
@@ -27,7 +27,9 @@ pub(super) fn error_picture(report: &ImageReport, mean: &Image, standard_error: 
 /// What a report says in words and numbers; `hypothesis` is what the ledger enters.
 pub(super) fn finding(report: &ImageReport, hypothesis: Option<Hypothesis>) -> Finding {
     let ratios = report.ratios.iter().map(|ratio| ratio_measure(ratio, report, hypothesis));
-    let measures = ratios.chain(report.scales.iter().map(scale_measure)).collect();
+    let parts = report.parts.iter().filter(|_| report.verdict == Verdict::Fail).map(part_measure);
+    let scales = report.scales.iter().map(scale_measure);
+    let measures = ratios.chain(scales).chain(parts).collect();
     let error = percent(report.resolution);
     let caught = format!("would have caught an error of {error} of the whole picture");
     Finding { verdict: report.verdict, ..Finding::of(statement(report), caught, measures) }
@@ -48,6 +50,19 @@ fn ratio_measure(
         hypothesis: hypothesis.filter(|_| is_luminance),
         ..Measure::exact(name, ratio.ratio, 1.0, 0.0)
             .of_row("brightness of the whole picture")
+            .in_unit("of the reference")
+    }
+}
+
+/// How bright a part of a wrong picture is: where it is wrong, and by how much.
+fn part_measure(part: &PartRatio) -> Measure {
+    let PartRatio { column, row, ratio, interval: [low, high] } = *part;
+    let name = format!("column {}, row {}", column + 1, row + 1);
+    Measure {
+        interval: Some([low, high]),
+        verdict: Verdict::pass_if(low <= 1.0 && 1.0 <= high),
+        ..Measure::exact(name, ratio, 1.0, 0.0)
+            .of_row(format!("brightness of its parts, {PARTS} x {PARTS}"))
             .in_unit("of the reference")
     }
 }

@@ -13,8 +13,8 @@ use super::steps::{LESSON, Steps};
 use super::vertex::Vertex;
 use super::{area_light, bsdf, integrator, slab, split, vertex};
 use crate::contract::{
-    Capabilities, CoreInfo, EmissionSides, Falloff, GlassFresnel, GlassRadiance, Precision,
-    Randomness, Ray, Roulette, Sampler, SmithTerm, Split,
+    Capabilities, Components, CoreInfo, EmissionSides, Falloff, GlassFresnel, GlassRadiance,
+    Precision, Randomness, Ray, Roulette, Sampler, SmithTerm, Split,
 };
 use crate::scene::{Aabb, Surface};
 use glam::{DVec2, DVec3};
@@ -244,6 +244,12 @@ different! {
         parts [3, 4] declares |info| info.conventions.glass_radiance = GlassRadiance::Unscaled,
         radiance_scale = |_| 1.0,
         rough_radiance_scale = |ratio| ratio * ratio;
+    "images-alone": "images are all that can be had of it, and it takes no component of the bench",
+        parts [1] declares |info| {
+            info.capabilities &=
+                Capabilities::BUILD_SCENE | Capabilities::ROUGH_GLASS | Capabilities::RENDER;
+            info.components = Components::empty();
+        };
     "own-numbers": "the core draws its own random numbers, and says so",
         parts [3] declares |info| info.capabilities -= Capabilities::CALLERS_RANDOMNESS,
         callers_numbers = |given, index| {

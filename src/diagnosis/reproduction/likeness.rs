@@ -2,7 +2,7 @@
 
 use super::Observation;
 use crate::checks::law::LOST_SAMPLES;
-use crate::checks::{Finding, Measure};
+use crate::checks::{Finding, Measure, STANDARD_ERRORS};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Of the numbers that are wrong in one core or the other, so many have to agree.
@@ -59,7 +59,7 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
     });
     // That both are 0, or NaN, many mistakes have in common.
     let tells = |(a, b): &(&Measure, &Measure)| {
-        (a.failed() || b.failed()) && !(a.is_degenerate() && b.is_degenerate())
+        (is_off(a) || is_off(b)) && !(a.is_degenerate() && b.is_degenerate())
     };
     let wrong: Vec<_> = pairs.filter(tells).collect();
     if wrong.is_empty() {
@@ -70,6 +70,8 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
         count as f64 >= MOST * wrong.len() as f64
     };
     match (most(errs_alike), most(errs_as_much)) {
+        // So little is wrong that the noise of one of them hides it.
+        (_, true) if !planted.failed() => Likeness::Unknown,
         (_, true) => Likeness::Same,
         (true, false) => Likeness::Alike,
         (false, false) => Likeness::Other,
@@ -116,14 +118,24 @@ fn asks_the_same(a: &Measure, b: &Measure) -> bool {
     a.question() == b.question() && (a.expected - b.expected).abs() <= slack
 }
 
+/// Whether a number is wrong itself: one that stands for a test fails with it, however right it is.
+fn is_off(measure: &Measure) -> bool {
+    let holds = |[low, high]: [f64; 2]| low <= measure.expected && measure.expected <= high;
+    measure.failed() && !measure.interval.is_some_and(holds)
+}
+
 /// Both are wrong, to the same side; or they cannot be told apart.
 fn errs_alike(a: &Measure, b: &Measure) -> bool {
     let side = |measure: &Measure| measure.measured.partial_cmp(&measure.expected);
     a.failed() && b.failed() && side(a) == side(b) || errs_as_much(a, b)
 }
 
-/// The numbers lie within each other's noise, and a little of the error; light without noise follows from a formula.
+/// The numbers lie within each other's noise, and a little of the error; light without noise follows from a formula. What
+/// is counted in standard errors grows with the samples and has no size.
 fn errs_as_much(a: &Measure, b: &Measure) -> bool {
+    if a.unit == STANDARD_ERRORS {
+        return a.failed() == b.failed();
+    }
     let error = (a.measured - a.expected).abs().max((b.measured - b.expected).abs());
     let are_light = a.channel.is_some() && b.channel.is_some();
     a.meets(b, share(are_light, a.interval.or(b.interval).is_some()) * error)

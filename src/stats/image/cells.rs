@@ -93,6 +93,11 @@ impl Grid {
         Self { scale, columns, rows, cell, picture: (width, height) }
     }
 
+    /// Of a whole cell; those at the edges may have fewer.
+    pub(super) fn pixels(&self) -> usize {
+        self.cell.0 * self.cell.1
+    }
+
     /// Cells, each with all components.
     pub(super) fn len(&self) -> usize {
         self.columns * self.rows

@@ -4,6 +4,9 @@ use crate::math::rng::Seed;
 use crate::stats::Stage;
 use crate::stats::plan::level::{CONFIRM_LEVEL, SCREEN_LEVEL};
 
+/// How often confirmations are looked at.
+const LOOKS: usize = 3;
+
 /// What a picture is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageEffort {
@@ -13,17 +16,20 @@ pub struct ImageEffort {
     pub(crate) samples: u32,
     /// Runs of the screen: all that a correct core pays.
     pub(crate) screen_runs: u32,
-    /// Runs of each of two confirmations.
-    pub(crate) confirm_runs: u32,
-    /// The same of what is grossly wrong.
-    pub(crate) gross_runs: u32,
+    /// Runs of each of two confirmations at each look at them. All looks but the last tell only of large cells.
+    pub(crate) looks: [u32; LOOKS],
 }
 
 impl ImageEffort {
     /// The effort that sees an error of `detects` of the whole picture, if the runs have samples
     /// enough.
     pub const fn new(detects: f64, samples: u32) -> Self {
-        Self { detects, samples, screen_runs: 16, confirm_runs: 32, gross_runs: 8 }
+        Self { detects, samples, screen_runs: 16, looks: [8, 16, 32] }
+    }
+
+    /// The most runs of a confirmation.
+    pub(crate) const fn confirm_runs(&self) -> u32 {
+        self.looks[LOOKS - 1]
     }
 }
 
@@ -50,6 +56,14 @@ pub(crate) struct Levels {
     pub(super) screen: f64,
     /// [`CONFIRM_LEVEL`], of each confirmation at each scale.
     pub(super) confirm: f64,
+}
+
+impl Levels {
+    /// Of each confirmation at one look: what both confirmations of any look reject wrongly is then no more than
+    /// those of one look at [`Levels::confirm`].
+    pub(super) fn of_a_look(self) -> f64 {
+        self.confirm / (LOOKS as f64).sqrt()
+    }
 }
 
 impl Levels {

@@ -17,6 +17,7 @@ mod screening;
 mod simulation;
 mod target;
 
+pub(crate) use brightness::PARTS;
 pub(crate) use cells::{Component, Extent, Scale};
 pub(crate) use codes::{
     CodeReference, CodeReport, CodeSettings, Deciphered, NoiseSource, judge_codes,
@@ -28,5 +29,5 @@ pub(crate) use difference::{DifferenceReport, OddCell, OddPixels, Pattern, Patte
 pub(crate) use draw::ImageDraw;
 pub use draw::ImageEffort;
 pub(crate) use report::CellScore;
-pub(crate) use report::{GlobalRatio, ImageReport, Impossible, ScaleReport};
+pub(crate) use report::{GlobalRatio, ImageReport, Impossible, PartRatio, ScaleReport};
 pub use screen::{Reference, judge_image, judge_image_pair};

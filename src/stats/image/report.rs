@@ -1,6 +1,6 @@
 //! What screen-and-confirm found out about a picture.
 
-use super::cells::{Component, Extent, Scale};
+use super::cells::{COMPONENTS, Component, Extent, Scale};
 use crate::image::Image;
 use crate::stats::plan::{Hypothesis, Judgement, Report, Stage, TestKind, Verdict};
 use serde::Serialize;
@@ -108,12 +108,28 @@ impl ScaleReport {
         self.worst.first().is_some_and(|cell| cell.t.abs() > self.critical)
     }
 
-    /// Whether a cell is so far out that few runs confirm it. Small cells may be because rare light has not come:
-    /// a thousand pixels have seen as many samples as a mean that is confirmed on few.
-    pub(super) fn is_gross(&self) -> bool {
-        let is_large = !matches!(self.scale, Scale::Pixel | Scale::Tile8);
+    /// Takes what both confirmations say.
+    pub(super) fn confirm(&mut self, confirmations: [Confirmation; 2]) {
+        self.rejects = confirmations.iter().all(|confirmation| confirmation.rejects);
+        self.confirmations = Some(confirmations);
+    }
+
+    /// Whether few runs may confirm a cell. Small ones may be out because rare light has not come.
+    pub(super) fn is_large(&self) -> bool {
+        !matches!(self.scale, Scale::Pixel | Scale::Tile8)
+    }
+
+    /// Whether so many large cells are that far out that no light which few samples find can be what they lack.
+    pub(super) fn is_gross_all_over(&self) -> bool {
         let limit = Self::GROSS * self.critical;
-        is_large && self.worst.first().is_some_and(|cell| cell.t.abs() > limit)
+        let gross = self.worst.iter().filter(|cell| cell.t.abs() > limit).count();
+        self.is_large() && self.cells > COMPONENTS && 4 * gross > self.cells
+    }
+
+    /// Whether a large cell is so far out that few runs confirm it, whatever its light.
+    pub(super) fn is_gross(&self) -> bool {
+        let limit = Self::GROSS * self.critical;
+        self.is_large() && self.worst.first().is_some_and(|cell| cell.t.abs() > limit)
     }
 }
 
@@ -122,6 +138,15 @@ impl ScaleReport {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GlobalRatio {
     pub(crate) component: Component,
+    pub(crate) ratio: f64,
+    pub(crate) interval: [f64; 2],
+}
+
+/// Measured over expected luminance of a part of the picture, counted from the top left, with 99.9 % confidence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartRatio {
+    pub(crate) column: usize,
+    pub(crate) row: usize,
     pub(crate) ratio: f64,
     pub(crate) interval: [f64; 2],
 }
@@ -142,6 +167,8 @@ pub struct ImageReport {
     pub worst_scale: Option<Scale>,
     /// How much too bright or too dark the picture is, for each component.
     pub ratios: Vec<GlobalRatio>,
+    /// The same of its parts: columns and rows of [`PARTS`](super::PARTS) each.
+    pub parts: Vec<PartRatio>,
     /// The smallest relative error of the whole picture's luminance that would have been caught
     /// with probability 0.999.
     pub resolution: f64,

@@ -18,6 +18,8 @@ use crate::stats::{Moments, Stage, Verdict, normal_upper, student_upper};
 const MOST_FROZEN: usize = 64;
 /// Cells of a scale that are reported.
 const MOST_REPORTED: usize = 256;
+/// Samples of a cell in each of two confirmations that hardly all miss what light there is: as many tell of a mean.
+const FEWEST: u64 = 131_072;
 
 struct Sampled {
     spread: Spread,
@@ -76,54 +78,84 @@ impl<'a, E> Screening<'a, E> {
     }
 
     fn screen_and_confirm(&mut self) -> Result<ImageReport, Interrupted<E>> {
-        let screened = self.sample(Stage::First, self.effort.screen_runs, &[])?;
-        let noise =
-            CellNoise::of(&screened.spread, &self.target, self.effort.samples, self.levels.screen);
-        let mut scales: Vec<ScaleReport> =
-            (0..Scale::ALL.len()).map(|i| self.screen(i, &noise)).collect();
+        let mut screened = self.no_runs(0);
+        self.sample(&mut screened, Stage::First, self.effort.screen_runs / 2, &[])?;
+        let is_gross_all_over = |scale: &ScaleReport| scale.is_gross_all_over();
+        if !self.screened(&self.noise(&screened)).iter().any(is_gross_all_over) {
+            self.sample(&mut screened, Stage::First, self.effort.screen_runs, &[])?;
+        }
+        let noise = self.noise(&screened);
+        let mut scales = self.screened(&noise);
         if !scales.iter().any(ScaleReport::stands_out) && self.lit.suspects().is_empty() {
             return Ok(self.report(scales, &screened, &screened));
         }
-        let frozen: Vec<Frozen> = (0..Scale::ALL.len()).map(|i| self.freeze(i, &noise)).collect();
-        let is_gross = scales.iter().any(ScaleReport::is_gross);
-        let runs = if is_gross { self.effort.gross_runs } else { self.effort.confirm_runs };
-        let second = self.sample(Stage::Second, runs, &frozen)?;
-        let third = self.sample(Stage::Third, runs, &frozen)?;
-        for (i, report) in scales.iter_mut().enumerate() {
-            if !frozen[i].terms.is_empty() {
-                let confirmations =
-                    confirm(self.levels.confirm, &second.scalars[i], &third.scalars[i]);
-                report.rejects = confirmations.iter().all(|confirmation| confirmation.rejects);
-                report.confirmations = Some(confirmations);
-            }
-        }
+        let frozen: Vec<Option<Frozen>> =
+            (0..Scale::ALL.len()).map(|i| self.freeze(i, &noise)).collect();
+        let third = self.confirm(&mut scales, &frozen)?;
         Ok(self.report(scales, &screened, &third))
     }
 
-    /// Draws the runs of a stage.
+    /// Draws both confirmations and looks at them, until a look tells; hands back the second of them.
+    fn confirm(
+        &mut self,
+        scales: &mut [ScaleReport],
+        frozen: &[Option<Frozen>],
+    ) -> Result<Sampled, Interrupted<E>> {
+        let is_gross = scales.iter().any(ScaleReport::is_gross);
+        let [mut second, mut third] = [(); 2].map(|()| self.no_runs(frozen.len()));
+        for runs in self.effort.looks {
+            self.sample(&mut second, Stage::Second, runs, frozen)?;
+            self.sample(&mut third, Stage::Third, runs, frozen)?;
+            let mut tells = runs == self.effort.confirm_runs();
+            for (i, report) in scales.iter_mut().enumerate() {
+                let Some(frozen) = &frozen[i] else { continue };
+                let keys = [&second.scalars[i], &third.scalars[i]];
+                report.confirm(confirm(self.levels.of_a_look(), keys));
+                let is_light_missed = !frozen.is_too_bright() && self.samples(i, runs) < FEWEST;
+                tells |= report.rejects && report.is_large() && (is_gross || !is_light_missed);
+            }
+            if tells {
+                break;
+            }
+        }
+        Ok(third)
+    }
+
+    /// Samples that a cell of a scale sees in so many runs.
+    fn samples(&self, scale: usize, runs: u32) -> u64 {
+        let pixels = self.target.cells.grids[scale].pixels() as u64;
+        pixels * u64::from(self.effort.samples) * u64::from(runs)
+    }
+
+    fn no_runs(&self, scales: usize) -> Sampled {
+        Sampled {
+            spread: Spread::default(),
+            brightness: Brightness::of(self.size),
+            scalars: vec![Moments::default(); scales],
+        }
+    }
+
+    /// Draws the runs that a stage lacks to so many.
     fn sample(
         &mut self,
+        sampled: &mut Sampled,
         stage: Stage,
         runs: u32,
-        frozen: &[Frozen],
-    ) -> Result<Sampled, Interrupted<E>> {
-        let mut sampled = Sampled {
-            spread: Spread::default(),
-            brightness: Brightness::of(self.size.0 * self.size.1),
-            scalars: vec![Moments::default(); frozen.len()],
-        };
-        for run in 0..runs {
+        frozen: &[Option<Frozen>],
+    ) -> Result<(), Interrupted<E>> {
+        for run in sampled.spread.count()..runs {
             let images = (self.draw)(ImageDraw { stage, run }).map_err(Interrupted::Core)?;
             let values = self.values(images, stage, run)?;
             for (moments, frozen) in sampled.scalars.iter_mut().zip(frozen) {
-                moments.push(frozen.scalar(&self.target, &values));
+                let scalar = frozen.as_ref().map(|frozen| frozen.scalar(&self.target, &values));
+                scalar.into_iter().for_each(|scalar| moments.push(scalar));
             }
             sampled.spread.push(&values);
             sampled.brightness.push(&values);
             self.all.push(&values[..COMPONENTS * self.size.0 * self.size.1]);
             self.runs += 1;
         }
-        Ok(sampled)
+        Ok(())
     }
 
     /// The cells of one picture, or of the difference of two.
@@ -149,6 +181,14 @@ impl<'a, E> Screening<'a, E> {
             }
         }
         Ok(values)
+    }
+
+    fn noise<'s>(&self, screened: &'s Sampled) -> CellNoise<'s> {
+        CellNoise::of(&screened.spread, &self.target, self.effort.samples, self.levels.screen)
+    }
+
+    fn screened(&self, noise: &CellNoise<'_>) -> Vec<ScaleReport> {
+        (0..Scale::ALL.len()).map(|i| self.screen(i, noise)).collect()
     }
 
     /// The banded t of every cell of a scale, the worst first.
@@ -179,16 +219,17 @@ impl<'a, E> Screening<'a, E> {
 
     /// A matched filter for what the screen saw: each cell weighs by its departure over its
     /// variance, so that one cell far out is not lost among 64 that are a little out by chance.
-    fn freeze(&self, scale: usize, noise: &CellNoise<'_>) -> Frozen {
+    /// None where all cells are inside their bands.
+    fn freeze(&self, scale: usize, noise: &CellNoise<'_>) -> Option<Frozen> {
         let term = |(index, t): (usize, f64)| {
             // The band keeps a cell that happened not to vary from weighing more than all others.
             let error = noise.standard_error(index).hypot(self.target.bands[index]);
             let departure = self.target.departure(index, noise.spread.mean(index));
             (index, t.signum(), departure.abs() / error.powi(2))
         };
-        Frozen {
-            terms: self.extremes(scale, noise).into_iter().take(MOST_FROZEN).map(term).collect(),
-        }
+        let terms: Vec<_> =
+            self.extremes(scale, noise).into_iter().take(MOST_FROZEN).map(term).collect();
+        (!terms.is_empty()).then_some(Frozen { terms })
     }
 
     fn cell_score(&self, scale: usize, index: usize, spread: &Spread, t: f64) -> CellScore {
@@ -218,6 +259,7 @@ impl<'a, E> Screening<'a, E> {
             worst_scale: worst_scale(&scales),
             scales,
             ratios: last.brightness.ratios(&self.target),
+            parts: last.brightness.of_parts(&self.target),
             resolution,
             detects: self.effort.detects,
             runs: self.runs,
@@ -235,6 +277,7 @@ impl<'a, E> Screening<'a, E> {
             scales: Vec::new(),
             worst_scale: None,
             ratios: Vec::new(),
+            parts: Vec::new(),
             resolution: self.effort.detects,
             detects: self.effort.detects,
             runs: self.runs + 1,
@@ -266,13 +309,12 @@ impl<'a, E> Screening<'a, E> {
 }
 
 /// Both confirmations of one scale, each with the larger of the two spreads: the double key.
-fn confirm(level: f64, second: &Moments, third: &Moments) -> [Confirmation; 2] {
-    let error = second.standard_error().max(third.standard_error());
-    let freedom = (second.count() - 1) as f64;
-    [second, third].map(|moments| {
+fn confirm(level: f64, keys: [&Moments; 2]) -> [Confirmation; 2] {
+    let error = keys[0].standard_error().max(keys[1].standard_error());
+    let critical = student_upper(level, (keys[0].count() - 1) as f64);
+    keys.map(|moments| {
         let t = if moments.mean() == 0.0 { 0.0 } else { moments.mean() / error };
-        let rejects = t > student_upper(level, freedom);
-        Confirmation { t: t.clamp(-1e9, 1e9), rejects }
+        Confirmation { t: t.clamp(-1e9, 1e9), rejects: t > critical }
     })
 }
 

@@ -63,13 +63,14 @@ fn judged(
 #[test]
 #[ignore = "minutes: 10 000 right pictures at relaxed levels"]
 fn right_pictures_fail_no_oftener_than_the_levels_say() {
-    let usual = EFFORT.confirm_runs;
+    let usual = EFFORT.looks;
     let rows = [(1e-3, 2e-5, usual), (0.05, 0.05, usual), (1.0, 0.05, usual), (1.0, 0.2, usual)];
     // As of gross errors, which are seen in no right picture.
-    let gross = [(1.0, 0.05, EFFORT.gross_runs), (1.0, 0.2, EFFORT.gross_runs)];
-    for (screen, confirm, confirm_runs) in rows.into_iter().chain(gross) {
+    let few = [EFFORT.looks[0]; 3];
+    let gross = [(1.0, 0.05, few), (1.0, 0.2, few)];
+    for (screen, confirm, looks) in rows.into_iter().chain(gross) {
         let levels = Levels { screen, confirm };
-        let effort = ImageEffort { confirm_runs, gross_runs: confirm_runs, ..EFFORT };
+        let effort = ImageEffort { looks, ..EFFORT };
         let reports: Vec<_> = (0..NULLS)
             .into_par_iter()
             .map(|seed| {
@@ -87,7 +88,7 @@ fn right_pictures_fail_no_oftener_than_the_levels_say() {
         let failed = reports.iter().filter(|(.., failed)| *failed).count() as u64;
         let [low, high] = share_interval(suspected, NULLS, 5e-4);
         println!(
-            "screen {screen}, confirm {confirm} on twice {confirm_runs} runs: {suspected} of {NULLS} suspected (99.9 % interval of the rate {low:.1e} to {high:.1e})"
+            "screen {screen}, confirm {confirm} on twice {looks:?} runs: {suspected} of {NULLS} suspected (99.9 % interval of the rate {low:.1e} to {high:.1e})"
         );
         let twice = confirm * confirm;
         if scales > 0 {

@@ -58,6 +58,11 @@ pub(super) struct Frozen {
 }
 
 impl Frozen {
+    /// Whether no cell is too dark, as it is where light is missed by chance.
+    pub(super) fn is_too_bright(&self) -> bool {
+        self.terms.iter().all(|(_, sign, _)| *sign > 0.0)
+    }
+
     /// The weighted sum of how far the frozen cells are outside their bands, towards their signs.
     pub(super) fn scalar(&self, target: &Target, values: &[f64]) -> f64 {
         let outside = |&(index, sign, weight): &(usize, f64, f64)| {

@@ -43,6 +43,11 @@ impl Spread {
         self.means.len()
     }
 
+    /// How many runs there are.
+    pub(in crate::stats) fn count(&self) -> u32 {
+        self.count
+    }
+
     /// Degrees of freedom of a standard error.
     pub(in crate::stats) fn freedom(&self) -> f64 {
         f64::from(self.count) - 1.0

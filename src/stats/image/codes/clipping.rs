@@ -59,7 +59,7 @@ impl Clipping {
         }
         for stage in [Stage::Second, Stage::Third] {
             let drawn = self.missing[stage.index()].count();
-            for run in (0..effort.confirm_runs).filter(|run| u64::from(*run) >= drawn) {
+            for run in (0..effort.confirm_runs()).filter(|run| u64::from(*run) >= drawn) {
                 let picture = draw(ImageDraw { stage, run })?;
                 self.take(stage, picture.pixels.as_flattened());
             }

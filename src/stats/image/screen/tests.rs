@@ -86,11 +86,27 @@ fn two_per_cent_everywhere_fail_and_are_measured() {
 }
 
 #[test]
-fn gross_errors_take_twice_the_runs_that_it_takes_to_pass() {
+fn gross_errors_take_half_as_many_runs_again_as_it_takes_to_pass() {
     for gain in [0.0, 0.5, 2.0] {
         let report = judge(&with_gain(|_, _| gain), 1);
-        assert_eq!((report.verdict, report.runs), (Verdict::Fail, 32), "{gain}");
+        assert_eq!((report.verdict, report.runs), (Verdict::Fail, 24), "{gain}");
     }
+}
+
+#[test]
+fn too_much_light_is_told_at_an_early_look_and_too_little_only_by_many_samples() {
+    // A sample in each pixel of a run: 65,536 of the whole picture in 16 runs.
+    let mean = ramp();
+    let runs = |gain: f32, seed| {
+        let picture = |x: usize, y: usize, stream: &mut Stream| {
+            let noise = -(1.0 - uniform(stream)).ln();
+            mean.pixels[y * SIZE + x].map(|value| gain * noise as f32 * value)
+        };
+        judged([&mean, &no_error()], (0.02, 1), seed, picture).runs
+    };
+    let all = |gain| Vec::from_iter((0..8).map(|seed| runs(gain, seed)));
+    assert!(all(1.05).iter().all(|runs| *runs <= 48), "{:?}", all(1.05));
+    assert_eq!(all(0.95), [80; 8]);
 }
 
 #[test]

@@ -130,6 +130,11 @@ impl<'a> Evidence<'a> {
         self.all_failures().find(|seen| seen.case == case)
     }
 
+    /// Whether a case was tried, or would have been if another had not failed.
+    pub(crate) fn has_asked(&self, case: &str) -> bool {
+        self.observations.iter().any(|seen| seen.case == case && seen.standing != Standing::Unknown)
+    }
+
     /// The same with these alone of its failures.
     pub(crate) fn with_failures_of(&self, cases: &[&str]) -> Self {
         let stays = |seen: &&Observation<'_>| {

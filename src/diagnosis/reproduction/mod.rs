@@ -28,6 +28,8 @@ const COSTLY: u64 = 15_000_000;
 const ROUNDS: usize = 6;
 /// Searches for what has no name, each beside what the last has found.
 const SEARCHES: usize = 3;
+/// Of more mistakes than this only single ones are tried.
+const MANY: usize = 100;
 /// Mistakes of which pairs are tried.
 const PAIRED: usize = 8;
 /// Sets of several mistakes that are tried, and the cases that they have to reproduce.
@@ -505,6 +507,9 @@ impl<'a> Proof<'a> {
         if found.is_empty() {
             found = self.of_all(told, &cases);
         }
+        if mistakes.len() > MANY {
+            return found;
+        }
         let is_told = |mistake: &&Mistake| told.iter().any(|told| told.cause == mistake.cause);
         let others: Vec<_> = mistakes.iter().filter(|one| !is_told(one)).copied().collect();
         if found.is_empty() && !told.is_empty() {
@@ -749,11 +754,16 @@ impl<'a> Proof<'a> {
         self.failing_alike(|mistake| self.made_in.may_be(mistake.components))
     }
 
-    /// Those of the `wanted` mistakes whose own cases fail here, asked of what is the core's own.
+    /// Those of the `wanted` mistakes whose own cases fail here, asked of what is the core's own. Where images alone fail,
+    /// those too whose own cases cannot be asked: an image tells by its parts which it is.
     fn failing_alike(&self, wanted: impl Fn(&Mistake) -> bool) -> Vec<Mistake> {
+        let by_images = self.evidence.failures().all(|seen| seen.is_about(Subject::Image));
         let fails = |mistake: &&Mistake| {
-            let seen = self.evidence.failure_of(mistake.caught_by);
-            seen.is_some_and(|seen| !seen.with.intersects(mistake.components)) && wanted(mistake)
+            let may_fail = match self.evidence.failure_of(mistake.caught_by) {
+                Some(seen) => !seen.with.intersects(mistake.components),
+                None => by_images && !self.evidence.has_asked(mistake.caught_by),
+            };
+            may_fail && wanted(mistake)
         };
         self.planted.mistakes().iter().filter(fails).copied().collect()
     }

@@ -37,8 +37,14 @@ pub(super) struct CellNoise<'a> {
 
 impl<'a> CellNoise<'a> {
     /// Of runs of so many samples a pixel, of which any cell is suspected without cause with
-    /// probability `level`.
-    pub(super) fn of(spread: &'a Spread, target: &Target, samples: u32, level: f64) -> Self {
+    /// probability `level`. Of scales that are not `wanted` nothing more is known than the runs show.
+    pub(super) fn of(
+        spread: &'a Spread,
+        target: &Target,
+        samples: u32,
+        level: f64,
+        wanted: impl Fn(Scale) -> bool,
+    ) -> Self {
         let mut critical = [0.0; Scale::ALL.len()];
         let mut known = Vec::with_capacity(spread.len());
         let samples = f64::from(samples) * (spread.freedom() + 1.0);
@@ -48,6 +54,10 @@ impl<'a> CellNoise<'a> {
             critical[scale] = student_upper(level, spread.freedom());
             let fewer_sigmas = normal_upper(level) / critical[scale];
             let start = known.len();
+            if !wanted(grid.scale) {
+                known.resize(start + cells, 0.0);
+                continue;
+            }
             known.extend((start..start + cells).map(|index| {
                 let around = Around::of(spread, target, grid, start, index);
                 let by_edges =

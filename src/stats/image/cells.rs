@@ -54,6 +54,12 @@ impl Scale {
     pub(crate) const ALL: [Scale; SCALES] =
         [Scale::Pixel, Scale::Tile8, Scale::Tile32, Scale::Rows, Scale::Whole];
 
+    /// Whether few runs may confirm a cell: of a thousand pixels or more. Small ones may be out because rare light has not
+    /// come.
+    pub(super) fn is_large(self) -> bool {
+        !matches!(self, Scale::Pixel | Scale::Tile8)
+    }
+
     /// Width and height of a cell that is not cut off by the border.
     fn cell_size(self, width: usize, height: usize) -> (usize, usize) {
         match self {

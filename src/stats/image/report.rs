@@ -114,22 +114,17 @@ impl ScaleReport {
         self.confirmations = Some(confirmations);
     }
 
-    /// Whether few runs may confirm a cell. Small ones may be out because rare light has not come.
-    pub(super) fn is_large(&self) -> bool {
-        !matches!(self.scale, Scale::Pixel | Scale::Tile8)
-    }
-
     /// Whether so many large cells are that far out that no light which few samples find can be what they lack.
     pub(super) fn is_gross_all_over(&self) -> bool {
         let limit = Self::GROSS * self.critical;
         let gross = self.worst.iter().filter(|cell| cell.t.abs() > limit).count();
-        self.is_large() && self.cells > COMPONENTS && 4 * gross > self.cells
+        self.scale.is_large() && self.cells > COMPONENTS && 4 * gross > self.cells
     }
 
     /// Whether a large cell is so far out that few runs confirm it, whatever its light.
     pub(super) fn is_gross(&self) -> bool {
         let limit = Self::GROSS * self.critical;
-        self.is_large() && self.worst.first().is_some_and(|cell| cell.t.abs() > limit)
+        self.scale.is_large() && self.worst.first().is_some_and(|cell| cell.t.abs() > limit)
     }
 }
 

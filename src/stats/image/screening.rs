@@ -80,12 +80,12 @@ impl<'a, E> Screening<'a, E> {
     fn screen_and_confirm(&mut self) -> Result<ImageReport, Interrupted<E>> {
         let mut screened = self.no_runs(0);
         self.sample(&mut screened, Stage::First, self.effort.screen_runs / 2, &[])?;
-        let is_gross_all_over = |scale: &ScaleReport| scale.is_gross_all_over();
-        if !self.screened(&self.noise(&screened)).iter().any(is_gross_all_over) {
+        if !self.is_gross_all_over(&screened) {
             self.sample(&mut screened, Stage::First, self.effort.screen_runs, &[])?;
         }
-        let noise = self.noise(&screened);
-        let mut scales = self.screened(&noise);
+        let noise = self.noise(&screened, |_| true);
+        let mut scales: Vec<ScaleReport> =
+            (0..Scale::ALL.len()).map(|i| self.screen(i, &noise)).collect();
         if !scales.iter().any(ScaleReport::stands_out) && self.lit.suspects().is_empty() {
             return Ok(self.report(scales, &screened, &screened));
         }
@@ -112,7 +112,8 @@ impl<'a, E> Screening<'a, E> {
                 let keys = [&second.scalars[i], &third.scalars[i]];
                 report.confirm(confirm(self.levels.of_a_look(), keys));
                 let is_light_missed = !frozen.is_too_bright() && self.samples(i, runs) < FEWEST;
-                tells |= report.rejects && report.is_large() && (is_gross || !is_light_missed);
+                tells |=
+                    report.rejects && report.scale.is_large() && (is_gross || !is_light_missed);
             }
             if tells {
                 break;
@@ -183,12 +184,16 @@ impl<'a, E> Screening<'a, E> {
         Ok(values)
     }
 
-    fn noise<'s>(&self, screened: &'s Sampled) -> CellNoise<'s> {
-        CellNoise::of(&screened.spread, &self.target, self.effort.samples, self.levels.screen)
+    /// Whether half of the screen shows an error that the other half cannot take back.
+    fn is_gross_all_over(&self, screened: &Sampled) -> bool {
+        let noise = self.noise(screened, Scale::is_large);
+        let large = (0..Scale::ALL.len()).filter(|i| Scale::ALL[*i].is_large());
+        large.map(|i| self.screen(i, &noise)).any(|scale| scale.is_gross_all_over())
     }
 
-    fn screened(&self, noise: &CellNoise<'_>) -> Vec<ScaleReport> {
-        (0..Scale::ALL.len()).map(|i| self.screen(i, noise)).collect()
+    fn noise<'s>(&self, screened: &'s Sampled, wanted: fn(Scale) -> bool) -> CellNoise<'s> {
+        let (samples, level) = (self.effort.samples, self.levels.screen);
+        CellNoise::of(&screened.spread, &self.target, samples, level, wanted)
     }
 
     /// The banded t of every cell of a scale, the worst first.

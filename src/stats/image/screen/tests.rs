@@ -105,8 +105,9 @@ fn too_much_light_is_told_at_an_early_look_and_too_little_only_by_many_samples()
         judged([&mean, &no_error()], (0.02, 1), seed, picture).runs
     };
     let all = |gain| Vec::from_iter((0..8).map(|seed| runs(gain, seed)));
-    assert!(all(1.05).iter().all(|runs| *runs <= 48), "{:?}", all(1.05));
-    assert_eq!(all(0.95), [80; 8]);
+    let early = all(1.04).iter().filter(|runs| **runs < 80).count();
+    assert!(early >= 6, "{early} of 8");
+    assert_eq!(all(0.96), [80; 8]);
 }
 
 #[test]

@@ -83,11 +83,11 @@ fn trials(matrix: &Arc<Matrix>) -> Result<Vec<Trial>, NothingSelected> {
         })
         .with_ignored_flag(OPEN.contains(&fault.name))
     });
-    // Half of the cases each: the whole suite is for audits.
+    // A quarter of the cases each: the whole suite is for audits.
     let different = different.into_iter().enumerate().map(|(number, core)| {
         let matrix = Arc::clone(matrix);
         Trial::test(format!("different::{}", core.name), move || {
-            let spared = matrix.half_touched_by(core, number).try_different(core)?;
+            let spared = matrix.quarter_touched_by(core, number).try_different(core)?;
             match spared.is_good() {
                 true => Ok(()),
                 false => Err(Failed::from(spared.statements.join("; "))),

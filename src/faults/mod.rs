@@ -144,10 +144,10 @@ impl Matrix {
         self.with_cases(|case| case.part().is_some_and(|part| core.parts.contains(&part.number)))
     }
 
-    /// Every other of those: core number `number` those that the one before it leaves out.
-    pub fn half_touched_by(&self, core: &Different, number: usize) -> Self {
+    /// Every fourth of those: four cores in a row have them all.
+    pub fn quarter_touched_by(&self, core: &Different, number: usize) -> Self {
         let touched = self.touched_by(core);
-        let cases = touched.cases.iter().skip(number % 2).step_by(2).cloned().collect();
+        let cases = touched.cases.iter().skip(number % 4).step_by(4).cloned().collect();
         Self { cases, ..touched }
     }
 

@@ -6,6 +6,7 @@ use super::plan::{Plan, Trial};
 use super::purse::{Purse, price};
 use super::record::TrialRecord;
 use super::search::is_gross;
+use crate::case::Subject;
 use crate::checks::Finding;
 use crate::contract::Components;
 use crate::cores::textbook::fault;
@@ -19,6 +20,8 @@ const SHARE: f64 = 0.25;
 /// Seconds of the textbook core that they may always be asked: about what that share comes to in a run of all cases at the
 /// default budget. With less, several mistakes in one core stay without names at the quick one.
 const LEAST: u64 = 30;
+/// The same where images alone fail: every mistake is put to one of them.
+const LEAST_BY_IMAGES: u64 = 150;
 
 /// What was asked: the core, the case, what was the bench's own, and whether a first look is enough.
 type Asked = (String, String, Components, bool);
@@ -110,7 +113,7 @@ impl<'a> PlantedFaults<'a> {
             as_the_core: Looks::of(bench, allowance),
             quickly,
             mistakes,
-            purse: Purse::of_share(SHARE, LEAST, records),
+            purse: Purse::of_share(SHARE, least(records.clone()), records),
             known,
         }
     }
@@ -130,6 +133,13 @@ impl<'a> PlantedFaults<'a> {
     fn known(&self) -> MutexGuard<'_, BTreeMap<Asked, Option<Finding>>> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Seconds of the textbook core that planted mistakes may always be asked for a core with these trials.
+fn least<'r>(records: impl Iterator<Item = &'r TrialRecord>) -> u64 {
+    let is_image = |record: &TrialRecord| Subject::of_case(&record.case) == Some(Subject::Image);
+    let mut failing = records.filter(|record| record.outcome.status().is_failure());
+    if failing.all(is_image) { LEAST_BY_IMAGES } else { LEAST }
 }
 
 fn asked(question: &Question<'_>) -> Asked {

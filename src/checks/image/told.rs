@@ -27,7 +27,7 @@ pub(super) fn error_picture(report: &ImageReport, mean: &Image, standard_error: 
 /// What a report says in words and numbers; `hypothesis` is what the ledger enters.
 pub(super) fn finding(report: &ImageReport, hypothesis: Option<Hypothesis>) -> Finding {
     let ratios = report.ratios.iter().map(|ratio| ratio_measure(ratio, report, hypothesis));
-    let parts = report.parts.iter().filter(|_| report.verdict == Verdict::Fail).map(part_measure);
+    let parts = report.parts.iter().map(|part| part_measure(part, report.verdict));
     let scales = report.scales.iter().map(scale_measure);
     let measures = ratios.chain(scales).chain(parts).collect();
     let error = percent(report.resolution);
@@ -54,13 +54,14 @@ fn ratio_measure(
     }
 }
 
-/// How bright a part of a wrong picture is: where it is wrong, and by how much.
-fn part_measure(part: &PartRatio) -> Measure {
+/// How bright a part of the picture is: where one that failed is wrong, and by how much.
+fn part_measure(part: &PartRatio, of_picture: Verdict) -> Measure {
     let PartRatio { column, row, ratio, interval: [low, high] } = *part;
     let name = format!("column {}, row {}", column + 1, row + 1);
     Measure {
         interval: Some([low, high]),
-        verdict: Verdict::pass_if(low <= 1.0 && 1.0 <= high),
+        resolution: None,
+        verdict: Verdict::pass_if(of_picture != Verdict::Fail || low <= 1.0 && 1.0 <= high),
         ..Measure::exact(name, ratio, 1.0, 0.0)
             .of_row(format!("brightness of its parts, {PARTS} x {PARTS}"))
             .in_unit("of the reference")

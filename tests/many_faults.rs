@@ -166,7 +166,8 @@ fn on_images_alone_nothing_is_named_that_is_not_there() {
     let matrix = Matrix::on_images_alone(project, &cases, Budget::Quick, 0);
     let (faults, _) = select(&[]).unwrap();
     let alone = (0..).zip(faults.into_iter().map(|fault| vec![fault]));
-    audit(&matrix, alone.filter(|(number, _)| number % of == part - 1));
+    let audit = audit(&matrix, alone.filter(|(number, _)| number % of == part - 1));
+    assert_eq!(audit.told("named", false), 0);
 }
 
 /// The cases that an audit looks at: all, or those that tell.

@@ -28,8 +28,6 @@ const COSTLY: u64 = 15_000_000;
 const ROUNDS: usize = 6;
 /// Searches for what has no name, each beside what the last has found.
 const SEARCHES: usize = 3;
-/// Of more mistakes than this only single ones are tried.
-const MANY: usize = 100;
 /// Mistakes of which pairs are tried.
 const PAIRED: usize = 8;
 /// Sets of several mistakes that are tried, and the cases that they have to reproduce.
@@ -507,7 +505,8 @@ impl<'a> Proof<'a> {
         if found.is_empty() {
             found = self.of_all(told, &cases);
         }
-        if mistakes.len() > MANY {
+        // Then nearly all mistakes are in sight, and there is time for each alone.
+        if self.fails_images_alone() {
             return found;
         }
         let is_told = |mistake: &&Mistake| told.iter().any(|told| told.cause == mistake.cause);
@@ -757,7 +756,7 @@ impl<'a> Proof<'a> {
     /// Those of the `wanted` mistakes whose own cases fail here, asked of what is the core's own. Where images alone fail,
     /// those too whose own cases cannot be asked: an image tells by its parts which it is.
     fn failing_alike(&self, wanted: impl Fn(&Mistake) -> bool) -> Vec<Mistake> {
-        let by_images = self.evidence.failures().all(|seen| seen.is_about(Subject::Image));
+        let by_images = self.fails_images_alone();
         let fails = |mistake: &&Mistake| {
             let may_fail = match self.evidence.failure_of(mistake.caught_by) {
                 Some(seen) => !seen.with.intersects(mistake.components),
@@ -766,6 +765,10 @@ impl<'a> Proof<'a> {
             may_fail && wanted(mistake)
         };
         self.planted.mistakes().iter().filter(fails).copied().collect()
+    }
+
+    fn fails_images_alone(&self) -> bool {
+        self.evidence.failures().all(|seen| seen.is_about(Subject::Image))
     }
 
     /// The quickest of `cases` whose numbers can be compared.

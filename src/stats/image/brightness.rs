@@ -6,7 +6,7 @@
 
 use super::cells::{COMPONENTS, Component};
 use super::report::{GlobalRatio, PartRatio};
-use super::target::Target;
+use super::target::{DARK, Target};
 use crate::stats::law::{Spread, student_upper};
 use crate::stats::plan::level::INTERVAL_LEVEL;
 
@@ -14,8 +14,6 @@ use crate::stats::plan::level::INTERVAL_LEVEL;
 pub(crate) const PARTS: usize = 4;
 /// The picture, and its parts row by row.
 const AREAS: usize = 1 + PARTS * PARTS;
-/// Of the brightness of the whole picture: what is darker is compared with this.
-const DARK: f64 = 0.01;
 
 /// Sums over all pixels of each area, for each component.
 type Sums = [[f64; COMPONENTS]; AREAS];

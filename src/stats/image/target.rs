@@ -6,7 +6,7 @@ use crate::stats::{Band, normal_upper};
 
 /// Darker than this, relative to the typical brightness, the band does not shrink further: what an
 /// offset of shadow rays leaks into the dark is judged by what it adds to the picture.
-const DARK: f64 = 0.01;
+pub(super) const DARK: f64 = 0.01;
 
 /// What every cell should be, and how far from that a correct core may be.
 pub(super) struct Target {

@@ -151,21 +151,46 @@ impl Matrix {
         Self { cases, ..touched }
     }
 
-    /// Puts a fault to the case named for it, and if that alone does not tell its cause, to those beside it: first of the
-    /// same check, then of the whole folder.
+    /// Puts a fault to the case named for it, and as long as its cause is not told to more of those beside it: those of the
+    /// same check, those that rules of the diagnosis look at, the whole folder.
     ///
     /// # Errors
     /// If the case named for it is not there.
     pub fn try_fault_briefly(&self, fault: &Fault) -> Result<Tried, NothingSelected> {
-        let alone = self.with_cases(|case| case.id == fault.caught_by).try_fault(fault)?;
-        if alone.is_good() || !alone.caught {
-            return Ok(alone);
+        let clock = Instant::now();
+        let mut records = self.with_cases(|case| case.id == fault.caught_by).records(fault.name)?;
+        for wider in self.folder_of(fault).widening(fault) {
+            let tried = self.tried(fault, &records, clock);
+            if tried.is_good() || !tried.caught {
+                return Ok(tried);
+            }
+            records = wider.records_beside(fault, records);
         }
-        let folder = self.folder_of(fault);
+        Ok(self.tried(fault, &records, clock))
+    }
+
+    /// Ever more of the cases: see [`Self::try_fault_briefly`].
+    fn widening(&self, fault: &Fault) -> [Self; 3] {
         let named = self.cases.iter().find(|case| case.id == fault.caught_by);
         let check = named.map(|case| case.check.name);
-        let alike = folder.with_cases(|case| Some(case.check.name) == check).try_fault(fault)?;
-        if alike.is_good() { Ok(alike) } else { folder.try_fault(fault) }
+        let is_alike = |case: &Case| Some(case.check.name) == check;
+        [
+            self.with_cases(is_alike),
+            self.with_cases(|case| is_alike(case) || case.role.is_some()),
+            self.clone(),
+        ]
+    }
+
+    /// What all cases say of a fault, in their order, of which some have been asked.
+    fn records_beside(&self, fault: &Fault, mut asked: Vec<TrialRecord>) -> Vec<TrialRecord> {
+        let is_asked = |case: &Case| asked.iter().any(|record| record.case == case.id);
+        // None are left where all of them have been asked.
+        let others = self.with_cases(|case| !is_asked(case)).records(fault.name);
+        asked.extend(others.unwrap_or_default());
+        let place =
+            |record: &TrialRecord| self.cases.iter().position(|case| case.id == record.case);
+        asked.sort_by_key(place);
+        asked
     }
 
     /// Whether the case named for a fault catches it.
@@ -185,10 +210,14 @@ impl Matrix {
     pub(crate) fn try_fault(&self, fault: &Fault) -> Result<Tried, NothingSelected> {
         let clock = Instant::now();
         let records = self.records(fault.name)?;
-        let mut by: Vec<_> = failures(&records).map(|record| record.case.clone()).collect();
+        Ok(self.tried(fault, &records, clock))
+    }
+
+    fn tried(&self, fault: &Fault, records: &[TrialRecord], clock: Instant) -> Tried {
+        let mut by: Vec<_> = failures(records).map(|record| record.case.clone()).collect();
         by.sort_by_key(|case| case != fault.caught_by);
-        let told = self.diagnosis(fault.name, &records).first();
-        Ok(Tried {
+        let told = self.diagnosis(fault.name, records).first();
+        Tried {
             name: fault.name,
             part: fault.part,
             caught: by.iter().any(|case| case == fault.caught_by),
@@ -196,7 +225,7 @@ impl Matrix {
             by,
             told: told.map(|cause| cause.name),
             seconds: clock.elapsed().as_secs_f64(),
-        })
+        }
     }
 
     /// Puts a core that is right to the cases.

@@ -94,7 +94,7 @@ fn of_film(fit: &Fit, samples: u32) -> Vec<Resembled> {
 /// A factor that is the number of samples of a pixel, or one over it.
 fn not_divided(misfit: &Misfit, samples: u32) -> Option<&'static Cause> {
     let Misfit::Brighter(gain) = misfit else { return None };
-    let is = |factor: f64| samples > 1 && gain.iter().all(|channel| channel.allows(factor));
+    let is = |factor: f64| samples > 1 && gain.iter().all(|channel| channel.tells(factor));
     let samples = f64::from(samples);
     let causes = [(samples, &image::NOT_DIVIDED), (samples.recip(), &image::DIVIDED_TWICE)];
     causes.into_iter().find_map(|(factor, cause)| is(factor).then_some(cause))
@@ -118,7 +118,7 @@ fn of_bounces(pair: &Pair<'_>, bounces: &Bounces) -> Vec<Resembled> {
         let share = times_off(pair.image, pair.reference, &light, &pair.knowledge)?;
         let words = bounces.words(&BouncesOff { first, last, share });
         let explains = share.explains;
-        share.missing.allows(times).then_some(Resembled { cause, words, size, explains })
+        share.missing.tells(times).then_some(Resembled { cause, words, size, explains })
     });
     resembled.collect()
 }
@@ -134,7 +134,7 @@ fn of_every_bounce(pair: &Pair<'_>, bounces: &Bounces) -> Option<Resembled> {
         (0.5, &bsdf::ALBEDO_HALVED),
         (2.0, &bsdf::ALBEDO_DOUBLED),
     ];
-    let (_, cause) = causes.into_iter().find(|(times, _)| factor.allows(*times))?;
+    let (_, cause) = causes.into_iter().find(|(times, _)| factor.tells(*times))?;
     let by = bounces.by;
     let words = format!("bounce k is f^k times what {by} renders alone, with f = {factor}");
     Some(Resembled { cause, words, size: Some(factor.interval), explains })
@@ -358,6 +358,17 @@ mod tests {
         let pair = Pair { image, reference, knowledge: Knowledge::default() };
         let of_bounces = of_bounces(&pair, &bounces).into_iter();
         of_bounces.filter(|one| one.explains > 0.99).map(|one| one.cause.name).collect()
+    }
+
+    #[test]
+    fn a_factor_that_is_hardly_known_has_no_cause() {
+        let cause = |value: f64, half: f64| {
+            let gain = Estimate { value, interval: [value - half, value + half] };
+            not_divided(&Misfit::Brighter([gain; 3]), 3).map(|cause| cause.name)
+        };
+        assert_eq!(cause(0.32, 0.03), Some(image::DIVIDED_TWICE.name));
+        assert_eq!(cause(0.28, 0.06), None, "a third and a quarter alike");
+        assert_eq!(cause(f64::NAN, 0.03), None);
     }
 
     #[test]

@@ -75,7 +75,16 @@ impl Estimate {
     pub(crate) fn allows(&self, value: f64) -> bool {
         self.interval[0] <= value && value <= self.interval[1]
     }
+
+    /// Whether a number is in the interval, and hardly any other is: a wide one would allow whatever is looked for.
+    pub(crate) fn tells(&self, value: f64) -> bool {
+        let is_near = |end: &f64| (end - value).abs() <= TELLING * value.abs();
+        self.allows(value) && self.interval.iter().all(is_near)
+    }
 }
+
+/// How far an interval reaches at most from a number that it tells, as a share of that number.
+const TELLING: f64 = 0.2;
 
 /// What was done to the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

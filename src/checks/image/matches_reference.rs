@@ -80,6 +80,7 @@ impl MatchesReference {
         let (direct, bounces) = (self.direct, self.bounces.0);
         let shot = Shot { camera, direct, bounces, samples, isolates };
         let effort = ImageEffort::new(self.detects.0 * context.budget.coarseness(), samples);
+        let effort = if context.budget.looks_roughly { effort.halved() } else { effort };
         Ok(Setup { scene, reference, shot, effort })
     }
 

@@ -116,13 +116,14 @@ impl<'a> Bvh<'a> {
     /// The children whose boxes the segment meets, with where it enters them.
     fn near_to_far(
         &self,
-        children: [usize; 2],
+        [left, right]: [usize; 2],
         search: &mut Search<'_>,
     ) -> [Option<(f64, &Node)>; 2] {
-        let [left, right] = children.map(|child| {
+        let mut entry = |child: usize| {
             let node = &self.nodes[child];
             search.enters(&node.bounds).map(|enter| (enter, node))
-        });
+        };
+        let (left, right) = (entry(left), entry(right));
         let entered = |child: Option<(f64, _)>| child.map(|(enter, _)| enter);
         match self.steps.right_is_nearer(entered(left), entered(right)) {
             true => [right, left],

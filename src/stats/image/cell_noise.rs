@@ -19,6 +19,7 @@
 use super::cells::{COMPONENTS, Grid, Scale, around};
 use super::target::Target;
 use crate::stats::law::{Spread, normal_upper, student_upper};
+use std::ops::Range;
 
 /// How far around a cell others tell of its noise, in cells.
 const REACH: usize = 4;
@@ -58,11 +59,12 @@ impl<'a> CellNoise<'a> {
                 known.resize(start + cells, 0.0);
                 continue;
             }
-            known.extend((start..start + cells).map(|index| {
-                let around = Around::of(spread, target, grid, start, index);
+            let neighbours = Neighbours::of(spread, target, grid, start..start + cells);
+            known.extend((0..cells).map(|index| {
+                let around = neighbours.around(index);
                 let by_edges =
                     if grid.scale == Scale::Pixel { around.by_edges(samples) } else { 0.0 };
-                fewer_sigmas * around.by_reference(target.errors[index]).max(by_edges)
+                fewer_sigmas * around.by_reference(neighbours.errors[index]).max(by_edges)
             }));
         }
         Self { spread, critical, known }
@@ -72,6 +74,18 @@ impl<'a> CellNoise<'a> {
     pub(super) fn standard_error(&self, index: usize) -> f64 {
         self.spread.standard_error(index).max(self.known[index])
     }
+}
+
+/// The cells of one scale, each looked at from all that are near it.
+struct Neighbours<'a> {
+    grid: &'a Grid,
+    expected: &'a [f64],
+    /// Standard errors of the reference.
+    errors: &'a [f64],
+    /// Their squares.
+    stored: Vec<f64>,
+    /// Squares of the standard errors of the runs.
+    seen: Vec<f64>,
 }
 
 /// What a component of the cells around one should be, and is.
@@ -92,8 +106,9 @@ struct Noisier {
 }
 
 impl Noisier {
-    fn with(self, seen: f64, stored: f64) -> Self {
-        Self { seen: self.seen + seen.powi(2), stored: self.stored + stored.powi(2) }
+    fn add(&mut self, seen: f64, stored: f64) {
+        self.seen += seen;
+        self.stored += stored;
     }
 
     /// Of standard errors; none where the reference is exact.
@@ -102,26 +117,41 @@ impl Noisier {
     }
 }
 
-impl Around {
-    /// Around the cell of this index, on the grid whose cells begin at `first`.
-    fn of(spread: &Spread, target: &Target, grid: &Grid, first: usize, index: usize) -> Self {
-        let (mean, error) = (target.expected[index], target.errors[index]);
+impl<'a> Neighbours<'a> {
+    /// Of the grid whose cells have these places among all.
+    fn of(spread: &Spread, target: &'a Target, grid: &'a Grid, places: Range<usize>) -> Self {
+        let errors = &target.errors[places.clone()];
+        Self {
+            grid,
+            expected: &target.expected[places.clone()],
+            errors,
+            stored: errors.iter().map(|error| error.powi(2)).collect(),
+            seen: places.map(|place| spread.standard_error(place).powi(2)).collect(),
+        }
+    }
+
+    /// Around the cell whose component has this number on its grid.
+    fn around(&self, index: usize) -> Around {
+        let (mean, error) = (self.expected[index], self.errors[index]);
+        let alike = error / ALIKE..=error * ALIKE;
         let none = Noisier::default();
-        let mut taken = Self { mean, darkest: mean, brightest: mean, all: none, alike: none };
-        let (cell, component) = ((index - first) / COMPONENTS, (index - first) % COMPONENTS);
-        for other in around((grid.columns, grid.rows), cell, REACH) {
-            let other = first + COMPONENTS * other + component;
-            let (seen, stored) = (spread.standard_error(other), target.errors[other]);
-            taken.darkest = taken.darkest.min(target.expected[other]);
-            taken.brightest = taken.brightest.max(target.expected[other]);
-            taken.all = taken.all.with(seen, stored);
-            if (error / ALIKE..=error * ALIKE).contains(&stored) {
-                taken.alike = taken.alike.with(seen, stored);
+        let mut taken = Around { mean, darkest: mean, brightest: mean, all: none, alike: none };
+        let (cell, component) = (index / COMPONENTS, index % COMPONENTS);
+        for other in around((self.grid.columns, self.grid.rows), cell, REACH) {
+            let other = COMPONENTS * other + component;
+            let (seen, stored) = (self.seen[other], self.stored[other]);
+            taken.darkest = taken.darkest.min(self.expected[other]);
+            taken.brightest = taken.brightest.max(self.expected[other]);
+            taken.all.add(seen, stored);
+            if alike.contains(&self.errors[other]) {
+                taken.alike.add(seen, stored);
             }
         }
         taken
     }
+}
 
+impl Around {
     /// From the reference's standard error of the cell.
     fn by_reference(&self, error: f64) -> f64 {
         error * self.all.factor().max(self.alike.factor())

@@ -9,6 +9,7 @@ use crate::stats::law::upper_median;
 use crate::stats::plan::level::SCALES;
 use crate::text::spoken;
 use serde::Serialize;
+use std::ops::Range;
 
 /// Red, green, blue and luminance.
 pub(crate) const COMPONENTS: usize = 4;
@@ -109,10 +110,6 @@ impl Grid {
         self.columns * self.rows
     }
 
-    pub(super) fn cell_of(&self, x: usize, y: usize) -> usize {
-        (y / self.cell.1) * self.columns + x / self.cell.0
-    }
-
     pub(super) fn extent(&self, cell: usize) -> Extent {
         let (x, y) = (cell % self.columns * self.cell.0, cell / self.columns * self.cell.1);
         let width = self.cell.0.min(self.picture.0 - x);
@@ -120,37 +117,53 @@ impl Grid {
         Extent { x, y, width, height }
     }
 
-    /// The weighted mean of `value` over each cell, all components: cell by cell.
-    fn means(&self, weights: &[f64], value: impl Fn(usize) -> [f64; COMPONENTS]) -> Vec<f64> {
+    /// The pixels in their order, as stretches of rows that lie in one cell, with its number.
+    fn stretches(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
+        let (width, height) = self.picture;
+        (0..height).flat_map(move |y| {
+            let (row, cells) = (y * width, y / self.cell.1 * self.columns);
+            (0..self.columns).map(move |column| {
+                let [from, to] = [column, column + 1].map(|c| (c * self.cell.0).min(width));
+                (cells + column, row + from..row + to)
+            })
+        })
+    }
+
+    /// The weighted mean of the pixels' values over each cell, all components: cell by cell.
+    fn means(&self, weights: &[f64], values: &[[f64; COMPONENTS]]) -> Vec<f64> {
         let mut sums = vec![[0.0; COMPONENTS]; self.len()];
         let mut total = vec![0.0; self.len()];
-        for (pixel, weight) in weights.iter().enumerate() {
-            let cell = self.cell_of(pixel % self.picture.0, pixel / self.picture.0);
-            total[cell] += weight;
-            for (sum, value) in sums[cell].iter_mut().zip(value(pixel)) {
-                *sum += weight * value;
+        for (cell, pixels) in self.stretches() {
+            for (weight, value) in weights[pixels.clone()].iter().zip(&values[pixels]) {
+                total[cell] += weight;
+                for (sum, value) in sums[cell].iter_mut().zip(value) {
+                    *sum += weight * value;
+                }
             }
         }
-        sums.into_iter().zip(total).flat_map(|(sums, total)| sums.map(|sum| sum / total)).collect()
+        let mean = |(sums, total): ([f64; COMPONENTS], f64)| sums.map(|sum| sum / total);
+        sums.into_iter().zip(total).map(mean).collect::<Vec<_>>().into_flattened()
     }
 
     /// The standard error of each cell's mean, from those of its pixels, which are independent of
     /// each other.
     fn standard_errors(&self, weights: &[f64], errors: &Image) -> Vec<f64> {
         // How the noise of the channels hangs together is not known: that of the luminance is at most this.
-        let squares = |pixel: usize| components(errors.pixels[pixel]).map(|e| e * e);
+        let squares = |pixel: &[f32; 3]| components(*pixel).map(|e| e * e);
+        let squares: Vec<_> = errors.pixels.iter().map(squares).collect();
         let weighted: Vec<f64> = weights.iter().map(|weight| weight * weight).collect();
-        let (means, count) = (self.means(&weighted, squares), self.weight_ratio(weights));
+        let (means, count) = (self.means(&weighted, &squares), self.weight_ratio(weights));
         means.iter().enumerate().map(|(i, m)| (m * count[i / COMPONENTS]).sqrt()).collect()
     }
 
     /// Σ w² / (Σ w)² of each cell.
     fn weight_ratio(&self, weights: &[f64]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.len()];
-        for (pixel, weight) in weights.iter().enumerate() {
-            let cell = self.cell_of(pixel % self.picture.0, pixel / self.picture.0);
-            sums[cell].0 += weight;
-            sums[cell].1 += weight * weight;
+        for (cell, pixels) in self.stretches() {
+            for weight in &weights[pixels] {
+                sums[cell].0 += weight;
+                sums[cell].1 += weight * weight;
+            }
         }
         sums.into_iter().map(|(sum, squares): (f64, f64)| squares / (sum * sum)).collect()
     }
@@ -195,8 +208,8 @@ impl Cells {
     /// The values of all cells of one picture, scale by scale, cell by cell, component by
     /// component.
     pub(super) fn values(&self, image: &Image) -> Vec<f64> {
-        let value = |pixel: usize| components(image.pixels[pixel]);
-        self.grids.iter().flat_map(|grid| grid.means(&self.weights, value)).collect()
+        let values: Vec<_> = image.pixels.iter().map(|pixel| components(*pixel)).collect();
+        self.grids.iter().flat_map(|grid| grid.means(&self.weights, &values)).collect()
     }
 
     /// The standard errors of all cells, from those of the pixels.
@@ -205,7 +218,7 @@ impl Cells {
     }
 
     /// Where the values of each scale lie among all.
-    pub(super) fn ranges(&self) -> Vec<std::ops::Range<usize>> {
+    pub(super) fn ranges(&self) -> Vec<Range<usize>> {
         let mut end = 0;
         let range = |grid: &Grid| {
             let start = end;
@@ -224,11 +237,18 @@ mod tests {
     fn every_pixel_is_in_the_extent_of_its_cell() {
         for scale in Scale::ALL {
             let grid = Grid::new(scale, 37, 21);
-            for (x, y) in [(0, 0), (36, 20), (17, 9), (31, 8), (32, 7)] {
-                let extent = grid.extent(grid.cell_of(x, y));
-                assert!((extent.x..extent.x + extent.width).contains(&x), "{scale}");
-                assert!((extent.y..extent.y + extent.height).contains(&y), "{scale}");
+            let mut next = 0;
+            for (cell, pixels) in grid.stretches() {
+                assert_eq!(pixels.start, next, "{scale}");
+                next = pixels.end;
+                let extent = grid.extent(cell);
+                for pixel in pixels {
+                    let (x, y) = (pixel % 37, pixel / 37);
+                    assert!((extent.x..extent.x + extent.width).contains(&x), "{scale}");
+                    assert!((extent.y..extent.y + extent.height).contains(&y), "{scale}");
+                }
             }
+            assert_eq!(next, 37 * 21, "{scale}");
             let pixels: usize =
                 (0..grid.len()).map(|c| grid.extent(c).width * grid.extent(c).height).sum();
             assert_eq!(pixels, 37 * 21, "{scale}");

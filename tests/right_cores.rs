@@ -5,6 +5,7 @@
 //! FURNACE_SEEDS=20 cargo test --test right_cores -- --ignored --nocapture
 //! FURNACE_CORES=cpp,coarse ...              # only those with one of these in their names
 //! FURNACE_CASES=bvh/,shape/ ...             # only these
+//! FURNACE_CASES=image/ ...                  # images against references, which are left out otherwise
 //! ```
 //!
 //! One seed of the textbook's own is part of `tests/faults.rs`, and one of the plain examples of `tests/worker.rs`.
@@ -414,8 +415,10 @@ fn cores() -> Vec<(String, String)> {
 
 fn asked_for() -> Vec<String> {
     let asked = std::env::var("FURNACE_CASES").unwrap_or_default();
-    let asked = asked.split(',').filter(|filter| !filter.is_empty()).map(str::to_owned);
-    asked.chain(["!image/".to_owned()]).collect()
+    let asked = asked.split(',').filter(|filter| !filter.is_empty());
+    let images_too = asked.clone().any(|filter| filter.starts_with("image/"));
+    let left_out = (!images_too).then_some("!image/");
+    asked.chain(left_out).map(str::to_owned).collect()
 }
 
 fn tried(core: &str, seed: u32, filters: Vec<String>) -> Vec<TrialRecord> {

@@ -1,5 +1,6 @@
 //! A render against a Mitsuba reference, with the noise of both in the account.
 
+use super::conventions::regarded;
 use super::parts::{self, Parts};
 use super::shot::{Setup, Shot};
 use super::told::{ERROR_SCALE, error_picture, finding, rejected};
@@ -43,10 +44,12 @@ impl Check for MatchesReference {
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        match context.info.capabilities.contains(Capabilities::RENDER) {
+        let finding = match context.info.capabilities.contains(Capabilities::RENDER) {
             true => self.by_radiance(context),
             false => self.by_codes(context),
-        }
+        }?;
+        let scene = context.scene()?;
+        Ok(regarded(finding, context.info.conventions, &scene))
     }
 }
 

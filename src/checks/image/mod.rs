@@ -2,6 +2,7 @@
 
 mod by_codes;
 mod clues;
+mod conventions;
 mod matches_as_png;
 mod matches_reference;
 mod parts;

@@ -1,5 +1,6 @@
 //! Pictures of 8 bits against a reference: what the law of their codes says.
 
+use super::conventions::regarded;
 use super::shot::Setup;
 use super::told::{error_picture, finding};
 use crate::cause::image;
@@ -32,7 +33,11 @@ pub(super) fn judge(
     };
     let settings = CodeSettings { declared, effort: setup.effort };
     let report = judge_codes(reference, &settings, draw)?;
-    Ok(Judged { finding: found(&report), report, declared })
+    let finding = match &report.image {
+        Some(image) => regarded(found(&report), image, &setup.differing),
+        None => found(&report),
+    };
+    Ok(Judged { finding, report, declared })
 }
 
 impl Judged {

@@ -3,81 +3,98 @@
 use crate::checks::Finding;
 use crate::contract::Conventions;
 use crate::scene::{Light, SceneDescription, Surface};
-use crate::stats::Verdict;
+use crate::stats::ImageReport;
 
 /// The declared conventions that change images of the scene, in words; the references have the default ones.
-fn that_matter(declared: Conventions, scene: &SceneDescription) -> Vec<&'static str> {
+pub(super) fn that_matter(declared: Conventions, scene: &SceneDescription) -> Vec<&'static str> {
     let has =
         |is: fn(&Surface) -> bool| scene.materials.iter().any(|material| is(&material.surface));
-    let has_glass = has(|surface| matches!(surface, Surface::Glass { .. }));
+    let is_lit_from_a_point = scene.lights.iter().any(|light| matches!(light, Light::Point { .. }));
+    let emits = scene.materials.iter().any(|material| material.emission.is_some());
+    let has_smooth_glass = has(|surface| matches!(surface, Surface::Glass { .. }));
     let has_rough_glass = has(|surface| matches!(surface, Surface::RoughGlass { .. }));
-    let has_metal = has(|surface| matches!(surface, Surface::Conductor { .. }));
+    let has_rough_metal = has(|surface| matches!(surface, Surface::Conductor { .. }));
+    // Without `..`: a convention more is one more to look for.
+    let Conventions { point_light_falloff, emission, smith_term, glass_fresnel, glass_radiance } =
+        declared;
     let usual = Conventions::default();
-    let rows = [
+    [
         (
-            declared.point_light_falloff != usual.point_light_falloff
-                && scene.lights.iter().any(|light| matches!(light, Light::Point { .. })),
-            "another falloff of point lights",
+            point_light_falloff != usual.point_light_falloff && is_lit_from_a_point,
+            "point lights without falloff",
         ),
+        (emission != usual.emission && emits, "emission from both sides"),
         (
-            declared.emission != usual.emission
-                && scene.materials.iter().any(|material| material.emission.is_some()),
-            "emission from both sides",
+            smith_term != usual.smith_term && (has_rough_metal || has_rough_glass),
+            "height-correlated masking",
         ),
+        (glass_fresnel != usual.glass_fresnel && has_smooth_glass, "Schlick's approximation"),
         (
-            declared.smith_term != usual.smith_term && (has_metal || has_rough_glass),
-            "another masking term",
+            glass_radiance != usual.glass_radiance && (has_smooth_glass || has_rough_glass),
+            "radiance that glass leaves unscaled",
         ),
-        (declared.glass_fresnel != usual.glass_fresnel && has_glass, "another Fresnel reflectance"),
-        (
-            declared.glass_radiance != usual.glass_radiance && (has_glass || has_rough_glass),
-            "radiance that glass does not scale",
-        ),
-    ];
-    rows.into_iter().filter_map(|(matters, words)| matters.then_some(words)).collect()
+    ]
+    .into_iter()
+    .filter_map(|(matters, words)| matters.then_some(words))
+    .collect()
 }
 
-/// A failure of an image in which a declared convention matters is open: nobody knows what it should be.
+/// The finding of an image in which the `differing` conventions matter: what differs from the reference is open there, and
+/// only what no image may have fails.
 pub(super) fn regarded(
     finding: Finding,
-    declared: Conventions,
-    scene: &SceneDescription,
+    report: &ImageReport,
+    differing: &[&'static str],
 ) -> Finding {
-    let differing = that_matter(declared, scene);
-    if differing.is_empty() || !finding.failed() {
+    let is_broken = report.impossible.is_some() || !report.dead_pixels.is_empty();
+    if differing.is_empty() || is_broken || !finding.failed() {
         return finding;
     }
-    let open = |verdict| if verdict == Verdict::Fail { Verdict::Inconclusive } else { verdict };
     let mut finding = finding;
-    finding.measures.iter_mut().for_each(|measure| measure.verdict = open(measure.verdict));
-    finding.clues.clear();
-    finding.verdict = open(finding.verdict);
-    let words = differing.join(" and ");
-    let statement = &finding.statement;
-    finding.statement =
-        format!("not judged: the core declares {words}, the reference has the usual; {statement}");
+    let measures = finding.measures.iter_mut().map(|measure| &mut measure.verdict);
+    measures.chain([&mut finding.verdict]).for_each(|verdict| *verdict = verdict.unexpected());
+    finding.statement = format!(
+        "the core declares {}, the reference was rendered otherwise: {}",
+        differing.join(" and "),
+        finding.statement
+    );
     finding
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contract::Falloff;
+    use crate::checks::image::told::finding;
+    use crate::contract::{Falloff, SmithTerm};
+    use crate::image::Image;
+    use crate::stats::{ImageEffort, Reference, Verdict, judge_image};
     use glam::DVec3;
+    use std::convert::Infallible;
 
-    fn scene(lights: Vec<Light>) -> SceneDescription {
-        SceneDescription { lights, ..SceneDescription::default() }
+    #[test]
+    fn a_declared_convention_matters_where_the_scene_has_what_it_is_about() {
+        let light = Light::Point { position: DVec3::ZERO, intensity: [1.0; 3] };
+        let lit = SceneDescription { lights: vec![light], ..SceneDescription::default() };
+        let usual = Conventions::default();
+        let unweakened = Conventions { point_light_falloff: Falloff::None, ..usual };
+        let masked = Conventions { smith_term: SmithTerm::HeightCorrelated, ..usual };
+        assert_eq!(that_matter(unweakened, &lit), ["point lights without falloff"]);
+        assert!(that_matter(unweakened, &SceneDescription::default()).is_empty());
+        assert!(that_matter(usual, &lit).is_empty() && that_matter(masked, &lit).is_empty());
     }
 
     #[test]
-    fn a_failure_is_open_only_where_a_declared_convention_matters() {
-        let intensity = [1.0; 3];
-        let lit = scene(vec![Light::Point { position: DVec3::ZERO, intensity }]);
-        let declared = Conventions { point_light_falloff: Falloff::None, ..Conventions::default() };
-        let verdict =
-            |declared, scene| regarded(Finding::failure("too bright"), declared, scene).verdict;
-        assert_eq!(verdict(declared, &lit), Verdict::Inconclusive);
-        assert_eq!(verdict(Conventions::default(), &lit), Verdict::Fail);
-        assert_eq!(verdict(declared, &scene(Vec::new())), Verdict::Fail);
+    fn what_no_image_may_have_fails_whatever_is_declared() {
+        let [mean, standard_error] = [1.0, 0.0].map(|light| Image::new(16, 16, [light; 3]));
+        let verdict = |light: f32| {
+            let right = Reference { mean: &mean, standard_error: &standard_error };
+            let draw = &mut |_| Ok::<_, Infallible>(Image::new(16, 16, [light; 3]));
+            let report = judge_image(right, &ImageEffort::new(0.02, 1), draw).unwrap();
+            regarded(finding(&report, None), &report, &["Schlick's approximation"]).verdict
+        };
+        assert_eq!(verdict(1.0), Verdict::Pass);
+        assert_eq!(verdict(1.2), Verdict::Inconclusive);
+        assert_eq!(verdict(-1.0), Verdict::Fail);
+        assert_eq!(verdict(f32::NAN), Verdict::Fail);
     }
 }

@@ -47,11 +47,12 @@ mod tests {
     use super::*;
     use crate::checks::fake::Fake;
     use crate::checks::testing::{assert_passes, check_of, failure, try_judge};
-    use crate::contract::RenderSettings;
+    use crate::contract::{Conventions, EmissionSides, Falloff, RenderSettings};
     use crate::image::Image;
     use crate::image::encoding::{Curve, Rounding};
     use crate::math::rng::{Seed, uniform};
     use crate::scene::{Library, SceneDescription, reference};
+    use crate::stats::Verdict;
     use std::path::Path;
 
     const SRGB: Encoding = Encoding::of(Curve::Srgb);
@@ -72,10 +73,21 @@ mod tests {
     /// Of a core that renders the reference, brighter by `gain`; or that writes codes, of which it tells that they are
     /// made in the first way, and makes them in the second.
     fn found<C: Check>(check: &C, gain: f64, writes: Option<[Encoding; 2]>) -> Finding {
+        found_of(check, gain, writes, Conventions::default())
+    }
+
+    /// The same of a core that declares these conventions.
+    fn found_of<C: Check>(
+        check: &C,
+        gain: f64,
+        writes: Option<[Encoding; 2]>,
+        conventions: Conventions,
+    ) -> Finding {
         let scene = Library::new("scenes").load("area-light-plane", &toml::Table::new()).unwrap();
         let reference = reference::load(Path::new("references"), "area-light-plane", &scene);
         let mean = reference.unwrap().mean;
         let mut core = Fake::default();
+        core.info.conventions = conventions;
         core.info.capabilities = Capabilities::BUILD_SCENE;
         match writes {
             None => {
@@ -111,6 +123,27 @@ mod tests {
         let check: MatchesReference = check_of(&format!("[expect]\n{PICTURE}"));
         assert_passes(&found(&check, 1.0, Some([Encoding::COURSE; 2])));
         failure(&found(&check, 0.95, Some([Encoding::COURSE; 2])));
+    }
+
+    /// The scene emits, and has no point light.
+    #[test]
+    fn light_that_differs_is_open_where_a_declared_convention_matters_and_all_else_fails() {
+        let as_png =
+            format!("[expect]\nencoding = {{ curve = 'srgb' }}\n[expect.picture]\n{PICTURE}");
+        let check: MatchesReference = check_of(&format!("[expect]\n{PICTURE}"));
+        let usual = Conventions::default();
+        let both = Conventions { emission: EmissionSides::Both, ..usual };
+        let unweakened = Conventions { point_light_falloff: Falloff::None, ..usual };
+        let bright = found_of(&check, 1.05, None, both);
+        assert_eq!(bright.verdict, Verdict::Inconclusive, "{bright:#?}");
+        assert!(bright.statement.starts_with("the core declares emission from both sides"));
+        assert!(bright.measures.iter().all(|measure| !measure.failed()) && bright.clues.is_empty());
+        let coded = found_of(&check_of::<MatchesAsPng>(&as_png), 1.05, None, both);
+        assert_eq!(coded.verdict, Verdict::Inconclusive, "{}", coded.statement);
+        assert_passes(&found_of(&check, 1.0, None, both));
+        failure(&found_of(&check, 1.05, None, unweakened));
+        let encoded_otherwise = Some([SRGB, Encoding::of(Curve::Linear)]);
+        failure(&found_of(&check, 1.0, encoded_otherwise, both));
     }
 
     #[test]

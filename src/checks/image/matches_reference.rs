@@ -1,6 +1,6 @@
 //! A render against a Mitsuba reference, with the noise of both in the account.
 
-use super::conventions::regarded;
+use super::conventions::{regarded, that_matter};
 use super::parts::{self, Parts};
 use super::shot::{Setup, Shot};
 use super::told::{ERROR_SCALE, error_picture, finding, rejected};
@@ -11,7 +11,7 @@ use crate::checks::{Check, CheckError, Context, Finding, Picture, PictureRole, c
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
 use crate::image::{Image, luminance};
 use crate::scene::reference::{self, Reference};
-use crate::stats::{self, ImageEffort, Report, Stage, Verdict, judge_image};
+use crate::stats::{self, ImageEffort, Report, Stage, judge_image};
 use crate::text::{Between, Bounces, Percent};
 
 check! {
@@ -44,12 +44,10 @@ impl Check for MatchesReference {
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let finding = match context.info.capabilities.contains(Capabilities::RENDER) {
+        match context.info.capabilities.contains(Capabilities::RENDER) {
             true => self.by_radiance(context),
             false => self.by_codes(context),
-        }?;
-        let scene = context.scene()?;
-        Ok(regarded(finding, context.info.conventions, &scene))
+        }
     }
 }
 
@@ -84,7 +82,8 @@ impl MatchesReference {
         let shot = Shot { camera, direct, bounces, samples, isolates };
         let effort = ImageEffort::new(self.detects.0 * context.budget.coarseness(), samples);
         let effort = if context.budget.looks_roughly { effort.halved() } else { effort };
-        Ok(Setup { scene, reference, shot, effort })
+        let differing = that_matter(context.info.conventions, &scene);
+        Ok(Setup { scene, reference, shot, effort, differing })
     }
 
     /// A core that writes 8 bits and nothing else.
@@ -101,7 +100,7 @@ impl MatchesReference {
     }
 
     fn by_radiance(&self, context: &mut Context<'_>) -> Result<Finding, CheckError> {
-        let Setup { scene, reference, shot, effort } = self.setup(context)?;
+        let Setup { scene, reference, shot, effort, differing } = self.setup(context)?;
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let question =
@@ -115,13 +114,11 @@ impl MatchesReference {
             }
             Ok::<_, CheckError>(image)
         })?;
-        let mut finding = finding(&report, report.judgement().hypothesis).showing([errors(
-            &screened,
-            shot.samples,
-            &reference,
-        )]);
+        let finding = finding(&report, report.judgement().hypothesis);
+        let errors = errors(&screened, shot.samples, &reference);
+        let mut finding = regarded(finding, &report, &differing).showing([errors]);
         let tells_why = !context.budget.judges_alone;
-        if report.verdict == Verdict::Fail && report.impossible.is_none() && tells_why {
+        if finding.failed() && report.impossible.is_none() && tells_why {
             let seed = seed.child("clues");
             finding = clues::explained(finding, &report, &reference, &shot, built.as_mut(), seed)?;
         }

@@ -18,6 +18,8 @@ pub(super) struct Setup {
     pub(super) reference: Reference,
     pub(super) shot: Shot,
     pub(super) effort: ImageEffort,
+    /// What the core has declared and the reference has otherwise.
+    pub(super) differing: Vec<&'static str>,
 }
 
 /// How each run is rendered.

@@ -27,7 +27,7 @@ impl ImageEffort {
         Self { detects, samples, screen_runs: 16, looks: [8, 16, 32] }
     }
 
-    /// With half of the runs, for a first look that decides nothing.
+    /// With half of the runs, for a first look, which fails no core.
     pub(crate) fn halved(self) -> Self {
         let looks = self.looks.map(|runs| runs / 2);
         Self { screen_runs: self.screen_runs / 2, looks, ..self }

@@ -34,6 +34,11 @@ impl Verdict {
         }
     }
 
+    /// Of a comparison with what the core never had to give: a rejection leaves open whether it is right.
+    pub(crate) fn unexpected(self) -> Verdict {
+        self.min(Verdict::Inconclusive)
+    }
+
     /// Pass if the condition holds, else fail: for comparisons without noise. Write the condition
     /// so that NaN makes it false.
     pub(crate) fn pass_if(holds: bool) -> Verdict {
@@ -51,6 +56,15 @@ mod tests {
         assert_eq!(Verdict::worst_of([Pass, Fail, Inconclusive]), Fail);
         assert_eq!(Verdict::worst_of([Pass, Inconclusive, Pass]), Inconclusive);
         assert_eq!(Verdict::worst_of([]), Inconclusive);
+    }
+
+    #[test]
+    fn what_was_never_promised_fails_nothing_and_passes_nothing_more() {
+        use Verdict::{Fail, Inconclusive, Pass};
+        assert_eq!(
+            [Pass, Inconclusive, Fail].map(Verdict::unexpected),
+            [Pass, Inconclusive, Inconclusive]
+        );
     }
 
     #[test]

@@ -83,7 +83,8 @@ impl Estimate {
     }
 }
 
-/// How far an interval reaches at most from a number that it tells, as a share of that number.
+/// How far an interval reaches at most from a number that it tells, as a share of that number. Of the factors that causes
+/// have the nearest two, 1/π and 1/2, lie more than a third apart.
 const TELLING: f64 = 0.2;
 
 /// What was done to the reference.

@@ -47,6 +47,7 @@ fn ratio_measure(
         interval: Some(ratio.interval),
         resolution: is_luminance.then_some(report.resolution),
         verdict: report.verdict,
+        doubt: report.doubt.filter(|_| is_luminance),
         hypothesis: hypothesis.filter(|_| is_luminance),
         ..Measure::exact(name, ratio.ratio, 1.0, 0.0)
             .of_row("brightness of the whole picture")

@@ -17,8 +17,9 @@
 //! with its own, and the larger decides.
 
 use super::cells::{COMPONENTS, Grid, Scale, around};
-use super::target::Target;
+use super::target::{Frozen, Target};
 use crate::stats::law::{Spread, normal_upper, student_upper};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// How far around a cell others tell of its noise, in cells.
@@ -60,12 +61,7 @@ impl<'a> CellNoise<'a> {
                 continue;
             }
             let neighbours = Neighbours::of(spread, target, grid, start..start + cells);
-            known.extend((0..cells).map(|index| {
-                let around = neighbours.around(index);
-                let by_edges =
-                    if grid.scale == Scale::Pixel { around.by_edges(samples) } else { 0.0 };
-                fewer_sigmas * around.by_reference(neighbours.errors[index]).max(by_edges)
-            }));
+            known.extend((0..cells).map(|index| fewer_sigmas * neighbours.known(index, samples)));
         }
         Self { spread, critical, known }
     }
@@ -74,6 +70,27 @@ impl<'a> CellNoise<'a> {
     pub(super) fn standard_error(&self, index: usize) -> f64 {
         self.spread.standard_error(index).max(self.known[index])
     }
+}
+
+/// The standard error that the frozen cells of a scale are known to have over some runs of so many samples a pixel: its
+/// components vary together, cells on their own.
+pub(super) fn known_of_frozen(
+    frozen: &Frozen,
+    spread: &Spread,
+    target: &Target,
+    scale: usize,
+    samples: u32,
+) -> f64 {
+    let places = target.cells.ranges()[scale].clone();
+    let samples = f64::from(samples) * (spread.freedom() + 1.0);
+    let neighbours = Neighbours::of(spread, target, &target.cells.grids[scale], places.clone());
+    let mut of_cells = BTreeMap::<usize, f64>::new();
+    for (place, _, weight) in &frozen.terms {
+        let index = place - places.start;
+        *of_cells.entry(index / COMPONENTS).or_default() +=
+            weight * neighbours.known(index, samples);
+    }
+    of_cells.values().map(|error| error * error).sum::<f64>().sqrt()
 }
 
 /// The cells of one scale, each looked at from all that are near it.
@@ -128,6 +145,13 @@ impl<'a> Neighbours<'a> {
             stored: errors.iter().map(|error| error.powi(2)).collect(),
             seen: places.map(|place| spread.standard_error(place).powi(2)).collect(),
         }
+    }
+
+    /// What is known of a standard error without the cell itself, over so many samples of a pixel.
+    fn known(&self, index: usize, samples: f64) -> f64 {
+        let around = self.around(index);
+        let by_edges = if self.grid.scale == Scale::Pixel { around.by_edges(samples) } else { 0.0 };
+        around.by_reference(self.errors[index]).max(by_edges)
     }
 
     /// Around the cell whose component has this number on its grid.

@@ -4,8 +4,8 @@
 //! small: chance would do it with probability q^runs. A pixel that is always black says nothing of
 //! its own q, so two witnesses have to agree, and the larger q counts:
 //!
-//! - Pixels around it of like brightness: the share of their runs that are black, of all or of the darker quarter. How
-//!   noisy light is may change where its brightness does not.
+//! - Pixels around it of like brightness: the share of their runs that are black, of all or of the darker quarter, and
+//!   of the darkest beside it that some run lights. How noisy light is may change where its brightness does not.
 //! - The reference. A value X ≥ 0 of mean m and variance v is 0 with probability at most
 //!   v/(v + m²), by Cauchy and Schwarz: E\[X\]² ≤ E\[X²\] P(X > 0). The reference knows m and, but
 //!   for a factor, v: how many runs its samples are worth is told by like pixels, whose variance
@@ -26,6 +26,8 @@ const SUSPECTED: f64 = 1e-6;
 const DEAD: f64 = 1e-15;
 /// Neighbours are looked for this far away, in pixels.
 const REACH: usize = 4;
+/// One that few runs light tells of rare light this far away.
+const BESIDE: usize = 2;
 /// Neighbours of like brightness are within this factor.
 const LIKE: f64 = 2.0;
 /// Fewer neighbours prove nothing.
@@ -99,7 +101,8 @@ impl LitRuns {
         if (alike.len() as u64) < FEWEST_NEIGHBOURS {
             return 1.0;
         }
-        let black = self.share_of_black(&alike).max(self.most_black(pixel, &alike));
+        let seen = self.share_of_black(&alike).max(self.share_of_rarely_lit(pixel));
+        let black = seen.max(self.most_black(pixel, &alike));
         black.powf(f64::from(self.runs))
     }
 
@@ -120,6 +123,13 @@ impl LitRuns {
         let mut black: Vec<u32> = pixels.iter().map(|i| self.runs - self.lit[*i]).collect();
         black.sort_unstable();
         f64::from(black[black.len() - 1 - black.len() / 4]) / f64::from(self.runs)
+    }
+
+    /// The share of black runs of the darkest like pixel beside one that was lit at all.
+    fn share_of_rarely_lit(&self, pixel: usize) -> f64 {
+        let beside = around(self.size, pixel, BESIDE).filter(|&i| self.are_alike(i, pixel));
+        let lit = beside.map(|i| self.lit[i]).filter(|lit| *lit > 0).min();
+        lit.map_or(0.0, |lit| f64::from(self.runs - lit) / f64::from(self.runs))
     }
 
     /// The largest share of black runs that the reference's moments allow a pixel.
@@ -189,6 +199,16 @@ mod tests {
             _ => 0.5,
         };
         assert!(runs(80, 0.005, half).dead().is_empty());
+    }
+
+    #[test]
+    fn a_corner_that_few_samples_light_is_no_death() {
+        let corner = |i: usize, stream: &mut Stream| match (i % SIDE, i / SIDE) {
+            _ if i == PIXEL => 0.0,
+            (6..=7, 2..=3) => flickering(0.97, stream),
+            _ => 0.5,
+        };
+        assert!(runs(80, 0.005, corner).dead().is_empty());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::cells::{COMPONENTS, Component, Extent, Scale};
 use crate::image::Image;
-use crate::stats::plan::{Hypothesis, Judgement, Report, Stage, TestKind, Verdict};
+use crate::stats::plan::{Doubt, Hypothesis, Judgement, Report, Stage, TestKind, Verdict};
 use serde::Serialize;
 
 /// A value that no picture has.
@@ -80,6 +80,8 @@ pub(crate) struct Confirmation {
     /// runs or of the other confirmation's, whichever are larger.
     pub(crate) t: f64,
     pub(crate) rejects: bool,
+    /// Whether it rejects by its own spread and not by what is known of it: light may have been missed.
+    pub(crate) may_lack_its_tail: bool,
 }
 
 /// What one scale says.
@@ -102,6 +104,12 @@ pub struct ScaleReport {
 impl ScaleReport {
     /// How many times further out than what is suspected a gross error is.
     const GROSS: f64 = 3.0;
+
+    /// Whether runs call it too dark that may all have missed the same light.
+    pub(super) fn may_lack_its_tail(&self) -> bool {
+        let is_confirmed = |key: &Confirmation| key.rejects || key.may_lack_its_tail;
+        !self.rejects && self.confirmations.is_some_and(|keys| keys.iter().all(is_confirmed))
+    }
 
     /// Whether a cell is suspected.
     pub(super) fn stands_out(&self) -> bool {
@@ -151,6 +159,8 @@ pub struct PartRatio {
 pub struct ImageReport {
     /// Pass, fail or inconclusive.
     pub verdict: Verdict,
+    /// Why what fresh runs saw again decides nothing, if so.
+    pub doubt: Option<Doubt>,
     /// NaN, infinity or negative light: fails without statistics.
     pub impossible: Option<ImpossiblePixels>,
     /// Column and row of pixels that stay black in every run while pixels like them do not; at most
@@ -192,6 +202,7 @@ impl Report for ImageReport {
         Judgement {
             interval: luminance.map(|luminance| luminance.interval),
             smallest_detectable_error: Some(self.resolution),
+            doubt: self.doubt,
             hypothesis: Some(Hypothesis::new(TestKind::Picture, self.suspected())),
             ..Judgement::new(self.verdict, ratio, 1.0)
         }

@@ -1,7 +1,7 @@
 //! The steps of screen-and-confirm: screening, freezing, confirming, reporting.
 
 use super::brightness::Brightness;
-use super::cell_noise::CellNoise;
+use super::cell_noise::{CellNoise, known_of_frozen};
 use super::cells::{COMPONENTS, Component, Scale};
 use super::dead_pixels::LitRuns;
 use super::draw::{ImageDraw, ImageEffort, Levels};
@@ -11,6 +11,7 @@ use super::report::{
 use super::target::{Frozen, Target};
 use crate::image::Image;
 use crate::stats::law::{Spread, student_tail};
+use crate::stats::plan::Doubt;
 use crate::stats::plan::level::MISS_LEVEL;
 use crate::stats::{Moments, Stage, Verdict, normal_upper, student_upper};
 
@@ -110,7 +111,8 @@ impl<'a, E> Screening<'a, E> {
             for (i, report) in scales.iter_mut().enumerate() {
                 let Some(frozen) = &frozen[i] else { continue };
                 let keys = [&second.scalars[i], &third.scalars[i]];
-                report.confirm(confirm(self.levels.of_a_look(), keys));
+                let known = self.known(i, frozen, [&second.spread, &third.spread]);
+                report.confirm(confirm(self.levels.of_a_look(), keys, known));
                 let is_light_missed = !frozen.is_too_bright() && self.samples(i, runs) < FEWEST;
                 tells |=
                     report.rejects && report.scale.is_large() && (is_gross || !is_light_missed);
@@ -120,6 +122,17 @@ impl<'a, E> Screening<'a, E> {
             }
         }
         Ok(third)
+    }
+
+    /// The larger of the standard errors that the frozen cells of a scale are known to have; nothing where they are too
+    /// bright, which no light that is missed can make them.
+    fn known(&self, scale: usize, frozen: &Frozen, confirmations: [&Spread; 2]) -> f64 {
+        if frozen.is_too_bright() {
+            return 0.0;
+        }
+        let samples = self.effort.samples;
+        let known = |spread| known_of_frozen(frozen, spread, &self.target, scale, samples);
+        confirmations.map(known).into_iter().fold(0.0, f64::max)
     }
 
     /// Samples that a cell of a scale sees in so many runs.
@@ -257,8 +270,11 @@ impl<'a, E> Screening<'a, E> {
         let dead_pixels = self.lit.dead();
         let resolution = self.resolution(&screened.spread);
         let rejected = !dead_pixels.is_empty() || scales.iter().any(|scale| scale.rejects);
+        let may_lack_its_tail = !rejected && scales.iter().any(ScaleReport::may_lack_its_tail);
+        let sees = resolution <= self.effort.detects && !may_lack_its_tail;
         ImageReport {
-            verdict: Verdict::of_test(rejected, resolution <= self.effort.detects),
+            verdict: Verdict::of_test(rejected, sees),
+            doubt: may_lack_its_tail.then_some(Doubt::HeavyTail),
             impossible: None,
             dead_pixels,
             worst_scale: worst_scale(&scales),
@@ -277,6 +293,7 @@ impl<'a, E> Screening<'a, E> {
     fn broken(&self, pixels: ImpossiblePixels, image: Image) -> ImageReport {
         ImageReport {
             verdict: Verdict::Fail,
+            doubt: None,
             impossible: Some(pixels),
             dead_pixels: Vec::new(),
             scales: Vec::new(),
@@ -313,13 +330,21 @@ impl<'a, E> Screening<'a, E> {
     }
 }
 
-/// Both confirmations of one scale, each with the larger of the two spreads: the double key.
-fn confirm(level: f64, keys: [&Moments; 2]) -> [Confirmation; 2] {
+/// Both confirmations of one scale, each with the larger of the two spreads, and with what is known of them: the double
+/// key. Runs that have all missed the same light do not vary, and where so few samples find it they are no normal
+/// variable: then a cell that is too dark needs the other key.
+fn confirm(level: f64, keys: [&Moments; 2], known: f64) -> [Confirmation; 2] {
     let error = keys[0].standard_error().max(keys[1].standard_error());
-    let critical = student_upper(level, (keys[0].count() - 1) as f64);
+    let critical = [student_upper(level, (keys[0].count() - 1) as f64), normal_upper(level)];
     keys.map(|moments| {
-        let t = if moments.mean() == 0.0 { 0.0 } else { moments.mean() / error };
-        Confirmation { t: t.clamp(-1e9, 1e9), rejects: t > critical }
+        let in_units = |error| if moments.mean() == 0.0 { 0.0 } else { moments.mean() / error };
+        let [t, u] = [error, known].map(in_units);
+        let [by_own, by_known] = [t > critical[0], u > critical[1]];
+        Confirmation {
+            t: t.clamp(-1e9, 1e9),
+            rejects: by_own && by_known,
+            may_lack_its_tail: by_own && !by_known,
+        }
     })
 }
 

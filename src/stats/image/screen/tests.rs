@@ -228,6 +228,26 @@ fn slivers_that_a_screen_misses_are_not_suspected_though_the_reference_knows_the
     assert_eq!((report.runs, report.verdict), (16, Verdict::Pass), "{:?}", report.scales[0]);
 }
 
+/// A picture on whose left one sample in 1500 carries all the light, against a reference that knows it well.
+fn judge_one_in_1500(gain: f32, seed: u64) -> ImageReport {
+    let mean = Image::new(SIZE, SIZE, [0.5; 3]);
+    let error = Image::new(SIZE, SIZE, [0.002; 3]);
+    judged([&mean, &error], (0.5, SAMPLES), seed, |x, _, stream| {
+        let weight = if x < SIZE / 2 { 1500.0 } else { 1.0 };
+        let hits = (0..SAMPLES).filter(|_| uniform(stream) * weight < 1.0).count();
+        [gain * 0.5 * (hits as f64 * weight) as f32 / SAMPLES as f32; 3]
+    })
+}
+
+#[test]
+fn light_of_one_sample_in_1500_fails_no_picture_and_its_absence_does() {
+    for seed in 0..20 {
+        let report = judge_one_in_1500(1.0, seed);
+        assert_ne!(report.verdict, Verdict::Fail, "seed {seed}: {:?}", report.worst_scale);
+    }
+    assert_eq!(judge_one_in_1500(0.5, 0).verdict, Verdict::Fail);
+}
+
 fn judge_pair(left: &Image, right: &Image) -> ImageReport {
     let mut draw = |request: ImageDraw| {
         let seed = request.seed(Seed(1));

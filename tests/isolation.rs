@@ -140,7 +140,7 @@ const RENDERERS: &[(&str, Ending)] = &[
     ("behave", (Status::Fail, "of the light it should have")),
     ("behave.png", (Status::Fail, "in codes (sRGB, rounded): the picture has ")),
     ("crash", (Status::Crashed, "SIGABRT")),
-    ("exit", (Status::Fail, "it exited successfully without writing picture.pfm")),
+    ("exit", (Status::Fail, "exited successfully without writing picture.pfm")),
     ("hang", (Status::TimedOut, "no answer in 2 s")),
     ("hoard", (Status::Crashed, "MemoryError")),
     ("multiply", (Status::Crashed, "it had started")),

@@ -1,4 +1,4 @@
-//! Crashes, and answers that did not come in time: equal endings of the same request are one headline.
+//! Refusals, crashes, and answers that did not come in time: equal endings of the same request are one headline.
 
 use super::reproduction::Refuted;
 use super::{Degree, Ending, Evidence, Headline, Observation};
@@ -7,29 +7,57 @@ use crate::cause::{Cause, adaptive, bvh};
 use crate::worker::overflow;
 use std::collections::BTreeMap;
 
-/// What crashes of one mistake have in common.
+/// What endings of one mistake have in common.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Kind<'a> {
     /// `signal 11`, without what differs from case to case.
     how: &'a str,
     /// What such a signal means, where that is known: `memory that is not its own`.
     meaning: &'a str,
-    /// As the core's header spells it.
-    request: String,
-    is_timeout: bool,
+    asked: Asked,
+    way: Way,
+}
+
+/// Who was asked.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Asked {
+    /// A function, as the core's header spells it.
+    Function(String),
+    /// A program that an adapter starts.
+    Program(String),
+    /// Whoever refused: what it says has to do.
+    Any,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Way {
+    Refusal,
+    Crash,
+    Timeout,
 }
 
 impl<'a> Kind<'a> {
     fn of(ending: Ending<'a>) -> Self {
-        let (how, during, is_timeout) = match ending {
-            Ending::Crashed { how, during } => (how, during, false),
-            Ending::TimedOut { during } => ("no answer in time", during, true),
+        let (how, asked, way) = match ending {
+            Ending::Refused { why } => (why, Asked::Any, Way::Refusal),
+            Ending::Crashed { how, during } => (how, Asked::of(during), Way::Crash),
+            Ending::TimedOut { during } => ("no answer in time", Asked::of(during), Way::Timeout),
         };
         let meaning = meaning(how);
         // Whoever watches a core ends it for a reason, and then says how far it went.
         let how = how.strip_prefix("ended: ").unwrap_or(how);
-        let how = how.split(['(', ';', ':', ',']).next().unwrap_or(how).trim();
-        Self { how, meaning, request: function(during), is_timeout }
+        // Of a program its status is told, too.
+        let ends: &[&str] = match asked {
+            Asked::Program(_) => &[";"],
+            _ => &["(", ";", ": ", ", "],
+        };
+        let end = ends.iter().filter_map(|end| how.find(end)).min().unwrap_or(how.len());
+        let how = how[..end].trim();
+        Self { how, meaning, asked, way }
+    }
+
+    fn is_of(&self, function: &str) -> bool {
+        matches!(&self.asked, Asked::Function(asked) if asked == function)
     }
 
     /// Where nobody watches the stack, a segmentation fault may be an overflow: in some scenes it is, where others are built.
@@ -39,14 +67,53 @@ impl<'a> Kind<'a> {
     }
 
     fn mistake(&self) -> String {
-        match self.is_timeout {
-            true => format!("the core does not answer `{}` in time", self.request),
-            false if self.meaning.is_empty() => {
-                format!("the core crashes in `{}`: {}", self.request, self.how)
+        let Self { how, meaning, asked, way } = self;
+        match (way, asked) {
+            (Way::Refusal, _) | (_, Asked::Any) => format!("the core gives no answer: {how}"),
+            (Way::Timeout, Asked::Function(asked)) => {
+                format!("the core does not answer `{asked}` in time")
             }
-            false => {
-                format!("the core crashes in `{}`: {} ({})", self.request, self.meaning, self.how)
+            (Way::Timeout, Asked::Program(name)) => {
+                format!("the program `{name}` does not end in time")
             }
+            (Way::Crash, Asked::Program(name)) => format!("the program `{name}` fails: {how}"),
+            (Way::Crash, Asked::Function(asked)) if meaning.is_empty() => {
+                format!("the core crashes in `{asked}`: {how}")
+            }
+            (Way::Crash, Asked::Function(asked)) => {
+                format!("the core crashes in `{asked}`: {meaning} ({how})")
+            }
+        }
+    }
+
+    fn place(&self) -> String {
+        match &self.asked {
+            Asked::Function(asked) => format!("`{asked}` in furnace_core.h"),
+            Asked::Program(name) => format!("how the adapter starts `{name}`, and what that says"),
+            Asked::Any => "where the core gives up with these words".to_owned(),
+        }
+    }
+
+    /// What helps where the cause is unknown, in a case that ends so.
+    fn advice(&self, case: &str) -> String {
+        match &self.asked {
+            Asked::Function(_) => format!(
+                "`furnace debug {case}` with the same `--core` prints the commands that stop a debugger there."
+            ),
+            Asked::Program(_) => "Start the program by hand, with the adapter's `arguments`, on a scene that `furnace export` writes.".to_owned(),
+            Asked::Any => {
+                format!("`furnace run {case}` with the same `--core` asks the same again.")
+            }
+        }
+    }
+}
+
+impl Asked {
+    /// From what was asked, and where in it: `intersect, ray 3 of 100`, or the name of a program, in quotes.
+    fn of(during: &str) -> Self {
+        match during.strip_prefix('`').and_then(|rest| rest.split_once('`')) {
+            Some((program, _)) => Self::Program(program.to_owned()),
+            None => Self::Function(function(during)),
         }
     }
 }
@@ -79,7 +146,7 @@ pub(super) fn headlines(evidence: &Evidence<'_>, refuted: &Refuted) -> Vec<Headl
         }
     }
     // The same cases ask for nearest hits before they ask for shadows.
-    let shadows_alone = kinds.keys().all(|kind| kind.request != "intersect");
+    let shadows_alone = !kinds.keys().any(|kind| kind.is_of("intersect"));
     let builds_others = evidence.has_lit_a_scene();
     let told = |(kind, cases): (&Kind<'_>, &Vec<_>)| {
         let refutes = |cause: &Cause, seen: &Observation<'_>| {
@@ -101,13 +168,14 @@ fn cause(
     builds_others: bool,
 ) -> Option<&'static Cause> {
     let is_adaptive = || cases.iter().all(|seen| seen.is_about(Subject::Adaptive));
-    match (kind.is_timeout, kind.request.as_str()) {
-        (true, "adaptive_mean") => Some(&adaptive::LOOP_ENDLESS),
-        (true, _) if is_adaptive() => Some(&adaptive::LOOP_ENDLESS),
-        (false, "build") if kind.is_endless_recursion(builds_others) => {
+    match kind.way {
+        Way::Timeout if kind.is_of("adaptive_mean") || is_adaptive() => {
+            Some(&adaptive::LOOP_ENDLESS)
+        }
+        Way::Crash if kind.is_of("build") && kind.is_endless_recursion(builds_others) => {
             Some(&bvh::RECURSION_ENDLESS)
         }
-        (false, "occluded") if shadows_alone => Some(&bvh::ANY_HIT_CRASHES),
+        Way::Crash if kind.is_of("occluded") && shadows_alone => Some(&bvh::ANY_HIT_CRASHES),
         _ => None,
     }
 }
@@ -119,12 +187,15 @@ fn headline(
     cause: Option<&'static Cause>,
 ) -> Headline {
     let explains = cases.iter().map(|seen| seen.case.to_owned()).collect();
-    let place = format!("`{}` in furnace_core.h", kind.request);
+    let place = kind.place();
     // Equal endings: one is told.
     let sentences = cases.iter().find_map(|seen| sentence(seen)).into_iter().collect();
     let told = Headline { is_ending: true, ..Headline::of(evidence, explains, sentences) };
     match cause {
-        None => Headline { mistake: kind.mistake(), look_at: place, fix: debugger(&told), ..told },
+        None => {
+            let case = told.explains.first().map_or("", String::as_str);
+            Headline { mistake: kind.mistake(), look_at: place, fix: kind.advice(case), ..told }
+        }
         Some(cause) => Headline {
             degree: Degree::LooksLike,
             look_at: format!("{}: {place}", cause.look_at),
@@ -133,16 +204,9 @@ fn headline(
     }
 }
 
-/// What helps where the cause is unknown.
-fn debugger(told: &Headline) -> String {
-    let case = told.explains.first().map_or("", String::as_str);
-    format!(
-        "`furnace debug {case}` with the same `--core` prints the commands that stop a debugger there."
-    )
-}
-
 fn sentence(seen: &Observation<'_>) -> Option<String> {
     Some(match seen.ending? {
+        Ending::Refused { why } => format!("{}: {why}", seen.case),
         Ending::Crashed { how, during } => format!("{}: {how} during {during}", seen.case),
         Ending::TimedOut { during } => format!("{}: no answer in time during {during}", seen.case),
     })
@@ -183,6 +247,30 @@ mod tests {
         assert_eq!((first.degree, first.is_ending), (Degree::DiffersHere, true));
         assert!(first.fix.starts_with("`furnace debug bvh/b` with the"), "{}", first.fix);
         assert_eq!(diagnosis.first(), Some(&bsdf::WITHOUT_PI));
+    }
+
+    #[test]
+    fn a_program_that_fails_or_refuses_is_no_function_that_crashes() {
+        let (how, during) = ("exit status: 2; the end of its output: usage", "`lantern`");
+        let why = "`lantern` cannot be started (no such file); set LANTERN to a build of it";
+        let made = Made::new()
+            .ended("image/a", Ending::Crashed { how, during })
+            .ended("image/b", Ending::Crashed { how, during })
+            .ended("image/c", Ending::TimedOut { during })
+            .ended("image/d", Ending::Refused { why });
+        let headlines = diagnose(&made.evidence()).headlines;
+        let told = |case: &str| {
+            let explains = |headline: &&Headline| headline.explains.iter().any(|one| one == case);
+            headlines.iter().find(explains).unwrap()
+        };
+        assert_eq!(told("image/a").mistake, "the program `lantern` fails: exit status: 2");
+        assert_eq!(told("image/a").explains.len(), 2);
+        assert!(!told("image/a").fix.contains("debug"), "{}", told("image/a").fix);
+        assert_eq!(told("image/c").mistake, "the program `lantern` does not end in time");
+        assert_eq!(
+            told("image/d").mistake,
+            "the core gives no answer: `lantern` cannot be started"
+        );
     }
 
     #[test]

@@ -19,8 +19,17 @@ pub(crate) enum Standing {
 /// How a core stopped answering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending<'a> {
-    Crashed { how: &'a str, during: &'a str },
-    TimedOut { during: &'a str },
+    /// In its own words.
+    Refused {
+        why: &'a str,
+    },
+    Crashed {
+        how: &'a str,
+        during: &'a str,
+    },
+    TimedOut {
+        during: &'a str,
+    },
 }
 
 #[derive(Clone, Debug)]

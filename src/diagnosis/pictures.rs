@@ -3,12 +3,17 @@
 
 use super::{Degree, Evidence, Observation, Suspicion};
 use crate::case::Subject;
-use crate::cause::{self, Cause, bsdf};
+use crate::cause::{self, Cause, bsdf, image};
 use crate::checks::Clue;
 use std::collections::BTreeMap;
 
 /// The share of failing images that have to show a mistake: noise hides it in a few.
 const NEARLY_ALL: f64 = 0.8;
+/// The same of what moves a picture, in several images in one size: no light does that, and what comes into view beside the
+/// picture no fit knows.
+const MANY: f64 = 0.5;
+/// So many images are several.
+const SEVERAL: usize = 3;
 /// How far sizes of one mistake lie apart beyond their intervals, relatively: fits interpolate.
 const APART: f64 = 0.005;
 
@@ -29,7 +34,10 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
         // What no image foretells has a share of NaN, and is not told.
         Some((cause, as_foretold as f64 / foretold as f64, alike))
     });
-    let mut shown: Vec<_> = shown.filter(|(_, share, _)| *share >= NEARLY_ALL).collect();
+    let are_enough = |(cause, share, alike): &(&'static Cause, f64, Vec<Shown<'_>>)| {
+        *share >= if moves(cause) && alike.len() >= SEVERAL { MANY } else { NEARLY_ALL }
+    };
+    let mut shown: Vec<_> = shown.filter(are_enough).collect();
     let most = shown.iter().map(|(_, share, _)| *share).fold(0.0, f64::max);
     shown.retain(|(_, share, _)| *share >= most);
     let is_proven = |alike: &[Shown<'_>]| shown.len() == 1 && alike.len() > 1;
@@ -50,6 +58,12 @@ fn is_foretold(cause: &Cause, seen: &Observation<'_>) -> bool {
     let of_diffuse =
         [&bsdf::WITHOUT_PI, &bsdf::WITH_PI, &bsdf::ALBEDO_HALVED, &bsdf::ALBEDO_DOUBLED];
     !seen.is_specular || !of_diffuse.contains(&cause)
+}
+
+/// Whether a mistake shows the right picture elsewhere on the film.
+fn moves(cause: &Cause) -> bool {
+    use image::{DISPLACED, MAGNIFIED, MIRRORED, TRANSPOSED, TURNED, UPSIDE_DOWN};
+    [&DISPLACED, &MAGNIFIED, &MIRRORED, &TRANSPOSED, &TURNED, &UPSIDE_DOWN].contains(&cause)
 }
 
 /// An image that a mistake would explain.
@@ -128,6 +142,21 @@ mod tests {
             .with("image/b", failing("x").because(&integrator::NO_INDIRECT, "x"))
             .with("image/c", failing("something else"));
         assert_eq!(made.first(), None);
+    }
+
+    #[test]
+    fn a_picture_that_is_magnified_alike_in_half_of_the_images_is_told_and_one_too_bright_is_not() {
+        let of = |cause: &Cause, sizes: [f64; 3]| {
+            let made = Made::new()
+                .with("image/a", failing("what comes into view is not known"))
+                .with("image/b", failing("nor here"));
+            let images = ["image/c", "image/d", "image/e"].into_iter().zip(sizes);
+            told(&images.fold(made, |made, (name, size)| made.with(name, showing(cause, size))))
+        };
+        let named = (image::MAGNIFIED.name.to_owned(), Degree::Named);
+        assert!(of(&image::MAGNIFIED, [0.75, 0.75, 0.755]).contains(&named));
+        assert!(!of(&image::MAGNIFIED, [0.75, 0.8, 0.7]).contains(&named));
+        assert!(!of(&image::FACTOR, [0.75; 3]).iter().any(|(cause, _)| !cause.is_empty()));
     }
 
     #[test]

@@ -143,6 +143,7 @@ fn standing(
         },
         Outcome::Skipped { missing } => lacks(suite, missing),
         Outcome::Blocked { .. } => undecided(Standing::Blocked),
+        Outcome::Refused { .. } => Standing::Fail,
         Outcome::Crashed { .. } => Standing::Crashed,
         Outcome::TimedOut { .. } => Standing::TimedOut,
         Outcome::Broken { .. } => Standing::Broken,

@@ -102,6 +102,7 @@ fn proven<'a>(proves: &'a [Foundation], outcome: &Outcome) -> &'a [Foundation] {
 
 fn ending(outcome: &Outcome) -> Option<Ending<'_>> {
     match outcome {
+        Outcome::Refused { why } => Some(Ending::Refused { why }),
         Outcome::Crashed { how, during } => Some(Ending::Crashed { how, during }),
         Outcome::TimedOut { during, .. } => Some(Ending::TimedOut { during }),
         _ => None,

@@ -25,6 +25,11 @@ pub enum Outcome {
         /// The case that failed.
         by: String,
     },
+    /// The core gave no answer, and said why.
+    Refused {
+        /// In its own words.
+        why: String,
+    },
     /// The core stopped working.
     Crashed {
         /// A signal, an exit code, a panic's message.
@@ -131,7 +136,7 @@ impl Outcome {
             CoreError::TimedOut { limit, during } => {
                 Self::TimedOut { limit: limit.as_secs_f64(), during }
             }
-            CoreError::Refused(_) => Self::Judged { finding: Finding::failure(error.to_string()) },
+            CoreError::Refused(why) => Self::Refused { why },
             CoreError::BrokeContract(breach) => Self::Judged { finding: breach::failure(&breach) },
         }
     }
@@ -142,6 +147,7 @@ impl Outcome {
             Self::Judged { finding } => finding.verdict.into(),
             Self::Skipped { .. } => Status::Skipped,
             Self::Blocked { .. } => Status::Blocked,
+            Self::Refused { .. } => Status::Fail,
             Self::Crashed { .. } => Status::Crashed,
             Self::TimedOut { .. } => Status::TimedOut,
             Self::Broken { .. } => Status::Broken,
@@ -158,6 +164,7 @@ impl Outcome {
                 Err(_) => format!("unsupported by the core: {}", missing.join(", ")),
             },
             Self::Blocked { by } => format!("{by} failed, and this rests on it"),
+            Self::Refused { why } => CoreError::Refused(why.clone()).to_string(),
             Self::Crashed { how, during } => format!("the core crashed ({how}) during {during}"),
             Self::TimedOut { limit, during } => format!("no answer in {limit} s during {during}"),
             Self::Broken { why } => why.clone(),

@@ -138,8 +138,15 @@ impl<'a> PlantedFaults<'a> {
 /// Seconds of the textbook core that planted mistakes may always be asked for a core with these trials.
 fn least<'r>(records: impl Iterator<Item = &'r TrialRecord>) -> u64 {
     let is_image = |record: &TrialRecord| Subject::of_case(&record.case) == Some(Subject::Image);
-    let mut failing = records.filter(|record| record.outcome.status().is_failure());
-    if failing.all(is_image) { LEAST_BY_IMAGES } else { LEAST }
+    let failing = records.filter(|record| record.outcome.status().is_failure());
+    // Where there is no picture, none can be compared.
+    let answered = |record: &&TrialRecord| record.outcome.finding().is_some();
+    let failing: Vec<_> = failing.collect();
+    if failing.iter().all(|record| is_image(record)) && failing.iter().any(answered) {
+        LEAST_BY_IMAGES
+    } else {
+        LEAST
+    }
 }
 
 fn asked(question: &Question<'_>) -> Asked {

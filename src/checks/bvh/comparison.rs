@@ -32,8 +32,6 @@ pub(crate) struct Truth {
     pub(crate) endless: Vec<bool>,
     /// The same if it started at its origin.
     pub(crate) from_origin: Vec<bool>,
-    /// Whether anything lies on its whole line, before the origin too.
-    pub(crate) on_line: Vec<bool>,
     /// Rays that hit something nearer than their hit, once they are told to end just before it.
     pub(crate) overwritten: usize,
 }

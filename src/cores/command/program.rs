@@ -151,8 +151,8 @@ impl Program {
             }
         }
         if !folder.join(&self.adapter.output.file).is_file() {
-            return Err(CoreError::breach(format!(
-                "it exited successfully without writing {}; the end of its output: {}",
+            return Err(CoreError::Refused(format!(
+                "{during} exited successfully without writing {}; the end of its output: {}",
                 self.adapter.output.file,
                 said.last()
             )));

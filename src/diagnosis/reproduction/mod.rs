@@ -768,7 +768,9 @@ impl<'a> Proof<'a> {
     }
 
     fn fails_images_alone(&self) -> bool {
+        let answered = |seen: &Observation<'_>| seen.ending.is_none();
         self.evidence.failures().all(|seen| seen.is_about(Subject::Image))
+            && self.evidence.failures().any(answered)
     }
 
     /// The quickest of `cases` whose numbers can be compared.

@@ -3,8 +3,9 @@
 
 use super::{Degree, Evidence, Observation, Suspicion};
 use crate::case::Subject;
-use crate::cause::{self, Cause, bsdf, image};
+use crate::cause::{self, Cause, bsdf, image, integrator};
 use crate::checks::Clue;
+use crate::contract::Circumstances;
 use std::collections::BTreeMap;
 
 /// The share of failing images that have to show a mistake: noise hides it in a few.
@@ -53,11 +54,18 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     shown.iter().map(suspicion).collect()
 }
 
-/// Mistakes of diffuse surfaces say nothing of light that mirrors and glass carry.
+/// Mistakes of diffuse surfaces say nothing of light that mirrors and glass carry, and whether a path is too short nothing
+/// of an image without indirect light: its last bounce is all its direct light.
 fn is_foretold(cause: &Cause, seen: &Observation<'_>) -> bool {
     let of_diffuse =
         [&bsdf::WITHOUT_PI, &bsdf::WITH_PI, &bsdf::ALBEDO_HALVED, &bsdf::ALBEDO_DOUBLED];
-    !seen.is_specular || !of_diffuse.contains(&cause)
+    match cause {
+        cause if of_diffuse.contains(&cause) => !seen.is_specular,
+        cause if *cause == integrator::ONE_BOUNCE_SHORT => {
+            seen.circumstances.contains(Circumstances::INDIRECT_LIGHT)
+        }
+        _ => true,
+    }
 }
 
 /// Whether a mistake shows the right picture elsewhere on the film.
@@ -106,6 +114,7 @@ fn allows(interval: Option<[f64; 2]>, size: Option<f64>) -> bool {
 mod tests {
     use crate::cause::{Cause, bsdf, image, integrator};
     use crate::checks::Finding;
+    use crate::contract::Circumstances;
     use crate::diagnosis::testing::{Made, failing, passing};
     use crate::diagnosis::{Degree, diagnose};
 
@@ -176,6 +185,20 @@ mod tests {
             .in_a_specular_scene("image/a")
             .in_a_specular_scene("image/b");
         assert_eq!(made.first(), None);
+    }
+
+    #[test]
+    fn a_path_is_told_to_be_too_short_by_images_with_indirect_light() {
+        let short = || failing("x").because(&integrator::ONE_BOUNCE_SHORT, "x");
+        let made = ["image/a", "image/b"].into_iter().fold(Made::new(), |made, name| {
+            made.with(name, short()).under(name, Circumstances::INDIRECT_LIGHT)
+        });
+        let made = made.with("image/c", failing("without light"));
+        let named = (integrator::ONE_BOUNCE_SHORT.name.to_owned(), Degree::Named);
+        assert!(told(&made).contains(&named));
+        let deep =
+            made.with("image/d", failing("x")).under("image/d", Circumstances::INDIRECT_LIGHT);
+        assert!(!told(&deep).contains(&named));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::conventions::{regarded, that_matter};
 use super::parts::{self, Parts};
 use super::shot::{Setup, Shot};
-use super::told::{ERROR_SCALE, error_picture, finding, rejected};
+use super::told::{ERROR_SCALE, error_picture, finding, glance, rejected};
 use super::{by_codes, clues};
 use crate::checks::convergence;
 use crate::checks::series::Series;
@@ -11,7 +11,7 @@ use crate::checks::{Check, CheckError, Context, Finding, Picture, PictureRole, c
 use crate::contract::{Acceleration, Capabilities, DirectSampling};
 use crate::image::{Image, luminance};
 use crate::scene::reference::{self, Reference};
-use crate::stats::{self, ImageEffort, Report, Stage, judge_image};
+use crate::stats::{self, ImageDraw, ImageEffort, Report, Stage, judge_image};
 use crate::text::{Between, Bounces, Percent};
 
 check! {
@@ -103,6 +103,9 @@ impl MatchesReference {
         let Setup { scene, reference, shot, effort, differing } = self.setup(context)?;
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
+        if context.budget.only_glances {
+            return Ok(glance(&shot.render(built.as_mut(), ImageDraw::FIRST.seed(seed))?));
+        }
         let question =
             stats::Reference { mean: &reference.mean, standard_error: &reference.standard_error };
         let (mut screened, mut first) = (Vec::new(), None);

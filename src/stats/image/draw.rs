@@ -49,6 +49,9 @@ pub struct ImageDraw {
 }
 
 impl ImageDraw {
+    /// Of every image.
+    pub(crate) const FIRST: Self = Self { stage: Stage::First, run: 0 };
+
     /// The seed of this run below the seed of its check.
     pub fn seed(&self, check: Seed) -> Seed {
         self.stage.seed(check).child(self.run)

@@ -62,6 +62,8 @@ pub struct Allowance {
     pub(crate) looks_roughly: bool,
     /// Whether a failure is enough as it is: nothing is asked that only tells why.
     pub(crate) judges_alone: bool,
+    /// Whether of an image its first run is enough, which judges nothing: it tells whether something has changed it.
+    pub(crate) only_glances: bool,
 }
 
 impl Allowance {

@@ -8,6 +8,8 @@ use std::collections::BTreeSet;
 
 /// Wrong answers for each primitive that is never found, on average: fewer could be chance.
 const ASKED_OFTEN: usize = 2;
+/// Lines that are looked along for a box that stops their segment: each takes a loop over the scene.
+const LINES: usize = 200;
 
 /// The mistake that makes just such a pattern. Nothing is said where two mistakes would. `is_free` tells whether nothing
 /// lies on the line of a segment.
@@ -40,7 +42,7 @@ fn shadows_stopped_by_nothing(
 ) -> Option<&'static Cause> {
     let mut stopped = (0..found.occluded.len())
         .filter(|segment| found.occluded[*segment] && !right.segments[*segment].is_hit());
-    let mut meets_boxes = || stopped.any(is_free);
+    let mut meets_boxes = || stopped.by_ref().take(LINES).any(is_free);
     match &found.occluded {
         occluded if *occluded == right.endless => Some(&bvh::SHADOW_END_IGNORED),
         occluded if *occluded == right.from_origin => Some(&bvh::SHADOW_START_IGNORED),

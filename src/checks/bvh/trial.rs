@@ -93,11 +93,13 @@ impl<'a> Trial<'a> {
         let mut differences = |(questions, right): &(Questions, Truth)| {
             let found = questions.ask(built.as_mut())?;
             let differences = compare(questions, &found, right, &is_there);
-            let is_free = |segment: usize| is_free(self.scene, &questions.segments[segment]);
-            Ok::<_, CheckError>((differences, explain(&found, right, &differences, &is_free)))
+            Ok::<_, CheckError>((found, differences))
         };
-        let ((differences, cause), (at_vertices, _)) =
+        let ((found, differences), (_, at_vertices)) =
             (differences(&self.graded)?, differences(&self.shown)?);
+        let (questions, right) = &self.graded;
+        let is_free = |segment: usize| meets_nothing(self.scene, &questions.segments[segment]);
+        let cause = explain(&found, right, &differences, &is_free);
         Ok(Tried { build, stats, differences, at_vertices, cause })
     }
 
@@ -132,7 +134,7 @@ fn overwritten(
 }
 
 /// Whether nothing lies on the whole line of a ray, before its origin too: the core's own loop may lose hits.
-fn is_free(scene: &SceneDescription, ray: &Ray) -> bool {
+fn meets_nothing(scene: &SceneDescription, ray: &Ray) -> bool {
     let meets = |direction| oracle::nearest(scene, &Ray::new(ray.origin, direction)).is_some();
     !meets(ray.direction) && !meets(-ray.direction)
 }

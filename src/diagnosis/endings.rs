@@ -14,8 +14,14 @@ struct Kind<'a> {
     how: &'a str,
     /// What such a signal means, where that is known: `memory that is not its own`.
     meaning: &'a str,
-    asked: Asked,
     way: Way,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Way {
+    Refusal,
+    Crash(Asked),
+    Timeout(Asked),
 }
 
 /// Who was asked.
@@ -25,39 +31,37 @@ enum Asked {
     Function(String),
     /// A program that an adapter starts.
     Program(String),
-    /// Whoever refused: what it says has to do.
-    Any,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Way {
-    Refusal,
-    Crash,
-    Timeout,
 }
 
 impl<'a> Kind<'a> {
     fn of(ending: Ending<'a>) -> Self {
-        let (how, asked, way) = match ending {
-            Ending::Refused { why } => (why, Asked::Any, Way::Refusal),
-            Ending::Crashed { how, during } => (how, Asked::of(during), Way::Crash),
-            Ending::TimedOut { during } => ("no answer in time", Asked::of(during), Way::Timeout),
+        let (how, way) = match ending {
+            Ending::Refused { why } => (why, Way::Refusal),
+            Ending::Crashed { how, during } => (how, Way::Crash(Asked::of(during))),
+            Ending::TimedOut { during } => ("no answer in time", Way::Timeout(Asked::of(during))),
         };
         let meaning = meaning(how);
         // Whoever watches a core ends it for a reason, and then says how far it went.
         let how = how.strip_prefix("ended: ").unwrap_or(how);
         // Of a program its status is told, too.
-        let ends: &[&str] = match asked {
-            Asked::Program(_) => &[";"],
+        let ends: &[&str] = match way {
+            Way::Crash(Asked::Program(_)) => &[";"],
             _ => &["(", ";", ": ", ", "],
         };
         let end = ends.iter().filter_map(|end| how.find(end)).min().unwrap_or(how.len());
         let how = how[..end].trim();
-        Self { how, meaning, asked, way }
+        Self { how, meaning, way }
+    }
+
+    fn asked(&self) -> Option<&Asked> {
+        match &self.way {
+            Way::Refusal => None,
+            Way::Crash(asked) | Way::Timeout(asked) => Some(asked),
+        }
     }
 
     fn is_of(&self, function: &str) -> bool {
-        matches!(&self.asked, Asked::Function(asked) if asked == function)
+        matches!(self.asked(), Some(Asked::Function(asked)) if asked == function)
     }
 
     /// Where nobody watches the stack, a segmentation fault may be an overflow: in some scenes it is, where others are built.
@@ -67,43 +71,45 @@ impl<'a> Kind<'a> {
     }
 
     fn mistake(&self) -> String {
-        let Self { how, meaning, asked, way } = self;
-        match (way, asked) {
-            (Way::Refusal, _) | (_, Asked::Any) => format!("the core gives no answer: {how}"),
-            (Way::Timeout, Asked::Function(asked)) => {
+        let Self { how, meaning, way } = self;
+        match way {
+            Way::Refusal => format!("the core gives no answer: {how}"),
+            Way::Timeout(Asked::Function(asked)) => {
                 format!("the core does not answer `{asked}` in time")
             }
-            (Way::Timeout, Asked::Program(name)) => {
+            Way::Timeout(Asked::Program(name)) => {
                 format!("the program `{name}` does not end in time")
             }
-            (Way::Crash, Asked::Program(name)) => format!("the program `{name}` fails: {how}"),
-            (Way::Crash, Asked::Function(asked)) if meaning.is_empty() => {
+            Way::Crash(Asked::Program(name)) => format!("the program `{name}` fails: {how}"),
+            Way::Crash(Asked::Function(asked)) if meaning.is_empty() => {
                 format!("the core crashes in `{asked}`: {how}")
             }
-            (Way::Crash, Asked::Function(asked)) => {
+            Way::Crash(Asked::Function(asked)) => {
                 format!("the core crashes in `{asked}`: {meaning} ({how})")
             }
         }
     }
 
     fn place(&self) -> String {
-        match &self.asked {
-            Asked::Function(asked) => format!("`{asked}` in furnace_core.h"),
-            Asked::Program(name) => format!("how the adapter starts `{name}`, and what that says"),
-            Asked::Any => "where the core gives up with these words".to_owned(),
+        match self.asked() {
+            Some(Asked::Function(asked)) => format!("`{asked}` in furnace_core.h"),
+            Some(Asked::Program(name)) => {
+                format!("the adapter's call of `{name}`, and the end of its output")
+            }
+            None => "the place in the core that gives up with these words".to_owned(),
         }
     }
 
     /// What helps where the cause is unknown, in a case that ends so.
-    fn advice(&self, case: &str) -> String {
-        match &self.asked {
-            Asked::Function(_) => format!(
-                "`furnace debug {case}` with the same `--core` prints the commands that stop a debugger there."
+    fn advice(&self, seen: &Observation<'_>) -> String {
+        match (self.asked(), seen.ending) {
+            (Some(Asked::Program(_)), _) => "Start the program by hand, with the adapter's `arguments`, on a scene that `furnace export` writes.".to_owned(),
+            // What to do stands at its end, if it is said.
+            (None, Some(Ending::Refused { why })) => format!("In its own words: {why}."),
+            _ => format!(
+                "`furnace debug {}` with the same `--core` prints the commands that stop a debugger there.",
+                seen.case
             ),
-            Asked::Program(_) => "Start the program by hand, with the adapter's `arguments`, on a scene that `furnace export` writes.".to_owned(),
-            Asked::Any => {
-                format!("`furnace run {case}` with the same `--core` asks the same again.")
-            }
         }
     }
 }
@@ -169,13 +175,13 @@ fn cause(
 ) -> Option<&'static Cause> {
     let is_adaptive = || cases.iter().all(|seen| seen.is_about(Subject::Adaptive));
     match kind.way {
-        Way::Timeout if kind.is_of("adaptive_mean") || is_adaptive() => {
+        Way::Timeout(_) if kind.is_of("adaptive_mean") || is_adaptive() => {
             Some(&adaptive::LOOP_ENDLESS)
         }
-        Way::Crash if kind.is_of("build") && kind.is_endless_recursion(builds_others) => {
+        Way::Crash(_) if kind.is_of("build") && kind.is_endless_recursion(builds_others) => {
             Some(&bvh::RECURSION_ENDLESS)
         }
-        Way::Crash if kind.is_of("occluded") && shadows_alone => Some(&bvh::ANY_HIT_CRASHES),
+        Way::Crash(_) if kind.is_of("occluded") && shadows_alone => Some(&bvh::ANY_HIT_CRASHES),
         _ => None,
     }
 }
@@ -193,8 +199,8 @@ fn headline(
     let told = Headline { is_ending: true, ..Headline::of(evidence, explains, sentences) };
     match cause {
         None => {
-            let case = told.explains.first().map_or("", String::as_str);
-            Headline { mistake: kind.mistake(), look_at: place, fix: kind.advice(case), ..told }
+            let fix = cases.first().map_or_else(String::new, |seen| kind.advice(seen));
+            Headline { mistake: kind.mistake(), look_at: place, fix, ..told }
         }
         Some(cause) => Headline {
             degree: Degree::LooksLike,
@@ -271,6 +277,7 @@ mod tests {
             told("image/d").mistake,
             "the core gives no answer: `lantern` cannot be started"
         );
+        assert!(told("image/d").fix.ends_with("set LANTERN to a build of it."));
     }
 
     #[test]

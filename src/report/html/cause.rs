@@ -80,7 +80,7 @@ fn certainty(headline: &Headline) -> [String; 2] {
         Degree::Named => "this mistake alone predicts the numbers",
         Degree::LooksLike => "it fits, and others may too",
         Degree::DiffersHere if headline.is_ending => {
-            return ["Seen", "a debugger shows what leads to it"].map(str::to_owned);
+            return ["Seen", "no answer came, so nothing was judged"].map(str::to_owned);
         }
         Degree::DiffersHere if !headline.laws.is_empty() => {
             "where, by how much, and what gives the wrong numbers"

@@ -144,8 +144,8 @@ impl<'a> PlantedFaults<'a> {
         }
     }
 
-    /// Whether another picture comes of the mistakes, in one run: in most scenes most leave it the same to the last bit, and
-    /// so are not what fails it. The right one is free: how often it is asked at once is chance.
+    /// Whether another picture comes of the mistakes, in one run: those that leave it the same to the last bit are not what
+    /// fails it. The right one is free: how often it is asked at once is chance.
     fn changes_the_picture(&self, asked: &Asked) -> (bool, u64) {
         let [(with, price), (without, _)] =
             [asked, &without_mistakes(asked)].map(|asked| self.glance(asked));
@@ -199,16 +199,14 @@ impl<'a> PlantedFaults<'a> {
 }
 
 /// Seconds of the textbook core that planted mistakes may always be asked for a core with these trials.
-fn least<'r>(records: impl Iterator<Item = &'r TrialRecord>) -> u64 {
+fn least<'r>(records: impl Iterator<Item = &'r TrialRecord> + Clone) -> u64 {
     let is_image = |record: &TrialRecord| Subject::of_case(&record.case) == Some(Subject::Image);
-    let failing = records.filter(|record| record.outcome.status().is_failure());
     // Where there is no picture, none can be compared.
-    let answered = |record: &&TrialRecord| record.outcome.finding().is_some();
-    let failing: Vec<_> = failing.collect();
-    if failing.iter().all(|record| is_image(record)) && failing.iter().any(answered) {
-        LEAST_BY_IMAGES
-    } else {
-        LEAST
+    let answered = |record: &TrialRecord| record.outcome.finding().is_some();
+    let mut failing = records.filter(|record| record.outcome.status().is_failure());
+    match failing.clone().all(is_image) && failing.any(answered) {
+        true => LEAST_BY_IMAGES,
+        false => LEAST,
     }
 }
 

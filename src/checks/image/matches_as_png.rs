@@ -2,9 +2,11 @@
 
 use super::by_codes;
 use super::matches_reference::MatchesReference;
+use super::told::glance;
 use crate::checks::{Check, CheckError, Context, Finding, check};
 use crate::contract::{Acceleration, Capabilities};
 use crate::image::encoding::Encoding;
+use crate::stats::ImageDraw;
 
 check! {
     /// Renders agree with a reference after they have been made pictures of 8 bits, as they are shown and handed in.
@@ -33,6 +35,9 @@ impl Check for MatchesAsPng {
         let setup = self.picture.setup(context)?;
         let seed = context.seed;
         let mut built = context.core.build_scene(&setup.scene, Acceleration::DEFAULT)?;
+        if context.budget.only_glances {
+            return Ok(glance(&setup.shot.render(built.as_mut(), ImageDraw::FIRST.seed(seed))?));
+        }
         let judged = by_codes::judge(&setup, self.encoding, &mut |draw| {
             let image = setup.shot.render(built.as_mut(), draw.seed(seed))?;
             Ok(self.encoding.picture(&image))

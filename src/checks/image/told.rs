@@ -6,8 +6,8 @@ use crate::stats::{
     CellScore, Component, GlobalRatio, Hypothesis, ImageReport, Impossible, PARTS, PartRatio,
     Scale, ScaleReport, Verdict,
 };
+use crate::text::fingerprint;
 use crate::text::number::{apart, count, percent, with_interval};
-use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Standard errors at the ends of the scale of the error picture.
 pub(super) const ERROR_SCALE: f32 = 6.0;
@@ -27,9 +27,8 @@ pub(super) fn error_picture(report: &ImageReport, mean: &Image, standard_error: 
 
 /// A picture that nothing is said of but which it is: the same to the last bit, or another.
 pub(super) fn glance(image: &Image) -> Finding {
-    let mut hasher = DefaultHasher::new();
-    image.pixels.iter().flatten().for_each(|value| value.to_bits().hash(&mut hasher));
-    Finding::of(format!("{:x}", hasher.finish()), "", Vec::new())
+    let bytes = image.pixels.iter().flatten().flat_map(|value| value.to_ne_bytes());
+    Finding::of(fingerprint(&bytes.collect::<Vec<_>>()), "", Vec::new())
 }
 
 /// What a report says in words and numbers; `hypothesis` is what the ledger enters.

@@ -34,7 +34,7 @@ causes! {
     MAGNIFIED = "picture-magnified":
         "the whole image is scaled about its centre",
         at "the field of view, and the division by the film's size",
-        fix "The film is 2 tan(fov/2) wide, and fov is that of its width: divide by width and height, not by one less.";
+        fix "The film is 2 tan(fov/2) wide, where fov is the horizontal one: divide by width and height, not by one less.";
     FACTOR = "picture-factor":
         "the whole image is too bright or too dark by one factor",
         at "the division by the number of samples, and the radiance of the lights",

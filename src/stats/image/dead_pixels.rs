@@ -26,7 +26,8 @@ const SUSPECTED: f64 = 1e-6;
 const DEAD: f64 = 1e-15;
 /// Neighbours are looked for this far away, in pixels.
 const REACH: usize = 4;
-/// One that few runs light tells of rare light this far away.
+/// One that few runs light tells of rare light this far away: no farther than light's own edges, for beside a dead pixel
+/// others may be half dead.
 const BESIDE: usize = 2;
 /// Neighbours of like brightness are within this factor.
 const LIKE: f64 = 2.0;

@@ -159,7 +159,7 @@ pub struct PartRatio {
 pub struct ImageReport {
     /// Pass, fail or inconclusive.
     pub verdict: Verdict,
-    /// Why what fresh runs saw again decides nothing, if so.
+    /// Why a suspicion that fresh runs confirm is left open, if one is.
     pub doubt: Option<Doubt>,
     /// NaN, infinity or negative light: fails without statistics.
     pub impossible: Option<ImpossiblePixels>,

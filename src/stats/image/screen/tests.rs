@@ -240,7 +240,7 @@ fn judge_one_in_1500(gain: f32, seed: u64) -> ImageReport {
 }
 
 #[test]
-fn light_of_one_sample_in_1500_fails_no_picture_and_its_absence_does() {
+fn light_of_one_sample_in_1500_fails_no_picture_and_half_of_all_light_does() {
     for seed in 0..20 {
         let report = judge_one_in_1500(1.0, seed);
         assert_ne!(report.verdict, Verdict::Fail, "seed {seed}: {:?}", report.worst_scale);

@@ -808,7 +808,7 @@ struct Built {
    std::vector<SceneLight *>                lights;
    // The skeleton's own line draws directions by the number of lights: without any, 0 are divided by 0.
    PointLamp                                 dark{Vector3D(0, 0, 1e6), Vector3D()};
-   std::unique_ptr<CGL::SceneObjects::Scene> scene, scene_for_hemisphere;
+   std::unique_ptr<CGL::SceneObjects::Scene> scene, scene_for_hemisphere, scene_without_lights;
    std::unique_ptr<BVHAccel>                own;
    BVHAccel                                *bvh;
    Tracer                                   own_tracer;
@@ -839,8 +839,10 @@ struct Built {
                   primitives.size() <= few_without_hierarchy,
               "the BVH, without which so many shapes take too long (part 2)");
       scene.reset(new CGL::SceneObjects::Scene({}, lights));
-      scene_for_hemisphere.reset(new CGL::SceneObjects::Scene(
-          {}, lights.empty() ? std::vector<SceneLight *>{&dark} : lights));
+      const std::vector<SceneLight *> none{&dark};
+      scene_without_lights.reset(new CGL::SceneObjects::Scene({}, none));
+      scene_for_hemisphere.reset(
+          new CGL::SceneObjects::Scene({}, lights.empty() ? none : lights));
       bvh = takes(FURNACE_TAKES_TRAVERSAL) ? traversal_of_bench()
                                            : traversal(std::max(1u, settings.max_leaf_size));
       bvh->total_rays = bvh->total_isects = 0;
@@ -955,7 +957,9 @@ struct Built {
       for (uint32_t bounce = is_summed ? last : first; bounce <= last; ++bounce) {
          isolate(!is_summed, bounce);
          tracer.max_ray_depth = std::max(1u, bounce);
+         // Of emission alone, what black surfaces reflect of many lights is long to find out.
          Surface::all_black() = bounce == 0;
+         tracer.scene = bounce == 0 ? scene_without_lights.get() : scene_of_lights();
          for (size_t y = 0; y < settings.height; ++y)
             for (size_t x = 0; x < settings.width; ++x) {
                if (takes(FURNACE_TAKES_PIXEL)) pixel_by_bench(settings, x, y);
@@ -965,6 +969,7 @@ struct Built {
          add_pixels(settings, pixels, sample_counts);
       }
       isolate(false, last);
+      tracer.scene = scene_of_lights();
       hides_emission = false;
       tracer.camera = nullptr;
       counts.normals_show_light = false;
@@ -1107,7 +1112,11 @@ struct Built {
                                 : ask_for(written().by_light, "light sampling (part 3)");
       tracer.ns_area_light = settings.samples_per_light;
       tracer.direct_hemisphere_sample = settings.by_hemisphere;
-      tracer.scene = (settings.by_hemisphere ? scene_for_hemisphere : scene).get();
+      tracer.scene = scene_of_lights();
+   }
+
+   CGL::SceneObjects::Scene *scene_of_lights() const {
+      return (settings.by_hemisphere ? scene_for_hemisphere : scene).get();
    }
 
    // Only the light of the last bounce, where the skeleton can; camera rays are then blind to light.

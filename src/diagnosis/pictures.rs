@@ -6,6 +6,7 @@ use crate::case::Subject;
 use crate::cause::{self, Cause, bsdf, image, integrator};
 use crate::checks::Clue;
 use crate::contract::Circumstances;
+use crate::stats::misfit::tells;
 use std::collections::BTreeMap;
 
 /// The share of failing images that have to show a mistake: noise hides it in a few.
@@ -30,7 +31,7 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     let shown = shown.into_iter().filter_map(|(name, shown)| {
         let cause = cause::find(name)?;
         let foretold = failing.iter().filter(|seen| is_foretold(cause, seen)).count();
-        let alike = alike(&shown);
+        let alike = if counts_bounces(cause) { once(&shown) } else { alike(&shown) };
         let as_foretold = alike.iter().filter(|shown| is_foretold(cause, shown.seen)).count();
         // What no image foretells has a share of NaN, and is not told.
         Some((cause, as_foretold as f64 / foretold as f64, alike))
@@ -74,6 +75,12 @@ fn moves(cause: &Cause) -> bool {
     [&DISPLACED, &MAGNIFIED, &MIRRORED, &TRANSPOSED, &TURNED, &UPSIDE_DOWN].contains(&cause)
 }
 
+/// Whether the size of a mistake is how often the light of whole bounces is missing, or there once more.
+fn counts_bounces(cause: &Cause) -> bool {
+    use integrator::{EMISSION_AGAIN, EMISSION_LOST, NO_INDIRECT, ONE_BOUNCE_SHORT};
+    [&EMISSION_AGAIN, &EMISSION_LOST, &NO_INDIRECT, &ONE_BOUNCE_SHORT].contains(&cause)
+}
+
 /// An image that a mistake would explain.
 #[derive(Clone, Copy)]
 struct Shown<'a> {
@@ -89,14 +96,28 @@ impl Shown<'_> {
 
 /// The most images that show the mistake in one size: it lies at an end of one of the intervals, or there is none.
 fn alike<'a>(shown: &[Shown<'a>]) -> Vec<Shown<'a>> {
-    let with = |size: Option<f64>| {
-        let of_size = shown.iter().copied().filter(|shown| allows(shown.clue.size, size));
-        let mut of_size: Vec<_> = of_size.collect();
-        of_size.dedup_by_key(|shown| shown.seen.case);
-        of_size
-    };
     let ends = shown.iter().filter_map(|shown| shown.clue.size).flatten().map(Some);
-    ends.chain([None]).map(with).max_by_key(Vec::len).unwrap_or_default()
+    let sizes = ends.chain([None]);
+    sizes.map(|size| in_size(shown, size)).max_by_key(Vec::len).unwrap_or_default()
+}
+
+/// The images of which light is missing once, if all together tell that it is once and no other number of times: each
+/// alone may be too noisy.
+fn once<'a>(shown: &[Shown<'a>]) -> Vec<Shown<'a>> {
+    let shown = in_size(shown, Some(1.0));
+    let sizes = shown.iter().filter_map(|shown| shown.clue.size);
+    let common = sizes.fold([f64::NEG_INFINITY, f64::INFINITY], |[low, high], [from, to]| {
+        [low.max(from), high.min(to)]
+    });
+    if tells(common, 1.0) { shown } else { Vec::new() }
+}
+
+/// The images that show the mistake in a size, each once.
+fn in_size<'a>(shown: &[Shown<'a>], size: Option<f64>) -> Vec<Shown<'a>> {
+    let of_size = shown.iter().copied().filter(|shown| allows(shown.clue.size, size));
+    let mut of_size: Vec<_> = of_size.collect();
+    of_size.dedup_by_key(|shown| shown.seen.case);
+    of_size
 }
 
 fn allows(interval: Option<[f64; 2]>, size: Option<f64>) -> bool {
@@ -189,7 +210,7 @@ mod tests {
 
     #[test]
     fn a_path_is_told_to_be_too_short_by_images_with_indirect_light() {
-        let short = || failing("x").because(&integrator::ONE_BOUNCE_SHORT, "x");
+        let short = || showing(&integrator::ONE_BOUNCE_SHORT, 1.0);
         let made = ["image/a", "image/b"].into_iter().fold(Made::new(), |made, name| {
             made.with(name, short()).under(name, Circumstances::INDIRECT_LIGHT)
         });
@@ -199,6 +220,24 @@ mod tests {
         let deep =
             made.with("image/d", failing("x")).under("image/d", Circumstances::INDIRECT_LIGHT);
         assert!(!told(&deep).contains(&named));
+    }
+
+    #[test]
+    fn images_that_are_too_noisy_alone_tell_a_bounce_together() {
+        let of = |sizes: &[[f64; 2]]| {
+            let images = (0..).map(|number| format!("image/{number}")).zip(sizes);
+            let made = images.fold(Made::new(), |made, (name, size)| {
+                let short = &integrator::ONE_BOUNCE_SHORT;
+                let image = failing("x").because_in_size(short, "so much", Some(*size));
+                made.with(&name[..], image).under(&name[..], Circumstances::INDIRECT_LIGHT)
+            });
+            told(&made)
+        };
+        let named = (integrator::ONE_BOUNCE_SHORT.name.to_owned(), Degree::Named);
+        assert!(of(&[[0.9, 1.4], [0.6, 1.1], [0.5, 1.5]]).contains(&named));
+        let is_silent = |sizes| of(sizes).iter().all(|(cause, _)| cause.is_empty());
+        assert!(is_silent(&[[0.6, 1.4], [0.5, 1.1]]));
+        assert!(is_silent(&[[1.1, 1.4], [0.5, 0.9]]));
     }
 
     #[test]

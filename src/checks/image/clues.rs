@@ -103,22 +103,25 @@ fn not_divided(misfit: &Misfit, samples: u32) -> Option<&'static Cause> {
 /// Mistakes that take the light of some bounces away, or add it once more.
 fn of_bounces(pair: &Pair<'_>, bounces: &Bounces) -> Vec<Resembled> {
     let Some(deepest) = bounces.lights.len().checked_sub(1) else { return Vec::new() };
-    let mut laws = vec![
-        (&integrator::EMISSION_LOST, [0, 0], 1.0, None),
-        (&integrator::NO_INDIRECT, [2, deepest], 1.0, None),
-        (&integrator::ONE_BOUNCE_SHORT, [deepest.max(2), deepest], 1.0, None),
-        (&integrator::EMISSION_AGAIN, [1, deepest], -1.0, None),
-        (&integrator::EMISSION_AGAIN, [2, deepest], -1.0, None),
+    let laws = [
+        (&integrator::EMISSION_LOST, [0, 0], 1.0),
+        (&integrator::NO_INDIRECT, [2, deepest], 1.0),
+        (&integrator::ONE_BOUNCE_SHORT, [deepest.max(2), deepest], 1.0),
+        (&integrator::EMISSION_AGAIN, [1, deepest], -1.0),
+        (&integrator::EMISSION_AGAIN, [2, deepest], -1.0),
     ];
-    let inner = (1..deepest)
-        .map(|bounce| (&integrator::BOUNCE_MISSING, [bounce; 2], 1.0, Some([bounce as f64; 2])));
-    laws.extend(inner);
-    let resembled = laws.into_iter().filter_map(|(cause, [first, last], times, size)| {
+    let inner = (1..deepest).map(|bounce| (&integrator::BOUNCE_MISSING, [bounce; 2], 1.0));
+    let resembled = laws.into_iter().chain(inner).filter_map(|(cause, [first, last], times)| {
         let light = bounces.sum(first, last)?;
         let share = times_off(pair.image, pair.reference, &light, &pair.knowledge)?;
         let words = bounces.words(&BouncesOff { first, last, share });
         let explains = share.explains;
-        share.missing.tells(times).then_some(Resembled { cause, words, size, explains })
+        // Which bounce of several is missing has to be the same everywhere, and one image has to tell it.
+        let size = match *cause == integrator::BOUNCE_MISSING {
+            true => share.missing.tells(times).then_some([first as f64; 2]),
+            false => share.missing.allows(times).then(|| share.missing.length().interval),
+        };
+        Some(Resembled { cause, words, size: Some(size?), explains })
     });
     resembled.collect()
 }

@@ -63,7 +63,7 @@ impl Estimate {
     }
 
     /// The same of the number without its sign.
-    fn length(self) -> Self {
+    pub(crate) fn length(self) -> Self {
         let [low, high] = self.interval;
         match self.value < 0.0 {
             true => Self { value: -self.value, interval: [-high, -low] },
@@ -76,11 +76,16 @@ impl Estimate {
         self.interval[0] <= value && value <= self.interval[1]
     }
 
-    /// Whether a number is in the interval, and hardly any other is: a wide one would allow whatever is looked for.
+    /// Whether a number is in the interval, and hardly any other is.
     pub(crate) fn tells(&self, value: f64) -> bool {
-        let is_near = |end: &f64| (end - value).abs() <= TELLING * value.abs();
-        self.allows(value) && self.interval.iter().all(is_near)
+        tells(self.interval, value)
     }
+}
+
+/// Whether a number is in an interval, and hardly any other is: a wide one would allow whatever is looked for.
+pub(crate) fn tells([low, high]: [f64; 2], value: f64) -> bool {
+    let reach = TELLING * value.abs();
+    low <= value && value <= high && high - value <= reach && value - low <= reach
 }
 
 /// How far an interval reaches at most from a number that it tells, as a share of that number. Of the factors that causes

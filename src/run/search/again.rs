@@ -29,6 +29,32 @@ enum Look {
     Anew,
 }
 
+/// Whether cases pass; none of those that could not be asked.
+#[derive(Debug, Default)]
+struct Known(BTreeMap<Asked, Option<bool>>);
+
+impl Known {
+    /// What came of it, or of asking with less or with more: what passes with some components passes with others beside
+    /// them. Where that is not so, the proof at the end tells, of which nothing is taken for granted.
+    fn answer(&self, asked: &Asked) -> Option<Option<bool>> {
+        let (case, with, look) = *asked;
+        let [first, last] = [Components::empty(), Components::all()];
+        let of_case = || {
+            let looks = self.0.range((case, first, Look::Glance)..=(case, last, Look::Anew));
+            looks.filter(move |((.., other), _)| *other == look)
+        };
+        let follows = || {
+            of_case().find_map(|((_, other, _), passes)| match passes {
+                Some(true) if with.contains(*other) => Some(Some(true)),
+                Some(false) if other.contains(with) => Some(Some(false)),
+                _ => None,
+            })
+        };
+        let asked_so = self.0.get(asked).copied();
+        if look == Look::Anew { asked_so } else { asked_so.or_else(follows) }
+    }
+}
+
 /// What failed, and what came of trying it again.
 pub(super) struct Again<'a> {
     /// The cheapest first: should there be too little for all, it is for the longest.
@@ -40,7 +66,7 @@ pub(super) struct Again<'a> {
     anew: Bench,
     /// By how much the smallest error that was seen in the run is multiplied, as a budget says it.
     coarseness: f64,
-    known: Mutex<BTreeMap<Asked, Option<bool>>>,
+    known: Mutex<Known>,
 }
 
 impl<'a> Again<'a> {
@@ -71,7 +97,7 @@ impl<'a> Again<'a> {
         let asked: Vec<_> = cases.iter().filter(|case| !is_sure(case)).map(with_nothing).collect();
         self.ask(&asked);
         let known = self.known();
-        let fails = |case: &usize| known.get(&with_nothing(case)) == Some(&Some(false));
+        let fails = |case: &usize| known.answer(&with_nothing(case)) == Some(Some(false));
         cases.into_iter().filter(|case| is_sure(case) || fails(case)).collect()
     }
 
@@ -79,7 +105,7 @@ impl<'a> Again<'a> {
         self.ask(&asked);
         let known = self.known();
         let of = |wanted: bool| {
-            let told = asked.iter().filter(|asked| known.get(asked) == Some(&Some(wanted)));
+            let told = asked.iter().filter(|asked| known.answer(asked) == Some(Some(wanted)));
             told.map(|(case, ..)| *case).collect()
         };
         Tried { passing: of(true), failing: of(false) }
@@ -93,9 +119,9 @@ impl<'a> Again<'a> {
 
     /// Asks what is not known, for as much as can be paid.
     fn ask(&self, all: &[Asked]) {
-        let new: Vec<_> = all.iter().filter(|asked| !self.known().contains_key(asked)).collect();
+        let new: Vec<_> = all.iter().filter(|asked| self.known().answer(asked).is_none()).collect();
         let answers = self.purse.pay_each(self.jobs, new.len(), &|place| self.answer(*new[place]));
-        self.known().extend(new.into_iter().copied().zip(answers));
+        self.known().0.extend(new.into_iter().copied().zip(answers));
     }
 
     fn answer(&self, (number, with, look): Asked) -> Answer {
@@ -131,7 +157,7 @@ impl<'a> Again<'a> {
         look.allowance.coarseness() / self.coarseness
     }
 
-    fn known(&self) -> MutexGuard<'_, BTreeMap<Asked, Option<bool>>> {
+    fn known(&self) -> MutexGuard<'_, Known> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -181,6 +207,22 @@ pub(in crate::run) fn without_patience(bench: &Bench) -> Bench {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_passes_with_some_components_passes_with_more_and_is_proven_with_all_of_them() {
+        const BOX: Components = Components::BOX_TEST;
+        let both = BOX | Components::BSDF;
+        let mut known = Known::default();
+        known.0.insert((1, BOX, Look::Glance), Some(true));
+        assert_eq!(known.answer(&(1, both, Look::Glance)), Some(Some(true)));
+        assert_eq!(known.answer(&(1, Components::BSDF, Look::Glance)), None);
+        assert_eq!(known.answer(&(1, both, Look::Closely)), None);
+        assert_eq!(known.answer(&(2, both, Look::Glance)), None);
+        known.0.insert((3, both, Look::Closely), Some(false));
+        known.0.insert((3, both, Look::Anew), Some(false));
+        assert_eq!(known.answer(&(3, BOX, Look::Closely)), Some(Some(false)));
+        assert_eq!(known.answer(&(3, BOX, Look::Anew)), None);
+    }
 
     #[test]
     fn what_is_far_beyond_its_noise_and_what_is_allowed_is_seen_at_a_glance() {

@@ -12,7 +12,7 @@ mod again;
 use super::bench::Bench;
 use super::event::Event;
 use super::plan::Plan;
-use super::purse::{LEAST, Purse};
+use super::purse::{LEAST, LONGEST_TRIAL, Purse};
 use super::record::{CoreRecord, Transplanted, Transplants, TrialRecord};
 use crate::case::asked_about;
 use crate::contract::{Capabilities, Components};
@@ -79,8 +79,13 @@ pub(crate) fn search(
 }
 
 fn found(takes: Components, again: &Again<'_>) -> Found {
-    // What died or hung may hang again, for longer than others take: it comes last.
-    let is_judged = |number: &usize| again.failing[*number].1.outcome.finding().is_some();
+    // What died or hung may hang again, for longer than others take, and so may what took longer than any may take here: it
+    // comes last.
+    let is_short = |record: &TrialRecord| record.timing.seconds < LONGEST_TRIAL as f64;
+    let is_judged = |number: &usize| {
+        let (_, record) = again.failing[*number];
+        record.outcome.finding().is_some() && is_short(record)
+    };
     let (judged_first, ended_last): (Vec<_>, Vec<_>) =
         (0..again.failing.len()).partition(is_judged);
     let failures = Failures {

@@ -37,10 +37,12 @@ impl View<'_> {
     }
 }
 
-/// The causes of what failed at `first`, from the views of it; what no view shows is told as it was seen first.
+/// The causes of what failed at `first`, from the views of it; what no view shows is told as it was seen first. `unmended`
+/// fails with any component of the bench.
 pub(crate) fn diagnose_apart(
     first: &Evidence<'_>,
     views: &[View<'_>],
+    unmended: &[String],
     planted: &dyn Planted,
 ) -> Diagnosis {
     let shown = |case: &&str| views.iter().any(|view| view.shows(case));
@@ -78,7 +80,8 @@ pub(crate) fn diagnose_apart(
             told = told.and(proven(&unseen, planted, made_in).of_component(view.own, first));
         }
     }
-    told.and(left.and_searched()).told()
+    let is_tried = |case: &str| unmended.iter().any(|other| other == case);
+    told.and(left.and_searched().unless_below(broken, is_tried)).told()
 }
 
 #[cfg(test)]
@@ -88,6 +91,24 @@ mod tests {
     use crate::cause::{bsdf, shape};
     use crate::diagnosis::testing::{Made, Nothing, failing, passing};
     use crate::diagnosis::{Degree, Ending, diagnose};
+
+    #[test]
+    fn what_was_not_tried_may_be_only_what_it_is_made_of() {
+        let made = Made::new().with("shape/a", failing("a")).with("bvh/b", failing("b"));
+        let triangles = Made::new().with("shape/a", failing("a"));
+        let told = |unmended: &[String]| {
+            let view = View {
+                evidence: triangles.evidence(),
+                own: Components::TRIANGLE_TEST,
+                of_own: vec!["shape/a".to_owned()],
+                mended: vec!["shape/a".to_owned()],
+            };
+            let told = diagnose_apart(&made.evidence(), &[view], unmended, &Nothing);
+            told.headlines.into_iter().last().unwrap().mistake
+        };
+        assert_eq!(told(&[]), "the BVH or its box test differs, or only the core's triangle test");
+        assert_eq!(told(&["bvh/b".to_owned()]), "the BVH or its box test differs");
+    }
 
     fn without_pi() -> crate::checks::Finding {
         failing("a").because(&bsdf::WITHOUT_PI, "x")
@@ -109,7 +130,7 @@ mod tests {
             of_own: mended.iter().map(|case| (*case).to_owned()).collect(),
             mended: mended.into_iter().map(str::to_owned).collect(),
         });
-        let told = diagnose_apart(&both.evidence(), &views, &Nothing);
+        let told = diagnose_apart(&both.evidence(), &views, &[], &Nothing);
         let [first, second] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!((&first.cause[..], first.degree), (shape::FAR_ROOT_TAKEN.name, Degree::Named));
         assert_eq!(second.cause, bsdf::WITHOUT_PI.name);
@@ -130,7 +151,7 @@ mod tests {
             of_own: mended.clone(),
             mended,
         };
-        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 3));
         assert_eq!(only.mistake, "what differs is the core's BSDF");
@@ -148,7 +169,7 @@ mod tests {
             of_own: mended.clone(),
             mended,
         };
-        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 2));
         assert_eq!(only.mistake, "what differs is the core's BVH");
@@ -166,7 +187,7 @@ mod tests {
                 of_own: vec!["bvh/a".to_owned()],
                 mended: vec!["bvh/a".to_owned()],
             };
-            let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+            let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
             let mistakes = told.headlines.into_iter().map(|headline| headline.mistake);
             mistakes.collect::<Vec<_>>().join(", ")
         };
@@ -183,7 +204,7 @@ mod tests {
         let made = made.proving("shape/alone", &[Foundation::Spheres]);
         let (own, case) = (Components::SPHERE_TEST, || vec!["bvh/a".to_owned()]);
         let view = View { evidence: made.evidence(), own, of_own: case(), mended: case() };
-        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert!(!only.mistake.contains("what calls it"), "{}", only.mistake);
         assert!(only.look_at.contains("any-hit function"), "{}", only.look_at);
@@ -197,7 +218,7 @@ mod tests {
             .with("integrator/a", failing("a"));
         let (own, case) = (Components::PATH, || vec!["integrator/a".to_owned()]);
         let view = View { evidence: made.evidence(), own, of_own: case(), mended: case() };
-        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         assert_eq!(told.headlines[0].mistake, "what differs is the core's path");
     }
 
@@ -211,7 +232,8 @@ mod tests {
             of_own: mended.clone(),
             mended,
         };
-        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        let unmended = ["light/b".to_owned()];
+        let told = diagnose_apart(&made.evidence(), &[view], &unmended, &Nothing);
         let mistakes: Vec<_> = told.headlines.iter().map(|h| h.mistake.as_str()).collect();
         assert_eq!(mistakes, ["what differs is the core's triangle test", "direct light differs"]);
     }
@@ -227,7 +249,7 @@ mod tests {
             of_own: vec![case.to_owned()],
             mended: vec![case.to_owned()],
         });
-        let told = diagnose_apart(&made.evidence(), &views, &Nothing);
+        let told = diagnose_apart(&made.evidence(), &views, &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!(only.explains, ["bvh/a", "integrator/b"]);
     }
@@ -235,7 +257,7 @@ mod tests {
     #[test]
     fn what_no_view_shows_is_told_as_it_was_seen_first() {
         let made = Made::new().with("bsdf/b", without_pi()).with("adaptive/d", failing("d"));
-        let told = diagnose_apart(&made.evidence(), &[], &Nothing);
+        let told = diagnose_apart(&made.evidence(), &[], &[], &Nothing);
         assert_eq!(told, diagnose(&made.evidence()));
     }
 
@@ -249,7 +271,7 @@ mod tests {
             of_own: mended.clone(),
             mended,
         };
-        let told = diagnose_apart(&made.evidence(), &[view], &Nothing);
+        let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!(
             (only.degree, &only.may_follow[..]),

@@ -374,6 +374,25 @@ impl Ranked {
         self
     }
 
+    /// The same where what has no cause, and was not tried with components of the bench, may differ only for what it is made
+    /// of and is known to be broken.
+    pub(super) fn unless_below(
+        mut self,
+        broken: Components,
+        is_tried: impl Fn(&str) -> bool,
+    ) -> Self {
+        for headline in &mut self.differing {
+            let subject = headline.explains.first().and_then(|case| Subject::of_case(case));
+            let asked = subject.map_or(Components::empty(), asked_by);
+            let below: Components =
+                broken.iter().filter(|one| asked.iter().any(|of| of.is_made_of(*one))).collect();
+            if !below.is_empty() && !headline.explains.iter().any(|case| is_tried(case)) {
+                headline.mistake += &format!(", or only the core's {}", below.in_words());
+            }
+        }
+        self
+    }
+
     /// Whether `case` follows from its first cause that may be below it, or from what differs.
     pub(super) fn followed_by(&mut self, case: &str) -> bool {
         let Self { causes, differing, refuted, .. } = self;

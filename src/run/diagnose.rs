@@ -48,7 +48,8 @@ pub(super) fn diagnose_apart(
             of_own: view.of_own.clone(),
         })
         .collect();
-    diagnosis::diagnose_apart(&evidence(core, first.iter().copied()), &views, planted)
+    let evidence = evidence(core, first.iter().copied());
+    diagnosis::diagnose_apart(&evidence, &views, &transplants.unmended, planted)
 }
 
 /// What was tried again, and of the rest what did not fail.

@@ -61,8 +61,12 @@ pub(crate) fn diagnose_apart(
     order.sort_by_key(|number| views[*number].evidence.failures().count());
     let sifted: Vec<_> = order.iter().map(|number| views[*number].sifted(planted)).collect();
     let left = Sifted::of(&left, planted, made_in);
-    let searched = order.iter().zip(sifted).map(|(number, sifted)| (number, sifted.and_searched()));
+    let searched = order.iter().zip(sifted).enumerate().map(|(done, (number, sifted))| {
+        planted.keep_for(order.len() - done);
+        (number, sifted.and_searched())
+    });
     let searched: BTreeMap<_, _> = searched.collect();
+    planted.keep_for(0);
     let mut told = Ranked::default();
     for (view, of_view) in views.iter().zip(searched.into_values()) {
         let of_view = of_view.differing_in(&view.evidence, |case| view.is_of_own(case));

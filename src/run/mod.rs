@@ -137,7 +137,8 @@ fn conclude(
         core.transplants = search::search(plan, bench, core, records, events);
     }
     let of_core = records.iter().filter(|record| record.core == core.spec);
-    let planted = planted::PlantedFaults::new(plan, bench, of_core);
+    let broken = core.transplants.as_ref().map_or(0, |found| found.components.len());
+    let planted = planted::PlantedFaults::new(plan, bench, of_core, broken);
     core.diagnosis = Some(match &core.transplants {
         None => diagnose::diagnose_proven(core, records, &planted),
         Some(transplants) => {

@@ -22,6 +22,8 @@ const SHARE: f64 = 0.25;
 /// Seconds of the textbook core that they may always be asked: about what that share comes to in a run of all cases at the
 /// default budget. With less, several mistakes in one core stay without names at the quick one.
 const LEAST: u64 = 30;
+/// The same for each component that is broken: what is asked for one leaves nothing for the next.
+const LEAST_FOR_EACH: u64 = 20;
 /// The same where images alone fail: every mistake is put to one of them.
 const LEAST_BY_IMAGES: u64 = 150;
 
@@ -89,11 +91,12 @@ impl Looks {
 }
 
 impl<'a> PlantedFaults<'a> {
-    /// For a core with these trials.
+    /// For a core with these trials, of which so many components are known to be broken.
     pub(super) fn new<'r>(
         plan: &'a Plan,
         bench: &Bench,
         records: impl Iterator<Item = &'r TrialRecord> + Clone,
+        broken: usize,
     ) -> Self {
         let mistake = |fault: &'static fault::Fault| Mistake {
             name: fault.name,
@@ -119,7 +122,7 @@ impl<'a> PlantedFaults<'a> {
             as_the_core: Looks::of(bench, allowance),
             quickly,
             mistakes,
-            purse: Purse::of_share(SHARE, least(records.clone()), records),
+            purse: Purse::of_share(SHARE, least(records.clone(), broken), records),
             known: Mutex::default(),
             glances: Mutex::default(),
         }
@@ -199,14 +202,14 @@ impl<'a> PlantedFaults<'a> {
 }
 
 /// Seconds of the textbook core that planted mistakes may always be asked for a core with these trials.
-fn least<'r>(records: impl Iterator<Item = &'r TrialRecord> + Clone) -> u64 {
+fn least<'r>(records: impl Iterator<Item = &'r TrialRecord> + Clone, broken: usize) -> u64 {
     let is_image = |record: &TrialRecord| Subject::of_case(&record.case) == Some(Subject::Image);
     // Where there is no picture, none can be compared.
     let answered = |record: &TrialRecord| record.outcome.finding().is_some();
     let mut failing = records.filter(|record| record.outcome.status().is_failure());
     match failing.clone().all(is_image) && failing.any(answered) {
         true => LEAST_BY_IMAGES,
-        false => LEAST,
+        false => LEAST.max(LEAST_FOR_EACH * broken as u64),
     }
 }
 
@@ -228,6 +231,10 @@ impl Planted for PlantedFaults<'_> {
 
     fn is_seen_roughly(&self, case: &str) -> bool {
         self.glaring.contains(case)
+    }
+
+    fn keep_for(&self, others: usize) {
+        self.purse.keep_for(others);
     }
 
     fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
@@ -260,7 +267,7 @@ mod tests {
         let (cores, filters) = (vec!["textbook".parse().unwrap()], vec![PICTURE.to_owned()]);
         let request = Request { cores, filters, budget: Budget::Quick, ..Request::default() };
         let plan = Plan::new(project, request, &cases).unwrap();
-        let planted = PlantedFaults::new(&plan, &plan.bench(), [].iter());
+        let planted = PlantedFaults::new(&plan, &plan.bench(), [].iter(), 0);
         let asked = |core: &str| (core.to_owned(), PICTURE.to_owned(), Components::empty(), true);
         let statement = |finding: Option<Finding>| finding.unwrap().statement;
         let answer = |core: &str| {

@@ -8,7 +8,7 @@ use super::record::TrialRecord;
 use crate::run::Status;
 use crate::worker::crowding;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -26,6 +26,8 @@ pub(super) const LONGEST_TRIAL: u64 = 10;
 /// Work that is left, and until when.
 pub(super) struct Purse {
     left: Mutex<u64>,
+    /// What of it is kept for later.
+    kept: AtomicU64,
     end: Instant,
 }
 
@@ -45,11 +47,22 @@ impl Purse {
     }
 
     fn of(work: u64, time: Duration) -> Self {
-        Self { left: Mutex::new(work), end: Instant::now() + time }
+        Self { left: Mutex::new(work), kept: AtomicU64::new(0), end: Instant::now() + time }
     }
 
     pub(super) fn left(&self) -> u64 {
-        *self.lock()
+        self.lock().saturating_sub(self.kept())
+    }
+
+    /// Keeps as much for each of so many others as for what is asked next.
+    pub(super) fn keep_for(&self, others: usize) {
+        let left = *self.lock();
+        let own = left / (others as u64 + 1);
+        self.kept.store(left - own, Ordering::Relaxed);
+    }
+
+    fn kept(&self) -> u64 {
+        self.kept.load(Ordering::Relaxed)
     }
 
     fn lock(&self) -> MutexGuard<'_, u64> {
@@ -86,7 +99,7 @@ impl Purse {
         let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
         let mut left = self.lock();
         let paid = done.into_iter().map_while(|answer| {
-            let (answer, price) = answer.filter(|_| *left > 0)?;
+            let (answer, price) = answer.filter(|_| *left > self.kept())?;
             *left = left.saturating_sub(price);
             Some(answer)
         });
@@ -141,6 +154,17 @@ mod tests {
         let purse = Purse::of(LEAST * A_SECOND, MINUTE);
         assert_eq!(purse.pay_each(1, 2, &|number| (number, LEAST * A_SECOND)), [0]);
         assert_eq!(purse.pay_each(2, 2, &|number| (number, 1)), [0; 0]);
+    }
+
+    #[test]
+    fn one_with_much_to_ask_leaves_the_others_as_much() {
+        let purse = Purse::of(90 * A_SECOND, MINUTE);
+        let paid = || purse.pay_each(1, 9, &|number| (number, 10 * A_SECOND)).len();
+        let all = [2, 1, 0].map(|others| {
+            purse.keep_for(others);
+            paid()
+        });
+        assert_eq!((all, purse.left()), ([3, 3, 3], 0));
     }
 
     #[test]

@@ -78,13 +78,15 @@ impl<'a> Proof<'a> {
         ranked.with_cause().filter(is_unproven).filter_map(all_of).flatten().collect()
     }
 
-    /// Likenesses that explain next to nothing of what fails in their part.
+    /// What explains next to nothing of what fails in its part: likenesses, and names that speak from the numbers of one
+    /// case, which has not recognised them itself.
     pub(super) fn lost_in_a_crowd(&self, ranked: &Ranked) -> Refuted {
         let is_lost = |told: &&Headline| {
             let others = ranked.without_cause(told).filter(|case| is_of_one_part(told, case));
             let (all, own) = (told.explains.len() + others.count(), CROWD * told.explains.len());
             let is_alone = || self.siblings(told, ranked).same.is_empty();
-            told.degree == Degree::LooksLike && all >= own && is_alone()
+            let speaks_from_one = || told.explains.len() == 1 && !self.is_recognised(told);
+            (told.degree == Degree::LooksLike || speaks_from_one()) && all >= own && is_alone()
         };
         ranked.with_cause().filter(is_lost).filter_map(all_of).flatten().collect()
     }
@@ -197,7 +199,7 @@ impl<'a> Proof<'a> {
             let left: Vec<_> = ranked.without_cause(headline).cloned().collect();
             let failures = left.iter().filter_map(|case| self.evidence.failure_of(case));
             let following = quickest(failures, FAILED);
-            let answers = self.planted(&alone, &following);
+            let answers = self.weighed(&alone, &following);
             let passes = |number: &usize| {
                 let mut known = answers.iter().filter_map(|of| of[*number].as_ref()).peekable();
                 known.peek().is_some() && known.all(|of| of.verdict == Verdict::Pass)

@@ -81,11 +81,6 @@ impl Components {
         parts.intersects(one)
     }
 
-    /// What rays meet, and how it is found.
-    pub(crate) const fn of_rays() -> Self {
-        Self::TRIANGLE_TEST.union(Self::SPHERE_TEST).union(Self::BOX_TEST).union(Self::TRAVERSAL)
-    }
-
     /// All that come before one.
     fn below(self) -> Self {
         Self::from_bits_truncate(self.bits() - 1)

@@ -370,13 +370,6 @@ impl<'a> Proof<'a> {
         clues.any(|clue| clue.beside && clue.cause == headline.cause)
     }
 
-    /// Whether a case has recognised its cause by itself.
-    fn is_recognised(&self, headline: &Headline) -> bool {
-        let seen =
-            headline.explains.iter().filter_map(|case| self.evidence.failure_of(case)?.finding);
-        seen.flat_map(|finding| &finding.clues).any(|clue| clue.cause == headline.cause)
-    }
-
     /// Whether one mistake gives the numbers of every case of `headline` that is tried.
     fn is_reproduced(&self, mistake: Mistake, headline: &Headline) -> bool {
         let cases = self.quickest(&headline.explains);
@@ -449,36 +442,13 @@ impl<'a> Proof<'a> {
         let left = |told: &Headline| -> Vec<_> {
             told.explains.iter().filter(|case| !given.contains(case)).cloned().collect()
         };
-        let mut groups: Vec<_> = ranked.unnamed().map(left).collect();
-        groups.push(self.beyond(ranked));
-        groups.retain(|group| !group.is_empty());
+        let groups: Vec<_> = ranked.unnamed().map(left).collect();
         let told: Vec<_> = ranked.with_cause().filter_map(|told| self.of(told).next()).collect();
         let found = self.reproducing(&groups.concat(), &told);
         if !found.is_empty() || groups.len() < 2 {
             return found;
         }
         groups.iter().flat_map(|group| self.reproducing(group, &told)).collect()
-    }
-
-    /// Failures that may follow from what is named, and of which all that is named does not give the numbers: there is
-    /// something else in them. What rays meet is left out: what is lost with it differs from tree to tree.
-    fn beyond(&self, ranked: &Ranked) -> Vec<String> {
-        let is_above_rays = |headline: &&Headline| {
-            let mut made = self.of(headline).map(|mistake| mistake.components).peekable();
-            made.peek().is_some()
-                && made.all(|of| !of.is_empty() && !of.intersects(Components::of_rays()))
-        };
-        let named = ranked.with_cause().filter(|headline| headline.degree == Degree::Named);
-        let following = named.filter(is_above_rays).flat_map(|headline| &headline.may_follow);
-        let failures = following.filter_map(|case| self.evidence.failure_of(case));
-        let asked = quickest(failures.filter(|seen| is_of_light(seen)), siblings::FAILED);
-        if asked.is_empty() {
-            return Vec::new();
-        }
-        let answers = likenesses(&asked, &self.weighed(&[self.named(ranked)], &asked)).remove(0);
-        let differs = |of: &Likeness| matches!(of, Likeness::Alike | Likeness::Other);
-        let beyond = asked.iter().zip(&answers).filter(|(_, of)| differs(of));
-        beyond.map(|(seen, _)| seen.case.to_owned()).collect()
     }
 
     /// What a case that only informs has recognised, where its mistake fails in the same places what has no name.
@@ -549,12 +519,9 @@ impl<'a> Proof<'a> {
         }
         let is_told = |mistake: &&Mistake| told.iter().any(|told| told.cause == mistake.cause);
         let others: Vec<_> = mistakes.iter().filter(|one| !is_told(one)).copied().collect();
-        let one_more: Vec<_> = match told {
-            [] => Vec::new(),
-            _ => others.iter().map(|other| [told, &[*other]].concat()).collect(),
-        };
-        if found.is_empty() {
-            found = self.composed(&one_more, &cases, |_| others.len());
+        if found.is_empty() && !told.is_empty() {
+            let one_more = others.iter().map(|other| [told, &[*other]].concat());
+            found = self.composed(&one_more.collect::<Vec<_>>(), &cases, |_| others.len());
         }
         if !found.is_empty() {
             return found;
@@ -590,7 +557,7 @@ impl<'a> Proof<'a> {
             found = self.darkening(&alone, &cases, names);
         }
         if found.is_empty() {
-            found = self.nearly_reproducing(&[alone, one_more, likely, elsewhere].concat(), &many);
+            found = self.nearly_reproducing(&[alone, likely, elsewhere].concat(), &many);
         }
         found
     }

@@ -78,15 +78,13 @@ impl<'a> Proof<'a> {
         ranked.with_cause().filter(is_unproven).filter_map(all_of).flatten().collect()
     }
 
-    /// What explains next to nothing of what fails in its part: likenesses, and names that speak from the numbers of one
-    /// case, which has not recognised them itself.
+    /// Likenesses that explain next to nothing of what fails in their part.
     pub(super) fn lost_in_a_crowd(&self, ranked: &Ranked) -> Refuted {
         let is_lost = |told: &&Headline| {
             let others = ranked.without_cause(told).filter(|case| is_of_one_part(told, case));
             let (all, own) = (told.explains.len() + others.count(), CROWD * told.explains.len());
             let is_alone = || self.siblings(told, ranked).same.is_empty();
-            let speaks_from_one = || told.explains.len() == 1 && !self.is_recognised(told);
-            (told.degree == Degree::LooksLike || speaks_from_one()) && all >= own && is_alone()
+            told.degree == Degree::LooksLike && all >= own && is_alone()
         };
         ranked.with_cause().filter(is_lost).filter_map(all_of).flatten().collect()
     }

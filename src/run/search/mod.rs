@@ -177,13 +177,13 @@ impl Found {
     /// Cases that there was no time to halve, tried with what was found for others: each belongs to the highest component
     /// that it needs. Answers those that need something else.
     fn try_on(&mut self, cases: &[usize], try_cases: Try<'_>) -> Vec<usize> {
-        // Nothing was found for others. What fails only at times may pass with nothing, and needs nothing of the bench.
-        if self.set.is_empty() {
-            return Vec::new();
-        }
         self.set.sort_by_key(|part| part.component.bits());
         let order: Vec<_> = self.set.iter().map(|part| part.component).collect();
         let Tried { passing, failing } = try_cases(order.iter().copied().collect(), cases);
+        if order.is_empty() {
+            // What passes with nothing of the bench fails only at times, and needs nothing of it.
+            return failing;
+        }
         let mut highest = Vec::new();
         halve(&order, 0..order.len(), passing, try_cases, &mut highest);
         for (place, cases) in highest {
@@ -501,6 +501,12 @@ mod tests {
         assert_eq!(of(PATH).map(|part| &part.together[..]), Some(&[1, 3, 4][..]));
         let of_bsdf = of(BSDF).map(|part| &part.together[..]);
         assert_eq!(of_bsdf, Some(&[5][..]), "what else it needs is searched for");
+    }
+
+    #[test]
+    fn what_was_left_to_others_for_which_nothing_is_found_is_searched_for() {
+        let found = asking(&[None, Some(BSDF)], &|_| Components::empty(), 1);
+        assert_eq!((counts(&found), found.unmended), (vec![(BSDF, 1, 1)], vec![0]));
     }
 
     #[test]

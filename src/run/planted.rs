@@ -22,7 +22,8 @@ const SHARE: f64 = 0.25;
 /// Seconds of the textbook core that they may always be asked: about what that share comes to in a run of all cases at the
 /// default budget. With less, several mistakes in one core stay without names at the quick one.
 const LEAST: u64 = 30;
-/// The same for each component that is broken: what is asked for one leaves nothing for the next.
+/// The same for each component that is broken, so that each can be searched: one with many failures took 30 s and more
+/// (docs/decisions/0014).
 const LEAST_FOR_EACH: u64 = 20;
 /// The same where images alone fail: every mistake is put to one of them.
 const LEAST_BY_IMAGES: u64 = 150;

@@ -130,15 +130,18 @@ fn errs_alike(a: &Measure, b: &Measure) -> bool {
     a.failed() && b.failed() && side(a) == side(b) || errs_as_much(a, b)
 }
 
-/// The numbers lie within each other's noise, and a little of the error; light without noise follows from a formula. What
-/// is counted in standard errors grows with the samples and has no size.
+/// The numbers lie within each other's noise, and a little of the error; light without noise follows from a formula, and
+/// of light that is nearly all lost what is left counts: a fortieth is not darkness. What is counted in standard errors
+/// grows with the samples and has no size.
 fn errs_as_much(a: &Measure, b: &Measure) -> bool {
     if a.unit == STANDARD_ERRORS {
         return a.failed() == b.failed();
     }
     let error = (a.measured - a.expected).abs().max((b.measured - b.expected).abs());
+    let left = a.measured.abs().max(b.measured.abs());
     let are_light = a.channel.is_some() && b.channel.is_some();
-    a.meets(b, share(are_light, a.interval.or(b.interval).is_some()) * error)
+    let size = if are_light { error.min(left) } else { error };
+    a.meets(b, share(are_light, a.interval.or(b.interval).is_some()) * size)
 }
 
 /// By how much of itself an error of the same mistake may differ.
@@ -214,6 +217,7 @@ mod tests {
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(3.0, 1.0)), Likeness::Alike);
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.85, 1.0)), Likeness::Alike, "weighted");
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.0, 2.0)), Likeness::Other);
+        assert_eq!(likeness(Some(&two(0.02, 1.0)), &two(0.0, 1.0)), Likeness::Alike, "not dark");
         assert_eq!(likeness(Some(&failing("lost")), &failing("lost")), Likeness::Unsized);
         let infinite = || failing("inf").because(&contract::INFINITE, "inf");
         let not_a_number = failing("NaN").because(&contract::NOT_A_NUMBER, "NaN");

@@ -425,6 +425,12 @@ impl Finding {
         self.hypotheses().map(|hypothesis| hypothesis.false_alarm).sum()
     }
 
+    /// Whether no light is expected anywhere: a core that finds nothing gives as much.
+    pub(crate) fn is_of_darkness(&self) -> bool {
+        let is_dark = |measure: &Measure| measure.channel.is_some() && measure.expected == 0.0;
+        !self.measures.is_empty() && self.measures.iter().all(is_dark)
+    }
+
     pub(crate) fn failed_measures(&self) -> impl Iterator<Item = &Measure> {
         self.measures.iter().filter(|measure| measure.failed())
     }

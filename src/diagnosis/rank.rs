@@ -47,7 +47,7 @@ pub struct Headline {
     pub explains: Vec<String>,
     /// Failing cases that nothing explains and that rest on what these prove: they may follow from it.
     pub may_follow: Vec<String>,
-    /// How many cases were not tried because of it.
+    /// How many cases are blocked by it.
     pub blocked: usize,
     /// The command that repeats the quickest of the failing cases that the evidence is about.
     pub command: String,

@@ -1,7 +1,7 @@
 //! One case on one core: brought up, asked behind validation, and what came of it. Nothing is written here.
 
 use super::bench::Bench;
-use super::outcome::Outcome;
+use super::outcome::{Outcome, Status};
 use super::plan::Trial;
 use super::record::{self, SceneStamp, TrialRecord, TrialTiming};
 use super::schedule::Transplant;
@@ -37,14 +37,32 @@ pub fn run_trial(bench: &Bench, trial: &Trial) -> Ended {
     run_with(bench, trial, Components::empty())
 }
 
-/// Runs one trial with components of the bench in place of what is broken. It is blocked if the core cannot take them.
+/// Runs one trial with components of the bench in place of what is broken; as it is if the core cannot take them.
 pub(crate) fn run_transplanted(bench: &Bench, trial: &Trial, transplant: Transplant) -> Ended {
-    let Transplant { with, by } = transplant;
+    let Transplant { with, by, or_as_it_is } = transplant;
     let takes = bench.info(&trial.core).map_or(Components::empty(), |core| core.components);
     match with.within(takes) {
         Some(with) if !asked_about(&trial.case).intersects(with) => run_with(bench, trial, with),
+        _ if or_as_it_is => run_on_what_is_broken(bench, trial, with.intersection(takes), by),
         _ => untried(bench, trial, by),
     }
+}
+
+/// Runs one trial though some of what it rests on is broken and stays, `with` the rest from the bench. What passes all the
+/// same is right; what does not may have failed for what is broken, and is blocked.
+fn run_on_what_is_broken(bench: &Bench, trial: &Trial, with: Components, by: String) -> Ended {
+    let ended = run_with(bench, trial, with - asked_about(&trial.case));
+    let outcome = &ended.record.outcome;
+    let counts = match outcome.status() {
+        Status::Pass => !outcome.finding().is_some_and(Finding::is_of_darkness),
+        Status::Skipped | Status::Broken => true,
+        _ => false,
+    };
+    if counts {
+        return ended;
+    }
+    let blocked = untried(bench, trial, by);
+    Ended { record: TrialRecord { timing: ended.record.timing, ..blocked.record }, ..blocked }
 }
 
 /// Runs one trial with components of the bench.

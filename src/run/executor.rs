@@ -3,7 +3,7 @@
 use super::attempt::{Ended, run_transplanted, run_with, untried};
 use super::bench::Bench;
 use super::event::Event;
-use super::outcome::Outcome;
+use super::outcome::{Outcome, Status};
 use super::plan::{Plan, Trial};
 use super::record::{self, PictureFile, RecordError, TrialRecord};
 use super::schedule::{Next, Schedule, Transplant};
@@ -76,10 +76,14 @@ fn work(
         }
         let ended = match transplant {
             None => run_with(bench, trial, plan.with),
-            Some(Transplant { with, by }) => {
-                run_transplanted(bench, trial, Transplant { with: with | plan.with, by })
+            Some(transplant) => {
+                let with = transplant.with | plan.with;
+                run_transplanted(bench, trial, Transplant { with, ..transplant })
             }
         };
+        if ended.record.outcome.status() == Status::Blocked {
+            schedule.was_in_vain(number, ended.record.timing.seconds);
+        }
         schedule.ended(number, &ended.record.outcome);
         if plan.request.fail_fast && ended.record.fails_the_core() {
             schedule.stop();

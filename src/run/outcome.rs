@@ -20,7 +20,7 @@ pub enum Outcome {
         /// The capabilities it lacks, or else what is beyond it.
         missing: Vec<String>,
     },
-    /// What the case rests on failed, so that its own result would say nothing.
+    /// What the case rests on failed, so that its own failure would say nothing.
     Blocked {
         /// The case that failed.
         by: String,

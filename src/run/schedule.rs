@@ -1,8 +1,9 @@
 //! Which trial is next: the first, in the order of the plan, whose foundations have been tried. A trial whose
-//! foundation was found broken is tried with the components of the bench that stand for it, or else blocked.
+//! foundation was found broken is tried with the components of the bench that stand for it, or else as it is, or else
+//! blocked.
 
 use super::bench::Bench;
-use super::outcome::Outcome;
+use super::outcome::{Outcome, Status};
 use super::plan::{Plan, Trial};
 use crate::case::{Case, Foundation, asked_about, foundations};
 use crate::contract::Components;
@@ -24,7 +25,13 @@ pub(crate) struct Transplant {
     pub(crate) with: Components,
     /// A case that failed without them.
     pub(crate) by: String,
+    /// Whether it may be tried as it is if the core cannot take them.
+    pub(crate) or_as_it_is: bool,
 }
+
+/// Trials that were tried on what is broken, and did not pass, may take so much of a core's time: what is so broken that
+/// nothing stands on it has to be waited for no longer, seconds.
+const IN_VAIN: f64 = 60.0;
 
 /// Hands out the trials of a plan to threads.
 pub(crate) struct Schedule<'a> {
@@ -38,6 +45,8 @@ pub(crate) struct Schedule<'a> {
 struct State {
     fates: Vec<Fate>,
     stopped: bool,
+    /// Of each core, what trials have taken that were tried on what is broken and did not pass, seconds.
+    in_vain: BTreeMap<String, f64>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,8 +55,16 @@ enum Fate {
     Left,
     Waiting,
     Running,
-    /// It ended; the case that others which rest on it are blocked by.
-    Ended(Option<String>),
+    /// It ended; what others which rest on it are blocked by.
+    Ended(Option<Blocker>),
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Blocker {
+    /// The case that failed.
+    by: String,
+    /// Whether it came to its end: what crashes or never answers would do it again.
+    has_answered: bool,
 }
 
 impl<'a> Schedule<'a> {
@@ -68,7 +85,7 @@ impl<'a> Schedule<'a> {
         Self {
             plan,
             rests_on: provers(plan, bench),
-            state: Mutex::new(State { fates, stopped: false }),
+            state: Mutex::new(State { fates, stopped: false, in_vain: BTreeMap::new() }),
             changed: Condvar::new(),
         }
     }
@@ -95,6 +112,12 @@ impl<'a> Schedule<'a> {
         self.changed.notify_all();
     }
 
+    /// A trial that was tried on what is broken did not pass, and took so many seconds.
+    pub(crate) fn was_in_vain(&self, number: usize, seconds: f64) {
+        let core = self.plan.trials[number].core.to_string();
+        *self.lock().in_vain.entry(core).or_default() += seconds;
+    }
+
     pub(crate) fn stop(&self) {
         self.lock().stopped = true;
         self.changed.notify_all();
@@ -104,16 +127,24 @@ impl<'a> Schedule<'a> {
     fn next_of(&self, state: &State, number: usize) -> Next {
         let broken = self.rests_on[number].iter().filter_map(|(foundation, prover)| {
             match &state.fates[*prover] {
-                Fate::Ended(Some(by)) => Some((foundation.components(), by)),
+                Fate::Ended(Some(blocker)) => Some((*foundation, blocker)),
                 _ => None,
             }
         });
-        let Some((_, by)) = broken.clone().next() else { return Next::Try(number) };
-        let (with, by) = (broken.map(|(components, _)| components).collect(), by.clone());
-        match asked_about(&self.plan.trials[number].case).intersects(with) {
-            true => Next::Blocked(number, by),
-            false => Next::Transplanted(number, Transplant { with, by }),
+        let broken: Vec<_> = broken.collect();
+        let Some((_, Blocker { by, .. })) = broken.first() else { return Next::Try(number) };
+        let (with, by) = (broken.iter().map(|(f, _)| f.components()).collect(), by.clone());
+        let trial = &self.plan.trials[number];
+        if asked_about(&trial.case).intersects(with) {
+            return Next::Blocked(number, by);
         }
+        // No mean can be judged whose samples are not independent.
+        let stands = |(foundation, blocker): &(Foundation, &Blocker)| {
+            *foundation != Foundation::Seeds && blocker.has_answered
+        };
+        let in_vain = state.in_vain.get(trial.core.as_str()).copied().unwrap_or_default();
+        let or_as_it_is = broken.iter().all(stands) && in_vain < IN_VAIN;
+        Next::Transplanted(number, Transplant { with, by, or_as_it_is })
     }
 
     /// Whether nothing it rests on is still to be tried.
@@ -128,10 +159,13 @@ impl<'a> Schedule<'a> {
 }
 
 /// What others are blocked by if this trial ended so.
-fn blocker(trial: &Trial, outcome: &Outcome) -> Option<String> {
+fn blocker(trial: &Trial, outcome: &Outcome) -> Option<Blocker> {
+    let has_answered = !matches!(outcome.status(), Status::Crashed | Status::TimedOut);
     match outcome {
-        Outcome::Blocked { by } => Some(by.clone()),
-        _ => outcome.breaks(&trial.case.proves).then(|| trial.case.id.clone()),
+        Outcome::Blocked { by } => Some(Blocker { by: by.clone(), has_answered }),
+        _ => outcome
+            .breaks(&trial.case.proves)
+            .then(|| Blocker { by: trial.case.id.clone(), has_answered }),
     }
 }
 
@@ -231,8 +265,26 @@ mod tests {
                 Next::Blocked(..) => panic!("the furnace does not ask about spheres"),
             }
         }
-        let transplant = Transplant { with: Components::SPHERE_TEST, by: SPHERE.to_owned() };
+        let transplant =
+            Transplant { with: Components::SPHERE_TEST, by: SPHERE.to_owned(), or_as_it_is: false };
         assert_eq!(transplanted, [(FURNACE.to_owned(), transplant)]);
+    }
+
+    #[test]
+    fn what_has_answered_wrongly_may_be_built_on_for_a_while() {
+        let plan = plan(&[SPHERE, FURNACE]);
+        let wrong = || Outcome::Judged { finding: Finding::failure("t is wrong") };
+        let may_be_tried = |sphere: &Outcome, in_vain: f64| {
+            let schedule = schedule(&plan);
+            let Some(Next::Try(number)) = schedule.next() else { panic!("nothing has failed") };
+            schedule.ended(number, sphere);
+            schedule.was_in_vain(number, in_vain);
+            let Some(Next::Transplanted(_, transplant)) = schedule.next() else { panic!("sound") };
+            transplant.or_as_it_is
+        };
+        assert!(may_be_tried(&wrong(), 0.5 * IN_VAIN));
+        assert!(!may_be_tried(&wrong(), IN_VAIN));
+        assert!(!may_be_tried(&outcome(true), 0.0), "a crash");
     }
 
     #[test]

@@ -144,14 +144,14 @@ fn list(label: &str, sentences: &[String]) -> Markup {
     }
 }
 
-/// The failures, those that may follow, and how many were not tried.
+/// The failures, those that may follow, and how many are blocked.
 fn cases(view: &View<'_>, core: &str, headline: &Headline) -> Markup {
     let explained = trials(view.tree, core, &headline.explains);
     let following = trials(view.tree, core, &headline.may_follow);
     html! {
         p.kicker {
             (fails(headline)) ": " b { (explained.len()) }
-            @if headline.blocked > 0 { " · not tried because of it: " b { (headline.blocked) } }
+            @if headline.blocked > 0 { " · blocked by it: " b { (headline.blocked) } }
         }
         (folded_rows(view, &explained, CASES))
         @if !following.is_empty() {

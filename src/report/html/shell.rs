@@ -127,10 +127,10 @@ fn died(tree: &RunTree) -> Option<String> {
     }
 }
 
-/// `22 fail, 53 not tried`: the page says of how many.
+/// `22 fail, 53 blocked`: the page says of how many.
 fn counted(tally: &Tally) -> String {
     let blocked = tally.count(Status::Blocked);
-    let untried = (blocked > 0).then(|| format!(", {blocked} not tried"));
+    let untried = (blocked > 0).then(|| format!(", {blocked} blocked"));
     format!("{}{}", failing(tally), untried.unwrap_or_default())
 }
 

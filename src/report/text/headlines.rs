@@ -42,7 +42,7 @@ fn particulars(headline: &Headline, style: Style) -> Vec<String> {
     seen.chain(not).chain(places).chain([command(&headline.command)]).collect()
 }
 
-/// `one cause explains 3 failures`, and how many more may follow or were not tried.
+/// `one cause explains 3 failures`, and how many more may follow or are blocked.
 pub(super) fn count(headline: &Headline) -> String {
     let failures = number::count(headline.explains.len(), "failure");
     let mut words = match headline.degree {

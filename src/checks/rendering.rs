@@ -3,6 +3,7 @@
 use super::{CheckError, camera_of};
 use crate::contract::{
     AdaptiveSettings, BuiltScene, DirectSampling, Film, IntegratorSettings, RenderSettings,
+    Roulette,
 };
 use crate::image::encoding::Encoding;
 use crate::image::png::Picture;
@@ -55,6 +56,12 @@ impl Rendering {
     /// The same with another way to sample direct light.
     pub(crate) fn by(mut self, direct: DirectSampling) -> Self {
         self.settings.integrator.direct = direct;
+        self
+    }
+
+    /// The same with paths that end by chance.
+    pub(crate) fn with_roulette(mut self, roulette: Option<Roulette>) -> Self {
+        self.settings.integrator.roulette = roulette;
         self
     }
 

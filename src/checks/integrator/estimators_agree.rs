@@ -111,7 +111,7 @@ impl Comparison<'_> {
 }
 
 /// A measured difference as a share of what was subtracted.
-fn relative(measure: Measure, scale: f64) -> Measure {
+pub(super) fn relative(measure: Measure, scale: f64) -> Measure {
     Measure {
         measured: measure.measured / scale,
         allowed: measure.allowed / scale,

@@ -15,6 +15,7 @@ mod neighbouring_seeds;
 mod question;
 mod radiance_is_finite;
 mod radiance_is_linear;
+mod rays_stand_alone;
 mod real_variance;
 mod reported_variance;
 mod roulette_law;
@@ -32,6 +33,7 @@ use super::checks;
 checks! {
     mean_radiance::MeanRadiance,
     estimators_agree::EstimatorsAgree,
+    rays_stand_alone::RaysStandAlone,
     radiance_is_linear::RadianceIsLinear,
     size_does_not_matter::SizeDoesNotMatter,
     bounces_add_up::BouncesAddUp,

@@ -1,10 +1,11 @@
 //! Different seeds give different noise; and pixels have nothing to do with each other, neighbours or not, where a
 //! core promises that.
 
+use super::estimate::RouletteEntry;
 use crate::cause::{self, Cause};
 use crate::checks::rendering::Rendering;
 use crate::checks::{Check, Context, Finding, Measure, Result, check};
-use crate::contract::{Acceleration, Capabilities, Film};
+use crate::contract::{Acceleration, Capabilities, Film, Roulette};
 use crate::image::luminance;
 use crate::stats::{CorrelationReport, Verdict, judge_uncorrelated};
 use crate::text::number::figure;
@@ -15,6 +16,8 @@ check! {
     pub(crate) struct SeedsMatter {
         size: Size,
         bounces: Bounces,
+        /// In a furnace paths end by it alone, so that pixels of equal random numbers are equal.
+        roulette: Option<RouletteEntry>,
         samples_per_pixel: Between<1, 65536>,
         /// How many; differences are taken in pairs.
         seeds: Between<4, 4096>,
@@ -25,9 +28,14 @@ check! {
 }
 
 impl Check for SeedsMatter {
+    fn needs_besides(&self) -> Capabilities {
+        self.roulette.map_or(Capabilities::empty(), |_| Capabilities::ROULETTE)
+    }
+
     fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
-        let picture = Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?;
+        let picture = Rendering::of(&scene, self.size.0, self.bounces.0, self.samples_per_pixel.0)?
+            .with_roulette(self.roulette.map(Roulette::from));
         let seed = context.seed;
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let n = self.seeds.0;
@@ -109,7 +117,11 @@ fn most_alike(noise: &[Signs]) -> Option<(String, CorrelationReport)> {
     let said = reports.filter(|(_, report)| report.verdict != Verdict::Inconclusive);
     let excess = |report: &CorrelationReport| report.coefficient.abs() / report.limit;
     let most = said.max_by(|(_, a), (_, b)| excess(a).total_cmp(&excess(b)));
-    most.map(|([x, y], report)| (format!("{x} columns and {y} rows apart"), report))
+    let direction = |[x, y]: [i32; 2]| {
+        let side = if x < 0 { "left" } else { "right" };
+        format!("{y} down and {} to the {side}", x.abs())
+    };
+    most.map(|(step, report)| (direction(step), report))
 }
 
 /// Correlation of the signs of the noise of pixels that are `step` apart: columns, to either side, and rows down.
@@ -199,7 +211,7 @@ mod tests {
         let (_, right) = most_alike(&numbered(|x, y| x + 48 * y)).unwrap();
         assert_eq!(right.verdict, Verdict::Pass);
         let (step, wrong) = most_alike(&numbered(|x, y| x + 36 * y)).unwrap();
-        assert_eq!((step.as_str(), wrong.verdict), ("-36 columns and 1 rows apart", Verdict::Fail));
+        assert_eq!((step.as_str(), wrong.verdict), ("1 down and 36 to the left", Verdict::Fail));
         let (_, tiles) = most_alike(&numbered(|x, y| x % 16 + 16 * (y % 16))).unwrap();
         assert_eq!(tiles.verdict, Verdict::Fail);
     }

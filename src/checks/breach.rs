@@ -44,6 +44,8 @@ pub(crate) fn cause_of(breach: &Breach) -> Option<&'static Cause> {
         (_, _, BreachKind::NotUnit(_)) => &contract::NOT_UNIT,
         (_, _, BreachKind::NotANumber) => &contract::NOT_A_NUMBER,
         (_, _, BreachKind::Infinite) => &contract::INFINITE,
+        // A sum of squares with a wrong sign, and no cosine's.
+        ("variance of pixel", _, BreachKind::Negative(_)) => return None,
         (_, _, BreachKind::Negative(_)) => &contract::NEGATIVE,
         _ => return None,
     };
@@ -91,6 +93,7 @@ mod tests {
         );
         assert_eq!(told("hit", "t", BreachKind::Infinite), Some("answer-infinite"));
         assert_eq!(told("pixel", "radiance", BreachKind::Negative(-1.0)), Some("answer-negative"));
+        assert_eq!(told("variance of pixel", "it", BreachKind::Negative(-1.0)), None);
         let rays = [Ray::new(DVec3::ZERO, DVec3::X); 9];
         let request = Request::new("intersect_sphere").with_array(Sent::new("rays", &rays));
         let nan = Breach::of("t", BreachKind::NotANumber).in_element("hit", 0, 9);

@@ -80,7 +80,11 @@ impl Check for EstimatorsAgree {
                 measures.extend(found.into_iter().map(|measure| measure.of_row(&row)));
             }
         }
-        Ok(Finding::measured(statement(&measures), measures))
+        let passing = format!("{} differences of means, none of them real", measures.len());
+        Ok(Finding::measured(
+            statement("the estimators do not agree", passing, &measures),
+            measures,
+        ))
     }
 }
 
@@ -121,17 +125,16 @@ pub(super) fn relative(measure: Measure, scale: f64) -> Measure {
     }
 }
 
-fn statement(measures: &[Measure]) -> String {
+/// What is wrong and the largest of the differences that failed, or what `passing` says.
+pub(super) fn statement(wrong: &str, passing: String, measures: &[Measure]) -> String {
     let worst = measures
         .iter()
         .filter(|measure| measure.failed())
         .max_by(|a, b| a.measured.abs().total_cmp(&b.measured.abs()));
     match worst {
-        None => format!("{} differences of means, none of them real", measures.len()),
-        Some(worst) => format!(
-            "the estimators do not agree: {} is {} of the mean",
-            worst.name(),
-            percent(worst.measured),
-        ),
+        None => passing,
+        Some(worst) => {
+            format!("{wrong}: {} is {} of the mean", worst.name(), percent(worst.measured))
+        }
     }
 }

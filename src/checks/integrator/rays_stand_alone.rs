@@ -3,7 +3,7 @@
 //! it.
 
 use super::estimate::{RayEntry, RouletteEntry, estimate, settings};
-use super::estimators_agree::relative;
+use super::estimators_agree::{relative, statement};
 use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{
     Acceleration, BuiltScene, Capabilities, DirectSampling, IntegratorSettings, Ray, Roulette,
@@ -63,7 +63,10 @@ impl Check for RaysStandAlone {
             let channel = CHANNELS[number % CHANNELS.len()];
             relative(measure.of_channel(channel).of_row(&row), scale[*number])
         });
-        Ok(Finding::measured("every ray stands alone", measures))
+        let measures: Vec<_> = measures.collect();
+        let passing = format!("{} rays have the same mean beside each other", self.ray.len());
+        let wrong = "rays that are asked together do not have their own light";
+        Ok(Finding::measured(statement(wrong, passing, &measures), measures))
     }
 }
 

@@ -6,7 +6,9 @@ use super::bench::Bench;
 use super::outcome::{Outcome, Status};
 use super::plan::{Plan, Trial};
 use crate::case::{Case, Foundation, asked_about, foundations};
+use crate::checks::Measure;
 use crate::contract::Components;
+use crate::stats::TestKind;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
@@ -63,8 +65,9 @@ enum Fate {
 struct Blocker {
     /// The case that failed.
     by: String,
-    /// Whether it came to its end: what crashes or never answers would do it again.
-    has_answered: bool,
+    /// Whether what rests on it may be tried all the same. What crashes or never answers would do it again, and where
+    /// seeds repeat no error of a mean is known.
+    bears: bool,
 }
 
 impl<'a> Schedule<'a> {
@@ -138,12 +141,8 @@ impl<'a> Schedule<'a> {
         if asked_about(&trial.case).intersects(with) {
             return Next::Blocked(number, by);
         }
-        // No mean can be judged whose samples are not independent.
-        let stands = |(foundation, blocker): &(Foundation, &Blocker)| {
-            *foundation != Foundation::Seeds && blocker.has_answered
-        };
         let in_vain = state.in_vain.get(trial.core.as_str()).copied().unwrap_or_default();
-        let or_as_it_is = broken.iter().all(stands) && in_vain < IN_VAIN;
+        let or_as_it_is = broken.iter().all(|(_, blocker)| blocker.bears) && in_vain < IN_VAIN;
         Next::Transplanted(number, Transplant { with, by, or_as_it_is })
     }
 
@@ -160,13 +159,25 @@ impl<'a> Schedule<'a> {
 
 /// What others are blocked by if this trial ended so.
 fn blocker(trial: &Trial, outcome: &Outcome) -> Option<Blocker> {
-    let has_answered = !matches!(outcome.status(), Status::Crashed | Status::TimedOut);
+    let bears = match outcome.status() {
+        Status::Crashed | Status::TimedOut => false,
+        _ => !trial.case.proves.contains(&Foundation::Seeds) || only_pixels_are_alike(outcome),
+    };
     match outcome {
-        Outcome::Blocked { by } => Some(Blocker { by: by.clone(), has_answered }),
-        _ => outcome
-            .breaks(&trial.case.proves)
-            .then(|| Blocker { by: trial.case.id.clone(), has_answered }),
+        Outcome::Blocked { by } => Some(Blocker { by: by.clone(), bears }),
+        _ => {
+            let breaks = outcome.breaks(&trial.case.proves);
+            breaks.then(|| Blocker { by: trial.case.id.clone(), bears })
+        }
     }
+}
+
+/// Whether nothing of random numbers is wrong but that pixels are alike: runs of other seeds are independent then.
+fn only_pixels_are_alike(outcome: &Outcome) -> bool {
+    let is_of_pixels = |measure: &Measure| {
+        measure.hypothesis.is_some_and(|hypothesis| hypothesis.kind == TestKind::Correlation)
+    };
+    outcome.finding().is_some_and(|finding| finding.failed_measures().all(is_of_pixels))
 }
 
 /// For each trial what it rests on, with the numbers of the trials of the same core that prove it.
@@ -208,10 +219,10 @@ pub(crate) fn of_case(bench: &Bench, case: &Case) -> BTreeSet<Foundation> {
 mod tests {
     use super::*;
     use crate::case;
-    use crate::checks::{Finding, Measure};
+    use crate::checks::Finding;
     use crate::project::Project;
     use crate::run::Request;
-    use crate::stats::Budget;
+    use crate::stats::{Budget, judge_uncorrelated};
 
     const TRIANGLE: &str = "shape/ray-triangle-hits-are-right";
     const SPHERE: &str = "shape/ray-sphere-hit-is-the-nearest-root-ahead";
@@ -285,6 +296,28 @@ mod tests {
         assert!(may_be_tried(&wrong(), 0.5 * IN_VAIN));
         assert!(!may_be_tried(&wrong(), IN_VAIN));
         assert!(!may_be_tried(&outcome(true), 0.0), "a crash");
+    }
+
+    #[test]
+    fn on_pixels_that_are_alike_means_can_be_judged_and_on_seeds_that_repeat_they_cannot() {
+        const SEEDS: &str = "integrator/seeds-and-pixels-have-different-noise";
+        let plan = plan(&[SEEDS, FURNACE]);
+        let may_be_tried = |measures: Vec<Measure>| {
+            let schedule = schedule(&plan);
+            let Some(Next::Try(number)) = schedule.next() else { panic!("nothing has failed") };
+            assert_eq!(plan.trials[number].case.id, SEEDS);
+            let finding = Finding::of("not independent", "", measures);
+            schedule.ended(number, &Outcome::Judged { finding });
+            let Some(Next::Transplanted(_, transplant)) = schedule.next() else { panic!("sound") };
+            transplant.or_as_it_is
+        };
+        let repeated = |count| Measure::none("pictures that an earlier seed has given", count);
+        let alike = || {
+            Measure::of("correlation", &judge_uncorrelated(&[[1.0, 1.0], [2.0, 2.0]].repeat(99)))
+        };
+        assert!(may_be_tried(vec![repeated(0), alike()]));
+        assert!(!may_be_tried(vec![repeated(3), alike()]));
+        assert!(!may_be_tried(vec![repeated(3)]));
     }
 
     #[test]

@@ -464,7 +464,11 @@ impl Row<'_> {
         match (self.scene.shape_count(), cap) {
             (1, None) => furnace(emission(self.scene, 0, c), albedo(0), first..=last),
             (1, Some(cap)) => {
-                cap_cavity(emission(self.scene, 0, c), albedo(0), cap.half_angle, first..=last)
+                let from_centre = -met.answer.geometric_normal;
+                let seen = emitted.map_or(0.0, |own| own.at_sphere_point(from_centre)[c]);
+                let seen = if first == 0 { seen } else { 0.0 };
+                let light = emission(self.scene, 0, c);
+                seen + cap_cavity(light, albedo(0), cap.half_angle, first..=last)
             }
             _ => {
                 let spheres = ConcentricSpheres {
